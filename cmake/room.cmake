@@ -1,0 +1,36 @@
+# calligraphy_room(name SOURCES ... DEPENDS ...): one room of the house as the target calligraphy::name.
+function(calligraphy_room name)
+  cmake_parse_arguments(ROOM "" "" "SOURCES;DEPENDS" ${ARGN})
+  set(target calligraphy_${name})
+  add_library(${target} ${ROOM_SOURCES})
+  add_library(calligraphy::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
+                                              $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_link_libraries(${target} PUBLIC ${ROOM_DEPENDS})
+  calligraphy_warnings(${target})
+  install(TARGETS ${target} EXPORT calligraphyTargets)
+  install(DIRECTORY include/calligraphy/${name} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/calligraphy)
+endfunction()
+
+function(calligraphy_warnings target)
+  target_compile_options(${target} PRIVATE
+    $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Wall -Wextra -Wpedantic -Wconversion -Wshadow>)
+endfunction()
+
+# calligraphy_embed(variable name file ...): a source file that holds each text file as calligraphy::built_in::name.
+function(calligraphy_embed variable)
+  set(source ${PROJECT_BINARY_DIR}/built_in.cpp)
+  set(content "#include <${PROJECT_SOURCE_DIR}/src/model/built_in.hpp>\n\nnamespace calligraphy::built_in {\n")
+  set(pairs ${ARGN})
+  while(pairs)
+    list(POP_FRONT pairs name file)
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+    file(READ ${file} text)
+    string(APPEND content "\nconst char* const ${name} = R\"calligraphy(${text})calligraphy\";\n")
+  endwhile()
+  string(APPEND content "\n}  // namespace calligraphy::built_in\n")
+  file(CONFIGURE OUTPUT ${source} CONTENT "@content@" @ONLY)
+  set(${variable} ${source} PARENT_SCOPE)
+endfunction()

@@ -1,0 +1,24 @@
+// Where a stroke element attracts the pen (Wang 2006, sec. 4.3.1 (a)-(d), 4.3.2).
+#pragma once
+
+#include <calligraphy/collision/nearest_point.hpp>
+
+namespace calligraphy {
+
+enum class ConstraintSpaceRule {
+  tube,     ///< all within `radius` of the element, fading out over the last `edge` of it
+  wang2006  ///< as printed: half disc round the start of an LSE, disc round the start of a CSE, no fading
+};
+
+struct ConstraintSpace {
+  ConstraintSpaceRule rule = ConstraintSpaceRule::tube;
+  double radius = 0.008;  ///< [m]
+  double edge = 0.003;    ///< [m], at most `radius`
+};
+
+/// Share of the guidance force that the pen feels at `query`: 1 inside, 0 outside, between them on the tube's edge, where
+/// it is continuously differentiable. `foot` is the nearest point of the same element to the same query.
+double guidance_share(const ConstraintSpace& space, const StrokeElement& element, const Point& query,
+                      const NearestPoint& foot) noexcept;
+
+}  // namespace calligraphy

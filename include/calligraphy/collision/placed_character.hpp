@@ -1,0 +1,26 @@
+// A character at its place on the page.
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include <calligraphy/model/character.hpp>
+
+namespace calligraphy {
+
+/// em coordinates to metres: page point = origin + em * point.
+struct Placement {
+  Point origin = Point::Zero();  ///< lower left corner of the em square on the page [m]
+  double em = 0.04;              ///< edge of the em square [m]
+
+  Point to_page(const Point& point) const noexcept { return origin + em * point; }
+};
+
+struct PlacedCharacter {
+  Character character;
+  Placement placement;
+};
+
+/// Box round the control points of a character on the page [m].
+Eigen::AlignedBox2d bounding_box(const PlacedCharacter& placed);
+
+}  // namespace calligraphy

@@ -1,0 +1,34 @@
+// A device that plays back recorded samples.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <calligraphy/devices/haptic_device.hpp>
+
+namespace calligraphy {
+
+/// Returns the recorded samples one after the other, then `disconnected` with the last position for ever.
+/// Forces are remembered, not felt. After close() nothing more is played.
+class ReplayDevice final : public HapticDevice {
+ public:
+  /// @throws ValueError when there is no sample or when times do not increase
+  ReplayDevice(std::vector<DeviceState> samples, Capabilities capabilities);
+
+  const Capabilities& capabilities() const noexcept override { return capabilities_; }
+  DeviceState read() noexcept override;
+  void write(const Eigen::Vector3d& force) noexcept override;
+  void close() noexcept override;
+
+  bool finished() const noexcept { return !open_ || next_ >= samples_.size(); }
+  const Eigen::Vector3d& last_force() const noexcept { return force_; }
+
+ private:
+  std::vector<DeviceState> samples_;
+  Capabilities capabilities_;
+  std::size_t next_ = 0;
+  bool open_ = true;
+  Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
+};
+
+}  // namespace calligraphy

@@ -1,0 +1,15 @@
+// UTF-8 text to code points and back.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace calligraphy {
+
+/// Code points of a UTF-8 text. @throws FormatError naming the byte offset of the first invalid sequence
+std::u32string decode_utf8(std::string_view text);
+
+/// UTF-8 of one code point.
+std::string encode_utf8(char32_t code);
+
+}  // namespace calligraphy

@@ -1,0 +1,18 @@
+// Plots of a recording (Wang 2006, Figs. 32 to 36), drawn by gnuplot.
+#pragma once
+
+#include <string>
+
+#include <calligraphy/practice/recording.hpp>
+
+namespace calligraphy {
+
+/// Whether the program gnuplot can be started.
+bool can_plot();
+
+/// SVG of the in-plane force components and size, and of the normal force, over time, for the samples in which character
+/// `character` is active; bands mark the writing state of each stroke.
+/// @throws Error when gnuplot cannot be started or fails
+std::string force_plot(const Recording& recording, int character, const std::string& title);
+
+}  // namespace calligraphy

@@ -1,0 +1,42 @@
+// What happened while a page was written, tick by tick.
+#pragma once
+
+#include <cstdint>
+#include <iosfwd>
+#include <string_view>
+#include <vector>
+
+#include <calligraphy/devices/device_state.hpp>
+#include <calligraphy/render/haptic_tick.hpp>
+#include <calligraphy/render/motion_mapping.hpp>
+
+namespace calligraphy {
+
+struct Sample {
+  double time = 0.0;                                        ///< [s]
+  Eigen::Vector3d device_point = Eigen::Vector3d::Zero();   ///< page frame [m]
+  Eigen::Vector3d pen_tip = Eigen::Vector3d::Zero();        ///< page frame [m]
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();          ///< given to the hand, page axes [N]
+  InteractionState state = InteractionState::separation;
+  TickEvent events = TickEvent::none;
+  TickStatus status = TickStatus::ok;
+  int character = 0;  ///< active one, by index on the page
+  int stroke = 0;     ///< active one, by index within the character
+  float tick_ns = 0;  ///< time that the renderer took; 0 when it was not measured [ns]
+};
+
+struct Recording {
+  double rate = 1000.0;  ///< samples per second [Hz]
+  std::vector<Sample> samples;
+};
+
+/// Comma-separated values; the first line names columns and units. Numbers do not depend on the locale.
+void write_csv(std::ostream& out, const Recording& recording);
+
+/// @throws FormatError naming the line and the value. `name` is used in messages
+Recording read_csv(std::istream& in, std::string_view name);
+
+/// The device point of each sample in device axes, for a ReplayDevice on the same mapping.
+std::vector<DeviceState> device_states(const Recording& recording, const MotionMapping& mapping);
+
+}  // namespace calligraphy

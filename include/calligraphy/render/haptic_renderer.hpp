@@ -1,0 +1,81 @@
+// One tick from the device's sample to the force (Wang 2006, sec. 4.1, Figs. 14 and 15).
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <calligraphy/collision/active_stroke.hpp>
+#include <calligraphy/devices/device_state.hpp>
+#include <calligraphy/render/force_limiter.hpp>
+#include <calligraphy/render/haptic_tick.hpp>
+#include <calligraphy/render/motion_mapping.hpp>
+#include <calligraphy/render/renderer_options.hpp>
+
+namespace calligraphy {
+
+/// Guides a pen through the characters of a page, one after the other, stroke by stroke in the right order and direction.
+///
+/// update() neither allocates, locks, throws nor logs, and its work is bounded. Use one renderer per device.
+class HapticRenderer {
+ public:
+  /// @throws ValueError when an option, the mapping, a character or its place is invalid; the message names it
+  HapticRenderer(std::vector<PlacedCharacter> page, const MotionMapping& mapping, const Capabilities& capabilities,
+                 const RendererOptions& options = {});
+
+  HapticRenderer(HapticRenderer&&) noexcept = default;
+  HapticRenderer& operator=(HapticRenderer&&) noexcept = default;
+
+  /// Sample in, force out. Read `force` of the result and give it to the device.
+  const HapticTick& update(const DeviceState& state) noexcept;
+
+  /// The page as new: nothing written, force zero at once.
+  void restart() noexcept;
+
+  const HapticTick& last() const noexcept { return tick_; }
+  const RendererOptions& options() const noexcept { return options_; }
+  const MotionMapping& mapping() const noexcept { return mapping_; }
+  const std::vector<PlacedCharacter>& page() const noexcept { return page_; }
+  /// Largest change of force from one tick to the next [N]; infinite when the rate is not limited.
+  double max_force_step() const noexcept;
+
+ private:
+  struct PreparedCharacter {
+    std::vector<Stroke> strokes;
+    Eigen::AlignedBox2d box;  ///< margin included [m]
+  };
+
+  TickStatus map_sample(const DeviceState& state) noexcept;
+  bool plausible(const Eigen::Vector3d& position, double time) const noexcept;
+  TransitionInput sense() noexcept;
+  void follow(const TransitionInput& input) noexcept;
+  void finish_stroke() noexcept;
+  void activate(int character, int stroke) noexcept;
+  Eigen::Vector3d sum_forces() noexcept;
+  void send(const Eigen::Vector3d& target) noexcept;
+  bool all_written() const noexcept { return tick_.character >= static_cast<int>(page_.size()); }
+  const PreparedCharacter& active_character() const noexcept {
+    return prepared_[static_cast<std::size_t>(tick_.character)];
+  }
+
+  std::vector<PlacedCharacter> page_;
+  std::vector<PreparedCharacter> prepared_;  ///< views into page_
+  MotionMapping mapping_;
+  RendererOptions options_;
+  ForceLimiter limiter_;
+
+  ActiveStroke active_;
+  HapticTick tick_;
+  bool inside_box_ = false;
+  bool lifted_ = true;           ///< since the last stroke was finished
+  bool character_done_ = false;  ///< its last stroke is finished, the pen still down
+
+  bool has_sample_ = false;      ///< last_position_ and last_time_ are those of the last good sample
+  Eigen::Vector3d last_position_ = Eigen::Vector3d::Zero();
+  double last_time_ = 0.0;
+  bool has_rejected_ = false;    ///< rejected_position_ is that of the tick before, refused as too far away
+  Eigen::Vector3d rejected_position_ = Eigen::Vector3d::Zero();
+};
+
+}  // namespace calligraphy

@@ -1,0 +1,42 @@
+// The interaction states and the graph of their transitions (Wang 2006, sec. 2.3, Table 1, Fig. 6).
+#pragma once
+
+#include <cstdint>
+
+namespace calligraphy {
+
+enum class InteractionState : std::uint8_t {
+  separation,   ///< SS: the pen does not touch the paper
+  adjusting,    ///< AS: it touches outside the active character's box
+  calibration,  ///< CS: it touches inside the box, not at the start of the active stroke
+  writing       ///< WS: the active stroke is being written
+};
+
+/// "SS", "AS", "CS" or "WS".
+const char* short_name(InteractionState state) noexcept;
+
+/// Everything a transition depends on, hysteresis already applied.
+struct TransitionInput {
+  bool contact = false;          ///< the pen touches the paper
+  bool inside_box = false;       ///< within the active character's box
+  bool at_start = false;         ///< within the neighbourhood of the active stroke's start
+  bool may_start = false;        ///< there is an active stroke and, if asked for, the pen was lifted since the last one
+  bool stroke_finished = false;  ///< the active stroke's last feature point has just been passed
+};
+
+/// The state graph as a pure function:
+///
+/// | from | condition, the first that holds           | to |
+/// |------|--------------------------------------------|----|
+/// | any  | no contact                                 | SS |
+/// | WS   | stroke finished                            | CS |
+/// | WS   | outside the box                            | AS |
+/// | WS   | otherwise                                  | WS |
+/// | SS, AS, CS | at the start of a stroke that may start, inside the box | WS |
+/// | SS, AS, CS | inside the box                       | CS |
+/// | SS, AS, CS | outside the box                      | AS |
+///
+/// Leaving WS other than by finishing gives the stroke up: its stack is loaded again (sec. 4.3).
+InteractionState next_state(InteractionState state, const TransitionInput& input) noexcept;
+
+}  // namespace calligraphy

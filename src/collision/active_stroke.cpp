@@ -1,0 +1,87 @@
+#include <calligraphy/collision/active_stroke.hpp>
+
+#include <algorithm>
+#include <cstddef>
+
+namespace calligraphy {
+
+void ActiveStroke::load(const Stroke& stroke, const Placement& placement) noexcept {
+  element_count_ = static_cast<int>(stroke.type->elements.size());
+  std::array<Point, max_curve_degree + 1> points;
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < stroke.type->elements.size(); ++i) {
+    const bool is_line = stroke.type->elements[i] == static_cast<char>(ElementKind::line);
+    const auto degree = static_cast<std::size_t>(is_line ? 1 : stroke.curve_degree);
+    for (std::size_t k = 0; k <= degree; ++k) points[k] = placement.to_page(stroke.control_points[first + k]);
+    elements_[i] = prepare_element(std::span(points.data(), degree + 1));
+    planes_[i] = end_plane(elements_[i]);
+    first_arc_[i + 1] = first_arc_[i] + elements_[i].length();
+    first += degree;
+  }
+  std::copy(stroke.attraction_factors.begin(), stroke.attraction_factors.end(), attraction_.begin());
+  reload();
+}
+
+void ActiveStroke::reload() noexcept {
+  active_ = 0;
+  arc_ = 0.0;
+  furthest_ = 0.0;
+}
+
+bool ActiveStroke::begins_at(const Point& tip, double radius) const noexcept {
+  const double from_start = (tip - start()).norm();
+  return from_start <= radius && from_start <= (tip - planes_[0].point).norm();
+}
+
+StrokeContact ActiveStroke::update(const Point& tip, const StrokeRules& rules) noexcept {
+  StrokeContact contact = locate(tip, rules);
+  if (active_ < element_count_ && passes(tip, contact, rules)) {
+    ++active_;
+    arc_ = 0.0;
+    const bool finished = active_ == element_count_;
+    if (!finished) contact = locate(tip, rules);
+    contact.passed_feature = true;
+    contact.finished = finished;
+  }
+  if (!contact.finished) arc_ = contact.arc - first_arc_[static_cast<std::size_t>(contact.element)];
+  furthest_ = std::max(furthest_, contact.arc);
+  contact.backwards = furthest_ - contact.arc;
+  return contact;
+}
+
+StrokeContact ActiveStroke::locate(const Point& tip, const StrokeRules& rules) const noexcept {
+  const int index = std::min(active_, element_count_ - 1);
+  const auto i = static_cast<std::size_t>(index);
+  const StrokeElement& element = elements_[i];
+
+  ParameterRange range;
+  if (rules.window > 0.0) {
+    range = {element.parameter_at(arc_ - rules.window), element.parameter_at(arc_ + rules.window)};
+  }
+  StrokeContact contact;
+  contact.element = index;
+  contact.foot = nearest_point(element, tip, rules.nearest, range);
+  contact.share = guidance_share(rules.space, element, tip, contact.foot);
+  const double arc = element.arc_length(contact.foot.parameter);
+  contact.arc = first_arc_[i] + arc;
+  contact.attraction = attraction_[i];
+  if (rules.attraction == AttractionRule::interpolated && element.length() > 0.0) {
+    contact.attraction += (attraction_[i + 1] - attraction_[i]) * arc / element.length();
+  }
+  contact.finished = active_ == element_count_;
+  return contact;
+}
+
+bool ActiveStroke::passes(const Point& tip, const StrokeContact& contact, const StrokeRules& rules) const noexcept {
+  const auto i = static_cast<std::size_t>(contact.element);
+  const double beyond = planes_[i].beyond(tip);
+  if (rules.plane == FeaturePlaneRule::wang2006) return beyond > 0.0;
+  const double length = elements_[i].length();
+  const double tolerance = std::min(rules.plane_tolerance, 0.3 * length);
+  const double left = first_arc_[i + 1] - contact.arc;
+  // Near the feature point along the stroke too: a plane reaches across other limbs of the same stroke. On a curve the
+  // foot may lag behind the plane by more than the tolerance, but not by more than twice of it unless the pen is far off.
+  return contact.share > 0.0 && beyond >= -tolerance && left <= 2.0 * tolerance + 1e-6 * length;
+}
+
+}  // namespace calligraphy

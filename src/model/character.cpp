@@ -1,0 +1,201 @@
+#include <calligraphy/model/character.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include <calligraphy/error.hpp>
+#include <calligraphy/model/bezier.hpp>
+
+namespace calligraphy {
+namespace {
+
+constexpr double largest_coordinate = 16.0;            // [em]; far outside any em square, far inside double's range
+constexpr double smooth_angle = std::numbers::pi / 12.0;  // a joint called smooth may bend by this much [rad]
+constexpr double shortest_element = 1e-6;              // [em]
+
+std::string format_point(const Point& point) {
+  return "(" + std::to_string(point.x()) + ", " + std::to_string(point.y()) + ")";
+}
+
+bool known_degree(int degree) { return degree == 3 || degree == 4; }
+
+/// Direction in which control points leave their first one; zero when they all coincide.
+Point leaving_direction(std::span<const Point> points) {
+  for (const Point& point : points.subspan(1)) {
+    const Point difference = point - points.front();
+    if (difference.norm() > shortest_element) return difference.normalized();
+  }
+  return Point::Zero();
+}
+
+Point arriving_direction(std::span<const Point> points) {
+  std::vector<Point> reversed(points.rbegin(), points.rend());
+  return -leaving_direction(reversed);
+}
+
+void validate_stroke(const Stroke& stroke, int number, std::vector<Problem>& problems) {
+  bool finite = true;
+  for (const Point& point : stroke.control_points) {
+    if (point.allFinite() && point.cwiseAbs().maxCoeff() <= largest_coordinate) continue;
+    problems.push_back({number, "control point " + format_point(point) + " is not within 16 em of the origin"});
+    finite = false;
+  }
+  for (const double factor : stroke.attraction_factors) {
+    if (std::isfinite(factor) && factor >= 0.0) continue;
+    problems.push_back({number, "attraction factor " + std::to_string(factor) + " is not a finite number from 0 up"});
+  }
+  if (!finite) return;
+
+  const std::vector<int> ends = stroke.type->feature_points(stroke.curve_degree);
+  Point arriving = Point::Zero();
+  for (std::size_t element = 0; element + 1 < ends.size(); ++element) {
+    const auto points = stroke.control_points.subspan(static_cast<std::size_t>(ends[element]),
+                                                      static_cast<std::size_t>(ends[element + 1] - ends[element] + 1));
+    const Point leaving = leaving_direction(points);
+    const bool may_be_point = stroke.type->elements == "L";  // "line segment stroke include points" (sec. 3.3)
+    if (leaving.isZero() && !may_be_point) {
+      problems.push_back({number, "element " + std::to_string(element + 1) + " has no length"});
+    } else if (element > 0 && stroke.type->joints[element - 1] == 's' && !arriving.isZero()) {
+      const double cosine = std::clamp(arriving.dot(leaving), -1.0, 1.0);
+      if (std::acos(cosine) > smooth_angle) {
+        problems.push_back({number, "the joint after element " + std::to_string(element) + " bends by " +
+                                        std::to_string(std::lround(std::acos(cosine) * 180.0 / std::numbers::pi)) +
+                                        " degrees, but typical stroke " + std::to_string(stroke.type->id) +
+                                        " is smooth there"});
+      }
+    }
+    arriving = arriving_direction(points);
+  }
+}
+
+}  // namespace
+
+Character make_character(char32_t code, std::span<const StrokeInput> inputs, int curve_degree) {
+  if (!known_degree(curve_degree)) {
+    throw ValueError("curve degree " + std::to_string(curve_degree) + ": expected 3 or 4");
+  }
+  Character character;
+  character.code = code;
+  character.curve_degree = curve_degree;
+  int number = 0;
+  for (const StrokeInput& input : inputs) {
+    const std::string place = "stroke " + std::to_string(++number) + ": ";
+    if (input.id < 1 || input.id > typical_stroke_count) {
+      throw ValueError(place + "typical stroke id " + std::to_string(input.id) + ": expected 1 to 39");
+    }
+    const TypicalStroke& type = typical_stroke(input.id);
+    const auto expected = static_cast<std::size_t>(type.control_point_count(curve_degree));
+    if (input.control_points.size() != expected) {
+      throw ValueError(place + "typical stroke " + std::to_string(input.id) + " takes " + std::to_string(expected) +
+                       " control points, not " + std::to_string(input.control_points.size()));
+    }
+    const auto features = static_cast<std::size_t>(type.feature_point_count());
+    if (!input.attraction_factors.empty() && input.attraction_factors.size() != features) {
+      throw ValueError(place + "typical stroke " + std::to_string(input.id) + " takes " + std::to_string(features) +
+                       " attraction factors, not " + std::to_string(input.attraction_factors.size()));
+    }
+
+    auto& points = character.structure.control_points;
+    const int first = static_cast<int>(points.size());
+    points.insert(points.end(), input.control_points.begin(), input.control_points.end());
+    character.sequence.stroke_ids.push_back(input.id);
+    for (const int index : type.feature_points(curve_degree)) {
+      character.sequence.feature_points.push_back(first + index);
+    }
+    auto& factors = character.physics.attraction_factors;
+    if (input.attraction_factors.empty()) {
+      factors.insert(factors.end(), features, 1.0);
+    } else {
+      factors.insert(factors.end(), input.attraction_factors.begin(), input.attraction_factors.end());
+    }
+  }
+  const std::vector<Problem> problems = validate(character);
+  if (!problems.empty()) {
+    throw ValueError((problems[0].stroke > 0 ? "stroke " + std::to_string(problems[0].stroke) + ": " : std::string()) +
+                     problems[0].what);
+  }
+  return character;
+}
+
+std::vector<Stroke> strokes(const Character& character) {
+  std::vector<Stroke> views;
+  const std::span<const Point> points(character.structure.control_points);
+  const std::span<const double> factors(character.physics.attraction_factors);
+  std::size_t first_point = 0;
+  std::size_t first_factor = 0;
+  for (const int id : character.sequence.stroke_ids) {
+    const TypicalStroke& type = typical_stroke(id);
+    const auto point_count = static_cast<std::size_t>(type.control_point_count(character.curve_degree));
+    const auto factor_count = static_cast<std::size_t>(type.feature_point_count());
+    views.push_back({&type, character.curve_degree, points.subspan(first_point, point_count),
+                     factors.subspan(first_factor, factor_count)});
+    first_point += point_count;
+    first_factor += factor_count;
+  }
+  return views;
+}
+
+Character with_quartic_curves(const Character& character) {
+  if (character.curve_degree == 4) return character;
+  std::vector<StrokeInput> inputs;
+  for (const Stroke& stroke : strokes(character)) {
+    StrokeInput input{stroke.type->id, {stroke.control_points.front()}, {}};
+    input.attraction_factors.assign(stroke.attraction_factors.begin(), stroke.attraction_factors.end());
+    std::size_t at = 0;
+    for (const char kind : stroke.type->elements) {
+      if (kind == static_cast<char>(ElementKind::line)) {
+        input.control_points.push_back(stroke.control_points[++at]);
+        continue;
+      }
+      const auto& p = stroke.control_points;
+      const Bezier<4> quartic = Bezier<3>{{p[at], p[at + 1], p[at + 2], p[at + 3]}}.elevated();
+      input.control_points.insert(input.control_points.end(), quartic.control_points.begin() + 1,
+                                  quartic.control_points.end());
+      at += 3;
+    }
+    inputs.push_back(std::move(input));
+  }
+  return make_character(character.code, inputs, 4);
+}
+
+std::vector<Problem> validate(const Character& character) {
+  std::vector<Problem> problems;
+  if (!known_degree(character.curve_degree)) {
+    return {{0, "curve degree " + std::to_string(character.curve_degree) + ": expected 3 or 4"}};
+  }
+  if (character.sequence.stroke_ids.empty()) return {{0, "there is no stroke"}};
+
+  std::vector<int> feature_points;
+  int points = 0;
+  int number = 0;
+  for (const int id : character.sequence.stroke_ids) {
+    ++number;
+    if (id < 1 || id > typical_stroke_count) {
+      return {{number, "typical stroke id " + std::to_string(id) + ": expected 1 to 39"}};
+    }
+    for (const int index : typical_stroke(id).feature_points(character.curve_degree)) {
+      feature_points.push_back(points + index);
+    }
+    points += typical_stroke(id).control_point_count(character.curve_degree);
+  }
+  if (static_cast<int>(character.structure.control_points.size()) != points) {
+    problems.push_back({0, "the stroke ids take " + std::to_string(points) + " control points, not " +
+                               std::to_string(character.structure.control_points.size())});
+  }
+  if (character.sequence.feature_points != feature_points) {
+    problems.push_back({0, "the indices of feature points do not follow from the stroke ids"});
+  }
+  if (character.physics.attraction_factors.size() != feature_points.size()) {
+    problems.push_back({0, std::to_string(feature_points.size()) + " feature points have " +
+                               std::to_string(character.physics.attraction_factors.size()) + " attraction factors"});
+  }
+  if (!problems.empty()) return problems;
+
+  number = 0;
+  for (const Stroke& stroke : strokes(character)) validate_stroke(stroke, ++number, problems);
+  return problems;
+}
+
+}  // namespace calligraphy

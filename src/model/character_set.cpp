@@ -1,0 +1,222 @@
+#include <calligraphy/model/character_set.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <sstream>
+
+#include <calligraphy/error.hpp>
+#include <calligraphy/model/text.hpp>
+
+#include "built_in.hpp"
+
+namespace calligraphy {
+namespace {
+
+constexpr std::string_view first_line = "calligraphy characters 1";
+
+/// Reads the text format line by line; docs/character-format.md describes it.
+class Parser {
+ public:
+  Parser(std::istream& in, std::string_view name) : in_(in), name_(name) {}
+
+  CharacterSet parse() {
+    while (next_line()) {
+      const std::string_view key = word();
+      if (number_ == 1 || !seen_first_line_) {
+        if (line_ != first_line) fail("expected '" + std::string(first_line) + "', found '" + line_ + "'");
+        seen_first_line_ = true;
+      } else if (key == "source") {
+        set_.source = rest();
+      } else if (key == "licence") {
+        set_.licence = rest();
+      } else if (key == "attribution") {
+        set_.attribution = rest();
+      } else if (key == "character") {
+        begin_character();
+      } else if (key == "stroke") {
+        add_stroke();
+      } else {
+        fail("unknown keyword '" + std::string(key) + "'");
+      }
+    }
+    if (in_.bad()) throw FileError(name_ + ": cannot be read");
+    if (!seen_first_line_) throw FormatError(name_ + ": empty; expected '" + std::string(first_line) + "'");
+    end_character();
+    return std::move(set_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const { fail_at(number_, what); }
+  [[noreturn]] void fail_at(int line, const std::string& what) const {
+    throw FormatError(name_ + ":" + std::to_string(line) + ": " + what);
+  }
+
+  /// The next line that says something, without comment and trailing blanks.
+  bool next_line() {
+    while (std::getline(in_, line_)) {
+      ++number_;
+      if (const auto comment = line_.find('#'); comment != std::string::npos) line_.erase(comment);
+      line_.erase(line_.find_last_not_of(" \t\r") + 1);
+      left_ = line_;
+      if (!line_.empty()) return true;
+    }
+    return false;
+  }
+
+  std::string_view word() {
+    left_.remove_prefix(std::min(left_.find_first_not_of(" \t"), left_.size()));
+    const auto end = std::min(left_.find_first_of(" \t"), left_.size());
+    const std::string_view found = left_.substr(0, end);
+    left_.remove_prefix(end);
+    return found;
+  }
+
+  std::string rest() {
+    left_.remove_prefix(std::min(left_.find_first_not_of(" \t"), left_.size()));
+    return std::string(left_);
+  }
+
+  template <class Number>
+  Number parse_number(std::string_view text, std::string_view what) const {
+    Number value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size()) {
+      fail("'" + std::string(text) + "' is not a " + std::string(what));
+    }
+    return value;
+  }
+
+  void begin_character() {
+    end_character();
+    std::u32string codes;
+    try {
+      codes = decode_utf8(word());
+    } catch (const FormatError& error) {
+      fail(error.what());
+    }
+    if (codes.size() != 1) fail("expected one character, found " + std::to_string(codes.size()));
+    if (set_.find(codes[0])) fail("character " + encode_utf8(codes[0]) + " stands here a second time");
+    code_ = codes[0];
+    character_line_ = number_;
+    degree_ = 3;
+    if (const std::string_view key = word(); key == "degree") {
+      degree_ = parse_number<int>(word(), "curve degree");
+    } else if (!key.empty()) {
+      fail("expected 'degree' or nothing, found '" + std::string(key) + "'");
+    }
+    in_character_ = true;
+  }
+
+  void add_stroke() {
+    if (!in_character_) fail("a stroke before any character");
+    StrokeInput stroke{parse_number<int>(word(), "typical stroke id"), {}, {}};
+    for (std::string_view text = word(); !text.empty(); text = word()) {
+      if (text == "|") {
+        for (text = word(); !text.empty(); text = word()) {
+          stroke.attraction_factors.push_back(parse_number<double>(text, "attraction factor"));
+        }
+        break;
+      }
+      const auto comma = text.find(',');
+      if (comma == std::string_view::npos) fail("'" + std::string(text) + "' is not a point x,y");
+      stroke.control_points.emplace_back(parse_number<double>(text.substr(0, comma), "number"),
+                                         parse_number<double>(text.substr(comma + 1), "number"));
+    }
+    check_stroke(stroke);
+    strokes_.push_back(std::move(stroke));
+  }
+
+  /// A wrong stroke is named by its own line, not by its character's.
+  void check_stroke(const StrokeInput& stroke) const {
+    try {
+      make_character(code_, std::span(&stroke, 1), degree_);
+    } catch (const ValueError& error) {
+      fail(error.what());
+    }
+  }
+
+  void end_character() {
+    if (!in_character_) return;
+    if (strokes_.empty()) fail_at(character_line_, "character " + encode_utf8(code_) + " has no stroke");
+    set_.characters.push_back(make_character(code_, strokes_, degree_));
+    strokes_.clear();
+    in_character_ = false;
+  }
+
+  std::istream& in_;
+  std::string name_;
+  std::string line_;
+  std::string_view left_;
+  int number_ = 0;
+  bool seen_first_line_ = false;
+  bool in_character_ = false;
+  int character_line_ = 0;
+  char32_t code_ = 0;
+  int degree_ = 3;
+  std::vector<StrokeInput> strokes_;
+  CharacterSet set_;
+};
+
+CharacterSet parse_embedded(const char* text, std::string_view name) {
+  std::istringstream in(text);
+  return read_characters(in, name);
+}
+
+std::string format_number(double value) {
+  char buffer[32];
+  const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value);
+  return error == std::errc() ? std::string(buffer, end) : std::string("0");
+}
+
+}  // namespace
+
+const Character* CharacterSet::find(char32_t code) const noexcept {
+  const auto found = std::find_if(characters.begin(), characters.end(),
+                                  [code](const Character& character) { return character.code == code; });
+  return found == characters.end() ? nullptr : &*found;
+}
+
+const CharacterSet& built_in_characters() {
+  static const CharacterSet set = parse_embedded(built_in::characters, "built-in characters");
+  return set;
+}
+
+const Character& paper_example() {
+  static const CharacterSet set = parse_embedded(built_in::paper_example, "paper example");
+  return set.characters.front();
+}
+
+CharacterSet read_characters(std::istream& in, std::string_view name) { return Parser(in, name).parse(); }
+
+CharacterSet read_characters(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw FileError(path + ": cannot be opened");
+  return read_characters(in, path);
+}
+
+void write_characters(std::ostream& out, const CharacterSet& set) {
+  out << first_line << '\n';
+  if (!set.source.empty()) out << "source " << set.source << '\n';
+  if (!set.licence.empty()) out << "licence " << set.licence << '\n';
+  if (!set.attribution.empty()) out << "attribution " << set.attribution << '\n';
+  for (const Character& character : set.characters) {
+    out << "\ncharacter " << encode_utf8(character.code);
+    if (character.curve_degree != 3) out << " degree " << character.curve_degree;
+    out << '\n';
+    for (const Stroke& stroke : strokes(character)) {
+      out << "stroke " << stroke.type->id;
+      for (const Point& point : stroke.control_points) {
+        out << ' ' << format_number(point.x()) << ',' << format_number(point.y());
+      }
+      const auto& factors = stroke.attraction_factors;
+      if (std::any_of(factors.begin(), factors.end(), [](double factor) { return factor != 1.0; })) {
+        out << " |";
+        for (const double factor : factors) out << ' ' << format_number(factor);
+      }
+      out << '\n';
+    }
+  }
+}
+
+}  // namespace calligraphy

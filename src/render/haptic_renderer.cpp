@@ -1,0 +1,237 @@
+#include <calligraphy/render/haptic_renderer.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include <calligraphy/error.hpp>
+
+namespace calligraphy {
+namespace {
+
+/// A pen further from the page than this is a fault, whatever its speed [m].
+constexpr double furthest_point = 1e3;
+
+/// Longest time that eq. (3) integrates over in one tick [s].
+constexpr double longest_tick = 0.1;
+
+void require_valid(const PlacedCharacter& placed, std::size_t index) {
+  const std::string place = "character " + std::to_string(index + 1) + " of the page: ";
+  const std::vector<Problem> problems = validate(placed.character);
+  if (!problems.empty()) {
+    throw ValueError(place + "stroke " + std::to_string(problems[0].stroke) + ": " + problems[0].what);
+  }
+  const double em = placed.placement.em;
+  if (!std::isfinite(em) || em <= 0.0) throw ValueError(place + "em = " + std::to_string(em) + " m");
+  if (!placed.placement.origin.allFinite()) throw ValueError(place + "its origin is not finite");
+}
+
+void require_valid(const MotionMapping& mapping) {
+  const bool rigid = mapping.rotation.allFinite() && mapping.rotation.isUnitary(1e-9);
+  if (!rigid) throw ValueError("motion mapping: rotation is not a rotation matrix");
+  if (!mapping.offset.allFinite()) throw ValueError("motion mapping: offset is not finite");
+  if (!std::isfinite(mapping.scale) || mapping.scale <= 0.0) {
+    throw ValueError("motion mapping: scale = " + std::to_string(mapping.scale) + ": expected a finite number above 0");
+  }
+}
+
+}  // namespace
+
+HapticRenderer::HapticRenderer(std::vector<PlacedCharacter> page, const MotionMapping& mapping,
+                               const Capabilities& capabilities, const RendererOptions& options)
+    : page_(std::move(page)), mapping_(mapping), options_(options) {
+  if (page_.empty()) throw ValueError("the page has no character");
+  double largest_attraction = 1.0;
+  for (std::size_t i = 0; i < page_.size(); ++i) {
+    require_valid(page_[i], i);
+    const auto& factors = page_[i].character.physics.attraction_factors;
+    largest_attraction = std::max(largest_attraction, *std::max_element(factors.begin(), factors.end()));
+    Eigen::AlignedBox2d box = bounding_box(page_[i]);
+    box.min().array() -= options.box_margin;
+    box.max().array() += options.box_margin;
+    prepared_.push_back({strokes(page_[i].character), box});
+  }
+  require_valid(mapping);
+  validate(options, capabilities, largest_attraction);
+  if (!(capabilities.peak_force > 0.0)) {
+    throw ValueError("peak force of the device = " + std::to_string(capabilities.peak_force) + " N");
+  }
+  limiter_.in_plane_step = options.in_plane_force_rate / options.servo_rate / mapping.scale;
+  limiter_.normal_step = options.normal_force_rate / options.servo_rate / mapping.scale;
+  limiter_.peak = capabilities.peak_force / mapping.scale;
+  limiter_.limit_rate = options.limit_force_rate;
+  restart();
+}
+
+void HapticRenderer::restart() noexcept {
+  tick_ = {};
+  inside_box_ = false;
+  lifted_ = true;
+  has_sample_ = false;
+  has_rejected_ = false;
+  activate(0, 0);
+}
+
+double HapticRenderer::max_force_step() const noexcept { return limiter_.max_step() * mapping_.scale; }
+
+const HapticTick& HapticRenderer::update(const DeviceState& state) noexcept {
+  tick_.events = TickEvent::none;
+  tick_.time = state.time;
+  tick_.status = map_sample(state);
+  if (tick_.status == TickStatus::ok) {
+    follow(sense());
+    send(sum_forces());
+  } else {
+    tick_.attraction = tick_.wrong_way = Point::Zero();
+    tick_.normal = 0.0;
+    send(Eigen::Vector3d::Zero());
+  }
+  return tick_;
+}
+
+TickStatus HapticRenderer::map_sample(const DeviceState& state) noexcept {
+  const bool usable = state.status == DeviceStatus::ok || state.status == DeviceStatus::stale ||
+                      state.status == DeviceStatus::warm_motors;
+  if (!usable) return TickStatus::device_fault;
+  if (!state.position.allFinite() || !std::isfinite(state.time)) return TickStatus::bad_sample;
+  const Eigen::Vector3d mapped = mapping_.to_page(state.position);
+  if (!(mapped.cwiseAbs().maxCoeff() <= furthest_point)) return TickStatus::bad_sample;
+  if (!plausible(mapped, state.time)) {
+    has_rejected_ = true;
+    rejected_position_ = mapped;
+    return TickStatus::bad_sample;
+  }
+
+  if (options_.motion == MotionMappingRule::wang2006 && has_sample_) {
+    const double elapsed = std::clamp(state.time - last_time_, 0.0, longest_tick);
+    const Eigen::Vector3d velocity = mapping_.velocity_to_page(state.velocity);
+    tick_.device_point += velocity.allFinite() ? Eigen::Vector3d(velocity * elapsed)
+                                               : Eigen::Vector3d(mapped - last_position_);
+  } else {
+    tick_.device_point = mapped;
+  }
+  has_sample_ = true;
+  has_rejected_ = false;
+  last_position_ = mapped;
+  last_time_ = state.time;
+  return TickStatus::ok;
+}
+
+/// A pen cannot jump: a lone sample far away is refused. A second one near the first is believed, for then the device
+/// really is elsewhere.
+bool HapticRenderer::plausible(const Eigen::Vector3d& position, double time) const noexcept {
+  if (!has_sample_) return true;
+  const double period = 1.0 / options_.servo_rate;
+  const double reach = options_.largest_speed * std::max(time - last_time_, period);
+  if ((position - last_position_).norm() <= reach) return true;
+  return has_rejected_ && (position - rejected_position_).norm() <= options_.largest_speed * period;
+}
+
+TransitionInput HapticRenderer::sense() noexcept {
+  const Eigen::Vector3d& point = tick_.device_point;
+  const bool was_in_contact = tick_.state != InteractionState::separation;
+  const bool writing = tick_.state == InteractionState::writing;
+  TransitionInput input;
+  input.contact = point.z() <= (was_in_contact ? options_.lift_height : 0.0);
+
+  tick_.penetration = std::max(0.0, -point.z());
+  tick_.pen_tip = point;
+  if (options_.pen_tip == PenTipRule::projected && point.z() < 0.0) tick_.pen_tip.z() = 0.0;
+  if (all_written()) return input;
+
+  const Point tip = tick_.pen_tip.head<2>();
+  const double slack = inside_box_ ? options_.box_hysteresis * (writing ? 3.0 : 1.0) : 0.0;
+  inside_box_ = active_character().box.exteriorDistance(tip) <= slack;
+  input.inside_box = inside_box_;
+  input.may_start = !character_done_ && (lifted_ || !options_.lift_between_strokes);
+  if (!input.contact) return input;
+  if (writing) {
+    tick_.contact = active_.update(tip, options_.stroke);
+    input.stroke_finished = tick_.contact.finished;
+    if (tick_.contact.passed_feature) tick_.events |= TickEvent::feature_passed;
+  } else if (input.may_start) {
+    input.at_start = active_.begins_at(tip, options_.start_radius);
+  }
+  return input;
+}
+
+void HapticRenderer::follow(const TransitionInput& input) noexcept {
+  const InteractionState before = tick_.state;
+  const InteractionState after = next_state(before, input);
+  tick_.state = after;
+  if (after != InteractionState::separation && before == InteractionState::separation) {
+    tick_.events |= TickEvent::contact;
+  }
+  if (before == InteractionState::writing && after != InteractionState::writing) {
+    if (input.stroke_finished) {
+      finish_stroke();
+    } else {
+      active_.reload();
+      tick_.events |= TickEvent::stroke_abandoned;
+    }
+  }
+  if (after == InteractionState::writing && before != InteractionState::writing) {
+    tick_.events |= TickEvent::stroke_started;
+    tick_.contact = active_.update(tick_.pen_tip.head<2>(), options_.stroke);
+  }
+  if (after == InteractionState::separation && before != InteractionState::separation) {
+    tick_.events |= TickEvent::lift;
+    lifted_ = true;
+    if (character_done_) activate(tick_.character + 1, 0);
+  }
+}
+
+void HapticRenderer::finish_stroke() noexcept {
+  tick_.events |= TickEvent::stroke_finished;
+  lifted_ = false;
+  const int next = tick_.stroke + 1;
+  if (next < static_cast<int>(active_character().strokes.size())) {
+    activate(tick_.character, next);
+    return;
+  }
+  tick_.events |= TickEvent::character_finished;
+  if (tick_.character + 1 == static_cast<int>(page_.size())) tick_.events |= TickEvent::page_finished;
+  if (options_.lift_between_strokes) {
+    // The box of the next character is elsewhere: the paper would give way under a pen that still rests on this one.
+    tick_.stroke = next;
+    character_done_ = true;
+  } else {
+    activate(tick_.character + 1, 0);
+  }
+}
+
+void HapticRenderer::activate(int character, int stroke) noexcept {
+  tick_.character = character;
+  tick_.stroke = stroke;
+  character_done_ = false;
+  if (all_written()) return;
+  active_.load(active_character().strokes[static_cast<std::size_t>(stroke)],
+               page_[static_cast<std::size_t>(character)].placement);
+}
+
+Eigen::Vector3d HapticRenderer::sum_forces() noexcept {
+  tick_.attraction = tick_.wrong_way = Point::Zero();
+  tick_.normal = 0.0;
+  const bool solid = tick_.state == InteractionState::calibration || tick_.state == InteractionState::writing ||
+                     (tick_.state == InteractionState::adjusting && options_.solid_paper);
+  if (solid) tick_.normal = normal_force(options_.paper_stiffness, tick_.penetration, options_.force_sign);
+  if (tick_.state == InteractionState::writing) {
+    const StrokeContact& contact = tick_.contact;
+    const double stiffness = options_.guidance_stiffness * contact.attraction * contact.share;
+    tick_.attraction =
+        attraction_force(stiffness, tick_.pen_tip.head<2>(), contact.foot.point, options_.force_sign);
+    tick_.wrong_way = contact.share * wrong_way_force(options_.wrong_way_stiffness, options_.wrong_way_limit,
+                                                      options_.wrong_way_slack, contact.backwards,
+                                                      contact.foot.tangent);
+  }
+  const Point in_plane = tick_.attraction + tick_.wrong_way;
+  return {in_plane.x(), in_plane.y(), tick_.normal};
+}
+
+void HapticRenderer::send(const Eigen::Vector3d& target) noexcept {
+  tick_.page_force = limiter_.next(tick_.page_force, target);
+  tick_.force = mapping_.force_to_device(tick_.page_force);
+}
+
+}  // namespace calligraphy

@@ -1,0 +1,29 @@
+#include <calligraphy/render/interaction_state.hpp>
+
+namespace calligraphy {
+
+const char* short_name(InteractionState state) noexcept {
+  switch (state) {
+    case InteractionState::separation:
+      return "SS";
+    case InteractionState::adjusting:
+      return "AS";
+    case InteractionState::calibration:
+      return "CS";
+    case InteractionState::writing:
+      return "WS";
+  }
+  return "";
+}
+
+InteractionState next_state(InteractionState state, const TransitionInput& input) noexcept {
+  if (!input.contact) return InteractionState::separation;
+  if (state == InteractionState::writing) {
+    if (input.stroke_finished) return InteractionState::calibration;
+    return input.inside_box ? InteractionState::writing : InteractionState::adjusting;
+  }
+  if (!input.inside_box) return InteractionState::adjusting;
+  return input.at_start && input.may_start ? InteractionState::writing : InteractionState::calibration;
+}
+
+}  // namespace calligraphy
