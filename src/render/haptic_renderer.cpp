@@ -57,6 +57,7 @@ HapticRenderer::HapticRenderer(std::vector<PlacedCharacter> page, const MotionMa
   if (!(capabilities.peak_force > 0.0)) {
     throw ValueError("peak force of the device = " + std::to_string(capabilities.peak_force) + " N");
   }
+  guidance_growth_ = options.guidance_fade_in > 0.0 ? 1.0 / (options.guidance_fade_in * options.servo_rate) : 1.0;
   limiter_.in_plane_step = options.in_plane_force_rate / options.servo_rate / mapping.scale;
   limiter_.normal_step = options.normal_force_rate / options.servo_rate / mapping.scale;
   limiter_.peak = capabilities.peak_force / mapping.scale;
@@ -173,6 +174,7 @@ void HapticRenderer::follow(const TransitionInput& input) noexcept {
   }
   if (after == InteractionState::writing && before != InteractionState::writing) {
     tick_.events |= TickEvent::stroke_started;
+    guidance_grown_ = 0.0;
     tick_.contact = active_.update(tick_.pen_tip.head<2>(), options_.stroke);
   }
   if (after == InteractionState::separation && before != InteractionState::separation) {
@@ -218,10 +220,12 @@ Eigen::Vector3d HapticRenderer::sum_forces() noexcept {
   if (solid) tick_.normal = normal_force(options_.paper_stiffness, tick_.penetration, options_.force_sign);
   if (tick_.state == InteractionState::writing) {
     const StrokeContact& contact = tick_.contact;
-    const double stiffness = options_.guidance_stiffness * contact.attraction * contact.share;
+    guidance_grown_ = std::min(1.0, guidance_grown_ + guidance_growth_);
+    const double share = contact.share * guidance_grown_ * guidance_grown_ * (3.0 - 2.0 * guidance_grown_);
+    const double stiffness = options_.guidance_stiffness * contact.attraction * share;
     tick_.attraction =
         attraction_force(stiffness, tick_.pen_tip.head<2>(), contact.foot.point, options_.force_sign);
-    tick_.wrong_way = contact.share * wrong_way_force(options_.wrong_way_stiffness, options_.wrong_way_limit,
+    tick_.wrong_way = share * wrong_way_force(options_.wrong_way_stiffness, options_.wrong_way_limit,
                                                       options_.wrong_way_slack, contact.backwards,
                                                       contact.foot.tangent);
   }

@@ -48,6 +48,7 @@ RendererOptions RendererOptions::wang2006() {
   options.box_hysteresis = 0.0;
   options.lift_between_strokes = false;
   options.limit_force_rate = false;
+  options.guidance_fade_in = 0.0;
   options.pen_tip = PenTipRule::wang2006;
   options.motion = MotionMappingRule::wang2006;
   return options;
@@ -69,6 +70,7 @@ void validate(const RendererOptions& options, const Capabilities& capabilities, 
   require_stiffness("paper_stiffness", options.paper_stiffness, 1.0, capabilities);
   require_stiffness("guidance_stiffness", options.guidance_stiffness, largest_attraction, capabilities);
   require_stiffness("wrong_way_stiffness", options.wrong_way_stiffness, 1.0, capabilities);
+  require("guidance_fade_in", options.guidance_fade_in, Bound::from_zero);
   require("wrong_way_limit", options.wrong_way_limit, Bound::from_zero);
   require("wrong_way_slack", options.wrong_way_slack, Bound::from_zero);
   require("stroke.nearest.tolerance", options.stroke.nearest.tolerance, Bound::above_zero, 1.0);

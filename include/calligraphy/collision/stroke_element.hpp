@@ -30,7 +30,7 @@ struct StrokeElement {
   Point derivative(double t) const noexcept;
   /// Unit tangent in writing direction, also where dB/dt vanishes; zero for a point.
   Point tangent(double t) const noexcept;
-  /// Arc length from 0 to t, to 1e-3 of the size; exact on a line.
+  /// Arc length from 0 to t, to 3e-3 of the size (1e-4 on typical strokes); exact on a line.
   double arc_length(double t) const noexcept;
   /// Parameter at an arc length, clamped to [0, 1]; the inverse of arc_length.
   double parameter_at(double arc_length) const noexcept;

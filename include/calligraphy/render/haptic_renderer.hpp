@@ -64,9 +64,11 @@ class HapticRenderer {
   MotionMapping mapping_;
   RendererOptions options_;
   ForceLimiter limiter_;
+  double guidance_growth_ = 1.0;  ///< share of the guidance added per tick after the start of a stroke
 
   ActiveStroke active_;
   HapticTick tick_;
+  double guidance_grown_ = 0.0;  ///< 0 at the start of a stroke, 1 after the fade-in
   bool inside_box_ = false;
   bool lifted_ = true;           ///< since the last stroke was finished
   bool character_done_ = false;  ///< its last stroke is finished, the pen still down

@@ -16,8 +16,9 @@ enum class PenTipRule {
 
 struct RendererOptions {
   double servo_rate = 1000.0;          ///< [Hz]
-  double paper_stiffness = 400.0;      ///< K_en of eq. (9) [N/m]
-  double guidance_stiffness = 400.0;   ///< K_et of eq. (8) where the attraction factor is 1 [N/m]
+  double paper_stiffness = 600.0;      ///< K_en of eq. (9) [N/m]
+  double guidance_stiffness = 600.0;   ///< K_et of eq. (8) where the attraction factor is 1 [N/m]
+  double guidance_fade_in = 0.15;      ///< after the start of a stroke the guidance grows to its full share over this [s]
   double wrong_way_stiffness = 200.0;  ///< resistance against writing backwards; 0: none [N/m]
   double wrong_way_limit = 1.0;        ///< its largest force [N]
   double wrong_way_slack = 0.002;      ///< a pen may go back this far unhindered [m]

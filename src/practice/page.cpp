@@ -1,0 +1,54 @@
+#include <calligraphy/practice/page.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <calligraphy/error.hpp>
+
+namespace calligraphy {
+namespace {
+
+void require_length(const char* name, double value, bool may_be_zero) {
+  if (std::isfinite(value) && (value > 0.0 || (may_be_zero && value == 0.0))) return;
+  throw ValueError(std::string("page layout: ") + name + " = " + std::to_string(value) + " m");
+}
+
+}  // namespace
+
+std::vector<Page> lay_out(std::span<const Character> characters, const PageLayout& layout) {
+  require_length("width", layout.width, false);
+  require_length("height", layout.height, false);
+  require_length("em", layout.em, false);
+  require_length("gap", layout.gap, true);
+  const double pitch = layout.em + layout.gap;
+  const double columns_that_fit = std::floor((layout.width - layout.gap) / pitch);
+  const double rows_that_fit = std::floor((layout.height - layout.gap) / pitch);
+  if (columns_that_fit < 1.0 || rows_that_fit < 1.0) {
+    throw ValueError("page layout: a square of " + std::to_string(layout.em) + " m does not fit a page of " +
+                     std::to_string(layout.width) + " m x " + std::to_string(layout.height) + " m");
+  }
+  const std::size_t most = std::max<std::size_t>(characters.size(), 1);
+  const auto columns = static_cast<std::size_t>(std::min(columns_that_fit, static_cast<double>(most)));
+  const auto rows = static_cast<std::size_t>(std::min(rows_that_fit, static_cast<double>(most)));
+
+  std::vector<Page> pages;
+  for (std::size_t first = 0; first < characters.size(); first += columns * rows) {
+    const auto on_page = characters.subspan(first, std::min(columns * rows, characters.size() - first));
+    const std::size_t rows_used = (on_page.size() + columns - 1) / columns;
+    Page page{layout.width, layout.height, {}};
+    for (std::size_t i = 0; i < on_page.size(); ++i) {
+      const std::size_t row = i / columns;
+      const std::size_t in_row = std::min(columns, on_page.size() - row * columns);
+      const double row_width = static_cast<double>(in_row) * pitch - layout.gap;
+      const double height = static_cast<double>(rows_used) * pitch - layout.gap;
+      const Point origin(0.5 * (layout.width - row_width) + static_cast<double>(i % columns) * pitch,
+                         0.5 * (layout.height + height) - layout.em - static_cast<double>(row) * pitch);
+      page.characters.push_back({on_page[i], {origin, layout.em}});
+    }
+    pages.push_back(std::move(page));
+  }
+  return pages;
+}
+
+}  // namespace calligraphy

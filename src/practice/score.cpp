@@ -1,0 +1,273 @@
+#include <calligraphy/practice/score.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+
+#include <calligraphy/collision/active_stroke.hpp>
+
+namespace calligraphy {
+namespace {
+
+constexpr double contour_tolerance = 0.05;   // RMS error at which the contour score has fallen to 1/e [em]
+constexpr double shortest_attempt = 0.1;     // a path on the paper that is shorter says nothing of a stroke [em]
+constexpr double shortest_time = 0.15;       // a pen that is down for less has bounced [s]
+constexpr double doubt = 0.05;               // another stroke must be resembled more than the due one by this [em]
+constexpr double backward_tolerance = 0.15;  // going back by more within a stroke is a mistake [em]
+constexpr std::size_t points_compared = 32;  // of an attempt
+
+/// A stroke of the template, all elements prepared.
+struct Template {
+  std::vector<StrokeElement> elements;
+  const TypicalStroke* type;
+
+  Point start() const { return elements.front().point(0.0); }
+  Point end() const { return elements.back().point(1.0); }
+};
+
+struct Foot {
+  double distance;
+  double arc;  ///< from the start of the stroke [m]
+};
+
+Foot find_foot(const Template& stroke, const Point& tip) {
+  Foot nearest{std::numeric_limits<double>::infinity(), 0.0};
+  double before = 0.0;
+  for (const StrokeElement& element : stroke.elements) {
+    const NearestPoint found = nearest_point(element, tip);
+    if (found.distance < nearest.distance) nearest = {found.distance, before + element.arc_length(found.parameter)};
+    before += element.length();
+  }
+  return nearest;
+}
+
+std::vector<Template> templates(const PlacedCharacter& placed) {
+  std::vector<Template> result;
+  for (const Stroke& stroke : strokes(placed.character)) {
+    Template drawn{{}, stroke.type};
+    const std::vector<int> ends = stroke.type->feature_points(stroke.curve_degree);
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+      std::vector<Point> points;
+      for (int k = ends[i]; k <= ends[i + 1]; ++k) {
+        points.push_back(placed.placement.to_page(stroke.control_points[static_cast<std::size_t>(k)]));
+      }
+      drawn.elements.push_back(prepare_element(points));
+    }
+    result.push_back(std::move(drawn));
+  }
+  return result;
+}
+
+/// Sums an error along a path.
+struct PathError {
+  double length = 0.0, square = 0.0, largest = 0.0;
+
+  void add(double error, double step) {
+    length += step;
+    square += error * error * step;
+    largest = std::max(largest, error);
+  }
+  double rms() const { return length > 0.0 ? std::sqrt(square / length) : largest; }
+};
+
+PathError lateral_error(const Template& stroke, std::span<const Sample> path) {
+  PathError error;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const Point tip = path[i].pen_tip.head<2>();
+    const double step = i > 0 ? (tip - path[i - 1].pen_tip.head<2>()).norm() : 0.0;
+    error.add(find_foot(stroke, tip).distance, step);
+  }
+  return error;
+}
+
+double path_length(std::span<const Sample> path) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    length += (path[i].pen_tip - path[i - 1].pen_tip).head<2>().norm();
+  }
+  return length;
+}
+
+/// How far the pen went back within a stroke, at most [m].
+double backwards(const PlacedCharacter& placed, std::size_t stroke, std::span<const Sample> path) {
+  ActiveStroke active;
+  active.load(strokes(placed.character)[stroke], placed.placement);
+  const StrokeRules rules;
+  double most = 0.0;
+  for (const Sample& sample : path) most = std::max(most, active.update(sample.pen_tip.head<2>(), rules).backwards);
+  return most;
+}
+
+/// How little a path on the paper resembles a stroke [m], and in which direction it runs along it.
+struct Resemblance {
+  double cost = std::numeric_limits<double>::infinity();
+  bool backwards = false;
+};
+
+Resemblance compare(const Template& stroke, std::span<const Sample> path) {
+  double mean = 0.0;
+  for (std::size_t k = 0; k < points_compared; ++k) {
+    const Sample& sample = path[k * (path.size() - 1) / (points_compared - 1)];
+    mean += find_foot(stroke, sample.pen_tip.head<2>()).distance / points_compared;
+  }
+  const Point first = path.front().pen_tip.head<2>(), last = path.back().pen_tip.head<2>();
+  const double headway = find_foot(stroke, last).arc - find_foot(stroke, first).arc;
+  const bool backwards = headway < 0.0;
+  const double miss = (first - (backwards ? stroke.end() : stroke.start())).norm();
+  // A path along a stroke makes headway on it; one across it does not.
+  const double across = std::max(0.0, (last - first).norm() - std::abs(headway));
+  return {mean + 0.5 * miss + across, backwards};
+}
+
+std::string name_of(const std::vector<Template>& strokes, std::size_t index) {
+  return "stroke " + std::to_string(index + 1) + " (" + std::string(strokes[index].type->pinyin) + ")";
+}
+
+class CharacterScorer {
+ public:
+  CharacterScorer(const PlacedCharacter& placed, std::span<const Sample> samples)
+      : placed_(placed), strokes_(templates(placed)), samples_(samples) {
+    result_.character = placed.character.code;
+    result_.stroke_count = placed.character.stroke_count();
+  }
+
+  CharacterScore run() {
+    for (std::size_t i = 0; i < samples_.size(); ++i) visit(i);
+    judge_time_and_force();
+    if (whole_.length > 0.0) result_.rms_error = whole_.rms();
+    result_.max_error = whole_.largest;
+    combine();
+    return std::move(result_);
+  }
+
+ private:
+  void visit(std::size_t i) {
+    const Sample& sample = samples_[i];
+    if (has(sample.events, TickEvent::contact)) {
+      down_ = i;
+      due_ = static_cast<std::size_t>(sample.stroke);
+      finished_while_down_ = false;
+    }
+    if (has(sample.events, TickEvent::stroke_started)) started_ = i;
+    if (has(sample.events, TickEvent::stroke_finished)) {
+      finish(samples_.subspan(started_, i + 1 - started_));
+      finished_while_down_ = true;
+      last_finish_ = i;
+    }
+    const bool lifted = has(sample.events, TickEvent::lift) && down_ != none;
+    if (lifted) {
+      if (!finished_while_down_ && due_ < strokes_.size()) judge_attempt(samples_.subspan(down_, i - down_));
+      down_ = none;
+    }
+  }
+
+  void finish(std::span<const Sample> path) {
+    const auto stroke = static_cast<std::size_t>(result_.strokes_completed++);
+    if (stroke >= strokes_.size()) return;
+    const PathError error = lateral_error(strokes_[stroke], path);
+    whole_.length += error.length;
+    whole_.square += error.square;
+    whole_.largest = std::max(whole_.largest, error.largest);
+    contour_ += std::exp(-error.rms() / (contour_tolerance * placed_.placement.em));
+    const double back = backwards(placed_, stroke, path);
+    if (back > backward_tolerance * placed_.placement.em) {
+      add(MistakeKind::direction, stroke, path.front().time,
+          name_of(strokes_, stroke) + " was written with a stretch of " + std::to_string(std::lround(back * 1e3)) +
+              " mm backwards");
+    }
+  }
+
+  /// A pen-down that completed nothing. In doubt the writer meant the stroke that was due.
+  void judge_attempt(std::span<const Sample> path) {
+    const double em = placed_.placement.em;
+    if (path.size() < 2 || path.back().time - path.front().time < shortest_time) return;
+    if (path_length(path) < shortest_attempt * em) return;
+    std::size_t meant = due_;
+    Resemblance best = compare(strokes_[due_], path);
+    const double of_due = best.cost;
+    for (std::size_t j = 0; j < strokes_.size(); ++j) {
+      const Resemblance other = compare(strokes_[j], path);
+      if (other.cost >= best.cost || other.cost + doubt * em >= of_due) continue;
+      best = other;
+      meant = j;
+    }
+    if (meant != due_) {
+      const std::string was = meant < due_ ? " was written again where " : " was written where ";
+      add(MistakeKind::order, due_, path.front().time,
+          name_of(strokes_, meant) + was + name_of(strokes_, due_) + " was due");
+    } else if (best.backwards) {
+      add(MistakeKind::direction, due_, path.front().time, name_of(strokes_, due_) + " was written from its end");
+    }
+  }
+
+  void add(MistakeKind kind, std::size_t stroke, double time, std::string reason) {
+    result_.mistakes.push_back({kind, static_cast<int>(stroke), time, std::move(reason)});
+  }
+
+  void judge_time_and_force() {
+    const auto first = std::find_if(samples_.begin(), samples_.end(),
+                                    [](const Sample& sample) { return has(sample.events, TickEvent::contact); });
+    if (first != samples_.end()) {
+      const bool complete = result_.strokes_completed == result_.stroke_count;
+      const double end = complete && last_finish_ != none ? samples_[last_finish_].time : samples_.back().time;
+      result_.time = end - first->time;
+    }
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+      result_.peak_force = std::max(result_.peak_force, samples_[i].force.norm());
+      if (i == 0) continue;
+      result_.max_force_step = std::max(result_.max_force_step, (samples_[i].force - samples_[i - 1].force).norm());
+    }
+  }
+
+  void combine() {
+    const double completed = result_.strokes_completed;
+    if (completed == 0.0) return;
+    result_.contour = contour_ / result_.stroke_count;
+    result_.external_sequence = completed / (completed + result_.order_mistakes());
+    result_.internal_sequence = completed / (completed + result_.direction_mistakes());
+    result_.fidelity = std::cbrt(result_.contour * result_.external_sequence * result_.internal_sequence);
+  }
+
+  static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+
+  const PlacedCharacter& placed_;
+  const std::vector<Template> strokes_;
+  const std::span<const Sample> samples_;
+  CharacterScore result_;
+  PathError whole_;
+  double contour_ = 0.0;
+  std::size_t down_ = none;
+  std::size_t due_ = 0;
+  std::size_t started_ = 0;
+  std::size_t last_finish_ = none;
+  bool finished_while_down_ = false;
+};
+
+int count(const std::vector<Mistake>& mistakes, MistakeKind kind) {
+  return static_cast<int>(std::count_if(mistakes.begin(), mistakes.end(),
+                                        [kind](const Mistake& mistake) { return mistake.kind == kind; }));
+}
+
+}  // namespace
+
+int CharacterScore::order_mistakes() const noexcept { return count(mistakes, MistakeKind::order); }
+int CharacterScore::direction_mistakes() const noexcept { return count(mistakes, MistakeKind::direction); }
+
+std::vector<CharacterScore> score(const Page& page, const Recording& recording) {
+  std::vector<CharacterScore> scores;
+  const std::span<const Sample> samples(recording.samples);
+  std::size_t begin = 0;
+  for (std::size_t index = 0; index < page.characters.size(); ++index) {
+    std::size_t end = begin;
+    while (end < samples.size() && samples[end].character <= static_cast<int>(index)) ++end;
+    // The tick that finishes a character, or lifts the pen from it, already names the next one.
+    if (end < samples.size()) ++end;
+    scores.push_back(CharacterScorer(page.characters[index], samples.subspan(begin, end - begin)).run());
+    begin = end;
+  }
+  return scores;
+}
+
+}  // namespace calligraphy

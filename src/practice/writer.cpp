@@ -1,0 +1,329 @@
+#include <calligraphy/practice/writer.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include <calligraphy/collision/nearest_point.hpp>
+#include <calligraphy/error.hpp>
+
+namespace calligraphy {
+namespace {
+
+constexpr double raised_height = 0.008;    // pen above the paper between strokes [m]
+constexpr double pressed_depth = 0.0025;   // where the hand means to be while writing, below the paper [m]
+constexpr double lowering_time = 0.2;      // [s]
+constexpr double raising_time = 0.12;      // [s]
+constexpr double approach_speed = 0.12;    // mean, in the air [m/s]
+constexpr double shortest_approach = 0.2;  // [s]
+constexpr double shortest_element = 0.12;  // time for a hook or a dot [s]
+constexpr double longest_settling = 1.2;   // how long the writer looks for the end of a stroke or for a corner [s]
+constexpr double close_enough = 0.02;      // a corner or an end looks reached at this distance [em]
+constexpr double notice_time = 0.5;        // on the paper without a green trace until the writer notices [s]
+constexpr double wandering_time = 1.0;     // after which drift is forgotten [s]
+constexpr int most_attempts = 10;
+
+double minimum_jerk(double share) {
+  const double t = std::clamp(share, 0.0, 1.0);
+  return t * t * t * (10.0 + t * (-15.0 + 6.0 * t));
+}
+
+/// A generator of its own for each question, so that no answer depends on how many were asked before.
+std::mt19937_64 generator(std::uint64_t seed, int character, int stroke, int attempt) {
+  std::seed_seq sequence{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32),
+                         static_cast<std::uint32_t>(character), static_cast<std::uint32_t>(stroke),
+                         static_cast<std::uint32_t>(attempt)};
+  return std::mt19937_64(sequence);
+}
+
+double normal(std::mt19937_64& random) { return std::normal_distribution<double>()(random); }
+double uniform(std::mt19937_64& random) { return std::uniform_real_distribution<double>()(random); }
+Point normal_point(std::mt19937_64& random) {
+  const double x = normal(random);
+  return {x, normal(random)};
+}
+
+void require(const char* name, double value, double least, double most) {
+  if (std::isfinite(value) && value >= least && value <= most) return;
+  throw ValueError(std::string("writer: ") + name + " = " + std::to_string(value) + ": expected " +
+                   std::to_string(least) + " to " + std::to_string(most));
+}
+
+void validate(const WriterSkill& skill) {
+  require("offset", skill.offset, 0.0, 1.0);
+  require("scale", skill.scale, 0.0, 0.5);
+  require("tilt", skill.tilt, 0.0, 1.0);
+  require("shape", skill.shape, 0.0, 1.0);
+  require("drift", skill.drift, 0.0, 1.0);
+  require("tremor", skill.tremor, 0.0, 0.01);
+  require("aim", skill.aim, 0.0, 1.0);
+  require("wrong_order", skill.wrong_order, 0.0, 1.0);
+  require("wrong_direction", skill.wrong_direction, 0.0, 1.0);
+  require("speed", skill.speed, 0.01, 10.0);
+  require("pause", skill.pause, 0.0, 10.0);
+  require("sight_delay", skill.sight_delay, 0.0, 1.0);
+  require("correction", skill.correction, 0.0, 20.0);
+  require("caution", skill.caution, 1e-3, 10.0);
+}
+
+}  // namespace
+
+WriterSkill WriterSkill::novice() {
+  WriterSkill skill;
+  skill.offset = 0.04;
+  skill.scale = 0.06;
+  skill.tilt = 0.05;
+  skill.shape = 0.03;
+  skill.drift = 0.04;
+  skill.tremor = 0.0002;
+  skill.aim = 0.03;
+  skill.wrong_order = 0.04;
+  skill.wrong_direction = 0.03;
+  skill.speed = 0.6;
+  skill.pause = 0.35;
+  skill.caution = 0.025;
+  return skill;
+}
+
+WriterSkill WriterSkill::skilled() {
+  WriterSkill skill;
+  skill.offset = 0.012;
+  skill.scale = 0.02;
+  skill.tilt = 0.015;
+  skill.shape = 0.01;
+  skill.drift = 0.012;
+  skill.tremor = 0.00005;
+  skill.aim = 0.01;
+  skill.speed = 1.0;
+  skill.pause = 0.2;
+  skill.caution = 0.025;
+  return skill;
+}
+
+Point SimulatedWriter::Belief::operator()(const Point& truth) const {
+  const Point arm = scale * (truth - centre);
+  return centre + offset + Point(cosine * arm.x() - sine * arm.y(), sine * arm.x() + cosine * arm.y());
+}
+
+SimulatedWriter::SimulatedWriter(const Page& page, const WriterSkill& skill, std::uint64_t seed)
+    : page_(page.characters), skill_(skill), seed_(seed) {
+  if (page_.empty()) throw ValueError("writer: the page has no character");
+  validate(skill);
+  now_ = {0.5 * page.width, 0.5 * page.height, raised_height};
+  plan_attempt();
+  begin(Phase::pause);
+}
+
+Intention SimulatedWriter::update(const Sight& sight, double seconds) {
+  if (!(seconds > 0.0) || done()) return {now_, Eigen::Vector3d::Zero()};
+  see(sight);
+  time_ += seconds;
+  phase_time_ += seconds;
+  think(seconds);
+  const Eigen::Vector3d before = now_;
+  now_ = target();
+  return {before, (now_ - before) / seconds};
+}
+
+/// What is shown now will be known only after the delay of sight.
+void SimulatedWriter::see(const Sight& sight) {
+  const double duration = plan_[element_].duration;
+  sights_.push_back({time_, sight, element_, plan_[element_].at(minimum_jerk(progress_ / duration)),
+                     phase_ == Phase::write || phase_ == Phase::settle});
+  while (!sights_.empty() && sights_.front().time <= time_ - skill_.sight_delay) {
+    seen_ = sights_.front();
+    sights_.pop_front();
+  }
+}
+
+void SimulatedWriter::think(double seconds) {
+  const double em = page_[static_cast<std::size_t>(character_)].placement.em;
+  switch (phase_) {
+    case Phase::pause:
+      if (phase_time_ >= skill_.pause) begin(Phase::approach);
+      return;
+    case Phase::approach: {
+      const double way = (belief_(plan_[0].at(0.0)) + aim_error_ - from_.head<2>()).norm();
+      if (phase_time_ >= std::max(shortest_approach, way / approach_speed)) begin(Phase::lower);
+      return;
+    }
+    case Phase::lower:
+      if (phase_time_ >= lowering_time) begin(Phase::write);
+      return;
+    case Phase::write:
+    case Phase::settle: {
+      shake(seconds);
+      correct(seconds);
+      untaken_ = seen_.sight.writing || accepted() ? 0.0 : untaken_ + seconds;
+      if (untaken_ > notice_time + skill_.sight_delay) {
+        begin(Phase::raise);
+      } else if (phase_ == Phase::write) {
+        follow_plan(seconds);
+      } else if (accepted() || phase_time_ > longest_settling) {
+        begin(Phase::raise);
+      } else if (error_.norm() < close_enough * em && phase_time_ > skill_.sight_delay) {
+        leave_element();
+      }
+      return;
+    }
+    case Phase::raise: {
+      if (phase_time_ < raising_time + skill_.sight_delay) return;  // long enough to see what became of the stroke
+      const bool next = accepted();
+      attempt_ = next ? 0 : attempt_ + 1;
+      character_ = next ? seen_.sight.character : character_;
+      stroke_ = next ? seen_.sight.stroke : stroke_;
+      gave_up_ = attempt_ >= most_attempts;
+      if (gave_up_ || character_ >= static_cast<int>(page_.size())) {
+        begin(Phase::done);
+        return;
+      }
+      plan_attempt();
+      begin(Phase::pause);
+      return;
+    }
+    case Phase::done:
+      return;
+  }
+}
+
+/// The display has moved on to another stroke.
+bool SimulatedWriter::accepted() const {
+  return seen_.sight.character != character_ || seen_.sight.stroke != stroke_;
+}
+
+void SimulatedWriter::follow_plan(double seconds) {
+  const double em = page_[static_cast<std::size_t>(character_)].placement.em;
+  const double caution = skill_.caution * em;
+  const double pace = 1.0 / (1.0 + (lateral_ / caution) * (lateral_ / caution));
+  progress_ += pace * seconds;
+  if (progress_ < plan_[element_].duration) return;
+  progress_ = plan_[element_].duration;
+  if (error_.norm() > close_enough * em) {
+    begin(Phase::settle);  // look whether the corner or the end is reached, and go there
+  } else {
+    leave_element();
+  }
+}
+
+/// On to the next element, or off the paper after the last.
+void SimulatedWriter::leave_element() {
+  if (element_ + 1 == plan_.size()) {
+    begin(Phase::raise);
+    return;
+  }
+  ++element_;
+  progress_ = 0.0;
+  if (phase_ == Phase::settle) begin(Phase::write);
+}
+
+/// Compares where the pen was with the template at that moment, and shifts the plan by a share of the difference.
+void SimulatedWriter::correct(double seconds) {
+  if (!seen_.on_paper) return;
+  const Point tip = seen_.sight.pen_tip.head<2>();
+  error_ = seen_.planned - tip;
+  lateral_ = nearest_point(plan_[seen_.element].truth, tip).distance;
+  correction_ += skill_.correction * seconds * error_;
+}
+
+void SimulatedWriter::shake(double seconds) {
+  const double em = page_[static_cast<std::size_t>(character_)].placement.em;
+  drift_ *= std::exp(-seconds / wandering_time);
+  drift_ += skill_.drift * em * std::sqrt(seconds) * normal_point(random_);
+  tremor_ = Point::Zero();
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double angle = 2.0 * std::numbers::pi * (8.0 + 2.0 * static_cast<double>(i)) * time_;
+    tremor_ += skill_.tremor / 3.0 *
+               Point(std::sin(angle + tremor_phases_[2 * i]), std::sin(angle + tremor_phases_[2 * i + 1]));
+  }
+}
+
+void SimulatedWriter::begin(Phase phase) {
+  phase_ = phase;
+  phase_time_ = 0.0;
+  from_ = now_;
+}
+
+/// Draws what the writer believes of the stroke that is due; each further attempt halves the misbelief.
+void SimulatedWriter::plan_attempt() {
+  const PlacedCharacter& placed = page_[static_cast<std::size_t>(character_)];
+  const double em = placed.placement.em;
+  const double misbelief = std::pow(0.5, attempt_);
+
+  std::mt19937_64 of_character = generator(seed_, character_, -1, -1);
+  const Point offset = skill_.offset * em * normal_point(of_character);
+  const double scale = skill_.scale * normal(of_character);
+  const double tilt = misbelief * skill_.tilt * normal(of_character);
+  std::mt19937_64 of_stroke = generator(seed_, character_, stroke_, -1);
+  const Point shape = skill_.shape * em * normal_point(of_stroke);
+  belief_ = {placed.placement.to_page(Point(0.5, 0.5)), misbelief * (offset + shape), 1.0 + misbelief * scale,
+             std::cos(tilt), std::sin(tilt)};
+
+  random_ = generator(seed_, character_, stroke_, attempt_);
+  aim_error_ = misbelief * skill_.aim * em * normal_point(random_);
+  for (double& phase : tremor_phases_) phase = 2.0 * std::numbers::pi * uniform(random_);
+  const int later = placed.character.stroke_count() - stroke_ - 1;
+  const double order_draw = uniform(random_), direction_draw = uniform(random_), which = uniform(random_);
+  const bool out_of_order = attempt_ == 0 && later > 0 && order_draw < skill_.wrong_order;
+  const bool backwards = attempt_ == 0 && !out_of_order && direction_draw < skill_.wrong_direction;
+  plan_elements(out_of_order ? stroke_ + 1 + static_cast<int>(which * later) : stroke_, backwards);
+
+  sights_.clear();  // they compare with the last plan
+  seen_.on_paper = false;
+  element_ = 0;
+  progress_ = 0.0;
+  untaken_ = 0.0;
+  correction_ = drift_ = tremor_ = error_ = Point::Zero();
+  lateral_ = 0.0;
+}
+
+void SimulatedWriter::plan_elements(int stroke, bool backwards) {
+  const PlacedCharacter& placed = page_[static_cast<std::size_t>(character_)];
+  const Stroke truth = strokes(placed.character)[static_cast<std::size_t>(stroke)];
+  const std::vector<int> ends = truth.type->feature_points(truth.curve_degree);
+  plan_.clear();
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+    std::vector<Point> points;
+    for (int k = ends[i]; k <= ends[i + 1]; ++k) {
+      points.push_back(placed.placement.to_page(truth.control_points[static_cast<std::size_t>(k)]));
+    }
+    PlannedElement planned{prepare_element(points), backwards, 0.0};
+    planned.duration = std::max(shortest_element, planned.truth.length() / (skill_.speed * placed.placement.em));
+    plan_.push_back(planned);
+  }
+  if (backwards) std::reverse(plan_.begin(), plan_.end());
+}
+
+Eigen::Vector3d SimulatedWriter::target() const {
+  Eigen::Vector3d point = now_;
+  const auto& element = plan_[element_];
+  const Point start = belief_(plan_[0].at(0.0)) + aim_error_;
+  switch (phase_) {
+    case Phase::pause:
+    case Phase::done:
+      return point;
+    case Phase::approach: {
+      const double way = (start - from_.head<2>()).norm();
+      const double share = minimum_jerk(phase_time_ / std::max(shortest_approach, way / approach_speed));
+      point.head<2>() = from_.head<2>() + share * (start - from_.head<2>());
+      return point;
+    }
+    case Phase::lower:
+      point.z() = raised_height - minimum_jerk(phase_time_ / lowering_time) * (raised_height + pressed_depth);
+      return point;
+    case Phase::write:
+    case Phase::settle: {
+      const double share = minimum_jerk(progress_ / element.duration);
+      // The miss at the start is carried along; only sight can mend it.
+      point.head<2>() = belief_(element.at(share)) + aim_error_ + correction_ + drift_ + tremor_;
+      point.z() = -pressed_depth;
+      return point;
+    }
+    case Phase::raise:
+      point.z() = from_.z() + minimum_jerk(phase_time_ / raising_time) * (raised_height - from_.z());
+      return point;
+  }
+  return point;
+}
+
+}  // namespace calligraphy
