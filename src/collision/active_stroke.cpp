@@ -37,13 +37,14 @@ StrokeContact ActiveStroke::update(const Point& tip, const StrokeRules& rules) n
   StrokeContact contact = locate(tip, rules);
   if (active_ < element_count_ && passes(tip, contact, rules)) {
     ++active_;
-    arc_ = 0.0;
-    const bool finished = active_ == element_count_;
-    if (!finished) contact = locate(tip, rules);
+    if (active_ < element_count_) {
+      arc_ = 0.0;
+      contact = locate(tip, rules);
+    }
     contact.passed_feature = true;
-    contact.finished = finished;
+    contact.finished = active_ == element_count_;
   }
-  if (!contact.finished) arc_ = contact.arc - first_arc_[static_cast<std::size_t>(contact.element)];
+  arc_ = contact.arc - first_arc_[static_cast<std::size_t>(contact.element)];
   furthest_ = std::max(furthest_, contact.arc);
   contact.backwards = furthest_ - contact.arc;
   return contact;
@@ -81,7 +82,14 @@ bool ActiveStroke::passes(const Point& tip, const StrokeContact& contact, const 
   const double left = first_arc_[i + 1] - contact.arc;
   // Near the feature point along the stroke too: a plane reaches across other limbs of the same stroke. On a curve the
   // foot may lag behind the plane by more than the tolerance, but not by more than twice of it unless the pen is far off.
-  return contact.share > 0.0 && beyond >= -tolerance && left <= 2.0 * tolerance + 1e-6 * length;
+  if (contact.share <= 0.0 || left > 2.0 * tolerance + 1e-6 * length) return false;
+  if (beyond >= -tolerance) return true;
+  // A pen that keeps to the inside of a corner never reaches the plane: it passes on the bisector, where both limbs
+  // attract it equally.
+  if (contact.element + 1 == element_count_) return false;
+  const StrokeElement& next = elements_[i + 1];
+  const ParameterRange range = {0.0, rules.window > 0.0 ? next.parameter_at(rules.window) : 1.0};
+  return nearest_point(next, tip, rules.nearest, range).distance < contact.foot.distance;
 }
 
 }  // namespace calligraphy

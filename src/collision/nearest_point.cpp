@@ -19,8 +19,8 @@ NearestPoint at_parameter(const StrokeElement& element, const Point& query, doub
 }
 
 NearestPoint on_line(const StrokeElement& element, const Point& query, const ParameterRange& range) {
-  const Point direction = element.size * element.coefficients[0];
-  const double t = direction.dot(query - element.origin) / direction.squaredNorm();
+  const Point& direction = element.coefficients[0];
+  const double t = direction.dot((query - element.origin) / element.size) / direction.squaredNorm();
   return at_parameter(element, query, std::clamp(t, range.begin, range.end), true);
 }
 

@@ -13,6 +13,9 @@ constexpr std::array<std::array<double, 5>, 5> binomial = {
 /// Length of the derivative relative to the element's size below which its direction is rounding noise.
 constexpr double vanishing_slope = 1e-7;
 
+/// So near to the end of a curve that ends without speed, the sign of its derivatives is rounding noise too.
+constexpr double at_end = 1e-6;
+
 double speed(const StrokeElement& element, double t) { return element.derivative(t).norm(); }
 
 /// Gauss-Legendre quadrature of the speed with 2 nodes.
@@ -38,19 +41,22 @@ Point StrokeElement::derivative(double t) const noexcept {
 
 Point StrokeElement::tangent(double t) const noexcept {
   if (!(size > 0.0)) return Point::Zero();
-  // Where the first derivative vanishes, the next one that does not gives the direction. Coming from an end the curve
-  // leaves along +B'', and arrives at its other end along -B''; inside, at a cusp, it leaves along +B''.
+  // Where the first derivative vanishes, the next one that does not gives the direction: the curve leaves its start along
+  // +B'' and arrives at its end along -B''. Between them a derivative too short to show a direction still shows on which
+  // side of its zero t is; at the zero, a cusp, the curve leaves along +B''.
   std::array<Point, max_curve_degree> row = coefficients;
+  Point last = Point::Zero();
   double sign = 1.0;
   for (int order = 1; order <= degree; ++order) {
     for (int k = 0; k <= degree - order; ++k) {
       const auto from = static_cast<std::size_t>(k + (order > 1 ? 1 : 0));
-      row[static_cast<std::size_t>(k)] = (k + 1) * (order > 1 ? row[from] : coefficients[from]);
+      row[static_cast<std::size_t>(k)] = (k + 1) * row[from];
     }
     Point value = Point::Zero();
     for (int k = degree - order; k >= 0; --k) value = value * t + row[static_cast<std::size_t>(k)];
+    if (t > 1.0 - at_end ? order > 1 : t > 0.0 && last.dot(value) < 0.0) sign = -sign;
     if (value.norm() > vanishing_slope) return (sign * value).normalized();
-    if (t >= 1.0) sign = -sign;
+    last = value;
   }
   return Point::Zero();
 }

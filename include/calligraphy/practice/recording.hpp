@@ -30,13 +30,18 @@ struct Recording {
   std::vector<Sample> samples;
 };
 
-/// Comma-separated values; the first line names columns and units. Numbers do not depend on the locale.
+/// Comma-separated values; the first line names columns and units, the second, a comment, gives the rate. Numbers are
+/// in the shortest form that reads back the same and do not depend on the locale; events are the sum of TickEvent's
+/// bits.
 void write_csv(std::ostream& out, const Recording& recording);
 
-/// @throws FormatError naming the line and the value. `name` is used in messages
+/// What write_csv wrote, exactly. `name` is used in messages.
+/// @throws FormatError naming the line and the value, also when the file is cut off within a line; FileError when the
+/// stream fails
 Recording read_csv(std::istream& in, std::string_view name);
 
-/// The device point of each sample in device axes, for a ReplayDevice on the same mapping.
+/// The device point of each sample in device axes, for a ReplayDevice on the same mapping. A bad sample has no position
+/// (NaN) and a device fault says so, so that they are replayed as what they were.
 std::vector<DeviceState> device_states(const Recording& recording, const MotionMapping& mapping);
 
 }  // namespace calligraphy

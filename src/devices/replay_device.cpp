@@ -1,0 +1,52 @@
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <utility>
+
+#include <calligraphy/devices/replay_device.hpp>
+#include <calligraphy/error.hpp>
+
+namespace calligraphy {
+namespace {
+
+/// Positions may be anything: a recorded fault has to be replayed as it was.
+std::vector<DeviceState> checked(std::vector<DeviceState> samples) {
+  if (samples.empty()) throw ValueError("replay has no sample");
+  double previous = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const double time = samples[i].time;
+    if (!(std::isfinite(time) && time > previous)) {
+      std::ostringstream message;
+      message << "replay sample " << i << ": time is " << time << " s after " << previous
+              << " s, must be finite and increase";
+      throw ValueError(message.str());
+    }
+    previous = time;
+  }
+  return samples;
+}
+
+}  // namespace
+
+ReplayDevice::ReplayDevice(std::vector<DeviceState> samples, Capabilities capabilities)
+    : samples_(checked(std::move(samples))), capabilities_(std::move(capabilities)) {}
+
+DeviceState ReplayDevice::read() noexcept {
+  if (!finished()) return samples_[next_++];
+  DeviceState state = samples_[next_ == 0 ? 0 : next_ - 1];
+  state.status = DeviceStatus::disconnected;
+  return state;
+}
+
+void ReplayDevice::write(const Eigen::Vector3d& force) noexcept {
+  if (!open_) return;
+  force_ = force;
+  if (!force_.allFinite()) force_.setZero();
+}
+
+void ReplayDevice::close() noexcept {
+  open_ = false;
+  force_.setZero();
+}
+
+}  // namespace calligraphy

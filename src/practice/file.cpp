@@ -1,0 +1,97 @@
+#include <calligraphy/practice/file.hpp>
+
+#include <cerrno>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <random>
+#include <string>
+#include <system_error>
+
+#include <calligraphy/error.hpp>
+
+namespace calligraphy {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const fs::path& path, const std::string& reason) {
+  throw FileError(path.string() + ": cannot be written: " + reason);
+}
+
+std::string reason_of(int error) { return std::generic_category().message(error); }
+
+struct CloseFile {
+  void operator()(std::FILE* file) const noexcept { std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, CloseFile>;
+
+/// A new, empty file beside the target; removed unless it was renamed.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const fs::path& target) : target_(target) {
+    std::random_device random;
+    constexpr int attempts = 16;
+    for (int i = 0; i < attempts && !file_; ++i) {
+      const std::uint64_t number = (std::uint64_t{random()} << 32) | random();
+      path_ = target;
+      path_ += "." + std::to_string(number) + ".tmp";
+      errno = 0;
+      file_.reset(std::fopen(path_.string().c_str(), "wbx"));
+      if (!file_ && errno != EEXIST) break;
+    }
+    if (!file_) fail(target_, reason_of(errno));
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  ~TemporaryFile() {
+    file_.reset();
+    std::error_code ignored;
+    if (!renamed_) fs::remove(path_, ignored);
+  }
+
+  void write(std::string_view content) {
+    errno = 0;
+    const bool written = std::fwrite(content.data(), 1, content.size(), file_.get()) == content.size();
+    if (!written || std::fflush(file_.get()) != 0) fail(target_, reason_of(errno));
+    if (std::fclose(file_.release()) != 0) fail(target_, reason_of(errno));
+  }
+
+  void take_permissions(fs::perms permissions) {
+    std::error_code error;
+    fs::permissions(path_, permissions, error);
+    if (error) fail(target_, error.message());
+  }
+
+  void rename() {
+    std::error_code error;
+    fs::rename(path_, target_, error);
+    if (error) fail(target_, error.message());
+    renamed_ = true;
+  }
+
+ private:
+  fs::path target_;
+  fs::path path_;
+  File file_;
+  bool renamed_ = false;
+};
+
+}  // namespace
+
+void write_file(const fs::path& path, std::string_view content) {
+  std::error_code error;
+  // A link stays a link: renaming onto it would put the file in its place.
+  const fs::path target = fs::is_symlink(path, error) ? fs::canonical(path, error) : path;
+  if (target.empty()) fail(path, "the link leads nowhere");
+  const fs::file_status before = fs::status(target, error);
+  const bool exists = fs::exists(before);
+  if (exists && !fs::is_regular_file(before)) fail(path, "it exists and is not a regular file");
+
+  TemporaryFile file(target);
+  file.write(content);
+  if (exists) file.take_permissions(before.permissions());
+  file.rename();
+}
+
+}  // namespace calligraphy

@@ -1,0 +1,213 @@
+#include <calligraphy/practice/recording.hpp>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <istream>
+#include <limits>
+#include <ostream>
+#include <string>
+#include <system_error>
+
+#include <calligraphy/error.hpp>
+
+namespace calligraphy {
+namespace {
+
+constexpr std::array<std::string_view, 16> columns = {
+    "time_s",  "device_x_m", "device_y_m", "device_z_m", "tip_x_m", "tip_y_m",   "tip_z_m", "force_x_N",
+    "force_y_N", "force_z_N",  "state",      "events",     "status",  "character", "stroke",  "tick_ns"};
+constexpr std::string_view rate_comment = "# rate_Hz=";
+constexpr std::size_t chunk = 1 << 16;  ///< bytes given to the stream at a time
+
+constexpr std::array states = {InteractionState::separation, InteractionState::adjusting, InteractionState::calibration,
+                               InteractionState::writing};
+constexpr std::array statuses = {TickStatus::ok, TickStatus::bad_sample, TickStatus::device_fault};
+constexpr int all_events = 2 * static_cast<int>(TickEvent::page_finished) - 1;
+
+const char* name_of(TickStatus status) noexcept {
+  switch (status) {
+    case TickStatus::ok:
+      return "ok";
+    case TickStatus::bad_sample:
+      return "bad_sample";
+    case TickStatus::device_fault:
+      return "device_fault";
+  }
+  return "";
+}
+
+std::string header() {
+  std::string text;
+  for (const std::string_view column : columns) text.append(text.empty() ? "" : ",").append(column);
+  return text;
+}
+
+template <typename Number>
+void append(std::string& text, Number value) {
+  char buffer[32];
+  text.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
+}
+
+void append_row(std::string& text, const Sample& sample) {
+  append(text, sample.time);
+  for (const Eigen::Vector3d* vector : {&sample.device_point, &sample.pen_tip, &sample.force}) {
+    for (const double value : *vector) append(text += ',', value);
+  }
+  text.append(",").append(short_name(sample.state));
+  append(text += ',', static_cast<int>(sample.events));
+  text.append(",").append(name_of(sample.status));
+  append(text += ',', sample.character);
+  append(text += ',', sample.stroke);
+  append(text += ',', sample.tick_ns);
+  text += '\n';
+}
+
+/// Reads what write_csv writes, and nothing else but line ends of either kind.
+class Parser {
+ public:
+  Parser(std::istream& in, std::string_view name) : in_(in), name_(name) {}
+
+  Recording parse() {
+    next_line();
+    if (line_ != header()) fail("expected '" + header() + "', found '" + line_ + "'");
+    next_line();
+    if (!line_.starts_with(rate_comment)) {
+      fail("expected '" + std::string(rate_comment) + "...', found '" + line_ + "'");
+    }
+    Recording recording;
+    recording.rate = number<double>("rate_Hz", std::string_view(line_).substr(rate_comment.size()));
+    if (!(std::isfinite(recording.rate) && recording.rate > 0.0)) {
+      fail("rate_Hz is '" + line_.substr(rate_comment.size()) + "': expected a finite number above 0");
+    }
+    while (next_line()) recording.samples.push_back(sample());
+    return recording;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const {
+    throw FormatError(name_ + ":" + std::to_string(line_number_) + ": " + what);
+  }
+
+  /// A last line without its end may hold a number that was cut in two.
+  bool next_line() {
+    ++line_number_;
+    const bool found = static_cast<bool>(std::getline(in_, line_));
+    if (in_.bad()) throw FileError(name_ + ": cannot be read");
+    if (!found) return false;
+    if (in_.eof()) fail("the file is cut off after '" + line_ + "'");
+    if (line_.ends_with('\r')) line_.pop_back();
+    return true;
+  }
+
+  Sample sample() {
+    split();
+    column_ = 0;
+    Sample sample;
+    sample.time = next_number<double>();
+    for (Eigen::Vector3d* vector : {&sample.device_point, &sample.pen_tip, &sample.force}) {
+      for (double& value : *vector) value = next_number<double>();
+    }
+    sample.state = next_of(states, short_name, "SS, AS, CS or WS");
+    sample.events = static_cast<TickEvent>(next_integer(all_events));
+    sample.status = next_of(statuses, name_of, "ok, bad_sample or device_fault");
+    sample.character = next_integer(std::numeric_limits<int>::max());
+    sample.stroke = next_integer(std::numeric_limits<int>::max());
+    sample.tick_ns = next_number<float>();
+    return sample;
+  }
+
+  void split() {
+    std::size_t count = 0;
+    std::string_view rest = line_;
+    for (bool more = true; more; ++count) {
+      const std::size_t comma = rest.find(',');
+      if (count < values_.size()) values_[count] = rest.substr(0, comma);
+      more = comma != std::string_view::npos;
+      if (more) rest.remove_prefix(comma + 1);
+    }
+    if (count != columns.size()) {
+      fail("expected " + std::to_string(columns.size()) + " values, found " + std::to_string(count) + " in '" + line_ +
+           "'");
+    }
+  }
+
+  template <typename Number>
+  Number number(std::string_view column, std::string_view text) const {
+    Number value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error == std::errc::result_out_of_range) {
+      fail(std::string(column) + " is '" + std::string(text) + "': out of range");
+    }
+    if (error != std::errc() || end != text.data() + text.size()) {
+      fail(std::string(column) + " is '" + std::string(text) + "': expected a number");
+    }
+    return value;
+  }
+
+  template <typename Number>
+  Number next_number() {
+    const std::size_t i = column_++;
+    return number<Number>(columns[i], values_[i]);
+  }
+
+  int next_integer(int largest) {
+    const int value = next_number<int>();
+    if (value < 0 || value > largest) {
+      fail(std::string(columns[column_ - 1]) + " is '" + std::to_string(value) + "': expected 0 to " +
+           std::to_string(largest));
+    }
+    return value;
+  }
+
+  template <typename Values, typename Name>
+  typename Values::value_type next_of(const Values& values, Name name, const char* expected) {
+    const std::size_t i = column_++;
+    for (const auto value : values) {
+      if (values_[i] == name(value)) return value;
+    }
+    fail(std::string(columns[i]) + " is '" + std::string(values_[i]) + "': expected " + expected);
+  }
+
+  std::istream& in_;
+  std::string name_;
+  std::string line_;
+  int line_number_ = 0;
+  std::array<std::string_view, columns.size()> values_;  ///< of line_
+  std::size_t column_ = 0;                               ///< the next one
+};
+
+}  // namespace
+
+void write_csv(std::ostream& out, const Recording& recording) {
+  std::string text = header().append("\n").append(rate_comment);
+  append(text, recording.rate);
+  text += '\n';
+  for (const Sample& sample : recording.samples) {
+    append_row(text, sample);
+    if (text.size() < chunk) continue;
+    out.write(text.data(), static_cast<std::streamsize>(text.size()));
+    text.clear();
+  }
+  out.write(text.data(), static_cast<std::streamsize>(text.size()));
+}
+
+Recording read_csv(std::istream& in, std::string_view name) { return Parser(in, name).parse(); }
+
+std::vector<DeviceState> device_states(const Recording& recording, const MotionMapping& mapping) {
+  std::vector<DeviceState> result;
+  result.reserve(recording.samples.size());
+  for (const Sample& sample : recording.samples) {
+    DeviceState state;
+    state.time = sample.time;
+    state.position = mapping.to_device(sample.device_point);
+    // A fault is replayed as a fault: the sample holds the last good point.
+    if (sample.status == TickStatus::bad_sample) state.position.setConstant(std::numeric_limits<double>::quiet_NaN());
+    if (sample.status == TickStatus::device_fault) state.status = DeviceStatus::fault;
+    result.push_back(state);
+  }
+  return result;
+}
+
+}  // namespace calligraphy

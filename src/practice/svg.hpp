@@ -1,0 +1,61 @@
+// What the pictures share: SVG through pugixml, numbers that no locale changes, strokes as paths.
+#pragma once
+
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <pugixml.hpp>
+
+#include <calligraphy/model/character.hpp>
+
+namespace calligraphy::svg {
+
+using Attributes = std::initializer_list<std::pair<const char*, std::string>>;
+
+/// To three decimals at most, without trailing zeros.
+std::string number(double value);
+
+/// What XML may hold: control characters become blanks. @throws FormatError when the text is not UTF-8
+std::string clean(std::string_view text);
+
+pugi::xml_node add(pugi::xml_node parent, const char* name, Attributes attributes);
+pugi::xml_node add_text(pugi::xml_node parent, double x, double y, double size, const std::string& text,
+                        Attributes attributes = {});
+
+/// About how wide a sans-serif font sets the text.
+double text_width(std::string_view text, double size);
+
+/// From the coordinates of a model to those of the picture, y down.
+struct View {
+  Point origin = Point::Zero();  ///< where the model's zero is in the picture
+  double scale = 1.0;
+
+  Point operator()(const Point& point) const { return origin + scale * Point(point.x(), -point.y()); }
+};
+
+/// Path data "M x,y ...".
+class Path {
+ public:
+  void move_to(const Point& point) { append('M', {point}); }
+  void line_to(const Point& point) { append('L', {point}); }
+  void curve_to(const Point& first, const Point& second, const Point& end) { append('C', {first, second, end}); }
+  const std::string& data() const { return data_; }
+
+ private:
+  void append(char command, std::initializer_list<Point> points);
+  std::string data_;
+  char command_ = 0;
+};
+
+/// The stroke's middle line: cubic curves as they are, quartic ones as fine polylines.
+std::string stroke_path(const Stroke& stroke, const View& view);
+
+/// An empty picture on white. Lengths have the unit given ("mm", "px").
+pugi::xml_node begin(pugi::xml_document& document, double width, double height, const char* unit,
+                     const std::string& title);
+std::string to_string(const pugi::xml_document& document);
+
+}  // namespace calligraphy::svg

@@ -1,0 +1,35 @@
+// Pages of built-in characters for tests.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include <calligraphy/model/character_set.hpp>
+#include <calligraphy/model/text.hpp>
+#include <calligraphy/practice/page.hpp>
+#include <calligraphy/practice/session.hpp>
+
+namespace calligraphy_test {
+
+inline std::vector<calligraphy::Character> characters(std::string_view text) {
+  std::vector<calligraphy::Character> found;
+  for (const char32_t code : calligraphy::decode_utf8(text)) {
+    found.push_back(*calligraphy::built_in_characters().find(code));
+  }
+  return found;
+}
+
+inline calligraphy::Page page_of(std::string_view text) { return calligraphy::lay_out(characters(text)).front(); }
+
+inline calligraphy::SessionOptions session(const calligraphy::WriterSkill& skill, calligraphy::Mode mode,
+                                           std::uint64_t seed = 1) {
+  calligraphy::SessionOptions options;
+  options.device = calligraphy::device_profile("desktop");
+  options.renderer = calligraphy::RendererOptions::for_device(options.device.capabilities);
+  options.skill = skill;
+  options.mode = mode;
+  options.seed = seed;
+  return options;
+}
+
+}  // namespace calligraphy_test

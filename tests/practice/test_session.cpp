@@ -1,0 +1,135 @@
+#include <algorithm>
+#include <cmath>
+
+#include <calligraphy/error.hpp>
+#include <calligraphy/practice/score.hpp>
+
+#include "../catch.hpp"
+#include "pages.hpp"
+
+using namespace calligraphy;
+using calligraphy_test::page_of;
+using calligraphy_test::session;
+
+namespace {
+
+/// Equal to the last digit in everything but the clock.
+bool same(const Recording& a, const Recording& b) {
+  return std::equal(a.samples.begin(), a.samples.end(), b.samples.begin(), b.samples.end(),
+                    [](const Sample& x, const Sample& y) {
+                      return x.time == y.time && x.device_point == y.device_point && x.pen_tip == y.pen_tip &&
+                             x.force == y.force && x.state == y.state && x.events == y.events &&
+                             x.status == y.status && x.character == y.character && x.stroke == y.stroke;
+                    });
+}
+
+double largest_step(const Recording& recording) {
+  double largest = 0.0;
+  for (std::size_t i = 1; i < recording.samples.size(); ++i) {
+    largest = std::max(largest, (recording.samples[i].force - recording.samples[i - 1].force).norm());
+  }
+  return largest;
+}
+
+}  // namespace
+
+TEST_CASE("with all stiffness at zero the force mode is the vision mode to the last digit", "[practice]") {
+  const Page page = page_of("永北");
+  SessionOptions with = session(WriterSkill::novice(), Mode::force, 7);
+  with.renderer.paper_stiffness = with.renderer.guidance_stiffness = with.renderer.wrong_way_stiffness = 0.0;
+  SessionOptions without = session(WriterSkill::novice(), Mode::vision, 7);
+  const Recording felt = write_page(page, with);
+  CHECK(same(felt, write_page(page, without)));
+
+  const auto scores = score(page, felt);
+  CHECK(scores[0].strokes_completed == 5);
+  CHECK(scores[0].peak_force == 0.0);
+}
+
+TEST_CASE("in vision mode the hand feels nothing", "[practice]") {
+  const Recording recording = write_page(page_of("永"), session(WriterSkill::novice(), Mode::vision));
+  CHECK(std::all_of(recording.samples.begin(), recording.samples.end(),
+                    [](const Sample& sample) { return sample.force.isZero(0.0); }));
+}
+
+TEST_CASE("the same seed gives the same recording and another seed another one", "[practice]") {
+  const Page page = page_of("书");
+  const Recording first = write_page(page, session(WriterSkill::novice(), Mode::force, 3));
+  CHECK(same(first, write_page(page, session(WriterSkill::novice(), Mode::force, 3))));
+  CHECK_FALSE(same(first, write_page(page, session(WriterSkill::novice(), Mode::force, 4))));
+}
+
+TEST_CASE("both writers complete every stroke of a page on every device profile", "[practice]") {
+  const bool novice = GENERATE(true, false);
+  const std::string name = GENERATE("omni", "touch", "desktop", "premium-1.5", "ideal");
+  CAPTURE(novice, name);
+  const Page page = page_of("马〇");
+  SessionOptions options = session(novice ? WriterSkill::novice() : WriterSkill::skilled(), Mode::force);
+  options.device = device_profile(name);
+  options.renderer = RendererOptions::for_device(options.device.capabilities);
+  const Recording recording = write_page(page, options);
+  for (const CharacterScore& character : score(page, recording)) {
+    CHECK(character.strokes_completed == character.stroke_count);
+    CHECK(character.peak_force <= options.device.capabilities.peak_force);
+  }
+}
+
+TEST_CASE("every built-in character is completed in both modes, and force steps stay within the limit", "[practice]") {
+  for (const Character& character : built_in_characters().characters) {
+    const Page page = lay_out(std::span(&character, 1)).front();
+    for (const Mode mode : {Mode::vision, Mode::force}) {
+      CAPTURE(encode_utf8(character.code), mode == Mode::force);
+      const SessionOptions options = session(WriterSkill::novice(), mode, 11);
+      const Recording recording = write_page(page, options);
+      const HapticRenderer renderer(page.characters, upright_page(page.width, page.height),
+                                    options.device.capabilities, options.renderer);
+      const CharacterScore result = score(page, recording).front();
+      CHECK(result.strokes_completed == result.stroke_count);
+      CHECK(largest_step(recording) <= renderer.max_force_step() * (1.0 + 1e-12));
+      CHECK(std::all_of(recording.samples.begin(), recording.samples.end(),
+                        [](const Sample& sample) { return sample.status == TickStatus::ok; }));
+    }
+  }
+}
+
+TEST_CASE("the printed rules step the force by newtons where the default stays within its limit", "[practice]") {
+  const Page page = page_of("永北");
+  const SessionOptions standard = session(WriterSkill::novice(), Mode::force, 1);
+  SessionOptions printed = standard;
+  printed.renderer = RendererOptions::wang2006();
+  const double with_default = largest_step(write_page(page, standard));
+  const double as_printed = largest_step(write_page(page, printed));
+  WARN("largest force step per tick: default " << with_default << " N, wang2006 " << as_printed << " N");
+  CHECK(with_default <= std::hypot(0.1, 0.4) * (1.0 + 1e-12));
+  CHECK(as_printed > 1.0);
+}
+
+TEST_CASE("the path is the same within a force JND's worth of error at other servo rates", "[practice]") {
+  // 6 to 10 % is what people tell apart; the figures of the experiment may not depend on the rate by more than that.
+  const Page page = page_of("永");
+  double reference = 0.0;
+  for (const double rate : {1000.0, 500.0, 4000.0}) {
+    SessionOptions options = session(WriterSkill::skilled(), Mode::force, 2);
+    options.skill.drift = 0.0;  // its noise is drawn per tick
+    options.renderer.servo_rate = rate;
+    const double error = score(page, write_page(page, options)).front().rms_error;
+    if (reference == 0.0) reference = error;
+    CHECK(error == Approx(reference).epsilon(0.06));
+  }
+}
+
+TEST_CASE("a writer or a session out of its domain is refused by name", "[practice]") {
+  const Page page = page_of("一");
+  SessionOptions options = session(WriterSkill::novice(), Mode::force);
+  std::string named;
+  SECTION("sight") { options.skill.sight_delay = -1.0, named = "sight_delay"; }
+  SECTION("speed") { options.skill.speed = std::nan(""), named = "speed"; }
+  SECTION("rate") { options.renderer.servo_rate = 0.0, named = "servo_rate"; }
+  SECTION("duration") { options.longest_character = 0.0, named = "longest_character"; }
+  try {
+    write_page(page, options);
+    FAIL("accepted");
+  } catch (const ValueError& error) {
+    CHECK(std::string(error.what()).find(named) != std::string::npos);
+  }
+}
