@@ -1,0 +1,123 @@
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <calligraphy/devices/replay_device.hpp>
+#include <calligraphy/error.hpp>
+
+#include "../allocation_counter.hpp"
+#include "../catch.hpp"
+
+using namespace calligraphy;
+
+namespace {
+
+std::vector<DeviceState> trace(const std::vector<double>& times) {
+  std::vector<DeviceState> samples;
+  for (const double time : times) {
+    DeviceState state;
+    state.time = time;
+    state.position = {time, 2.0 * time, -time};
+    state.buttons = 5;
+    state.status = DeviceStatus::warm_motors;
+    samples.push_back(state);
+  }
+  return samples;
+}
+
+std::string error_of(const std::vector<DeviceState>& samples) {
+  try {
+    ReplayDevice device(samples, {});
+  } catch (const ValueError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("a replay returns its samples in order and as they are", "[devices]") {
+  Capabilities capabilities;
+  capabilities.model = "recorded";
+  ReplayDevice device(trace({-1.0, 0.5, 0.75}), capabilities);
+  CHECK(device.capabilities().model == "recorded");
+  for (const double time : {-1.0, 0.5, 0.75}) {
+    CHECK_FALSE(device.finished());
+    const DeviceState state = device.read();
+    CHECK(state.time == time);
+    CHECK(state.position == Eigen::Vector3d(time, 2.0 * time, -time));
+    CHECK(state.velocity.array().isNaN().all());
+    CHECK(state.buttons == 5);
+    CHECK(state.status == DeviceStatus::warm_motors);
+  }
+  CHECK(device.finished());
+}
+
+TEST_CASE("a replay that has ended says disconnected at the last position for ever", "[devices]") {
+  ReplayDevice device(trace({0.0, 0.5}), {});
+  device.read();
+  device.read();
+  for (int i = 0; i < 100; ++i) {
+    const DeviceState state = device.read();
+    REQUIRE(state.status == DeviceStatus::disconnected);
+    REQUIRE(state.position == Eigen::Vector3d(0.5, 1.0, -0.5));
+    REQUIRE(state.time == 0.5);
+  }
+}
+
+TEST_CASE("a closed replay plays no more and stays at the sample it had reached", "[devices]") {
+  ReplayDevice device(trace({1.0, 2.0, 3.0}), {});
+  const bool has_read = GENERATE(false, true);
+  if (has_read) {
+    device.read();
+    device.read();
+  }
+  device.write({1.0, 2.0, 3.0});
+  device.close();
+  CHECK(device.finished());
+  CHECK(device.last_force().isZero(0.0));
+  device.write({1.0, 2.0, 3.0});
+  CHECK(device.last_force().isZero(0.0));
+  CHECK(device.read().status == DeviceStatus::disconnected);
+  CHECK(device.read().time == (has_read ? 2.0 : 1.0));
+}
+
+TEST_CASE("a replay remembers the last force, and none that is not finite", "[devices]") {
+  ReplayDevice device(trace({0.0}), {});
+  CHECK(device.last_force().isZero(0.0));
+  device.write({1.0, -2.0, 30.0});
+  CHECK(device.last_force() == Eigen::Vector3d(1.0, -2.0, 30.0));
+  device.write({1.0, std::numeric_limits<double>::quiet_NaN(), 0.0});
+  CHECK(device.last_force().isZero(0.0));
+}
+
+TEST_CASE("a recorded fault is replayed as it was", "[devices]") {
+  std::vector<DeviceState> samples = trace({0.0, 1.0});
+  samples[0].position.x() = std::numeric_limits<double>::quiet_NaN();
+  ReplayDevice device(samples, {});
+  CHECK(std::isnan(device.read().position.x()));
+}
+
+TEST_CASE("a trace without samples or with time that does not increase is refused", "[devices]") {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  CHECK(error_of({}).find("no sample") != std::string::npos);
+  CHECK(error_of(trace({0.0, 0.25, 0.25})) ==
+        "replay sample 2: time is 0.25 s after 0.25 s, must be finite and increase");
+  CHECK(error_of(trace({0.0, 0.5, 0.25, 0.75})).find("sample 2") != std::string::npos);
+  CHECK(error_of(trace({std::numeric_limits<double>::quiet_NaN()})).find("sample 0") != std::string::npos);
+  CHECK(error_of(trace({0.0, infinity})).find("sample 1") != std::string::npos);
+  CHECK(error_of(trace({-infinity, 0.0})).find("sample 0") != std::string::npos);
+  CHECK(error_of(trace({0.0})).empty());
+}
+
+TEST_CASE("a replay reads and writes without the heap", "[devices]") {
+  ReplayDevice device(trace({0.0, 1.0, 2.0}), {});
+  const std::size_t before = calligraphy_test::allocations();
+  for (int i = 0; i < 6; ++i) {
+    device.write(device.read().position);
+  }
+  device.close();
+  const std::size_t after = calligraphy_test::allocations();
+  CHECK(after == before);
+}

@@ -1,0 +1,749 @@
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <calligraphy/devices/simulated_device.hpp>
+#include <calligraphy/error.hpp>
+
+#include "../allocation_counter.hpp"
+#include "../catch.hpp"
+
+using namespace calligraphy;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+DeviceProfile point_mass(double mass, double viscous_friction = 0.0, double coulomb_friction = 0.0) {
+  DeviceProfile profile = device_profile("ideal");
+  profile.mass = mass;
+  profile.viscous_friction = viscous_friction;
+  profile.coulomb_friction = coulomb_friction;
+  return profile;
+}
+
+Hand spring(double stiffness, double damping = 0.0) { return {0.0, damping, stiffness}; }
+
+SimulatedDevice at_x(const DeviceProfile& profile, const Hand& hand, double x) {
+  SimulatedDevice device(profile, hand, {x, 0.0, 0.0});
+  device.set_intention({});
+  return device;
+}
+
+/// Gives the device a velocity along x by a hard push that lasts a nanosecond.
+void push(SimulatedDevice& device, double moving_mass, double velocity) {
+  device.write({moving_mass * velocity * 1e9, 0.0, 0.0});
+  device.advance(1e-9);
+  device.write(Eigen::Vector3d::Zero());
+}
+
+double x_of(const SimulatedDevice& device) { return device.true_position().x(); }
+double v_of(const SimulatedDevice& device) { return device.true_velocity().x(); }
+
+struct Motion {
+  double position;
+  double velocity;
+};
+
+/// Textbook solution of m x'' + d x' + k x = 0 by its three cases, in long double.
+Motion textbook(double mass, double damping, double stiffness, Motion start, double seconds) {
+  const long double g = static_cast<long double>(damping) / 2 / mass;
+  const long double w2 = static_cast<long double>(stiffness) / mass;
+  const long double x0 = start.position, v0 = start.velocity, t = seconds;
+  long double x, v;
+  if (g * g < w2) {
+    const long double w = sqrtl(w2 - g * g), b = (v0 + g * x0) / w, e = expl(-g * t);
+    x = e * (x0 * cosl(w * t) + b * sinl(w * t));
+    v = -g * x + e * w * (b * cosl(w * t) - x0 * sinl(w * t));
+  } else if (g * g > w2 && sqrtl(g * g - w2) * t < 1) {  // the form below cancels beside critical damping
+    const long double root = sqrtl(g * g - w2), b = v0 + g * x0, e = expl(-g * t);
+    x = e * (x0 * coshl(root * t) + b * sinhl(root * t) / root);
+    v = -g * x + e * (b * coshl(root * t) + x0 * root * sinhl(root * t));
+  } else if (g * g > w2) {
+    const long double root = sqrtl(g * g - w2), fast = g + root, slow = w2 / fast;
+    const long double a = (v0 + fast * x0) / (2 * root), b = x0 - a;
+    x = a * expl(-slow * t) + b * expl(-fast * t);
+    v = -slow * a * expl(-slow * t) - fast * b * expl(-fast * t);
+  } else {
+    const long double b = v0 + g * x0, e = expl(-g * t);
+    x = e * (x0 + b * t);
+    v = e * b - g * x;
+  }
+  return {static_cast<double>(x), static_cast<double>(v)};
+}
+
+std::string error_of(const DeviceProfile& profile, const Hand& hand = {0.0, 0.0, 0.0},
+                     const Eigen::Vector3d& position = Eigen::Vector3d::Zero()) {
+  try {
+    SimulatedDevice device(profile, hand, position);
+  } catch (const ValueError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+bool same_bits(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), [](double left, double right) {
+    return std::bit_cast<std::uint64_t>(left) == std::bit_cast<std::uint64_t>(right);
+  });
+}
+
+}  // namespace
+
+// ---- linear motion
+
+TEST_CASE("a mass on a hand swings and settles as the textbook says", "[devices]") {
+  constexpr double mass = 0.145;
+  constexpr double stiffness = 300.0;
+  const double critical = 2.0 * std::sqrt(mass * stiffness);
+  const double ratio = GENERATE(0.0, 1e-9, 0.05, 0.5, 0.999, 1.0 - 1e-6, 1.0 - 1e-9, 1.0 - 1e-13, 1.0, 1.0 + 1e-13,
+                                1.0 + 1e-9, 1.0 + 1e-6, 1.001, 2.0, 100.0, 1e5);
+  const double seconds = GENERATE(1e-9, 1e-6, 1e-3, 0.02, 0.0219, 0.0221, 0.1, 1.0, 10.0);
+  CAPTURE(ratio, seconds);
+  const double damping = ratio * critical;
+  SimulatedDevice device = at_x(point_mass(mass), spring(stiffness, damping), 0.01);
+  push(device, mass, 0.3);
+  const Motion start{x_of(device), v_of(device)};
+  device.advance(seconds);
+  const Motion expected = textbook(mass, damping, stiffness, start, seconds);
+  const double scale = 0.01 + 0.3 * std::sqrt(mass / stiffness);
+  CHECK(std::abs(x_of(device) - expected.position) < 1e-13 * scale);
+  CHECK(std::abs(v_of(device) - expected.velocity) < 1e-13 * scale * std::sqrt(stiffness / mass) * (1.0 + ratio));
+}
+
+TEST_CASE("a held force and a moving intention act as the superposed solutions say", "[devices]") {
+  constexpr double mass = 0.1;
+  constexpr double stiffness = 200.0;
+  constexpr double own_damping = 0.4;
+  constexpr double force = 0.7;
+  constexpr double target = 0.02;
+  constexpr double speed = -0.15;
+  const double hand_damping = GENERATE(0.0, 1.0, 30.0);
+  const double seconds = GENERATE(1e-4, 1e-3, 0.3, 3.0);
+  CAPTURE(hand_damping, seconds);
+  SimulatedDevice device = at_x(point_mass(mass, own_damping), spring(stiffness, hand_damping), 0.01);
+  device.set_intention({{target, 0.0, 0.0}, {speed, 0.0, 0.0}});
+  device.write({force, 0.0, 0.0});
+  device.advance(seconds);
+  // Relative to this point that moves with the target the equation has no right-hand side.
+  const double rest = target + (force - own_damping * speed) / stiffness;
+  const Motion relative = textbook(mass, own_damping + hand_damping, stiffness, {0.01 - rest, -speed}, seconds);
+  CHECK(std::abs(x_of(device) - (rest + speed * seconds + relative.position)) < 1e-14);
+  CHECK(std::abs(v_of(device) - (speed + relative.velocity)) < 1e-13);
+}
+
+TEST_CASE("a free mass accelerates evenly", "[devices]") {
+  const double seconds = GENERATE(1e-12, 1e-3, 1.0, 1e4);
+  SimulatedDevice device(point_mass(0.5));
+  device.write({0.2, -0.4, 0.0});
+  device.advance(seconds);
+  const Eigen::Vector3d acceleration(0.4, -0.8, 0.0);
+  CHECK((device.true_velocity() - acceleration * seconds).norm() <= 1e-15 * seconds);
+  CHECK((device.true_position() - acceleration * (0.5 * seconds * seconds)).norm() <= 1e-15 * seconds * seconds);
+}
+
+TEST_CASE("a mass in a viscous medium reaches the force over the friction", "[devices]") {
+  constexpr double mass = 0.045;
+  constexpr double friction = 0.5;
+  SimulatedDevice device(point_mass(mass, friction));
+  device.write({1.0, 0.0, 0.0});
+  device.advance(0.05);
+  const double rate = friction / mass;
+  CHECK(v_of(device) == Approx(-2.0 * std::expm1(-rate * 0.05)).epsilon(1e-14));
+  CHECK(x_of(device) == Approx(2.0 * (0.05 + std::expm1(-rate * 0.05) / rate)).epsilon(1e-13));
+  device.advance(1e3);
+  CHECK(v_of(device) == Approx(2.0).epsilon(1e-14));
+}
+
+TEST_CASE("dry friction lowers the terminal velocity by its own force", "[devices]") {
+  SimulatedDevice device(point_mass(0.045, 0.5, 0.26));
+  device.write({1.0, -1.0, 0.2});
+  device.advance(10.0);
+  CHECK(device.true_velocity().x() == Approx((1.0 - 0.26) / 0.5).epsilon(1e-13));
+  CHECK(device.true_velocity().y() == Approx(-(1.0 - 0.26) / 0.5).epsilon(1e-13));
+  CHECK(device.true_velocity().z() == 0.0);
+}
+
+// ---- dry friction
+
+TEST_CASE("a force within the friction never moves a mass at rest", "[devices]") {
+  SimulatedDevice device(point_mass(0.045, 0.1, 0.26), spring(300.0, 3.0), {0.01, 0.02, 0.03});
+  const double force = GENERATE(0.26, -0.26, 0.1, 5e-324, 0.0);
+  device.write({force, -force, force});
+  for (int i = 0; i < 1000; ++i) device.advance(1e-3);
+  device.advance(1e4);
+  CHECK(same_bits(device.true_position(), {0.01, 0.02, 0.03}));
+  CHECK(device.true_velocity().isZero(0.0));
+}
+
+TEST_CASE("a force above the friction moves a mass at rest at once", "[devices]") {
+  SimulatedDevice device(point_mass(0.045, 0.0, 0.26));
+  device.write({0.26 * (1.0 + 1e-9), 0.0, -0.27});
+  device.advance(1e-3);
+  CHECK(device.true_position().x() > 0.0);
+  CHECK(device.true_position().y() == 0.0);
+  CHECK(device.true_velocity().z() == Approx(-0.01 / 0.045 * 1e-3).epsilon(1e-12));
+}
+
+TEST_CASE("a sliding mass stops after the distance of its kinetic energy", "[devices]") {
+  constexpr double mass = 0.045;
+  constexpr double friction = 0.26;
+  const double step = GENERATE(1e-5, 1e-3, 0.01, 1.0, 1e6);
+  SimulatedDevice device(point_mass(mass, 0.0, friction));
+  push(device, mass, -0.4);
+  const double start = x_of(device);
+  const double speed = -v_of(device);
+  const double duration = mass * speed / friction;
+  double elapsed = 0.0;
+  while (elapsed < 2.0 * duration) {
+    device.advance(step);
+    elapsed += step;
+  }
+  CHECK(x_of(device) - start == Approx(-speed * speed * mass / (2.0 * friction)).epsilon(1e-11));
+  CHECK(v_of(device) == 0.0);
+}
+
+TEST_CASE("a sliding mass stops at the time that viscous and dry friction together give", "[devices]") {
+  constexpr double mass = 0.045;
+  constexpr double viscous = 0.5;
+  constexpr double dry = 0.1;
+  SimulatedDevice device(point_mass(mass, viscous, dry));
+  push(device, mass, 0.4);
+  const double start = x_of(device);
+  const double speed = v_of(device);
+  const double duration = mass / viscous * std::log1p(viscous * speed / dry);
+  device.advance(duration * (1.0 - 1e-6));
+  CHECK(v_of(device) > 0.0);
+  device.advance(duration * 2e-6);
+  CHECK(v_of(device) == 0.0);
+  CHECK(x_of(device) - start == Approx((mass * speed - dry * duration) / viscous).epsilon(1e-11));
+}
+
+TEST_CASE("a mass thrown against a force turns back with the friction reversed", "[devices]") {
+  constexpr double mass = 0.1;
+  constexpr double friction = 0.2;
+  SimulatedDevice device(point_mass(mass, 0.0, friction));
+  push(device, mass, 0.5);
+  const double start = x_of(device);
+  const double speed = v_of(device);
+  device.write({-1.0, 0.0, 0.0});
+  device.advance(1.0);
+  const double up = (1.0 + friction) / mass;
+  const double down = (1.0 - friction) / mass;
+  const double falling = 1.0 - speed / up;
+  CHECK(v_of(device) == Approx(-down * falling).epsilon(1e-12));
+  CHECK(x_of(device) - start == Approx(speed * speed / (2.0 * up) - 0.5 * down * falling * falling).epsilon(1e-12));
+}
+
+TEST_CASE("a moving intention breaks the mass away at the moment its spring exceeds the friction", "[devices]") {
+  constexpr double mass = 0.1;
+  constexpr double stiffness = 400.0;
+  constexpr double friction = 0.26;
+  const double speed = GENERATE(0.05, -0.05);
+  const double push_force = GENERATE(0.0, 0.1, -0.2);
+  CAPTURE(speed, push_force);
+  const double direction = std::copysign(1.0, speed);
+  const double slip = (direction * friction - push_force) / (stiffness * speed);
+  SimulatedDevice device(point_mass(mass, 0.0, friction), spring(stiffness));
+  device.set_intention({Eigen::Vector3d::Zero(), {speed, 0.0, 0.0}});
+  device.write({push_force, 0.0, 0.0});
+  SECTION("not before") {
+    device.advance(slip * (1.0 - 1e-12));
+    CHECK(x_of(device) == 0.0);
+    CHECK(v_of(device) == 0.0);
+  }
+  SECTION("and then slides as the spring's ramp says") {
+    device.advance(slip + 0.01);
+    const double frequency = std::sqrt(stiffness / mass);
+    CHECK(x_of(device) == Approx(speed * (0.01 - std::sin(frequency * 0.01) / frequency)).epsilon(1e-10));
+    CHECK(v_of(device) == Approx(speed * (1.0 - std::cos(frequency * 0.01))).epsilon(1e-10));
+  }
+}
+
+TEST_CASE("each half swing against dry friction loses twice friction over stiffness, to the last stop", "[devices]") {
+  constexpr double mass = 0.045;
+  constexpr double stiffness = 500.0;
+  constexpr double friction = 0.26;
+  const double amplitude = GENERATE(0.0204, -0.0151, 0.1003);
+  const double step = GENERATE(1e-4, 1e-3, 0.0137, 100.0);
+  CAPTURE(amplitude, step);
+  double rest = amplitude;
+  int swings = 0;
+  while (std::abs(rest) * stiffness > friction) {
+    rest = std::copysign(2.0 * friction / stiffness, rest) - rest;
+    ++swings;
+  }
+  REQUIRE(swings >= 14);
+  SimulatedDevice device = at_x(point_mass(mass, 0.0, friction), spring(stiffness), amplitude);
+  const double half_period = 3.14159265358979323846 * std::sqrt(mass / stiffness);
+  for (double elapsed = 0.0; elapsed < (swings + 1) * half_period; elapsed += step) device.advance(step);
+  CHECK(std::abs(x_of(device) - rest) < 1e-13);
+  CHECK(v_of(device) == 0.0);
+}
+
+TEST_CASE("the answer does not depend on the step, through stops, starts and turns", "[devices]") {
+  struct Case {
+    double viscous, coulomb;
+    Hand hand;
+    double amplitude;
+  };
+  // From slow creeping over stick-slip to several swings within one long step.
+  const Case c = GENERATE(Case{0.1, 0.26, {0.1, 3.0, 300.0}, 0.01}, Case{0.1, 0.26, {0.05, 1.0, 100.0}, 0.004},
+                          Case{0.0, 0.26, {0.0, 0.0, 1e5}, 0.001}, Case{0.1, 0.06, {0.15, 5.0, 500.0}, 0.02},
+                          Case{0.5, 0.04, {0.1, 20.0, 300.0}, 0.01}, Case{0.0, 0.0, {0.0, 0.0, 1e5}, 0.001},
+                          Case{0.1, 0.26, {0.0, 0.0, 0.0}, 0.0});
+  CAPTURE(c.viscous, c.coulomb, c.hand.stiffness);
+  SimulatedDevice coarse(point_mass(0.045, c.viscous, c.coulomb), c.hand);
+  SimulatedDevice fine(point_mass(0.045, c.viscous, c.coulomb), c.hand);
+  int stuck = 0;
+  int sliding = 0;
+  for (int tick = 0; tick < 60; ++tick) {
+    const double phase = 0.35 * tick;
+    Intention intention;
+    intention.position = c.amplitude * Eigen::Vector3d(std::sin(phase), std::cos(0.7 * phase), std::sin(1.3 * phase));
+    intention.velocity = 35.0 * c.amplitude * Eigen::Vector3d(std::cos(phase), 0.0, std::sin(phase));
+    const Eigen::Vector3d force(0.5 * std::sin(2.1 * tick), 0.3 * std::cos(1.7 * tick), 0.25);
+    for (SimulatedDevice* device : {&coarse, &fine}) {
+      device->set_intention(intention);
+      device->write(force);
+    }
+    coarse.advance(0.01);
+    for (int i = 0; i < 1000; ++i) {
+      fine.advance(1e-5);
+      for (const double velocity : fine.true_velocity()) ++(velocity == 0.0 ? stuck : sliding);
+    }
+    REQUIRE((coarse.true_position() - fine.true_position()).cwiseAbs().maxCoeff() < 1e-9);
+    REQUIRE((coarse.true_velocity() - fine.true_velocity()).cwiseAbs().maxCoeff() < 1e-9);
+  }
+  CHECK(sliding > 1000);
+  if (c.coulomb > 0.2) CHECK(stuck > 500);
+}
+
+TEST_CASE("what the force and the hand put in equals what is stored and what friction takes", "[devices]") {
+  constexpr double mass = 0.045;
+  constexpr double viscous = 0.2;
+  constexpr double dry = 0.15;
+  const Hand hand{0.1, 2.0, 300.0};
+  SimulatedDevice device(point_mass(mass, viscous, dry), hand, {0.02, 0.0, 0.0});
+  const double moving_mass = mass + hand.mass;
+  double work = 0.0;
+  double lost = 0.0;
+  const auto energy = [&] { return 0.5 * moving_mass * v_of(device) * v_of(device); };
+  constexpr double step = 2e-6;
+  double taken = 0.0;
+  for (int tick = 0; tick < 300; ++tick) {
+    const double target = 0.01 * std::sin(0.05 * tick);
+    const double speed = 0.5 * std::cos(0.05 * tick);
+    const double force = 0.8 * std::sin(0.11 * tick);
+    device.set_intention({{target, 0.0, 0.0}, {speed, 0.0, 0.0}});
+    device.write({force, 0.0, 0.0});
+    const auto pull = [&](double time) {
+      return force + hand.stiffness * (target + speed * time - x_of(device)) + hand.damping * (speed - v_of(device));
+    };
+    for (int i = 0; i < 500; ++i) {
+      const double x = x_of(device), v = v_of(device), pull_before = pull(i * step);
+      device.advance(step);
+      const double v_after = v_of(device);
+      work += 0.5 * (pull_before * v + pull((i + 1) * step) * v_after) * step;
+      lost += 0.5 * viscous * (v * v + v_after * v_after) * step + dry * std::abs(x_of(device) - x);
+    }
+    taken = std::max(taken, std::abs(work));
+    REQUIRE(std::abs(work - lost - energy()) < 2e-6 * std::max(taken, 1e-3));
+  }
+  CHECK(lost > 1e-3);
+}
+
+TEST_CASE("more stops than one call follows end at rest, in bounded work", "[devices]") {
+  SimulatedDevice device = at_x(point_mass(0.045, 0.0, 1e-6), spring(1e6), 0.01);
+  device.advance(1e6);
+  CHECK(std::abs(x_of(device)) <= 0.01);
+  CHECK(v_of(device) == 0.0);
+  device.advance(1e-4);
+  CHECK(v_of(device) != 0.0);
+}
+
+TEST_CASE("a mass carried by a steady intention lags by its friction over the stiffness", "[devices]") {
+  SimulatedDevice device(point_mass(0.045, 0.4, 0.1), spring(300.0, 3.0));
+  device.set_intention({Eigen::Vector3d::Zero(), {0.2, 0.0, 0.0}});
+  const double step = GENERATE(1e-3, 0.25, 4.0);
+  for (double elapsed = 0.0; elapsed < 4.0 - 1e-9; elapsed += step) device.advance(step);
+  CHECK(x_of(device) == Approx(0.8 - (0.4 * 0.2 + 0.1) / 300.0).epsilon(1e-10));
+  CHECK(v_of(device) == Approx(0.2).epsilon(1e-10));
+}
+
+// ---- the sampled wall
+
+namespace {
+
+struct Wall {
+  double period, friction, damping;
+  int delay;
+  Hand hand;
+  double critical_stiffness;
+};
+
+/// Whether a bilateral wall of this stiffness feeds an oscillation, by comparing early and late swings of 20 s.
+bool grows(const Wall& wall, double stiffness) {
+  DeviceProfile profile = point_mass(0.045, wall.friction);
+  profile.delay = wall.delay;
+  SimulatedDevice device = at_x(profile, wall.hand, 1e-3);
+  const int ticks = static_cast<int>(20.0 / wall.period);
+  double previous = 1e-3;
+  double early = 0.0;
+  double late = 0.0;
+  for (int tick = 0; tick < ticks; ++tick) {
+    const double x = device.read().position.x();
+    device.write({-stiffness * x - wall.damping * (x - previous) / wall.period, 0.0, 0.0});
+    previous = x;
+    device.advance(wall.period);
+    if (std::abs(x) > 10.0) return true;
+    if (tick >= ticks / 4 && tick < ticks / 2) early = std::max(early, std::abs(x));
+    if (tick >= ticks * 3 / 4) late = std::max(late, std::abs(x));
+    if (tick == ticks / 2 && early < 1e-9) return false;
+  }
+  return late > early;
+}
+
+double critical_stiffness(const Wall& wall) {
+  double stable = 10.0;
+  double unstable = 1e6;
+  while (unstable / stable > 1.0005) {
+    const double middle = std::sqrt(stable * unstable);
+    (grows(wall, middle) ? unstable : stable) = middle;
+  }
+  return std::sqrt(stable * unstable);
+}
+
+}  // namespace
+
+TEST_CASE("a sampled wall turns unstable at the stiffness that theory gives", "[devices]") {
+  const Hand none{0.0, 0.0, 0.0};
+  const Wall wall = GENERATE_COPY(
+      Wall{10e-3, 0.5, 0.0, 0, none, 101.9}, Wall{1e-3, 0.05, 0.0, 0, none, 100.0},
+      Wall{1e-3, 0.1, 0.0, 0, none, 200.1}, Wall{1e-3, 0.5, 0.0, 0, none, 1001.9},
+      Wall{1e-3, 1.0, 0.0, 0, none, 2007.0}, Wall{1e-3, 2.0, 0.0, 0, none, 4030.0},
+      Wall{50e-6, 0.5, 0.0, 0, none, 20001.9}, Wall{1e-3, 0.5, 0.0, 1, none, 334.4},
+      Wall{1e-3, 0.5, 0.0, 2, none, 201.0}, Wall{1e-3, 0.5, 0.0, 5, none, 91.8},
+      Wall{1e-3, 0.1, 0.2, 0, none, 598.0}, Wall{1e-3, 0.1, 0.5, 0, none, 1187.0},
+      Wall{1e-3, 0.1, 1.0, 0, none, 2153.0}, Wall{1e-3, 0.1, 2.0, 0, none, 4019.0},
+      Wall{1e-3, 0.1, 5.0, 0, none, 9131.0}, Wall{1e-3, 0.1, 10.0, 0, none, 16170.0},
+      Wall{1e-3, 0.1, 20.0, 0, none, 25606.0}, Wall{1e-3, 0.1, 30.0, 0, none, 30139.0},
+      Wall{1e-3, 0.05, 0.0, 0, {0.05, 1.0, 100.0}, 2104.0}, Wall{1e-3, 0.05, 0.0, 0, {0.1, 3.0, 300.0}, 6123.0},
+      Wall{1e-3, 0.05, 0.0, 0, {0.15, 5.0, 500.0}, 10146.0});
+  CAPTURE(wall.period, wall.friction, wall.damping, wall.delay, wall.hand.stiffness);
+  CHECK(critical_stiffness(wall) == Approx(wall.critical_stiffness).epsilon(0.002));
+}
+
+// ---- what the encoder and the amplifier do
+
+TEST_CASE("a delayed device tells what was true that many ticks ago", "[devices]") {
+  DeviceProfile profile = point_mass(0.045);
+  profile.delay = GENERATE(0, 1, 2, 5);
+  SimulatedDevice device(profile);
+  device.write({0.3, 0.0, 0.0});
+  std::vector<Eigen::Vector3d> positions{device.true_position()};
+  std::vector<Eigen::Vector3d> velocities{device.true_velocity()};
+  for (int tick = 0; tick < 20; ++tick) {
+    const int expected = std::max(0, tick - profile.delay);
+    const DeviceState state = device.read();
+    REQUIRE(same_bits(state.position, positions[static_cast<std::size_t>(expected)]));
+    REQUIRE(same_bits(state.velocity, velocities[static_cast<std::size_t>(expected)]));
+    REQUIRE(state.time == Approx(expected * 1e-3));
+    REQUIRE(state.buttons == (expected > 3 ? 1u : 0u));
+    REQUIRE(state.status == DeviceStatus::ok);
+    if (tick == 3) device.set_buttons(1);
+    device.advance(1e-3);
+    positions.push_back(device.true_position());
+    velocities.push_back(device.true_velocity());
+  }
+}
+
+TEST_CASE("the encoder rounds what is read to its nearest step and leaves the motion alone", "[devices]") {
+  DeviceProfile rough = point_mass(0.045);
+  rough.encoder_step = 55e-6;
+  SimulatedDevice device(rough, {0.0, 0.0, 0.0}, {26e-6, 28e-6, -28e-6});
+  SimulatedDevice exact(point_mass(0.045), {0.0, 0.0, 0.0}, {26e-6, 28e-6, -28e-6});
+  CHECK(device.read().position.isApprox(Eigen::Vector3d(0.0, 55e-6, -55e-6)));
+  for (int tick = 0; tick < 200; ++tick) {
+    for (SimulatedDevice* each : {&device, &exact}) {
+      each->write({0.1, -0.07, 0.03});
+      each->advance(1e-3);
+    }
+    const Eigen::Vector3d read = device.read().position;
+    REQUIRE((read - device.true_position()).cwiseAbs().maxCoeff() <= 27.5e-6 * (1.0 + 1e-9));
+    for (const double coordinate : read) {
+      REQUIRE(std::abs(coordinate / 55e-6 - std::round(coordinate / 55e-6)) < 1e-9);
+    }
+    REQUIRE(same_bits(device.true_position(), exact.true_position()));
+  }
+}
+
+TEST_CASE("a force beyond the peak is shortened to it and keeps its direction", "[devices]") {
+  SimulatedDevice device(device_profile("omni"));
+  const double size = GENERATE(3.3000001, 5.0, 1e10, 1e200, 1e308);
+  const Eigen::Vector3d direction = Eigen::Vector3d(1.0, -0.9, 0.5).normalized();
+  device.write(direction * size);
+  CHECK(device.applied_force().norm() == Approx(3.3).epsilon(1e-14));
+  CHECK((device.applied_force() / 3.3 - direction).norm() < 1e-14);
+}
+
+TEST_CASE("a force up to the peak is applied as it is", "[devices]") {
+  const Eigen::Vector3d force = GENERATE(Eigen::Vector3d(1.0, -2.0, 2.0), Eigen::Vector3d(0.0, 3.3, 0.0),
+                                         Eigen::Vector3d(5e-324, 0.0, -1e-310), Eigen::Vector3d(0.0, 0.0, 0.0));
+  SimulatedDevice device(device_profile("omni"));
+  device.write(force);
+  CHECK(same_bits(device.applied_force(), force));
+  SimulatedDevice unlimited(device_profile("ideal"));
+  unlimited.write(force * 1e300);
+  CHECK(same_bits(unlimited.applied_force(), force * 1e300));
+}
+
+TEST_CASE("a force that is not finite counts as zero", "[devices]") {
+  const double bad = GENERATE(as<double>{}, not_a_number, infinity, -infinity);
+  const std::string name = GENERATE("omni", "ideal");
+  SimulatedDevice device(device_profile(name));
+  device.write({1.0, 1.0, 1.0});
+  device.write({1.0, bad, 1.0});
+  CAPTURE(bad, name);
+  CHECK(device.applied_force().isZero(0.0));
+}
+
+TEST_CASE("a force is held until the next one", "[devices]") {
+  SimulatedDevice device(point_mass(1.0));
+  device.write({1.0, 0.0, 0.0});
+  for (int i = 0; i < 10; ++i) device.advance(0.1);
+  CHECK(v_of(device) == Approx(1.0));
+}
+
+TEST_CASE("a closed device has no force and says so", "[devices]") {
+  SimulatedDevice device(point_mass(0.045, 0.5), {0.0, 0.0, 0.0}, {0.01, 0.0, 0.0});
+  device.write({1.0, 0.0, 0.0});
+  device.advance(1e-3);
+  device.close();
+  CHECK(device.applied_force().isZero(0.0));
+  CHECK(device.read().status == DeviceStatus::disconnected);
+  device.write({1.0, 0.0, 0.0});
+  CHECK(device.applied_force().isZero(0.0));
+  const double speed = v_of(device);
+  device.advance(1e-3);
+  CHECK(v_of(device) < speed);
+  CHECK(device.read().status == DeviceStatus::disconnected);
+  device.close();
+  CHECK(device.read().status == DeviceStatus::disconnected);
+}
+
+// ---- hostile and extreme input
+
+TEST_CASE("time that is no time changes nothing", "[devices]") {
+  SimulatedDevice device(device_profile("omni"), {0.1, 3.0, 300.0});
+  device.set_intention({{0.01, 0.0, 0.0}, {1.0, 0.0, 0.0}});
+  device.write({1.0, 2.0, 0.0});
+  device.advance(1e-3);
+  const Eigen::Vector3d position = device.true_position();
+  const double time = device.time();
+  for (const double seconds : {0.0, -0.0, -1e-3, not_a_number, infinity, -infinity}) device.advance(seconds);
+  CHECK(same_bits(device.true_position(), position));
+  CHECK(device.time() == time);
+}
+
+TEST_CASE("an intention that is not finite is ignored", "[devices]") {
+  const double bad = GENERATE(as<double>{}, not_a_number, infinity);
+  SimulatedDevice device(point_mass(0.045), {0.1, 3.0, 300.0});
+  device.set_intention({{0.01, 0.0, 0.0}, Eigen::Vector3d::Zero()});
+  device.set_intention({{0.5, bad, 0.0}, Eigen::Vector3d::Zero()});
+  device.set_intention({Eigen::Vector3d::Constant(0.5), {0.0, bad, 0.0}});
+  device.advance(100.0);
+  CHECK(device.true_position().isApprox(Eigen::Vector3d(0.01, 0.0, 0.0)));
+}
+
+TEST_CASE("a hand that is told nothing holds the start position", "[devices]") {
+  SimulatedDevice device(point_mass(0.045), {0.1, 3.0, 300.0}, {0.03, -0.02, 0.01});
+  for (int i = 0; i < 100; ++i) device.advance(1e-3);
+  CHECK((device.true_position() - Eigen::Vector3d(0.03, -0.02, 0.01)).norm() < 1e-15);
+}
+
+TEST_CASE("motion stays finite at the ends of the number range", "[devices]") {
+  const double seconds = GENERATE(5e-324, 1e-300, 1e-9, 1e-3, 10.0, 1e9, 1e300);
+  const double force = GENERATE(0.0, 5e-324, 1.0, 1e308);
+  const double stiffness = GENERATE(0.0, 5e-324, 1.0, 1e6, 1e300);
+  const double coulomb = GENERATE(0.0, 5e-324, 0.26);
+  CAPTURE(seconds, force, stiffness, coulomb);
+  const double damping = GENERATE(0.0, 1e-310, 3.0, 1e300);
+  SimulatedDevice device(point_mass(0.045, 0.0, coulomb), spring(stiffness, damping));
+  device.set_intention({{0.01, 0.0, -0.01}, {0.1, 0.0, 0.0}});
+  for (int i = 0; i < 3; ++i) {
+    device.write({force, -force, 0.0});
+    device.advance(seconds);
+    REQUIRE(device.true_position().allFinite());
+    REQUIRE(device.true_velocity().allFinite());
+    REQUIRE(device.read().position.allFinite());
+  }
+}
+
+TEST_CASE("a huge step ends where the forces balance", "[devices]") {
+  SimulatedDevice device(point_mass(0.045), {0.1, 3.0, 300.0});
+  device.write({0.6, 0.0, 0.0});
+  device.set_intention({{0.01, -0.02, 0.0}, Eigen::Vector3d::Zero()});
+  device.advance(1e6);
+  CHECK((device.true_position() - Eigen::Vector3d(0.012, -0.02, 0.0)).norm() < 1e-15);
+  CHECK(device.true_velocity().norm() < 1e-15);
+}
+
+TEST_CASE("the same calls give the same bits", "[devices]") {
+  const auto run = [] {
+    SimulatedDevice device(device_profile("desktop"), {0.1, 3.0, 300.0});
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (int tick = 0; tick < 3000; ++tick) {
+      device.set_intention({{0.01 * std::sin(0.01 * tick), 0.0, 0.005}, {0.1, 0.0, 0.0}});
+      device.write(-500.0 * device.read().position);
+      device.advance(tick % 7 == 0 ? 2.4e-3 : 1e-3);
+      sum += device.read().position + device.true_velocity();
+    }
+    return sum;
+  };
+  CHECK(same_bits(run(), run()));
+}
+
+TEST_CASE("two devices at once do not touch each other", "[devices]") {
+  SimulatedDevice alone(point_mass(0.045, 0.1), {0.1, 3.0, 300.0});
+  SimulatedDevice first(point_mass(0.045, 0.1), {0.1, 3.0, 300.0});
+  SimulatedDevice second(device_profile("omni"));
+  for (int tick = 0; tick < 100; ++tick) {
+    alone.write({0.1, 0.0, 0.0});
+    alone.advance(1e-3);
+    first.write({0.1, 0.0, 0.0});
+    second.write({0.0, 3.0, 0.0});
+    first.advance(1e-3);
+    second.advance(1e-3);
+  }
+  second.close();
+  CHECK(same_bits(first.true_position(), alone.true_position()));
+  CHECK(first.read().status == DeviceStatus::ok);
+  CHECK(second.true_position().y() > 0.0);
+}
+
+TEST_CASE("reading, writing and advancing take nothing from the heap", "[devices]") {
+  DeviceProfile profile = device_profile("omni");
+  profile.delay = 3;
+  SimulatedDevice device(profile, {0.1, 3.0, 300.0});
+  const std::size_t control = calligraphy_test::allocations();
+  ::operator delete(::operator new(1));  // the counter counts; a new expression could be optimised away
+  const std::size_t before = calligraphy_test::allocations();
+  for (int tick = 0; tick < 1000; ++tick) {
+    device.set_intention({{0.01 * std::sin(0.1 * tick), 0.0, 0.0}, {0.1, 0.0, 0.0}});
+    device.write(-300.0 * device.read().position);
+    device.advance(1e-3);
+  }
+  device.close();
+  const std::size_t after = calligraphy_test::allocations();
+  CHECK(before > control);
+  CHECK(after == before);
+}
+
+// ---- profiles and validation
+
+TEST_CASE("the shipped profiles carry the figures of their sources", "[devices]") {
+  struct Row {
+    const char* name;
+    double peak, stiffness, continuous, resolution_mm;
+    Eigen::Vector3d workspace_mm;
+    double coulomb, mass;
+  };
+  const Row row = GENERATE(Row{"omni", 3.3, 700.0, 0.88, 0.055, {160.0, 120.0, 70.0}, 0.26, 0.045},
+                           Row{"touch", 3.3, 400.0, 0.88, 0.055, {160.0, 120.0, 70.0}, 0.26, 0.045},
+                           Row{"desktop", 7.9, 1000.0, 1.75, 0.023, {160.0, 120.0, 120.0}, 0.06, 0.045},
+                           Row{"premium-1.5", 8.5, 800.0, 1.4, 0.03, {381.0, 267.0, 191.0}, 0.04, 0.075});
+  const DeviceProfile& profile = device_profile(row.name);
+  CAPTURE(row.name);
+  CHECK(profile.capabilities.peak_force == row.peak);
+  CHECK(profile.capabilities.usable_stiffness == row.stiffness);
+  CHECK(profile.capabilities.continuous_force == row.continuous);
+  CHECK(profile.capabilities.resolution == Approx(row.resolution_mm * 1e-3));
+  CHECK(profile.capabilities.workspace.isApprox(row.workspace_mm * 1e-3));
+  CHECK(profile.capabilities.update_rate == 1000.0);
+  CHECK(profile.encoder_step == profile.capabilities.resolution);
+  CHECK(profile.coulomb_friction == row.coulomb);
+  CHECK(profile.mass == row.mass);
+  CHECK(profile.viscous_friction >= 0.05);
+  CHECK(profile.viscous_friction <= 0.5);
+  CHECK(profile.delay == 0);
+}
+
+TEST_CASE("the ideal profile adds nothing to a point mass", "[devices]") {
+  const DeviceProfile& profile = device_profile("ideal");
+  CHECK(profile.viscous_friction == 0.0);
+  CHECK(profile.coulomb_friction == 0.0);
+  CHECK(profile.encoder_step == 0.0);
+  CHECK(profile.delay == 0);
+  CHECK(profile.capabilities.peak_force == infinity);
+}
+
+TEST_CASE("every shipped profile opens a device under its own name", "[devices]") {
+  std::vector<std::string> names;
+  for (const DeviceProfile& profile : device_profiles()) {
+    CAPTURE(profile.name);
+    CHECK(std::count(names.begin(), names.end(), profile.name) == 0);
+    names.push_back(profile.name);
+    SimulatedDevice device(device_profile(profile.name), {0.1, 3.0, 300.0});
+    CHECK(device.capabilities().model == profile.capabilities.model);
+    CHECK(!profile.capabilities.model.empty());
+    CHECK(device.read().status == DeviceStatus::ok);
+  }
+  CHECK(names == std::vector<std::string>{"omni", "touch", "desktop", "premium-1.5", "ideal"});
+}
+
+TEST_CASE("an unknown profile is refused with the names there are", "[devices]") {
+  std::string message;
+  try {
+    device_profile("omnibus");
+  } catch (const ValueError& error) {
+    message = error.what();
+  }
+  CHECK(contains(message, "omnibus"));
+  CHECK(contains(message, "omni, touch, desktop, premium-1.5, ideal"));
+}
+
+TEST_CASE("a profile or hand that is not physical is refused with the name and the value", "[devices]") {
+  const auto profile_error = [](auto&& change) {
+    DeviceProfile profile = device_profile("omni");
+    change(profile);
+    return error_of(profile);
+  };
+  for (const double bad : {0.0, -0.5, infinity, not_a_number}) {
+    CHECK(contains(profile_error([&](DeviceProfile& p) { p.mass = bad; }), "mass"));
+  }
+  for (const double bad : {-0.5, infinity, not_a_number}) {
+    CHECK(contains(profile_error([&](DeviceProfile& p) { p.viscous_friction = bad; }), "viscous friction"));
+    CHECK(contains(profile_error([&](DeviceProfile& p) { p.coulomb_friction = bad; }), "Coulomb friction"));
+    CHECK(contains(profile_error([&](DeviceProfile& p) { p.encoder_step = bad; }), "encoder step"));
+    CHECK(contains(error_of(device_profile("omni"), {bad, 1.0, 1.0}), "mass of the hand"));
+    CHECK(contains(error_of(device_profile("omni"), {1.0, bad, 1.0}), "damping of the hand"));
+    CHECK(contains(error_of(device_profile("omni"), {1.0, 1.0, bad}), "stiffness of the hand"));
+  }
+  for (const double bad : {0.0, -1.0, not_a_number}) {
+    CHECK(contains(profile_error([&](DeviceProfile& p) { p.capabilities.peak_force = bad; }), "peak force"));
+  }
+  for (const int bad : {-1, 100'001}) {
+    CHECK(contains(profile_error([&](DeviceProfile& p) { p.delay = bad; }), "delay is " + std::to_string(bad)));
+  }
+  CHECK(contains(error_of(device_profile("omni"), {0.0, 0.0, 0.0}, {0.0, infinity, 0.0}), "position"));
+  CHECK(contains(profile_error([](DeviceProfile& p) { p.mass = -0.5; }), "\"omni\": mass is -0.5"));
+}
+
+TEST_CASE("a hand can be changed, and a refused one leaves the old", "[devices]") {
+  SimulatedDevice device(point_mass(0.045));
+  device.set_intention({{0.01, 0.0, 0.0}, Eigen::Vector3d::Zero()});
+  device.advance(1.0);
+  CHECK(x_of(device) == 0.0);
+  device.set_hand({0.1, 3.0, 300.0});
+  CHECK_THROWS_AS(device.set_hand({0.1, 3.0, -1.0}), ValueError);
+  device.advance(100.0);
+  CHECK(x_of(device) == Approx(0.01));
+}
