@@ -14,6 +14,16 @@ namespace calligraphy {
 namespace {
 
 constexpr std::string_view first_line = "calligraphy characters 1";
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
+/// What was found, as a message shows it: a file that is no such text may be one line of any length.
+std::string quoted(std::string_view text) {
+  constexpr std::size_t most = 60;
+  return "'" + std::string(text.substr(0, most)) + (text.size() > most ? "..." : "") + "'";
+}
+
+/// Statements whose text goes to the end of the line, '#' and all.
+bool is_free_text(std::string_view key) { return key == "source" || key == "licence" || key == "attribution"; }
 
 /// Reads the text format line by line; docs/character-format.md describes it.
 class Parser {
@@ -24,7 +34,7 @@ class Parser {
     while (next_line()) {
       const std::string_view key = word();
       if (number_ == 1 || !seen_first_line_) {
-        if (line_ != first_line) fail("expected '" + std::string(first_line) + "', found '" + line_ + "'");
+        if (line_ != first_line) fail("expected " + quoted(first_line) + ", found " + quoted(line_));
         seen_first_line_ = true;
       } else if (key == "source") {
         set_.source = rest();
@@ -37,7 +47,7 @@ class Parser {
       } else if (key == "stroke") {
         add_stroke();
       } else {
-        fail("unknown keyword '" + std::string(key) + "'");
+        fail("unknown keyword " + quoted(key));
       }
     }
     if (in_.bad()) throw FileError(name_ + ": cannot be read");
@@ -56,7 +66,9 @@ class Parser {
   bool next_line() {
     while (std::getline(in_, line_)) {
       ++number_;
-      if (const auto comment = line_.find('#'); comment != std::string::npos) line_.erase(comment);
+      if (number_ == 1 && line_.starts_with(byte_order_mark)) line_.erase(0, byte_order_mark.size());
+      left_ = line_;
+      if (!is_free_text(word())) line_.erase(std::min(line_.find('#'), line_.size()));
       line_.erase(line_.find_last_not_of(" \t\r") + 1);
       left_ = line_;
       if (!line_.empty()) return true;
@@ -74,7 +86,16 @@ class Parser {
 
   std::string rest() {
     left_.remove_prefix(std::min(left_.find_first_not_of(" \t"), left_.size()));
+    decode(left_);
     return std::string(left_);
+  }
+
+  std::u32string decode(std::string_view text) const {
+    try {
+      return decode_utf8(text);
+    } catch (const FormatError& error) {
+      fail(error.what());
+    }
   }
 
   template <class Number>
@@ -82,19 +103,14 @@ class Parser {
     Number value{};
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size()) {
-      fail("'" + std::string(text) + "' is not a " + std::string(what));
+      fail(quoted(text) + " is not a " + std::string(what));
     }
     return value;
   }
 
   void begin_character() {
     end_character();
-    std::u32string codes;
-    try {
-      codes = decode_utf8(word());
-    } catch (const FormatError& error) {
-      fail(error.what());
-    }
+    const std::u32string codes = decode(word());
     if (codes.size() != 1) fail("expected one character, found " + std::to_string(codes.size()));
     if (set_.find(codes[0])) fail("character " + encode_utf8(codes[0]) + " stands here a second time");
     code_ = codes[0];
@@ -103,8 +119,9 @@ class Parser {
     if (const std::string_view key = word(); key == "degree") {
       degree_ = parse_number<int>(word(), "curve degree");
     } else if (!key.empty()) {
-      fail("expected 'degree' or nothing, found '" + std::string(key) + "'");
+      fail("expected 'degree' or nothing, found " + quoted(key));
     }
+    if (const std::string_view more = word(); !more.empty()) fail("expected nothing more, found " + quoted(more));
     in_character_ = true;
   }
 
@@ -116,10 +133,11 @@ class Parser {
         for (text = word(); !text.empty(); text = word()) {
           stroke.attraction_factors.push_back(parse_number<double>(text, "attraction factor"));
         }
+        if (stroke.attraction_factors.empty()) fail("no attraction factor after '|'");
         break;
       }
       const auto comma = text.find(',');
-      if (comma == std::string_view::npos) fail("'" + std::string(text) + "' is not a point x,y");
+      if (comma == std::string_view::npos) fail(quoted(text) + " is not a point x,y");
       stroke.control_points.emplace_back(parse_number<double>(text.substr(0, comma), "number"),
                                          parse_number<double>(text.substr(comma + 1), "number"));
     }
@@ -196,16 +214,19 @@ CharacterSet read_characters(const std::string& path) {
 }
 
 void write_characters(std::ostream& out, const CharacterSet& set) {
+  for (const std::string& text : {set.source, set.licence, set.attribution}) {
+    if (text.find_first_of("\r\n") != std::string::npos) throw ValueError("more than one line: " + quoted(text));
+  }
   out << first_line << '\n';
   if (!set.source.empty()) out << "source " << set.source << '\n';
   if (!set.licence.empty()) out << "licence " << set.licence << '\n';
   if (!set.attribution.empty()) out << "attribution " << set.attribution << '\n';
   for (const Character& character : set.characters) {
     out << "\ncharacter " << encode_utf8(character.code);
-    if (character.curve_degree != 3) out << " degree " << character.curve_degree;
+    if (character.curve_degree != 3) out << " degree " << std::to_string(character.curve_degree);
     out << '\n';
     for (const Stroke& stroke : strokes(character)) {
-      out << "stroke " << stroke.type->id;
+      out << "stroke " << std::to_string(stroke.type->id);  // neither the stream's base nor its locale
       for (const Point& point : stroke.control_points) {
         out << ' ' << format_number(point.x()) << ',' << format_number(point.y());
       }

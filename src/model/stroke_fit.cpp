@@ -1,3 +1,4 @@
+// Fits a pen path: the typical stroke that stroke_recognition finds, its control points polished to the path.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -183,7 +184,8 @@ class Polish {
       bool better = false;
       while (!better && damping < 1e4) {
         Eigen::MatrixXd damped = normal;
-        damped.diagonal().array() += damping * (normal.diagonal().array() + 0.01 * normal.diagonal().maxCoeff() + 1e-12);
+        const double floor = 0.01 * normal.diagonal().maxCoeff() + 1e-12;
+        damped.diagonal().array() += damping * (normal.diagonal().array() + floor);
         const Eigen::VectorXd step = damped.ldlt().solve(-gradient);
         std::vector<Point> moved = displaced(points, step);
         const Eigen::VectorXd next = residuals(moved);

@@ -429,7 +429,8 @@ const std::vector<CompoundRule>& compound_rules() {
             {{-160.0, -105.0}, {0.1, 1.0}},
             {{-50.0, 15.0}, {0.2, 1.0}, {-140.0, -40.0}, {-20.0, 60.0}, {-0.8, -0.12}},
             {hook_up, hook_share}}},
-      {23, {{heng}, {{-130.0, -75.0}}, {{-60.0, 10.0}, any_share, {-120.0, -25.0}, {-15.0, 30.0}, {-0.5, -0.03}}}},
+      {23,
+       {{heng}, {{-130.0, -75.0}}, {{-60.0, 10.0}, any_share, {-120.0, -25.0}, {-15.0, 30.0}, {-0.5, -0.03}}}},
       {24, {{heng}, {shu}, {{-18.0, 22.0}}}},
       {25, {{heng}, {shu}, {heng}, {shu}}},
       {26, {{heng},
@@ -553,8 +554,8 @@ Choice divide(const CompoundRule& rule, std::string_view kinds, const PieceTable
   return choice;
 }
 
-/// Strokes of one element share composition and much of their geometry: fixed thresholds tell them apart, set where they
-/// separate the strokes of hanzi-writer-data best. Lengths in em, directions of the chord in degrees.
+/// Strokes of one element share composition and much of their geometry: fixed thresholds tell them apart, set where
+/// they separate the strokes of hanzi-writer-data best. Lengths in em, directions of the chord in degrees.
 int simple_stroke(const Piece& piece, bool had_entry) {
   const double direction = piece.direction;
   const double length = piece.length;
@@ -639,7 +640,7 @@ Recognition recognise(const Path& path, std::span<const std::size_t> corners, bo
   const auto consider = [&](const CompoundRule& rule, double discount) {
     Choice choice = divide(rule, typical_stroke(rule.id).elements, table, length);
     // A circle closes; nothing else that turns so far does.
-    if (rule.id == 39) choice.cost += 0.3 * whole.length;
+    if (rule.id == 39) choice.cost += 0.6 * whole.length;
     if (choice.cost == infinity || choice.cost - discount >= best_cost) return;
     best_cost = choice.cost - discount;
     best.id = rule.id;

@@ -127,7 +127,6 @@ std::size_t last_active_stroke(const Recording& recording, int active, int strok
   int stroke = 0;
   for (const Sample& sample : recording.samples) {
     if (sample.character == active) stroke = sample.stroke;
-    if (sample.character > active) stroke = stroke_count;
   }
   return static_cast<std::size_t>(std::clamp(stroke, 0, stroke_count - 1));
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include <calligraphy/error.hpp>
@@ -115,6 +116,21 @@ std::string band_labels(const std::vector<Band>& bands, double begin, double end
   return text;
 }
 
+/// From zero at least to the smallest and to the largest value, and a little beyond.
+std::string y_range(std::span<const Signal> curves) {
+  double low = 0.0, high = 0.0;
+  for (const Signal& curve : curves) {
+    for (const double value : curve.values) {
+      if (!std::isfinite(value)) continue;
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+  }
+  if (low == high) high = 1.0;
+  const double margin = 0.06 * (high - low);
+  return "set yrange [" + exact(low < 0.0 ? low - margin : 0.0) + ":" + exact(high > 0.0 ? high + margin : 0.0) + "]\n";
+}
+
 /// Numbers alone vary: no text of the caller's reaches gnuplot.
 std::string script(const Signals& signals) {
   const double begin = signals.time.front();
@@ -126,18 +142,19 @@ std::string script(const Signals& signals) {
           "set xrange [" + exact(begin) + ":" + exact(end) + "]\n" + band_objects(signals.bands) +
           "set grid back linetype 1 linecolor rgb '#dcdcdc' linewidth 0.5\n"
           "set border 3 linecolor rgb '#666666'\nset tics nomirror out\n"
-          "set offsets graph 0, graph 0, graph 0.06, graph 0.06\nset xzeroaxis linetype 1 linecolor rgb '#999999'\n";
+          "set xzeroaxis linetype 1 linecolor rgb '#999999'\n";
   text += "set multiplot\n"
           "set tmargin at screen 0.865\nset bmargin at screen 0.515\n"
-          "set format x ''\nset ylabel 'force in the plane [N]' offset -0.5\n"
+          "set format x ''\nset label 'force in the plane [N]' at screen 0.022, graph 0.5 center rotate\n"
           "set key horizontal at screen 0.975, 0.942 right top samplen 2\n" +
-          band_labels(signals.bands, begin, end) +
+          band_labels(signals.bands, begin, end) + y_range(std::span(signals.curves).first(3)) +
           "plot $size with lines linewidth 1.6 linecolor rgb '#555555' title '|F|', "
           "$fx with lines linewidth 1.3 linecolor rgb '#0072b2' title 'Fx', "
           "$fy with lines linewidth 1.3 linecolor rgb '#d55e00' title 'Fy'\n"
           "unset label\nset tmargin at screen 0.47\nset bmargin at screen 0.12\n"
-          "set format x '%g'\nset xlabel 'time [s]'\nset ylabel 'normal force [N]' offset -0.5\nunset key\n"
-          "set offsets graph 0, graph 0, graph 0.06, graph 0\n"
+          "set format x '%g'\nset xlabel 'time [s]'\nunset key\n"
+          "set label 'normal force [N]' at screen 0.022, graph 0.5 center rotate\n" +
+          y_range(std::span(signals.curves).last(1)) +
           "plot $normal with lines linewidth 1.3 linecolor rgb '#222222' notitle\n"
           "unset multiplot\n";
   return text;

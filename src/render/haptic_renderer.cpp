@@ -25,10 +25,15 @@ void require_valid(const PlacedCharacter& placed, std::size_t index) {
   const double em = placed.placement.em;
   if (!std::isfinite(em) || em <= 0.0) throw ValueError(place + "em = " + std::to_string(em) + " m");
   if (!placed.placement.origin.allFinite()) throw ValueError(place + "its origin is not finite");
+  const Eigen::AlignedBox2d box = bounding_box(placed);
+  if (!(std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff()) <= furthest_point)) {
+    throw ValueError(place + "it reaches further than " + std::to_string(furthest_point) + " m from the page's origin");
+  }
 }
 
 void require_valid(const MotionMapping& mapping) {
-  const bool rigid = mapping.rotation.allFinite() && mapping.rotation.isUnitary(1e-9);
+  const bool rigid = mapping.rotation.allFinite() && mapping.rotation.isUnitary(1e-9) &&
+                     mapping.rotation.determinant() > 0.0;
   if (!rigid) throw ValueError("motion mapping: rotation is not a rotation matrix");
   if (!mapping.offset.allFinite()) throw ValueError("motion mapping: offset is not finite");
   if (!std::isfinite(mapping.scale) || mapping.scale <= 0.0) {
@@ -57,7 +62,7 @@ HapticRenderer::HapticRenderer(std::vector<PlacedCharacter> page, const MotionMa
   if (!(capabilities.peak_force > 0.0)) {
     throw ValueError("peak force of the device = " + std::to_string(capabilities.peak_force) + " N");
   }
-  guidance_growth_ = options.guidance_fade_in > 0.0 ? 1.0 / (options.guidance_fade_in * options.servo_rate) : 1.0;
+  fade_step_ = options.guidance_fade_in > 0.0 ? 1.0 / (options.guidance_fade_in * options.servo_rate) : 1.0;
   limiter_.in_plane_step = options.in_plane_force_rate / options.servo_rate / mapping.scale;
   limiter_.normal_step = options.normal_force_rate / options.servo_rate / mapping.scale;
   limiter_.peak = capabilities.peak_force / mapping.scale;
@@ -107,8 +112,8 @@ TickStatus HapticRenderer::map_sample(const DeviceState& state) noexcept {
   if (options_.motion == MotionMappingRule::wang2006 && has_sample_) {
     const double elapsed = std::clamp(state.time - last_time_, 0.0, longest_tick);
     const Eigen::Vector3d velocity = mapping_.velocity_to_page(state.velocity);
-    tick_.device_point += velocity.allFinite() ? Eigen::Vector3d(velocity * elapsed)
-                                               : Eigen::Vector3d(mapped - last_position_);
+    const bool measured = velocity.norm() <= options_.largest_speed;  // false for NaN too
+    tick_.device_point += measured ? Eigen::Vector3d(velocity * elapsed) : Eigen::Vector3d(mapped - last_position_);
   } else {
     tick_.device_point = mapped;
   }
@@ -174,8 +179,8 @@ void HapticRenderer::follow(const TransitionInput& input) noexcept {
   }
   if (after == InteractionState::writing && before != InteractionState::writing) {
     tick_.events |= TickEvent::stroke_started;
-    guidance_grown_ = 0.0;
     tick_.contact = active_.update(tick_.pen_tip.head<2>(), options_.stroke);
+    if (tick_.contact.passed_feature) tick_.events |= TickEvent::feature_passed;
   }
   if (after == InteractionState::separation && before != InteractionState::separation) {
     tick_.events |= TickEvent::lift;
@@ -220,17 +225,28 @@ Eigen::Vector3d HapticRenderer::sum_forces() noexcept {
   if (solid) tick_.normal = normal_force(options_.paper_stiffness, tick_.penetration, options_.force_sign);
   if (tick_.state == InteractionState::writing) {
     const StrokeContact& contact = tick_.contact;
-    guidance_grown_ = std::min(1.0, guidance_grown_ + guidance_growth_);
-    const double share = contact.share * guidance_grown_ * guidance_grown_ * (3.0 - 2.0 * guidance_grown_);
-    const double stiffness = options_.guidance_stiffness * contact.attraction * share;
+    const double stiffness = options_.guidance_stiffness * contact.attraction * contact.share;
     tick_.attraction =
         attraction_force(stiffness, tick_.pen_tip.head<2>(), contact.foot.point, options_.force_sign);
-    tick_.wrong_way = share * wrong_way_force(options_.wrong_way_stiffness, options_.wrong_way_limit,
+    tick_.wrong_way = contact.share * wrong_way_force(options_.wrong_way_stiffness, options_.wrong_way_limit,
                                                       options_.wrong_way_slack, contact.backwards,
                                                       contact.foot.tangent);
   }
-  const Point in_plane = tick_.attraction + tick_.wrong_way;
+  Point in_plane = tick_.attraction + tick_.wrong_way;
+  if (tick_.state == InteractionState::writing) in_plane = fade(in_plane);
   return {in_plane.x(), in_plane.y(), tick_.normal};
+}
+
+/// Where the foot leaps, at the start of a stroke and at a feature point, a spring that appears at once throws the pen: the
+/// force passes from what it was to what it is now to be over the fade-in.
+Point HapticRenderer::fade(const Point& force) noexcept {
+  if (has(tick_.events, TickEvent::stroke_started | TickEvent::feature_passed)) {
+    fade_from_ = tick_.page_force.head<2>();
+    faded_ = 0.0;
+  }
+  faded_ = std::min(1.0, faded_ + fade_step_);
+  const double share = faded_ * faded_ * (3.0 - 2.0 * faded_);
+  return fade_from_ + share * (force - fade_from_);
 }
 
 void HapticRenderer::send(const Eigen::Vector3d& target) noexcept {

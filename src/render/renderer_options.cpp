@@ -11,6 +11,9 @@
 namespace calligraphy {
 namespace {
 
+/// For a device that states no limit; keeps every force a number [N/m].
+constexpr double stiffest = 1e6;
+
 enum class Bound { above_zero, from_zero };
 
 void require(const char* name, double value, Bound bound, double most = std::numeric_limits<double>::max()) {
@@ -25,8 +28,9 @@ void require(const char* name, double value, Bound bound, double most = std::num
 
 void require_stiffness(const char* name, double value, double factor, const Capabilities& capabilities) {
   require(name, value, Bound::from_zero);
-  const double usable = capabilities.usable_stiffness;
-  if (!(usable > 0.0) || value * factor <= usable) return;
+  const double stated = capabilities.usable_stiffness;
+  const double usable = stated > 0.0 ? std::min(stated, stiffest) : stiffest;
+  if (value * factor <= usable) return;
   std::ostringstream message;
   message << name << " = " << value << " N/m";
   if (factor != 1.0) message << " times the largest attraction factor " << factor;

@@ -35,6 +35,7 @@ CharacterSet read_characters(std::istream& in, std::string_view name);
 CharacterSet read_characters(const std::string& path);
 
 /// Writes the text format; read_characters gives back the same set (numbers in the shortest form that reads back the same).
+/// @throws ValueError when source, licence or attribution is more than one line
 void write_characters(std::ostream& out, const CharacterSet& set);
 
 }  // namespace calligraphy

@@ -9,7 +9,7 @@ namespace calligraphy {
 /// Code points of a UTF-8 text. @throws FormatError naming the byte offset of the first invalid sequence
 std::u32string decode_utf8(std::string_view text);
 
-/// UTF-8 of one code point.
+/// UTF-8 of one code point. @throws ValueError when it is a surrogate or above U+10FFFF
 std::string encode_utf8(char32_t code);
 
 }  // namespace calligraphy

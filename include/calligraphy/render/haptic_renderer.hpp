@@ -53,6 +53,7 @@ class HapticRenderer {
   void finish_stroke() noexcept;
   void activate(int character, int stroke) noexcept;
   Eigen::Vector3d sum_forces() noexcept;
+  Point fade(const Point& force) noexcept;
   void send(const Eigen::Vector3d& target) noexcept;
   bool all_written() const noexcept { return tick_.character >= static_cast<int>(page_.size()); }
   const PreparedCharacter& active_character() const noexcept {
@@ -64,11 +65,12 @@ class HapticRenderer {
   MotionMapping mapping_;
   RendererOptions options_;
   ForceLimiter limiter_;
-  double guidance_growth_ = 1.0;  ///< share of the guidance added per tick after the start of a stroke
+  double fade_step_ = 1.0;  ///< per tick
 
   ActiveStroke active_;
   HapticTick tick_;
-  double guidance_grown_ = 0.0;  ///< 0 at the start of a stroke, 1 after the fade-in
+  Point fade_from_ = Point::Zero();  ///< in-plane force at the last leap of the foot [N, page]
+  double faded_ = 0.0;               ///< 0 at that leap, 1 after the fade-in
   bool inside_box_ = false;
   bool lifted_ = true;           ///< since the last stroke was finished
   bool character_done_ = false;  ///< its last stroke is finished, the pen still down

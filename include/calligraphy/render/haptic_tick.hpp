@@ -48,8 +48,8 @@ struct HapticTick {
   Eigen::Vector3d pen_tip = Eigen::Vector3d::Zero();       ///< virtual pen tip, page frame [m]
   double penetration = 0.0;                          ///< of the device point into the paper [m]
   StrokeContact contact;                             ///< meaningful in the writing state and on the tick that leaves it
-  Point attraction = Point::Zero();                  ///< force term, before limits [N, page]
-  Point wrong_way = Point::Zero();                   ///< force term, before limits [N, page]
+  Point attraction = Point::Zero();                  ///< force term, before fade-in and limits [N, page]
+  Point wrong_way = Point::Zero();                   ///< force term, before fade-in and limits [N, page]
   double normal = 0.0;                               ///< force term, before limits [N, out of the paper]
   Eigen::Vector3d page_force = Eigen::Vector3d::Zero();  ///< sent, page axes [N]
   Eigen::Vector3d force = Eigen::Vector3d::Zero();       ///< sent, device axes [N]

@@ -18,7 +18,7 @@ struct RendererOptions {
   double servo_rate = 1000.0;          ///< [Hz]
   double paper_stiffness = 600.0;      ///< K_en of eq. (9) [N/m]
   double guidance_stiffness = 600.0;   ///< K_et of eq. (8) where the attraction factor is 1 [N/m]
-  double guidance_fade_in = 0.15;      ///< after the start of a stroke the guidance grows to its full share over this [s]
+  double guidance_fade_in = 0.15;      ///< after a stroke's start and each feature point guidance comes in over this [s]
   double wrong_way_stiffness = 200.0;  ///< resistance against writing backwards; 0: none [N/m]
   double wrong_way_limit = 1.0;        ///< its largest force [N]
   double wrong_way_slack = 0.002;      ///< a pen may go back this far unhindered [m]
@@ -26,7 +26,7 @@ struct RendererOptions {
   StrokeRules stroke;  ///< nearest point, constraint space, feature planes, attraction factors
 
   double start_radius = 0.008;  ///< neighbourhood of a stroke's start that begins the stroke [m]
-  double box_margin = 0.004;    ///< added to the bounding box of the active character on every side [m]
+  double box_margin = 0.008;    ///< added to the bounding box of the active character on every side [m]
   double lift_height = 0.0005;  ///< the pen has left the paper once it is this far above it; hysteresis [m]
   double box_hysteresis = 0.002;  ///< the box is left this far outside its edge; three times as far while writing [m]
   bool lift_between_strokes = true;  ///< the next stroke begins with a new contact, not by sliding into its start

@@ -1,0 +1,217 @@
+// What a servo tick costs: percentiles over a whole written page, and each of its stages.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+
+#include <calligraphy/calligraphy.hpp>
+
+namespace {
+
+using namespace calligraphy;
+using Clock = std::chrono::steady_clock;
+
+double nanoseconds(Clock::duration duration) { return std::chrono::duration<double, std::nano>(duration).count(); }
+
+/// Sorts `values`.
+double percentile(std::vector<double>& values, double share) {
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
+
+/// Four characters as a guided novice wrote them on a Desktop.
+struct WrittenPage {
+  Page page;
+  MotionMapping mapping;
+  Capabilities capabilities;
+  std::vector<DeviceState> states;
+
+  WrittenPage() {
+    std::vector<Character> text;
+    for (const char32_t code : {U'北', U'京', U'航', U'空'}) text.push_back(*built_in_characters().find(code));
+    page = lay_out(text).at(0);
+    mapping = upright_page(page.width, page.height);
+    SessionOptions session;
+    session.device = device_profile("desktop");
+    session.renderer = RendererOptions::for_device(session.device.capabilities);
+    session.skill = WriterSkill::novice();
+    capabilities = session.device.capabilities;
+    states = device_states(write_page(page, session), mapping);
+  }
+};
+
+const WrittenPage& written_page() {
+  static const WrittenPage page;
+  return page;
+}
+
+/// The first curve of 北 on a page, and pen tips within 12 mm of it.
+struct CurveQueries {
+  StrokeElement element;
+  std::vector<Point> tips;
+
+  CurveQueries() {
+    const Stroke curve = strokes(*built_in_characters().find(U'北'))[3];
+    std::vector<Point> points;
+    for (const Point& point : curve.control_points) points.push_back(Placement().to_page(point));
+    element = prepare_element(points);
+    std::mt19937_64 random(1);
+    std::uniform_real_distribution<double> along(0.0, 1.0);
+    std::uniform_real_distribution<double> aside(-0.012, 0.012);
+    for (int i = 0; i < 4096; ++i) tips.push_back(element.point(along(random)) + Point(aside(random), aside(random)));
+  }
+};
+
+const CurveQueries& curve_queries() {
+  static const CurveQueries queries;
+  return queries;
+}
+
+template <NearestPointMethod method, int digits>
+RendererOptions with_method() {
+  RendererOptions options = RendererOptions::for_device(written_page().capabilities);
+  options.stroke.nearest = {method, std::pow(10.0, -digits)};
+  return options;
+}
+
+/// HapticRenderer::update over the whole page, each tick timed by itself; `clock_ns` is what the timing adds.
+void whole_tick(benchmark::State& state, RendererOptions (*options)()) {
+  const WrittenPage& written = written_page();
+  HapticRenderer renderer(written.page.characters, written.mapping, written.capabilities, options());
+  std::vector<double> times;
+  std::vector<double> clock;
+  times.reserve(1 << 20);
+  clock.reserve(1 << 20);
+  for (auto _ : state) {
+    renderer.restart();
+    double sum = 0.0;
+    for (const DeviceState& sample : written.states) {
+      const auto start = Clock::now();
+      benchmark::DoNotOptimize(renderer.update(sample).force.data());
+      const auto middle = Clock::now();
+      const auto end = Clock::now();
+      times.push_back(nanoseconds(middle - start));
+      clock.push_back(nanoseconds(end - middle));
+      sum += times.back();
+    }
+    state.SetIterationTime(1e-9 * sum);
+  }
+  state.SetItemsProcessed(static_cast<std::int64_t>(times.size()));
+  state.counters["p50_ns"] = percentile(times, 0.5);
+  state.counters["p99_ns"] = percentile(times, 0.99);
+  state.counters["p999_ns"] = percentile(times, 0.999);
+  state.counters["max_ns"] = times.back();
+  state.counters["clock_ns"] = percentile(clock, 0.5);
+}
+BENCHMARK_CAPTURE(whole_tick, default_rules, with_method<NearestPointMethod::exact, 9>)->UseManualTime();
+BENCHMARK_CAPTURE(whole_tick, nearest_wang2006_1e_3, with_method<NearestPointMethod::wang2006, 3>)->UseManualTime();
+BENCHMARK_CAPTURE(whole_tick, nearest_wang2006_1e_6, with_method<NearestPointMethod::wang2006, 6>)->UseManualTime();
+BENCHMARK_CAPTURE(whole_tick, nearest_wang2006_1e_9, with_method<NearestPointMethod::wang2006, 9>)->UseManualTime();
+BENCHMARK_CAPTURE(whole_tick, all_rules_wang2006, RendererOptions::wang2006)->UseManualTime();
+
+void stage_motion_mapping(benchmark::State& state) {
+  const WrittenPage& written = written_page();
+  std::size_t i = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(written.mapping.to_page(written.states[i].position));
+    i = i + 1 < written.states.size() ? i + 1 : 0;
+  }
+}
+BENCHMARK(stage_motion_mapping);
+
+/// Subdivision as printed beside the exact method, over the same pen tips in turn: the fastest pass of each. `ratio` is
+/// printed over exact.
+void stage_nearest_point(benchmark::State& state) {
+  const CurveQueries& queries = curve_queries();
+  const NearestPointOptions exact;
+  const NearestPointOptions printed{NearestPointMethod::wang2006, std::pow(10.0, -static_cast<double>(state.range(0)))};
+  std::vector<NearestPoint> exact_feet(queries.tips.size());
+  std::vector<NearestPoint> printed_feet(queries.tips.size());
+  double exact_time = std::numeric_limits<double>::infinity();
+  double printed_time = std::numeric_limits<double>::infinity();
+  const auto query_all = [&](const NearestPointOptions& options, std::vector<NearestPoint>& feet) {
+    const auto start = Clock::now();
+    for (std::size_t i = 0; i < feet.size(); ++i) feet[i] = nearest_point(queries.element, queries.tips[i], options);
+    return nanoseconds(Clock::now() - start);
+  };
+  for (auto _ : state) {
+    exact_time = std::min(exact_time, query_all(exact, exact_feet));
+    printed_time = std::min(printed_time, query_all(printed, printed_feet));
+  }
+  double worst = 0.0;
+  int wrong = 0;
+  for (std::size_t i = 0; i < exact_feet.size(); ++i) {
+    const double error = printed_feet[i].distance - exact_feet[i].distance;
+    worst = std::max(worst, error);
+    if (error > 1e-4) ++wrong;  // a tenth of a millimetre
+  }
+  const auto count = static_cast<double>(queries.tips.size());
+  state.counters["exact_ns"] = exact_time / count;
+  state.counters["wang2006_ns"] = printed_time / count;
+  state.counters["ratio"] = printed_time / exact_time;
+  state.counters["wang2006_worst_um"] = 1e6 * worst;
+  state.counters["wang2006_wrong"] = wrong / count;
+}
+BENCHMARK(stage_nearest_point)->ArgName("epsilon_1e-")->Arg(3)->Arg(6)->Arg(9);
+
+void stage_active_stroke_load(benchmark::State& state) {
+  const Character& character = *built_in_characters().find(U'北');
+  const std::vector<Stroke> all = strokes(character);
+  ActiveStroke active;
+  std::size_t i = 0;
+  for (auto _ : state) {
+    active.load(all[i], {});
+    benchmark::DoNotOptimize(active);
+    i = (i + 1) % all.size();
+  }
+}
+BENCHMARK(stage_active_stroke_load);
+
+void stage_constraint_share(benchmark::State& state, ConstraintSpaceRule rule) {
+  const CurveQueries& queries = curve_queries();
+  ConstraintSpace space;
+  space.rule = rule;
+  std::vector<NearestPoint> feet;
+  for (const Point& tip : queries.tips) feet.push_back(nearest_point(queries.element, tip));
+  std::size_t i = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(guidance_share(space, queries.element, queries.tips[i], feet[i]));
+    i = (i + 1) % feet.size();
+  }
+}
+BENCHMARK_CAPTURE(stage_constraint_share, tube, ConstraintSpaceRule::tube);
+BENCHMARK_CAPTURE(stage_constraint_share, wang2006, ConstraintSpaceRule::wang2006);
+
+void stage_limiter(benchmark::State& state) {
+  const ForceLimiter limiter{0.1, 0.4, 7.9};
+  const CurveQueries& queries = curve_queries();
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();
+  std::size_t i = 0;
+  for (auto _ : state) {
+    const Point target = 1e3 * queries.tips[i];
+    force = limiter.next(force, {target.x(), target.y(), 0.5});
+    benchmark::DoNotOptimize(force.data());
+    i = (i + 1) % queries.tips.size();
+  }
+}
+BENCHMARK(stage_limiter);
+
+/// Not a time: what objects take, for the record beside the times.
+void bytes_per_object(benchmark::State& state) {
+  for (auto _ : state) benchmark::DoNotOptimize(sizeof(HapticRenderer));
+  state.counters["HapticRenderer"] = sizeof(HapticRenderer);
+  state.counters["ActiveStroke"] = sizeof(ActiveStroke);
+  state.counters["StrokeElement"] = sizeof(StrokeElement);
+  state.counters["HapticTick"] = sizeof(HapticTick);
+  state.counters["DeviceState"] = sizeof(DeviceState);
+  state.counters["Sample"] = sizeof(Sample);
+}
+BENCHMARK(bytes_per_object)->Iterations(1);
+
+}  // namespace
+
+BENCHMARK_MAIN();

@@ -1,0 +1,29 @@
+// Where on a stroke is the nearest point to the pen, and is the pen within reach of the guidance?
+#include <cstdio>
+#include <vector>
+
+#include <calligraphy/collision/constraint_space.hpp>
+#include <calligraphy/collision/nearest_point.hpp>
+#include <calligraphy/collision/placed_character.hpp>
+#include <calligraphy/model/character_set.hpp>
+
+int main() {
+  using namespace calligraphy;
+  const Character* const character = built_in_characters().find(U'北');
+  if (character == nullptr) return 1;
+
+  const Placement placement{{0.02, 0.02}, 0.04};  // a square of 40 mm on the page
+  const Stroke stroke = strokes(*character)[3];   // 撇: one curve
+  std::vector<Point> control_points;
+  for (const Point& point : stroke.control_points) control_points.push_back(placement.to_page(point));
+  const StrokeElement element = prepare_element(control_points);
+
+  const ConstraintSpace tube;
+  for (const double offset : {0.0, 0.003, 0.006, 0.009}) {
+    const Point tip = element.point(0.5) + Point(0.0, offset);
+    const NearestPoint foot = nearest_point(element, tip);
+    std::printf("pen at (%.4f, %.4f) m: %.4f m from the stroke at t = %.4f, guidance %.0f %%\n", tip.x(), tip.y(),
+                foot.distance, foot.parameter, 100.0 * guidance_share(tube, element, tip, foot));
+  }
+  return 0;
+}

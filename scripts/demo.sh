@@ -1,0 +1,18 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds, and writes four characters, unguided and guided. Arguments go on to `calligraphy write`.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+scripts/install_dependencies.sh
+cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DCALLIGRAPHY_TESTS=OFF -DCALLIGRAPHY_EXAMPLES=OFF
+cmake --build build --target calligraphy_program
+build/tools/calligraphy write 北京航空 --out out "$@"
+
+cat << END
+
+In $PWD/out:
+  NN-CHARACTER-MODE.svg        the page: template blue, active character yellow, trace green
+  NN-CHARACTER-MODE-force.svg  the force over time
+  NN-CHARACTER-MODE.csv        the trace, tick by tick
+  summary.json                 the table above
+END

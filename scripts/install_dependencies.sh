@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# Installs what the build needs on Debian 12 or Ubuntu 24.04; does nothing when all of it is there.
+# usage: install_dependencies.sh [tests]     tests: also what only the tests need
+set -euo pipefail
+
+packages=(cmake g++ gnuplot-nox libboost-dev libcli11-dev libeigen3-dev libfmt-dev libpugixml-dev libspdlog-dev
+          libutfcpp-dev ninja-build nlohmann-json3-dev)
+if [[ ${1:-} == tests ]]; then
+  packages+=(ca-certificates catch2 libbenchmark-dev python3)
+  command -v npm > /dev/null || packages+=(npm)
+elif [[ $# -gt 0 ]]; then
+  echo "usage: $0 [tests]" >&2
+  exit 2
+fi
+
+if ! command -v apt-get > /dev/null || ! command -v dpkg-query > /dev/null; then
+  echo "This system has no apt-get. Install the counterparts of: ${packages[*]}" >&2
+  exit 1
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+  state=$(dpkg-query -W -f '${Status}' "$package" 2> /dev/null || true)
+  [[ $state == "install ok installed" ]] || missing+=("$package")
+done
+[[ ${#missing[@]} -gt 0 ]] || exit 0
+
+as_root=()
+if [[ $(id -u) -ne 0 ]]; then
+  if ! command -v sudo > /dev/null; then
+    echo "Run as root, or install sudo: these packages are missing: ${missing[*]}" >&2
+    exit 1
+  fi
+  as_root=(sudo)
+fi
+echo "installing: ${missing[*]}"
+apt() { "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -o Acquire::Retries=3 "$@"; }
+for attempt in 1 2 3; do
+  if apt update; then break; fi
+  [[ $attempt -lt 3 ]] || echo "apt-get update failed three times; trying with the lists there are" >&2
+  sleep $((attempt * 5))
+done
+apt install -y --no-install-recommends "${missing[@]}"

@@ -1,0 +1,229 @@
+// The stack of feature points: Wang 2006, sec. 4.3 and 4.3.3.
+#include "../catch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <calligraphy/collision/active_stroke.hpp>
+
+#include "../allocation_counter.hpp"
+#include "../pen_path.hpp"
+
+using namespace calligraphy;
+using calligraphy_test::beside;
+using calligraphy_test::path_of;
+using calligraphy_test::typical_character;
+
+namespace {
+
+const Placement place{{0.013, 0.021}, 0.04};
+constexpr double pen_step = 0.0001;  // 100 mm/s at 1 kHz
+
+StrokeRules printed_rules() {
+  StrokeRules rules;
+  rules.plane = FeaturePlaneRule::wang2006;
+  rules.attraction = AttractionRule::wang2006;
+  rules.window = 0.0;
+  return rules;
+}
+
+struct Trace {
+  int passed = 0;
+  bool finished = false;
+  int falls = 0;              ///< updates in which the active element went back
+  double largest_step = 0.0;  ///< of the foot's arc length outside feature points [m]
+};
+
+Trace trace(ActiveStroke& active, const std::vector<Point>& path, const StrokeRules& rules = {}) {
+  Trace result;
+  StrokeContact last;
+  for (std::size_t i = 0; i < path.size() && !result.finished; ++i) {
+    const StrokeContact contact = active.update(path[i], rules);
+    result.passed += contact.passed_feature;
+    result.falls += contact.element < last.element;
+    if (i > 0 && !contact.passed_feature) result.largest_step = std::max(result.largest_step, std::abs(contact.arc - last.arc));
+    result.finished = contact.finished;
+    last = contact;
+  }
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("a pen that traces a typical stroke passes each feature point once, in order, and finishes", "[collision]") {
+  for (const TypicalStroke& type : typical_strokes()) {
+    const Character character = typical_character(type.id);
+    const Stroke stroke = strokes(character)[0];
+    ActiveStroke active;
+    active.load(stroke, place);
+    const Trace result = trace(active, path_of(stroke, place, pen_step));
+    INFO("typical stroke " << type.id);
+    CHECK(result.passed == static_cast<int>(type.elements.size()));
+    CHECK(result.finished);
+    CHECK(result.falls == 0);
+    CHECK(result.largest_step < 3.0 * pen_step);
+    CHECK(active.features_left() == 0);
+  }
+}
+
+TEST_CASE("a pen 2 mm beside a typical stroke passes each feature point too", "[collision]") {
+  for (const TypicalStroke& type : typical_strokes()) {
+    const Character character = typical_character(type.id);
+    const Stroke stroke = strokes(character)[0];
+    for (const double offset : {-0.002, -0.001, 0.001, 0.002}) {
+      ActiveStroke active;
+      active.load(stroke, place);
+      const Trace result = trace(active, beside(path_of(stroke, place, pen_step), offset));
+      INFO("typical stroke " << type.id << ", " << offset << " m to the left");
+      CHECK(result.passed == static_cast<int>(type.elements.size()));
+      CHECK(result.finished);
+      CHECK(result.falls == 0);
+    }
+  }
+}
+
+TEST_CASE("a typical stroke traced backwards never finishes", "[collision]") {
+  for (const TypicalStroke& type : typical_strokes()) {
+    if (type.id == 39) continue;  // a circle ends where it starts
+    const Character character = typical_character(type.id);
+    const Stroke stroke = strokes(character)[0];
+    std::vector<Point> path = path_of(stroke, place, pen_step);
+    std::reverse(path.begin(), path.end());
+    ActiveStroke active;
+    active.load(stroke, place);
+    INFO("typical stroke " << type.id);
+    CHECK_FALSE(active.begins_at(path.front(), 0.008));
+    const auto begin = std::find_if(path.begin(), path.end(), [&](const Point& tip) { return active.begins_at(tip, 0.008); });
+    REQUIRE(begin != path.end());
+    CHECK_FALSE(trace(active, {begin, path.end()}).finished);  // what a pen that went on into the start would write
+  }
+}
+
+TEST_CASE("a reloaded stroke starts again, with all of its feature points", "[collision]") {
+  const Character character = typical_character(18);
+  const Stroke stroke = strokes(character)[0];
+  const std::vector<Point> path = path_of(stroke, place, pen_step);
+  ActiveStroke active;
+  active.load(stroke, place);
+  CHECK(active.features_left() == 3);
+  trace(active, {path.begin(), path.begin() + static_cast<std::ptrdiff_t>(path.size() / 2)});
+  CHECK(active.features_left() == 2);
+  active.reload();
+  CHECK(active.features_left() == 3);
+  const StrokeContact contact = active.update(active.start(), {});
+  CHECK(contact.element == 0);
+  CHECK(contact.arc == Approx(0.0).margin(1e-12));
+  CHECK(contact.backwards == 0.0);
+  CHECK(trace(active, path).finished);
+  active.load(stroke, place);
+  CHECK(active.features_left() == 3);
+}
+
+TEST_CASE("a pen far from a feature point passes its plane only as printed", "[collision]") {
+  const Character character = typical_character(16);
+  const Stroke stroke = strokes(character)[0];
+  ActiveStroke active;
+  active.load(stroke, place);
+  const Point corner = place.to_page(stroke.control_points[1]);
+  const Point beyond = corner + 0.5 * (corner - active.start()) + Point(0.0, 0.02);
+  CHECK_FALSE(active.update(beyond, {}).passed_feature);
+  CHECK(active.features_left() == 2);
+  CHECK(active.update(beyond, printed_rules()).passed_feature);
+  // As printed, jumping back and forth across the planes writes a stroke that the pen never touched.
+  active.reload();
+  CHECK(active.update(beyond, printed_rules()).passed_feature);
+  CHECK(active.update(place.to_page(stroke.control_points[2]) + Point(0.05, -0.03), printed_rules()).finished);
+}
+
+TEST_CASE("a finished stroke keeps its foot where the pen is", "[collision]") {
+  const Character character = typical_character(16);
+  const Stroke stroke = strokes(character)[0];
+  const std::vector<Point> path = path_of(stroke, place, pen_step);
+  ActiveStroke active;
+  active.load(stroke, place);
+  CHECK(trace(active, path).finished);
+  const StrokeContact after = active.update(path.back(), {});
+  CHECK(after.finished);
+  CHECK_FALSE(after.passed_feature);
+  CHECK((after.foot.point - path.back()).norm() < 1e-9);
+}
+
+TEST_CASE("crossing a plane back and forth passes one feature point", "[collision]") {
+  const Character character = typical_character(16);
+  const Stroke stroke = strokes(character)[0];
+  ActiveStroke active;
+  active.load(stroke, place);
+  trace(active, path_of(stroke, place, pen_step));
+  active.reload();
+  std::vector<Point> path = {active.start()};
+  const Point corner = place.to_page(stroke.control_points[1]);
+  calligraphy_test::draw_line(path, corner, pen_step);
+  int passed = trace(active, path).passed;
+  const Point along = (corner - active.start()).normalized();
+  for (int i = 0; i < 1000; ++i) passed += active.update(corner + (i % 2 ? 0.0001 : -0.0001) * along, {}).passed_feature;
+  CHECK(passed == 1);
+}
+
+TEST_CASE("a stroke begins near its start, and not where it already ends", "[collision]") {
+  const Character character = typical_character(8);  // a dot, 0.28 em long: 11.3 mm
+  const Stroke stroke = strokes(character)[0];
+  ActiveStroke active;
+  active.load(stroke, place);
+  const Point start = active.start(), end = place.to_page(stroke.control_points[1]);
+  CHECK(active.begins_at(start, 0.008));
+  CHECK(active.begins_at(start + Point(-0.0079, 0.0), 0.008));
+  CHECK_FALSE(active.begins_at(start + Point(-0.0081, 0.0), 0.008));
+  CHECK(active.begins_at(start + 0.49 * (end - start), 0.008));
+  CHECK_FALSE(active.begins_at(start + 0.51 * (end - start), 0.008));
+  CHECK_FALSE(active.begins_at(end, 0.02));
+  CHECK_FALSE(active.begins_at({std::nan(""), 0.0}, 0.008));
+}
+
+TEST_CASE("the attraction factor is linear in arc length, and as printed steps at each feature point", "[collision]") {
+  const Character character = typical_character(16, {1.0, 2.0, 0.5});
+  const Stroke stroke = strokes(character)[0];
+  const std::vector<Point> path = path_of(stroke, place, pen_step);
+  const double first = (path.front() - place.to_page(stroke.control_points[1])).norm();
+  const double second = (place.to_page(stroke.control_points[1]) - path.back()).norm();
+  ActiveStroke active, printed;
+  active.load(stroke, place);
+  printed.load(stroke, place);
+  StrokeRules rules = printed_rules();
+  rules.plane = FeaturePlaneRule::bounded;
+  double worst = 0.0, last = 1.0, largest_step = 0.0;
+  for (const Point& tip : path) {
+    const StrokeContact contact = active.update(tip, {}), step = printed.update(tip, rules);
+    const double expected = contact.arc <= first ? 1.0 + contact.arc / first : 2.0 - 1.5 * (contact.arc - first) / second;
+    worst = std::max(worst, std::abs(contact.attraction - expected));
+    if (!step.finished) CHECK(step.attraction == (step.element == 0 ? 1.0 : 2.0));
+    if (!contact.passed_feature) largest_step = std::max(largest_step, std::abs(contact.attraction - last));
+    last = contact.attraction;
+  }
+  CHECK(worst < 1e-9);
+  CHECK(largest_step < 2.0 * pen_step / first);
+}
+
+TEST_CASE("a pen that goes back is behind by as much", "[collision]") {
+  const Character character = typical_character(1);
+  const Stroke stroke = strokes(character)[0];
+  const std::vector<Point> path = path_of(stroke, place, pen_step);
+  ActiveStroke active;
+  active.load(stroke, place);
+  trace(active, {path.begin(), path.begin() + 200});
+  const StrokeContact back = active.update(path[150], {});
+  CHECK(back.backwards == Approx((path[199] - path[150]).norm()).epsilon(1e-6));
+  CHECK(active.update(path[210], {}).backwards == 0.0);
+}
+
+TEST_CASE("a stroke being written takes nothing from the heap", "[collision]") {
+  const Character character = typical_character(27);
+  const Stroke stroke = strokes(character)[0];
+  const std::vector<Point> path = path_of(stroke, place, pen_step);
+  ActiveStroke active;
+  const std::size_t before = calligraphy_test::allocations();
+  active.load(stroke, place);
+  const Trace result = trace(active, path);
+  CHECK(calligraphy_test::allocations() == before);
+  CHECK(result.finished);
+}

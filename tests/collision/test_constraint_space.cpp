@@ -1,0 +1,108 @@
+// Where a stroke attracts: Wang 2006, sec. 4.3.1 (a)-(d) as printed, and the tube that replaces it.
+#include "../catch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <calligraphy/collision/constraint_space.hpp>
+
+using namespace calligraphy;
+
+namespace {
+
+constexpr ConstraintSpace printed{ConstraintSpaceRule::wang2006};
+
+StrokeElement element_of(std::vector<Point> points) { return prepare_element(points); }
+
+double share_at(const ConstraintSpace& space, const StrokeElement& element, const Point& query) {
+  return guidance_share(space, element, query, nearest_point(element, query));
+}
+
+const StrokeElement horizontal = element_of({{0.01, 0.02}, {0.05, 0.02}});  // 40 mm
+
+}  // namespace
+
+TEST_CASE("rule (a): behind the start of a line there is no guidance as printed", "[collision]") {
+  CHECK(share_at(printed, horizontal, {0.0101, 0.02}) == 1.0);
+  CHECK(share_at(printed, horizontal, {0.01, 0.02}) == 0.0);   // on the border: not ahead
+  CHECK(share_at(printed, horizontal, {0.0099, 0.02}) == 0.0);
+  CHECK(share_at(printed, horizontal, {0.0101, 0.02 + 0.039}) == 1.0);
+  CHECK(share_at(printed, horizontal, {0.0099, 0.02 + 0.039}) == 0.0);
+}
+
+TEST_CASE("rules (b) and (c): guidance as printed reaches as far from the start as the line is long", "[collision]") {
+  CHECK(share_at(printed, horizontal, {0.0499, 0.02}) == 1.0);
+  CHECK(share_at(printed, horizontal, {0.0501, 0.02}) == 0.0);
+  CHECK(share_at(printed, horizontal, {0.01 + 0.0282, 0.02 + 0.0282}) == 1.0);  // 39.9 mm at 45 degrees
+  CHECK(share_at(printed, horizontal, {0.01 + 0.0284, 0.02 + 0.0284}) == 0.0);  // 40.2 mm
+}
+
+TEST_CASE("rule (d): a point as printed always guides", "[collision]") {
+  const StrokeElement point = element_of({{0.01, 0.02}, {0.01, 0.02}});
+  CHECK(share_at(printed, point, {0.01, 0.02}) == 1.0);
+  CHECK(share_at(printed, point, {0.5, -3.0}) == 1.0);
+}
+
+TEST_CASE("a curve as printed guides within a disc round its start, behind it too", "[collision]") {
+  const StrokeElement curve = element_of({{0, 0}, {0.01, 0.01}, {0.02, 0.01}, {0.03, 0}});
+  CHECK(share_at(printed, curve, {-0.0299, 0}) == 1.0);
+  CHECK(share_at(printed, curve, {-0.0301, 0}) == 0.0);
+  CHECK(share_at(printed, curve, {0, 0.0299}) == 1.0);
+}
+
+TEST_CASE("the printed half disc drops a deviation's whole force before the end of a stroke", "[collision]") {
+  // At lateral deviation d the half disc ends where x^2 + d^2 = L^2, so before the stroke does, and K d falls to 0 at once.
+  const double length = 0.04, stiffness = 400.0;
+  for (const double deviation : {0.001, 0.003, 0.008, 0.02}) {
+    const double border = std::sqrt(length * length - deviation * deviation);
+    const auto force = [&](const ConstraintSpace& space, double x) {
+      const Point query = horizontal.origin + Point(x, deviation);
+      return stiffness * share_at(space, horizontal, query) * nearest_point(horizontal, query).distance;
+    };
+    CHECK(border < length);
+    const double drop = force(printed, border - 1e-7) - force(printed, border + 1e-7);
+    CHECK(drop == Approx(stiffness * deviation).epsilon(1e-9));
+    const ConstraintSpace tube;
+    CHECK(std::abs(force(tube, border - 1e-7) - force(tube, border + 1e-7)) < 1e-3 * stiffness * deviation);
+  }
+}
+
+TEST_CASE("the tube is whole inside, nothing outside, and without step or kink between", "[collision]") {
+  const ConstraintSpace tube{ConstraintSpaceRule::tube, 0.008, 0.003};
+  const auto share = [&](double y) { return share_at(tube, horizontal, {0.03, 0.02 + y}); };
+  CHECK(share(0.0) == 1.0);
+  CHECK(share(0.005) == Approx(1.0));
+  CHECK(share(0.0065) == Approx(0.5));
+  CHECK(share(0.008) == 0.0);
+  CHECK(share(1.0) == 0.0);
+  const double step = 1e-6;
+  double largest_step = 0.0, largest_bend = 0.0, rises = 0.0;
+  for (double y = 0.0; y < 0.010; y += step) {
+    const double before = share(y), at = share(y + step), after = share(y + 2.0 * step);
+    largest_step = std::max(largest_step, std::abs(at - before));
+    largest_bend = std::max(largest_bend, std::abs(after - 2.0 * at + before));
+    rises = std::max(rises, at - before);
+  }
+  CHECK(rises <= 1e-12);
+  CHECK(largest_step <= 1.5 / 0.003 * step * 1.001);                  // slope of the smooth step: 3/2 per edge
+  CHECK(largest_bend <= 6.0 / (0.003 * 0.003) * step * step * 1.01);  // a kink would bend by a whole slope
+}
+
+TEST_CASE("the tube is the same on both sides of a stroke and round both of its ends", "[collision]") {
+  const ConstraintSpace tube;
+  for (double x = -0.012; x < 0.06; x += 0.0011) {
+    for (double y = 0.0; y < 0.012; y += 0.0007) {
+      const double above = share_at(tube, horizontal, {0.01 + x, 0.02 + y});
+      CHECK(above == Approx(share_at(tube, horizontal, {0.01 + x, 0.02 - y})).margin(1e-12));
+      CHECK(above == Approx(share_at(tube, horizontal, {0.05 - x, 0.02 + y})).margin(1e-12));
+    }
+  }
+}
+
+TEST_CASE("the tube's edge may be the whole tube, and a lost query is outside", "[collision]") {
+  const ConstraintSpace tube{ConstraintSpaceRule::tube, 0.008, 0.008};
+  CHECK(share_at(tube, horizontal, {0.03, 0.02}) == 1.0);
+  CHECK(share_at(tube, horizontal, {0.03, 0.024}) == Approx(0.5));
+  CHECK(share_at(tube, horizontal, {std::nan(""), 0.02}) == 0.0);
+  CHECK(share_at(printed, horizontal, {std::nan(""), 0.02}) == 0.0);
+}

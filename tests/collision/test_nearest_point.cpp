@@ -1,0 +1,207 @@
+// The exact nearest point against brute force in long double (Wang 2006, sec. 4.3.1, 4.3.2).
+#include "../catch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <calligraphy/collision/nearest_point.hpp>
+
+#include "../allocation_counter.hpp"
+#include "../hard_cases.hpp"
+#include "../reference_curve.hpp"
+
+using namespace calligraphy;
+using calligraphy_test::hard_curves;
+using calligraphy_test::hard_queries;
+using calligraphy_test::HardCurve;
+using calligraphy_test::ReferenceCurve;
+using calligraphy_test::Sequence;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+#ifdef __SANITIZE_ADDRESS__
+constexpr int fuzz_queries = 20'000;
+#else
+constexpr int fuzz_queries = 200'000;
+#endif
+
+/// Error of the distance relative to the size, beyond what rounding of a far query's distance allows.
+double error_of(const NearestPoint& found, const ReferenceCurve& reference, const Point& query, const HardCurve& curve,
+                const ParameterRange& range = {}) {
+  const auto expected = reference.nearest(query, range.begin, range.end, 400);
+  const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * static_cast<double>(expected.distance);
+  const double size = std::max(calligraphy_test::size_of(curve.control_points), 1e-300);
+  const double error = std::abs(static_cast<double>(found.distance - expected.distance)) - rounding;
+  const bool consistent = std::abs((query - found.point).norm() - found.distance) <=
+                          1e-9 * size + rounding + (curve.tolerance > 1e-9 ? 1e-7 : 0.0);
+  const bool in_range = found.parameter >= range.begin && found.parameter <= range.end;
+  return consistent && in_range ? error / size : infinity;
+}
+
+}  // namespace
+
+TEST_CASE("the exact nearest point agrees with brute force on every hard curve", "[collision]") {
+  for (const HardCurve& curve : hard_curves()) {
+    const StrokeElement element = prepare_element(curve.control_points);
+    const ReferenceCurve reference(curve.control_points);
+    double worst = 0.0;
+    int uncertified = 0;
+    Point worst_query = Point::Zero();
+    for (const Point& query : hard_queries(curve)) {
+      const NearestPoint found = nearest_point(element, query);
+      const double error = error_of(found, reference, query, curve);
+      uncertified += !found.certified;
+      if (error > worst) worst = error, worst_query = query;
+    }
+    INFO(curve.name << ", query (" << worst_query.x() << ", " << worst_query.y() << ")");
+    CHECK(worst <= curve.tolerance);
+    CHECK(uncertified == 0);
+  }
+}
+
+TEST_CASE("the exact nearest point agrees with brute force within a part of an element", "[collision]") {
+  constexpr ParameterRange ranges[] = {{0.0, 0.3}, {0.2, 0.7}, {0.55, 1.0}, {0.4, 0.4}, {0.999, 1.0}, {0.0, 1e-9}};
+  for (const HardCurve& curve : hard_curves()) {
+    const StrokeElement element = prepare_element(curve.control_points);
+    const ReferenceCurve reference(curve.control_points);
+    double worst = 0.0;
+    for (const ParameterRange& range : ranges) {
+      for (const Point& query : hard_queries(curve, 4)) {
+        worst = std::max(worst, error_of(nearest_point(element, query, {}, range), reference, query, curve, range));
+      }
+    }
+    INFO(curve.name);
+    CHECK(worst <= curve.tolerance);
+  }
+}
+
+TEST_CASE("a query on the curve is its own nearest point", "[collision]") {
+  for (const HardCurve& curve : hard_curves()) {
+    const StrokeElement element = prepare_element(curve.control_points);
+    double worst = 0.0;
+    for (int i = 0; i <= 50; ++i) {
+      const auto at = ReferenceCurve(curve.control_points).point(i / 50.0L);
+      worst = std::max(worst, nearest_point(element, {static_cast<double>(at[0]), static_cast<double>(at[1])}).distance);
+    }
+    INFO(curve.name);
+    CHECK(worst <= curve.tolerance * element.size);
+  }
+}
+
+TEST_CASE("ties go to the smaller parameter", "[collision]") {
+  const auto parameter = [](std::vector<Point> points, const Point& query) {
+    return nearest_point(prepare_element(points), query).parameter;
+  };
+  CHECK(parameter({{0, 0}, {0, 1}, {1, 1}, {1, 0}}, {0.5, 0.0}) == 0.0);        // both ends of an arch
+  CHECK(parameter({{0, 0}, {1, 1}, {-1, 1}, {0, 0}}, {0.0, 0.0}) == 0.0);       // both ends of a closed curve
+  CHECK(parameter({{0, 0}, {0.5, 1}, {1, 0}}, {0.5, -1.0}) == 0.0);
+  CHECK(parameter({{0, 0}, {0, 0}, {0, 0}, {0, 0}}, {1.0, 2.0}) == 0.0);        // a point
+  CHECK(parameter({{1, 1}, {1, 1}}, {0.0, 0.0}) == 0.0);
+  CHECK(parameter({{0, 0}, {1, 0}, {1, 0}, {0, 0}}, {0.375, 0.0}) == Approx(parameter({{0, 0}, {1, 0}, {1, 0}, {0, 0}},
+        {0.375, 1e-12})));                                                      // there and back over the same points
+  CHECK(parameter({{0, 0}, {1, 0}, {1, 0}, {0, 0}}, {0.5, 0.3}) < 0.5);
+  // A tie of two inner minima is found up to rounding: the same distance, the same answer each time.
+  const StrokeElement s = prepare_element(std::vector<Point>{{0, 0}, {1, 0}, {0, 1}, {1, 1}});
+  CHECK(nearest_point(s, {0.5, 0.5}).parameter == nearest_point(s, {0.5, 0.5}).parameter);
+}
+
+TEST_CASE("at the centre of an arc any point of it will do, and one is found", "[collision]") {
+  const double k = 0.5522847498307936;
+  const StrokeElement arc = prepare_element(std::vector<Point>{{1, 0}, {1, k}, {k, 1}, {0, 1}});
+  const NearestPoint found = nearest_point(arc, {0, 0});
+  CHECK(found.certified);
+  CHECK(found.distance == Approx(1.0).margin(1e-9));  // this cubic leaves the circle outwards by at most 2.7e-4
+  // Centre of curvature of the parabola y = 2 x (1 - x) at its top: three zeros of the slope fall together there.
+  const StrokeElement parabola = prepare_element(std::vector<Point>{{0, 0}, {0.5, 1}, {1, 0}});
+  const NearestPoint top = nearest_point(parabola, {0.5, 0.25});
+  CHECK(top.certified);
+  CHECK(top.distance == Approx(0.25).margin(1e-9));
+}
+
+TEST_CASE("the nearest point moves, turns and grows with its curve, and stays when the curve is reversed", "[collision]") {
+  Sequence random(7);
+  for (const HardCurve& curve : hard_curves()) {
+    if (curve.tolerance > 1e-9) continue;
+    const StrokeElement element = prepare_element(curve.control_points);
+    const double angle = random.between(0.0, 2.0 * std::numbers::pi), scale = random.between(0.1, 10.0);
+    const Point offset = element.size * random.point(-3.0, 3.0);
+    Eigen::Matrix2d turn;
+    turn << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+    const auto map = [&](const Point& point) { return Point(offset + scale * (turn * point)); };
+    std::vector<Point> mapped, reversed(curve.control_points.rbegin(), curve.control_points.rend());
+    for (const Point& point : curve.control_points) mapped.push_back(map(point));
+    const StrokeElement other = prepare_element(mapped), backwards = prepare_element(reversed);
+    double worst = 0.0;
+    for (const Point& query : hard_queries(curve)) {
+      const double distance = nearest_point(element, query).distance;
+      const double allowance = 1e-9 * element.size + 1e-14 * distance;
+      worst = std::max(worst, std::abs(nearest_point(other, map(query)).distance / scale - distance) / allowance);
+      worst = std::max(worst, std::abs(nearest_point(backwards, query).distance - distance) / allowance);
+    }
+    INFO(curve.name);
+    if (element.size > 0.0) CHECK(worst <= 1.0);
+  }
+}
+
+TEST_CASE("no query and no element makes the nearest point other than finite", "[collision]") {
+  const double values[] = {0.0, -0.0, 5e-324, 1e-310, 1e-200, 1.0, -1e8, 1e154, 1e200, 1.7e308, infinity, -infinity, not_a_number};
+  std::vector<HardCurve> curves = hard_curves();
+  for (const double size : {5e-324, 1e-310, 1e-200, 1e-170, 1e-100, 1e100}) {
+    curves.push_back({"line of length " + std::to_string(std::log10(size)), {{0, 0}, {size, size}}});
+    curves.push_back({"curve of size " + std::to_string(std::log10(size)), {{0, 0}, {size, 0}, {0, size}, {size, size}}});
+  }
+  for (const HardCurve& curve : curves) {
+    const StrokeElement element = prepare_element(curve.control_points);
+    int wrong = 0;
+    for (const auto method : {NearestPointMethod::exact, NearestPointMethod::wang2006}) {
+      for (const double x : values) {
+        for (const double y : values) {
+          const NearestPoint found = nearest_point(element, {x, y}, {method, 1e-9});
+          const bool usable = found.point.allFinite() && found.tangent.allFinite() && found.parameter >= 0.0 &&
+                              found.parameter <= 1.0 && !std::isnan(found.distance);
+          const bool lost = std::isinf(found.distance) && found.parameter == 0.0 && !found.certified;
+          wrong += !usable || (!(std::isfinite(x) && std::isfinite(y)) && !lost);
+        }
+      }
+    }
+    INFO(curve.name);
+    CHECK(wrong == 0);
+  }
+}
+
+TEST_CASE("hundreds of thousands of random queries find nothing nearer than the nearest point", "[collision]") {
+  Sequence random(99);
+  double worst_against_samples = -infinity, worst_against_reference = -infinity;
+  int uncertified = 0;
+  const std::size_t before = calligraphy_test::allocations();
+  std::size_t own = 0;
+  for (int i = 0; i < fuzz_queries; ++i) {
+    std::array<Point, 5> points;
+    const std::size_t count = 3 + static_cast<std::size_t>(3.0 * random.next());
+    for (Point& point : points) point = random.point(0.0, 1.0);
+    if (i % 5 == 0) points[1] = points[0];
+    if (i % 7 == 0) points[count - 2] = points[count - 1];
+    if (i % 11 == 0) points[2] = points[1] + 1e-9 * random.point(-1.0, 1.0);
+    const StrokeElement element = prepare_element(std::span(points.data(), count));
+    const Point query = random.point(-0.5, 1.5);
+    const NearestPoint found = nearest_point(element, query);
+    uncertified += !found.certified;
+    for (int k = 0; k <= 48; ++k) {
+      worst_against_samples = std::max(worst_against_samples, found.distance - (element.point(k / 48.0) - query).norm());
+    }
+    if (i % 200 == 0) {
+      const std::size_t outside = calligraphy_test::allocations();
+      const auto expected = ReferenceCurve({points.begin(), points.begin() + static_cast<std::ptrdiff_t>(count)}).nearest(query);
+      worst_against_reference = std::max(worst_against_reference, static_cast<double>(std::abs(found.distance - expected.distance)));
+      own += calligraphy_test::allocations() - outside;
+    }
+  }
+  CHECK(worst_against_samples <= 1e-12);
+  CHECK(worst_against_reference <= 1e-9);
+  CHECK(uncertified == 0);
+  CHECK(calligraphy_test::allocations() - before - own == 0);
+}

@@ -1,0 +1,15 @@
+// Finds the nearest point on a stroke with nothing but the collision room.
+#include <cstdio>
+
+#include <calligraphy/collision/active_stroke.hpp>
+#include <calligraphy/model/character_set.hpp>
+
+int main() {
+  const calligraphy::Character* const one = calligraphy::built_in_characters().find(U'一');
+  if (one == nullptr) return 1;
+  calligraphy::ActiveStroke stroke;
+  stroke.load(calligraphy::strokes(*one)[0], {});
+  const auto foot = calligraphy::nearest_point(stroke.element(0), stroke.start());
+  std::printf("%g m\n", foot.distance);
+  return foot.distance < 1e-12 ? 0 : 1;
+}

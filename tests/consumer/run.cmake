@@ -1,0 +1,48 @@
+# Installs the build, builds the project with it, runs what was built and looks at what it was linked with.
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  message("${output}")
+  if(NOT result EQUAL 0)
+    string(JOIN " " command ${ARGN})
+    message(FATAL_ERROR "failed (${result}): ${command}")
+  endif()
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+file(REMOVE_RECURSE ${WORK}/prefix ${WORK}/build)
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix --config ${TYPE})
+set(flags "")
+if(SANITIZE)
+  set(flags -DCMAKE_CXX_FLAGS=-fsanitize=${SANITIZE})
+endif()
+run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -G ${GENERATOR} -DCMAKE_PREFIX_PATH=${WORK}/prefix
+    -DCMAKE_BUILD_TYPE=${TYPE} -DCMAKE_CXX_COMPILER=${COMPILER} -DPRACTICE=${PRACTICE} ${flags}
+    # Nothing but the compiler and Eigen may be needed for collision: these are as good as not installed.
+    -DCMAKE_DISABLE_FIND_PACKAGE_spdlog=ON -DCMAKE_DISABLE_FIND_PACKAGE_fmt=ON
+    -DCMAKE_DISABLE_FIND_PACKAGE_nlohmann_json=ON -DCMAKE_DISABLE_FIND_PACKAGE_utf8cpp=ON)
+
+run(${CMAKE_COMMAND} --build ${WORK}/build --config ${TYPE} --verbose --target collision_alone)
+if(NOT output MATCHES "-o collision_alone")
+  message(FATAL_ERROR "no link line in the output above")
+endif()
+foreach(library spdlog fmt usb hidapi pugixml calligraphy_render calligraphy_devices calligraphy_practice)
+  if(output MATCHES "lib${library}[.]" OR output MATCHES "-l${library}[ \n]")
+    message(FATAL_ERROR "collision_alone is linked with ${library}")
+  endif()
+endforeach()
+run(${WORK}/build/collision_alone)
+find_program(ldd ldd)
+if(ldd)
+  run(${ldd} ${WORK}/build/collision_alone)
+  if(output MATCHES "lib(spdlog|fmt|usb|hidapi|pugixml)")
+    message(FATAL_ERROR "collision_alone needs ${CMAKE_MATCH_1}")
+  endif()
+endif()
+
+if(PRACTICE)
+  run(${CMAKE_COMMAND} --build ${WORK}/build --config ${TYPE} --target write_one)
+  run(${WORK}/build/write_one)
+endif()
+if(TOOLS)
+  run(${WORK}/prefix/bin/calligraphy --version)
+endif()

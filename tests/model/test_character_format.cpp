@@ -1,0 +1,227 @@
+// The text format: what is written reads back the same, and what is wrong is named by file, line and value.
+#include "../catch.hpp"
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <locale>
+#include <sstream>
+#include <string>
+
+#include <calligraphy/error.hpp>
+#include <calligraphy/model/character_set.hpp>
+
+#include "../hard_cases.hpp"
+
+using namespace calligraphy;
+
+namespace {
+
+const std::string head = "calligraphy characters 1\n";
+
+CharacterSet read(const std::string& text) {
+  std::istringstream in(text);
+  return read_characters(in, "test.txt");
+}
+
+std::string write(const CharacterSet& set) {
+  std::ostringstream out;
+  write_characters(out, set);
+  return out.str();
+}
+
+/// What the FormatError says, or "" when the text is read.
+std::string complaint(const std::string& text) {
+  try {
+    read(text);
+  } catch (const FormatError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+bool same(const CharacterSet& a, const CharacterSet& b) {
+  if (a.source != b.source || a.licence != b.licence || a.attribution != b.attribution) return false;
+  if (a.characters.size() != b.characters.size()) return false;
+  for (std::size_t i = 0; i < a.characters.size(); ++i) {
+    const Character &x = a.characters[i], &y = b.characters[i];
+    if (x.code != y.code || x.curve_degree != y.curve_degree || x.sequence.stroke_ids != y.sequence.stroke_ids ||
+        x.sequence.feature_points != y.sequence.feature_points ||
+        x.structure.control_points != y.structure.control_points ||
+        x.physics.attraction_factors != y.physics.attraction_factors) {
+      return false;
+    }
+  }
+  return true;
+}
+
+struct CommaNumbers : std::numpunct<char> {
+  char do_decimal_point() const override { return ','; }
+  char do_thousands_sep() const override { return '.'; }
+  std::string do_grouping() const override { return "\1"; }
+};
+
+}  // namespace
+
+TEST_CASE("a set that is written reads back the same, quartics and attraction factors too", "[model]") {
+  CharacterSet set = built_in_characters();
+  set.characters.push_back(with_quartic_curves(*set.find(U'永')));
+  set.characters.back().code = U'\U00020000';
+  calligraphy_test::Sequence random(3);
+  for (Character& character : set.characters) {
+    for (double& factor : character.physics.attraction_factors) factor = random.between(0.0, 3.0);
+    for (Point& point : character.structure.control_points) point += 1e-3 * random.point(-1.0, 1.0);  // all 17 digits
+  }
+  CHECK(same(read(write(set)), set));
+  CHECK(write(read(write(set))) == write(set));
+  CHECK(same(read(write(built_in_characters())), built_in_characters()));
+  CHECK(read(write({})).characters.empty());
+}
+
+TEST_CASE("source, licence and attribution are free text, with '#' and all", "[model]") {
+  CharacterSet set;
+  set.source = "https://example.org/set#2 # second edition";
+  set.licence = "stroke 1 is not a stroke here";
+  set.attribution = "王 | Zhang, \"Yao\"";
+  CHECK(same(read(write(set)), set));
+  set.licence = "one\nstroke 1 0,0 1,1";
+  CHECK_THROWS_AS(write(set), ValueError);
+}
+
+TEST_CASE("comments, blank lines, tabs, CRLF and a byte order mark are let pass", "[model]") {
+  const CharacterSet plain = read(head + "character \xE4\xB8\x80\nstroke 1 0.1,0.5 0.9,0.5 | 1 2\n");
+  CHECK(same(read("\xEF\xBB\xBF" + head + "character \xE4\xB8\x80\nstroke 1 0.1,0.5 0.9,0.5 | 1 2"), plain));
+  CHECK(same(read("calligraphy characters 1\r\n\r\ncharacter \xE4\xB8\x80\r\nstroke 1 0.1,0.5 0.9,0.5 | 1 2\r\n"), plain));
+  CHECK(same(read("\n# first\n" + head + "\n  character\t\xE4\xB8\x80  # one\n\tstroke 1  0.1,0.5\t1e-1,5e-1 # no\n"), plain) == false);
+  CHECK(same(read(head + "  character\t\xE4\xB8\x80  # one\n\n \t\n\tstroke 1  0.1,0.5\t9e-1,5e-1 | 1.0 2.0 # ok\n"), plain));
+}
+
+TEST_CASE("each kind of broken line is named by file, line and value", "[model]") {
+  const std::string north = head + "character \xE5\x8C\x97\n";
+  const struct {
+    std::string text, line, value;
+  } cases[] = {
+      {"", "test.txt: ", "empty"},
+      {"\n\n# nothing\n", "test.txt: ", "empty"},
+      {"characters\n", "test.txt:1: ", "'characters'"},
+      {"\n\ncalligraphy characters 2\n", "test.txt:3: ", "'calligraphy characters 2'"},
+      {head + "strokes 1 0,0 1,1\n", "test.txt:2: ", "'strokes'"},
+      {head + "stroke 1 0,0 1,1\n", "test.txt:2: ", "before any character"},
+      {head + "character \xE5\x8C\n", "test.txt:2: ", "byte 0"},
+      {head + "source \xFF\xFE\n", "test.txt:2: ", "byte 0"},
+      {head + "character\n", "test.txt:2: ", "found 0"},
+      {head + "character \xE5\x8C\x97\xE5\x8C\x97\n", "test.txt:2: ", "found 2"},
+      {head + "character \xE5\x8C\x97 grade 4\n", "test.txt:2: ", "'grade'"},
+      {head + "character \xE5\x8C\x97 degree\n", "test.txt:2: ", "''"},
+      {head + "character \xE5\x8C\x97 degree four\n", "test.txt:2: ", "'four'"},
+      {head + "character \xE5\x8C\x97 degree 4 5\n", "test.txt:2: ", "'5'"},
+      {head + "character \xE5\x8C\x97 degree 7\nstroke 1 0,0 1,1\n", "test.txt:3: ", "7"},
+      {north + "stroke 1 0,0 1,1\n" + "character \xE5\x8C\x97\nstroke 1 0,0 1,1\n", "test.txt:4: ", "\xE5\x8C\x97"},
+      {north, "test.txt:2: ", "\xE5\x8C\x97"},
+      {north + "character \xE4\xB8\x80\nstroke 1 0,0 1,1\n", "test.txt:2: ", "no stroke"},
+      {north + "stroke\n", "test.txt:3: ", "''"},
+      {north + "stroke one 0,0 1,1\n", "test.txt:3: ", "'one'"},
+      {north + "stroke 1.5 0,0 1,1\n", "test.txt:3: ", "'1.5'"},
+      {north + "stroke 99999999999 0,0 1,1\n", "test.txt:3: ", "'99999999999'"},
+      {north + "stroke 0 0,0 1,1\n", "test.txt:3: ", "id 0"},
+      {north + "stroke 40 0,0 1,1\n", "test.txt:3: ", "id 40"},
+      {north + "stroke -1 0,0 1,1\n", "test.txt:3: ", "id -1"},
+      {north + "stroke 1 0,0\n", "test.txt:3: ", "2 control points, not 1"},
+      {north + "stroke 1 0,0 1,1 1,2\n", "test.txt:3: ", "not 3"},
+      {north + "stroke 1 0,0 1\n", "test.txt:3: ", "'1'"},
+      {north + "stroke 1 0,0 1;1\n", "test.txt:3: ", "'1;1'"},
+      {north + "stroke 1 0,0 1,1,1\n", "test.txt:3: ", "'1,1'"},
+      {north + "stroke 1 0,0 1,\n", "test.txt:3: ", "''"},
+      {north + "stroke 1 0,0 1,one\n", "test.txt:3: ", "'one'"},
+      {north + "stroke 1 0,0 1,1e999\n", "test.txt:3: ", "'1e999'"},
+      {north + "stroke 1 0,0 nan,1\n", "test.txt:3: ", "nan"},
+      {north + "stroke 1 0,0 1,-inf\n", "test.txt:3: ", "-inf"},
+      {north + "stroke 1 0,0 1,99\n", "test.txt:3: ", "99"},
+      {north + "stroke 1 0,0 1,1 |\n", "test.txt:3: ", "'|'"},
+      {north + "stroke 1 0,0 1,1 | 1\n", "test.txt:3: ", "not 1"},
+      {north + "stroke 1 0,0 1,1 | 1 two\n", "test.txt:3: ", "'two'"},
+      {north + "stroke 1 0,0 1,1 | 1 -2\n", "test.txt:3: ", "-2"},
+      {north + "stroke 16 0,0 1,1 1,1\n", "test.txt:3: ", "element 2 has no length"},
+  };
+  for (const auto& [text, line, value] : cases) {
+    const std::string found = complaint(text);
+    INFO(text << "gives " << found);
+    CHECK(found.starts_with(line));
+    CHECK(found.find(value) != std::string::npos);
+  }
+}
+
+TEST_CASE("a message does not repeat a line of a megabyte", "[model]") {
+  for (const std::string& start : {std::string(), head, head + "character ", head + "character \xE5\x8C\x97\nstroke 1 "}) {
+    const std::string found = complaint(start + std::string(1'000'000, 'x'));
+    CHECK_FALSE(found.empty());
+    CHECK(found.size() < 300);
+  }
+}
+
+TEST_CASE("a million strokes are read", "[model]") {
+#ifdef __SANITIZE_ADDRESS__
+  constexpr int count = 50'000;
+#else
+  constexpr int count = 1'000'000;
+#endif
+  std::string text = head + "character \xE5\x8C\x97\n";
+  for (int i = 0; i < count; ++i) text += "stroke 1 0,0 1,1\n";
+  const CharacterSet set = read(text);
+  CHECK(set.characters[0].stroke_count() == count);
+  CHECK(set.characters[0].sequence.feature_points.back() == 2 * count - 1);
+}
+
+TEST_CASE("random damage is refused or read, never worse", "[model]") {
+  const std::string text = write(built_in_characters());
+  calligraphy_test::Sequence random(8);
+  int refused = 0;
+  for (int i = 0; i < 300; ++i) {
+    std::string damaged = text;
+    for (int k = 0; k < 3; ++k) {
+      const auto at = static_cast<std::size_t>(random.next() * static_cast<double>(damaged.size()));
+      if (i % 3 == 0) damaged.resize(at);
+      else if (i % 3 == 1) damaged[at] = static_cast<char>(256.0 * random.next());
+      else damaged.erase(at, static_cast<std::size_t>(20.0 * random.next()));
+      if (damaged.empty()) break;
+    }
+    try {
+      for (const Character& character : read(damaged).characters) REQUIRE(validate(character).empty());
+    } catch (const FormatError& error) {
+      ++refused;
+      REQUIRE(std::string(error.what()).starts_with("test.txt"));
+    }
+  }
+  CHECK(refused > 100);
+}
+
+TEST_CASE("the locale changes neither what is read nor what is written", "[model]") {
+  CharacterSet set = built_in_characters();
+  const std::string usual = write(set);
+  const std::locale before = std::locale::global(std::locale(std::locale::classic(), new CommaNumbers));
+  const std::string written = write(set);
+  const bool equal = same(read(usual), set);
+  std::locale::global(before);
+  CHECK(written == usual);
+  CHECK(equal);
+}
+
+TEST_CASE("a file is read by its path, and one that cannot be opened is named", "[model]") {
+  const std::filesystem::path directory = std::filesystem::temp_directory_path();
+  const std::string path = (directory / "calligraphy_test_character_format.txt").string();
+  {
+    std::ofstream out(path, std::ios::binary);
+    write_characters(out, built_in_characters());
+  }
+  CHECK(same(read_characters(path), built_in_characters()));
+  std::filesystem::remove(path);
+  for (const std::string& missing : {path, directory.string()}) {
+    std::string found;
+    try {
+      read_characters(missing);
+    } catch (const FileError& error) {
+      found = error.what();
+    }
+    CHECK(found.starts_with(missing));
+  }
+}

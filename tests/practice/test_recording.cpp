@@ -1,0 +1,276 @@
+#include <bit>
+#include <clocale>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <locale>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <calligraphy/devices/replay_device.hpp>
+#include <calligraphy/error.hpp>
+#include <calligraphy/practice/recording.hpp>
+
+#include "../catch.hpp"
+
+using namespace calligraphy;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+const std::vector<double> hard_numbers = {0.0,
+                                          -0.0,
+                                          0.1,
+                                          1.0 / 3.0,
+                                          -1e-3,
+                                          1e21,
+                                          123456789.123456789,
+                                          std::numeric_limits<double>::min(),
+                                          std::numeric_limits<double>::denorm_min(),
+                                          std::numeric_limits<double>::max(),
+                                          std::numeric_limits<double>::lowest(),
+                                          std::nextafter(1.0, 2.0),
+                                          infinity,
+                                          -infinity,
+                                          nan};
+
+/// Every hard number in every place, every state, event and status.
+Recording hard_recording() {
+  Recording recording;
+  recording.rate = 1000.0 / 3.0;
+  for (std::size_t i = 0; i < hard_numbers.size(); ++i) {
+    const auto next = [i](std::size_t offset) { return hard_numbers[(i + offset) % hard_numbers.size()]; };
+    Sample sample;
+    sample.time = next(0);
+    sample.device_point = {next(1), next(2), next(3)};
+    sample.pen_tip = {next(4), next(5), next(6)};
+    sample.force = {next(7), next(8), next(9)};
+    sample.state = static_cast<InteractionState>(i % 4);
+    sample.events = static_cast<TickEvent>(i == 8 ? 255 : 1 << (i % 8));
+    sample.status = static_cast<TickStatus>(i % 3);
+    sample.character = i == 0 ? std::numeric_limits<int>::max() : static_cast<int>(i);
+    sample.stroke = static_cast<int>(3 * i);
+    sample.tick_ns = i == 1 ? std::numeric_limits<float>::denorm_min() : 0.1F * static_cast<float>(i);
+    recording.samples.push_back(sample);
+  }
+  return recording;
+}
+
+std::uint64_t bits(double value) { return std::bit_cast<std::uint64_t>(value); }
+
+bool same(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return bits(a.x()) == bits(b.x()) && bits(a.y()) == bits(b.y()) && bits(a.z()) == bits(b.z());
+}
+
+bool same(const Sample& a, const Sample& b) {
+  return bits(a.time) == bits(b.time) && same(a.device_point, b.device_point) && same(a.pen_tip, b.pen_tip) &&
+         same(a.force, b.force) && a.state == b.state && a.events == b.events && a.status == b.status &&
+         a.character == b.character && a.stroke == b.stroke && a.tick_ns == b.tick_ns;
+}
+
+void check_same(const Recording& a, const Recording& b) {
+  CHECK(bits(a.rate) == bits(b.rate));
+  REQUIRE(a.samples.size() == b.samples.size());
+  for (std::size_t i = 0; i < a.samples.size(); ++i) {
+    CAPTURE(i);
+    CHECK(same(a.samples[i], b.samples[i]));
+  }
+}
+
+std::string csv(const Recording& recording) {
+  std::ostringstream out;
+  write_csv(out, recording);
+  return out.str();
+}
+
+Recording parsed(const std::string& text) {
+  std::istringstream in(text);
+  return read_csv(in, "trace.csv");
+}
+
+std::string error_of(const std::string& text) {
+  try {
+    parsed(text);
+  } catch (const FormatError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+const std::string header =
+    "time_s,device_x_m,device_y_m,device_z_m,tip_x_m,tip_y_m,tip_z_m,force_x_N,force_y_N,force_z_N,state,events,status,"
+    "character,stroke,tick_ns\n";
+const std::string head = header + "# rate_Hz=1000\n";
+const std::string row = "0.5,1,2,3,4,5,6,7,8,9,WS,4,ok,0,1,250\n";
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  return text.replace(text.find(from), from.size(), to);
+}
+
+struct GermanNumbers : std::numpunct<char> {
+  char do_decimal_point() const override { return ','; }
+  char do_thousands_sep() const override { return '.'; }
+  std::string do_grouping() const override { return "\3"; }
+};
+
+}  // namespace
+
+TEST_CASE("a recording read back is the same to the last bit", "[practice]") {
+  check_same(parsed(csv(hard_recording())), hard_recording());
+  check_same(parsed(csv({})), {});
+
+  Recording longer{500.0, {}};  // more than is given to the stream at a time
+  for (int i = 0; i < 2000; ++i) {
+    Sample sample;
+    sample.time = i / 500.0;
+    sample.device_point = {std::sin(i), std::cos(i), 1e-3 * i};
+    longer.samples.push_back(sample);
+  }
+  check_same(parsed(csv(longer)), longer);
+}
+
+TEST_CASE("the first line names columns and units, and a row is what it says", "[practice]") {
+  Sample sample;
+  sample.time = 0.5;
+  sample.device_point = {1, 2, 3};
+  sample.pen_tip = {4, 5, 6};
+  sample.force = {7, 8, 9};
+  sample.state = InteractionState::writing;
+  sample.events = TickEvent::stroke_started;
+  sample.stroke = 1;
+  sample.tick_ns = 250.0F;
+  CHECK(csv({1000.0, {sample}}) == head + row);
+  CHECK(same(parsed(head + row).samples.at(0), sample));
+}
+
+TEST_CASE("line ends of either kind are read", "[practice]") {
+  std::string text;
+  for (const char c : head + row + row) text += c == '\n' ? std::string("\r\n") : std::string(1, c);
+  check_same(parsed(text), parsed(head + row + row));
+}
+
+TEST_CASE("malformed CSV is an error naming the line and the value", "[practice]") {
+  const auto second = [](const std::string& from, const std::string& to) {
+    return error_of(head + row + replaced(row, from, to));
+  };
+  CHECK(second("0.5", "0,5") == "trace.csv:4: expected 16 values, found 17 in '0,5,1,2,3,4,5,6,7,8,9,WS,4,ok,0,1,250'");
+  CHECK(second(",250", "") == "trace.csv:4: expected 16 values, found 15 in '0.5,1,2,3,4,5,6,7,8,9,WS,4,ok,0,1'");
+  CHECK(second("0.5", "abc") == "trace.csv:4: time_s is 'abc': expected a number");
+  CHECK(second("0.5", "") == "trace.csv:4: time_s is '': expected a number");
+  CHECK(second("0.5", " 0.5") == "trace.csv:4: time_s is ' 0.5': expected a number");
+  CHECK(second("0.5", "0.5s") == "trace.csv:4: time_s is '0.5s': expected a number");
+  CHECK(second(",6,", ",1e999,") == "trace.csv:4: tip_z_m is '1e999': out of range");
+  CHECK(second("WS", "ws") == "trace.csv:4: state is 'ws': expected SS, AS, CS or WS");
+  CHECK(second("WS,4", "WS,256") == "trace.csv:4: events is '256': expected 0 to 255");
+  CHECK(second("WS,4", "WS,1.5") == "trace.csv:4: events is '1.5': expected a number");
+  CHECK(second("ok", "fine") == "trace.csv:4: status is 'fine': expected ok, bad_sample or device_fault");
+  CHECK(second("ok,0", "ok,-1") == "trace.csv:4: character is '-1': expected 0 to 2147483647");
+  CHECK(second("ok,0,1", "ok,0,2147483648") == "trace.csv:4: stroke is '2147483648': out of range");
+  CHECK(second("250", "x") == "trace.csv:4: tick_ns is 'x': expected a number");
+  CHECK(second(row, "\n").starts_with("trace.csv:4: expected 16 values, found 1 in ''"));
+}
+
+TEST_CASE("CSV that is not a recording is refused at the line that shows it", "[practice]") {
+  CHECK(error_of("").starts_with("trace.csv:1: expected 'time_s,"));
+  CHECK(error_of("time,x\n1,2\n").ends_with("found 'time,x'"));
+  CHECK(error_of(header) == "trace.csv:2: expected '# rate_Hz=...', found ''");
+  CHECK(error_of(header + row).starts_with("trace.csv:2: expected '# rate_Hz=...', found '0.5,"));
+  for (const char* rate : {"0", "-1", "nan", "inf"}) {
+    CHECK(error_of(header + "# rate_Hz=" + rate + "\n") ==
+          std::string("trace.csv:2: rate_Hz is '") + rate + "': expected a finite number above 0");
+  }
+  CHECK(error_of(header + "# rate_Hz=1k\n") == "trace.csv:2: rate_Hz is '1k': expected a number");
+}
+
+TEST_CASE("a file cut off anywhere within a line is refused", "[practice]") {
+  const std::string text = head + row + row;
+  for (std::size_t size = 0; size < text.size(); ++size) {
+    CAPTURE(size);
+    const bool whole_lines = size >= head.size() && text[size - 1] == '\n';
+    CHECK((error_of(text.substr(0, size)) == "no error") == whole_lines);
+  }
+}
+
+TEST_CASE("a stream that fails is not taken for the end of the file", "[practice]") {
+  struct Failing : std::stringbuf {
+    using std::stringbuf::stringbuf;
+    int_type underflow() override { throw 1; }
+    int_type uflow() override { throw 1; }
+  } buffer;
+  std::istream in(&buffer);
+  CHECK_THROWS_AS(read_csv(in, "trace.csv"), FileError);
+}
+
+TEST_CASE("CSV does not depend on the locale of streams", "[practice]") {
+  const std::string expected = csv(hard_recording());
+  const std::locale before = std::locale::global(std::locale(std::locale(), new GermanNumbers));
+  const std::string text = csv(hard_recording());
+  std::ostringstream control;
+  control << 1234.5;
+  Recording again;
+  std::string error;
+  try {
+    again = parsed(expected);
+  } catch (const Error& caught) {
+    error = caught.what();
+  }
+  std::locale::global(before);
+  REQUIRE(control.str() == "1.234,5");
+  CHECK(text == expected);
+  CHECK(error == "");
+  check_same(again, hard_recording());
+}
+
+TEST_CASE("CSV does not depend on the locale of the C library", "[practice]") {
+  const std::string expected = csv(hard_recording());
+  const std::string before = std::setlocale(LC_ALL, nullptr);
+  if (std::setlocale(LC_ALL, "de_DE.UTF-8") == nullptr && std::setlocale(LC_ALL, "de_DE.utf8") == nullptr) {
+    WARN("skipped: there is no locale de_DE.UTF-8 on this machine");
+    return;
+  }
+  const std::string text = csv(hard_recording());
+  Recording again;
+  std::string error;
+  try {
+    again = parsed(expected);
+  } catch (const Error& caught) {
+    error = caught.what();
+  }
+  std::setlocale(LC_ALL, before.c_str());
+  CHECK(text == expected);
+  CHECK(error == "");
+  check_same(again, hard_recording());
+}
+
+TEST_CASE("device states are the device points in device axes, and faults stay faults", "[practice]") {
+  MotionMapping mapping = desk_page(0.16, 0.12);
+  mapping.scale = 2.0;
+  Recording recording;
+  for (int i = 0; i < 4; ++i) {
+    Sample sample;
+    sample.time = 0.25 * i;
+    sample.device_point = {0.1 * i, 0.05, -0.001 * i};
+    sample.pen_tip = {9, 9, 9};
+    recording.samples.push_back(sample);
+  }
+  recording.samples[1].status = TickStatus::bad_sample;
+  recording.samples[2].status = TickStatus::device_fault;
+  const std::vector<DeviceState> states = device_states(recording, mapping);
+  REQUIRE(states.size() == 4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    CAPTURE(i);
+    const Sample& sample = recording.samples[i];
+    CHECK(states[i].time == sample.time);
+    CHECK(states[i].velocity.array().isNaN().all());
+    CHECK(states[i].status == (i == 2 ? DeviceStatus::fault : DeviceStatus::ok));
+    if (i == 1) {
+      CHECK(states[i].position.array().isNaN().all());
+    } else {
+      CHECK((mapping.to_page(states[i].position) - sample.device_point).norm() < 1e-15);
+    }
+  }
+  CHECK_NOTHROW(ReplayDevice(states, {}));
+}

@@ -1,0 +1,270 @@
+// Writing with a scripted pen: Wang 2006, sec. 2.2 steps 1-4, sec. 2.3, sec. 4.3.
+#include "../catch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <calligraphy/error.hpp>
+
+#include "../allocation_counter.hpp"
+#include "../scripted_pen.hpp"
+
+using namespace calligraphy;
+using calligraphy_test::path_of;
+using calligraphy_test::placed;
+using calligraphy_test::ScriptedPen;
+using calligraphy_test::test_device;
+using Eigen::Vector3d;
+
+namespace {
+
+HapticRenderer renderer_of(std::u32string_view text, const RendererOptions& options = {}, const MotionMapping& mapping = {}) {
+  std::vector<PlacedCharacter> page;
+  for (const char32_t code : text) page.push_back(placed(code, {0.02 + 0.05 * static_cast<double>(page.size()), 0.02}));
+  return {page, mapping, test_device(), options};
+}
+
+/// Events in the order in which they come, one letter each.
+struct Log {
+  std::string letters;
+  int features = 0;
+
+  void operator()(const HapticTick& tick) {
+    const std::pair<TickEvent, char> names[] = {
+        {TickEvent::stroke_started, 's'}, {TickEvent::stroke_finished, 'f'},    {TickEvent::stroke_abandoned, 'a'},
+        {TickEvent::character_finished, 'C'}, {TickEvent::page_finished, 'P'}};
+    for (const auto& [event, letter] : names) {
+      if (has(tick.events, event)) letters += letter;
+    }
+    features += has(tick.events, TickEvent::feature_passed);
+  }
+};
+
+Vector3d at(const Point& point, double z) { return {point.x(), point.y(), z}; }
+
+}  // namespace
+
+TEST_CASE("a pen that writes 永 well finishes each of its strokes in order", "[render]") {
+  HapticRenderer renderer = renderer_of(U"永");
+  ScriptedPen pen(renderer);
+  Log log;
+  int last_stroke = 0, falls = 0;
+  double largest_attraction = 0.0;
+  pen.on_tick = [&](const HapticTick& tick) {
+    log(tick);
+    falls += tick.stroke < last_stroke && tick.character == 0;
+    last_stroke = tick.stroke;
+    if (!has(tick.events, TickEvent::feature_passed)) {
+      largest_attraction = std::max(largest_attraction, tick.attraction.norm());
+    }
+  };
+  pen.write(renderer.page()[0]);
+  CHECK(log.letters == "sfsfsfsfsfCP");
+  CHECK(log.features == 1 + 3 + 2 + 1 + 1);
+  CHECK(falls == 0);
+  CHECK(renderer.last().character == 1);
+  // On the path the guide is silent but for the last 1.5 mm before a corner, where the next limb already draws.
+  CHECK(largest_attraction <= renderer.options().guidance_stiffness * 0.0016);
+}
+
+TEST_CASE("several characters follow one another, and writing on afterwards changes nothing", "[render]") {
+  HapticRenderer renderer = renderer_of(U"北京一");
+  ScriptedPen pen(renderer);
+  Log log;
+  pen.on_tick = [&](const HapticTick& tick) { log(tick); };
+  for (const PlacedCharacter& character : renderer.page()) pen.write(character);
+  CHECK(log.letters == "sfsfsfsfsfCsfsfsfsfsfsfsfsfCsfCP");
+  pen.write(renderer.page()[0]);
+  CHECK(log.letters == "sfsfsfsfsfCsfsfsfsfsfsfsfsfCsfCP");
+  CHECK(renderer.last().character == 3);
+  CHECK(renderer.last().force == Vector3d(0, 0, 0));
+}
+
+TEST_CASE("each built-in character can be written, exactly and 1 mm beside itself", "[render]") {
+  for (const Character& character : built_in_characters().characters) {
+    for (const double offset : {0.0, 0.001}) {
+      HapticRenderer renderer({{character, {{0.02, 0.02}, 0.04}}}, {}, test_device());
+      ScriptedPen pen(renderer);
+      Log log;
+      pen.on_tick = [&](const HapticTick& tick) { log(tick); };
+      pen.write(renderer.page()[0], offset);
+      INFO("U+" << std::hex << static_cast<unsigned>(character.code) << ", " << offset << " m: " << log.letters);
+      CHECK(renderer.last().character == 1);
+      CHECK(pen.largest_step <= renderer.max_force_step());
+    }
+  }
+}
+
+TEST_CASE("written strokes are closed: writing one again moves nothing on", "[render]") {
+  HapticRenderer renderer = renderer_of(U"三");
+  ScriptedPen pen(renderer);
+  const auto first = path_of(strokes(renderer.page()[0].character)[0], renderer.page()[0].placement, 1e-4);
+  pen.write(first);
+  CHECK(renderer.last().stroke == 1);
+  Log log;
+  double in_plane = 0.0;
+  pen.on_tick = [&](const HapticTick& tick) { log(tick), in_plane = std::max(in_plane, tick.attraction.norm()); };
+  pen.write(first);
+  CHECK(renderer.last().stroke == 1);
+  CHECK(log.letters.empty());
+  CHECK(in_plane == 0.0);
+}
+
+TEST_CASE("strokes out of order and backwards are not taken", "[render]") {
+  HapticRenderer renderer = renderer_of(U"三");
+  ScriptedPen pen(renderer);
+  const auto all = strokes(renderer.page()[0].character);
+  pen.write(path_of(all[2], renderer.page()[0].placement, 1e-4));
+  pen.write(path_of(all[1], renderer.page()[0].placement, 1e-4));
+  CHECK(renderer.last().stroke == 0);
+  std::vector<Point> path = path_of(all[0], renderer.page()[0].placement, 1e-4);
+  std::reverse(path.begin(), path.end());
+  pen.write(path);
+  CHECK(renderer.last().stroke == 0);
+}
+
+TEST_CASE("a pen lifted in mid-stroke gives it up, and the stroke begins again at its start", "[render]") {
+  HapticRenderer renderer = renderer_of(U"永");
+  ScriptedPen pen(renderer);
+  const auto all = strokes(renderer.page()[0].character);
+  pen.write(path_of(all[0], renderer.page()[0].placement, 1e-4));
+  std::vector<Point> second = path_of(all[1], renderer.page()[0].placement, 1e-4);
+  Log log;
+  pen.on_tick = [&](const HapticTick& tick) { log(tick); };
+  pen.write({second.begin(), second.begin() + static_cast<std::ptrdiff_t>(second.size() / 2)});
+  CHECK(log.letters == "sa");
+  CHECK(renderer.last().stroke == 1);
+  pen.write({second.begin() + static_cast<std::ptrdiff_t>(second.size() / 2), second.end()});  // the rest alone is no stroke
+  CHECK(log.letters == "sa");
+  log.features = 0;
+  pen.write(second);
+  CHECK(log.letters == "sasf");
+  CHECK(log.features == 3);  // all of them again, as the stack was loaded again
+  CHECK(renderer.last().stroke == 2);
+}
+
+TEST_CASE("the next stroke begins with a new contact, and by sliding where that is chosen", "[render]") {
+  RendererOptions sliding;
+  sliding.lift_between_strokes = false;
+  for (const bool slides : {false, true}) {
+    HapticRenderer renderer = renderer_of(U"三", slides ? sliding : RendererOptions{});
+    ScriptedPen pen(renderer);
+    const Placement place = renderer.page()[0].placement;
+    std::vector<Point> path = path_of(strokes(renderer.page()[0].character)[0], place, 1e-4);
+    for (const Point& point : path_of(strokes(renderer.page()[0].character)[1], place, 1e-4)) path.push_back(point);
+    pen.write(path);
+    CHECK(renderer.last().stroke == (slides ? 2 : 1));
+  }
+}
+
+TEST_CASE("Table 2: what each state outputs and where it holds the pen tip", "[render]") {
+  HapticRenderer renderer = renderer_of(U"三");
+  ScriptedPen pen(renderer);
+  const Placement place = renderer.page()[0].placement;
+  const Stroke first = strokes(renderer.page()[0].character)[0];
+  const Point start = place.to_page(first.control_points[0]), end = place.to_page(first.control_points[1]);
+  const Point middle = 0.5 * (start + end);
+  const auto settle = [&](const Point& point, double z) -> const HapticTick& {
+    pen.go(at(point, z));
+    for (int i = 0; i < 100; ++i) pen.at(at(point, z));
+    return renderer.last();
+  };
+  CHECK(settle(middle, 0.01).state == InteractionState::separation);
+  CHECK(renderer.last().force == Vector3d(0, 0, 0));
+  CHECK(renderer.last().pen_tip == renderer.last().device_point);
+
+  CHECK(settle(middle, -0.002).state == InteractionState::calibration);
+  CHECK(renderer.last().force.isApprox(Vector3d(0, 0, 0.002 * renderer.options().paper_stiffness)));
+  CHECK(renderer.last().pen_tip.isApprox(at(middle, 0.0)));
+
+  settle(middle, 0.01);
+  CHECK(settle({0.15, 0.15}, -0.002).state == InteractionState::adjusting);
+  CHECK(renderer.last().force == Vector3d(0, 0, 0));
+
+  settle({0.15, 0.15}, 0.01);
+  settle(start, 0.01);
+  CHECK(settle(start, -0.002).state == InteractionState::writing);
+  const Point along = (end - start).normalized(), left(-along.y(), along.x());
+  settle(start + 0.01 * along + 0.003 * left, -0.002);
+  CHECK(renderer.last().state == InteractionState::writing);
+  const Point expected = -renderer.options().guidance_stiffness * 0.003 * left;  // eq. (8), the factor and the share being 1
+  CHECK(renderer.last().force.isApprox(Vector3d(expected.x(), expected.y(), 0.002 * renderer.options().paper_stiffness), 1e-9));
+  CHECK(renderer.last().pen_tip.z() == 0.0);
+}
+
+TEST_CASE("a solid paper is felt outside the character too", "[render]") {
+  RendererOptions options;
+  options.solid_paper = true;
+  HapticRenderer renderer = renderer_of(U"三", options);
+  ScriptedPen pen(renderer);
+  pen.go({0.15, 0.15, 0.01});
+  pen.go({0.15, 0.15, -0.002});
+  for (int i = 0; i < 10; ++i) pen.at({0.15, 0.15, -0.002});
+  CHECK(renderer.last().state == InteractionState::adjusting);
+  CHECK(renderer.last().force.isApprox(Vector3d(0, 0, 0.002 * renderer.options().paper_stiffness)));
+}
+
+TEST_CASE("a pen that goes back along a stroke is resisted forwards, Fig. 4", "[render]") {
+  RendererOptions options;
+  options.wrong_way_stiffness = 200.0;
+  options.wrong_way_limit = 1.0;
+  options.wrong_way_slack = 0.002;
+  HapticRenderer renderer = renderer_of(U"三", options);
+  ScriptedPen pen(renderer);
+  pen.speed = 0.02;  // the guidance has faded in before the first check
+  const Stroke first = strokes(renderer.page()[0].character)[0];
+  const Point start = renderer.page()[0].placement.to_page(first.control_points[0]);
+  const Point end = renderer.page()[0].placement.to_page(first.control_points[1]);
+  const Point along = (end - start).normalized();
+  pen.go(at(start, 0.005));
+  pen.go(at(start, -0.001));
+  pen.go(at(start + 0.015 * along, -0.001));
+  CHECK(renderer.last().wrong_way == Point(0, 0));
+  pen.go(at(start + 0.0135 * along, -0.001));
+  CHECK(renderer.last().wrong_way == Point(0, 0));  // within the slack of 2 mm
+  pen.go(at(start + 0.010 * along, -0.001));
+  CHECK(renderer.last().wrong_way.isApprox(200.0 * 0.003 * along, 1e-6));
+  pen.go(at(start + 0.002 * along, -0.001));
+  CHECK(renderer.last().wrong_way.isApprox(1.0 * along, 1e-6));  // its limit
+}
+
+TEST_CASE("a renderer moved elsewhere goes on, and restart begins the page anew", "[render]") {
+  HapticRenderer first = renderer_of(U"三");
+  {
+    ScriptedPen pen(first);
+    pen.write(path_of(strokes(first.page()[0].character)[0], first.page()[0].placement, 1e-4));
+  }
+  HapticRenderer renderer = std::move(first);
+  first = renderer_of(U"永");  // reuses the place that it left
+  ScriptedPen pen(renderer);
+  const auto all = strokes(renderer.page()[0].character);
+  pen.write(path_of(all[1], renderer.page()[0].placement, 1e-4));
+  CHECK(renderer.last().stroke == 2);
+  renderer.restart();
+  CHECK(renderer.last().stroke == 0);
+  CHECK(renderer.last().force == Vector3d(0, 0, 0));
+  CHECK(renderer.last().state == InteractionState::separation);
+  ScriptedPen again(renderer);
+  again.write(renderer.page()[0]);
+  CHECK(renderer.last().character == 1);
+}
+
+TEST_CASE("a million updates take nothing from the heap", "[render]") {
+#ifdef __SANITIZE_ADDRESS__
+  constexpr int updates = 100'000;
+#else
+  constexpr int updates = 1'000'000;
+#endif
+  HapticRenderer renderer = renderer_of(U"永北");
+  const auto path = path_of(strokes(renderer.page()[0].character)[1], renderer.page()[0].placement, 1e-4);
+  const std::size_t before = calligraphy_test::allocations();
+  DeviceState state;
+  for (int i = 0; i < updates; ++i) {
+    const Point& point = path[static_cast<std::size_t>(i) % path.size()];
+    state.time = i / 1000.0;
+    state.position = {point.x(), point.y(), i % 3000 < 2000 ? -0.001 : 0.002};
+    renderer.update(state);
+  }
+  CHECK(calligraphy_test::allocations() == before);
+}

@@ -1,0 +1,218 @@
+// Samples that no pen gives: the force stays finite, bounded and without steps, and the loop recovers.
+#include "../catch.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "../hard_cases.hpp"
+#include "../scripted_pen.hpp"
+
+using namespace calligraphy;
+using calligraphy_test::path_of;
+using calligraphy_test::placed;
+using calligraphy_test::ScriptedPen;
+using calligraphy_test::Sequence;
+using calligraphy_test::test_device;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double extremes[] = {0.0, -0.0, 5e-324, 1e-310, -1.0, 1.0, 1e3, 1e154, -1e200, 1.7e308, -1.7e308,
+                               infinity, -infinity, not_a_number};
+
+/// A renderer in the middle of a stroke, the pen 3 mm beside it and 2 mm in the paper.
+struct InStroke {
+  HapticRenderer renderer{{placed(U'三')}, {}, test_device()};
+  ScriptedPen pen{renderer};
+  Vector3d place;
+
+  InStroke() {
+    const Stroke first = strokes(renderer.page()[0].character)[0];
+    const Point start = renderer.page()[0].placement.to_page(first.control_points[0]);
+    place = {start.x() + 0.01, start.y() + 0.003, -0.002};
+    pen.go({start.x(), start.y(), 0.005});
+    pen.go({start.x(), start.y(), -0.002});
+    pen.go(place);
+    rest(300);
+  }
+  void rest(int ticks) {
+    for (int i = 0; i < ticks; ++i) pen.at(place);
+  }
+};
+
+DeviceState state_with(const Vector3d& position, DeviceStatus status = DeviceStatus::ok) {
+  DeviceState state;
+  state.position = position;
+  state.status = status;
+  return state;
+}
+
+double any_of(Sequence& random) { return extremes[static_cast<std::size_t>(random.next() * std::size(extremes))]; }
+
+/// Ticks of every kind: pen-like motion, leaps, extremes, frozen samples, faults, clocks that stop or go back.
+void torment(HapticRenderer& renderer, std::uint64_t seed, int ticks, double& largest_excess, int& not_finite, int& strokes_started) {
+  Sequence random(seed);
+  Vector3d position(0.03, 0.05, 0.0), last = Vector3d::Zero();
+  double time = 0.0;
+  const double step = renderer.max_force_step();
+  for (int i = 0; i < ticks; ++i) {
+    DeviceState state;
+    const double kind = random.next();
+    if (kind < 0.6) position += Vector3d(random.between(-1e-3, 1e-3), random.between(-1e-3, 1e-3), random.between(-1e-3, 1e-3));
+    else if (kind < 0.75) position = Vector3d(random.between(0, 0.08), random.between(0, 0.08), random.between(-0.02, 0.005));
+    else if (kind < 0.8) position = -position;
+    state.position = position;
+    if (kind > 0.97) state.position[static_cast<Eigen::Index>(3.0 * random.next())] = any_of(random);
+    if (!position.allFinite() || position.norm() > 0.2) position = Vector3d(0.03, 0.05, 0.0);
+    if (kind > 0.9) state.velocity = Vector3d(any_of(random), any_of(random), any_of(random));
+    time += kind < 0.9 ? 0.001 : random.between(-1.0, 10.0);
+    state.time = kind > 0.995 ? any_of(random) : time;
+    state.status = kind > 0.985 && kind < 0.99 ? static_cast<DeviceStatus>(i % 9) : DeviceStatus::ok;
+    const HapticTick& tick = renderer.update(state);
+    not_finite += !tick.force.allFinite() || !tick.page_force.allFinite() || !tick.pen_tip.allFinite() ||
+                  !tick.contact.foot.point.allFinite();
+    largest_excess = std::max({largest_excess, (tick.force - last).norm() - step, tick.force.norm() - 3.3});
+    strokes_started += has(tick.events, TickEvent::stroke_started);
+    last = tick.force;
+  }
+}
+
+#ifdef __SANITIZE_ADDRESS__
+constexpr int torment_ticks = 20'000;
+#else
+constexpr int torment_ticks = 200'000;
+#endif
+
+}  // namespace
+
+TEST_CASE("a bad sample takes the force to zero by a ramp, and the next good ones bring it back", "[render]") {
+  for (const double value : {infinity, -infinity, not_a_number, 1e200, 1.0}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      InStroke test;
+      const Vector3d before = test.renderer.last().force;
+      REQUIRE(before.norm() > 1.5);
+      Vector3d position = test.place;
+      for (int i = 0; i < 60; ++i) {
+        position[axis] = value + (i % 2 ? 0.1 : -0.1);  // never twice the same: no pen
+        CHECK(test.pen.sample(state_with(position)).status == TickStatus::bad_sample);
+      }
+      CHECK(test.renderer.last().force == Vector3d(0, 0, 0));
+      test.rest(60);
+      CHECK(test.renderer.last().status == TickStatus::ok);
+      CHECK(test.renderer.last().force.isApprox(before));
+      CHECK(test.pen.finite);
+      CHECK(test.pen.largest_step <= test.renderer.max_force_step() * (1.0 + 1e-12));
+    }
+  }
+}
+
+TEST_CASE("a device that is gone or at fault gets zero force by a ramp, and no jump when it is back", "[render]") {
+  for (const DeviceStatus status : {DeviceStatus::disconnected, DeviceStatus::needs_calibration, DeviceStatus::fault,
+                                    static_cast<DeviceStatus>(200)}) {
+    InStroke test;
+    for (int i = 0; i < 100; ++i) {
+      CHECK(test.pen.sample(state_with(test.place, status)).status == TickStatus::device_fault);
+    }
+    CHECK(test.renderer.last().force == Vector3d(0, 0, 0));
+    test.place += Vector3d(0.003, -0.001, -0.001);
+    test.rest(100);
+    CHECK(test.renderer.last().status == TickStatus::ok);
+    CHECK(test.renderer.last().force.norm() > 1.0);
+    CHECK(test.pen.largest_step <= test.renderer.max_force_step() * (1.0 + 1e-12));
+  }
+}
+
+TEST_CASE("a stale sample and warm motors are no faults", "[render]") {
+  for (const DeviceStatus status : {DeviceStatus::stale, DeviceStatus::warm_motors}) {
+    InStroke test;
+    const Vector3d before = test.renderer.last().force;
+    for (int i = 0; i < 1000; ++i) test.pen.sample(state_with(test.place, status));
+    CHECK(test.renderer.last().status == TickStatus::ok);
+    CHECK(test.renderer.last().force == before);
+  }
+}
+
+TEST_CASE("a lone sample far away is refused, a second one near it believed", "[render]") {
+  InStroke test;
+  const Vector3d away = test.place + Vector3d(1.0, 0.0, 0.0);
+  CHECK(test.pen.sample(state_with(away)).status == TickStatus::bad_sample);
+  test.pen.at(test.place);
+  CHECK(test.renderer.last().status == TickStatus::ok);
+  CHECK(test.renderer.last().state == InteractionState::writing);
+  CHECK(test.pen.sample(state_with(away)).status == TickStatus::bad_sample);
+  CHECK(test.pen.sample(state_with(away)).status == TickStatus::ok);
+  CHECK(test.renderer.last().state == InteractionState::adjusting);
+  CHECK(test.pen.largest_step <= test.renderer.max_force_step() * (1.0 + 1e-12));
+}
+
+TEST_CASE("clocks that stand still, go back or leap change neither force nor state", "[render]") {
+  for (const double leap : {0.0, -1.0, -1e9, 10.0, 1e9, 1e300}) {
+    InStroke test;
+    const Vector3d before = test.renderer.last().force;
+    DeviceState state = state_with(test.place);
+    state.time = test.renderer.last().time;
+    for (int i = 0; i < 20; ++i) {
+      state.time += leap;
+      CHECK(test.renderer.update(state).force == before);
+    }
+    CHECK(test.renderer.last().state == InteractionState::writing);
+  }
+}
+
+TEST_CASE("no sequence of samples gives a force that is not finite, steps or exceeds the peak", "[render]") {
+  std::vector<RendererOptions> all(5);
+  all[1].lift_between_strokes = false;
+  all[1].solid_paper = true;
+  all[2] = RendererOptions::wang2006();
+  all[2].limit_force_rate = true;
+  all[3].motion = MotionMappingRule::wang2006;
+  all[3].force_sign = ForceSign::wang2006;
+  all[4].stroke.window = 0.0;
+  all[4].largest_speed = 1e9;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    HapticRenderer renderer({placed(U'永'), placed(U'北', {0.03, 0.02})}, {}, test_device(), all[i]);
+    double largest_excess = -infinity;
+    int not_finite = 0, strokes_started = 0;
+    torment(renderer, 17 + i, torment_ticks, largest_excess, not_finite, strokes_started);
+    INFO("options " << i);
+    CHECK(not_finite == 0);
+    CHECK(largest_excess <= 1e-12);
+    CHECK(strokes_started > 0);
+  }
+}
+
+TEST_CASE("huge velocities do not carry the pen tip of eq. (3) away from every number", "[render]") {
+  RendererOptions options = RendererOptions::wang2006();
+  HapticRenderer renderer({placed(U'永')}, {}, test_device(), options);
+  DeviceState state = state_with({0.03, 0.05, -0.001});
+  int not_finite = 0;
+  for (int i = 0; i < 1000; ++i) {
+    state.time = 0.1 * i;
+    state.velocity = Vector3d(i % 2 ? 1.7e308 : 1e300, 1.7e308, -1.7e308);
+    const HapticTick& tick = renderer.update(state);
+    not_finite += !tick.force.allFinite() || !tick.device_point.allFinite();
+  }
+  CHECK(not_finite == 0);
+}
+
+TEST_CASE("with no stiffness there is no force, whatever the pen does", "[render]") {
+  RendererOptions options;
+  options.paper_stiffness = options.guidance_stiffness = options.wrong_way_stiffness = 0.0;
+  HapticRenderer renderer({placed(U'永')}, {}, test_device(), options);
+  ScriptedPen pen(renderer);
+  pen.write(renderer.page()[0], 0.002);
+  CHECK(pen.largest_force == 0.0);
+  CHECK(renderer.last().character == 1);
+}
+
+TEST_CASE("a page and a device far from their zeros are written as those near", "[render]") {
+  MotionMapping mapping;
+  mapping.offset = {500.0, -300.0, 20.0};
+  HapticRenderer renderer({placed(U'永', {500.02, -300.05})}, mapping, test_device());
+  ScriptedPen pen(renderer);
+  pen.write(renderer.page()[0], 0.001);
+  CHECK(renderer.last().character == 1);
+  CHECK(pen.largest_step <= renderer.max_force_step() * (1.0 + 1e-12));
+}

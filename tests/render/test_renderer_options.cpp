@@ -1,0 +1,219 @@
+// Set-up validates everything and names what is wrong.
+#include "../catch.hpp"
+
+#include <functional>
+#include <limits>
+#include <string>
+
+#include <calligraphy/error.hpp>
+
+#include "../scripted_pen.hpp"
+
+using namespace calligraphy;
+using calligraphy_test::placed;
+using calligraphy_test::test_device;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+/// What a ValueError says, or "" when there is none.
+std::string complaint(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const ValueError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::string complaint(const RendererOptions& options, const Capabilities& device = test_device(), double attraction = 1.0) {
+  return complaint([&] { validate(options, device, attraction); });
+}
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+struct Domain {
+  const char* name;
+  std::function<double&(RendererOptions&)> option;
+  bool zero_allowed;
+};
+
+const Domain domains[] = {
+    {"servo_rate", [](RendererOptions& o) -> double& { return o.servo_rate; }, false},
+    {"paper_stiffness", [](RendererOptions& o) -> double& { return o.paper_stiffness; }, true},
+    {"guidance_stiffness", [](RendererOptions& o) -> double& { return o.guidance_stiffness; }, true},
+    {"guidance_fade_in", [](RendererOptions& o) -> double& { return o.guidance_fade_in; }, true},
+    {"wrong_way_stiffness", [](RendererOptions& o) -> double& { return o.wrong_way_stiffness; }, true},
+    {"wrong_way_limit", [](RendererOptions& o) -> double& { return o.wrong_way_limit; }, true},
+    {"wrong_way_slack", [](RendererOptions& o) -> double& { return o.wrong_way_slack; }, true},
+    {"stroke.nearest.tolerance", [](RendererOptions& o) -> double& { return o.stroke.nearest.tolerance; }, false},
+    {"stroke.space.radius", [](RendererOptions& o) -> double& { return o.stroke.space.radius; }, false},
+    {"stroke.space.edge", [](RendererOptions& o) -> double& { return o.stroke.space.edge; }, false},
+    {"stroke.plane_tolerance", [](RendererOptions& o) -> double& { return o.stroke.plane_tolerance; }, true},
+    {"stroke.window", [](RendererOptions& o) -> double& { return o.stroke.window; }, true},
+    {"start_radius", [](RendererOptions& o) -> double& { return o.start_radius; }, false},
+    {"box_margin", [](RendererOptions& o) -> double& { return o.box_margin; }, true},
+    {"lift_height", [](RendererOptions& o) -> double& { return o.lift_height; }, true},
+    {"box_hysteresis", [](RendererOptions& o) -> double& { return o.box_hysteresis; }, true},
+    {"in_plane_force_rate", [](RendererOptions& o) -> double& { return o.in_plane_force_rate; }, false},
+    {"normal_force_rate", [](RendererOptions& o) -> double& { return o.normal_force_rate; }, false},
+    {"largest_speed", [](RendererOptions& o) -> double& { return o.largest_speed; }, false},
+};
+
+}  // namespace
+
+TEST_CASE("each option out of its domain is named with its value", "[render]") {
+  CHECK(complaint(RendererOptions{}).empty());
+  for (const Domain& domain : domains) {
+    for (const auto& [value, text] : {std::pair{-0.25, "-0.25"}, {0.0, "0"}, {infinity, "inf"}, {-infinity, "-inf"},
+                                      {not_a_number, "nan"}}) {
+      RendererOptions options;
+      domain.option(options) = value;
+      const std::string found = complaint(options);
+      INFO(domain.name << " = " << value << ": " << found);
+      if (value == 0.0 && domain.zero_allowed) {
+        CHECK(found.empty());
+      } else {
+        CHECK(contains(found, domain.name));
+        CHECK(contains(found, text));
+      }
+    }
+  }
+}
+
+TEST_CASE("upper bounds are named too", "[render]") {
+  RendererOptions options;
+  options.servo_rate = 2e6;
+  CHECK(contains(complaint(options), "servo_rate"));
+  options = {};
+  options.stroke.space.edge = 2.0 * options.stroke.space.radius;
+  CHECK(contains(complaint(options), "stroke.space.edge"));
+  options = {};
+  options.stroke.nearest.tolerance = 1.5;
+  CHECK(contains(complaint(options), "stroke.nearest.tolerance"));
+}
+
+TEST_CASE("a stiffness above what the device can hold is refused, the attraction factor counted", "[render]") {
+  for (const char* name : {"paper_stiffness", "guidance_stiffness", "wrong_way_stiffness"}) {
+    RendererOptions options;
+    for (const Domain& domain : domains) {
+      if (std::string(name) == domain.name) domain.option(options) = 1001.0;
+    }
+    const std::string found = complaint(options);
+    CHECK(contains(found, std::string(name) + " = 1001 N/m"));
+    CHECK(contains(found, "test device is usable up to 1000 N/m"));
+  }
+  RendererOptions options;
+  options.guidance_stiffness = 600.0;
+  CHECK(complaint(options, test_device(), 1.6).empty());
+  CHECK(contains(complaint(options, test_device(), 1.7), "largest attraction factor 1.7"));
+  CHECK(contains(complaint([&] {
+                   HapticRenderer({{calligraphy_test::typical_character(1, {1.0, 2.0}), {}}}, {}, test_device(), options);
+                 }),
+                 "largest attraction factor 2"));
+}
+
+TEST_CASE("no stiffness that is a number makes a force that is none, for a device that states no limit", "[render]") {
+  Capabilities device = test_device();
+  device.usable_stiffness = 0.0;
+  for (const double stiffness : {1e-300, 1e-12, 1e6, 1e12, 1e306, 1.7e308}) {
+    RendererOptions options;
+    options.paper_stiffness = options.guidance_stiffness = options.wrong_way_stiffness = stiffness;
+    if (stiffness > 1e6) CHECK(contains(complaint(options, device), "paper_stiffness"));
+    if (stiffness > 1e6) continue;
+    HapticRenderer renderer({placed(U'永')}, {}, device, options);
+    calligraphy_test::ScriptedPen pen(renderer);
+    pen.write(renderer.page()[0], 0.002);
+    pen.speed = 4.0;
+    pen.go({0.03, 0.05, -5.0});
+    INFO(stiffness);
+    CHECK(pen.finite);
+    CHECK(pen.largest_force <= 3.3 * (1.0 + 1e-12));
+    CHECK(pen.largest_step <= renderer.max_force_step() * (1.0 + 1e-12));
+  }
+  CHECK(contains(complaint([&] {
+                   HapticRenderer({{calligraphy_test::typical_character(1, {1.0, 1e300}), {}}}, {}, device);
+                 }),
+                 "largest attraction factor"));
+}
+
+TEST_CASE("a page, a place or a mapping that is no use is refused by name", "[render]") {
+  const auto refusal = [](std::vector<PlacedCharacter> page, const MotionMapping& mapping = {}) {
+    return complaint([&] { HapticRenderer(std::move(page), mapping, test_device()); });
+  };
+  CHECK(contains(refusal({}), "no character"));
+  for (const double em : {0.0, -1.0, infinity, not_a_number, 1e300}) {
+    const std::string found = refusal({placed(U'永'), placed(U'永', {0, 0}, em)});
+    INFO(em << ": " << found);
+    CHECK(contains(found, "character 2 of the page"));
+  }
+  for (const Point& origin : {Point(not_a_number, 0.0), Point(0.0, -infinity), Point(1e300, 0.0)}) {
+    CHECK(contains(refusal({placed(U'永', origin)}), "character 1 of the page"));
+  }
+  PlacedCharacter broken = placed(U'永');
+  broken.character.structure.control_points[2].x() = not_a_number;
+  CHECK(contains(refusal({broken}), "character 1 of the page: stroke 2"));
+
+  MotionMapping mapping;
+  mapping.scale = -2.0;
+  CHECK(contains(refusal({placed(U'永')}, mapping), "scale = -2"));
+  mapping = {};
+  mapping.offset.y() = not_a_number;
+  CHECK(contains(refusal({placed(U'永')}, mapping), "offset"));
+  mapping = {};
+  mapping.rotation(0, 0) = 1.1;
+  CHECK(contains(refusal({placed(U'永')}, mapping), "rotation"));
+  mapping = {};
+  mapping.rotation(0, 0) = -1.0;  // a mirror: writing would come out reversed
+  CHECK(contains(refusal({placed(U'永')}, mapping), "rotation"));
+}
+
+TEST_CASE("a device without a peak force is refused", "[render]") {
+  for (const double peak : {0.0, -1.0, not_a_number}) {
+    Capabilities device = test_device();
+    device.peak_force = peak;
+    CHECK(contains(complaint([&] { HapticRenderer({placed(U'永')}, {}, device); }), "peak force"));
+  }
+}
+
+TEST_CASE("for_device takes the device's rate and stays within its stiffness", "[render]") {
+  Capabilities device = test_device();
+  device.usable_stiffness = 150.0;
+  device.update_rate = 500.0;
+  const RendererOptions options = RendererOptions::for_device(device);
+  CHECK(options.servo_rate == 500.0);
+  CHECK(options.paper_stiffness == 150.0);
+  CHECK(options.guidance_stiffness == 150.0);
+  CHECK(options.wrong_way_stiffness == 150.0);
+  CHECK(complaint(options, device).empty());
+  CHECK(RendererOptions::for_device(test_device()).paper_stiffness == RendererOptions{}.paper_stiffness);
+}
+
+TEST_CASE("the largest step of the force is per tick, in the device's newtons", "[render]") {
+  for (const double scale : {0.5, 1.0, 4.0}) {
+    MotionMapping mapping;
+    mapping.scale = scale;
+    RendererOptions options;
+    options.servo_rate = 500.0;
+    const HapticRenderer renderer({placed(U'永')}, mapping, test_device(), options);
+    CHECK(renderer.max_force_step() == Approx(std::hypot(0.2, 0.8)));  // 100 and 400 N/s at 500 Hz
+  }
+}
+
+TEST_CASE("with any scale the device's peak and rate hold on the device's side", "[render]") {
+  for (const double scale : {0.2, 1.0, 5.0}) {
+    MotionMapping mapping;
+    mapping.scale = scale;
+    HapticRenderer renderer({placed(U'永')}, mapping, test_device());
+    calligraphy_test::ScriptedPen pen(renderer);
+    pen.speed = 0.1;
+    pen.write(renderer.page()[0], 0.002);
+    pen.go({0.04, 0.06, 0.005});
+    pen.go({0.04, 0.06, -0.1});
+    CHECK(pen.largest_force <= 3.3 * (1.0 + 1e-12));
+    CHECK(pen.largest_step <= renderer.max_force_step() * (1.0 + 1e-12));
+    CHECK(renderer.last().character == 1);
+  }
+}

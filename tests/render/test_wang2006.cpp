@@ -1,0 +1,175 @@
+// Each rule as printed against the default reading, with the figure that theory gives for the difference.
+#include "../catch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "../scripted_pen.hpp"
+
+using namespace calligraphy;
+using calligraphy_test::beside;
+using calligraphy_test::path_of;
+using calligraphy_test::placed;
+using calligraphy_test::ScriptedPen;
+using calligraphy_test::test_device;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double stiffness = 400.0;
+
+/// The defaults, the force as it is: no limit of its rate, no fade-in.
+RendererOptions direct() {
+  RendererOptions options;
+  options.paper_stiffness = options.guidance_stiffness = stiffness;
+  options.wrong_way_stiffness = 0.0;
+  options.guidance_fade_in = 0.0;
+  options.limit_force_rate = false;
+  return options;
+}
+
+const Character line = calligraphy_test::typical_character(1);
+
+/// Largest step of the in-plane force while the pen writes `path` on the first stroke of `character` [N].
+double largest_in_plane_step(const Character& character, const std::vector<Point>& path, const RendererOptions& options) {
+  HapticRenderer renderer({{character, {{0.02, 0.02}, 0.04}}}, {}, test_device(), options);
+  ScriptedPen pen(renderer);
+  Vector3d last = Vector3d::Zero();
+  double largest = 0.0;
+  bool was_writing = false;
+  pen.go({path.front().x(), path.front().y(), 0.005});
+  pen.on_tick = [&](const HapticTick& tick) {
+    const bool writing = tick.state == InteractionState::writing;
+    if (writing && was_writing) largest = std::max(largest, (tick.page_force - last).head<2>().norm());
+    last = tick.page_force;
+    was_writing = writing;
+  };
+  for (const Point& point : path) pen.go({point.x(), point.y(), -0.001});
+  return largest;
+}
+
+std::vector<Point> page_path(const Character& character, double offset) {
+  return beside(path_of(strokes(character)[0], {{0.02, 0.02}, 0.04}, 1e-4), offset);
+}
+
+}  // namespace
+
+TEST_CASE("the half disc drops K d before the end of a stroke, the tube does not", "[render]") {
+  RendererOptions printed = direct();
+  printed.stroke.space.rule = ConstraintSpaceRule::wang2006;
+  for (const double deviation : {0.001, 0.002, 0.004}) {
+    INFO("deviation " << deviation << " m");
+    CHECK(largest_in_plane_step(line, page_path(line, deviation), printed) == Approx(stiffness * deviation).epsilon(1e-6));
+    CHECK(largest_in_plane_step(line, page_path(line, deviation), direct()) < 0.05 * stiffness * deviation);
+  }
+}
+
+TEST_CASE("entering a stroke steps the force by K d as printed, within the rate limit by default", "[render]") {
+  const std::vector<Point> path = page_path(line, 0.0);
+  const Point along = (path.back() - path.front()).normalized(), left(-along.y(), along.x());
+  const auto entering = [&](const RendererOptions& options) {
+    HapticRenderer renderer({{line, {{0.02, 0.02}, 0.04}}}, {}, test_device(), options);
+    ScriptedPen pen(renderer);
+    const Point outside = path.front() + 0.001 * along + 0.0045 * left, inside = path.front() + 0.001 * along + 0.003 * left;
+    pen.go({outside.x(), outside.y(), 0.005});
+    pen.go({outside.x(), outside.y(), -0.001});
+    double before = 0.0, step = 0.0;
+    pen.on_tick = [&](const HapticTick& tick) {
+      step = std::max(step, std::abs(tick.page_force.head<2>().norm() - before));
+      before = tick.page_force.head<2>().norm();
+    };
+    pen.go({inside.x(), inside.y(), -0.001});
+    CHECK(renderer.last().state == InteractionState::writing);
+    return step;
+  };
+  RendererOptions printed = RendererOptions::wang2006(), limited;
+  printed.guidance_stiffness = limited.guidance_stiffness = stiffness;
+  printed.start_radius = limited.start_radius = 0.004;
+  printed.box_margin = 0.01;
+  const double deviation = std::sqrt(0.004 * 0.004 - 0.001 * 0.001);  // where the pen crosses the start circle
+  CHECK(entering(printed) == Approx(stiffness * deviation).epsilon(0.03));  // 1.55 N
+  CHECK(entering(limited) <= 0.1);
+}
+
+TEST_CASE("a factor that changes at a feature point steps the force by K d times its change, as printed", "[render]") {
+  const Character bend = calligraphy_test::typical_character(30, {1.0, 2.0, 2.0, 2.0});  // smooth joints
+  RendererOptions printed = direct(), whole = direct();
+  printed.stroke.attraction = AttractionRule::wang2006;
+  printed.stroke.plane_tolerance = whole.stroke.plane_tolerance = 0.0;
+  constexpr double deviation = 0.001;
+  CHECK(largest_in_plane_step(bend, page_path(bend, deviation), printed) == Approx(stiffness * deviation * 1.0).epsilon(0.05));
+  CHECK(largest_in_plane_step(bend, page_path(bend, deviation), whole) < 0.1 * stiffness * deviation);
+}
+
+TEST_CASE("crossing the box while pressed into the paper steps the normal force by K d as printed", "[render]") {
+  const auto crossing = [](const RendererOptions& options) {
+    HapticRenderer renderer({placed(U'三')}, {}, test_device(), options);
+    ScriptedPen pen(renderer);
+    const Eigen::AlignedBox2d box = bounding_box(renderer.page()[0]);
+    pen.go({box.min().x() - 0.012, 0.03, 0.005});
+    pen.go({box.min().x() - 0.012, 0.03, -0.003});
+    pen.largest_step = 0.0;
+    pen.go({box.min().x() + 0.002, 0.03, -0.003});
+    return pen.largest_step;
+  };
+  RendererOptions printed = RendererOptions::wang2006(), limited, solid;
+  printed.paper_stiffness = limited.paper_stiffness = solid.paper_stiffness = stiffness;
+  solid.solid_paper = true;
+  CHECK(crossing(printed) == Approx(stiffness * 0.003).epsilon(1e-9));  // 1.2 N
+  CHECK(crossing(limited) <= 0.4 * (1.0 + 1e-12));                      // 400 N/s at 1 kHz
+  CHECK(crossing(solid) < 1e-9);
+}
+
+TEST_CASE("the signs as the text has them push away from the stroke and into the paper", "[render]") {
+  RendererOptions printed = direct();
+  printed.force_sign = ForceSign::wang2006;
+  HapticRenderer renderer({{line, {{0.02, 0.02}, 0.04}}}, {}, test_device(), printed);
+  ScriptedPen pen(renderer);
+  const std::vector<Point> path = page_path(line, 0.002);
+  pen.go({path.front().x(), path.front().y(), 0.005});
+  for (std::size_t i = 0; i < 100; ++i) pen.go({path[i].x(), path[i].y(), -0.001});
+  const HapticTick& tick = renderer.last();
+  CHECK(tick.state == InteractionState::writing);
+  CHECK(tick.attraction.dot(tick.contact.foot.point - tick.pen_tip.head<2>()) < 0.0);
+  CHECK(tick.page_force.z() == Approx(-stiffness * 0.001));
+}
+
+TEST_CASE("eq. (5) takes the pen tip into the paper, Table 2 keeps it on it", "[render]") {
+  for (const PenTipRule rule : {PenTipRule::wang2006, PenTipRule::projected}) {
+    RendererOptions options;
+    options.pen_tip = rule;
+    HapticRenderer renderer({placed(U'三')}, {}, test_device(), options);
+    ScriptedPen pen(renderer);
+    pen.go({0.03, 0.03, -0.004});
+    CHECK(renderer.last().pen_tip.z() == (rule == PenTipRule::projected ? 0.0 : -0.004));
+    CHECK(renderer.last().pen_tip.head<2>() == renderer.last().device_point.head<2>());
+    CHECK(renderer.last().penetration == Approx(0.004));
+  }
+}
+
+TEST_CASE("the same pen feels steps above the default's limit where every rule is as printed", "[render]") {
+  HapticRenderer usual({placed(U'永')}, {}, test_device());
+  HapticRenderer printed({placed(U'永')}, {}, test_device(), RendererOptions::wang2006());
+  ScriptedPen pen(usual), other(printed);
+  pen.write(usual.page()[0], 0.002);
+  other.write(printed.page()[0], 0.002);
+  CHECK(usual.last().character == 1);
+  CHECK(pen.largest_step <= usual.max_force_step() * (1.0 + 1e-12));
+  CHECK(other.largest_step > 2.0 * usual.max_force_step());
+  CHECK(std::isinf(printed.max_force_step()));
+}
+
+TEST_CASE("wang2006() sets every printed rule but the signs", "[render]") {
+  const RendererOptions options = RendererOptions::wang2006();
+  CHECK(options.stroke.nearest.method == NearestPointMethod::wang2006);
+  CHECK(options.stroke.space.rule == ConstraintSpaceRule::wang2006);
+  CHECK(options.stroke.plane == FeaturePlaneRule::wang2006);
+  CHECK(options.stroke.attraction == AttractionRule::wang2006);
+  CHECK(options.stroke.window == 0.0);
+  CHECK(options.pen_tip == PenTipRule::wang2006);
+  CHECK(options.motion == MotionMappingRule::wang2006);
+  CHECK_FALSE(options.limit_force_rate);
+  CHECK_FALSE(options.solid_paper);
+  CHECK(options.force_sign == ForceSign::attracting);
+  CHECK_NOTHROW(validate(options, test_device()));
+}

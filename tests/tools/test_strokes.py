@@ -1,0 +1,20 @@
+import xml.etree.ElementTree as xml
+
+from program import ProgramTest
+
+
+class Strokes(ProgramTest):
+    def test_all_39_typical_strokes_are_drawn_with_id_and_name(self):
+        self.run_program("strokes", "--out", "strokes.svg")
+        self.assertEqual(self.files(), ["strokes.svg"])
+        root = xml.parse(self.directory / "strokes.svg").getroot()
+        texts = " ".join("".join(element.itertext()) for element in root.iter("{http://www.w3.org/2000/svg}text"))
+        for id in range(1, 40):
+            self.assertRegex(texts, rf"\b{id}\b")
+        for name in ("横", "竖", "横折弯钩"):
+            self.assertIn(name, texts)
+
+    def test_a_place_that_cannot_be_written_is_named(self):
+        self.assert_refused(1, ["strokes", "--out", "none/strokes.svg"], "none/strokes.svg")
+        self.assert_refused(2, ["strokes"], "--out")
+        self.assert_refused(2, ["strokes", "--out", ""], "--out")

@@ -1,0 +1,180 @@
+import csv
+import json
+import shutil
+import xml.etree.ElementTree as xml
+
+from program import ProgramTest
+
+FIELDS = ["character", "mode", "time_s", "rms_error_mm", "max_error_mm", "order_mistakes", "direction_mistakes",
+          "strokes_completed", "peak_force_N", "max_force_step_N", "tick_ns_p50", "tick_ns_p999"]
+
+
+class Write(ProgramTest):
+    def summary(self, out="out"):
+        return json.loads((self.directory / out / "summary.json").read_text())
+
+    def without_ticks(self, out):
+        return [{k: v for k, v in row.items() if not k.startswith("tick_ns")} for row in self.summary(out)]
+
+    def test_every_file_of_a_run_is_there_and_well_formed(self):
+        done = self.run_program("write", "十 人", "--out", "deep/out")
+        self.assertNotIn("%", done.stderr, "no progress bar in a pipe")
+        out = self.directory / "deep" / "out"
+        stems = [f"{n:02}-{c}-{mode}" for n, c in ((1, "十"), (2, "人")) for mode in ("vision", "force")]
+        expected = {"summary.json"} | {s + e for s in stems for e in (".svg", ".csv")}
+        if shutil.which("gnuplot"):
+            expected |= {s + "-force.svg" for s in stems}
+            self.assertEqual(done.stderr, "")
+        self.assertEqual({path.name for path in out.iterdir()}, expected)
+        for picture in out.glob("*.svg"):
+            self.assertEqual(xml.parse(picture).getroot().tag, "{http://www.w3.org/2000/svg}svg")
+        for row in self.summary("deep/out"):
+            self.assertLessEqual(set(FIELDS), set(row))
+            self.assertEqual(row["strokes_completed"], row["strokes"])
+            self.assertGreater(row["time_s"], 0.0)
+            self.assertGreater(row["rms_error_mm"], 0.0)
+            self.assertGreaterEqual(row["max_error_mm"], row["rms_error_mm"])
+            self.assertGreater(row["tick_ns_p50"], 0.0)
+            self.assertGreaterEqual(row["tick_ns_p999"], row["tick_ns_p50"])
+            self.assertEqual(row["peak_force_N"] > 0.0, row["mode"] == "force")
+            self.assertEqual(row["max_force_step_N"] > 0.0, row["mode"] == "force")
+        self.assertEqual([(row["character"], row["mode"]) for row in self.summary("deep/out")],
+                         [("十", "vision"), ("十", "force"), ("人", "vision"), ("人", "force")])
+
+    def test_the_trace_is_that_of_its_character(self):
+        self.run_program("write", "十", "--out", "out", "--mode", "force", "--rate", "500")
+        with open(self.directory / "out" / "01-十-force.csv", newline="") as file:
+            rows = [row for row in csv.reader(file) if not row[0].startswith("#")]
+        for column in ("time_s", "tip_x_m", "force_z_N", "tick_ns"):
+            self.assertIn(column, rows[0])
+        self.assertEqual({row[rows[0].index("character")] for row in rows[1:]}, {"0"})
+        self.assertEqual({len(row) for row in rows}, {len(rows[0])})
+        times = [float(row[0]) for row in rows[1:]]
+        steps = [b - a for a, b in zip(times, times[1:])]
+        self.assertGreater(len(steps), 100)
+        self.assertAlmostEqual(min(steps), 0.002, places=6)
+        self.assertAlmostEqual(max(steps), 0.002, places=6)
+
+    def test_the_table_names_units_and_compares_the_modes(self):
+        text = self.run_program("write", "十人", "--out", "out").stdout
+        lines = text.splitlines()
+        for word in ("[s]", "[mm]", "[N]", "[ns]", "95 % interval"):
+            self.assertIn(word, text)
+        rows = [line for line in lines if line.startswith(("十", "人"))]
+        self.assertEqual([row.split()[1] for row in rows], ["vision", "force", "vision", "force"])
+        by_mode = {}
+        for row in self.summary():
+            by_mode.setdefault(row["mode"], []).append(row["rms_error_mm"])
+        reduction = (sum(by_mode["vision"]) - sum(by_mode["force"])) / 2
+        line = next(line for line in lines if line.startswith("RMS error"))
+        self.assertAlmostEqual(float(line.split()[2]), reduction, places=3)
+
+    def test_repetitions_are_paired_by_their_seeds(self):
+        done = self.run_program("write", "一十", "--out", "out", "--repeat", "3", "--seed", "5", "--json")
+        rows = self.summary()
+        self.assertEqual(json.loads(done.stdout), rows)
+        self.assertEqual(len(rows), 2 * 2 * 3)
+        for mode in ("vision", "force"):
+            seeds = [(r["repetition"], r["seed"]) for r in rows if r["mode"] == mode and r["character"] == "十"]
+            self.assertEqual(seeds, [(1, 5), (2, 6), (3, 7)])
+        self.assertEqual(len(list((self.directory / "out").glob("*.csv"))), 4, "traces of the first repetition alone")
+
+    def test_a_run_can_be_repeated_to_the_last_digit(self):
+        for out in ("a", "b"):
+            self.run_program("write", "人", "--out", out, "--seed", "7")
+        self.assertEqual(self.without_ticks("a"), self.without_ticks("b"))
+        self.assertEqual((self.directory / "a/01-人-force.svg").read_bytes(),
+                         (self.directory / "b/01-人-force.svg").read_bytes())
+        self.run_program("write", "人", "--out", "c", "--seed", "8")
+        self.assertNotEqual(self.without_ticks("a"), self.without_ticks("c"))
+
+    def test_a_skilled_writer_errs_less(self):
+        for writer in ("novice", "skilled"):
+            self.run_program("write", "十人", "--out", writer, "--writer", writer, "--mode", "vision", "--repeat", "3")
+        error = {w: sum(row["rms_error_mm"] for row in self.summary(w)) for w in ("novice", "skilled")}
+        self.assertLess(error["skilled"], error["novice"])
+
+    def test_the_rules_as_printed_step_and_the_default_does_not(self):
+        self.run_program("write", "十人", "--out", "ours", "--mode", "force")
+        self.run_program("write", "十人", "--out", "printed", "--mode", "force", "--rules", "wang2006")
+        ours = max(row["max_force_step_N"] for row in self.summary("ours"))
+        printed = max(row["max_force_step_N"] for row in self.summary("printed"))
+        self.assertLess(ours, printed)
+
+    def test_every_choice_of_device_and_method_runs(self):
+        for device in ("omni", "touch", "desktop", "premium-1.5", "ideal"):
+            self.run_program("write", "一", "--out", device, "--device", "simulated:" + device, "--method", "wang2006",
+                             "--tolerance", "1e-3")
+            self.assertEqual(len(self.summary(device)), 2)
+
+    def test_a_character_may_be_written_again_on_as_many_pages_as_it_takes(self):
+        self.run_program("write", "一一一一一一一一", "--out", "out", "--mode", "force")
+        self.assertEqual([row["position"] for row in self.summary()], list(range(1, 9)))
+        self.assertTrue((self.directory / "out/08-一-force.svg").exists())
+
+    def test_characters_of_a_file(self):
+        (self.directory / "own.txt").write_text("calligraphy characters 1\nsource s\nlicence l\nattribution a\n\n"
+                                                "character /\nstroke 1 0.1,0.5 0.9,0.5\n")
+        self.run_program("write", "/", "--out", "out", "--characters", "own.txt", "--mode", "force")
+        self.assertTrue((self.directory / "out/01-U+002F-force.csv").exists(), self.files())
+
+    def test_characters_that_no_one_here_drew(self):
+        self.run_program("write", "永和九年", "--out", "out", "--characters", self.data_directory())
+        rows = self.summary()
+        self.assertEqual([row["character"] for row in rows[::2]], list("永和九年"))
+        for row in rows:
+            self.assertEqual(row["strokes_completed"], row["strokes"])
+
+
+class Refusals(ProgramTest):
+    def test_usage_errors_are_one_line_and_exit_with_two(self):
+        for arguments, words in (
+                ([], ["command"]),
+                (["frobnicate"], ["frobnicate"]),
+                (["write"], ["TEXT"]),
+                (["write", "北"], ["--out"]),
+                (["write", "", "--out", "out"], ["TEXT"]),
+                (["write", " \u3000\n", "--out", "out"], ["TEXT"]),
+                (["write", b"\xe5\x8c", "--out", "out"], ["TEXT", "byte 0"]),
+                (["write", "北", "--out", ""], ["--out"]),
+                (["write", "北", "--out", "out", "--device", "phantom"], ["--device", "phantom"]),
+                (["write", "北", "--out", "out", "--device", "simulated:novint"], ["--device", "novint", "desktop"]),
+                (["write", "北", "--out", "out", "--writer", "poet"], ["--writer", "poet"]),
+                (["write", "北", "--out", "out", "--mode", "blind"], ["--mode", "blind"]),
+                (["write", "北", "--out", "out", "--method", "guess"], ["--method", "guess"]),
+                (["write", "北", "--out", "out", "--rules", "none"], ["--rules", "none"]),
+                (["write", "北", "--out", "out", "--unknown"], ["--unknown"])):
+            with self.subTest(arguments=arguments):
+                self.assert_refused(2, arguments, *words)
+
+    def test_impossible_numbers_are_named(self):
+        for option in ("--rate", "--tolerance", "--repeat", "--seed"):
+            for value in ("nan", "inf", "1e999", "-1", "x", "", "1x", "0x10", "18446744073709551616"):
+                with self.subTest(option=option, value=value):
+                    self.assert_refused(2, ["write", "北", "--out", "out", f"{option}={value}"], option, value)
+        for option in ("--rate", "--tolerance", "--repeat"):
+            with self.subTest(option=option):
+                self.assert_refused(2, ["write", "北", "--out", "out", option, "0"], option, "0")
+
+    def test_an_unknown_character_is_named_with_its_code(self):
+        self.assert_refused(1, ["write", "北\u9f98", "--out", "out"], "\u9f98", "U+9F98")
+        self.assert_refused(1, ["write", "\x01", "--out", "out"], "U+0001")
+
+    def test_a_missing_or_malformed_file_is_named(self):
+        self.assert_refused(1, ["write", "北", "--out", "out", "--characters", "none.txt"], "none.txt")
+        (self.directory / "bad.txt").write_text("calligraphy characters 1\ncharacter 北\nstroke 99 0,0 1,1\n")
+        self.assert_refused(1, ["write", "北", "--out", "out", "--characters", "bad.txt"], "bad.txt", "3", "99")
+        (self.directory / "empty.txt").write_text("")
+        self.assert_refused(1, ["write", "北", "--out", "out", "--characters", "empty.txt"], "empty.txt")
+        (self.directory / "data").mkdir()
+        self.assert_refused(1, ["write", "北", "--out", "out", "--characters", "data"], "北")
+        (self.directory / "data" / "北.json").write_text('{"medians": [[[0, 0], [1e999, 5]]]}')
+        self.assert_refused(1, ["write", "北", "--out", "out", "--characters", "data"], "北.json")
+
+    def test_a_directory_that_cannot_be_written_is_named_before_the_run(self):
+        (self.directory / "file").write_text("keep")
+        self.assert_refused(1, ["write", "北", "--out", "file"], "file")
+        self.assert_refused(1, ["write", "北", "--out", "file/out"], "file/out")
+        self.assert_refused(1, ["write", "北", "--out", "new/" + "x" * 300], "new")
+        self.assert_refused(1, ["write", "北", "--out", "/proc/calligraphy/out"], "/proc/calligraphy/out")
+        self.assertEqual((self.directory / "file").read_text(), "keep")

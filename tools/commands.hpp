@@ -1,0 +1,22 @@
+// The commands of the program: each registers itself with its options and does its work when it was asked for.
+#pragma once
+
+#include <calligraphy/error.hpp>
+
+namespace CLI {
+class App;
+}
+
+namespace calligraphy::tools {
+
+/// A command line that cannot be done: the program ends with 2, not 1.
+class UsageError : public Error {
+ public:
+  using Error::Error;
+};
+
+void add_write(CLI::App& program);
+void add_strokes(CLI::App& program);
+void add_info(CLI::App& program);
+
+}  // namespace calligraphy::tools

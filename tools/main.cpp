@@ -1,0 +1,59 @@
+// The program `calligraphy`: exit code 0 done, 1 the work failed, 2 usage.
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include "commands.hpp"
+
+namespace {
+
+/// One line, whatever the message quotes.
+int fail(int code, std::string message) noexcept {
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
+  std::replace_if(message.begin(), message.end(), is_control, ' ');
+  std::fflush(stdout);
+  std::fprintf(stderr, "calligraphy: %s\n", message.c_str());
+  return code;
+}
+
+int run(int argc, char** argv) {
+  spdlog::set_default_logger(spdlog::stderr_logger_st("calligraphy"));
+  spdlog::set_pattern("%n: %l: %v");
+
+  CLI::App program("Haptic guidance for writing Chinese characters.", "calligraphy");
+  program.set_version_flag("--version", "calligraphy " CALLIGRAPHY_VERSION);
+  program.require_subcommand(0, 1);  // none is told below, once what else is wrong has been told
+  calligraphy::tools::add_write(program);
+  calligraphy::tools::add_strokes(program);
+  calligraphy::tools::add_info(program);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return program.exit(error);
+    return fail(2, error.what());
+  }
+  if (program.get_subcommands().empty()) return fail(2, "a command is required; --help names them");
+  if (std::fflush(stdout) != 0) return fail(1, "standard output cannot be written");
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const calligraphy::tools::UsageError& error) {
+    return fail(2, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(1, "out of memory");
+  } catch (const std::exception& error) {
+    return fail(1, error.what());
+  }
+}

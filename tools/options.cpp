@@ -1,0 +1,66 @@
+#include "options.hpp"
+
+#include <charconv>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include <calligraphy/error.hpp>
+#include <calligraphy/model/text.hpp>
+
+#include "commands.hpp"
+
+namespace calligraphy::tools {
+namespace {
+
+template <typename Number>
+bool parse(const std::string& word, Number& value) {
+  const char* const end = word.data() + word.size();
+  const auto [rest, failure] = std::from_chars(word.data(), end, value);
+  return failure == std::errc() && rest == end;
+}
+
+bool is_white_space(char32_t code) {
+  constexpr std::u32string_view spaces = U"\t\n\v\f\r \u0085\u00A0\u2028\u2029\u202F\u205F\u3000\uFEFF";
+  return spaces.find(code) != std::u32string_view::npos || (code >= U'\u2000' && code <= U'\u200B');
+}
+
+}  // namespace
+
+CLI::Validator number(double least, double most) {
+  const auto check = [least, most](std::string& word) {
+    double value = 0.0;
+    if (parse(word, value) && value >= least && value <= most) return std::string();
+    return fmt::format("{}: expected a number from {} to {}", word, least, most);
+  };
+  return CLI::Validator(check, "NUMBER");
+}
+
+CLI::Validator integer(unsigned long long least, unsigned long long most) {
+  const auto check = [least, most](std::string& word) {
+    unsigned long long value = 0;
+    if (parse(word, value) && value >= least && value <= most) return std::string();
+    return fmt::format("{}: expected an integer from {} to {}", word, least, most);
+  };
+  return CLI::Validator(check, "INTEGER");
+}
+
+std::u32string characters_of(const std::string& text) {
+  std::u32string codes;
+  try {
+    codes = decode_utf8(text);
+  } catch (const FormatError& error) {
+    throw UsageError(std::string("TEXT: ") + error.what());
+  }
+  std::erase_if(codes, is_white_space);
+  if (codes.empty()) throw UsageError(fmt::format("TEXT: \"{}\" has no character", text));
+  return codes;
+}
+
+std::string name_of(char32_t code) {
+  const std::string number = fmt::format("U+{:04X}", static_cast<unsigned>(code));
+  const bool is_control = code < 0x20 || (code >= 0x7F && code < 0xA0);
+  return is_control ? number : fmt::format("{} ({})", encode_utf8(code), number);
+}
+
+}  // namespace calligraphy::tools

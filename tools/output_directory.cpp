@@ -1,0 +1,59 @@
+#include "output_directory.hpp"
+
+#include <system_error>
+
+#include <calligraphy/error.hpp>
+#include <calligraphy/practice/file.hpp>
+
+namespace calligraphy::tools {
+namespace fs = std::filesystem;
+namespace {
+
+/// Absolute, and without a slash at its end: "out/" is "out".
+fs::path plain(const fs::path& path) {
+  const fs::path normal = fs::absolute(path).lexically_normal();
+  return normal.has_filename() ? normal : normal.parent_path();
+}
+
+fs::path first_missing(const fs::path& path) {
+  fs::path missing;
+  std::error_code failure;
+  for (fs::path at = path; at.has_relative_path() && !fs::exists(at, failure); at = at.parent_path()) missing = at;
+  return missing;
+}
+
+}  // namespace
+
+OutputDirectory::OutputDirectory(const fs::path& path)
+    : path_(plain(path)), first_created_(first_missing(path_)) {
+  try {
+    std::error_code failure;
+    fs::create_directories(path_, failure);
+    if (!fs::is_directory(path_)) {
+      throw FileError(path.string() + ": cannot be made a directory" + (failure ? ": " + failure.message() : ""));
+    }
+    const fs::path probe = path_ / ".calligraphy-probe";
+    write_file(probe, "");
+    fs::remove(probe);
+  } catch (const fs::filesystem_error& error) {
+    remove_empty();
+    throw FileError(path.string() + ": " + error.code().message());
+  } catch (const std::exception&) {
+    remove_empty();
+    throw;
+  }
+}
+
+OutputDirectory::~OutputDirectory() { remove_empty(); }
+
+void OutputDirectory::write(const fs::path& name, std::string_view content) const { write_file(path_ / name, content); }
+
+void OutputDirectory::remove_empty() noexcept {
+  if (first_created_.empty()) return;
+  std::error_code failure;
+  for (fs::path at = path_; at.native().size() >= first_created_.native().size(); at = at.parent_path()) {
+    fs::remove(at, failure);  // leaves a directory that holds something
+  }
+}
+
+}  // namespace calligraphy::tools

@@ -1,0 +1,146 @@
+#include "summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <utility>
+
+#include <boost/math/distributions/students_t.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <calligraphy/model/text.hpp>
+
+namespace calligraphy::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Quantity = std::function<double(const Result&)>;
+
+constexpr double millimetres = 1e3;
+
+double mean(const std::vector<Result>& results, std::size_t begin, std::size_t end, const Quantity& quantity) {
+  double sum = 0.0;
+  for (std::size_t i = begin; i < end; ++i) sum += quantity(results[i]);
+  return sum / static_cast<double>(end - begin);
+}
+
+/// Vision only minus vision and force, once per character and repetition that has both.
+std::vector<std::pair<double, double>> pairs(const std::vector<Result>& results, const Quantity& quantity) {
+  std::map<std::pair<int, int>, double> vision;
+  for (const Result& result : results) {
+    if (result.mode == Mode::vision) vision[{result.position, result.repetition}] = quantity(result);
+  }
+  std::vector<std::pair<double, double>> both;
+  for (const Result& result : results) {
+    const auto found = vision.find({result.position, result.repetition});
+    if (result.mode == Mode::force && found != vision.end()) both.emplace_back(found->second, quantity(result));
+  }
+  return both;
+}
+
+std::string reduction(const char* what, const char* unit, const std::vector<std::pair<double, double>>& both) {
+  const auto count = static_cast<double>(both.size());
+  double vision = 0.0;
+  double reduced = 0.0;
+  for (const auto& [without, with] : both) {
+    vision += without / count;
+    reduced += (without - with) / count;
+  }
+  double squares = 0.0;
+  for (const auto& [without, with] : both) squares += std::pow(without - with - reduced, 2);
+  const double standard_error = std::sqrt(squares / (count - 1.0) / count);
+  const boost::math::students_t distribution(count - 1.0);
+  const double margin = boost::math::quantile(distribution, 0.975) * standard_error;
+  const std::string relative = vision > 0.0 ? fmt::format(" ({:.1f} % of vision only)", 100.0 * reduced / vision) : "";
+  return fmt::format("{:<10} {:.3f} {} less with force{}, 95 % interval {:.3f} to {:.3f} {}\n", what, reduced, unit,
+                     relative, reduced - margin, reduced + margin, unit);
+}
+
+}  // namespace
+
+const char* mode_name(Mode mode) noexcept { return mode == Mode::vision ? "vision" : "force"; }
+
+double percentile(std::vector<float>& values, double share) {
+  if (values.empty()) return 0.0;
+  const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size())));
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(std::max<std::size_t>(rank, 1) - 1);
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+std::string table(const std::vector<Result>& results) {
+  std::string text = fmt::format("{:<10}{:<8}{:>8}{:>10}{:>10}{:>7}{:>11}{:>9}{:>10}{:>10}{:>10}{:>12}\n", "", "", "time",
+                                 "RMS err", "max err", "order", "direction", "strokes", "peak F", "max step", "tick p50",
+                                 "tick p99.9");
+  text += fmt::format("{:<10}{:<8}{:>8}{:>10}{:>10}{:>7}{:>11}{:>9}{:>10}{:>10}{:>10}{:>12}\n", "character", "mode",
+                      "[s]", "[mm]", "[mm]", "errors", "errors", "written", "[N]", "[N/tick]", "[ns]", "[ns]");
+  for (std::size_t begin = 0; begin < results.size();) {
+    const Result& first = results[begin];
+    std::size_t end = begin;
+    while (end < results.size() && results[end].position == first.position && results[end].mode == first.mode) ++end;
+    const auto of = [&](const Quantity& quantity) { return mean(results, begin, end, quantity); };
+    const int decimals = end - begin > 1 ? 2 : 0;
+    const double written = of([](const Result& r) { return r.score.strokes_completed; });
+    text += fmt::format(
+        "{:<10}{:<8}{:>8.2f}{:>10.3f}{:>10.3f}{:>7.{}f}{:>11.{}f}{:>9}{:>10.2f}{:>10.3f}{:>10.0f}{:>12.0f}\n",
+        encode_utf8(first.score.character), mode_name(first.mode), of([](const Result& r) { return r.score.time; }),
+        of([](const Result& r) { return r.score.rms_error * millimetres; }),
+        of([](const Result& r) { return r.score.max_error * millimetres; }),
+        of([](const Result& r) { return r.score.order_mistakes(); }), decimals,
+        of([](const Result& r) { return r.score.direction_mistakes(); }), decimals,
+        fmt::format("{:.{}f}/{}", written, decimals, first.score.stroke_count),
+        of([](const Result& r) { return r.score.peak_force; }), of([](const Result& r) { return r.score.max_force_step; }),
+        of([](const Result& r) { return r.tick_p50; }), of([](const Result& r) { return r.tick_p999; }));
+    begin = end;
+  }
+  return text;
+}
+
+std::string json(const std::vector<Result>& results) {
+  Json list = Json::array();
+  for (const Result& result : results) {
+    const CharacterScore& score = result.score;
+    Json mistakes = Json::array();
+    for (const Mistake& mistake : score.mistakes) {
+      mistakes.push_back({{"kind", mistake.kind == MistakeKind::order ? "order" : "direction"},
+                          {"stroke", mistake.stroke + 1},
+                          {"time_s", mistake.time},
+                          {"reason", mistake.reason}});
+    }
+    list.push_back({{"character", encode_utf8(score.character)},
+                    {"position", result.position},
+                    {"mode", mode_name(result.mode)},
+                    {"repetition", result.repetition},
+                    {"seed", result.seed},
+                    {"time_s", score.time},
+                    {"rms_error_mm", score.rms_error * millimetres},
+                    {"max_error_mm", score.max_error * millimetres},
+                    {"order_mistakes", score.order_mistakes()},
+                    {"direction_mistakes", score.direction_mistakes()},
+                    {"strokes", score.stroke_count},
+                    {"strokes_completed", score.strokes_completed},
+                    {"peak_force_N", score.peak_force},
+                    {"max_force_step_N", score.max_force_step},
+                    {"tick_ns_p50", result.tick_p50},
+                    {"tick_ns_p999", result.tick_p999},
+                    {"contour", score.contour},
+                    {"external_sequence", score.external_sequence},
+                    {"internal_sequence", score.internal_sequence},
+                    {"fidelity", score.fidelity},
+                    {"mistakes", mistakes}});
+  }
+  return list.dump(2) + "\n";
+}
+
+std::string reductions(const std::vector<Result>& results) {
+  const auto errors = pairs(results, [](const Result& r) { return r.score.rms_error * millimetres; });
+  const auto times = pairs(results, [](const Result& r) { return r.score.time; });
+  if (errors.size() < 2) return "";
+  return reduction("RMS error", "mm", errors) + reduction("time", "s", times) +
+         fmt::format("mean over n = {} pairs (same character and seed); interval: mean -+ t(0.975, n - 1) s / sqrt(n)\n",
+                     errors.size());
+}
+
+}  // namespace calligraphy::tools

@@ -1,0 +1,299 @@
+// calligraphy write: a simulated writer writes a text in closed loop, with vision only and with vision and force.
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <calligraphy/devices/simulated_device.hpp>
+#include <calligraphy/model/text.hpp>
+#include <calligraphy/practice/page.hpp>
+#include <calligraphy/practice/picture.hpp>
+#include <calligraphy/practice/plot.hpp>
+#include <calligraphy/practice/recording.hpp>
+#include <calligraphy/practice/score.hpp>
+#include <calligraphy/practice/session.hpp>
+
+#include "character_source.hpp"
+#include "commands.hpp"
+#include "options.hpp"
+#include "output_directory.hpp"
+#include "progress.hpp"
+#include "summary.hpp"
+
+namespace calligraphy::tools {
+namespace {
+
+struct Options {
+  std::string text;
+  std::string out;
+  std::string characters;
+  std::string device = "simulated:desktop";
+  std::string writer = "novice";
+  std::string mode = "both";
+  std::optional<double> rate;
+  int repeat = 1;
+  std::uint64_t seed = 1;
+  std::string rules = "default";
+  std::optional<std::string> method;
+  std::optional<double> tolerance;
+  bool json = false;
+};
+
+/// A page and where its characters stand in the text.
+struct Sheet {
+  Page page;
+  int first_position;  ///< from 1
+};
+
+std::string device_names() {
+  std::string names;
+  for (const DeviceProfile& profile : device_profiles()) names += (names.empty() ? "" : ", ") + profile.name;
+  return names;
+}
+
+DeviceProfile chosen_device(const std::string& name) {
+  const std::string kind = "simulated:";
+  if (name.rfind(kind, 0) == 0) {
+    for (const DeviceProfile& profile : device_profiles()) {
+      if (profile.name == name.substr(kind.size())) return profile;
+    }
+  }
+  throw UsageError(fmt::format("--device: {}: expected simulated:NAME with one of {}", name, device_names()));
+}
+
+RendererOptions chosen_renderer(const Options& options, const Capabilities& capabilities) {
+  RendererOptions renderer = RendererOptions::for_device(capabilities);
+  const RendererOptions printed = RendererOptions::wang2006();
+  if (options.rules == "wang2006") {
+    RendererOptions rules = printed;
+    rules.servo_rate = renderer.servo_rate;
+    rules.paper_stiffness = renderer.paper_stiffness;
+    rules.guidance_stiffness = renderer.guidance_stiffness;
+    rules.wrong_way_stiffness = renderer.wrong_way_stiffness;
+    renderer = rules;
+  }
+  if (options.method == "exact") renderer.stroke.nearest = RendererOptions().stroke.nearest;
+  if (options.method == "wang2006") renderer.stroke.nearest = printed.stroke.nearest;
+  if (options.tolerance) renderer.stroke.nearest.tolerance = *options.tolerance;
+  if (options.rate) renderer.servo_rate = *options.rate;
+  return renderer;
+}
+
+SessionOptions chosen_session(const Options& options) {
+  SessionOptions session;
+  session.device = chosen_device(options.device);
+  session.renderer = chosen_renderer(options, session.device.capabilities);
+  session.skill = options.writer == "skilled" ? WriterSkill::skilled() : WriterSkill::novice();
+  session.measure_ticks = true;
+  return session;
+}
+
+std::vector<Mode> chosen_modes(const std::string& mode) {
+  if (mode == "vision") return {Mode::vision};
+  if (mode == "force") return {Mode::force};
+  return {Mode::vision, Mode::force};
+}
+
+std::vector<Sheet> sheets(const std::u32string& text, const CharacterSet& set, const Capabilities& capabilities) {
+  std::vector<Character> characters;
+  for (const char32_t code : text) characters.push_back(*set.find(code));
+  PageLayout layout;
+  layout.width = capabilities.workspace.x();
+  layout.height = capabilities.workspace.y();
+  std::vector<Sheet> result;
+  int position = 1;
+  for (Page& page : lay_out(characters, layout)) {
+    const int count = static_cast<int>(page.characters.size());
+    result.push_back({std::move(page), position});
+    position += count;
+  }
+  return result;
+}
+
+/// The part of a recording in which a character is active.
+Recording part(const Recording& recording, int character) {
+  Recording result;
+  result.rate = recording.rate;
+  const auto active = [character](const Sample& sample) { return sample.character == character; };
+  std::copy_if(recording.samples.begin(), recording.samples.end(), std::back_inserter(result.samples), active);
+  return result;
+}
+
+Result measure(const CharacterScore& score, const Recording& part) {
+  Result result;
+  result.score = score;
+  std::vector<float> ticks;
+  for (const Sample& sample : part.samples) ticks.push_back(sample.tick_ns);
+  result.tick_p50 = percentile(ticks, 0.5);
+  result.tick_p999 = percentile(ticks, 0.999);
+  return result;
+}
+
+/// "03-北-force"; a character that is no good in a file name goes by its code.
+std::string file_stem(int position, char32_t code, Mode mode) {
+  const bool ascii_sign = code < 0x80 && !(code >= U'0' && code <= U'9') && !((code | 0x20) >= U'a' && (code | 0x20) <= U'z');
+  const std::string name =
+      ascii_sign ? fmt::format("U+{:04X}", static_cast<unsigned>(code)) : encode_utf8(code);
+  return fmt::format("{:02}-{}-{}", position, name, mode_name(mode));
+}
+
+class Run {
+ public:
+  explicit Run(const Options& options)
+      : options_(options),
+        session_(chosen_session(options)),
+        modes_(chosen_modes(options.mode)),
+        text_(characters_of(options.text)) {
+    if (options.out.empty()) throw UsageError("--out: an empty name");
+    try {
+      validate(session_.renderer, session_.device.capabilities);
+    } catch (const ValueError& error) {
+      throw UsageError(error.what());
+    }
+  }
+
+  void write() {
+    sheets_ = sheets(text_, find_characters(text_, options_.characters), session_.device.capabilities);
+    const OutputDirectory out(options_.out);
+    plots_ = can_plot();
+    if (!plots_) spdlog::warn("gnuplot is not installed: no plots of the force");
+    write_all(out);
+    const auto order = [](const Result& a, const Result& b) {
+      return std::tie(a.position, a.mode, a.repetition) < std::tie(b.position, b.mode, b.repetition);
+    };
+    std::sort(results_.begin(), results_.end(), order);
+    out.write("summary.json", json(results_));
+    report();
+  }
+
+ private:
+  void write_all(const OutputDirectory& out) {
+    Progress progress;
+    std::size_t done = 0;
+    const std::size_t runs = text_.size() * modes_.size() * static_cast<std::size_t>(options_.repeat);
+    for (std::size_t sheet = 0; sheet < sheets_.size(); ++sheet) {
+      const std::size_t count = sheets_[sheet].page.characters.size();
+      for (int repetition = 1; repetition <= options_.repeat; ++repetition) {
+        session_.seed = options_.seed + static_cast<std::uint64_t>(repetition - 1) * sheets_.size() + sheet;
+        for (const Mode mode : modes_) {
+          session_.mode = mode;
+          session_.progress = [&](double share) {
+            progress.show((static_cast<double>(done) + share * static_cast<double>(count)) / static_cast<double>(runs));
+          };
+          write_sheet(sheets_[sheet], repetition, out);
+          done += count;
+          progress.show(static_cast<double>(done) / static_cast<double>(runs));
+        }
+      }
+    }
+  }
+
+  void write_sheet(const Sheet& sheet, int repetition, const OutputDirectory& out) {
+    const Recording recording = write_page(sheet.page, session_);
+    const std::vector<CharacterScore> scores = score(sheet.page, recording);
+    for (std::size_t i = 0; i < scores.size(); ++i) {
+      const int index = static_cast<int>(i);
+      const Recording own = part(recording, index);
+      Result result = measure(scores[i], own);
+      result.position = sheet.first_position + index;
+      result.mode = session_.mode;
+      result.repetition = repetition;
+      result.seed = session_.seed;
+      if (repetition == 1) draw(sheet.page, recording, own, index, result, out);
+      results_.push_back(std::move(result));
+    }
+  }
+
+  void draw(const Page& page, const Recording& recording, const Recording& own, int index, const Result& result,
+            const OutputDirectory& out) const {
+    const char32_t code = result.score.character;
+    const std::string stem = file_stem(result.position, code, result.mode);
+    const std::string title = fmt::format("{}, {}, {}", encode_utf8(code),
+                                          result.mode == Mode::vision ? "vision only" : "vision and force",
+                                          session_.device.capabilities.model);
+    out.write(stem + ".svg", page_picture(page, recording, index, title));
+    if (plots_) out.write(stem + "-force.svg", force_plot(recording, index, title));
+    std::ostringstream trace;
+    write_csv(trace, own);
+    out.write(stem + ".csv", trace.str());
+  }
+
+  void report() const {
+    if (options_.json) {
+      fmt::print("{}", json(results_));
+    } else {
+      if (options_.repeat > 1) fmt::print("means over {} repetitions\n", options_.repeat);
+      fmt::print("{}{}", table(results_), reductions(results_));
+    }
+    const auto given_up = [](const Result& r) { return r.score.strokes_completed < r.score.stroke_count; };
+    const auto unfinished = std::count_if(results_.begin(), results_.end(), given_up);
+    if (unfinished > 0) spdlog::warn("{} of {} characters were given up before their end", unfinished, results_.size());
+  }
+
+  const Options& options_;
+  SessionOptions session_;
+  std::vector<Mode> modes_;
+  std::u32string text_;
+  std::vector<Sheet> sheets_;
+  std::vector<Result> results_;
+  bool plots_ = false;
+};
+
+}  // namespace
+
+void add_write(CLI::App& program) {
+  CLI::App* const command = program.add_subcommand(
+      "write",
+      "A simulated writer writes a text in closed loop on a simulated device. DIR receives, per character and mode, a "
+      "picture, a plot of the force and a trace (of the first repetition), and summary.json.");
+  const auto options = std::make_shared<Options>();
+  command->add_option("TEXT", options->text, "Characters to write; white space is skipped")->required();
+  command->add_option("--out", options->out, "Directory for the results, created when missing")
+      ->required()
+      ->type_name("DIR");
+  command->add_option("--characters", options->characters,
+                      "File of characters, or directory of hanzi-writer-data (default: the built-in set)")
+      ->type_name("PATH");
+  command->add_option("--device", options->device, "simulated:NAME with one of " + device_names())
+      ->capture_default_str()
+      ->type_name("DEVICE");
+  command->add_option("--writer", options->writer, "How well the writer writes")
+      ->check(CLI::IsMember({"novice", "skilled"}))
+      ->capture_default_str();
+  command->add_option("--mode", options->mode, "Vision only, vision and force, or both one after the other")
+      ->check(CLI::IsMember({"both", "vision", "force"}))
+      ->capture_default_str();
+  command->add_option("--rate", options->rate, "Servo rate, 10 to 20000 (default: the device's)")
+      ->check(number(10.0, 20000.0))
+      ->type_name("HZ");
+  command->add_option("--repeat", options->repeat, "Repetitions; pictures and traces are of the first")
+      ->check(integer(1, 100000))
+      ->type_name("N")
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "Seed of the first repetition; both modes get the same seeds")
+      ->check(integer(0, std::numeric_limits<std::uint64_t>::max()))
+      ->type_name("N")
+      ->capture_default_str();
+  command->add_option("--rules", options->rules, "The rules as they should be, or as the paper prints them")
+      ->check(CLI::IsMember({"default", "wang2006"}))
+      ->capture_default_str();
+  command->add_option("--method", options->method, "Nearest point on a curve (default: that of the rules)")
+      ->check(CLI::IsMember({"exact", "wang2006"}));
+  command->add_option("--tolerance", options->tolerance, "Of the nearest point, 1e-15 to 1, relative to the curve's size")
+      ->check(number(1e-15, 1.0))
+      ->type_name("T");
+  command->add_flag("--json", options->json, "Print summary.json instead of the table");
+  command->callback([options] { Run(*options).write(); });
+}
+
+}  // namespace calligraphy::tools
