@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and writes four characters, unguided and guided. Arguments go on to `calligraphy write`.
+# Installs what is missing, builds, and writes four characters, unguided and guided.
+# Arguments go on to `calligraphy write`.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 

@@ -27,7 +27,8 @@ fetch_data() {
     rm -rf "$cache/unpacking"
     mkdir "$cache/unpacking"
     command -v npm > /dev/null || { echo "npm is not installed" >&2; return 1; }
-    (cd "$cache/unpacking" && npm pack --silent hanzi-writer-data@2.0.1 > /dev/null && tar -xzf ./*.tgz) || return 1
+    (cd "$cache/unpacking" && npm pack --loglevel=error hanzi-writer-data@2.0.1 > /dev/null && tar -xzf ./*.tgz) ||
+      return 1
     mv "$cache/unpacking/package" "$unpacked"
     rm -rf "$cache/unpacking"
   fi

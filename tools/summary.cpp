@@ -71,11 +71,11 @@ double percentile(std::vector<float>& values, double share) {
 }
 
 std::string table(const std::vector<Result>& results) {
-  std::string text = fmt::format("{:<10}{:<8}{:>8}{:>10}{:>10}{:>7}{:>11}{:>9}{:>10}{:>10}{:>10}{:>12}\n", "", "", "time",
-                                 "RMS err", "max err", "order", "direction", "strokes", "peak F", "max step", "tick p50",
-                                 "tick p99.9");
-  text += fmt::format("{:<10}{:<8}{:>8}{:>10}{:>10}{:>7}{:>11}{:>9}{:>10}{:>10}{:>10}{:>12}\n", "character", "mode",
-                      "[s]", "[mm]", "[mm]", "errors", "errors", "written", "[N]", "[N/tick]", "[ns]", "[ns]");
+  constexpr const char* head = "{:<10}{:<8}{:>8}{:>10}{:>10}{:>7}{:>11}{:>9}{:>10}{:>10}{:>10}{:>12}\n";
+  std::string text = fmt::format(fmt::runtime(head), "", "", "time", "RMS err", "max err", "order", "direction",
+                                 "strokes", "peak F", "max step", "tick p50", "tick p99.9");
+  text += fmt::format(fmt::runtime(head), "character", "mode", "[s]", "[mm]", "[mm]", "errors", "errors", "written",
+                      "[N]", "[N/tick]", "[ns]", "[ns]");
   for (std::size_t begin = 0; begin < results.size();) {
     const Result& first = results[begin];
     std::size_t end = begin;
@@ -91,7 +91,8 @@ std::string table(const std::vector<Result>& results) {
         of([](const Result& r) { return r.score.order_mistakes(); }), decimals,
         of([](const Result& r) { return r.score.direction_mistakes(); }), decimals,
         fmt::format("{:.{}f}/{}", written, decimals, first.score.stroke_count),
-        of([](const Result& r) { return r.score.peak_force; }), of([](const Result& r) { return r.score.max_force_step; }),
+        of([](const Result& r) { return r.score.peak_force; }),
+        of([](const Result& r) { return r.score.max_force_step; }),
         of([](const Result& r) { return r.tick_p50; }), of([](const Result& r) { return r.tick_p999; }));
     begin = end;
   }
@@ -139,7 +140,7 @@ std::string reductions(const std::vector<Result>& results) {
   const auto times = pairs(results, [](const Result& r) { return r.score.time; });
   if (errors.size() < 2) return "";
   return reduction("RMS error", "mm", errors) + reduction("time", "s", times) +
-         fmt::format("mean over n = {} pairs (same character and seed); interval: mean -+ t(0.975, n - 1) s / sqrt(n)\n",
+         fmt::format("mean over n = {} pairs of a character and a seed; mean +/- t(0.975, n - 1) s / sqrt(n)\n",
                      errors.size());
 }
 

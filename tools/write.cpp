@@ -7,6 +7,7 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
@@ -141,9 +142,9 @@ Result measure(const CharacterScore& score, const Recording& part) {
 
 /// "03-北-force"; a character that is no good in a file name goes by its code.
 std::string file_stem(int position, char32_t code, Mode mode) {
-  const bool ascii_sign = code < 0x80 && !(code >= U'0' && code <= U'9') && !((code | 0x20) >= U'a' && (code | 0x20) <= U'z');
-  const std::string name =
-      ascii_sign ? fmt::format("U+{:04X}", static_cast<unsigned>(code)) : encode_utf8(code);
+  constexpr std::string_view plain = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
+  const bool good = code >= 0xA0 || plain.find(static_cast<char>(code)) != std::string_view::npos;
+  const std::string name = good ? encode_utf8(code) : fmt::format("U+{:04X}", static_cast<unsigned>(code));
   return fmt::format("{:02}-{}-{}", position, name, mode_name(mode));
 }
 
@@ -289,7 +290,7 @@ void add_write(CLI::App& program) {
       ->capture_default_str();
   command->add_option("--method", options->method, "Nearest point on a curve (default: that of the rules)")
       ->check(CLI::IsMember({"exact", "wang2006"}));
-  command->add_option("--tolerance", options->tolerance, "Of the nearest point, 1e-15 to 1, relative to the curve's size")
+  command->add_option("--tolerance", options->tolerance, "Of the nearest point, 1e-15 to 1, in sizes of the curve")
       ->check(number(1e-15, 1.0))
       ->type_name("T");
   command->add_flag("--json", options->json, "Print summary.json instead of the table");

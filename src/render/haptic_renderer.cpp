@@ -209,6 +209,7 @@ void HapticRenderer::finish_stroke() noexcept {
 }
 
 void HapticRenderer::activate(int character, int stroke) noexcept {
+  if (character != tick_.character) inside_box_ = false;
   tick_.character = character;
   tick_.stroke = stroke;
   character_done_ = false;

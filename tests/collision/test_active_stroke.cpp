@@ -227,3 +227,22 @@ TEST_CASE("a stroke being written takes nothing from the heap", "[collision]") {
   CHECK(calligraphy_test::allocations() == before);
   CHECK(result.finished);
 }
+
+TEST_CASE("a stroke left at its start and met again at its end is not finished", "[collision]") {
+  const Character* one = built_in_characters().find(U'一');
+  REQUIRE(one != nullptr);
+  const Placement em_40_mm{Point::Zero(), 0.04};
+  const Stroke heng = strokes(*one).front();
+  const Point begin = em_40_mm.to_page(heng.control_points[0]), end = em_40_mm.to_page(heng.control_points[1]);
+  const Point aside = 0.015 * Point(begin.y() - end.y(), end.x() - begin.x()).normalized();
+  ActiveStroke active;
+  active.load(heng, em_40_mm);
+  const StrokeRules rules;
+  const Point corners[] = {begin, begin + aside, end + aside, end + 0.002 * (end - begin).normalized()};
+  for (int leg = 0; leg < 3; ++leg) {
+    for (int i = 0; i <= 300; ++i) {
+      const Point tip = corners[leg] + (i / 300.0) * (corners[leg + 1] - corners[leg]);
+      REQUIRE_FALSE(active.update(tip, rules).passed_feature);
+    }
+  }
+}

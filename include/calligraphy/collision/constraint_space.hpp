@@ -12,8 +12,8 @@ enum class ConstraintSpaceRule {
 
 struct ConstraintSpace {
   ConstraintSpaceRule rule = ConstraintSpaceRule::tube;
-  double radius = 0.008;  ///< [m]
-  double edge = 0.003;    ///< [m], at most `radius`
+  double radius = 0.012;  ///< [m]
+  double edge = 0.008;    ///< [m], at most `radius`; a narrow one drops the force steeply, a negative stiffness
 };
 
 /// Share of the guidance force that the pen feels at `query`: 1 inside, 0 outside, between them on the tube's edge, where
