@@ -206,6 +206,12 @@ std::vector<double> errors_of(const std::filesystem::path& directory, char32_t c
   return errors;
 }
 
+#if defined(__SANITIZE_ADDRESS__)
+constexpr std::size_t stride = 200;  // memory is watched; the shares are the other build's claim
+#else
+constexpr std::size_t stride = 20;
+#endif
+
 }  // namespace
 
 TEST_CASE("every twentieth character of the package reads, validates and is followed closely", "[model]") {
@@ -214,7 +220,7 @@ TEST_CASE("every twentieth character of the package reads, validates and is foll
   const std::vector<char32_t> codes = characters_in(directory);
   REQUIRE(codes.size() > 9000);
   std::vector<double> errors;
-  for (std::size_t i = 0; i < codes.size(); i += 20) {
+  for (std::size_t i = 0; i < codes.size(); i += stride) {
     INFO(encode_utf8(codes[i]));
     Character character;
     REQUIRE_NOTHROW(character = read_hanzi_writer(directory.string(), codes[i]));
@@ -230,9 +236,11 @@ TEST_CASE("every twentieth character of the package reads, validates and is foll
   std::sort(errors.begin(), errors.end());
   INFO("within 1 %: " << share_within(0.01) << ", within 2 %: " << share_within(0.02) << ", median "
                       << errors[errors.size() / 2] << ", largest " << errors.back());
+#if !defined(__SANITIZE_ADDRESS__)
   CHECK(share_within(0.02) >= 0.995);
   CHECK(share_within(0.01) >= 0.89);
   CHECK(errors[errors.size() / 2] < 0.004);
+#endif
 }
 
 TEST_CASE("well-known characters of the package have the strokes that schools teach", "[model]") {
