@@ -27,7 +27,8 @@ class ReferenceCurve {
     Row differences = {};
     const Real degree = static_cast<Real>(count_ - 1);
     for (std::size_t i = 0; i + 1 < count_; ++i) {
-      for (std::size_t axis = 0; axis < 2; ++axis) differences[i][axis] = degree * (points_[i + 1][axis] - points_[i][axis]);
+      for (std::size_t axis = 0; axis < 2; ++axis)
+        differences[i][axis] = degree * (points_[i + 1][axis] - points_[i][axis]);
     }
     return casteljau(differences, count_ - 1, t);
   }
@@ -75,7 +76,8 @@ class ReferenceCurve {
     for (int i = 0; i < parts; ++i) {
       const Real half = 0.5L * t / static_cast<Real>(parts);
       const Real middle = (2.0L * static_cast<Real>(i) + 1.0L) * half;
-      sum += half * (5.0L * speed(middle - half * node) + 8.0L * speed(middle) + 5.0L * speed(middle + half * node)) / 9.0L;
+      sum += half * (5.0L * speed(middle - half * node) + 8.0L * speed(middle) + 5.0L * speed(middle + half * node)) /
+             9.0L;
     }
     return sum;
   }

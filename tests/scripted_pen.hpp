@@ -29,7 +29,8 @@ inline calligraphy::PlacedCharacter placed(char32_t code, const Point& origin = 
 
 class ScriptedPen {
  public:
-  explicit ScriptedPen(calligraphy::HapticRenderer& renderer, double rate = 1000.0) : renderer_(renderer), period_(1.0 / rate) {}
+  explicit ScriptedPen(calligraphy::HapticRenderer& renderer, double rate = 1000.0)
+      : renderer_(renderer), period_(1.0 / rate) {}
 
   std::function<void(const HapticTick&)> on_tick = [](const HapticTick&) {};
   double speed = 0.1;  ///< [m/s]

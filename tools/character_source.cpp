@@ -22,8 +22,10 @@ CharacterSet select(const std::u32string& text, const CharacterSet& from, const 
 }
 
 CharacterSet read_package(const std::u32string& text, const std::string& directory) {
-  CharacterSet found{"Make Me a Hanzi, as hanzi-writer-data", "Arphic Public License",
-                     "Arphic Technology, Make Me a Hanzi, Hanzi Writer", {}};
+  CharacterSet found{"Make Me a Hanzi, as hanzi-writer-data",
+                     "Arphic Public License",
+                     "Arphic Technology, Make Me a Hanzi, Hanzi Writer",
+                     {}};
   for (const char32_t code : text) {
     if (found.find(code) == nullptr) found.characters.push_back(read_hanzi_writer(directory, code));
   }

@@ -2,9 +2,9 @@
 #include <memory>
 #include <string>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include <calligraphy/model/character_set.hpp>
@@ -54,8 +54,8 @@ Json json_of(const CharacterSet& set, const Character& character) {
                      {"pinyin", stroke.type->pinyin},
                      {"elements", stroke.type->elements},
                      {"control_points_em", points},
-                     {"attraction_factors", Json(std::vector<double>(stroke.attraction_factors.begin(),
-                                                                     stroke.attraction_factors.end()))}});
+                     {"attraction_factors",
+                      Json(std::vector<double>(stroke.attraction_factors.begin(), stroke.attraction_factors.end()))}});
   }
   return {{"character", encode_utf8(character.code)},
           {"number_of_typical_strokes", character.stroke_count()},
@@ -101,8 +101,9 @@ void add_info(CLI::App& program) {
   CLI::App* const command = program.add_subcommand("info", "Print the data structure of characters (Table 3).");
   const auto options = std::make_shared<Options>();
   CLI::Option* const text = command->add_option("TEXT", options->text, "Characters, each shown once");
-  command->add_option("--characters", options->characters,
-                      "File of characters, or directory of hanzi-writer-data (default: the built-in set)")
+  command
+      ->add_option("--characters", options->characters,
+                   "File of characters, or directory of hanzi-writer-data (default: the built-in set)")
       ->type_name("PATH");
   command->add_flag("--paper-example", options->paper_example, "The character of Table 3, verbatim");
   command->add_flag("--json", options->json, "Print JSON: a list with an object per character");

@@ -24,8 +24,7 @@ fs::path first_missing(const fs::path& path) {
 
 }  // namespace
 
-OutputDirectory::OutputDirectory(const fs::path& path)
-    : path_(plain(path)), first_created_(first_missing(path_)) {
+OutputDirectory::OutputDirectory(const fs::path& path) : path_(plain(path)), first_created_(first_missing(path_)) {
   try {
     std::error_code failure;
     fs::create_directories(path_, failure);

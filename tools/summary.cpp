@@ -6,8 +6,8 @@
 #include <map>
 #include <utility>
 
-#include <boost/math/distributions/students_t.hpp>
 #include <fmt/format.h>
+#include <boost/math/distributions/students_t.hpp>
 #include <nlohmann/json.hpp>
 
 #include <calligraphy/model/text.hpp>
@@ -92,8 +92,8 @@ std::string table(const std::vector<Result>& results) {
         of([](const Result& r) { return r.score.direction_mistakes(); }), decimals,
         fmt::format("{:.{}f}/{}", written, decimals, first.score.stroke_count),
         of([](const Result& r) { return r.score.peak_force; }),
-        of([](const Result& r) { return r.score.max_force_step; }),
-        of([](const Result& r) { return r.tick_p50; }), of([](const Result& r) { return r.tick_p999; }));
+        of([](const Result& r) { return r.score.max_force_step; }), of([](const Result& r) { return r.tick_p50; }),
+        of([](const Result& r) { return r.tick_p999; }));
     begin = end;
   }
   return text;

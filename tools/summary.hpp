@@ -12,7 +12,7 @@ namespace calligraphy::tools {
 
 /// One character, written once.
 struct Result {
-  int position = 0;    ///< in the text, from 1
+  int position = 0;  ///< in the text, from 1
   Mode mode = Mode::force;
   int repetition = 1;  ///< from 1
   std::uint64_t seed = 0;

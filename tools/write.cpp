@@ -11,9 +11,9 @@
 #include <tuple>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <CLI/CLI.hpp>
 
 #include <calligraphy/devices/simulated_device.hpp>
 #include <calligraphy/model/text.hpp>
@@ -219,9 +219,9 @@ class Run {
             const OutputDirectory& out) const {
     const char32_t code = result.score.character;
     const std::string stem = file_stem(result.position, code, result.mode);
-    const std::string title = fmt::format("{}, {}, {}", encode_utf8(code),
-                                          result.mode == Mode::vision ? "vision only" : "vision and force",
-                                          session_.device.capabilities.model);
+    const std::string title =
+        fmt::format("{}, {}, {}", encode_utf8(code), result.mode == Mode::vision ? "vision only" : "vision and force",
+                    session_.device.capabilities.model);
     out.write(stem + ".svg", page_picture(page, recording, index, title));
     if (plots_) out.write(stem + "-force.svg", force_plot(recording, index, title));
     std::ostringstream trace;
@@ -262,8 +262,9 @@ void add_write(CLI::App& program) {
   command->add_option("--out", options->out, "Directory for the results, created when missing")
       ->required()
       ->type_name("DIR");
-  command->add_option("--characters", options->characters,
-                      "File of characters, or directory of hanzi-writer-data (default: the built-in set)")
+  command
+      ->add_option("--characters", options->characters,
+                   "File of characters, or directory of hanzi-writer-data (default: the built-in set)")
       ->type_name("PATH");
   command->add_option("--device", options->device, "simulated:NAME with one of " + device_names())
       ->capture_default_str()

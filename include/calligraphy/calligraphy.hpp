@@ -1,7 +1,6 @@
 // Everything.
 #pragma once
 
-#include <calligraphy/error.hpp>
 #include <calligraphy/collision/active_stroke.hpp>
 #include <calligraphy/collision/constraint_space.hpp>
 #include <calligraphy/collision/feature_plane.hpp>
@@ -12,6 +11,7 @@
 #include <calligraphy/devices/haptic_device.hpp>
 #include <calligraphy/devices/replay_device.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
+#include <calligraphy/error.hpp>
 #include <calligraphy/model/bezier.hpp>
 #include <calligraphy/model/character.hpp>
 #include <calligraphy/model/character_set.hpp>

@@ -24,7 +24,8 @@ class FileError : public Error {
   using Error::Error;
 };
 
-/// Text or data that is not what it should be; the message names the source, the line where there is one, and the value.
+/// Text or data that is not what it should be; the message names the source, the line where there is one, and the
+/// value.
 class FormatError : public Error {
  public:
   using Error::Error;

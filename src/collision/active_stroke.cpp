@@ -50,7 +50,8 @@ StrokeContact ActiveStroke::update(const Point& tip, const StrokeRules& rules) n
     contact.passed_feature = true;
     contact.finished = active_ == element_count_;
   }
-  // A pen on the edge of the constraint space or outside makes no headway: a stroke cannot be finished without being written.
+  // A pen on the edge of the constraint space or outside makes no headway: a stroke cannot be finished without being
+  // written.
   if (contact.share >= least_share) {
     arc_ = contact.arc - first_arc_[static_cast<std::size_t>(contact.element)];
     furthest_ = std::max(furthest_, contact.arc);
@@ -90,7 +91,8 @@ bool ActiveStroke::passes(const Point& tip, const StrokeContact& contact, const 
   const double tolerance = std::min(rules.plane_tolerance, 0.3 * length);
   const double left = first_arc_[i + 1] - contact.arc;
   // Near the feature point along the stroke too: a plane reaches across other limbs of the same stroke. On a curve the
-  // foot may lag behind the plane by more than the tolerance, but not by more than twice of it unless the pen is far off.
+  // foot may lag behind the plane by more than the tolerance, but not by more than twice of it unless the pen is far
+  // off.
   if (contact.share < least_share || left > 2.0 * tolerance + 1e-6 * length) return false;
   if (beyond >= -tolerance) return true;
   // A pen that keeps to the inside of a corner never reaches the plane: it passes on the bisector, where both limbs

@@ -1,11 +1,10 @@
 #include <calligraphy/collision/constraint_space.hpp>
 
-
 namespace calligraphy {
 namespace {
 
-/// Wang 2006, sec. 4.3.1 (a)-(d) for an LSE. Sec. 4.3.2 gives a CSE a "spherical neighboring area around the start point"
-/// without a radius; read here, as for an LSE, as the distance from its start to its end.
+/// Wang 2006, sec. 4.3.1 (a)-(d) for an LSE. Sec. 4.3.2 gives a CSE a "spherical neighboring area around the start
+/// point" without a radius; read here, as for an LSE, as the distance from its start to its end.
 double printed_share(const StrokeElement& element, const Point& query) {
   if (!(element.size > 0.0)) return 1.0;  // (d)
   const Point edge = element.point(1.0) - element.origin;

@@ -25,9 +25,9 @@ NearestPoint on_line(const StrokeElement& element, const Point& query, const Par
 }
 
 /// The search of one query on one curve. Half the slope of the squared distance is the polynomial
-/// g(t) = (B(t) - q) . B'(t), of degree 2 n - 1. Its Bernstein ordinates over an interval bound it there, and the number of
-/// their sign changes bounds the number of its zeros (variation diminishing), so that every minimum can be isolated:
-/// halve until an interval shows no change (none inside), or one (Newton's method cannot leave it).
+/// g(t) = (B(t) - q) . B'(t), of degree 2 n - 1. Its Bernstein ordinates over an interval bound it there, and the
+/// number of their sign changes bounds the number of its zeros (variation diminishing), so that every minimum can be
+/// isolated: halve until an interval shows no change (none inside), or one (Newton's method cannot leave it).
 class CurveSearch {
  public:
   CurveSearch(const StrokeElement& element, const Point& query, const ParameterRange& range, double tolerance)
@@ -194,9 +194,9 @@ class CurveSearch {
 /// children belongs to both. Here it goes to the child with the nearer middle. Never certified.
 NearestPoint by_subdivision(const StrokeElement& element, const Point& query, const ParameterRange& range,
                             double tolerance) {
-  const double coordinates = std::max({element.origin.cwiseAbs().maxCoeff(), element.size, query.cwiseAbs().maxCoeff()});
-  const double epsilon =
-      std::max(tolerance * element.size, 4.0 * std::numeric_limits<double>::epsilon() * coordinates);
+  const double coordinates =
+      std::max({element.origin.cwiseAbs().maxCoeff(), element.size, query.cwiseAbs().maxCoeff()});
+  const double epsilon = std::max(tolerance * element.size, 4.0 * std::numeric_limits<double>::epsilon() * coordinates);
   const auto distance = [&](const Point& point) { return (query - point).norm(); };
 
   double begin = range.begin, end = range.end;
@@ -231,8 +231,8 @@ NearestPoint by_subdivision(const StrokeElement& element, const Point& query, co
 NearestPoint nearest_point(const StrokeElement& element, const Point& query, const NearestPointOptions& options,
                            const ParameterRange& range) noexcept {
   const double reach = furthest_query * element.size;
-  const bool in_reach = query.allFinite() && (!(element.size > 0.0) ||
-                                              (query - element.origin).cwiseAbs().maxCoeff() <= reach);
+  const bool in_reach =
+      query.allFinite() && (!(element.size > 0.0) || (query - element.origin).cwiseAbs().maxCoeff() <= reach);
   if (!in_reach) {
     return {range.begin, element.point(range.begin), std::numeric_limits<double>::infinity(),
             element.tangent(range.begin), false};

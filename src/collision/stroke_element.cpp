@@ -41,9 +41,9 @@ Point StrokeElement::derivative(double t) const noexcept {
 
 Point StrokeElement::tangent(double t) const noexcept {
   if (!(size > 0.0)) return Point::Zero();
-  // Where the first derivative vanishes, the next one that does not gives the direction: the curve leaves its start along
-  // +B'' and arrives at its end along -B''. Between them a derivative too short to show a direction still shows on which
-  // side of its zero t is; at the zero, a cusp, the curve leaves along +B''.
+  // Where the first derivative vanishes, the next one that does not gives the direction: the curve leaves its start
+  // along +B'' and arrives at its end along -B''. Between them a derivative too short to show a direction still shows
+  // on which side of its zero t is; at the zero, a cusp, the curve leaves along +B''.
   std::array<Point, max_curve_degree> row = coefficients;
   Point last = Point::Zero();
   double sign = 1.0;

@@ -41,8 +41,7 @@ DeviceProfile ideal() {
   DeviceProfile profile;
   profile.name = "ideal";
   profile.mass = 0.045;
-  profile.capabilities =
-      capabilities("Ideal point mass", {0.160, 0.120, 0.070}, unlimited, unlimited, unlimited, 0.0);
+  profile.capabilities = capabilities("Ideal point mass", {0.160, 0.120, 0.070}, unlimited, unlimited, unlimited, 0.0);
   return profile;
 }
 
@@ -52,8 +51,8 @@ std::array<DeviceProfile, 5> make_profiles() {
       physical("touch", capabilities("Touch", {0.160, 0.120, 0.070}, 3.3, 0.88, 400.0, 55e-6), 0.045, 0.26),
       physical("desktop", capabilities("Phantom Desktop", {0.160, 0.120, 0.120}, 7.9, 1.75, 1000.0, 23e-6), 0.045,
                0.06),
-      physical("premium-1.5", capabilities("Phantom Premium 1.5", {0.381, 0.267, 0.191}, 8.5, 1.4, 800.0, 30e-6),
-               0.075, 0.04),
+      physical("premium-1.5", capabilities("Phantom Premium 1.5", {0.381, 0.267, 0.191}, 8.5, 1.4, 800.0, 30e-6), 0.075,
+               0.04),
       ideal(),
   };
 }

@@ -29,7 +29,7 @@ class Oscillator {
 
   double mass() const noexcept { return mass_; }
   double stiffness() const noexcept { return stiffness_; }
-  double decay() const noexcept { return decay_; }                           ///< d / (2 m) [1/s]
+  double decay() const noexcept { return decay_; }                          ///< d / (2 m) [1/s]
   double frequency_squared() const noexcept { return frequency_squared_; }  ///< k / m [1/s^2]
 
  private:

@@ -11,9 +11,9 @@
 namespace calligraphy {
 namespace {
 
-constexpr double largest_coordinate = 16.0;            // [em]; far outside any em square, far inside double's range
+constexpr double largest_coordinate = 16.0;               // [em]; far outside any em square, far inside double's range
 constexpr double smooth_angle = std::numbers::pi / 12.0;  // a joint called smooth may bend by this much [rad]
-constexpr double shortest_element = 1e-6;              // [em]
+constexpr double shortest_element = 1e-6;                 // [em]
 
 std::string format_point(const Point& point) {
   return "(" + std::to_string(point.x()) + ", " + std::to_string(point.y()) + ")";

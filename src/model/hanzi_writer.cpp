@@ -16,11 +16,11 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::size_t largest_file = 1 << 20;      // [byte]; the largest of the package has 15 thousand
+constexpr std::size_t largest_file = 1 << 20;  // [byte]; the largest of the package has 15 thousand
 constexpr std::size_t most_strokes = 256;
-constexpr std::size_t most_points = 10000;         // of one median
+constexpr std::size_t most_points = 10000;  // of one median
 constexpr double units_per_em = 1024.0;
-constexpr double baseline = -124.0;                // [unit]
+constexpr double baseline = -124.0;                        // [unit]
 constexpr double largest_coordinate = 8.0 * units_per_em;  // [unit]
 
 std::string read_file(const std::filesystem::path& path, const std::string& name) {

@@ -43,9 +43,7 @@ double outside(const Range& range, double degrees) {
 }
 
 /// How far outside the range a number is.
-double beyond(const Range& range, double value) {
-  return std::max({0.0, range.from - value, value - range.to});
-}
+double beyond(const Range& range, double value) { return std::max({0.0, range.from - value, value - range.to}); }
 
 /// Point of the path at an arc length after vertex `from`, at most the last point.
 Point point_after(std::span<const Point> path, std::size_t from, double length) {
@@ -285,15 +283,15 @@ namespace {
 
 /// A piece of the path as an element may see it.
 struct Piece {
-  double length = 0.0;      ///< of the chord [em]
-  double direction = 0.0;   ///< of the chord [degree]
-  double leaving = 0.0;     ///< direction of the first third [degree]
-  double arriving = 0.0;    ///< direction of the last third [degree]
-  double bulge = 0.0;       ///< mean offset of the path from the chord, over the chord's length, left positive [1]
+  double length = 0.0;          ///< of the chord [em]
+  double direction = 0.0;       ///< of the chord [degree]
+  double leaving = 0.0;         ///< direction of the first third [degree]
+  double arriving = 0.0;        ///< direction of the last third [degree]
+  double bulge = 0.0;           ///< mean offset of the path from the chord, over the chord's length, left positive [1]
   double line_direction = 0.0;  ///< of the best line, corners left out [degree]
-  double line_error = 0.0;  ///< largest distance from the best line [em]
-  double cubic_error = 0.0; ///< largest distance from the best cubic [em]
-  double sharpest = 0.0;    ///< largest turn inside, within 6 % of the em [degree]
+  double line_error = 0.0;      ///< largest distance from the best line [em]
+  double cubic_error = 0.0;     ///< largest distance from the best cubic [em]
+  double sharpest = 0.0;        ///< largest turn inside, within 6 % of the em [degree]
 };
 
 /// The points without what a rounded corner at either end may have bent.
@@ -386,11 +384,11 @@ constexpr Range any_share{0.0, 1.0};
 
 /// What an element of a compound stroke must look like.
 struct ElementRule {
-  Range direction;                  ///< of the chord [degree]
-  Range share = any_share;          ///< of the stroke's length [1]
-  Range leaving = any_direction;    ///< [degree]
-  Range arriving = any_direction;   ///< [degree]
-  Range bulge = any_bulge;          ///< left of travel positive [1]
+  Range direction;                 ///< of the chord [degree]
+  Range share = any_share;         ///< of the stroke's length [1]
+  Range leaving = any_direction;   ///< [degree]
+  Range arriving = any_direction;  ///< [degree]
+  Range bulge = any_bulge;         ///< left of travel positive [1]
 };
 
 struct CompoundRule {
@@ -422,30 +420,34 @@ const std::vector<CompoundRule>& compound_rules() {
       {18, {{heng}, {{-128.0, -72.0}}, {{120.0, 215.0}, hook_share}}},
       {19, {{heng}, {shu}, {ti, {0.0, 0.45}}}},
       {20, {{heng}, {{-125.0, -72.0}}, {{-85.0, -15.0}}, {{-18.0, 30.0}}, {hook_up, hook_share}}},
-      {21, {{heng},
-            {{-82.0, -35.0}, {0.3, 1.0}, {-110.0, -65.0}, {-75.0, 25.0}, {-0.4, -0.05}},
-            {{50.0, 130.0}, hook_share}}},
-      {22, {{heng},
-            {{-160.0, -105.0}, {0.1, 1.0}},
-            {{-50.0, 15.0}, {0.2, 1.0}, {-140.0, -40.0}, {-20.0, 60.0}, {-0.8, -0.12}},
-            {hook_up, hook_share}}},
-      {23,
-       {{heng}, {{-130.0, -75.0}}, {{-60.0, 10.0}, any_share, {-120.0, -25.0}, {-15.0, 30.0}, {-0.5, -0.03}}}},
+      {21,
+       {{heng},
+        {{-82.0, -35.0}, {0.3, 1.0}, {-110.0, -65.0}, {-75.0, 25.0}, {-0.4, -0.05}},
+        {{50.0, 130.0}, hook_share}}},
+      {22,
+       {{heng},
+        {{-160.0, -105.0}, {0.1, 1.0}},
+        {{-50.0, 15.0}, {0.2, 1.0}, {-140.0, -40.0}, {-20.0, 60.0}, {-0.8, -0.12}},
+        {hook_up, hook_share}}},
+      {23, {{heng}, {{-130.0, -75.0}}, {{-60.0, 10.0}, any_share, {-120.0, -25.0}, {-15.0, 30.0}, {-0.5, -0.03}}}},
       {24, {{heng}, {shu}, {{-18.0, 22.0}}}},
       {25, {{heng}, {shu}, {heng}, {shu}}},
-      {26, {{heng},
-            {{-150.0, -85.0}},
-            {{-75.0, 25.0}, {0.0, 0.35}},
-            {{-160.0, -65.0}, any_share, {-130.0, -20.0}, {-170.0, -65.0}, {-0.02, 0.5}}}},
-      {27, {{heng},
-            {{-140.0, -90.0}},
-            {{-15.0, 25.0}, {0.12, 1.0}},
-            {{-130.0, -75.0}, any_share, {-120.0, -60.0}, {-150.0, -80.0}, {-0.05, 0.5}},
-            {{120.0, 215.0}, hook_share}}},
-      {28, {{heng},
-            {{-155.0, -90.0}},
-            {{-120.0, -50.0}, any_share, {-85.0, 10.0}, {-180.0, -80.0}, {0.05, 0.8}},
-            {hook_left, hook_share}}},
+      {26,
+       {{heng},
+        {{-150.0, -85.0}},
+        {{-75.0, 25.0}, {0.0, 0.35}},
+        {{-160.0, -65.0}, any_share, {-130.0, -20.0}, {-170.0, -65.0}, {-0.02, 0.5}}}},
+      {27,
+       {{heng},
+        {{-140.0, -90.0}},
+        {{-15.0, 25.0}, {0.12, 1.0}},
+        {{-130.0, -75.0}, any_share, {-120.0, -60.0}, {-150.0, -80.0}, {-0.05, 0.5}},
+        {{120.0, 215.0}, hook_share}}},
+      {28,
+       {{heng},
+        {{-155.0, -90.0}},
+        {{-120.0, -50.0}, any_share, {-85.0, 10.0}, {-180.0, -80.0}, {0.05, 0.8}},
+        {hook_left, hook_share}}},
       {29, {{shu}, {ti, {0.0, 0.6}}}},
       // shu wan turns in a round bend, shu zhe (32) in a corner.
       {30, {{shu}, {{-75.0, -15.0}, {0.08, 0.4}, {-110.0, -45.0}, {-40.0, 20.0}, {-0.5, -0.05}}, {{-15.0, 22.0}}}},
@@ -453,10 +455,11 @@ const std::vector<CompoundRule>& compound_rules() {
       {32, {{shu}, {{-15.0, 21.0}}}},
       {33, {{{-125.0, -70.0}}, {heng}, {{-165.0, -98.0}, any_share, any_direction, any_direction, {-0.02, 0.4}}}},
       {34, {{shu}, {heng}, {shu}}},
-      {35, {{{-125.0, -70.0}},
-            {heng, {0.12, 1.0}},
-            {{-125.0, -78.0}, any_share, {-115.0, -65.0}, {-160.0, -80.0}, {-0.03, 0.5}},
-            {{120.0, 215.0}, hook_share}}},
+      {35,
+       {{{-125.0, -70.0}},
+        {heng, {0.12, 1.0}},
+        {{-125.0, -78.0}, any_share, {-115.0, -65.0}, {-160.0, -80.0}, {-0.03, 0.5}},
+        {{120.0, 215.0}, hook_share}}},
       {36, {{{-165.0, -108.0}}, {{-16.0, 45.0}}}},
       {37, {{{-155.0, -98.0}, any_share, {-140.0, -85.0}, {-170.0, -85.0}, {-0.05, 0.4}}, {{-75.0, -16.0}}}},
       {39, {{any_direction}, {any_direction}, {any_direction}, {any_direction}}},
@@ -464,14 +467,12 @@ const std::vector<CompoundRule>& compound_rules() {
   return rules;
 }
 
-const CompoundRule& rule_of(int id) {
-  return *std::ranges::find(compound_rules(), id, &CompoundRule::id);
-}
+const CompoundRule& rule_of(int id) { return *std::ranges::find(compound_rules(), id, &CompoundRule::id); }
 
 /// Prices in the currency of the choice, em of deviation.
 constexpr double price_of_degree = 0.0009;
-constexpr double price_of_bulge = 0.25;  // per unit of offset over chord
-constexpr double price_of_share = 0.25;  // per unit of the stroke's length
+constexpr double price_of_bulge = 0.25;     // per unit of offset over chord
+constexpr double price_of_share = 0.25;     // per unit of the stroke's length
 constexpr double price_of_corner = 0.0012;  // per degree of a sharp turn inside an element
 constexpr double price_of_line = 0.005;
 constexpr double price_of_curve = 0.009;
@@ -504,8 +505,8 @@ class PieceTable {
     for (std::size_t from = 0; from < count_; ++from) {
       for (std::size_t to = from + 1; to < count_; ++to) {
         const std::size_t points = corners[to] - corners[from] + 1;
-        pieces_[from * count_ + to] = measure(std::span(path).subspan(corners[from], points),
-                                              std::span(turns).subspan(corners[from], points));
+        pieces_[from * count_ + to] =
+            measure(std::span(path).subspan(corners[from], points), std::span(turns).subspan(corners[from], points));
       }
     }
   }
@@ -537,8 +538,7 @@ Choice divide(const CompoundRule& rule, std::string_view kinds, const PieceTable
       if (before == infinity) continue;
       const std::size_t first_end = element + 1 == elements ? corners - 1 : from + 1;
       for (std::size_t to = first_end; to < corners; ++to) {
-        const double total =
-            before + cost_of(rule.elements[element], kinds[element], table.between(from, to), length);
+        const double total = before + cost_of(rule.elements[element], kinds[element], table.between(from, to), length);
         if (total >= cost[(element + 1) * corners + to]) continue;
         cost[(element + 1) * corners + to] = total;
         previous[(element + 1) * corners + to] = from;

@@ -12,7 +12,8 @@ namespace calligraphy {
 std::u32string decode_utf8(std::string_view text) {
   const auto invalid = utf8::find_invalid(text.begin(), text.end());
   if (invalid != text.end()) {
-    throw FormatError("text is not UTF-8: byte " + std::to_string(std::distance(text.begin(), invalid)) + " is invalid");
+    throw FormatError("text is not UTF-8: byte " + std::to_string(std::distance(text.begin(), invalid)) +
+                      " is invalid");
   }
   std::u32string codes;
   utf8::utf8to32(text.begin(), text.end(), std::back_inserter(codes));

@@ -155,9 +155,8 @@ void draw_legend(pugi::xml_node root, double middle, double y, double unit) {
     const char* text;
     double width;
   };
-  constexpr std::array<Entry, 3> lines = {{{template_blue, "template", 2.6},
-                                           {active_yellow, "active character", 2.6},
-                                           {trace_green, "trace", 0.9}}};
+  constexpr std::array<Entry, 3> lines = {
+      {{template_blue, "template", 2.6}, {active_yellow, "active character", 2.6}, {trace_green, "trace", 0.9}}};
   const std::string start = "start of the active stroke";
   const double size = 3.3 * unit, sample = 7.0 * unit, space = 1.5 * unit, gap = 6.0 * unit;
 
@@ -168,15 +167,24 @@ void draw_legend(pugi::xml_node root, double middle, double y, double unit) {
   pugi::xml_node legend = add(root, "g", {{"class", "legend"}, {"fill", ink}});
   for (const Entry& entry : lines) {
     add(legend, "line",
-        {{"x1", number(x)}, {"y1", number(line_y)}, {"x2", number(x + sample)}, {"y2", number(line_y)},
-         {"stroke", entry.colour}, {"stroke-width", number(entry.width * unit)}});
+        {{"x1", number(x)},
+         {"y1", number(line_y)},
+         {"x2", number(x + sample)},
+         {"y2", number(line_y)},
+         {"stroke", entry.colour},
+         {"stroke-width", number(entry.width * unit)}});
     x += sample + space;
     add_text(legend, x, y, size, entry.text);
     x += svg::text_width(entry.text, size) + gap;
   }
   add(legend, "ellipse",
-      {{"cx", number(x + 0.5 * sample)}, {"cy", number(line_y)}, {"rx", number(0.4 * sample)},
-       {"ry", number(0.25 * sample)}, {"fill", "none"}, {"stroke", start_red}, {"stroke-width", number(0.7 * unit)}});
+      {{"cx", number(x + 0.5 * sample)},
+       {"cy", number(line_y)},
+       {"rx", number(0.4 * sample)},
+       {"ry", number(0.25 * sample)},
+       {"fill", "none"},
+       {"stroke", start_red},
+       {"stroke-width", number(0.7 * unit)}});
   add_text(legend, x + sample + space, y, size, start);
 }
 
@@ -202,7 +210,7 @@ std::string page_picture(const Page& page, const Recording& recording, int activ
   const int count = static_cast<int>(page.characters.size());
   const std::string heading = svg::clean(title);
   const double width = 1e3 * page.width, height = 1e3 * page.height;  // [mm]
-  const double unit = width / 160.0;  // text and margins grow with the page
+  const double unit = width / 160.0;                                  // text and margins grow with the page
   const double side = 6.0 * unit, top = 12.0 * unit, bottom = 9.0 * unit;
   const svg::View view{{side, top + height}, 1e3};
 
@@ -212,11 +220,16 @@ std::string page_picture(const Page& page, const Recording& recording, int activ
   const double size = 5.0 * unit * std::min(1.0, width / (5.0 * unit * svg::text_width(heading + ".", 1.0)));
   add_text(root, middle, 8.0 * unit, size, heading, {{"text-anchor", "middle"}, {"fill", ink}});
   add(root, "rect",
-      {{"class", "page"}, {"x", number(side)}, {"y", number(top)}, {"width", number(width)},
-       {"height", number(height)}, {"fill", "none"}, {"stroke", "#bbbbbb"}, {"stroke-width", number(0.4 * unit)}});
+      {{"class", "page"},
+       {"x", number(side)},
+       {"y", number(top)},
+       {"width", number(width)},
+       {"height", number(height)},
+       {"fill", "none"},
+       {"stroke", "#bbbbbb"},
+       {"stroke-width", number(0.4 * unit)}});
 
-  pugi::xml_node squares =
-      add(root, "g", {{"fill", "none"}, {"stroke", faint}, {"stroke-width", number(0.2 * unit)}});
+  pugi::xml_node squares = add(root, "g", {{"fill", "none"}, {"stroke", faint}, {"stroke-width", number(0.2 * unit)}});
   for (const PlacedCharacter& placed : page.characters) draw_square(squares, view_of(placed.placement, view));
 
   std::vector<std::vector<Stroke>> all_strokes;
@@ -224,9 +237,11 @@ std::string page_picture(const Page& page, const Recording& recording, int activ
     const PlacedCharacter& placed = page.characters[static_cast<std::size_t>(i)];
     const svg::View em = view_of(placed.placement, view);
     pugi::xml_node group = add(root, "g",
-                               {{"class", i == active ? "template active" : "template"}, {"fill", "none"},
+                               {{"class", i == active ? "template active" : "template"},
+                                {"fill", "none"},
                                 {"stroke", i == active ? active_yellow : template_blue},
-                                {"stroke-width", number(stroke_width * em.scale)}, {"stroke-linecap", "round"},
+                                {"stroke-width", number(stroke_width * em.scale)},
+                                {"stroke-linecap", "round"},
                                 {"stroke-linejoin", "round"}});
     all_strokes.push_back(strokes(placed.character));
     for (const Stroke& stroke : all_strokes.back()) add(group, "path", {{"d", svg::stroke_path(stroke, em)}});
@@ -238,8 +253,11 @@ std::string page_picture(const Page& page, const Recording& recording, int activ
     if (traces[i].empty()) continue;
     const double em = view.scale * page.characters[i].placement.em;
     pugi::xml_node group = add(root, "g",
-                               {{"class", "trace"}, {"fill", "none"}, {"stroke", trace_green},
-                                {"stroke-width", number(trace_width * em)}, {"stroke-linecap", "round"},
+                               {{"class", "trace"},
+                                {"fill", "none"},
+                                {"stroke", trace_green},
+                                {"stroke-width", number(trace_width * em)},
+                                {"stroke-linecap", "round"},
                                 {"stroke-linejoin", "round"}});
     for (const Trace& trace : traces[i]) add(group, "path", {{"d", trace_path(trace, view)}});
   }
@@ -250,8 +268,13 @@ std::string page_picture(const Page& page, const Recording& recording, int activ
   const svg::View em = view_of(placement, view);
   const Point start = em(active_strokes[stroke].control_points[0]);
   add(root, "ellipse",
-      {{"class", "start"}, {"cx", number(start.x())}, {"cy", number(start.y())}, {"rx", number(0.075 * em.scale)},
-       {"ry", number(0.052 * em.scale)}, {"fill", "none"}, {"stroke", start_red},
+      {{"class", "start"},
+       {"cx", number(start.x())},
+       {"cy", number(start.y())},
+       {"rx", number(0.075 * em.scale)},
+       {"ry", number(0.052 * em.scale)},
+       {"fill", "none"},
+       {"stroke", start_red},
        {"stroke-width", number(0.018 * em.scale)}});
 
   draw_legend(root, middle, top + height + 6.2 * unit, unit);

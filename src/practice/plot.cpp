@@ -138,25 +138,26 @@ std::string script(const Signals& signals) {
   std::string text = "set terminal svg noenhanced size " + std::to_string(plot_width) + "," +
                      std::to_string(plot_height) + " font 'sans-serif,13' background rgb 'white'\n";
   for (const Signal& signal : signals.curves) text += data_block(signals.time, signal);
-  text += "set lmargin at screen " + exact(left) + "\nset rmargin at screen " + exact(right) + "\n" +
-          "set xrange [" + exact(begin) + ":" + exact(end) + "]\n" + band_objects(signals.bands) +
+  text += "set lmargin at screen " + exact(left) + "\nset rmargin at screen " + exact(right) + "\n" + "set xrange [" +
+          exact(begin) + ":" + exact(end) + "]\n" + band_objects(signals.bands) +
           "set grid back linetype 1 linecolor rgb '#dcdcdc' linewidth 0.5\n"
           "set border 3 linecolor rgb '#666666'\nset tics nomirror out\n"
           "set xzeroaxis linetype 1 linecolor rgb '#999999'\n";
-  text += "set multiplot\n"
-          "set tmargin at screen 0.865\nset bmargin at screen 0.515\n"
-          "set format x ''\nset label 'force in the plane [N]' at screen 0.022, graph 0.5 center rotate\n"
-          "set key horizontal at screen 0.975, 0.942 right top samplen 2\n" +
-          band_labels(signals.bands, begin, end) + y_range(std::span(signals.curves).first(3)) +
-          "plot $size with lines linewidth 1.6 linecolor rgb '#555555' title '|F|', "
-          "$fx with lines linewidth 1.3 linecolor rgb '#0072b2' title 'Fx', "
-          "$fy with lines linewidth 1.3 linecolor rgb '#d55e00' title 'Fy'\n"
-          "unset label\nset tmargin at screen 0.47\nset bmargin at screen 0.12\n"
-          "set format x '%g'\nset xlabel 'time [s]'\nunset key\n"
-          "set label 'normal force [N]' at screen 0.022, graph 0.5 center rotate\n" +
-          y_range(std::span(signals.curves).last(1)) +
-          "plot $normal with lines linewidth 1.3 linecolor rgb '#222222' notitle\n"
-          "unset multiplot\n";
+  text +=
+      "set multiplot\n"
+      "set tmargin at screen 0.865\nset bmargin at screen 0.515\n"
+      "set format x ''\nset label 'force in the plane [N]' at screen 0.022, graph 0.5 center rotate\n"
+      "set key horizontal at screen 0.975, 0.942 right top samplen 2\n" +
+      band_labels(signals.bands, begin, end) + y_range(std::span(signals.curves).first(3)) +
+      "plot $size with lines linewidth 1.6 linecolor rgb '#555555' title '|F|', "
+      "$fx with lines linewidth 1.3 linecolor rgb '#0072b2' title 'Fx', "
+      "$fy with lines linewidth 1.3 linecolor rgb '#d55e00' title 'Fy'\n"
+      "unset label\nset tmargin at screen 0.47\nset bmargin at screen 0.12\n"
+      "set format x '%g'\nset xlabel 'time [s]'\nunset key\n"
+      "set label 'normal force [N]' at screen 0.022, graph 0.5 center rotate\n" +
+      y_range(std::span(signals.curves).last(1)) +
+      "plot $normal with lines linewidth 1.3 linecolor rgb '#222222' notitle\n"
+      "unset multiplot\n";
   return text;
 }
 

@@ -47,9 +47,7 @@ struct FileActions {
   FileActions(const FileActions&) = delete;
   FileActions& operator=(const FileActions&) = delete;
   ~FileActions() { posix_spawn_file_actions_destroy(&actions); }
-  void give(std::FILE* file, int descriptor) {
-    posix_spawn_file_actions_adddup2(&actions, fileno(file), descriptor);
-  }
+  void give(std::FILE* file, int descriptor) { posix_spawn_file_actions_adddup2(&actions, fileno(file), descriptor); }
 };
 
 }  // namespace

@@ -16,7 +16,7 @@ namespace calligraphy {
 namespace {
 
 constexpr std::array<std::string_view, 16> columns = {
-    "time_s",  "device_x_m", "device_y_m", "device_z_m", "tip_x_m", "tip_y_m",   "tip_z_m", "force_x_N",
+    "time_s",    "device_x_m", "device_y_m", "device_z_m", "tip_x_m", "tip_y_m",   "tip_z_m", "force_x_N",
     "force_y_N", "force_z_N",  "state",      "events",     "status",  "character", "stroke",  "tick_ns"};
 constexpr std::string_view rate_comment = "# rate_Hz=";
 constexpr std::size_t chunk = 1 << 16;  ///< bytes given to the stream at a time

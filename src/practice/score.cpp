@@ -46,16 +46,7 @@ Foot find_foot(const Template& stroke, const Point& tip) {
 std::vector<Template> templates(const PlacedCharacter& placed) {
   std::vector<Template> result;
   for (const Stroke& stroke : strokes(placed.character)) {
-    Template drawn{{}, stroke.type};
-    const std::vector<int> ends = stroke.type->feature_points(stroke.curve_degree);
-    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-      std::vector<Point> points;
-      for (int k = ends[i]; k <= ends[i + 1]; ++k) {
-        points.push_back(placed.placement.to_page(stroke.control_points[static_cast<std::size_t>(k)]));
-      }
-      drawn.elements.push_back(prepare_element(points));
-    }
-    result.push_back(std::move(drawn));
+    result.push_back({place_elements(stroke, placed.placement), stroke.type});
   }
   return result;
 }
@@ -246,8 +237,8 @@ class CharacterScorer {
 };
 
 int count(const std::vector<Mistake>& mistakes, MistakeKind kind) {
-  return static_cast<int>(std::count_if(mistakes.begin(), mistakes.end(),
-                                        [kind](const Mistake& mistake) { return mistake.kind == kind; }));
+  return static_cast<int>(
+      std::count_if(mistakes.begin(), mistakes.end(), [kind](const Mistake& mistake) { return mistake.kind == kind; }));
 }
 
 }  // namespace

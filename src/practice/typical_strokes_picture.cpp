@@ -34,7 +34,11 @@ void draw_feature_point(pugi::xml_node parent, const Point& at) {
 
 void draw_control_point(pugi::xml_node parent, const Point& at) {
   add(parent, "circle",
-      {{"class", "control"}, {"cx", number(at.x())}, {"cy", number(at.y())}, {"r", "3"}, {"fill", "#ffffff"},
+      {{"class", "control"},
+       {"cx", number(at.x())},
+       {"cy", number(at.y())},
+       {"r", "3"},
+       {"fill", "#ffffff"},
        {"stroke", polygon_grey}});
 }
 
@@ -43,8 +47,13 @@ void draw_start(pugi::xml_node parent, const Point& start, const Point& towards)
   const Point direction = (towards - start).normalized();
   const Point side(-direction.y(), direction.x());
   add(parent, "circle",
-      {{"class", "start"}, {"cx", number(start.x())}, {"cy", number(start.y())}, {"r", "6.5"}, {"fill", "none"},
-       {"stroke", point_red}, {"stroke-width", "1.3"}});
+      {{"class", "start"},
+       {"cx", number(start.x())},
+       {"cy", number(start.y())},
+       {"r", "6.5"},
+       {"fill", "none"},
+       {"stroke", point_red},
+       {"stroke-width", "1.3"}});
   svg::Path head;
   head.move_to(start + 19.0 * direction);
   head.line_to(start + 10.0 * direction + 4.2 * side);
@@ -56,13 +65,16 @@ void draw_polygon(pugi::xml_node parent, std::span<const Point> points) {
   svg::Path path;
   path.move_to(points[0]);
   for (const Point& point : points.subspan(1)) path.line_to(point);
-  add(parent, "path",
-      {{"d", path.data()}, {"fill", "none"}, {"stroke", polygon_grey}, {"stroke-dasharray", "4 3"}});
+  add(parent, "path", {{"d", path.data()}, {"fill", "none"}, {"stroke", polygon_grey}, {"stroke-dasharray", "4 3"}});
 }
 
 void draw_frame(pugi::xml_node parent, double x, double y) {
   add(parent, "rect",
-      {{"x", number(x)}, {"y", number(y)}, {"width", number(square)}, {"height", number(square)}, {"fill", "none"},
+      {{"x", number(x)},
+       {"y", number(y)},
+       {"width", number(square)},
+       {"height", number(square)},
+       {"fill", "none"},
        {"stroke", faint}});
 }
 
@@ -72,8 +84,12 @@ void draw_typical_stroke(pugi::xml_node parent, const TypicalStroke& type, doubl
   for (const auto& point : type.shape) em_points.emplace_back(point[0], point[1]);
   const svg::View view{{x, y + square}, square};
   add(parent, "path",
-      {{"d", svg::stroke_path({&type, 3, em_points, {}}, view)}, {"fill", "none"}, {"stroke", stroke_blue},
-       {"stroke-width", "9"}, {"stroke-linecap", "round"}, {"stroke-linejoin", "round"}});
+      {{"d", svg::stroke_path({&type, 3, em_points, {}}, view)},
+       {"fill", "none"},
+       {"stroke", stroke_blue},
+       {"stroke-width", "9"},
+       {"stroke-linecap", "round"},
+       {"stroke-linejoin", "round"}});
 
   std::vector<Point> points;
   for (const Point& point : em_points) points.push_back(view(point));

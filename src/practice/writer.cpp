@@ -188,9 +188,7 @@ void SimulatedWriter::think(double seconds) {
 }
 
 /// The display has moved on to another stroke.
-bool SimulatedWriter::accepted() const {
-  return seen_.sight.character != character_ || seen_.sight.stroke != stroke_;
-}
+bool SimulatedWriter::accepted() const { return seen_.sight.character != character_ || seen_.sight.stroke != stroke_; }
 
 void SimulatedWriter::follow_plan(double seconds) {
   const double em = page_[static_cast<std::size_t>(character_)].placement.em;
@@ -279,17 +277,11 @@ void SimulatedWriter::plan_attempt() {
 
 void SimulatedWriter::plan_elements(int stroke, bool backwards) {
   const PlacedCharacter& placed = page_[static_cast<std::size_t>(character_)];
-  const Stroke truth = strokes(placed.character)[static_cast<std::size_t>(stroke)];
-  const std::vector<int> ends = truth.type->feature_points(truth.curve_degree);
   plan_.clear();
-  for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-    std::vector<Point> points;
-    for (int k = ends[i]; k <= ends[i + 1]; ++k) {
-      points.push_back(placed.placement.to_page(truth.control_points[static_cast<std::size_t>(k)]));
-    }
-    PlannedElement planned{prepare_element(points), backwards, 0.0};
-    planned.duration = std::max(shortest_element, planned.truth.length() / (skill_.speed * placed.placement.em));
-    plan_.push_back(planned);
+  const Stroke drawn = strokes(placed.character)[static_cast<std::size_t>(stroke)];
+  for (const StrokeElement& truth : place_elements(drawn, placed.placement)) {
+    const double duration = truth.length() / (skill_.speed * placed.placement.em);
+    plan_.push_back({truth, backwards, std::max(shortest_element, duration)});
   }
   if (backwards) std::reverse(plan_.begin(), plan_.end());
 }

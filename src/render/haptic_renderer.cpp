@@ -32,8 +32,8 @@ void require_valid(const PlacedCharacter& placed, std::size_t index) {
 }
 
 void require_valid(const MotionMapping& mapping) {
-  const bool rigid = mapping.rotation.allFinite() && mapping.rotation.isUnitary(1e-9) &&
-                     mapping.rotation.determinant() > 0.0;
+  const bool rigid =
+      mapping.rotation.allFinite() && mapping.rotation.isUnitary(1e-9) && mapping.rotation.determinant() > 0.0;
   if (!rigid) throw ValueError("motion mapping: rotation is not a rotation matrix");
   if (!mapping.offset.allFinite()) throw ValueError("motion mapping: offset is not finite");
   if (!std::isfinite(mapping.scale) || mapping.scale <= 0.0) {
@@ -227,19 +227,18 @@ Eigen::Vector3d HapticRenderer::sum_forces() noexcept {
   if (tick_.state == InteractionState::writing) {
     const StrokeContact& contact = tick_.contact;
     const double stiffness = options_.guidance_stiffness * contact.attraction * contact.share;
-    tick_.attraction =
-        attraction_force(stiffness, tick_.pen_tip.head<2>(), contact.foot.point, options_.force_sign);
-    tick_.wrong_way = contact.share * wrong_way_force(options_.wrong_way_stiffness, options_.wrong_way_limit,
-                                                      options_.wrong_way_slack, contact.backwards,
-                                                      contact.foot.tangent);
+    tick_.attraction = attraction_force(stiffness, tick_.pen_tip.head<2>(), contact.foot.point, options_.force_sign);
+    tick_.wrong_way =
+        contact.share * wrong_way_force(options_.wrong_way_stiffness, options_.wrong_way_limit,
+                                        options_.wrong_way_slack, contact.backwards, contact.foot.tangent);
   }
   Point in_plane = tick_.attraction + tick_.wrong_way;
   if (tick_.state == InteractionState::writing) in_plane = fade(in_plane);
   return {in_plane.x(), in_plane.y(), tick_.normal};
 }
 
-/// Where the foot leaps, at the start of a stroke and at a feature point, a spring that appears at once throws the pen: the
-/// force passes from what it was to what it is now to be over the fade-in.
+/// Where the foot leaps, at the start of a stroke and at a feature point, a spring that appears at once throws the pen:
+/// the force passes from what it was to what it is now to be over the fade-in.
 Point HapticRenderer::fade(const Point& force) noexcept {
   if (has(tick_.events, TickEvent::stroke_started | TickEvent::feature_passed)) {
     fade_from_ = tick_.page_force.head<2>();

@@ -43,7 +43,8 @@ Trace trace(ActiveStroke& active, const std::vector<Point>& path, const StrokeRu
     const StrokeContact contact = active.update(path[i], rules);
     result.passed += contact.passed_feature;
     result.falls += contact.element < last.element;
-    if (i > 0 && !contact.passed_feature) result.largest_step = std::max(result.largest_step, std::abs(contact.arc - last.arc));
+    if (i > 0 && !contact.passed_feature)
+      result.largest_step = std::max(result.largest_step, std::abs(contact.arc - last.arc));
     result.finished = contact.finished;
     last = contact;
   }
@@ -95,7 +96,8 @@ TEST_CASE("a typical stroke traced backwards never finishes", "[collision]") {
     active.load(stroke, place);
     INFO("typical stroke " << type.id);
     CHECK_FALSE(active.begins_at(path.front(), 0.008));
-    const auto begin = std::find_if(path.begin(), path.end(), [&](const Point& tip) { return active.begins_at(tip, 0.008); });
+    const auto begin =
+        std::find_if(path.begin(), path.end(), [&](const Point& tip) { return active.begins_at(tip, 0.008); });
     REQUIRE(begin != path.end());
     CHECK_FALSE(trace(active, {begin, path.end()}).finished);  // what a pen that went on into the start would write
   }
@@ -162,7 +164,8 @@ TEST_CASE("crossing a plane back and forth passes one feature point", "[collisio
   calligraphy_test::draw_line(path, corner, pen_step);
   int passed = trace(active, path).passed;
   const Point along = (corner - active.start()).normalized();
-  for (int i = 0; i < 1000; ++i) passed += active.update(corner + (i % 2 ? 0.0001 : -0.0001) * along, {}).passed_feature;
+  for (int i = 0; i < 1000; ++i)
+    passed += active.update(corner + (i % 2 ? 0.0001 : -0.0001) * along, {}).passed_feature;
   CHECK(passed == 1);
 }
 
@@ -195,7 +198,8 @@ TEST_CASE("the attraction factor is linear in arc length, and as printed steps a
   double worst = 0.0, last = 1.0, largest_step = 0.0;
   for (const Point& tip : path) {
     const StrokeContact contact = active.update(tip, {}), step = printed.update(tip, rules);
-    const double expected = contact.arc <= first ? 1.0 + contact.arc / first : 2.0 - 1.5 * (contact.arc - first) / second;
+    const double expected =
+        contact.arc <= first ? 1.0 + contact.arc / first : 2.0 - 1.5 * (contact.arc - first) / second;
     worst = std::max(worst, std::abs(contact.attraction - expected));
     if (!step.finished) CHECK(step.attraction == (step.element == 0 ? 1.0 : 2.0));
     if (!contact.passed_feature) largest_step = std::max(largest_step, std::abs(contact.attraction - last));

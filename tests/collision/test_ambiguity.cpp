@@ -26,7 +26,7 @@ Character stroke_of(int id, std::vector<Point> points) {
 
 struct Run {
   bool finished = false;
-  double largest_jump = 0.0;  ///< of the foot from one update to the next [m]
+  double largest_jump = 0.0;   ///< of the foot from one update to the next [m]
   double furthest_back = 0.0;  ///< [m]
 };
 
@@ -58,7 +58,8 @@ TEST_CASE("Fig. 25, strong bend: the foot stays on its own limb of a hairpin", "
   StrokeRules whole;
   whole.window = 0.0;
   CHECK_FALSE(windowed.finished);
-  CHECK(follow(hairpin, first_limb, whole).finished);  // sought on the whole element, the foot is on the other limb at once
+  CHECK(follow(hairpin, first_limb, whole)
+            .finished);  // sought on the whole element, the foot is on the other limb at once
   CHECK(follow(hairpin, path_of(strokes(hairpin)[0], place, pen_step)).finished);
 }
 

@@ -24,7 +24,7 @@ const StrokeElement horizontal = element_of({{0.01, 0.02}, {0.05, 0.02}});  // 4
 
 TEST_CASE("rule (a): behind the start of a line there is no guidance as printed", "[collision]") {
   CHECK(share_at(printed, horizontal, {0.0101, 0.02}) == 1.0);
-  CHECK(share_at(printed, horizontal, {0.01, 0.02}) == 0.0);   // on the border: not ahead
+  CHECK(share_at(printed, horizontal, {0.01, 0.02}) == 0.0);  // on the border: not ahead
   CHECK(share_at(printed, horizontal, {0.0099, 0.02}) == 0.0);
   CHECK(share_at(printed, horizontal, {0.0101, 0.02 + 0.039}) == 1.0);
   CHECK(share_at(printed, horizontal, {0.0099, 0.02 + 0.039}) == 0.0);
@@ -51,7 +51,8 @@ TEST_CASE("a curve as printed guides within a disc round its start, behind it to
 }
 
 TEST_CASE("the printed half disc drops a deviation's whole force before the end of a stroke", "[collision]") {
-  // At lateral deviation d the half disc ends where x^2 + d^2 = L^2, so before the stroke does, and K d falls to 0 at once.
+  // At lateral deviation d the half disc ends where x^2 + d^2 = L^2, so before the stroke does, and K d falls to 0 at
+  // once.
   const double length = 0.04, stiffness = 400.0;
   for (const double deviation : {0.001, 0.003, 0.008, 0.02}) {
     const double border = std::sqrt(length * length - deviation * deviation);

@@ -23,7 +23,8 @@ TEST_CASE("a feature point is written where V_t . V_f of eq. (6) is positive", "
   CHECK(plane.beyond({3 - 8, 4 + 6}) == Approx(0.0).margin(1e-12));  // on the plane, however far
 }
 
-TEST_CASE("the plane of a curve stands across its tangent at the end, also where the derivative vanishes", "[collision]") {
+TEST_CASE("the plane of a curve stands across its tangent at the end, also where the derivative vanishes",
+          "[collision]") {
   CHECK(plane_of({{0, 0}, {1, 0}, {2, 1}, {2, 2}}).normal.isApprox(Point(0, 1)));
   CHECK(plane_of({{0, 0}, {1, 0}, {2, 2}, {2, 2}}).normal.isApprox(Point(1, 2).normalized()));
   CHECK(plane_of({{0, 0}, {2, 1}, {2, 1}, {2, 1}}).normal.isApprox(Point(2, 1).normalized()));

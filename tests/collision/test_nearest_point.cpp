@@ -85,7 +85,8 @@ TEST_CASE("a query on the curve is its own nearest point", "[collision]") {
     double worst = 0.0;
     for (int i = 0; i <= 50; ++i) {
       const auto at = ReferenceCurve(curve.control_points).point(i / 50.0L);
-      worst = std::max(worst, nearest_point(element, {static_cast<double>(at[0]), static_cast<double>(at[1])}).distance);
+      worst =
+          std::max(worst, nearest_point(element, {static_cast<double>(at[0]), static_cast<double>(at[1])}).distance);
     }
     INFO(curve.name);
     CHECK(worst <= curve.tolerance * element.size);
@@ -96,13 +97,13 @@ TEST_CASE("ties go to the smaller parameter", "[collision]") {
   const auto parameter = [](std::vector<Point> points, const Point& query) {
     return nearest_point(prepare_element(points), query).parameter;
   };
-  CHECK(parameter({{0, 0}, {0, 1}, {1, 1}, {1, 0}}, {0.5, 0.0}) == 0.0);        // both ends of an arch
-  CHECK(parameter({{0, 0}, {1, 1}, {-1, 1}, {0, 0}}, {0.0, 0.0}) == 0.0);       // both ends of a closed curve
+  CHECK(parameter({{0, 0}, {0, 1}, {1, 1}, {1, 0}}, {0.5, 0.0}) == 0.0);   // both ends of an arch
+  CHECK(parameter({{0, 0}, {1, 1}, {-1, 1}, {0, 0}}, {0.0, 0.0}) == 0.0);  // both ends of a closed curve
   CHECK(parameter({{0, 0}, {0.5, 1}, {1, 0}}, {0.5, -1.0}) == 0.0);
-  CHECK(parameter({{0, 0}, {0, 0}, {0, 0}, {0, 0}}, {1.0, 2.0}) == 0.0);        // a point
+  CHECK(parameter({{0, 0}, {0, 0}, {0, 0}, {0, 0}}, {1.0, 2.0}) == 0.0);  // a point
   CHECK(parameter({{1, 1}, {1, 1}}, {0.0, 0.0}) == 0.0);
-  CHECK(parameter({{0, 0}, {1, 0}, {1, 0}, {0, 0}}, {0.375, 0.0}) == Approx(parameter({{0, 0}, {1, 0}, {1, 0}, {0, 0}},
-        {0.375, 1e-12})));                                                      // there and back over the same points
+  CHECK(parameter({{0, 0}, {1, 0}, {1, 0}, {0, 0}}, {0.375, 0.0}) ==
+        Approx(parameter({{0, 0}, {1, 0}, {1, 0}, {0, 0}}, {0.375, 1e-12})));  // there and back over the same points
   CHECK(parameter({{0, 0}, {1, 0}, {1, 0}, {0, 0}}, {0.5, 0.3}) < 0.5);
   // A tie of two inner minima is found up to rounding: the same distance, the same answer each time.
   const StrokeElement s = prepare_element(std::vector<Point>{{0, 0}, {1, 0}, {0, 1}, {1, 1}});
@@ -122,7 +123,8 @@ TEST_CASE("at the centre of an arc any point of it will do, and one is found", "
   CHECK(top.distance == Approx(0.25).margin(1e-9));
 }
 
-TEST_CASE("the nearest point moves, turns and grows with its curve, and stays when the curve is reversed", "[collision]") {
+TEST_CASE("the nearest point moves, turns and grows with its curve, and stays when the curve is reversed",
+          "[collision]") {
   Sequence random(7);
   for (const HardCurve& curve : hard_curves()) {
     if (curve.tolerance > 1e-9) continue;
@@ -148,11 +150,13 @@ TEST_CASE("the nearest point moves, turns and grows with its curve, and stays wh
 }
 
 TEST_CASE("no query and no element makes the nearest point other than finite", "[collision]") {
-  const double values[] = {0.0, -0.0, 5e-324, 1e-310, 1e-200, 1.0, -1e8, 1e154, 1e200, 1.7e308, infinity, -infinity, not_a_number};
+  const double values[] = {0.0,   -0.0,  5e-324,  1e-310,   1e-200,    1.0,         -1e8,
+                           1e154, 1e200, 1.7e308, infinity, -infinity, not_a_number};
   std::vector<HardCurve> curves = hard_curves();
   for (const double size : {5e-324, 1e-310, 1e-200, 1e-170, 1e-100, 1e100}) {
     curves.push_back({"line of length " + std::to_string(std::log10(size)), {{0, 0}, {size, size}}});
-    curves.push_back({"curve of size " + std::to_string(std::log10(size)), {{0, 0}, {size, 0}, {0, size}, {size, size}}});
+    curves.push_back(
+        {"curve of size " + std::to_string(std::log10(size)), {{0, 0}, {size, 0}, {0, size}, {size, size}}});
   }
   for (const HardCurve& curve : curves) {
     const StrokeElement element = prepare_element(curve.control_points);
@@ -191,12 +195,15 @@ TEST_CASE("hundreds of thousands of random queries find nothing nearer than the 
     const NearestPoint found = nearest_point(element, query);
     uncertified += !found.certified;
     for (int k = 0; k <= 48; ++k) {
-      worst_against_samples = std::max(worst_against_samples, found.distance - (element.point(k / 48.0) - query).norm());
+      worst_against_samples =
+          std::max(worst_against_samples, found.distance - (element.point(k / 48.0) - query).norm());
     }
     if (i % 200 == 0) {
       const std::size_t outside = calligraphy_test::allocations();
-      const auto expected = ReferenceCurve({points.begin(), points.begin() + static_cast<std::ptrdiff_t>(count)}).nearest(query);
-      worst_against_reference = std::max(worst_against_reference, static_cast<double>(std::abs(found.distance - expected.distance)));
+      const auto expected =
+          ReferenceCurve({points.begin(), points.begin() + static_cast<std::ptrdiff_t>(count)}).nearest(query);
+      worst_against_reference =
+          std::max(worst_against_reference, static_cast<double>(std::abs(found.distance - expected.distance)));
       own += calligraphy_test::allocations() - outside;
     }
   }

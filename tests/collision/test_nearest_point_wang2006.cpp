@@ -66,8 +66,8 @@ TEST_CASE("the printed rule ends where it would not as printed: far offset, no n
         Approx(static_cast<double>(calligraphy_test::ReferenceCurve(far).nearest(query).distance)).margin(1e-2));
   const double infinity = std::numeric_limits<double>::infinity();
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const Point& lost : {Point(nan, 0.0), Point(0.0, nan), Point(infinity, 0.0), Point(-infinity, infinity),
-                            Point(1e200, 1e200)}) {
+  for (const Point& lost :
+       {Point(nan, 0.0), Point(0.0, nan), Point(infinity, 0.0), Point(-infinity, infinity), Point(1e200, 1e200)}) {
     const NearestPoint found = printed(far, lost);
     CHECK(found.parameter == 0.0);
     CHECK(std::isinf(found.distance));

@@ -30,9 +30,10 @@ TEST_CASE("points and derivatives of an element are those of its control points"
     for (int i = 0; i <= 40; ++i) {
       const double t = i / 40.0;
       const auto at = reference.point(t), slope = reference.derivative(t);
-      worst = std::max(worst, (element.point(t) - Point(static_cast<double>(at[0]), static_cast<double>(at[1]))).norm());
-      worst = std::max(worst, (element.derivative(t) -
-                               Point(static_cast<double>(slope[0]), static_cast<double>(slope[1]))).norm());
+      worst =
+          std::max(worst, (element.point(t) - Point(static_cast<double>(at[0]), static_cast<double>(at[1]))).norm());
+      worst = std::max(
+          worst, (element.derivative(t) - Point(static_cast<double>(slope[0]), static_cast<double>(slope[1]))).norm());
     }
     INFO(curve.name);
     CHECK(worst <= 1e-13 * element.size + (curve.tolerance > 1e-9 ? 1e-7 : 0.0));
@@ -65,12 +66,10 @@ TEST_CASE("where the derivative vanishes the tangent is the limit of the writing
 }
 
 TEST_CASE("the tangent does not flip next to a vanishing derivative", "[collision]") {
-  const std::vector<std::vector<Point>> curves = {{{0, 0}, {0, 0}, {1, 1}, {1, 0}},
-                                                  {{0, 0}, {0.2, 1}, {1, 0}, {1, 0}},
-                                                  {{0, 0}, {1, 0.5}, {1, 0.5}, {1, 0.5}},
-                                                  {{0, 0}, {0, 0}, {0, 0}, {1, 0.5}},
-                                                  {{0, 0}, {0, 0}, {1, 0.5}, {1, 0.5}},
-                                                  {{0, 0}, {0, 0}, {0.5, 1}, {1, 0}, {1, 0}}};
+  const std::vector<std::vector<Point>> curves = {
+      {{0, 0}, {0, 0}, {1, 1}, {1, 0}},       {{0, 0}, {0.2, 1}, {1, 0}, {1, 0}},
+      {{0, 0}, {1, 0.5}, {1, 0.5}, {1, 0.5}}, {{0, 0}, {0, 0}, {0, 0}, {1, 0.5}},
+      {{0, 0}, {0, 0}, {1, 0.5}, {1, 0.5}},   {{0, 0}, {0, 0}, {0.5, 1}, {1, 0}, {1, 0}}};
   for (const auto& curve : curves) {
     const StrokeElement element = prepare_element(curve);
     for (int digits = 2; digits <= 15; ++digits) {

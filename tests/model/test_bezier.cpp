@@ -40,7 +40,8 @@ void check_identities() {
   for_each<Degree>([](const Bezier<Degree>& curve, const ReferenceCurve& reference, double rounding) {
     CHECK(curve.point(0.0) == curve.control_points.front());
     CHECK((curve.point(1.0) - curve.control_points.back()).norm() <= rounding);
-    CHECK((curve.derivative(0.0) - Degree * (curve.control_points[1] - curve.control_points[0])).norm() <= Degree * rounding);
+    CHECK((curve.derivative(0.0) - Degree * (curve.control_points[1] - curve.control_points[0])).norm() <=
+          Degree * rounding);
     double point = 0.0, slope = 0.0, halves = 0.0, elevation = 0.0, difference = 0.0;
     for (int i = 0; i <= 20; ++i) {
       const double t = i / 20.0, split_at = 0.05 + 0.9 * t;

@@ -93,7 +93,8 @@ TEST_CASE("the same shape with quartic curves is the same shape", "[model]") {
           for (int i = 0; i <= 16; ++i) {
             const double t = i / 16.0;
             worst = std::max(worst, (Bezier<3>{{p[0], p[1], p[2], p[3]}}.point(t) -
-                                     Bezier<4>{{q[0], q[1], q[2], q[3], q[4]}}.point(t)).norm());
+                                     Bezier<4>{{q[0], q[1], q[2], q[3], q[4]}}.point(t))
+                                        .norm());
           }
         }
         a += kind == 'C' ? 3 : 1;

@@ -91,9 +91,12 @@ TEST_CASE("source, licence and attribution are free text, with '#' and all", "[m
 TEST_CASE("comments, blank lines, tabs, CRLF and a byte order mark are let pass", "[model]") {
   const CharacterSet plain = read(head + "character \xE4\xB8\x80\nstroke 1 0.1,0.5 0.9,0.5 | 1 2\n");
   CHECK(same(read("\xEF\xBB\xBF" + head + "character \xE4\xB8\x80\nstroke 1 0.1,0.5 0.9,0.5 | 1 2"), plain));
-  CHECK(same(read("calligraphy characters 1\r\n\r\ncharacter \xE4\xB8\x80\r\nstroke 1 0.1,0.5 0.9,0.5 | 1 2\r\n"), plain));
-  CHECK(same(read("\n# first\n" + head + "\n  character\t\xE4\xB8\x80  # one\n\tstroke 1  0.1,0.5\t1e-1,5e-1 # no\n"), plain) == false);
-  CHECK(same(read(head + "  character\t\xE4\xB8\x80  # one\n\n \t\n\tstroke 1  0.1,0.5\t9e-1,5e-1 | 1.0 2.0 # ok\n"), plain));
+  CHECK(same(read("calligraphy characters 1\r\n\r\ncharacter \xE4\xB8\x80\r\nstroke 1 0.1,0.5 0.9,0.5 | 1 2\r\n"),
+             plain));
+  CHECK(same(read("\n# first\n" + head + "\n  character\t\xE4\xB8\x80  # one\n\tstroke 1  0.1,0.5\t1e-1,5e-1 # no\n"),
+             plain) == false);
+  CHECK(same(read(head + "  character\t\xE4\xB8\x80  # one\n\n \t\n\tstroke 1  0.1,0.5\t9e-1,5e-1 | 1.0 2.0 # ok\n"),
+             plain));
 }
 
 TEST_CASE("each kind of broken line is named by file, line and value", "[model]") {
@@ -152,7 +155,8 @@ TEST_CASE("each kind of broken line is named by file, line and value", "[model]"
 }
 
 TEST_CASE("a message does not repeat a line of a megabyte", "[model]") {
-  for (const std::string& start : {std::string(), head, head + "character ", head + "character \xE5\x8C\x97\nstroke 1 "}) {
+  for (const std::string& start :
+       {std::string(), head, head + "character ", head + "character \xE5\x8C\x97\nstroke 1 "}) {
     const std::string found = complaint(start + std::string(1'000'000, 'x'));
     CHECK_FALSE(found.empty());
     CHECK(found.size() < 300);
@@ -180,9 +184,12 @@ TEST_CASE("random damage is refused or read, never worse", "[model]") {
     std::string damaged = text;
     for (int k = 0; k < 3; ++k) {
       const auto at = static_cast<std::size_t>(random.next() * static_cast<double>(damaged.size()));
-      if (i % 3 == 0) damaged.resize(at);
-      else if (i % 3 == 1) damaged[at] = static_cast<char>(256.0 * random.next());
-      else damaged.erase(at, static_cast<std::size_t>(20.0 * random.next()));
+      if (i % 3 == 0)
+        damaged.resize(at);
+      else if (i % 3 == 1)
+        damaged[at] = static_cast<char>(256.0 * random.next());
+      else
+        damaged.erase(at, static_cast<std::size_t>(20.0 * random.next()));
       if (damaged.empty()) break;
     }
     try {

@@ -252,20 +252,20 @@ TEST_CASE("a corner vertex lies where the limbs meet and not on the rounded corn
 
 TEST_CASE("neighbouring strokes are told apart by direction and length", "[model]") {
   const auto id_of = [](const Path& path) { return fit_stroke(path).stroke.id; };
-  CHECK(id_of({{0.1, 0.5}, {0.9, 0.6}}) == 1);    // heng rises by 7 degrees
-  CHECK(id_of({{0.3, 0.4}, {0.6, 0.6}}) == 10);   // ti by 34
-  CHECK(id_of({{0.5, 0.6}, {0.58, 0.5}}) == 8);   // dian
-  CHECK(id_of({{0.5, 0.6}, {0.47, 0.45}}) == 9);  // left dian
-  CHECK(id_of({{0.5, 0.9}, {0.5, 0.1}}) == 2);    // shu
-  CHECK(id_of({{0.7, 0.8}, {0.4, 0.7}}) == 5);    // short pie
-  CHECK(id_of({{0.2, 0.8}, {0.8, 0.82}, {0.74, 0.72}}) == 11);              // heng gou
-  CHECK(id_of({{0.2, 0.8}, {0.8, 0.82}, {0.77, 0.3}}) == 16);               // heng zhe
-  CHECK(id_of({{0.5, 0.9}, {0.5, 0.1}, {0.4, 0.16}}) == 12);                // shu gou
-  CHECK(id_of({{0.5, 0.9}, {0.5, 0.2}, {0.7, 0.4}}) == 29);                 // shu ti
-  CHECK(id_of({{0.3, 0.8}, {0.3, 0.2}, {0.8, 0.24}}) == 32);                // shu zhe
-  CHECK(id_of({{0.5, 0.8}, {0.3, 0.4}, {0.7, 0.45}}) == 36);                // pie zhe
-  CHECK(id_of({{0.2, 0.8}, {0.7, 0.82}, {0.7, 0.1}, {0.6, 0.15}}) == 18);   // heng zhe gou
-  CHECK(id_of({{0.2, 0.8}, {0.5, 0.82}, {0.5, 0.2}, {0.7, 0.4}}) == 19);    // heng zhe ti
+  CHECK(id_of({{0.1, 0.5}, {0.9, 0.6}}) == 1);                             // heng rises by 7 degrees
+  CHECK(id_of({{0.3, 0.4}, {0.6, 0.6}}) == 10);                            // ti by 34
+  CHECK(id_of({{0.5, 0.6}, {0.58, 0.5}}) == 8);                            // dian
+  CHECK(id_of({{0.5, 0.6}, {0.47, 0.45}}) == 9);                           // left dian
+  CHECK(id_of({{0.5, 0.9}, {0.5, 0.1}}) == 2);                             // shu
+  CHECK(id_of({{0.7, 0.8}, {0.4, 0.7}}) == 5);                             // short pie
+  CHECK(id_of({{0.2, 0.8}, {0.8, 0.82}, {0.74, 0.72}}) == 11);             // heng gou
+  CHECK(id_of({{0.2, 0.8}, {0.8, 0.82}, {0.77, 0.3}}) == 16);              // heng zhe
+  CHECK(id_of({{0.5, 0.9}, {0.5, 0.1}, {0.4, 0.16}}) == 12);               // shu gou
+  CHECK(id_of({{0.5, 0.9}, {0.5, 0.2}, {0.7, 0.4}}) == 29);                // shu ti
+  CHECK(id_of({{0.3, 0.8}, {0.3, 0.2}, {0.8, 0.24}}) == 32);               // shu zhe
+  CHECK(id_of({{0.5, 0.8}, {0.3, 0.4}, {0.7, 0.45}}) == 36);               // pie zhe
+  CHECK(id_of({{0.2, 0.8}, {0.7, 0.82}, {0.7, 0.1}, {0.6, 0.15}}) == 18);  // heng zhe gou
+  CHECK(id_of({{0.2, 0.8}, {0.5, 0.82}, {0.5, 0.2}, {0.7, 0.4}}) == 19);   // heng zhe ti
 }
 
 TEST_CASE("hard inputs give a valid finite stroke", "[model]") {

@@ -43,9 +43,9 @@ TEST_CASE("a code that is no character is refused", "[model]") {
 
 TEST_CASE("the first invalid sequence is named by its byte offset", "[model]") {
   CHECK(complaint("\xFF").find("byte 0 ") != std::string::npos);
-  CHECK(complaint("\xE6\xB0\xB8\xE5").find("byte 3 ") != std::string::npos);            // truncated
-  CHECK(complaint("ab\xC0\xAF").find("byte 2 ") != std::string::npos);                  // overlong '/'
-  CHECK(complaint("abc\xED\xA0\x80").find("byte 3 ") != std::string::npos);             // surrogate
-  CHECK(complaint("a\xF4\x90\x80\x80").find("byte 1 ") != std::string::npos);           // above U+10FFFF
-  CHECK(complaint("a\x80").find("byte 1 ") != std::string::npos);                       // stray continuation
+  CHECK(complaint("\xE6\xB0\xB8\xE5").find("byte 3 ") != std::string::npos);   // truncated
+  CHECK(complaint("ab\xC0\xAF").find("byte 2 ") != std::string::npos);         // overlong '/'
+  CHECK(complaint("abc\xED\xA0\x80").find("byte 3 ") != std::string::npos);    // surrogate
+  CHECK(complaint("a\xF4\x90\x80\x80").find("byte 1 ") != std::string::npos);  // above U+10FFFF
+  CHECK(complaint("a\x80").find("byte 1 ") != std::string::npos);              // stray continuation
 }

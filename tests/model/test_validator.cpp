@@ -20,7 +20,8 @@ std::string problems_after(const std::function<void(Character&)>& change) {
   Character character = paper_example();
   change(character);
   std::string text;
-  for (const Problem& problem : validate(character)) text += std::to_string(problem.stroke) + ": " + problem.what + "\n";
+  for (const Problem& problem : validate(character))
+    text += std::to_string(problem.stroke) + ": " + problem.what + "\n";
   return text;
 }
 
@@ -39,7 +40,9 @@ const std::vector<Point> curve = {{0.8, 0.7}, {0.7, 0.6}, {0.6, 0.55}, {0.5, 0.5
 
 }  // namespace
 
-TEST_CASE("a valid character has no problems", "[model]") { CHECK(problems_after([](Character&) {}).empty()); }
+TEST_CASE("a valid character has no problems", "[model]") {
+  CHECK(problems_after([](Character&) {}).empty());
+}
 
 TEST_CASE("points that are not finite or far off are named with their stroke", "[model]") {
   for (const double value : {infinity, -infinity, std::nan(""), 17.0, -1e300}) {
@@ -61,12 +64,17 @@ TEST_CASE("attraction factors below zero or not finite are named with their stro
 }
 
 TEST_CASE("counts that do not fit the ids are found", "[model]") {
-  CHECK(contains(problems_after([](Character& c) { c.structure.control_points.pop_back(); }), "0: the stroke ids take 15 control points, not 14"));
+  CHECK(contains(problems_after([](Character& c) { c.structure.control_points.pop_back(); }),
+                 "0: the stroke ids take 15 control points, not 14"));
   CHECK(contains(problems_after([](Character& c) { c.structure.control_points.emplace_back(0.5, 0.5); }), "not 16"));
-  CHECK(contains(problems_after([](Character& c) { c.sequence.feature_points[3] = 4; }), "0: the indices of feature points"));
-  CHECK(contains(problems_after([](Character& c) { c.sequence.feature_points.clear(); }), "0: the indices of feature points"));
-  CHECK(contains(problems_after([](Character& c) { c.sequence.feature_points[0] = -7; }), "0: the indices of feature points"));
-  CHECK(contains(problems_after([](Character& c) { c.physics.attraction_factors.pop_back(); }), "13 feature points have 12"));
+  CHECK(contains(problems_after([](Character& c) { c.sequence.feature_points[3] = 4; }),
+                 "0: the indices of feature points"));
+  CHECK(contains(problems_after([](Character& c) { c.sequence.feature_points.clear(); }),
+                 "0: the indices of feature points"));
+  CHECK(contains(problems_after([](Character& c) { c.sequence.feature_points[0] = -7; }),
+                 "0: the indices of feature points"));
+  CHECK(contains(problems_after([](Character& c) { c.physics.attraction_factors.pop_back(); }),
+                 "13 feature points have 12"));
   CHECK(contains(problems_after([](Character& c) { c.sequence.stroke_ids.pop_back(); }), "0: the stroke ids take 11"));
 }
 
@@ -83,7 +91,8 @@ TEST_CASE("unknown ids and degrees, and a character without strokes, are found",
 }
 
 TEST_CASE("elements without length are found, a stroke of one line may be a point", "[model]") {
-  const std::string found = problems_after([](Character& c) { c.structure.control_points[8] = c.structure.control_points[7]; });
+  const std::string found =
+      problems_after([](Character& c) { c.structure.control_points[8] = c.structure.control_points[7]; });
   CHECK(found == "4: element 2 has no length\n");
   CHECK(contains(problems_after([](Character& c) {
                    for (std::size_t i = 11; i < 15; ++i) c.structure.control_points[i] = {0.5, 0.5};
@@ -94,7 +103,8 @@ TEST_CASE("elements without length are found, a stroke of one line may be a poin
 
 TEST_CASE("a smooth joint that bends is found with its angle", "[model]") {
   // shu wan (30), LCL with smooth joints: the last line turned off by 90 degrees.
-  const std::vector<Point> points = {{0.32, 0.80}, {0.32, 0.42}, {0.32, 0.26}, {0.36, 0.24}, {0.48, 0.24}, {0.48, 0.60}};
+  const std::vector<Point> points = {{0.32, 0.80}, {0.32, 0.42}, {0.32, 0.26},
+                                     {0.36, 0.24}, {0.48, 0.24}, {0.48, 0.60}};
   CHECK(contains(complaint({{30, points}}), "stroke 1: the joint after element 2 bends by 90 degrees"));
   std::vector<Point> straight = points;
   straight[5] = {0.78, 0.24};
@@ -108,7 +118,8 @@ TEST_CASE("a smooth joint that bends is found with its angle", "[model]") {
 TEST_CASE("building a character names the stroke and what it takes", "[model]") {
   CHECK(complaint({{2, {{0, 0}, {0, 1}}}, {4, curve}}).empty());
   CHECK(contains(complaint({{2, {{0, 0}, {0, 1}}}, {40, curve}}), "stroke 2: typical stroke id 40"));
-  CHECK(contains(complaint({{2, {{0, 0}, {0, 1}}}, {4, {{0, 0}, {1, 1}}}}), "stroke 2: typical stroke 4 takes 4 control points, not 2"));
+  CHECK(contains(complaint({{2, {{0, 0}, {0, 1}}}, {4, {{0, 0}, {1, 1}}}}),
+                 "stroke 2: typical stroke 4 takes 4 control points, not 2"));
   CHECK(contains(complaint({{4, curve}}, 4), "stroke 1: typical stroke 4 takes 5 control points, not 4"));
   CHECK(contains(complaint({{4, curve, {1.0}}}), "stroke 1: typical stroke 4 takes 2 attraction factors, not 1"));
   CHECK(contains(complaint({{4, curve, {1.0, -2.0}}}), "stroke 1: attraction factor"));

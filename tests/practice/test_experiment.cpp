@@ -26,9 +26,7 @@ struct Sums {
   void add(double value) { ++count, sum += value, square += value * value; }
   double mean() const { return sum / count; }
   /// Half width of the 95 % interval of the mean; the normal quantile, for hundreds of pairs.
-  double half_width() const {
-    return 1.96 * std::sqrt((square - sum * sum / count) / (count - 1.0) / count);
-  }
+  double half_width() const { return 1.96 * std::sqrt((square - sum * sum / count) / (count - 1.0) / count); }
 };
 
 }  // namespace
@@ -42,8 +40,9 @@ TEST_CASE("force makes an unskilled writer's error and time smaller on every cha
       CharacterScore result[2];
       for (const Mode mode : {Mode::vision, Mode::force}) {
         const auto i = static_cast<std::size_t>(mode);
-        result[i] = score(page, write_page(page, session(WriterSkill::novice(), mode, static_cast<std::uint64_t>(seed))))
-                        .front();
+        result[i] =
+            score(page, write_page(page, session(WriterSkill::novice(), mode, static_cast<std::uint64_t>(seed))))
+                .front();
         CHECK(result[i].strokes_completed == result[i].stroke_count);
         error[i].add(result[i].rms_error);
         time[i].add(result[i].time);

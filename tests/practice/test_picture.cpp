@@ -194,8 +194,7 @@ TEST_CASE("the red ellipse is at the start of the stroke that was active last", 
   const Page page = page_of("永北");
   const auto at = [&](const Recording& recording, int active, std::size_t stroke) {
     const auto document = xml(page_picture(page, recording, active, "title"));
-    const Point expected =
-        in_picture(document, start_of(page.characters[static_cast<std::size_t>(active)], stroke));
+    const Point expected = in_picture(document, start_of(page.characters[static_cast<std::size_t>(active)], stroke));
     return (ellipse_centre(document) - expected).norm() < 0.001;
   };
   Recording recording;
@@ -316,8 +315,7 @@ TEST_CASE("the picture of a long scribble stays under 300 kB", "[practice]") {
 
 TEST_CASE("a real session's picture shows as many traces as strokes were finished", "[practice]") {
   const Page page = page_of("永北");
-  const Recording recording =
-      write_page(page, calligraphy_test::session(WriterSkill::novice(), Mode::force));
+  const Recording recording = write_page(page, calligraphy_test::session(WriterSkill::novice(), Mode::force));
   std::size_t finished = 0;
   for (const Sample& each : recording.samples) finished += has(each.events, TickEvent::stroke_finished);
   REQUIRE(finished > 0);

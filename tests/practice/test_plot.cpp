@@ -160,12 +160,11 @@ TEST_CASE("a plot shows bands for the writing state of the character that was as
   std::string script = directory.content("script");
   CHECK(contains(script, "set xrange [0:7.999]"));
   const std::string style = " behind fillstyle solid noborder fillcolor rgb ";
-  for (const std::string& expected : {"from first 1, graph 0 to first 2, graph 1" + style + "'#e3ecfb'",
-                                      "from first 3, graph 0 to first 4, graph 1" + style + "'#e4e4e4'",
-                                      "from first 5, graph 0 to first 7, graph 1" + style + "'#e3ecfb'",
-                                      std::string("set label '1' at first 1.5,"),
-                                      std::string("set label '2' at first 3.5,"),
-                                      std::string("set label '2' at first 6,")}) {
+  for (const std::string& expected :
+       {"from first 1, graph 0 to first 2, graph 1" + style + "'#e3ecfb'",
+        "from first 3, graph 0 to first 4, graph 1" + style + "'#e4e4e4'",
+        "from first 5, graph 0 to first 7, graph 1" + style + "'#e3ecfb'", std::string("set label '1' at first 1.5,"),
+        std::string("set label '2' at first 3.5,"), std::string("set label '2' at first 6,")}) {
     CAPTURE(expected);
     CHECK(contains(script, expected));
   }

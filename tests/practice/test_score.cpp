@@ -26,15 +26,11 @@ class Pen {
     const PlacedCharacter& placed = page_.characters[static_cast<std::size_t>(character)];
     const Stroke truth = strokes(placed.character)[static_cast<std::size_t>(stroke)];
     std::vector<Point> path;
-    const auto ends = truth.type->feature_points(truth.curve_degree);
-    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-      std::vector<Point> points;
-      for (int k = ends[i]; k <= ends[i + 1]; ++k) {
-        points.push_back(placed.placement.to_page(truth.control_points[static_cast<std::size_t>(k)]) + shift);
-      }
-      const StrokeElement element = prepare_element(points);
+    for (const StrokeElement& element : place_elements(truth, placed.placement)) {
       const int steps = std::max(2, static_cast<int>(element.length() / 1e-4));
-      for (int s = 0; s <= steps; ++s) path.push_back(element.point(element.parameter_at(element.length() * s / steps)));
+      for (int s = 0; s <= steps; ++s) {
+        path.push_back(shift + element.point(element.parameter_at(element.length() * s / steps)));
+      }
     }
     if (backwards) std::reverse(path.begin(), path.end());
     hover(path.front());

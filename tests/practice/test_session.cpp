@@ -18,8 +18,8 @@ bool same(const Recording& a, const Recording& b) {
   return std::equal(a.samples.begin(), a.samples.end(), b.samples.begin(), b.samples.end(),
                     [](const Sample& x, const Sample& y) {
                       return x.time == y.time && x.device_point == y.device_point && x.pen_tip == y.pen_tip &&
-                             x.force == y.force && x.state == y.state && x.events == y.events &&
-                             x.status == y.status && x.character == y.character && x.stroke == y.stroke;
+                             x.force == y.force && x.state == y.state && x.events == y.events && x.status == y.status &&
+                             x.character == y.character && x.stroke == y.stroke;
                     });
 }
 
@@ -81,8 +81,8 @@ TEST_CASE("every built-in character is completed in both modes, and force steps 
       CAPTURE(encode_utf8(character.code), mode == Mode::force);
       const SessionOptions options = session(WriterSkill::novice(), mode, 11);
       const Recording recording = write_page(page, options);
-      const HapticRenderer renderer(page.characters, upright_page(page.width, page.height),
-                                    options.device.capabilities, options.renderer);
+      const HapticRenderer renderer(page.characters, upright_page(page.width, page.height), options.device.capabilities,
+                                    options.renderer);
       const CharacterScore result = score(page, recording).front();
       CHECK(result.strokes_completed == result.stroke_count);
       CHECK(largest_step(recording) <= renderer.max_force_step() * (1.0 + 1e-12));

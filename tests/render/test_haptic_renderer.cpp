@@ -19,7 +19,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-HapticRenderer renderer_of(std::u32string_view text, const RendererOptions& options = {}, const MotionMapping& mapping = {}) {
+HapticRenderer renderer_of(std::u32string_view text, const RendererOptions& options = {},
+                           const MotionMapping& mapping = {}) {
   std::vector<PlacedCharacter> page;
   for (const char32_t code : text) page.push_back(placed(code, {0.02 + 0.05 * static_cast<double>(page.size()), 0.02}));
   return {page, mapping, test_device(), options};
@@ -31,9 +32,11 @@ struct Log {
   int features = 0;
 
   void operator()(const HapticTick& tick) {
-    const std::pair<TickEvent, char> names[] = {
-        {TickEvent::stroke_started, 's'}, {TickEvent::stroke_finished, 'f'},    {TickEvent::stroke_abandoned, 'a'},
-        {TickEvent::character_finished, 'C'}, {TickEvent::page_finished, 'P'}};
+    const std::pair<TickEvent, char> names[] = {{TickEvent::stroke_started, 's'},
+                                                {TickEvent::stroke_finished, 'f'},
+                                                {TickEvent::stroke_abandoned, 'a'},
+                                                {TickEvent::character_finished, 'C'},
+                                                {TickEvent::page_finished, 'P'}};
     for (const auto& [event, letter] : names) {
       if (has(tick.events, event)) letters += letter;
     }
@@ -135,7 +138,8 @@ TEST_CASE("a pen lifted in mid-stroke gives it up, and the stroke begins again a
   pen.write({second.begin(), second.begin() + static_cast<std::ptrdiff_t>(second.size() / 2)});
   CHECK(log.letters == "sa");
   CHECK(renderer.last().stroke == 1);
-  pen.write({second.begin() + static_cast<std::ptrdiff_t>(second.size() / 2), second.end()});  // the rest alone is no stroke
+  pen.write(
+      {second.begin() + static_cast<std::ptrdiff_t>(second.size() / 2), second.end()});  // the rest alone is no stroke
   CHECK(log.letters == "sa");
   log.features = 0;
   pen.write(second);
@@ -188,8 +192,10 @@ TEST_CASE("Table 2: what each state outputs and where it holds the pen tip", "[r
   const Point along = (end - start).normalized(), left(-along.y(), along.x());
   settle(start + 0.01 * along + 0.003 * left, -0.002);
   CHECK(renderer.last().state == InteractionState::writing);
-  const Point expected = -renderer.options().guidance_stiffness * 0.003 * left;  // eq. (8), the factor and the share being 1
-  CHECK(renderer.last().force.isApprox(Vector3d(expected.x(), expected.y(), 0.002 * renderer.options().paper_stiffness), 1e-9));
+  const Point expected =
+      -renderer.options().guidance_stiffness * 0.003 * left;  // eq. (8), the factor and the share being 1
+  CHECK(renderer.last().force.isApprox(Vector3d(expected.x(), expected.y(), 0.002 * renderer.options().paper_stiffness),
+                                       1e-9));
   CHECK(renderer.last().pen_tip.z() == 0.0);
 }
 

@@ -19,8 +19,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-constexpr double extremes[] = {0.0, -0.0, 5e-324, 1e-310, -1.0, 1.0, 1e3, 1e154, -1e200, 1.7e308, -1.7e308,
-                               infinity, -infinity, not_a_number};
+constexpr double extremes[] = {0.0,   -0.0,   5e-324,  1e-310,   -1.0,     1.0,       1e3,
+                               1e154, -1e200, 1.7e308, -1.7e308, infinity, -infinity, not_a_number};
 
 /// A renderer in the middle of a stroke, the pen 3 mm beside it and 2 mm in the paper.
 struct InStroke {
@@ -52,7 +52,8 @@ DeviceState state_with(const Vector3d& position, DeviceStatus status = DeviceSta
 double any_of(Sequence& random) { return extremes[static_cast<std::size_t>(random.next() * std::size(extremes))]; }
 
 /// Ticks of every kind: pen-like motion, leaps, extremes, frozen samples, faults, clocks that stop or go back.
-void torment(HapticRenderer& renderer, std::uint64_t seed, int ticks, double& largest_excess, int& not_finite, int& strokes_started) {
+void torment(HapticRenderer& renderer, std::uint64_t seed, int ticks, double& largest_excess, int& not_finite,
+             int& strokes_started) {
   Sequence random(seed);
   Vector3d position(0.03, 0.05, 0.0), last = Vector3d::Zero();
   double time = 0.0;
@@ -60,9 +61,12 @@ void torment(HapticRenderer& renderer, std::uint64_t seed, int ticks, double& la
   for (int i = 0; i < ticks; ++i) {
     DeviceState state;
     const double kind = random.next();
-    if (kind < 0.6) position += Vector3d(random.between(-1e-3, 1e-3), random.between(-1e-3, 1e-3), random.between(-1e-3, 1e-3));
-    else if (kind < 0.75) position = Vector3d(random.between(0, 0.08), random.between(0, 0.08), random.between(-0.02, 0.005));
-    else if (kind < 0.8) position = -position;
+    if (kind < 0.6)
+      position += Vector3d(random.between(-1e-3, 1e-3), random.between(-1e-3, 1e-3), random.between(-1e-3, 1e-3));
+    else if (kind < 0.75)
+      position = Vector3d(random.between(0, 0.08), random.between(0, 0.08), random.between(-0.02, 0.005));
+    else if (kind < 0.8)
+      position = -position;
     state.position = position;
     if (kind > 0.97) state.position[static_cast<Eigen::Index>(3.0 * random.next())] = any_of(random);
     if (!position.allFinite() || position.norm() > 0.2) position = Vector3d(0.03, 0.05, 0.0);

@@ -31,7 +31,8 @@ MotionMapping random_mapping(Sequence& random) {
   return mapping;
 }
 
-/// How far a circle of 20 mm at 1 Hz misses its start after a quarter, half, three quarters and a whole turn, at most [m].
+/// How far a circle of 20 mm at 1 Hz misses its start after a quarter, half, three quarters and a whole turn, at most
+/// [m].
 double error_on_a_circle(MotionMappingRule rule, double rate) {
   Capabilities device;
   device.peak_force = 3.3;

@@ -28,7 +28,8 @@ std::string complaint(const std::function<void()>& act) {
   return "";
 }
 
-std::string complaint(const RendererOptions& options, const Capabilities& device = test_device(), double attraction = 1.0) {
+std::string complaint(const RendererOptions& options, const Capabilities& device = test_device(),
+                      double attraction = 1.0) {
   return complaint([&] { validate(options, device, attraction); });
 }
 
@@ -67,8 +68,8 @@ const Domain domains[] = {
 TEST_CASE("each option out of its domain is named with its value", "[render]") {
   CHECK(complaint(RendererOptions{}).empty());
   for (const Domain& domain : domains) {
-    for (const auto& [value, text] : {std::pair{-0.25, "-0.25"}, {0.0, "0"}, {infinity, "inf"}, {-infinity, "-inf"},
-                                      {not_a_number, "nan"}}) {
+    for (const auto& [value, text] :
+         {std::pair{-0.25, "-0.25"}, {0.0, "0"}, {infinity, "inf"}, {-infinity, "-inf"}, {not_a_number, "nan"}}) {
       RendererOptions options;
       domain.option(options) = value;
       const std::string found = complaint(options);
@@ -109,10 +110,11 @@ TEST_CASE("a stiffness above what the device can hold is refused, the attraction
   options.guidance_stiffness = 600.0;
   CHECK(complaint(options, test_device(), 1.6).empty());
   CHECK(contains(complaint(options, test_device(), 1.7), "largest attraction factor 1.7"));
-  CHECK(contains(complaint([&] {
-                   HapticRenderer({{calligraphy_test::typical_character(1, {1.0, 2.0}), {}}}, {}, test_device(), options);
-                 }),
-                 "largest attraction factor 2"));
+  CHECK(
+      contains(complaint([&] {
+                 HapticRenderer({{calligraphy_test::typical_character(1, {1.0, 2.0}), {}}}, {}, test_device(), options);
+               }),
+               "largest attraction factor 2"));
 }
 
 TEST_CASE("no stiffness that is a number makes a force that is none, for a device that states no limit", "[render]") {

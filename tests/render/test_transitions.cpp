@@ -16,9 +16,9 @@ using Eigen::Vector3d;
 namespace {
 
 struct Chatter {
-  int changes = 0;      ///< of state
-  int features = 0;     ///< passed
-  int strokes = 0;      ///< started
+  int changes = 0;   ///< of state
+  int features = 0;  ///< passed
+  int strokes = 0;   ///< started
   double largest_step = 0.0;
 };
 
@@ -62,7 +62,8 @@ TEST_CASE("a pen that chatters on the box's border changes its state once", "[re
   const RendererOptions& options = renderer.options();
   const Eigen::AlignedBox2d box = bounding_box(renderer.page()[0]);
   const double y = box.center().y();
-  for (const double border : {box.min().x() - options.box_margin, box.min().x() - options.box_margin - options.box_hysteresis}) {
+  for (const double border :
+       {box.min().x() - options.box_margin, box.min().x() - options.box_margin - options.box_hysteresis}) {
     renderer.restart();
     ScriptedPen pen(renderer);
     pen.go({0.0, y, 0.005});

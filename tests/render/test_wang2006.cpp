@@ -31,7 +31,8 @@ RendererOptions direct() {
 const Character line = calligraphy_test::typical_character(1);
 
 /// Largest step of the in-plane force while the pen writes `path` on the first stroke of `character` [N].
-double largest_in_plane_step(const Character& character, const std::vector<Point>& path, const RendererOptions& options) {
+double largest_in_plane_step(const Character& character, const std::vector<Point>& path,
+                             const RendererOptions& options) {
   HapticRenderer renderer({{character, {{0.02, 0.02}, 0.04}}}, {}, test_device(), options);
   ScriptedPen pen(renderer);
   Vector3d last = Vector3d::Zero();
@@ -59,7 +60,8 @@ TEST_CASE("the half disc drops K d before the end of a stroke, the tube does not
   printed.stroke.space.rule = ConstraintSpaceRule::wang2006;
   for (const double deviation : {0.001, 0.002, 0.004}) {
     INFO("deviation " << deviation << " m");
-    CHECK(largest_in_plane_step(line, page_path(line, deviation), printed) == Approx(stiffness * deviation).epsilon(1e-6));
+    CHECK(largest_in_plane_step(line, page_path(line, deviation), printed) ==
+          Approx(stiffness * deviation).epsilon(1e-6));
     CHECK(largest_in_plane_step(line, page_path(line, deviation), direct()) < 0.05 * stiffness * deviation);
   }
 }
@@ -70,7 +72,8 @@ TEST_CASE("entering a stroke steps the force by K d as printed, within the rate 
   const auto entering = [&](const RendererOptions& options) {
     HapticRenderer renderer({{line, {{0.02, 0.02}, 0.04}}}, {}, test_device(), options);
     ScriptedPen pen(renderer);
-    const Point outside = path.front() + 0.001 * along + 0.0045 * left, inside = path.front() + 0.001 * along + 0.003 * left;
+    const Point outside = path.front() + 0.001 * along + 0.0045 * left,
+                inside = path.front() + 0.001 * along + 0.003 * left;
     pen.go({outside.x(), outside.y(), 0.005});
     pen.go({outside.x(), outside.y(), -0.001});
     double before = 0.0, step = 0.0;
@@ -86,7 +89,7 @@ TEST_CASE("entering a stroke steps the force by K d as printed, within the rate 
   printed.guidance_stiffness = limited.guidance_stiffness = stiffness;
   printed.start_radius = limited.start_radius = 0.004;
   printed.box_margin = 0.01;
-  const double deviation = std::sqrt(0.004 * 0.004 - 0.001 * 0.001);  // where the pen crosses the start circle
+  const double deviation = std::sqrt(0.004 * 0.004 - 0.001 * 0.001);        // where the pen crosses the start circle
   CHECK(entering(printed) == Approx(stiffness * deviation).epsilon(0.03));  // 1.55 N
   CHECK(entering(limited) <= 0.1);
 }
@@ -97,7 +100,8 @@ TEST_CASE("a factor that changes at a feature point steps the force by K d times
   printed.stroke.attraction = AttractionRule::wang2006;
   printed.stroke.plane_tolerance = whole.stroke.plane_tolerance = 0.0;
   constexpr double deviation = 0.001;
-  CHECK(largest_in_plane_step(bend, page_path(bend, deviation), printed) == Approx(stiffness * deviation * 1.0).epsilon(0.05));
+  CHECK(largest_in_plane_step(bend, page_path(bend, deviation), printed) ==
+        Approx(stiffness * deviation * 1.0).epsilon(0.05));
   CHECK(largest_in_plane_step(bend, page_path(bend, deviation), whole) < 0.1 * stiffness * deviation);
 }
 

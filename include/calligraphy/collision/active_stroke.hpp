@@ -36,12 +36,12 @@ struct StrokeRules {
 
 /// Where the pen is with respect to the active stroke.
 struct StrokeContact {
-  int element = 0;             ///< index of the active element
-  NearestPoint foot;           ///< on the active element
-  double share = 0.0;          ///< of the guidance force, 0 outside the constraint space
-  double attraction = 1.0;     ///< attraction factor at the foot
-  double arc = 0.0;            ///< arc length of the foot from the start of the stroke [m]
-  double backwards = 0.0;      ///< arc length by which the foot is behind the furthest one [m]
+  int element = 0;              ///< index of the active element
+  NearestPoint foot;            ///< on the active element
+  double share = 0.0;           ///< of the guidance force, 0 outside the constraint space
+  double attraction = 1.0;      ///< attraction factor at the foot
+  double arc = 0.0;             ///< arc length of the foot from the start of the stroke [m]
+  double backwards = 0.0;       ///< arc length by which the foot is behind the furthest one [m]
   bool passed_feature = false;  ///< a feature point was passed in this update
   bool finished = false;        ///< the last feature point has been passed
 };
@@ -58,8 +58,8 @@ class ActiveStroke {
   /// Moves the pen tip to `tip` [m, page]. At most one feature point is passed per call.
   StrokeContact update(const Point& tip, const StrokeRules& rules) noexcept;
 
-  /// Whether a pen at `tip` begins the stroke: within `radius` of its start and not nearer to the next feature point, so
-  /// that a short stroke is not over before it was written. [m]
+  /// Whether a pen at `tip` begins the stroke: within `radius` of its start and not nearer to the next feature point,
+  /// so that a short stroke is not over before it was written. [m]
   bool begins_at(const Point& tip, double radius) const noexcept;
 
   Point start() const noexcept { return elements_[0].origin; }
@@ -78,8 +78,8 @@ class ActiveStroke {
   std::array<double, max_elements_per_stroke + 1> attraction_ = {};  ///< per feature point
   std::array<double, max_elements_per_stroke + 1> first_arc_ = {};   ///< arc length at each feature point
   int element_count_ = 0;
-  int active_ = 0;        ///< element being written; element_count_ once finished
-  double arc_ = 0.0;      ///< of the last foot, within the active element
+  int active_ = 0;         ///< element being written; element_count_ once finished
+  double arc_ = 0.0;       ///< of the last foot, within the active element
   double furthest_ = 0.0;  ///< from the start of the stroke
 };
 

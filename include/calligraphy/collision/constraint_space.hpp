@@ -16,8 +16,8 @@ struct ConstraintSpace {
   double edge = 0.008;    ///< [m], at most `radius`; a narrow one drops the force steeply, a negative stiffness
 };
 
-/// Share of the guidance force that the pen feels at `query`: 1 inside, 0 outside, between them on the tube's edge, where
-/// it is continuously differentiable. `foot` is the nearest point of the same element to the same query.
+/// Share of the guidance force that the pen feels at `query`: 1 inside, 0 outside, between them on the tube's edge,
+/// where it is continuously differentiable. `foot` is the nearest point of the same element to the same query.
 double guidance_share(const ConstraintSpace& space, const StrokeElement& element, const Point& query,
                       const NearestPoint& foot) noexcept;
 

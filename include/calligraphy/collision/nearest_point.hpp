@@ -30,8 +30,9 @@ struct ParameterRange {
   double end = 1.0;
 };
 
-/// Nearest point of the element within the range. Equal distances go to the smaller parameter. A query that is not finite gives the
-/// start of the range, uncertified. Bounded work: at most 256 intervals (exact), 64 halvings (wang2006).
+/// Nearest point of the element within the range. Equal distances go to the smaller parameter. A query that is not
+/// finite gives the start of the range, uncertified. Bounded work: at most 256 intervals (exact), 64 halvings
+/// (wang2006).
 NearestPoint nearest_point(const StrokeElement& element, const Point& query, const NearestPointOptions& options = {},
                            const ParameterRange& range = {}) noexcept;
 

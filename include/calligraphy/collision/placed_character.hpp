@@ -1,8 +1,11 @@
 // A character at its place on the page.
 #pragma once
 
+#include <vector>
+
 #include <Eigen/Geometry>
 
+#include <calligraphy/collision/stroke_element.hpp>
 #include <calligraphy/model/character.hpp>
 
 namespace calligraphy {
@@ -19,6 +22,9 @@ struct PlacedCharacter {
   Character character;
   Placement placement;
 };
+
+/// The elements of a stroke at its place, in writing order, prepared for queries [m].
+std::vector<StrokeElement> place_elements(const Stroke& stroke, const Placement& placement);
 
 /// Box round the control points of a character on the page [m].
 Eigen::AlignedBox2d bounding_box(const PlacedCharacter& placed);

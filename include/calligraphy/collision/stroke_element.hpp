@@ -18,11 +18,11 @@ struct StrokeElement {
   static constexpr int arc_intervals = 32;
 
   int degree = 1;
-  Point origin = Point::Zero();                                        ///< first control point
-  double size = 0.0;                                                   ///< diagonal of the control points' box
-  std::array<Point, max_curve_degree> coefficients = {};               ///< c_1 to c_n, relative to size
-  std::array<double, 2 * max_curve_degree> slope_of_square = {};       ///< power coefficients of (B - origin).B' / size^2
-  std::array<double, arc_intervals + 1> arc = {};                      ///< arc length from 0 to i / 32 [m]
+  Point origin = Point::Zero();                                   ///< first control point
+  double size = 0.0;                                              ///< diagonal of the control points' box
+  std::array<Point, max_curve_degree> coefficients = {};          ///< c_1 to c_n, relative to size
+  std::array<double, 2 * max_curve_degree> slope_of_square = {};  ///< power coefficients of (B - origin).B' / size^2
+  std::array<double, arc_intervals + 1> arc = {};                 ///< arc length from 0 to i / 32 [m]
 
   double length() const noexcept { return arc.back(); }
   Point point(double t) const noexcept;

@@ -21,9 +21,9 @@ enum class DeviceStatus : std::uint8_t {
 
 /// One sample of the device.
 struct DeviceState {
-  double time = 0.0;                                    ///< since the device was opened [s]
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();   ///< haptic interface point, device axes [m]
-  Eigen::Vector3d velocity =                            ///< [m/s]; NaN when the device does not measure it
+  double time = 0.0;                                   ///< since the device was opened [s]
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< haptic interface point, device axes [m]
+  Eigen::Vector3d velocity =                           ///< [m/s]; NaN when the device does not measure it
       Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   std::uint32_t buttons = 0;  ///< one bit per button
   DeviceStatus status = DeviceStatus::ok;

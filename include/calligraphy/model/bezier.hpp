@@ -27,9 +27,7 @@ struct Bezier {
   }
 
   /// Control points of the first derivative, a curve of one degree less.
-  Bezier<Degree - 1> hodograph() const
-    requires(Degree >= 2)
-  {
+  Bezier<Degree - 1> hodograph() const requires(Degree >= 2) {
     Bezier<Degree - 1> result;
     for (int i = 0; i < Degree; ++i) result.control_points[i] = Degree * (control_points[i + 1] - control_points[i]);
     return result;

@@ -34,7 +34,8 @@ CharacterSet read_characters(std::istream& in, std::string_view name);
 /// @throws FileError when the file cannot be opened, FormatError as above
 CharacterSet read_characters(const std::string& path);
 
-/// Writes the text format; read_characters gives back the same set (numbers in the shortest form that reads back the same).
+/// Writes the text format; read_characters gives back the same set (numbers in the shortest form that reads back the
+/// same).
 /// @throws ValueError when source, licence or attribution is more than one line
 void write_characters(std::ostream& out, const CharacterSet& set);
 

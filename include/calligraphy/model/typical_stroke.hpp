@@ -22,17 +22,17 @@ enum class ElementKind : char { line = 'L', curve = 'C' };
 
 /// One entry of the stroke library. The id depends neither on the size nor on the place of a stroke.
 ///
-/// Ids 1, 2, 4, 10, 16, 20 and 31 are the paper's own, by inference from Table 3 and Figs. 11 and 12; Fig. 7 is lost, so
-/// the other ids are this project's.
+/// Ids 1, 2, 4, 10, 16, 20 and 31 are the paper's own, by inference from Table 3 and Figs. 11 and 12; Fig. 7 is lost,
+/// so the other ids are this project's.
 struct TypicalStroke {
-  int id;                      ///< 1 to 39
-  std::string_view name;       ///< Chinese name
-  std::string_view pinyin;     ///< romanised name
-  std::string_view code;       ///< letter code as used for CJK strokes
-  std::string_view unicode;    ///< code point of the CJK stroke, in hexadecimal, "var" where it is a variant of it
-  std::string_view elements;   ///< 'L' (LSE) or 'C' (CSE) per element, in writing order
-  std::string_view joints;     ///< one per inner feature point: 'c' a corner, 's' smooth (tangent continuous)
-  std::string_view example;    ///< characters that contain it
+  int id;                     ///< 1 to 39
+  std::string_view name;      ///< Chinese name
+  std::string_view pinyin;    ///< romanised name
+  std::string_view code;      ///< letter code as used for CJK strokes
+  std::string_view unicode;   ///< code point of the CJK stroke, in hexadecimal, "var" where it is a variant of it
+  std::string_view elements;  ///< 'L' (LSE) or 'C' (CSE) per element, in writing order
+  std::string_view joints;    ///< one per inner feature point: 'c' a corner, 's' smooth (tangent continuous)
+  std::string_view example;   ///< characters that contain it
   std::span<const std::array<double, 2>> shape;  ///< typical control points, cubic curves [em]
 
   /// Number of control points when curves have the given degree (3 by default, 4 as eq. (1) prints).

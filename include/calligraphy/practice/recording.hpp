@@ -13,10 +13,10 @@
 namespace calligraphy {
 
 struct Sample {
-  double time = 0.0;                                        ///< [s]
-  Eigen::Vector3d device_point = Eigen::Vector3d::Zero();   ///< page frame [m]
-  Eigen::Vector3d pen_tip = Eigen::Vector3d::Zero();        ///< page frame [m]
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();          ///< given to the hand, page axes [N]
+  double time = 0.0;                                       ///< [s]
+  Eigen::Vector3d device_point = Eigen::Vector3d::Zero();  ///< page frame [m]
+  Eigen::Vector3d pen_tip = Eigen::Vector3d::Zero();       ///< page frame [m]
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();         ///< given to the hand, page axes [N]
   InteractionState state = InteractionState::separation;
   TickEvent events = TickEvent::none;
   TickStatus status = TickStatus::ok;

@@ -1,4 +1,5 @@
-// How well a page was written: a score per perceptible element, and every mistake with its reason (Wang 2006, sec. 2.2).
+// How well a page was written: a score per perceptible element, and every mistake with its reason (Wang 2006,
+// sec. 2.2).
 #pragma once
 
 #include <string>
@@ -23,9 +24,10 @@ struct Mistake {
 
 struct CharacterScore {
   char32_t character = 0;
-  double time = 0.0;        ///< from the first pen-down (or the end of the character before) to the end of the last stroke [s]
-  double rms_error = 0.0;   ///< lateral, over the arc length of the strokes completed [m]
-  double max_error = 0.0;   ///< lateral [m]
+  double time =
+      0.0;  ///< from the first pen-down (or the end of the character before) to the end of the last stroke [s]
+  double rms_error = 0.0;  ///< lateral, over the arc length of the strokes completed [m]
+  double max_error = 0.0;  ///< lateral [m]
   int stroke_count = 0;
   int strokes_completed = 0;
   double peak_force = 0.0;      ///< [N]

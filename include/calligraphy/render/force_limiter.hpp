@@ -8,8 +8,8 @@ namespace calligraphy {
 /// Brings every change of force in at a limited rate and keeps the sum within the peak force.
 ///
 /// Each tick the force moves towards its target by at most `in_plane_step` within the paper and `normal_step` along z;
-/// then it is shortened to `peak`, its direction kept. Shortening is a projection onto a ball that the last force lies in,
-/// so it never lengthens the step: no step exceeds max_step().
+/// then it is shortened to `peak`, its direction kept. Shortening is a projection onto a ball that the last force lies
+/// in, so it never lengthens the step: no step exceeds max_step().
 struct ForceLimiter {
   double in_plane_step = 0.0;  ///< [N per tick]
   double normal_step = 0.0;    ///< [N per tick]

@@ -13,8 +13,8 @@ enum class ForceSign {
   wang2006     ///< as printed in the text that we have: away from the stroke, into the paper
 };
 
-/// In-plane attraction, eq. (8): K (X_s - X_p), scaled by the attraction factor and the share of the constraint space [N].
-/// As printed it is K (X_p - X_s).
+/// In-plane attraction, eq. (8): K (X_s - X_p), scaled by the attraction factor and the share of the constraint space
+/// [N]. As printed it is K (X_p - X_s).
 inline Point attraction_force(double stiffness, const Point& tip, const Point& foot,
                               ForceSign sign = ForceSign::attracting) noexcept {
   return (sign == ForceSign::attracting ? stiffness : -stiffness) * (foot - tip);
@@ -26,8 +26,8 @@ inline double normal_force(double stiffness, double penetration, ForceSign sign 
   return (sign == ForceSign::attracting ? stiffness : -stiffness) * std::max(0.0, penetration);
 }
 
-/// Resistance against motion backwards along the stroke (Fig. 4): a spring along the tangent, forwards, from the furthest
-/// point reached, after `slack`, never more than `limit` [N].
+/// Resistance against motion backwards along the stroke (Fig. 4): a spring along the tangent, forwards, from the
+/// furthest point reached, after `slack`, never more than `limit` [N].
 inline Point wrong_way_force(double stiffness, double limit, double slack, double backwards,
                              const Point& tangent) noexcept {
   return std::min(stiffness * std::max(0.0, backwards - slack), limit) * tangent;

@@ -15,7 +15,8 @@
 
 namespace calligraphy {
 
-/// Guides a pen through the characters of a page, one after the other, stroke by stroke in the right order and direction.
+/// Guides a pen through the characters of a page, one after the other, stroke by stroke in the right order and
+/// direction.
 ///
 /// update() neither allocates, locks, throws nor logs, and its work is bounded. Use one renderer per device.
 class HapticRenderer {
@@ -75,10 +76,10 @@ class HapticRenderer {
   bool lifted_ = true;           ///< since the last stroke was finished
   bool character_done_ = false;  ///< its last stroke is finished, the pen still down
 
-  bool has_sample_ = false;      ///< last_position_ and last_time_ are those of the last good sample
+  bool has_sample_ = false;  ///< last_position_ and last_time_ are those of the last good sample
   Eigen::Vector3d last_position_ = Eigen::Vector3d::Zero();
   double last_time_ = 0.0;
-  bool has_rejected_ = false;    ///< rejected_position_ is that of the tick before, refused as too far away
+  bool has_rejected_ = false;  ///< rejected_position_ is that of the tick before, refused as too far away
   Eigen::Vector3d rejected_position_ = Eigen::Vector3d::Zero();
 };
 

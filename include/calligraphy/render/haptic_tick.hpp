@@ -12,12 +12,12 @@ namespace calligraphy {
 /// What happened in a tick; a set of bits.
 enum class TickEvent : std::uint16_t {
   none = 0,
-  contact = 1 << 0,             ///< the pen touched the paper
-  lift = 1 << 1,                ///< the pen left the paper
+  contact = 1 << 0,  ///< the pen touched the paper
+  lift = 1 << 1,     ///< the pen left the paper
   stroke_started = 1 << 2,
   feature_passed = 1 << 3,
   stroke_finished = 1 << 4,
-  stroke_abandoned = 1 << 5,    ///< given up before its end; its trace is to be cleared
+  stroke_abandoned = 1 << 5,  ///< given up before its end; its trace is to be cleared
   character_finished = 1 << 6,
   page_finished = 1 << 7
 };
@@ -33,24 +33,24 @@ constexpr bool has(TickEvent events, TickEvent event) noexcept {
 /// Whether the sample of this tick could be used.
 enum class TickStatus : std::uint8_t {
   ok,
-  bad_sample,    ///< not finite, or further away than a pen can have moved: the force goes to zero
-  device_fault   ///< the device said so itself: the force goes to zero
+  bad_sample,   ///< not finite, or further away than a pen can have moved: the force goes to zero
+  device_fault  ///< the device said so itself: the force goes to zero
 };
 
 struct HapticTick {
-  double time = 0.0;                                 ///< of the sample [s]
+  double time = 0.0;  ///< of the sample [s]
   TickStatus status = TickStatus::ok;
   InteractionState state = InteractionState::separation;
   TickEvent events = TickEvent::none;
-  int character = 0;                                 ///< index of the active character; their number once all are written
-  int stroke = 0;                                    ///< index of the active stroke within it
+  int character = 0;  ///< index of the active character; their number once all are written
+  int stroke = 0;     ///< index of the active stroke within it
   Eigen::Vector3d device_point = Eigen::Vector3d::Zero();  ///< haptic interface point, page frame [m]
   Eigen::Vector3d pen_tip = Eigen::Vector3d::Zero();       ///< virtual pen tip, page frame [m]
-  double penetration = 0.0;                          ///< of the device point into the paper [m]
-  StrokeContact contact;                             ///< meaningful in the writing state and on the tick that leaves it
-  Point attraction = Point::Zero();                  ///< force term, before fade-in and limits [N, page]
-  Point wrong_way = Point::Zero();                   ///< force term, before fade-in and limits [N, page]
-  double normal = 0.0;                               ///< force term, before limits [N, out of the paper]
+  double penetration = 0.0;                                ///< of the device point into the paper [m]
+  StrokeContact contact;             ///< meaningful in the writing state and on the tick that leaves it
+  Point attraction = Point::Zero();  ///< force term, before fade-in and limits [N, page]
+  Point wrong_way = Point::Zero();   ///< force term, before fade-in and limits [N, page]
+  double normal = 0.0;               ///< force term, before limits [N, out of the paper]
   Eigen::Vector3d page_force = Eigen::Vector3d::Zero();  ///< sent, page axes [N]
   Eigen::Vector3d force = Eigen::Vector3d::Zero();       ///< sent, device axes [N]
 };

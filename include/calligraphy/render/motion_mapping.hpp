@@ -5,8 +5,8 @@
 
 namespace calligraphy {
 
-/// Rigid transform between the device's axes and the page, with the motion scale K_S. Page frame: origin at the lower left
-/// corner, x right, y up, z out of the paper [m].
+/// Rigid transform between the device's axes and the page, with the motion scale K_S. Page frame: origin at the lower
+/// left corner, x right, y up, z out of the paper [m].
 ///
 /// With K_S constant, eq. (2) and (3) integrate to this map of position; it neither drifts nor depends on the rate.
 struct MotionMapping {
