@@ -103,6 +103,9 @@ std::string json(const std::vector<Result>& results) {
   Json list = Json::array();
   for (const Result& result : results) {
     const CharacterScore& score = result.score;
+    const auto error = [&score](double metres) {  // null: nothing was written that could be off
+      return score.strokes_completed > 0 ? Json(metres * millimetres) : Json();
+    };
     Json mistakes = Json::array();
     for (const Mistake& mistake : score.mistakes) {
       mistakes.push_back({{"kind", mistake.kind == MistakeKind::order ? "order" : "direction"},
@@ -116,8 +119,8 @@ std::string json(const std::vector<Result>& results) {
                     {"repetition", result.repetition},
                     {"seed", result.seed},
                     {"time_s", score.time},
-                    {"rms_error_mm", score.rms_error * millimetres},
-                    {"max_error_mm", score.max_error * millimetres},
+                    {"rms_error_mm", error(score.rms_error)},
+                    {"max_error_mm", error(score.max_error)},
                     {"order_mistakes", score.order_mistakes()},
                     {"direction_mistakes", score.direction_mistakes()},
                     {"strokes", score.stroke_count},
@@ -135,13 +138,25 @@ std::string json(const std::vector<Result>& results) {
   return list.dump(2) + "\n";
 }
 
-std::string reductions(const std::vector<Result>& results) {
+std::string reductions(const std::vector<Result>& all) {
+  std::vector<Result> results;  // only what both modes completed: a character given up has neither error nor time
+  for (const Result& result : all) {
+    const bool complete = std::none_of(all.begin(), all.end(), [&](const Result& other) {
+      return other.position == result.position && other.repetition == result.repetition &&
+             other.score.strokes_completed < other.score.stroke_count;
+    });
+    if (complete) results.push_back(result);
+  }
   const auto errors = pairs(results, [](const Result& r) { return r.score.rms_error * millimetres; });
   const auto times = pairs(results, [](const Result& r) { return r.score.time; });
   if (errors.size() < 2) return "";
-  return reduction("RMS error", "mm", errors) + reduction("time", "s", times) +
-         fmt::format("mean over n = {} pairs of a character and a seed; mean +/- t(0.975, n - 1) s / sqrt(n)\n",
-                     errors.size());
+  std::string text =
+      reduction("RMS error", "mm", errors) + reduction("time", "s", times) +
+      fmt::format("mean over n = {} pairs of a character and a seed; mean +/- t(0.975, n - 1) s / sqrt(n)\n",
+                  errors.size());
+  const std::size_t left_out = (all.size() - results.size()) / 2;
+  if (left_out > 0) text += fmt::format("{} pairs are left out: not every stroke was completed\n", left_out);
+  return text;
 }
 
 }  // namespace calligraphy::tools

@@ -34,7 +34,7 @@ std::string table(const std::vector<Result>& results);
 std::string json(const std::vector<Result>& results);
 
 /// How much smaller error and time are with force: mean over the pairs of a character and a repetition, with its 95 %
-/// interval by Student's t. Empty with fewer than two pairs.
-std::string reductions(const std::vector<Result>& results);
+/// interval by Student's t, over the pairs that are complete in both modes. Empty with fewer than two of them.
+std::string reductions(const std::vector<Result>& all);
 
 }  // namespace calligraphy::tools

@@ -223,7 +223,8 @@ class Run {
         fmt::format("{}, {}, {}", encode_utf8(code), result.mode == Mode::vision ? "vision only" : "vision and force",
                     session_.device.capabilities.model);
     out.write(stem + ".svg", page_picture(page, recording, index, title));
-    if (plots_) out.write(stem + "-force.svg", force_plot(recording, index, title));
+    const bool reached = !own.samples.empty();  // the writer may have given up before
+    if (plots_ && reached) out.write(stem + "-force.svg", force_plot(recording, index, title));
     std::ostringstream trace;
     write_csv(trace, own);
     out.write(stem + ".csv", trace.str());

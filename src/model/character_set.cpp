@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <system_error>
 
 #include <calligraphy/error.hpp>
 #include <calligraphy/model/text.hpp>
@@ -14,10 +17,11 @@ namespace calligraphy {
 namespace {
 
 constexpr std::string_view first_line = "calligraphy characters 1";
+constexpr std::uintmax_t largest_file = 64 << 20;  // twice all of Make Me a Hanzi [bytes]
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
 /// What was found, as a message shows it: a file that is no such text may be one line of any length.
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   constexpr std::size_t most = 60;
   return "'" + std::string(text.substr(0, most)) + (text.size() > most ? "..." : "") + "'";
 }
@@ -34,7 +38,7 @@ class Parser {
     while (next_line()) {
       const std::string_view key = word();
       if (number_ == 1 || !seen_first_line_) {
-        if (line_ != first_line) fail("expected " + quoted(first_line) + ", found " + quoted(line_));
+        if (line_ != first_line) fail("expected " + in_quotes(first_line) + ", found " + in_quotes(line_));
         seen_first_line_ = true;
       } else if (key == "source") {
         set_.source = rest();
@@ -47,7 +51,7 @@ class Parser {
       } else if (key == "stroke") {
         add_stroke();
       } else {
-        fail("unknown keyword " + quoted(key));
+        fail("unknown keyword " + in_quotes(key));
       }
     }
     if (in_.bad()) throw FileError(name_ + ": cannot be read");
@@ -103,7 +107,7 @@ class Parser {
     Number value{};
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size()) {
-      fail(quoted(text) + " is not a " + std::string(what));
+      fail(in_quotes(text) + " is not a " + std::string(what));
     }
     return value;
   }
@@ -119,9 +123,9 @@ class Parser {
     if (const std::string_view key = word(); key == "degree") {
       degree_ = parse_number<int>(word(), "curve degree");
     } else if (!key.empty()) {
-      fail("expected 'degree' or nothing, found " + quoted(key));
+      fail("expected 'degree' or nothing, found " + in_quotes(key));
     }
-    if (const std::string_view more = word(); !more.empty()) fail("expected nothing more, found " + quoted(more));
+    if (const std::string_view more = word(); !more.empty()) fail("expected nothing more, found " + in_quotes(more));
     in_character_ = true;
   }
 
@@ -137,7 +141,7 @@ class Parser {
         break;
       }
       const auto comma = text.find(',');
-      if (comma == std::string_view::npos) fail(quoted(text) + " is not a point x,y");
+      if (comma == std::string_view::npos) fail(in_quotes(text) + " is not a point x,y");
       stroke.control_points.emplace_back(parse_number<double>(text.substr(0, comma), "number"),
                                          parse_number<double>(text.substr(comma + 1), "number"));
     }
@@ -208,6 +212,15 @@ const Character& paper_example() {
 CharacterSet read_characters(std::istream& in, std::string_view name) { return Parser(in, name).parse(); }
 
 CharacterSet read_characters(const std::string& path) {
+  std::error_code error;
+  if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error)) {
+    throw FileError(path + ": is not a regular file");
+  }
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (!error && size > largest_file) {
+    throw FileError(path + ": " + std::to_string(size) + " bytes, more than the " + std::to_string(largest_file) +
+                    " that are read");
+  }
   std::ifstream in(path, std::ios::binary);
   if (!in) throw FileError(path + ": cannot be opened");
   return read_characters(in, path);
@@ -215,7 +228,7 @@ CharacterSet read_characters(const std::string& path) {
 
 void write_characters(std::ostream& out, const CharacterSet& set) {
   for (const std::string& text : {set.source, set.licence, set.attribution}) {
-    if (text.find_first_of("\r\n") != std::string::npos) throw ValueError("more than one line: " + quoted(text));
+    if (text.find_first_of("\r\n") != std::string::npos) throw ValueError("more than one line: " + in_quotes(text));
   }
   out << first_line << '\n';
   if (!set.source.empty()) out << "source " << set.source << '\n';

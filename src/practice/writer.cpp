@@ -169,6 +169,7 @@ void SimulatedWriter::think(double seconds) {
     }
     case Phase::raise: {
       if (phase_time_ < raising_time + skill_.sight_delay) return;  // long enough to see what became of the stroke
+      if (waiting_for_lift()) return;
       const bool next = accepted();
       attempt_ = next ? 0 : attempt_ + 1;
       character_ = next ? seen_.sight.character : character_;
@@ -185,6 +186,13 @@ void SimulatedWriter::think(double seconds) {
     case Phase::done:
       return;
   }
+}
+
+/// The display has no stroke left in its character, and goes on to the next one once it sees the pen leave the paper.
+bool SimulatedWriter::waiting_for_lift() const {
+  const int shown = seen_.sight.character;
+  return shown < static_cast<int>(page_.size()) &&
+         seen_.sight.stroke >= page_[static_cast<std::size_t>(shown)].character.stroke_count();
 }
 
 /// The display has moved on to another stroke.

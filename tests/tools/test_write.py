@@ -88,6 +88,19 @@ class Write(ProgramTest):
         self.run_program("write", "人", "--out", "c", "--seed", "8")
         self.assertNotEqual(self.without_ticks("a"), self.without_ticks("c"))
 
+    def test_a_character_given_up_costs_no_other_result(self):
+        done = self.run_program("write", "永北", "--out", "out", "--rules", "wang2006", "--mode", "force")
+        self.assertIn("given up", done.stderr)
+        rows = self.summary()
+        self.assertEqual([row["character"] for row in rows], ["永", "北"])
+        self.assertEqual(rows[1]["strokes_completed"], 0)
+        self.assertIsNone(rows[1]["rms_error_mm"])
+
+    def test_a_rate_too_low_to_write_at_ends_cleanly(self):
+        for rate in ("10", "12", "20", "50"):
+            self.run_program("write", "一北", "--out", "out", "--rate", rate)
+            self.assertEqual(len(self.summary()), 4)
+
     def test_a_skilled_writer_errs_less(self):
         for writer in ("novice", "skilled"):
             self.run_program("write", "十人", "--out", writer, "--writer", writer, "--mode", "vision", "--repeat", "3")
@@ -162,6 +175,7 @@ class Refusals(ProgramTest):
 
     def test_a_missing_or_malformed_file_is_named(self):
         self.assert_refused(1, ["write", "北", "--out", "out", "--characters", "none.txt"], "none.txt")
+        self.assert_refused(1, ["info", "北", "--characters", "/dev/zero"], "/dev/zero", "regular file")
         (self.directory / "bad.txt").write_text("calligraphy characters 1\ncharacter 北\nstroke 99 0,0 1,1\n")
         self.assert_refused(1, ["write", "北", "--out", "out", "--characters", "bad.txt"], "bad.txt", "3", "99")
         (self.directory / "empty.txt").write_text("")

@@ -98,6 +98,7 @@ class SimulatedWriter {
   void shake(double seconds);
   void begin(Phase phase);
   bool accepted() const;
+  bool waiting_for_lift() const;
   Eigen::Vector3d target() const;
 
   std::vector<PlacedCharacter> page_;

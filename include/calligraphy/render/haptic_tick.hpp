@@ -43,7 +43,7 @@ struct HapticTick {
   InteractionState state = InteractionState::separation;
   TickEvent events = TickEvent::none;
   int character = 0;  ///< index of the active character; their number once all are written
-  int stroke = 0;     ///< index of the active stroke within it
+  int stroke = 0;     ///< index of the active stroke within it; their number from the end of the last until the lift
   Eigen::Vector3d device_point = Eigen::Vector3d::Zero();  ///< haptic interface point, page frame [m]
   Eigen::Vector3d pen_tip = Eigen::Vector3d::Zero();       ///< virtual pen tip, page frame [m]
   double penetration = 0.0;                                ///< of the device point into the paper [m]
