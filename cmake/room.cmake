@@ -17,6 +17,8 @@ endfunction()
 function(calligraphy_warnings target)
   target_compile_options(${target} PRIVATE
     $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Wall -Wextra -Wpedantic -Wconversion -Wshadow>
+    # g++ leaves these out of -Wconversion; indices into Eigen and the standard library mix signs everywhere.
+    $<$<CXX_COMPILER_ID:Clang,AppleClang>:-Wno-sign-conversion>
     # g++ 12 warns of std::string's own operator+ (GCC bug 105651).
     $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict>)
 endfunction()

@@ -398,7 +398,6 @@ struct CompoundRule {
 
 constexpr Range heng{-18.0, 30.0};
 constexpr Range shu{-112.0, -68.0};
-constexpr Range pie{-165.0, -100.0};
 constexpr Range ti{22.0, 80.0};
 constexpr Range hook_left{105.0, 205.0};
 constexpr Range hook_up{55.0, 150.0};
