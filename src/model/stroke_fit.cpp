@@ -83,22 +83,6 @@ double largest_distance(std::span<const Point> from, std::span<const Point> to) 
   return largest;
 }
 
-/// Line through points by total least squares: a point on it and its unit direction.
-struct Line {
-  Point through;
-  Point direction;
-};
-
-Line line_through(std::span<const Point> points) {
-  Point mean = Point::Zero();
-  for (const Point& point : points) mean += point;
-  mean /= static_cast<double>(points.size());
-  Eigen::Matrix2d moments = Eigen::Matrix2d::Zero();
-  for (const Point& point : points) moments += (point - mean) * (point - mean).transpose();
-  const double angle = 0.5 * std::atan2(2.0 * moments(0, 1), moments(0, 0) - moments(1, 1));
-  return {mean, Point(std::cos(angle), std::sin(angle))};
-}
-
 /// Middle part of a limb, so that rounded corners do not turn its line.
 std::span<const Point> middle(std::span<const Point> limb) {
   const std::size_t margin = limb.size() / 5;
@@ -109,8 +93,8 @@ std::span<const Point> middle(std::span<const Point> limb) {
 Point limb_intersection(std::span<const Point> before, std::span<const Point> after) {
   constexpr double farthest = 0.08;  // [em]
   const Point& corner = after.front();
-  const Line first = line_through(middle(before));
-  const Line second = line_through(middle(after));
+  const recognition::Line first = recognition::line_through(middle(before));
+  const recognition::Line second = recognition::line_through(middle(after));
   Eigen::Matrix2d directions;
   directions << first.direction, -second.direction;
   if (std::abs(directions.determinant()) < 0.25) return corner;

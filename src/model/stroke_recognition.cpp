@@ -312,21 +312,10 @@ struct LineFit {
 };
 
 LineFit fit_line(std::span<const Point> points) {
-  Point mean = Point::Zero();
-  for (const Point& point : points) mean += point;
-  mean /= static_cast<double>(points.size());
-  double xx = 0.0, xy = 0.0, yy = 0.0;
-  for (const Point& point : points) {
-    const Point offset = point - mean;
-    xx += offset.x() * offset.x();
-    xy += offset.x() * offset.y();
-    yy += offset.y() * offset.y();
-  }
-  const double angle = 0.5 * std::atan2(2.0 * xy, xx - yy);
-  const Point normal(-std::sin(angle), std::cos(angle));
+  const auto [through, along] = line_through(points);
+  const Point normal(-along.y(), along.x());
   double largest = 0.0;
-  for (const Point& point : points) largest = std::max(largest, std::abs(normal.dot(point - mean)));
-  const Point along(std::cos(angle), std::sin(angle));
+  for (const Point& point : points) largest = std::max(largest, std::abs(normal.dot(point - through)));
   return {direction_of(along.dot(points.back() - points.front()) < 0.0 ? Point(-along) : along), largest};
 }
 
@@ -650,6 +639,16 @@ Recognition recognise(const Path& path, std::span<const std::size_t> corners, bo
   const int sibling = sibling_of(best, path);
   if (sibling != best.id) consider(rule_of(sibling), infinity);
   return best;
+}
+
+Line line_through(std::span<const Point> points) {
+  Point mean = Point::Zero();
+  for (const Point& point : points) mean += point;
+  mean /= static_cast<double>(points.size());
+  Eigen::Matrix2d moments = Eigen::Matrix2d::Zero();
+  for (const Point& point : points) moments += (point - mean) * (point - mean).transpose();
+  const double angle = 0.5 * std::atan2(2.0 * moments(0, 1), moments(0, 0) - moments(1, 1));
+  return {mean, Point(std::cos(angle), std::sin(angle))};
 }
 
 }  // namespace calligraphy::recognition

@@ -28,6 +28,13 @@ Path refined(const Path& path, double step);
 
 double path_length(std::span<const Point> path);
 
+/// Line through points by total least squares: a point on it and its unit direction.
+struct Line {
+  Point through;
+  Point direction;
+};
+Line line_through(std::span<const Point> points);
+
 /// What a path is recognised as: a typical stroke and where its elements begin and end in the path.
 struct Recognition {
   int id;
