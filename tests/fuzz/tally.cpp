@@ -1,0 +1,68 @@
+#include "tally.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+#include <fmt/format.h>
+
+namespace calligraphy_test {
+
+void Count::add(const Count& other) {
+  answers += other.answers;
+  wrong_branches += other.wrong_branches;
+  above_allowance += other.above_allowance;
+  inconsistent += other.inconsistent;
+  uncertified += other.uncertified;
+  not_finite += other.not_finite;
+  different += other.different;
+  worst_error = std::max(worst_error, other.worst_error);
+  proven_error = std::max(proven_error, other.proven_error);
+  nanoseconds += other.nanoseconds;
+  timed += other.timed;
+}
+
+bool Tally::judge(std::size_t family, const Verdict& verdict, bool finite, bool certified) {
+  Count& count = counts_[family];
+  ++count.answers;
+  if (!finite) {
+    ++count.not_finite;
+    return true;
+  }
+  count.worst_error = std::max(count.worst_error, verdict.surely);
+  count.proven_error = std::max(count.proven_error, verdict.error);
+  count.uncertified += !certified;
+  if (verdict.right) return !certified;
+  ++(verdict.wrong_branch ? count.wrong_branches : verdict.consistent ? count.above_allowance : count.inconsistent);
+  return true;
+}
+
+void Tally::add(const Tally& other) {
+  for (std::size_t i = 0; i < counts_.size(); ++i) counts_[i].add(other.counts_[i]);
+  failures_.insert(failures_.end(), other.failures_.begin(), other.failures_.end());
+}
+
+Count Tally::total() const {
+  Count sum;
+  for (const Count& count : counts_) sum.add(count);
+  return sum;
+}
+
+std::vector<Failure> Tally::failures() const {
+  std::vector<Failure> first = failures_;
+  std::sort(first.begin(), first.end(),
+            [](const auto& a, const auto& b) { return std::tie(a.block, a.index) < std::tie(b.block, b.index); });
+  first.resize(std::min(first.size(), shown_failures));
+  return first;
+}
+
+std::string exact_text(double value) { return fmt::format("{:a}", value); }
+
+std::string exact_text(std::span<const Point> points) {
+  std::string text;
+  for (const Point& point : points) {
+    text += fmt::format("{}({:a},{:a})", text.empty() ? "" : " ", point.x(), point.y());
+  }
+  return text;
+}
+
+}  // namespace calligraphy_test

@@ -1,0 +1,72 @@
+// What a run of the fuzz counts, by family, and the failures it found.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "../nearest_point_oracle.hpp"
+
+namespace calligraphy_test {
+
+/// Numbers of answers, and the largest errors [size of the curve].
+struct Count {
+  std::uint64_t answers = 0;
+  std::uint64_t wrong_branches = 0;
+  std::uint64_t above_allowance = 0;  ///< no wrong branch, but an error above the allowance
+  std::uint64_t inconsistent = 0;     ///< parameter, point, distance, tangent or status contradict each other
+  std::uint64_t uncertified = 0;
+  std::uint64_t not_finite = 0;  ///< output that is not finite for finite input
+  std::uint64_t different = 0;   ///< another answer in a batch, or when asked again
+  double worst_error = 0.0;      ///< as far as is known to the last bits
+  double proven_error = 0.0;     ///< no error is larger
+  double nanoseconds = 0.0;      ///< of the code under test
+  std::uint64_t timed = 0;       ///< answers in `nanoseconds`
+
+  std::uint64_t failures() const {
+    return wrong_branches + above_allowance + inconsistent + uncertified + not_finite + different;
+  }
+  void add(const Count& other);
+};
+
+struct Failure {
+  std::uint64_t block = 0, index = 0;  ///< order of the failures, whatever the threads
+  std::string text;                    ///< one line from which it can be reproduced
+};
+
+/// Of one thread.
+class Tally {
+ public:
+  static constexpr std::size_t shown_failures = 10;
+
+  explicit Tally(std::size_t families) : counts_(families) {}
+
+  /// The blocks of a thread must ascend, so that the first failures are kept.
+  void begin_block(std::uint64_t block) { block_ = block; }
+  Count& operator[](std::size_t family) { return counts_[family]; }
+  const Count& operator[](std::size_t family) const { return counts_[family]; }
+
+  /// Counts a judged answer; true when it is not as it should be.
+  bool judge(std::size_t family, const Verdict& verdict, bool finite, bool certified);
+  template <typename Text>
+  void fail(Text text) {
+    if (failures_.size() < shown_failures) failures_.push_back({block_, failures_.size(), text()});
+  }
+
+  void add(const Tally& other);
+  Count total() const;
+  /// The first ones, in order.
+  std::vector<Failure> failures() const;
+
+ private:
+  std::vector<Count> counts_;
+  std::vector<Failure> failures_;
+  std::uint64_t block_ = 0;
+};
+
+/// "(0x1p+0,-0x1.8p-1) ..." [hexadecimal floating point, read back exactly by strtod]
+std::string exact_text(std::span<const Point> points);
+std::string exact_text(double value);
+
+}  // namespace calligraphy_test
