@@ -20,10 +20,12 @@ using calligraphy::Point;
 
 /// What an answer is worth. Errors are relative to the size of the curve (of a point: to the distance).
 struct Verdict {
-  /// By how much the curve at the answer's parameter is further than the nearest point of the range: at most this.
-  /// Beyond it, at least `surely` (both differ only where the proof is weak).
+  /// By how much the curve at the answer's parameter is further than the nearest point of the range: at most this, and
+  /// at least `surely`.
   double error = 0.0;
   double surely = 0.0;
+  double share = 0.0;         ///< of the allowance that the error takes
+  bool plain = false;         ///< the allowance is 1e-9 of the size: rounding of large coordinates plays no part
   bool consistent = false;    ///< parameter within the range, point and distance as the parameter says, tangent a unit
   bool right = false;         ///< consistent, and the error within the allowance
   bool wrong_branch = false;  ///< surely further by more than 1e-3 of the size, and than rounding explains
@@ -123,6 +125,8 @@ class NearestPointOracle {
     const long double error = true_distance - bounds.least, surely = true_distance - bounds.found;
     verdict.error = static_cast<double>(std::max(error, 0.0L) / size);
     verdict.surely = static_cast<double>(std::max(surely, 0.0L) / size);
+    verdict.share = static_cast<double>(std::max(error, 0.0L) / std::max(allowed, 1e-4900L));
+    verdict.plain = allowed <= 1.01e-9L * size;
     verdict.consistent = beside <= allowed && std::abs(answer.distance - true_distance) <= allowed &&
                          (size_ > 0.0 ? std::abs(unit - 1.0) <= 1e-9 : unit == 0.0);
     verdict.right = verdict.consistent && error <= allowed;

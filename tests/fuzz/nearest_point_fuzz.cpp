@@ -78,19 +78,17 @@ void run(Part& part, const Options& options) {
 }
 
 std::string row(const std::string& name, const Count& count) {
-  return fmt::format(
-      "{:36} {:>11} {:>7} {:>9} {:>8} {:>8} {:>7} {:>7}  {:>8.1e}  {:>6}\n", name, count.answers, count.wrong_branches,
-      count.above_allowance, count.inconsistent, count.uncertified, count.not_finite, count.different,
-      count.worst_error,
-      count.timed > 0 ? fmt::format("{:.0f}", count.nanoseconds / static_cast<double>(count.timed)) : "");
+  return fmt::format("{:36} {:>11} {:>7} {:>9} {:>8} {:>8} {:>7} {:>7}  {:>8.1e} {:>9.1e}  {:>6.0f}\n", name,
+                     count.answers, count.wrong_branches, count.above_allowance, count.inconsistent, count.uncertified,
+                     count.not_finite, count.different, count.worst_error, count.worst_share, count.times.median());
 }
 
 void print(const Part& part) {
   fmt::print("{}: {} {} in {:.0f} s\n", part.name, part.asked, part.unit, part.seconds);
-  fmt::print("{:36} {:>11} {:>7} {:>9} {:>8} {:>8} {:>7} {:>7}  {:>8}  {:>6}\n", "", "answers", "wrong", "above",
-             "incon-", "uncer-", "not", "differ-", "worst", "ns");
-  fmt::print("{:36} {:>11} {:>7} {:>9} {:>8} {:>8} {:>7} {:>7}  {:>8}  {:>6}\n", "", "", "branch", "allowance",
-             "sistent", "tified", "finite", "ent", "error", "each");
+  fmt::print("{:36} {:>11} {:>7} {:>9} {:>8} {:>8} {:>7} {:>7}  {:>8} {:>9}  {:>6}\n", "", "answers", "wrong", "above",
+             "incon-", "uncer-", "not", "differ-", "worst", "of the", "ns");
+  fmt::print("{:36} {:>11} {:>7} {:>9} {:>8} {:>8} {:>7} {:>7}  {:>8} {:>9}  {:>6}\n", "", "", "branch", "allowance",
+             "sistent", "tified", "finite", "ent", "error", "allowance", "each");
   for (std::size_t i = 0; i < part.families.size(); ++i) fmt::print("{}", row(part.families[i], (*part.tally)[i]));
   fmt::print("{}", row("all", part.tally->total()));
   for (const Failure& failure : part.tally->failures()) fmt::print("block {}: {}\n", failure.block, failure.text);
@@ -106,8 +104,9 @@ nlohmann::ordered_json as_json(const Count& count) {
                                    {"not_finite", count.not_finite},
                                    {"different", count.different},
                                    {"worst_error", count.worst_error},
-                                   {"no_error_above", count.proven_error}};
-  if (count.timed > 0) result["nanoseconds_each"] = count.nanoseconds / static_cast<double>(count.timed);
+                                   {"no_error_above", count.proven_error},
+                                   {"worst_share_of_allowance", count.worst_share}};
+  if (count.times.median() > 0.0) result["nanoseconds_each"] = count.times.median();
   return result;
 }
 

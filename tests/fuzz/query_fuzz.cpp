@@ -116,11 +116,11 @@ class CaseRun {
 
  private:
   void ask_exact() {
+    answers_.reserve(case_.queries.size());
     const auto start = std::chrono::steady_clock::now();
     for (const Point& query : case_.queries) answers_.push_back(nearest_point(element_, query, {}, case_.range));
-    Count& count = tally_[case_.family];
-    count.nanoseconds += std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count();
-    count.timed += case_.queries.size();
+    const std::chrono::duration<double, std::nano> taken = std::chrono::steady_clock::now() - start;
+    tally_[case_.family].times.add(taken.count(), case_.queries.size());
   }
 
   void judge(std::size_t family, const char* method, const NearestPoint& answer, const Point& query,
@@ -171,7 +171,7 @@ class CaseRun {
     const Verdict verdict = oracle_.judge(sampled, query, bounds, case_.range);
     Count& samples = tally_[other_methods_ + 2];
     ++samples.answers;
-    samples.worst_error = std::max(samples.worst_error, verdict.surely);
+    if (verdict.plain) samples.worst_error = std::max(samples.worst_error, verdict.surely);
     if (!is_finite(sampled) || !verdict.consistent) {
       ++(is_finite(sampled) ? samples.inconsistent : samples.not_finite);
       report("sampled", sampled, query, 0.0, "not consistent");

@@ -1,11 +1,33 @@
 #include "tally.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <tuple>
 
 #include <fmt/format.h>
 
 namespace calligraphy_test {
+
+void Times::add(double nanoseconds, std::uint64_t calls) {
+  const double octaves = std::log2(std::max(nanoseconds / static_cast<double>(calls), 1.0));
+  const auto step = static_cast<std::size_t>(octaves * steps_per_octave);
+  counts_[std::min(step, counts_.size() - 1)] += calls;
+}
+
+void Times::add(const Times& other) {
+  for (std::size_t i = 0; i < counts_.size(); ++i) counts_[i] += other.counts_[i];
+}
+
+double Times::median() const {
+  const std::uint64_t all = std::accumulate(counts_.begin(), counts_.end(), std::uint64_t{0});
+  std::uint64_t below = 0;
+  for (std::size_t i = 0; i < counts_.size(); ++i) {
+    below += counts_[i];
+    if (2 * below > all) return std::exp2((static_cast<double>(i) + 0.5) / steps_per_octave);
+  }
+  return 0.0;
+}
 
 void Count::add(const Count& other) {
   answers += other.answers;
@@ -17,8 +39,8 @@ void Count::add(const Count& other) {
   different += other.different;
   worst_error = std::max(worst_error, other.worst_error);
   proven_error = std::max(proven_error, other.proven_error);
-  nanoseconds += other.nanoseconds;
-  timed += other.timed;
+  worst_share = std::max(worst_share, other.worst_share);
+  times.add(other.times);
 }
 
 bool Tally::judge(std::size_t family, const Verdict& verdict, bool finite, bool certified) {
@@ -28,8 +50,11 @@ bool Tally::judge(std::size_t family, const Verdict& verdict, bool finite, bool 
     ++count.not_finite;
     return true;
   }
-  count.worst_error = std::max(count.worst_error, verdict.surely);
-  count.proven_error = std::max(count.proven_error, verdict.error);
+  if (verdict.plain) {
+    count.worst_error = std::max(count.worst_error, verdict.surely);
+    count.proven_error = std::max(count.proven_error, verdict.error);
+  }
+  count.worst_share = std::max(count.worst_share, verdict.share);
   count.uncertified += !certified;
   if (verdict.right) return !certified;
   ++(verdict.wrong_branch ? count.wrong_branches : verdict.consistent ? count.above_allowance : count.inconsistent);

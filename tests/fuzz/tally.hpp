@@ -1,6 +1,7 @@
 // What a run of the fuzz counts, by family, and the failures it found.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -10,7 +11,20 @@
 
 namespace calligraphy_test {
 
-/// Numbers of answers, and the largest errors [size of the curve].
+/// Times of calls by eighths of an octave: their median does not mind that other programs run.
+class Times {
+ public:
+  void add(double nanoseconds, std::uint64_t calls);
+  void add(const Times& other);
+  /// Of one call [ns]; 0 when none was timed.
+  double median() const;
+
+ private:
+  static constexpr int steps_per_octave = 8;
+  std::array<std::uint64_t, 20 * steps_per_octave> counts_ = {};
+};
+
+/// Numbers of answers, and the largest errors.
 struct Count {
   std::uint64_t answers = 0;
   std::uint64_t wrong_branches = 0;
@@ -19,10 +33,10 @@ struct Count {
   std::uint64_t uncertified = 0;
   std::uint64_t not_finite = 0;  ///< output that is not finite for finite input
   std::uint64_t different = 0;   ///< another answer in a batch, or when asked again
-  double worst_error = 0.0;      ///< as far as is known to the last bits
-  double proven_error = 0.0;     ///< no error is larger
-  double nanoseconds = 0.0;      ///< of the code under test
-  std::uint64_t timed = 0;       ///< answers in `nanoseconds`
+  double worst_error = 0.0;      ///< of those whose allowance is 1e-9 of the size [size of the curve]
+  double proven_error = 0.0;     ///< of the same ones no error is larger: by proof, which knows them a little less well
+  double worst_share = 0.0;      ///< of all, proven [allowance]
+  Times times;                   ///< of the code under test
 
   std::uint64_t failures() const {
     return wrong_branches + above_allowance + inconsistent + uncertified + not_finite + different;

@@ -95,9 +95,8 @@ class PathRun {
     StrokeTracker tracker(elements_);
     const auto start = std::chrono::steady_clock::now();
     for (const Point& tick : path_.ticks) answers.push_back(tracker.update(tick));
-    Count& count = tally_[family_];
-    count.nanoseconds += std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count();
-    count.timed += answers.size();
+    const std::chrono::duration<double, std::nano> taken = std::chrono::steady_clock::now() - start;
+    tally_[family_].times.add(taken.count(), answers.size());
     for (std::size_t i = 0; i < answers.size(); ++i) judge(answers[i], i);
   }
 
