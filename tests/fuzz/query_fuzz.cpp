@@ -18,10 +18,6 @@
 #include "hostile_queries.hpp"
 #include "hostile_strokes.hpp"
 
-#if __has_include(<calligraphy/collision/stroke_tracker.hpp>)
-#define CALLIGRAPHY_ISSUE_3 1
-#endif
-
 namespace calligraphy_test {
 namespace {
 
@@ -33,14 +29,6 @@ using calligraphy::StrokeElement;
 constexpr int queries_per_curve = 8;
 constexpr int workload_queries = 512;
 
-bool certified(const NearestPoint& answer) {
-#ifdef CALLIGRAPHY_ISSUE_3
-  return answer.certified();
-#else
-  return answer.certified;
-#endif
-}
-
 bool is_finite(const NearestPoint& answer) {
   return std::isfinite(answer.parameter) && answer.point.allFinite() && std::isfinite(answer.distance) &&
          answer.tangent.allFinite();
@@ -51,7 +39,7 @@ bool same_bits(const NearestPoint& a, const NearestPoint& b) {
   return bits(a.parameter) == bits(b.parameter) && bits(a.point.x()) == bits(b.point.x()) &&
          bits(a.point.y()) == bits(b.point.y()) && bits(a.distance) == bits(b.distance) &&
          bits(a.tangent.x()) == bits(b.tangent.x()) && bits(a.tangent.y()) == bits(b.tangent.y()) &&
-         certified(a) == certified(b);
+         a.status == b.status;
 }
 
 /// Mostly the whole curve; else a part of it, which may be tiny or a point.
@@ -137,7 +125,7 @@ class CaseRun {
     Count& count = tally_[case_.family];
     ++count.answers;
     const bool usable = std::isfinite(answer.parameter) && answer.point.allFinite() && answer.tangent.allFinite();
-    const bool told = answer.parameter == case_.range.begin && std::isinf(answer.distance) && !certified(answer);
+    const bool told = answer.parameter == case_.range.begin && std::isinf(answer.distance) && !answer.certified();
     if (usable && (told || element_size() == 0.0)) return;
     ++(usable ? count.inconsistent : count.not_finite);
     report("exact", answer, query, 0.0, "a query that is lost");
@@ -146,15 +134,11 @@ class CaseRun {
   double element_size() const { return oracle_.size(); }
 
   void ask_warm(const Point& query, double truth, const oracle::Bounds& bounds) {
-#ifdef CALLIGRAPHY_ISSUE_3
     const double starts[] = {random_.next(), truth, 0.0, 1.0, last_start_};
     const double start = starts[random_.index(std::size(starts))];
     last_start_ = truth;
     const NearestPoint answer = nearest_point(element_, query, {NearestPointMethod::tracked}, case_.range, start);
-    judge(other_methods_, "tracked", answer, query, bounds, certified(answer), start);
-#else
-    (void)query, (void)truth, (void)bounds;
-#endif
+    judge(other_methods_, "tracked", answer, query, bounds, answer.certified(), start);
   }
 
   /// What is approximate must still be a point of the curve, and say that it is not certified.
@@ -166,7 +150,6 @@ class CaseRun {
       ++count.not_finite;
       report("wang2006", printed, query, 0.0, "not finite");
     }
-#ifdef CALLIGRAPHY_ISSUE_3
     const NearestPoint sampled = nearest_point(element_, query, {NearestPointMethod::sampled}, case_.range);
     const Verdict verdict = oracle_.judge(sampled, query, bounds, case_.range);
     Count& samples = tally_[other_methods_ + 2];
@@ -176,20 +159,13 @@ class CaseRun {
       ++(is_finite(sampled) ? samples.inconsistent : samples.not_finite);
       report("sampled", sampled, query, 0.0, "not consistent");
     }
-#else
-    (void)bounds;
-#endif
   }
 
   /// The same bits in a batch, and when asked one by one once more.
   void compare_again() {
     std::vector<NearestPoint> again(case_.queries.size());
-#ifdef CALLIGRAPHY_ISSUE_3
     const bool whole = case_.range.begin == 0.0 && case_.range.end == 1.0;
     if (whole) calligraphy::nearest_points(element_, case_.queries, again);
-#else
-    const bool whole = false;
-#endif
     if (!whole) {
       const StrokeElement other = calligraphy::prepare_element(case_.control_points);
       for (std::size_t i = 0; i < again.size(); ++i) again[i] = nearest_point(other, case_.queries[i], {}, case_.range);
@@ -208,7 +184,7 @@ class CaseRun {
       return fmt::format("{}: points {} query {} range {} {} start {} -> t {} distance {:.17g}{}; {}", method,
                          exact_text(case_.control_points), exact_text({&query, 1}), exact_text(case_.range.begin),
                          exact_text(case_.range.end), exact_text(start), exact_text(answer.parameter), answer.distance,
-                         certified(answer) ? ", certified" : "", what);
+                         answer.certified() ? ", certified" : "", what);
     });
   }
 

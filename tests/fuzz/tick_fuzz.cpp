@@ -6,45 +6,17 @@
 
 #include <fmt/format.h>
 
-#include <calligraphy/collision/nearest_point.hpp>
+#include <calligraphy/collision/stroke_tracker.hpp>
 
 #include "hostile_strokes.hpp"
-
-#if __has_include(<calligraphy/collision/stroke_tracker.hpp>)
-#include <calligraphy/collision/stroke_tracker.hpp>
-#define CALLIGRAPHY_ISSUE_3 1
-#endif
 
 namespace calligraphy_test {
 namespace {
 
 using calligraphy::StrokeElement;
 
-#ifdef CALLIGRAPHY_ISSUE_3
+using calligraphy::StrokePoint;
 using calligraphy::StrokeTracker;
-bool certified(const NearestPoint& answer) { return answer.certified(); }
-#else
-bool certified(const NearestPoint& answer) { return answer.certified; }
-class StrokeTracker {
- public:
-  struct Answer {
-    int element;
-    NearestPoint foot;
-  };
-  explicit StrokeTracker(std::span<const StrokeElement> elements) : elements_(elements) {}
-  Answer update(const Point& query) noexcept {
-    Answer best{0, nearest_point(elements_[0], query)};
-    for (std::size_t i = 1; i < elements_.size(); ++i) {
-      const NearestPoint foot = nearest_point(elements_[i], query);
-      if (foot.distance < best.foot.distance) best = {static_cast<int>(i), foot};
-    }
-    return best;
-  }
-
- private:
-  std::span<const StrokeElement> elements_;
-};
-#endif
 
 /// The truth about a stroke.
 class StrokeOracle {
@@ -56,7 +28,7 @@ class StrokeOracle {
     }
   }
 
-  Verdict judge(const StrokeTracker::Answer& answer, const Point& query) const {
+  Verdict judge(const StrokePoint& answer, const Point& query) const {
     const auto which = static_cast<std::size_t>(answer.element);
     const NearestPointOracle& its = oracles_[which];
     oracle::Bounds bounds = its.nearest(query, answer.foot.parameter);
@@ -90,7 +62,7 @@ class PathRun {
   }
 
   void run() {
-    std::vector<StrokeTracker::Answer> answers;
+    std::vector<StrokePoint> answers;
     answers.reserve(path_.ticks.size());
     StrokeTracker tracker(elements_);
     const auto start = std::chrono::steady_clock::now();
@@ -101,7 +73,7 @@ class PathRun {
   }
 
  private:
-  void judge(const StrokeTracker::Answer& answer, std::size_t tick) {
+  void judge(const StrokePoint& answer, std::size_t tick) {
     const Point& query = path_.ticks[tick];
     if (answer.element < 0 || answer.element >= oracle_.count() || !is_finite(answer.foot)) {
       ++tally_[family_].answers;
@@ -110,17 +82,17 @@ class PathRun {
     }
     if (is_lost(query)) {
       ++tally_[family_].answers;
-      if (std::isinf(answer.foot.distance) && !certified(answer.foot)) return;
+      if (std::isinf(answer.foot.distance) && !answer.foot.certified()) return;
       if (elements_[static_cast<std::size_t>(answer.element)].length() == 0.0) return;
       ++tally_[family_].inconsistent;
       return report(answer, tick, "a query that is lost");
     }
     const Verdict verdict = oracle_.judge(answer, query);
-    if (!tally_.judge(family_, verdict, std::isfinite(answer.foot.distance), certified(answer.foot))) return;
+    if (!tally_.judge(family_, verdict, std::isfinite(answer.foot.distance), answer.foot.certified())) return;
     report(answer, tick, fmt::format("error {:.3g} of the size", verdict.error));
   }
 
-  void report(const StrokeTracker::Answer& answer, std::size_t tick, const std::string& what) {
+  void report(const StrokePoint& answer, std::size_t tick, const std::string& what) {
     tally_.fail([&] {
       std::string text = "tracker:";
       for (const auto& element : path_.elements) text += fmt::format(" element {}", exact_text(element));
@@ -129,7 +101,7 @@ class PathRun {
                           exact_text(std::span(path_.ticks).subspan(first, tick + 1 - first)));
       return text + fmt::format(" -> element {} t {} distance {:.17g}{}; {}", answer.element,
                                 exact_text(answer.foot.parameter), answer.foot.distance,
-                                certified(answer.foot) ? ", certified" : "", what);
+                                answer.foot.certified() ? ", certified" : "", what);
     });
   }
 
