@@ -174,7 +174,8 @@ Polygon hairpin(NumberSequence& random, int degree) {
 
 /// The usual Bezier curves of circular arcs round the origin.
 Polygon arc(NumberSequence& random, int degree) {
-  const double angle = random.between(0.05, 3.0), first = one_in(random, 3) ? 0.0 : random.between(0.0, 6.3);
+  const double angle = one_in(random, 2) ? random.between(0.05, 3.0) : magnitude(random, -3.0, 0.0);
+  const double first = one_in(random, 3) ? 0.0 : random.between(0.0, 6.3);
   const auto at = [&](double a) { return Point(std::cos(first + a), std::sin(first + a)); };
   const Point start = at(0.0), end = at(angle);
   if (degree == 2) return {start, (1.0 / std::cos(0.5 * std::min(angle, 2.5))) * at(0.5 * angle), end};

@@ -112,24 +112,16 @@ Point at_centre_of_curvature(NumberSequence& random, Points points) {
   return in_box(random, points);
 }
 
-/// On the grid that snapped control points lie on, on the axes and at the origin.
+/// On the grid that snapped control points lie on, or on the axis of those that are symmetric.
 Point on_grid(NumberSequence& random, Points) {
   const auto step = [&] { return static_cast<double>(random.index(65)) / 16.0 - 2.0; };
-  switch (random.index(4)) {
-    case 0:
-      return {0.0, step()};
-    case 1:
-      return slight(random) * random.in_disc();
-    case 2: {
-      const double x = slight(random);
-      return {x, random.between(-2.0, 2.0)};
-    }
-    default:
-      break;
-  }
+  if (one_in(random, 3)) return {slight(random), one_in(random, 2) ? step() : random.between(-2.0, 2.0)};
   const double x = step();
   return {x, step()};
 }
+
+/// The centre of arcs, and of curves that are their own image when turned.
+Point at_origin(NumberSequence& random, Points) { return slight(random) * random.in_disc(); }
 
 Point far(NumberSequence& random, Points points) {
   const Point direction = one_in(random, 4) ? Point(0.0, 1.0) : random.direction();
@@ -137,7 +129,8 @@ Point far(NumberSequence& random, Points points) {
 }
 
 constexpr Point (*kinds[])(NumberSequence&, Points) = {
-    in_box, near, on_curve, at_control_points, on_end_normal, on_handle, at_centre_of_curvature, on_grid, far};
+    in_box,  near,      on_curve, at_control_points, on_end_normal, on_handle, at_centre_of_curvature,
+    on_grid, at_origin, far};
 
 }  // namespace
 
