@@ -258,8 +258,9 @@ void QueryFuzz::run(std::uint64_t seed, std::uint64_t block, std::uint64_t limit
     ++family;
   }
   const std::size_t first = family;
-  for (std::uint64_t i = 0; asked < limit; ++i) {
-    ask(draw_case(random, first + i % curve_families().size(), first));
+  while (asked < limit) {
+    ask(draw_case(random, family, first));
+    family = first + (family + 1 - first) % curve_families().size();
   }
 }
 
