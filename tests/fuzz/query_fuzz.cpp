@@ -120,7 +120,7 @@ class CaseRun {
     const Verdict verdict = oracle_.judge(answer, query, bounds, case_.range);
     if (tally_.judge(family, verdict, is_finite(answer), has_certificate)) {
       report(
-          method, answer, query, start,
+          family, method, answer, query, start,
           fmt::format("error {:.3g} of the size, nearest {:.17g}", verdict.error, static_cast<double>(bounds.found)));
     }
   }
@@ -132,7 +132,7 @@ class CaseRun {
     const bool told = answer.parameter == case_.range.begin && std::isinf(answer.distance) && !answer.certified();
     if (usable && (told || element_size() == 0.0)) return;
     ++(usable ? count.inconsistent : count.not_finite);
-    report("exact", answer, query, 0.0, "a query that is lost");
+    report(case_.family, "exact", answer, query, 0.0, "a query that is lost");
   }
 
   double element_size() const { return oracle_.size(); }
@@ -154,7 +154,7 @@ class CaseRun {
     const bool honest = sampled.certified() == !element_.curve();
     if (is_finite(sampled) && verdict.consistent && honest) return;
     ++(is_finite(sampled) ? count.inconsistent : count.not_finite);
-    report("sampled", sampled, query, 0.0, "not consistent");
+    report(other_methods_ + 2, "sampled", sampled, query, 0.0, "not consistent");
   }
 
   /// It may be wrong, but has to say so where its last interval holds a nearer point.
@@ -166,7 +166,7 @@ class CaseRun {
     ++count.answers;
     if (!is_finite(printed)) {
       ++count.not_finite;
-      return report("wang2006", printed, query, 0.0, "not finite");
+      return report(other_methods_ + 1, "wang2006", printed, query, 0.0, "not finite");
     }
     if (!element_.curve() || printed.status == NearestPointStatus::unsafe_stop) return;
     const ParameterRange last = last_interval(printed.parameter);
@@ -175,7 +175,7 @@ class CaseRun {
     if (printed.status == NearestPointStatus::approximate && bounds.found >= printed.distance - epsilon) return;
     ++count.inconsistent;
     report(
-        "wang2006", printed, query, tolerance,
+        other_methods_ + 1, "wang2006", printed, query, tolerance,
         fmt::format("not told to be unsafe, nearest of the last interval {:.17g}", static_cast<double>(bounds.found)));
   }
 
@@ -191,14 +191,14 @@ class CaseRun {
     for (std::size_t i = 0; i < again.size(); ++i) {
       if (same_bits(again[i], answers_[i])) continue;
       ++tally_[case_.family].different;
-      report(whole ? "batch" : "again", again[i], case_.queries[i], 0.0,
+      report(case_.family, whole ? "batch" : "again", again[i], case_.queries[i], 0.0,
              fmt::format("alone t {}", exact_text(answers_[i].parameter)));
     }
   }
 
-  void report(const char* method, const NearestPoint& answer, const Point& query, double start,
+  void report(std::size_t family, const char* method, const NearestPoint& answer, const Point& query, double start,
               const std::string& what) {
-    tally_.fail([&] {
+    tally_.fail(family, [&] {
       return fmt::format("{}: points {} query {} range {} {} start {} -> t {} distance {:.17g}{}; {}", method,
                          exact_text(case_.control_points), exact_text({&query, 1}), exact_text(case_.range.begin),
                          exact_text(case_.range.end), exact_text(start), exact_text(answer.parameter), answer.distance,

@@ -73,10 +73,13 @@ Count Tally::total() const {
 }
 
 std::vector<Failure> Tally::failures() const {
-  std::vector<Failure> first = failures_;
-  std::sort(first.begin(), first.end(),
+  std::vector<Failure> all = failures_, first;
+  std::sort(all.begin(), all.end(),
             [](const auto& a, const auto& b) { return std::tie(a.block, a.index) < std::tie(b.block, b.index); });
-  first.resize(std::min(first.size(), shown_failures));
+  std::vector<int> shown(counts_.size());
+  for (const Failure& failure : all) {
+    if (first.size() < shown_failures && shown[failure.family]++ < shown_failures_per_family) first.push_back(failure);
+  }
   return first;
 }
 

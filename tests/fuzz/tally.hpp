@@ -46,15 +46,17 @@ struct Count {
 
 struct Failure {
   std::uint64_t block = 0, index = 0;  ///< order of the failures, whatever the threads
-  std::string text;                    ///< one line from which it can be reproduced
+  std::size_t family = 0;
+  std::string text;  ///< one line from which it can be reproduced
 };
 
 /// Of one thread.
 class Tally {
  public:
   static constexpr std::size_t shown_failures = 10;
+  static constexpr int shown_failures_per_family = 2;
 
-  explicit Tally(std::size_t families) : counts_(families) {}
+  explicit Tally(std::size_t families) : counts_(families), kept_(families) {}
 
   /// The blocks of a thread must ascend, so that the first failures are kept.
   void begin_block(std::uint64_t block) { block_ = block; }
@@ -64,18 +66,21 @@ class Tally {
   /// Counts a judged answer; true when it is not as it should be.
   bool judge(std::size_t family, const Verdict& verdict, bool finite, bool certified);
   template <typename Text>
-  void fail(Text text) {
-    if (failures_.size() < shown_failures) failures_.push_back({block_, failures_.size(), text()});
+  void fail(std::size_t family, Text text) {
+    if (kept_[family] == shown_failures_per_family) return;
+    ++kept_[family];
+    failures_.push_back({block_, failures_.size(), family, text()});
   }
 
   void add(const Tally& other);
   Count total() const;
-  /// The first ones, in order.
+  /// The first ones in order, a few of each family.
   std::vector<Failure> failures() const;
 
  private:
   std::vector<Count> counts_;
   std::vector<Failure> failures_;
+  std::vector<int> kept_;  ///< failures of each family
   std::uint64_t block_ = 0;
 };
 

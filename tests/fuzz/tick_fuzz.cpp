@@ -93,7 +93,7 @@ class PathRun {
   }
 
   void report(const StrokePoint& answer, std::size_t tick, const std::string& what) {
-    tally_.fail([&] {
+    tally_.fail(family_, [&] {
       std::string text = "tracker:";
       for (const auto& element : path_.elements) text += fmt::format(" element {}", exact_text(element));
       const std::size_t first = tick < 2 ? 0 : tick - 2;
