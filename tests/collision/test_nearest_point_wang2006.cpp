@@ -129,7 +129,8 @@ TEST_CASE("every stop of the printed rule that leaves a nearer point in its last
         const auto last = calligraphy_test::last_interval(found.parameter);
         const auto nearest = oracle.nearest(query, found.parameter, last).found;
         const double epsilon = calligraphy_test::wang2006_epsilon(element, query, tolerance);
-        const bool leaves_nearer = nearest < found.distance - epsilon;
+        const double rounding = 1e-15 * found.distance;  // of the distances that were compared
+        const bool leaves_nearer = nearest < found.distance - epsilon - rounding;
         unsafe += leaves_nearer;
         told += found.status == NearestPointStatus::unsafe_stop;
         untold += leaves_nearer && found.status != NearestPointStatus::unsafe_stop;
@@ -140,5 +141,5 @@ TEST_CASE("every stop of the printed rule that leaves a nearer point in its last
   INFO(stops << " stops, " << told << " told to be unsafe, " << unsafe << " are");
   CHECK(untold == 0);
   CHECK(unsafe > 100);
-  CHECK(told < stops / 2);
+  CHECK(told <= unsafe + stops / 1000);  // and no others are, up to rounding
 }

@@ -171,7 +171,8 @@ class CaseRun {
     if (!element_.curve() || printed.status == NearestPointStatus::unsafe_stop) return;
     const ParameterRange last = last_interval(printed.parameter);
     const auto bounds = oracle_.nearest(query, printed.parameter, last);
-    const double epsilon = wang2006_epsilon(element_, query, tolerance);
+    const double rounding = 1e-15 * printed.distance;
+    const double epsilon = wang2006_epsilon(element_, query, tolerance) + rounding;
     if (printed.status == NearestPointStatus::approximate && bounds.found >= printed.distance - epsilon) return;
     ++count.inconsistent;
     report(
