@@ -39,7 +39,8 @@ template <int Degree>
   const Pair tangent = at.velocity * (1.0 / speed);
   NearestPoint answer{at.t, Point(point[0], point[1]), curve.size * std::sqrt(dot(at.offset, at.offset)),
                       Point(tangent[0], tangent[1]), status};
-  if (!(speed > least_speed)) [[unlikely]] answer.tangent = curve.tangent(at.t);
+  if (!(speed > least_speed)) [[unlikely]]
+    answer.tangent = curve.tangent(at.t);
   return answer;
 }
 

@@ -21,14 +21,20 @@ namespace {
   return search_minima(curve, query, tolerance, range);
 }
 
+/// The only minimum of the whole curve, sought from `start`, is the answer within a range, too, or the range's nearer
+/// end.
 template <int Degree>
-[[gnu::always_inline]] inline NearestPoint answer_within(const CurveElement& curve, const Candidate& at, Pair query,
-                                                         const ParameterRange& range) {
-  if (at.t >= range.begin && at.t <= range.end) [[likely]] {
-    return curve_answer(curve, at, NearestPointStatus::certified);
+[[gnu::always_inline]] inline NearestPoint only_minimum(const CurveElement& curve, Pair query, double tolerance,
+                                                        const ParameterRange& range, double start) {
+  const Polished found = polish<Degree>(curve, SlopePolynomial<Degree>(curve, query), query, start, tolerance);
+  if (!found.converged) return search_or_refuse(curve, query, tolerance, range);
+  const double t = found.at.t;
+  if (t >= range.begin && t <= range.end) [[likely]] {
+    return curve_answer(curve, found.at, NearestPointStatus::certified);
   }
-  const double t = at.t < range.begin ? range.begin : range.end;
-  return curve_answer(curve, candidate<Degree>(curve, query, t), NearestPointStatus::certified);
+  if (!(t >= 0.0 && t <= 1.0)) return search_or_refuse(curve, query, tolerance, range);
+  const Candidate end = candidate<Degree>(curve, query, t < range.begin ? range.begin : range.end);
+  return curve_answer(curve, end, NearestPointStatus::certified);
 }
 
 /// Several changes of sign, all certain, on the whole curve: each cell with one change from - to + holds one minimum.
@@ -79,10 +85,7 @@ template <int Degree>
     }
     if (signs.first_negative() && (changes & (changes - 1)) == 0) {
       const double start = (std::countr_zero(changes) + 0.5) * ordinate_spacing<Degree>;
-      const Polished found = polish<Degree>(curve, SlopePolynomial<Degree>(curve, query), query, start, tolerance);
-      if (found.converged && found.at.t >= 0.0 && found.at.t <= 1.0) {
-        return answer_within<Degree>(curve, found.at, query, range);
-      }
+      return only_minimum<Degree>(curve, query, tolerance, range, start);
     } else if (range.begin <= 0.0 && range.end >= 1.0) {
       return nearest_of_several<Degree>(curve, signs, query, tolerance, range);
     }
@@ -97,7 +100,6 @@ template <int Degree>
 NearestPoint certified_baseline(const CurveElement& curve, const Point& query, double tolerance,
                                 const ParameterRange& range) {
   const Pair relative = in_sizes(curve, query);
-  if (!within(relative, furthest_for_signs)) return search_or_refuse(curve, relative, tolerance, range);
   return from_signs<Degree>(curve, slope_signs(curve.ordinates, relative), relative, tolerance, range);
 }
 
@@ -106,7 +108,6 @@ template <int Degree>
 [[gnu::target("avx2")]] NearestPoint certified_avx2(const CurveElement& curve, const Point& query, double tolerance,
                                                     const ParameterRange& range) {
   const Pair relative = in_sizes(curve, query);
-  if (!within(relative, furthest_for_signs)) return search_or_refuse(curve, relative, tolerance, range);
   return from_signs<Degree>(curve, slope_signs_avx2(curve.ordinates, relative), relative, tolerance, range);
 }
 #endif
@@ -125,14 +126,10 @@ template <int Degree>
 NearestPoint tracked(const CurveElement& curve, const Point& query, double tolerance, const ParameterRange& range,
                      double start) {
   const Pair relative = in_sizes(curve, query);
-  if (!within(relative, furthest_for_signs)) return search_or_refuse(curve, relative, tolerance, range);
   const auto signs = slope_signs(curve.whole, relative);
   const std::uint64_t changes = signs.changes();
   if (signs.certain && signs.first_negative() && std::has_single_bit(changes)) {
-    const Polished found = polish<Degree>(curve, SlopePolynomial<Degree>(curve, relative), relative, start, tolerance);
-    if (found.converged && found.at.t >= 0.0 && found.at.t <= 1.0) {
-      return answer_within<Degree>(curve, found.at, relative, range);
-    }
+    return only_minimum<Degree>(curve, relative, tolerance, range, start);
   }
   return certified_nearest_point(curve, query, tolerance, range);
 }

@@ -11,7 +11,6 @@
 #include "binomial.hpp"
 #include "candidate.hpp"
 #include "polish.hpp"
-#include "refused_query.hpp"
 #include "slope_signs.hpp"
 
 namespace calligraphy {
@@ -35,11 +34,7 @@ class MinimumSearch {
     best_ = candidate<Degree>(curve_, query_, range_.begin);
     best_square_ = dot(best_.offset, best_.offset);
     offer(range_.end);
-    if (within(query_, furthest_for_signs)) {
-      search_cells();
-    } else {
-      isolate(range_);
-    }
+    search_cells();
     return curve_answer(curve_, best_,
                         intervals_ <= interval_limit ? NearestPointStatus::certified : NearestPointStatus::approximate);
   }

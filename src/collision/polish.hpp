@@ -14,12 +14,10 @@ namespace calligraphy {
 template <int Degree>
 struct SlopePolynomial {
   static constexpr std::size_t terms = 2 * Degree;
-  std::array<double, terms> c;
 
-  [[gnu::always_inline]] SlopePolynomial(const CurveElement& curve, Pair query) {
-    for (std::size_t k = 0; k < terms; ++k) {
-      c[k] = curve.slope_of_square[k];
-      if (k < Degree) c[k] -= static_cast<double>(k + 1) * dot(query, pair(curve.coefficients[k]));
+  [[gnu::always_inline]] SlopePolynomial(const CurveElement& curve, Pair query) : high_(curve.slope_of_square) {
+    for (std::size_t k = 0; k < Degree; ++k) {
+      low_[k] = high_[k] - static_cast<double>(k + 1) * dot(query, pair(curve.coefficients[k]));
     }
   }
 
@@ -29,8 +27,8 @@ struct SlopePolynomial {
 
   [[gnu::always_inline]] Value at(double t) const {
     const double square = t * t;
-    Value value{c[last - 1] + c[last] * t, slope(t, square), 0.0, 0.0};
-    for (std::size_t k = last - 1; k >= 2; k -= 2) value.g = value.g * square + (c[k - 2] + c[k - 1] * t);
+    Value value{c(last - 1) + c(last) * t, slope(t, square), 0.0, 0.0};
+    for (std::size_t k = last - 1; k >= 2; k -= 2) value.g = value.g * square + (c(k - 2) + c(k - 1) * t);
     value.half_bend = half_second(last - 1) + half_second(last) * t;
     for (std::size_t k = last - 2; k >= 3; k -= 2) {
       value.half_bend = value.half_bend * square + (half_second(k - 1) + half_second(k) * t);
@@ -47,18 +45,26 @@ struct SlopePolynomial {
  private:
   static constexpr std::size_t last = terms - 1;
 
-  double half_second(std::size_t k) const { return static_cast<double>(k * (k - 1) / 2) * c[k]; }
+  /// Coefficient of t^k; the query changes only the lower ones.
+  [[gnu::always_inline]] double c(std::size_t k) const { return k < Degree ? low_[k] : high_[k]; }
 
-  double sixth_third(std::size_t k) const { return static_cast<double>(k * (k - 1) * (k - 2) / 6) * c[k]; }
+  [[gnu::always_inline]] double half_second(std::size_t k) const { return static_cast<double>(k * (k - 1) / 2) * c(k); }
+
+  [[gnu::always_inline]] double sixth_third(std::size_t k) const {
+    return static_cast<double>(k * (k - 1) * (k - 2) / 6) * c(k);
+  }
 
   /// Like the others by Estrin's scheme: pairs of terms side by side, for short chains of dependent operations.
   [[gnu::always_inline]] double slope(double t, double square) const {
-    double sum = static_cast<double>(last) * c[last];
+    double sum = static_cast<double>(last) * c(last);
     for (std::size_t k = last - 1; k >= 2; k -= 2) {
-      sum = sum * square + (static_cast<double>(k - 1) * c[k - 1] + static_cast<double>(k) * c[k] * t);
+      sum = sum * square + (static_cast<double>(k - 1) * c(k - 1) + static_cast<double>(k) * c(k) * t);
     }
     return sum;
   }
+
+  std::array<double, Degree> low_;
+  const std::array<double, 2 * max_curve_degree>& high_;
 };
 
 struct Polished {

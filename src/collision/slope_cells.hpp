@@ -6,7 +6,9 @@
 namespace calligraphy {
 
 /// As many as fit: each takes 2 * degree - 1 ordinates, and one more ends the last.
-constexpr int cells_of_degree(int degree) { return (CurveElement::max_ordinates - 1) / (2 * degree - 1); }
+constexpr int cells_of_degree(int degree) {
+  return (static_cast<int>(CurveElement::max_ordinates) - 1) / (2 * degree - 1);
+}
 
 /// Parameter between neighbouring ordinates of the cells.
 template <int Degree>

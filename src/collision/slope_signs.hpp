@@ -16,13 +16,10 @@
 
 namespace calligraphy {
 
-/// Further away (in sizes) single precision is not asked.
-inline constexpr double furthest_for_signs = 1e15;
-
-template <int Count>
+template <std::size_t Count>
 struct SlopeSigns {
   std::uint64_t negative = 0;  ///< bit i: ordinate i is below zero
-  bool certain = false;        ///< rounding could turn no sign
+  bool certain = false;        ///< rounding could turn no sign, and the query fits single precision
 
   bool first_negative() const { return negative & 1U; }
   bool last_negative() const { return (negative >> (Count - 1)) & 1U; }
@@ -36,20 +33,20 @@ struct CertainSigns {
 };
 
 /// Bound of the error of an ordinate: five roundings of each term, and room.
-template <int Count>
+template <std::size_t Count>
 inline float slope_noise(const SlopeOrdinates<Count>& ordinates, float x, float y) {
   constexpr float roundings = 8.0F * 0x1p-24F;
   return roundings *
          (std::fabs(x) * ordinates.largest_x + std::fabs(y) * ordinates.largest_y + ordinates.largest_constant);
 }
 
-template <int Count>
+template <std::size_t Count>
 inline float slope_ordinate(const SlopeOrdinates<Count>& ordinates, std::size_t i, float x, float y) {
   return (x * ordinates.x[i] + y * ordinates.y[i]) + ordinates.constant[i];
 }
 
 #if defined(__SSE2__)
-template <int Count>
+template <std::size_t Count>
 inline __m128 slope_ordinates_sse2(const SlopeOrdinates<Count>& ordinates, std::size_t i, __m128 x, __m128 y) {
   return _mm_add_ps(
       _mm_add_ps(_mm_mul_ps(x, _mm_load_ps(&ordinates.x[i])), _mm_mul_ps(y, _mm_load_ps(&ordinates.y[i]))),
@@ -58,7 +55,7 @@ inline __m128 slope_ordinates_sse2(const SlopeOrdinates<Count>& ordinates, std::
 #endif
 
 /// Plain C++ for any processor; the others give the same bits.
-template <int Count>
+template <std::size_t Count>
 inline SlopeSigns<Count> slope_signs_portable(const SlopeOrdinates<Count>& ordinates, Pair query) {
   const float x = static_cast<float>(query[0]), y = static_cast<float>(query[1]);
   const float noise = slope_noise(ordinates, x, y);
@@ -72,7 +69,7 @@ inline SlopeSigns<Count> slope_signs_portable(const SlopeOrdinates<Count>& ordin
   return signs;
 }
 
-template <int Count>
+template <std::size_t Count>
 inline CertainSigns certain_signs(const SlopeOrdinates<Count>& ordinates, Pair query) {
   const float x = static_cast<float>(query[0]), y = static_cast<float>(query[1]);
   const float noise = slope_noise(ordinates, x, y);
@@ -99,7 +96,7 @@ inline CertainSigns certain_signs(const SlopeOrdinates<Count>& ordinates, Pair q
 
 #if defined(__SSE2__)
 
-template <int Count>
+template <std::size_t Count>
 inline SlopeSigns<Count> slope_signs_sse2(const SlopeOrdinates<Count>& ordinates, Pair query) {
   const float x = static_cast<float>(query[0]), y = static_cast<float>(query[1]);
   const __m128 all_x = _mm_set1_ps(x), all_y = _mm_set1_ps(y);
@@ -111,11 +108,11 @@ inline SlopeSigns<Count> slope_signs_sse2(const SlopeOrdinates<Count>& ordinates
     signs.negative |= static_cast<std::uint64_t>(static_cast<unsigned>(_mm_movemask_ps(value))) << i;
     least = _mm_min_ps(least, _mm_and_ps(value, magnitude));
   }
-  signs.certain = _mm_movemask_ps(_mm_cmple_ps(least, _mm_set1_ps(slope_noise(ordinates, x, y)))) == 0;
+  signs.certain = _mm_movemask_ps(_mm_cmpgt_ps(least, _mm_set1_ps(slope_noise(ordinates, x, y)))) == 0xf;
   return signs;
 }
 
-template <int Count>
+template <std::size_t Count>
 [[gnu::target("avx2"), gnu::always_inline]] inline SlopeSigns<Count> slope_signs_avx2(
     const SlopeOrdinates<Count>& ordinates, Pair query) {
   const float x = static_cast<float>(query[0]), y = static_cast<float>(query[1]);
@@ -131,14 +128,14 @@ template <int Count>
     least = _mm256_min_ps(least, _mm256_and_ps(value, magnitude));
   }
   const __m256 noise = _mm256_set1_ps(slope_noise(ordinates, x, y));
-  signs.certain = _mm256_movemask_ps(_mm256_cmp_ps(least, noise, _CMP_LE_OQ)) == 0;
+  signs.certain = _mm256_movemask_ps(_mm256_cmp_ps(least, noise, _CMP_GT_OQ)) == 0xff;
   return signs;
 }
 
 #endif
 
 /// What every processor of the kind that is compiled for can do.
-template <int Count>
+template <std::size_t Count>
 [[gnu::always_inline]] inline SlopeSigns<Count> slope_signs(const SlopeOrdinates<Count>& ordinates, Pair query) {
 #if defined(__SSE2__)
   return slope_signs_sse2(ordinates, query);
