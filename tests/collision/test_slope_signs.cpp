@@ -1,7 +1,7 @@
 // Whichever instructions the processor has, the signs that the nearest point rests on are the same.
 #include "../catch.hpp"
 
-#include <cmath>
+#include <cstddef>
 
 #include <calligraphy/collision/stroke_element.hpp>
 
@@ -25,7 +25,7 @@ using CellSigns = SlopeSigns<CurveElement::max_ordinates>;
 }
 
 /// Where they are not certain nobody asks for them.
-template <int Count>
+template <std::size_t Count>
 bool same(const SlopeSigns<Count>& a, const SlopeSigns<Count>& b) {
   return a.certain == b.certain && (!a.certain || a.negative == b.negative);
 }
