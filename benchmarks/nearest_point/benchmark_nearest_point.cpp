@@ -25,9 +25,11 @@ class BriefReporter : public benchmark::ConsoleReporter {
 };
 
 void say_who_is_missing(const RunOptions& options) {
-  if (!kurbo_method()) std::puts("left out: kurbo (needs cargo, and CALLIGRAPHY_BENCHMARK_PEERS=ON)");
-  if (!lib2geom_method()) std::puts("left out: lib2geom (needs lib2geom-dev, and CALLIGRAPHY_BENCHMARK_PEERS=ON)");
-  if (options.bezier_js.empty()) std::puts("left out: bezier.js (needs node, and --bezier_js)");
+  if (kurbo_methods().empty())
+    std::puts("left out: kurbo (needs a cargo that can build it, and CALLIGRAPHY_BENCHMARK_PEERS=ON)");
+  if (lib2geom_methods().empty())
+    std::puts("left out: lib2geom (needs lib2geom-dev, and CALLIGRAPHY_BENCHMARK_PEERS=ON)");
+  if (options.bezier_js.empty()) std::puts("left out: bezier.js (needs node, and --bezier_js with its package)");
 }
 
 }  // namespace

@@ -42,7 +42,8 @@ void run_kind(benchmark::State& state, const Kind& kind, std::vector<ElementCost
 }  // namespace
 
 void register_elements(const RunOptions& options, std::vector<ElementCost>& results) {
-  static const std::vector<Kind> kinds = {{"LSE", 2, sizeof(StrokeElement)}, {"CSE", 4, sizeof(StrokeElement)}};
+  static const std::vector<Kind> kinds = {{"LSE", 2, sizeof(calligraphy::LineElement)},
+                                          {"CSE", 4, sizeof(calligraphy::CurveElement)}};
   for (const Kind& kind : kinds) {
     benchmark::RegisterBenchmark(("preparing/" + kind.name).c_str(),
                                  [&](benchmark::State& state) { run_kind(state, kind, results); })

@@ -59,6 +59,7 @@ struct Measurement {
   std::string method;
   Spread nanoseconds;  ///< a query, or a tick of a whole stroke
   Errors errors;
+  double allowed = 1e-9;  ///< largest error that is right
 };
 
 /// The nearest distances of every `stride`-th query, by dense sampling in long double.

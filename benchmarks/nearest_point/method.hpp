@@ -94,9 +94,9 @@ std::vector<std::unique_ptr<Method>> library_methods();
 std::vector<std::unique_ptr<Method>> library_stroke_methods();
 /// The paper's rule with de Casteljau's algorithm, as printed.
 std::vector<std::unique_ptr<Method>> paper_methods();
-/// Null where the peer was not built in.
-std::unique_ptr<Method> kurbo_method();
-std::unique_ptr<Method> lib2geom_method();
+/// None where the peer was not built in.
+std::vector<std::unique_ptr<Method>> kurbo_methods();
+std::vector<std::unique_ptr<Method>> lib2geom_methods();
 
 /// All of them that are there.
 std::vector<std::unique_ptr<Method>> workload_methods();

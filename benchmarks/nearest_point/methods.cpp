@@ -9,9 +9,8 @@ void append(std::vector<std::unique_ptr<Method>>& methods, std::vector<std::uniq
 
 void append_others(std::vector<std::unique_ptr<Method>>& methods) {
   append(methods, paper_methods());
-  for (auto make : {kurbo_method, lib2geom_method}) {
-    if (auto method = make()) methods.push_back(std::move(method));
-  }
+  append(methods, kurbo_methods());
+  append(methods, lib2geom_methods());
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ fi
 
 build=$PWD/build-peers
 scripts/install_dependencies.sh tests
-scripts/install_dependencies.sh peers || echo "== not all of the peers' packages could be installed" >&2
+scripts/install_dependencies.sh peers || echo "== not all packages of the peers could be installed" >&2
 
 # bezier.js: pinned, unpacked into the build directory.
 bezier_js=$build/bezier-js-6.1.4
@@ -29,14 +29,17 @@ configure() {
   cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCALLIGRAPHY_BENCHMARKS=ON -DCALLIGRAPHY_TESTS=OFF \
     -DCALLIGRAPHY_TOOLS=OFF -DCALLIGRAPHY_EXAMPLES=OFF -DCALLIGRAPHY_BENCHMARK_PEERS=ON "$@" > /dev/null
 }
-targets=(benchmark_nearest_point nearest_point_instructions)
-configure
-if ! cmake --build "$build" --target kurbo_peer > /dev/null 2> "$build/kurbo.log"; then
+configure -UCARGO
+if ! cmake --build "$build" --target kurbo_peer > "$build/kurbo.log" 2>&1; then
   echo "== kurbo could not be built, see $build/kurbo.log" >&2
-  configure -DCARGO=CARGO-NOTFOUND -DCMAKE_DISABLE_FIND_PACKAGE_cargo=ON
+  configure -DCARGO=OFF
 fi
-cmake --build "$build" --target "${targets[@]}"
+cmake --build "$build" --target benchmark_nearest_point nearest_point_instructions
 "$build/benchmarks/nearest_point/benchmark_nearest_point" "$@"
 if [[ -n $instructions ]]; then
-  python3 benchmarks/nearest_point/instructions.py "$build/benchmarks/nearest_point/nearest_point_instructions"
+  if command -v valgrind > /dev/null; then
+    python3 benchmarks/nearest_point/instructions.py "$build/benchmarks/nearest_point/nearest_point_instructions"
+  else
+    echo "left out: instructions (needs valgrind)"
+  fi
 fi

@@ -54,13 +54,13 @@ void run_workload(benchmark::State& state, const NearestPointWorkload& workload,
     benchmark::DoNotOptimize(answers.data());
   });
   for (std::size_t m = 0; m < methods.size(); ++m) {
-    results.push_back({workload.name, methods[m]->name(), spread(times.of(m)), errors[m]});
+    results.push_back({workload.name, methods[m]->name(), spread(times.of(m)), errors[m], workload.allowed_error});
     state.counters[methods[m]->name()] = results.back().nanoseconds.p50;
   }
   if (!options.bezier_js.empty()) {
     const BezierJsRun peer = run_bezier_js(options.bezier_js, workload.curves, options.rounds / 4 + 1);
     results.push_back({workload.name, bezier_js_name, spread(peer.nanoseconds),
-                       reference.errors(peer.answers, workload.allowed_error)});
+                       reference.errors(peer.answers, workload.allowed_error), workload.allowed_error});
     state.counters[bezier_js_name] = results.back().nanoseconds.p50;
   }
 }

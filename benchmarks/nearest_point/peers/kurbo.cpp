@@ -22,8 +22,7 @@ struct KurboElement {
 
 struct Kurbo {
   using Element = KurboElement;
-  /// Of the parameter, as kurbo 0.13 understands it.
-  static constexpr double accuracy = 1e-12;
+  double accuracy;  ///< of the parameter, as kurbo 0.13 understands it
 
   Element prepare(const ControlPoints& points) const {
     Element element{points.size() == 4, {}};
@@ -44,14 +43,19 @@ struct Kurbo {
 
 }  // namespace
 
-std::unique_ptr<Method> kurbo_method() { return method_of("kurbo nearest", Kurbo{}); }
+std::vector<std::unique_ptr<Method>> kurbo_methods() {
+  std::vector<std::unique_ptr<Method>> methods;
+  methods.push_back(method_of("kurbo nearest 1e-9", Kurbo{1e-9}));
+  methods.push_back(method_of("kurbo nearest 1e-12", Kurbo{1e-12}));
+  return methods;
+}
 
 }  // namespace nearest_point_benchmark
 
 #else
 
 namespace nearest_point_benchmark {
-std::unique_ptr<Method> kurbo_method() { return nullptr; }
+std::vector<std::unique_ptr<Method>> kurbo_methods() { return {}; }
 }  // namespace nearest_point_benchmark
 
 #endif

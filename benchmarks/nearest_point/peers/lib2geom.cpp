@@ -34,14 +34,18 @@ struct Lib2geom {
 
 }  // namespace
 
-std::unique_ptr<Method> lib2geom_method() { return method_of("lib2geom nearest_time", Lib2geom{}); }
+std::vector<std::unique_ptr<Method>> lib2geom_methods() {
+  std::vector<std::unique_ptr<Method>> methods;
+  methods.push_back(method_of("lib2geom nearest_time", Lib2geom{}));
+  return methods;
+}
 
 }  // namespace nearest_point_benchmark
 
 #else
 
 namespace nearest_point_benchmark {
-std::unique_ptr<Method> lib2geom_method() { return nullptr; }
+std::vector<std::unique_ptr<Method>> lib2geom_methods() { return {}; }
 }  // namespace nearest_point_benchmark
 
 #endif
