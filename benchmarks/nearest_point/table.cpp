@@ -72,11 +72,11 @@ void print_workloads(std::FILE* out, Measurements results) {
   const auto workloads = distinct(results, &Measurement::workload);
   fmt::print(
       out,
-      "\n## Nearest point, ns a query: medians of rounds\n\n"
+      "\n## Nearest point, ns a query: medians of rounds, and their geometric mean\n\n"
       "Errors are of the distance, relative to the size. Largest: where 1e-9 can be asked. Beyond: off by more than "
       "the workload allows;\nwrong: by more than 1e-3; both on the worst workload.\n\n");
   fmt::print(out, "| {:<22} | {:>10} | {:>10} | {:>10} | {:>7} | {:>9} | {:>7} | {:<20} | {:>7} | {:>7} | {:<20} |\n",
-             "method", "real, near", "real, box", "random box", "hook", fmt::format("mean of {}", workloads.size()),
+             "method", "real, near", "real, box", "random box", "hook", fmt::format("geo. of {}", workloads.size()),
              "largest", "  on", "beyond", "wrong", "  on");
   fmt::print(out, "|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (const std::string& method : methods) {
