@@ -4,17 +4,11 @@
 #include <cmath>
 #include <cstddef>
 
+#include "binomial.hpp"
+#include "slope_cells.hpp"
+
 namespace calligraphy {
 namespace {
-
-constexpr std::array<std::array<double, 8>, 8> binomial = {{{1},
-                                                            {1, 1},
-                                                            {1, 2, 1},
-                                                            {1, 3, 3, 1},
-                                                            {1, 4, 6, 4, 1},
-                                                            {1, 5, 10, 10, 5, 1},
-                                                            {1, 6, 15, 20, 15, 6, 1},
-                                                            {1, 7, 21, 35, 35, 21, 7, 1}}};
 
 /// Length of the derivative relative to the element's size below which its direction is rounding noise.
 constexpr double vanishing_slope = 1e-7;
@@ -31,16 +25,12 @@ PartRow bernstein_ordinates(const CurveElement& curve) {
   const int degree = 2 * curve.degree - 1;
   PartRow row;
   row.fill(Parts::Zero());
-  for (int k = 1; k <= curve.degree; ++k) {
-    const Point& factor = curve.coefficients[static_cast<std::size_t>(k - 1)];
-    Parts& power = row[static_cast<std::size_t>(k - 1)];
-    power.head<2>() = -k * factor;
-    for (int i = 1; i <= curve.degree; ++i) {
-      row[static_cast<std::size_t>(i + k - 1)][2] +=
-          k * curve.coefficients[static_cast<std::size_t>(i - 1)].dot(factor);
-    }
-  }
   const auto last = static_cast<std::size_t>(degree);
+  for (std::size_t k = 0; k <= last; ++k) row[k][2] = curve.slope_of_square[k];
+  for (int k = 0; k < curve.degree; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    row[i].head<2>() = -(k + 1) * curve.coefficients[i];
+  }
   for (std::size_t i = 1; i < last; ++i) row[i] /= binomial[last][i];
   for (std::size_t k = 1; k <= last; ++k) {
     for (std::size_t i = last; i >= k; --i) row[i] += row[i - 1];
@@ -70,12 +60,12 @@ void divide_zeros_out(PartRow& row, int degree, int at_start, int at_end) {
   }
 }
 
-/// De Casteljau's algorithm: `row` becomes its second half, the first one is returned.
-PartRow split(PartRow& row, std::size_t degree) {
+/// De Casteljau's algorithm: `row` becomes the part after t, the part before it is returned.
+PartRow split(PartRow& row, std::size_t degree, double t) {
   PartRow left;
   for (std::size_t k = 0; k <= degree; ++k) {
     left[k] = row[0];
-    for (std::size_t i = 0; i + k < degree; ++i) row[i] = 0.5 * (row[i] + row[i + 1]);
+    for (std::size_t i = 0; i + k < degree; ++i) row[i] += t * (row[i + 1] - row[i]);
   }
   return left;
 }
@@ -128,20 +118,12 @@ void prepare_ordinates(CurveElement& curve, std::span<const Point> control_point
   for (std::size_t i = 0; i <= degree; ++i) whole.append(row[i]);
   whole.finish();
 
-  curve.cells = curve.degree < 4 ? 8 : 4;
-  std::array<PartRow, 8> cells;
-  cells[0] = row;
-  for (std::size_t width = static_cast<std::size_t>(curve.cells); width > 1; width /= 2) {
-    for (std::size_t i = 0; i < static_cast<std::size_t>(curve.cells); i += width) {
-      PartRow right = cells[i];
-      cells[i] = split(right, degree);
-      cells[i + width / 2] = right;
-    }
-  }
+  curve.cells = cells_of_degree(curve.degree);
   OrdinateWriter writer(curve.ordinates);
   writer.append(row[0]);
-  for (int cell = 0; cell < curve.cells; ++cell) {
-    for (std::size_t i = 1; i <= degree; ++i) writer.append(cells[static_cast<std::size_t>(cell)][i]);
+  for (int cells = curve.cells; cells > 0; --cells) {
+    const PartRow cell = cells > 1 ? split(row, degree, 1.0 / cells) : row;
+    for (std::size_t i = 1; i <= degree; ++i) writer.append(cell[i]);
   }
   writer.finish();
 }
@@ -226,6 +208,11 @@ CurveElement prepare_curve(std::span<const Point> control_points) noexcept {
     for (std::size_t i = 0; i + k <= n; ++i) difference[i] = difference[i + 1] - difference[i];
     curve.coefficients[k - 1] = binomial[n][k] * difference[0];
     curve.least_slope += 1e-5 * curve.coefficients[k - 1].squaredNorm();
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t k = 0; k < n; ++k) {
+      curve.slope_of_square[i + k + 1] += static_cast<double>(k + 1) * curve.coefficients[i].dot(curve.coefficients[k]);
+    }
   }
   prepare_ordinates(curve, control_points);
   prepare_arc(curve);

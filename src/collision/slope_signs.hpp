@@ -1,11 +1,14 @@
 // Signs of the slope's Bernstein ordinates for one query: the processor-specific part of the nearest point.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 
 #include <calligraphy/collision/curve_element.hpp>
+
+#include "pair.hpp"
 
 #if defined(__SSE2__)
 #include <immintrin.h>
@@ -16,9 +19,15 @@ namespace calligraphy {
 /// Further away (in sizes) single precision is not asked.
 inline constexpr double furthest_for_signs = 1e15;
 
+template <int Count>
 struct SlopeSigns {
   std::uint64_t negative = 0;  ///< bit i: ordinate i is below zero
   bool certain = false;        ///< rounding could turn no sign
+
+  bool first_negative() const { return negative & 1U; }
+  bool last_negative() const { return (negative >> (Count - 1)) & 1U; }
+  /// Bit i: ordinates i and i + 1 have different signs.
+  std::uint64_t changes() const { return (negative ^ (negative >> 1)) & ((std::uint64_t{1} << (Count - 1)) - 1); }
 };
 
 /// The same with those left out that rounding could turn.
@@ -50,9 +59,11 @@ inline __m128 slope_ordinates_sse2(const SlopeOrdinates<Count>& ordinates, std::
 
 /// Plain C++ for any processor; the others give the same bits.
 template <int Count>
-inline SlopeSigns slope_signs_portable(const SlopeOrdinates<Count>& ordinates, float x, float y) {
+inline SlopeSigns<Count> slope_signs_portable(const SlopeOrdinates<Count>& ordinates, Pair query) {
+  const float x = static_cast<float>(query[0]), y = static_cast<float>(query[1]);
   const float noise = slope_noise(ordinates, x, y);
-  SlopeSigns signs{0, true};
+  SlopeSigns<Count> signs;
+  signs.certain = true;
   for (std::size_t i = 0; i < Count; ++i) {
     const float value = slope_ordinate(ordinates, i, x, y);
     signs.negative |= static_cast<std::uint64_t>(value < 0.0F) << i;
@@ -62,7 +73,8 @@ inline SlopeSigns slope_signs_portable(const SlopeOrdinates<Count>& ordinates, f
 }
 
 template <int Count>
-inline CertainSigns certain_signs(const SlopeOrdinates<Count>& ordinates, float x, float y) {
+inline CertainSigns certain_signs(const SlopeOrdinates<Count>& ordinates, Pair query) {
+  const float x = static_cast<float>(query[0]), y = static_cast<float>(query[1]);
   const float noise = slope_noise(ordinates, x, y);
   CertainSigns signs;
 #if defined(__SSE2__)
@@ -88,11 +100,12 @@ inline CertainSigns certain_signs(const SlopeOrdinates<Count>& ordinates, float 
 #if defined(__SSE2__)
 
 template <int Count>
-inline SlopeSigns slope_signs_sse2(const SlopeOrdinates<Count>& ordinates, float x, float y) {
+inline SlopeSigns<Count> slope_signs_sse2(const SlopeOrdinates<Count>& ordinates, Pair query) {
+  const float x = static_cast<float>(query[0]), y = static_cast<float>(query[1]);
   const __m128 all_x = _mm_set1_ps(x), all_y = _mm_set1_ps(y);
   const __m128 magnitude = _mm_castsi128_ps(_mm_set1_epi32(0x7fffffff));
   __m128 least = _mm_set1_ps(3e38F);
-  SlopeSigns signs;
+  SlopeSigns<Count> signs;
   for (std::size_t i = 0; i < Count; i += 4) {
     const __m128 value = slope_ordinates_sse2(ordinates, i, all_x, all_y);
     signs.negative |= static_cast<std::uint64_t>(static_cast<unsigned>(_mm_movemask_ps(value))) << i;
@@ -103,12 +116,13 @@ inline SlopeSigns slope_signs_sse2(const SlopeOrdinates<Count>& ordinates, float
 }
 
 template <int Count>
-__attribute__((target("avx2"), always_inline)) inline SlopeSigns slope_signs_avx2(
-    const SlopeOrdinates<Count>& ordinates, float x, float y) {
+[[gnu::target("avx2"), gnu::always_inline]] inline SlopeSigns<Count> slope_signs_avx2(
+    const SlopeOrdinates<Count>& ordinates, Pair query) {
+  const float x = static_cast<float>(query[0]), y = static_cast<float>(query[1]);
   const __m256 all_x = _mm256_set1_ps(x), all_y = _mm256_set1_ps(y);
   const __m256 magnitude = _mm256_castsi256_ps(_mm256_set1_epi32(0x7fffffff));
   __m256 least = _mm256_set1_ps(3e38F);
-  SlopeSigns signs;
+  SlopeSigns<Count> signs;
   for (std::size_t i = 0; i < Count; i += 8) {
     const __m256 value = _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(all_x, _mm256_loadu_ps(&ordinates.x[i])),
                                                      _mm256_mul_ps(all_y, _mm256_loadu_ps(&ordinates.y[i]))),
@@ -122,5 +136,15 @@ __attribute__((target("avx2"), always_inline)) inline SlopeSigns slope_signs_avx
 }
 
 #endif
+
+/// What every processor of the kind that is compiled for can do.
+template <int Count>
+[[gnu::always_inline]] inline SlopeSigns<Count> slope_signs(const SlopeOrdinates<Count>& ordinates, Pair query) {
+#if defined(__SSE2__)
+  return slope_signs_sse2(ordinates, query);
+#else
+  return slope_signs_portable(ordinates, query);
+#endif
+}
 
 }  // namespace calligraphy

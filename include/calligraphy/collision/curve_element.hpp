@@ -34,9 +34,10 @@ struct CurveElement {
   double least_slope = 0.0;                               ///< of g: below it Newton's method is not trusted
   Point origin = Point::Zero();                           ///< first control point
   std::array<Point, max_curve_degree> coefficients = {};  ///< c_1 to c_n
-  SlopeOrdinates<8> whole;                                ///< of the whole curve
-  SlopeOrdinates<max_ordinates> ordinates;                ///< of its cells; neighbours share the one between them
-  std::array<double, arc_intervals + 1> arc = {};         ///< arc length from 0 to i / 32 [m]
+  std::array<double, 2 * max_curve_degree> slope_of_square = {};  ///< of (B - origin) . B', by powers of t
+  SlopeOrdinates<8> whole;                                        ///< of the whole curve
+  SlopeOrdinates<max_ordinates> ordinates;         ///< of its cells; neighbours share the one between them
+  std::array<double, arc_intervals + 1> arc = {};  ///< arc length from 0 to i / 32 [m]
 
   Point point(double t) const noexcept;
   /// dB/dt
