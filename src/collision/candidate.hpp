@@ -9,16 +9,22 @@
 
 namespace calligraphy {
 
-struct Candidate {
+template <typename Vector>
+struct CurvePoint {
   double t;
-  Pair place, offset, velocity;  ///< at t, in sizes; offset is from the query
+  Vector place, offset, velocity;  ///< at t, in sizes; offset is from the query
 };
 
-template <int Degree>
-[[gnu::always_inline]] inline Candidate candidate(const CurveElement& curve, Pair query, double t) {
-  const Pair at = place<Degree>(curve, t);
-  return {t, at, at - query, first_derivative<Degree>(curve, t)};
+using Candidate = CurvePoint<Pair>;
+
+template <int Degree, typename Vector>
+[[gnu::always_inline]] inline CurvePoint<Vector> candidate(const CurveElement& curve, Vector query, double t) {
+  const Vector at = place<Degree, Vector>(curve, t);
+  return {t, at, at - query, first_derivative<Degree, Vector>(curve, t)};
 }
+
+/// Below it the direction of the velocity is rounding noise [sizes].
+inline constexpr double least_speed = 1e-7;
 
 /// Whether `next` takes the place of `best`: it is nearer, or as near up to rounding and its parameter is smaller.
 [[gnu::always_inline]] inline bool nearer(const Candidate& next, const Candidate& best) {
@@ -33,7 +39,6 @@ template <int Degree>
 
 [[gnu::always_inline]] inline NearestPoint curve_answer(const CurveElement& curve, const Candidate& at,
                                                         NearestPointStatus status) {
-  constexpr double least_speed = 1e-7;  // below it the direction of the velocity is rounding noise
   const double speed = std::sqrt(dot(at.velocity, at.velocity));
   const Pair point = pair(curve.origin) + at.place * curve.size;
   const Pair tangent = at.velocity * (1.0 / speed);

@@ -26,11 +26,14 @@ namespace {
 template <int Degree>
 [[gnu::always_inline]] inline NearestPoint only_minimum(const CurveElement& curve, Pair query, double tolerance,
                                                         const ParameterRange& range, double start) {
-  const Polished found = polish<Degree>(curve, SlopePolynomial<Degree>(curve, query), query, start, tolerance);
-  if (!found.converged) return search_or_refuse(curve, query, tolerance, range);
-  const double t = found.at.t;
+  Residue residue;
+  const Candidate found = polish<Degree>(curve, SlopePolynomial<Degree>(curve, query), query, start, residue);
+  if (!residue.converged(curve, allowed_error<Degree>(tolerance))) {
+    return search_or_refuse(curve, query, tolerance, range);
+  }
+  const double t = found.t;
   if (t >= range.begin && t <= range.end) [[likely]] {
-    return curve_answer(curve, found.at, NearestPointStatus::certified);
+    return curve_answer(curve, found, NearestPointStatus::certified);
   }
   if (!(t >= 0.0 && t <= 1.0)) return search_or_refuse(curve, query, tolerance, range);
   const Candidate end = candidate<Degree>(curve, query, t < range.begin ? range.begin : range.end);
@@ -45,6 +48,7 @@ template <int Degree>
                                                   double tolerance, const ParameterRange& range) {
   constexpr int per_cell = 2 * Degree - 1;
   constexpr double width = per_cell * ordinate_spacing<Degree>;
+  const double allowed = allowed_error<Degree>(tolerance);
   int last_cell = -1;
   for (std::uint64_t changes = signs.changes(); changes != 0; changes &= changes - 1) {
     const int cell = std::countr_zero(changes) / per_cell;
@@ -58,11 +62,12 @@ template <int Degree>
     const int change = std::countr_zero(changes);
     const int cell = change / per_cell;
     const double start = (change + 0.5) * ordinate_spacing<Degree>;
-    const Polished found = polish<Degree>(curve, polynomial, query, start, tolerance);
-    if (!(found.converged && found.at.t >= cell * width && found.at.t <= (cell + 1) * width)) {
+    Residue residue;
+    const Candidate found = polish<Degree>(curve, polynomial, query, start, residue);
+    if (!(residue.converged(curve, allowed) && found.t >= cell * width && found.t <= (cell + 1) * width)) {
       return search_minima(curve, query, tolerance, range);
     }
-    if (nearer(found.at, best)) best = found.at;
+    if (nearer(found, best)) best = found;
   }
   if (signs.last_negative()) {
     const Candidate end = candidate<Degree>(curve, query, 1.0);

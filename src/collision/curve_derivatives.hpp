@@ -14,27 +14,27 @@ namespace calligraphy {
   return (pair(query) - pair(curve.origin)) * curve.per_size;
 }
 
-template <int Degree>
-[[gnu::always_inline]] inline Pair place(const CurveElement& curve, double t) {
-  Pair sum = pair(curve.coefficients[Degree - 1]) * t;
-  for (std::size_t k = Degree - 1; k-- > 0;) sum = (sum + pair(curve.coefficients[k])) * t;
+template <int Degree, typename Vector = Pair>
+[[gnu::always_inline]] inline Vector place(const CurveElement& curve, double t) {
+  Vector sum = vector_of<Vector>(curve.coefficients[Degree - 1]) * t;
+  for (std::size_t k = Degree - 1; k-- > 0;) sum = (sum + vector_of<Vector>(curve.coefficients[k])) * t;
   return sum;
 }
 
-template <int Degree>
-[[gnu::always_inline]] inline Pair first_derivative(const CurveElement& curve, double t) {
-  Pair sum = pair(curve.coefficients[Degree - 1]) * static_cast<double>(Degree);
+template <int Degree, typename Vector = Pair>
+[[gnu::always_inline]] inline Vector first_derivative(const CurveElement& curve, double t) {
+  Vector sum = vector_of<Vector>(curve.coefficients[Degree - 1]) * static_cast<double>(Degree);
   for (std::size_t k = Degree - 1; k-- > 0;) {
-    sum = sum * t + pair(curve.coefficients[k]) * static_cast<double>(k + 1);
+    sum = sum * t + vector_of<Vector>(curve.coefficients[k]) * static_cast<double>(k + 1);
   }
   return sum;
 }
 
-template <int Degree>
-[[gnu::always_inline]] inline Pair second_derivative(const CurveElement& curve, double t) {
-  Pair sum = pair(curve.coefficients[Degree - 1]) * static_cast<double>(Degree * (Degree - 1));
+template <int Degree, typename Vector = Pair>
+[[gnu::always_inline]] inline Vector second_derivative(const CurveElement& curve, double t) {
+  Vector sum = vector_of<Vector>(curve.coefficients[Degree - 1]) * static_cast<double>(Degree * (Degree - 1));
   for (std::size_t k = Degree - 1; k-- > 1;) {
-    sum = sum * t + pair(curve.coefficients[k]) * static_cast<double>((k + 1) * k);
+    sum = sum * t + vector_of<Vector>(curve.coefficients[k]) * static_cast<double>((k + 1) * k);
   }
   return sum;
 }

@@ -217,9 +217,10 @@ class MinimumSearch {
 
   /// The only zero of g within the interval, where it changes from - to +: Newton's method, kept inside by halving.
   void descend(double low, double high, double t) {
-    const Polished polished = polish<Degree>(curve_, polynomial_, query_, t, tolerance_);
-    if (polished.converged && polished.at.t >= low && polished.at.t <= high) {
-      offer(polished.at.t);
+    Residue residue;
+    const double polished = polish<Degree>(curve_, polynomial_, query_, t, residue).t;
+    if (residue.converged(curve_, allowed_error<Degree>(tolerance_)) && polished >= low && polished <= high) {
+      offer(polished);
       return;
     }
     for (int step = 0; step < 64; ++step) {

@@ -15,9 +15,10 @@ template <int Degree>
 struct SlopePolynomial {
   static constexpr std::size_t terms = 2 * Degree;
 
-  [[gnu::always_inline]] SlopePolynomial(const CurveElement& curve, Pair query) : high_(curve.slope_of_square) {
+  template <typename Vector>
+  [[gnu::always_inline]] SlopePolynomial(const CurveElement& curve, Vector query) : high_(curve.slope_of_square) {
     for (std::size_t k = 0; k < Degree; ++k) {
-      low_[k] = high_[k] - static_cast<double>(k + 1) * dot(query, pair(curve.coefficients[k]));
+      low_[k] = high_[k] - static_cast<double>(k + 1) * dot(query, vector_of<Vector>(curve.coefficients[k]));
     }
   }
 
@@ -67,34 +68,47 @@ struct SlopePolynomial {
   const std::array<double, 2 * max_curve_degree>& high_;
 };
 
-struct Polished {
-  Candidate at;
-  bool converged;  ///< the parameter is off the zero of g by less than the tolerance allows
+/// How far off the zero of g a polished parameter may be: what decides whether to trust it.
+struct Residue {
+  double step;   ///< the last one
+  double slope;  ///< of g
+  double bend;   ///< g'' / 2
+
+  [[gnu::always_inline]] bool converged(const CurveElement& curve, double allowed) const {
+    // The last step is so small that two terms of the curve's Taylor series give the new place to rounding.
+    constexpr double largest_step = 1e-5;
+    return std::abs(step) <= largest_step && slope > curve.least_slope &&
+           step * step * std::abs(bend) <= allowed * slope;
+  }
 };
 
-/// Zero of g near t. The caller knows that there is one only.
+/// Error that the tolerance allows a parameter; the point moves faster than it by up to the degree.
 template <int Degree>
-[[gnu::always_inline]] inline Polished polish(const CurveElement& curve, const SlopePolynomial<Degree>& polynomial,
-                                              Pair query, double t, double tolerance) {
+[[gnu::always_inline]] inline double allowed_error(double tolerance) {
+  return tolerance * (0.5 / Degree);
+}
+
+/// Zero of g near t. The caller knows that there is one only, and asks whether it converged.
+template <int Degree, typename Vector>
+[[gnu::always_inline]] inline CurvePoint<Vector> polish(const CurveElement& curve,
+                                                        const SlopePolynomial<Degree>& polynomial, Vector query,
+                                                        double t, Residue& residue) {
   const auto value = polynomial.at(t);
   const double slope_square = value.slope * value.slope, turned = value.g * value.half_bend;
   t -= value.g * (slope_square - turned) /
        (value.slope * (slope_square - 2.0 * turned) + value.g * value.g * value.sixth_twist);
 
-  Candidate at = candidate<Degree>(curve, query, t);
-  const Pair acceleration = second_derivative<Degree>(curve, t);
+  CurvePoint<Vector> at = candidate<Degree>(curve, query, t);
+  const Vector acceleration = second_derivative<Degree, Vector>(curve, t);
   const double slope = polynomial.slope(t);
   const double step = dot(at.offset, at.velocity) * (1.0 / slope);
-  // The step is so small that two terms of the curve's Taylor series give the new place to rounding.
-  constexpr double largest_step = 1e-5;
-  const Pair moved = (at.velocity - acceleration * (0.5 * step)) * step;
-  at.t -= step;
-  at.place -= moved;
-  at.offset -= moved;
-  at.velocity -= acceleration * step;
-  const double allowed = tolerance * (0.5 / Degree);  // of the parameter; the point moves faster by up to the degree
-  return {at, std::abs(step) <= largest_step && slope > curve.least_slope &&
-                  step * step * std::abs(value.half_bend) <= allowed * slope};
+  const Vector moved = (at.velocity - acceleration * (0.5 * step)) * step;
+  at.t = at.t - step;
+  at.place = at.place - moved;
+  at.offset = at.offset - moved;
+  at.velocity = at.velocity - acceleration * step;
+  residue = {step, slope, value.half_bend};
+  return at;
 }
 
 }  // namespace calligraphy
