@@ -16,6 +16,13 @@ constexpr int block = 8;  // samples side by side
 using Lanes = float __attribute__((vector_size(4 * block)));
 constexpr int max_refinements = 8;
 
+/// Per lane.
+[[gnu::always_inline]] inline void take_nearer(Lanes& least, Lanes& nearest, const Lanes& square, const Lanes& index) {
+  const auto nearer = square < least;
+  least = nearer ? square : least;
+  nearest = nearer ? index : nearest;
+}
+
 /// Index of the sample that is nearest to the query, by |B|^2 - 2 q . B: the square of the distance less that of the
 /// query, so that a far query loses no digits. In single precision, which is what is fast about this method.
 template <int Degree>
@@ -36,18 +43,15 @@ template <int Degree>
       y = (y + static_cast<float>(curve.coefficients[k].y())) * t;
     }
     const Lanes square = x * (x - twice_x) + y * (y - twice_y);
-    const auto nearer = square < least;
-    least = nearer ? square : least;
-    nearest = nearer ? i : nearest;
+    take_nearer(least, nearest, square, i);
   }
-  for (int width = block / 2; width > 0; width /= 2) {
-    for (int i = 0; i < width; ++i) {
-      if (least[i + width] < least[i]) {
-        least[i] = least[i + width];
-        nearest[i] = nearest[i + width];
-      }
-    }
-  }
+  // Halves against halves, without branches that no processor could foresee.
+  take_nearer(least, nearest, __builtin_shufflevector(least, least, 4, 5, 6, 7, 0, 1, 2, 3),
+              __builtin_shufflevector(nearest, nearest, 4, 5, 6, 7, 0, 1, 2, 3));
+  take_nearer(least, nearest, __builtin_shufflevector(least, least, 2, 3, 0, 1, 6, 7, 4, 5),
+              __builtin_shufflevector(nearest, nearest, 2, 3, 0, 1, 6, 7, 4, 5));
+  take_nearer(least, nearest, __builtin_shufflevector(least, least, 1, 0, 3, 2, 5, 4, 7, 6),
+              __builtin_shufflevector(nearest, nearest, 1, 0, 3, 2, 5, 4, 7, 6));
   return static_cast<int>(nearest[0]);
 }
 
