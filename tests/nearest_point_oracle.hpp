@@ -52,13 +52,13 @@ class NearestPointOracle {
 
   /// Allowed error of an answer [as the coordinates]: 1e-9 of the size, or 1e-6 where the coordinates are so large that
   /// their own steps come near to that, and what rounding of the distance explains.
-  /// Where the curve is part of something larger, that is the size that counts.
+  /// Where the curve is part of something larger, that is the size that counts, and two distances were compared.
   double allowance(const Point& query, double distance, double whole_size = 0.0) const {
     const double size = std::max(size_, whole_size);
     constexpr double step = std::numeric_limits<double>::epsilon();
     const double steps = 4.0 * step * std::max(coordinate_, query.cwiseAbs().maxCoeff());
     const double of_size = 4.0 * step * coordinate_ > 1e-9 * size ? 1e-6 * size : 1e-9 * size;
-    return std::max(of_size, steps) + 4.0 * step * distance;
+    return std::max(of_size, steps) + (whole_size > 0.0 ? 8.0 : 4.0) * step * distance;
   }
 
   /// The point of the curve at t, from the query.

@@ -125,7 +125,8 @@ Point at_origin(NumberSequence& random, Points) { return slight(random) * random
 
 Point far(NumberSequence& random, Points points) {
   const Point direction = one_in(random, 4) ? Point(0.0, 1.0) : random.direction();
-  return points[0] + magnitude(random, 0.0, 8.0) * size_of_box(points) * direction;
+  const double sizes = one_in(random, 8) ? magnitude(random, 8.0, 60.0) : magnitude(random, 0.0, 8.0);
+  return points[0] + sizes * size_of_box(points) * direction;
 }
 
 constexpr Point (*kinds[])(NumberSequence&, Points) = {
