@@ -71,7 +71,7 @@ template <int Degree>
     block.index[block.count] = i;
     block.query_x[block.count] = query[0];
     block.query_y[block.count] = query[1];
-    block.t[block.count] = (std::countr_zero(changes) + 0.5) * ordinate_spacing<Degree>;
+    block.t[block.count] = middles<Degree>[static_cast<std::size_t>(std::countr_zero(changes))];
     ++block.count;
   }
   polish_block<Degree>(curve, block);

@@ -41,7 +41,7 @@ template <int Degree>
                                                   SlopeSigns<CurveElement::max_ordinates> signs, Pair query,
                                                   double tolerance, const ParameterRange& range) {
   constexpr int per_cell = 2 * Degree - 1;
-  constexpr double width = per_cell * ordinate_spacing<Degree>;
+  constexpr double width = 1.0 / cells_of_degree(Degree);
   const double allowed = allowed_error<Degree>(tolerance);
   int last_cell = -1;
   for (std::uint64_t changes = signs.changes(); changes != 0; changes &= changes - 1) {
@@ -55,7 +55,7 @@ template <int Degree>
   for (std::uint64_t changes = signs.changes() & signs.negative; changes != 0; changes &= changes - 1) {
     const int change = std::countr_zero(changes);
     const int cell = change / per_cell;
-    const double start = (change + 0.5) * ordinate_spacing<Degree>;
+    const double start = middles<Degree>[static_cast<std::size_t>(change)];
     Residue residue;
     const Candidate found = polish<Degree>(curve, polynomial, query, start, residue);
     if (!(residue.converged(curve, allowed) && found.t >= cell * width && found.t <= (cell + 1) * width)) {
@@ -83,7 +83,7 @@ template <int Degree>
       return curve_answer(curve, candidate<Degree>(curve, query, end), NearestPointStatus::certified);
     }
     if (signs.first_negative() && (changes & (changes - 1)) == 0) {
-      const double start = (std::countr_zero(changes) + 0.5) * ordinate_spacing<Degree>;
+      const double start = middles<Degree>[static_cast<std::size_t>(std::countr_zero(changes))];
       Residue residue;
       const Candidate found = polish<Degree>(curve, SlopePolynomial<Degree>(curve, query), query, start, residue);
       if (residue.converged(curve, allowed_error<Degree>(tolerance))) {

@@ -62,7 +62,7 @@ constexpr std::array<std::array<double, Count>, Degree + 1> subdivision(int cell
     std::array<double, Degree + 1> rest = {};
     rest[unit] = 1.0;
     std::size_t next = 0;
-    weights[unit][next++] = rest[0];
+    weights[unit][place_of_ordinate<Count>(next++)] = rest[0];
     // De Casteljau's algorithm cuts one cell after the other off the rest.
     for (int left = cells; left > 0; --left) {
       std::array<double, Degree + 1> cell = rest;
@@ -70,10 +70,10 @@ constexpr std::array<std::array<double, Count>, Degree + 1> subdivision(int cell
         cell[k] = rest[0];
         for (std::size_t i = 0; i + k < Degree; ++i) rest[i] += (rest[i + 1] - rest[i]) / left;
       }
-      for (std::size_t i = 1; i <= Degree; ++i) weights[unit][next++] = cell[i];
+      for (std::size_t i = 1; i <= Degree; ++i) weights[unit][place_of_ordinate<Count>(next++)] = cell[i];
     }
     // Unused places repeat the last ordinate and so show no change of sign.
-    for (; next < Count; ++next) weights[unit][next] = weights[unit][next - 1];
+    for (; next < Count; ++next) weights[unit][place_of_ordinate<Count>(next)] = rest[Degree];
   }
   return weights;
 }

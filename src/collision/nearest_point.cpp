@@ -14,8 +14,9 @@ namespace {
 /// Beyond this many lengths squares overflow.
 constexpr double furthest_query = 1e100;
 
-/// Wang 2006, sec. 4.3.1: the perpendicular foot, clamped to the range.
-NearestPoint on_line(const LineElement& line, const Point& query, const ParameterRange& range) {
+/// Wang 2006, sec. 4.3.1: the perpendicular foot, clamped to the range. Not inlined, so that all nearest_point does is
+/// jump.
+[[gnu::noinline]] NearestPoint on_line(const LineElement& line, const Point& query, const ParameterRange& range) {
   NearestPoint foot;
   foot.parameter = range.begin;
   foot.tangent = line.direction;
@@ -41,17 +42,17 @@ NearestPoint nearest_point(const StrokeElement& element, const Point& query, con
                            const ParameterRange& range, double start) noexcept {
   const CurveElement* const curve = element.curve();
   if (!curve) return on_line(*element.line(), query, range);
+  if (options.method == NearestPointMethod::exact) {
+    return certified_nearest_point(*curve, query, options.tolerance, range);
+  }
   switch (options.method) {
     case NearestPointMethod::tracked:
       return tracked_nearest_point(*curve, query, options.tolerance, range, start);
     case NearestPointMethod::sampled:
       return sampled_nearest_point(*curve, query, options, range);
-    case NearestPointMethod::wang2006:
+    default:
       return subdivided_nearest_point(*curve, query, options.tolerance, range);
-    case NearestPointMethod::exact:
-      break;
   }
-  return certified_nearest_point(*curve, query, options.tolerance, range);
 }
 
 void nearest_points(const StrokeElement& element, std::span<const Point> queries, std::span<NearestPoint> results,

@@ -23,16 +23,16 @@ struct SlopePolynomial {
   }
 
   struct Value {
-    double g, slope, half_bend, sixth_twist;  ///< g, g', g'' / 2, g''' / 6
+    double g, slope, bend, sixth_twist;  ///< g, g', g'', g''' / 6
   };
 
   [[gnu::always_inline]] Value at(double t) const {
     const double square = t * t;
     Value value{c(last - 1) + c(last) * t, slope(t, square), 0.0, 0.0};
     for (std::size_t k = last - 1; k >= 2; k -= 2) value.g = value.g * square + (c(k - 2) + c(k - 1) * t);
-    value.half_bend = half_second(last - 1) + half_second(last) * t;
+    value.bend = second(last - 1) + second(last) * t;
     for (std::size_t k = last - 2; k >= 3; k -= 2) {
-      value.half_bend = value.half_bend * square + (half_second(k - 1) + half_second(k) * t);
+      value.bend = value.bend * square + (second(k - 1) + second(k) * t);
     }
     value.sixth_twist = sixth_third(last);
     for (std::size_t k = last - 1; k >= 4; k -= 2) {
@@ -49,7 +49,7 @@ struct SlopePolynomial {
   /// Coefficient of t^k; the query changes only the lower ones.
   [[gnu::always_inline]] double c(std::size_t k) const { return k < Degree ? low_[k] : high_[k]; }
 
-  [[gnu::always_inline]] double half_second(std::size_t k) const { return static_cast<double>(k * (k - 1) / 2) * c(k); }
+  [[gnu::always_inline]] double second(std::size_t k) const { return static_cast<double>(k * (k - 1)) * c(k); }
 
   [[gnu::always_inline]] double sixth_third(std::size_t k) const {
     return static_cast<double>(k * (k - 1) * (k - 2) / 6) * c(k);
@@ -72,13 +72,13 @@ struct SlopePolynomial {
 struct Residue {
   double step;   ///< the last one
   double slope;  ///< of g
-  double bend;   ///< g'' / 2
+  double bend;   ///< g''
 
   [[gnu::always_inline]] bool converged(const CurveElement& curve, double allowed) const {
     // The last step is so small that two terms of the curve's Taylor series give the new place to rounding.
     constexpr double largest_step = 1e-5;
     return std::abs(step) <= largest_step && slope > curve.least_slope &&
-           step * step * std::abs(bend) <= allowed * slope;
+           step * step * std::abs(bend) <= 2.0 * allowed * slope;
   }
 };
 
@@ -94,9 +94,9 @@ template <int Degree, typename Vector>
                                                         const SlopePolynomial<Degree>& polynomial, Vector query,
                                                         double t, Residue& residue) {
   const auto value = polynomial.at(t);
-  const double slope_square = value.slope * value.slope, turned = value.g * value.half_bend;
-  t -= value.g * (slope_square - turned) /
-       (value.slope * (slope_square - 2.0 * turned) + value.g * value.g * value.sixth_twist);
+  const double slope_square = value.slope * value.slope, turned = value.g * value.bend;
+  t -= value.g * (slope_square - 0.5 * turned) /
+       (value.slope * (slope_square - turned) + value.g * value.g * value.sixth_twist);
 
   CurvePoint<Vector> at = candidate<Degree>(curve, query, t);
   const Vector acceleration = second_derivative<Degree, Vector>(curve, t);
@@ -107,7 +107,7 @@ template <int Degree, typename Vector>
   at.place = at.place - moved;
   at.offset = at.offset - moved;
   at.velocity = at.velocity - acceleration * step;
-  residue = {step, slope, value.half_bend};
+  residue = {step, slope, value.bend};
   return at;
 }
 

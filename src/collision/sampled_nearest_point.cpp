@@ -70,7 +70,7 @@ template <int Degree>
   for (int k = 0; k < std::min(options.refinements, max_refinements); ++k) {
     const auto value = polynomial.at(t);
     const double slope_square = value.slope * value.slope;
-    t = std::clamp(t - value.g * value.slope / (slope_square - value.g * value.half_bend), low, high);
+    t = std::clamp(t - value.g * value.slope / (slope_square - 0.5 * value.g * value.bend), low, high);
   }
   const Candidate next = candidate<Degree>(curve, query, t);
   if (dot(next.offset, next.offset) <= dot(best.offset, best.offset)) best = next;

@@ -1,5 +1,8 @@
-// How a curve is cut for its slope ordinates.
+// How a curve is cut for its slope ordinates, and where they are kept.
 #pragma once
+
+#include <array>
+#include <cstddef>
 
 #include <calligraphy/collision/curve_element.hpp>
 
@@ -10,8 +13,24 @@ constexpr int cells_of_degree(int degree) {
   return (static_cast<int>(CurveElement::max_ordinates) - 1) / (2 * degree - 1);
 }
 
-/// Parameter between neighbouring ordinates of the cells.
+/// Where ordinate i is in memory. Packing the signs of registers of eight takes their halves by turns, so the ordinates
+/// are kept such that the signs come out in order: halves of a group of registers hold one half of its ordinates each.
+template <std::size_t Count>
+constexpr std::size_t place_of_ordinate(std::size_t i) {
+  if (Count == 8) return i;
+  const std::size_t group = i / 32 * 32, of_group = i < 32 ? 32 : 16, within = i - group;
+  const std::size_t half = within / (of_group / 2), chunk = within % (of_group / 2) / 4;
+  return group + 8 * chunk + 4 * half + i % 4;
+}
+
+/// Parameter in the middle between an ordinate and the next.
 template <int Degree>
-inline constexpr double ordinate_spacing = 1.0 / ((2 * Degree - 1) * cells_of_degree(Degree));
+inline constexpr std::array<double, CurveElement::max_ordinates> middles = [] {
+  std::array<double, CurveElement::max_ordinates> parameters = {};
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    parameters[i] = (static_cast<double>(i) + 0.5) / ((2 * Degree - 1) * cells_of_degree(Degree));
+  }
+  return parameters;
+}();
 
 }  // namespace calligraphy

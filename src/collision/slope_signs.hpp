@@ -1,7 +1,6 @@
 // Signs of the slope's Bernstein ordinates for one query: the processor-specific part of the nearest point.
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -9,6 +8,7 @@
 #include <calligraphy/collision/curve_element.hpp>
 
 #include "pair.hpp"
+#include "slope_cells.hpp"
 
 #if defined(__SSE2__)
 #include <immintrin.h>
@@ -40,17 +40,9 @@ template <std::size_t Count>
 
 template <std::size_t Count>
 inline float slope_ordinate(const SlopeOrdinates<Count>& ordinates, std::size_t i, float x, float y) {
-  return (x * ordinates.x[i] + y * ordinates.y[i]) + ordinates.constant[i];
+  const std::size_t at = place_of_ordinate<Count>(i);
+  return (x * ordinates.x[at] + y * ordinates.y[at]) + ordinates.constant[at];
 }
-
-#if defined(__SSE2__)
-template <std::size_t Count>
-inline __m128 slope_ordinates_sse2(const SlopeOrdinates<Count>& ordinates, std::size_t i, __m128 x, __m128 y) {
-  return _mm_add_ps(
-      _mm_add_ps(_mm_mul_ps(x, _mm_load_ps(&ordinates.x[i])), _mm_mul_ps(y, _mm_load_ps(&ordinates.y[i]))),
-      _mm_load_ps(&ordinates.constant[i]));
-}
-#endif
 
 /// Plain C++ for any processor; the others give the same bits.
 template <std::size_t Count>
@@ -67,20 +59,90 @@ inline SlopeSigns<Count> slope_signs_portable(const SlopeOrdinates<Count>& ordin
   return signs;
 }
 
+#if defined(__SSE2__)
+
+/// Four ordinates, of which the first is number i.
+template <std::size_t Count>
+[[gnu::always_inline]] inline __m128 slope_ordinates_sse2(const SlopeOrdinates<Count>& ordinates, std::size_t i,
+                                                          __m128 x, __m128 y) {
+  const std::size_t at = place_of_ordinate<Count>(i);
+  return _mm_add_ps(
+      _mm_add_ps(_mm_mul_ps(x, _mm_load_ps(&ordinates.x[at])), _mm_mul_ps(y, _mm_load_ps(&ordinates.y[at]))),
+      _mm_load_ps(&ordinates.constant[at]));
+}
+
+/// Bit i: the sign of the i-th of sixteen.
+[[gnu::always_inline]] inline std::uint64_t sixteen_signs(const __m128* values) {
+  const __m128i low = _mm_packs_epi32(_mm_castps_si128(values[0]), _mm_castps_si128(values[1]));
+  const __m128i high = _mm_packs_epi32(_mm_castps_si128(values[2]), _mm_castps_si128(values[3]));
+  return static_cast<std::uint64_t>(static_cast<unsigned>(_mm_movemask_epi8(_mm_packs_epi16(low, high))));
+}
+
+template <std::size_t Count>
+[[gnu::always_inline]] inline SlopeSigns<Count> slope_signs_sse2(const SlopeOrdinates<Count>& ordinates, Pair query) {
+  const float x = static_cast<float>(query[0]), y = static_cast<float>(query[1]);
+  const __m128 all_x = _mm_set1_ps(x), all_y = _mm_set1_ps(y);
+  const __m128 magnitude = _mm_castsi128_ps(_mm_set1_epi32(0x7fffffff));
+  __m128 least = _mm_set1_ps(3e38F);
+  SlopeSigns<Count> signs;
+  for (std::size_t i = 0; i < Count; i += 16) {
+    __m128 values[4];
+    for (std::size_t k = 0; k < 4; ++k) {
+      // A group that is not full repeats its first four.
+      values[k] = slope_ordinates_sse2(ordinates, i + 4 * k < Count ? i + 4 * k : i, all_x, all_y);
+      least = _mm_min_ps(least, _mm_and_ps(values[k], magnitude));
+    }
+    signs.negative |= sixteen_signs(values) << i;
+  }
+  if constexpr (Count < 64) signs.negative &= (std::uint64_t{1} << Count) - 1;
+  signs.certain = _mm_movemask_ps(_mm_cmpgt_ps(least, _mm_set1_ps(slope_noise(ordinates, x, y)))) == 0xf;
+  return signs;
+}
+
+[[gnu::target("avx2"), gnu::always_inline]] inline SlopeSigns<CurveElement::max_ordinates> slope_signs_avx2(
+    const SlopeOrdinates<CurveElement::max_ordinates>& ordinates, Pair query) {
+  const float x = static_cast<float>(query[0]), y = static_cast<float>(query[1]);
+  const __m256 all_x = _mm256_set1_ps(x), all_y = _mm256_set1_ps(y);
+  const __m256 magnitude = _mm256_castsi256_ps(_mm256_set1_epi32(0x7fffffff));
+  __m256 least = _mm256_set1_ps(3e38F);
+  __m256i values[6];
+  for (std::size_t i = 0; i < 6; ++i) {
+    const __m256 value = _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(all_x, _mm256_loadu_ps(&ordinates.x[8 * i])),
+                                                     _mm256_mul_ps(all_y, _mm256_loadu_ps(&ordinates.y[8 * i]))),
+                                       _mm256_loadu_ps(&ordinates.constant[8 * i]));
+    least = _mm256_min_ps(least, _mm256_and_ps(value, magnitude));
+    values[i] = _mm256_castps_si256(value);
+  }
+  const __m256i first =
+      _mm256_packs_epi16(_mm256_packs_epi32(values[0], values[1]), _mm256_packs_epi32(values[2], values[3]));
+  const __m256i rest = _mm256_packs_epi32(values[4], values[5]);
+  const __m128i last = _mm_packs_epi16(_mm256_castsi256_si128(rest), _mm256_extracti128_si256(rest, 1));
+  const __m256 noise = _mm256_set1_ps(slope_noise(ordinates, x, y));
+  SlopeSigns<CurveElement::max_ordinates> signs;
+  signs.negative = static_cast<std::uint64_t>(static_cast<unsigned>(_mm256_movemask_epi8(first))) |
+                   static_cast<std::uint64_t>(static_cast<unsigned>(_mm_movemask_epi8(last))) << 32;
+  signs.certain = _mm256_movemask_ps(_mm256_cmp_ps(least, noise, _CMP_GT_OQ)) == 0xff;
+  return signs;
+}
+
+#endif
+
 template <std::size_t Count>
 inline CertainSigns certain_signs(const SlopeOrdinates<Count>& ordinates, Pair query) {
+  static_assert(Count % 16 == 0);
   const float x = static_cast<float>(query[0]), y = static_cast<float>(query[1]);
   const float noise = slope_noise(ordinates, x, y);
   CertainSigns signs;
 #if defined(__SSE2__)
-  const __m128 all_x = _mm_set1_ps(x), all_y = _mm_set1_ps(y);
-  const __m128 above = _mm_set1_ps(noise), below = _mm_set1_ps(-noise);
-  for (std::size_t i = 0; i < Count; i += 4) {
-    const __m128 value = slope_ordinates_sse2(ordinates, i, all_x, all_y);
-    signs.negative |= static_cast<std::uint64_t>(static_cast<unsigned>(_mm_movemask_ps(_mm_cmplt_ps(value, below))))
-                      << i;
-    signs.positive |= static_cast<std::uint64_t>(static_cast<unsigned>(_mm_movemask_ps(_mm_cmpgt_ps(value, above))))
-                      << i;
+  for (std::size_t i = 0; i < Count; i += 16) {
+    __m128 negative[4], positive[4];
+    for (std::size_t k = 0; k < 4; ++k) {
+      const __m128 values = slope_ordinates_sse2(ordinates, i + 4 * k, _mm_set1_ps(x), _mm_set1_ps(y));
+      negative[k] = _mm_cmplt_ps(values, _mm_set1_ps(-noise));
+      positive[k] = _mm_cmpgt_ps(values, _mm_set1_ps(noise));
+    }
+    signs.negative |= sixteen_signs(negative) << i;
+    signs.positive |= sixteen_signs(positive) << i;
   }
 #else
   for (std::size_t i = 0; i < Count; ++i) {
@@ -91,46 +153,6 @@ inline CertainSigns certain_signs(const SlopeOrdinates<Count>& ordinates, Pair q
 #endif
   return signs;
 }
-
-#if defined(__SSE2__)
-
-template <std::size_t Count>
-inline SlopeSigns<Count> slope_signs_sse2(const SlopeOrdinates<Count>& ordinates, Pair query) {
-  const float x = static_cast<float>(query[0]), y = static_cast<float>(query[1]);
-  const __m128 all_x = _mm_set1_ps(x), all_y = _mm_set1_ps(y);
-  const __m128 magnitude = _mm_castsi128_ps(_mm_set1_epi32(0x7fffffff));
-  __m128 least = _mm_set1_ps(3e38F);
-  SlopeSigns<Count> signs;
-  for (std::size_t i = 0; i < Count; i += 4) {
-    const __m128 value = slope_ordinates_sse2(ordinates, i, all_x, all_y);
-    signs.negative |= static_cast<std::uint64_t>(static_cast<unsigned>(_mm_movemask_ps(value))) << i;
-    least = _mm_min_ps(least, _mm_and_ps(value, magnitude));
-  }
-  signs.certain = _mm_movemask_ps(_mm_cmpgt_ps(least, _mm_set1_ps(slope_noise(ordinates, x, y)))) == 0xf;
-  return signs;
-}
-
-template <std::size_t Count>
-[[gnu::target("avx2"), gnu::always_inline]] inline SlopeSigns<Count> slope_signs_avx2(
-    const SlopeOrdinates<Count>& ordinates, Pair query) {
-  const float x = static_cast<float>(query[0]), y = static_cast<float>(query[1]);
-  const __m256 all_x = _mm256_set1_ps(x), all_y = _mm256_set1_ps(y);
-  const __m256 magnitude = _mm256_castsi256_ps(_mm256_set1_epi32(0x7fffffff));
-  __m256 least = _mm256_set1_ps(3e38F);
-  SlopeSigns<Count> signs;
-  for (std::size_t i = 0; i < Count; i += 8) {
-    const __m256 value = _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(all_x, _mm256_loadu_ps(&ordinates.x[i])),
-                                                     _mm256_mul_ps(all_y, _mm256_loadu_ps(&ordinates.y[i]))),
-                                       _mm256_loadu_ps(&ordinates.constant[i]));
-    signs.negative |= static_cast<std::uint64_t>(static_cast<unsigned>(_mm256_movemask_ps(value))) << i;
-    least = _mm256_min_ps(least, _mm256_and_ps(value, magnitude));
-  }
-  const __m256 noise = _mm256_set1_ps(slope_noise(ordinates, x, y));
-  signs.certain = _mm256_movemask_ps(_mm256_cmp_ps(least, noise, _CMP_GT_OQ)) == 0xff;
-  return signs;
-}
-
-#endif
 
 /// What every processor of the kind that is compiled for can do.
 template <std::size_t Count>

@@ -12,7 +12,8 @@ namespace calligraphy {
 
 /// Bernstein ordinates of g(t) = (B(t) - q) . B'(t), half the slope of the squared distance to a query q. They are
 /// affine in q: g_i = x_i q_x + y_i q_y + constant_i, with q relative to the curve's origin and size. Their signs tell
-/// how many nearest points there can be, and where. Single precision: a sign that rounding could turn is not used.
+/// how many nearest points there can be, and where. Single precision: a sign that rounding could turn is not used. Kept
+/// in the order in which wide registers take them.
 template <std::size_t Count>
 struct SlopeOrdinates {
   alignas(16) std::array<float, Count> x = {}, y = {}, constant = {};
