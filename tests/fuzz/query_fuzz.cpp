@@ -96,7 +96,7 @@ class CaseRun {
         continue;
       }
       const auto bounds = oracle_.nearest(query, answers_[i].parameter, case_.range);
-      judge(case_.family, "exact", answers_[i], query, bounds, true);
+      judge(case_.family, "exact", answers_[i], query, bounds, answers_[i].certified());
       ask_warm(query, answers_[i].parameter, bounds);
       if (i == 0) {
         ask_sampled(query, bounds);
