@@ -8,6 +8,8 @@
 #include <calligraphy/collision/nearest_point.hpp>
 
 #include "../hard_cases.hpp"
+#include "../last_interval.hpp"
+#include "../nearest_point_oracle.hpp"
 #include "../reference_curve.hpp"
 
 using namespace calligraphy;
@@ -103,4 +105,41 @@ TEST_CASE("on a line both methods are the perpendicular foot", "[collision]") {
     CHECK(printed(line, {x, 0.7}).point.isApprox(Point(foot, 0.2)));
     CHECK(exact(line, {x, 0.7}).point.isApprox(Point(foot, 0.2)));
   }
+}
+
+TEST_CASE("the printed rule tells where it stopped by an accidental equality", "[collision]") {
+  const std::vector<Point> arch = {{0, 0}, {0, 1}, {1, 1}, {1, 0}}, wave = {{0, 0}, {1, 2}, {3, 3}, {4, 0}};
+  for (const double epsilon : {1e-3, 1e-6, 1e-9}) {
+    CHECK(printed(arch, {0.5, 1.0}, epsilon).status == NearestPointStatus::unsafe_stop);
+    CHECK(printed(wave, {1.7890625, 3.046875}, epsilon).status == NearestPointStatus::unsafe_stop);
+    // Here it comes near enough to a nearest point, if not to the nearest one.
+    CHECK(printed({{0, 0}, {1, 0}, {2, 0}, {3, 0}}, {1.71, 0.3}, epsilon).status == NearestPointStatus::approximate);
+  }
+}
+
+TEST_CASE("every stop of the printed rule that leaves a nearer point in its last interval is told", "[collision]") {
+  int untold = 0, unsafe = 0, told = 0, stops = 0;
+  for (const auto& curve : calligraphy_test::hard_curves()) {
+    const StrokeElement element = prepare_element(curve.control_points);
+    if (!element.curve()) continue;
+    const calligraphy_test::NearestPointOracle oracle(curve.control_points);
+    for (const Point& query : calligraphy_test::hard_queries(curve, 200)) {
+      for (const double tolerance : {1e-3, 1e-6, 1e-9}) {
+        const NearestPoint found = nearest_point(element, query, {NearestPointMethod::wang2006, tolerance});
+        const auto last = calligraphy_test::last_interval(found.parameter);
+        const auto nearest = oracle.nearest(query, found.parameter, last).found;
+        const double epsilon = calligraphy_test::wang2006_epsilon(element, query, tolerance);
+        const double rounding = 1e-15 * found.distance;  // of the distances that were compared
+        const bool leaves_nearer = nearest < found.distance - epsilon - rounding;
+        unsafe += leaves_nearer;
+        told += found.status == NearestPointStatus::unsafe_stop;
+        untold += leaves_nearer && found.status != NearestPointStatus::unsafe_stop;
+        ++stops;
+      }
+    }
+  }
+  INFO(stops << " stops, " << told << " told to be unsafe, " << unsafe << " are");
+  CHECK(untold == 0);
+  CHECK(unsafe > 100);
+  CHECK(told <= unsafe + stops / 1000);  // and no others are, up to rounding
 }

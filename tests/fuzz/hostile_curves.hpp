@@ -1,0 +1,45 @@
+// Families of curves that break nearest-point methods, of every degree, drawn at random.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include <calligraphy/model/point.hpp>
+
+#include "practice/number_sequence.hpp"
+
+namespace calligraphy_test {
+
+using calligraphy::NumberSequence;
+using calligraphy::Point;
+
+struct CurveFamily {
+  const char* name;
+  /// Control points of a curve of the degree (2 to 4; a family may take another), about as large as the unit square.
+  std::vector<Point> (*draw)(NumberSequence&, int degree);
+};
+
+std::span<const CurveFamily> curve_families();
+
+/// 10^x with x between `low` and `high`.
+double magnitude(NumberSequence& random, double low, double high);
+/// Nothing in one case of two, else 1e-16 to 1e-4.
+double slight(NumberSequence& random);
+/// True in one case of `count`.
+bool one_in(NumberSequence& random, int count);
+
+/// Where a curve stands: mostly as it is; else scaled by 1e-12 to 1e8, turned, moved by up to 1e8 sizes; by powers of
+/// two and by representable numbers in one case of two, so that exact ties stay ties.
+class Place {
+ public:
+  explicit Place(NumberSequence& random);
+  Point operator()(const Point& point) const;
+
+ private:
+  double scale_ = 1.0;
+  Point along_ = {1.0, 0.0};
+  Point offset_ = {0.0, 0.0};
+};
+
+}  // namespace calligraphy_test

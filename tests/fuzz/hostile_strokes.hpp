@@ -1,0 +1,27 @@
+// Strokes of one to five elements and pens that are drawn over them, along and across, smoothly and in jumps.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "hostile_curves.hpp"
+
+namespace calligraphy_test {
+
+/// A stroke and a pen over it.
+struct PenPath {
+  std::vector<std::vector<Point>> elements;  ///< control points of each
+  std::vector<Point> ticks;                  ///< where the pen is
+};
+
+struct PathFamily {
+  const char* name;
+  PenPath (*draw)(NumberSequence&);
+};
+
+std::span<const PathFamily> path_families();
+
+/// Infinite, no number, or so far that squares overflow.
+Point draw_lost_query(NumberSequence& random);
+
+}  // namespace calligraphy_test
