@@ -231,7 +231,7 @@ void draw_key(pugi::xml_node root, const ForceFieldFigure& figure, double y) {
   x += swatch * static_cast<double>(colours.size());
   add_text(root, x - 3.0, y + 17.0, 10.0, number(fullest) + " and more", {{"fill", ink}});
   x += 22.0;
-  x = draw_line_key(root, x, y, active_blue, 3.2, "active stroke");
+  x = draw_line_key(root, x, y, active_blue, 3.2, "stroke being written");
   if (figure.placed.character.stroke_count() > 1) x = draw_line_key(root, x, y, other_grey, 2.4, "other");
   draw_pen(root, {x + 8.0, y});
   add_text(root, x + 19.0, y + 4.0, 12.0, "written up to here", {{"fill", ink}});
