@@ -3,10 +3,13 @@
 
 #include <calligraphy/collision/active_stroke.hpp>
 #include <calligraphy/collision/constraint_space.hpp>
+#include <calligraphy/collision/curve_element.hpp>
 #include <calligraphy/collision/feature_plane.hpp>
+#include <calligraphy/collision/line_element.hpp>
 #include <calligraphy/collision/nearest_point.hpp>
 #include <calligraphy/collision/placed_character.hpp>
 #include <calligraphy/collision/stroke_element.hpp>
+#include <calligraphy/collision/stroke_tracker.hpp>
 #include <calligraphy/devices/device_state.hpp>
 #include <calligraphy/devices/haptic_device.hpp>
 #include <calligraphy/devices/replay_device.hpp>

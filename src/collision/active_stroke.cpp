@@ -31,6 +31,7 @@ void ActiveStroke::load(const Stroke& stroke, const Placement& placement) noexce
 void ActiveStroke::reload() noexcept {
   active_ = 0;
   arc_ = 0.0;
+  parameter_ = 0.0;
   furthest_ = 0.0;
 }
 
@@ -45,11 +46,13 @@ StrokeContact ActiveStroke::update(const Point& tip, const StrokeRules& rules) n
     ++active_;
     if (active_ < element_count_) {
       arc_ = 0.0;
+      parameter_ = 0.0;
       contact = locate(tip, rules);
     }
     contact.passed_feature = true;
     contact.finished = active_ == element_count_;
   }
+  parameter_ = contact.foot.parameter;
   // A pen on the edge of the constraint space or outside makes no headway: a stroke cannot be finished without being
   // written.
   if (contact.share >= least_share) {
@@ -71,7 +74,7 @@ StrokeContact ActiveStroke::locate(const Point& tip, const StrokeRules& rules) c
   }
   StrokeContact contact;
   contact.element = index;
-  contact.foot = nearest_point(element, tip, rules.nearest, range);
+  contact.foot = nearest_point(element, tip, rules.nearest, range, parameter_);
   contact.share = guidance_share(rules.space, element, tip, contact.foot);
   const double arc = element.arc_length(contact.foot.parameter);
   contact.arc = first_arc_[i] + arc;
@@ -100,7 +103,7 @@ bool ActiveStroke::passes(const Point& tip, const StrokeContact& contact, const 
   if (contact.element + 1 == element_count_) return false;
   const StrokeElement& next = elements_[i + 1];
   const ParameterRange range = {0.0, rules.window > 0.0 ? next.parameter_at(rules.window) : 1.0};
-  return nearest_point(next, tip, rules.nearest, range).distance < contact.foot.distance;
+  return nearest_point(next, tip, rules.nearest, range, 0.0).distance < contact.foot.distance;
 }
 
 }  // namespace calligraphy

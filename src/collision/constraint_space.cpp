@@ -5,12 +5,11 @@ namespace {
 
 /// Wang 2006, sec. 4.3.1 (a)-(d) for an LSE. Sec. 4.3.2 gives a CSE a "spherical neighboring area around the start
 /// point" without a radius; read here, as for an LSE, as the distance from its start to its end.
-double printed_share(const StrokeElement& element, const Point& query) {
-  if (!(element.size > 0.0)) return 1.0;  // (d)
-  const Point edge = element.point(1.0) - element.origin;
-  const Point from_start = query - element.origin;
-  const bool ahead = element.degree > 1 || from_start.dot(edge) > 0.0;  // (a)
-  const bool near = from_start.norm() < edge.norm();                    // (b), (c)
+double printed_share(const StrokeElement& element, const Point& query, const NearestPoint& foot) {
+  if (!(element.size() > 0.0)) return 1.0;                          // (d)
+  const bool ahead = element.degree() > 1 || foot.parameter > 0.0;  // (a): the foot on a line is its projection
+  const double reach = (element.point(1.0) - element.origin()).squaredNorm();
+  const bool near = (query - element.origin()).squaredNorm() < reach;  // (b), (c)
   return ahead && near ? 1.0 : 0.0;
 }
 
@@ -18,7 +17,7 @@ double printed_share(const StrokeElement& element, const Point& query) {
 
 double guidance_share(const ConstraintSpace& space, const StrokeElement& element, const Point& query,
                       const NearestPoint& foot) noexcept {
-  if (space.rule == ConstraintSpaceRule::wang2006) return printed_share(element, query);
+  if (space.rule == ConstraintSpaceRule::wang2006) return printed_share(element, query, foot);
   if (!(foot.distance < space.radius)) return 0.0;
   const double depth = space.radius - foot.distance;  // > 0: below the tube's edge
   if (depth >= space.edge) return 1.0;

@@ -57,7 +57,7 @@ TEST_CASE("the printed half disc drops a deviation's whole force before the end 
   for (const double deviation : {0.001, 0.003, 0.008, 0.02}) {
     const double border = std::sqrt(length * length - deviation * deviation);
     const auto force = [&](const ConstraintSpace& space, double x) {
-      const Point query = horizontal.origin + Point(x, deviation);
+      const Point query = horizontal.origin() + Point(x, deviation);
       return stiffness * share_at(space, horizontal, query) * nearest_point(horizontal, query).distance;
     };
     CHECK(border < length);

@@ -54,7 +54,7 @@ TEST_CASE("the exact nearest point agrees with brute force on every hard curve",
     for (const Point& query : hard_queries(curve)) {
       const NearestPoint found = nearest_point(element, query);
       const double error = error_of(found, reference, query, curve);
-      uncertified += !found.certified;
+      uncertified += !found.certified();
       if (error > worst) worst = error, worst_query = query;
     }
     INFO(curve.name << ", query (" << worst_query.x() << ", " << worst_query.y() << ")");
@@ -89,7 +89,7 @@ TEST_CASE("a query on the curve is its own nearest point", "[collision]") {
           std::max(worst, nearest_point(element, {static_cast<double>(at[0]), static_cast<double>(at[1])}).distance);
     }
     INFO(curve.name);
-    CHECK(worst <= curve.tolerance * element.size);
+    CHECK(worst <= curve.tolerance * element.size());
   }
 }
 
@@ -114,12 +114,12 @@ TEST_CASE("at the centre of an arc any point of it will do, and one is found", "
   const double k = 0.5522847498307936;
   const StrokeElement arc = prepare_element(std::vector<Point>{{1, 0}, {1, k}, {k, 1}, {0, 1}});
   const NearestPoint found = nearest_point(arc, {0, 0});
-  CHECK(found.certified);
+  CHECK(found.certified());
   CHECK(found.distance == Approx(1.0).margin(1e-9));  // this cubic leaves the circle outwards by at most 2.7e-4
   // Centre of curvature of the parabola y = 2 x (1 - x) at its top: three zeros of the slope fall together there.
   const StrokeElement parabola = prepare_element(std::vector<Point>{{0, 0}, {0.5, 1}, {1, 0}});
   const NearestPoint top = nearest_point(parabola, {0.5, 0.25});
-  CHECK(top.certified);
+  CHECK(top.certified());
   CHECK(top.distance == Approx(0.25).margin(1e-9));
 }
 
@@ -130,7 +130,7 @@ TEST_CASE("the nearest point moves, turns and grows with its curve, and stays wh
     if (curve.tolerance > 1e-9) continue;
     const StrokeElement element = prepare_element(curve.control_points);
     const double angle = random.between(0.0, 2.0 * std::numbers::pi), scale = random.between(0.1, 10.0);
-    const Point offset = element.size * random.point(-3.0, 3.0);
+    const Point offset = element.size() * random.point(-3.0, 3.0);
     Eigen::Matrix2d turn;
     turn << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
     const auto map = [&](const Point& point) { return Point(offset + scale * (turn * point)); };
@@ -140,12 +140,12 @@ TEST_CASE("the nearest point moves, turns and grows with its curve, and stays wh
     double worst = 0.0;
     for (const Point& query : hard_queries(curve)) {
       const double distance = nearest_point(element, query).distance;
-      const double allowance = 1e-9 * element.size + 1e-14 * distance;
+      const double allowance = 1e-9 * element.size() + 1e-14 * distance;
       worst = std::max(worst, std::abs(nearest_point(other, map(query)).distance / scale - distance) / allowance);
       worst = std::max(worst, std::abs(nearest_point(backwards, query).distance - distance) / allowance);
     }
     INFO(curve.name);
-    if (element.size > 0.0) CHECK(worst <= 1.0);
+    if (element.size() > 0.0) CHECK(worst <= 1.0);
   }
 }
 
@@ -167,7 +167,7 @@ TEST_CASE("no query and no element makes the nearest point other than finite", "
           const NearestPoint found = nearest_point(element, {x, y}, {method, 1e-9});
           const bool usable = found.point.allFinite() && found.tangent.allFinite() && found.parameter >= 0.0 &&
                               found.parameter <= 1.0 && !std::isnan(found.distance);
-          const bool lost = std::isinf(found.distance) && found.parameter == 0.0 && !found.certified;
+          const bool lost = std::isinf(found.distance) && found.parameter == 0.0 && !found.certified();
           wrong += !usable || (!(std::isfinite(x) && std::isfinite(y)) && !lost);
         }
       }
@@ -193,7 +193,7 @@ TEST_CASE("hundreds of thousands of random queries find nothing nearer than the 
     const StrokeElement element = prepare_element(std::span(points.data(), count));
     const Point query = random.point(-0.5, 1.5);
     const NearestPoint found = nearest_point(element, query);
-    uncertified += !found.certified;
+    uncertified += !found.certified();
     for (int k = 0; k <= 48; ++k) {
       worst_against_samples =
           std::max(worst_against_samples, found.distance - (element.point(k / 48.0) - query).norm());

@@ -71,7 +71,7 @@ TEST_CASE("the printed rule ends where it would not as printed: far offset, no n
     const NearestPoint found = printed(far, lost);
     CHECK(found.parameter == 0.0);
     CHECK(std::isinf(found.distance));
-    CHECK_FALSE(found.certified);
+    CHECK_FALSE(found.certified());
   }
 }
 
@@ -80,14 +80,14 @@ TEST_CASE("the printed rule never claims a certificate on a curve and never beat
   double best_gain = 0.0;
   for (const auto& curve : calligraphy_test::hard_curves()) {
     const StrokeElement element = prepare_element(curve.control_points);
-    if (element.degree == 1 || element.size == 0.0 || curve.tolerance > 1e-9) continue;
+    if (element.degree() == 1 || element.size() == 0.0 || curve.tolerance > 1e-9) continue;
     for (const Point& query : calligraphy_test::hard_queries(curve)) {
       const NearestPoint found = nearest_point(element, query, {NearestPointMethod::wang2006, 1e-6});
       // Its point lies between two points of the curve, at most the last step beside it: let that pass.
       const double gain = nearest_point(element, query).distance - found.distance;
-      certified += found.certified;
-      wrong += gain < -1e-3 * element.size;
-      best_gain = std::max(best_gain, (gain - 1e-12 * found.distance) / element.size);
+      certified += found.certified();
+      wrong += gain < -1e-3 * element.size();
+      best_gain = std::max(best_gain, (gain - 1e-12 * found.distance) / element.size());
       ++queries;
     }
   }

@@ -23,7 +23,7 @@ enum class AttractionRule {
 };
 
 struct StrokeRules {
-  NearestPointOptions nearest;
+  NearestPointOptions nearest = {.method = NearestPointMethod::tracked};
   ConstraintSpace space;
   FeaturePlaneRule plane = FeaturePlaneRule::bounded;
   AttractionRule attraction = AttractionRule::interpolated;
@@ -62,7 +62,7 @@ class ActiveStroke {
   /// so that a short stroke is not over before it was written. [m]
   bool begins_at(const Point& tip, double radius) const noexcept;
 
-  Point start() const noexcept { return elements_[0].origin; }
+  Point start() const noexcept { return elements_[0].origin(); }
   double length() const noexcept { return first_arc_[static_cast<std::size_t>(element_count_)]; }
   /// Feature points still to be passed; 0 once the stroke is finished.
   int features_left() const noexcept { return element_count_ - active_; }
@@ -78,9 +78,10 @@ class ActiveStroke {
   std::array<double, max_elements_per_stroke + 1> attraction_ = {};  ///< per feature point
   std::array<double, max_elements_per_stroke + 1> first_arc_ = {};   ///< arc length at each feature point
   int element_count_ = 0;
-  int active_ = 0;         ///< element being written; element_count_ once finished
-  double arc_ = 0.0;       ///< of the last foot, within the active element
-  double furthest_ = 0.0;  ///< from the start of the stroke
+  int active_ = 0;          ///< element being written; element_count_ once finished
+  double arc_ = 0.0;        ///< of the last foot, within the active element
+  double parameter_ = 0.0;  ///< of the last foot
+  double furthest_ = 0.0;   ///< from the start of the stroke
 };
 
 }  // namespace calligraphy

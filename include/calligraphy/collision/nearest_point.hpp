@@ -1,27 +1,43 @@
-// Nearest point on a stroke element (Wang 2006, sec. 4.3.1 and 4.3.2).
+// Nearest point on a stroke element (Wang 2006, sec. 4.3.1 and 4.3.2). How to choose a method: docs/nearest-point.md.
 #pragma once
+
+#include <span>
 
 #include <calligraphy/collision/stroke_element.hpp>
 
 namespace calligraphy {
 
+/// On a line all of them are its perpendicular foot, clamped to the range.
 enum class NearestPointMethod {
-  exact,    ///< the global nearest point, by isolating every minimum; the perpendicular foot on a line
+  exact,    ///< the global nearest point, certified by the signs of the slope of the squared distance
+  tracked,  ///< the same point, found from the last one: for a query that moves little from call to call
+  sampled,  ///< the best of some samples, refined: fast, and wrong where another branch is nearly as near
   wang2006  ///< subdivision as printed in sec. 4.3.2, ties to the nearer middle; misses branches, see docs/wang2006.md
 };
 
 struct NearestPointOptions {
   NearestPointMethod method = NearestPointMethod::exact;
-  /// exact: error of the point; wang2006: epsilon. Both relative to the size of the element. (0, 1]
+  /// exact, tracked: error of the point; wang2006: epsilon. Both relative to the size of the element. (0, 1]
   double tolerance = 1e-9;
+  int samples = 16;     ///< sampled: points at even distances of the parameter. [2, 64]
+  int refinements = 2;  ///< sampled: steps of Halley's method. [0, 8]
+};
+
+enum class NearestPointStatus {
+  certified,    ///< no other point of the range is nearer, up to the tolerance and rounding
+  approximate,  ///< not certified: sampled, wang2006, or exact at its limit of work
+  unsafe_stop,  ///< wang2006 stopped where its last interval may hold a point nearer by more than epsilon
+  not_finite    ///< the query is not finite or further than 1e100 sizes: start of the range, infinite distance
 };
 
 struct NearestPoint {
   double parameter = 0.0;         ///< in [0, 1]
   Point point = Point::Zero();    ///< on the curve (wang2006: the middle between two points of it)
-  double distance = 0.0;          ///< from the query to `point`; infinite when the query is not finite
+  double distance = 0.0;          ///< from the query to `point`
   Point tangent = Point::Zero();  ///< unit vector in writing direction; zero for a point
-  bool certified = false;         ///< no other point of the range is nearer, up to rounding
+  NearestPointStatus status = NearestPointStatus::approximate;
+
+  bool certified() const noexcept { return status == NearestPointStatus::certified; }
 };
 
 /// Part of an element.
@@ -30,10 +46,17 @@ struct ParameterRange {
   double end = 1.0;
 };
 
-/// Nearest point of the element within the range. Equal distances go to the smaller parameter. A query that is not
-/// finite gives the start of the range, uncertified. Bounded work: at most 256 intervals (exact), 64 halvings
-/// (wang2006).
+/// Nearest point of the element within the range. Equal distances go to the smaller parameter. `start` is for tracked:
+/// the last answer's parameter; it changes the time taken, never the branch found.
+///
+/// The answer is the same to the last bit on every processor and in batches. Bounded work: at most 256 intervals
+/// (exact, tracked), 64 halvings (wang2006).
 NearestPoint nearest_point(const StrokeElement& element, const Point& query, const NearestPointOptions& options = {},
-                           const ParameterRange& range = {}) noexcept;
+                           const ParameterRange& range = {}, double start = 0.5) noexcept;
+
+/// Nearest points of many queries on one element: `results[i]` is that of `queries[i]`, the same as one by one but
+/// faster (exact). The spans are equally long.
+void nearest_points(const StrokeElement& element, std::span<const Point> queries, std::span<NearestPoint> results,
+                    const NearestPointOptions& options = {}) noexcept;
 
 }  // namespace calligraphy

@@ -1,0 +1,45 @@
+// The nearest point over all elements of a stroke, from tick to tick.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include <calligraphy/collision/nearest_point.hpp>
+
+namespace calligraphy {
+
+/// A point of a stroke.
+struct StrokePoint {
+  int element = 0;  ///< index
+  NearestPoint foot;
+};
+
+/// Finds for each position of a pen the nearest point of the whole stroke, certified, and quickly where the pen moves
+/// little: the element of the last answer starts from the last parameter, and an element is left alone until the pen
+/// has travelled far enough to come as near to it. Equal distances go to the earlier element.
+class StrokeTracker {
+ public:
+  /// Keeps a view of at most 5 elements, at least one. `tolerance` as in NearestPointOptions.
+  explicit StrokeTracker(std::span<const StrokeElement> elements, double tolerance = 1e-9) noexcept;
+
+  /// A query that is not finite is answered by the start of the last element, status not_finite, and is not remembered.
+  StrokePoint update(const Point& query) noexcept;
+
+ private:
+  /// What is known of an element from the last time it was asked.
+  struct Sighting {
+    Point query = Point::Zero();
+    double distance = 0.0;
+    double parameter = 0.5;
+    double step = 0.0;  ///< the last change of the parameter
+  };
+
+  NearestPoint look(int element, const Point& query) noexcept;
+
+  std::span<const StrokeElement> elements_;
+  NearestPointOptions options_;
+  std::array<Sighting, max_elements_per_stroke> sightings_ = {};
+  int last_ = 0;
+};
+
+}  // namespace calligraphy

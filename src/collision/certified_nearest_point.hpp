@@ -1,0 +1,17 @@
+// The global nearest point on a curve, proven by signs.
+#pragma once
+
+#include <span>
+
+#include <calligraphy/collision/nearest_point.hpp>
+
+namespace calligraphy {
+
+NearestPoint certified_nearest_point(const CurveElement& curve, const Point& query, double tolerance,
+                                     const ParameterRange& range) noexcept;
+
+/// The same point, from the last one.
+NearestPoint tracked_nearest_point(const CurveElement& curve, const Point& query, double tolerance,
+                                   const ParameterRange& range, double start) noexcept;
+
+}  // namespace calligraphy

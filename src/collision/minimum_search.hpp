@@ -1,0 +1,12 @@
+// Every minimum of the distance from a query to a curve, isolated: where the signs alone do not decide.
+#pragma once
+
+#include <calligraphy/collision/nearest_point.hpp>
+
+namespace calligraphy {
+
+/// `query` relative to the curve's origin and size, finite, at most 1e100.
+NearestPoint search_minima(const CurveElement& curve, const Point& query, double tolerance,
+                           const ParameterRange& range) noexcept;
+
+}  // namespace calligraphy

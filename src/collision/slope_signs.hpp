@@ -1,0 +1,126 @@
+// Signs of the slope's Bernstein ordinates for one query: the processor-specific part of the nearest point.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include <calligraphy/collision/curve_element.hpp>
+
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+namespace calligraphy {
+
+/// Further away (in sizes) single precision is not asked.
+inline constexpr double furthest_for_signs = 1e15;
+
+struct SlopeSigns {
+  std::uint64_t negative = 0;  ///< bit i: ordinate i is below zero
+  bool certain = false;        ///< rounding could turn no sign
+};
+
+/// The same with those left out that rounding could turn.
+struct CertainSigns {
+  std::uint64_t negative = 0, positive = 0;
+};
+
+/// Bound of the error of an ordinate: five roundings of each term, and room.
+template <int Count>
+inline float slope_noise(const SlopeOrdinates<Count>& ordinates, float x, float y) {
+  constexpr float roundings = 8.0F * 0x1p-24F;
+  return roundings *
+         (std::fabs(x) * ordinates.largest_x + std::fabs(y) * ordinates.largest_y + ordinates.largest_constant);
+}
+
+template <int Count>
+inline float slope_ordinate(const SlopeOrdinates<Count>& ordinates, std::size_t i, float x, float y) {
+  return (x * ordinates.x[i] + y * ordinates.y[i]) + ordinates.constant[i];
+}
+
+#if defined(__SSE2__)
+template <int Count>
+inline __m128 slope_ordinates_sse2(const SlopeOrdinates<Count>& ordinates, std::size_t i, __m128 x, __m128 y) {
+  return _mm_add_ps(
+      _mm_add_ps(_mm_mul_ps(x, _mm_load_ps(&ordinates.x[i])), _mm_mul_ps(y, _mm_load_ps(&ordinates.y[i]))),
+      _mm_load_ps(&ordinates.constant[i]));
+}
+#endif
+
+/// Plain C++ for any processor; the others give the same bits.
+template <int Count>
+inline SlopeSigns slope_signs_portable(const SlopeOrdinates<Count>& ordinates, float x, float y) {
+  const float noise = slope_noise(ordinates, x, y);
+  SlopeSigns signs{0, true};
+  for (std::size_t i = 0; i < Count; ++i) {
+    const float value = slope_ordinate(ordinates, i, x, y);
+    signs.negative |= static_cast<std::uint64_t>(value < 0.0F) << i;
+    signs.certain = signs.certain && std::fabs(value) > noise;
+  }
+  return signs;
+}
+
+template <int Count>
+inline CertainSigns certain_signs(const SlopeOrdinates<Count>& ordinates, float x, float y) {
+  const float noise = slope_noise(ordinates, x, y);
+  CertainSigns signs;
+#if defined(__SSE2__)
+  const __m128 all_x = _mm_set1_ps(x), all_y = _mm_set1_ps(y);
+  const __m128 above = _mm_set1_ps(noise), below = _mm_set1_ps(-noise);
+  for (std::size_t i = 0; i < Count; i += 4) {
+    const __m128 value = slope_ordinates_sse2(ordinates, i, all_x, all_y);
+    signs.negative |= static_cast<std::uint64_t>(static_cast<unsigned>(_mm_movemask_ps(_mm_cmplt_ps(value, below))))
+                      << i;
+    signs.positive |= static_cast<std::uint64_t>(static_cast<unsigned>(_mm_movemask_ps(_mm_cmpgt_ps(value, above))))
+                      << i;
+  }
+#else
+  for (std::size_t i = 0; i < Count; ++i) {
+    const float value = slope_ordinate(ordinates, i, x, y);
+    signs.negative |= static_cast<std::uint64_t>(value < -noise) << i;
+    signs.positive |= static_cast<std::uint64_t>(value > noise) << i;
+  }
+#endif
+  return signs;
+}
+
+#if defined(__SSE2__)
+
+template <int Count>
+inline SlopeSigns slope_signs_sse2(const SlopeOrdinates<Count>& ordinates, float x, float y) {
+  const __m128 all_x = _mm_set1_ps(x), all_y = _mm_set1_ps(y);
+  const __m128 magnitude = _mm_castsi128_ps(_mm_set1_epi32(0x7fffffff));
+  __m128 least = _mm_set1_ps(3e38F);
+  SlopeSigns signs;
+  for (std::size_t i = 0; i < Count; i += 4) {
+    const __m128 value = slope_ordinates_sse2(ordinates, i, all_x, all_y);
+    signs.negative |= static_cast<std::uint64_t>(static_cast<unsigned>(_mm_movemask_ps(value))) << i;
+    least = _mm_min_ps(least, _mm_and_ps(value, magnitude));
+  }
+  signs.certain = _mm_movemask_ps(_mm_cmple_ps(least, _mm_set1_ps(slope_noise(ordinates, x, y)))) == 0;
+  return signs;
+}
+
+template <int Count>
+__attribute__((target("avx2"), always_inline)) inline SlopeSigns slope_signs_avx2(
+    const SlopeOrdinates<Count>& ordinates, float x, float y) {
+  const __m256 all_x = _mm256_set1_ps(x), all_y = _mm256_set1_ps(y);
+  const __m256 magnitude = _mm256_castsi256_ps(_mm256_set1_epi32(0x7fffffff));
+  __m256 least = _mm256_set1_ps(3e38F);
+  SlopeSigns signs;
+  for (std::size_t i = 0; i < Count; i += 8) {
+    const __m256 value = _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(all_x, _mm256_loadu_ps(&ordinates.x[i])),
+                                                     _mm256_mul_ps(all_y, _mm256_loadu_ps(&ordinates.y[i]))),
+                                       _mm256_loadu_ps(&ordinates.constant[i]));
+    signs.negative |= static_cast<std::uint64_t>(static_cast<unsigned>(_mm256_movemask_ps(value))) << i;
+    least = _mm256_min_ps(least, _mm256_and_ps(value, magnitude));
+  }
+  const __m256 noise = _mm256_set1_ps(slope_noise(ordinates, x, y));
+  signs.certain = _mm256_movemask_ps(_mm256_cmp_ps(least, noise, _CMP_LE_OQ)) == 0;
+  return signs;
+}
+
+#endif
+
+}  // namespace calligraphy

@@ -1,0 +1,47 @@
+#include <calligraphy/collision/stroke_tracker.hpp>
+
+#include <algorithm>
+#include <cstddef>
+
+namespace calligraphy {
+namespace {
+
+/// Rounding of a distance, relative to it.
+constexpr double rounding = 1e-15;
+
+}  // namespace
+
+StrokeTracker::StrokeTracker(std::span<const StrokeElement> elements, double tolerance) noexcept : elements_(elements) {
+  options_.method = NearestPointMethod::tracked;
+  options_.tolerance = tolerance;
+}
+
+NearestPoint StrokeTracker::look(int element, const Point& query) noexcept {
+  const auto i = static_cast<std::size_t>(element);
+  Sighting& sighting = sightings_[i];
+  const NearestPoint foot =
+      nearest_point(elements_[i], query, options_, {}, std::clamp(sighting.parameter + sighting.step, 0.0, 1.0));
+  if (foot.status == NearestPointStatus::not_finite) return foot;
+  sighting = {query, foot.distance, foot.parameter, foot.parameter - sighting.parameter};
+  return foot;
+}
+
+StrokePoint StrokeTracker::update(const Point& query) noexcept {
+  StrokePoint nearest{last_, look(last_, query)};
+  if (nearest.foot.status == NearestPointStatus::not_finite) return nearest;
+  for (int i = 0; i < static_cast<int>(elements_.size()); ++i) {
+    if (i == last_) continue;
+    // The distance to an element changes by no more than the pen travels.
+    const Sighting& sighting = sightings_[static_cast<std::size_t>(i)];
+    const double lead = (1.0 - rounding) * sighting.distance - nearest.foot.distance;
+    if (lead > 0.0 && (query - sighting.query).squaredNorm() < (1.0 - rounding) * lead * lead) continue;
+    const NearestPoint foot = look(i, query);
+    const double tie = rounding * foot.distance;
+    const double gain = nearest.foot.distance - foot.distance;
+    if (gain > tie || (gain >= -tie && i < nearest.element)) nearest = {i, foot};
+  }
+  last_ = nearest.element;
+  return nearest;
+}
+
+}  // namespace calligraphy

@@ -1,0 +1,100 @@
+// The tracker against every element asked for itself (Wang 2006, sec. 4.3.3).
+#include "../catch.hpp"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <calligraphy/collision/placed_character.hpp>
+#include <calligraphy/collision/stroke_tracker.hpp>
+#include <calligraphy/model/character_set.hpp>
+
+#include "../allocation_counter.hpp"
+#include "../hard_cases.hpp"
+
+using namespace calligraphy;
+using calligraphy_test::Sequence;
+
+namespace {
+
+double least_distance(const std::vector<StrokeElement>& elements, const Point& query) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const StrokeElement& element : elements) least = std::min(least, nearest_point(element, query).distance);
+  return least;
+}
+
+/// Along the stroke and aside by a wobble; every so often the pen jumps.
+std::vector<Point> path_along(const std::vector<StrokeElement>& elements, Sequence& random) {
+  std::vector<Point> path;
+  for (const StrokeElement& element : elements) {
+    for (int i = 0; i < 200; ++i) {
+      const double t = i / 200.0;
+      const Point along = element.tangent(t);
+      const double aside = 0.004 * std::sin(0.05 * static_cast<double>(path.size()));
+      path.push_back(element.point(t) + aside * Point(-along.y(), along.x()));
+      if (random.next() < 0.02) path.push_back(random.point(-0.01, 0.05));
+    }
+  }
+  return path;
+}
+
+}  // namespace
+
+TEST_CASE("the tracker finds the nearest point of the whole stroke at every tick", "[collision]") {
+  Sequence random(5);
+  double worst = 0.0;
+  int uncertified = 0, elsewhere = 0;
+  for (const Character& character : built_in_characters().characters) {
+    for (const Stroke& stroke : strokes(character)) {
+      const std::vector<StrokeElement> elements = place_elements(stroke, {});
+      const std::vector<Point> path = path_along(elements, random);
+      StrokeTracker tracker(elements);
+      for (const Point& tip : path) {
+        const StrokePoint found = tracker.update(tip);
+        worst = std::max(worst, std::abs(found.foot.distance - least_distance(elements, tip)));
+        uncertified += !found.foot.certified();
+        const double of_its_element = nearest_point(elements[static_cast<std::size_t>(found.element)], tip).distance;
+        elsewhere += std::abs(of_its_element - found.foot.distance) > 1e-12;
+      }
+    }
+  }
+  CHECK(worst <= 1e-9 * 0.04);
+  CHECK(uncertified == 0);
+  CHECK(elsewhere == 0);
+}
+
+TEST_CASE("the tracker gives equal distances to the earlier element, and does not allocate", "[collision]") {
+  const std::vector<Point> across = {{0.0, 0.0}, {0.02, 0.0}}, down = {{0.02, 0.0}, {0.02, -0.02}};
+  const std::vector<StrokeElement> corner = {prepare_element(across), prepare_element(down)};
+  const std::size_t before = calligraphy_test::allocations();
+  StrokeTracker tracker(corner);
+  int later = 0;
+  // Outside the corner its point is the nearest of both limbs; on the bisector inside both are as far.
+  for (int round = 0; round < 3; ++round) {
+    for (const Point& tip : {Point(0.025, 0.005), Point(0.0225, 0.0025), Point(0.015, -0.005), Point(0.025, 0.005)}) {
+      later += tracker.update(tip).element != 0;
+      tracker.update({0.021, -0.015});  // the later limb is the last one asked
+    }
+  }
+  CHECK(later == 0);
+  CHECK(calligraphy_test::allocations() == before);
+}
+
+TEST_CASE("a query that is not finite leaves the tracker as it was", "[collision]") {
+  const std::vector<Point> across = {{0.0, 0.0}, {0.02, 0.0}},
+                           bend = {{0.02, 0.0}, {0.03, 0.0}, {0.03, -0.02}, {0.02, -0.03}};
+  const std::vector<StrokeElement> elements = {prepare_element(across), prepare_element(bend)};
+  StrokeTracker tracker(elements);
+  const Point tip(0.028, -0.01);
+  const StrokePoint before = tracker.update(tip);
+  CHECK(before.element == 1);
+  for (const double x : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e300}) {
+    const StrokePoint lost = tracker.update({x, 0.0});
+    CHECK(lost.foot.status == NearestPointStatus::not_finite);
+    CHECK(std::isinf(lost.foot.distance));
+    CHECK(lost.foot.point.allFinite());
+  }
+  const StrokePoint after = tracker.update(tip);
+  CHECK(after.element == before.element);
+  CHECK(after.foot.distance == Approx(before.foot.distance).epsilon(1e-12));
+}
