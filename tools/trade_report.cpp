@@ -21,15 +21,16 @@ std::string utf8(const std::u32string& text) {
 
 using Cost = NearestPointCost NearestPointTrade::*;
 
-std::string cost_table(const TradeReport& report, const char* heading, Cost cost) {
-  std::string text = fmt::format("{}\n{:<18}{:>9}{:>9}{:>11}{:>11}{:>11}{:>10}\n", heading, "", "median", "p90",
-                                 "median", "p99", "largest", "wrong");
-  text += fmt::format("{:<18}{:>9}{:>9}{:>11}{:>11}{:>11}{:>10}\n", "method", "[ns]", "[ns]", "error", "error", "error",
-                      "[%]");
+std::string cost_table(const TradeReport& report, const std::string& heading, Cost cost) {
+  constexpr const char* head = "{:<18}{:>9}{:>9}{:>10}{:>11}{:>11}{:>11}{:>10}\n";
+  std::string text = heading + "; errors in sizes of the curve\n";
+  text += fmt::format(fmt::runtime(head), "", "median", "p90", "in batch", "median", "p99", "largest", "wrong");
+  text += fmt::format(fmt::runtime(head), "method", "[ns]", "[ns]", "[ns]", "error", "error", "error", "[%]");
   for (const NearestPointTrade& entry : report.nearest_point) {
     const NearestPointCost& own = entry.*cost;
-    text += fmt::format("{:<18}{:>9.1f}{:>9.1f}{:>11.1e}{:>11.1e}{:>11.1e}{:>10.3f}\n", entry.setting.name, own.ns,
-                        own.ns_p90, own.error, own.error_p99, own.error_worst, own.wrong * percent);
+    text +=
+        fmt::format("{:<18}{:>9.1f}{:>9.1f}{:>10.1f}{:>11.1e}{:>11.1e}{:>11.1e}{:>10.3f}\n", entry.setting.name, own.ns,
+                    own.ns_p90, own.batch_ns, own.error, own.error_p99, own.error_worst, own.wrong * percent);
   }
   return text + "\n";
 }
@@ -89,29 +90,24 @@ std::string width_table(const TradeReport& report) {
 }
 
 Json json_of(const NearestPointCost& cost) {
-  return {{"queries", cost.queries},     {"ns_p50", cost.ns},           {"ns_p90", cost.ns_p90},
-          {"error_p50", cost.error},     {"error_p99", cost.error_p99}, {"error_max", cost.error_worst},
-          {"wrong_branches", cost.wrong}};
+  return {{"queries", cost.queries},       {"ns_p50", cost.ns},           {"ns_p90", cost.ns_p90},
+          {"batch_ns_p50", cost.batch_ns}, {"error_p50", cost.error},     {"error_p99", cost.error_p99},
+          {"error_max", cost.error_worst}, {"wrong_branches", cost.wrong}};
 }
 
 Json json_of(const PenFeel& feel) { return {{"max_force_step_N", feel.largest_step}, {"wrong_ticks", feel.wrong}}; }
-
-const char* method_name(NearestPointMethod method) {
-  switch (method) {
-    case NearestPointMethod::exact:
-      return "exact";
-    case NearestPointMethod::wang2006:
-      return "wang2006";
-  }
-  return "";
-}
 
 Json json_of(const NearestPointTrade& entry) {
   Json workloads = Json::array();
   for (const NearestPointCost& cost : entry.workloads) workloads.push_back(json_of(cost));
   const NearestPointOptions& options = entry.setting.options;
   Json object = {{"setting", entry.setting.name}, {"method", method_name(options.method)}};
-  object["tolerance"] = options.tolerance;
+  if (options.method == NearestPointMethod::sampled) {
+    object["samples"] = options.samples;
+    object["refinements"] = options.refinements;
+  } else {
+    object["tolerance"] = options.tolerance;
+  }
   object["real_strokes"] = json_of(entry.real);
   object["hard"] = json_of(entry.hard);
   object["workloads"] = std::move(workloads);
@@ -158,9 +154,9 @@ Json list_of(const std::vector<Entry>& entries) {
 
 std::string tables(const TradeReport& report) {
   const int queries = report.nearest_options.queries;
-  return cost_table(report, fmt::format("Nearest point on real strokes, {} queries", 2 * queries).c_str(),
+  return cost_table(report, fmt::format("Nearest point on real strokes, {} queries", 2 * queries),
                     &NearestPointTrade::real) +
-         cost_table(report, fmt::format("Nearest point on the hard workloads, {} queries", 17 * queries).c_str(),
+         cost_table(report, fmt::format("Nearest point on the hard workloads, {} queries", 17 * queries),
                     &NearestPointTrade::hard) +
          hand_table(report) + rate_table(report) + width_table(report);
 }

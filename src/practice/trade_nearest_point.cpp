@@ -4,7 +4,9 @@
 #include <cstddef>
 #include <cstdio>
 #include <numbers>
+#include <utility>
 
+#include <calligraphy/collision/stroke_tracker.hpp>
 #include <calligraphy/error.hpp>
 #include <calligraphy/practice/nearest_point_workload.hpp>
 #include <calligraphy/practice/stroke_queries.hpp>
@@ -17,7 +19,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double wrong_branch = 1e-3;  ///< an error of the distance above this is no rounding [sizes of the curve]
-constexpr double reference_tolerance = 1e-12;
+constexpr NearestPointOptions reference = {.method = NearestPointMethod::exact, .tolerance = 1e-12};
 constexpr double em = 0.04;  ///< edge of a character's square [m]
 
 /// 90 % of the values are at most this for a share of 0.9. Reorders them; 0 of none.
@@ -41,28 +43,30 @@ struct Task {
 struct Workload {
   std::string name;
   std::vector<Task> tasks;
-  std::size_t count = 0;  ///< of queries
 };
 
 Workload prepared(const NearestPointWorkload& workload) {
-  Workload result{workload.name, {}, 0};
+  Workload result{workload.name, {}};
   for (const CurveQueries& asked : workload.curves) {
     Task task{prepare_element(asked.control_points), asked.queries, {}, 1.0};
-    if (task.element.size > 0.0) task.size = task.element.size;
+    if (task.element.size() > 0.0) task.size = task.element.size();
     for (const Point& query : task.queries) {
-      task.distances.push_back(
-          nearest_point(task.element, query, {NearestPointMethod::exact, reference_tolerance}).distance);
+      task.distances.push_back(nearest_point(task.element, query, reference).distance);
     }
-    result.count += task.queries.size();
     result.tasks.push_back(std::move(task));
   }
   return result;
 }
 
-/// Asks one query after the other; `use` gets each answer and its place in the task.
+/// Asks one query after the other, each from the last answer; `use` gets each answer and its place in the task.
 template <typename Use>
 void ask(const Task& task, const NearestPointOptions& options, const Use& use) {
-  for (std::size_t i = 0; i < task.queries.size(); ++i) use(i, nearest_point(task.element, task.queries[i], options));
+  double last = 0.5;
+  for (std::size_t i = 0; i < task.queries.size(); ++i) {
+    const NearestPoint found = nearest_point(task.element, task.queries[i], options, {}, last);
+    last = found.parameter;
+    use(i, found);
+  }
 }
 
 std::vector<double> errors_of(const Workload& workload, const NearestPointOptions& options) {
@@ -75,27 +79,60 @@ std::vector<double> errors_of(const Workload& workload, const NearestPointOption
   return errors;
 }
 
-/// Seconds for all queries of a workload.
-double time_of(const Workload& workload, const NearestPointOptions& options) {
-  double sum = 0.0;
+/// Seconds that `work` takes. What it returns is kept, or nothing would have to be computed.
+template <typename Work>
+double seconds_of(const Work& work) {
   const auto start = Clock::now();
-  for (const Task& task : workload.tasks) {
-    ask(task, options, [&sum](std::size_t, const NearestPoint& found) { sum += found.parameter; });
-  }
+  volatile double kept = work();
   const auto end = Clock::now();
-  volatile double kept = sum;  // or nothing would have to be computed
   static_cast<void>(kept);
   return std::chrono::duration<double>(end - start).count();
 }
 
-NearestPointCost cost(std::string queries, std::vector<double> errors, std::vector<double> seconds, std::size_t count) {
+/// For all queries of a workload.
+double time_of(const Workload& workload, const NearestPointOptions& options) {
+  return seconds_of([&] {
+    double sum = 0.0;
+    for (const Task& task : workload.tasks) {
+      ask(task, options, [&sum](std::size_t, const NearestPoint& found) { sum += found.parameter; });
+    }
+    return sum;
+  });
+}
+
+/// The same, all queries to a curve at once.
+double batch_time_of(const Workload& workload, const NearestPointOptions& options) {
+  std::vector<NearestPoint> results;
+  for (const Task& task : workload.tasks) results.resize(std::max(results.size(), task.queries.size()));
+  return seconds_of([&] {
+    double sum = 0.0;
+    for (const Task& task : workload.tasks) {
+      nearest_points(task.element, task.queries, std::span(results).first(task.queries.size()), options);
+      sum += results.front().parameter;
+    }
+    return sum;
+  });
+}
+
+/// Seconds of each round.
+struct Rounds {
+  std::vector<double> one_by_one, batch;
+};
+
+double per_query(std::vector<double> seconds, double share, std::size_t count) {
+  return 1e9 * percentile(seconds, share) / static_cast<double>(count);
+}
+
+NearestPointCost cost(std::string queries, std::vector<double> errors, const Rounds& rounds) {
+  const auto is_wrong = [](double error) { return !(error <= wrong_branch); };
+  const std::size_t count = errors.size();
   NearestPointCost result;
   result.queries = std::move(queries);
-  result.ns = 1e9 * percentile(seconds, 0.5) / static_cast<double>(count);
-  result.ns_p90 = 1e9 * percentile(seconds, 0.9) / static_cast<double>(count);
+  result.ns = per_query(rounds.one_by_one, 0.5, count);
+  result.ns_p90 = per_query(rounds.one_by_one, 0.9, count);
+  result.batch_ns = per_query(rounds.batch, 0.5, count);
   result.wrong =
-      static_cast<double>(std::count_if(errors.begin(), errors.end(), [](double e) { return !(e <= wrong_branch); })) /
-      static_cast<double>(errors.size());
+      static_cast<double>(std::count_if(errors.begin(), errors.end(), is_wrong)) / static_cast<double>(count);
   result.error = percentile(errors, 0.5);
   result.error_p99 = percentile(errors, 0.99);
   result.error_worst = *std::max_element(errors.begin(), errors.end());
@@ -105,12 +142,16 @@ NearestPointCost cost(std::string queries, std::vector<double> errors, std::vect
 /// Several workloads as one.
 struct Pool {
   std::vector<double> errors;
-  std::vector<double> seconds;  ///< of each round, all workloads together
+  Rounds rounds;
 
-  void add(const std::vector<double>& own_errors, const std::vector<double>& own_seconds) {
+  void add(const std::vector<double>& own_errors, const Rounds& own) {
     errors.insert(errors.end(), own_errors.begin(), own_errors.end());
-    seconds.resize(own_seconds.size());
-    for (std::size_t i = 0; i < seconds.size(); ++i) seconds[i] += own_seconds[i];
+    add(rounds.one_by_one, own.one_by_one);
+    add(rounds.batch, own.batch);
+  }
+  static void add(std::vector<double>& sums, const std::vector<double>& seconds) {
+    sums.resize(seconds.size());
+    for (std::size_t i = 0; i < seconds.size(); ++i) sums[i] += seconds[i];
   }
 };
 
@@ -140,12 +181,11 @@ std::vector<DrawnStroke> drawn_strokes(const std::vector<StrokeQueries>& queries
     DrawnStroke stroke;
     for (const auto& element : each.elements) {
       stroke.elements.push_back(prepare_element(element));
-      stroke.size = std::max(stroke.size, stroke.elements.back().size);
+      stroke.size = std::max(stroke.size, stroke.elements.back().size());
     }
     stroke.path = each.path;
     for (const Point& tip : stroke.path) {
-      stroke.distances.push_back(
-          over_all(stroke.elements, tip, {NearestPointMethod::exact, reference_tolerance}).distance);
+      stroke.distances.push_back(over_all(stroke.elements, tip, reference).distance);
     }
     strokes.push_back(std::move(stroke));
   }
@@ -156,8 +196,13 @@ std::vector<DrawnStroke> drawn_strokes(const std::vector<StrokeQueries>& queries
 template <typename Use>
 void follow(const std::vector<DrawnStroke>& strokes, const NearestPointOptions& options, const Use& use) {
   for (const DrawnStroke& stroke : strokes) {
-    for (std::size_t i = 0; i < stroke.path.size(); ++i) {
-      use(stroke, i, over_all(stroke.elements, stroke.path[i], options));
+    if (options.method == NearestPointMethod::tracked) {
+      StrokeTracker tracker(stroke.elements, options.tolerance);
+      for (std::size_t i = 0; i < stroke.path.size(); ++i) use(stroke, i, tracker.update(stroke.path[i]).foot);
+    } else {
+      for (std::size_t i = 0; i < stroke.path.size(); ++i) {
+        use(stroke, i, over_all(stroke.elements, stroke.path[i], options));
+      }
     }
   }
 }
@@ -171,14 +216,12 @@ std::vector<double> tick_errors(const std::vector<DrawnStroke>& strokes, const N
 }
 
 double tick_time(const std::vector<DrawnStroke>& strokes, const NearestPointOptions& options) {
-  double sum = 0.0;
-  const auto start = Clock::now();
-  follow(strokes, options,
-         [&sum](const DrawnStroke&, std::size_t, const NearestPoint& foot) { sum += foot.parameter; });
-  const auto end = Clock::now();
-  volatile double kept = sum;
-  static_cast<void>(kept);
-  return std::chrono::duration<double>(end - start).count();
+  return seconds_of([&] {
+    double sum = 0.0;
+    follow(strokes, options,
+           [&sum](const DrawnStroke&, std::size_t, const NearestPoint& foot) { sum += foot.parameter; });
+    return sum;
+  });
 }
 
 // ---- what the hand feels
@@ -201,7 +244,7 @@ std::vector<DrawnCurve> drawn_curves(const std::vector<DrawnStroke>& strokes, do
       for (; tick < stroke.path.size() && static_cast<double>(tick) * step <= end; ++tick) {
         curve.path.push_back(stroke.path[tick]);
       }
-      if (element.degree > 1) curves.push_back(std::move(curve));
+      if (element.curve() != nullptr) curves.push_back(std::move(curve));
     }
   }
   return curves;
@@ -233,15 +276,17 @@ PenFeel feel(const std::vector<DrawnCurve>& curves, const NearestPointOptions& o
   std::size_t ticks = 0, wrong = 0;
   for (const DrawnCurve& curve : curves) {
     Point last = Point::Zero();
+    double parameter = 0.5;
     for (std::size_t i = 0; i < curve.path.size(); ++i) {
       const Point& tip = curve.path[i];
-      const NearestPoint foot = nearest_point(curve.element, tip, options);
-      const double exact = nearest_point(curve.element, tip, {NearestPointMethod::exact, reference_tolerance}).distance;
+      const NearestPoint foot = nearest_point(curve.element, tip, options, {}, parameter);
+      parameter = foot.parameter;
+      const double exact = nearest_point(curve.element, tip, reference).distance;
       const Point force = attraction_force(stiffness, tip, foot.point);
       if (i > 0) result.largest_step = std::max(result.largest_step, (force - last).norm());
       last = force;
       ++ticks;
-      if (!(std::abs(foot.distance - exact) <= wrong_branch * curve.element.size)) ++wrong;
+      if (!(std::abs(foot.distance - exact) <= wrong_branch * curve.element.size())) ++wrong;
     }
   }
   result.wrong = ticks > 0 ? static_cast<double>(wrong) / static_cast<double>(ticks) : 0.0;
@@ -249,13 +294,13 @@ PenFeel feel(const std::vector<DrawnCurve>& curves, const NearestPointOptions& o
 }
 
 std::string setting_name(const NearestPointOptions& options) {
-  char name[48];
-  if (options.method == NearestPointMethod::exact) {
-    std::snprintf(name, sizeof name, "exact %.0e", options.tolerance);
+  char setting[32];
+  if (options.method == NearestPointMethod::sampled) {
+    std::snprintf(setting, sizeof setting, " %d x %d", options.samples, options.refinements);
   } else {
-    std::snprintf(name, sizeof name, "wang2006 %.0e", options.tolerance);
+    std::snprintf(setting, sizeof setting, " %.0e", options.tolerance);
   }
-  return name;
+  return method_name(options.method) + std::string(setting);
 }
 
 void require(bool holds, const char* what) {
@@ -264,12 +309,32 @@ void require(bool holds, const char* what) {
 
 }  // namespace
 
+const char* method_name(NearestPointMethod method) noexcept {
+  switch (method) {
+    case NearestPointMethod::exact:
+      return "exact";
+    case NearestPointMethod::tracked:
+      return "tracked";
+    case NearestPointMethod::sampled:
+      return "sampled";
+    case NearestPointMethod::wang2006:
+      return "wang2006";
+  }
+  return "";
+}
+
 std::vector<NearestPointSetting> nearest_point_settings() {
-  std::vector<NearestPointOptions> options;
-  for (const double tolerance : {1e-3, 1e-6, 1e-9, 1e-12}) options.push_back({NearestPointMethod::exact, tolerance});
-  for (const double tolerance : {1e-3, 1e-6, 1e-9}) options.push_back({NearestPointMethod::wang2006, tolerance});
+  using enum NearestPointMethod;
   std::vector<NearestPointSetting> settings;
-  for (const NearestPointOptions& each : options) settings.push_back({setting_name(each), each});
+  const auto add = [&settings](const NearestPointOptions& options) {
+    settings.push_back({setting_name(options), options});
+  };
+  for (const double tolerance : {1e-3, 1e-6, 1e-9, 1e-12}) add({.method = exact, .tolerance = tolerance});
+  for (const double tolerance : {1e-3, 1e-6, 1e-9}) add({.method = tracked, .tolerance = tolerance});
+  for (const auto& [samples, refinements] : {std::pair(8, 1), {8, 2}, {16, 0}, {16, 1}, {16, 2}, {32, 2}, {64, 3}}) {
+    add({.method = sampled, .samples = samples, .refinements = refinements});
+  }
+  for (const double tolerance : {1e-3, 1e-6, 1e-9}) add({.method = wang2006, .tolerance = tolerance});
   return settings;
 }
 
@@ -292,16 +357,21 @@ std::vector<NearestPointTrade> nearest_point_trade(std::span<const Character> ch
   const std::vector<DrawnCurve> curves = drawn_curves(drawn, step), arcs = gentle_arcs(step);
 
   const std::vector<NearestPointSetting> settings = nearest_point_settings();
-  // Seconds per setting, workload (the last: ticks) and round.
-  std::vector<std::vector<std::vector<double>>> seconds(settings.size(),
-                                                        std::vector<std::vector<double>>(workloads.size() + 1));
+  // Per setting and workload; the last: ticks.
+  std::vector<std::vector<Rounds>> rounds(settings.size(), std::vector<Rounds>(workloads.size() + 1));
   for (int round = 0; round < options.rounds; ++round) {
     for (std::size_t w = 0; w <= workloads.size(); ++w) {
       for (std::size_t i = 0; i < settings.size(); ++i) {
         // Another one begins in each round, so that none always follows the same.
         const std::size_t s = (i + static_cast<std::size_t>(round)) % settings.size();
         const NearestPointOptions& own = settings[s].options;
-        seconds[s][w].push_back(w < workloads.size() ? time_of(workloads[w], own) : tick_time(drawn, own));
+        Rounds& times = rounds[s][w];
+        if (w == workloads.size()) {
+          times.one_by_one.push_back(tick_time(drawn, own));
+        } else {
+          times.one_by_one.push_back(time_of(workloads[w], own));
+          times.batch.push_back(batch_time_of(workloads[w], own));
+        }
       }
     }
     if (options.progress) options.progress((round + 1.0) / options.rounds);
@@ -315,13 +385,12 @@ std::vector<NearestPointTrade> nearest_point_trade(std::span<const Character> ch
     Pool real, hard;
     for (std::size_t w = 0; w < workloads.size(); ++w) {
       const std::vector<double> errors = errors_of(workloads[w], own);
-      entry.workloads.push_back(cost(workloads[w].name, errors, seconds[s][w], workloads[w].count));
-      (is_real(workloads[w].name) ? real : hard).add(errors, seconds[s][w]);
+      entry.workloads.push_back(cost(workloads[w].name, errors, rounds[s][w]));
+      (is_real(workloads[w].name) ? real : hard).add(errors, rounds[s][w]);
     }
-    entry.real = cost("real strokes", real.errors, real.seconds, real.errors.size());
-    entry.hard = cost("hard", hard.errors, hard.seconds, hard.errors.size());
-    const std::vector<double> errors = tick_errors(drawn, own);
-    entry.ticks = cost("ticks along strokes", errors, seconds[s].back(), errors.size());
+    entry.real = cost("real strokes", std::move(real.errors), real.rounds);
+    entry.hard = cost("hard", std::move(hard.errors), hard.rounds);
+    entry.ticks = cost("ticks along strokes", tick_errors(drawn, own), rounds[s].back());
     entry.strokes = feel(curves, own, options.stiffness);
     entry.arcs = feel(arcs, own, options.stiffness);
     trade.push_back(std::move(entry));

@@ -26,13 +26,14 @@ constexpr const char* style =
 
 struct MethodStyle {
   NearestPointMethod method;
-  const char* name;
   const char* colour;
   int marker;
 };
 constexpr std::array methods = {
-    MethodStyle{NearestPointMethod::exact, "exact", "#0072b2", 7},
-    MethodStyle{NearestPointMethod::wang2006, "wang2006", "#d55e00", 9},
+    MethodStyle{NearestPointMethod::exact, "#0072b2", 7},
+    MethodStyle{NearestPointMethod::tracked, "#009e73", 13},
+    MethodStyle{NearestPointMethod::sampled, "#cc79a7", 5},
+    MethodStyle{NearestPointMethod::wang2006, "#d55e00", 9},
 };
 
 std::string finish(const std::string& script, const char* title) {
@@ -42,8 +43,8 @@ std::string finish(const std::string& script, const char* title) {
   return svg::to_string(document);
 }
 
-std::string block(const char* name, const std::string& lines) {
-  return "$" + std::string(name) + " << END\n" + lines + "END\n";
+std::string block(const std::string& name, const std::string& lines) {
+  return "$" + name + " << END\n" + lines + "END\n";
 }
 
 std::string point_label(const NearestPointSetting& setting) { return setting.name.substr(setting.name.find(' ') + 1); }
@@ -100,11 +101,12 @@ std::string nearest_point_trade_plot(std::span<const NearestPointTrade> trade) {
       const std::string points = points_of(trade, method.method, cost);
       if (points.empty()) continue;
       const std::string colour = std::string(" linecolor rgb '") + method.colour + "' ";
-      text += block(method.name, points);
-      plots += std::string(plots.empty() ? "" : ", ") + "$" + method.name +
-               " using 1:2:3:2 with yerrorbars pointtype 0 linewidth 1" + colour + "notitle, $" + method.name +
+      const std::string name = method_name(method.method);
+      text += block(name, points);
+      plots += std::string(plots.empty() ? "" : ", ") + "$" + name +
+               " using 1:2:3:2 with yerrorbars pointtype 0 linewidth 1" + colour + "notitle, $" + name +
                " using 1:2 with points pointtype " + std::to_string(method.marker) + " pointsize 1" + colour +
-               "title '" + method.name + "', $" + method.name +
+               "title '" + name + "', $" + name +
                " using 1:2:4 with labels left offset 0.6,0.45 font ',10' textcolor rgb '" + method.colour + "' notitle";
     }
     text += "set lmargin at screen " + number(left) + "\nset rmargin at screen " + number(right) + "\nset title '" +

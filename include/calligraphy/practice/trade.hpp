@@ -13,6 +13,9 @@
 
 namespace calligraphy {
 
+/// "exact", "tracked", "sampled", "wang2006".
+const char* method_name(NearestPointMethod method) noexcept;
+
 /// A method of the nearest point with its settings.
 struct NearestPointSetting {
   std::string name;  ///< "exact 1e-09", "sampled 16 x 2"
@@ -25,10 +28,11 @@ std::vector<NearestPointSetting> nearest_point_settings();
 /// What a method costs and how right it is. Errors are of the distance, against `exact` at 1e-12, in sizes of the curve
 /// (diagonals of its control points' box).
 struct NearestPointCost {
-  std::string queries;  ///< which ones
-  double ns = 0.0;      ///< per query, median over the rounds
-  double ns_p90 = 0.0;  ///< 90 % of the rounds took at most this per query
-  double error = 0.0;   ///< median
+  std::string queries;    ///< which ones
+  double ns = 0.0;        ///< per query, median over the rounds
+  double ns_p90 = 0.0;    ///< 90 % of the rounds took at most this per query
+  double batch_ns = 0.0;  ///< per query, all queries to a curve in one call, median
+  double error = 0.0;     ///< median
   double error_p99 = 0.0;
   double error_worst = 0.0;
   double wrong = 0.0;  ///< share of wrong branches: error above 1e-3
@@ -45,8 +49,8 @@ struct NearestPointTrade {
   NearestPointCost real;                    ///< the workloads on real strokes together
   NearestPointCost hard;                    ///< all others together
   std::vector<NearestPointCost> workloads;  ///< each by itself, see nearest_point_workload.hpp
-  /// Following a pen along whole strokes: every element is asked at each tick, but by `tracked`. The error is against
-  /// `exact` on all elements.
+  /// Following a pen along whole strokes: at each tick every element is asked, or a StrokeTracker where the method is
+  /// `tracked`. No batches.
   NearestPointCost ticks;
   PenFeel strokes;  ///< along every curve of the characters, straying by up to 3 mm
   PenFeel arcs;     ///< along gentle arcs, 15 to 40 mm in radius, steadily 1 to 4 mm beside them
