@@ -331,7 +331,7 @@ std::vector<NearestPointSetting> nearest_point_settings() {
   };
   for (const double tolerance : {1e-3, 1e-6, 1e-9, 1e-12}) add({.method = exact, .tolerance = tolerance});
   for (const double tolerance : {1e-3, 1e-6, 1e-9}) add({.method = tracked, .tolerance = tolerance});
-  for (const auto& [samples, refinements] : {std::pair(8, 1), {8, 2}, {16, 0}, {16, 1}, {16, 2}, {32, 2}, {64, 3}}) {
+  for (const auto& [samples, refinements] : {std::pair(8, 1), {16, 0}, {16, 1}, {16, 2}, {32, 2}, {64, 3}}) {
     add({.method = sampled, .samples = samples, .refinements = refinements});
   }
   for (const double tolerance : {1e-3, 1e-6, 1e-9}) add({.method = wang2006, .tolerance = tolerance});
