@@ -125,6 +125,19 @@ TEST_CASE("Fig. 25: in a strong bend the default force is steady within 2.5 mm o
   CHECK(nearest_jump(printed("bend")) < 0.0005);
 }
 
+TEST_CASE("where the pen has written to, its own stroke holds it, as printed and by default", "[force field]") {
+  const std::string name = GENERATE("bend", "corner", "parallel", "crossed");
+  const ForceFieldFigure& shown = figure(name);
+  ForceFieldOptions options;
+  options.columns = 5;
+  options.rules = GENERATE(RendererOptions::wang2006(), RendererOptions()).stroke;
+  constexpr double edge = 1e-4;
+  const Point corner = shown.pen - Point(0.5 * edge, 0.5 * edge);
+  const ForceField field = guidance_field(shown.placed, shown.stroke, shown.progress, corner, edge, options);
+  CHECK(field.largest_force() > 0.0);
+  CHECK(field.largest_force() < options.stiffness * edge);
+}
+
 TEST_CASE("the rules as printed make the force jump on the stroke itself", "[force field]") {
   const std::string name = GENERATE("bend", "corner", "parallel", "crossed");
   CHECK(nearest_jump(printed(name)) < 1.5 * printed(name).edge / printed(name).columns);

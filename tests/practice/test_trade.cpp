@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <pugixml.hpp>
@@ -286,6 +287,14 @@ TEST_CASE("no stroke moves further than its control points, and each bit halves 
     CHECK(entry.largest_error > 0.1 * entry.step);
     if (i > 0) CHECK(entry.bytes > trade[i - 1].bytes);
   }
+}
+
+TEST_CASE("a stroke that is stored shorter and one that is stored longer are both off by the difference", "[trade]") {
+  // The grid of 4 bits has places at 6/15 = 0.4 and 7/15.
+  const auto [end, off] = GENERATE(std::pair(0.42, 0.02), std::pair(0.434, 7.0 / 15.0 - 0.434));
+  const StrokeInput line{1, {{0.4, 0.4}, {end, 0.4}}};
+  const Character character = make_character(U'\u4E00', std::span(&line, 1));
+  CHECK(coordinate_width_trade(std::span(&character, 1)).front().largest_error == Approx(off));
 }
 
 TEST_CASE("coordinates are counted packed, and each stroke's id as a byte", "[trade]") {
