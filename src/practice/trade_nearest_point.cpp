@@ -1,25 +1,19 @@
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
-#include <numbers>
 #include <utility>
 
-#include <calligraphy/collision/stroke_tracker.hpp>
 #include <calligraphy/error.hpp>
 #include <calligraphy/practice/nearest_point_workload.hpp>
-#include <calligraphy/practice/stroke_queries.hpp>
 #include <calligraphy/practice/trade.hpp>
-#include <calligraphy/render/force_terms.hpp>
+
+#include "stopwatch.hpp"
+#include "trade_pen.hpp"
 
 namespace calligraphy {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-constexpr double wrong_branch = 1e-3;  ///< an error of the distance above this is no rounding [sizes of the curve]
-constexpr NearestPointOptions reference = {.method = NearestPointMethod::exact, .tolerance = 1e-12};
 constexpr double em = 0.04;  ///< edge of a character's square [m]
 
 /// 90 % of the values are at most this for a share of 0.9. Reorders them; 0 of none.
@@ -79,16 +73,6 @@ std::vector<double> errors_of(const Workload& workload, const NearestPointOption
   return errors;
 }
 
-/// Seconds that `work` takes. What it returns is kept, or nothing would have to be computed.
-template <typename Work>
-double seconds_of(const Work& work) {
-  const auto start = Clock::now();
-  volatile double kept = work();
-  const auto end = Clock::now();
-  static_cast<void>(kept);
-  return std::chrono::duration<double>(end - start).count();
-}
-
 /// For all queries of a workload.
 double time_of(const Workload& workload, const NearestPointOptions& options) {
   return seconds_of([&] {
@@ -123,175 +107,49 @@ double per_query(std::vector<double> seconds, double share, std::size_t count) {
   return 1e9 * percentile(seconds, share) / static_cast<double>(count);
 }
 
-NearestPointCost cost(std::string queries, std::vector<double> errors, const Rounds& rounds) {
+void judge(std::vector<double> errors, NearestPointCost& cost) {
   const auto is_wrong = [](double error) { return !(error <= wrong_branch); };
-  const std::size_t count = errors.size();
-  NearestPointCost result;
-  result.queries = std::move(queries);
-  result.ns = per_query(rounds.one_by_one, 0.5, count);
-  result.ns_p90 = per_query(rounds.one_by_one, 0.9, count);
-  result.batch_ns = per_query(rounds.batch, 0.5, count);
-  result.wrong =
-      static_cast<double>(std::count_if(errors.begin(), errors.end(), is_wrong)) / static_cast<double>(count);
-  result.error = percentile(errors, 0.5);
-  result.error_p99 = percentile(errors, 0.99);
-  result.error_worst = *std::max_element(errors.begin(), errors.end());
-  return result;
+  cost.wrong =
+      static_cast<double>(std::count_if(errors.begin(), errors.end(), is_wrong)) / static_cast<double>(errors.size());
+  cost.error = percentile(errors, 0.5);
+  cost.error_p99 = percentile(errors, 0.99);
+  cost.error_worst = *std::max_element(errors.begin(), errors.end());
 }
 
-/// Several workloads as one.
+NearestPointCost cost_of(std::string queries, const std::vector<double>& errors, const Rounds& rounds) {
+  NearestPointCost cost;
+  cost.queries = std::move(queries);
+  cost.ns = per_query(rounds.one_by_one, 0.5, errors.size());
+  cost.ns_p90 = per_query(rounds.one_by_one, 0.9, errors.size());
+  cost.batch_ns = per_query(rounds.batch, 0.5, errors.size());
+  judge(errors, cost);
+  return cost;
+}
+
+/// Several workloads as one. Times are means of the workloads' own, so that what disturbs one of them in a round does
+/// not count against all.
 struct Pool {
+  NearestPointCost sum;
   std::vector<double> errors;
-  Rounds rounds;
 
-  void add(const std::vector<double>& own_errors, const Rounds& own) {
-    errors.insert(errors.end(), own_errors.begin(), own_errors.end());
-    add(rounds.one_by_one, own.one_by_one);
-    add(rounds.batch, own.batch);
+  void add(const std::vector<double>& own, const NearestPointCost& cost) {
+    const auto count = static_cast<double>(own.size());
+    sum.ns += count * cost.ns;
+    sum.ns_p90 += count * cost.ns_p90;
+    sum.batch_ns += count * cost.batch_ns;
+    errors.insert(errors.end(), own.begin(), own.end());
   }
-  static void add(std::vector<double>& sums, const std::vector<double>& seconds) {
-    sums.resize(seconds.size());
-    for (std::size_t i = 0; i < seconds.size(); ++i) sums[i] += seconds[i];
+  NearestPointCost cost(const char* queries) const {
+    const auto count = static_cast<double>(errors.size());
+    NearestPointCost mean = sum;
+    mean.queries = queries;
+    mean.ns /= count;
+    mean.ns_p90 /= count;
+    mean.batch_ns /= count;
+    judge(errors, mean);
+    return mean;
   }
 };
-
-// ---- a pen drawn along whole strokes
-
-struct DrawnStroke {
-  std::vector<StrokeElement> elements;
-  std::vector<Point> path;
-  std::vector<double> distances;  ///< to the nearest element, exact
-  double size = 0.0;              ///< of the largest element
-};
-
-/// Nearest point over all elements.
-NearestPoint over_all(const std::vector<StrokeElement>& elements, const Point& query,
-                      const NearestPointOptions& options) {
-  NearestPoint nearest = nearest_point(elements.front(), query, options);
-  for (std::size_t i = 1; i < elements.size(); ++i) {
-    const NearestPoint found = nearest_point(elements[i], query, options);
-    if (found.distance < nearest.distance) nearest = found;
-  }
-  return nearest;
-}
-
-std::vector<DrawnStroke> drawn_strokes(const std::vector<StrokeQueries>& queries) {
-  std::vector<DrawnStroke> strokes;
-  for (const StrokeQueries& each : queries) {
-    DrawnStroke stroke;
-    for (const auto& element : each.elements) {
-      stroke.elements.push_back(prepare_element(element));
-      stroke.size = std::max(stroke.size, stroke.elements.back().size());
-    }
-    stroke.path = each.path;
-    for (const Point& tip : stroke.path) {
-      stroke.distances.push_back(over_all(stroke.elements, tip, reference).distance);
-    }
-    strokes.push_back(std::move(stroke));
-  }
-  return strokes;
-}
-
-/// Follows the pen along each stroke; `use` gets the stroke, the tick and the foot.
-template <typename Use>
-void follow(const std::vector<DrawnStroke>& strokes, const NearestPointOptions& options, const Use& use) {
-  for (const DrawnStroke& stroke : strokes) {
-    if (options.method == NearestPointMethod::tracked) {
-      StrokeTracker tracker(stroke.elements, options.tolerance);
-      for (std::size_t i = 0; i < stroke.path.size(); ++i) use(stroke, i, tracker.update(stroke.path[i]).foot);
-    } else {
-      for (std::size_t i = 0; i < stroke.path.size(); ++i) {
-        use(stroke, i, over_all(stroke.elements, stroke.path[i], options));
-      }
-    }
-  }
-}
-
-std::vector<double> tick_errors(const std::vector<DrawnStroke>& strokes, const NearestPointOptions& options) {
-  std::vector<double> errors;
-  follow(strokes, options, [&errors](const DrawnStroke& stroke, std::size_t i, const NearestPoint& foot) {
-    errors.push_back(std::abs(foot.distance - stroke.distances[i]) / stroke.size);
-  });
-  return errors;
-}
-
-double tick_time(const std::vector<DrawnStroke>& strokes, const NearestPointOptions& options) {
-  return seconds_of([&] {
-    double sum = 0.0;
-    follow(strokes, options,
-           [&sum](const DrawnStroke&, std::size_t, const NearestPoint& foot) { sum += foot.parameter; });
-    return sum;
-  });
-}
-
-// ---- what the hand feels
-
-/// A pen drawn along one curve: the guidance of the active element alone.
-struct DrawnCurve {
-  StrokeElement element;
-  std::vector<Point> path;
-};
-
-/// The part of each pen path that belongs to a curve.
-std::vector<DrawnCurve> drawn_curves(const std::vector<DrawnStroke>& strokes, double step) {
-  std::vector<DrawnCurve> curves;
-  for (const DrawnStroke& stroke : strokes) {
-    double end = 0.0;
-    std::size_t tick = 0;
-    for (const StrokeElement& element : stroke.elements) {
-      end += element.length();
-      DrawnCurve curve{element, {}};
-      for (; tick < stroke.path.size() && static_cast<double>(tick) * step <= end; ++tick) {
-        curve.path.push_back(stroke.path[tick]);
-      }
-      if (element.curve() != nullptr) curves.push_back(std::move(curve));
-    }
-  }
-  return curves;
-}
-
-/// A pen beside an arc of 90 degrees round the origin, outside it by `offset`, at constant speed.
-DrawnCurve arc(double radius, double offset, double step) {
-  constexpr double angle = 0.5 * std::numbers::pi;
-  const double handle = 4.0 / 3.0 * std::tan(angle / 4.0) * radius;
-  const std::vector<Point> points = {{radius, 0.0}, {radius, handle}, {handle, radius}, {0.0, radius}};
-  DrawnCurve curve{prepare_element(points), {}};
-  const double pen_radius = radius + offset;
-  for (double turned = 0.0; turned <= angle; turned += step / pen_radius) {
-    curve.path.push_back(pen_radius * Point(std::cos(turned), std::sin(turned)));
-  }
-  return curve;
-}
-
-std::vector<DrawnCurve> gentle_arcs(double step) {
-  std::vector<DrawnCurve> arcs;
-  for (const double radius : {0.015, 0.025, 0.040}) {
-    for (const double offset : {-0.004, -0.002, -0.001, 0.001, 0.002, 0.004}) arcs.push_back(arc(radius, offset, step));
-  }
-  return arcs;
-}
-
-PenFeel feel(const std::vector<DrawnCurve>& curves, const NearestPointOptions& options, double stiffness) {
-  PenFeel result;
-  std::size_t ticks = 0, wrong = 0;
-  for (const DrawnCurve& curve : curves) {
-    Point last = Point::Zero();
-    double parameter = 0.5;
-    for (std::size_t i = 0; i < curve.path.size(); ++i) {
-      const Point& tip = curve.path[i];
-      const NearestPoint foot = nearest_point(curve.element, tip, options, {}, parameter);
-      parameter = foot.parameter;
-      const double exact = nearest_point(curve.element, tip, reference).distance;
-      const Point force = attraction_force(stiffness, tip, foot.point);
-      if (i > 0) result.largest_step = std::max(result.largest_step, (force - last).norm());
-      last = force;
-      ++ticks;
-      if (!(std::abs(foot.distance - exact) <= wrong_branch * curve.element.size())) ++wrong;
-    }
-  }
-  result.wrong = ticks > 0 ? static_cast<double>(wrong) / static_cast<double>(ticks) : 0.0;
-  return result;
-}
 
 std::string setting_name(const NearestPointOptions& options) {
   char setting[32];
@@ -352,22 +210,24 @@ std::vector<NearestPointTrade> nearest_point_trade(std::span<const Character> ch
   drawing.rate = options.rate;
   drawing.speed = options.speed;
   drawing.seed = options.seed;
-  const std::vector<DrawnStroke> drawn = drawn_strokes(stroke_queries(characters, drawing));
+  const DrawnStrokes drawn = drawn_strokes(stroke_queries(characters, drawing));
+  const std::vector<DrawnStrokes> groups = in_groups(drawn);
   const double step = options.speed / options.rate;
   const std::vector<DrawnCurve> curves = drawn_curves(drawn, step), arcs = gentle_arcs(step);
 
   const std::vector<NearestPointSetting> settings = nearest_point_settings();
-  // Per setting and workload; the last: ticks.
-  std::vector<std::vector<Rounds>> rounds(settings.size(), std::vector<Rounds>(workloads.size() + 1));
+  // Per setting; of each workload, then of each group of strokes.
+  const std::size_t parts = workloads.size() + groups.size();
+  std::vector<std::vector<Rounds>> rounds(settings.size(), std::vector<Rounds>(parts));
   for (int round = 0; round < options.rounds; ++round) {
-    for (std::size_t w = 0; w <= workloads.size(); ++w) {
+    for (std::size_t w = 0; w < parts; ++w) {
       for (std::size_t i = 0; i < settings.size(); ++i) {
         // Another one begins in each round, so that none always follows the same.
         const std::size_t s = (i + static_cast<std::size_t>(round)) % settings.size();
         const NearestPointOptions& own = settings[s].options;
         Rounds& times = rounds[s][w];
-        if (w == workloads.size()) {
-          times.one_by_one.push_back(tick_time(drawn, own));
+        if (w >= workloads.size()) {
+          times.one_by_one.push_back(tick_time(groups[w - workloads.size()], own));
         } else {
           times.one_by_one.push_back(time_of(workloads[w], own));
           times.batch.push_back(batch_time_of(workloads[w], own));
@@ -385,12 +245,17 @@ std::vector<NearestPointTrade> nearest_point_trade(std::span<const Character> ch
     Pool real, hard;
     for (std::size_t w = 0; w < workloads.size(); ++w) {
       const std::vector<double> errors = errors_of(workloads[w], own);
-      entry.workloads.push_back(cost(workloads[w].name, errors, rounds[s][w]));
-      (is_real(workloads[w].name) ? real : hard).add(errors, rounds[s][w]);
+      entry.workloads.push_back(cost_of(workloads[w].name, errors, rounds[s][w]));
+      (is_real(workloads[w].name) ? real : hard).add(errors, entry.workloads.back());
     }
-    entry.real = cost("real strokes", std::move(real.errors), real.rounds);
-    entry.hard = cost("hard", std::move(hard.errors), hard.rounds);
-    entry.ticks = cost("ticks along strokes", tick_errors(drawn, own), rounds[s].back());
+    entry.real = real.cost("real strokes");
+    entry.hard = hard.cost("hard");
+    Pool ticks;
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      const std::vector<double> errors = tick_errors(groups[g], own);
+      ticks.add(errors, cost_of("", errors, rounds[s][workloads.size() + g]));
+    }
+    entry.ticks = ticks.cost("ticks along strokes");
     entry.strokes = feel(curves, own, options.stiffness);
     entry.arcs = feel(arcs, own, options.stiffness);
     trade.push_back(std::move(entry));

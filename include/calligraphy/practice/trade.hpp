@@ -46,8 +46,8 @@ struct PenFeel {
 
 struct NearestPointTrade {
   NearestPointSetting setting;
-  NearestPointCost real;                    ///< the workloads on real strokes together
-  NearestPointCost hard;                    ///< all others together
+  NearestPointCost real;                    ///< the workloads on real strokes together; times are the means of theirs
+  NearestPointCost hard;                    ///< all others together, likewise
   std::vector<NearestPointCost> workloads;  ///< each by itself, see nearest_point_workload.hpp
   /// Following a pen along whole strokes: at each tick every element is asked, or a StrokeTracker where the method is
   /// `tracked`. No batches.
