@@ -41,7 +41,7 @@ std::string hand_table(const TradeReport& report) {
   std::string text =
       fmt::format("Nearest point from tick to tick, and what the hand feels of it: K = {:g} N/m, {:g} mm/s, {:g} Hz\n",
                   options.stiffness, options.speed * millimetres, options.rate);
-  text += fmt::format(fmt::runtime(head), "", "", "strokes", "", "curves of", "strokes", "gentle", "arcs");
+  text += fmt::format("{:<18}{:>27}{:>22}{:>22}\n", "", "pen along whole strokes", "curves of strokes", "gentle arcs");
   text += fmt::format(fmt::runtime(head), "", "tick", "p90", "wrong", "force step", "wrong", "force step", "wrong");
   text += fmt::format(fmt::runtime(head), "method", "[ns]", "[ns]", "[%]", "[N/tick]", "[%]", "[N/tick]", "[%]");
   for (const NearestPointTrade& entry : report.nearest_point) {
