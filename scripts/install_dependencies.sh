@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
 # Installs what the build needs on Debian 12 or Ubuntu 24.04; does nothing when all of it is there.
-# usage: install_dependencies.sh [tests]     tests: also what only the tests need
+# usage: install_dependencies.sh [tests|peers]
+#   tests   also what only the tests need
+#   peers   also what benchmarks/nearest_point/run.sh compares with, and its valgrind
 set -euo pipefail
 
 packages=(cmake g++ gnuplot-nox libboost-dev libcli11-dev libeigen3-dev libfmt-dev libpugixml-dev libspdlog-dev
@@ -8,8 +10,12 @@ packages=(cmake g++ gnuplot-nox libboost-dev libcli11-dev libeigen3-dev libfmt-d
 if [[ ${1:-} == tests ]]; then
   packages+=(ca-certificates catch2 libbenchmark-dev python3)
   command -v npm > /dev/null || packages+=(npm)
+elif [[ ${1:-} == peers ]]; then
+  packages+=(ca-certificates lib2geom-dev libbenchmark-dev pkg-config python3 valgrind)
+  command -v cargo > /dev/null || packages+=(cargo)
+  command -v npm > /dev/null || packages+=(npm)
 elif [[ $# -gt 0 ]]; then
-  echo "usage: $0 [tests]" >&2
+  echo "usage: $0 [tests|peers]" >&2
   exit 2
 fi
 

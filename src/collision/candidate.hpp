@@ -1,36 +1,52 @@
 // A point of a curve that may be the nearest one.
 #pragma once
 
-#include <limits>
+#include <cmath>
+
+#include <calligraphy/collision/nearest_point.hpp>
 
 #include "curve_derivatives.hpp"
 
 namespace calligraphy {
 
-struct Candidate {
+template <typename Vector>
+struct CurvePoint {
   double t;
-  Point place, offset, velocity;  ///< in sizes; offset is from the query
-  double square;                  ///< of the distance
+  Vector place, offset, velocity;  ///< at t, in sizes; offset is from the query
 };
 
-template <int Degree>
-inline Candidate candidate(const CurveElement& curve, const Point& query, double t) {
-  Candidate at;
-  at.t = t;
-  at.place = place<Degree>(curve.coefficients, t);
-  at.offset = at.place - query;
-  at.velocity = first_derivative<Degree>(curve.coefficients, t);
-  at.square = at.offset.squaredNorm();
-  return at;
+using Candidate = CurvePoint<Pair>;
+
+template <int Degree, typename Vector>
+[[gnu::always_inline]] inline CurvePoint<Vector> candidate(const CurveElement& curve, Vector query, double t) {
+  const Vector at = place<Degree, Vector>(curve, t);
+  return {t, at, at - query, first_derivative<Degree, Vector>(curve, t)};
 }
 
+/// Below it the direction of the velocity is rounding noise [sizes].
+inline constexpr double least_speed = 1e-7;
+
 /// Whether `next` takes the place of `best`: it is nearer, or as near up to rounding and its parameter is smaller.
-inline bool nearer(const Candidate& next, const Candidate& best) {
-  // The difference of the squares as a product is exact to rounding however far the query is.
-  const Point between = best.place - next.place, sum = best.offset + next.offset;
-  const double gain = between.dot(sum);
-  const double tie = 4.0 * std::numeric_limits<double>::epsilon() * between.cwiseAbs().dot(sum.cwiseAbs());
+[[gnu::always_inline]] inline bool nearer(const Candidate& next, const Candidate& best) {
+  // The difference of the squares as a product is exact to rounding however far the query is; the places are so to
+  // about 1e-15 sizes.
+  constexpr double rounding = 1e-14;
+  const Pair sum = best.offset + next.offset;
+  const double gain = dot(best.place - next.place, sum);
+  const double tie = rounding * (std::abs(sum[0]) + std::abs(sum[1]));
   return gain > tie || (gain >= -tie && next.t < best.t);
+}
+
+[[gnu::always_inline]] inline NearestPoint curve_answer(const CurveElement& curve, const Candidate& at,
+                                                        NearestPointStatus status) {
+  const double speed = std::sqrt(dot(at.velocity, at.velocity));
+  const Pair point = pair(curve.origin) + at.place * curve.size;
+  const Pair tangent = at.velocity * (1.0 / speed);
+  NearestPoint answer{at.t, Point(point[0], point[1]), curve.size * std::sqrt(dot(at.offset, at.offset)),
+                      Point(tangent[0], tangent[1]), status};
+  if (!(speed > least_speed)) [[unlikely]]
+    answer.tangent = curve.tangent(at.t);
+  return answer;
 }
 
 }  // namespace calligraphy

@@ -6,181 +6,155 @@
 #include <cstdint>
 
 #include "candidate.hpp"
-#include "curve_answer.hpp"
 #include "minimum_search.hpp"
 #include "polish.hpp"
 #include "refused_query.hpp"
+#include "slope_cells.hpp"
 #include "slope_signs.hpp"
 
 namespace calligraphy {
 namespace {
 
-__attribute__((noinline)) NearestPoint search_or_refuse(const CurveElement& curve, const Point& query, double tolerance,
-                                                        const ParameterRange& range) {
+[[gnu::noinline]] NearestPoint search_or_refuse(const CurveElement& curve, Pair query, double tolerance,
+                                                const ParameterRange& range) {
   if (!within_reach(query)) return refused_query(curve, range);
   return search_minima(curve, query, tolerance, range);
 }
 
-/// Parameter between neighbouring ordinates of the cells.
+/// The only minimum of the whole curve, sought from `start`, is the answer within a range, too, or the range's nearer
+/// end.
 template <int Degree>
-constexpr double cell_ordinates = 1.0 / ((2 * Degree - 1) * (Degree < 4 ? 8 : 4));
-
-/// Zero of the control polygon between an ordinate and the next.
-template <int Count>
-inline __attribute__((always_inline)) double polygon_zero(const SlopeOrdinates<Count>& ordinates, int change,
-                                                          double per_ordinate, const Point& query) {
-  const auto i = static_cast<std::size_t>(change);
-  const float x = static_cast<float>(query.x()), y = static_cast<float>(query.y());
-  const double before = slope_ordinate(ordinates, i, x, y), after = slope_ordinate(ordinates, i + 1, x, y);
-  return (static_cast<double>(change) + before / (before - after)) * per_ordinate;
-}
-
-template <int Degree>
-inline __attribute__((always_inline)) NearestPoint answer_within(const CurveElement& curve, const Polished& found,
-                                                                 const Point& query, const ParameterRange& range) {
-  if (found.t >= range.begin && found.t <= range.end) {
-    return curve_answer(curve, found.t, found.place, found.offset, found.velocity, NearestPointStatus::certified);
+[[gnu::always_inline]] inline NearestPoint only_minimum(const CurveElement& curve, Pair query, double tolerance,
+                                                        const ParameterRange& range, double start) {
+  Residue residue;
+  const Candidate found = polish<Degree>(curve, SlopePolynomial<Degree>(curve, query), query, start, residue);
+  if (!residue.converged(curve, allowed_error<Degree>(tolerance))) {
+    return search_or_refuse(curve, query, tolerance, range);
   }
-  return curve_answer<Degree>(curve, std::clamp(found.t, range.begin, range.end), query, NearestPointStatus::certified);
+  const double t = found.t;
+  if (t >= range.begin && t <= range.end) [[likely]] {
+    return curve_answer(curve, found, NearestPointStatus::certified);
+  }
+  if (!(t >= 0.0 && t <= 1.0)) return search_or_refuse(curve, query, tolerance, range);
+  const Candidate end = candidate<Degree>(curve, query, t < range.begin ? range.begin : range.end);
+  return curve_answer(curve, end, NearestPointStatus::certified);
 }
 
 /// Several changes of sign, all certain, on the whole curve: each cell with one change from - to + holds one minimum.
 /// The nearest of them and of the ends is the answer.
 template <int Degree>
-inline __attribute__((always_inline)) bool nearest_of_several(const CurveElement& curve, const SlopeSigns& signs,
-                                                              std::uint64_t changes, const Point& query,
-                                                              double tolerance, Candidate& best) {
+[[gnu::noinline]] NearestPoint nearest_of_several(const CurveElement& curve,
+                                                  SlopeSigns<CurveElement::max_ordinates> signs, Pair query,
+                                                  double tolerance, const ParameterRange& range) {
   constexpr int per_cell = 2 * Degree - 1;
-  best = candidate<Degree>(curve, query, 0.0);
-  const std::uint64_t last = std::uint64_t{1} << (CurveElement::max_ordinates - 1);
-  int cell = -1;
-  while (changes != 0) {
-    const int change = std::countr_zero(changes);
-    changes &= changes - 1;
-    if (change / per_cell == cell) return false;  // two in one cell
-    cell = change / per_cell;
-    if (!((signs.negative >> change) & 1U)) continue;  // from + to -: a maximum
-    const Polished found =
-        polish<Degree>(curve, query, polygon_zero(curve.ordinates, change, cell_ordinates<Degree>, query), tolerance);
-    constexpr double width = per_cell * cell_ordinates<Degree>;
-    if (!(found.converged && found.t >= cell * width && found.t <= (cell + 1) * width)) return false;
-    const Candidate next{found.t, found.place, found.offset, found.velocity, found.offset.squaredNorm()};
-    if (nearer(next, best)) best = next;
+  constexpr double width = per_cell * ordinate_spacing<Degree>;
+  const double allowed = allowed_error<Degree>(tolerance);
+  int last_cell = -1;
+  for (std::uint64_t changes = signs.changes(); changes != 0; changes &= changes - 1) {
+    const int cell = std::countr_zero(changes) / per_cell;
+    if (cell == last_cell) return search_minima(curve, query, tolerance, range);  // two in one cell
+    last_cell = cell;
   }
-  if (signs.negative & last) {
+  const SlopePolynomial<Degree> polynomial(curve, query);
+  Candidate best = candidate<Degree>(curve, query, 0.0);
+  // From - to + only: the others are maxima.
+  for (std::uint64_t changes = signs.changes() & signs.negative; changes != 0; changes &= changes - 1) {
+    const int change = std::countr_zero(changes);
+    const int cell = change / per_cell;
+    const double start = (change + 0.5) * ordinate_spacing<Degree>;
+    Residue residue;
+    const Candidate found = polish<Degree>(curve, polynomial, query, start, residue);
+    if (!(residue.converged(curve, allowed) && found.t >= cell * width && found.t <= (cell + 1) * width)) {
+      return search_minima(curve, query, tolerance, range);
+    }
+    if (nearer(found, best)) best = found;
+  }
+  if (signs.last_negative()) {
     const Candidate end = candidate<Degree>(curve, query, 1.0);
     if (nearer(end, best)) best = end;
   }
-  return true;
+  return curve_answer(curve, best, NearestPointStatus::certified);
 }
 
-/// With every sign certain, no change says that the nearest point is an end; one change from - to +, that there is one
-/// minimum, between these ordinates.
+/// With every sign certain, one change from - to + says that there is one minimum, between these ordinates; no change,
+/// that the nearest point is an end.
 template <int Degree>
-inline __attribute__((always_inline)) NearestPoint from_signs(const CurveElement& curve, const SlopeSigns& signs,
-                                                              const Point& query, double tolerance,
-                                                              const ParameterRange& range) {
+[[gnu::always_inline]] inline NearestPoint from_signs(const CurveElement& curve,
+                                                      SlopeSigns<CurveElement::max_ordinates> signs, Pair query,
+                                                      double tolerance, const ParameterRange& range) {
   if (signs.certain) {
-    constexpr std::uint64_t all_changes = (std::uint64_t{1} << (CurveElement::max_ordinates - 1)) - 1;
-    const std::uint64_t changes = (signs.negative ^ (signs.negative >> 1)) & all_changes;
-    if ((changes & (changes - 1)) == 0 && (signs.negative & 1U) && changes != 0) {
-      const Polished found = polish<Degree>(
-          curve, query, polygon_zero(curve.ordinates, std::countr_zero(changes), cell_ordinates<Degree>, query),
-          tolerance);
-      if (found.converged && found.t >= 0.0 && found.t <= 1.0) {
-        return answer_within<Degree>(curve, found, query, range);
-      }
-    } else if (changes == 0) {
-      return curve_answer<Degree>(curve, (signs.negative & 1U) ? range.end : range.begin, query,
-                                  NearestPointStatus::certified);
+    const std::uint64_t changes = signs.changes();
+    if (changes == 0) {
+      const double end = signs.first_negative() ? range.end : range.begin;
+      return curve_answer(curve, candidate<Degree>(curve, query, end), NearestPointStatus::certified);
+    }
+    if (signs.first_negative() && (changes & (changes - 1)) == 0) {
+      const double start = (std::countr_zero(changes) + 0.5) * ordinate_spacing<Degree>;
+      return only_minimum<Degree>(curve, query, tolerance, range, start);
     } else if (range.begin <= 0.0 && range.end >= 1.0) {
-      Candidate best;
-      if (nearest_of_several<Degree>(curve, signs, changes, query, tolerance, best)) {
-        return curve_answer(curve, best.t, best.place, best.offset, best.velocity, NearestPointStatus::certified);
-      }
+      return nearest_of_several<Degree>(curve, signs, query, tolerance, range);
     }
   }
   return search_or_refuse(curve, query, tolerance, range);
 }
 
-struct Baseline {
-  template <int Count>
-  static SlopeSigns signs(const SlopeOrdinates<Count>& ordinates, float x, float y) {
-#if defined(__SSE2__)
-    return slope_signs_sse2(ordinates, x, y);
-#else
-    return slope_signs_portable(ordinates, x, y);
-#endif
-  }
-};
-
-using Query = NearestPoint (*)(const CurveElement&, const Point&, double, const ParameterRange&);
+/// `query` in metres, in all that follow.
+using Method = NearestPoint (*)(const CurveElement&, const Point&, double, const ParameterRange&);
 
 template <int Degree>
-NearestPoint query_baseline(const CurveElement& curve, const Point& query, double tolerance,
-                            const ParameterRange& range) {
-  const SlopeSigns signs =
-      Baseline::signs(curve.ordinates, static_cast<float>(query.x()), static_cast<float>(query.y()));
-  return from_signs<Degree>(curve, signs, query, tolerance, range);
+NearestPoint certified_baseline(const CurveElement& curve, const Point& query, double tolerance,
+                                const ParameterRange& range) {
+  const Pair relative = in_sizes(curve, query);
+  return from_signs<Degree>(curve, slope_signs(curve.ordinates, relative), relative, tolerance, range);
 }
 
 #if defined(__SSE2__)
 template <int Degree>
-__attribute__((target("avx2"))) NearestPoint query_avx2(const CurveElement& curve, const Point& query, double tolerance,
-                                                        const ParameterRange& range) {
-  const SlopeSigns signs =
-      slope_signs_avx2(curve.ordinates, static_cast<float>(query.x()), static_cast<float>(query.y()));
-  return from_signs<Degree>(curve, signs, query, tolerance, range);
+[[gnu::target("avx2")]] NearestPoint certified_avx2(const CurveElement& curve, const Point& query, double tolerance,
+                                                    const ParameterRange& range) {
+  const Pair relative = in_sizes(curve, query);
+  return from_signs<Degree>(curve, slope_signs_avx2(curve.ordinates, relative), relative, tolerance, range);
 }
 #endif
 
 /// By degree less 2. The baseline until the processor has been asked, when the program starts.
-constinit std::array<Query, 3> queries = {query_baseline<2>, query_baseline<3>, query_baseline<4>};
+constinit std::array<Method, 3> methods = {certified_baseline<2>, certified_baseline<3>, certified_baseline<4>};
 
 #if defined(__SSE2__)
 [[maybe_unused]] const bool chosen = [] {
-  if (__builtin_cpu_supports("avx2")) queries = {query_avx2<2>, query_avx2<3>, query_avx2<4>};
+  if (__builtin_cpu_supports("avx2")) methods = {certified_avx2<2>, certified_avx2<3>, certified_avx2<4>};
   return true;
 }();
 #endif
 
-/// `query` in sizes.
-NearestPoint certified(const CurveElement& curve, const Point& query, double tolerance, const ParameterRange& range) {
-  if (!within(query, furthest_for_signs)) return search_or_refuse(curve, query, tolerance, range);
-  return queries[static_cast<std::size_t>(curve.degree - 2)](curve, query, tolerance, range);
-}
-
 template <int Degree>
 NearestPoint tracked(const CurveElement& curve, const Point& query, double tolerance, const ParameterRange& range,
                      double start) {
-  if (!within(query, furthest_for_signs)) return search_or_refuse(curve, query, tolerance, range);
-  const SlopeSigns signs = Baseline::signs(curve.whole, static_cast<float>(query.x()), static_cast<float>(query.y()));
-  constexpr std::uint64_t all_changes = (1U << (2 * Degree - 1)) - 1;
-  const std::uint64_t changes = (signs.negative ^ (signs.negative >> 1)) & all_changes;
-  if (signs.certain && (signs.negative & 1U) && changes != 0 && (changes & (changes - 1)) == 0) {
-    const Polished found = polish<Degree>(curve, query, start, tolerance);
-    if (found.converged && found.t >= 0.0 && found.t <= 1.0) return answer_within<Degree>(curve, found, query, range);
+  const Pair relative = in_sizes(curve, query);
+  const auto signs = slope_signs(curve.whole, relative);
+  const std::uint64_t changes = signs.changes();
+  if (signs.certain && signs.first_negative() && std::has_single_bit(changes)) {
+    return only_minimum<Degree>(curve, relative, tolerance, range, start);
   }
-  return certified(curve, query, tolerance, range);
+  return certified_nearest_point(curve, query, tolerance, range);
 }
 
 }  // namespace
 
 NearestPoint certified_nearest_point(const CurveElement& curve, const Point& query, double tolerance,
                                      const ParameterRange& range) noexcept {
-  return certified(curve, (query - curve.origin) * curve.per_size, tolerance, range);
+  return methods[static_cast<std::size_t>(curve.degree - 2)](curve, query, tolerance, range);
 }
 
 NearestPoint tracked_nearest_point(const CurveElement& curve, const Point& query, double tolerance,
                                    const ParameterRange& range, double start) noexcept {
-  const Point relative = (query - curve.origin) * curve.per_size;
   switch (curve.degree) {
     case 2:
-      return tracked<2>(curve, relative, tolerance, range, start);
+      return tracked<2>(curve, query, tolerance, range, start);
     case 3:
-      return tracked<3>(curve, relative, tolerance, range, start);
+      return tracked<3>(curve, query, tolerance, range, start);
     default:
-      return tracked<4>(curve, relative, tolerance, range, start);
+      return tracked<4>(curve, query, tolerance, range, start);
   }
 }
 

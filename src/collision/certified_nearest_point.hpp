@@ -10,6 +10,10 @@ namespace calligraphy {
 NearestPoint certified_nearest_point(const CurveElement& curve, const Point& query, double tolerance,
                                      const ParameterRange& range) noexcept;
 
+/// Of many queries; the same as one by one, to the last bit.
+void certified_nearest_points(const CurveElement& curve, std::span<const Point> queries,
+                              std::span<NearestPoint> results, double tolerance) noexcept;
+
 /// The same point, from the last one.
 NearestPoint tracked_nearest_point(const CurveElement& curve, const Point& query, double tolerance,
                                    const ParameterRange& range, double start) noexcept;

@@ -5,36 +5,37 @@
 
 #include <calligraphy/collision/curve_element.hpp>
 
+#include "pair.hpp"
+
 namespace calligraphy {
 
-using Coefficients = std::array<Point, max_curve_degree>;
+/// The query relative to the curve's origin, in sizes.
+[[gnu::always_inline]] inline Pair in_sizes(const CurveElement& curve, const Point& query) {
+  return (pair(query) - pair(curve.origin)) * curve.per_size;
+}
 
-template <int Degree>
-inline Point place(const Coefficients& c, double t) {
-  Point sum = c[Degree - 1] * t;
-  for (std::size_t k = Degree - 1; k-- > 0;) sum = (sum + c[k]) * t;
+template <int Degree, typename Vector = Pair>
+[[gnu::always_inline]] inline Vector place(const CurveElement& curve, double t) {
+  Vector sum = vector_of<Vector>(curve.coefficients[Degree - 1]) * t;
+  for (std::size_t k = Degree - 1; k-- > 0;) sum = (sum + vector_of<Vector>(curve.coefficients[k])) * t;
   return sum;
 }
 
-template <int Degree>
-inline Point first_derivative(const Coefficients& c, double t) {
-  Point sum = Degree * c[Degree - 1];
-  for (std::size_t k = Degree - 1; k-- > 0;) sum = sum * t + static_cast<double>(k + 1) * c[k];
+template <int Degree, typename Vector = Pair>
+[[gnu::always_inline]] inline Vector first_derivative(const CurveElement& curve, double t) {
+  Vector sum = vector_of<Vector>(curve.coefficients[Degree - 1]) * static_cast<double>(Degree);
+  for (std::size_t k = Degree - 1; k-- > 0;) {
+    sum = sum * t + vector_of<Vector>(curve.coefficients[k]) * static_cast<double>(k + 1);
+  }
   return sum;
 }
 
-template <int Degree>
-inline Point second_derivative(const Coefficients& c, double t) {
-  Point sum = Degree * (Degree - 1) * c[Degree - 1];
-  for (std::size_t k = Degree - 1; k-- > 1;) sum = sum * t + static_cast<double>((k + 1) * k) * c[k];
-  return sum;
-}
-
-template <int Degree>
-inline Point third_derivative(const Coefficients& c, double t) {
-  if constexpr (Degree == 2) return Point::Zero();
-  Point sum = Degree * (Degree - 1) * (Degree - 2) * c[Degree - 1];
-  for (std::size_t k = Degree - 1; k-- > 2;) sum = sum * t + static_cast<double>((k + 1) * k * (k - 1)) * c[k];
+template <int Degree, typename Vector = Pair>
+[[gnu::always_inline]] inline Vector second_derivative(const CurveElement& curve, double t) {
+  Vector sum = vector_of<Vector>(curve.coefficients[Degree - 1]) * static_cast<double>(Degree * (Degree - 1));
+  for (std::size_t k = Degree - 1; k-- > 1;) {
+    sum = sum * t + vector_of<Vector>(curve.coefficients[k]) * static_cast<double>((k + 1) * k);
+  }
   return sum;
 }
 

@@ -4,17 +4,11 @@
 #include <cmath>
 #include <cstddef>
 
+#include "binomial.hpp"
+#include "slope_cells.hpp"
+
 namespace calligraphy {
 namespace {
-
-constexpr std::array<std::array<double, 8>, 8> binomial = {{{1},
-                                                            {1, 1},
-                                                            {1, 2, 1},
-                                                            {1, 3, 3, 1},
-                                                            {1, 4, 6, 4, 1},
-                                                            {1, 5, 10, 10, 5, 1},
-                                                            {1, 6, 15, 20, 15, 6, 1},
-                                                            {1, 7, 21, 35, 35, 21, 7, 1}}};
 
 /// Length of the derivative relative to the element's size below which its direction is rounding noise.
 constexpr double vanishing_slope = 1e-7;
@@ -22,45 +16,32 @@ constexpr double vanishing_slope = 1e-7;
 /// So near to the end of a curve that ends without speed, the sign of its derivatives is rounding noise too.
 constexpr double at_end = 1e-6;
 
-/// Parts of an ordinate: the factors of q_x and q_y, and the constant; the fourth fills the register.
-using Parts = Eigen::Array4d;
-using PartRow = std::array<Parts, 2 * max_curve_degree>;
+/// Coefficients or ordinates of one part of g: of the factor of q_x, of that of q_y, or of what no query changes.
+using Row = std::array<double, 2 * max_curve_degree>;
 
-/// Of the curve that the coefficients describe, over [0, 1].
-PartRow bernstein_ordinates(const CurveElement& curve) {
-  const int degree = 2 * curve.degree - 1;
-  PartRow row;
-  row.fill(Parts::Zero());
-  for (int k = 1; k <= curve.degree; ++k) {
-    const Point& factor = curve.coefficients[static_cast<std::size_t>(k - 1)];
-    Parts& power = row[static_cast<std::size_t>(k - 1)];
-    power.head<2>() = -k * factor;
-    for (int i = 1; i <= curve.degree; ++i) {
-      row[static_cast<std::size_t>(i + k - 1)][2] +=
-          k * curve.coefficients[static_cast<std::size_t>(i - 1)].dot(factor);
-    }
+/// From powers of t to Bernstein's basis over [0, 1].
+template <int Degree>
+void to_bernstein(Row& row) {
+  for (std::size_t i = 1; i < Degree; ++i) row[i] *= 1.0 / binomial[Degree][i];
+  for (std::size_t k = 1; k <= Degree; ++k) {
+    for (std::size_t i = Degree; i >= k; --i) row[i] += row[i - 1];
   }
-  const auto last = static_cast<std::size_t>(degree);
-  for (std::size_t i = 1; i < last; ++i) row[i] /= binomial[last][i];
-  for (std::size_t k = 1; k <= last; ++k) {
-    for (std::size_t i = last; i >= k; --i) row[i] += row[i - 1];
-  }
-  return row;
 }
 
 /// Divides by t as often as the curve starts without speed, and by 1 - t as often as it ends so: g is zero there for
 /// every query, which would leave its sign open. The signs inside stay, and so does the degree, by elevation.
-void divide_zeros_out(PartRow& row, int degree, int at_start, int at_end) {
-  const int reduced = degree - at_start - at_end;
-  for (int n = degree; n > degree - at_start; --n) {
+template <int Degree>
+void divide_zeros_out(Row& row, int from_start, int from_end) {
+  const int reduced = Degree - from_start - from_end;
+  for (int n = Degree; n > Degree - from_start; --n) {
     for (int i = 0; i < n; ++i) {
-      row[static_cast<std::size_t>(i)] = row[static_cast<std::size_t>(i + 1)] * (static_cast<double>(n) / (i + 1));
+      row[static_cast<std::size_t>(i)] = row[static_cast<std::size_t>(i + 1)] * n / (i + 1);
     }
   }
-  for (int n = degree - at_start; n > reduced; --n) {
+  for (int n = Degree - from_start; n > reduced; --n) {
     for (int i = 0; i < n; ++i) row[static_cast<std::size_t>(i)] *= static_cast<double>(n) / (n - i);
   }
-  for (int n = reduced; n < degree; ++n) {
+  for (int n = reduced; n < Degree; ++n) {
     row[static_cast<std::size_t>(n + 1)] = row[static_cast<std::size_t>(n)];
     for (int i = n; i > 0; --i) {
       const double share = static_cast<double>(i) / (n + 1);
@@ -70,80 +51,75 @@ void divide_zeros_out(PartRow& row, int degree, int at_start, int at_end) {
   }
 }
 
-/// De Casteljau's algorithm: `row` becomes its second half, the first one is returned.
-PartRow split(PartRow& row, std::size_t degree) {
-  PartRow left;
-  for (std::size_t k = 0; k <= degree; ++k) {
-    left[k] = row[0];
-    for (std::size_t i = 0; i + k < degree; ++i) row[i] = 0.5 * (row[i] + row[i + 1]);
+/// What each ordinate of a polynomial over the whole curve adds to each ordinate over the cells: subdivision is linear.
+template <int Degree, std::size_t Count>
+constexpr std::array<std::array<double, Count>, Degree + 1> subdivision(int cells) {
+  std::array<std::array<double, Count>, Degree + 1> weights = {};
+  for (std::size_t unit = 0; unit <= Degree; ++unit) {
+    std::array<double, Degree + 1> rest = {};
+    rest[unit] = 1.0;
+    std::size_t next = 0;
+    weights[unit][next++] = rest[0];
+    // De Casteljau's algorithm cuts one cell after the other off the rest.
+    for (int left = cells; left > 0; --left) {
+      std::array<double, Degree + 1> cell = rest;
+      for (std::size_t k = 0; left > 1 && k <= Degree; ++k) {
+        cell[k] = rest[0];
+        for (std::size_t i = 0; i + k < Degree; ++i) rest[i] += (rest[i + 1] - rest[i]) / left;
+      }
+      for (std::size_t i = 1; i <= Degree; ++i) weights[unit][next++] = cell[i];
+    }
+    // Unused places repeat the last ordinate and so show no change of sign.
+    for (; next < Count; ++next) weights[unit][next] = weights[unit][next - 1];
   }
-  return left;
+  return weights;
 }
 
-/// Stores ordinates as the signs are sought in them.
-template <int Count>
-class OrdinateWriter {
- public:
-  explicit OrdinateWriter(SlopeOrdinates<Count>& ordinates) : ordinates_(ordinates) {}
-
-  void append(const Parts& parts) {
-    const auto i = static_cast<std::size_t>(count_++);
-    ordinates_.x[i] = static_cast<float>(parts[0]);
-    ordinates_.y[i] = static_cast<float>(parts[1]);
-    ordinates_.constant[i] = static_cast<float>(parts[2]);
-    largest_ = largest_.max(parts.abs());
+template <int Degree, std::size_t Count>
+float write_ordinates(const Row& row, const std::array<std::array<double, Count>, Degree + 1>& weights,
+                      std::array<float, Count>& ordinates) {
+  for (std::size_t i = 0; i < Count; ++i) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k <= Degree; ++k) sum += weights[k][i] * row[k];
+    ordinates[i] = static_cast<float>(sum);
   }
+  float largest = 0.0F;  // over the whole curve bounds what is over a part
+  for (std::size_t k = 0; k <= Degree; ++k) largest = std::max(largest, static_cast<float>(std::abs(row[k])));
+  return largest;
+}
 
-  /// Repeats the last one in the unused places, where it cannot show a change of sign.
-  void finish() {
-    const auto used = static_cast<std::size_t>(count_);
-    for (auto* row : {&ordinates_.x, &ordinates_.y, &ordinates_.constant}) {
-      std::fill(row->begin() + count_, row->end(), (*row)[used - 1]);
-    }
-    ordinates_.largest_x = static_cast<float>(largest_[0]);
-    ordinates_.largest_y = static_cast<float>(largest_[1]);
-    ordinates_.largest_constant = static_cast<float>(largest_[2]);
+template <int Degree, std::size_t Count>
+void write_parts(const std::array<Row, 3>& parts, const std::array<std::array<double, Count>, Degree + 1>& weights,
+                 SlopeOrdinates<Count>& ordinates) {
+  ordinates.largest_x = write_ordinates<Degree>(parts[0], weights, ordinates.x);
+  ordinates.largest_y = write_ordinates<Degree>(parts[1], weights, ordinates.y);
+  ordinates.largest_constant = write_ordinates<Degree>(parts[2], weights, ordinates.constant);
+}
+
+template <int Degree>
+void prepare_ordinates(CurveElement& curve, int equal_at_start, int equal_at_end) {
+  constexpr int degree = 2 * Degree - 1;
+  std::array<Row, 3> parts = {};
+  parts[2] = curve.slope_of_square;
+  for (std::size_t k = 0; k < Degree; ++k) {
+    parts[0][k] = -static_cast<double>(k + 1) * curve.coefficients[k].x();
+    parts[1][k] = -static_cast<double>(k + 1) * curve.coefficients[k].y();
   }
-
- private:
-  SlopeOrdinates<Count>& ordinates_;
-  Parts largest_ = Parts::Zero();
-  int count_ = 0;
-};
-
-void prepare_ordinates(CurveElement& curve, std::span<const Point> control_points) {
-  const auto degree = static_cast<std::size_t>(2 * curve.degree - 1);
-  PartRow row = bernstein_ordinates(curve);
-  const auto other = [&](const Point& point) { return (point - control_points.front()).cwiseAbs().maxCoeff() > 0.0; };
-  const auto different = [&](const Point& point) {
-    return (point - control_points.back()).cwiseAbs().maxCoeff() > 0.0;
-  };
-  const auto equal_to_first =
-      std::find_if(control_points.begin(), control_points.end(), other) - control_points.begin();
-  const auto equal_to_last =
-      std::find_if(control_points.rbegin(), control_points.rend(), different) - control_points.rbegin();
-  divide_zeros_out(row, static_cast<int>(degree), static_cast<int>(equal_to_first) - 1,
-                   static_cast<int>(equal_to_last) - 1);
-  OrdinateWriter whole(curve.whole);
-  for (std::size_t i = 0; i <= degree; ++i) whole.append(row[i]);
-  whole.finish();
-
-  curve.cells = curve.degree < 4 ? 8 : 4;
-  std::array<PartRow, 8> cells;
-  cells[0] = row;
-  for (std::size_t width = static_cast<std::size_t>(curve.cells); width > 1; width /= 2) {
-    for (std::size_t i = 0; i < static_cast<std::size_t>(curve.cells); i += width) {
-      PartRow right = cells[i];
-      cells[i] = split(right, degree);
-      cells[i + width / 2] = right;
-    }
+  for (Row& row : parts) {
+    to_bernstein<degree>(row);
+    if (equal_at_start + equal_at_end > 2) divide_zeros_out<degree>(row, equal_at_start - 1, equal_at_end - 1);
   }
-  OrdinateWriter writer(curve.ordinates);
-  writer.append(row[0]);
-  for (int cell = 0; cell < curve.cells; ++cell) {
-    for (std::size_t i = 1; i <= degree; ++i) writer.append(cells[static_cast<std::size_t>(cell)][i]);
-  }
-  writer.finish();
+  static constexpr auto of_whole = subdivision<degree, CurveElement::whole_ordinates>(1);
+  static constexpr auto of_cells = subdivision<degree, CurveElement::max_ordinates>(cells_of_degree(Degree));
+  write_parts<degree>(parts, of_whole, curve.whole);
+  write_parts<degree>(parts, of_cells, curve.ordinates);
+}
+
+/// Control points equal to the first one and next to it, itself included.
+template <typename Iterator>
+int equal_run(Iterator begin, Iterator end) {
+  const auto other = std::find_if(begin, end, [&](const Point& point) { return point != *begin; });
+  return static_cast<int>(other - begin);
 }
 
 /// Gauss-Legendre quadrature of the speed with 2 nodes an interval.
@@ -227,7 +203,17 @@ CurveElement prepare_curve(std::span<const Point> control_points) noexcept {
     curve.coefficients[k - 1] = binomial[n][k] * difference[0];
     curve.least_slope += 1e-5 * curve.coefficients[k - 1].squaredNorm();
   }
-  prepare_ordinates(curve, control_points);
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t k = 0; k < n; ++k) {
+      curve.slope_of_square[i + k + 1] += static_cast<double>(k + 1) * curve.coefficients[i].dot(curve.coefficients[k]);
+    }
+  }
+  curve.cells = cells_of_degree(curve.degree);
+  const int at_first = equal_run(control_points.begin(), control_points.end());
+  const int at_last = equal_run(control_points.rbegin(), control_points.rend());
+  if (curve.degree == 2) prepare_ordinates<2>(curve, at_first, at_last);
+  if (curve.degree == 3) prepare_ordinates<3>(curve, at_first, at_last);
+  if (curve.degree == 4) prepare_ordinates<4>(curve, at_first, at_last);
   prepare_arc(curve);
   return curve;
 }

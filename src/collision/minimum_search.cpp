@@ -8,16 +8,17 @@
 #include <cstdint>
 #include <limits>
 
+#include "binomial.hpp"
 #include "candidate.hpp"
-#include "curve_answer.hpp"
 #include "polish.hpp"
-#include "refused_query.hpp"
 #include "slope_signs.hpp"
 
 namespace calligraphy {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+double larger_coordinate(Pair vector) { return std::max(std::abs(vector[0]), std::abs(vector[1])); }
 
 /// The search of one query on one curve. Half the slope of the squared distance is the polynomial
 /// g(t) = (B(t) - q) . B'(t), of degree 2 n - 1. Its Bernstein ordinates over an interval bound it there, and the
@@ -26,18 +27,15 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 template <int Degree>
 class MinimumSearch {
  public:
-  MinimumSearch(const CurveElement& curve, const Point& query, double tolerance, const ParameterRange& range)
-      : curve_(curve), query_(query), tolerance_(tolerance), range_(range) {}
+  MinimumSearch(const CurveElement& curve, Pair query, double tolerance, const ParameterRange& range)
+      : curve_(curve), query_(query), tolerance_(tolerance), range_(range), polynomial_(curve, query) {}
 
   NearestPoint run() {
     best_ = candidate<Degree>(curve_, query_, range_.begin);
+    best_square_ = dot(best_.offset, best_.offset);
     offer(range_.end);
-    if (within(query_, furthest_for_signs)) {
-      search_cells();
-    } else {
-      isolate(range_);
-    }
-    return curve_answer(curve_, best_.t, best_.place, best_.offset, best_.velocity,
+    search_cells();
+    return curve_answer(curve_, best_,
                         intervals_ <= interval_limit ? NearestPointStatus::certified : NearestPointStatus::approximate);
   }
 
@@ -47,23 +45,27 @@ class MinimumSearch {
   static constexpr int stack_limit = 64;
   static constexpr double narrowest = 1e-11;
   using Terms = std::array<double, slope_degree + 1>;
+  using Controls = std::array<Pair, Degree + 1>;
 
   struct Interval {
     double begin, end;
     double begin_square, end_square;  ///< squared distances
-    Terms ordinates;
+    Controls controls;                ///< relative to the query
   };
 
   double offer(double t) {
     const Candidate next = candidate<Degree>(curve_, query_, t);
-    if (nearer(next, best_)) best_ = next;
-    return next.square;
+    const double square = dot(next.offset, next.offset);
+    if (nearer(next, best_)) {
+      best_ = next;
+      best_square_ = square;
+    }
+    return square;
   }
 
   /// Cells whose ordinates have certain signs need no more than a look at them.
   void search_cells() {
-    const CertainSigns signs =
-        certain_signs(curve_.ordinates, static_cast<float>(query_.x()), static_cast<float>(query_.y()));
+    const CertainSigns signs = certain_signs(curve_.ordinates, query_);
     const double width = 1.0 / curve_.cells;
     constexpr std::uint64_t all = (1U << (slope_degree + 1)) - 1;
     unsigned unclear = 0;
@@ -73,12 +75,12 @@ class MinimumSearch {
       if (negative == all || positive == all) continue;
       const double begin = cell * width, end = begin + width;
       const bool whole = begin >= range_.begin && end <= range_.end;
-      if (whole && (negative | positive) == all) {
-        const std::uint64_t changes = (negative ^ (negative >> 1)) & (all >> 1);
-        if (std::has_single_bit(changes)) {
-          if (negative & 1U) descend(begin, end, start_in_cell(cell, std::countr_zero(changes)));
-          continue;
-        }
+      // Uncertain signs between certain ones that differ leave one change, whatever they are.
+      if (whole && starts_and_ends(positive, negative, all)) continue;  // from + to -: a maximum
+      if (whole && starts_and_ends(negative, positive, all)) {
+        const int last = std::countr_one(negative) - 1, next = std::countr_zero(positive);
+        descend(begin, end, begin + width * (last + next) / (2 * slope_degree));
+        continue;
       }
       unclear |= 1U << cell;
     }
@@ -89,54 +91,58 @@ class MinimumSearch {
     }
   }
 
-  /// Zero of the control polygon between ordinates `change` and the next of a cell.
-  double start_in_cell(int cell, int change) const {
-    const auto i = static_cast<std::size_t>(slope_degree * cell + change);
-    const float x = static_cast<float>(query_.x()), y = static_cast<float>(query_.y());
-    const double before = slope_ordinate(curve_.ordinates, i, x, y),
-                 after = slope_ordinate(curve_.ordinates, i + 1, x, y);
-    return (static_cast<double>(i) + before / (before - after)) / (slope_degree * curve_.cells);
+  /// Whether the bits of `first` are the lowest ones and those of `second` the highest ones of `all`.
+  static bool starts_and_ends(std::uint64_t first, std::uint64_t second, std::uint64_t all) {
+    const std::uint64_t not_second = all & ~second;
+    return first != 0 && second != 0 && (first & (first + 1)) == 0 && (not_second & (not_second + 1)) == 0;
   }
 
-  void set_up_polynomial() {
-    power_.fill(0.0);
+  /// Control points of a part of the curve, relative to the query.
+  Controls controls(const ParameterRange& part) const {
+    // Of the whole curve: from the power basis to Bernstein's. Then de Casteljau's algorithm at both ends. Coordinates
+    // relative to the query keep their digits where control points and query crowd together.
+    Controls row;
+    row[0] = -query_;
+    for (std::size_t k = 1; k <= Degree; ++k) row[k] = pair(curve_.coefficients[k - 1]) / binomial[Degree][k];
     for (std::size_t k = 1; k <= Degree; ++k) {
-      const Point& factor = curve_.coefficients[k - 1];
-      for (std::size_t i = 1; i <= Degree; ++i) {
-        power_[i + k - 1] += static_cast<double>(k) * curve_.coefficients[i - 1].dot(factor);
-      }
-      power_[k - 1] -= static_cast<double>(k) * query_.dot(factor);
+      for (std::size_t i = Degree; i >= k; --i) row[i] += row[i - 1];
     }
-    double scale = 0.0;
-    for (const double term : power_) scale += std::abs(term);
-    noise_ = 16.0 * epsilon * scale;
+    if (part.end < 1.0) {
+      for (std::size_t k = 1; k <= Degree; ++k) {
+        for (std::size_t i = Degree; i >= k; --i) row[i] = row[i - 1] + (row[i] - row[i - 1]) * part.end;
+      }
+    }
+    if (part.begin > 0.0) {
+      const double share = part.begin / part.end;
+      for (std::size_t k = 1; k <= Degree; ++k) {
+        for (std::size_t i = 0; i + k <= Degree; ++i) row[i] += (row[i + 1] - row[i]) * share;
+      }
+    }
+    return row;
   }
 
-  /// Bernstein ordinates over a part of [0, 1]: shift and scale the power basis, then divide by binomials.
-  Terms ordinates(const ParameterRange& part) const {
-    constexpr std::size_t degree = slope_degree;
-    Terms terms = power_;
-    for (std::size_t k = 0; k < degree; ++k) {
-      for (std::size_t i = degree; i-- > k;) terms[i] += part.begin * terms[i + 1];
+  /// Bernstein ordinates of g over an interval: the product of B - q and B' in Bernstein's basis.
+  static Terms ordinates(const Interval& interval) {
+    Controls velocity;
+    const double per_width = Degree / (interval.end - interval.begin);
+    for (std::size_t j = 0; j < Degree; ++j) {
+      velocity[j] = (interval.controls[j + 1] - interval.controls[j]) * per_width;
     }
-    double scale = 1.0, binomial = 1.0;
-    for (std::size_t i = 1; i <= degree; ++i) {
-      scale *= part.end - part.begin;
-      binomial *= static_cast<double>(degree - i + 1) / static_cast<double>(i);
-      terms[i] *= scale / binomial;
-    }
-    for (std::size_t k = 1; k <= degree; ++k) {
-      for (std::size_t i = degree; i >= k; --i) terms[i] += terms[i - 1];
+    Terms terms = {};
+    for (std::size_t i = 0; i <= Degree; ++i) {
+      for (std::size_t j = 0; j < Degree; ++j) {
+        const double share = binomial[Degree][i] * binomial[Degree - 1][j] / binomial[slope_degree][i + j];
+        terms[i + j] += share * dot(interval.controls[i], velocity[j]);
+      }
     }
     return terms;
   }
 
   void isolate(const ParameterRange& part) {
     if (!(part.end > part.begin)) return;
-    if (intervals_ == 0) set_up_polynomial();
     std::array<Interval, stack_limit> stack;
     std::size_t depth = 0;
-    stack[depth++] = {part.begin, part.end, offer(part.begin), offer(part.end), ordinates(part)};
+    stack[depth++] = {part.begin, part.end, offer(part.begin), offer(part.end), controls(part)};
     while (depth > 0 && ++intervals_ <= interval_limit) {
       const Interval interval = stack[--depth];
       if (!examine(interval) || depth + 2 > stack_limit) continue;
@@ -144,11 +150,11 @@ class MinimumSearch {
       const double middle_square = offer(middle);
       if (interval.end - interval.begin < narrowest) continue;
       Interval left{interval.begin, middle, interval.begin_square, middle_square, {}};
-      Interval right{middle, interval.end, middle_square, interval.end_square, interval.ordinates};
-      for (std::size_t k = 0; k <= slope_degree; ++k) {
-        left.ordinates[k] = right.ordinates[0];
-        for (std::size_t i = 0; i + k < slope_degree; ++i) {
-          right.ordinates[i] = 0.5 * (right.ordinates[i] + right.ordinates[i + 1]);
+      Interval right{middle, interval.end, middle_square, interval.end_square, interval.controls};
+      for (std::size_t k = 0; k <= Degree; ++k) {
+        left.controls[k] = right.controls[0];
+        for (std::size_t i = 0; i + k < Degree; ++i) {
+          right.controls[i] = (right.controls[i] + right.controls[i + 1]) * 0.5;
         }
       }
       const bool left_first = interval.begin_square <= interval.end_square;
@@ -159,22 +165,18 @@ class MinimumSearch {
 
   /// Whether the interval has to be halved. Its ends have been offered.
   bool examine(const Interval& interval) {
-    const auto& g = interval.ordinates;
+    const Terms g = ordinates(interval);
     const auto [lowest, highest] = std::minmax_element(g.begin(), g.end());
     if (*lowest >= 0.0 || *highest <= 0.0) return false;  // monotone: nothing nearer inside than at the ends
-    const double width = interval.end - interval.begin;
-    if (least_square(interval, *lowest, *highest) >= best_.square) return false;
-    if (std::max(-*lowest, *highest) <= noise_) {
-      offer(0.5 * (interval.begin + interval.end));
-      return false;
-    }
+    if (least_square(interval, *lowest, *highest) >= best_square_) return false;
     // Signs within rounding of zero: between different ones they leave one change whatever they are; at an end they
     // can only hide a minimum as near as the end itself.
+    const double noise = 16.0 * epsilon * largest_product(interval);
     int changes = 0, change = 0, last = -1;
     bool doubtful = false;
     for (int i = 0; i <= slope_degree; ++i) {
       const double value = g[static_cast<std::size_t>(i)];
-      if (std::abs(value) <= noise_) continue;
+      if (std::abs(value) <= noise) continue;
       if (last >= 0) {
         const bool differs = (value < 0.0) != (g[static_cast<std::size_t>(last)] < 0.0);
         changes += differs;
@@ -184,11 +186,26 @@ class MinimumSearch {
       last = i;
     }
     if (doubtful || changes > 1) return true;
-    if (changes == 0) return false;
+    if (changes == 0) {
+      if (last < 0) offer(0.5 * (interval.begin + interval.end));
+      return false;
+    }
     const double before = g[static_cast<std::size_t>(change)], after = g[static_cast<std::size_t>(change + 1)];
     if (before > 0.0) return false;  // from + to -: a maximum
-    descend(interval.begin, interval.end, interval.begin + width * (change + before / (before - after)) / slope_degree);
+    const double width = interval.end - interval.begin;
+    const double share = before / (before - after);
+    descend(interval.begin, interval.end, interval.begin + width * (change + share) / slope_degree);
     return false;
+  }
+
+  /// Bound of the terms of which g is the sum.
+  static double largest_product(const Interval& interval) {
+    double offset = 0.0, velocity = 0.0;
+    for (std::size_t i = 0; i <= Degree; ++i) {
+      offset = std::max(offset, larger_coordinate(interval.controls[i]));
+      if (i > 0) velocity = std::max(velocity, larger_coordinate(interval.controls[i] - interval.controls[i - 1]));
+    }
+    return offset * velocity * Degree / (interval.end - interval.begin);
   }
 
   /// No point of the interval is nearer: the squared distance falls from its ends by at most twice the ordinates.
@@ -200,16 +217,16 @@ class MinimumSearch {
 
   /// The only zero of g within the interval, where it changes from - to +: Newton's method, kept inside by halving.
   void descend(double low, double high, double t) {
-    const Polished polished = polish<Degree>(curve_, query_, t, tolerance_);
-    if (polished.converged && polished.t >= low && polished.t <= high) {
-      offer(polished.t);
+    Residue residue;
+    const double polished = polish<Degree>(curve_, polynomial_, query_, t, residue).t;
+    if (residue.converged(curve_, allowed_error<Degree>(tolerance_)) && polished >= low && polished <= high) {
+      offer(polished);
       return;
     }
     for (int step = 0; step < 64; ++step) {
-      const Point offset = place<Degree>(curve_.coefficients, t) - query_;
-      const Point velocity = first_derivative<Degree>(curve_.coefficients, t);
-      const double value = offset.dot(velocity);
-      const double slope = velocity.squaredNorm() + offset.dot(second_derivative<Degree>(curve_.coefficients, t));
+      const Candidate at = candidate<Degree>(curve_, query_, t);
+      const double value = dot(at.offset, at.velocity);
+      const double slope = dot(at.velocity, at.velocity) + dot(at.offset, second_derivative<Degree>(curve_, t));
       (value < 0.0 ? low : high) = t;
       double next = t - value / slope;
       if (!(next > low && next < high)) next = 0.5 * (low + high);
@@ -222,18 +239,18 @@ class MinimumSearch {
   }
 
   const CurveElement& curve_;
-  const Point query_;
+  const Pair query_;
   const double tolerance_;
   const ParameterRange range_;
-  Terms power_;
-  double noise_ = 0.0;
+  const SlopePolynomial<Degree> polynomial_;
   Candidate best_;
+  double best_square_ = 0.0;
   int intervals_ = 0;
 };
 
 }  // namespace
 
-NearestPoint search_minima(const CurveElement& curve, const Point& query, double tolerance,
+NearestPoint search_minima(const CurveElement& curve, Pair query, double tolerance,
                            const ParameterRange& range) noexcept {
   switch (curve.degree) {
     case 2:

@@ -3,10 +3,12 @@
 
 #include <calligraphy/collision/nearest_point.hpp>
 
+#include "pair.hpp"
+
 namespace calligraphy {
 
 /// `query` relative to the curve's origin and size, finite, at most 1e100.
-NearestPoint search_minima(const CurveElement& curve, const Point& query, double tolerance,
+NearestPoint search_minima(const CurveElement& curve, Pair query, double tolerance,
                            const ParameterRange& range) noexcept;
 
 }  // namespace calligraphy

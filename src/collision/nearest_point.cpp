@@ -56,6 +56,10 @@ NearestPoint nearest_point(const StrokeElement& element, const Point& query, con
 
 void nearest_points(const StrokeElement& element, std::span<const Point> queries, std::span<NearestPoint> results,
                     const NearestPointOptions& options) noexcept {
+  if (element.curve() && options.method == NearestPointMethod::exact) {
+    certified_nearest_points(*element.curve(), queries, results, options.tolerance);
+    return;
+  }
   for (std::size_t i = 0; i < queries.size(); ++i) results[i] = nearest_point(element, queries[i], options);
 }
 

@@ -1,49 +1,113 @@
-// From a good guess to the nearest point: one step of Halley's method, one of Newton's, and a check.
+// From a good guess to the nearest point: a step of Halley's method, one of Newton's, and a check of both.
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 
-#include "curve_derivatives.hpp"
+#include "candidate.hpp"
 
 namespace calligraphy {
 
-struct Polished {
-  double t;
-  Point place, offset, velocity;  ///< at t, in sizes; offset is from the query
-  bool converged;                 ///< t is off the zero of g by less than the tolerance allows
+/// g(t) = (B(t) - q) . B'(t), half the slope of the squared distance, by powers of t. Quick to evaluate; what is lost
+/// to cancellation, a step on the curve itself makes good.
+template <int Degree>
+struct SlopePolynomial {
+  static constexpr std::size_t terms = 2 * Degree;
+
+  template <typename Vector>
+  [[gnu::always_inline]] SlopePolynomial(const CurveElement& curve, Vector query) : high_(curve.slope_of_square) {
+    for (std::size_t k = 0; k < Degree; ++k) {
+      low_[k] = high_[k] - static_cast<double>(k + 1) * dot(query, vector_of<Vector>(curve.coefficients[k]));
+    }
+  }
+
+  struct Value {
+    double g, slope, half_bend, sixth_twist;  ///< g, g', g'' / 2, g''' / 6
+  };
+
+  [[gnu::always_inline]] Value at(double t) const {
+    const double square = t * t;
+    Value value{c(last - 1) + c(last) * t, slope(t, square), 0.0, 0.0};
+    for (std::size_t k = last - 1; k >= 2; k -= 2) value.g = value.g * square + (c(k - 2) + c(k - 1) * t);
+    value.half_bend = half_second(last - 1) + half_second(last) * t;
+    for (std::size_t k = last - 2; k >= 3; k -= 2) {
+      value.half_bend = value.half_bend * square + (half_second(k - 1) + half_second(k) * t);
+    }
+    value.sixth_twist = sixth_third(last);
+    for (std::size_t k = last - 1; k >= 4; k -= 2) {
+      value.sixth_twist = value.sixth_twist * square + (sixth_third(k - 1) + sixth_third(k) * t);
+    }
+    return value;
+  }
+
+  [[gnu::always_inline]] double slope(double t) const { return slope(t, t * t); }
+
+ private:
+  static constexpr std::size_t last = terms - 1;
+
+  /// Coefficient of t^k; the query changes only the lower ones.
+  [[gnu::always_inline]] double c(std::size_t k) const { return k < Degree ? low_[k] : high_[k]; }
+
+  [[gnu::always_inline]] double half_second(std::size_t k) const { return static_cast<double>(k * (k - 1) / 2) * c(k); }
+
+  [[gnu::always_inline]] double sixth_third(std::size_t k) const {
+    return static_cast<double>(k * (k - 1) * (k - 2) / 6) * c(k);
+  }
+
+  /// Like the others by Estrin's scheme: pairs of terms side by side, for short chains of dependent operations.
+  [[gnu::always_inline]] double slope(double t, double square) const {
+    double sum = static_cast<double>(last) * c(last);
+    for (std::size_t k = last - 1; k >= 2; k -= 2) {
+      sum = sum * square + (static_cast<double>(k - 1) * c(k - 1) + static_cast<double>(k) * c(k) * t);
+    }
+    return sum;
+  }
+
+  std::array<double, Degree> low_;
+  const std::array<double, 2 * max_curve_degree>& high_;
 };
 
-/// Zero of g(t) = (B(t) - q) . B'(t) near t. The caller knows that there is one only.
-template <int Degree>
-inline Polished polish(const CurveElement& curve, const Point& query, double t, double tolerance) {
-  const Coefficients& c = curve.coefficients;
-  const double allowed = tolerance * (0.5 / Degree);  // of the parameter; the point moves faster by up to the degree
-  Polished at;
-  at.place = place<Degree>(c, t);
-  at.offset = at.place - query;
-  at.velocity = first_derivative<Degree>(c, t);
-  Point acceleration = second_derivative<Degree>(c, t);
-  const Point jerk = third_derivative<Degree>(c, t);
-  double g = at.offset.dot(at.velocity);
-  double slope = at.velocity.squaredNorm() + at.offset.dot(acceleration);
-  const double bend = 3.0 * at.velocity.dot(acceleration) + at.offset.dot(jerk);
-  at.t = t - 2.0 * g * slope / (2.0 * slope * slope - g * bend);
+/// How far off the zero of g a polished parameter may be: what decides whether to trust it.
+struct Residue {
+  double step;   ///< the last one
+  double slope;  ///< of g
+  double bend;   ///< g'' / 2
 
-  at.place = place<Degree>(c, at.t);
-  at.offset = at.place - query;
-  at.velocity = first_derivative<Degree>(c, at.t);
-  acceleration = second_derivative<Degree>(c, at.t);
-  g = at.offset.dot(at.velocity);
-  slope = at.velocity.squaredNorm() + at.offset.dot(acceleration);
-  const double step = g / slope;
-  if (!(std::abs(step) <= allowed)) {
-    at.t -= step;
-    at.place = place<Degree>(c, at.t);
-    at.offset = at.place - query;
-    at.velocity = first_derivative<Degree>(c, at.t);
-    g = at.offset.dot(at.velocity);
+  [[gnu::always_inline]] bool converged(const CurveElement& curve, double allowed) const {
+    // The last step is so small that two terms of the curve's Taylor series give the new place to rounding.
+    constexpr double largest_step = 1e-5;
+    return std::abs(step) <= largest_step && slope > curve.least_slope &&
+           step * step * std::abs(bend) <= allowed * slope;
   }
-  at.converged = std::abs(g) <= allowed * slope && slope > curve.least_slope;
+};
+
+/// Error that the tolerance allows a parameter; the point moves faster than it by up to the degree.
+template <int Degree>
+[[gnu::always_inline]] inline double allowed_error(double tolerance) {
+  return tolerance * (0.5 / Degree);
+}
+
+/// Zero of g near t. The caller knows that there is one only, and asks whether it converged.
+template <int Degree, typename Vector>
+[[gnu::always_inline]] inline CurvePoint<Vector> polish(const CurveElement& curve,
+                                                        const SlopePolynomial<Degree>& polynomial, Vector query,
+                                                        double t, Residue& residue) {
+  const auto value = polynomial.at(t);
+  const double slope_square = value.slope * value.slope, turned = value.g * value.half_bend;
+  t -= value.g * (slope_square - turned) /
+       (value.slope * (slope_square - 2.0 * turned) + value.g * value.g * value.sixth_twist);
+
+  CurvePoint<Vector> at = candidate<Degree>(curve, query, t);
+  const Vector acceleration = second_derivative<Degree, Vector>(curve, t);
+  const double slope = polynomial.slope(t);
+  const double step = dot(at.offset, at.velocity) * (1.0 / slope);
+  const Vector moved = (at.velocity - acceleration * (0.5 * step)) * step;
+  at.t = at.t - step;
+  at.place = at.place - moved;
+  at.offset = at.offset - moved;
+  at.velocity = at.velocity - acceleration * step;
+  residue = {step, slope, value.half_bend};
   return at;
 }
 

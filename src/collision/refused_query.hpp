@@ -1,20 +1,16 @@
 // The answer to a query that is not finite, or so far from the curve that squares would overflow.
 #pragma once
 
-#include <cmath>
 #include <limits>
 
 #include <calligraphy/collision/nearest_point.hpp>
 
+#include "pair.hpp"
+
 namespace calligraphy {
 
-/// False for NaN, too.
-inline bool within(const Point& query, double limit) {
-  return std::abs(query.x()) <= limit && std::abs(query.y()) <= limit;
-}
-
 /// `query` in sizes.
-inline bool within_reach(const Point& query) { return within(query, 1e100); }
+inline bool within_reach(Pair query) { return within(query, 1e100); }
 
 inline NearestPoint refused_query(const CurveElement& curve, const ParameterRange& range) {
   NearestPoint lost;

@@ -1,11 +1,14 @@
 // Signs of the slope's Bernstein ordinates for one query: the processor-specific part of the nearest point.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 
 #include <calligraphy/collision/curve_element.hpp>
+
+#include "pair.hpp"
 
 #if defined(__SSE2__)
 #include <immintrin.h>
@@ -13,12 +16,15 @@
 
 namespace calligraphy {
 
-/// Further away (in sizes) single precision is not asked.
-inline constexpr double furthest_for_signs = 1e15;
-
+template <std::size_t Count>
 struct SlopeSigns {
   std::uint64_t negative = 0;  ///< bit i: ordinate i is below zero
-  bool certain = false;        ///< rounding could turn no sign
+  bool certain = false;        ///< rounding could turn no sign, and the query fits single precision
+
+  bool first_negative() const { return negative & 1U; }
+  bool last_negative() const { return (negative >> (Count - 1)) & 1U; }
+  /// Bit i: ordinates i and i + 1 have different signs.
+  std::uint64_t changes() const { return (negative ^ (negative >> 1)) & ((std::uint64_t{1} << (Count - 1)) - 1); }
 };
 
 /// The same with those left out that rounding could turn.
@@ -27,20 +33,20 @@ struct CertainSigns {
 };
 
 /// Bound of the error of an ordinate: five roundings of each term, and room.
-template <int Count>
+template <std::size_t Count>
 inline float slope_noise(const SlopeOrdinates<Count>& ordinates, float x, float y) {
   constexpr float roundings = 8.0F * 0x1p-24F;
   return roundings *
          (std::fabs(x) * ordinates.largest_x + std::fabs(y) * ordinates.largest_y + ordinates.largest_constant);
 }
 
-template <int Count>
+template <std::size_t Count>
 inline float slope_ordinate(const SlopeOrdinates<Count>& ordinates, std::size_t i, float x, float y) {
   return (x * ordinates.x[i] + y * ordinates.y[i]) + ordinates.constant[i];
 }
 
 #if defined(__SSE2__)
-template <int Count>
+template <std::size_t Count>
 inline __m128 slope_ordinates_sse2(const SlopeOrdinates<Count>& ordinates, std::size_t i, __m128 x, __m128 y) {
   return _mm_add_ps(
       _mm_add_ps(_mm_mul_ps(x, _mm_load_ps(&ordinates.x[i])), _mm_mul_ps(y, _mm_load_ps(&ordinates.y[i]))),
@@ -49,10 +55,12 @@ inline __m128 slope_ordinates_sse2(const SlopeOrdinates<Count>& ordinates, std::
 #endif
 
 /// Plain C++ for any processor; the others give the same bits.
-template <int Count>
-inline SlopeSigns slope_signs_portable(const SlopeOrdinates<Count>& ordinates, float x, float y) {
+template <std::size_t Count>
+inline SlopeSigns<Count> slope_signs_portable(const SlopeOrdinates<Count>& ordinates, Pair query) {
+  const float x = static_cast<float>(query[0]), y = static_cast<float>(query[1]);
   const float noise = slope_noise(ordinates, x, y);
-  SlopeSigns signs{0, true};
+  SlopeSigns<Count> signs;
+  signs.certain = true;
   for (std::size_t i = 0; i < Count; ++i) {
     const float value = slope_ordinate(ordinates, i, x, y);
     signs.negative |= static_cast<std::uint64_t>(value < 0.0F) << i;
@@ -61,8 +69,9 @@ inline SlopeSigns slope_signs_portable(const SlopeOrdinates<Count>& ordinates, f
   return signs;
 }
 
-template <int Count>
-inline CertainSigns certain_signs(const SlopeOrdinates<Count>& ordinates, float x, float y) {
+template <std::size_t Count>
+inline CertainSigns certain_signs(const SlopeOrdinates<Count>& ordinates, Pair query) {
+  const float x = static_cast<float>(query[0]), y = static_cast<float>(query[1]);
   const float noise = slope_noise(ordinates, x, y);
   CertainSigns signs;
 #if defined(__SSE2__)
@@ -87,28 +96,30 @@ inline CertainSigns certain_signs(const SlopeOrdinates<Count>& ordinates, float 
 
 #if defined(__SSE2__)
 
-template <int Count>
-inline SlopeSigns slope_signs_sse2(const SlopeOrdinates<Count>& ordinates, float x, float y) {
+template <std::size_t Count>
+inline SlopeSigns<Count> slope_signs_sse2(const SlopeOrdinates<Count>& ordinates, Pair query) {
+  const float x = static_cast<float>(query[0]), y = static_cast<float>(query[1]);
   const __m128 all_x = _mm_set1_ps(x), all_y = _mm_set1_ps(y);
   const __m128 magnitude = _mm_castsi128_ps(_mm_set1_epi32(0x7fffffff));
   __m128 least = _mm_set1_ps(3e38F);
-  SlopeSigns signs;
+  SlopeSigns<Count> signs;
   for (std::size_t i = 0; i < Count; i += 4) {
     const __m128 value = slope_ordinates_sse2(ordinates, i, all_x, all_y);
     signs.negative |= static_cast<std::uint64_t>(static_cast<unsigned>(_mm_movemask_ps(value))) << i;
     least = _mm_min_ps(least, _mm_and_ps(value, magnitude));
   }
-  signs.certain = _mm_movemask_ps(_mm_cmple_ps(least, _mm_set1_ps(slope_noise(ordinates, x, y)))) == 0;
+  signs.certain = _mm_movemask_ps(_mm_cmpgt_ps(least, _mm_set1_ps(slope_noise(ordinates, x, y)))) == 0xf;
   return signs;
 }
 
-template <int Count>
-__attribute__((target("avx2"), always_inline)) inline SlopeSigns slope_signs_avx2(
-    const SlopeOrdinates<Count>& ordinates, float x, float y) {
+template <std::size_t Count>
+[[gnu::target("avx2"), gnu::always_inline]] inline SlopeSigns<Count> slope_signs_avx2(
+    const SlopeOrdinates<Count>& ordinates, Pair query) {
+  const float x = static_cast<float>(query[0]), y = static_cast<float>(query[1]);
   const __m256 all_x = _mm256_set1_ps(x), all_y = _mm256_set1_ps(y);
   const __m256 magnitude = _mm256_castsi256_ps(_mm256_set1_epi32(0x7fffffff));
   __m256 least = _mm256_set1_ps(3e38F);
-  SlopeSigns signs;
+  SlopeSigns<Count> signs;
   for (std::size_t i = 0; i < Count; i += 8) {
     const __m256 value = _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(all_x, _mm256_loadu_ps(&ordinates.x[i])),
                                                      _mm256_mul_ps(all_y, _mm256_loadu_ps(&ordinates.y[i]))),
@@ -117,10 +128,20 @@ __attribute__((target("avx2"), always_inline)) inline SlopeSigns slope_signs_avx
     least = _mm256_min_ps(least, _mm256_and_ps(value, magnitude));
   }
   const __m256 noise = _mm256_set1_ps(slope_noise(ordinates, x, y));
-  signs.certain = _mm256_movemask_ps(_mm256_cmp_ps(least, noise, _CMP_LE_OQ)) == 0;
+  signs.certain = _mm256_movemask_ps(_mm256_cmp_ps(least, noise, _CMP_GT_OQ)) == 0xff;
   return signs;
 }
 
 #endif
+
+/// What every processor of the kind that is compiled for can do.
+template <std::size_t Count>
+[[gnu::always_inline]] inline SlopeSigns<Count> slope_signs(const SlopeOrdinates<Count>& ordinates, Pair query) {
+#if defined(__SSE2__)
+  return slope_signs_sse2(ordinates, query);
+#else
+  return slope_signs_portable(ordinates, query);
+#endif
+}
 
 }  // namespace calligraphy

@@ -6,8 +6,8 @@
 namespace calligraphy {
 namespace {
 
-/// Rounding of a distance, relative to it.
-constexpr double rounding = 1e-15;
+/// Rounding of a distance, relative to it and to the size of the element.
+constexpr double rounding = 1e-14;
 
 }  // namespace
 
@@ -33,10 +33,10 @@ StrokePoint StrokeTracker::update(const Point& query) noexcept {
     if (i == last_) continue;
     // The distance to an element changes by no more than the pen travels.
     const Sighting& sighting = sightings_[static_cast<std::size_t>(i)];
-    const double lead = (1.0 - rounding) * sighting.distance - nearest.foot.distance;
-    if (lead > 0.0 && (query - sighting.query).squaredNorm() < (1.0 - rounding) * lead * lead) continue;
+    const double tie = rounding * (sighting.distance + elements_[static_cast<std::size_t>(i)].size());
+    const double lead = sighting.distance - nearest.foot.distance - tie;
+    if (lead > 0.0 && (query - sighting.query).squaredNorm() < lead * lead) continue;
     const NearestPoint foot = look(i, query);
-    const double tie = rounding * foot.distance;
     const double gain = nearest.foot.distance - foot.distance;
     if (gain > tie || (gain >= -tie && i < nearest.element)) nearest = {i, foot};
   }

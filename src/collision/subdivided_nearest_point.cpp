@@ -3,6 +3,8 @@
 #include <limits>
 
 #include "approximate_nearest_point.hpp"
+#include "certified_nearest_point.hpp"
+#include "curve_derivatives.hpp"
 #include "refused_query.hpp"
 
 namespace calligraphy {
@@ -11,7 +13,7 @@ namespace {
 /// Whether an interval of the curve may hold a point whose distance is less than `distance` by more than epsilon. The
 /// squared distance dips below the least of five even samples by at most its largest second derivative times the square
 /// of their spacing over 8; all in sizes.
-bool may_hide_nearer(const CurveElement& curve, double begin, double end, double least, double distance,
+bool may_hide_nearer(const CurveElement& curve, const ParameterRange& part, double least, double distance,
                      double epsilon) {
   double speed = 0.0, acceleration = 0.0;
   for (int k = 1; k <= curve.degree; ++k) {
@@ -19,11 +21,67 @@ bool may_hide_nearer(const CurveElement& curve, double begin, double end, double
     speed += k * magnitude;
     acceleration += k * (k - 1) * magnitude;
   }
-  const double spacing = 0.25 * (end - begin);
-  const double furthest = distance + speed * (end - begin);
-  const double dip = 2.0 * (speed * speed + furthest * acceleration) * spacing * spacing / 8.0;
+  const double width = part.end - part.begin;
+  const double furthest = distance + speed * width;
+  const double dip = 2.0 * (speed * speed + furthest * acceleration) * width * width / (16.0 * 8.0);
   const double allowed = std::max(distance - epsilon, 0.0);
   return least * least - dip < allowed * allowed;
+}
+
+/// A point on the curve and its distance from the query.
+struct Sample {
+  Pair point;
+  double distance;
+};
+
+template <int Degree>
+NearestPoint subdivided(const CurveElement& curve, const Point& query, double tolerance, const ParameterRange& range) {
+  const Pair relative = in_sizes(curve, query);
+  const double coordinates = std::max({curve.origin.cwiseAbs().maxCoeff(), curve.size, query.cwiseAbs().maxCoeff()});
+  const double epsilon =
+      std::max(tolerance, 4.0 * std::numeric_limits<double>::epsilon() * coordinates * curve.per_size);
+  const auto distance_to = [&](Pair point) { return std::sqrt(dot(point - relative, point - relative)); };
+  const auto sample = [&](double t) {
+    const Pair point = place<Degree>(curve, t);
+    return Sample{point, distance_to(point)};
+  };
+
+  ParameterRange part = range;
+  double t = 0.5 * (part.begin + part.end);
+  Sample begin = sample(part.begin), middle = sample(t), end = sample(part.end), left, right;
+  bool stopped = false;
+  for (int step = 0; step < 64; ++step) {
+    left = sample(0.5 * (part.begin + t));
+    right = sample(0.5 * (t + part.end));
+    stopped = std::abs(left.distance - right.distance) < epsilon;
+    if (stopped) break;
+    const double left_least = std::min({begin.distance, left.distance, middle.distance});
+    const double right_least = std::min({middle.distance, right.distance, end.distance});
+    if (left_least < right_least || (left_least == right_least && left.distance <= right.distance)) {
+      part.end = t;
+      end = middle;
+      middle = left;
+    } else {
+      part.begin = t;
+      begin = middle;
+      middle = right;
+    }
+    t = 0.5 * (part.begin + part.end);
+  }
+  const Pair solution = (left.point + right.point) * 0.5;
+  const double distance = distance_to(solution);
+  const double least = std::min({begin.distance, left.distance, middle.distance, right.distance, end.distance});
+  // The bound settles most stops at little cost; where it does not, the interval is searched.
+  const bool unsafe = !stopped || (may_hide_nearer(curve, part, least, distance, epsilon) &&
+                                   certified_nearest_point(curve, query, tolerance, part).distance * curve.per_size <
+                                       distance - epsilon);
+  NearestPoint answer;
+  answer.parameter = t;
+  answer.point = curve.origin + curve.size * Point(solution[0], solution[1]);
+  answer.distance = curve.size * distance;
+  answer.tangent = curve.tangent(t);
+  answer.status = unsafe ? NearestPointStatus::unsafe_stop : NearestPointStatus::approximate;
+  return answer;
 }
 
 }  // namespace
@@ -32,50 +90,15 @@ bool may_hide_nearer(const CurveElement& curve, double begin, double end, double
 /// children belongs to both. Here it goes to the child with the nearer middle. Never certified.
 NearestPoint subdivided_nearest_point(const CurveElement& curve, const Point& query, double tolerance,
                                       const ParameterRange& range) noexcept {
-  if (!within_reach((query - curve.origin) * curve.per_size)) return refused_query(curve, range);
-  const double coordinates = std::max({curve.origin.cwiseAbs().maxCoeff(), curve.size, query.cwiseAbs().maxCoeff()});
-  const double epsilon = std::max(tolerance * curve.size, 4.0 * std::numeric_limits<double>::epsilon() * coordinates);
-  const auto distance = [&](const Point& point) { return (query - point).norm(); };
-
-  double begin = range.begin, end = range.end;
-  double begin_distance = distance(curve.point(begin)), end_distance = distance(curve.point(end));
-  double middle = 0.5 * (begin + end);
-  double middle_distance = distance(curve.point(middle));
-  double left_distance = 0.0, right_distance = 0.0;
-  Point left_middle, right_middle;
-  bool stopped = false;
-  for (int step = 0; step < 64 && !stopped; ++step) {
-    left_middle = curve.point(0.5 * (begin + middle));
-    right_middle = curve.point(0.5 * (middle + end));
-    left_distance = distance(left_middle);
-    right_distance = distance(right_middle);
-    stopped = std::abs(left_distance - right_distance) < epsilon;
-    if (stopped) break;
-    const double left_smallest = std::min({begin_distance, left_distance, middle_distance});
-    const double right_smallest = std::min({middle_distance, right_distance, end_distance});
-    if (left_smallest < right_smallest || (left_smallest == right_smallest && left_distance <= right_distance)) {
-      end = middle;
-      end_distance = middle_distance;
-      middle_distance = left_distance;
-    } else {
-      begin = middle;
-      begin_distance = middle_distance;
-      middle_distance = right_distance;
-    }
-    middle = 0.5 * (begin + end);
+  if (!within_reach(in_sizes(curve, query))) return refused_query(curve, range);
+  switch (curve.degree) {
+    case 2:
+      return subdivided<2>(curve, query, tolerance, range);
+    case 3:
+      return subdivided<3>(curve, query, tolerance, range);
+    default:
+      return subdivided<4>(curve, query, tolerance, range);
   }
-  NearestPoint solution;
-  solution.parameter = middle;
-  solution.point = 0.5 * (left_middle + right_middle);
-  solution.distance = distance(solution.point);
-  solution.tangent = curve.tangent(middle);
-  const double least =
-      std::min({begin_distance, left_distance, middle_distance, right_distance, end_distance, solution.distance});
-  const double scale = curve.per_size;
-  const bool unsafe =
-      !stopped || may_hide_nearer(curve, begin, end, least * scale, solution.distance * scale, 2.0 * epsilon * scale);
-  solution.status = unsafe ? NearestPointStatus::unsafe_stop : NearestPointStatus::approximate;
-  return solution;
 }
 
 }  // namespace calligraphy

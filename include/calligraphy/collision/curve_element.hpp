@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <span>
 
 #include <calligraphy/model/point.hpp>
@@ -12,7 +13,7 @@ namespace calligraphy {
 /// Bernstein ordinates of g(t) = (B(t) - q) . B'(t), half the slope of the squared distance to a query q. They are
 /// affine in q: g_i = x_i q_x + y_i q_y + constant_i, with q relative to the curve's origin and size. Their signs tell
 /// how many nearest points there can be, and where. Single precision: a sign that rounding could turn is not used.
-template <int Count>
+template <std::size_t Count>
 struct SlopeOrdinates {
   alignas(16) std::array<float, Count> x = {}, y = {}, constant = {};
   float largest_x = 0.0F, largest_y = 0.0F, largest_constant = 0.0F;  ///< largest magnitudes
@@ -25,7 +26,8 @@ struct SlopeOrdinates {
 /// B(t) = origin + size * (c_1 t + c_2 t^2 + ... + c_n t^n).
 struct CurveElement {
   static constexpr int arc_intervals = 32;
-  static constexpr int max_ordinates = 48;
+  static constexpr std::size_t whole_ordinates = 2 * max_curve_degree;
+  static constexpr std::size_t max_ordinates = 48;
 
   int degree = 2;
   int cells = 8;                                          ///< equal parts of [0, 1] that `ordinates` is given on
@@ -34,9 +36,10 @@ struct CurveElement {
   double least_slope = 0.0;                               ///< of g: below it Newton's method is not trusted
   Point origin = Point::Zero();                           ///< first control point
   std::array<Point, max_curve_degree> coefficients = {};  ///< c_1 to c_n
-  SlopeOrdinates<8> whole;                                ///< of the whole curve
-  SlopeOrdinates<max_ordinates> ordinates;                ///< of its cells; neighbours share the one between them
-  std::array<double, arc_intervals + 1> arc = {};         ///< arc length from 0 to i / 32 [m]
+  std::array<double, 2 * max_curve_degree> slope_of_square = {};  ///< of (B - origin) . B', by powers of t
+  SlopeOrdinates<whole_ordinates> whole;                          ///< of the whole curve
+  SlopeOrdinates<max_ordinates> ordinates;         ///< of its cells; neighbours share the one between them
+  std::array<double, arc_intervals + 1> arc = {};  ///< arc length from 0 to i / 32 [m]
 
   Point point(double t) const noexcept;
   /// dB/dt

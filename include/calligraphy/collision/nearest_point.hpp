@@ -26,7 +26,7 @@ struct NearestPointOptions {
 enum class NearestPointStatus {
   certified,    ///< no other point of the range is nearer, up to the tolerance and rounding
   approximate,  ///< not certified: sampled, wang2006, or exact at its limit of work
-  unsafe_stop,  ///< wang2006 stopped where its last interval may hold a point nearer by more than epsilon
+  unsafe_stop,  ///< wang2006 stopped where its last interval holds a point nearer by more than epsilon
   not_finite    ///< the query is not finite or further than 1e100 sizes: start of the range, infinite distance
 };
 

@@ -1,0 +1,55 @@
+// Two coordinates, for the searches. Nothing of it is ever called: a call from code for wider registers into code that
+// was compiled without them would cost more than the query.
+#pragma once
+
+#include <cmath>
+#include <cstring>
+#include <type_traits>
+
+#include <calligraphy/model/point.hpp>
+
+namespace calligraphy {
+
+/// Both in one register: for one query at a time.
+using Pair = double __attribute__((vector_size(16)));
+
+[[gnu::always_inline]] inline double x_of(Pair pair) { return pair[0]; }
+[[gnu::always_inline]] inline double y_of(Pair pair) { return pair[1]; }
+
+/// Each by itself: for many queries in a loop, which the compiler sets side by side.
+struct Coordinates {
+  double x, y;
+};
+
+[[gnu::always_inline]] inline double x_of(Coordinates c) { return c.x; }
+[[gnu::always_inline]] inline double y_of(Coordinates c) { return c.y; }
+[[gnu::always_inline]] inline Coordinates operator+(Coordinates a, Coordinates b) { return {a.x + b.x, a.y + b.y}; }
+[[gnu::always_inline]] inline Coordinates operator-(Coordinates a, Coordinates b) { return {a.x - b.x, a.y - b.y}; }
+[[gnu::always_inline]] inline Coordinates operator*(Coordinates a, Coordinates b) { return {a.x * b.x, a.y * b.y}; }
+[[gnu::always_inline]] inline Coordinates operator*(Coordinates a, double b) { return {a.x * b, a.y * b}; }
+
+template <typename Vector>
+[[gnu::always_inline]] inline Vector vector_of(const Point& point) {
+  if constexpr (std::is_same_v<Vector, Pair>) {
+    Pair both;
+    std::memcpy(&both, point.data(), sizeof both);
+    return both;
+  } else {
+    return {point.x(), point.y()};
+  }
+}
+
+[[gnu::always_inline]] inline Pair pair(const Point& point) { return vector_of<Pair>(point); }
+
+template <typename Vector>
+[[gnu::always_inline]] inline double dot(Vector a, Vector b) {
+  const Vector product = a * b;
+  return x_of(product) + y_of(product);
+}
+
+/// False for NaN, too.
+[[gnu::always_inline]] inline bool within(Pair query, double limit) {
+  return std::abs(query[0]) <= limit && std::abs(query[1]) <= limit;
+}
+
+}  // namespace calligraphy

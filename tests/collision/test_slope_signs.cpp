@@ -1,0 +1,80 @@
+// The processor-specific part of the nearest point: the same signs on every kind of processor.
+#include "../catch.hpp"
+
+#include <vector>
+
+#include <calligraphy/collision/nearest_point.hpp>
+
+#include "../hard_cases.hpp"
+#include "collision/slope_signs.hpp"
+
+using namespace calligraphy;
+using calligraphy_test::hard_curves;
+using calligraphy_test::hard_queries;
+using calligraphy_test::HardCurve;
+using calligraphy_test::Sequence;
+
+namespace {
+
+using Signs = SlopeSigns<CurveElement::max_ordinates>;
+
+bool same(const Signs& a, const Signs& b) { return a.certain == b.certain && (!a.certain || a.negative == b.negative); }
+
+#if defined(__SSE2__)
+[[gnu::target("avx2")]] Signs wide_signs(const CurveElement& curve, Pair query) {
+  return slope_signs_avx2(curve.ordinates, query);
+}
+#endif
+
+}  // namespace
+
+TEST_CASE("plain, SSE2 and AVX2 code find the same signs", "[collision]") {
+#if defined(__SSE2__)
+  const bool wide = __builtin_cpu_supports("avx2");
+  int different = 0, compared = 0;
+  for (const HardCurve& curve : hard_curves()) {
+    const StrokeElement element = prepare_element(curve.control_points);
+    if (!element.curve()) continue;
+    for (const Point& query : hard_queries(curve, 200)) {
+      const Pair relative = (pair(query) - pair(element.origin())) * element.curve()->per_size;
+      const Signs plain = slope_signs_portable(element.curve()->ordinates, relative);
+      different += !same(plain, slope_signs_sse2(element.curve()->ordinates, relative));
+      if (wide) different += !same(plain, wide_signs(*element.curve(), relative));
+      ++compared;
+    }
+  }
+  CHECK(different == 0);
+  CHECK(compared > 10'000);
+#else
+  SUCCEED("only the plain code is built for this processor");
+#endif
+}
+
+TEST_CASE("certain signs are those of the slope in double precision", "[collision]") {
+  Sequence random(31);
+  int wrong = 0, certain = 0;
+  for (int i = 0; i < 200; ++i) {
+    std::vector<Point> points;
+    for (int k = 0; k < 4; ++k) points.push_back(random.point(0.0, 1.0));
+    const CurveElement curve = prepare_curve(points);
+    for (int k = 0; k < 50; ++k) {
+      const Point query = random.point(-1.0, 2.0);
+      const Signs signs = slope_signs(curve.ordinates, (pair(query) - pair(curve.origin)) * curve.per_size);
+      if (!signs.certain) continue;
+      ++certain;
+      // No change of sign means that the distance is monotone; the ends tell which way.
+      const auto slope_at = [&](double t) { return (curve.point(t) - query).dot(curve.derivative(t)); };
+      wrong += signs.first_negative() != (slope_at(0.0) < 0.0);
+      wrong += signs.last_negative() != (slope_at(1.0) < 0.0);
+      if (signs.changes() != 0) continue;
+      for (int step = 1; step < 20; ++step) wrong += (slope_at(step / 20.0) < 0.0) != signs.first_negative();
+    }
+  }
+  CHECK(wrong == 0);
+  CHECK(certain > 9'000);
+}
+
+TEST_CASE("a line takes 64 bytes and a curve 1200, at most", "[collision]") {
+  CHECK(sizeof(LineElement) <= 64);
+  CHECK(sizeof(CurveElement) <= 1200);
+}
