@@ -21,19 +21,13 @@ namespace {
   return search_minima(curve, query, tolerance, range);
 }
 
-/// The only minimum of the whole curve, sought from `start`, is the answer within a range, too, or the range's nearer
-/// end.
+/// The only minimum of the whole curve is the answer within a range, too, or the range's nearer end is.
 template <int Degree>
-[[gnu::always_inline]] inline NearestPoint only_minimum(const CurveElement& curve, Pair query, double tolerance,
-                                                        const ParameterRange& range, double start) {
-  Residue residue;
-  const Candidate found = polish<Degree>(curve, SlopePolynomial<Degree>(curve, query), query, start, residue);
-  if (!residue.converged(curve, allowed_error<Degree>(tolerance))) {
-    return search_or_refuse(curve, query, tolerance, range);
-  }
-  const double t = found.t;
+[[gnu::always_inline]] inline NearestPoint answer_within(const CurveElement& curve, const Candidate& minimum,
+                                                         Pair query, double tolerance, const ParameterRange& range) {
+  const double t = minimum.t;
   if (t >= range.begin && t <= range.end) [[likely]] {
-    return curve_answer(curve, found, NearestPointStatus::certified);
+    return curve_answer(curve, minimum, NearestPointStatus::certified);
   }
   if (!(t >= 0.0 && t <= 1.0)) return search_or_refuse(curve, query, tolerance, range);
   const Candidate end = candidate<Degree>(curve, query, t < range.begin ? range.begin : range.end);
@@ -90,7 +84,11 @@ template <int Degree>
     }
     if (signs.first_negative() && (changes & (changes - 1)) == 0) {
       const double start = (std::countr_zero(changes) + 0.5) * ordinate_spacing<Degree>;
-      return only_minimum<Degree>(curve, query, tolerance, range, start);
+      Residue residue;
+      const Candidate found = polish<Degree>(curve, SlopePolynomial<Degree>(curve, query), query, start, residue);
+      if (residue.converged(curve, allowed_error<Degree>(tolerance))) {
+        return answer_within<Degree>(curve, found, query, tolerance, range);
+      }
     } else if (range.begin <= 0.0 && range.end >= 1.0) {
       return nearest_of_several<Degree>(curve, signs, query, tolerance, range);
     }
@@ -134,7 +132,10 @@ NearestPoint tracked(const CurveElement& curve, const Point& query, double toler
   const auto signs = slope_signs(curve.whole, relative);
   const std::uint64_t changes = signs.changes();
   if (signs.certain && signs.first_negative() && std::has_single_bit(changes)) {
-    return only_minimum<Degree>(curve, relative, tolerance, range, start);
+    Candidate found;
+    if (follow<Degree>(curve, relative, start, allowed_error<Degree>(tolerance), found)) {
+      return answer_within<Degree>(curve, found, relative, tolerance, range);
+    }
   }
   return certified_nearest_point(curve, query, tolerance, range);
 }

@@ -14,20 +14,25 @@ namespace calligraphy {
   return (pair(query) - pair(curve.origin)) * curve.per_size;
 }
 
+/// In pairs of terms, for a short chain of dependent operations.
 template <int Degree, typename Vector = Pair>
 [[gnu::always_inline]] inline Vector place(const CurveElement& curve, double t) {
-  Vector sum = vector_of<Vector>(curve.coefficients[Degree - 1]) * t;
-  for (std::size_t k = Degree - 1; k-- > 0;) sum = (sum + vector_of<Vector>(curve.coefficients[k])) * t;
-  return sum;
+  const auto c = [&](std::size_t k) __attribute__((always_inline)) {
+    return vector_of<Vector>(curve.coefficients[k - 1]);
+  };
+  if constexpr (Degree == 2) return (c(2) * t + c(1)) * t;
+  if constexpr (Degree == 3) return (c(3) * t + c(2)) * (t * t) + c(1) * t;
+  return ((c(4) * t + c(3)) * t + c(2)) * (t * t) + c(1) * t;
 }
 
 template <int Degree, typename Vector = Pair>
 [[gnu::always_inline]] inline Vector first_derivative(const CurveElement& curve, double t) {
-  Vector sum = vector_of<Vector>(curve.coefficients[Degree - 1]) * static_cast<double>(Degree);
-  for (std::size_t k = Degree - 1; k-- > 0;) {
-    sum = sum * t + vector_of<Vector>(curve.coefficients[k]) * static_cast<double>(k + 1);
-  }
-  return sum;
+  const auto c = [&](std::size_t k) __attribute__((always_inline)) {
+    return vector_of<Vector>(curve.coefficients[k - 1]) * static_cast<double>(k);
+  };
+  if constexpr (Degree == 2) return c(2) * t + c(1);
+  if constexpr (Degree == 3) return c(3) * (t * t) + (c(2) * t + c(1));
+  return (c(4) * t + c(3)) * (t * t) + (c(2) * t + c(1));
 }
 
 template <int Degree, typename Vector = Pair>
@@ -35,6 +40,17 @@ template <int Degree, typename Vector = Pair>
   Vector sum = vector_of<Vector>(curve.coefficients[Degree - 1]) * static_cast<double>(Degree * (Degree - 1));
   for (std::size_t k = Degree - 1; k-- > 1;) {
     sum = sum * t + vector_of<Vector>(curve.coefficients[k]) * static_cast<double>((k + 1) * k);
+  }
+  return sum;
+}
+
+template <int Degree, typename Vector = Pair>
+[[gnu::always_inline]] inline Vector third_derivative(const CurveElement& curve, double t) {
+  if constexpr (Degree == 2) return Vector{};
+  Vector sum =
+      vector_of<Vector>(curve.coefficients[Degree - 1]) * static_cast<double>(Degree * (Degree - 1) * (Degree - 2));
+  for (std::size_t k = Degree - 1; k-- > 2;) {
+    sum = sum * t + vector_of<Vector>(curve.coefficients[k]) * static_cast<double>((k + 1) * k * (k - 1));
   }
   return sum;
 }

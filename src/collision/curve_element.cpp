@@ -51,6 +51,9 @@ void divide_zeros_out(Row& row, int from_start, int from_end) {
   }
 }
 
+/// Error of an ordinate as a share of the largest term: five roundings to single precision, and room.
+constexpr float noise_share = 8.0F * 0x1p-24F;
+
 /// What each ordinate of a polynomial over the whole curve adds to each ordinate over the cells: subdivision is linear.
 template <int Degree, std::size_t Count>
 constexpr std::array<std::array<double, Count>, Degree + 1> subdivision(int cells) {
@@ -91,9 +94,9 @@ float write_ordinates(const Row& row, const std::array<std::array<double, Count>
 template <int Degree, std::size_t Count>
 void write_parts(const std::array<Row, 3>& parts, const std::array<std::array<double, Count>, Degree + 1>& weights,
                  SlopeOrdinates<Count>& ordinates) {
-  ordinates.largest_x = write_ordinates<Degree>(parts[0], weights, ordinates.x);
-  ordinates.largest_y = write_ordinates<Degree>(parts[1], weights, ordinates.y);
-  ordinates.largest_constant = write_ordinates<Degree>(parts[2], weights, ordinates.constant);
+  ordinates.noise_x = noise_share * write_ordinates<Degree>(parts[0], weights, ordinates.x);
+  ordinates.noise_y = noise_share * write_ordinates<Degree>(parts[1], weights, ordinates.y);
+  ordinates.noise_constant = noise_share * write_ordinates<Degree>(parts[2], weights, ordinates.constant);
 }
 
 template <int Degree>

@@ -111,4 +111,25 @@ template <int Degree, typename Vector>
   return at;
 }
 
+/// From a guess so good that one step of Halley's method on the curve itself does: shifts the curve's Taylor series by
+/// the step and looks how far off the zero of g that leaves it. False where that was not enough.
+template <int Degree>
+[[gnu::always_inline]] inline bool follow(const CurveElement& curve, Pair query, double t, double allowed,
+                                          Candidate& at) {
+  at = candidate<Degree>(curve, query, t);
+  const Pair acceleration = second_derivative<Degree>(curve, t), jerk = third_derivative<Degree>(curve, t);
+  const double g = dot(at.offset, at.velocity);
+  const double slope = dot(at.velocity, at.velocity) + dot(at.offset, acceleration);
+  const double bend = 0.5 * (3.0 * dot(at.velocity, acceleration) + dot(at.offset, jerk));
+  const double step = g * slope / (slope * slope - g * bend);
+  constexpr double largest_step = 1e-3;  // what a quartic's fourth derivative adds is below rounding
+  const Pair moved = (at.velocity - (acceleration - jerk * (step / 3.0)) * (0.5 * step)) * step;
+  at.t -= step;
+  at.place -= moved;
+  at.offset -= moved;
+  at.velocity -= (acceleration - jerk * (0.5 * step)) * step;
+  return std::abs(step) <= largest_step && slope > curve.least_slope &&
+         std::abs(dot(at.offset, at.velocity)) <= allowed * slope;
+}
+
 }  // namespace calligraphy

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 
 #include "approximate_nearest_point.hpp"
 #include "candidate.hpp"
@@ -12,42 +13,46 @@ namespace {
 
 constexpr int max_samples = 64;
 constexpr int block = 8;  // samples side by side
+using Lanes = float __attribute__((vector_size(4 * block)));
 constexpr int max_refinements = 8;
 
+/// Per lane.
+[[gnu::always_inline]] inline void take_nearer(Lanes& least, Lanes& nearest, const Lanes& square, const Lanes& index) {
+  const auto nearer = square < least;
+  least = nearer ? square : least;
+  nearest = nearer ? index : nearest;
+}
+
 /// Index of the sample that is nearest to the query, by |B|^2 - 2 q . B: the square of the distance less that of the
-/// query, so that a far query loses no digits. In single precision, which is what is fast about this method; plain
-/// loops that the compiler turns into wide instructions.
+/// query, so that a far query loses no digits. In single precision, which is what is fast about this method.
 template <int Degree>
 [[gnu::always_inline]] inline int nearest_sample(const CurveElement& curve, Pair query, const ParameterRange& range,
                                                  int samples) {
   const float step = static_cast<float>((range.end - range.begin) / (samples - 1));
-  const float begin = static_cast<float>(range.begin);
-  const float query_x = static_cast<float>(query[0]), query_y = static_cast<float>(query[1]);
-  std::array<float, Degree> x, y;
-  for (std::size_t k = 0; k < Degree; ++k) {
-    x[k] = static_cast<float>(curve.coefficients[k].x());
-    y[k] = static_cast<float>(curve.coefficients[k].y());
-  }
-  std::array<float, max_samples> squares;
-  for (int first = 0; first < samples; first += block) {
-    for (int i = first; i < first + block; ++i) {
-      const float t = begin + step * static_cast<float>(i);
-      float at_x = x[Degree - 1] * t, at_y = y[Degree - 1] * t;
-      for (std::size_t k = Degree - 1; k-- > 0;) {
-        at_x = (at_x + x[k]) * t;
-        at_y = (at_y + y[k]) * t;
-      }
-      squares[static_cast<std::size_t>(i)] = at_x * (at_x - 2.0F * query_x) + at_y * (at_y - 2.0F * query_y);
+  const float twice_x = 2.0F * static_cast<float>(query[0]), twice_y = 2.0F * static_cast<float>(query[1]);
+  const Lanes last = static_cast<float>(samples - 1) + Lanes{};
+  Lanes index = {0, 1, 2, 3, 4, 5, 6, 7};
+  Lanes least = std::numeric_limits<float>::infinity() + Lanes{}, nearest = {};
+  for (int first = 0; first < samples; first += block, index += block) {
+    const Lanes i = index < last ? index : last;  // after the last sample it is repeated
+    const Lanes t = static_cast<float>(range.begin) + step * i;
+    Lanes x = static_cast<float>(curve.coefficients[Degree - 1].x()) * t;
+    Lanes y = static_cast<float>(curve.coefficients[Degree - 1].y()) * t;
+    for (std::size_t k = Degree - 1; k-- > 0;) {
+      x = (x + static_cast<float>(curve.coefficients[k].x())) * t;
+      y = (y + static_cast<float>(curve.coefficients[k].y())) * t;
     }
+    const Lanes square = x * (x - twice_x) + y * (y - twice_y);
+    take_nearer(least, nearest, square, i);
   }
-  int nearest = 0;
-  float least = squares[0];
-  for (int i = 1; i < samples; ++i) {
-    const float square = squares[static_cast<std::size_t>(i)];
-    nearest = square < least ? i : nearest;
-    least = square < least ? square : least;
-  }
-  return nearest;
+  // Halves against halves, without branches that no processor could foresee.
+  take_nearer(least, nearest, __builtin_shufflevector(least, least, 4, 5, 6, 7, 0, 1, 2, 3),
+              __builtin_shufflevector(nearest, nearest, 4, 5, 6, 7, 0, 1, 2, 3));
+  take_nearer(least, nearest, __builtin_shufflevector(least, least, 2, 3, 0, 1, 6, 7, 4, 5),
+              __builtin_shufflevector(nearest, nearest, 2, 3, 0, 1, 6, 7, 4, 5));
+  take_nearer(least, nearest, __builtin_shufflevector(least, least, 1, 0, 3, 2, 5, 4, 7, 6),
+              __builtin_shufflevector(nearest, nearest, 1, 0, 3, 2, 5, 4, 7, 6));
+  return static_cast<int>(nearest[0]);
 }
 
 /// Halley's method, kept between the neighbours of the sample; a step that does not come nearer is not taken.

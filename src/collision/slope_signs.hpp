@@ -32,12 +32,10 @@ struct CertainSigns {
   std::uint64_t negative = 0, positive = 0;
 };
 
-/// Bound of the error of an ordinate: five roundings of each term, and room.
+/// Bound of the error of an ordinate.
 template <std::size_t Count>
-inline float slope_noise(const SlopeOrdinates<Count>& ordinates, float x, float y) {
-  constexpr float roundings = 8.0F * 0x1p-24F;
-  return roundings *
-         (std::fabs(x) * ordinates.largest_x + std::fabs(y) * ordinates.largest_y + ordinates.largest_constant);
+[[gnu::always_inline]] inline float slope_noise(const SlopeOrdinates<Count>& ordinates, float x, float y) {
+  return std::fabs(x) * ordinates.noise_x + std::fabs(y) * ordinates.noise_y + ordinates.noise_constant;
 }
 
 template <std::size_t Count>

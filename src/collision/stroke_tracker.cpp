@@ -1,6 +1,5 @@
 #include <calligraphy/collision/stroke_tracker.hpp>
 
-#include <algorithm>
 #include <cstddef>
 
 namespace calligraphy {
@@ -19,10 +18,12 @@ StrokeTracker::StrokeTracker(std::span<const StrokeElement> elements, double tol
 NearestPoint StrokeTracker::look(int element, const Point& query) noexcept {
   const auto i = static_cast<std::size_t>(element);
   Sighting& sighting = sightings_[i];
-  const NearestPoint foot =
-      nearest_point(elements_[i], query, options_, {}, std::clamp(sighting.parameter + sighting.step, 0.0, 1.0));
+  const NearestPoint foot = nearest_point(elements_[i], query, options_, {}, sighting.parameter + sighting.step);
   if (foot.status == NearestPointStatus::not_finite) return foot;
-  sighting = {query, foot.distance, foot.parameter, foot.parameter - sighting.parameter};
+  sighting.clearance = foot.distance - rounding * (foot.distance + elements_[i].size());
+  sighting.query = query;
+  sighting.step = foot.parameter - sighting.parameter;
+  sighting.parameter = foot.parameter;
   return foot;
 }
 
@@ -33,11 +34,11 @@ StrokePoint StrokeTracker::update(const Point& query) noexcept {
     if (i == last_) continue;
     // The distance to an element changes by no more than the pen travels.
     const Sighting& sighting = sightings_[static_cast<std::size_t>(i)];
-    const double tie = rounding * (sighting.distance + elements_[static_cast<std::size_t>(i)].size());
-    const double lead = sighting.distance - nearest.foot.distance - tie;
+    const double lead = sighting.clearance - nearest.foot.distance;
     if (lead > 0.0 && (query - sighting.query).squaredNorm() < lead * lead) continue;
     const NearestPoint foot = look(i, query);
     const double gain = nearest.foot.distance - foot.distance;
+    const double tie = foot.distance - sighting.clearance;
     if (gain > tie || (gain >= -tie && i < nearest.element)) nearest = {i, foot};
   }
   last_ = nearest.element;

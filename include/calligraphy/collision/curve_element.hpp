@@ -16,7 +16,8 @@ namespace calligraphy {
 template <std::size_t Count>
 struct SlopeOrdinates {
   alignas(16) std::array<float, Count> x = {}, y = {}, constant = {};
-  float largest_x = 0.0F, largest_y = 0.0F, largest_constant = 0.0F;  ///< largest magnitudes
+  /// An ordinate may be off by |q_x| noise_x + |q_y| noise_y + noise_constant.
+  float noise_x = 0.0F, noise_y = 0.0F, noise_constant = 0.0F;
 };
 
 /// A curve of degree 2 to 4.

@@ -29,7 +29,7 @@ class StrokeTracker {
   /// What is known of an element from the last time it was asked.
   struct Sighting {
     Point query = Point::Zero();
-    double distance = 0.0;
+    double clearance = 0.0;  ///< the distance, less what may be rounding
     double parameter = 0.5;
     double step = 0.0;  ///< the last change of the parameter
   };
