@@ -18,5 +18,6 @@ class UsageError : public Error {
 void add_write(CLI::App& program);
 void add_strokes(CLI::App& program);
 void add_info(CLI::App& program);
+void add_trade(CLI::App& program);
 
 }  // namespace calligraphy::tools

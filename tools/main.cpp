@@ -33,6 +33,7 @@ int run(int argc, char** argv) {
   calligraphy::tools::add_write(program);
   calligraphy::tools::add_strokes(program);
   calligraphy::tools::add_info(program);
+  calligraphy::tools::add_trade(program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -23,6 +23,7 @@
 #include <calligraphy/model/text.hpp>
 #include <calligraphy/model/typical_stroke.hpp>
 #include <calligraphy/practice/file.hpp>
+#include <calligraphy/practice/force_field.hpp>
 #include <calligraphy/practice/nearest_point_workload.hpp>
 #include <calligraphy/practice/page.hpp>
 #include <calligraphy/practice/picture.hpp>
@@ -31,6 +32,7 @@
 #include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/session.hpp>
 #include <calligraphy/practice/stroke_queries.hpp>
+#include <calligraphy/practice/trade.hpp>
 #include <calligraphy/practice/writer.hpp>
 #include <calligraphy/render/force_limiter.hpp>
 #include <calligraphy/render/force_terms.hpp>

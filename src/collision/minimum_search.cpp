@@ -226,8 +226,13 @@ class MinimumSearch {
     for (int step = 0; step < 64; ++step) {
       const Candidate at = candidate<Degree>(curve_, query_, t);
       const double value = dot(at.offset, at.velocity);
-      const double slope = dot(at.velocity, at.velocity) + dot(at.offset, second_derivative<Degree>(curve_, t));
+      if (std::abs(value) <= noise(at)) {
+        if (zero_is_here(t, low, high)) break;
+        t = 0.5 * (low + high);
+        continue;
+      }
       (value < 0.0 ? low : high) = t;
+      const double slope = dot(at.velocity, at.velocity) + dot(at.offset, second_derivative<Degree>(curve_, t));
       double next = t - value / slope;
       if (!(next > low && next < high)) next = 0.5 * (low + high);
       const double moved = std::abs(next - t);
@@ -236,6 +241,34 @@ class MinimumSearch {
       if (moved <= tolerance_ * 1e-3 || high - low <= 4.0 * epsilon) break;
     }
     offer(t);
+  }
+
+  /// Where rounding decides the sign of g: whether its zero is near, or, by the nearest places to both sides where the
+  /// sign is certain, on which side of them.
+  bool zero_is_here(double t, double& low, double& high) const {
+    for (double aside = narrowest;; aside *= 4.0) {
+      const double left = std::max(t - aside, low), right = std::min(t + aside, high);
+      const int left_sign = certain_sign(left), right_sign = certain_sign(right);
+      if (right_sign < 0) low = right;
+      if (left_sign > 0) high = left;
+      if (right_sign < 0 || left_sign > 0) return false;
+      if ((left_sign < 0 && right_sign > 0) || (left <= low && right >= high)) return true;
+    }
+  }
+
+  int certain_sign(double t) const {
+    const Candidate at = candidate<Degree>(curve_, query_, t);
+    const double value = dot(at.offset, at.velocity);
+    return std::abs(value) <= noise(at) ? 0 : value < 0.0 ? -1 : 1;
+  }
+
+  /// Rounding of g: of the place, relative to the size, and of the velocity, relative to what it is the sum of.
+  double noise(const Candidate& at) const {
+    double speed = 0.0;
+    for (std::size_t k = 0; k < Degree; ++k) {
+      speed += static_cast<double>(k + 1) * larger_coordinate(pair(curve_.coefficients[k]));
+    }
+    return 4.0 * epsilon * (larger_coordinate(at.offset) * speed + larger_coordinate(at.velocity));
   }
 
   const CurveElement& curve_;

@@ -1,12 +1,14 @@
 #include <calligraphy/collision/stroke_tracker.hpp>
 
 #include <cstddef>
+#include <limits>
 
 namespace calligraphy {
 namespace {
 
 /// Rounding of a distance, relative to it and to the size of the element.
 constexpr double rounding = 1e-14;
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
@@ -38,7 +40,7 @@ StrokePoint StrokeTracker::update(const Point& query) noexcept {
     if (lead > 0.0 && (query - sighting.query).squaredNorm() < lead * lead) continue;
     const NearestPoint foot = look(i, query);
     const double gain = nearest.foot.distance - foot.distance;
-    const double tie = foot.distance - sighting.clearance;
+    const double tie = rounding * elements_[static_cast<std::size_t>(i)].size() + 2.0 * epsilon * foot.distance;
     if (gain > tie || (gain >= -tie && i < nearest.element)) nearest = {i, foot};
   }
   last_ = nearest.element;

@@ -1,7 +1,6 @@
 #include <calligraphy/practice/plot.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -10,6 +9,7 @@
 
 #include <calligraphy/error.hpp>
 
+#include "gnuplot.hpp"
 #include "process.hpp"
 #include "svg.hpp"
 
@@ -65,11 +65,6 @@ Signals signals_of(const Recording& recording, int character) {
   return signals;
 }
 
-std::string exact(double value) {
-  char buffer[32];
-  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
-}
-
 /// The curve as a block of data. Of every bucket of samples the smallest and the largest are drawn, so that no peak is
 /// lost.
 std::string data_block(const std::vector<double>& time, const Signal& signal) {
@@ -77,7 +72,7 @@ std::string data_block(const std::vector<double>& time, const Signal& signal) {
   const std::size_t bucket = std::max<std::size_t>(1, (time.size() + buckets - 1) / buckets);
   const auto& values = signal.values;
   const auto point = [&](std::size_t i) {
-    if (std::isfinite(values[i])) text += exact(time[i]) + " " + exact(values[i]) + "\n";
+    if (std::isfinite(values[i])) text += gnuplot::number(time[i]) + " " + gnuplot::number(values[i]) + "\n";
   };
   for (std::size_t begin = 0; begin < time.size(); begin += bucket) {
     std::size_t low = begin, high = begin;
@@ -94,9 +89,9 @@ std::string data_block(const std::vector<double>& time, const Signal& signal) {
 std::string band_objects(const std::vector<Band>& bands) {
   std::string text;
   for (const Band& band : bands) {
-    text += "set object rectangle from first " + exact(band.begin) + ", graph 0 to first " + exact(band.end) +
-            ", graph 1 behind fillstyle solid noborder fillcolor rgb '" + (band.abandoned ? "#e4e4e4" : "#e3ecfb") +
-            "'\n";
+    text += "set object rectangle from first " + gnuplot::number(band.begin) + ", graph 0 to first " +
+            gnuplot::number(band.end) + ", graph 1 behind fillstyle solid noborder fillcolor rgb '" +
+            (band.abandoned ? "#e4e4e4" : "#e3ecfb") + "'\n";
   }
   return text;
 }
@@ -110,7 +105,7 @@ std::string band_labels(const std::vector<Band>& bands, double begin, double end
     const double middle = 0.5 * (band.begin + band.end);
     if (middle - last < needed) continue;
     last = middle;
-    text += "set label '" + std::to_string(band.stroke + 1) + "' at first " + exact(middle) +
+    text += "set label '" + std::to_string(band.stroke + 1) + "' at first " + gnuplot::number(middle) +
             ", graph 1 offset 0, 0.7 center textcolor rgb '" + (band.abandoned ? "#888888" : "#2f5fb3") + "'\n";
   }
   return text;
@@ -128,18 +123,19 @@ std::string y_range(std::span<const Signal> curves) {
   }
   if (low == high) high = 1.0;
   const double margin = 0.06 * (high - low);
-  return "set yrange [" + exact(low < 0.0 ? low - margin : 0.0) + ":" + exact(high > 0.0 ? high + margin : 0.0) + "]\n";
+  return "set yrange [" + gnuplot::number(low < 0.0 ? low - margin : 0.0) + ":" +
+         gnuplot::number(high > 0.0 ? high + margin : 0.0) + "]\n";
 }
 
 /// Numbers alone vary: no text of the caller's reaches gnuplot.
 std::string script(const Signals& signals) {
   const double begin = signals.time.front();
   const double end = std::max(signals.time.back(), begin + 1e-3);
-  std::string text = "set terminal svg noenhanced size " + std::to_string(plot_width) + "," +
-                     std::to_string(plot_height) + " font 'sans-serif,13' background rgb 'white'\n";
+  std::string text = gnuplot::svg_terminal(plot_width, plot_height);
   for (const Signal& signal : signals.curves) text += data_block(signals.time, signal);
-  text += "set lmargin at screen " + exact(left) + "\nset rmargin at screen " + exact(right) + "\n" + "set xrange [" +
-          exact(begin) + ":" + exact(end) + "]\n" + band_objects(signals.bands) +
+  text += "set lmargin at screen " + gnuplot::number(left) + "\nset rmargin at screen " + gnuplot::number(right) +
+          "\n" + "set xrange [" + gnuplot::number(begin) + ":" + gnuplot::number(end) + "]\n" +
+          band_objects(signals.bands) +
           "set grid back linetype 1 linecolor rgb '#dcdcdc' linewidth 0.5\n"
           "set border 3 linecolor rgb '#666666'\nset tics nomirror out\n"
           "set xzeroaxis linetype 1 linecolor rgb '#999999'\n";
@@ -183,15 +179,8 @@ std::string force_plot(const Recording& recording, int character, const std::str
   if (signals.time.empty()) {
     throw ValueError("character " + std::to_string(character) + " is active in no sample of the recording");
   }
-  const ProcessResult result = run_process({"gnuplot", "--default-settings"}, script(signals));
-  if (result.exit_code != 0) {
-    throw Error("gnuplot failed with exit code " + std::to_string(result.exit_code) + ": " + result.errors);
-  }
   pugi::xml_document document;
-  if (const auto parsed = document.load_string(result.output.c_str(), pugi::parse_default | pugi::parse_declaration);
-      !parsed || !document.child("svg")) {
-    throw Error(std::string("gnuplot gave no SVG: ") + parsed.description() + " " + result.errors);
-  }
+  gnuplot::draw(script(signals), document);
   pugi::xml_node root = document.child("svg");
   root.child("title").text() = heading.c_str();
   const double size = std::min(17.0, 0.9 * plot_width / svg::text_width(heading + ".", 1.0));

@@ -1,0 +1,21 @@
+// Plots drawn by the program gnuplot.
+#pragma once
+
+#include <string>
+
+#include <pugixml.hpp>
+
+namespace calligraphy::gnuplot {
+
+/// In the shortest form that reads back the same, whatever the locale.
+std::string number(double value);
+
+/// The beginning of a script: SVG of this size [px], on white.
+std::string svg_terminal(int width, int height);
+
+/// Runs a script and reads the picture that it draws. Numbers and the program's own words alone belong in a script: no
+/// text of a caller's.
+/// @throws Error with gnuplot's message when it cannot be started or fails
+void draw(const std::string& script, pugi::xml_document& picture);
+
+}  // namespace calligraphy::gnuplot

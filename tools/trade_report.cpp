@@ -1,0 +1,181 @@
+#include "trade_report.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <calligraphy/model/text.hpp>
+
+namespace calligraphy::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double millimetres = 1e3;
+constexpr double percent = 100.0;
+
+std::string utf8(const std::u32string& text) {
+  std::string result;
+  for (const char32_t code : text) result += encode_utf8(code);
+  return result;
+}
+
+using Cost = NearestPointCost NearestPointTrade::*;
+
+std::string cost_table(const TradeReport& report, const std::string& heading, Cost cost) {
+  constexpr const char* head = "{:<18}{:>9}{:>9}{:>10}{:>11}{:>11}{:>11}{:>10}\n";
+  std::string text = heading + "; errors in sizes of the curve\n";
+  text += fmt::format(fmt::runtime(head), "", "median", "p90", "in batch", "median", "p99", "largest", "wrong");
+  text += fmt::format(fmt::runtime(head), "method", "[ns]", "[ns]", "[ns]", "error", "error", "error", "[%]");
+  for (const NearestPointTrade& entry : report.nearest_point) {
+    const NearestPointCost& own = entry.*cost;
+    text +=
+        fmt::format("{:<18}{:>9.1f}{:>9.1f}{:>10.1f}{:>11.1e}{:>11.1e}{:>11.1e}{:>10.3f}\n", entry.setting.name, own.ns,
+                    own.ns_p90, own.batch_ns, own.error, own.error_p99, own.error_worst, own.wrong * percent);
+  }
+  return text + "\n";
+}
+
+std::string hand_table(const TradeReport& report) {
+  const NearestPointTradeOptions& options = report.nearest_options;
+  constexpr const char* head = "{:<18}{:>9}{:>9}{:>9}{:>13}{:>9}{:>13}{:>9}\n";
+  std::string text =
+      fmt::format("Nearest point from tick to tick, and what the hand feels of it: K = {:g} N/m, {:g} mm/s, {:g} Hz\n",
+                  options.stiffness, options.speed * millimetres, options.rate);
+  text += fmt::format("{:<18}{:>27}{:>22}{:>22}\n", "", "pen along whole strokes", "curves of strokes", "gentle arcs");
+  text += fmt::format(fmt::runtime(head), "", "tick", "p90", "wrong", "force step", "wrong", "force step", "wrong");
+  text += fmt::format(fmt::runtime(head), "method", "[ns]", "[ns]", "[%]", "[N/tick]", "[%]", "[N/tick]", "[%]");
+  for (const NearestPointTrade& entry : report.nearest_point) {
+    text += fmt::format("{:<18}{:>9.1f}{:>9.1f}{:>9.3f}{:>13.4f}{:>9.3f}{:>13.4f}{:>9.3f}\n", entry.setting.name,
+                        entry.ticks.ns, entry.ticks.ns_p90, entry.ticks.wrong * percent, entry.strokes.largest_step,
+                        entry.strokes.wrong * percent, entry.arcs.largest_step, entry.arcs.wrong * percent);
+  }
+  return text + "a perfect foot steps the force too, since the pen moves: the rows of exact\n\n";
+}
+
+std::string rate_table(const TradeReport& report) {
+  const auto& rows = report.servo_rate;
+  std::string text = fmt::format(
+      "Servo rate: the novice writes {}, {} seeds, on a simulated {}; default paper {:g} N/m\n", utf8(report.written),
+      report.servo_options.seeds, report.servo_options.device, rows.empty() ? 0.0 : rows.front().stiffness);
+  text += fmt::format("{:>7}  {:<42}  {:<36}  {}\n", "", "default paper", "largest stable stiffness [N/m]",
+                      "hardest paper");
+  text += fmt::format("{:>7}{:>8}{:>9}{:>9}{:>9}{:>9}{:>11}{:>9}{:>9}{:>9}{:>11}{:>9}{:>9}\n", "rate", "", "depth",
+                      "path", "force", "strokes", "", "no rate", "theory,", "theory,", "", "depth", "force");
+  text += fmt::format("{:>7}{:>8}{:>9}{:>9}{:>9}{:>9}{:>11}{:>9}{:>9}{:>9}{:>11}{:>9}{:>9}\n", "[Hz]", "stable", "[mm]",
+                      "[mm RMS]", "step [N]", "done [%]", "default", "limit", "held", "let go", "[N/m]", "[mm]",
+                      "step [N]");
+  for (const ServoRateTrade& entry : rows) {
+    text += fmt::format(
+        "{:>7g}{:>8}{:>9.3f}{:>9.3f}{:>9.3f}{:>9.0f}{:>11.0f}{:>9.0f}{:>9.0f}{:>9.0f}{:>11.0f}{:>9.3f}{:>9.3f}\n",
+        entry.rate, entry.stable ? "yes" : "no", entry.penetration * millimetres, entry.path_error * millimetres,
+        entry.force_step, entry.written * percent, entry.loop_stiffness, entry.unlimited_stiffness,
+        entry.held_stiffness, entry.free_stiffness, entry.hard_stiffness, entry.hard_penetration * millimetres,
+        entry.hard_force_step);
+  }
+  return text +
+         "depth: largest penetration; no rate limit: of the normal force; hardest paper: half as stiff as is stable "
+         "then\n\n";
+}
+
+std::string width_table(const TradeReport& report) {
+  constexpr const char* head = "{:>6}{:>12}{:>16}{:>12}{:>14}\n";
+  std::string text = fmt::format("Width of stored coordinates: {} characters\n", report.text.size());
+  text += fmt::format(fmt::runtime(head), "", "grid step", "largest error", "RMS error", "bytes per");
+  text += fmt::format(fmt::runtime(head), "bits", "[% em]", "[% em]", "[% em]", "character");
+  for (const CoordinateWidthTrade& entry : report.coordinate_width) {
+    text += fmt::format("{:>6}{:>12.4f}{:>16.4f}{:>12.4f}{:>14.1f}\n", entry.bits, entry.step * percent,
+                        entry.largest_error * percent, entry.rms_error * percent, entry.bytes);
+  }
+  return text;
+}
+
+Json json_of(const NearestPointCost& cost) {
+  return {{"queries", cost.queries},       {"ns_p50", cost.ns},           {"ns_p90", cost.ns_p90},
+          {"batch_ns_p50", cost.batch_ns}, {"error_p50", cost.error},     {"error_p99", cost.error_p99},
+          {"error_max", cost.error_worst}, {"wrong_branches", cost.wrong}};
+}
+
+Json json_of(const PenFeel& feel) { return {{"max_force_step_N", feel.largest_step}, {"wrong_ticks", feel.wrong}}; }
+
+Json json_of(const NearestPointTrade& entry) {
+  Json workloads = Json::array();
+  for (const NearestPointCost& cost : entry.workloads) workloads.push_back(json_of(cost));
+  const NearestPointOptions& options = entry.setting.options;
+  Json object = {{"setting", entry.setting.name}, {"method", method_name(options.method)}};
+  if (options.method == NearestPointMethod::sampled) {
+    object["samples"] = options.samples;
+    object["refinements"] = options.refinements;
+  } else {
+    object["tolerance"] = options.tolerance;
+  }
+  object["real_strokes"] = json_of(entry.real);
+  object["hard"] = json_of(entry.hard);
+  object["workloads"] = std::move(workloads);
+  object["ticks"] = json_of(entry.ticks);
+  object["along_strokes"] = json_of(entry.strokes);
+  object["along_arcs"] = json_of(entry.arcs);
+  return object;
+}
+
+Json json_of(const ServoRateTrade& entry) {
+  return {{"rate_Hz", entry.rate},
+          {"paper_stiffness_N_m", entry.stiffness},
+          {"stable", entry.stable},
+          {"max_penetration_mm", entry.penetration * millimetres},
+          {"path_error_rms_mm", entry.path_error * millimetres},
+          {"max_force_step_N", entry.force_step},
+          {"strokes_written", entry.written},
+          {"largest_stable_stiffness_N_m", entry.loop_stiffness},
+          {"largest_stable_stiffness_without_force_rate_limit_N_m", entry.unlimited_stiffness},
+          {"critical_stiffness_held_N_m", entry.held_stiffness},
+          {"critical_stiffness_free_N_m", entry.free_stiffness},
+          {"hard_paper",
+           {{"stiffness_N_m", entry.hard_stiffness},
+            {"max_penetration_mm", entry.hard_penetration * millimetres},
+            {"max_force_step_N", entry.hard_force_step}}}};
+}
+
+Json json_of(const CoordinateWidthTrade& entry) {
+  return {{"bits", entry.bits},
+          {"step_em", entry.step},
+          {"max_error_em", entry.largest_error},
+          {"rms_error_em", entry.rms_error},
+          {"bytes_per_character", entry.bytes}};
+}
+
+template <typename Entry>
+Json list_of(const std::vector<Entry>& entries) {
+  Json list = Json::array();
+  for (const Entry& entry : entries) list.push_back(json_of(entry));
+  return list;
+}
+
+}  // namespace
+
+std::string tables(const TradeReport& report) {
+  const int queries = report.nearest_options.queries;
+  return cost_table(report, fmt::format("Nearest point on real strokes, {} queries", 2 * queries),
+                    &NearestPointTrade::real) +
+         cost_table(report, fmt::format("Nearest point on the hard workloads, {} queries", 17 * queries),
+                    &NearestPointTrade::hard) +
+         hand_table(report) + rate_table(report) + width_table(report);
+}
+
+std::string json(const TradeReport& report) {
+  const NearestPointTradeOptions& options = report.nearest_options;
+  const Json object = {
+      {"characters", utf8(report.text)},
+      {"written_characters", utf8(report.written)},
+      {"seed", report.seed},
+      {"queries_per_workload", options.queries},
+      {"rounds", options.rounds},
+      {"hand", {{"stiffness_N_m", options.stiffness}, {"speed_m_s", options.speed}, {"rate_Hz", options.rate}}},
+      {"servo_rate_seeds", report.servo_options.seeds},
+      {"device", report.servo_options.device},
+      {"nearest_point", list_of(report.nearest_point)},
+      {"servo_rate", list_of(report.servo_rate)},
+      {"coordinate_width", list_of(report.coordinate_width)}};
+  return object.dump(2) + "\n";
+}
+
+}  // namespace calligraphy::tools
