@@ -75,7 +75,7 @@ class MinimumSearch {
       if (negative == all || positive == all) continue;
       const double begin = cell * width, end = begin + width;
       const bool whole = begin >= range_.begin && end <= range_.end;
-      // Uncertain signs between certain ones that differ leave one change, whatever they are.
+      // An uncertain sign between certain ones that differ leaves one change, whatever it is.
       if (whole && starts_and_ends(positive, negative, all)) continue;  // from + to -: a maximum
       if (whole && starts_and_ends(negative, positive, all)) {
         const int last = std::countr_one(negative) - 1, next = std::countr_zero(positive);
@@ -91,10 +91,12 @@ class MinimumSearch {
     }
   }
 
-  /// Whether the bits of `first` are the lowest ones and those of `second` the highest ones of `all`.
+  /// Whether the bits of `first` are the lowest ones and those of `second` the highest ones of `all`, with no more than
+  /// one between them that is of neither.
   static bool starts_and_ends(std::uint64_t first, std::uint64_t second, std::uint64_t all) {
-    const std::uint64_t not_second = all & ~second;
-    return first != 0 && second != 0 && (first & (first + 1)) == 0 && (not_second & (not_second + 1)) == 0;
+    const std::uint64_t not_second = all & ~second, between = not_second & ~first;
+    return first != 0 && second != 0 && (first & (first + 1)) == 0 && (not_second & (not_second + 1)) == 0 &&
+           (between & (between - 1)) == 0;
   }
 
   /// Control points of a part of the curve, relative to the query.
@@ -168,9 +170,11 @@ class MinimumSearch {
     const Terms g = ordinates(interval);
     const auto [lowest, highest] = std::minmax_element(g.begin(), g.end());
     if (*lowest >= 0.0 || *highest <= 0.0) return false;  // monotone: nothing nearer inside than at the ends
-    if (least_square(interval, *lowest, *highest) >= best_square_) return false;
-    // Signs within rounding of zero: between different ones they leave one change whatever they are; at an end they
-    // can only hide a minimum as near as the end itself.
+    // What would be nearer by a thousandth of the tolerance, or by what rounds away, is not worth halving.
+    const double slack = 2e-3 * tolerance_ * larger_coordinate(best_.offset) + 2.0 * epsilon * best_square_;
+    if (least_square(interval, *lowest, *highest) >= best_square_ - slack) return false;
+    // Signs within rounding of zero: one between different ones leaves one change whatever it is; at an end they can
+    // only hide a minimum as near as the end itself.
     const double noise = 16.0 * epsilon * largest_product(interval);
     int changes = 0, change = 0, last = -1;
     bool doubtful = false;
@@ -181,7 +185,7 @@ class MinimumSearch {
         const bool differs = (value < 0.0) != (g[static_cast<std::size_t>(last)] < 0.0);
         changes += differs;
         if (differs) change = last;
-        doubtful = doubtful || (!differs && i > last + 1);
+        doubtful = doubtful || i > last + (differs ? 2 : 1);
       }
       last = i;
     }
