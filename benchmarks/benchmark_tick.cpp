@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <random>
 #include <vector>
 
@@ -74,7 +73,8 @@ const CurveQueries& curve_queries() {
 template <NearestPointMethod method, int digits>
 RendererOptions with_method() {
   RendererOptions options = RendererOptions::for_device(written_page().capabilities);
-  options.stroke.nearest = {method, std::pow(10.0, -digits)};
+  options.stroke.nearest.method = method;
+  options.stroke.nearest.tolerance = std::pow(10.0, -digits);
   return options;
 }
 
@@ -107,7 +107,9 @@ void whole_tick(benchmark::State& state, RendererOptions (*options)()) {
   state.counters["max_ns"] = times.back();
   state.counters["clock_ns"] = percentile(clock, 0.5);
 }
-BENCHMARK_CAPTURE(whole_tick, default_rules, with_method<NearestPointMethod::exact, 9>)->UseManualTime();
+BENCHMARK_CAPTURE(whole_tick, default_rules, with_method<NearestPointMethod::tracked, 9>)->UseManualTime();
+BENCHMARK_CAPTURE(whole_tick, nearest_exact, with_method<NearestPointMethod::exact, 9>)->UseManualTime();
+BENCHMARK_CAPTURE(whole_tick, nearest_sampled, with_method<NearestPointMethod::sampled, 9>)->UseManualTime();
 BENCHMARK_CAPTURE(whole_tick, nearest_wang2006_1e_3, with_method<NearestPointMethod::wang2006, 3>)->UseManualTime();
 BENCHMARK_CAPTURE(whole_tick, nearest_wang2006_1e_6, with_method<NearestPointMethod::wang2006, 6>)->UseManualTime();
 BENCHMARK_CAPTURE(whole_tick, nearest_wang2006_1e_9, with_method<NearestPointMethod::wang2006, 9>)->UseManualTime();
@@ -122,41 +124,6 @@ void stage_motion_mapping(benchmark::State& state) {
   }
 }
 BENCHMARK(stage_motion_mapping);
-
-/// Subdivision as printed beside the exact method, over the same pen tips in turn: the fastest pass of each. `ratio` is
-/// printed over exact.
-void stage_nearest_point(benchmark::State& state) {
-  const CurveQueries& queries = curve_queries();
-  const NearestPointOptions exact;
-  const NearestPointOptions printed{NearestPointMethod::wang2006, std::pow(10.0, -static_cast<double>(state.range(0)))};
-  std::vector<NearestPoint> exact_feet(queries.tips.size());
-  std::vector<NearestPoint> printed_feet(queries.tips.size());
-  double exact_time = std::numeric_limits<double>::infinity();
-  double printed_time = std::numeric_limits<double>::infinity();
-  const auto query_all = [&](const NearestPointOptions& options, std::vector<NearestPoint>& feet) {
-    const auto start = Clock::now();
-    for (std::size_t i = 0; i < feet.size(); ++i) feet[i] = nearest_point(queries.element, queries.tips[i], options);
-    return nanoseconds(Clock::now() - start);
-  };
-  for (auto _ : state) {
-    exact_time = std::min(exact_time, query_all(exact, exact_feet));
-    printed_time = std::min(printed_time, query_all(printed, printed_feet));
-  }
-  double worst = 0.0;
-  int wrong = 0;
-  for (std::size_t i = 0; i < exact_feet.size(); ++i) {
-    const double error = printed_feet[i].distance - exact_feet[i].distance;
-    worst = std::max(worst, error);
-    if (error > 1e-4) ++wrong;  // a tenth of a millimetre
-  }
-  const auto count = static_cast<double>(queries.tips.size());
-  state.counters["exact_ns"] = exact_time / count;
-  state.counters["wang2006_ns"] = printed_time / count;
-  state.counters["ratio"] = printed_time / exact_time;
-  state.counters["wang2006_worst_um"] = 1e6 * worst;
-  state.counters["wang2006_wrong"] = wrong / count;
-}
-BENCHMARK(stage_nearest_point)->ArgName("epsilon_1e-")->Arg(3)->Arg(6)->Arg(9);
 
 void stage_active_stroke_load(benchmark::State& state) {
   const Character& character = *built_in_characters().find(U'北');
@@ -205,7 +172,8 @@ void bytes_per_object(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(sizeof(HapticRenderer));
   state.counters["HapticRenderer"] = sizeof(HapticRenderer);
   state.counters["ActiveStroke"] = sizeof(ActiveStroke);
-  state.counters["StrokeElement"] = sizeof(StrokeElement);
+  state.counters["LineElement"] = sizeof(LineElement);
+  state.counters["CurveElement"] = sizeof(CurveElement);
   state.counters["HapticTick"] = sizeof(HapticTick);
   state.counters["DeviceState"] = sizeof(DeviceState);
   state.counters["Sample"] = sizeof(Sample);

@@ -26,6 +26,13 @@ void require(const char* name, double value, Bound bound, double most = std::num
   throw ValueError(message.str());
 }
 
+void require_count(const char* name, int value, int least, int most) {
+  if (value >= least && value <= most) return;
+  std::ostringstream message;
+  message << name << " = " << value << ": expected a whole number from " << least << " to " << most;
+  throw ValueError(message.str());
+}
+
 void require_stiffness(const char* name, double value, double factor, const Capabilities& capabilities) {
   require(name, value, Bound::from_zero);
   const double stated = capabilities.usable_stiffness;
@@ -78,6 +85,8 @@ void validate(const RendererOptions& options, const Capabilities& capabilities, 
   require("wrong_way_limit", options.wrong_way_limit, Bound::from_zero);
   require("wrong_way_slack", options.wrong_way_slack, Bound::from_zero);
   require("stroke.nearest.tolerance", options.stroke.nearest.tolerance, Bound::above_zero, 1.0);
+  require_count("stroke.nearest.samples", options.stroke.nearest.samples, 2, 64);
+  require_count("stroke.nearest.refinements", options.stroke.nearest.refinements, 0, 8);
   require("stroke.space.radius", options.stroke.space.radius, Bound::above_zero);
   require("stroke.space.edge", options.stroke.space.edge, Bound::above_zero, options.stroke.space.radius);
   require("stroke.plane_tolerance", options.stroke.plane_tolerance, Bound::from_zero);

@@ -92,6 +92,16 @@ TEST_CASE("upper bounds are named too", "[render]") {
   options.stroke.space.edge = 2.0 * options.stroke.space.radius;
   CHECK(contains(complaint(options), "stroke.space.edge"));
   options = {};
+  for (const int samples : {1, 65, -3}) {
+    RendererOptions coarse = options;
+    coarse.stroke.nearest.samples = samples;
+    CHECK(contains(complaint(coarse), "stroke.nearest.samples = " + std::to_string(samples)));
+  }
+  for (const int refinements : {-1, 9}) {
+    RendererOptions coarse = options;
+    coarse.stroke.nearest.refinements = refinements;
+    CHECK(contains(complaint(coarse), "stroke.nearest.refinements = " + std::to_string(refinements)));
+  }
   options.stroke.nearest.tolerance = 1.5;
   CHECK(contains(complaint(options), "stroke.nearest.tolerance"));
 }
