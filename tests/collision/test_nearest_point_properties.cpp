@@ -235,7 +235,7 @@ TEST_CASE("the same query has the same nearest point to the last bit, alone and 
           "[collision]") {
   for (const HardCurve& curve : hard_curves()) {
     const StrokeElement element = prepare_element(curve.control_points), other = prepare_element(curve.control_points);
-    const std::vector<Point> queries = hard_queries(curve);
+    const std::vector<Point> queries = hard_queries(curve, 100);
     std::vector<NearestPoint> batch(queries.size());
     int different = 0;
     for (const NearestPointMethod method : all_methods) {

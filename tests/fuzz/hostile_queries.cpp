@@ -107,7 +107,9 @@ Point at_centre_of_curvature(NumberSequence& random, Points points) {
     const double turn = at.slope.x() * at.bend.y() - at.slope.y() * at.bend.x();
     const Point radius = perpendicular(at.slope) * at.slope.squaredNorm();
     if (!(radius.norm() < 100.0 * size * std::abs(turn))) continue;
-    return at.point + radius / turn + slight(random) * size * random.in_disc();
+    // Beside it the feet part, by so little that signs in single precision hardly tell them apart.
+    const double beside = one_in(random, 2) ? slight(random) : magnitude(random, -7.0, -1.0);
+    return at.point + radius / turn + beside * size * random.in_disc();
   }
   return in_box(random, points);
 }

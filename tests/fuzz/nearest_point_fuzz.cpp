@@ -19,6 +19,7 @@
 #include "query_fuzz.hpp"
 #include "tally.hpp"
 #include "tick_fuzz.hpp"
+#include "tools/options.hpp"
 #include "tools/progress.hpp"
 
 namespace calligraphy_test {
@@ -77,10 +78,16 @@ void run(Part& part, const Options& options) {
   part.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+/// Nothing where nothing was measured.
+std::string figure(double value, const char* format) {
+  return value > 0.0 ? fmt::format(fmt::runtime(format), value) : "";
+}
+
 std::string row(const std::string& name, const Count& count) {
-  return fmt::format("{:36} {:>11} {:>7} {:>9} {:>8} {:>8} {:>7} {:>7}  {:>8.1e} {:>9.1e}  {:>6.0f}\n", name,
-                     count.answers, count.wrong_branches, count.above_allowance, count.inconsistent, count.uncertified,
-                     count.not_finite, count.different, count.worst_error, count.worst_share, count.times.median());
+  return fmt::format("{:36} {:>11} {:>7} {:>9} {:>8} {:>8} {:>7} {:>7}  {:>8} {:>9}  {:>6}\n", name, count.answers,
+                     count.wrong_branches, count.above_allowance, count.inconsistent, count.uncertified,
+                     count.not_finite, count.different, figure(count.worst_error, "{:.1e}"),
+                     figure(count.worst_share, "{:.1e}"), figure(count.times.median(), "{:.0f}"));
 }
 
 void print(const Part& part) {
@@ -126,11 +133,19 @@ int run(int argc, char** argv) {
   Options options;
   CLI::App program("Shows nearest points right: random queries and warm ticks, each answer judged by proof.",
                    "nearest_point_fuzz");
-  program.add_option("--queries", options.queries, "Queries to single curves")->capture_default_str();
-  program.add_option("--ticks", options.ticks, "Warm ticks over whole strokes")->capture_default_str();
-  program.add_option("--seed", options.seed, "Another seed, other queries")->capture_default_str();
-  program.add_option("--threads", options.threads, "The result does not depend on it")->check(CLI::Range(1, 1024));
-  program.add_option("--block", options.block, "Run this block alone, as a failure names it");
+  using calligraphy::tools::integer;
+  constexpr unsigned long long most = 1'000'000'000'000;
+  program.add_option("--queries", options.queries, "Queries to single curves")
+      ->check(integer(0, most))
+      ->capture_default_str();
+  program.add_option("--ticks", options.ticks, "Warm ticks over whole strokes")
+      ->check(integer(0, most))
+      ->capture_default_str();
+  program.add_option("--seed", options.seed, "Another seed, other queries")
+      ->check(integer(0, most))
+      ->capture_default_str();
+  program.add_option("--threads", options.threads, "The result does not depend on it")->check(integer(1, 1024));
+  program.add_option("--block", options.block, "Run this block alone, as a failure names it")->check(integer(0, most));
   program.add_flag("--json", options.json, "Print a JSON document");
   try {
     program.parse(argc, argv);

@@ -150,7 +150,6 @@ class CaseRun {
     const Verdict verdict = oracle_.judge(sampled, query, bounds, case_.range);
     Count& count = tally_[other_methods_ + 2];
     ++count.answers;
-    if (verdict.plain) count.worst_error = std::max(count.worst_error, verdict.surely);
     const bool honest = sampled.certified() == !element_.curve();
     if (is_finite(sampled) && verdict.consistent && honest) return;
     ++(is_finite(sampled) ? count.inconsistent : count.not_finite);
