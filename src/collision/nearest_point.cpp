@@ -22,7 +22,8 @@ constexpr double furthest_query = 1e100;
   foot.tangent = line.direction;
   const Point from_start = query - line.origin;
   const bool is_point = !(line.length > 0.0);
-  if (!query.allFinite() || !(is_point || from_start.cwiseAbs().maxCoeff() <= furthest_query * line.length)) {
+  if (std::isnan(line.length) || !query.allFinite() ||
+      !(is_point || from_start.cwiseAbs().maxCoeff() <= furthest_query * line.length)) {
     foot.point = line.point(range.begin);
     foot.distance = std::numeric_limits<double>::infinity();
     foot.status = NearestPointStatus::not_finite;

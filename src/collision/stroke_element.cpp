@@ -2,12 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace calligraphy {
 namespace {
 
 /// What is smaller cannot be divided by.
 constexpr double smallest_curve = 1e-300;
+
+/// The squares of what is larger overflow.
+constexpr double largest_element = 1e150;
+
+/// What has no place answers every query by not_finite.
+LineElement unusable_element() {
+  LineElement nowhere;
+  nowhere.length = std::numeric_limits<double>::quiet_NaN();
+  return nowhere;
+}
 
 }  // namespace
 
@@ -24,16 +35,19 @@ double StrokeElement::arc_length(double t) const noexcept { return curve() ? cur
 
 double StrokeElement::parameter_at(double arc_length) const noexcept {
   if (!(arc_length > 0.0)) return 0.0;
-  if (arc_length >= length()) return 1.0;
+  if (!(arc_length < length())) return 1.0;
   return curve() ? curve()->parameter_at(arc_length) : arc_length / length();
 }
 
 StrokeElement prepare_element(std::span<const Point> control_points) noexcept {
   const Point& start = control_points.front();
-  const bool is_point = std::all_of(control_points.begin(), control_points.end(), [&](const Point& point) {
-    return (point - start).cwiseAbs().maxCoeff() <= smallest_curve;
-  });
-  if (is_point) return {prepare_line(start, start)};
+  const auto all_within = [&](double reach) {
+    return std::all_of(control_points.begin(), control_points.end(), [&](const Point& point) {
+      return std::abs(point.x() - start.x()) <= reach && std::abs(point.y() - start.y()) <= reach;
+    });
+  };
+  if (!all_within(largest_element)) return {unusable_element()};
+  if (all_within(smallest_curve)) return {prepare_line(start, start)};
   if (control_points.size() == 2) return {prepare_line(start, control_points.back())};
   return {prepare_curve(control_points)};
 }

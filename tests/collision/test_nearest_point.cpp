@@ -212,3 +212,26 @@ TEST_CASE("hundreds of thousands of random queries find nothing nearer than the 
   CHECK(uncertified == 0);
   CHECK(calligraphy_test::allocations() - before - own == 0);
 }
+
+TEST_CASE("an element that is not finite, or too large to square, refuses every query", "[collision]") {
+  const std::vector<std::vector<Point>> unusable = {
+      {{0, 0}, {not_a_number, 0}},
+      {{infinity, 0}, {0, 0}},
+      {{0, 0}, {1, 1}, {-infinity, 0}, {1, 0}},
+      {{not_a_number, 0}, {1, 1}, {2, 0}},
+      {{1.7e308, 0}, {-1.7e308, 0}, {0, 1}, {1, 1}, {0, 0}},
+      {{1e-309, -1e-310}, {1e-310, 1e160}, {1e-41, 0.3}},
+  };
+  for (const std::vector<Point>& points : unusable) {
+    const StrokeElement element = prepare_element(points);
+    for (const auto method : {NearestPointMethod::exact, NearestPointMethod::tracked, NearestPointMethod::sampled,
+                              NearestPointMethod::wang2006}) {
+      const NearestPoint found = nearest_point(element, {0.3, 0.4}, {.method = method});
+      CHECK(found.status == NearestPointStatus::not_finite);
+      CHECK(std::isinf(found.distance));
+      CHECK((found.point.allFinite() && found.tangent.allFinite()));
+      CHECK(found.parameter == 0.0);
+    }
+    CHECK(element.parameter_at(0.5) == 1.0);
+  }
+}

@@ -27,7 +27,8 @@ enum class NearestPointStatus {
   certified,    ///< no other point of the range is nearer, up to the tolerance and rounding
   approximate,  ///< not certified: sampled, wang2006, or exact at its limit of work
   unsafe_stop,  ///< wang2006 stopped where its last interval holds a point nearer by more than epsilon
-  not_finite    ///< the query is not finite or further than 1e100 sizes: start of the range, infinite distance
+  not_finite    ///< the query or the element is not finite, or the query further than 1e100 sizes: start of the range,
+                ///< infinite distance
 };
 
 struct NearestPoint {
@@ -40,7 +41,7 @@ struct NearestPoint {
   bool certified() const noexcept { return status == NearestPointStatus::certified; }
 };
 
-/// Part of an element.
+/// Part of an element: 0 <= begin <= end <= 1.
 struct ParameterRange {
   double begin = 0.0;
   double end = 1.0;

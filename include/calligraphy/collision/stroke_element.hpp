@@ -33,7 +33,8 @@ struct StrokeElement {
   double parameter_at(double arc_length) const noexcept;
 };
 
-/// Prepares 2 to 5 control points, an element of degree one less; a point when all are equal (to 1e-300 m). No
+/// Prepares 2 to 5 control points, an element of degree one less; a point when all are equal (to 1e-300 m). Where one
+/// is not finite, or further than 1e150 m from the first, the length is NaN and every query's status is not_finite. No
 /// allocation.
 StrokeElement prepare_element(std::span<const Point> control_points) noexcept;
 
