@@ -5,7 +5,7 @@
 #include <calligraphy/collision/constraint_space.hpp>
 #include <calligraphy/collision/nearest_point.hpp>
 #include <calligraphy/collision/placed_character.hpp>
-#include <calligraphy/model/character_set.hpp>
+#include <calligraphy/model/character_list.hpp>
 
 int main() {
   using namespace calligraphy;

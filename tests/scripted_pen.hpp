@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include <calligraphy/model/character_set.hpp>
+#include <calligraphy/model/character_list.hpp>
 #include <calligraphy/render/haptic_renderer.hpp>
 
 #include "pen_path.hpp"

@@ -10,8 +10,8 @@
 namespace calligraphy::tools {
 namespace {
 
-CharacterSet select(const std::u32string& text, const CharacterSet& from, const std::string& name) {
-  CharacterSet found{from.source, from.licence, from.attribution, {}};
+CharacterList select(const std::u32string& text, const CharacterList& from, const std::string& name) {
+  CharacterList found{from.provenance, {}};
   for (const char32_t code : text) {
     if (found.find(code) != nullptr) continue;
     const Character* const character = from.find(code);
@@ -21,11 +21,12 @@ CharacterSet select(const std::u32string& text, const CharacterSet& from, const 
   return found;
 }
 
-CharacterSet read_package(const std::u32string& text, const std::string& directory) {
-  CharacterSet found{"Make Me a Hanzi, as hanzi-writer-data",
-                     "Arphic Public License",
-                     "Arphic Technology, Make Me a Hanzi, Hanzi Writer",
-                     {}};
+CharacterList read_package(const std::u32string& text, const std::string& directory) {
+  CharacterList found{{"Make Me a Hanzi, as hanzi-writer-data",
+                       "Arphic Public License",
+                       "Arphic Technology, Make Me a Hanzi, Hanzi Writer",
+                       {}},
+                      {}};
   for (const char32_t code : text) {
     if (found.find(code) == nullptr) found.characters.push_back(read_hanzi_writer(directory, code));
   }
@@ -34,7 +35,7 @@ CharacterSet read_package(const std::u32string& text, const std::string& directo
 
 }  // namespace
 
-CharacterSet find_characters(const std::u32string& text, const std::string& path) {
+CharacterList find_characters(const std::u32string& text, const std::string& path) {
   if (path.empty()) return select(text, built_in_characters(), "the built-in set; --characters names another");
   std::error_code failure;
   if (std::filesystem::is_directory(path, failure)) return read_package(text, path);

@@ -3,13 +3,13 @@
 
 #include <string>
 
-#include <calligraphy/model/character_set.hpp>
+#include <calligraphy/model/character_list.hpp>
 
 namespace calligraphy::tools {
 
 /// The characters of `text`, each once, with their source.
 /// @param path empty: the built-in set; a directory: hanzi-writer-data; else a file
 /// @throws Error naming the character or the file
-CharacterSet find_characters(const std::u32string& text, const std::string& path);
+CharacterList find_characters(const std::u32string& text, const std::string& path);
 
 }  // namespace calligraphy::tools

@@ -7,7 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include <calligraphy/model/character_set.hpp>
+#include <calligraphy/model/character_list.hpp>
 #include <calligraphy/model/text.hpp>
 
 #include "character_source.hpp"
@@ -44,7 +44,7 @@ void print_table(const Character& character) {
   }
 }
 
-Json json_of(const CharacterSet& set, const Character& character) {
+Json json_of(const CharacterList& set, const Character& character) {
   Json drawn = Json::array();
   for (const Stroke& stroke : strokes(character)) {
     Json points = Json::array();
@@ -65,12 +65,12 @@ Json json_of(const CharacterSet& set, const Character& character) {
           {"sequence", character.sequence.stroke_ids},
           {"feature_points", character.sequence.feature_points},
           {"strokes", drawn},
-          {"source", set.source},
-          {"licence", set.licence},
-          {"attribution", set.attribution}};
+          {"source", set.provenance.source},
+          {"licence", set.provenance.licence},
+          {"attribution", set.provenance.attribution}};
 }
 
-CharacterSet chosen(const Options& options) {
+CharacterList chosen(const Options& options) {
   if (!options.paper_example) {
     return find_characters(characters_of(options.text), options.characters);
   }
@@ -79,12 +79,14 @@ CharacterSet chosen(const Options& options) {
   if (!options.text.empty() && characters_of(options.text) != std::u32string(1, example.code)) {
     throw UsageError(fmt::format("--paper-example: is {}, not \"{}\"", name_of(example.code), options.text));
   }
-  const CharacterSet& own = built_in_characters();
-  return {own.source + ", after Wang 2006, Table 3", own.licence, own.attribution, {example}};
+  const CharacterList& own = built_in_characters();
+  return {
+      {own.provenance.source + ", after Wang 2006, Table 3", own.provenance.licence, own.provenance.attribution, {}},
+      {example}};
 }
 
 void run(const Options& options) {
-  const CharacterSet set = chosen(options);
+  const CharacterList set = chosen(options);
   if (options.json) {
     Json list = Json::array();
     for (const Character& character : set.characters) list.push_back(json_of(set, character));
@@ -92,7 +94,8 @@ void run(const Options& options) {
     return;
   }
   for (const Character& character : set.characters) print_table(character);
-  fmt::print("source: {}\nlicence: {}\nattribution: {}\n", set.source, set.licence, set.attribution);
+  fmt::print("source: {}\nlicence: {}\nattribution: {}\n", set.provenance.source, set.provenance.licence,
+             set.provenance.attribution);
 }
 
 }  // namespace

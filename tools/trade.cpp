@@ -85,7 +85,7 @@ void draw(const TradeReport& report, const OutputDirectory& out) {
 void run(const Options& options) {
   if (options.out && options.out->empty()) throw UsageError("--out: an empty name");
   TradeReport report = asked_for(options);
-  const CharacterSet set = find_characters(report.text, options.characters);
+  const CharacterList set = find_characters(report.text, options.characters);
   std::vector<Character> characters;
   for (const char32_t code : report.text) characters.push_back(*set.find(code));
   std::optional<OutputDirectory> out;

@@ -105,7 +105,7 @@ std::vector<Mode> chosen_modes(const std::string& mode) {
   return {Mode::vision, Mode::force};
 }
 
-std::vector<Sheet> sheets(const std::u32string& text, const CharacterSet& set, const Capabilities& capabilities) {
+std::vector<Sheet> sheets(const std::u32string& text, const CharacterList& set, const Capabilities& capabilities) {
   std::vector<Character> characters;
   for (const char32_t code : text) characters.push_back(*set.find(code));
   PageLayout layout;

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include <calligraphy/model/character_set.hpp>
+#include <calligraphy/model/character_list.hpp>
 #include <calligraphy/practice/nearest_point_workload.hpp>
 
 #include "runs.hpp"

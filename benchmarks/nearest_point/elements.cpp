@@ -1,6 +1,6 @@
 // What preparing an element costs, and how much is kept.
 #include <calligraphy/collision/stroke_element.hpp>
-#include <calligraphy/model/character_set.hpp>
+#include <calligraphy/model/character_list.hpp>
 #include <calligraphy/practice/nearest_point_workload.hpp>
 #include <calligraphy/practice/stroke_queries.hpp>
 

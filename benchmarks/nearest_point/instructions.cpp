@@ -3,7 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include <calligraphy/model/character_set.hpp>
+#include <calligraphy/model/character_list.hpp>
 #include <calligraphy/practice/nearest_point_workload.hpp>
 
 #include "method.hpp"

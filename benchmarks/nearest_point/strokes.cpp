@@ -3,7 +3,7 @@
 #include <iterator>
 
 #include <calligraphy/model/bezier.hpp>
-#include <calligraphy/model/character_set.hpp>
+#include <calligraphy/model/character_list.hpp>
 #include <calligraphy/practice/stroke_queries.hpp>
 
 #include "runs.hpp"

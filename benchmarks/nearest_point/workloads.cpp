@@ -3,7 +3,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include <calligraphy/model/character_set.hpp>
+#include <calligraphy/model/character_list.hpp>
 #include <calligraphy/practice/nearest_point_workload.hpp>
 
 #include "bezier_js.hpp"

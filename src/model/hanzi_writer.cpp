@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <calligraphy/error.hpp>
+#include <calligraphy/model/stroke_fit.hpp>
 #include <calligraphy/model/text.hpp>
 
 namespace calligraphy {

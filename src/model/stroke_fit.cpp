@@ -10,7 +10,7 @@
 
 #include <calligraphy/error.hpp>
 #include <calligraphy/model/bezier.hpp>
-#include <calligraphy/model/hanzi_writer.hpp>
+#include <calligraphy/model/stroke_fit.hpp>
 #include <calligraphy/model/typical_stroke.hpp>
 
 #include "stroke_recognition.hpp"
@@ -283,7 +283,7 @@ std::vector<std::size_t> corners_of(const Path& vertices, const Path& refined) {
 
 }  // namespace
 
-FittedStroke fit_stroke(std::span<const Point> median) {
+FittedStroke fit_stroke(std::span<const Point> median, const StrokeFitOptions&) {
   check(median);
   const recognition::CleanPath clean = recognition::clean_median(median);
   if (recognition::path_length(clean.points) < shortest_path) return dot_around(clean.points);

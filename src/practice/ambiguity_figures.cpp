@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <utility>
 
-#include <calligraphy/model/character_set.hpp>
+#include <calligraphy/model/character_list.hpp>
 #include <calligraphy/render/renderer_options.hpp>
 
 namespace calligraphy {

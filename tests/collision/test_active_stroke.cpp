@@ -6,7 +6,7 @@
 #include <string>
 
 #include <calligraphy/collision/active_stroke.hpp>
-#include <calligraphy/model/character_set.hpp>
+#include <calligraphy/model/character_list.hpp>
 
 #include "../allocation_counter.hpp"
 #include "../pen_path.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include <calligraphy/collision/active_stroke.hpp>
-#include <calligraphy/model/character_set.hpp>
+#include <calligraphy/model/character_list.hpp>
 
 #include "../pen_path.hpp"
 

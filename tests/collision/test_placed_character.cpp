@@ -2,7 +2,7 @@
 #include "../catch.hpp"
 
 #include <calligraphy/collision/placed_character.hpp>
-#include <calligraphy/model/character_set.hpp>
+#include <calligraphy/model/character_list.hpp>
 
 using namespace calligraphy;
 

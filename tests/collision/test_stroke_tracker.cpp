@@ -7,7 +7,7 @@
 
 #include <calligraphy/collision/placed_character.hpp>
 #include <calligraphy/collision/stroke_tracker.hpp>
-#include <calligraphy/model/character_set.hpp>
+#include <calligraphy/model/character_list.hpp>
 
 #include "../allocation_counter.hpp"
 #include "../hard_cases.hpp"

@@ -7,7 +7,7 @@
 #include <iterator>
 #include <limits>
 
-#include <calligraphy/model/character_set.hpp>
+#include <calligraphy/model/character_list.hpp>
 #include <calligraphy/practice/stroke_queries.hpp>
 
 #include "hostile_queries.hpp"

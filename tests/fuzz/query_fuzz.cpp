@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include <calligraphy/collision/nearest_point.hpp>
-#include <calligraphy/model/character_set.hpp>
+#include <calligraphy/model/character_list.hpp>
 #include <calligraphy/practice/nearest_point_workload.hpp>
 
 #include "../last_interval.hpp"

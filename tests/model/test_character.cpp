@@ -8,7 +8,7 @@
 
 #include <calligraphy/error.hpp>
 #include <calligraphy/model/bezier.hpp>
-#include <calligraphy/model/character_set.hpp>
+#include <calligraphy/model/character_list.hpp>
 
 #include "../pen_path.hpp"
 
@@ -56,11 +56,11 @@ TEST_CASE("the built-in 北 has the strokes of Table 3 in the standard order", "
 }
 
 TEST_CASE("every built-in character is valid and every typical stroke is used", "[model]") {
-  const CharacterSet& set = built_in_characters();
+  const CharacterList& set = built_in_characters();
   CHECK(set.characters.size() >= 40);
-  CHECK_FALSE(set.licence.empty());
-  CHECK_FALSE(set.source.empty());
-  CHECK_FALSE(set.attribution.empty());
+  CHECK_FALSE(set.provenance.licence.empty());
+  CHECK_FALSE(set.provenance.source.empty());
+  CHECK_FALSE(set.provenance.attribution.empty());
   std::set<int> ids;
   std::set<char32_t> codes;
   for (const Character& character : set.characters) {

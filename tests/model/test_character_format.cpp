@@ -9,7 +9,7 @@
 #include <string>
 
 #include <calligraphy/error.hpp>
-#include <calligraphy/model/character_set.hpp>
+#include <calligraphy/model/character_list.hpp>
 
 #include "../hard_cases.hpp"
 
@@ -19,12 +19,12 @@ namespace {
 
 const std::string head = "calligraphy characters 1\n";
 
-CharacterSet read(const std::string& text) {
+CharacterList read(const std::string& text) {
   std::istringstream in(text);
   return read_characters(in, "test.txt");
 }
 
-std::string write(const CharacterSet& set) {
+std::string write(const CharacterList& set) {
   std::ostringstream out;
   write_characters(out, set);
   return out.str();
@@ -40,8 +40,8 @@ std::string complaint(const std::string& text) {
   return "";
 }
 
-bool same(const CharacterSet& a, const CharacterSet& b) {
-  if (a.source != b.source || a.licence != b.licence || a.attribution != b.attribution) return false;
+bool same(const CharacterList& a, const CharacterList& b) {
+  if (a.provenance != b.provenance) return false;
   if (a.characters.size() != b.characters.size()) return false;
   for (std::size_t i = 0; i < a.characters.size(); ++i) {
     const Character &x = a.characters[i], &y = b.characters[i];
@@ -64,7 +64,7 @@ struct CommaNumbers : std::numpunct<char> {
 }  // namespace
 
 TEST_CASE("a set that is written reads back the same, quartics and attraction factors too", "[model]") {
-  CharacterSet set = built_in_characters();
+  CharacterList set = built_in_characters();
   set.characters.push_back(with_quartic_curves(*set.find(U'永')));
   set.characters.back().code = U'\U00020000';
   calligraphy_test::Sequence random(3);
@@ -79,17 +79,17 @@ TEST_CASE("a set that is written reads back the same, quartics and attraction fa
 }
 
 TEST_CASE("source, licence and attribution are free text, with '#' and all", "[model]") {
-  CharacterSet set;
-  set.source = "https://example.org/set#2 # second edition";
-  set.licence = "stroke 1 is not a stroke here";
-  set.attribution = "王 | Zhang, \"Yao\"";
+  CharacterList set;
+  set.provenance.source = "https://example.org/set#2 # second edition";
+  set.provenance.licence = "stroke 1 is not a stroke here";
+  set.provenance.attribution = "王 | Zhang, \"Yao\"";
   CHECK(same(read(write(set)), set));
-  set.licence = "one\nstroke 1 0,0 1,1";
+  set.provenance.licence = "one\nstroke 1 0,0 1,1";
   CHECK_THROWS_AS(write(set), ValueError);
 }
 
 TEST_CASE("comments, blank lines, tabs, CRLF and a byte order mark are let pass", "[model]") {
-  const CharacterSet plain = read(head + "character \xE4\xB8\x80\nstroke 1 0.1,0.5 0.9,0.5 | 1 2\n");
+  const CharacterList plain = read(head + "character \xE4\xB8\x80\nstroke 1 0.1,0.5 0.9,0.5 | 1 2\n");
   CHECK(same(read("\xEF\xBB\xBF" + head + "character \xE4\xB8\x80\nstroke 1 0.1,0.5 0.9,0.5 | 1 2"), plain));
   CHECK(same(read("calligraphy characters 1\r\n\r\ncharacter \xE4\xB8\x80\r\nstroke 1 0.1,0.5 0.9,0.5 | 1 2\r\n"),
              plain));
@@ -171,7 +171,7 @@ TEST_CASE("a million strokes are read", "[model]") {
 #endif
   std::string text = head + "character \xE5\x8C\x97\n";
   for (int i = 0; i < count; ++i) text += "stroke 1 0,0 1,1\n";
-  const CharacterSet set = read(text);
+  const CharacterList set = read(text);
   CHECK(set.characters[0].stroke_count() == count);
   CHECK(set.characters[0].sequence.feature_points.back() == 2 * count - 1);
 }
@@ -203,7 +203,7 @@ TEST_CASE("random damage is refused or read, never worse", "[model]") {
 }
 
 TEST_CASE("the locale changes neither what is read nor what is written", "[model]") {
-  CharacterSet set = built_in_characters();
+  CharacterList set = built_in_characters();
   const std::string usual = write(set);
   const std::locale before = std::locale::global(std::locale(std::locale::classic(), new CommaNumbers));
   const std::string written = write(set);

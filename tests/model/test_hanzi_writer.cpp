@@ -12,6 +12,7 @@
 #include <calligraphy/error.hpp>
 #include <calligraphy/model/character.hpp>
 #include <calligraphy/model/hanzi_writer.hpp>
+#include <calligraphy/model/stroke_fit.hpp>
 #include <calligraphy/model/text.hpp>
 #include <calligraphy/model/typical_stroke.hpp>
 

@@ -13,7 +13,7 @@
 #include <calligraphy/error.hpp>
 #include <calligraphy/model/bezier.hpp>
 #include <calligraphy/model/character.hpp>
-#include <calligraphy/model/hanzi_writer.hpp>
+#include <calligraphy/model/stroke_fit.hpp>
 #include <calligraphy/model/typical_stroke.hpp>
 
 #include "../catch.hpp"

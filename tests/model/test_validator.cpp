@@ -7,7 +7,7 @@
 #include <string>
 
 #include <calligraphy/error.hpp>
-#include <calligraphy/model/character_set.hpp>
+#include <calligraphy/model/character_list.hpp>
 
 using namespace calligraphy;
 

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include <calligraphy/model/character_set.hpp>
+#include <calligraphy/model/character_list.hpp>
 #include <calligraphy/model/text.hpp>
 #include <calligraphy/practice/page.hpp>
 #include <calligraphy/practice/session.hpp>

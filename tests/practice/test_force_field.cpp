@@ -7,7 +7,7 @@
 #include <pugixml.hpp>
 
 #include <calligraphy/error.hpp>
-#include <calligraphy/model/character_set.hpp>
+#include <calligraphy/model/character_list.hpp>
 #include <calligraphy/practice/force_field.hpp>
 #include <calligraphy/render/renderer_options.hpp>
 

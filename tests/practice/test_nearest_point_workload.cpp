@@ -4,7 +4,7 @@
 
 #include <calligraphy/error.hpp>
 #include <calligraphy/model/bezier.hpp>
-#include <calligraphy/model/character_set.hpp>
+#include <calligraphy/model/character_list.hpp>
 #include <calligraphy/practice/nearest_point_workload.hpp>
 
 #include "../catch.hpp"

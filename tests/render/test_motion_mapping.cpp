@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include <calligraphy/model/character_set.hpp>
+#include <calligraphy/model/character_list.hpp>
 #include <calligraphy/render/haptic_renderer.hpp>
 #include <calligraphy/render/motion_mapping.hpp>
 

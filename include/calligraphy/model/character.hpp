@@ -38,6 +38,7 @@ struct Stroke {
 /// A character: structural, sequence and physical data apart from each other. Frame: em square, y up.
 struct Character {
   char32_t code = 0;     ///< Unicode code point
+  std::string order;     ///< name of an alternate stroke order; empty for the standard one
   int curve_degree = 3;  ///< degree of every CSE: 3, or 4 as eq. (1) prints
   StructuralData structure;
   SequenceData sequence;

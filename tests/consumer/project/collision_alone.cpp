@@ -2,7 +2,7 @@
 #include <cstdio>
 
 #include <calligraphy/collision/active_stroke.hpp>
-#include <calligraphy/model/character_set.hpp>
+#include <calligraphy/model/character_list.hpp>
 
 int main() {
   const calligraphy::Character* const one = calligraphy::built_in_characters().find(U'一');

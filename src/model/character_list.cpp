@@ -1,4 +1,4 @@
-#include <calligraphy/model/character_set.hpp>
+#include <calligraphy/model/character_list.hpp>
 
 #include <algorithm>
 #include <charconv>
@@ -34,18 +34,18 @@ class Parser {
  public:
   Parser(std::istream& in, std::string_view name) : in_(in), name_(name) {}
 
-  CharacterSet parse() {
+  CharacterList parse() {
     while (next_line()) {
       const std::string_view key = word();
       if (number_ == 1 || !seen_first_line_) {
         if (line_ != first_line) fail("expected " + in_quotes(first_line) + ", found " + in_quotes(line_));
         seen_first_line_ = true;
       } else if (key == "source") {
-        set_.source = rest();
+        set_.provenance.source = rest();
       } else if (key == "licence") {
-        set_.licence = rest();
+        set_.provenance.licence = rest();
       } else if (key == "attribution") {
-        set_.attribution = rest();
+        set_.provenance.attribution = rest();
       } else if (key == "character") {
         begin_character();
       } else if (key == "stroke") {
@@ -177,10 +177,10 @@ class Parser {
   char32_t code_ = 0;
   int degree_ = 3;
   std::vector<StrokeInput> strokes_;
-  CharacterSet set_;
+  CharacterList set_;
 };
 
-CharacterSet parse_embedded(const char* text, std::string_view name) {
+CharacterList parse_embedded(const char* text, std::string_view name) {
   std::istringstream in(text);
   return read_characters(in, name);
 }
@@ -193,25 +193,25 @@ std::string format_number(double value) {
 
 }  // namespace
 
-const Character* CharacterSet::find(char32_t code) const noexcept {
+const Character* CharacterList::find(char32_t code) const noexcept {
   const auto found = std::find_if(characters.begin(), characters.end(),
                                   [code](const Character& character) { return character.code == code; });
   return found == characters.end() ? nullptr : &*found;
 }
 
-const CharacterSet& built_in_characters() {
-  static const CharacterSet set = parse_embedded(built_in::characters, "built-in characters");
+const CharacterList& built_in_characters() {
+  static const CharacterList set = parse_embedded(built_in::characters, "built-in characters");
   return set;
 }
 
 const Character& paper_example() {
-  static const CharacterSet set = parse_embedded(built_in::paper_example, "paper example");
+  static const CharacterList set = parse_embedded(built_in::paper_example, "paper example");
   return set.characters.front();
 }
 
-CharacterSet read_characters(std::istream& in, std::string_view name) { return Parser(in, name).parse(); }
+CharacterList read_characters(std::istream& in, std::string_view name) { return Parser(in, name).parse(); }
 
-CharacterSet read_characters(const std::string& path) {
+CharacterList read_characters(const std::string& path) {
   std::error_code error;
   if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error)) {
     throw FileError(path + ": is not a regular file");
@@ -226,14 +226,15 @@ CharacterSet read_characters(const std::string& path) {
   return read_characters(in, path);
 }
 
-void write_characters(std::ostream& out, const CharacterSet& set) {
-  for (const std::string& text : {set.source, set.licence, set.attribution}) {
+void write_characters(std::ostream& out, const CharacterList& set) {
+  const Provenance& provenance = set.provenance;
+  for (const std::string& text : {provenance.source, provenance.licence, provenance.attribution}) {
     if (text.find_first_of("\r\n") != std::string::npos) throw ValueError("more than one line: " + in_quotes(text));
   }
   out << first_line << '\n';
-  if (!set.source.empty()) out << "source " << set.source << '\n';
-  if (!set.licence.empty()) out << "licence " << set.licence << '\n';
-  if (!set.attribution.empty()) out << "attribution " << set.attribution << '\n';
+  if (!provenance.source.empty()) out << "source " << provenance.source << '\n';
+  if (!provenance.licence.empty()) out << "licence " << provenance.licence << '\n';
+  if (!provenance.attribution.empty()) out << "attribution " << provenance.attribution << '\n';
   for (const Character& character : set.characters) {
     out << "\ncharacter " << encode_utf8(character.code);
     if (character.curve_degree != 3) out << " degree " << std::to_string(character.curve_degree);

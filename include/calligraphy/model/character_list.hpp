@@ -1,4 +1,4 @@
-// Characters found by code point, with their source and licence.
+// Characters in memory, as they are drawn, imported or edited, and the text format for them.
 #pragma once
 
 #include <iosfwd>
@@ -7,14 +7,13 @@
 #include <vector>
 
 #include <calligraphy/model/character.hpp>
+#include <calligraphy/model/provenance.hpp>
 
 namespace calligraphy {
 
 /// Characters with where they come from.
-struct CharacterSet {
-  std::string source;       ///< who drew them
-  std::string licence;      ///< under which terms they may be used
-  std::string attribution;  ///< whom to name
+struct CharacterList {
+  Provenance provenance;
   std::vector<Character> characters;
 
   /// The character, or null. O(characters).
@@ -22,7 +21,7 @@ struct CharacterSet {
 };
 
 /// The characters drawn for this library, at least one for every typical stroke. Parsed once, on first use.
-const CharacterSet& built_in_characters();
+const CharacterList& built_in_characters();
 
 /// The five-stroke character of Table 3, verbatim: ids 2, 1, 10, 31, 4; 15 control points, 13 feature points. It is 北
 /// with the pie last; built_in_characters() has 北 in the standard order.
@@ -30,13 +29,13 @@ const Character& paper_example();
 
 /// Reads the text format of docs/character-format.md. `name` is used in messages.
 /// @throws FormatError naming the line and the value; nothing is returned in part
-CharacterSet read_characters(std::istream& in, std::string_view name);
+CharacterList read_characters(std::istream& in, std::string_view name);
 /// @throws FileError when the file cannot be opened, FormatError as above
-CharacterSet read_characters(const std::string& path);
+CharacterList read_characters(const std::string& path);
 
 /// Writes the text format; read_characters gives back the same set (numbers in the shortest form that reads back the
 /// same).
 /// @throws ValueError when source, licence or attribution is more than one line
-void write_characters(std::ostream& out, const CharacterSet& set);
+void write_characters(std::ostream& out, const CharacterList& set);
 
 }  // namespace calligraphy

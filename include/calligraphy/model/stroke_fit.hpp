@@ -1,0 +1,26 @@
+// From a pen path to the typical stroke that it is, and the control points that follow it.
+#pragma once
+
+#include <span>
+
+#include <calligraphy/model/character.hpp>
+#include <calligraphy/model/point.hpp>
+
+namespace calligraphy {
+
+struct StrokeFitOptions {
+  bool brush = true;              ///< the path is the median of a brush stroke: its entry and end droop are removed
+  std::span<const int> ids = {};  ///< typical strokes that it may be, as a label says; none: all, by geometry alone
+};
+
+/// A stroke recognised and fitted.
+struct FittedStroke {
+  StrokeInput stroke;
+  double error;  ///< largest distance between path and stroke, both ways [em]
+};
+
+/// Finds the typical stroke and its control points for a pen path, a polyline in em, y up.
+/// @throws ValueError when there is no point, a point is not finite or farther than 15 em, or an id is not in 1..39
+FittedStroke fit_stroke(std::span<const Point> path, const StrokeFitOptions& options = {});
+
+}  // namespace calligraphy
