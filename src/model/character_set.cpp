@@ -41,14 +41,19 @@ CharacterSet CharacterSet::layered(std::span<const CharacterSet> sets) {
 }
 
 std::optional<StoredCharacter> CharacterSet::find(char32_t code, std::string_view order) const noexcept {
-  for (const auto& layer : *layers_) {
-    if (auto found = SetFile::find(layer, code, order)) return found;
+  std::optional<StoredCharacter> found(std::in_place);
+  const SharedFile* with_others = nullptr;
+  for (const SharedFile& layer : *layers_) {
+    const SetFile::Found what = SetFile::find(layer, code, order, *found);
+    if (what == SetFile::Found::this_order) return found;
+    if (what == SetFile::Found::other_orders && with_others == nullptr) with_others = &layer;
   }
-  if (!order.empty()) return std::nullopt;
-  for (const auto& layer : *layers_) {
-    if (auto found = SetFile::find_first(layer, code)) return found;
+  if (order.empty() && with_others != nullptr) {
+    SetFile::find_first(*with_others, code, *found);
+  } else {
+    found.reset();
   }
-  return std::nullopt;
+  return found;
 }
 
 std::vector<std::string> CharacterSet::orders(char32_t code) const {

@@ -42,6 +42,7 @@ MappedFile::MappedFile(const std::string& path) {
   if (size > std::numeric_limits<std::size_t>::max()) fail(path, std::to_string(size) + " bytes are too many");
   void* const start = mmap(nullptr, static_cast<std::size_t>(size), PROT_READ, MAP_PRIVATE, file.number, 0);
   if (start == MAP_FAILED) fail(path, "cannot be mapped: " + reason());
+  madvise(start, static_cast<std::size_t>(size), MADV_RANDOM);  // what is not asked for is not read ahead
   bytes_ = {static_cast<const std::byte*>(start), static_cast<std::size_t>(size)};
 }
 

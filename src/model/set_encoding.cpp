@@ -12,6 +12,7 @@
 #include <string>
 
 #include <calligraphy/error.hpp>
+#include <calligraphy/model/text.hpp>
 
 #include "checksum.hpp"
 #include "code_name.hpp"
@@ -223,6 +224,17 @@ void check(const Character& character) {
   fail((problems[0].stroke > 0 ? "stroke " + std::to_string(problems[0].stroke) + ": " : "") + problems[0].what);
 }
 
+void check(const Provenance& provenance) {
+  for (const std::string& text :
+       {provenance.source, provenance.licence, provenance.attribution, provenance.licence_text}) {
+    try {
+      decode_utf8(text);
+    } catch (const FormatError& error) {
+      throw ValueError("where the characters come from: " + std::string(error.what()));
+    }
+  }
+}
+
 /// The forms of each character, the standard order first.
 std::map<char32_t, std::vector<const Character*>> sorted(const CharacterList& set) {
   std::map<char32_t, std::vector<const Character*>> forms;
@@ -353,6 +365,7 @@ double coordinate_error_bound(CoordinatePrecision precision) noexcept {
 }
 
 std::vector<std::byte> encode_character_set(const CharacterList& set, CoordinatePrecision precision) {
+  check(set.provenance);
   const auto characters = sorted(set);
   Header header{coding_of(precision), commonest_ids(set), 0.0};
   const FormEncoder encoder(header.common_ids);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include <calligraphy/error.hpp>
+#include <calligraphy/model/text.hpp>
 
 #include "checksum.hpp"
 #include "little_endian.hpp"
@@ -17,7 +18,7 @@ using namespace set_format;
 constexpr std::uint32_t first_surrogate_block = 0xD800 >> group_shift;
 constexpr std::uint32_t last_surrogate_block = 0xDFFF >> group_shift;
 
-std::uint64_t bit_of(char32_t code) { return std::uint64_t{1} << (code & 63); }
+std::uint64_t bit_of(std::uint32_t number) { return std::uint64_t{1} << (number & 63); }
 
 CoordinateCoding load_coding(const std::byte* at) noexcept {
   return {load<std::uint32_t>(at), static_cast<std::int32_t>(load<std::uint32_t>(at + 4)),
@@ -104,8 +105,17 @@ void SetFile::read_provenance() {
     if (first_group_ - at < length) fail("its index ends within the names of its source");
     text->assign(reinterpret_cast<const char*>(bytes_.data() + at), length);
     at += length;
+    check_text(*text);
   }
   read_directory(at);
+}
+
+void SetFile::check_text(const std::string& text) const {
+  try {
+    decode_utf8(text);
+  } catch (const FormatError& error) {
+    fail("the names of its source: " + std::string(error.what()));
+  }
 }
 
 void SetFile::read_directory(std::size_t at) {
@@ -118,6 +128,11 @@ void SetFile::read_directory(std::size_t at) {
   for (std::size_t group = 0; group < group_count_; ++group) check_group(group);
   if (group_count_ > 0 ? group_begin(0) != first_group_ : bytes_.size() != first_group_) {
     fail("its groups do not begin where its index ends");
+  }
+  std::uint32_t before = 0;
+  for (BlockCell& cell : cells_) {
+    cell.before = before;
+    before += static_cast<std::uint32_t>(std::popcount(cell.present));
   }
   states_ = std::make_unique<std::atomic<GroupState>[]>(group_count_);
 }
@@ -134,6 +149,7 @@ void SetFile::check_group(std::size_t group) {
     fail("entry " + std::to_string(group + 1) + " of its index has impossible numbers");
   }
   size_ += characters;
+  cells_[own >> 6].present |= bit_of(own);
 }
 
 std::uint32_t SetFile::block(std::size_t group) const noexcept {
@@ -152,14 +168,13 @@ std::size_t SetFile::group_end(std::size_t group) const noexcept {
   return group + 1 < group_count_ ? group_begin(group + 1) : bytes_.size();
 }
 
-std::size_t SetFile::search(std::uint32_t wanted) const noexcept {
-  std::size_t first = 0;
-  for (std::size_t count = group_count_; count > 1;) {
-    const std::size_t half = count / 2;
-    first += block(first + half) <= wanted ? half : 0;
-    count -= half;
-  }
-  return first;
+std::size_t SetFile::groups_before(std::uint32_t wanted) const noexcept {
+  const BlockCell& cell = cells_[wanted >> 6];
+  return cell.before + static_cast<std::size_t>(std::popcount(cell.present & (bit_of(wanted) - 1)));
+}
+
+bool SetFile::has_group(std::uint32_t wanted) const noexcept {
+  return (cells_[wanted >> 6].present & bit_of(wanted)) != 0;
 }
 
 bool SetFile::is_intact(std::size_t group) const noexcept {
@@ -175,11 +190,11 @@ bool SetFile::is_intact(std::size_t group) const noexcept {
 }
 
 std::optional<SetFile::Record> SetFile::record(char32_t code) const noexcept {
-  if (group_count_ == 0 || code > 0x10FFFF) return std::nullopt;
   const std::uint32_t wanted = static_cast<std::uint32_t>(code) >> group_shift;
-  const std::size_t group = search(wanted);
+  if (code > 0x10FFFF || !has_group(wanted)) return std::nullopt;
+  const std::size_t group = groups_before(wanted);
   const std::uint64_t characters = present(group);
-  if (block(group) != wanted || (characters & bit_of(code)) == 0) return std::nullopt;
+  if ((characters & bit_of(code)) == 0) return std::nullopt;
   if (!is_intact(group)) return Record{};
 
   const auto count = static_cast<std::size_t>(std::popcount(characters));
@@ -237,29 +252,25 @@ bool SetFile::read_form(Record& rest, StoredCharacter& form) const noexcept {
   return true;
 }
 
-std::optional<StoredCharacter> SetFile::find(const std::shared_ptr<const SetFile>& file, char32_t code,
-                                             std::string_view order) noexcept {
+SetFile::Found SetFile::find(const std::shared_ptr<const SetFile>& file, char32_t code, std::string_view order,
+                             StoredCharacter& form) noexcept {
   std::optional<Record> record = file->record(code);
-  if (!record) return std::nullopt;
-  StoredCharacter form;
-  form.code_ = code;
+  if (!record) return Found::nothing;
   do {
     if (!file->read_form(*record, form) || form.order_ == order) {
+      form.code_ = code;
       form.file_ = file;
-      return form;
+      return Found::this_order;
     }
   } while (record->begin < record->end);
-  return std::nullopt;
+  return Found::other_orders;
 }
 
-std::optional<StoredCharacter> SetFile::find_first(const std::shared_ptr<const SetFile>& file, char32_t code) noexcept {
-  std::optional<Record> record = file->record(code);
-  if (!record) return std::nullopt;
-  StoredCharacter form;
+void SetFile::find_first(const std::shared_ptr<const SetFile>& file, char32_t code, StoredCharacter& form) noexcept {
+  Record record = file->record(code).value_or(Record{});
+  file->read_form(record, form);
   form.code_ = code;
   form.file_ = file;
-  file->read_form(*record, form);
-  return form;
 }
 
 std::vector<StoredCharacter> SetFile::find_all(const std::shared_ptr<const SetFile>& file, char32_t code) {
@@ -280,8 +291,7 @@ std::vector<StoredCharacter> SetFile::find_all(const std::shared_ptr<const SetFi
 std::optional<char32_t> SetFile::next(char32_t from) const noexcept {
   if (from > 0x10FFFF) return std::nullopt;
   const std::uint32_t wanted = static_cast<std::uint32_t>(from) >> group_shift;
-  for (std::size_t group = search(wanted); group < group_count_; ++group) {
-    if (block(group) < wanted) continue;
+  for (std::size_t group = groups_before(wanted); group < group_count_; ++group) {
     std::uint64_t characters = present(group);
     if (block(group) == wanted) characters &= ~(bit_of(from) - 1);
     if (characters != 0) {

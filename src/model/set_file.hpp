@@ -26,10 +26,14 @@ class SetFile {
   SetFile(std::vector<std::byte> bytes, std::string name);
   SetFile(std::unique_ptr<const MappedFile> file, std::string name);
 
-  /// A form of a character: the one of this order, or whichever is the first.
-  static std::optional<StoredCharacter> find(const std::shared_ptr<const SetFile>& file, char32_t code,
-                                             std::string_view order) noexcept;
-  static std::optional<StoredCharacter> find_first(const std::shared_ptr<const SetFile>& file, char32_t code) noexcept;
+  enum class Found { nothing, other_orders, this_order };
+
+  /// Looks for the form of a character that has this order, and fills `form` with it.
+  static Found find(const std::shared_ptr<const SetFile>& file, char32_t code, std::string_view order,
+                    StoredCharacter& form) noexcept;
+  /// Fills `form` with the first form of a character that is there.
+  static void find_first(const std::shared_ptr<const SetFile>& file, char32_t code, StoredCharacter& form) noexcept;
+  /// All forms, as far as they are sound.
   static std::vector<StoredCharacter> find_all(const std::shared_ptr<const SetFile>& file, char32_t code);
   std::optional<char32_t> next(char32_t from) const noexcept;
 
@@ -47,9 +51,16 @@ class SetFile {
     std::size_t end = 0;
   };
 
+  /// Which of 64 neighbouring blocks have a group, and how many groups come before.
+  struct BlockCell {
+    std::uint64_t present = 0;
+    std::uint32_t before = 0;
+  };
+
   void read();
   void read_header();
   void read_provenance();
+  void check_text(const std::string& text) const;
   void read_directory(std::size_t at);
   void check_group(std::size_t group);
   [[noreturn]] void fail(const std::string& what) const;
@@ -58,8 +69,9 @@ class SetFile {
   std::uint64_t present(std::size_t group) const noexcept;
   std::size_t group_begin(std::size_t group) const noexcept;
   std::size_t group_end(std::size_t group) const noexcept;
-  /// The last group whose block is not above this one; 0 when there is none.
-  std::size_t search(std::uint32_t block) const noexcept;
+  /// Number of groups of lower blocks: where this block's group is, if it has one.
+  std::size_t groups_before(std::uint32_t block) const noexcept;
+  bool has_group(std::uint32_t block) const noexcept;
   bool is_intact(std::size_t group) const noexcept;
   std::optional<Record> record(char32_t code) const noexcept;
   /// Reads what stands before the bits of a form. False when it is damaged, and then it has no strokes.
@@ -80,6 +92,7 @@ class SetFile {
   std::size_t size_ = 0;
   const std::byte* blocks_ = nullptr;
   const std::byte* entries_ = nullptr;
+  std::array<BlockCell, (set_format::last_block >> 6) + 1> cells_{};
   /// The same in every thread that finds it out, so that no order between threads is needed.
   mutable std::unique_ptr<std::atomic<GroupState>[]> states_;
 };

@@ -120,7 +120,8 @@ class CharacterSet {
   void check() const;
 
  private:
-  using Layers = std::vector<std::shared_ptr<const SetFile>>;
+  using SharedFile = std::shared_ptr<const SetFile>;
+  using Layers = std::vector<SharedFile>;
 
   explicit CharacterSet(Layers layers);
 
