@@ -1,10 +1,14 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <vector>
 
 #include <calligraphy/error.hpp>
+#include <calligraphy/model/character_set.hpp>
 #include <calligraphy/practice/score.hpp>
 
 #include "../catch.hpp"
+#include "../hard_cases.hpp"
 #include "pages.hpp"
 
 using namespace calligraphy;
@@ -29,6 +33,23 @@ double largest_step(const Recording& recording) {
     largest = std::max(largest, (recording.samples[i].force - recording.samples[i - 1].force).norm());
   }
   return largest;
+}
+
+/// Written in closed loop, in both modes: to its end, without a fault, and without a step of the force.
+void check_written(const Character& character) {
+  const Page page = lay_out(std::span(&character, 1)).front();
+  for (const Mode mode : {Mode::vision, Mode::force}) {
+    CAPTURE(encode_utf8(character.code), mode == Mode::force);
+    const SessionOptions options = session(WriterSkill::novice(), mode, 11);
+    const Recording recording = write_page(page, options);
+    const HapticRenderer renderer(page.characters, upright_page(page.width, page.height), options.device.capabilities,
+                                  options.renderer);
+    const CharacterScore result = score(page, recording).front();
+    CHECK(result.strokes_completed == result.stroke_count);
+    CHECK(largest_step(recording) <= renderer.max_force_step() * (1.0 + 1e-12));
+    CHECK(std::all_of(recording.samples.begin(), recording.samples.end(),
+                      [](const Sample& sample) { return sample.status == TickStatus::ok; }));
+  }
 }
 
 }  // namespace
@@ -75,20 +96,29 @@ TEST_CASE("both writers complete every stroke of a page on every device profile"
 }
 
 TEST_CASE("every built-in character is completed in both modes, and force steps stay within the limit", "[practice]") {
-  for (const Character& character : built_in_characters().characters) {
-    const Page page = lay_out(std::span(&character, 1)).front();
-    for (const Mode mode : {Mode::vision, Mode::force}) {
-      CAPTURE(encode_utf8(character.code), mode == Mode::force);
-      const SessionOptions options = session(WriterSkill::novice(), mode, 11);
-      const Recording recording = write_page(page, options);
-      const HapticRenderer renderer(page.characters, upright_page(page.width, page.height), options.device.capabilities,
-                                    options.renderer);
-      const CharacterScore result = score(page, recording).front();
-      CHECK(result.strokes_completed == result.stroke_count);
-      CHECK(largest_step(recording) <= renderer.max_force_step() * (1.0 + 1e-12));
-      CHECK(std::all_of(recording.samples.begin(), recording.samples.end(),
-                        [](const Sample& sample) { return sample.status == TickStatus::ok; }));
-    }
+  for (const Character& character : built_in_characters().characters) check_written(character);
+}
+
+TEST_CASE("two hundred characters drawn at random from a full set are completed, and force steps stay within the limit",
+          "[practice]") {
+  const char* const path = std::getenv("CALLIGRAPHY_CHARACTER_FILE");
+  if (path == nullptr) {
+    WARN("skipped: CALLIGRAPHY_CHARACTER_FILE does not name a file of characters as calligraphy import makes it");
+    CHECK(std::getenv("CALLIGRAPHY_REQUIRE_DATA") == nullptr);
+    return;
+  }
+#if defined(__SANITIZE_ADDRESS__)
+  constexpr int count = 10;
+#else
+  constexpr int count = 200;
+#endif
+  const CharacterSet set = CharacterSet::open(path);
+  std::vector<char32_t> codes;
+  for (const StoredCharacter& character : set) codes.push_back(character.code());
+  calligraphy_test::Sequence random(2006);
+  for (int i = 0; i < count; ++i) {
+    const auto drawn = static_cast<std::size_t>(random.next() * static_cast<double>(codes.size()));
+    check_written(set.find(codes[drawn])->character());
   }
 }
 
