@@ -15,6 +15,7 @@
 #include <calligraphy/model/set_encoding.hpp>
 #include <model/checksum.hpp>
 #include <model/little_endian.hpp>
+#include <model/order_name.hpp>
 #include <model/set_format.hpp>
 
 #include "character_lists.hpp"
@@ -101,6 +102,7 @@ void use(const CharacterSet& set) {
       for (const double factor : stroke->stroke().attraction_factors) REQUIRE(factor >= 0.0);
     }
     for (const std::string& order : set.orders(character.code())) {
+      if (!order.empty()) REQUIRE(is_order_name(order));
       try {
         const Character whole = set.find(character.code(), order)->character();
         REQUIRE(validate(whole).empty());
