@@ -37,6 +37,7 @@ CharacterList small_list() {
   for (const Character& character : rich.characters) {
     if (character.code == U'北' || character.code == U'\U00020000') list.characters.push_back(character);
   }
+  list.characters.push_back(with_quartic_curves(one_stroke(U'\U00020001')));  // short, and its form not plain
   return list;
 }
 
@@ -339,6 +340,32 @@ TEST_CASE("each number of the header is checked for what it says, not only by it
     CHECK(with(entries + group * entry_size + 8, 0xFFFFFFFF).find(entry) != std::string::npos);
     CHECK(with(entries + group * entry_size + 8, 1).find(entry) != std::string::npos);
   }
+}
+
+TEST_CASE("a coding of a character's own is checked like that of the file", "[model]") {
+  using namespace set_format;
+  CharacterList list;
+  list.characters.push_back(one_stroke(U'一'));
+  for (Point& point : list.characters[0].structure.control_points) point += Point(10.0, 0.1);
+  const Bytes whole = encode_character_set(list);
+  // The only record is at the end: offset u16, head, strokes, size, coding, bits.
+  const std::size_t record = load_u32(whole, first_group_at) + 2, coding = record + 3;
+  REQUIRE(whole[record] == static_cast<std::byte>(special | own_coding));
+  const auto with_bits = [&](int x, int y) {
+    Bytes bytes = whole;
+    bytes[coding + 12] = static_cast<std::byte>(x);
+    bytes[coding + 13] = static_cast<std::byte>(y);
+    forge_checksums(bytes);
+    return complaint(bytes);
+  };
+  const int x = std::to_integer<int>(whole[coding + 12]), y = std::to_integer<int>(whole[coding + 13]);
+  CHECK(with_bits(x, y).empty());
+  CHECK(with_bits(x + y, 0).find("一") != std::string::npos);  // as many bits as before, but not a width
+  CHECK(with_bits(0, x + y).find("一") != std::string::npos);
+  Bytes bytes = whole;
+  store(bytes, coding, most_steps_per_em + 1);
+  forge_checksums(bytes);
+  CHECK(complaint(bytes).find("一") != std::string::npos);
 }
 
 TEST_CASE("a newer version and another program's file are told so", "[model]") {
