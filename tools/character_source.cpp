@@ -2,44 +2,76 @@
 
 #include <filesystem>
 
+#include <CLI/CLI.hpp>
+
 #include <calligraphy/error.hpp>
 #include <calligraphy/model/hanzi_writer.hpp>
+#include <calligraphy/model/text.hpp>
 
 #include "options.hpp"
 
 namespace calligraphy::tools {
 namespace {
 
-CharacterList select(const std::u32string& text, const CharacterList& from, const std::string& name) {
-  CharacterList found{from.provenance, {}};
-  for (const char32_t code : text) {
-    if (found.find(code) != nullptr) continue;
-    const Character* const character = from.find(code);
-    if (character == nullptr) throw Error("character " + name_of(code) + " is not in " + name);
-    found.characters.push_back(*character);
-  }
-  return found;
-}
-
-CharacterList read_package(const std::u32string& text, const std::string& directory) {
+/// The characters of `text` that the package has.
+CharacterSet open_package(const std::string& directory, const std::u32string& text) {
   CharacterList found{{"Make Me a Hanzi, as hanzi-writer-data",
                        "Arphic Public License",
                        "Arphic Technology, Make Me a Hanzi, Hanzi Writer",
                        {}},
                       {}};
   for (const char32_t code : text) {
-    if (found.find(code) == nullptr) found.characters.push_back(read_hanzi_writer(directory, code));
+    const std::filesystem::path file = std::filesystem::path(directory) / (encode_utf8(code) + ".json");
+    if (found.find(code) == nullptr && std::filesystem::exists(file)) {
+      found.characters.push_back(read_hanzi_writer(directory, code));
+    }
   }
-  return found;
+  return CharacterSet(found);
+}
+
+CharacterSet open_one(const std::string& path, const std::u32string& text) {
+  std::error_code failure;
+  if (!text.empty() && std::filesystem::is_directory(path, failure)) return open_package(path, text);
+  return CharacterSet::open(path);
+}
+
+std::string names_of(const std::vector<std::string>& paths) {
+  if (paths.empty()) return "the built-in set; --characters names another";
+  std::string names;
+  for (const std::string& path : paths) names += (names.empty() ? "" : ", ") + path;
+  return names;
 }
 
 }  // namespace
 
-CharacterList find_characters(const std::u32string& text, const std::string& path) {
-  if (path.empty()) return select(text, built_in_characters(), "the built-in set; --characters names another");
-  std::error_code failure;
-  if (std::filesystem::is_directory(path, failure)) return read_package(text, path);
-  return select(text, read_characters(path), path);
+CharacterSet open_characters(const std::vector<std::string>& paths, const std::u32string& text,
+                             const std::string& order) {
+  std::vector<CharacterSet> sets;
+  for (const std::string& path : paths) sets.push_back(open_one(path, text));
+  if (paths.empty()) sets.emplace_back(built_in_characters());
+  CharacterSet set = CharacterSet::layered(sets);
+  for (const char32_t code : text) {
+    if (set.find(code, order)) continue;
+    const bool has_others = set.find(code).has_value();
+    throw Error("character " + name_of(code) + (has_others ? " has no order \"" + order + "\" in " : " is not in ") +
+                names_of(paths));
+  }
+  return set;
+}
+
+std::vector<Character> characters_of(const CharacterSet& set, const std::u32string& text, const std::string& order) {
+  std::vector<Character> characters;
+  for (const char32_t code : text) characters.push_back(set.find(code, order)->character());
+  return characters;
+}
+
+CLI::Option* add_characters_option(CLI::App& command, std::vector<std::string>& paths) {
+  return command
+      .add_option("--characters", paths,
+                  "Set file, file in the text format or directory of hanzi-writer-data (default: the built-in set); "
+                  "given again, another one beneath the first")
+      ->allow_extra_args(false)
+      ->type_name("PATH");
 }
 
 }  // namespace calligraphy::tools

@@ -1,13 +1,18 @@
-// calligraphy info: the data structure of a character (Wang 2006, Table 3).
+// calligraphy info: what a set of characters is, and the data structure of a character (Wang 2006, Table 3).
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include <calligraphy/model/character_list.hpp>
+#include <calligraphy/model/character_set.hpp>
 #include <calligraphy/model/text.hpp>
 
 #include "character_source.hpp"
@@ -20,15 +25,82 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct Options {
-  std::string text;
-  std::string characters;
+  std::optional<std::string> first;   ///< FILE, or TEXT where no file has this name
+  std::optional<std::string> second;  ///< TEXT
+  std::vector<std::string> characters;
+  std::string order;
   bool paper_example = false;
+  bool licence_text = false;
   bool json = false;
 };
 
-void print_table(const Character& character) {
+/// What was asked for.
+struct Request {
+  std::vector<std::string> paths;
+  std::u32string text;  ///< each character once; empty: the set as a whole
+};
+
+/// A set as a whole.
+struct Summary {
+  std::size_t characters = 0;
+  std::size_t strokes = 0;           ///< in the standard order of each
+  std::size_t alternate_orders = 0;  ///< beside the first one of each
+  std::size_t bytes = 0;
+  double coordinate_error = 0.0;  ///< [em]
+  Provenance provenance;          ///< of all layers, each once
+};
+
+void add(std::string& all, const std::string& one, const std::string& separator) {
+  if (all.find(one) == std::string::npos) all += (all.empty() ? "" : separator) + one;
+}
+
+Provenance joined(const std::vector<Provenance>& layers) {
+  Provenance all;
+  for (const Provenance& layer : layers) {
+    add(all.source, layer.source, "; ");
+    add(all.licence, layer.licence, "; ");
+    add(all.attribution, layer.attribution, "; ");
+    add(all.licence_text, layer.licence_text, "\n\n");
+  }
+  return all;
+}
+
+Summary summary_of(const CharacterSet& set) {
+  Summary summary;
+  for (const StoredCharacter& character : set) {
+    if (character.stroke_count() == 0) character.character();  // says what is damaged
+    ++summary.characters;
+    summary.strokes += static_cast<std::size_t>(character.stroke_count());
+    summary.alternate_orders += set.orders(character.code()).size() - 1;
+  }
+  summary.bytes = set.bytes();
+  summary.coordinate_error = set.coordinate_error();
+  summary.provenance = joined(set.provenances());
+  return summary;
+}
+
+double bytes_per_character(const Summary& summary) {
+  return static_cast<double>(summary.bytes) / static_cast<double>(std::max<std::size_t>(1, summary.characters));
+}
+
+void print(const Summary& summary) {
+  const auto line = [](const char* name, const auto& value) { fmt::print("{:<28} {}\n", name, value); };
+  line("Characters", summary.characters);
+  line("Strokes", summary.strokes);
+  if (summary.alternate_orders > 0) line("Alternate stroke orders", summary.alternate_orders);
+  line("Bytes", summary.bytes);
+  line("Bytes a character", fmt::format("{:.1f}", bytes_per_character(summary)));
+  line("Coordinate error [em]", fmt::format("{:.3g}", summary.coordinate_error));
+}
+
+void print(const Provenance& provenance) {
+  fmt::print("source: {}\nlicence: {}\nattribution: {}\n", provenance.source, provenance.licence,
+             provenance.attribution);
+}
+
+void print(const Character& character) {
   const SequenceData& sequence = character.sequence;
-  fmt::print("{}\n", name_of(character.code));
+  fmt::print("{}{}\n", name_of(character.code), character.order.empty() ? "" : ", order " + character.order);
   fmt::print("  {:<28} {}\n", "Number of typical strokes", sequence.stroke_ids.size());
   fmt::print("  {:<28} {}\n", "ID array of typical strokes", fmt::join(sequence.stroke_ids, ", "));
   fmt::print("  {:<28} {}\n", "Number of control points", character.structure.control_points.size());
@@ -44,7 +116,19 @@ void print_table(const Character& character) {
   }
 }
 
-Json json_of(const CharacterList& set, const Character& character) {
+Json json_of(const Summary& summary) {
+  return {{"characters", summary.characters},
+          {"strokes", summary.strokes},
+          {"alternate_orders", summary.alternate_orders},
+          {"bytes", summary.bytes},
+          {"bytes_per_character", bytes_per_character(summary)},
+          {"coordinate_error_em", summary.coordinate_error},
+          {"source", summary.provenance.source},
+          {"licence", summary.provenance.licence},
+          {"attribution", summary.provenance.attribution}};
+}
+
+Json json_of(const Character& character, const Provenance& provenance, const std::vector<std::string>& orders) {
   Json drawn = Json::array();
   for (const Stroke& stroke : strokes(character)) {
     Json points = Json::array();
@@ -58,6 +142,8 @@ Json json_of(const CharacterList& set, const Character& character) {
                       Json(std::vector<double>(stroke.attraction_factors.begin(), stroke.attraction_factors.end()))}});
   }
   return {{"character", encode_utf8(character.code)},
+          {"order", character.order},
+          {"orders", orders},
           {"number_of_typical_strokes", character.stroke_count()},
           {"typical_stroke_ids", character.sequence.stroke_ids},
           {"number_of_control_points", character.structure.control_points.size()},
@@ -65,55 +151,89 @@ Json json_of(const CharacterList& set, const Character& character) {
           {"sequence", character.sequence.stroke_ids},
           {"feature_points", character.sequence.feature_points},
           {"strokes", drawn},
-          {"source", set.provenance.source},
-          {"licence", set.provenance.licence},
-          {"attribution", set.provenance.attribution}};
+          {"source", provenance.source},
+          {"licence", provenance.licence},
+          {"attribution", provenance.attribution}};
 }
 
-CharacterList chosen(const Options& options) {
-  if (!options.paper_example) {
-    return find_characters(characters_of(options.text), options.characters);
+std::u32string each_once(const std::string& text) {
+  std::u32string codes;
+  for (const char32_t code : characters_of(text)) {
+    if (codes.find(code) == std::u32string::npos) codes += code;
   }
+  return codes;
+}
+
+/// The first word is a file if there is such a file, and a text if not.
+Request request_of(const Options& options) {
+  Request request{options.characters, {}};
+  std::error_code failure;
+  const bool has_file = options.second || (options.first && std::filesystem::exists(*options.first, failure));
+  if (has_file) request.paths.insert(request.paths.begin(), *options.first);
+  const std::optional<std::string>& text = has_file ? options.second : options.first;
+  if (text) request.text = each_once(*text);
+  if (request.paths.empty() && request.text.empty()) throw UsageError("FILE or TEXT is required");
+  return request;
+}
+
+void run_paper_example(const Options& options) {
   if (!options.characters.empty()) throw UsageError("--paper-example: comes with the program, not with --characters");
+  if (options.second) throw UsageError("--paper-example: comes with the program, not with FILE");
   const Character& example = paper_example();
-  if (!options.text.empty() && characters_of(options.text) != std::u32string(1, example.code)) {
-    throw UsageError(fmt::format("--paper-example: is {}, not \"{}\"", name_of(example.code), options.text));
+  if (options.first && characters_of(*options.first) != std::u32string(1, example.code)) {
+    throw UsageError(fmt::format("--paper-example: is {}, not \"{}\"", name_of(example.code), *options.first));
   }
-  const CharacterList& own = built_in_characters();
-  return {
-      {own.provenance.source + ", after Wang 2006, Table 3", own.provenance.licence, own.provenance.attribution, {}},
-      {example}};
+  Provenance provenance = built_in_characters().provenance;
+  provenance.source += ", after Wang 2006, Table 3";
+  if (options.json) {
+    fmt::print("{}\n", Json{{"text", Json::array({json_of(example, provenance, {})})}}.dump(2));
+    return;
+  }
+  print(example);
+  print(provenance);
 }
 
 void run(const Options& options) {
-  const CharacterList set = chosen(options);
+  if (options.paper_example) return run_paper_example(options);
+  const Request request = request_of(options);
+  const CharacterSet set = open_characters(request.paths, request.text, options.order);
+  const Summary summary = summary_of(set);
   if (options.json) {
-    Json list = Json::array();
-    for (const Character& character : set.characters) list.push_back(json_of(set, character));
-    fmt::print("{}\n", list.dump(2));
+    Json json = json_of(summary);
+    if (options.licence_text) json["licence_text"] = summary.provenance.licence_text;
+    if (!request.text.empty()) json["text"] = Json::array();
+    for (const char32_t code : request.text) {
+      const StoredCharacter found = *set.find(code, options.order);
+      json["text"].push_back(json_of(found.character(), found.provenance(), set.orders(code)));
+    }
+    fmt::print("{}\n", json.dump(2));
     return;
   }
-  for (const Character& character : set.characters) print_table(character);
-  fmt::print("source: {}\nlicence: {}\nattribution: {}\n", set.provenance.source, set.provenance.licence,
-             set.provenance.attribution);
+  if (request.text.empty()) print(summary);
+  for (const Character& character : characters_of(set, request.text, options.order)) print(character);
+  print(summary.provenance);
+  if (options.licence_text) fmt::print("\n{}\n", summary.provenance.licence_text);
 }
 
 }  // namespace
 
 void add_info(CLI::App& program) {
-  CLI::App* const command = program.add_subcommand("info", "Print the data structure of characters (Table 3).");
+  CLI::App* const command = program.add_subcommand(
+      "info",
+      "Print what a file of characters holds, where it comes from and under which licence; with TEXT the data "
+      "structure "
+      "of its characters (Table 3). FILE: a set file or a file in the text format; a first word that names no file is "
+      "TEXT.");
   const auto options = std::make_shared<Options>();
-  CLI::Option* const text = command->add_option("TEXT", options->text, "Characters, each shown once");
-  command
-      ->add_option("--characters", options->characters,
-                   "File of characters, or directory of hanzi-writer-data (default: the built-in set)")
-      ->type_name("PATH");
+  command->add_option("FILE", options->first, "Set file, or file in the text format")->type_name("");
+  command->add_option("TEXT", options->second, "Characters, each shown once")->type_name("");
+  add_characters_option(*command, options->characters);
+  command->add_option("--order", options->order, "Alternate stroke order (default: the standard one)")
+      ->type_name("NAME");
   command->add_flag("--paper-example", options->paper_example, "The character of Table 3, verbatim");
-  command->add_flag("--json", options->json, "Print JSON: a list with an object per character");
-  command->callback([options, text] {
-    if (text->count() == 0 && !options->paper_example) throw UsageError("TEXT is required");
-    run(*options);
-  });
+  command->add_flag("--licence-text", options->licence_text, "Print the licence itself, too");
+  command->add_flag("--json", options->json, "Print JSON: an object, with a list \"text\" of an object per character");
+  command->callback([options] { run(*options); });
 }
 
 }  // namespace calligraphy::tools

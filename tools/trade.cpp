@@ -33,7 +33,7 @@ constexpr std::size_t most_written = 2;
 
 struct Options {
   std::string text = "永北京航空天大学和年书法";
-  std::string characters;
+  std::vector<std::string> characters;
   std::optional<std::string> out;
   std::uint64_t seed = 1;
   std::optional<int> queries;
@@ -88,9 +88,8 @@ void draw(const TradeReport& report, const OutputDirectory& out) {
 void run(const Options& options) {
   if (options.out && options.out->empty()) throw UsageError("--out: an empty name");
   TradeReport report = asked_for(options);
-  const CharacterList set = find_characters(report.text, options.characters);
-  std::vector<Character> characters;
-  for (const char32_t code : report.text) characters.push_back(*set.find(code));
+  const CharacterSet set = open_characters(options.characters, report.text);
+  const std::vector<Character> characters = characters_of(set, report.text);
   if (curve_control_points(characters).empty()) {
     throw Error("no stroke of the text has a curve, which is what the nearest point is measured on");
   }
@@ -112,10 +111,7 @@ void add_trade(CLI::App& program) {
   const auto options = std::make_shared<Options>();
   command->add_option("TEXT", options->text, "Characters to measure on; the first two are written at every servo rate")
       ->capture_default_str();
-  command
-      ->add_option("--characters", options->characters,
-                   "File of characters, or directory of hanzi-writer-data (default: the built-in set)")
-      ->type_name("PATH");
+  add_characters_option(*command, options->characters);
   command->add_option("--out", options->out, "Directory for plots and JSON, created when missing")->type_name("DIR");
   command->add_option("--seed", options->seed, "Seed of all that is drawn at random")
       ->check(integer(0, std::numeric_limits<std::uint64_t>::max()))

@@ -37,7 +37,8 @@ namespace {
 struct Options {
   std::string text;
   std::string out;
-  std::string characters;
+  std::vector<std::string> characters;
+  std::string order;
   std::string device = "simulated:desktop";
   std::string writer = "novice";
   std::string mode = "both";
@@ -105,9 +106,7 @@ std::vector<Mode> chosen_modes(const std::string& mode) {
   return {Mode::vision, Mode::force};
 }
 
-std::vector<Sheet> sheets(const std::u32string& text, const CharacterList& set, const Capabilities& capabilities) {
-  std::vector<Character> characters;
-  for (const char32_t code : text) characters.push_back(*set.find(code));
+std::vector<Sheet> sheets(const std::vector<Character>& characters, const Capabilities& capabilities) {
   PageLayout layout;
   layout.width = capabilities.workspace.x();
   layout.height = capabilities.workspace.y();
@@ -164,7 +163,8 @@ class Run {
   }
 
   void write() {
-    sheets_ = sheets(text_, find_characters(text_, options_.characters), session_.device.capabilities);
+    const CharacterSet set = open_characters(options_.characters, text_, options_.order);
+    sheets_ = sheets(characters_of(set, text_, options_.order), session_.device.capabilities);
     const OutputDirectory out(options_.out);
     plots_ = can_plot();
     if (!plots_) spdlog::warn("gnuplot cannot be run: no plots of the force");
@@ -263,10 +263,9 @@ void add_write(CLI::App& program) {
   command->add_option("--out", options->out, "Directory for the results, created when missing")
       ->required()
       ->type_name("DIR");
-  command
-      ->add_option("--characters", options->characters,
-                   "File of characters, or directory of hanzi-writer-data (default: the built-in set)")
-      ->type_name("PATH");
+  add_characters_option(*command, options->characters);
+  command->add_option("--order", options->order, "Alternate stroke order (default: the standard one)")
+      ->type_name("NAME");
   command->add_option("--device", options->device, "simulated:NAME with one of " + device_names())
       ->capture_default_str()
       ->type_name("DEVICE");

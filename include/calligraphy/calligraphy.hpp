@@ -18,9 +18,11 @@
 #include <calligraphy/model/bezier.hpp>
 #include <calligraphy/model/character.hpp>
 #include <calligraphy/model/character_list.hpp>
+#include <calligraphy/model/character_set.hpp>
 #include <calligraphy/model/hanzi_writer.hpp>
 #include <calligraphy/model/point.hpp>
 #include <calligraphy/model/provenance.hpp>
+#include <calligraphy/model/set_encoding.hpp>
 #include <calligraphy/model/stroke_fit.hpp>
 #include <calligraphy/model/text.hpp>
 #include <calligraphy/model/typical_stroke.hpp>

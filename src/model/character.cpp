@@ -157,7 +157,9 @@ Character with_quartic_curves(const Character& character) {
     }
     inputs.push_back(std::move(input));
   }
-  return make_character(character.code, inputs, 4);
+  Character result = make_character(character.code, inputs, 4);
+  result.order = character.order;
+  return result;
 }
 
 std::vector<Problem> validate(const Character& character) {

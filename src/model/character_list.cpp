@@ -5,19 +5,23 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <sstream>
 #include <system_error>
+#include <utility>
 
 #include <calligraphy/error.hpp>
 #include <calligraphy/model/text.hpp>
 
 #include "built_in.hpp"
+#include "order_name.hpp"
 
 namespace calligraphy {
 namespace {
 
 constexpr std::string_view first_line = "calligraphy characters 1";
 constexpr std::uintmax_t largest_file = 64 << 20;  // twice all of Make Me a Hanzi [bytes]
+constexpr std::string_view licence_text_key = "licence-text";
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
 /// What was found, as a message shows it: a file that is no such text may be one line of any length.
@@ -28,6 +32,10 @@ std::string in_quotes(std::string_view text) {
 
 /// Statements whose text goes to the end of the line, '#' and all.
 bool is_free_text(std::string_view key) { return key == "source" || key == "licence" || key == "attribution"; }
+
+std::string name_of(char32_t code, std::string_view order) {
+  return "character " + encode_utf8(code) + (order.empty() ? "" : " order " + std::string(order));
+}
 
 /// Reads the text format line by line; docs/character-format.md describes it.
 class Parser {
@@ -46,6 +54,8 @@ class Parser {
         set_.provenance.licence = rest();
       } else if (key == "attribution") {
         set_.provenance.attribution = rest();
+      } else if (key == licence_text_key) {
+        add_licence_line();
       } else if (key == "character") {
         begin_character();
       } else if (key == "stroke") {
@@ -72,7 +82,13 @@ class Parser {
       ++number_;
       if (number_ == 1 && line_.starts_with(byte_order_mark)) line_.erase(0, byte_order_mark.size());
       left_ = line_;
-      if (!is_free_text(word())) line_.erase(std::min(line_.find('#'), line_.size()));
+      const std::string_view key = word();
+      if (key == licence_text_key) {  // kept to the last blank
+        if (line_.ends_with('\r')) line_.pop_back();
+        left_ = line_;
+        return true;
+      }
+      if (!is_free_text(key)) line_.erase(std::min(line_.find('#'), line_.size()));
       line_.erase(line_.find_last_not_of(" \t\r") + 1);
       left_ = line_;
       if (!line_.empty()) return true;
@@ -86,6 +102,16 @@ class Parser {
     const std::string_view found = left_.substr(0, end);
     left_.remove_prefix(end);
     return found;
+  }
+
+  /// What stands after the keyword and one blank.
+  void add_licence_line() {
+    if (!left_.empty()) left_.remove_prefix(1);
+    decode(left_);
+    std::string& text = set_.provenance.licence_text;
+    if (has_licence_text_) text += '\n';
+    text += left_;
+    has_licence_text_ = true;
   }
 
   std::string rest() {
@@ -116,17 +142,32 @@ class Parser {
     end_character();
     const std::u32string codes = decode(word());
     if (codes.size() != 1) fail("expected one character, found " + std::to_string(codes.size()));
-    if (set_.find(codes[0])) fail("character " + encode_utf8(codes[0]) + " stands here a second time");
     code_ = codes[0];
     character_line_ = number_;
     degree_ = 3;
-    if (const std::string_view key = word(); key == "degree") {
+    order_.clear();
+    std::string_view key = word();
+    if (key == "degree") {
       degree_ = parse_number<int>(word(), "curve degree");
-    } else if (!key.empty()) {
-      fail("expected 'degree' or nothing, found " + in_quotes(key));
+      key = word();
     }
-    if (const std::string_view more = word(); !more.empty()) fail("expected nothing more, found " + in_quotes(more));
+    if (key == "order") {
+      read_order();
+    } else if (!key.empty()) {
+      fail("expected 'degree', 'order' or nothing more, found " + in_quotes(key));
+    }
+    if (!seen_.emplace(code_, order_).second) fail(name_of(code_, order_) + " stands here a second time");
     in_character_ = true;
+  }
+
+  /// A name to the end of the line.
+  void read_order() {
+    order_ = rest();
+    try {
+      check_order_name(order_);
+    } catch (const ValueError& error) {
+      fail(error.what());
+    }
   }
 
   void add_stroke() {
@@ -160,8 +201,9 @@ class Parser {
 
   void end_character() {
     if (!in_character_) return;
-    if (strokes_.empty()) fail_at(character_line_, "character " + encode_utf8(code_) + " has no stroke");
+    if (strokes_.empty()) fail_at(character_line_, name_of(code_, order_) + " has no stroke");
     set_.characters.push_back(make_character(code_, strokes_, degree_));
+    set_.characters.back().order = order_;
     strokes_.clear();
     in_character_ = false;
   }
@@ -172,10 +214,13 @@ class Parser {
   std::string_view left_;
   int number_ = 0;
   bool seen_first_line_ = false;
+  bool has_licence_text_ = false;
   bool in_character_ = false;
   int character_line_ = 0;
   char32_t code_ = 0;
   int degree_ = 3;
+  std::string order_;
+  std::set<std::pair<char32_t, std::string>> seen_;
   std::vector<StrokeInput> strokes_;
   CharacterList set_;
 };
@@ -191,11 +236,22 @@ std::string format_number(double value) {
   return error == std::errc() ? std::string(buffer, end) : std::string("0");
 }
 
+/// A statement for each line; "a\n" has two lines, and the second is empty.
+void write_licence_text(std::ostream& out, std::string_view text) {
+  if (text.empty()) return;
+  for (std::size_t begin = 0, end = 0; end != std::string_view::npos; begin = end + 1) {
+    end = text.find('\n', begin);
+    const std::string_view line = text.substr(begin, end == std::string_view::npos ? end : end - begin);
+    out << licence_text_key << (line.empty() ? "" : " ") << line << '\n';
+  }
+}
+
 }  // namespace
 
-const Character* CharacterList::find(char32_t code) const noexcept {
-  const auto found = std::find_if(characters.begin(), characters.end(),
-                                  [code](const Character& character) { return character.code == code; });
+const Character* CharacterList::find(char32_t code, std::string_view order) const noexcept {
+  const auto found = std::find_if(characters.begin(), characters.end(), [&](const Character& character) {
+    return character.code == code && character.order == order;
+  });
   return found == characters.end() ? nullptr : &*found;
 }
 
@@ -228,6 +284,9 @@ CharacterList read_characters(const std::string& path) {
 
 void write_characters(std::ostream& out, const CharacterList& set) {
   const Provenance& provenance = set.provenance;
+  if (provenance.licence_text.find('\r') != std::string::npos) {
+    throw ValueError("the licence text has a carriage return; its lines must end with '\\n' alone");
+  }
   for (const std::string& text : {provenance.source, provenance.licence, provenance.attribution}) {
     if (text.find_first_of("\r\n") != std::string::npos) throw ValueError("more than one line: " + in_quotes(text));
   }
@@ -235,9 +294,14 @@ void write_characters(std::ostream& out, const CharacterList& set) {
   if (!provenance.source.empty()) out << "source " << provenance.source << '\n';
   if (!provenance.licence.empty()) out << "licence " << provenance.licence << '\n';
   if (!provenance.attribution.empty()) out << "attribution " << provenance.attribution << '\n';
+  write_licence_text(out, provenance.licence_text);
   for (const Character& character : set.characters) {
     out << "\ncharacter " << encode_utf8(character.code);
     if (character.curve_degree != 3) out << " degree " << std::to_string(character.curve_degree);
+    if (!character.order.empty()) {
+      check_order_name(character.order);
+      out << " order " << character.order;
+    }
     out << '\n';
     for (const Stroke& stroke : strokes(character)) {
       out << "stroke " << std::to_string(stroke.type->id);  // neither the stream's base nor its locale

@@ -45,8 +45,8 @@ bool same(const CharacterList& a, const CharacterList& b) {
   if (a.characters.size() != b.characters.size()) return false;
   for (std::size_t i = 0; i < a.characters.size(); ++i) {
     const Character &x = a.characters[i], &y = b.characters[i];
-    if (x.code != y.code || x.curve_degree != y.curve_degree || x.sequence.stroke_ids != y.sequence.stroke_ids ||
-        x.sequence.feature_points != y.sequence.feature_points ||
+    if (x.code != y.code || x.order != y.order || x.curve_degree != y.curve_degree ||
+        x.sequence.stroke_ids != y.sequence.stroke_ids || x.sequence.feature_points != y.sequence.feature_points ||
         x.structure.control_points != y.structure.control_points ||
         x.physics.attraction_factors != y.physics.attraction_factors) {
       return false;
@@ -88,6 +88,35 @@ TEST_CASE("source, licence and attribution are free text, with '#' and all", "[m
   CHECK_THROWS_AS(write(set), ValueError);
 }
 
+TEST_CASE("a licence text of many lines is kept to the last blank", "[model]") {
+  CharacterList set = built_in_characters();
+  for (const std::string& text :
+       {std::string("one"), std::string("one\n"), std::string("\n"), std::string("\n\n one # 1 \t\n"),
+        std::string("stroke 1 0,0 1,1\ncharacter \xE4\xB8\x80\n\n\nend")}) {
+    set.provenance.licence_text = text;
+    CHECK(same(read(write(set)), set));
+  }
+  CHECK(read(head + "licence-text one\r\nlicence-text\r\nlicence-text  two").provenance.licence_text == "one\n\n two");
+  set.provenance.licence_text = "one\r\ntwo";
+  CHECK_THROWS_AS(write(set), ValueError);
+}
+
+TEST_CASE("a character may stand in a file once in each order", "[model]") {
+  CharacterList set;
+  for (const char* const order : {"", "Table 3", "degree 4", "\xE5\x8C\x97 | 2"}) {
+    set.characters.push_back(std::string_view(order) == "degree 4" ? with_quartic_curves(paper_example()) : paper_example());
+    set.characters.back().order = order;
+  }
+  CHECK(same(read(write(set)), set));
+  CHECK(read(write(set)).find(U'\u5317', "Table 3") != nullptr);
+  CHECK(read(write(set)).find(U'\u5317', "Table 4") == nullptr);
+  CHECK(with_quartic_curves(set.characters[1]).order == "Table 3");
+  for (const char* const bad : {" a", "a#b", "a\nstroke 1 0,0 1,1"}) {
+    set.characters.back().order = bad;
+    CHECK_THROWS_AS(write(set), ValueError);
+  }
+}
+
 TEST_CASE("comments, blank lines, tabs, CRLF and a byte order mark are let pass", "[model]") {
   const CharacterList plain = read(head + "character \xE4\xB8\x80\nstroke 1 0.1,0.5 0.9,0.5 | 1 2\n");
   CHECK(same(read("\xEF\xBB\xBF" + head + "character \xE4\xB8\x80\nstroke 1 0.1,0.5 0.9,0.5 | 1 2"), plain));
@@ -118,6 +147,12 @@ TEST_CASE("each kind of broken line is named by file, line and value", "[model]"
       {head + "character \xE5\x8C\x97 degree\n", "test.txt:2: ", "''"},
       {head + "character \xE5\x8C\x97 degree four\n", "test.txt:2: ", "'four'"},
       {head + "character \xE5\x8C\x97 degree 4 5\n", "test.txt:2: ", "'5'"},
+      {head + "character \xE5\x8C\x97 order\n", "test.txt:2: ", "''"},
+      {head + "character \xE5\x8C\x97 order # none\n", "test.txt:2: ", "''"},
+      {head + "character \xE5\x8C\x97 order a\x01\n", "test.txt:2: ", "order"},
+      {head + "licence-text \xFF\n", "test.txt:2: ", "byte 0"},
+      {north + "stroke 1 0,0 1,1\ncharacter \xE5\x8C\x97 order a\nstroke 1 0,0 1,1\ncharacter \xE5\x8C\x97 order a\n",
+       "test.txt:6: ", "\xE5\x8C\x97 order a"},
       {head + "character \xE5\x8C\x97 degree 7\nstroke 1 0,0 1,1\n", "test.txt:3: ", "7"},
       {north + "stroke 1 0,0 1,1\n" + "character \xE5\x8C\x97\nstroke 1 0,0 1,1\n", "test.txt:4: ", "\xE5\x8C\x97"},
       {north, "test.txt:2: ", "\xE5\x8C\x97"},

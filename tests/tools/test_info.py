@@ -1,13 +1,16 @@
 import json
 import os
 import subprocess
+from pathlib import Path
 
 from program import ProgramTest
+
+DATA = Path(__file__).resolve().parent.parent / "data"
 
 
 class Info(ProgramTest):
     def test_the_character_of_table_3_has_its_figures(self):
-        row, = json.loads(self.run_program("info", "北", "--paper-example", "--json").stdout)
+        row, = json.loads(self.run_program("info", "北", "--paper-example", "--json").stdout)["text"]
         self.assertEqual(row["number_of_typical_strokes"], 5)
         self.assertEqual(row["typical_stroke_ids"], [2, 1, 10, 31, 4])
         self.assertEqual(row["number_of_control_points"], 15)
@@ -19,7 +22,7 @@ class Info(ProgramTest):
         self.assertRegex(text, r"Number of feature points +13\n")
 
     def test_the_built_in_character_has_the_standard_order(self):
-        row, = json.loads(self.run_program("info", "北", "--json").stdout)
+        row, = json.loads(self.run_program("info", "北", "--json").stdout)["text"]
         self.assertEqual(row["sequence"], [2, 1, 10, 4, 31])
         self.assertEqual(len(row["feature_points"]), 13)
         self.assertEqual(sum(len(stroke["control_points_em"]) for stroke in row["strokes"]), 15)
@@ -30,8 +33,48 @@ class Info(ProgramTest):
         for word in ("北 (U+5317)", "永 (U+6C38)", "source:", "licence:", "attribution:"):
             self.assertIn(word, text)
 
+    def test_a_set_file_tells_what_it_holds_and_whose_it_is(self):
+        for name in ("version_1.set", "version_1.txt"):
+            told = json.loads(self.run_program("info", str(DATA / name), "--json", "--licence-text").stdout)
+            self.assertEqual((told["characters"], told["strokes"], told["alternate_orders"]), (3, 7, 1))
+            self.assertEqual((told["source"], told["licence"], told["attribution"]),
+                             ("Drawn for calligraphy", "MIT", "The calligraphy authors"))
+            self.assertEqual(told["licence_text"], "First line\n\n and the third")
+            self.assertLess(told["coordinate_error_em"], 1e-12)
+            self.assertNotIn("text", told)
+        told = json.loads(self.run_program("info", str(DATA / "version_1.set"), "--json").stdout)
+        self.assertEqual(told["bytes"], (DATA / "version_1.set").stat().st_size)
+        text = self.run_program("info", str(DATA / "version_1.set")).stdout
+        self.assertRegex(text, r"Characters +3\nStrokes +7\nAlternate stroke orders +1\nBytes +\d+\n")
+        self.assertIn("licence: MIT\n", text)
+
+    def test_a_text_after_the_file_shows_its_characters(self):
+        told = json.loads(self.run_program("info", str(DATA / "version_1.set"), "北一北", "--json").stdout)
+        self.assertEqual([row["character"] for row in told["text"]], ["北", "一"])
+        self.assertEqual(told["text"][0]["sequence"], [2, 1, 10, 4, 31])
+        self.assertEqual(told["text"][0]["orders"], ["", "Table 3"])
+        self.assertEqual(told["text"][0]["strokes"][0]["control_points_em"], [[0.35, 0.8], [0.35, 0.295]])
+        self.assertEqual(told["characters"], 3)
+        row, = json.loads(self.run_program("info", str(DATA / "version_1.set"), "北", "--order", "Table 3",
+                                           "--json").stdout)["text"]
+        self.assertEqual(row["sequence"], [2, 1, 10, 31, 4])
+
+    def test_the_first_word_is_a_file_where_there_is_one(self):
+        (self.directory / "北").write_bytes((DATA / "version_1.set").read_bytes())
+        self.assertEqual(json.loads(self.run_program("info", "北", "--json").stdout)["characters"], 3)
+        told = json.loads(self.run_program("info", "北", "北", "--json").stdout)
+        self.assertEqual((told["characters"], len(told["text"])), (3, 1))
+
+    def test_of_several_sets_the_first_that_has_a_character_is_shown(self):
+        (self.directory / "mine.txt").write_text("calligraphy characters 1\nsource mine\n\n"
+                                                 "character 一\nstroke 1 0.1,0.5 0.9,0.5\n")
+        arguments = ["info", "一北", "--characters", "mine.txt", "--characters", str(DATA / "version_1.set"), "--json"]
+        told = json.loads(self.run_program(*arguments).stdout)
+        self.assertEqual([row["source"] for row in told["text"]], ["mine", "Drawn for calligraphy"])
+        self.assertEqual(told["characters"], 3)
+
     def test_a_character_that_no_one_here_drew(self):
-        row, = json.loads(self.run_program("info", "北", "--json", "--characters", self.data_directory()).stdout)
+        row, = json.loads(self.run_program("info", "北", "--json", "--characters", self.data_directory()).stdout)["text"]
         self.assertEqual(row["number_of_typical_strokes"], 5)
         self.assertIn("Arphic", row["licence"])
 
@@ -57,3 +100,20 @@ class Refusals(ProgramTest):
         self.assert_refused(2, ["info", "--paper-example", "--characters", "x"], "--characters")
         self.assert_refused(1, ["info", "\u9f98"], "U+9F98")
         self.assert_refused(1, ["info", "北", "--characters", "none"], "none")
+        self.assert_refused(1, ["info", "none.set", "北"], "none.set", "cannot be opened")
+        self.assert_refused(1, ["info", str(DATA / "version_1.set"), "永"], "version_1.set", "永")
+        self.assert_refused(1, ["info", str(DATA / "version_1.set"), "一", "--order", "Table 3"], "一", "Table 3")
+        self.assert_refused(2, ["info", str(DATA / "version_1.set"), ""], "TEXT")
+
+    def test_a_set_file_that_is_broken_is_named(self):
+        whole = (DATA / "version_1.set").read_bytes()
+        for name, content, words in (("cut.set", whole[:-1], ["cut off"]),
+                                     ("index.set", whole[:70] + b"x" + whole[71:], ["checksum"]),
+                                     ("group.set", whole[:-1] + bytes([whole[-1] ^ 1]), ["U+20000", "checksum"]),
+                                     ("newer.set", whole[:8] + b"\2" + whole[9:], ["newer version"]),
+                                     ("picture.set", b"\x89PNG\r\n\x1a\n", ["not a set file"])):
+            with self.subTest(name=name):
+                (self.directory / name).write_bytes(content)
+                self.assert_refused(1, ["info", name], name, *words)
+                self.assert_refused(1, ["write", "𠀀", "--characters", name, "--out", "out"], name, *words)
+        self.assert_refused(1, ["info", "."], "regular file")

@@ -2,6 +2,7 @@ import csv
 import json
 import shutil
 import xml.etree.ElementTree as xml
+from pathlib import Path
 
 from program import ProgramTest
 
@@ -130,6 +131,15 @@ class Write(ProgramTest):
                                                 "character /\nstroke 1 0.1,0.5 0.9,0.5\n")
         self.run_program("write", "/", "--out", "out", "--characters", "own.txt", "--mode", "force")
         self.assertTrue((self.directory / "out/01-U+002F-force.csv").exists(), self.files())
+
+    def test_characters_of_a_set_file_in_the_order_asked_for(self):
+        data = str(Path(__file__).resolve().parent.parent / "data" / "version_1.set")
+        self.run_program("write", "北一", "--out", "out", "--characters", data, "--mode", "force")
+        self.assertEqual([(row["strokes_completed"], row["strokes"]) for row in self.summary()], [(5, 5), (1, 1)])
+        self.run_program("write", "北", "--out", "other", "--characters", data, "--mode", "force", "--order", "Table 3")
+        self.assertEqual([row["strokes_completed"] for row in self.summary("other")], [5])
+        self.assertNotEqual((self.directory / "out/01-北-force.csv").read_bytes(),
+                            (self.directory / "other/01-北-force.csv").read_bytes())
 
     def test_characters_that_no_one_here_drew(self):
         self.run_program("write", "永和九年", "--out", "out", "--characters", self.data_directory())

@@ -16,8 +16,8 @@ struct CharacterList {
   Provenance provenance;
   std::vector<Character> characters;
 
-  /// The character, or null. O(characters).
-  const Character* find(char32_t code) const noexcept;
+  /// The character in the standard order or in the one of this name, or null. O(characters).
+  const Character* find(char32_t code, std::string_view order = {}) const noexcept;
 };
 
 /// The characters drawn for this library, at least one for every typical stroke. Parsed once, on first use.
@@ -35,7 +35,8 @@ CharacterList read_characters(const std::string& path);
 
 /// Writes the text format; read_characters gives back the same set (numbers in the shortest form that reads back the
 /// same).
-/// @throws ValueError when source, licence or attribution is more than one line
+/// @throws ValueError when source, licence or attribution is more than one line, when the licence text has a carriage
+/// return, or when an order's name is not fit to be one
 void write_characters(std::ostream& out, const CharacterList& set);
 
 }  // namespace calligraphy

@@ -1,0 +1,12 @@
+// CRC-32, as zip and PNG have it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace calligraphy {
+
+std::uint32_t crc32(std::span<const std::byte> bytes) noexcept;
+
+}  // namespace calligraphy

@@ -1,0 +1,58 @@
+// Numbers and bits as a set file holds them, whatever the processor: the least significant first.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace calligraphy {
+
+template <class Unsigned>
+Unsigned load(const std::byte* at) noexcept {
+  Unsigned value = 0;
+  for (std::size_t i = 0; i < sizeof(Unsigned); ++i) {
+    value = static_cast<Unsigned>(value | static_cast<Unsigned>(static_cast<Unsigned>(at[i]) << (8 * i)));
+  }
+  return value;
+}
+
+template <class Unsigned>
+void append(std::vector<std::byte>& bytes, Unsigned value) {
+  for (std::size_t i = 0; i < sizeof(Unsigned); ++i) bytes.push_back(static_cast<std::byte>((value >> (8 * i)) & 0xFF));
+}
+
+/// `count` bits, 0 to 32, from bit `at` on. What lies beyond the end is 0.
+inline std::uint32_t load_bits(std::span<const std::byte> bytes, std::uint64_t at, int count) noexcept {
+  const std::uint64_t mask = (std::uint64_t{1} << count) - 1;
+  const std::uint64_t first = at / 8;
+  if (bytes.size() >= 8 && first <= bytes.size() - 8) {
+    return static_cast<std::uint32_t>((load<std::uint64_t>(bytes.data() + first) >> (at % 8)) & mask);
+  }
+  std::uint64_t value = 0;
+  for (std::uint64_t i = first; i < bytes.size(); ++i) {
+    value |= std::to_integer<std::uint64_t>(bytes[static_cast<std::size_t>(i)]) << (8 * (i - first));
+  }
+  return static_cast<std::uint32_t>((value >> (at % 8)) & mask);
+}
+
+/// Bits one after the other.
+class BitWriter {
+ public:
+  /// The `count` least significant bits of `value`, which has no others; 0 to 32.
+  void write(std::uint64_t value, int count) {
+    for (int i = 0; i < count; ++i, ++size_) {
+      if (size_ % 8 == 0) bytes_.push_back(std::byte{0});
+      if (((value >> i) & 1) != 0) bytes_.back() |= std::byte{1} << (size_ % 8);
+    }
+  }
+  /// Filled up with zeros to a whole byte.
+  const std::vector<std::byte>& bytes() const { return bytes_; }
+
+ private:
+  std::vector<std::byte> bytes_;
+  std::size_t size_ = 0;
+};
+
+}  // namespace calligraphy

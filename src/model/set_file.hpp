@@ -1,0 +1,100 @@
+// The bytes of a set file and what its index says (docs/set-file.md).
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <calligraphy/model/character_set.hpp>
+
+#include "mapped_file.hpp"
+#include "set_format.hpp"
+
+namespace calligraphy {
+
+/// Opening checks the header and the index, and their checksum; a group's checksum is checked on its first use. No
+/// number in the file is trusted for being under a checksum: each is checked before it leads anywhere.
+class SetFile {
+ public:
+  /// @throws FormatError naming the file
+  SetFile(std::vector<std::byte> bytes, std::string name);
+  SetFile(std::unique_ptr<const MappedFile> file, std::string name);
+
+  enum class Found { nothing, other_orders, this_order };
+
+  /// Looks for the form of a character that has this order, and fills `form` with it.
+  static Found find(const std::shared_ptr<const SetFile>& file, char32_t code, std::string_view order,
+                    StoredCharacter& form) noexcept;
+  /// Fills `form` with the first form of a character that is there.
+  static void find_first(const std::shared_ptr<const SetFile>& file, char32_t code, StoredCharacter& form) noexcept;
+  /// All forms, as far as they are sound.
+  static std::vector<StoredCharacter> find_all(const std::shared_ptr<const SetFile>& file, char32_t code);
+  std::optional<char32_t> next(char32_t from) const noexcept;
+
+  const std::string& name() const noexcept { return name_; }
+  std::span<const std::byte> bytes() const noexcept { return bytes_; }
+  std::size_t size() const noexcept { return size_; }
+  const Provenance& provenance() const noexcept { return provenance_; }
+  double coordinate_error() const noexcept { return coordinate_error_; }
+  std::span<const std::uint8_t, set_format::common_id_count> common_ids() const noexcept { return common_ids_; }
+
+ private:
+  /// Where the forms of a character are [byte]; empty when that place is damaged.
+  struct Record {
+    std::size_t begin = 0;
+    std::size_t end = 0;
+  };
+
+  /// Which of 64 neighbouring blocks have a group, and how many groups come before.
+  struct BlockCell {
+    std::uint64_t present = 0;
+    std::uint32_t before = 0;
+  };
+
+  void read();
+  void read_header();
+  void read_provenance();
+  void check_text(const std::string& text) const;
+  void read_directory(std::size_t at);
+  void check_group(std::size_t group);
+  [[noreturn]] void fail(const std::string& what) const;
+
+  std::uint32_t block(std::size_t group) const noexcept;
+  std::uint64_t present(std::size_t group) const noexcept;
+  std::size_t group_begin(std::size_t group) const noexcept;
+  std::size_t group_end(std::size_t group) const noexcept;
+  /// Number of groups of lower blocks: where this block's group is, if it has one.
+  std::size_t groups_before(std::uint32_t block) const noexcept;
+  bool has_group(std::uint32_t block) const noexcept;
+  bool is_intact(std::size_t group) const noexcept;
+  std::optional<Record> record(char32_t code) const noexcept;
+  /// Reads what stands before the bits of a form. False when it is damaged, and then it has no strokes.
+  bool read_form(Record& rest, StoredCharacter& form) const noexcept;
+
+  enum class GroupState : std::uint8_t { unknown, intact, damaged };
+
+  std::string name_;
+  std::vector<std::byte> own_;
+  std::unique_ptr<const MappedFile> file_;
+  std::span<const std::byte> bytes_;
+  Provenance provenance_;
+  CoordinateCoding coding_;
+  std::array<std::uint8_t, set_format::common_id_count> common_ids_{};
+  double coordinate_error_ = 0.0;
+  std::size_t group_count_ = 0;
+  std::size_t first_group_ = 0;
+  std::size_t size_ = 0;
+  const std::byte* blocks_ = nullptr;
+  const std::byte* entries_ = nullptr;
+  std::array<BlockCell, (set_format::last_block >> 6) + 1> cells_{};
+  /// The same in every thread that finds it out, so that no order between threads is needed.
+  mutable std::unique_ptr<std::atomic<GroupState>[]> states_;
+};
+
+}  // namespace calligraphy

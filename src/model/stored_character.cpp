@@ -1,0 +1,166 @@
+// How the bits of a character become its strokes (docs/set-file.md).
+#include <bit>
+#include <cmath>
+
+#include <calligraphy/error.hpp>
+#include <calligraphy/model/character_set.hpp>
+
+#include "code_name.hpp"
+#include "little_endian.hpp"
+#include "order_name.hpp"
+#include "set_file.hpp"
+#include "set_format.hpp"
+
+namespace calligraphy {
+namespace {
+
+using namespace set_format;
+
+double load_double(std::span<const std::byte> bytes, std::uint64_t at) noexcept {
+  const std::uint64_t low = load_bits(bytes, at, 32);
+  return std::bit_cast<double>(low | std::uint64_t{load_bits(bytes, at + 32, 32)} << 32);
+}
+
+/// Reads coordinates one after the other.
+class PointReader {
+ public:
+  PointReader(std::span<const std::byte> bytes, const CoordinateCoding& coding, std::uint64_t at) noexcept
+      : bytes_(bytes), coding_(coding), at_(at) {}
+
+  Point next() noexcept {
+    const double x = coordinate(coding_.x_bits, coding_.x_origin);
+    return {x, coordinate(coding_.y_bits, coding_.y_origin)};
+  }
+
+ private:
+  double coordinate(int bits, std::int32_t origin) noexcept {
+    const std::uint64_t at = at_;
+    at_ += static_cast<std::uint64_t>(bits);
+    if (coding_.steps_per_em == 0) return load_double(bytes_, at);
+    return (static_cast<double>(origin) + load_bits(bytes_, at, bits)) / coding_.steps_per_em;
+  }
+
+  std::span<const std::byte> bytes_;
+  CoordinateCoding coding_;
+  std::uint64_t at_;
+};
+
+/// Reads stroke ids one after the other.
+class IdReader {
+ public:
+  IdReader(const SetFile& file, std::uint64_t at) noexcept : file_(file), at_(at) {}
+
+  /// 0 when it is none.
+  int next() noexcept {
+    const std::uint32_t bits = load_bits(file_.bytes(), at_, short_id_bits + long_id_bits);
+    const std::uint32_t first = bits & long_id;
+    at_ += first == long_id ? short_id_bits + long_id_bits : short_id_bits;
+    const std::uint32_t id = first == long_id ? bits >> short_id_bits : file_.common_ids()[first];
+    return id <= typical_stroke_count ? static_cast<int>(id) : 0;
+  }
+  std::uint64_t at() const noexcept { return at_; }
+
+ private:
+  const SetFile& file_;
+  std::uint64_t at_;
+};
+
+bool in_domain(const Point& point) noexcept {
+  return std::abs(point.x()) <= largest_coordinate && std::abs(point.y()) <= largest_coordinate;  // and is a number
+}
+
+}  // namespace
+
+const Provenance& StoredCharacter::provenance() const noexcept { return file_->provenance(); }
+
+int StoredCharacter::stroke_id(int index) const noexcept {
+  if (index < 0 || index >= stroke_count_) return 0;
+  IdReader ids(*file_, first_bit_);
+  for (int i = 0; i < index; ++i) ids.next();
+  const int id = ids.next();
+  return ids.at() <= end_bit_ ? id : 0;
+}
+
+std::optional<StoredStroke> StoredCharacter::stroke(int index) const noexcept {
+  if (index < 0 || index >= stroke_count_) return std::nullopt;
+  const auto& counts = stroke_counts()[static_cast<std::size_t>(curve_degree_ - 3)];
+  IdReader ids(*file_, first_bit_);
+  int own = 0;
+  std::uint64_t points_before = 0, points = 0, features_before = 0;
+  for (int i = 0; i < stroke_count_; ++i) {
+    const int id = ids.next();
+    if (id == 0) return std::nullopt;
+    const StrokeCounts& count = counts[static_cast<std::size_t>(id)];
+    if (i == index) {
+      own = id;
+      points_before = points;
+    }
+    if (i < index) features_before += count.features;
+    points += count.points;
+  }
+  const std::uint64_t point_bits = coding_.x_bits + std::uint64_t{coding_.y_bits};
+  const std::uint64_t first_factor = ids.at() + points * point_bits;
+  const StrokeCounts& count = counts[static_cast<std::size_t>(own)];
+
+  std::optional<StoredStroke> result(std::in_place);
+  result->type = &typical_strokes()[static_cast<std::size_t>(own - 1)];
+  result->curve_degree = curve_degree_;
+  result->point_count = count.points;
+  if (first_factor > end_bit_) return std::nullopt;
+  PointReader reader(file_->bytes(), coding_, ids.at() + points_before * point_bits);
+  for (std::size_t i = 0; i < count.points; ++i) {
+    result->points[i] = reader.next();
+    if (!in_domain(result->points[i])) return std::nullopt;
+  }
+  result->factors.fill(1.0);
+  if (has_factors_) {
+    const std::uint64_t first = first_factor + 64 * features_before;
+    if (first + 64 * count.features > end_bit_) return std::nullopt;
+    for (std::size_t i = 0; i < count.features; ++i) {
+      result->factors[i] = load_double(file_->bytes(), first + 64 * i);
+      if (!(result->factors[i] >= 0.0) || std::isinf(result->factors[i])) return std::nullopt;
+    }
+  }
+  return result;
+}
+
+Character StoredCharacter::character() const {
+  const auto fail = [&](const std::string& what) {
+    throw FormatError(file_->name() + ": character " + code_name(code_) + " is damaged: " + what);
+  };
+  if (stroke_count_ == 0) fail("the checksum or the numbers of the place where it is kept do not agree");
+  const auto& counts = stroke_counts()[static_cast<std::size_t>(curve_degree_ - 3)];
+  std::vector<StrokeInput> strokes(static_cast<std::size_t>(stroke_count_));
+  IdReader ids(*file_, first_bit_);
+  std::uint64_t points = 0, features = 0;
+  for (StrokeInput& stroke : strokes) {
+    stroke.id = ids.next();
+    if (stroke.id == 0) fail("it has a stroke that is no typical stroke");
+    points += counts[static_cast<std::size_t>(stroke.id)].points;
+    features += counts[static_cast<std::size_t>(stroke.id)].features;
+  }
+  const std::uint64_t factors_at = ids.at() + points * (coding_.x_bits + std::uint64_t{coding_.y_bits});
+  const std::uint64_t end = factors_at + (has_factors_ ? 64 * features : 0);
+  if ((end + 7) / 8 * 8 != end_bit_) fail("its strokes take " + std::to_string(end) + " bits");
+
+  PointReader reader(file_->bytes(), coding_, ids.at());
+  std::uint64_t factor_at = factors_at;
+  for (StrokeInput& stroke : strokes) {
+    const StrokeCounts& count = counts[static_cast<std::size_t>(stroke.id)];
+    for (int i = 0; i < count.points; ++i) stroke.control_points.push_back(reader.next());
+    for (int i = 0; has_factors_ && i < count.features; ++i, factor_at += 64) {
+      stroke.attraction_factors.push_back(load_double(file_->bytes(), factor_at));
+    }
+  }
+  try {
+    if (!order_.empty()) check_order_name(order_);
+    Character character = make_character(code_, strokes, curve_degree_);
+    character.order = order_;
+    return character;
+  } catch (const ValueError& error) {
+    fail(error.what());
+    throw;
+  }
+}
+
+}  // namespace calligraphy

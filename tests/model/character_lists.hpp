@@ -1,0 +1,69 @@
+// Characters for tests of sets.
+#pragma once
+
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <calligraphy/model/character_list.hpp>
+#include <calligraphy/model/character_set.hpp>
+
+#include "../hard_cases.hpp"
+
+namespace calligraphy_test {
+
+inline bool same(const calligraphy::Character& a, const calligraphy::Character& b) {
+  return a.code == b.code && a.order == b.order && a.curve_degree == b.curve_degree &&
+         a.sequence.stroke_ids == b.sequence.stroke_ids && a.sequence.feature_points == b.sequence.feature_points &&
+         a.structure.control_points == b.structure.control_points &&
+         a.physics.attraction_factors == b.physics.attraction_factors;
+}
+
+/// Every typical stroke as a character of its own, from U+4E00 on, scaled about a place of its own.
+inline calligraphy::CharacterList typical_strokes_as_characters(double scale, Sequence& random) {
+  calligraphy::CharacterList list;
+  for (const calligraphy::TypicalStroke& type : calligraphy::typical_strokes()) {
+    calligraphy::StrokeInput stroke{type.id, {}, {}};
+    const Point place = random.point(0.0, 1.0 - scale);
+    for (const std::array<double, 2>& point : type.shape) {
+      stroke.control_points.push_back(place + scale * Point(point[0], point[1]));
+    }
+    list.characters.push_back(
+        calligraphy::make_character(static_cast<char32_t>(0x4E00 + type.id), std::vector{stroke}));
+  }
+  return list;
+}
+
+/// The built-in characters and what is rare: quartics, factors, alternate orders, points far outside, numbers of all
+/// digits, code points of four bytes.
+inline calligraphy::CharacterList rich_list() {
+  calligraphy::CharacterList list = calligraphy::built_in_characters();
+  list.provenance.licence_text = "First line\n\n  the third\n";
+  Sequence random(3);
+  const calligraphy::Character first = *list.find(U'永'), second = *list.find(U'北');
+  list.characters.push_back(with_quartic_curves(first));
+  list.characters.back().code = U'\U00020000';
+  list.characters.push_back(calligraphy::paper_example());
+  list.characters.back().order = "Table 3";
+  list.characters.push_back(with_quartic_curves(second));
+  list.characters.back().order = "四";
+  for (calligraphy::Point& point : list.characters.back().structure.control_points) point += Point(-15.0, 14.0);
+  list.characters.push_back(first);
+  list.characters.back().code = U'\U0010FFFF';
+  list.characters.push_back(first);
+  list.characters.back().code = U'\0';
+  for (std::size_t i = 0; i < list.characters.size(); i += 3) {
+    for (double& factor : list.characters[i].physics.attraction_factors) factor = random.between(0.0, 3.0);
+    for (Point& point : list.characters[i].structure.control_points) point += 1e-3 * random.point(-1.0, 1.0);
+  }
+  return list;
+}
+
+/// One horizontal stroke.
+inline calligraphy::Character one_stroke(char32_t code, double y = 0.5) {
+  const std::vector<calligraphy::StrokeInput> strokes{{1, {Point(0.1, y), Point(0.9, y)}, {}}};
+  return calligraphy::make_character(code, strokes);
+}
+
+}  // namespace calligraphy_test

@@ -1,0 +1,372 @@
+// Set files that are whole, damaged, cut off, forged or no set files at all.
+#include "../catch.hpp"
+
+#include <sys/stat.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <calligraphy/error.hpp>
+#include <calligraphy/model/character_set.hpp>
+#include <calligraphy/model/set_encoding.hpp>
+#include <model/checksum.hpp>
+#include <model/little_endian.hpp>
+#include <model/set_format.hpp>
+
+#include "character_lists.hpp"
+
+using namespace calligraphy;
+using calligraphy_test::one_stroke;
+using calligraphy_test::rich_list;
+using calligraphy_test::same;
+
+namespace {
+
+namespace fs = std::filesystem;
+using Bytes = std::vector<std::byte>;
+
+/// Few characters in two groups, with an alternate order, factors, quartics and a coding of its own among them.
+CharacterList small_list() {
+  const CharacterList rich = rich_list();
+  CharacterList list{{"s", "l", "a", "t\n"}, {one_stroke(U'一')}};
+  for (const Character& character : rich.characters) {
+    if (character.code == U'北' || character.code == U'\U00020000') list.characters.push_back(character);
+  }
+  return list;
+}
+
+/// What opening and decoding all of it complains about; "" when nothing.
+std::string complaint(const Bytes& bytes) {
+  try {
+    CharacterSet::from_bytes(bytes, "test.set").check();
+  } catch (const FormatError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// As complaint(), of a file.
+std::string complaint_of_file(const std::string& path) {
+  try {
+    CharacterSet::open(path).check();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+template <class Unsigned>
+void store(Bytes& bytes, std::size_t at, Unsigned value) {
+  Bytes number;
+  append(number, value);
+  std::copy(number.begin(), number.end(), bytes.begin() + static_cast<std::ptrdiff_t>(at));
+}
+
+std::size_t load_u32(const Bytes& bytes, std::size_t at) { return load<std::uint32_t>(bytes.data() + at); }
+
+/// Makes all checksums agree with what the numbers of the file say, as far as those lead anywhere.
+void forge_checksums(Bytes& bytes) {
+  using namespace set_format;
+  const std::size_t first = std::min(load_u32(bytes, first_group_at), bytes.size());
+  const std::size_t groups = load_u32(bytes, group_count_at);
+  if (groups <= first / entry_size) {
+    const std::size_t entries = first - groups * entry_size;
+    for (std::size_t group = 0; group < groups; ++group) {
+      const std::size_t entry = entries + group * entry_size;
+      const std::size_t begin = load_u32(bytes, entry + 8);
+      const std::size_t end = group + 1 < groups ? load_u32(bytes, entry + entry_size + 8) : bytes.size();
+      if (begin <= end && end <= bytes.size()) {
+        store(bytes, entry + 12, crc32(std::span(bytes).subspan(begin, end - begin)));
+      }
+    }
+  }
+  if (first > size_at) store(bytes, checksum_at, crc32(std::span(bytes).subspan(size_at, first - size_at)));
+}
+
+/// Asks for everything that a set can be asked; whatever it gives must be in its domain.
+void use(const CharacterSet& set) {
+  std::size_t count = 0;
+  for (const StoredCharacter& character : set) {
+    ++count;
+    for (int i = 0; i < character.stroke_count(); ++i) {
+      REQUIRE(character.stroke_id(i) >= 0);
+      REQUIRE(character.stroke_id(i) <= typical_stroke_count);
+      const auto stroke = character.stroke(i);
+      if (!stroke) continue;
+      for (const Point& point : stroke->stroke().control_points) REQUIRE(point.cwiseAbs().maxCoeff() <= 16.0);
+      for (const double factor : stroke->stroke().attraction_factors) REQUIRE(factor >= 0.0);
+    }
+    for (const std::string& order : set.orders(character.code())) {
+      try {
+        const Character whole = set.find(character.code(), order)->character();
+        REQUIRE(validate(whole).empty());
+      } catch (const FormatError& error) {
+        REQUIRE(std::string(error.what()).starts_with("test.set: "));
+      }
+    }
+  }
+  REQUIRE(count == set.size());
+}
+
+/// A file of its own, removed in the end.
+class TestFile {
+ public:
+  explicit TestFile(const std::string& name) : path_((fs::temp_directory_path() / ("calligraphy_" + name)).string()) {
+    fs::remove_all(path_);
+  }
+  TestFile(const TestFile&) = delete;
+  TestFile& operator=(const TestFile&) = delete;
+  ~TestFile() { fs::remove_all(path_); }
+
+  void write(std::string_view content) const { std::ofstream(path_, std::ios::binary) << content; }
+  void write(const Bytes& bytes) const { write({reinterpret_cast<const char*>(bytes.data()), bytes.size()}); }
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+}  // namespace
+
+TEST_CASE("the checksum is the CRC-32 of zip, and feels every bit", "[model]") {
+  const auto sum = [](std::string_view text) { return crc32(std::as_bytes(std::span(text.data(), text.size()))); };
+  CHECK(sum("123456789") == 0xCBF43926);  // the check value of the CRC catalogues
+  CHECK(sum("") == 0);
+  CHECK(sum("The quick brown fox jumps over the lazy dog") == 0x414FA339);
+}
+
+TEST_CASE("a set file is opened, and a text file too, by what is in them", "[model]") {
+  const CharacterList list = rich_list();
+  const TestFile file("set");
+  file.write(encode_character_set(list, CoordinatePrecision::exact));
+  const CharacterSet set = CharacterSet::open(file.path());
+  CHECK(set.bytes() == fs::file_size(file.path()));
+  CHECK(set.provenances() == std::vector{list.provenance});
+  for (const Character& character : list.characters) {
+    CHECK(same(set.find(character.code, character.order)->character(), character));
+  }
+  const TestFile text("text");
+  {
+    std::ofstream out(text.path(), std::ios::binary);
+    write_characters(out, list);
+  }
+  const CharacterSet read = CharacterSet::open(text.path());
+  for (const Character& character : list.characters) {
+    CHECK(same(read.find(character.code, character.order)->character(), character));
+  }
+}
+
+TEST_CASE("files of version 1 stay readable, and are still written the same", "[model]") {
+  const std::string directory = CALLIGRAPHY_SOURCE_DIR "/tests/data/";
+  const CharacterSet stored = CharacterSet::open(directory + "version_1.set");
+  const CharacterList list = read_characters(directory + "version_1.txt");
+  CHECK(stored.provenances() == std::vector{list.provenance});
+  CHECK(list.provenance.licence_text == "First line\n\n and the third");
+  for (const Character& character : list.characters) {  // whose coordinates are whole steps of 1/800 em
+    CHECK(same(stored.find(character.code, character.order)->character(), character));
+  }
+  std::ifstream in(directory + "version_1.set", std::ios::binary);
+  const std::string bytes(std::istreambuf_iterator<char>(in), {});
+  const Bytes written = encode_character_set(list);
+  CHECK(std::string(reinterpret_cast<const char*>(written.data()), written.size()) == bytes);
+}
+
+TEST_CASE("an open set stays what it is when its file is replaced or removed", "[model]") {
+  const TestFile file("replaced"), other("replacement");
+  file.write(encode_character_set(small_list()));
+  const CharacterSet set = CharacterSet::open(file.path());
+  other.write("calligraphy characters 1\n");
+  fs::rename(other.path(), file.path());
+  CHECK_NOTHROW(set.check());
+  fs::remove(file.path());
+  CHECK_NOTHROW(set.check());
+}
+
+TEST_CASE("a file cut off anywhere, or with more behind it, is refused", "[model]") {
+  const Bytes whole = encode_character_set(small_list());
+  for (std::size_t length = 0; length < whole.size(); ++length) {
+    const std::string found = complaint(Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length)));
+    INFO(length << ": " << found);
+    CHECK(found.starts_with("test.set: is cut off"));
+  }
+  Bytes longer = whole;
+  longer.push_back(std::byte{0});
+  CHECK(complaint(longer).starts_with("test.set: goes on after its end"));
+  CHECK(complaint(whole).empty());
+}
+
+TEST_CASE("no changed bit goes unnoticed", "[model]") {
+  const Bytes whole = encode_character_set(small_list());
+  for (std::size_t at = 0; at < whole.size(); ++at) {
+    for (int bit = 0; bit < 8; ++bit) {
+      Bytes damaged = whole;
+      damaged[at] ^= std::byte{1} << bit;
+      INFO("byte " << at << " bit " << bit);
+      REQUIRE(complaint(damaged).starts_with("test.set: "));
+    }
+  }
+}
+
+TEST_CASE("damage in one group leaves the others as they were", "[model]") {
+  const CharacterList list = small_list();
+  Bytes bytes = encode_character_set(list, CoordinatePrecision::exact);
+  bytes.back() ^= std::byte{1};  // in the last group, U+20000's
+  const CharacterSet set = CharacterSet::from_bytes(bytes, "test.set");
+  CHECK(same(set.find(U'一')->character(), list.characters[0]));
+  const auto damaged = set.find(U'\U00020000');
+  REQUIRE(damaged);  // it is known to be there
+  CHECK(damaged->stroke_count() == 0);
+  CHECK_FALSE(damaged->stroke(0));
+  CHECK(damaged->stroke_id(0) == 0);
+  CHECK_THROWS_AS(damaged->character(), FormatError);
+  const CharacterSet under = CharacterSet(list);
+  CHECK(CharacterSet::layered(std::vector{set, under}).find(U'\U00020000')->stroke_count() ==
+        0);  // and not papered over
+  try {
+    set.check();
+    FAIL("not noticed");
+  } catch (const FormatError& error) {
+    CHECK(std::string(error.what()).find("U+20000") != std::string::npos);
+  }
+}
+
+TEST_CASE("forged numbers under right checksums lead nowhere outside the file", "[model]") {
+#if defined(__SANITIZE_ADDRESS__)
+  constexpr int repetitions = 30'000;
+#else
+  constexpr int repetitions = 100'000;
+#endif
+  std::vector<Bytes> files;
+  for (const CoordinatePrecision precision : {CoordinatePrecision::coarse, CoordinatePrecision::exact}) {
+    files.push_back(encode_character_set(small_list(), precision));
+  }
+  calligraphy_test::Sequence random(17);
+  const auto draw = [&](std::size_t count) {
+    return static_cast<std::size_t>(random.next() * static_cast<double>(count));
+  };
+  int opened = 0, refused = 0;
+  for (int i = 0; i < repetitions; ++i) {
+    Bytes forged = files[static_cast<std::size_t>(i) % files.size()];
+    const std::size_t changes = 1 + draw(4);
+    for (std::size_t k = 0; k < changes; ++k) {
+      const std::size_t at = set_format::size_at + draw(forged.size() - set_format::size_at);
+      const int kind = static_cast<int>(draw(4));
+      if (kind == 0) forged[at] ^= std::byte{1} << draw(8);
+      if (kind == 1) forged[at] = static_cast<std::byte>(draw(256));
+      if (kind == 2) forged[at] = std::byte{0xFF};
+      if (kind == 3 && at + 4 <= forged.size()) store(forged, at, static_cast<std::uint32_t>(draw(2 * forged.size())));
+    }
+    forge_checksums(forged);
+    try {
+      use(CharacterSet::from_bytes(forged, "test.set"));
+      ++opened;
+    } catch (const FormatError& error) {
+      ++refused;
+      REQUIRE(std::string(error.what()).starts_with("test.set: "));
+    }
+  }
+  CHECK(opened > repetitions / 10);
+  CHECK(refused > repetitions / 10);
+}
+
+TEST_CASE("each number of the header is checked for what it says, not only by its checksum", "[model]") {
+  using namespace set_format;
+  const Bytes whole = encode_character_set(small_list());
+  const auto with = [&](std::size_t at, std::uint32_t value) {
+    Bytes bytes = whole;
+    store(bytes, at, value);
+    forge_checksums(bytes);
+    return complaint(bytes);
+  };
+  const std::size_t first = load_u32(whole, first_group_at), groups = load_u32(whole, group_count_at);
+  const std::size_t entries = first - groups * entry_size;
+  CHECK(groups >= 3);
+  CHECK(with(first_group_at, 12).find("groups begin at byte 12") != std::string::npos);
+  CHECK(with(first_group_at, 0xFFFFFFFF).find("4294967295") != std::string::npos);
+  CHECK(with(group_count_at, 0xFFFFFFFF).find("4294967295 groups") != std::string::npos);
+  CHECK(with(error_at + 4, 0x7FF00000).find("coordinate error") != std::string::npos);
+  CHECK(with(error_at + 4, 0xBFF00000).find("coordinate error") != std::string::npos);
+  CHECK(with(coding_at, 0).find("coding") != std::string::npos);  // doubles of 10 bits
+  CHECK(with(coding_at, 0xFFFFFFFF).find("coding") != std::string::npos);
+  CHECK(with(header_size, 0xFFFFFFFF).find("names of its source") != std::string::npos);
+  CHECK(with(header_size + 1, 0xFF000000).find("names of its source") != std::string::npos);  // no UTF-8
+  for (std::size_t group = 0; group < groups; ++group) {
+    const std::string entry = "entry ";
+    CHECK(with(entries + group * entry_size + 8, 0xFFFFFFFF).find(entry) != std::string::npos);
+    CHECK(with(entries + group * entry_size + 8, 1).find(entry) != std::string::npos);
+  }
+}
+
+TEST_CASE("a newer version and another program's file are told so", "[model]") {
+  Bytes bytes = encode_character_set(small_list());
+  store(bytes, set_format::version_at, std::uint32_t{2});
+  CHECK(complaint(bytes).find("newer version") != std::string::npos);
+  CHECK(complaint(bytes).find("format is 2") != std::string::npos);
+  store(bytes, set_format::version_at, std::uint32_t{0});
+  CHECK(complaint(bytes).find("another program") != std::string::npos);
+  const TestFile file("magic");
+  file.write("\x89PNG\r\n\x1A\n");
+  CHECK(complaint_of_file(file.path()) == file.path() + ": is not a set file: its first bytes are others");
+}
+
+TEST_CASE("what cannot be opened is named", "[model]") {
+  const auto is_named = [](const std::string& path, const std::string& what) {
+    const std::string found = complaint_of_file(path);
+    INFO(found);
+    return found.starts_with(path + ": ") && found.find(what) != std::string::npos;
+  };
+  const TestFile file("none");
+  CHECK(is_named(file.path(), "cannot be opened"));
+  CHECK(is_named(fs::temp_directory_path().string(), "regular file"));
+  CHECK(is_named("/dev/zero", "regular file"));
+  file.write("");
+  CHECK(is_named(file.path(), "empty"));
+  const TestFile text("nul");
+  text.write(std::string_view("calligraphy characters 1\nsource \0\0\nstroke\0 1 0,0 1,1\n", 54));
+  CHECK(complaint_of_file(text.path()).starts_with(text.path() + ":3: "));
+  const TestFile pipe("pipe");
+  REQUIRE(mkfifo(pipe.path().c_str(), 0600) == 0);
+  CHECK(is_named(pipe.path(), "regular file"));  // and no one waits for a writer
+  const TestFile hidden("hidden");
+  hidden.write(encode_character_set(small_list()));
+  fs::permissions(hidden.path(), fs::perms::none);
+  const bool is_root = std::ifstream(hidden.path()).good();
+  if (!is_root) CHECK(is_named(hidden.path(), "cannot be opened"));
+}
+
+TEST_CASE("all characters of an imported set take no more room, and err no more, than promised", "[model]") {
+  const char* const path = std::getenv("CALLIGRAPHY_CHARACTER_FILE");
+  if (path == nullptr) {
+    WARN("skipped: CALLIGRAPHY_CHARACTER_FILE does not name a file of characters as calligraphy import makes it");
+    CHECK(std::getenv("CALLIGRAPHY_REQUIRE_DATA") == nullptr);
+    return;
+  }
+  const CharacterSet whole = CharacterSet::open(path);
+  CharacterList list{whole.provenances()[0], {}};
+  for (const StoredCharacter& character : whole) list.characters.push_back(character.character());
+  CHECK(list.characters.size() >= 9574);
+  const struct {
+    CoordinatePrecision precision;
+    double most_bytes, most_error;
+  } marks[] = {{CoordinatePrecision::standard, 110.0, 1e-3}, {CoordinatePrecision::coarse, 75.0, 4e-3}};
+  for (const auto& [precision, most_bytes, most_error] : marks) {
+    const CharacterSet set = CharacterSet::from_bytes(encode_character_set(list, precision), path);
+    CHECK(set.size() == list.characters.size());
+    CHECK(static_cast<double>(set.bytes()) <= most_bytes * static_cast<double>(set.size()));
+    double largest = 0.0;
+    for (const Character& character : list.characters) {
+      const Character stored = set.find(character.code)->character();
+      REQUIRE(stored.sequence.stroke_ids == character.sequence.stroke_ids);
+      for (std::size_t i = 0; i < character.structure.control_points.size(); ++i) {
+        const Point difference = stored.structure.control_points[i] - character.structure.control_points[i];
+        largest = std::max(largest, difference.norm());
+      }
+    }
+    CHECK(largest <= coordinate_error_bound(precision));
+    CHECK(largest <= most_error);
+  }
+}
