@@ -4,6 +4,7 @@
 // the built-in set.
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -242,30 +243,75 @@ void first_find(benchmark::State& state, CoordinatePrecision precision) {
 }
 BENCHMARK_CAPTURE(first_find, standard, CoordinatePrecision::standard);
 
-/// Not a time: what is kept, how exactly, and how the mapping grows with the characters that are used.
-void size(benchmark::State& state, CoordinatePrecision precision) {
-  const std::string path = corpus->path(precision);
-  const CharacterSet set = CharacterSet::open(path);
-  const auto resident = [&] { return static_cast<double>(resident_bytes(path).value_or(0)) / 1024.0; };
-  for (auto _ : state) benchmark::DoNotOptimize(set.bytes());
-  const auto characters = static_cast<double>(set.size());
-  state.counters["characters"] = characters;
-  state.counters["bytes"] = static_cast<double>(set.bytes());
-  state.counters["bytes_each"] = static_cast<double>(set.bytes()) / characters;
-  state.counters["error_em"] = set.coordinate_error();
-  state.counters["resident_opened_KiB"] = resident();
-  std::size_t used = 0;
-  for (const std::size_t count : {1, 10, 100, 1000, 10000}) {
-    for (; used < std::min(count, corpus->codes.size()); ++used) {
-      benchmark::DoNotOptimize(set.find(corpus->codes[used])->stroke(0));
+/// Distances between strokes as they were and as they are kept, at points of equal parameter [em].
+struct ShapeError {
+  double largest = 0.0;
+  double squares = 0.0;
+  double points = 0.0;
+
+  void add(const Stroke& drawn, const Stroke& kept) {
+    constexpr int steps = 16;
+    const Placement em_square{Point::Zero(), 1.0};
+    const auto before = place_elements(drawn, em_square), after = place_elements(kept, em_square);
+    for (std::size_t element = 0; element < before.size(); ++element) {
+      for (int i = 0; i <= steps; ++i) {
+        const double t = static_cast<double>(i) / steps;
+        const double distance = (before[element].point(t) - after[element].point(t)).norm();
+        largest = std::max(largest, distance);
+        squares += distance * distance;
+        points += 1.0;
+      }
     }
-    state.counters["resident_" + std::to_string(count) + "_KiB"] = resident();
   }
+  double rms() const { return std::sqrt(squares / points); }
+};
+
+ShapeError shape_error(const CharacterSet& set) {
+  ShapeError error;
+  for (const auto& [code, drawn] : corpus->map) {
+    const Character kept = set.find(code)->character();
+    const std::vector<Stroke> before = strokes(drawn), after = strokes(kept);
+    for (std::size_t i = 0; i < before.size(); ++i) error.add(before[i], after[i]);
+  }
+  return error;
+}
+
+/// Not a time: what is kept, and how exactly.
+void size(benchmark::State& state, CoordinatePrecision precision) {
+  const CharacterSet set = CharacterSet::open(corpus->path(precision));
+  for (auto _ : state) benchmark::DoNotOptimize(set.bytes());
+  const ShapeError error = shape_error(set);
+  state.counters["characters"] = static_cast<double>(set.size());
+  state.counters["bytes"] = static_cast<double>(set.bytes());
+  state.counters["bytes_each"] = static_cast<double>(set.bytes()) / static_cast<double>(set.size());
+  state.counters["point_error_em"] = set.coordinate_error();
+  state.counters["shape_error_em"] = error.largest;
+  state.counters["shape_rms_em"] = error.rms();
 }
 BENCHMARK_CAPTURE(size, coarse, CoordinatePrecision::coarse)->Iterations(1);
 BENCHMARK_CAPTURE(size, standard, CoordinatePrecision::standard)->Iterations(1);
 BENCHMARK_CAPTURE(size, fine, CoordinatePrecision::fine)->Iterations(1);
 BENCHMARK_CAPTURE(size, exact, CoordinatePrecision::exact)->Iterations(1);
+
+/// Not a time: how a mapping grows with the characters that are used, from a file that no one has read before.
+void resident(benchmark::State& state, CoordinatePrecision precision) {
+  const std::string path = corpus->path(precision);
+  forget_content(path);
+  const CharacterSet set = CharacterSet::open(path);
+  for (auto _ : state) benchmark::DoNotOptimize(set.bytes());
+  const auto kibibytes = [&] { return static_cast<double>(resident_bytes(path).value_or(0)) / 1024.0; };
+  state.counters["file_KiB"] = static_cast<double>(set.bytes()) / 1024.0;
+  state.counters["opened_KiB"] = kibibytes();
+  std::size_t used = 0;
+  for (const std::size_t count : {1, 10, 100, 1000, 10000}) {
+    for (; used < std::min(count, corpus->codes.size()); ++used) {
+      benchmark::DoNotOptimize(set.find(corpus->codes[used])->stroke(0));
+    }
+    state.counters["used_" + std::to_string(count) + "_KiB"] = kibibytes();
+  }
+}
+BENCHMARK_CAPTURE(resident, standard, CoordinatePrecision::standard)->Iterations(1);
+BENCHMARK_CAPTURE(resident, exact, CoordinatePrecision::exact)->Iterations(1);
 
 /// Not a time: what the alternatives take.
 void alternatives(benchmark::State& state) {

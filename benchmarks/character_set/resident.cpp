@@ -1,5 +1,10 @@
 #include "resident.hpp"
 
+#if __has_include(<fcntl.h>) && __has_include(<unistd.h>)
+#include <fcntl.h>
+#include <unistd.h>
+#endif
+
 #include <fstream>
 #include <sstream>
 
@@ -21,4 +26,16 @@ std::optional<std::size_t> resident_bytes(const std::string& path) {
     }
   }
   return sum;
+}
+
+void forget_content(const std::string& path) {
+#ifdef POSIX_FADV_DONTNEED
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return;
+  fsync(file);
+  posix_fadvise(file, 0, 0, POSIX_FADV_DONTNEED);
+  close(file);
+#else
+  static_cast<void>(path);
+#endif
 }
