@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include <calligraphy/error.hpp>
-#include <calligraphy/model/hanzi_writer.hpp>
+#include <calligraphy/practice/hanzi_writer.hpp>
 
 #include "options.hpp"
 

@@ -11,10 +11,10 @@
 
 #include <calligraphy/error.hpp>
 #include <calligraphy/model/character.hpp>
-#include <calligraphy/model/hanzi_writer.hpp>
 #include <calligraphy/model/stroke_fit.hpp>
 #include <calligraphy/model/text.hpp>
 #include <calligraphy/model/typical_stroke.hpp>
+#include <calligraphy/practice/hanzi_writer.hpp>
 
 #include "../catch.hpp"
 
@@ -70,7 +70,7 @@ std::string repeated(const std::string& part, int count) {
 
 }  // namespace
 
-TEST_CASE("a median in units of 1024 to the em with the baseline at -124 lands in the unit square", "[model]") {
+TEST_CASE("a median in units of 1024 to the em with the baseline at -124 lands in the unit square", "[practice]") {
   const TemporaryDirectory directory;
   directory.write("一.json", R"({"medians":[[[0,-124],[1024,-124]],[[512,900],[512,-124]]]})");
   const Character character = read_hanzi_writer(directory.path(), U'一');
@@ -85,7 +85,7 @@ TEST_CASE("a median in units of 1024 to the em with the baseline at -124 lands i
   for (const double factor : character.physics.attraction_factors) CHECK(factor == 1.0);
 }
 
-TEST_CASE("a missing character is named with the path", "[model]") {
+TEST_CASE("a missing character is named with the path", "[practice]") {
   const TemporaryDirectory directory;
   try {
     read_hanzi_writer(directory.path(), U'永');
@@ -97,7 +97,7 @@ TEST_CASE("a missing character is named with the path", "[model]") {
   CHECK_THROWS_AS(read_hanzi_writer(directory.path() + "/nowhere", U'永'), FileError);
 }
 
-TEST_CASE("code points that are none are refused", "[model]") {
+TEST_CASE("code points that are none are refused", "[practice]") {
   const TemporaryDirectory directory;
   for (const unsigned number : {0u, 0xD800u, 0xDFFFu, 0x110000u, 0xFFFFFFFFu}) {
     const auto code = static_cast<char32_t>(number);
@@ -106,13 +106,13 @@ TEST_CASE("code points that are none are refused", "[model]") {
   CHECK_THROWS_AS(read_hanzi_writer(directory.path(), U'/'), FileError);
 }
 
-TEST_CASE("a directory in the place of the file is refused", "[model]") {
+TEST_CASE("a directory in the place of the file is refused", "[practice]") {
   const TemporaryDirectory directory;
   std::filesystem::create_directory(std::filesystem::path(directory.path()) / "永.json");
   CHECK_THROWS_AS(read_hanzi_writer(directory.path(), U'永'), FileError);
 }
 
-TEST_CASE("malformed files are refused with the file and the place", "[model]") {
+TEST_CASE("malformed files are refused with the file and the place", "[practice]") {
   struct Case {
     std::string text;
     std::string place;
@@ -150,21 +150,21 @@ TEST_CASE("malformed files are refused with the file and the place", "[model]") 
   }
 }
 
-TEST_CASE("a hundred thousand nested arrays are refused without a crash", "[model]") {
+TEST_CASE("a hundred thousand nested arrays are refused without a crash", "[practice]") {
   CHECK(has(complaint(repeated("[", 100000)), "FormatError 永.json: not JSON"));
   CHECK(has(complaint(repeated("[", 100000) + repeated("]", 100000)), "FormatError 永.json: expected an object"));
   CHECK(has(complaint(R"({"medians":[[)" + repeated("[", 100000) + repeated("]", 100000) + "]]}"),
             "FormatError 永.json: medians[0][0]: expected two finite numbers"));
 }
 
-TEST_CASE("a file of more than a megabyte is refused", "[model]") {
+TEST_CASE("a file of more than a megabyte is refused", "[practice]") {
   const std::string valid = R"({"medians":[[[100,200],[600,200]]]})";
   CHECK(complaint(valid).empty());
   CHECK(complaint(std::string(500000, ' ') + valid).empty());
   CHECK(complaint(std::string(1100000, ' ') + valid) == "FormatError 永.json: larger than 1 MB");
 }
 
-TEST_CASE("a median of one point becomes a dian", "[model]") {
+TEST_CASE("a median of one point becomes a dian", "[practice]") {
   const TemporaryDirectory directory;
   directory.write("丶.json", R"({"medians":[[[500,400]]]})");
   CHECK(read_hanzi_writer(directory.path(), U'丶').sequence.stroke_ids == std::vector<int>{8});
@@ -215,7 +215,7 @@ constexpr std::size_t stride = 20;
 
 }  // namespace
 
-TEST_CASE("every twentieth character of the package reads, validates and is followed closely", "[model]") {
+TEST_CASE("every twentieth character of the package reads, validates and is followed closely", "[practice]") {
   const std::filesystem::path directory = package_directory();
   if (directory.empty()) return;
   const std::vector<char32_t> codes = characters_in(directory);
@@ -244,7 +244,7 @@ TEST_CASE("every twentieth character of the package reads, validates and is foll
 #endif
 }
 
-TEST_CASE("well-known characters of the package have the strokes that schools teach", "[model]") {
+TEST_CASE("well-known characters of the package have the strokes that schools teach", "[practice]") {
   const std::filesystem::path directory = package_directory();
   if (directory.empty()) return;
   struct Known {
