@@ -1,5 +1,6 @@
 // calligraphy import: characters of other collections as typical strokes.
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <string>
 
@@ -22,7 +23,7 @@ struct Options {
   std::string out;
   std::string format = "text";
   std::string letters;
-  std::string only;
+  std::optional<std::string> only;
   std::string date;
   bool alternates = false;
   bool all = false;
@@ -41,7 +42,7 @@ Import imported(const Options& options) {
   asked.letters = options.letters;
   asked.alternates = options.alternates;
   asked.ideographs_only = !options.all;
-  if (!options.only.empty()) asked.only = characters_of(options.only);
+  if (options.only) asked.only = characters_of(*options.only);
   asked.date = options.date;
   asked.threads = options.threads;
   Progress progress;

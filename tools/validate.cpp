@@ -1,5 +1,6 @@
 // calligraphy validate: strokes that are valid and yet look wrong.
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,7 @@ using Json = nlohmann::ordered_json;
 struct Options {
   std::string file;
   std::string letters;
+  std::optional<std::string> only;
   int threads = 0;
   bool json = false;
 };
@@ -52,6 +54,7 @@ Findings findings(const Options& options) {
   Progress progress;
   ImportOptions asked;
   asked.letters = options.letters;
+  if (options.only) asked.only = characters_of(*options.only);
   asked.threads = options.threads;
   asked.progress = [&progress](double share) { progress.show(0.5 * share); };
   const Import import = import_characters(options.file, asked);
@@ -108,6 +111,7 @@ void add_validate(CLI::App& program) {
   command->add_option("FILE", options->file, "File of characters, or what `import` takes")->required();
   command->add_option("--letters", options->letters, "Stroke letters for hanzi-writer-data: cnchar-order")
       ->type_name("PATH");
+  command->add_option("--only", options->only, "Look at these characters and no others")->type_name("TEXT");
   command->add_option("--threads", options->threads, "Threads (default: one per core)")
       ->check(integer(1, 256))
       ->type_name("N");

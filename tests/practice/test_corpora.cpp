@@ -73,7 +73,7 @@ void check_list(const CharacterList& list) {
 }  // namespace
 
 TEST_CASE("all of hanzi-writer-data, from its tarball, is followed and recognised to the marks", "[practice][corpus]") {
-  const auto package = package_data("CALLIGRAPHY_HANZI_WRITER_TARBALL");
+  const auto package = package_data("CALLIGRAPHY_HANZI_WRITER_DATA_TARBALL");
   const auto letters = package_data("CALLIGRAPHY_CNCHAR_ORDER");
   if (package.empty() || letters.empty()) return;
   ImportOptions options;
