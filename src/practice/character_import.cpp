@@ -90,6 +90,16 @@ bool is_package_file(std::string_view path, std::string_view name) {
   return path == name || path == "package/" + std::string(name);
 }
 
+/// A text as it goes along: line ends of one kind.
+std::string with_plain_line_ends(std::string_view text) {
+  std::string plain;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '\r' && i + 1 < text.size() && text[i + 1] == '\n') continue;
+    plain += text[i] == '\r' ? '\n' : text[i];
+  }
+  return plain;
+}
+
 /// Decides which files of a source are read: each character once.
 class Selection {
  public:
@@ -168,7 +178,7 @@ class Importer {
     for (SourceFile& file : found.files) {
       const std::string place = source_.string() + ": " + file.path;
       if (is_package_file(file.path, licence_file)) {
-        licence_text_ = std::move(file.text);
+        licence_text_ = with_plain_line_ends(file.text);
       } else if (is_package_file(file.path, package_file)) {
         package_ = std::move(file.text);
       } else {
@@ -250,7 +260,7 @@ class Importer {
     if (kind_ == SourceKind::kanjivg) {
       if (notice.empty()) notes_.push_back("the source has no copyright notice that could go along");
       return {"KanjiVG" + package_words(), "Creative Commons Attribution-Share Alike 3.0",
-              "Ulrich Apel, KanjiVG, http://kanjivg.tagaini.net" + change, notice};
+              "Ulrich Apel, KanjiVG, http://kanjivg.tagaini.net" + change, with_plain_line_ends(notice)};
     }
     if (licence_text_.empty()) {
       notes_.push_back("the source has no " + std::string(licence_file) +

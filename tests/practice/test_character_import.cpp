@@ -192,7 +192,7 @@ TEST_CASE("an import says whose work it is, that it was changed, and under which
   CHECK(found.licence_text.empty());
   CHECK(import_characters(brush.path()).report.notes.size() == 1);
 
-  brush.write("ARPHICPL.TXT", "ARPHIC PUBLIC LICENSE\nTerms\n");
+  brush.write("ARPHICPL.TXT", "ARPHIC PUBLIC LICENSE\r\nTerms\r");
   brush.write("package.json", R"({"name":"hanzi-writer-data","version":"2.0.1"})");
   brush.write("inner/ARPHICPL.TXT", "another");
   ImportOptions options;
