@@ -15,7 +15,7 @@ namespace calligraphy {
 struct SourceLimits {
   std::size_t entries = 200'000;         ///< files, directories and links
   std::size_t entry_bytes = 1 << 20;     ///< of one file that is read
-  std::size_t total_bytes = 512u << 20;  ///< unpacked, what is passed over included
+  std::size_t total_bytes = 256u << 20;  ///< unpacked, what is passed over included
   double unpacked_to_packed = 100.0;     ///< judged once 16 MiB are unpacked
 };
 
