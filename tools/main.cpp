@@ -40,6 +40,8 @@ int run(int argc, char** argv) {
   calligraphy::tools::add_strokes(program);
   calligraphy::tools::add_info(program);
   calligraphy::tools::add_trade(program);
+  calligraphy::tools::add_import(program);
+  calligraphy::tools::add_validate(program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
