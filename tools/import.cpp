@@ -86,11 +86,12 @@ void add_import(CLI::App& program) {
   command->add_option("--format", options->format, "A set file, or the text format that a person can edit")
       ->check(CLI::IsMember({"set", "text"}))
       ->capture_default_str();
-  command
-      ->add_option("--precision", options->precision,
-                   "Of a set file's coordinates: coarse, standard (default), fine or exact; docs/set-file.md")
-      ->transform(CLI::CheckedTransformer(precisions).description(""))
-      ->type_name("NAME");
+  CLI::Option* const precision =
+      command
+          ->add_option("--precision", options->precision,
+                       "Of a set file's coordinates: coarse, standard (default), fine or exact; docs/set-file.md")
+          ->transform(CLI::CheckedTransformer(precisions).description(""))
+          ->type_name("NAME");
   command
       ->add_option("--letters", options->letters,
                    "Stroke letters for hanzi-writer-data: cnchar-order, its tarball, directory or .js file")
@@ -106,7 +107,12 @@ void add_import(CLI::App& program) {
       ->check(integer(1, 256))
       ->type_name("N");
   command->add_flag("--json", options->json, "Print the report as JSON")->disable_flag_override();
-  command->callback([options] { run(*options); });
+  command->callback([options, precision] {
+    if (options->format == "text" && precision->count() > 0) {
+      throw UsageError("--precision: the text format is always exact");
+    }
+    run(*options);
+  });
 }
 
 }  // namespace calligraphy::tools
