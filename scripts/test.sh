@@ -43,6 +43,14 @@ fetch_data() {
   if [[ -n ${CALLIGRAPHY_REQUIRE_DATA:-} ]]; then broken=$((broken + 1)); fi
 }
 
+# All of hanzi-writer-data as `calligraphy import` makes it, which other tests read; made once, by the first build.
+import_characters() {
+  local file=$build/data/hanzi-writer-data.set
+  if [[ -n ${CALLIGRAPHY_CHARACTER_FILE:-} || -z ${CALLIGRAPHY_HANZI_WRITER_DATA_TARBALL:-} ]]; then return 0; fi
+  step "$1/tools/calligraphy" import "$CALLIGRAPHY_HANZI_WRITER_DATA_TARBALL" -o "$file" --precision exact || return 0
+  export CALLIGRAPHY_CHARACTER_FILE=$file
+}
+
 # test_build NAME CMAKE_OPTION...
 test_build() {
   local name=$1 directory=$build/$1 junit=$build/$1.xml
@@ -50,6 +58,7 @@ test_build() {
   rm -f "$junit"
   step cmake -S . -B "$directory" -G Ninja "$@" || return 0
   step cmake --build "$directory" || return 0
+  import_characters "$directory"
   echo "== ctest, $name"
   ctest --test-dir "$directory" --output-on-failure --no-tests=error -j "$(nproc)" --output-junit "$junit" || true
   if [[ -s $junit ]]; then

@@ -25,7 +25,7 @@ struct Options {
   std::string source;
   std::string out;
   std::string format = "set";
-  CoordinatePrecision precision = CoordinatePrecision::standard;
+  std::optional<std::string> precision;
   std::string letters;
   std::optional<std::string> only;
   std::string date;
@@ -42,7 +42,8 @@ const std::map<std::string, CoordinatePrecision> precisions = {{"coarse", Coordi
 
 std::string encoded(const CharacterList& list, const Options& options) {
   if (options.format == "set") {
-    const std::vector<std::byte> bytes = encode_character_set(list, options.precision);
+    const std::vector<std::byte> bytes =
+        encode_character_set(list, precisions.at(options.precision.value_or("standard")));
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
   }
   std::ostringstream text;
@@ -65,6 +66,7 @@ Import imported(const Options& options) {
 
 void run(const Options& options) {
   if (options.out.empty()) throw UsageError("--out: an empty name");
+  if (options.format == "text" && options.precision) throw UsageError("--precision: the text format is always exact");
   check_can_write(options.out);
   const Import import = imported(options);
   const std::string bytes = encoded(import.list, options);
@@ -89,7 +91,7 @@ void add_import(CLI::App& program) {
   command
       ->add_option("--precision", options->precision,
                    "Of a set file's coordinates: coarse, standard (default), fine or exact; docs/set-file.md")
-      ->transform(CLI::CheckedTransformer(precisions).description(""))
+      ->check(CLI::IsMember(precisions).description(""))
       ->type_name("NAME");
   command
       ->add_option("--letters", options->letters,

@@ -1,9 +1,11 @@
 // Claims about import_characters on sources made for them; test_corpora.cpp has the real ones.
+#include <cstddef>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include <calligraphy/error.hpp>
+#include <calligraphy/model/set_encoding.hpp>
 #include <calligraphy/practice/character_import.hpp>
 
 #include "../catch.hpp"
@@ -72,7 +74,7 @@ TEST_CASE("the content of a source says what it is", "[practice]") {
   CHECK(has(complaint(neither.path() / "none"), "no such file or directory"));
 }
 
-TEST_CASE("the text format is imported as it is, in the order of code points", "[practice]") {
+TEST_CASE("the text format and set files are imported as they are, in the order of code points", "[practice]") {
   const TemporaryDirectory directory;
   const std::string head = "calligraphy characters 1\nsource s\nlicence l\nattribution a\n";
   const std::string one = "\ncharacter 一\nstroke 1 0.1,0.5 0.9,0.5\n";
@@ -89,6 +91,9 @@ TEST_CASE("the text format is imported as it is, in the order of code points", "
   CHECK(text_of(import_characters(directory.path() / "own.txt", options).list) == head + one);
   options.only = U"永";
   CHECK(has(complaint(directory.path() / "own.txt", options), "no character that was asked for"));
+  const std::vector<std::byte> bytes = encode_character_set(import.list, CoordinatePrecision::exact);
+  directory.write("own.set", std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+  CHECK(text_of(import_characters(directory.path() / "own.set").list) == head + one + ten);
   directory.write("other.bin", std::string(300, 'x'));
   CHECK(has(complaint(directory.path() / "other.bin"), "FormatError"));
 }

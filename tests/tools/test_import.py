@@ -52,7 +52,7 @@ class Import(ImportTest):
     def test_a_directory_and_its_tarball_in_every_format_give_the_same_characters(self):
         for code in ("04e00", "05341"):
             self.write(f"package/dist/{code}.svg", svg(HENG + SHU))
-        self.run_program("import", "package", "-o", "directory.txt")
+        self.run_program("import", "package", "-o", "directory.txt", "--format", "text")
         expected = (self.directory / "directory.txt").read_bytes()
         self.assertIn("character 一", expected.decode())
         members = [member(f"package/dist/{code}.svg", svg(HENG + SHU)) for code in ("05341", "04e00")]
@@ -60,7 +60,7 @@ class Import(ImportTest):
             for mode in ("w:gz", "w"):
                 with self.subTest(format=format, mode=mode):
                     self.tar(*members, format=format, mode=mode)
-                    self.run_program("import", "source.tgz", "-o", "tarball.txt")
+                    self.run_program("import", "source.tgz", "-o", "tarball.txt", "--format", "text")
                     self.assertEqual((self.directory / "tarball.txt").read_bytes(), expected)
 
     def test_names_of_characters_are_read_from_every_kind_of_tar_header_in_every_locale(self):
@@ -79,7 +79,7 @@ class Import(ImportTest):
                  member("package/readme.md", "text"), member("package/link", type=tarfile.SYMTYPE, linkname="/etc"))
         report = self.report("source.tgz")
         self.assertEqual(set(report), FIELDS)
-        self.assertEqual((report["kind"], report["format"], report["file"]), ("KanjiVG", "text", "out.txt"))
+        self.assertEqual((report["kind"], report["format"], report["file"]), ("KanjiVG", "set", "out.txt"))
         self.assertEqual((report["characters"], report["strokes"]), (1, 3))
         self.assertEqual(report["bytes"], (self.directory / "out.txt").stat().st_size)
         self.assertEqual([row["error_em"] for row in report["within"]], [0.005, 0.01, 0.02])
@@ -116,12 +116,29 @@ class Import(ImportTest):
         self.assertIn(b"****", os.read(terminal, 10000))
         os.close(terminal)
 
-    def test_what_was_imported_can_be_written_and_imported_again(self):
+    def test_text_and_sets_turn_into_each_other_without_loss(self):
         self.write("data/05341.svg", svg(HENG + SHU))
-        self.run_program("import", "data", "-o", "first.txt")
-        self.run_program("import", "first.txt", "-o", "second.txt")
+        self.write("data/05341-VtFst.svg", svg(SHU + HENG))
+        self.run_program("import", "data", "-o", "first.txt", "--format", "text", "--alternates")
+        self.run_program("import", "first.txt", "-o", "exact.set", "--precision", "exact")
+        self.run_program("import", "exact.set", "-o", "second.txt", "--format", "text")
         self.assertEqual((self.directory / "first.txt").read_bytes(), (self.directory / "second.txt").read_bytes())
-        self.run_program("write", "十", "--characters", "second.txt", "--out", "out", "--mode", "force")
+        self.run_program("write", "十", "--characters", "exact.set", "--out", "out", "--mode", "force")
+
+    def test_a_coarser_precision_makes_a_smaller_set_with_a_larger_error(self):
+        for code in range(0x4e00, 0x4e40):
+            self.write(f"data/{code:05x}.svg", svg(HENG + SHU))
+        sizes, errors = [], []
+        for precision in ("coarse", "standard", "fine", "exact"):
+            self.run_program("import", "data", "-o", "out.set", "--precision", precision)
+            info = json.loads(self.run_program("info", "out.set", "--json").stdout)
+            self.assertEqual((info["characters"], info["strokes"]), (64, 128))
+            self.assertIn("Ulrich Apel", info["attribution"])
+            sizes.append(info["bytes"])
+            errors.append(info["coordinate_error_em"])
+        self.assertEqual(sizes, sorted(sizes))
+        self.assertEqual(errors, sorted(errors, reverse=True))
+        self.assertEqual(errors[-1], 0.0)
 
     def test_only_those_asked_for_are_imported(self):
         for code in ("04e00", "05341", "04e8c"):
@@ -289,6 +306,9 @@ class Output(ImportTest):
                                  (["data", "-o", "x", "--threads", "0"], ["--threads", "0"]),
                                  (["data", "-o", "x", "--threads", "x"], ["--threads", "x"]),
                                  (["data", "-o", "x", "--only", " "], ["TEXT"]),
+                                 (["data", "-o", "x", "--format", "png"], ["--format", "png"]),
+                                 (["data", "-o", "x", "--precision", "1"], ["--precision", "1"]),
+                                 (["data", "-o", "x", "--format", "text", "--precision", "exact"], ["--precision"]),
                                  (["data", "-o", "x", "--unknown"], ["--unknown"]), (["a", "b", "-o", "x"], ["b"])):
             with self.subTest(arguments=arguments):
                 self.assert_refused(2, ["import", *arguments], *words)
