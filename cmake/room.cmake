@@ -23,10 +23,11 @@ function(calligraphy_warnings target)
     $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict>)
 endfunction()
 
-# calligraphy_embed(variable name file ...): a source file that holds each text file as calligraphy::built_in::name.
-function(calligraphy_embed variable)
-  set(source ${PROJECT_BINARY_DIR}/built_in.cpp)
-  set(content "#include <${PROJECT_SOURCE_DIR}/src/model/built_in.hpp>\n\nnamespace calligraphy::built_in {\n")
+# calligraphy_embed(variable room name file ...): a source file that holds each text file as
+# calligraphy::built_in::name, which src/room/built_in.hpp declares.
+function(calligraphy_embed variable room)
+  set(source ${PROJECT_BINARY_DIR}/built_in_${room}.cpp)
+  set(content "#include <${PROJECT_SOURCE_DIR}/src/${room}/built_in.hpp>\n\nnamespace calligraphy::built_in {\n")
   set(pairs ${ARGN})
   while(pairs)
     list(POP_FRONT pairs name file)

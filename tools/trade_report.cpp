@@ -54,9 +54,10 @@ std::string hand_table(const TradeReport& report) {
 
 std::string rate_table(const TradeReport& report) {
   const auto& rows = report.servo_rate;
-  std::string text = fmt::format(
-      "Servo rate: the novice writes {}, {} seeds, on a simulated {}; default paper {:g} N/m\n", utf8(report.written),
-      report.servo_options.seeds, report.servo_options.device, rows.empty() ? 0.0 : rows.front().stiffness);
+  std::string text =
+      fmt::format("Servo rate: the novice writes {}, {} seed{}, on a simulated {}; default paper {:g} N/m\n",
+                  utf8(report.written), report.servo_options.seeds, report.servo_options.seeds == 1 ? "" : "s",
+                  report.servo_options.device, rows.empty() ? 0.0 : rows.front().stiffness);
   text += fmt::format("{:>7}  {:<42}  {:<36}  {}\n", "", "default paper", "largest stable stiffness [N/m]",
                       "hardest paper");
   text += fmt::format("{:>7}{:>8}{:>9}{:>9}{:>9}{:>9}{:>11}{:>9}{:>9}{:>9}{:>11}{:>9}{:>9}\n", "rate", "", "depth",

@@ -167,7 +167,7 @@ class Run {
     sheets_ = sheets(characters_of(set, text_, options_.order), session_.device.capabilities);
     const OutputDirectory out(options_.out);
     plots_ = can_plot();
-    if (!plots_) spdlog::warn("gnuplot is not installed: no plots of the force");
+    if (!plots_) spdlog::warn("gnuplot cannot be run: no plots of the force");
     write_all(out);
     const auto order = [](const Result& a, const Result& b) {
       return std::tie(a.position, a.mode, a.repetition) < std::tie(b.position, b.mode, b.repetition);
@@ -294,7 +294,7 @@ void add_write(CLI::App& program) {
   command->add_option("--tolerance", options->tolerance, "Of the nearest point, 1e-15 to 1, in sizes of the curve")
       ->check(number(1e-15, 1.0))
       ->type_name("T");
-  command->add_flag("--json", options->json, "Print summary.json instead of the table");
+  command->add_flag("--json", options->json, "Print summary.json instead of the table")->disable_flag_override();
   command->callback([options] { Run(*options).write(); });
 }
 

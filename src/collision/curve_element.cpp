@@ -125,15 +125,17 @@ int equal_run(Iterator begin, Iterator end) {
   return static_cast<int>(other - begin);
 }
 
-/// Gauss-Legendre quadrature of the speed with 2 nodes an interval.
+/// Gauss-Legendre quadrature of the speed with 2 nodes an interval; in sizes first, whose squares neither overflow nor
+/// vanish.
 void prepare_arc(CurveElement& curve) {
   constexpr double node = 0.57735026918962576;
   constexpr double half = 0.5 / CurveElement::arc_intervals;
-  const auto speed = [&](double t) { return std::sqrt(curve.derivative(t).squaredNorm()); };
+  const auto speed = [&](double t) { return curve.derivative_per_size(t).norm(); };
+  double sum = 0.0;
   for (int i = 0; i < CurveElement::arc_intervals; ++i) {
     const double middle = (2 * i + 1) * half;
-    curve.arc[static_cast<std::size_t>(i + 1)] =
-        curve.arc[static_cast<std::size_t>(i)] + half * (speed(middle - half * node) + speed(middle + half * node));
+    sum += half * (speed(middle - half * node) + speed(middle + half * node));
+    curve.arc[static_cast<std::size_t>(i + 1)] = curve.size * sum;
   }
 }
 
@@ -145,10 +147,10 @@ Point CurveElement::point(double t) const noexcept {
   return origin + size * sum;
 }
 
-Point CurveElement::derivative(double t) const noexcept {
+Point CurveElement::derivative_per_size(double t) const noexcept {
   Point sum = Point::Zero();
   for (int k = degree; k >= 1; --k) sum = sum * t + k * coefficients[static_cast<std::size_t>(k - 1)];
-  return size * sum;
+  return sum;
 }
 
 Point CurveElement::tangent(double t) const noexcept {
@@ -173,7 +175,7 @@ Point CurveElement::tangent(double t) const noexcept {
 }
 
 double CurveElement::arc_length(double t) const noexcept {
-  const double scaled = std::clamp(t, 0.0, 1.0) * arc_intervals;
+  const double scaled = t > 0.0 ? std::min(t, 1.0) * arc_intervals : 0.0;
   const int interval = std::min(static_cast<int>(scaled), arc_intervals - 1);
   const auto i = static_cast<std::size_t>(interval);
   return arc[i] + (scaled - interval) * (arc[i + 1] - arc[i]);

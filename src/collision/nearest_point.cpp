@@ -37,10 +37,19 @@ constexpr double furthest_query = 1e100;
   return foot;
 }
 
+bool usable(const ParameterRange& range) { return 0.0 <= range.begin && range.begin <= range.end && range.end <= 1.0; }
+
+ParameterRange clamped(const ParameterRange& range) {
+  const double begin = range.begin > 0.0 ? std::min(range.begin, 1.0) : 0.0;
+  const double end = range.end < 1.0 ? std::max(range.end, begin) : 1.0;
+  return {begin, end};
+}
+
 }  // namespace
 
 NearestPoint nearest_point(const StrokeElement& element, const Point& query, const NearestPointOptions& options,
                            const ParameterRange& range, double start) noexcept {
+  if (!usable(range)) return nearest_point(element, query, options, clamped(range), start);
   const CurveElement* const curve = element.curve();
   if (!curve) return on_line(*element.line(), query, range);
   if (options.method == NearestPointMethod::exact) {
@@ -58,11 +67,14 @@ NearestPoint nearest_point(const StrokeElement& element, const Point& query, con
 
 void nearest_points(const StrokeElement& element, std::span<const Point> queries, std::span<NearestPoint> results,
                     const NearestPointOptions& options) noexcept {
+  const std::size_t count = std::min(queries.size(), results.size());
+  queries = queries.first(count);
+  results = results.first(count);
   if (element.curve() && options.method == NearestPointMethod::exact) {
     certified_nearest_points(*element.curve(), queries, results, options.tolerance);
     return;
   }
-  for (std::size_t i = 0; i < queries.size(); ++i) results[i] = nearest_point(element, queries[i], options);
+  for (std::size_t i = 0; i < count; ++i) results[i] = nearest_point(element, queries[i], options);
 }
 
 }  // namespace calligraphy

@@ -31,7 +31,10 @@ LineElement prepare_line(const Point& start, const Point& end) noexcept {
   return line;
 }
 
-double StrokeElement::arc_length(double t) const noexcept { return curve() ? curve()->arc_length(t) : t * length(); }
+double StrokeElement::arc_length(double t) const noexcept {
+  if (curve()) return curve()->arc_length(t);
+  return t > 0.0 ? std::min(t, 1.0) * length() : 0.0;
+}
 
 double StrokeElement::parameter_at(double arc_length) const noexcept {
   if (!(arc_length > 0.0)) return 0.0;
@@ -40,6 +43,7 @@ double StrokeElement::parameter_at(double arc_length) const noexcept {
 }
 
 StrokeElement prepare_element(std::span<const Point> control_points) noexcept {
+  if (control_points.size() < 2 || control_points.size() > max_curve_degree + 1) return {unusable_element()};
   const Point& start = control_points.front();
   const auto all_within = [&](double reach) {
     return std::all_of(control_points.begin(), control_points.end(), [&](const Point& point) {

@@ -1,5 +1,6 @@
 #include <calligraphy/collision/stroke_tracker.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 
@@ -10,9 +11,17 @@ namespace {
 constexpr double rounding = 1e-14;
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
+NearestPoint unanswered() {
+  NearestPoint nowhere;
+  nowhere.distance = std::numeric_limits<double>::infinity();
+  nowhere.status = NearestPointStatus::not_finite;
+  return nowhere;
+}
+
 }  // namespace
 
-StrokeTracker::StrokeTracker(std::span<const StrokeElement> elements, double tolerance) noexcept : elements_(elements) {
+StrokeTracker::StrokeTracker(std::span<const StrokeElement> elements, double tolerance) noexcept
+    : elements_(elements.first(std::min(elements.size(), std::size_t{max_elements_per_stroke}))) {
   options_.method = NearestPointMethod::tracked;
   options_.tolerance = tolerance;
 }
@@ -30,6 +39,7 @@ NearestPoint StrokeTracker::look(int element, const Point& query) noexcept {
 }
 
 StrokePoint StrokeTracker::update(const Point& query) noexcept {
+  if (elements_.empty()) return {0, unanswered()};
   StrokePoint nearest{last_, look(last_, query)};
   if (nearest.foot.status == NearestPointStatus::not_finite) return nearest;
   for (int i = 0; i < static_cast<int>(elements_.size()); ++i) {

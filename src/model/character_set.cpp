@@ -100,6 +100,15 @@ double CharacterSet::coordinate_error() const noexcept {
   return largest;
 }
 
+CharacterList CharacterSet::list() const {
+  CharacterList all;
+  if (!layers_->empty()) all.provenance = layers_->front()->provenance();
+  for (std::optional<char32_t> code = next(0); code; code = next(*code + 1)) {
+    for (const std::string& order : orders(*code)) all.characters.push_back(find(*code, order)->character());
+  }
+  return all;
+}
+
 void CharacterSet::check() const {
   for (const auto& layer : *layers_) {
     for (std::optional<char32_t> code = layer->next(0); code; code = layer->next(*code + 1)) {

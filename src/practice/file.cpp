@@ -77,21 +77,28 @@ class TemporaryFile {
   bool renamed_ = false;
 };
 
-}  // namespace
-
-void write_file(const fs::path& path, std::string_view content) {
+/// The file that is written for this path; a link stays a link: renaming onto it would put the file in its place.
+fs::path target_of(const fs::path& path) {
   std::error_code error;
-  // A link stays a link: renaming onto it would put the file in its place.
   const fs::path target = fs::is_symlink(path, error) ? fs::canonical(path, error) : path;
   if (target.empty()) fail(path, "the link leads nowhere");
   const fs::file_status before = fs::status(target, error);
-  const bool exists = fs::exists(before);
-  if (exists && !fs::is_regular_file(before)) fail(path, "it exists and is not a regular file");
+  if (fs::exists(before) && !fs::is_regular_file(before)) fail(path, "it exists and is not a regular file");
+  return target;
+}
 
+}  // namespace
+
+void write_file(const fs::path& path, std::string_view content) {
+  const fs::path target = target_of(path);
+  std::error_code error;
+  const fs::file_status before = fs::status(target, error);
   TemporaryFile file(target);
   file.write(content);
-  if (exists) file.take_permissions(before.permissions());
+  if (fs::exists(before)) file.take_permissions(before.permissions());
   file.rename();
 }
+
+void check_can_write(const fs::path& path) { TemporaryFile(target_of(path)).write(""); }
 
 }  // namespace calligraphy

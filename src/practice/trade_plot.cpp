@@ -29,12 +29,13 @@ struct MethodStyle {
   const char* colour;
   int marker;
   const char* label;  ///< where the setting stands beside its point
+  double across, up;  ///< what a label takes of the axes [decades]
 };
 constexpr std::array methods = {
-    MethodStyle{NearestPointMethod::exact, "#0072b2", 7, "right offset -0.8,-0.1"},
-    MethodStyle{NearestPointMethod::tracked, "#009e73", 13, "left offset 0.8,-0.1"},
-    MethodStyle{NearestPointMethod::sampled, "#b0578d", 5, "left rotate by 60 offset 0,0.6"},
-    MethodStyle{NearestPointMethod::wang2006, "#d55e00", 9, "left rotate by 60 offset 0,0.6"},
+    MethodStyle{NearestPointMethod::exact, "#0072b2", 7, "right offset -0.8,-0.1", 0.3, 0.6},
+    MethodStyle{NearestPointMethod::tracked, "#009e73", 13, "left offset 0.8,-0.7", 0.3, 0.6},
+    MethodStyle{NearestPointMethod::sampled, "#b0578d", 5, "left rotate by 60 offset 0,0.6", 0.06, 2.0},
+    MethodStyle{NearestPointMethod::wang2006, "#d55e00", 9, "left rotate by 60 offset 0,0.6", 0.06, 2.0},
 };
 
 std::string finish(const std::string& script, const char* title) {
@@ -55,35 +56,36 @@ using Cost = NearestPointCost NearestPointTrade::*;
 /// Where a setting is drawn.
 struct Mark {
   double ns, largest, p99;
-  std::string label;
+  std::vector<std::string> names;  ///< also of later settings that lie on it; none where they lie on another
 };
 
-bool overlap(const Mark& a, const Mark& b) {
-  return std::abs(std::log10(a.ns / b.ns)) < 0.05 && std::abs(std::log10(a.largest / b.largest)) < 0.8;
+bool overlap(const Mark& a, const Mark& b, const MethodStyle& method) {
+  return std::abs(std::log10(a.ns / b.ns)) < method.across && std::abs(std::log10(a.largest / b.largest)) < method.up;
 }
 
-/// One line per setting of the method: cost, largest error, 99 % error, label. Settings that lie on one another share
-/// the label of the first.
-std::string points_of(std::span<const NearestPointTrade> trade, NearestPointMethod method, Cost cost) {
+std::string label_of(const Mark& mark) {
+  if (mark.names.empty()) return "";
+  if (mark.names.size() == 1) return mark.names.front();
+  return mark.names.front() + (mark.names.size() == 2 ? ", " : " to ") + mark.names.back();
+}
+
+/// One line per setting of the method: cost, largest error, 99 % error, label.
+std::string points_of(std::span<const NearestPointTrade> trade, const MethodStyle& method, Cost cost) {
   std::vector<Mark> marks;
-  std::size_t labelled = 0;
-  std::string first;
   for (const NearestPointTrade& entry : trade) {
-    if (entry.setting.options.method != method) continue;
+    if (entry.setting.options.method != method.method) continue;
     const NearestPointCost& own = entry.*cost;
     const auto shown = [](double error) { return std::isfinite(error) ? std::clamp(error, least_error, 1e3) : 1e3; };
-    marks.push_back({own.ns, shown(own.error_worst), shown(own.error_p99), ""});
-    const std::string name = point_label(entry.setting);
-    if (marks.size() > 1 && overlap(marks[labelled], marks.back())) {
-      marks[labelled].label = first + " to " + name;
-    } else {
-      labelled = marks.size() - 1;
-      first = marks.back().label = name;
-    }
+    Mark mark{own.ns, shown(own.error_worst), shown(own.error_p99), {}};
+    const auto hidden_by = std::find_if(marks.begin(), marks.end(), [&](const Mark& earlier) {
+      return !earlier.names.empty() && overlap(earlier, mark, method);
+    });
+    (hidden_by == marks.end() ? mark : *hidden_by).names.push_back(point_label(entry.setting));
+    marks.push_back(std::move(mark));
   }
   std::string lines;
   for (const Mark& mark : marks) {
-    lines += number(mark.ns) + " " + number(mark.largest) + " " + number(mark.p99) + " \"" + mark.label + "\"\n";
+    lines += number(mark.ns) + " " + number(mark.largest) + " " + number(mark.p99) + " \"" + label_of(mark) + "\"\n";
   }
   return lines;
 }
@@ -114,18 +116,19 @@ std::string nearest_point_trade_plot(std::span<const NearestPointTrade> trade) {
       dearest = std::max(dearest, ns);
     }
   }
-  text += "set multiplot\nset logscale xy\nset xrange [" + number(0.3 * cheapest) + ":" + number(2.0 * dearest) +
-          "]\nset yrange [1e-18:300]\nset format y '%.0e'\nset xlabel 'median cost [ns]'\n"
-          "set ytics 1e-17,1000,10\nset mytics 1\nset mxtics 1\nset xtics (10,20,50,100,200,500,1000,2000,5000,10000)\n"
-          "set tmargin at screen 0.84\nset bmargin at screen 0.13\n"
-          "set label 1 'above: a wrong branch' at graph 0.01, first 2.5e-3 left textcolor rgb '#888888' "
-          "font ',10'\nset label 2 'no difference from the reference, exact 1e-12' at graph 0.99, first 2.5e-18 right "
-          "textcolor rgb '#888888' font ',10'\n"
-          "set arrow from graph 0, first 1e-3 to graph 1, first 1e-3 nohead linecolor rgb '#888888' dashtype 2\n";
+  text +=
+      "set multiplot\nset logscale xy\nset xrange [" + number(0.3 * cheapest) + ":" + number(2.0 * dearest) +
+      "]\nset yrange [1e-19:1e4]\nset format y '%.0e'\nset xlabel 'median cost [ns]'\n"
+      "set ytics 1e-17,1000,10\nset mytics 1\nset mxtics 1\nset xtics (10,20,50,100,200,500,1000,2000,5000,10000)\n"
+      "set tmargin at screen 0.84\nset bmargin at screen 0.13\n"
+      "set label 1 'above: a wrong branch' at graph 0.01, first 2.5e-3 left textcolor rgb '#888888' "
+      "font ',10'\nset label 2 '1e-17: no difference from the reference, exact 1e-12' at graph 0.99, first 3e-19 right "
+      "textcolor rgb '#888888' font ',10'\n"
+      "set arrow from graph 0, first 1e-3 to graph 1, first 1e-3 nohead linecolor rgb '#888888' dashtype 2\n";
   const auto panel = [&](const char* heading, double left, double right, Cost cost, bool key) {
     std::string plots;
     for (const MethodStyle& method : methods) {
-      const std::string points = points_of(trade, method.method, cost);
+      const std::string points = points_of(trade, method, cost);
       if (points.empty()) continue;
       const std::string colour = std::string(" linecolor rgb '") + method.colour + "' ";
       const std::string name = method_name(method.method);
@@ -159,10 +162,10 @@ std::string servo_rate_trade_plot(std::span<const ServoRateTrade> trade) {
               [](const Entry& e) { return e.unlimited_stiffness; }, [](const Entry& e) { return e.held_stiffness; },
               [](const Entry& e) { return e.free_stiffness; }});
   std::string text = gnuplot::svg_terminal(1000, 620) + style + block("rates", rows) +
-                     "set multiplot layout 2,2 margins 0.07,0.98,0.11,0.93 spacing 0.09,0.16\n"
+                     "set multiplot layout 2,2 margins 0.07,0.98,0.11,0.93 spacing 0.09,0.18\n"
                      "set logscale x\nset xrange [200:25000]\nset mxtics 1\nset mytics 1\nset key samplen 2\n"
                      "set xtics (250, 500, '1k' 1000, '2k' 2000, '4k' 4000, '10k' 10000, '20k' 20000)\n"
-                     "set style data linespoints\nset xlabel ''\n";
+                     "set style data linespoints\nset xlabel 'servo rate [Hz]'\n";
   const auto line = [](int column, const char* colour, const char* title) {
     return "$rates using 1:" + std::to_string(column) + " linewidth 1.6 pointtype 7 pointsize 0.6 linecolor rgb '" +
            colour + "' title '" + title + "'";
@@ -171,15 +174,16 @@ std::string servo_rate_trade_plot(std::span<const ServoRateTrade> trade) {
   text +=
       "set title 'largest penetration [mm]'\nset yrange [0:*]\nset key default samplen 2 at graph 0.98, 0.75 "
       "right\nplot " +
-      line(2, blue, "default paper") + ", " + line(3, orange, "half of what is stable") +
-      "\nset title 'path error [mm RMS]'\nset key default samplen 2 bottom right\nplot " + line(4, blue, "default") +
-      "\nset xlabel 'servo rate [Hz]'\nset logscale y\nset yrange [*:*]\n"
+      line(2, blue, "default paper") + ", " + line(3, orange, "hardest paper") +
+      "\nset title 'path error [mm RMS]'\nset key default samplen 2 bottom right\nplot " +
+      line(4, blue, "default paper") +
+      "\nset logscale y\nset yrange [*:*]\n"
       "set title 'largest force step [N per tick]'\nset yrange [0.01:10]\nset key default samplen 2 top right\nplot " +
-      line(5, blue, "default paper") + ", " + line(6, orange, "half of what is stable") +
+      line(5, blue, "default paper") + ", " + line(6, orange, "hardest paper") +
       "\nset title 'largest stable stiffness [N/m]'\nset yrange [10:1e7]\nset format y '%.0e'\nset key default samplen "
       "2 top left Left reverse\nplot " +
       line(8, orange, "no limit on the rate of the normal force") + ", " + line(9, green, "theory: linear, held") +
-      ", " + line(7, blue, "default") + ", " + line(10, grey, "theory: linear, let go") + "\n";
+      ", " + line(7, blue, "default paper") + ", " + line(10, grey, "theory: linear, let go") + "\n";
   return finish(text + "unset multiplot\n", "Servo rate");
 }
 

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <span>
 #include <vector>
@@ -250,5 +251,77 @@ TEST_CASE("the same query has the same nearest point to the last bit, alone and 
     }
     INFO(curve.name);
     CHECK(different == 0);
+  }
+}
+
+TEST_CASE("a range outside [0, 1], reversed or not finite counts as the range that its ends are clamped to",
+          "[collision]") {
+  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  struct Case {
+    calligraphy::ParameterRange given, meant;
+  };
+  const std::vector<Case> cases = {{{-1.0, 2.0}, {0.0, 1.0}},   {{2.0, 3.0}, {1.0, 1.0}},  {{-3.0, -2.0}, {0.0, 0.0}},
+                                   {{0.7, 0.3}, {0.7, 0.7}},    {{nan, nan}, {0.0, 1.0}},  {{0.25, nan}, {0.25, 1.0}},
+                                   {{nan, 0.25}, {0.0, 0.25}},  {{-inf, inf}, {0.0, 1.0}}, {{inf, -inf}, {1.0, 1.0}},
+                                   {{0.25, 1e300}, {0.25, 1.0}}};
+  for (const HardCurve& curve : hard_curves()) {
+    const StrokeElement element = prepare_element(curve.control_points);
+    const Point query = curve.control_points.front() + element.size() * Point(0.3, 0.2);
+    for (const NearestPointMethod method : {NearestPointMethod::exact, NearestPointMethod::tracked,
+                                            NearestPointMethod::sampled, NearestPointMethod::wang2006}) {
+      for (const Case& each : cases) {
+        INFO(curve.name << ", method " << static_cast<int>(method) << ", " << each.given.begin << " to "
+                        << each.given.end);
+        const NearestPoint given = nearest_point(element, query, {.method = method}, each.given);
+        const NearestPoint meant = nearest_point(element, query, {.method = method}, each.meant);
+        CHECK(given.parameter == meant.parameter);
+        CHECK(given.point == meant.point);
+        CHECK(given.status == meant.status);
+      }
+    }
+  }
+}
+
+TEST_CASE("options out of their range and a start that is not finite still find the nearest point", "[collision]") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const HardCurve& curve : hard_curves()) {
+    const StrokeElement element = prepare_element(curve.control_points);
+    const Point query = curve.control_points.front() + element.size() * Point(0.3, 0.2);
+    const double least = nearest_point(element, query).distance;
+    INFO(curve.name);
+    for (const double tolerance : {0.0, -1.0, nan}) {
+      for (const NearestPointMethod method : {NearestPointMethod::exact, NearestPointMethod::tracked}) {
+        const NearestPoint found = nearest_point(element, query, {.method = method, .tolerance = tolerance});
+        CHECK(std::abs(found.distance - least) <= 1e-9 * element.size());
+      }
+    }
+    for (const double start : {nan, 1e300, -1e300}) {
+      const NearestPoint found = nearest_point(element, query, {.method = NearestPointMethod::tracked}, {}, start);
+      CHECK(std::abs(found.distance - least) <= 1e-9 * element.size());
+      CHECK(found.certified());
+    }
+    for (const int samples : {-1, 0, 1000}) {
+      const NearestPoint found =
+          nearest_point(element, query, {.method = NearestPointMethod::sampled, .samples = samples, .refinements = 99});
+      CHECK(found.parameter >= 0.0);
+      CHECK(found.parameter <= 1.0);
+    }
+  }
+}
+
+TEST_CASE("a batch answers as many queries as both spans hold", "[collision]") {
+  const std::vector<Point> bend = {{0.0, 0.0}, {0.01, 0.02}, {0.02, 0.02}, {0.03, 0.0}},
+                           line = {{0.0, 0.0}, {0.03, 0.0}};
+  const std::vector<Point> queries(20, Point(0.01, 0.01));
+  for (const std::vector<Point>& points : {bend, line}) {
+    const StrokeElement element = prepare_element(points);
+    std::vector<NearestPoint> results(20);
+    for (NearestPoint& result : results) result.distance = -1.0;
+    nearest_points(element, queries, std::span(results).first(7));
+    CHECK(results[6].distance >= 0.0);
+    CHECK(results[7].distance == -1.0);
+    nearest_points(element, std::span(queries).first(3), std::span(results).last(13));
+    CHECK(results[9].distance >= 0.0);
+    CHECK(results[10].distance == -1.0);
   }
 }

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include <calligraphy/collision/nearest_point.hpp>
 #include <calligraphy/collision/stroke_element.hpp>
 
 #include "../hard_cases.hpp"
@@ -117,5 +119,32 @@ TEST_CASE("arc length grows with the parameter and parameter_at undoes it", "[co
     CHECK(element.arc_length(1.0) == element.length());
     if (element.size() > 0.0) CHECK(element.parameter_at(2.0 * element.length()) == 1.0);
     CHECK(element.parameter_at(std::nan("")) == 0.0);
+    for (const double below : {-1.0, -1e300, -std::numeric_limits<double>::infinity(), std::nan("")}) {
+      CHECK(element.arc_length(below) == 0.0);
+    }
+    for (const double above : {2.0, 1e300, std::numeric_limits<double>::infinity()}) {
+      CHECK(element.arc_length(above) == element.length());
+    }
+  }
+}
+
+TEST_CASE("a curve from 1e-290 m to 1e150 m has the length of its shape, scaled", "[collision]") {
+  const std::vector<Point> shape = {{0.0, 0.0}, {0.3, 0.5}, {0.6, 0.5}, {0.9, 0.0}};
+  const double length = prepare_element(shape).length();
+  for (const double scale : {1e-290, 1e-200, 1e-160, 1e-12, 1e12, 1e100, 1e150}) {
+    const StrokeElement element = prepare_element(calligraphy_test::moved(shape, scale, Point::Zero()));
+    INFO(scale);
+    CHECK(element.length() / scale == Approx(length).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("a number of control points that no element has gives an element that refuses every query", "[collision]") {
+  for (const std::size_t count : {0u, 1u, 6u, 100u}) {
+    std::vector<Point> points;
+    for (std::size_t i = 0; i < count; ++i) points.emplace_back(static_cast<double>(i), static_cast<double>(i * i));
+    const StrokeElement element = prepare_element(points);
+    INFO(count);
+    CHECK(std::isnan(element.length()));
+    CHECK(nearest_point(element, {0.5, 0.5}).status == NearestPointStatus::not_finite);
   }
 }

@@ -98,3 +98,14 @@ TEST_CASE("a query that is not finite leaves the tracker as it was", "[collision
   CHECK(after.element == before.element);
   CHECK(after.foot.distance == Approx(before.foot.distance).epsilon(1e-12));
 }
+
+TEST_CASE("a tracker of no element refuses every query, and one of too many keeps the first five", "[collision]") {
+  StrokeTracker none{std::span<const StrokeElement>()};
+  CHECK(none.update({0.0, 0.0}).foot.status == NearestPointStatus::not_finite);
+  std::vector<StrokeElement> elements;
+  for (int i = 0; i < 9; ++i) {
+    elements.push_back(prepare_element(std::vector<Point>{{0.01 * i, 0.0}, {0.01 * (i + 1), 0.0}}));
+  }
+  StrokeTracker many(elements);
+  CHECK(many.update({0.09, 0.0}).element == 4);
+}

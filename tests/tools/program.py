@@ -37,9 +37,13 @@ class ProgramTest(unittest.TestCase):
 
     def data_directory(self):
         """The unpacked npm package hanzi-writer-data."""
-        directory = os.environ.get("CALLIGRAPHY_HANZI_WRITER_DATA", "")
-        if not directory:
+        return self.package("CALLIGRAPHY_HANZI_WRITER_DATA")
+
+    def package(self, variable):
+        """An npm package, packed or unpacked, that this variable names."""
+        path = os.environ.get(variable, "")
+        if not path:
             if os.environ.get("CALLIGRAPHY_REQUIRE_DATA"):
-                self.fail("CALLIGRAPHY_HANZI_WRITER_DATA is not set")
-            self.skipTest("CALLIGRAPHY_HANZI_WRITER_DATA is not set")
-        return directory
+                self.fail(f"{variable} is not set")
+            self.skipTest(f"{variable} is not set")
+        return path

@@ -45,16 +45,18 @@ struct CurveElement {
 
   Point point(double t) const noexcept;
   /// dB/dt
-  Point derivative(double t) const noexcept;
+  Point derivative(double t) const noexcept { return size * derivative_per_size(t); }
+  /// dB/dt over the size [1]
+  Point derivative_per_size(double t) const noexcept;
   /// Unit tangent in writing direction, also where dB/dt vanishes.
   Point tangent(double t) const noexcept;
-  /// Arc length from 0 to t, to 3e-3 of the size (1e-4 on typical strokes).
+  /// Arc length from 0 to t, to 3e-3 of the size (1e-4 on typical strokes); t is clamped to [0, 1], NaN is 0.
   double arc_length(double t) const noexcept;
   /// Parameter at an arc length in (0, length); the inverse of arc_length.
   double parameter_at(double arc_length) const noexcept;
 };
 
-/// Prepares 3 to 5 control points that are not all equal. No allocation.
+/// Prepares 3 to 5 control points that are finite and not all equal: prepare_element checks that. No allocation.
 CurveElement prepare_curve(std::span<const Point> control_points) noexcept;
 
 }  // namespace calligraphy

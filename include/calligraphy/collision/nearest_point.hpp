@@ -7,7 +7,7 @@
 
 namespace calligraphy {
 
-/// On a line all of them are its perpendicular foot, clamped to the range.
+/// On a line and a point all of them are the perpendicular foot, clamped to the range, and certified.
 enum class NearestPointMethod {
   exact,    ///< the global nearest point, certified by the signs of the slope of the squared distance
   tracked,  ///< the same point, found from the last one: for a query that moves little from call to call
@@ -17,18 +17,19 @@ enum class NearestPointMethod {
 
 struct NearestPointOptions {
   NearestPointMethod method = NearestPointMethod::exact;
-  /// exact, tracked: error of the point; wang2006: epsilon. Both relative to the size of the element. (0, 1]
+  /// exact, tracked: error of the point; wang2006: epsilon. Both relative to the size of the element. (0, 1]; what is
+  /// not above 0 asks for more than rounding allows: the answer may then be only approximate.
   double tolerance = 1e-9;
-  int samples = 16;     ///< sampled: points at even distances of the parameter. [2, 64]
-  int refinements = 2;  ///< sampled: steps of Halley's method. [0, 8]
+  int samples = 16;     ///< sampled: points at even distances of the parameter, clamped to [2, 64]
+  int refinements = 2;  ///< sampled: steps of Halley's method, clamped to [0, 8]
 };
 
 enum class NearestPointStatus {
   certified,    ///< no other point of the range is nearer, up to the tolerance and rounding
-  approximate,  ///< not certified: sampled, wang2006, or exact at its limit of work
+  approximate,  ///< not certified: sampled or wang2006 on a curve, or exact at its limit of work
   unsafe_stop,  ///< wang2006 stopped where its last interval holds a point nearer by more than epsilon
-  not_finite    ///< the query or the element is not finite, or the query further than 1e100 sizes: start of the range,
-                ///< infinite distance
+  not_finite    ///< the query or the element is not finite, or the query further than 1e100 sizes of an element that
+                ///< has one: start of the range, infinite distance
 };
 
 struct NearestPoint {
@@ -41,7 +42,8 @@ struct NearestPoint {
   bool certified() const noexcept { return status == NearestPointStatus::certified; }
 };
 
-/// Part of an element: 0 <= begin <= end <= 1.
+/// Part of an element. What lies outside [0, 1] counts as the nearer end, NaN as 0 and 1, an end before the beginning
+/// as the beginning.
 struct ParameterRange {
   double begin = 0.0;
   double end = 1.0;
@@ -56,7 +58,7 @@ NearestPoint nearest_point(const StrokeElement& element, const Point& query, con
                            const ParameterRange& range = {}, double start = 0.5) noexcept;
 
 /// Nearest points of many queries on one element: `results[i]` is that of `queries[i]`, the same as one by one but
-/// faster (exact). The spans are equally long.
+/// faster (exact). Of spans that are not equally long, the longer one's rest is left alone.
 void nearest_points(const StrokeElement& element, std::span<const Point> queries, std::span<NearestPoint> results,
                     const NearestPointOptions& options = {}) noexcept;
 

@@ -27,15 +27,16 @@ struct StrokeElement {
   Point derivative(double t) const noexcept { return curve() ? curve()->derivative(t) : line()->edge; }
   /// Unit tangent in writing direction, also where dB/dt vanishes; zero for a point.
   Point tangent(double t) const noexcept { return curve() ? curve()->tangent(t) : line()->direction; }
-  /// Arc length from 0 to t; exact on a line, on a curve to 3e-3 of the size (1e-4 on typical strokes) [m].
+  /// Arc length from 0 to t, which is clamped to [0, 1] (NaN is 0); exact on a line, on a curve to 3e-3 of the size
+  /// (1e-4 on typical strokes) [m].
   double arc_length(double t) const noexcept;
   /// Parameter at an arc length, clamped to [0, 1]; the inverse of arc_length.
   double parameter_at(double arc_length) const noexcept;
 };
 
 /// Prepares 2 to 5 control points, an element of degree one less; a point when all are equal (to 1e-300 m). Where one
-/// is not finite, or further than 1e150 m from the first, the length is NaN and every query's status is not_finite. No
-/// allocation.
+/// is not finite, or further than 1e150 m from the first, or their number is none of these, the length is NaN and every
+/// query's status is not_finite. No allocation.
 StrokeElement prepare_element(std::span<const Point> control_points) noexcept;
 
 }  // namespace calligraphy

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <span>
+#include <vector>
 
 #include <calligraphy/collision/nearest_point.hpp>
 
@@ -19,10 +20,12 @@ struct StrokePoint {
 /// has travelled far enough to come as near to it. Equal distances go to the earlier element.
 class StrokeTracker {
  public:
-  /// Keeps a view of at most 5 elements, at least one. `tolerance` as in NearestPointOptions.
+  /// Keeps a view of the elements, of the first 5 if there are more. `tolerance` as in NearestPointOptions.
   explicit StrokeTracker(std::span<const StrokeElement> elements, double tolerance = 1e-9) noexcept;
+  StrokeTracker(std::vector<StrokeElement>&&, double = 0.0) = delete;  // would be gone before the first update
 
-  /// A query that is not finite is answered by the start of the last element, status not_finite, and is not remembered.
+  /// A query that is not finite is answered by the start of the element that was nearest last, status not_finite, and
+  /// is not remembered. A stroke without elements answers every query by the origin, status not_finite.
   StrokePoint update(const Point& query) noexcept;
 
  private:

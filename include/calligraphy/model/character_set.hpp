@@ -117,6 +117,9 @@ class CharacterSet {
   std::vector<Provenance> provenances() const;
   /// Largest distance between a stored control point and the one that was encoded [em].
   double coordinate_error() const noexcept;
+  /// Every character in every order, that of the first layer's provenance; what is hidden by another layer, too, does
+  /// not count. @throws FormatError naming the file and what is damaged
+  CharacterList list() const;
   /// Decodes everything in every order. @throws FormatError naming the file and what is damaged
   void check() const;
 

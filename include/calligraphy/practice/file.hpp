@@ -10,4 +10,8 @@ namespace calligraphy {
 /// @throws FileError naming the path and the reason; a file that was there before is left as it was
 void write_file(const std::filesystem::path& path, std::string_view content);
 
+/// Tells before long work that write_file would fail: makes a temporary file beside `path` and removes it.
+/// @throws FileError as write_file does
+void check_can_write(const std::filesystem::path& path);
+
 }  // namespace calligraphy

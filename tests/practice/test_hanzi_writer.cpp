@@ -1,57 +1,27 @@
 // Claims about read_hanzi_writer: files of the npm package hanzi-writer-data become characters.
-#include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include <calligraphy/error.hpp>
 #include <calligraphy/model/character.hpp>
-#include <calligraphy/model/hanzi_writer.hpp>
-#include <calligraphy/model/stroke_fit.hpp>
 #include <calligraphy/model/text.hpp>
-#include <calligraphy/model/typical_stroke.hpp>
+#include <calligraphy/practice/hanzi_writer.hpp>
 
 #include "../catch.hpp"
+#include "../package_data.hpp"
+#include "../temporary_directory.hpp"
 
 using namespace calligraphy;
 
 namespace {
-
-/// A directory of its own that goes away with the test.
-class TemporaryDirectory {
- public:
-  TemporaryDirectory() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "calligraphy-hanzi-writer-XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary directory");
-    path_ = pattern;
-  }
-  ~TemporaryDirectory() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryDirectory(const TemporaryDirectory&) = delete;
-  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
-
-  std::string path() const { return path_.string(); }
-  void write(const std::string& name, const std::string& text) const {
-    std::ofstream(path_ / name, std::ios::binary) << text;
-  }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// What read_hanzi_writer says to this text, with the kind of error in front.
 std::string complaint(const std::string& text) {
   const TemporaryDirectory directory;
   directory.write("永.json", text);
   try {
-    read_hanzi_writer(directory.path(), U'永');
+    read_hanzi_writer(directory.path().string(), U'永');
   } catch (const FormatError& error) {
     return std::string("FormatError ") + error.what();
   } catch (const FileError& error) {
@@ -70,10 +40,10 @@ std::string repeated(const std::string& part, int count) {
 
 }  // namespace
 
-TEST_CASE("a median in units of 1024 to the em with the baseline at -124 lands in the unit square", "[model]") {
+TEST_CASE("a median in units of 1024 to the em with the baseline at -124 lands in the unit square", "[practice]") {
   const TemporaryDirectory directory;
   directory.write("一.json", R"({"medians":[[[0,-124],[1024,-124]],[[512,900],[512,-124]]]})");
-  const Character character = read_hanzi_writer(directory.path(), U'一');
+  const Character character = read_hanzi_writer(directory.path().string(), U'一');
   CHECK(character.code == U'一');
   REQUIRE(character.sequence.stroke_ids == std::vector<int>{1, 2});
   const auto& points = character.structure.control_points;
@@ -85,34 +55,34 @@ TEST_CASE("a median in units of 1024 to the em with the baseline at -124 lands i
   for (const double factor : character.physics.attraction_factors) CHECK(factor == 1.0);
 }
 
-TEST_CASE("a missing character is named with the path", "[model]") {
+TEST_CASE("a missing character is named with the path", "[practice]") {
   const TemporaryDirectory directory;
   try {
-    read_hanzi_writer(directory.path(), U'永');
+    read_hanzi_writer(directory.path().string(), U'永');
     FAIL("nothing was thrown");
   } catch (const FileError& error) {
     CHECK(has(error.what(), "永"));
-    CHECK(has(error.what(), directory.path()));
+    CHECK(has(error.what(), directory.path().string()));
   }
-  CHECK_THROWS_AS(read_hanzi_writer(directory.path() + "/nowhere", U'永'), FileError);
+  CHECK_THROWS_AS(read_hanzi_writer(directory.path() / "nowhere", U'永'), FileError);
 }
 
-TEST_CASE("code points that are none are refused", "[model]") {
+TEST_CASE("code points that are none are refused", "[practice]") {
   const TemporaryDirectory directory;
   for (const unsigned number : {0u, 0xD800u, 0xDFFFu, 0x110000u, 0xFFFFFFFFu}) {
     const auto code = static_cast<char32_t>(number);
-    CHECK_THROWS_AS(read_hanzi_writer(directory.path(), code), FileError);
+    CHECK_THROWS_AS(read_hanzi_writer(directory.path().string(), code), FileError);
   }
-  CHECK_THROWS_AS(read_hanzi_writer(directory.path(), U'/'), FileError);
+  CHECK_THROWS_AS(read_hanzi_writer(directory.path().string(), U'/'), FileError);
 }
 
-TEST_CASE("a directory in the place of the file is refused", "[model]") {
+TEST_CASE("a directory in the place of the file is refused", "[practice]") {
   const TemporaryDirectory directory;
-  std::filesystem::create_directory(std::filesystem::path(directory.path()) / "永.json");
-  CHECK_THROWS_AS(read_hanzi_writer(directory.path(), U'永'), FileError);
+  std::filesystem::create_directory(directory.path() / "永.json");
+  CHECK_THROWS_AS(read_hanzi_writer(directory.path().string(), U'永'), FileError);
 }
 
-TEST_CASE("malformed files are refused with the file and the place", "[model]") {
+TEST_CASE("malformed files are refused with the file and the place", "[practice]") {
   struct Case {
     std::string text;
     std::string place;
@@ -150,102 +120,28 @@ TEST_CASE("malformed files are refused with the file and the place", "[model]") 
   }
 }
 
-TEST_CASE("a hundred thousand nested arrays are refused without a crash", "[model]") {
+TEST_CASE("a hundred thousand nested arrays are refused without a crash", "[practice]") {
   CHECK(has(complaint(repeated("[", 100000)), "FormatError 永.json: not JSON"));
   CHECK(has(complaint(repeated("[", 100000) + repeated("]", 100000)), "FormatError 永.json: expected an object"));
   CHECK(has(complaint(R"({"medians":[[)" + repeated("[", 100000) + repeated("]", 100000) + "]]}"),
             "FormatError 永.json: medians[0][0]: expected two finite numbers"));
 }
 
-TEST_CASE("a file of more than a megabyte is refused", "[model]") {
+TEST_CASE("a file of more than a megabyte is refused", "[practice]") {
   const std::string valid = R"({"medians":[[[100,200],[600,200]]]})";
   CHECK(complaint(valid).empty());
   CHECK(complaint(std::string(500000, ' ') + valid).empty());
   CHECK(complaint(std::string(1100000, ' ') + valid) == "FormatError 永.json: larger than 1 MB");
 }
 
-TEST_CASE("a median of one point becomes a dian", "[model]") {
+TEST_CASE("a median of one point becomes a dian", "[practice]") {
   const TemporaryDirectory directory;
   directory.write("丶.json", R"({"medians":[[[500,400]]]})");
-  CHECK(read_hanzi_writer(directory.path(), U'丶').sequence.stroke_ids == std::vector<int>{8});
+  CHECK(read_hanzi_writer(directory.path().string(), U'丶').sequence.stroke_ids == std::vector<int>{8});
 }
 
-namespace {
-
-/// The unpacked package, or an empty path with the reason printed.
-std::filesystem::path package_directory() {
-  const char* directory = std::getenv("CALLIGRAPHY_HANZI_WRITER_DATA");
-  if (directory != nullptr && *directory != '\0') return directory;
-  if (std::getenv("CALLIGRAPHY_REQUIRE_DATA") != nullptr) FAIL("CALLIGRAPHY_HANZI_WRITER_DATA is not set");
-  WARN("skipped: CALLIGRAPHY_HANZI_WRITER_DATA does not name an unpacked npm package hanzi-writer-data");
-  return {};
-}
-
-/// One-character names of the package's files, sorted.
-std::vector<char32_t> characters_in(const std::filesystem::path& directory) {
-  std::vector<char32_t> codes;
-  for (const auto& entry : std::filesystem::directory_iterator(directory)) {
-    if (entry.path().extension() != ".json") continue;
-    const std::u32string name = decode_utf8(entry.path().stem().string());
-    if (name.size() == 1) codes.push_back(name[0]);
-  }
-  std::sort(codes.begin(), codes.end());
-  return codes;
-}
-
-std::vector<double> errors_of(const std::filesystem::path& directory, char32_t code) {
-  std::ifstream in(directory / (encode_utf8(code) + ".json"));
-  std::vector<double> errors;
-  const nlohmann::json character = nlohmann::json::parse(in);
-  for (const auto& median : character["medians"]) {
-    std::vector<Point> path;
-    for (const auto& point : median) {
-      path.emplace_back(point[0].get<double>() / 1024.0, (point[1].get<double>() + 124.0) / 1024.0);
-    }
-    errors.push_back(fit_stroke(path).error);
-  }
-  return errors;
-}
-
-#if defined(__SANITIZE_ADDRESS__)
-constexpr std::size_t stride = 200;  // memory is watched; the shares are the other build's claim
-#else
-constexpr std::size_t stride = 20;
-#endif
-
-}  // namespace
-
-TEST_CASE("every twentieth character of the package reads, validates and is followed closely", "[model]") {
-  const std::filesystem::path directory = package_directory();
-  if (directory.empty()) return;
-  const std::vector<char32_t> codes = characters_in(directory);
-  REQUIRE(codes.size() > 9000);
-  std::vector<double> errors;
-  for (std::size_t i = 0; i < codes.size(); i += stride) {
-    INFO(encode_utf8(codes[i]));
-    Character character;
-    REQUIRE_NOTHROW(character = read_hanzi_writer(directory.string(), codes[i]));
-    REQUIRE(validate(character).empty());
-    const std::vector<double> found = errors_of(directory, codes[i]);
-    REQUIRE(static_cast<int>(found.size()) == character.stroke_count());
-    errors.insert(errors.end(), found.begin(), found.end());
-  }
-  const auto share_within = [&](double bound) {
-    const auto count = std::count_if(errors.begin(), errors.end(), [&](double error) { return error <= bound; });
-    return static_cast<double>(count) / static_cast<double>(errors.size());
-  };
-  std::sort(errors.begin(), errors.end());
-  INFO("within 1 %: " << share_within(0.01) << ", within 2 %: " << share_within(0.02) << ", median "
-                      << errors[errors.size() / 2] << ", largest " << errors.back());
-#if !defined(__SANITIZE_ADDRESS__)
-  CHECK(share_within(0.02) >= 0.995);
-  CHECK(share_within(0.01) >= 0.89);
-  CHECK(errors[errors.size() / 2] < 0.004);
-#endif
-}
-
-TEST_CASE("well-known characters of the package have the strokes that schools teach", "[model]") {
-  const std::filesystem::path directory = package_directory();
+TEST_CASE("well-known characters of the package have the strokes that schools teach", "[practice]") {
+  const std::filesystem::path directory = package_data("CALLIGRAPHY_HANZI_WRITER_DATA");
   if (directory.empty()) return;
   struct Known {
     char32_t code;

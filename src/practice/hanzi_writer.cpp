@@ -1,10 +1,8 @@
-#include <calligraphy/model/hanzi_writer.hpp>
+#include <calligraphy/practice/hanzi_writer.hpp>
 
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <string_view>
-#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -96,14 +94,18 @@ class Reader {
 
 }  // namespace
 
+std::vector<std::vector<Point>> parse_hanzi_writer(std::string_view json, const std::string& name) {
+  return Reader(json, name).medians();
+}
+
 Character read_hanzi_writer(const std::string& directory, char32_t code) {
   const bool is_character = code > 0 && code <= 0x10FFFF && (code < 0xD800 || code > 0xDFFF);
   if (!is_character) throw FileError(directory + ": no code point " + std::to_string(static_cast<unsigned>(code)));
   const std::string name = encode_utf8(code);
   const std::filesystem::path path = std::filesystem::path(directory) / (name + ".json");
-  const Reader reader(read_file(path, name), path.filename().string());
+  const auto medians = parse_hanzi_writer(read_file(path, name), path.filename().string());
   std::vector<StrokeInput> strokes;
-  for (const std::vector<Point>& median : reader.medians()) strokes.push_back(fit_stroke(median).stroke);
+  for (const std::vector<Point>& median : medians) strokes.push_back(fit_stroke(median).stroke);
   return make_character(code, strokes);
 }
 

@@ -1,0 +1,8 @@
+// Texts of data/, compiled in by cmake/room.cmake.
+#pragma once
+
+namespace calligraphy::built_in {
+
+extern const char* const kanjivg_labels;
+
+}  // namespace calligraphy::built_in

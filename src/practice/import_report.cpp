@@ -1,0 +1,98 @@
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "imported_character.hpp"
+
+namespace calligraphy {
+namespace {
+
+constexpr std::size_t most_worst = 10;
+
+/// Counts stroke by stroke, in the order of the characters.
+class Counter {
+ public:
+  explicit Counter(SourceKind kind) { report_.kind = kind; }
+
+  void add(const ImportedCharacter& imported) {
+    const Character& character = imported.character;
+    double largest = 0.0;
+    for (std::size_t i = 0; i < imported.strokes.size(); ++i) {
+      const StrokePlace place{character.code, character.order, static_cast<int>(i) + 1};
+      const int id = character.sequence.stroke_ids[i];
+      largest = std::max(largest, imported.strokes[i].error);
+      add_stroke(imported.strokes[i], place, id);
+    }
+    for (FitCount& count : report_.within) count.characters += largest <= count.error ? 1 : 0;
+    if (imported.letters_unused) report_.letters_unused.push_back(character.code);
+    ++report_.characters;
+  }
+
+  ImportReport finish() {
+    std::stable_sort(errors_.begin(), errors_.end(), [](const auto& a, const auto& b) { return a.error > b.error; });
+    errors_.resize(std::min(errors_.size(), most_worst));
+    report_.worst = std::move(errors_);
+    for (auto& [key, confusion] : confusions_) report_.confusions.push_back(std::move(confusion));
+    std::stable_sort(report_.confusions.begin(), report_.confusions.end(),
+                     [](const auto& a, const auto& b) { return a.count > b.count; });
+    return std::move(report_);
+  }
+
+ private:
+  void add_stroke(const ImportedStroke& stroke, const StrokePlace& place, int id) {
+    ++report_.strokes;
+    ++report_.ids_used[static_cast<std::size_t>(id)];
+    for (FitCount& count : report_.within) count.strokes += stroke.error <= count.error ? 1 : 0;
+    errors_.push_back({place, id, stroke.error});
+    if (stroke.label.empty()) return;
+    if (stroke.label_known) ++report_.labelled;
+    if (stroke.label_agrees) {
+      ++report_.agreed;
+      return;
+    }
+    const LabelFate fate = !stroke.label_known       ? LabelFate::unknown
+                           : id == stroke.recognised ? LabelFate::overruled
+                                                     : LabelFate::obeyed;
+    report_.label_doubts.push_back({place, stroke.label, fate, stroke.recognised, id});
+    if (!stroke.label_known) return;
+    const auto [entry, is_new] = confusions_.try_emplace({stroke.label, stroke.recognised},
+                                                         Confusion{stroke.label, stroke.recognised, 0, place});
+    ++entry->second.count;
+  }
+
+  ImportReport report_;
+  std::vector<StrokeError> errors_;
+  std::map<std::pair<std::string, int>, Confusion> confusions_;
+};
+
+}  // namespace
+
+const char* name_of(SourceKind kind) noexcept {
+  switch (kind) {
+    case SourceKind::hanzi_writer_data:
+      return "hanzi-writer-data";
+    case SourceKind::kanjivg:
+      return "KanjiVG";
+    case SourceKind::calligraphy:
+      break;
+  }
+  return "calligraphy";
+}
+
+ImportReport report_of(SourceKind kind, const std::vector<ImportedCharacter>& characters) {
+  Counter counter(kind);
+  for (const ImportedCharacter& character : characters) counter.add(character);
+  return counter.finish();
+}
+
+ImportReport report_of(const CharacterList& list) {
+  ImportReport report;
+  for (const Character& character : list.characters) {
+    ++report.characters;
+    report.strokes += character.stroke_count();
+    for (const int id : character.sequence.stroke_ids) ++report.ids_used[static_cast<std::size_t>(id)];
+  }
+  return report;
+}
+
+}  // namespace calligraphy

@@ -1,0 +1,72 @@
+#include "parallel.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace calligraphy {
+namespace {
+
+/// Indices are handed out in rising order and each one handed out is worked on: of all that would fail, the lowest
+/// does.
+class Queue {
+ public:
+  Queue(std::size_t count, const std::function<void(std::size_t)>& work) : count_(count), work_(work) {}
+
+  void run(const std::function<void(double)>& progress) {
+    while (!failed_) {
+      const std::size_t i = next_++;
+      if (i >= count_) return;
+      try {
+        work_(i);
+      } catch (...) {
+        record(i, std::current_exception());
+      }
+      const std::size_t done = ++done_;
+      if (progress) progress(static_cast<double>(done) / static_cast<double>(count_));
+    }
+  }
+
+  void rethrow() const {
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  void record(std::size_t index, std::exception_ptr failure) {
+    const std::lock_guard lock(mutex_);
+    if (!failure_ || index < failed_index_) {
+      failure_ = std::move(failure);
+      failed_index_ = index;
+    }
+    failed_ = true;
+  }
+
+  std::size_t count_;
+  const std::function<void(std::size_t)>& work_;
+  std::atomic<std::size_t> next_ = 0;
+  std::atomic<std::size_t> done_ = 0;
+  std::atomic<bool> failed_ = false;
+  std::mutex mutex_;
+  std::exception_ptr failure_;
+  std::size_t failed_index_ = 0;
+};
+
+}  // namespace
+
+void parallel_for(std::size_t count, int threads, const std::function<void(double)>& progress,
+                  const std::function<void(std::size_t)>& work) {
+  Queue queue(count, work);
+  const std::size_t wanted =
+      threads > 0 ? static_cast<std::size_t>(threads) : std::max<std::size_t>(std::thread::hardware_concurrency(), 1);
+  {
+    std::vector<std::jthread> others;
+    for (std::size_t i = 1; i < std::min(wanted, count); ++i) others.emplace_back([&queue] { queue.run({}); });
+    queue.run(progress);
+  }
+  queue.rethrow();
+}
+
+}  // namespace calligraphy

@@ -1,0 +1,316 @@
+import gzip
+import io
+import json
+import os
+import pty
+import resource
+import signal
+import subprocess
+import tarfile
+import time
+from pathlib import Path
+
+from program import ProgramTest
+
+HENG = '<path kvg:type="㇐" d="M10,50c30,0,60,-1,90,-2"/>'
+SHU = '<path kvg:type="㇑" d="M50,10c0,30,0,60,0,85"/>'
+FIELDS = {"file", "format", "bytes", "kind", "source", "licence", "attribution", "characters", "strokes", "within",
+          "worst", "labels", "ids_used", "skipped", "notes"}
+
+
+def svg(content=HENG, head=""):
+    return f'{head}<svg viewBox="0 0 109 109"><g>{content}</g></svg>'
+
+
+def member(name, content="", **fields):
+    info = tarfile.TarInfo(name)
+    data = content.encode() if isinstance(content, str) else content
+    info.size = len(data)
+    for key, value in fields.items():
+        setattr(info, key, value)
+    return info, data
+
+
+class ImportTest(ProgramTest):
+    def tar(self, *members, name="source.tgz", format=tarfile.PAX_FORMAT, mode="w:gz"):
+        with tarfile.open(self.directory / name, mode, format=format) as tar:
+            for info, data in members:
+                tar.addfile(info, io.BytesIO(data))
+        return name
+
+    def write(self, name, content):
+        path = self.directory / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(content.encode() if isinstance(content, str) else content)
+        return name
+
+    def report(self, *arguments):
+        return json.loads(self.run_program("import", *arguments, "-o", "out.txt", "--json").stdout)
+
+
+class Import(ImportTest):
+    def test_a_directory_and_its_tarball_in_every_format_give_the_same_characters(self):
+        for code in ("04e00", "05341"):
+            self.write(f"package/dist/{code}.svg", svg(HENG + SHU))
+        self.run_program("import", "package", "-o", "directory.txt", "--format", "text")
+        expected = (self.directory / "directory.txt").read_bytes()
+        self.assertIn("character 一", expected.decode())
+        members = [member(f"package/dist/{code}.svg", svg(HENG + SHU)) for code in ("05341", "04e00")]
+        for format in (tarfile.USTAR_FORMAT, tarfile.GNU_FORMAT, tarfile.PAX_FORMAT):
+            for mode in ("w:gz", "w"):
+                with self.subTest(format=format, mode=mode):
+                    self.tar(*members, format=format, mode=mode)
+                    self.run_program("import", "source.tgz", "-o", "tarball.txt", "--format", "text")
+                    self.assertEqual((self.directory / "tarball.txt").read_bytes(), expected)
+
+    def test_names_of_characters_are_read_from_every_kind_of_tar_header_in_every_locale(self):
+        content = '{"medians":[[[100,400],[900,400]]]}'
+        for format in (tarfile.USTAR_FORMAT, tarfile.GNU_FORMAT, tarfile.PAX_FORMAT):
+            for name in ("一.json", "package/" + "long/" * 30 + "一.json"):
+                if format == tarfile.USTAR_FORMAT and len(name) > 100:
+                    continue
+                with self.subTest(format=format, name=name):
+                    self.tar(member(name, content), format=format)
+                    self.assertEqual(self.report("source.tgz")["characters"], 1)
+
+    def test_the_json_has_all_of_the_report(self):
+        self.tar(member("package/04e00.svg", svg(HENG + SHU.replace("㇑", "㇒") + HENG.replace("㇐", "６"))),
+                 member("package/04e00-VtFst.svg", svg()), member("package/03042.svg", svg()),
+                 member("package/readme.md", "text"), member("package/link", type=tarfile.SYMTYPE, linkname="/etc"))
+        report = self.report("source.tgz")
+        self.assertEqual(set(report), FIELDS)
+        self.assertEqual((report["kind"], report["format"], report["file"]), ("KanjiVG", "set", "out.txt"))
+        self.assertEqual((report["characters"], report["strokes"]), (1, 3))
+        self.assertEqual(report["bytes"], (self.directory / "out.txt").stat().st_size)
+        self.assertEqual([row["error_em"] for row in report["within"]], [0.005, 0.01, 0.02])
+        for row in report["within"]:
+            self.assertEqual((row["strokes"], row["characters"]), (3, 1))
+            self.assertEqual(row["strokes_share"], 1.0)
+        self.assertEqual(len(report["worst"]), 3)
+        self.assertEqual(sum(report["ids_used"].values()), 3)
+        labels = report["labels"]
+        self.assertEqual((labels["strokes"], labels["agreed"]), (2, 1))
+        self.assertEqual([doubt["label"] for doubt in labels["doubts"]], ["㇒", "６"])
+        self.assertEqual(labels["doubts"][1]["fate"], "unknown")
+        self.assertEqual({row["reason"]: row["files"] for row in report["skipped"]},
+                         {"a link": ["package/link"], "an alternate order": ["package/04e00-VtFst.svg"],
+                          "no file of a character": ["package/readme.md"],
+                          "no ideograph": ["package/03042.svg"]})
+
+    def test_the_tables_name_what_the_json_has(self):
+        self.tar(member("package/04e00.svg", svg(HENG + SHU.replace("㇑", "㇒"))), member("package/03042.svg", svg()))
+        done = self.run_program("import", "source.tgz", "-o", "out.txt")
+        for words in ("1 characters, 2 strokes from KanjiVG", "Attribution-Share Alike", "Ulrich Apel", "100.00 %",
+                      "一 (U+4E00) stroke 1", "横", "1 of 2 strokes recognised", "㇒ looks like 2 竖",
+                      "no ideograph: package/03042.svg", "note: "):
+            self.assertIn(words, done.stdout)
+        self.assertEqual(done.stderr, "", "no progress bar in a pipe")
+
+    def test_progress_is_shown_on_a_terminal(self):
+        self.write("data/04e00.svg", svg())
+        terminal, end = pty.openpty()
+        done = subprocess.run([os.environ["CALLIGRAPHY_PROGRAM"], "import", "data", "-o", "out.txt"], stderr=end,
+                              stdout=subprocess.DEVNULL, cwd=self.directory)
+        os.close(end)
+        self.assertEqual(done.returncode, 0)
+        self.assertIn(b"****", os.read(terminal, 10000))
+        os.close(terminal)
+
+    def test_text_and_sets_turn_into_each_other_without_loss(self):
+        self.write("data/05341.svg", svg(HENG + SHU))
+        self.write("data/05341-VtFst.svg", svg(SHU + HENG))
+        self.run_program("import", "data", "-o", "first.txt", "--format", "text", "--alternates")
+        self.run_program("import", "first.txt", "-o", "exact.set", "--precision", "exact")
+        self.run_program("import", "exact.set", "-o", "second.txt", "--format", "text")
+        self.assertEqual((self.directory / "first.txt").read_bytes(), (self.directory / "second.txt").read_bytes())
+        self.run_program("write", "十", "--characters", "exact.set", "--out", "out", "--mode", "force")
+
+    def test_a_coarser_precision_makes_a_smaller_set_with_a_larger_error(self):
+        for code in range(0x4e00, 0x4e40):
+            self.write(f"data/{code:05x}.svg", svg(HENG + SHU))
+        sizes, errors = [], []
+        for precision in ("coarse", "standard", "fine", "exact"):
+            self.run_program("import", "data", "-o", "out.set", "--precision", precision)
+            info = json.loads(self.run_program("info", "out.set", "--json").stdout)
+            self.assertEqual((info["characters"], info["strokes"]), (64, 128))
+            self.assertIn("Ulrich Apel", info["attribution"])
+            sizes.append(info["bytes"])
+            errors.append(info["coordinate_error_em"])
+        self.assertEqual(sizes, sorted(sizes))
+        self.assertEqual(errors, sorted(errors, reverse=True))
+        self.assertEqual(errors[-1], 0.0)
+
+    def test_only_those_asked_for_are_imported(self):
+        for code in ("04e00", "05341", "04e8c"):
+            self.write(f"data/{code}.svg", svg())
+        self.assertEqual(self.report("data", "--only", "十 一 永")["characters"], 2)
+        self.assert_refused(1, ["import", "data", "-o", "none.txt", "--only", "永"], "asked for")
+
+    def test_the_letters_of_a_package_are_heard(self):
+        hanzi = self.package("CALLIGRAPHY_HANZI_WRITER_DATA_TARBALL")
+        letters = self.package("CALLIGRAPHY_CNCHAR_ORDER_TARBALL")
+        report = self.report(hanzi, "--letters", letters, "--only", "永北京航空棻")
+        self.assertEqual(report["characters"], 6)
+        self.assertGreater(report["labels"]["strokes"], 30)
+        self.assertEqual(report["labels"]["letters_unused"], ["棻"])
+
+
+class Hostile(ImportTest):
+    """What must neither crash, nor fill memory or disk, nor leave anything behind."""
+
+    def assert_fails(self, source, *words):
+        self.assert_refused(1, ["import", source, "-o", "out.txt"], source, *words)
+
+    def test_paths_that_climb_out_are_refused(self):
+        for path in ("../04e00.svg", "package/../../04e00.svg", "/tmp/04e00.svg", "package/.."):
+            with self.subTest(path=path):
+                self.assert_fails(self.tar(member("package/04e00.svg", svg()), member(path, svg())), path)
+
+    def test_links_and_devices_are_passed_over(self):
+        self.tar(member("package/04e00.svg", svg()),
+                 member("package/05341.svg", type=tarfile.LNKTYPE, linkname="package/04e00.svg"),
+                 member("package/04e8c.svg", type=tarfile.SYMTYPE, linkname="/dev/zero"),
+                 member("package/04e09.svg", type=tarfile.CHRTYPE, devmajor=1, devminor=5),
+                 member("package/056db.svg", type=tarfile.FIFOTYPE))
+        report = self.report("source.tgz")
+        self.assertEqual(report["characters"], 1)
+        self.assertEqual({row["reason"]: row["count"] for row in report["skipped"]},
+                         {"a link": 2, "not a regular file": 2})
+
+    def bounded(self, *arguments, megabytes=700):
+        def limit():
+            resource.setrlimit(resource.RLIMIT_AS, (megabytes << 20, megabytes << 20))
+        sanitized = b"__asan_init" in Path(os.environ["CALLIGRAPHY_PROGRAM"]).read_bytes()  # reserves terabytes
+        return subprocess.run([os.environ["CALLIGRAPHY_PROGRAM"], *arguments], cwd=self.directory, capture_output=True,
+                              preexec_fn=None if sanitized else limit, timeout=300)
+
+    def test_a_bomb_is_stopped_in_bounded_memory(self):
+        def bomb(name):
+            with gzip.open(self.directory / "bomb.tgz", "wb", compresslevel=9) as out:
+                info = tarfile.TarInfo(name)
+                info.size = 8 << 30
+                out.write(info.tobuf())
+                for _ in range(1000):
+                    out.write(b"\0" * (1 << 20))
+        for name, words in (("package/readme.txt", b"times its size"), ("package/04e00.svg", b"more than the")):
+            with self.subTest(name=name):
+                bomb(name)
+                done = self.bounded("import", "bomb.tgz", "-o", "out.txt")
+                self.assertEqual(done.returncode, 1, done.stderr)
+                self.assertIn(b"bomb.tgz", done.stderr)
+                self.assertIn(words, done.stderr)
+                self.assertFalse((self.directory / "out.txt").exists())
+
+    def test_a_sparse_file_larger_than_what_it_holds_is_stopped(self):
+        pax = {"GNU.sparse.major": "1", "GNU.sparse.minor": "0", "GNU.sparse.name": "package/04e00.svg",
+               "GNU.sparse.realsize": str(1 << 40)}
+        self.tar(member("package/x", b"1\n0\n0\n" + b"\0" * 506, pax_headers=pax))
+        done = self.bounded("import", "source.tgz", "-o", "out.txt")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn(b"source.tgz", done.stderr)
+
+    def test_a_tarball_cut_short_or_damaged_is_refused(self):
+        members = [member(f"package/{code:05x}.svg", svg(HENG + f"<!-- {os.urandom(500).hex()} -->"))
+                   for code in range(0x4e00, 0x4e10)]
+        whole = (self.directory / self.tar(*members)).read_bytes()
+        for length in (0, 1, 10, 11, 50, len(whole) // 2, len(whole) - 9, len(whole) - 1):
+            with self.subTest(length=length):
+                self.assert_fails(self.write("cut.tgz", whole[:length]))
+        for at in (2, 3, len(whole) // 3, len(whole) // 2, len(whole) - 12, len(whole) - 6, len(whole) - 1):
+            with self.subTest(at=at):
+                damaged = bytearray(whole)
+                damaged[at] ^= 0x15
+                self.assert_fails(self.write("damaged.tgz", bytes(damaged)))
+        plain = gzip.decompress(whole)
+        for length in (300, 513, 1000, 5000):
+            with self.subTest(plain=length):
+                self.assert_fails(self.write("cut.tar", plain[:length]))
+
+    def test_what_is_no_source_is_refused(self):
+        self.write("empty", "")
+        self.write("picture.png", b"\x89PNG\r\n\x1a\n" + bytes(range(256)) * 4)
+        self.write("gzip.gz", gzip.compress(b"no tar " * 1000))
+        self.write("package.zip", b"PK\x03\x04" + bytes(1000))
+        self.tar(name="nothing.tgz")
+        (self.directory / "directory").mkdir()
+        for source in ("empty", "picture.png", "gzip.gz", "package.zip", "nothing.tgz", "directory", "missing"):
+            with self.subTest(source=source):
+                self.assert_fails(source)
+        self.assert_refused(1, ["import", "/dev/zero", "-o", "out.txt"], "/dev/zero")
+
+    def test_entities_strokes_and_nesting_beyond_measure_are_refused(self):
+        entities = "<!DOCTYPE svg [<!ENTITY a0 'x'>" + "".join(
+            f"<!ENTITY a{i} '" + f"&a{i - 1};" * 10 + "'>" for i in range(1, 12)) + "]>"
+        for name, content, words in (
+                ("entities", svg('<path d="M&a11;"/>', entities), "expected a number"),
+                ("strokes", svg(HENG * 1_000_000), "bytes"),
+                ("many", svg('<path d="M1,2c1,1,2,2,3,3"/>' * 30_000), "256 strokes"),
+                ("points", svg('<path d="M1,2' + "c9,0,-9,0,0,0" * 70_000 + '"/>'), "20000 points"),
+                ("nested", "<svg viewBox='0 0 109 109'>" + "<g>" * 300_000, "not XML"),
+                ("command", svg('<path d="M1,2L3,4"/>'), "stroke 1"),
+                ("text", "永", "not XML")):
+            with self.subTest(name=name):
+                self.assert_fails(self.tar(member("package/04e00.svg", content), name=name + ".tgz"), words, "04e00.svg")
+        for name, content in (("nested", "[" * 500_000), ("strokes", '{"medians":[' + "[[1,2]]," * 100_000 + "[[1,2]]]}"),
+                              ("far", '{"medians":[[[1,2],[1e300,4]]]}')):
+            with self.subTest(json=name):
+                self.assert_fails(self.tar(member("package/永.json", content), name=name + ".tgz"), "永.json")
+
+    def test_names_beyond_measure_are_refused(self):
+        self.assert_fails(self.tar(member("x" * 5000 + "/04e00.svg", svg())), "1024 bytes")
+
+    def test_random_damage_never_crashes(self):
+        members = [member(f"package/{code:05x}.svg", svg(HENG + SHU)) for code in range(0x4e00, 0x4e04)]
+        whole = (self.directory / self.tar(*members, mode="w")).read_bytes()
+        for seed in range(40):
+            damaged = bytearray(whole)
+            for step in range(8):
+                place = (seed * 7919 + step * 104729) % (4 * 1024)
+                damaged[place] = (seed * 31 + step * 17) % 256
+            self.write("damaged.tar", bytes(damaged))
+            done = subprocess.run([os.environ["CALLIGRAPHY_PROGRAM"], "import", "damaged.tar", "-o", "out.txt"],
+                                  cwd=self.directory, capture_output=True)
+            self.assertIn(done.returncode, (0, 1), done.stderr)
+
+
+class Output(ImportTest):
+    def test_an_old_file_outlives_an_import_that_fails(self):
+        self.write("out.txt", "keep")
+        self.write("data/04e00.svg", "no SVG")
+        self.run_program("import", "data", "-o", "out.txt", code=1)
+        self.assertEqual((self.directory / "out.txt").read_text(), "keep")
+        self.assertEqual(self.files(), ["data", "data/04e00.svg", "out.txt"])
+
+    def test_an_old_file_outlives_an_import_that_is_interrupted(self):
+        self.write("out.txt", "keep")
+        for code in range(0x4e00, 0x5600):
+            self.write(f"data/{code:05x}.svg", svg((HENG + SHU) * 50))
+        running = subprocess.Popen([os.environ["CALLIGRAPHY_PROGRAM"], "import", "data", "-o", "out.txt"],
+                                   cwd=self.directory, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        time.sleep(0.3)
+        running.send_signal(signal.SIGINT)
+        self.assertEqual(running.wait(60), -signal.SIGINT)
+        self.assertEqual((self.directory / "out.txt").read_text(), "keep")
+        self.assertEqual([name for name in self.files() if not name.startswith("data")], ["out.txt"])
+
+    def test_a_place_that_cannot_be_written_is_named_before_the_work(self):
+        self.write("data/04e00.svg", "no SVG")
+        (self.directory / "directory").mkdir()
+        self.assert_refused(1, ["import", "data", "-o", "none/out.txt"], "none/out.txt")
+        self.assert_refused(1, ["import", "data", "-o", "directory"], "directory")
+        self.assert_refused(1, ["import", "data", "-o", "/proc/out.txt"], "/proc/out.txt")
+
+    def test_usage_errors_are_one_line_and_exit_with_two(self):
+        self.write("data/04e00.svg", svg())
+        for arguments, words in (([], ["SOURCE"]), (["data"], ["--out"]), (["data", "-o", ""], ["--out"]),
+                                 (["data", "-o", "x", "--threads", "0"], ["--threads", "0"]),
+                                 (["data", "-o", "x", "--threads", "x"], ["--threads", "x"]),
+                                 (["data", "-o", "x", "--only", " "], ["TEXT"]),
+                                 (["data", "-o", "x", "--format", "png"], ["--format", "png"]),
+                                 (["data", "-o", "x", "--precision", "1"], ["--precision", "1"]),
+                                 (["data", "-o", "x", "--format", "text", "--precision", "exact"], ["--precision"]),
+                                 (["data", "-o", "x", "--unknown"], ["--unknown"]), (["a", "b", "-o", "x"], ["b"])):
+            with self.subTest(arguments=arguments):
+                self.assert_refused(2, ["import", *arguments], *words)
+        self.assert_refused(1, ["import", "data", "-o", "x", "--letters", "none"], "none")
+        self.assert_refused(1, ["import", "data", "-o", "x", "--date", "1\n2"], "date")

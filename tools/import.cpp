@@ -1,0 +1,114 @@
+// calligraphy import: characters of other collections as typical strokes.
+#include <map>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <calligraphy/model/set_encoding.hpp>
+#include <calligraphy/practice/character_import.hpp>
+#include <calligraphy/practice/file.hpp>
+
+#include "commands.hpp"
+#include "import_report.hpp"
+#include "options.hpp"
+#include "progress.hpp"
+
+namespace calligraphy::tools {
+namespace {
+
+struct Options {
+  std::string source;
+  std::string out;
+  std::string format = "set";
+  std::optional<std::string> precision;
+  std::string letters;
+  std::optional<std::string> only;
+  std::string date;
+  bool alternates = false;
+  bool all = false;
+  int threads = 0;
+  bool json = false;
+};
+
+const std::map<std::string, CoordinatePrecision> precisions = {{"coarse", CoordinatePrecision::coarse},
+                                                               {"standard", CoordinatePrecision::standard},
+                                                               {"fine", CoordinatePrecision::fine},
+                                                               {"exact", CoordinatePrecision::exact}};
+
+std::string encoded(const CharacterList& list, const Options& options) {
+  if (options.format == "set") {
+    const std::vector<std::byte> bytes =
+        encode_character_set(list, precisions.at(options.precision.value_or("standard")));
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+  }
+  std::ostringstream text;
+  write_characters(text, list);
+  return text.str();
+}
+
+Import imported(const Options& options) {
+  ImportOptions asked;
+  asked.letters = options.letters;
+  asked.alternates = options.alternates;
+  asked.ideographs_only = !options.all;
+  if (options.only) asked.only = characters_of(*options.only);
+  asked.date = options.date;
+  asked.threads = options.threads;
+  Progress progress;
+  asked.progress = [&progress](double share) { progress.show(share); };
+  return import_characters(options.source, asked);
+}
+
+void run(const Options& options) {
+  if (options.out.empty()) throw UsageError("--out: an empty name");
+  if (options.format == "text" && options.precision) throw UsageError("--precision: the text format is always exact");
+  check_can_write(options.out);
+  const Import import = imported(options);
+  const std::string bytes = encoded(import.list, options);
+  write_file(options.out, bytes);
+  const ImportOutput output{options.out, options.format, bytes.size()};
+  fmt::print("{}", options.json ? json(import, output) : tables(import, output));
+}
+
+}  // namespace
+
+void add_import(CLI::App& program) {
+  CLI::App* const command = program.add_subcommand(
+      "import",
+      "Characters of other collections as typical strokes: hanzi-writer-data or KanjiVG (directory or npm tarball), or "
+      "the text format. Which one SOURCE is, its content says.");
+  const auto options = std::make_shared<Options>();
+  command->add_option("SOURCE", options->source, "Directory, npm tarball or text file")->required();
+  command->add_option("-o,--out", options->out, "File to write")->required()->type_name("FILE");
+  command->add_option("--format", options->format, "A set file, or the text format that a person can edit")
+      ->check(CLI::IsMember({"set", "text"}))
+      ->capture_default_str();
+  command
+      ->add_option("--precision", options->precision,
+                   "Of a set file's coordinates: coarse, standard (default), fine or exact; docs/set-file.md")
+      ->check(CLI::IsMember(precisions).description(""))
+      ->type_name("NAME");
+  command
+      ->add_option("--letters", options->letters,
+                   "Stroke letters for hanzi-writer-data: cnchar-order, its tarball, directory or .js file")
+      ->type_name("PATH");
+  command->add_flag("--alternates", options->alternates, "KanjiVG: variants, too, as alternate orders")
+      ->disable_flag_override();
+  command->add_flag("--all", options->all, "KanjiVG: kana, Latin letters, radicals and signs, too")
+      ->disable_flag_override();
+  command->add_option("--only", options->only, "Import these characters and no others")->type_name("TEXT");
+  command->add_option("--date", options->date, "Date of the change, for its notice in the attribution")
+      ->type_name("DATE");
+  command->add_option("--threads", options->threads, "Threads (default: one per core)")
+      ->check(integer(1, 256))
+      ->type_name("N");
+  command->add_flag("--json", options->json, "Print the report as JSON")->disable_flag_override();
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace calligraphy::tools

@@ -1,0 +1,218 @@
+#include "import_report.hpp"
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include <calligraphy/model/text.hpp>
+
+#include "options.hpp"
+
+namespace calligraphy::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t most_examples = 10;  // in a table; the JSON has all
+constexpr double percent = 100.0;
+
+double share(int part, int whole) { return whole == 0 ? 1.0 : static_cast<double>(part) / whole; }
+
+/// What was skipped, by reason.
+std::map<std::string, std::vector<std::string>> by_reason(const std::vector<SkippedFile>& skipped) {
+  std::map<std::string, std::vector<std::string>> reasons;
+  for (const SkippedFile& file : skipped) reasons[file.reason].push_back(file.path);
+  return reasons;
+}
+
+std::string place_name(const StrokePlace& place) {
+  return fmt::format("{} stroke {}", name_of(place.code, place.order), place.stroke);
+}
+
+std::string typical_name(int id) { return fmt::format("{} {}", id, typical_stroke(id).name); }
+
+int count_of(const ImportReport& report, LabelFate fate) {
+  return static_cast<int>(std::count_if(report.label_doubts.begin(), report.label_doubts.end(),
+                                        [fate](const LabelDoubt& doubt) { return doubt.fate == fate; }));
+}
+
+std::string fit_table(const ImportReport& report) {
+  std::string text = "\nfar from what was drawn, at most         0.5 %       1 %       2 %  of the em\n";
+  std::string strokes = "strokes                             ";
+  std::string characters = "characters with every stroke        ";
+  for (const FitCount& count : report.within) {
+    strokes += fmt::format("{:>8.2f} %", percent * share(count.strokes, report.strokes));
+    characters += fmt::format("{:>8.2f} %", percent * share(count.characters, report.characters));
+  }
+  text += strokes + "\n" + characters + "\n\nfarthest, in % of the em\n";
+  for (const StrokeError& worst : report.worst) {
+    text += fmt::format("{:>8.2f}  {}, {}\n", percent * worst.error, place_name(worst.place), typical_name(worst.id));
+  }
+  return text;
+}
+
+std::string id_table(const ImportReport& report) {
+  std::string text = "\ntypical strokes used\n";
+  for (int id = 1; id <= typical_stroke_count; ++id) {
+    const int count = report.ids_used[static_cast<std::size_t>(id)];
+    if (count == 0) continue;
+    text += fmt::format("{:>8}  {:>6.2f} %  {} {}\n", count, percent * share(count, report.strokes), typical_name(id),
+                        typical_stroke(id).pinyin);
+  }
+  return text;
+}
+
+std::string label_table(const ImportReport& report) {
+  if (report.labelled == 0 && report.label_doubts.empty()) return {};
+  std::string text = fmt::format("\nlabels: {} of {} strokes recognised by geometry alone as labelled ({:.2f} %)\n",
+                                 report.agreed, report.labelled, percent * share(report.agreed, report.labelled));
+  text += fmt::format("  of the others {} labels were obeyed and {} overruled by the shape; {} labels are unknown\n",
+                      count_of(report, LabelFate::obeyed), count_of(report, LabelFate::overruled),
+                      count_of(report, LabelFate::unknown));
+  for (std::size_t i = 0; i < std::min(report.confusions.size(), most_examples); ++i) {
+    const Confusion& confusion = report.confusions[i];
+    text += fmt::format("{:>8}  {} looks like {}, as in {}\n", confusion.count, confusion.label,
+                        typical_name(confusion.recognised), place_name(confusion.example));
+  }
+  if (!report.letters_unused.empty()) {
+    text += fmt::format("  {} characters have more or fewer letters than strokes: their letters are not used\n",
+                        report.letters_unused.size());
+  }
+  return text;
+}
+
+std::string skipped_table(const ImportReport& report) {
+  std::string text;
+  for (const auto& [reason, files] : by_reason(report.skipped)) {
+    if (text.empty()) text = "\nskipped\n";
+    text += fmt::format("{:>8}  {}: {}{}\n", files.size(), reason, files.front(), files.size() > 1 ? ", ..." : "");
+  }
+  for (const std::string& note : report.notes) text += "\nnote: " + note + "\n";
+  return text;
+}
+
+Json place_json(const StrokePlace& place) {
+  return {{"character", encode_utf8(place.code)}, {"order", place.order}, {"stroke", place.stroke}};
+}
+
+Json fit_json(const ImportReport& report) {
+  Json rows = Json::array();
+  for (const FitCount& count : report.within) {
+    rows.push_back({{"error_em", count.error},
+                    {"strokes", count.strokes},
+                    {"strokes_share", share(count.strokes, report.strokes)},
+                    {"characters", count.characters},
+                    {"characters_share", share(count.characters, report.characters)}});
+  }
+  return rows;
+}
+
+Json worst_json(const ImportReport& report) {
+  Json rows = Json::array();
+  for (const StrokeError& worst : report.worst) {
+    Json row = place_json(worst.place);
+    row["id"] = worst.id;
+    row["error_em"] = worst.error;
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+Json label_json(const ImportReport& report) {
+  Json confusions = Json::array();
+  for (const Confusion& confusion : report.confusions) {
+    confusions.push_back({{"label", confusion.label},
+                          {"recognised_id", confusion.recognised},
+                          {"strokes", confusion.count},
+                          {"example", place_json(confusion.example)}});
+  }
+  Json doubts = Json::array();
+  for (const LabelDoubt& doubt : report.label_doubts) {
+    Json row = place_json(doubt.place);
+    row["label"] = doubt.label;
+    row["fate"] = name_of(doubt.fate);
+    row["recognised_id"] = doubt.recognised;
+    row["id"] = doubt.id;
+    doubts.push_back(row);
+  }
+  Json unused = Json::array();
+  for (const char32_t code : report.letters_unused) unused.push_back(encode_utf8(code));
+  return {
+      {"strokes", report.labelled}, {"agreed", report.agreed}, {"agreed_share", share(report.agreed, report.labelled)},
+      {"confusions", confusions},   {"doubts", doubts},        {"letters_unused", unused}};
+}
+
+Json ids_json(const ImportReport& report) {
+  Json ids = Json::object();
+  for (int id = 1; id <= typical_stroke_count; ++id) {
+    const int count = report.ids_used[static_cast<std::size_t>(id)];
+    if (count > 0) ids[std::to_string(id)] = count;
+  }
+  return ids;
+}
+
+Json skipped_json(const ImportReport& report) {
+  Json rows = Json::array();
+  for (const auto& [reason, files] : by_reason(report.skipped)) {
+    rows.push_back({{"reason", reason}, {"count", files.size()}, {"files", files}});
+  }
+  return rows;
+}
+
+}  // namespace
+
+const char* name_of(LabelFate fate) noexcept {
+  switch (fate) {
+    case LabelFate::obeyed:
+      return "obeyed";
+    case LabelFate::overruled:
+      return "overruled";
+    case LabelFate::unknown:
+      break;
+  }
+  return "unknown";
+}
+
+std::string name_of(char32_t code, const std::string& order) {
+  return order.empty() ? name_of(code) : name_of(code) + " order " + order;
+}
+
+std::string tables(const Import& import, const ImportOutput& output) {
+  const ImportReport& report = import.report;
+  const Provenance& provenance = import.list.provenance;
+  const bool fitted = report.kind != SourceKind::calligraphy;
+  return fmt::format("{} ({}, {} bytes): {} characters, {} strokes from {}\n", output.file, output.format, output.bytes,
+                     report.characters, report.strokes, calligraphy::name_of(report.kind)) +
+         fmt::format("source: {}\nlicence: {}\nattribution: {}\n", provenance.source, provenance.licence,
+                     provenance.attribution) +
+         (fitted ? fit_table(report) : "") + id_table(report) + label_table(report) + skipped_table(report);
+}
+
+std::string json(const Import& import, const ImportOutput& output) {
+  const ImportReport& report = import.report;
+  const Provenance& provenance = import.list.provenance;
+  Json all = {{"file", output.file},
+              {"format", output.format},
+              {"bytes", output.bytes},
+              {"kind", calligraphy::name_of(report.kind)},
+              {"source", provenance.source},
+              {"licence", provenance.licence},
+              {"attribution", provenance.attribution},
+              {"characters", report.characters},
+              {"strokes", report.strokes}};
+  if (report.kind != SourceKind::calligraphy) {
+    all["within"] = fit_json(report);
+    all["worst"] = worst_json(report);
+    all["labels"] = label_json(report);
+  }
+  all["ids_used"] = ids_json(report);
+  all["skipped"] = skipped_json(report);
+  all["notes"] = report.notes;
+  return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // names of files may be in any encoding
+}
+
+}  // namespace calligraphy::tools
