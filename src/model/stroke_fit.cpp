@@ -1,24 +1,30 @@
 // Fits a pen path: the typical stroke that stroke_recognition finds, its control points polished to the path.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include <Eigen/Dense>
 
 #include <calligraphy/error.hpp>
-#include <calligraphy/model/bezier.hpp>
 #include <calligraphy/model/stroke_fit.hpp>
 #include <calligraphy/model/typical_stroke.hpp>
 
+#include "brush.hpp"
+#include "cubic_fit.hpp"
+#include "path_distance.hpp"
+#include "shoulder.hpp"
+#include "stroke_polish.hpp"
+#include "stroke_polyline.hpp"
 #include "stroke_recognition.hpp"
 
 namespace calligraphy {
 namespace {
 
-using recognition::Path;
+using namespace recognition;
 
 constexpr double largest_coordinate = 15.0;  // [em]; validate() allows 16, and a handle may lie outside its path
 constexpr double shortest_path = 0.01;       // [em]; what is shorter is a dot
@@ -41,48 +47,6 @@ void check(std::span<const Point> median) {
   }
 }
 
-double squared_distance_to_segment(const Point& point, const Point& from, const Point& to) {
-  const Point along = to - from;
-  const double squared = along.squaredNorm();
-  const double t = squared > 0.0 ? std::clamp((point - from).dot(along) / squared, 0.0, 1.0) : 0.0;
-  return (point - from - t * along).squaredNorm();
-}
-
-double distance_to_path(const Point& point, std::span<const Point> path) {
-  double nearest = (point - path.front()).squaredNorm();
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    nearest = std::min(nearest, squared_distance_to_segment(point, path[i - 1], path[i]));
-  }
-  return std::sqrt(nearest);
-}
-
-/// The stroke as a polyline: each element as `steps` pieces of equal parameter.
-Path sampled(std::string_view elements, std::span<const Point> points, int line_steps, int curve_steps) {
-  Path path{points.front()};
-  std::size_t at = 0;
-  for (const char kind : elements) {
-    if (kind == 'L') {
-      for (int step = 1; step <= line_steps; ++step) {
-        path.push_back(points[at] + (static_cast<double>(step) / line_steps) * (points[at + 1] - points[at]));
-      }
-      at += 1;
-    } else {
-      const Bezier<3> curve{{points[at], points[at + 1], points[at + 2], points[at + 3]}};
-      for (int step = 1; step <= curve_steps; ++step) {
-        path.push_back(curve.point(static_cast<double>(step) / curve_steps));
-      }
-      at += 3;
-    }
-  }
-  return path;
-}
-
-double largest_distance(std::span<const Point> from, std::span<const Point> to) {
-  double largest = 0.0;
-  for (const Point& point : from) largest = std::max(largest, distance_to_path(point, to));
-  return largest;
-}
-
 /// Middle part of a limb, so that rounded corners do not turn its line.
 std::span<const Point> middle(std::span<const Point> limb) {
   const std::size_t margin = limb.size() / 5;
@@ -93,8 +57,8 @@ std::span<const Point> middle(std::span<const Point> limb) {
 Point limb_intersection(std::span<const Point> before, std::span<const Point> after) {
   constexpr double farthest = 0.08;  // [em]
   const Point& corner = after.front();
-  const recognition::Line first = recognition::line_through(middle(before));
-  const recognition::Line second = recognition::line_through(middle(after));
+  const Line first = line_through(middle(before));
+  const Line second = line_through(middle(after));
   Eigen::Matrix2d directions;
   directions << first.direction, -second.direction;
   if (std::abs(directions.determinant()) < 0.25) return corner;
@@ -123,104 +87,13 @@ std::vector<Point> initial_points(const TypicalStroke& type, const Path& path, s
       limb.front() = vertices[element];
       limb.back() = vertices[element + 1];
       Point handles[2];
-      recognition::fit_cubic(limb, handles);
+      fit_cubic(limb, handles);
       points.insert(points.end(), handles, handles + 2);
     }
     points.push_back(vertices[element + 1]);
   }
   return points;
 }
-
-/// Puts the handle of a curve at a smooth joint on the tangent of its neighbour, which a line gives or, between two
-/// curves, the one that arrives.
-void make_smooth(const TypicalStroke& type, std::vector<Point>& points) {
-  const std::vector<std::size_t> starts = element_starts(type.elements);
-  for (std::size_t joint = 1; joint < type.elements.size(); ++joint) {
-    if (type.joints[joint - 1] != 's') continue;
-    const std::size_t at = starts[joint];
-    const bool leaves_curve = type.elements[joint] == 'C';
-    const std::size_t fixed = leaves_curve ? at - 1 : at + 1;
-    const std::size_t handle = leaves_curve ? at + 1 : at - 1;
-    const Point away = points[at] - points[fixed];
-    const double reach = away.norm();
-    if (reach < shortest_element) continue;
-    const Point tangent = away / reach;
-    const double along = (points[handle] - points[at]).dot(tangent);
-    points[handle] = points[at] + std::max(along, 0.01) * tangent;
-  }
-}
-
-/// Polishes control points by Levenberg-Marquardt on the cubes of the distances between path and stroke, both ways:
-/// high powers weigh the largest distance, which is what counts, and stay differentiable.
-class Polish {
- public:
-  Polish(const TypicalStroke& type, const Path& path) : type_(type), path_(path) {}
-
-  std::vector<Point> run(std::vector<Point> points, int rounds) const {
-    make_smooth(type_, points);
-    Eigen::VectorXd residual = residuals(points);
-    double damping = 1e-2;
-    for (int round = 0; round < rounds && damping < 1e4; ++round) {
-      const Eigen::MatrixXd slopes = jacobian(points, residual);
-      const Eigen::MatrixXd normal = slopes.transpose() * slopes;
-      const Eigen::VectorXd gradient = slopes.transpose() * residual;
-      const double before = residual.squaredNorm();
-      bool better = false;
-      while (!better && damping < 1e4) {
-        Eigen::MatrixXd damped = normal;
-        const double floor = 0.01 * normal.diagonal().maxCoeff() + 1e-12;
-        damped.diagonal().array() += damping * (normal.diagonal().array() + floor);
-        const Eigen::VectorXd step = damped.ldlt().solve(-gradient);
-        std::vector<Point> moved = displaced(points, step);
-        const Eigen::VectorXd next = residuals(moved);
-        better = step.allFinite() && next.squaredNorm() < before;
-        damping *= better ? 0.2 : 5.0;
-        if (!better) continue;
-        points = std::move(moved);
-        residual = next;
-      }
-      if (!better || residual.squaredNorm() > 0.999 * before) break;
-    }
-    return points;
-  }
-
- private:
-  /// Distances are counted in hundredths of the em before they are cubed.
-  static double weighed(double distance) { return std::pow(100.0 * distance, 3); }
-
-  Eigen::VectorXd residuals(std::span<const Point> points) const {
-    const Path coarse = sampled(type_.elements, points, 1, 14);
-    const Path checked = sampled(type_.elements, points, 8, 14);
-    Eigen::VectorXd values(static_cast<Eigen::Index>(path_.size() + checked.size()));
-    Eigen::Index row = 0;
-    for (const Point& point : path_) values[row++] = weighed(distance_to_path(point, coarse));
-    for (const Point& point : checked) values[row++] = weighed(distance_to_path(point, path_));
-    return values;
-  }
-
-  std::vector<Point> displaced(std::vector<Point> points, const Eigen::VectorXd& step) const {
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      points[i] += step.segment<2>(static_cast<Eigen::Index>(2 * i));
-    }
-    make_smooth(type_, points);
-    return points;
-  }
-
-  Eigen::MatrixXd jacobian(const std::vector<Point>& points, const Eigen::VectorXd& residual) const {
-    constexpr double width = 1e-4;  // [em]
-    const auto variables = static_cast<Eigen::Index>(2 * points.size());
-    Eigen::MatrixXd slopes(residual.size(), variables);
-    for (Eigen::Index variable = 0; variable < variables; ++variable) {
-      Eigen::VectorXd step = Eigen::VectorXd::Zero(variables);
-      step[variable] = width;
-      slopes.col(variable) = (residuals(displaced(points, step)) - residual) / width;
-    }
-    return slopes;
-  }
-
-  const TypicalStroke& type_;
-  const Path& path_;
-};
 
 /// Can make_character take it? Elements without length and far handles come from inputs that nobody wrote.
 bool usable(const TypicalStroke& type, std::span<const Point> points) {
@@ -234,19 +107,10 @@ bool usable(const TypicalStroke& type, std::span<const Point> points) {
   return true;
 }
 
-/// Largest distance both ways, on samples so dense that what lies between them does not count.
+/// Largest distance both ways, right to 1e-4 em.
 double two_sided_error(const Path& path, const TypicalStroke& type, std::span<const Point> points) {
-  constexpr double step = 0.004;  // [em]
-  const Path stroke = sampled(type.elements, points, 1, 64);
-  const Path dense_stroke = sampled(type.elements, points, 64, 64);
-  Path dense_path{path.front()};
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    const int pieces = std::clamp(static_cast<int>((path[i] - path[i - 1]).norm() / step), 1, 64);
-    for (int piece = 1; piece <= pieces; ++piece) {
-      dense_path.push_back(path[i - 1] + (static_cast<double>(piece) / pieces) * (path[i] - path[i - 1]));
-    }
-  }
-  return std::max(largest_distance(dense_path, stroke), largest_distance(dense_stroke, path));
+  constexpr double tolerance = 4e-5;  // [em], of the flattened stroke and of the distance
+  return hausdorff_distance(path, flattened(type.elements, points, tolerance), tolerance);
 }
 
 /// A dot of the brush around a point: a short dian towards the lower right.
@@ -260,7 +124,8 @@ FittedStroke dot_around(const Path& path) {
   const Point centre = 0.5 * (low + high);
   const Point half = 0.5 * dot_length * Point(1.0, -1.0).normalized();
   const std::vector<Point> points{centre - half, centre + half};
-  return {{8, points}, two_sided_error(path, typical_stroke(8), points)};
+  const double error = two_sided_error(path, typical_stroke(8), points);
+  return {{8, points}, error, error};
 }
 
 /// Vertices where an element may end: those of the path and, on long pieces, points between.
@@ -281,26 +146,113 @@ std::vector<std::size_t> corners_of(const Path& vertices, const Path& refined) {
   return corners;
 }
 
+/// What a stroke may be instead when its elements do not follow the path closely: the same, drawn rounder.
+struct Rounder {
+  int id;
+  int instead;
+  double from_error;  ///< [em]
+};
+constexpr Rounder rounder_strokes[] = {
+    {5, 4, 0.006},    // short pie, pie
+    {8, 38, 0.006},   // dian, chang dian
+    {32, 30, 0.003},  // shu zhe, shu wan
+};
+
+/// The path that the pen follows: without what a brush adds to it.
+Path pen_path(const CleanPath& clean, const StrokeFitOptions& options) {
+  if (options.brush) return without_shoulders(clean.points);
+  return options.pressed_start ? without_entry(clean.points) : clean.points;
+}
+
+/// Fits of one path as one stroke after another.
+class Fit {
+ public:
+  Fit(const CleanPath& clean, const StrokeFitOptions& options)
+      : clean_(clean),
+        options_(options),
+        vertices_(simplified(clean.points, 20, 0.002)),
+        path_(refined(vertices_, step)),
+        pen_(pen_path(clean, options)),
+        followed_(refined(simplified(pen_, 96, 2e-4), step)) {}
+
+  /// As the typical stroke that the path is, or when that cannot follow it, as the next that can. No control points
+  /// when none is usable.
+  FittedStroke best() const {
+    constexpr double far_off = 0.02;  // [em]
+    constexpr std::size_t most_tries = 4;
+    const std::vector<Recognition> found = recognised(options_.ids);
+    FittedStroke best = nothing();
+    for (std::size_t i = 0; i < std::min(found.size(), most_tries) && best.error > far_off; ++i) {
+      keep_better(best, as(found[i]));
+    }
+    for (const Rounder& rounder : rounder_strokes) {
+      if (rounder.id != best.stroke.id || best.error <= rounder.from_error) continue;
+      const bool allowed =
+          options_.ids.empty() || std::ranges::find(options_.ids, rounder.instead) != options_.ids.end();
+      if (allowed) keep_better(best, as(recognised({&rounder.instead, 1}).at(0)));
+      break;
+    }
+    return best;
+  }
+
+  /// A straight dian is always a stroke.
+  FittedStroke straight() const {
+    Point end = path_.back();
+    if ((end - path_.front()).norm() < shortest_path) end = path_.front() + dot_length * Point(1.0, -1.0).normalized();
+    const std::vector<Point> points{path_.front(), end};
+    return measured({8, points});
+  }
+
+ private:
+  static constexpr double step = 0.012;  // [em]
+
+  static FittedStroke nothing() {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    return {{8, {}}, infinity, infinity};
+  }
+
+  static void keep_better(FittedStroke& best, FittedStroke other) {
+    if (other.error < best.error) best = std::move(other);
+  }
+
+  std::vector<Recognition> recognised(std::span<const int> ids) const {
+    return recognise(path_, corners_of(vertices_, path_), clean_, options_.brush, ids);
+  }
+
+  FittedStroke as(const Recognition& found) const {
+    const TypicalStroke& type = typical_stroke(found.id);
+    std::vector<Point> points = polished(type, followed_, initial_points(type, path_, found.splits));
+    if (!usable(type, points)) return nothing();
+    return measured({found.id, std::move(points)});
+  }
+
+  FittedStroke measured(StrokeInput stroke) const {
+    const TypicalStroke& type = typical_stroke(stroke.id);
+    const double error = two_sided_error(pen_, type, stroke.control_points);
+    const bool squared = options_.brush && pen_.size() != clean_.points.size();
+    const double median_error = squared ? two_sided_error(clean_.points, type, stroke.control_points) : error;
+    return {std::move(stroke), error, median_error};
+  }
+
+  const CleanPath& clean_;
+  const StrokeFitOptions& options_;
+  Path vertices_;  ///< of the clean path
+  Path path_;      ///< what is recognised
+  Path pen_;       ///< what is measured
+  Path followed_;  ///< what is fitted
+};
+
 }  // namespace
 
-FittedStroke fit_stroke(std::span<const Point> median, const StrokeFitOptions&) {
+FittedStroke fit_stroke(std::span<const Point> median, const StrokeFitOptions& options) {
   check(median);
-  const recognition::CleanPath clean = recognition::clean_median(median);
-  if (recognition::path_length(clean.points) < shortest_path) return dot_around(clean.points);
+  for (const int id : options.ids) typical_stroke(id);  // throws when there is none
+  const CleanPath clean = options.brush ? clean_median(median) : clean_pen_path(median);
+  if (path_length(clean.points) < shortest_path) return dot_around(clean.points);
 
-  constexpr std::size_t most_vertices = 20;
-  const Path vertices = recognition::simplified(clean.points, most_vertices);
-  const Path path = recognition::refined(vertices, 0.012);
-  const recognition::Recognition found = recognition::recognise(path, corners_of(vertices, path), clean.had_entry);
-  const TypicalStroke& type = typical_stroke(found.id);
-  std::vector<Point> points = Polish(type, path).run(initial_points(type, path, found.splits), 25);
-  if (!usable(type, points)) {
-    // A straight dian is always a stroke.
-    Point end = path.back();
-    if ((end - path.front()).norm() < shortest_path) end = path.front() + dot_length * Point(1.0, -1.0).normalized();
-    return {{8, {path.front(), end}}, two_sided_error(clean.points, typical_stroke(8), std::array{path.front(), end})};
-  }
-  return {{found.id, points}, two_sided_error(clean.points, type, points)};
+  const Fit fit(clean, options);
+  FittedStroke best = fit.best();
+  return best.stroke.control_points.empty() ? fit.straight() : best;
 }
 
 }  // namespace calligraphy

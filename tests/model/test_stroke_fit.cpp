@@ -90,6 +90,8 @@ std::set<int> accepted_ids(int id) {
       {11, 17},  // the hook of heng gou, drawn longer, is a heng pie
       {23, 24},  // heng zhe wan and heng zhe zhe too
       {30, 32},  // shu wan and shu zhe differ by the roundness of the bend
+      {9, 5},    // a pen does not show the thin start of a left dian, so that it is a short pie
+      {9, 4},
   };
   std::set<int> accepted{id};
   for (const auto& pair : twins) {
@@ -155,12 +157,12 @@ std::vector<std::pair<std::string, Path>> hard_inputs() {
 
 }  // namespace
 
-TEST_CASE("every typical shape is recognised as itself or as a documented twin", "[model]") {
+TEST_CASE("every typical shape drawn by a pen is recognised as itself or as a documented twin", "[model]") {
   for (const double scale : {1.0, 0.7, 0.5}) {
-    for (const double noise : {0.0, 0.002}) {
+    for (const double noise : {0.0, 0.002, 0.005}) {
       for (const TypicalStroke& type : typical_strokes()) {
         const Path path = changed(sampled(type, typical_points(type), 12), scale, noise * scale);
-        const FittedStroke fitted = fit_stroke(path);
+        const FittedStroke fitted = fit_stroke(path, {.brush = false});
         INFO("typical stroke " << type.id << " at scale " << scale << " with noise " << noise << " became "
                                << fitted.stroke.id);
         CHECK(accepted_ids(type.id).contains(fitted.stroke.id));
@@ -176,11 +178,24 @@ TEST_CASE("typical shapes at full size are recognised exactly", "[model]") {
   }
 }
 
-TEST_CASE("typical shapes are fitted within 0.6 % of the em, the circle within 0.8 %", "[model]") {
+TEST_CASE("a dense typical shape is followed within 0.3 % of the em when its id is given, the circle within 0.4 %",
+          "[model]") {
   for (const TypicalStroke& type : typical_strokes()) {
-    const FittedStroke fitted = fit_stroke(sampled(type, typical_points(type), 12));
-    INFO("typical stroke " << type.id << " became " << fitted.stroke.id);
-    CHECK(fitted.error < (type.id == 39 ? 0.008 : 0.006));
+    const int only[] = {type.id};
+    const FittedStroke fitted = fit_stroke(sampled(type, typical_points(type), 40), {.brush = false, .ids = only});
+    INFO("typical stroke " << type.id << ", error " << fitted.error);
+    CHECK(fitted.stroke.id == type.id);
+    CHECK(fitted.error < (type.id == 39 ? 0.004 : 0.003));
+  }
+}
+
+TEST_CASE("a typical shape with noise of 0.5 % of the em is followed within 1 %, the circle within 2 %", "[model]") {
+  for (const TypicalStroke& type : typical_strokes()) {
+    const Path path = changed(sampled(type, typical_points(type), 12), 1.0, 0.005);
+    const int only[] = {type.id};
+    const FittedStroke fitted = fit_stroke(path, {.brush = false, .ids = only});
+    INFO("typical stroke " << type.id << ", error " << fitted.error);
+    CHECK(fitted.error < (type.id == 39 ? 0.02 : 0.01));
   }
 }
 
@@ -194,16 +209,17 @@ TEST_CASE("the stroke found does not depend on where it is written", "[model]") 
   }
 }
 
-TEST_CASE("the reported error is the largest distance both ways", "[model]") {
+TEST_CASE("the reported error of a pen path is the largest distance both ways to 1e-4 em", "[model]") {
   for (const TypicalStroke& type : typical_strokes()) {
-    // Noise keeps the error well above zero, and long first and last limbs leave no entry or droop to cut.
-    const Path path = changed(sampled(type, typical_points(type), 12), 1.0, 0.004);
-    const FittedStroke fitted = fit_stroke(path);
-    const Path model = sampled(typical_stroke(fitted.stroke.id), fitted.stroke.control_points, 200);
-    // A little of either end may have been taken for brush work, so both bounds leave room for that alone.
+    const Path path = changed(sampled(type, typical_points(type), 12), 1.0, 0.004);  // noise keeps it above zero
+    const FittedStroke fitted = fit_stroke(path, {.brush = false});
+    const Path model = sampled(typical_stroke(fitted.stroke.id), fitted.stroke.control_points, 400);
+    Path dense{path.front()};
+    for (std::size_t i = 1; i < path.size(); ++i) {
+      for (int k = 1; k <= 40; ++k) dense.push_back(path[i - 1] + k / 40.0 * (path[i] - path[i - 1]));
+    }
     INFO("typical stroke " << type.id << " became " << fitted.stroke.id);
-    CHECK(fitted.error >= farthest(model, path) - 1e-4);
-    CHECK(fitted.error <= std::max(farthest(model, path), farthest(path, model)) + 1e-3);
+    CHECK(std::abs(fitted.error - std::max(farthest(model, path), farthest(dense, model))) < 1e-4);
   }
 }
 
@@ -239,6 +255,29 @@ TEST_CASE("a short first limb is not taken for a brush entry", "[model]") {
   const FittedStroke fitted = fit_stroke(median);
   CHECK(fitted.stroke.id == 16);
   CHECK(fitted.stroke.control_points.front().x() < 0.41);
+}
+
+TEST_CASE("a pen path keeps its ends, and its pressed start goes only when that is asked for", "[model]") {
+  const Path path{{0.33, 0.81}, {0.36, 0.79}, {0.38, 0.755}, {0.378, 0.40}, {0.376, 0.22}};
+  const int shu[] = {2};
+  CHECK(fit_stroke(path, {.brush = false, .ids = shu}).error > 0.01);  // a line cannot follow the slanted start
+  const FittedStroke fitted = fit_stroke(path, {.brush = false, .pressed_start = true, .ids = shu});
+  CHECK(std::abs(fitted.stroke.control_points.front().x() - 0.38) < 0.004);
+  CHECK(fitted.error < 0.002);
+}
+
+TEST_CASE("a label decides what a path may be", "[model]") {
+  const Path heng{{0.1, 0.5}, {0.9, 0.6}};
+  const std::vector<std::vector<int>> labels{{10}, {5, 4}, {16, 18}, {31}, {8, 38}};
+  for (const std::vector<int>& ids : labels) {
+    const FittedStroke fitted = fit_stroke(heng, {.ids = ids});
+    INFO("became " << fitted.stroke.id);
+    CHECK(std::ranges::find(ids, fitted.stroke.id) != ids.end());
+  }
+  const int unknown[] = {1, 40};
+  CHECK_THROWS_AS(fit_stroke(heng, {.ids = unknown}), ValueError);
+  const int zero[] = {0};
+  CHECK_THROWS_AS(fit_stroke(heng, {.ids = zero}), ValueError);
 }
 
 TEST_CASE("a corner vertex lies where the limbs meet and not on the rounded corner", "[model]") {

@@ -9,17 +9,20 @@
 namespace calligraphy {
 
 struct StrokeFitOptions {
-  bool brush = true;              ///< the path is the median of a brush stroke: its entry and end droop are removed
+  bool brush = true;              ///< the path is the median of a brush stroke: entry, droop and shoulders are removed
+  bool pressed_start = false;     ///< a pen path (brush false) in a textbook hand: its pressed start is removed
   std::span<const int> ids = {};  ///< typical strokes that it may be, as a label says; none: all, by geometry alone
 };
 
 /// A stroke recognised and fitted.
 struct FittedStroke {
   StrokeInput stroke;
-  double error;  ///< largest distance between path and stroke, both ways [em]
+  double error;         ///< largest distance between path and stroke, both ways, to 1e-4 em [em]
+  double median_error;  ///< the same where the path keeps its shoulders: the corners that a brush's median cuts [em]
 };
 
-/// Finds the typical stroke and its control points for a pen path, a polyline in em, y up.
+/// Finds the typical stroke and its control points for a pen path, a polyline in em, y up. What is removed of a path is
+/// not part of the errors; docs/strokes.md says what that is and how much.
 /// @throws ValueError when there is no point, a point is not finite or farther than 15 em, or an id is not in 1..39
 FittedStroke fit_stroke(std::span<const Point> path, const StrokeFitOptions& options = {});
 

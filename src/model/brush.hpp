@@ -1,0 +1,27 @@
+// What a brush adds to the median of a stroke and a pen does not write; private to the model.
+#pragma once
+
+#include <span>
+
+#include "polyline.hpp"
+
+namespace calligraphy::recognition {
+
+/// A pen path without repeated points, brush entry and end droop [em].
+struct CleanPath {
+  Path points;
+  bool had_entry = false;  ///< a slanted start was cut off
+  double first = 0.0;      ///< direction of the first 0.04 em, entry included [degree]
+  double last = 0.0;       ///< direction of the last 0.04 em, droop included [degree]
+};
+
+/// Removes the slanted start and the end droop of a median. Keeps at least half of the path. O(points).
+CleanPath clean_median(std::span<const Point> median);
+
+/// The path of a pen, from which nothing but repeats is removed. O(points).
+CleanPath clean_pen_path(std::span<const Point> path);
+
+/// The path without its slanted start alone, for a pen that presses at the start. O(points).
+Path without_entry(const Path& path);
+
+}  // namespace calligraphy::recognition
