@@ -1,6 +1,7 @@
 #include "import_report.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <vector>
 
@@ -40,15 +41,23 @@ int count_of(const ImportReport& report, LabelFate fate) {
                                         [fate](const LabelDoubt& doubt) { return doubt.fate == fate; }));
 }
 
-std::string fit_table(const ImportReport& report) {
-  std::string text = "\nfar from what was drawn, at most         0.5 %       1 %       2 %  of the em\n";
+std::string fit_rows(const std::array<FitCount, 3>& counts, const ImportReport& report) {
   std::string strokes = "strokes                             ";
   std::string characters = "characters with every stroke        ";
-  for (const FitCount& count : report.within) {
+  for (const FitCount& count : counts) {
     strokes += fmt::format("{:>8.2f} %", percent * share(count.strokes, report.strokes));
     characters += fmt::format("{:>8.2f} %", percent * share(count.characters, report.characters));
   }
-  text += strokes + "\n" + characters + "\n\nfarthest, in % of the em\n";
+  return strokes + "\n" + characters + "\n";
+}
+
+std::string fit_table(const ImportReport& report) {
+  std::string text = "\nfar from what was drawn, at most         0.5 %       1 %       2 %  of the em\n";
+  text += fit_rows(report.within, report);
+  if (report.kind == SourceKind::hanzi_writer_data) {
+    text += "with the corners that the brush's median cuts\n" + fit_rows(report.within_median, report);
+  }
+  text += "\nfarthest, in % of the em\n";
   for (const StrokeError& worst : report.worst) {
     text += fmt::format("{:>8.2f}  {}, {}\n", percent * worst.error, place_name(worst.place), typical_name(worst.id));
   }
@@ -99,9 +108,9 @@ Json place_json(const StrokePlace& place) {
   return {{"character", encode_utf8(place.code)}, {"order", place.order}, {"stroke", place.stroke}};
 }
 
-Json fit_json(const ImportReport& report) {
+Json fit_json(const std::array<FitCount, 3>& counts, const ImportReport& report) {
   Json rows = Json::array();
-  for (const FitCount& count : report.within) {
+  for (const FitCount& count : counts) {
     rows.push_back({{"error_em", count.error},
                     {"strokes", count.strokes},
                     {"strokes_share", share(count.strokes, report.strokes)},
@@ -205,7 +214,8 @@ std::string json(const Import& import, const ImportOutput& output) {
               {"characters", report.characters},
               {"strokes", report.strokes}};
   if (report.kind != SourceKind::calligraphy) {
-    all["within"] = fit_json(report);
+    all["within"] = fit_json(report.within, report);
+    all["within_median"] = fit_json(report.within_median, report);
     all["worst"] = worst_json(report);
     all["labels"] = label_json(report);
   }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <span>
 
 #include <calligraphy/model/bezier.hpp>
@@ -14,15 +15,17 @@ namespace {
 
 using Path = std::vector<Point>;
 
-constexpr double overlap_distance = 0.01;  // [em]; a line of print is wider
-constexpr double outside_distance = 0.01;  // [em]
-constexpr double against = -0.17;          // cosine of 100 degrees, from which on a start is wrong
-constexpr double shortest_start = 0.02;    // [em]; of what is shorter no direction is told
+constexpr double overlap_distance = 0.01;                     // [em]; a line of print is wider
+constexpr double outside_distance = 0.01;                     // [em]
+constexpr double against = 100.0 * std::numbers::pi / 180.0;  // of the typical start [rad]
+constexpr double longest_dot = 0.25;     // [em]; one element as short as this may be called dian, pie, ti or shu
+constexpr double shortest_start = 0.02;  // [em]; of what is shorter no direction is told
 constexpr int curve_steps = 24;
 constexpr double longest_step = 0.02;  // [em]
 
 /// Typical strokes that one curve may be, so that geometry alone cannot say which is meant.
-constexpr std::array<std::array<int, 5>, 13> alike = {{{3, 4, 5},
+constexpr std::array<std::array<int, 5>, 14> alike = {{{1, 10},
+                                                       {3, 4, 5},
                                                        {2, 3},
                                                        {8, 9, 38},
                                                        {6, 7, 38, 8},
@@ -83,11 +86,17 @@ Point typical_start(const TypicalStroke& type) {
   return Point(type.shape[end][0], type.shape[end][1]) - Point(type.shape[0][0], type.shape[0][1]);
 }
 
-bool starts_against(const Stroke& stroke) {
-  const Point start = start_of(stroke.control_points, *stroke.type, stroke.curve_degree);
-  const Point typical = typical_start(*stroke.type);
-  if (start.norm() < shortest_start || typical.norm() < shortest_start) return false;  // a dot, a circle
-  return start.normalized().dot(typical.normalized()) < against;
+/// Is the stroke one short element, whose name is a matter of what it is part of?
+bool is_dot(const Stroke& stroke) {
+  return stroke.type->elements.size() == 1 &&
+         (stroke.control_points.back() - stroke.control_points.front()).norm() < longest_dot;
+}
+
+/// The typical stroke with whose shape the curve contradicts the one that is recorded; 0 when none does.
+int other_type(const Stroke& stroke, const Path& path) {
+  if (is_dot(stroke)) return 0;
+  const int found = fit_stroke(path, {.brush = false}).stroke.id;
+  return found == stroke.type->id || are_alike(found, stroke.type->id) ? 0 : found;
 }
 
 double distance_outside(const Path& path) {
@@ -141,6 +150,13 @@ const char* name_of(DoubtKind kind) noexcept {
   return "outside";
 }
 
+double turn_from_typical_start(const Stroke& stroke) {
+  const Point start = start_of(stroke.control_points, *stroke.type, stroke.curve_degree);
+  const Point typical = typical_start(*stroke.type);
+  if (start.norm() < shortest_start || typical.norm() < shortest_start) return 0.0;  // a dot, a circle
+  return std::acos(std::clamp(start.normalized().dot(typical.normalized()), -1.0, 1.0));
+}
+
 std::vector<Doubt> doubtful_strokes(const Character& character) {
   std::vector<Doubt> doubts;
   std::vector<Path> paths;
@@ -150,13 +166,12 @@ std::vector<Doubt> doubtful_strokes(const Character& character) {
     paths.push_back(sampled(stroke));
     const Path& path = paths.back();
     // A stroke written backwards has the shape of another: one doubt says it.
-    if (starts_against(stroke)) {
+    if (turn_from_typical_start(stroke) > against) {
       doubts.push_back(
           {number, DoubtKind::direction, "starts against the direction of " + name_with_id(stroke.type->id)});
-    } else if (const int found = fit_stroke(path, {.brush = false}).stroke.id;
-               found != stroke.type->id && !are_alike(found, stroke.type->id)) {
+    } else if (const int other = other_type(stroke, path); other != 0) {
       doubts.push_back({number, DoubtKind::type,
-                        "is called " + name_with_id(stroke.type->id) + " and has the shape of " + name_with_id(found)});
+                        "is called " + name_with_id(stroke.type->id) + " and has the shape of " + name_with_id(other)});
     }
     if (const double outside = distance_outside(path); outside > outside_distance) {
       doubts.push_back({number, DoubtKind::outside, "leaves the em square by " + percent_of_em(outside)});

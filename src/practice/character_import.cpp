@@ -4,6 +4,7 @@
 #include <atomic>
 #include <charconv>
 #include <fstream>
+#include <numbers>
 #include <optional>
 #include <set>
 #include <span>
@@ -15,6 +16,7 @@
 
 #include <calligraphy/error.hpp>
 #include <calligraphy/model/character_set.hpp>
+#include <calligraphy/model/doubtful_strokes.hpp>
 #include <calligraphy/model/stroke_fit.hpp>
 #include <calligraphy/model/text.hpp>
 #include <calligraphy/practice/hanzi_writer.hpp>
@@ -32,6 +34,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view licence_file = "ARPHICPL.TXT";
 constexpr std::string_view package_file = "package.json";
+constexpr double label_turn = std::numbers::pi / 3.0;  // [rad]; nor one whose stroke starts in another direction
 constexpr double label_error = 0.01;       // [em]; a label whose stroke leaves the drawing farther is no help
 constexpr int most_strokes = 1'000'000;    // of an import; the largest source known has 148 thousand
 constexpr std::size_t longest_order = 64;  // [byte]
@@ -136,19 +139,34 @@ struct DrawnStroke {
   std::span<const int> label_ids;
 };
 
+/// How the strokes of a source are drawn: medians of a brush, or lines of a textbook hand.
+StrokeFitOptions drawing_of(SourceKind kind) {
+  const bool brush = kind == SourceKind::hanzi_writer_data;
+  return {.brush = brush, .pressed_start = !brush, .ids = {}};
+}
+
+/// May the label have its way with a stroke of its own kind, where geometry alone recognised another?
+bool is_plausible(const FittedStroke& labelled, const FittedStroke& recognised) {
+  const StrokeInput& stroke = labelled.stroke;
+  return labelled.error <= std::max(label_error, recognised.error) &&
+         turn_from_typical_start({&typical_stroke(stroke.id), 3, stroke.control_points, {}}) <= label_turn;
+}
+
 /// Fits a stroke. A label is heard only where it contradicts the shape: most strokes are fitted once.
-FittedStroke fit(const DrawnStroke& drawn, bool brush, ImportedStroke& result) {
-  FittedStroke fitted = fit_stroke(drawn.path, {brush, {}});
+FittedStroke fit(const DrawnStroke& drawn, StrokeFitOptions options, ImportedStroke& result) {
+  FittedStroke fitted = fit_stroke(drawn.path, options);
   const auto& ids = drawn.label_ids;
   result.recognised = fitted.stroke.id;
   result.label = drawn.label;
   result.label_known = !ids.empty();
   result.label_agrees = std::find(ids.begin(), ids.end(), result.recognised) != ids.end();
   if (result.label_known && !result.label_agrees) {
-    FittedStroke labelled = fit_stroke(drawn.path, {brush, ids});
-    if (labelled.error <= std::max(label_error, fitted.error)) fitted = std::move(labelled);
+    options.ids = ids;
+    FittedStroke labelled = fit_stroke(drawn.path, options);
+    if (is_plausible(labelled, fitted)) fitted = std::move(labelled);
   }
   result.error = fitted.error;
+  result.median_error = fitted.median_error;
   return fitted;
 }
 
@@ -219,7 +237,7 @@ class Importer {
     for (const DrawnStroke& stroke : drawn) {
       result.strokes.emplace_back();
       try {
-        strokes.push_back(fit(stroke, kind_ == SourceKind::hanzi_writer_data, result.strokes.back()).stroke);
+        strokes.push_back(fit(stroke, drawing_of(kind_), result.strokes.back()).stroke);
       } catch (const ValueError& error) {
         throw FormatError(drawing.place + ": stroke " + std::to_string(result.strokes.size()) + ": " + error.what());
       }

@@ -9,6 +9,17 @@ namespace {
 
 constexpr std::size_t most_worst = 10;
 
+using FitCounts = std::array<FitCount, 3>;
+
+/// Counts a character with every stroke within each error.
+void count_character(FitCounts& counts, const std::vector<ImportedStroke>& strokes, double ImportedStroke::*error) {
+  for (FitCount& count : counts) {
+    const auto is_within = [&](const ImportedStroke& stroke) { return stroke.*error <= count.error; };
+    count.strokes += static_cast<int>(std::count_if(strokes.begin(), strokes.end(), is_within));
+    count.characters += std::all_of(strokes.begin(), strokes.end(), is_within) ? 1 : 0;
+  }
+}
+
 /// Counts stroke by stroke, in the order of the characters.
 class Counter {
  public:
@@ -16,14 +27,13 @@ class Counter {
 
   void add(const ImportedCharacter& imported) {
     const Character& character = imported.character;
-    double largest = 0.0;
     for (std::size_t i = 0; i < imported.strokes.size(); ++i) {
       const StrokePlace place{character.code, character.order, static_cast<int>(i) + 1};
       const int id = character.sequence.stroke_ids[i];
-      largest = std::max(largest, imported.strokes[i].error);
       add_stroke(imported.strokes[i], place, id);
     }
-    for (FitCount& count : report_.within) count.characters += largest <= count.error ? 1 : 0;
+    count_character(report_.within, imported.strokes, &ImportedStroke::error);
+    count_character(report_.within_median, imported.strokes, &ImportedStroke::median_error);
     if (imported.letters_unused) report_.letters_unused.push_back(character.code);
     ++report_.characters;
   }
@@ -42,7 +52,6 @@ class Counter {
   void add_stroke(const ImportedStroke& stroke, const StrokePlace& place, int id) {
     ++report_.strokes;
     ++report_.ids_used[static_cast<std::size_t>(id)];
-    for (FitCount& count : report_.within) count.strokes += stroke.error <= count.error ? 1 : 0;
     errors_.push_back({place, id, stroke.error});
     if (stroke.label.empty()) return;
     if (stroke.label_known) ++report_.labelled;

@@ -9,9 +9,10 @@
 namespace calligraphy {
 
 struct ImportedStroke {
-  double error = 0.0;  ///< [em]
-  int recognised = 0;  ///< id by geometry alone
-  std::string label;   ///< empty where there is none
+  double error = 0.0;         ///< [em]
+  double median_error = 0.0;  ///< with the corners that a brush's median cuts [em]
+  int recognised = 0;         ///< id by geometry alone
+  std::string label;          ///< empty where there is none
   bool label_known = false;
   bool label_agrees = false;
 };

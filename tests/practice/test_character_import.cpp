@@ -122,13 +122,14 @@ TEST_CASE("a label decides between strokes that follow the drawing, and is overr
                                         {"㇐", steep_heng},     // obeyed: geometry alone says ti
                                         {"㇑", shu_with_hook},  // overruled: a line loses the hook
                                         {"６", heng},           // unknown
-                                        {"", shu}}));           // none
+                                        {"", shu},
+                                        {"㇐", shu}}));  // none
   const Import import = import_characters(directory.path());
   const ImportReport& report = import.report;
-  CHECK(import.list.characters[0].sequence.stroke_ids == std::vector<int>{1, 1, 12, 1, 2});
-  CHECK(report.labelled == 3);
+  CHECK(import.list.characters[0].sequence.stroke_ids == std::vector<int>{1, 1, 12, 1, 2, 2});
+  CHECK(report.labelled == 4);
   CHECK(report.agreed == 1);
-  REQUIRE(report.label_doubts.size() == 3);
+  REQUIRE(report.label_doubts.size() == 4);
   CHECK(report.label_doubts[0].place.stroke == 2);
   CHECK(report.label_doubts[0].fate == LabelFate::obeyed);
   CHECK(report.label_doubts[0].recognised == 10);
@@ -138,7 +139,9 @@ TEST_CASE("a label decides between strokes that follow the drawing, and is overr
   CHECK(report.label_doubts[1].id == 12);
   CHECK(report.label_doubts[2].place.stroke == 4);
   CHECK(report.label_doubts[2].fate == LabelFate::unknown);
-  REQUIRE(report.confusions.size() == 2);
+  CHECK(report.label_doubts[3].place.stroke == 6);
+  CHECK(report.label_doubts[3].fate == LabelFate::overruled);  // a line fits, but no heng goes down
+  REQUIRE(report.confusions.size() == 3);
   CHECK(report.confusions[0].count == 1);
 }
 

@@ -15,7 +15,7 @@ from program import ProgramTest
 HENG = '<path kvg:type="㇐" d="M10,50c30,0,60,-1,90,-2"/>'
 SHU = '<path kvg:type="㇑" d="M50,10c0,30,0,60,0,85"/>'
 FIELDS = {"file", "format", "bytes", "kind", "source", "licence", "attribution", "characters", "strokes", "within",
-          "worst", "labels", "ids_used", "skipped", "notes"}
+          "within_median", "worst", "labels", "ids_used", "skipped", "notes"}
 
 
 def svg(content=HENG, head=""):

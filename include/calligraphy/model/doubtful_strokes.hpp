@@ -24,9 +24,13 @@ struct Doubt {
   std::string what;
 };
 
+/// How far the chord of a stroke's first element is turned from that of its typical stroke [rad], 0 to pi; 0 where one
+/// of them is too short to have a direction.
+double turn_from_typical_start(const Stroke& stroke);
+
 /// Looks at every stroke of a valid character; docs/import.md has the bounds. A type is doubted when geometry alone
-/// recognises another in the stroke's own curve, unless the two are told apart by more than the curve (as dian and
-/// left dian are) or by a matter of degree (as pie and short pie). O(strokes^2), about a fit per stroke.
+/// recognises another in the stroke's own curve, unless the two differ by a matter of degree (as pie and short pie) or
+/// the stroke is a dot. O(strokes^2), about a fit per stroke.
 std::vector<Doubt> doubtful_strokes(const Character& character);
 
 }  // namespace calligraphy

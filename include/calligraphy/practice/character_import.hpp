@@ -43,8 +43,8 @@ struct StrokePlace {
 /// Strokes, and characters with every stroke, that are within an error of what was drawn.
 struct FitCount {
   double error;  ///< [em]
-  int strokes;
-  int characters;
+  int strokes = 0;
+  int characters = 0;
 };
 
 struct StrokeError {
@@ -82,9 +82,10 @@ struct ImportReport {
   int strokes = 0;
 
   // What was fitted: nothing of a set file or the text format.
-  std::array<FitCount, 3> within{{{0.005, 0, 0}, {0.01, 0, 0}, {0.02, 0, 0}}};
-  std::vector<StrokeError> worst;                        ///< at most ten
-  std::array<int, typical_stroke_count + 1> ids_used{};  ///< strokes by id
+  std::array<FitCount, 3> within{{{0.005}, {0.01}, {0.02}}};         ///< of the pen's path in the drawing
+  std::array<FitCount, 3> within_median{{{0.005}, {0.01}, {0.02}}};  ///< with the corners that a brush's median cuts
+  std::vector<StrokeError> worst;                                    ///< at most ten
+  std::array<int, typical_stroke_count + 1> ids_used{};              ///< strokes by id
 
   int labelled = 0;                      ///< strokes with a label or letter that is known
   int agreed = 0;                        ///< of these, recognised by geometry alone as what the label says
@@ -103,7 +104,8 @@ struct Import {
 
 /// Imports hanzi-writer-data, KanjiVG (either as a directory or as an npm tarball), a set file or the text format;
 /// which one it is, the content says. A label or letter decides between typical strokes as long as one of its own
-/// follows the drawing within 1 % of the em, or as well as the one recognised by geometry alone.
+/// follows the drawing within 1 % of the em, or as well as the one recognised by geometry alone, and starts within 60
+/// degrees of its typical direction.
 /// @throws FileError when the source cannot be read; FormatError naming the file and the place when anything in it is
 ///         not what it should be or beyond the limits; ValueError for options out of their domain. Nothing is imported
 ///         in part.
