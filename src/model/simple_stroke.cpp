@@ -32,7 +32,7 @@ Turns turns_of(const SimpleShape& shape) {
 
 /// Pie, short pie or shu pie.
 int kind_of_pie(const SimpleShape& shape) {
-  constexpr double straight = 0.006;      // [em] from a line; a short pie is one
+  constexpr double straight = 0.01;       // [em] from a line; a short pie is one
   constexpr double upright = -113.0;      // [degree]; a shu pie is steeper than this
   constexpr double shu_pie_bulge = 0.02;  // [1]; and turns off towards its end
   constexpr double flat = -148.0;         // [degree]; as on top of 千
@@ -52,8 +52,8 @@ int kind_of_na(const SimpleShape& shape) {
 /// Dian, chang dian or zuo dian.
 int kind_of_dian(const SimpleShape& shape) {
   constexpr double steepest_dian = -80.0;  // [degree]; what leans farther to the left is a zuo dian
-  constexpr double straight = 0.009;       // [em] from a line
-  constexpr double long_length = 0.22;     // [em]
+  constexpr double straight = 0.012;       // [em] from a line
+  constexpr double long_length = 0.24;     // [em]
   if (shape.direction < steepest_dian) return 9;
   return shape.line_error > straight || (shape.length > long_length && shape.bulge > 0.012) ? 38 : 8;
 }

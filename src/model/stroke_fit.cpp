@@ -153,8 +153,8 @@ struct Rounder {
   double from_error;  ///< [em]
 };
 constexpr Rounder rounder_strokes[] = {
-    {5, 4, 0.006},    // short pie, pie
-    {8, 38, 0.006},   // dian, chang dian
+    {5, 4, 0.01},     // short pie, pie
+    {8, 38, 0.01},    // dian, chang dian
     {32, 30, 0.003},  // shu zhe, shu wan
 };
 

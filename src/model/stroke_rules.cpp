@@ -83,6 +83,8 @@ namespace {
 
 /// A heng gou's second limb is no longer than this [em].
 constexpr double longest_heng_gou_hook = 0.25;
+/// A pen's hook is no longer than this [em].
+constexpr double longest_pen_hook = 0.17;
 
 /// Prices in the currency of the choice, em of deviation.
 constexpr double price_of_degree = 0.0009;
@@ -136,11 +138,13 @@ int sibling_of(int id, const Path& path, std::span<const std::size_t> splits, bo
       const double bow = bulge_of(element(0), chord(0).norm());
       return brush && bow < 0.075 && direction_of(chord(0)) < -92.0 ? 12 : 13;
     }
-    case 16: {  // the second limb of heng pie leans farther, in a pen's hand less far than under a brush
+    case 16: {  // the second limb of heng pie leans farther; in a pen's hand a long one need not lean as far
       const double direction = direction_of(chord(1));
-      const bool is_long = path_length(element(1)) > longest_heng_gou_hook;
-      if (!contains({-180.0, brush || !is_long ? -118.0 : -109.0}, direction)) return 16;
-      return is_long ? 17 : 11;
+      const double length = path_length(element(1));
+      const bool leans = !brush && length > longest_pen_hook ? contains({-180.0, -109.0}, direction)
+                                                             : contains({-180.0, -118.0}, direction);
+      if (!leans) return 16;
+      return length > longest_heng_gou_hook ? 17 : 11;
     }
     case 21: {  // heng xie gou falls all the way to its hook, heng zhe wan gou runs out level
       const std::span<const Point> curve = element(1);

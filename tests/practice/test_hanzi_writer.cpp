@@ -158,7 +158,7 @@ TEST_CASE("well-known characters of the package have the strokes that schools te
       {U'北', {2, 1, 10, 4, 31}},
       {U'马', {16, 35, 1}},
       {U'月', {3, 18, 1, 1}},
-      {U'心', {9, 15, 8, 8}},
+      {U'心', {9, 15, 8, 38}},
       {U'口', {2, 16, 1}},
       {U'女', {37, 4, 1}},
       {U'又', {17, 6}},
