@@ -9,6 +9,7 @@
 
 #include "checksum.hpp"
 #include "little_endian.hpp"
+#include "order_name.hpp"
 
 namespace calligraphy {
 namespace {
@@ -231,7 +232,9 @@ bool SetFile::read_form(Record& rest, StoredCharacter& form) const noexcept {
     if ((head & named) != 0) {
       const std::size_t length = at < end ? std::to_integer<std::size_t>(bytes_[at++]) : 0;
       if (length == 0 || length > end - at) return false;
-      form.order_ = {reinterpret_cast<const char*>(bytes_.data() + at), length};
+      const std::string_view name(reinterpret_cast<const char*>(bytes_.data() + at), length);
+      if (!is_order_name(name)) return false;
+      form.order_ = name;
       at += length;
     }
     if ((head & own_coding) != 0) {

@@ -7,7 +7,6 @@
 
 #include "code_name.hpp"
 #include "little_endian.hpp"
-#include "order_name.hpp"
 #include "set_file.hpp"
 #include "set_format.hpp"
 
@@ -71,7 +70,10 @@ bool in_domain(const Point& point) noexcept {
 
 }  // namespace
 
-const Provenance& StoredCharacter::provenance() const noexcept { return file_->provenance(); }
+const Provenance& StoredCharacter::provenance() const noexcept {
+  static const Provenance none;
+  return file_ ? file_->provenance() : none;
+}
 
 int StoredCharacter::stroke_id(int index) const noexcept {
   if (index < 0 || index >= stroke_count_) return 0;
@@ -126,7 +128,7 @@ std::optional<StoredStroke> StoredCharacter::stroke(int index) const noexcept {
 
 Character StoredCharacter::character() const {
   const auto fail = [&](const std::string& what) {
-    throw FormatError(file_->name() + ": character " + code_name(code_) + " is damaged: " + what);
+    throw FormatError((file_ ? file_->name() : "no set") + ": character " + code_name(code_) + " is damaged: " + what);
   };
   if (stroke_count_ == 0) fail("the checksum or the numbers of the place where it is kept do not agree");
   const auto& counts = stroke_counts()[static_cast<std::size_t>(curve_degree_ - 3)];
@@ -153,7 +155,6 @@ Character StoredCharacter::character() const {
     }
   }
   try {
-    if (!order_.empty()) check_order_name(order_);
     Character character = make_character(code_, strokes, curve_degree_);
     character.order = order_;
     return character;

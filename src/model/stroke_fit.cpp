@@ -189,7 +189,8 @@ class Fit {
       if (rounder.id != best.stroke.id || best.error <= rounder.from_error) continue;
       const bool allowed =
           options_.ids.empty() || std::ranges::find(options_.ids, rounder.instead) != options_.ids.end();
-      if (allowed) keep_better(best, as(recognised({&rounder.instead, 1}).at(0)));
+      const std::vector<Recognition> other = recognised({&rounder.instead, 1});
+      if (allowed && !other.empty()) keep_better(best, as(other[0]));
       break;
     }
     return best;

@@ -281,6 +281,15 @@ TEST_CASE("a character lives on when its set is gone, and a set when it was copi
   CHECK(copy.size() == built_in_characters().characters.size());
 }
 
+TEST_CASE("a character of no set has no strokes", "[model]") {
+  const StoredCharacter none;
+  CHECK(none.stroke_count() == 0);
+  CHECK(none.stroke_id(0) == 0);
+  CHECK_FALSE(none.stroke(0));
+  CHECK(none.provenance() == Provenance());
+  CHECK_THROWS_AS(none.character(), FormatError);
+}
+
 TEST_CASE("several threads find and decode in a set none of them has used", "[model]") {
   const CharacterList list = rich_list();
   for (int repetition = 0; repetition < 20; ++repetition) {

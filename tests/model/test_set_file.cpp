@@ -15,6 +15,7 @@
 #include <calligraphy/model/set_encoding.hpp>
 #include <model/checksum.hpp>
 #include <model/little_endian.hpp>
+#include <model/order_name.hpp>
 #include <model/set_format.hpp>
 
 #include "character_lists.hpp"
@@ -36,6 +37,7 @@ CharacterList small_list() {
   for (const Character& character : rich.characters) {
     if (character.code == U'北' || character.code == U'\U00020000') list.characters.push_back(character);
   }
+  list.characters.push_back(with_quartic_curves(one_stroke(U'\U00020001')));  // short, and its form not plain
   return list;
 }
 
@@ -101,6 +103,7 @@ void use(const CharacterSet& set) {
       for (const double factor : stroke->stroke().attraction_factors) REQUIRE(factor >= 0.0);
     }
     for (const std::string& order : set.orders(character.code())) {
+      if (!order.empty()) REQUIRE(is_order_name(order));
       try {
         const Character whole = set.find(character.code(), order)->character();
         REQUIRE(validate(whole).empty());
@@ -110,6 +113,18 @@ void use(const CharacterSet& set) {
     }
   }
   REQUIRE(count == set.size());
+}
+
+/// Whether the bytes can be opened once their checksums agree; everything in them is asked for.
+bool use_forged(Bytes bytes) {
+  forge_checksums(bytes);
+  try {
+    use(CharacterSet::from_bytes(std::move(bytes), "test.set"));
+    return true;
+  } catch (const FormatError& error) {
+    REQUIRE(std::string(error.what()).starts_with("test.set: "));
+    return false;
+  }
 }
 
 /// A file of its own, removed in the end.
@@ -234,11 +249,33 @@ TEST_CASE("damage in one group leaves the others as they were", "[model]") {
   }
 }
 
-TEST_CASE("forged numbers under right checksums lead nowhere outside the file", "[model]") {
+TEST_CASE("any byte forged under right checksums leads nowhere outside the file", "[model]") {
 #if defined(__SANITIZE_ADDRESS__)
-  constexpr int repetitions = 30'000;
+  constexpr unsigned stride = 17;  // 0 and 255 are among them
 #else
-  constexpr int repetitions = 100'000;
+  constexpr unsigned stride = 5;
+#endif
+  int opened = 0, refused = 0;
+  for (const CoordinatePrecision precision : {CoordinatePrecision::coarse, CoordinatePrecision::exact}) {
+    const Bytes whole = encode_character_set(small_list(), precision);
+    const std::size_t most = std::min<std::size_t>(whole.size(), 700);  // header, index and the numbers of the records
+    for (std::size_t at = set_format::size_at; at < most; ++at) {
+      for (unsigned value = 0; value < 256; value += stride) {
+        Bytes forged = whole;
+        forged[at] = static_cast<std::byte>(value);
+        ++(use_forged(std::move(forged)) ? opened : refused);
+      }
+    }
+  }
+  CHECK(opened > 1000);
+  CHECK(refused > 1000);
+}
+
+TEST_CASE("several numbers forged under right checksums lead nowhere outside the file", "[model]") {
+#if defined(__SANITIZE_ADDRESS__)
+  constexpr int repetitions = 10'000;
+#else
+  constexpr int repetitions = 50'000;
 #endif
   std::vector<Bytes> files;
   for (const CoordinatePrecision precision : {CoordinatePrecision::coarse, CoordinatePrecision::exact}) {
@@ -260,14 +297,7 @@ TEST_CASE("forged numbers under right checksums lead nowhere outside the file", 
       if (kind == 2) forged[at] = std::byte{0xFF};
       if (kind == 3 && at + 4 <= forged.size()) store(forged, at, static_cast<std::uint32_t>(draw(2 * forged.size())));
     }
-    forge_checksums(forged);
-    try {
-      use(CharacterSet::from_bytes(forged, "test.set"));
-      ++opened;
-    } catch (const FormatError& error) {
-      ++refused;
-      REQUIRE(std::string(error.what()).starts_with("test.set: "));
-    }
+    ++(use_forged(std::move(forged)) ? opened : refused);
   }
   CHECK(opened > repetitions / 10);
   CHECK(refused > repetitions / 10);
@@ -294,11 +324,48 @@ TEST_CASE("each number of the header is checked for what it says, not only by it
   CHECK(with(coding_at, 0xFFFFFFFF).find("coding") != std::string::npos);
   CHECK(with(header_size, 0xFFFFFFFF).find("names of its source") != std::string::npos);
   CHECK(with(header_size + 1, 0xFF000000).find("names of its source") != std::string::npos);  // no UTF-8
+  CHECK(with(entries, 0).find("entry 1 ") != std::string::npos);                              // a group of no character
+  const auto with_block = [&](std::size_t group, std::uint16_t value) {
+    Bytes bytes = whole;
+    store(bytes, entries - (groups - group) * block_size, value);
+    forge_checksums(bytes);
+    return complaint(bytes);
+  };
+  CHECK(with_block(groups - 1, 0x110000 >> 6).find("entry 3 ") != std::string::npos);
+  CHECK(with_block(groups - 1, 0xDFFF >> 6).find("entry 3 ") != std::string::npos);  // surrogates
+  CHECK(with_block(groups - 1, 0).find("entry 3 ") != std::string::npos);            // not rising
+  CHECK(with_block(1, 0x4E00 >> 6).find("entry 2 ") != std::string::npos);
   for (std::size_t group = 0; group < groups; ++group) {
     const std::string entry = "entry ";
     CHECK(with(entries + group * entry_size + 8, 0xFFFFFFFF).find(entry) != std::string::npos);
     CHECK(with(entries + group * entry_size + 8, 1).find(entry) != std::string::npos);
   }
+}
+
+TEST_CASE("a coding of a character's own is checked like that of the file", "[model]") {
+  using namespace set_format;
+  CharacterList list;
+  list.characters.push_back(one_stroke(U'一'));
+  for (Point& point : list.characters[0].structure.control_points) point += Point(10.0, 0.1);
+  const Bytes whole = encode_character_set(list);
+  // The only record is at the end: offset u16, head, strokes, size, coding, bits.
+  const std::size_t record = load_u32(whole, first_group_at) + 2, coding = record + 3;
+  REQUIRE(whole[record] == static_cast<std::byte>(special | own_coding));
+  const auto with_bits = [&](int x, int y) {
+    Bytes bytes = whole;
+    bytes[coding + 12] = static_cast<std::byte>(x);
+    bytes[coding + 13] = static_cast<std::byte>(y);
+    forge_checksums(bytes);
+    return complaint(bytes);
+  };
+  const int x = std::to_integer<int>(whole[coding + 12]), y = std::to_integer<int>(whole[coding + 13]);
+  CHECK(with_bits(x, y).empty());
+  CHECK(with_bits(x + y, 0).find("一") != std::string::npos);  // as many bits as before, but not a width
+  CHECK(with_bits(0, x + y).find("一") != std::string::npos);
+  Bytes bytes = whole;
+  store(bytes, coding, most_steps_per_em + 1);
+  forge_checksums(bytes);
+  CHECK(complaint(bytes).find("一") != std::string::npos);
 }
 
 TEST_CASE("a newer version and another program's file are told so", "[model]") {

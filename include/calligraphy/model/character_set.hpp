@@ -44,7 +44,8 @@ struct StoredStroke {
   }
 };
 
-/// A character of a set: a view that keeps the set's bytes alive. Nothing of it is decoded before it is asked for.
+/// A character of a set: a view that keeps the set's bytes alive. Nothing of it is decoded before it is asked for. One
+/// that was made of nothing has no strokes, like a damaged one.
 class StoredCharacter {
  public:
   char32_t code() const noexcept { return code_; }

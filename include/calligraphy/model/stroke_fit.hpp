@@ -22,7 +22,8 @@ struct FittedStroke {
 };
 
 /// Finds the typical stroke and its control points for a pen path, a polyline in em, y up. What is removed of a path is
-/// not part of the errors; docs/strokes.md says what that is and how much.
+/// not part of the errors; docs/strokes.md says what that is and how much. What no stroke of `ids` can follow, a dot or
+/// a path with fewer corners than they have, becomes a straight dian (8).
 /// @throws ValueError when there is no point, a point is not finite or farther than 15 em, or an id is not in 1..39
 FittedStroke fit_stroke(std::span<const Point> path, const StrokeFitOptions& options = {});
 
