@@ -95,7 +95,7 @@ bool is_dot(const Stroke& stroke) {
 /// The typical stroke with whose shape the curve contradicts the one that is recorded; 0 when none does.
 int other_type(const Stroke& stroke, const Path& path) {
   if (is_dot(stroke)) return 0;
-  const int found = fit_stroke(path, {.brush = false}).stroke.id;
+  const int found = fit_stroke(path, {.drawn_with = DrawnWith::pen}).stroke.id;
   return found == stroke.type->id || are_alike(found, stroke.type->id) ? 0 : found;
 }
 

@@ -160,8 +160,8 @@ constexpr Rounder rounder_strokes[] = {
 
 /// The path that the pen follows: without what a brush adds to it.
 Path pen_path(const CleanPath& clean, const StrokeFitOptions& options) {
-  if (options.brush) return without_shoulders(clean.points);
-  return options.pressed_start ? without_entry(clean.points) : clean.points;
+  if (options.drawn_with == DrawnWith::brush) return without_shoulders(clean.points);
+  return options.drawn_with == DrawnWith::textbook_pen ? without_entry(clean.points) : clean.points;
 }
 
 /// Fits of one path as one stroke after another.
@@ -217,7 +217,7 @@ class Fit {
   }
 
   std::vector<Recognition> recognised(std::span<const int> ids) const {
-    return recognise(path_, corners_of(vertices_, path_), clean_, options_.brush, ids);
+    return recognise(path_, corners_of(vertices_, path_), clean_, options_.drawn_with == DrawnWith::brush, ids);
   }
 
   FittedStroke as(const Recognition& found) const {
@@ -230,7 +230,7 @@ class Fit {
   FittedStroke measured(StrokeInput stroke) const {
     const TypicalStroke& type = typical_stroke(stroke.id);
     const double error = two_sided_error(pen_, type, stroke.control_points);
-    const bool squared = options_.brush && pen_.size() != clean_.points.size();
+    const bool squared = options_.drawn_with == DrawnWith::brush && pen_.size() != clean_.points.size();
     const double median_error = squared ? two_sided_error(clean_.points, type, stroke.control_points) : error;
     return {std::move(stroke), error, median_error};
   }
@@ -248,7 +248,7 @@ class Fit {
 FittedStroke fit_stroke(std::span<const Point> median, const StrokeFitOptions& options) {
   check(median);
   for (const int id : options.ids) typical_stroke(id);  // throws when there is none
-  const CleanPath clean = options.brush ? clean_median(median) : clean_pen_path(median);
+  const CleanPath clean = options.drawn_with == DrawnWith::brush ? clean_median(median) : clean_pen_path(median);
   if (path_length(clean.points) < shortest_path) return dot_around(clean.points);
 
   const Fit fit(clean, options);

@@ -142,7 +142,7 @@ struct DrawnStroke {
 /// How the strokes of a source are drawn: medians of a brush, or lines of a textbook hand.
 StrokeFitOptions drawing_of(SourceKind kind) {
   const bool brush = kind == SourceKind::hanzi_writer_data;
-  return {.brush = brush, .pressed_start = !brush, .ids = {}};
+  return {.drawn_with = brush ? DrawnWith::brush : DrawnWith::textbook_pen};
 }
 
 /// May the label have its way with a stroke of its own kind, where geometry alone recognised another?

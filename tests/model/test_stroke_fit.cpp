@@ -162,7 +162,7 @@ TEST_CASE("every typical shape drawn by a pen is recognised as itself or as a do
     for (const double noise : {0.0, 0.002, 0.005}) {
       for (const TypicalStroke& type : typical_strokes()) {
         const Path path = changed(sampled(type, typical_points(type), 12), scale, noise * scale);
-        const FittedStroke fitted = fit_stroke(path, {.brush = false});
+        const FittedStroke fitted = fit_stroke(path, {.drawn_with = DrawnWith::pen});
         INFO("typical stroke " << type.id << " at scale " << scale << " with noise " << noise << " became "
                                << fitted.stroke.id);
         CHECK(accepted_ids(type.id).contains(fitted.stroke.id));
@@ -182,7 +182,8 @@ TEST_CASE("a dense typical shape is followed within 0.3 % of the em when its id 
           "[model]") {
   for (const TypicalStroke& type : typical_strokes()) {
     const int only[] = {type.id};
-    const FittedStroke fitted = fit_stroke(sampled(type, typical_points(type), 40), {.brush = false, .ids = only});
+    const FittedStroke fitted =
+        fit_stroke(sampled(type, typical_points(type), 40), {.drawn_with = DrawnWith::pen, .ids = only});
     INFO("typical stroke " << type.id << ", error " << fitted.error);
     CHECK(fitted.stroke.id == type.id);
     CHECK(fitted.error < (type.id == 39 ? 0.004 : 0.003));
@@ -193,7 +194,7 @@ TEST_CASE("a typical shape with noise of 0.5 % of the em is followed within 1 %,
   for (const TypicalStroke& type : typical_strokes()) {
     const Path path = changed(sampled(type, typical_points(type), 12), 1.0, 0.005);
     const int only[] = {type.id};
-    const FittedStroke fitted = fit_stroke(path, {.brush = false, .ids = only});
+    const FittedStroke fitted = fit_stroke(path, {.drawn_with = DrawnWith::pen, .ids = only});
     INFO("typical stroke " << type.id << ", error " << fitted.error);
     CHECK(fitted.error < (type.id == 39 ? 0.02 : 0.01));
   }
@@ -212,7 +213,7 @@ TEST_CASE("the stroke found does not depend on where it is written", "[model]") 
 TEST_CASE("the reported error of a pen path is the largest distance both ways to 1e-4 em", "[model]") {
   for (const TypicalStroke& type : typical_strokes()) {
     const Path path = changed(sampled(type, typical_points(type), 12), 1.0, 0.004);  // noise keeps it above zero
-    const FittedStroke fitted = fit_stroke(path, {.brush = false});
+    const FittedStroke fitted = fit_stroke(path, {.drawn_with = DrawnWith::pen});
     const Path model = sampled(typical_stroke(fitted.stroke.id), fitted.stroke.control_points, 400);
     Path dense{path.front()};
     for (std::size_t i = 1; i < path.size(); ++i) {
@@ -260,8 +261,9 @@ TEST_CASE("a short first limb is not taken for a brush entry", "[model]") {
 TEST_CASE("a pen path keeps its ends, and its pressed start goes only when that is asked for", "[model]") {
   const Path path{{0.35, 0.79}, {0.37, 0.775}, {0.38, 0.755}, {0.378, 0.40}, {0.376, 0.22}};
   const int shu[] = {2};
-  CHECK(fit_stroke(path, {.brush = false, .ids = shu}).error > 0.005);  // a line cannot follow the slanted start
-  const FittedStroke fitted = fit_stroke(path, {.brush = false, .pressed_start = true, .ids = shu});
+  CHECK(fit_stroke(path, {.drawn_with = DrawnWith::pen, .ids = shu}).error >
+        0.005);  // a line cannot follow the slanted start
+  const FittedStroke fitted = fit_stroke(path, {.drawn_with = DrawnWith::textbook_pen, .ids = shu});
   CHECK(std::abs(fitted.stroke.control_points.front().x() - 0.38) < 0.004);
   CHECK(fitted.error < 0.002);
 }
@@ -310,7 +312,7 @@ TEST_CASE("neighbouring strokes are told apart by direction and length", "[model
 TEST_CASE("hard inputs give a valid finite stroke, whatever is asked for", "[model]") {
   const std::vector<int> labels{16, 30, 39};
   const std::vector<StrokeFitOptions> asked{
-      {}, {.brush = false}, {.brush = false, .pressed_start = true}, {.brush = true, .ids = labels}};
+      {}, {.drawn_with = DrawnWith::pen}, {.drawn_with = DrawnWith::textbook_pen}, {.ids = labels}};
   for (const auto& [name, path] : hard_inputs()) {
     for (std::size_t i = 0; i < asked.size(); ++i) {
       INFO(name << ", options " << i);
@@ -341,7 +343,7 @@ TEST_CASE("random scribbles give valid strokes, and the same ones again", "[mode
     const int count = 2 + static_cast<int>(random() * 14);
     const double size = trial % 5 == 0 ? 10.0 : trial % 3 == 0 ? 0.05 : 1.0;
     for (int i = 0; i < count; ++i) path.emplace_back(size * random(), size * random());
-    const StrokeFitOptions options{.brush = trial % 2 == 0};
+    const StrokeFitOptions options{.drawn_with = trial % 2 == 0 ? DrawnWith::brush : DrawnWith::pen};
     INFO("scribble " << trial);
     const FittedStroke fitted = fit_stroke(path, options);
     const std::array strokes{fitted.stroke};
@@ -359,7 +361,7 @@ TEST_CASE("a shoulder that a brush has cut is squared, and by half a brush at mo
   const double reach = distance_to_segment(fitted.stroke.control_points[1], median[2], median[3]);
   CHECK(reach > 0.02);
   CHECK(reach < 0.04 + fitted.error);
-  const FittedStroke pen = fit_stroke(median, {.brush = false});
+  const FittedStroke pen = fit_stroke(median, {.drawn_with = DrawnWith::pen});
   CHECK(pen.error == pen.median_error);
   CHECK(distance_to_segment(pen.stroke.control_points[1], median[2], median[3]) <= pen.error + 1e-4);
 }

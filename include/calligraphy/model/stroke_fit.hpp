@@ -8,9 +8,15 @@
 
 namespace calligraphy {
 
+/// What the path was drawn with, and so what of it a pen does not write.
+enum class DrawnWith {
+  brush,         ///< the median of a brush stroke: entry, droop and shoulders are removed
+  textbook_pen,  ///< a line in a textbook hand: its pressed start is removed
+  pen            ///< a line as it is
+};
+
 struct StrokeFitOptions {
-  bool brush = true;              ///< the path is the median of a brush stroke: entry, droop and shoulders are removed
-  bool pressed_start = false;     ///< a pen path (brush false) in a textbook hand: its pressed start is removed
+  DrawnWith drawn_with = DrawnWith::brush;
   std::span<const int> ids = {};  ///< typical strokes that it may be, as a label says; none: all, by geometry alone
 };
 
