@@ -6,32 +6,20 @@
 
 #include <calligraphy/error.hpp>
 #include <calligraphy/model/text.hpp>
-#include <calligraphy/practice/hanzi_writer.hpp>
+#include <calligraphy/practice/character_import.hpp>
 
 #include "options.hpp"
 
 namespace calligraphy::tools {
 namespace {
 
-/// The characters of `text` that the package has.
-CharacterSet open_package(const std::string& directory, const std::u32string& text) {
-  CharacterList found{{"Make Me a Hanzi, as hanzi-writer-data",
-                       "Arphic Public License",
-                       "Arphic Technology, Make Me a Hanzi, Hanzi Writer",
-                       {}},
-                      {}};
-  for (const char32_t code : text) {
-    const std::filesystem::path file = std::filesystem::path(directory) / (encode_utf8(code) + ".json");
-    if (found.find(code) == nullptr && std::filesystem::exists(file)) {
-      found.characters.push_back(read_hanzi_writer(directory, code));
-    }
-  }
-  return CharacterSet(found);
-}
-
 CharacterSet open_one(const std::string& path, const std::u32string& text) {
   std::error_code failure;
-  if (!text.empty() && std::filesystem::is_directory(path, failure)) return open_package(path, text);
+  if (!text.empty() && std::filesystem::is_directory(path, failure)) {
+    ImportOptions asked;
+    asked.only = text;
+    return CharacterSet(import_characters(path, asked).list);
+  }
   return CharacterSet::open(path);
 }
 
