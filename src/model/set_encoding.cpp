@@ -149,8 +149,8 @@ void write_coordinate(BitWriter& bits, double coordinate, std::uint32_t steps_pe
 /// The bits of a form: ids, points, factors.
 class FormEncoder {
  public:
-  explicit FormEncoder(const std::array<std::uint8_t, common_id_count>& common_ids) {
-    for (std::size_t i = common_ids.size(); i-- > 0;) codes_[common_ids[i]] = static_cast<std::uint32_t>(i);
+  explicit FormEncoder(const RankedIds& ids) {
+    for (std::size_t i = 0; i < ids.size(); ++i) ranks_[ids[i]] = static_cast<std::uint32_t>(i);
   }
 
   Bytes encode(const Form& form, bool is_last) const {
@@ -188,9 +188,10 @@ class FormEncoder {
     const CoordinateCoding& coding = form.coding;
     BitWriter bits;
     for (const int id : character.sequence.stroke_ids) {
-      const std::uint32_t code = codes_[static_cast<std::size_t>(id)];
-      bits.write(code, short_id_bits);
-      if (code == long_id) bits.write(static_cast<std::uint64_t>(id), long_id_bits);
+      const std::uint32_t rank = ranks_[static_cast<std::size_t>(id)];
+      const int ones = static_cast<int>(rank / 2);
+      bits.write((std::uint64_t{1} << ones) - 1, ones + 1);
+      bits.write(rank % 2, 1);
     }
     for (const Point& point : character.structure.control_points) {
       write_coordinate(bits, point.x(), coding.steps_per_em, coding.x_origin, coding.x_bits);
@@ -202,11 +203,7 @@ class FormEncoder {
     return bits.bytes();
   }
 
-  std::array<std::uint32_t, typical_stroke_count + 1> codes_ = [] {
-    std::array<std::uint32_t, typical_stroke_count + 1> none;
-    none.fill(long_id);
-    return none;
-  }();
+  std::array<std::uint32_t, typical_stroke_count + 1> ranks_{};
 };
 
 std::string name_of(const Character& character) {
@@ -248,18 +245,16 @@ std::map<char32_t, std::vector<const Character*>> sorted(const CharacterList& se
   return forms;
 }
 
-/// The ids that most strokes have, the commonest first; 0 where there are fewer.
-std::array<std::uint8_t, common_id_count> commonest_ids(const CharacterList& set) {
+/// All ids, those that most strokes have first.
+RankedIds ranked_ids(const CharacterList& set) {
   std::array<std::size_t, typical_stroke_count + 1> strokes{};
   for (const Character& character : set.characters) {
     for (const int id : character.sequence.stroke_ids) ++strokes[static_cast<std::size_t>(id)];
   }
-  std::array<std::uint8_t, typical_stroke_count> ids{};
+  RankedIds ids{};
   std::iota(ids.begin(), ids.end(), std::uint8_t{1});
   std::stable_sort(ids.begin(), ids.end(), [&](auto a, auto b) { return strokes[a] > strokes[b]; });
-  std::array<std::uint8_t, common_id_count> commonest{};
-  for (std::size_t i = 0; i < common_id_count && strokes[ids[i]] > 0; ++i) commonest[i] = ids[i];
-  return commonest;
+  return ids;
 }
 
 /// Gathers the records of 64 neighbouring code points, group after group.
@@ -315,7 +310,7 @@ class GroupWriter {
 
 struct Header {
   CoordinateCoding coding;
-  std::array<std::uint8_t, common_id_count> common_ids;
+  RankedIds ids;
   double coordinate_error;
 };
 
@@ -334,7 +329,7 @@ Bytes assemble(const Header& header, const Provenance& provenance, const GroupWr
   append(index, static_cast<std::uint32_t>(writer.blocks.size()));
   append(index, std::bit_cast<std::uint64_t>(header.coordinate_error));
   append_coding(index, header.coding);
-  for (const std::uint8_t id : header.common_ids) append(index, id);
+  for (const std::uint8_t id : header.ids) append(index, id);
   for (const std::string* text : texts) {
     append(index, static_cast<std::uint32_t>(text->size()));
     append_text(index, *text);
@@ -367,8 +362,8 @@ double coordinate_error_bound(CoordinatePrecision precision) noexcept {
 std::vector<std::byte> encode_character_set(const CharacterList& set, CoordinatePrecision precision) {
   check(set.provenance);
   const auto characters = sorted(set);
-  Header header{coding_of(precision), commonest_ids(set), 0.0};
-  const FormEncoder encoder(header.common_ids);
+  Header header{coding_of(precision), ranked_ids(set), 0.0};
+  const FormEncoder encoder(header.ids);
   GroupWriter writer;
   for (const auto& [code, forms] : characters) {
     Bytes record;

@@ -93,7 +93,12 @@ void SetFile::read_header() {
   if (!(coordinate_error_ >= 0.0) || std::isinf(coordinate_error_)) fail("its coordinate error is no distance");
   coding_ = load_coding(bytes_.data() + coding_at);
   if (!is_sound(coding_)) fail("its coding of coordinates has impossible numbers");
-  for (std::size_t i = 0; i < common_id_count; ++i) common_ids_[i] = load<std::uint8_t>(&bytes_[common_ids_at + i]);
+  for (std::size_t i = 0; i < ranked_ids_.size(); ++i) {
+    ranked_ids_[i] = load<std::uint8_t>(&bytes_[ranked_ids_at + i]);
+    if (ranked_ids_[i] < 1 || ranked_ids_[i] > typical_stroke_count) {
+      fail("its list of typical strokes has the id " + std::to_string(ranked_ids_[i]));
+    }
+  }
 }
 
 void SetFile::read_provenance() {
@@ -249,7 +254,7 @@ bool SetFile::read_form(Record& rest, StoredCharacter& form) const noexcept {
   rest.begin = end;
   form.first_bit_ = 8 * std::uint64_t{at};
   form.end_bit_ = 8 * std::uint64_t{end};
-  if (strokes == 0 || std::uint64_t{strokes} * short_id_bits > form.end_bit_ - form.first_bit_) return false;
+  if (strokes == 0 || std::uint64_t{strokes} * least_id_bits > form.end_bit_ - form.first_bit_) return false;
   if (strokes > static_cast<std::uint32_t>(std::numeric_limits<int>::max())) return false;
   form.stroke_count_ = static_cast<int>(strokes);
   return true;

@@ -42,7 +42,7 @@ class SetFile {
   std::size_t size() const noexcept { return size_; }
   const Provenance& provenance() const noexcept { return provenance_; }
   double coordinate_error() const noexcept { return coordinate_error_; }
-  std::span<const std::uint8_t, set_format::common_id_count> common_ids() const noexcept { return common_ids_; }
+  const set_format::RankedIds& ranked_ids() const noexcept { return ranked_ids_; }
 
  private:
   /// Where the forms of a character are [byte]; empty when that place is damaged.
@@ -85,7 +85,7 @@ class SetFile {
   std::span<const std::byte> bytes_;
   Provenance provenance_;
   CoordinateCoding coding_;
-  std::array<std::uint8_t, set_format::common_id_count> common_ids_{};
+  set_format::RankedIds ranked_ids_{};
   double coordinate_error_ = 0.0;
   std::size_t group_count_ = 0;
   std::size_t first_group_ = 0;

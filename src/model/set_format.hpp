@@ -26,9 +26,8 @@ inline constexpr std::size_t group_count_at = 24;
 inline constexpr std::size_t error_at = 28;
 inline constexpr std::size_t coding_at = 36;
 inline constexpr std::size_t coding_size = 14;
-inline constexpr std::size_t common_ids_at = 50;
-inline constexpr std::size_t common_id_count = 15;
-inline constexpr std::size_t header_size = 65;
+inline constexpr std::size_t ranked_ids_at = 50;  ///< all typical stroke ids, the commonest first
+inline constexpr std::size_t header_size = ranked_ids_at + typical_stroke_count;
 
 /// A group holds the characters of 64 neighbouring code points.
 inline constexpr int group_shift = 6;
@@ -53,10 +52,11 @@ inline constexpr unsigned known_flags = more_forms | named | quartic | factors |
 inline constexpr std::size_t most_plain_strokes = 127;
 inline constexpr std::size_t longest_order_name = 255;  // [byte]
 
-// A stroke id is a place among the common ones, 4 bits, or this and 8 bits more.
-inline constexpr int short_id_bits = 4;
-inline constexpr std::uint32_t long_id = 15;
-inline constexpr int long_id_bits = 8;
+// A stroke id is its rank in a Rice code of parameter 1: half the rank as so many ones, a zero, and the odd bit.
+inline constexpr int least_id_bits = 2;
+inline constexpr int most_id_bits = (typical_stroke_count - 1) / 2 + 2;
+
+using RankedIds = std::array<std::uint8_t, typical_stroke_count>;
 
 inline constexpr std::uint32_t most_steps_per_em = 1U << 26;
 inline constexpr std::uint8_t most_coordinate_bits = 32;

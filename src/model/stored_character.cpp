@@ -51,11 +51,11 @@ class IdReader {
 
   /// 0 when it is none.
   int next() noexcept {
-    const std::uint32_t bits = load_bits(file_.bytes(), at_, short_id_bits + long_id_bits);
-    const std::uint32_t first = bits & long_id;
-    at_ += first == long_id ? short_id_bits + long_id_bits : short_id_bits;
-    const std::uint32_t id = first == long_id ? bits >> short_id_bits : file_.common_ids()[first];
-    return id <= typical_stroke_count ? static_cast<int>(id) : 0;
+    const std::uint32_t bits = load_bits(file_.bytes(), at_, most_id_bits);
+    const int ones = std::countr_one(bits);
+    at_ += static_cast<std::uint64_t>(ones + 2);
+    const std::size_t rank = 2 * static_cast<std::size_t>(ones) + ((bits >> (ones + 1)) & 1);
+    return rank < typical_stroke_count ? file_.ranked_ids()[rank] : 0;
   }
   std::uint64_t at() const noexcept { return at_; }
 
