@@ -8,12 +8,14 @@
 #include <calligraphy/model/text.hpp>
 #include <calligraphy/practice/character_import.hpp>
 
+#include "commands.hpp"
 #include "options.hpp"
 
 namespace calligraphy::tools {
 namespace {
 
 CharacterSet open_one(const std::string& path, const std::u32string& text) {
+  if (path.empty()) throw UsageError("--characters: an empty name");
   std::error_code failure;
   if (!text.empty() && std::filesystem::is_directory(path, failure)) {
     ImportOptions asked;

@@ -1,4 +1,6 @@
 // calligraphy import: characters of other collections as typical strokes.
+#include <algorithm>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -64,8 +66,21 @@ Import imported(const Options& options) {
   return import_characters(options.source, asked);
 }
 
+/// Is `out` the source, or a file of it?
+bool is_in_source(const Options& options) {
+  namespace fs = std::filesystem;
+  std::error_code failure;
+  const fs::path source = fs::canonical(options.source, failure);
+  if (failure) return false;
+  const fs::path out = fs::weakly_canonical(options.out, failure);
+  const auto [rest, at] = std::mismatch(source.begin(), source.end(), out.begin(), out.end());
+  return !failure && rest == source.end() && fs::exists(out, failure);
+}
+
 void run(const Options& options) {
+  if (options.source.empty()) throw UsageError("SOURCE: an empty name");
   if (options.out.empty()) throw UsageError("--out: an empty name");
+  if (is_in_source(options)) throw UsageError("--out: " + options.out + " is the source, or a file of it");
   if (options.format == "text" && options.precision) throw UsageError("--precision: the text format is always exact");
   check_can_write(options.out);
   const Import import = imported(options);

@@ -16,6 +16,13 @@
 namespace calligraphy::tools {
 namespace {
 
+/// What a source calls its files is not to move a terminal's cursor.
+std::string printable(std::string text) {
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
+  std::replace_if(text.begin(), text.end(), is_control, '?');
+  return text;
+}
+
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t most_examples = 10;  // in a table; the JSON has all
@@ -84,7 +91,7 @@ std::string label_table(const ImportReport& report) {
                       count_of(report, LabelFate::unknown));
   for (std::size_t i = 0; i < std::min(report.confusions.size(), most_examples); ++i) {
     const Confusion& confusion = report.confusions[i];
-    text += fmt::format("{:>8}  {} looks like {}, as in {}\n", confusion.count, confusion.label,
+    text += fmt::format("{:>8}  {} looks like {}, as in {}\n", confusion.count, printable(confusion.label),
                         typical_name(confusion.recognised), place_name(confusion.example));
   }
   if (!report.letters_unused.empty()) {
@@ -98,7 +105,8 @@ std::string skipped_table(const ImportReport& report) {
   std::string text;
   for (const auto& [reason, files] : by_reason(report.skipped)) {
     if (text.empty()) text = "\nskipped\n";
-    text += fmt::format("{:>8}  {}: {}{}\n", files.size(), reason, files.front(), files.size() > 1 ? ", ..." : "");
+    text += fmt::format("{:>8}  {}: {}{}\n", files.size(), reason, printable(files.front()),
+                        files.size() > 1 ? ", ..." : "");
   }
   for (const std::string& note : report.notes) text += "\nnote: " + note + "\n";
   return text;

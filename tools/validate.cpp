@@ -96,6 +96,7 @@ std::string lines(const Findings& findings) {
 }
 
 void run(const Options& options) {
+  if (options.file.empty()) throw UsageError("FILE: an empty name");
   const Findings found = findings(options);
   fmt::print("{}", options.json ? json(found) : lines(found));
 }

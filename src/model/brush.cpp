@@ -97,9 +97,16 @@ std::size_t droop_vertices(std::span<const Point> path, double length) {
 }
 
 CleanPath as_it_is(std::span<const Point> points) {
-  constexpr double reach = 0.04;  // [em]
+  constexpr double reach = 0.04;            // [em]
+  constexpr std::size_t most_points = 512;  // what more points add is less than a pen can show
+  constexpr double simplification = 2e-5;   // [em], well below the tolerance of the error
   CleanPath clean;
   clean.points = without_repeats(points);
+  if (clean.points.size() > most_points) {
+    const Path simple = simplified(clean.points, most_points, simplification);
+    clean.slack = distance_to_simplified(clean.points, simple);
+    clean.points = simple;
+  }
   const Path& path = clean.points;
   clean.first = direction_of(point_after(path, 0, reach) - path.front());
   clean.last = direction_of(path.back() - point_before(path, path.size() - 1, reach));

@@ -9,7 +9,8 @@ namespace calligraphy::recognition {
 
 /// A pen path without repeated points, brush entry and end droop [em].
 struct CleanPath {
-  Path points;
+  Path points;             ///< at most 512
+  double slack = 0.0;      ///< a path of more points was simplified: how far it may be from `points` [em]
   bool had_entry = false;  ///< a slanted start was cut off
   double first = 0.0;      ///< direction of the first 0.04 em, entry included [degree]
   double last = 0.0;       ///< direction of the last 0.04 em, droop included [degree]

@@ -36,6 +36,9 @@ Path without_repeats(std::span<const Point> points);
 /// limit allows (Douglas and Peucker 1973). O(points * most).
 Path simplified(const Path& path, std::size_t most, double tolerance);
 
+/// How far a path may be from what `simplified` made of it [em]. O(path * simple).
+double distance_to_simplified(std::span<const Point> path, std::span<const Point> simple);
+
 /// The path with vertices added so that no step is longer than `step` [em], which grows when there would be many.
 Path refined(const Path& path, double step);
 

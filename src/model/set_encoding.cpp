@@ -216,6 +216,9 @@ void check(const Character& character) {
   const auto code = static_cast<std::uint32_t>(character.code);
   if (code > 0x10FFFF || (code >= 0xD800 && code <= 0xDFFF)) fail("is no Unicode character");
   if (!character.order.empty()) check_order_name(character.order);
+  if (const std::size_t count = character.sequence.stroke_ids.size(); count > most_strokes) {
+    fail(std::to_string(count) + " strokes, more than " + std::to_string(most_strokes));
+  }
   const std::vector<Problem> problems = validate(character);
   if (problems.empty()) return;
   fail((problems[0].stroke > 0 ? "stroke " + std::to_string(problems[0].stroke) + ": " : "") + problems[0].what);
@@ -240,6 +243,9 @@ std::map<char32_t, std::vector<const Character*>> sorted(const CharacterList& se
     auto& own = forms[character.code];
     const auto is_same = [&](const Character* other) { return other->order == character.order; };
     if (std::any_of(own.begin(), own.end(), is_same)) throw ValueError(name_of(character) + ": stands there twice");
+    if (own.size() == most_forms) {
+      throw ValueError(name_of(character) + ": more than " + std::to_string(most_forms) + " orders");
+    }
     own.insert(character.order.empty() ? own.begin() : own.end(), &character);
   }
   return forms;

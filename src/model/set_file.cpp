@@ -255,7 +255,7 @@ bool SetFile::read_form(Record& rest, StoredCharacter& form) const noexcept {
   form.first_bit_ = 8 * std::uint64_t{at};
   form.end_bit_ = 8 * std::uint64_t{end};
   if (strokes == 0 || std::uint64_t{strokes} * least_id_bits > form.end_bit_ - form.first_bit_) return false;
-  if (strokes > static_cast<std::uint32_t>(std::numeric_limits<int>::max())) return false;
+  if (strokes > most_strokes) return false;
   form.stroke_count_ = static_cast<int>(strokes);
   return true;
 }
@@ -264,13 +264,13 @@ SetFile::Found SetFile::find(const std::shared_ptr<const SetFile>& file, char32_
                              StoredCharacter& form) noexcept {
   std::optional<Record> record = file->record(code);
   if (!record) return Found::nothing;
-  do {
+  for (std::size_t i = 0; i < most_forms && (i == 0 || record->begin < record->end); ++i) {
     if (!file->read_form(*record, form) || form.order_ == order) {
       form.code_ = code;
       form.file_ = file;
       return Found::this_order;
     }
-  } while (record->begin < record->end);
+  }
   return Found::other_orders;
 }
 
@@ -285,14 +285,14 @@ std::vector<StoredCharacter> SetFile::find_all(const std::shared_ptr<const SetFi
   std::vector<StoredCharacter> forms;
   std::optional<Record> record = file->record(code);
   if (!record) return forms;
-  do {
+  while (forms.size() < most_forms && (forms.empty() || record->begin < record->end)) {
     StoredCharacter form;
     form.code_ = code;
     form.file_ = file;
     const bool is_sound = file->read_form(*record, form);
     forms.push_back(std::move(form));
     if (!is_sound) break;
-  } while (record->begin < record->end);
+  }
   return forms;
 }
 

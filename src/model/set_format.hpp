@@ -50,6 +50,8 @@ inline constexpr unsigned own_coding = 16;
 inline constexpr unsigned special = 128;
 inline constexpr unsigned known_flags = more_forms | named | quartic | factors | own_coding | special;
 inline constexpr std::size_t most_plain_strokes = 127;
+inline constexpr std::size_t most_strokes = 4096;       ///< of a form
+inline constexpr std::size_t most_forms = 255;          ///< of a character
 inline constexpr std::size_t longest_order_name = 255;  // [byte]
 
 // A stroke id is its rank in a Rice code of parameter 1: half the rank as so many ones, a zero, and the odd bit.

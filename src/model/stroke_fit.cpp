@@ -229,9 +229,10 @@ class Fit {
 
   FittedStroke measured(StrokeInput stroke) const {
     const TypicalStroke& type = typical_stroke(stroke.id);
-    const double error = two_sided_error(pen_, type, stroke.control_points);
+    const double error = two_sided_error(pen_, type, stroke.control_points) + clean_.slack;
     const bool squared = options_.drawn_with == DrawnWith::brush && pen_.size() != clean_.points.size();
-    const double median_error = squared ? two_sided_error(clean_.points, type, stroke.control_points) : error;
+    const double median_error =
+        squared ? two_sided_error(clean_.points, type, stroke.control_points) + clean_.slack : error;
     return {std::move(stroke), error, median_error};
   }
 

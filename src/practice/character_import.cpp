@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <charconv>
+#include <cstdio>
 #include <fstream>
 #include <numbers>
 #include <optional>
@@ -94,8 +95,13 @@ bool is_package_file(std::string_view path, std::string_view name) {
   return path == name || path == "package/" + std::string(name);
 }
 
-/// A text as it goes along: line ends of one kind.
-std::string with_plain_line_ends(std::string_view text) {
+/// A text as it goes along: UTF-8, line ends of one kind. @throws FormatError naming the place
+std::string with_plain_line_ends(std::string_view text, const std::string& place) {
+  try {
+    decode_utf8(text);
+  } catch (const FormatError& error) {
+    throw FormatError(place + ": " + error.what());
+  }
   std::string plain;
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] == '\r' && i + 1 < text.size() && text[i + 1] == '\n') continue;
@@ -197,7 +203,7 @@ class Importer {
     for (SourceFile& file : found.files) {
       const std::string place = source_.string() + ": " + file.path;
       if (is_package_file(file.path, licence_file)) {
-        licence_text_ = with_plain_line_ends(file.text);
+        licence_text_ = with_plain_line_ends(file.text, place);
       } else if (is_package_file(file.path, package_file)) {
         package_ = std::move(file.text);
       } else {
@@ -212,9 +218,12 @@ class Importer {
 
   void recognise() {
     if (drawings_.empty()) {
-      const char* const none = options_.only.empty() ? "" : " that was asked for";
-      throw FormatError(source_.string() + ": no file of a character" + none +
-                        " in it: neither 永.json as in hanzi-writer-data nor 06c38.svg as in KanjiVG");
+      const char32_t wanted = options_.only.empty() ? U'永' : options_.only.front();
+      char number[16];
+      std::snprintf(number, sizeof number, "%05x", static_cast<unsigned>(wanted));
+      throw FormatError(source_.string() + ": no file of a character" +
+                        (options_.only.empty() ? "" : " that was asked for") + " in it: neither " +
+                        encode_utf8(wanted) + ".json as in hanzi-writer-data nor " + number + ".svg as in KanjiVG");
     }
     kind_ = drawings_.front().name.kind;
     for (const Drawing& drawing : drawings_) {
@@ -255,7 +264,7 @@ class Importer {
     std::vector<DrawnStroke> drawn;
     if (kind_ == SourceKind::kanjivg) {
       KanjivgDrawing parsed = parse_kanjivg(drawing.text, drawing.place);
-      result.notice = std::move(parsed.notice);
+      result.notice = with_plain_line_ends(parsed.notice, drawing.place);
       for (KanjivgStroke& stroke : parsed.strokes) {
         const std::span<const int> ids = ids_of_kanjivg_label(stroke.label);
         drawn.push_back({std::move(stroke.path), std::move(stroke.label), ids});
@@ -279,7 +288,7 @@ class Importer {
     if (kind_ == SourceKind::kanjivg) {
       if (notice.empty()) notes_.push_back("the source has no copyright notice that could go along");
       return {"KanjiVG" + package_words(), "Creative Commons Attribution-Share Alike 3.0",
-              "Ulrich Apel, KanjiVG, http://kanjivg.tagaini.net" + change, with_plain_line_ends(notice)};
+              "Ulrich Apel, KanjiVG, http://kanjivg.tagaini.net" + change, notice};
     }
     if (licence_text_.empty()) {
       notes_.push_back("the source has no " + std::string(licence_file) +

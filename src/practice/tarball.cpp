@@ -16,7 +16,7 @@
 namespace calligraphy {
 namespace {
 
-constexpr std::size_t longest_path = 1024;            // [byte]; of an entry
+constexpr std::size_t longest_path = 512;             // [byte]; of an entry
 constexpr std::size_t ratio_judged_from = 16u << 20;  // [byte]; what little is unpacked may pack any way
 
 /// The tar as a stream of bytes, within the limits. Remembers what went wrong, for libarchive cannot throw.

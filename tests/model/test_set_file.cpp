@@ -405,6 +405,33 @@ TEST_CASE("what cannot be opened is named", "[model]") {
   if (!is_root) CHECK(is_named(hidden.path(), "cannot be opened"));
 }
 
+TEST_CASE("a character of too many strokes or orders is refused by name", "[model]") {
+  const auto complaint = [](const CharacterList& list) -> std::string {
+    try {
+      encode_character_set(list);
+      return "none";
+    } catch (const ValueError& error) {
+      return error.what();
+    }
+  };
+  const StrokeInput heng{1, {{0.1, 0.5}, {0.9, 0.5}}, {}};
+  CharacterList strokes{{}, {make_character(U'一', std::vector<StrokeInput>(set_format::most_strokes, heng))}};
+  CHECK(CharacterSet(strokes).find(U'一')->stroke_count() == static_cast<int>(set_format::most_strokes));
+  strokes.characters = {make_character(U'一', std::vector<StrokeInput>(set_format::most_strokes + 1, heng))};
+  CHECK(complaint(strokes).find("4097 strokes") != std::string::npos);
+
+  CharacterList orders{{}, {}};
+  const Character one = make_character(U'一', std::vector{heng});
+  for (std::size_t i = 0; i < set_format::most_forms; ++i) {
+    orders.characters.push_back(one);
+    orders.characters.back().order = "order " + std::to_string(i);
+  }
+  CHECK(CharacterSet(orders).orders(U'一').size() == set_format::most_forms);
+  CHECK(CharacterSet(orders).find(U'一', "order 254").has_value());
+  orders.characters.push_back(one);
+  CHECK(complaint(orders).find("more than 255 orders") != std::string::npos);
+}
+
 TEST_CASE("all characters of an imported set take no more room, and err no more, than promised", "[model]") {
   const char* const path = std::getenv("CALLIGRAPHY_CHARACTER_FILE");
   if (path == nullptr) {

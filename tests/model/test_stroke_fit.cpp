@@ -391,3 +391,25 @@ TEST_CASE("paths without points or with impossible ones are refused", "[model]")
   CHECK_THROWS_AS(fit_stroke(Path{{0.0, 0.0}, {infinity, 0.5}}), ValueError);
   CHECK_THROWS_AS(fit_stroke(Path{{0.0, 0.0}, {1e300, 0.5}}), ValueError);
 }
+
+TEST_CASE("a path of many points is the same stroke as one of few, and its error is no smaller than it is", "[model]") {
+  for (const std::size_t count : {100u, 3'000u, 20'000u, 100'000u}) {
+    std::vector<Point> line, corner;
+    for (std::size_t i = 0; i <= count; ++i) {
+      const double t = static_cast<double>(i) / static_cast<double>(count);
+      line.emplace_back(t, 0.5);
+      corner.push_back(t < 0.5 ? Point(0.2 + t, 0.8) : Point(0.7, 1.3 - t));
+    }
+    INFO(count);
+    const FittedStroke heng = fit_stroke(line, {.drawn_with = DrawnWith::pen});
+    CHECK(heng.stroke.id == 1);
+    CHECK(heng.error <= 2e-4);
+    const FittedStroke turn = fit_stroke(corner, {.drawn_with = DrawnWith::pen});
+    CHECK(turn.stroke.id == 16);
+    CHECK(turn.error <= 2e-3);
+  }
+  // A saw of 5,000 teeth, each 2 % of the em high, is no line within less.
+  std::vector<Point> saw;
+  for (int i = 0; i <= 10'000; ++i) saw.emplace_back(1e-4 * i, i % 2 == 0 ? 0.5 : 0.52);
+  CHECK(fit_stroke(saw, {.drawn_with = DrawnWith::pen}).error >= 0.0099);
+}

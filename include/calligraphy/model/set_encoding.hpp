@@ -22,9 +22,9 @@ enum class CoordinatePrecision {
 double coordinate_error_bound(CoordinatePrecision precision) noexcept;
 
 /// The set as the bytes of a set file. The same characters give the same bytes.
-/// @throws ValueError naming the character when one is not valid, is no Unicode character or stands there twice in the
-/// same order, when an order's name is not fit to be one, when a text is not UTF-8, or when the file would be larger
-/// than 4 GiB
+/// @throws ValueError naming the character when one is not valid, is no Unicode character, has more than 4096 strokes
+/// or 255 orders, or stands there twice in the same order, when an order's name is not fit to be one, when a text is
+/// not UTF-8, or when the file would be larger than 4 GiB
 std::vector<std::byte> encode_character_set(const CharacterList& set,
                                             CoordinatePrecision precision = CoordinatePrecision::standard);
 
