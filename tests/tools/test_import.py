@@ -257,7 +257,7 @@ class Hostile(ImportTest):
                 self.assert_fails(self.tar(member("package/永.json", content), name=name + ".tgz"), "永.json")
 
     def test_names_beyond_measure_are_refused(self):
-        self.assert_fails(self.tar(member("x" * 5000 + "/04e00.svg", svg())), "1024 bytes")
+        self.assert_fails(self.tar(member("x" * 5000 + "/04e00.svg", svg())), "512 bytes")
 
     def test_random_damage_never_crashes(self):
         members = [member(f"package/{code:05x}.svg", svg(HENG + SHU)) for code in range(0x4e00, 0x4e04)]
