@@ -10,10 +10,12 @@
 #include <calligraphy/model/bezier.hpp>
 #include <calligraphy/model/stroke_fit.hpp>
 
+#include "polyline.hpp"
+
 namespace calligraphy {
 namespace {
 
-using Path = std::vector<Point>;
+using recognition::Path;
 
 constexpr double overlap_distance = 0.01;                     // [em]; a line of print is wider
 constexpr double outside_distance = 0.01;                     // [em]
@@ -110,10 +112,8 @@ double distance_outside(const Path& path) {
 double squared_distance(const Point& point, const Path& path) {
   double nearest = (point - path.front()).squaredNorm();
   for (std::size_t i = 1; i < path.size(); ++i) {
-    const Point along = path[i] - path[i - 1];
-    const double length = along.squaredNorm();
-    const double t = length > 0.0 ? std::clamp((point - path[i - 1]).dot(along) / length, 0.0, 1.0) : 0.0;
-    nearest = std::min(nearest, (point - path[i - 1] - t * along).squaredNorm());
+    const Point foot = recognition::nearest_on_segment(point, path[i - 1], path[i]);
+    nearest = std::min(nearest, (point - foot).squaredNorm());
   }
   return nearest;
 }
