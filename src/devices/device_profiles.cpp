@@ -33,6 +33,9 @@ DeviceProfile physical(const char* name, Capabilities capabilities, double mass,
   profile.coulomb_friction = coulomb_friction;
   profile.encoder_step = capabilities.resolution;
   profile.capabilities = std::move(capabilities);
+  profile.capabilities.apparent_mass = mass;
+  profile.capabilities.viscous_friction = viscous_friction;
+  profile.capabilities.coulomb_friction = coulomb_friction;
   return profile;
 }
 
@@ -42,6 +45,7 @@ DeviceProfile ideal() {
   profile.name = "ideal";
   profile.mass = 0.045;
   profile.capabilities = capabilities("Ideal point mass", {0.160, 0.120, 0.070}, unlimited, unlimited, unlimited, 0.0);
+  profile.capabilities.apparent_mass = profile.mass;
   return profile;
 }
 

@@ -36,8 +36,20 @@ struct Capabilities {
   double peak_force = 0.0;                              ///< [N]
   double continuous_force = 0.0;                        ///< [N]
   double usable_stiffness = 0.0;                        ///< largest stiffness that users of the device report [N/m]
-  double resolution = 0.0;                              ///< position step [m]
+  double resolution = 0.0;                              ///< position step; 0: not known [m]
   double update_rate = 1000.0;                          ///< [Hz]
+  double apparent_mass = 0.0;                           ///< at the tip; 0: not known [kg]
+  double viscous_friction = 0.0;                        ///< [N s/m]
+  double coulomb_friction = 0.0;                        ///< back-drive friction along each axis [N]
+  int sample_delay = 0;                                 ///< age of a sample when it is read [ticks]
+};
+
+/// Impedance of the grip, relative to where the person means to be, the same along each axis. Typical grips: soft
+/// (0.05, 1, 100), normal (0.1, 3, 300), firm (0.15, 5, 500).
+struct Hand {
+  double mass = 0.1;         ///< [kg]
+  double damping = 3.0;      ///< [N s/m]
+  double stiffness = 300.0;  ///< [N/m]
 };
 
 }  // namespace calligraphy

@@ -28,14 +28,6 @@ std::span<const DeviceProfile> device_profiles();
 /// @throws ValueError naming the name and those that exist
 const DeviceProfile& device_profile(std::string_view name);
 
-/// Impedance of the grip, relative to where the person means to be, the same along each axis. Typical grips: soft
-/// (0.05, 1, 100), normal (0.1, 3, 300), firm (0.15, 5, 500).
-struct Hand {
-  double mass = 0.1;         ///< [kg]
-  double damping = 3.0;      ///< [N s/m]
-  double stiffness = 300.0;  ///< [N/m]
-};
-
 /// Where the person means the pen to be, in device axes.
 struct Intention {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
