@@ -50,4 +50,5 @@
 #include <calligraphy/render/haptic_tick.hpp>
 #include <calligraphy/render/interaction_state.hpp>
 #include <calligraphy/render/motion_mapping.hpp>
+#include <calligraphy/render/passivity_controller.hpp>
 #include <calligraphy/render/renderer_options.hpp>

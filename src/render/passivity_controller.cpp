@@ -1,0 +1,114 @@
+#include <calligraphy/render/passivity_controller.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include <calligraphy/error.hpp>
+
+namespace calligraphy {
+namespace {
+
+/// What a hand may add to its speed while a force is taken away [m/s].
+constexpr double sudden_speed = 0.25;
+
+void require(bool in_domain, const char* name, double value, const char* domain) {
+  if (in_domain) return;
+  std::ostringstream message;
+  message << "passivity: " << name << " = " << value << ": expected " << domain;
+  throw ValueError(message.str());
+}
+
+/// Damping that takes `surplus` [J] out of a motion of `step` [m] a period, the step by step [m^2] [N s/m].
+double damping_for(double surplus, double square, double period, double most) noexcept {
+  if (!(surplus > 0.0) || !(square > 0.0)) return 0.0;
+  return std::min(surplus * period / square, most);
+}
+
+}  // namespace
+
+double PassivityController::usable_damping(double mass, double period, int delay) noexcept {
+  return 0.9 * mass / (period * (1 + 2 * delay));
+}
+
+PassivityController::PassivityController(const PassivityOptions& options, double period)
+    : max_damping_(options.max_damping),
+      budget_(options.energy_budget),
+      force_rate_(options.force_rate),
+      period_(period),
+      delay_(static_cast<std::size_t>(std::max(0, options.delay))) {
+  require(std::isfinite(max_damping_) && max_damping_ >= 0.0, "max_damping", max_damping_, "a finite number from 0 up");
+  require(budget_ >= 0.0, "energy_budget", budget_, "a number from 0 up");
+  require(force_rate_ > 0.0, "force_rate", force_rate_, "a number above 0");
+  require(std::isfinite(period) && period > 0.0, "period", period, "a finite number above 0");
+  require(options.delay >= 0 && options.delay <= longest_delay, "delay", options.delay, "0 to 15 ticks");
+  restart();
+}
+
+void PassivityController::restart() noexcept {
+  sent_.fill(Eigen::Vector3d::Zero());
+  has_position_ = false;
+  wanted_ = damping_ = Eigen::Vector3d::Zero();
+  speed_ = surplus_in_plane_ = surplus_normal_ = given_ = 0.0;
+  left_ = budget_;
+}
+
+Eigen::Vector3d PassivityController::next(const Eigen::Vector3d& position, const Eigen::Vector3d& wanted) noexcept {
+  damping_.setZero();
+  if (!position.allFinite()) {
+    // Where the pen went is not known: pay for a pen that keeps its speed, along the force.
+    pay(force_at_work().norm() * (speed_ + sudden_speed) * period_);
+    has_position_ = false;
+  } else {
+    const Eigen::Vector3d step = has_position_ ? Eigen::Vector3d(position - position_) : Eigen::Vector3d(0.0, 0.0, 0.0);
+    if (has_position_) observe(step, wanted);
+    has_position_ = true;
+    position_ = position;
+    speed_ = step.norm() / period_;
+    const double in_plane = damping_for(surplus_in_plane_, step.head<2>().squaredNorm(), period_, max_damping_);
+    const double normal = damping_for(surplus_normal_, step.z() * step.z(), period_, max_damping_);
+    damping_.head<2>() = -in_plane / period_ * step.head<2>();
+    damping_.z() = -normal / period_ * step.z();
+  }
+  wanted_ = wanted;
+  Eigen::Vector3d force = wanted + damping_;
+  if (std::isfinite(budget_)) {
+    const double most = largest_force(speed_ + sudden_speed);
+    const double size = force.norm();
+    if (size > most) force *= most / size;
+  }
+  return force;
+}
+
+void PassivityController::observe(const Eigen::Vector3d& step, const Eigen::Vector3d& wanted) noexcept {
+  const Eigen::Vector3d& at_work = force_at_work();
+  pay(at_work.dot(step));
+  const Eigen::Vector3d beyond = at_work - 0.5 * (wanted_ + wanted);
+  surplus_in_plane_ = std::max(0.0, surplus_in_plane_ + beyond.head<2>().dot(step.head<2>()));
+  surplus_normal_ = std::max(0.0, surplus_normal_ + beyond.z() * step.z());
+}
+
+void PassivityController::pay(double energy) noexcept {
+  given_ += energy;
+  left_ = std::min(budget_, left_ - energy);
+}
+
+/// Largest F with F^2 v / (2 rate) + F v T <= E, where E is what remains after forces sent whose work no sample has
+/// shown yet.
+double PassivityController::largest_force(double speed) const noexcept {
+  const double way = speed * period_;
+  double remaining = left_;
+  for (std::size_t age = 0; age < delay_; ++age) {
+    remaining -= sent_[(newest_ + sent_.size() - age) % sent_.size()].norm() * way;
+  }
+  if (!(remaining > 0.0)) return 0.0;
+  const double braking = 0.5 * speed / force_rate_;
+  return 2.0 * remaining / (way + std::sqrt(way * way + 4.0 * braking * remaining));
+}
+
+void PassivityController::sent(const Eigen::Vector3d& force) noexcept {
+  newest_ = (newest_ + 1) % sent_.size();
+  sent_[newest_] = force;
+}
+
+}  // namespace calligraphy
