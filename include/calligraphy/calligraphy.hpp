@@ -44,11 +44,14 @@
 #include <calligraphy/practice/trade.hpp>
 #include <calligraphy/practice/validation.hpp>
 #include <calligraphy/practice/writer.hpp>
+#include <calligraphy/render/assist_policy.hpp>
 #include <calligraphy/render/force_limiter.hpp>
 #include <calligraphy/render/force_terms.hpp>
 #include <calligraphy/render/haptic_renderer.hpp>
 #include <calligraphy/render/haptic_tick.hpp>
 #include <calligraphy/render/interaction_state.hpp>
 #include <calligraphy/render/motion_mapping.hpp>
+#include <calligraphy/render/paper_friction.hpp>
 #include <calligraphy/render/passivity_controller.hpp>
 #include <calligraphy/render/renderer_options.hpp>
+#include <calligraphy/render/thermal_budget.hpp>
