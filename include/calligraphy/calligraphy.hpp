@@ -11,6 +11,7 @@
 #include <calligraphy/collision/stroke_element.hpp>
 #include <calligraphy/collision/stroke_tracker.hpp>
 #include <calligraphy/devices/device_state.hpp>
+#include <calligraphy/devices/flush_denormals.hpp>
 #include <calligraphy/devices/haptic_device.hpp>
 #include <calligraphy/devices/replay_device.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
