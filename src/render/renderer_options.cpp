@@ -14,14 +14,14 @@ namespace {
 /// For a device that states no limit; keeps every force a number [N/m].
 constexpr double stiffest = 1e6;
 
-enum class Bound { above_zero, from_zero };
+enum class Bound { above_zero, from_zero, from_one };
 
 void require(const char* name, double value, Bound bound, double most = std::numeric_limits<double>::max()) {
-  const bool in_domain = bound == Bound::above_zero ? value > 0.0 : value >= 0.0;
+  const bool in_domain = bound == Bound::above_zero ? value > 0.0 : value >= (bound == Bound::from_one ? 1.0 : 0.0);
   if (std::isfinite(value) && in_domain && value <= most) return;
+  const char* domain = bound == Bound::above_zero ? "above 0" : bound == Bound::from_zero ? "from 0 up" : "from 1 up";
   std::ostringstream message;
-  message << name << " = " << value << ": expected a finite number "
-          << (bound == Bound::above_zero ? "above 0" : "from 0 up");
+  message << name << " = " << value << ": expected a finite number " << domain;
   if (most < std::numeric_limits<double>::max()) message << ", at most " << most;
   throw ValueError(message.str());
 }
@@ -106,7 +106,7 @@ void validate(const RendererOptions& options, const Capabilities& capabilities, 
   require("assist.least", options.assist.least, Bound::from_zero, 1.0);
   require("friction.coefficient", options.friction.coefficient, Bound::from_zero, 10.0);
   require("friction.stiffness", options.friction.stiffness, Bound::above_zero, stiffest);
-  require("friction.static_ratio", options.friction.static_ratio, Bound::above_zero, 10.0);
+  require("friction.static_ratio", options.friction.static_ratio, Bound::from_one, 10.0);
   require("friction.stick_speed", options.friction.stick_speed, Bound::from_zero);
   require("stroke.nearest.tolerance", options.stroke.nearest.tolerance, Bound::above_zero, 1.0);
   require_count("stroke.nearest.samples", options.stroke.nearest.samples, 2, 64);
