@@ -59,11 +59,6 @@ PassivityController passivity_controller(const RendererOptions& options, const C
   return PassivityController(passivity, period);
 }
 
-Eigen::Vector3d shortened(const Eigen::Vector3d& force, double longest) noexcept {
-  const double size = force.norm();
-  return size > longest ? Eigen::Vector3d(force * (longest / size)) : force;
-}
-
 }  // namespace
 
 HapticRenderer::HapticRenderer(std::vector<PlacedCharacter> page, const MotionMapping& mapping,
@@ -335,10 +330,11 @@ Point HapticRenderer::fade(const Point& force) noexcept {
 
 /// The last stages, in this order: passivity, direction-keeping saturation, rate and jerk, account of what is sent.
 void HapticRenderer::send(const Eigen::Vector3d& wanted) noexcept {
-  Eigen::Vector3d force = observes_energy_ ? control_passivity(wanted) : wanted;
-  if (thermal_.peak > 0.0) force = shortened(force, thermal_.largest_force());
+  const Eigen::Vector3d force = observes_energy_ ? control_passivity(wanted) : wanted;
+  double longest = observes_energy_ ? passivity_.longest_force() : ForceLimiter::no_limit;
+  if (thermal_.peak > 0.0) longest = std::min(longest, thermal_.largest_force());
   const bool trusted = tick_.status == TickStatus::ok;
-  tick_.page_force = trusted ? limiter_.next(tick_.page_force, force) : limiter_.release(tick_.page_force);
+  tick_.page_force = trusted ? limiter_.next(tick_.page_force, force, longest) : limiter_.release(tick_.page_force);
   if (observes_energy_) passivity_.sent(tick_.page_force);
   if (thermal_.peak > 0.0) {
     thermal_.held(tick_.page_force.norm(), 1.0 / options_.servo_rate);
