@@ -11,16 +11,19 @@ Eigen::Vector3d shortened(const Eigen::Vector3d& force, double longest) noexcept
   return size > longest ? Eigen::Vector3d(force * (longest / size)) : force;
 }
 
-/// The largest first step of a run that ends after `way`, steps getting smaller by `jerk` each.
+/// The largest first step of a run that ends after `way`, each step smaller by `jerk` than the last. With k whole jerks
+/// in it that is way = (k + 1) (step - k jerk / 2).
 double braking_step(double way, double jerk) noexcept {
-  return std::sqrt(0.25 * jerk * jerk + 2.0 * jerk * way) - 0.5 * jerk;
+  const double smooth = std::sqrt(0.25 * jerk * jerk + 2.0 * jerk * way) - 0.5 * jerk;
+  const double whole = jerk > 0.0 ? std::floor(smooth / jerk) : 0.0;
+  return way / (whole + 1.0) + 0.5 * whole * jerk;
 }
 
 /// One step towards a target `way` off, after the step `last`.
 template <typename Vector>
 Vector jerk_limited(const Vector& way, const Vector& last, double longest, double jerk) noexcept {
   const double distance = way.norm();
-  const double wanted = std::min({distance, longest, std::max(braking_step(distance, jerk), std::min(distance, jerk))});
+  const double wanted = std::min(longest, braking_step(distance, jerk));
   Vector step = Vector::Zero();
   if (distance > 0.0) step = way * (wanted / distance);
   const Vector change = step - last;
@@ -62,6 +65,8 @@ Eigen::Vector3d ForceLimiter::next(const Eigen::Vector3d& previous, const Eigen:
     force.z() = from.z() + std::clamp(normal_change, taken - normal_step, normal_step - taken);
   }
   force = shortened(force, most);
+  // Shortening takes some of the way on which a limited jerk comes to rest; but paper that presses does not pull.
+  if (previous.z() >= 0.0 && target.z() >= 0.0) force.z() = std::max(0.0, force.z());
   last_step = force - from;
   return force;
 }
