@@ -65,7 +65,7 @@ Eigen::Vector3d ForceLimiter::next(const Eigen::Vector3d& previous, const Eigen:
     force.z() = from.z() + std::clamp(normal_change, taken - normal_step, normal_step - taken);
   }
   force = shortened(force, most);
-  // Shortening takes some of the way on which a limited jerk comes to rest; but paper that presses does not pull.
+  // Shortening takes some of the way on which a force with limited jerk comes to rest.
   if (previous.z() >= 0.0 && target.z() >= 0.0) force.z() = std::max(0.0, force.z());
   last_step = force - from;
   return force;

@@ -17,8 +17,9 @@ namespace calligraphy {
 /// by as much as the smaller of the two steps allows, and what is left of them leads to the target: so its length falls
 /// by that much a tick, wherever the target is.
 ///
-/// With `jerk` the step itself changes by at most that much per tick, and in time to stop at the target; only
-/// shortening and release() outrank it.
+/// With `jerk` the step itself changes by at most that much per tick, and in time to stop at the target. Outranked by
+/// shortening, by release(), and along z by paper that does not pull: a force that presses, on the way to one that
+/// presses, stops at none.
 struct ForceLimiter {
   static constexpr double no_limit = std::numeric_limits<double>::infinity();
 
