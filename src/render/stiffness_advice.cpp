@@ -79,46 +79,35 @@ class Loop {
 
   double unit() const noexcept { return unit_; }  ///< of stiffness [N/m]
 
+  double wall_damping() const noexcept { return wall_damping_; }
+
   /// The stiffness at which z = exp(i angle) would be a root, if that were real.
   Complex stiffness_at(double angle) const noexcept {
-    const double half = std::sin(0.5 * angle);
-    const Complex w(-2.0 * half * half, std::sin(angle));
+    const Complex w = step_at(angle);
     const Complex inverse_motion = (w * w + drag_ * w + spring_) / (force_ * w + rest_);
     return -std::polar(1.0, angle * delay_) * inverse_motion - wall_damping_ * (w / (1.0 + w));
   }
 
-  /// Whether every motion dies away: all roots of z^(d+1) D(z) + (K z + B (z - 1)) N(z) lie inside the unit circle, by
-  /// the recursion of Schur and Cohn.
-  bool dies_away(double stiffness) const {
-    const double numerator[] = {rest_ - force_, force_};                       // N(z), from z^0 up
-    const double denominator[] = {1.0 - drag_ + spring_, drag_ - 2.0, 1.0};    // D(z)
-    const double wall[] = {-wall_damping_, stiffness + wall_damping_};
-    std::vector<double> polynomial(static_cast<std::size_t>(delay_) + 4, 0.0);
-    for (std::size_t i = 0; i < 3; ++i) polynomial[polynomial.size() - 3 + i] = denominator[i];
-    for (std::size_t i = 0; i < 2; ++i) {
-      for (std::size_t j = 0; j < 2; ++j) polynomial[i + j] += wall[i] * numerator[j];
-    }
-    std::vector<double> next;
-    while (polynomial.size() > 1) {
-      const double ratio = polynomial.front() / polynomial.back();
-      if (!(std::abs(ratio) < 1.0)) return false;
-      const std::size_t size = polynomial.size() - 1;
-      next.resize(size);
-      for (std::size_t i = 0; i < size; ++i) next[i] = polynomial[i + 1] - ratio * polynomial[size - 1 - i];
-      polynomial.swap(next);
-    }
-    return true;
+  /// The wall's damping at which it would be one without any stiffness.
+  Complex wall_damping_at(double angle) const noexcept {
+    const Complex w = step_at(angle);
+    return -std::polar(1.0, angle * delay_) * (w + drag_ + spring_ / w) * (1.0 + w) / (force_ * w + rest_);
   }
 
  private:
+  static Complex step_at(double angle) noexcept {
+    const double half = std::sin(0.5 * angle);
+    return {-2.0 * half * half, std::sin(angle)};
+  }
+
   int delay_;
   double unit_, wall_damping_;
   double force_, rest_, drag_, spring_;
 };
 
-/// Angles at which to look for the crossings. The imaginary part of stiffness_at() is sin(angle) times a polynomial of
-/// degree d + 1 in cos(angle): it has at most so many zeros, which the even spacing tells apart. The others find those
-/// of a slow motion near z = 1.
+/// Angles at which to look for the crossings. The imaginary part of what is looked at is sin(angle) times a polynomial
+/// in cos(angle), of degree d + 1: it has at most so many zeros, which the even spacing tells apart. The others find
+/// those of a slow motion near z = 1.
 std::vector<double> angles(int delay) {
   constexpr double lowest = 1e-9;
   constexpr int per_decade = 20, per_zero = 32;
@@ -130,28 +119,29 @@ std::vector<double> angles(int delay) {
   return all;
 }
 
-/// The smallest positive stiffness with a root on the unit circle; 0 if there is none.
-double first_crossing(const Loop& loop, int delay) {
+/// The smallest positive value that `gain` takes where it is real, on the upper half of the unit circle; infinite if
+/// there is none.
+template <typename Gain>
+double first_crossing(int delay, Gain gain) {
   double smallest = std::numeric_limits<double>::infinity();
-  const auto consider = [&](double stiffness) {
-    if (stiffness > 0.0) smallest = std::min(smallest, stiffness);
+  const auto consider = [&](double angle) {
+    const double value = gain(angle).real();
+    if (value > 0.0) smallest = std::min(smallest, value);
   };
-  consider(loop.stiffness_at(std::numbers::pi).real());
-  double last_angle = 0.0, last = 0.0;
-  for (const double angle : angles(delay)) {
-    const double imaginary = loop.stiffness_at(angle).imag();
-    if (imaginary == 0.0 || std::signbit(imaginary) != std::signbit(last)) {
-      double low = last_angle, high = angle;
-      for (int i = 0; i < 60 && low > 0.0; ++i) {
-        const double middle = 0.5 * (low + high);
-        (std::signbit(loop.stiffness_at(middle).imag()) == std::signbit(last) ? low : high) = middle;
-      }
-      if (low > 0.0) consider(loop.stiffness_at(0.5 * (low + high)).real());
+  const auto is_negative = [&](double angle) { return std::signbit(gain(angle).imag()); };
+  consider(std::numbers::pi);
+  const std::vector<double> all = angles(delay);
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    double low = all[i - 1], high = all[i];
+    const bool below = is_negative(low);
+    if (is_negative(high) == below) continue;
+    for (int halving = 0; halving < 60; ++halving) {
+      const double middle = 0.5 * (low + high);
+      (is_negative(middle) == below ? low : high) = middle;
     }
-    last_angle = angle;
-    last = imaginary;
+    consider(0.5 * (low + high));
   }
-  return std::isfinite(smallest) ? smallest : 0.0;
+  return smallest;
 }
 
 StiffnessBound passive_bound(const SampledLoop& loop) {
@@ -172,16 +162,18 @@ StiffnessBound quantised_bound(const SampledLoop& loop, double passive) {
     const double left = loop.coulomb_friction / loop.encoder_step - loop.wall_damping * loop.rate;
     value = std::min(value, std::max(0.0, 2.0 * left));
   }
-  return {value, "K <= min(passive, 2 f_c / D - 2 B / T)",
-          "Abbott & Okamura 2005 for B = 0 and no delay; the terms in B and d are the worst case, derived here; relies on "
-          "dry friction that is the same everywhere, and does not count the grip"};
+  return {
+      value, "K <= min(passive, 2 f_c / D - 2 B / T)",
+      "Abbott & Okamura 2005 for B = 0 and no delay; the terms in B and d are the worst case, derived here; relies on "
+      "dry friction that is the same everywhere, and does not count the grip"};
 }
 
 StiffnessBound approximate_bound(const SampledLoop& loop) {
   const double damping = loop.damping + loop.grip.damping + loop.wall_damping;
-  return {damping * loop.rate / (0.5 + loop.delay), "K < (b + b_grip + B) / (T / 2 + d T)",
-          "Gil et al. 2009: good only for small B, where the loop is much faster than the motion; twice too high at B = "
-          "30 N s/m and 1 kHz"};
+  return {
+      damping * loop.rate / (0.5 + loop.delay), "K < (b + b_grip + B) / (T / 2 + d T)",
+      "Gil et al. 2009: good only for small B, where the loop is much faster than the motion; twice too high at B = "
+      "30 N s/m and 1 kHz"};
 }
 
 }  // namespace
@@ -217,12 +209,16 @@ void validate(const SampledLoop& loop) {
 
 double critical_stiffness(const SampledLoop& sampled) {
   validate(sampled);
+  const bool damped = sampled.damping + sampled.grip.damping > 0.0;
+  if (!damped && (sampled.wall_damping == 0.0 || sampled.grip.stiffness > 0.0)) return 0.0;
+  // Under a soft wall a damped motion stays damped, unless the wall's own damping is too much for the rate. From there
+  // on it stays so until a root comes to the circle.
   const Loop loop(sampled);
-  const double crossing = first_crossing(loop, sampled.delay);
-  // A soft wall without damping of its own leaves a damped motion damped. Else: no root crosses the circle below, so
-  // that any stiffness there tells of all.
-  const bool damped = sampled.wall_damping == 0.0 && sampled.damping + sampled.grip.damping > 0.0;
-  return damped || loop.dies_away(0.5 * crossing) ? crossing * loop.unit() : 0.0;
+  const auto damping_at = [&](double angle) { return loop.wall_damping_at(angle); };
+  if (loop.wall_damping() > 0.0 && loop.wall_damping() >= first_crossing(sampled.delay, damping_at)) return 0.0;
+  const double first = first_crossing(sampled.delay, [&](double angle) { return loop.stiffness_at(angle); });
+  // The stiffest wall is never stable. That none is found says that the damping is lost among the rounding errors.
+  return std::isfinite(first) ? first * loop.unit() : 0.0;
 }
 
 StiffnessAdvice advise_stiffness(const SampledLoop& loop) {
@@ -230,9 +226,11 @@ StiffnessAdvice advise_stiffness(const SampledLoop& loop) {
   StiffnessAdvice advice;
   advice.passive = passive_bound(loop);
   advice.quantised = quantised_bound(loop, advice.passive.value);
-  advice.stable = {critical_stiffness(loop), "exact zero-order hold: all roots of z^(d+1) D(z) + (K z + B (z - 1) / T) N(z) inside |z| = 1",
-                   "exact for a rigid mass in this grip on a bilateral wall; does not see flexible links, which make it "
-                   "optimistic, nor dry friction, rounding and saturation"};
+  advice.stable = {
+      critical_stiffness(loop),
+      "exact zero-order hold: all roots of z^(d+1) D(z) + (K z + B (z - 1) / T) N(z) inside |z| = 1",
+      "exact for a rigid mass in this grip on a bilateral wall; does not see flexible links, which make it "
+      "optimistic, nor dry friction, rounding and saturation"};
   advice.approximate = approximate_bound(loop);
   return advice;
 }

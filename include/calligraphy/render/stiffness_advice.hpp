@@ -29,7 +29,8 @@ void validate(const SampledLoop& loop);
 
 /// Smallest stiffness of a bilateral wall at which a linear motion of device and grip no longer dies away, without dry
 /// friction and rounding [N/m]. Exact: the motion from sample to sample under a force that is held. 0 when the loop
-/// keeps swinging however soft the wall, for want of damping or because the wall's damping alone feeds it.
+/// keeps swinging however soft the wall: when neither device nor wall damps it, when only the wall does and the grip is
+/// a spring, and when the wall's damping is so large that it feeds a swing by itself.
 ///
 /// Derived here. With G(z) the sampled motion, a swing is kept up where K = -z^d / G(z) - B (1 - 1/z) / T is real on
 /// the unit circle.
@@ -50,7 +51,8 @@ struct StiffnessAdvice {
   StiffnessBound approximate;  ///< a rule of thumb for `stable`, to compare
 };
 
-/// The bounds of a loop. Both verdicts are worth having: a device may run well while not passive (Diolaiti et al. 2006).
+/// The bounds of a loop. Both verdicts are worth having: a device may run well while not passive (Diolaiti et al.
+/// 2006).
 ///
 /// The passive bounds count the device's own damping alone: they promise that the wall is passive towards any hand, so
 /// that none need be there. The stable one holds for this grip and no other.
