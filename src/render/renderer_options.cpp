@@ -42,25 +42,23 @@ struct StiffnessLimit {
   std::string reason;
 };
 
-StiffnessLimit stiffness_limit(const RendererOptions& options, const Capabilities& capabilities) {
-  StiffnessLimit limit{stiffest, "no stiffness above it is taken"};
+StiffnessLimit usable_stiffness(const Capabilities& capabilities) {
+  if (!(capabilities.usable_stiffness > 0.0 && capabilities.usable_stiffness < stiffest)) {
+    return {stiffest, "no stiffness above it is taken"};
+  }
   std::ostringstream reason;
-  if (capabilities.usable_stiffness > 0.0 && capabilities.usable_stiffness < limit.value) {
-    limit.value = capabilities.usable_stiffness;
-    reason << "the device " << capabilities.model << " is usable up to " << limit.value << " N/m";
-    limit.reason = reason.str();
-  }
-  if (!(capabilities.apparent_mass > 0.0)) return limit;
+  reason << "the device " << capabilities.model << " is usable up to " << capabilities.usable_stiffness << " N/m";
+  return {capabilities.usable_stiffness, reason.str()};
+}
+
+StiffnessLimit stable_stiffness(const RendererOptions& options, const Capabilities& capabilities) {
+  if (!(capabilities.apparent_mass > 0.0)) return {std::numeric_limits<double>::infinity(), ""};
   const double critical = critical_stiffness(sampled_loop(capabilities, options.servo_rate, options.softest_grip));
-  if (stable_share * critical < limit.value) {
-    limit.value = stable_share * critical;
-    reason.str("");
-    reason << "held in the softest grip at " << options.servo_rate << " Hz the device " << capabilities.model
-           << " is stable below " << critical << " N/m (critical_stiffness), nine tenths of which is " << limit.value
-           << " N/m";
-    limit.reason = reason.str();
-  }
-  return limit;
+  std::ostringstream reason;
+  reason << "held in the softest grip at " << options.servo_rate << " Hz the device " << capabilities.model
+         << " is stable below " << critical << " N/m (critical_stiffness), nine tenths of which is "
+         << stable_share * critical << " N/m";
+  return {stable_share * critical, reason.str()};
 }
 
 }  // namespace
@@ -110,27 +108,32 @@ RendererOptions RendererOptions::everything(const Capabilities& capabilities) {
 std::vector<std::string> clip_stiffness(RendererOptions& options, const Capabilities& capabilities,
                                         double largest_attraction) {
   require("servo_rate", options.servo_rate, Bound::above_zero, 1e6);
-  const StiffnessLimit limit = stiffness_limit(options, capabilities);
+  const StiffnessLimit usable = usable_stiffness(capabilities), stable = stable_stiffness(options, capabilities);
   std::vector<std::string> clipped;
-  const auto clip = [&](const char* name, double& stiffness, double most, const std::string& circumstance) {
+  const auto clip = [&](const char* name, double& stiffness, double most, const std::string& reason) {
     require(name, stiffness, Bound::from_zero);
     if (stiffness <= most) return;
     std::ostringstream message;
-    message << name << " = " << stiffness << " N/m" << circumstance << ": " << limit.reason;
+    message << name << " = " << stiffness << " N/m" << reason;
     clipped.push_back(message.str());
     stiffness = most;
   };
+  const StiffnessLimit& limit = usable.value < stable.value ? usable : stable;
   std::ostringstream attraction;
   if (largest_attraction != 1.0) attraction << " times the largest attraction factor " << largest_attraction;
-  clip("paper_stiffness", options.paper_stiffness, limit.value, "");
-  clip("guidance_stiffness", options.guidance_stiffness, limit.value / largest_attraction, attraction.str());
-  clip("wrong_way_stiffness", options.wrong_way_stiffness, limit.value, "");
+  clip("paper_stiffness", options.paper_stiffness, limit.value, ": " + limit.reason);
+  clip("guidance_stiffness", options.guidance_stiffness, limit.value / largest_attraction,
+       attraction.str() + ": " + limit.reason);
+  clip("wrong_way_stiffness", options.wrong_way_stiffness, limit.value, ": " + limit.reason);
   if (options.friction.coefficient > 0.0) {
+    // A device may be usable with both springs at once, one along the stroke and one across; stable it must be with
+    // both.
+    clip("friction.stiffness", options.friction.stiffness, limit.value, ": " + limit.reason);
     const double guidance = options.guidance_stiffness * largest_attraction;
     std::ostringstream beside;
-    beside << " beside " << guidance << " N/m of guidance";
-    clip("friction.stiffness", options.friction.stiffness, std::max(0.1 * limit.value, limit.value - guidance),
-         beside.str());
+    beside << " beside " << guidance << " N/m of guidance: ";
+    clip("friction.stiffness", options.friction.stiffness, std::max(0.1 * stable.value, stable.value - guidance),
+         beside.str() + stable.reason);
   }
   return clipped;
 }
