@@ -40,6 +40,7 @@
 #include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/session.hpp>
 #include <calligraphy/practice/source_files.hpp>
+#include <calligraphy/practice/stability_map.hpp>
 #include <calligraphy/practice/stroke_letters.hpp>
 #include <calligraphy/practice/stroke_queries.hpp>
 #include <calligraphy/practice/trade.hpp>
@@ -55,4 +56,5 @@
 #include <calligraphy/render/paper_friction.hpp>
 #include <calligraphy/render/passivity_controller.hpp>
 #include <calligraphy/render/renderer_options.hpp>
+#include <calligraphy/render/stiffness_advice.hpp>
 #include <calligraphy/render/thermal_budget.hpp>

@@ -1,16 +1,13 @@
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <cstddef>
-
-#include <Eigen/Eigenvalues>
-#include <unsupported/Eigen/MatrixFunctions>
 
 #include <calligraphy/error.hpp>
 #include <calligraphy/practice/page.hpp>
 #include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/session.hpp>
 #include <calligraphy/practice/trade.hpp>
+#include <calligraphy/render/stiffness_advice.hpp>
 
 namespace calligraphy {
 namespace {
@@ -123,37 +120,6 @@ Written write_all(std::span<const Character> characters, const DeviceProfile& pr
 
 }  // namespace
 
-double critical_stiffness(const DeviceProfile& device, const Hand& hand, double rate) {
-  if (!(std::isfinite(rate) && rate > 0.0)) throw ValueError("servo rate = " + std::to_string(rate) + " Hz");
-  const double mass = device.mass + hand.mass, damping = device.viscous_friction + hand.damping;
-  // The motion over one period under a force held constant: exp of the system with the force as a third state.
-  Eigen::Matrix3d system = Eigen::Matrix3d::Zero();
-  system(0, 1) = 1.0;
-  system.row(1) << -hand.stiffness / mass, -damping / mass, 1.0 / mass;
-  const Eigen::Matrix3d motion = (system / rate).exp();
-  const auto grows = [&](double stiffness) {
-    // State: place, speed, and the places of the last `delay` samples.
-    const Eigen::Index size = 2 + device.delay;
-    Eigen::MatrixXd step = Eigen::MatrixXd::Zero(size, size);
-    step.topLeftCorner<2, 2>() = motion.topLeftCorner<2, 2>();
-    const Eigen::Index seen = device.delay == 0 ? 0 : size - 1;
-    step.col(seen).head<2>() -= stiffness * motion.col(2).head<2>();
-    for (Eigen::Index i = 2; i < size; ++i) step(i, i == 2 ? 0 : i - 1) = 1.0;
-    return step.eigenvalues().cwiseAbs().maxCoeff() > 1.0 + 1e-12;
-  };
-  double stable = 0.0, unstable = 1.0;
-  while (!grows(unstable)) {
-    stable = unstable;
-    unstable *= 2.0;
-    if (unstable > 1e12) return unstable;
-  }
-  while (unstable - stable > 1e-6 * unstable) {
-    const double middle = 0.5 * (stable + unstable);
-    (grows(middle) ? unstable : stable) = middle;
-  }
-  return stable;
-}
-
 std::vector<ServoRateTrade> servo_rate_trade(std::span<const Character> characters,
                                              const ServoRateTradeOptions& options) {
   if (characters.empty()) throw ValueError("servo rate: no characters");
@@ -180,8 +146,8 @@ std::vector<ServoRateTrade> servo_rate_trade(std::span<const Character> characte
     entry.written = written.share;
     entry.loop_stiffness = largest_stable_stiffness(page, profile, hand, renderer, true);
     entry.unlimited_stiffness = largest_stable_stiffness(page, profile, hand, renderer, false);
-    entry.held_stiffness = critical_stiffness(profile, hand, rate);
-    entry.free_stiffness = critical_stiffness(profile, {0.0, 0.0, 0.0}, rate);
+    entry.held_stiffness = critical_stiffness(sampled_loop(profile.capabilities, rate, hand));
+    entry.free_stiffness = critical_stiffness(sampled_loop(profile.capabilities, rate));
     entry.hard_stiffness = 0.5 * entry.unlimited_stiffness;
     const Written hard = write_all(characters, profile, with_paper(renderer, entry.hard_stiffness, false), options);
     entry.hard_penetration = hard.penetration;

@@ -52,6 +52,7 @@ void require(const char* name, double value, double least, double most) {
 
 void validate(const WriterSkill& skill) {
   require("offset", skill.offset, 0.0, 1.0);
+  require("bias", skill.bias, 0.0, 1.0);
   require("scale", skill.scale, 0.0, 0.5);
   require("tilt", skill.tilt, 0.0, 1.0);
   require("shape", skill.shape, 0.0, 1.0);
@@ -260,9 +261,11 @@ void SimulatedWriter::plan_attempt() {
   const Point offset = skill_.offset * em * normal_point(of_character);
   const double scale = skill_.scale * normal(of_character);
   const double tilt = misbelief * skill_.tilt * normal(of_character);
+  const double direction = 2.0 * std::numbers::pi * uniform(of_character);
+  const Point bias = skill_.bias * em * Point(std::cos(direction), std::sin(direction));
   std::mt19937_64 of_stroke = generator(seed_, character_, stroke_, -1);
   const Point shape = skill_.shape * em * normal_point(of_stroke);
-  belief_ = {placed.placement.to_page(Point(0.5, 0.5)), misbelief * (offset + shape), 1.0 + misbelief * scale,
+  belief_ = {placed.placement.to_page(Point(0.5, 0.5)), misbelief * (offset + bias + shape), 1.0 + misbelief * scale,
              std::cos(tilt), std::sin(tilt)};
 
   random_ = generator(seed_, character_, stroke_, attempt_);

@@ -76,7 +76,10 @@ HapticRenderer::HapticRenderer(std::vector<PlacedCharacter> page, const MotionMa
     prepared_.push_back({strokes(page_[i].character), box});
   }
   require_valid(mapping);
-  validate(options, capabilities, largest_attraction);
+  if (options_.stiffness_check == StiffnessCheck::clip) {
+    clipped_ = clip_stiffness(options_, capabilities, largest_attraction);
+  }
+  validate(options_, capabilities, largest_attraction);
   if (!(capabilities.peak_force > 0.0)) {
     throw ValueError("peak force of the device = " + std::to_string(capabilities.peak_force) + " N");
   }

@@ -180,33 +180,6 @@ TEST_CASE("a trade of nothing is refused", "[trade]") {
 
 // ---- servo rate
 
-TEST_CASE("the linear loop turns unstable at the stiffness that theory gives", "[trade]") {
-  struct Row {
-    double period, friction;
-    int delay;
-    Hand hand;
-    double critical;
-  };
-  const Hand none{0.0, 0.0, 0.0};
-  const Row row =
-      GENERATE_COPY(Row{10e-3, 0.5, 0, none, 101.9}, Row{1e-3, 0.05, 0, none, 100.0}, Row{1e-3, 0.1, 0, none, 200.1},
-                    Row{1e-3, 0.5, 0, none, 1001.9}, Row{1e-3, 1.0, 0, none, 2007.0}, Row{1e-3, 2.0, 0, none, 4030.0},
-                    Row{50e-6, 0.5, 0, none, 20001.9}, Row{1e-3, 0.5, 1, none, 334.4}, Row{1e-3, 0.5, 2, none, 201.0},
-                    Row{1e-3, 0.5, 5, none, 91.8}, Row{1e-3, 0.05, 0, {0.05, 1.0, 100.0}, 2104.0},
-                    Row{1e-3, 0.05, 0, {0.1, 3.0, 300.0}, 6123.0}, Row{1e-3, 0.05, 0, {0.15, 5.0, 500.0}, 10146.0});
-  CAPTURE(row.period, row.friction, row.delay, row.hand.stiffness);
-  DeviceProfile device = device_profile("ideal");
-  device.viscous_friction = row.friction;
-  device.delay = row.delay;
-  CHECK(critical_stiffness(device, row.hand, 1.0 / row.period) == Approx(row.critical).epsilon(0.001));
-}
-
-TEST_CASE("a device without friction that nobody holds is stable at no stiffness", "[trade]") {
-  CHECK(critical_stiffness(device_profile("ideal"), {0.0, 0.0, 0.0}, 1000.0) < 1e-3);
-  CHECK_THROWS_AS(critical_stiffness(device_profile("ideal"), {}, 0.0), ValueError);
-  CHECK_THROWS_AS(critical_stiffness(device_profile("ideal"), {}, not_a_number), ValueError);
-}
-
 TEST_CASE("a faster loop stands harder paper, and steps its force less on the same paper", "[trade]") {
   ServoRateTradeOptions options;
   options.rates = {250.0, 1000.0, 4000.0};

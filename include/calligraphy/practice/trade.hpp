@@ -71,10 +71,6 @@ struct NearestPointTradeOptions {
 std::vector<NearestPointTrade> nearest_point_trade(std::span<const Character> characters,
                                                    const NearestPointTradeOptions& options = {});
 
-/// Largest stiffness of a sampled bilateral wall that the linear motion of device and hand, without dry friction,
-/// survives: where the exact step from sample to sample stops being a contraction [N/m]. `delay` of the profile counts.
-double critical_stiffness(const DeviceProfile& device, const Hand& hand, double rate);
-
 /// A simulated novice writes in closed loop at one servo rate.
 struct ServoRateTrade {
   double rate = 0.0;  ///< [Hz]

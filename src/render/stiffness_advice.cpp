@@ -1,0 +1,238 @@
+#include <calligraphy/render/stiffness_advice.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <sstream>
+#include <vector>
+
+#include <calligraphy/error.hpp>
+
+namespace calligraphy {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr double fastest_rate = 1e6;  // [Hz]
+constexpr double largest = 1e9;       // of any other field, so that no product of them leaves the numbers
+constexpr int longest_delay = 1000;
+
+void require(const char* name, double value, const char* unit, double least, double most = largest) {
+  if (value >= least && value <= most) return;
+  std::ostringstream message;
+  message << name << " = " << value << " " << unit << ": expected from " << least << " to " << most;
+  throw ValueError(message.str());
+}
+
+/// How the mass moves from sample to sample under a held force, in units of the period T and of the mass: the response
+/// after one period to a unit impulse (`speed`) and to a unit force held (`force`).
+struct Motion {
+  double damping, stiffness;  ///< b T / m, k T^2 / m
+  double speed, force;
+};
+
+Motion motion_over_a_period(double damping, double stiffness) {
+  // A short series for a part of the period, then doubled: nothing is subtracted that is nearly equal.
+  int doublings = 0;
+  double part = 1.0;
+  while (std::max(damping * part, std::sqrt(stiffness) * part) > 0.25) {
+    part *= 0.5;
+    ++doublings;
+  }
+  double speed = 0.0, force = 0.0;
+  double before = 0.0, term = part;  // of the Taylor series of the impulse response
+  for (int n = 1; n < 20; ++n) {
+    speed += term;
+    force += term * part / (n + 1);
+    const double next = -(damping * part * term + stiffness * part * part * before / n) / (n + 1);
+    before = term;
+    term = next;
+  }
+  for (; doublings > 0; --doublings) {
+    const double twice = speed * (2.0 - 2.0 * stiffness * force - damping * speed);
+    force = 2.0 * force - stiffness * force * force + speed * speed;
+    speed = twice;
+  }
+  return {damping, stiffness, speed, force};
+}
+
+/// The loop in units of T and of the whole mass: stiffness counts in m / T^2, damping in m / T.
+class Loop {
+ public:
+  explicit Loop(const SampledLoop& loop) : delay_(loop.delay) {
+    const double mass = loop.mass + loop.grip.mass;
+    const double period = 1.0 / loop.rate;
+    unit_ = mass / (period * period);
+    wall_damping_ = loop.wall_damping * period / mass;
+    const Motion motion =
+        motion_over_a_period((loop.damping + loop.grip.damping) * period / mass, loop.grip.stiffness / unit_);
+    // G = (force w + rest) / (w^2 + drag w + spring) with w = z - 1, which keeps its figures where z is near 1.
+    const double slowing = motion.damping * motion.speed + motion.stiffness * motion.force;
+    force_ = motion.force;
+    rest_ = motion.speed * motion.speed + slowing * motion.force;
+    drag_ = slowing + motion.stiffness * motion.force;
+    spring_ = motion.stiffness * rest_;
+  }
+
+  double unit() const noexcept { return unit_; }  ///< of stiffness [N/m]
+
+  double wall_damping() const noexcept { return wall_damping_; }
+
+  /// The stiffness at which z = exp(i angle) would be a root, if that were real.
+  Complex stiffness_at(double angle) const noexcept {
+    const Complex w = step_at(angle);
+    const Complex inverse_motion = (w * w + drag_ * w + spring_) / (force_ * w + rest_);
+    return -std::polar(1.0, angle * delay_) * inverse_motion - wall_damping_ * (w / (1.0 + w));
+  }
+
+  /// The wall's damping at which it would be one without any stiffness.
+  Complex wall_damping_at(double angle) const noexcept {
+    const Complex w = step_at(angle);
+    return -std::polar(1.0, angle * delay_) * (w + drag_ + spring_ / w) * (1.0 + w) / (force_ * w + rest_);
+  }
+
+ private:
+  static Complex step_at(double angle) noexcept {
+    const double half = std::sin(0.5 * angle);
+    return {-2.0 * half * half, std::sin(angle)};
+  }
+
+  int delay_;
+  double unit_, wall_damping_;
+  double force_, rest_, drag_, spring_;
+};
+
+/// Angles at which to look for the crossings. The imaginary part of what is looked at is sin(angle) times a polynomial
+/// in cos(angle), of degree d + 1: it has at most so many zeros, which the even spacing tells apart. The others find
+/// those of a slow motion near z = 1.
+std::vector<double> angles(int delay) {
+  constexpr double lowest = 1e-9;
+  constexpr int per_decade = 20, per_zero = 32;
+  std::vector<double> all;
+  const int even = per_zero * (delay + 2);
+  const double step = std::numbers::pi / even;
+  for (double angle = lowest; angle < step; angle *= std::pow(10.0, 1.0 / per_decade)) all.push_back(angle);
+  for (int i = 1; i < even; ++i) all.push_back(i * step);
+  return all;
+}
+
+/// The smallest positive value that `gain` takes where it is real, on the upper half of the unit circle; infinite if
+/// there is none.
+template <typename Gain>
+double first_crossing(int delay, Gain gain) {
+  double smallest = std::numeric_limits<double>::infinity();
+  const auto consider = [&](double angle) {
+    const double value = gain(angle).real();
+    if (value > 0.0) smallest = std::min(smallest, value);
+  };
+  const auto is_negative = [&](double angle) { return std::signbit(gain(angle).imag()); };
+  consider(std::numbers::pi);
+  const std::vector<double> all = angles(delay);
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    double low = all[i - 1], high = all[i];
+    const bool below = is_negative(low);
+    if (is_negative(high) == below) continue;
+    for (int halving = 0; halving < 60; ++halving) {
+      const double middle = 0.5 * (low + high);
+      (is_negative(middle) == below ? low : high) = middle;
+    }
+    consider(0.5 * (low + high));
+  }
+  return smallest;
+}
+
+StiffnessBound passive_bound(const SampledLoop& loop) {
+  const double spare = std::max(0.0, loop.damping - loop.wall_damping);
+  const char* of_delay = loop.delay == 0 ? "exact (Colgate & Brown 1994)"
+                         : loop.wall_damping == 0.0
+                             ? "exact for B = 0 (derived from the condition of Colgate & Schenkel 1997)"
+                             : "sufficient with both delay and B, not necessary";
+  return {2.0 * spare * loop.rate / (2.0 * loop.delay + 1.0), "b > K T (2 d + 1) / 2 + |B|",
+          std::string(of_delay) +
+              ", for a rigid device in any passive hand: the grip's damping is not counted; does not see the encoder's "
+              "steps, flexible links or saturation"};
+}
+
+StiffnessBound quantised_bound(const SampledLoop& loop, double passive) {
+  double value = passive;
+  if (loop.encoder_step > 0.0) {
+    const double left = loop.coulomb_friction / loop.encoder_step - loop.wall_damping * loop.rate;
+    value = std::min(value, std::max(0.0, 2.0 * left));
+  }
+  return {
+      value, "K <= min(passive, 2 f_c / D - 2 B / T)",
+      "Abbott & Okamura 2005 for B = 0 and no delay; the terms in B and d are the worst case, derived here; relies on "
+      "dry friction that is the same everywhere, and does not count the grip"};
+}
+
+StiffnessBound approximate_bound(const SampledLoop& loop) {
+  const double damping = loop.damping + loop.grip.damping + loop.wall_damping;
+  return {
+      damping * loop.rate / (0.5 + loop.delay), "K < (b + b_grip + B) / (T / 2 + d T)",
+      "Gil et al. 2009: good only for small B, where the loop is much faster than the motion; twice too high at B = "
+      "30 N s/m and 1 kHz"};
+}
+
+}  // namespace
+
+SampledLoop sampled_loop(const Capabilities& capabilities, double rate, const Hand& grip) {
+  SampledLoop loop;
+  loop.rate = rate;
+  loop.mass = capabilities.apparent_mass;
+  loop.damping = capabilities.viscous_friction;
+  loop.coulomb_friction = capabilities.coulomb_friction;
+  loop.encoder_step = capabilities.resolution;
+  loop.delay = capabilities.sample_delay;
+  loop.grip = grip;
+  validate(loop);
+  return loop;
+}
+
+void validate(const SampledLoop& loop) {
+  require("rate", loop.rate, "Hz", 1.0, fastest_rate);
+  require("mass", loop.mass, "kg", 1e-9);
+  require("damping", loop.damping, "N s/m", 0.0);
+  require("coulomb_friction", loop.coulomb_friction, "N", 0.0);
+  require("encoder_step", loop.encoder_step, "m", 0.0);
+  require("wall_damping", loop.wall_damping, "N s/m", 0.0);
+  require("grip.mass", loop.grip.mass, "kg", 0.0);
+  require("grip.damping", loop.grip.damping, "N s/m", 0.0);
+  require("grip.stiffness", loop.grip.stiffness, "N/m", 0.0);
+  if (loop.delay < 0 || loop.delay > longest_delay) {
+    throw ValueError("delay = " + std::to_string(loop.delay) + " ticks: expected from 0 to " +
+                     std::to_string(longest_delay));
+  }
+}
+
+double critical_stiffness(const SampledLoop& sampled) {
+  validate(sampled);
+  const bool damped = sampled.damping + sampled.grip.damping > 0.0;
+  if (!damped && (sampled.wall_damping == 0.0 || sampled.grip.stiffness > 0.0)) return 0.0;
+  // Under a soft wall a damped motion stays damped, unless the wall's own damping is too much for the rate. From there
+  // on it stays so until a root comes to the circle.
+  const Loop loop(sampled);
+  const auto damping_at = [&](double angle) { return loop.wall_damping_at(angle); };
+  if (loop.wall_damping() > 0.0 && loop.wall_damping() >= first_crossing(sampled.delay, damping_at)) return 0.0;
+  const double first = first_crossing(sampled.delay, [&](double angle) { return loop.stiffness_at(angle); });
+  // The stiffest wall is never stable. That none is found says that the damping is lost among the rounding errors.
+  return std::isfinite(first) ? first * loop.unit() : 0.0;
+}
+
+StiffnessAdvice advise_stiffness(const SampledLoop& loop) {
+  validate(loop);
+  StiffnessAdvice advice;
+  advice.passive = passive_bound(loop);
+  advice.quantised = quantised_bound(loop, advice.passive.value);
+  advice.stable = {
+      critical_stiffness(loop),
+      "exact zero-order hold: all roots of z^(d+1) D(z) + (K z + B (z - 1) / T) N(z) inside |z| = 1",
+      "exact for a rigid mass in this grip on a bilateral wall; does not see flexible links, which make it "
+      "optimistic, nor dry friction, rounding and saturation"};
+  advice.approximate = approximate_bound(loop);
+  return advice;
+}
+
+}  // namespace calligraphy

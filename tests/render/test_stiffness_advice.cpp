@@ -1,0 +1,257 @@
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include <calligraphy/error.hpp>
+#include <calligraphy/render/stiffness_advice.hpp>
+
+#include "../catch.hpp"
+
+using namespace calligraphy;
+
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+const Hand nobody{0.0, 0.0, 0.0};
+
+SampledLoop loop_of(double rate, double damping, int delay = 0, double wall_damping = 0.0, const Hand& grip = nobody) {
+  SampledLoop loop;
+  loop.rate = rate;
+  loop.damping = damping;
+  loop.delay = delay;
+  loop.wall_damping = wall_damping;
+  loop.grip = grip;
+  return loop;
+}
+
+/// What the device's damping has to exceed for the wall to be passive, at one angle per sample: Colgate & Schenkel
+/// 1997, T / 2 / (1 - cos) Re((1 - 1/z) H(z)), with H(z) = (K + B (1 - 1/z) / T) z^-d.
+double needed_damping(const SampledLoop& loop, double stiffness, double angle) {
+  const std::complex<double> z = std::polar(1.0, angle);
+  const std::complex<double> wall =
+      (stiffness + loop.wall_damping * loop.rate * (1.0 - 1.0 / z)) * std::polar(1.0, -angle * loop.delay);
+  return ((1.0 - 1.0 / z) * wall).real() / (2.0 * loop.rate * (1.0 - std::cos(angle)));
+}
+
+double most_needed_damping(const SampledLoop& loop, double stiffness) {
+  double most = 0.0;
+  constexpr int steps = 20000;
+  for (int i = 1; i <= steps; ++i) {
+    most = std::max(most, needed_damping(loop, stiffness, std::numbers::pi * i / steps));
+  }
+  return most;
+}
+
+std::string error_of(const SampledLoop& loop) {
+  try {
+    validate(loop);
+  } catch (const ValueError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("the linear loop turns unstable at the stiffnesses of the table", "[stiffness advice]") {
+  struct Row {
+    double period, damping;
+    int delay;
+    double wall_damping;
+    Hand grip;
+    double critical;
+  };
+  // A simulation made for the project, with the exact zero-order hold of 45 g.
+  const Row row = GENERATE_COPY(Row{10e-3, 0.5, 0, 0.0, nobody, 101.9}, Row{1e-3, 0.05, 0, 0.0, nobody, 100.0},
+                                Row{1e-3, 0.1, 0, 0.0, nobody, 200.1}, Row{1e-3, 0.5, 0, 0.0, nobody, 1001.9},
+                                Row{1e-3, 1.0, 0, 0.0, nobody, 2007.0}, Row{1e-3, 2.0, 0, 0.0, nobody, 4030.0},
+                                Row{50e-6, 0.5, 0, 0.0, nobody, 20001.9}, Row{1e-3, 0.5, 1, 0.0, nobody, 334.4},
+                                Row{1e-3, 0.5, 2, 0.0, nobody, 201.0}, Row{1e-3, 0.5, 5, 0.0, nobody, 91.8},
+                                Row{1e-3, 0.1, 0, 0.2, nobody, 598.0}, Row{1e-3, 0.1, 0, 0.5, nobody, 1187.0},
+                                Row{1e-3, 0.1, 0, 1.0, nobody, 2153.0}, Row{1e-3, 0.1, 0, 2.0, nobody, 4019.0},
+                                Row{1e-3, 0.1, 0, 5.0, nobody, 9131.0}, Row{1e-3, 0.1, 0, 10.0, nobody, 16170.0},
+                                Row{1e-3, 0.1, 0, 20.0, nobody, 25606.0}, Row{1e-3, 0.1, 0, 30.0, nobody, 30139.0},
+                                Row{1e-3, 0.05, 0, 0.0, {0.05, 1.0, 100.0}, 2104.0},
+                                Row{1e-3, 0.05, 0, 0.0, {0.1, 3.0, 300.0}, 6123.0},
+                                Row{1e-3, 0.05, 0, 0.0, {0.15, 5.0, 500.0}, 10146.0});
+  CAPTURE(row.period, row.damping, row.delay, row.wall_damping, row.grip.stiffness);
+  const SampledLoop loop = loop_of(1.0 / row.period, row.damping, row.delay, row.wall_damping, row.grip);
+  CHECK(critical_stiffness(loop) == Approx(row.critical).epsilon(0.001));
+  CHECK(advise_stiffness(loop).stable.value == critical_stiffness(loop));
+}
+
+TEST_CASE("without damping no stiffness is stable, nor with a wall whose damping alone feeds the swing",
+          "[stiffness advice]") {
+  CHECK(critical_stiffness(loop_of(1000.0, 0.0)) == 0.0);
+  CHECK(critical_stiffness(loop_of(1000.0, 0.0, 3)) == 0.0);
+  CHECK(critical_stiffness(loop_of(1000.0, 0.0, 0, 0.0, {0.1, 0.0, 300.0})) == 0.0);
+  // The wall's damping alone: z^2 - (1 - c) z + c with c = B T / (2 m), at B = 2 m / T a pair of roots on the circle.
+  const double edge = 2.0 * 0.045 * 1000.0;
+  CHECK(critical_stiffness(loop_of(1000.0, 0.0, 0, 0.99 * edge)) > 0.0);
+  CHECK(critical_stiffness(loop_of(1000.0, 0.0, 0, 1.01 * edge)) == 0.0);
+  CHECK(critical_stiffness(loop_of(1000.0, 0.1, 2, 1000.0)) == 0.0);
+}
+
+TEST_CASE("at every rate and delay a small damping allows 2 b / (T (2 d + 1)), and a little more",
+          "[stiffness advice]") {
+  for (const double rate : {100.0, 500.0, 1000.0, 4000.0, 20000.0, 1e6}) {
+    for (const int delay : {0, 1, 2, 5, 20}) {
+      CAPTURE(rate, delay);
+      const double simple = 2.0 * 0.01 * rate / (2.0 * delay + 1.0);
+      const double critical = critical_stiffness(loop_of(rate, 0.01, delay));
+      CHECK(critical > simple * (1.0 - 1e-9));
+      CHECK(critical < simple * 1.02);
+    }
+  }
+}
+
+TEST_CASE("loops at the edge of what is accepted have a finite answer", "[stiffness advice]") {
+  const double rate = GENERATE(1.0, 1e6);
+  const double mass = GENERATE(1e-9, 1e9);
+  const double damping = GENERATE(0.0, 1e-9, 1e9);
+  const int delay = GENERATE(0, 1000);
+  const double wall_damping = GENERATE(0.0, 1e9);
+  for (const Hand& grip : {nobody, Hand{1e9, 0.0, 0.0}, Hand{0.0, 1e9, 0.0}, Hand{0.0, 0.0, 1e9}}) {
+    SampledLoop loop = loop_of(rate, damping, delay, wall_damping, grip);
+    loop.mass = mass;
+    loop.encoder_step = 1e-6;
+    CAPTURE(rate, mass, damping, delay, wall_damping, grip.mass, grip.damping, grip.stiffness);
+    const StiffnessAdvice advice = advise_stiffness(loop);
+    for (const StiffnessBound& bound : {advice.passive, advice.quantised, advice.stable, advice.approximate}) {
+      CHECK(std::isfinite(bound.value));
+      CHECK(bound.value >= 0.0);
+    }
+  }
+}
+
+TEST_CASE("the passive bound keeps the condition of Colgate and Schenkel, and no larger one does",
+          "[stiffness advice]") {
+  const double damping = GENERATE(0.1, 2.0);
+  const double rate = GENERATE(100.0, 1000.0, 20000.0);
+  const int delay = GENERATE(0, 1, 2, 5);
+  for (const double share : {0.0, 0.3, 0.9}) {
+    const SampledLoop loop = loop_of(rate, damping, delay, share * damping);
+    CAPTURE(damping, rate, delay, share);
+    const double passive = advise_stiffness(loop).passive.value;
+    CHECK(passive > 0.0);
+    CHECK(most_needed_damping(loop, passive) <= damping * (1.0 + 1e-6));
+    if (delay == 0 || share == 0.0) CHECK(most_needed_damping(loop, 1.01 * passive) > damping);
+  }
+  CHECK(advise_stiffness(loop_of(rate, damping, delay, 1.01 * damping)).passive.value == 0.0);
+  CHECK(most_needed_damping(loop_of(rate, damping, delay, 1.01 * damping), 1e-9) > damping);
+}
+
+TEST_CASE("what is passive is stable in every grip", "[stiffness advice]") {
+  const double rate = GENERATE(1.0, 100.0, 1000.0, 20000.0, 1e6);
+  const double damping = GENERATE(0.001, 0.1, 5.0, 1000.0);
+  for (const int delay : {0, 1, 2, 5, 50}) {
+    for (const double share : {0.0, 0.3, 0.999, 2.0}) {
+      for (const Hand& grip : {nobody, Hand{0.1, 3.0, 300.0}, Hand{0.15, 5.0, 500.0}, Hand{0.0, 0.0, 1e6},
+                               Hand{10.0, 0.0, 0.0}, Hand{0.0, 500.0, 1.0}}) {
+        const SampledLoop loop = loop_of(rate, damping, delay, share * damping, grip);
+        CAPTURE(rate, damping, delay, share, grip.mass, grip.damping, grip.stiffness);
+        const StiffnessAdvice advice = advise_stiffness(loop);
+        CHECK(advice.passive.value <= advice.stable.value * (1.0 + 1e-6));
+        CHECK(advice.quantised.value <= advice.passive.value);
+      }
+    }
+  }
+}
+
+TEST_CASE("the passive bound does not count on a hand, the stable one does", "[stiffness advice]") {
+  const StiffnessAdvice free = advise_stiffness(loop_of(1000.0, 0.1));
+  const StiffnessAdvice held = advise_stiffness(loop_of(1000.0, 0.1, 0, 0.0, {0.1, 3.0, 300.0}));
+  CHECK(held.passive.value == free.passive.value);
+  CHECK(held.quantised.value == free.quantised.value);
+  CHECK(held.stable.value > 30.0 * free.stable.value);
+}
+
+TEST_CASE("dry friction has to hold the rounding of the encoder", "[stiffness advice]") {
+  SampledLoop loop = loop_of(1000.0, 10.0);
+  const auto quantised = [&](double friction, double step) {
+    loop.coulomb_friction = friction;
+    loop.encoder_step = step;
+    return advise_stiffness(loop).quantised.value;
+  };
+  CHECK(quantised(0.26, 55e-6) == Approx(9455.0).epsilon(1e-4));  // Omni
+  CHECK(quantised(0.06, 23e-6) == Approx(5217.0).epsilon(1e-4));  // Desktop
+  CHECK(quantised(0.0, 55e-6) == 0.0);
+  CHECK(quantised(0.0, 0.0) == Approx(20000.0));
+  CHECK(quantised(0.26, 1e-9) == Approx(20000.0));
+  loop.wall_damping = 1.0;  // its rounded speed makes steps of B D / T
+  CHECK(quantised(0.26, 55e-6) == Approx(2.0 * (0.26 / 55e-6 - 1000.0)));
+  CHECK(quantised(0.05, 55e-6) == 0.0);
+}
+
+TEST_CASE("the rule of thumb is right for little wall damping and twice too high for much", "[stiffness advice]") {
+  const auto ratio = [](double wall_damping) {
+    const StiffnessAdvice advice = advise_stiffness(loop_of(1000.0, 0.1, 0, wall_damping));
+    return advice.approximate.value / advice.stable.value;
+  };
+  CHECK(ratio(0.0) == Approx(1.0).epsilon(0.01));
+  CHECK(ratio(0.2) == Approx(1.0).epsilon(0.01));
+  CHECK(ratio(30.0) == Approx(2.0).epsilon(0.01));
+  CHECK(advise_stiffness(loop_of(1000.0, 0.5, 2)).approximate.value == Approx(0.5 / 0.0025));
+}
+
+TEST_CASE("every bound names its formula and in one line its validity", "[stiffness advice]") {
+  const StiffnessAdvice advice = advise_stiffness(loop_of(1000.0, 0.5, 1, 0.1));
+  for (const StiffnessBound& bound : {advice.passive, advice.quantised, advice.stable, advice.approximate}) {
+    CHECK(bound.formula.find('K') != std::string::npos);
+    CHECK_FALSE(bound.validity.empty());
+    CHECK(bound.validity.find('\n') == std::string::npos);
+  }
+  CHECK(advice.passive.validity.find("sufficient") != std::string::npos);
+}
+
+TEST_CASE("the loop of a device is made of what it tells", "[stiffness advice]") {
+  Capabilities capabilities;
+  capabilities.apparent_mass = 0.045;
+  capabilities.viscous_friction = 0.1;
+  capabilities.coulomb_friction = 0.26;
+  capabilities.resolution = 55e-6;
+  capabilities.sample_delay = 2;
+  const SampledLoop loop = sampled_loop(capabilities, 500.0, {0.1, 3.0, 300.0});
+  CHECK(loop.rate == 500.0);
+  CHECK(loop.mass == 0.045);
+  CHECK(loop.damping == 0.1);
+  CHECK(loop.coulomb_friction == 0.26);
+  CHECK(loop.encoder_step == 55e-6);
+  CHECK(loop.delay == 2);
+  CHECK(loop.wall_damping == 0.0);
+  CHECK(loop.grip.stiffness == 300.0);
+  capabilities.apparent_mass = 0.0;
+  CHECK_THROWS_AS(sampled_loop(capabilities, 500.0), ValueError);
+}
+
+TEST_CASE("a loop that is not physical is refused by the field's name and value", "[stiffness advice]") {
+  CHECK(error_of({}).empty());
+  const auto refused = [](double SampledLoop::*field, const char* name) {
+    for (const double bad : {-1.0, not_a_number, infinity, 2e9}) {
+      SampledLoop loop;
+      loop.*field = bad;
+      CAPTURE(name, bad);
+      CHECK(error_of(loop).find(name) == 0);
+      CHECK_THROWS_AS(critical_stiffness(loop), ValueError);
+      CHECK_THROWS_AS(advise_stiffness(loop), ValueError);
+    }
+  };
+  refused(&SampledLoop::rate, "rate = ");
+  refused(&SampledLoop::mass, "mass = ");
+  refused(&SampledLoop::damping, "damping = ");
+  refused(&SampledLoop::coulomb_friction, "coulomb_friction = ");
+  refused(&SampledLoop::encoder_step, "encoder_step = ");
+  refused(&SampledLoop::wall_damping, "wall_damping = ");
+  for (double Hand::*field : {&Hand::mass, &Hand::damping, &Hand::stiffness}) {
+    SampledLoop loop;
+    loop.grip.*field = -1.0;
+    CHECK(error_of(loop).find("grip.") == 0);
+  }
+  CHECK(error_of(loop_of(0.0, 0.1)) == "rate = 0 Hz: expected from 1 to 1e+06");
+  CHECK(error_of(loop_of(1000.0, 0.1, -1)) == "delay = -1 ticks: expected from 0 to 1000");
+  CHECK(error_of(loop_of(1000.0, 0.1, 1001)) == "delay = 1001 ticks: expected from 0 to 1000");
+}

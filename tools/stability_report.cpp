@@ -1,0 +1,153 @@
+#include "stability_report.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace calligraphy::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double millimetres = 1e3, micrometres = 1e6;
+
+std::string row(const char* name, const StiffnessBound& bound) {
+  return fmt::format("{:<12}{:>12.1f}  {}\n{:<26}{}\n", name, bound.value, bound.formula, "", bound.validity);
+}
+
+std::string description(const SampledLoop& loop) {
+  std::string text =
+      fmt::format("{:g} Hz, {:g} kg, b = {:g} N s/m, f_c = {:g} N, encoder step D = {:g} um, delay d = {}", loop.rate,
+                  loop.mass, loop.damping, loop.coulomb_friction, loop.encoder_step * micrometres, loop.delay);
+  text += fmt::format("{}, wall damping B = {:g} N s/m", loop.delay == 1 ? " tick" : " ticks", loop.wall_damping);
+  const Hand& grip = loop.grip;
+  if (grip.mass == 0.0 && grip.damping == 0.0 && grip.stiffness == 0.0) return text + ", held by nobody";
+  return text + fmt::format(", grip {:g} kg, {:g} N s/m, {:g} N/m", grip.mass, grip.damping, grip.stiffness);
+}
+
+Json json_of(const SampledLoop& loop) {
+  return {{"rate_Hz", loop.rate},
+          {"mass_kg", loop.mass},
+          {"damping_N_s_per_m", loop.damping},
+          {"coulomb_friction_N", loop.coulomb_friction},
+          {"encoder_step_m", loop.encoder_step},
+          {"delay_ticks", loop.delay},
+          {"wall_damping_N_s_per_m", loop.wall_damping},
+          {"grip",
+           {{"mass_kg", loop.grip.mass},
+            {"damping_N_s_per_m", loop.grip.damping},
+            {"stiffness_N_per_m", loop.grip.stiffness}}}};
+}
+
+Json json_of(const StiffnessBound& bound) {
+  return {{"stiffness_N_per_m", bound.value}, {"formula", bound.formula}, {"validity", bound.validity}};
+}
+
+Json json_of(const StabilityLine& line) {
+  return {{"loop", json_of(line.loop)},
+          {"critical_stiffness_N_per_m", line.stable},
+          {"passive_stiffness_N_per_m", line.passive},
+          {"quantised_stiffness_N_per_m", line.quantised},
+          {"approximate_stiffness_N_per_m", line.approximate},
+          {"largest_settling_N_per_m", line.largest},
+          {"controlled_largest_settling_N_per_m", line.controlled_largest},
+          {"controlled_largest_settling_below_peak_force_N_per_m", line.controlled_within_peak},
+          {"settles", line.settles},
+          {"controlled_settles", line.controlled_settles}};
+}
+
+Json json_of(const StabilitySweep& sweep) {
+  Json lines = Json::array();
+  for (std::size_t i = 0; i < sweep.lines.size(); ++i) {
+    Json line = {{"value", sweep.values[i]}};
+    line.update(json_of(sweep.lines[i]));
+    lines.push_back(std::move(line));
+  }
+  return {{"name", sweep.name}, {"label", sweep.label}, {"lines", std::move(lines)}};
+}
+
+std::string sweep_table(const StabilitySweep& sweep) {
+  std::string text = fmt::format("{}\n{:>10}{:>10}{:>10}{:>10}{:>14}{:>10}{:>14}{:>10}\n", sweep.label, "", "passive",
+                                 "quantised", "stable", "Gil et al.", "settles", "controlled", "in peak");
+  for (std::size_t i = 0; i < sweep.lines.size(); ++i) {
+    const StabilityLine& line = sweep.lines[i];
+    text += fmt::format("{:>10}{:>10.0f}{:>10.0f}{:>10.0f}{:>14.0f}{:>10.0f}{:>14.0f}{:>10.0f}\n", sweep.values[i],
+                        line.passive, line.quantised, line.stable, line.approximate, line.largest,
+                        line.controlled_largest, line.controlled_within_peak);
+  }
+  return text + "\n";
+}
+
+/// How the simulation stands to theory over a set of lines.
+std::string summary(const std::vector<StabilityLine>& grid) {
+  if (grid.empty()) return "";
+  double least = std::numeric_limits<double>::infinity(), most = 0.0;
+  int linear = 0, helped = 0, harmed = 0, below_passive = 0;
+  for (const StabilityLine& line : grid) {
+    helped += line.controlled_largest > line.largest ? 1 : 0;
+    harmed += line.controlled_largest < line.largest ? 1 : 0;
+    below_passive += line.largest < 0.98 * line.quantised ? 1 : 0;
+    if (line.loop.encoder_step > 0.0 || line.loop.coulomb_friction > 0.0 || line.largest == 0.0) continue;
+    ++linear;
+    least = std::min(least, line.largest / line.stable);
+    most = std::max(most, line.largest / line.stable);
+  }
+  std::string text = fmt::format("Grid: {} loops, each with control off and on\n", grid.size());
+  if (linear > 0) {
+    text += fmt::format("  simulated over exact, {} loops without friction and rounding: {:.3f} to {:.3f}\n", linear,
+                        least, most);
+  }
+  return text + fmt::format("  loops that do not settle up to the quantised passive bound: {}\n", below_passive) +
+         fmt::format("  control allows more stiffness in {} loops, less in {}\n", helped, harmed);
+}
+
+}  // namespace
+
+std::string table(const SampledLoop& loop, const StiffnessAdvice& advice) {
+  return description(loop) + fmt::format("\n\n{:<12}{:>12}\n", "largest", "K [N/m]") + row("passive", advice.passive) +
+         row("quantised", advice.quantised) + row("stable", advice.stable) + row("approximate", advice.approximate);
+}
+
+std::string json(const SampledLoop& loop, const StiffnessAdvice& advice) {
+  const Json object = {{"critical_stiffness_N_per_m", advice.stable.value},
+                       {"passive_stiffness_N_per_m", advice.passive.value},
+                       {"quantised_stiffness_N_per_m", advice.quantised.value},
+                       {"loop", json_of(loop)},
+                       {"bounds",
+                        {{"stable", json_of(advice.stable)},
+                         {"passive", json_of(advice.passive)},
+                         {"quantised", json_of(advice.quantised)},
+                         {"approximate", json_of(advice.approximate)}}}};
+  return object.dump(2) + "\n";
+}
+
+std::string tables(const StabilityMap& map) {
+  const WallEncounter& encounter = map.encounter;
+  std::string text = fmt::format(
+      "Largest stiffness [N/m] of a wall. A pen falls on it from {:g} mm, pushed by {:g} N, for {:g} s; peak force "
+      "{:g} "
+      "N\nsettles: up to here it comes to rest; controlled: with the passivity controller; in peak: and never reaches "
+      "the peak force\n\n",
+      encounter.height * millimetres, encounter.push, encounter.seconds, encounter.peak_force);
+  for (const StabilitySweep& sweep : map.sweeps) text += sweep_table(sweep);
+  return text + summary(map.grid);
+}
+
+std::string json(const StabilityMap& map) {
+  Json sweeps = Json::array(), grid = Json::array();
+  for (const StabilitySweep& sweep : map.sweeps) sweeps.push_back(json_of(sweep));
+  for (const StabilityLine& line : map.grid) grid.push_back(json_of(line));
+  const Json object = {{"encounter",
+                        {{"push_N", map.encounter.push},
+                         {"height_m", map.encounter.height},
+                         {"seconds", map.encounter.seconds},
+                         {"peak_force_N", map.encounter.peak_force}}},
+                       {"stiffnesses_N_per_m", map.stiffnesses},
+                       {"sweeps", std::move(sweeps)},
+                       {"grid", std::move(grid)}};
+  return object.dump() + "\n";
+}
+
+}  // namespace calligraphy::tools
