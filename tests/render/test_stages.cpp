@@ -171,6 +171,10 @@ TEST_CASE("a pen led astray is drawn to the stroke's start, but on the paper onl
     } else {
       CHECK(in_plane == Point(0, 0));
     }
+    pen.go(at(astray, 0.005));
+    rest(pen, at(astray, 0.005), 50);
+    pen.go(at(astray, -0.001));
+    CHECK(renderer.last().page_force.head<2>().norm() < 0.1);  // and comes in anew with each contact
     pen.go(at(stroke.start, -0.001));
     CHECK(renderer.last().state == InteractionState::writing);
     pen.go(at(stroke.end, -0.001));
