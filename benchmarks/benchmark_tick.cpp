@@ -154,7 +154,7 @@ BENCHMARK_CAPTURE(stage_constraint_share, tube, ConstraintSpaceRule::tube);
 BENCHMARK_CAPTURE(stage_constraint_share, wang2006, ConstraintSpaceRule::wang2006);
 
 void stage_limiter(benchmark::State& state) {
-  const ForceLimiter limiter{0.1, 0.4, 7.9};
+  ForceLimiter limiter{0.1, 0.4, 7.9};
   const CurveQueries& queries = curve_queries();
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
   std::size_t i = 0;

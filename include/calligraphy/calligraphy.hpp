@@ -11,6 +11,7 @@
 #include <calligraphy/collision/stroke_element.hpp>
 #include <calligraphy/collision/stroke_tracker.hpp>
 #include <calligraphy/devices/device_state.hpp>
+#include <calligraphy/devices/flush_denormals.hpp>
 #include <calligraphy/devices/haptic_device.hpp>
 #include <calligraphy/devices/replay_device.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
@@ -45,12 +46,15 @@
 #include <calligraphy/practice/trade.hpp>
 #include <calligraphy/practice/validation.hpp>
 #include <calligraphy/practice/writer.hpp>
+#include <calligraphy/render/assist_policy.hpp>
 #include <calligraphy/render/force_limiter.hpp>
 #include <calligraphy/render/force_terms.hpp>
 #include <calligraphy/render/haptic_renderer.hpp>
 #include <calligraphy/render/haptic_tick.hpp>
 #include <calligraphy/render/interaction_state.hpp>
 #include <calligraphy/render/motion_mapping.hpp>
+#include <calligraphy/render/paper_friction.hpp>
 #include <calligraphy/render/passivity_controller.hpp>
 #include <calligraphy/render/renderer_options.hpp>
 #include <calligraphy/render/stiffness_advice.hpp>
+#include <calligraphy/render/thermal_budget.hpp>

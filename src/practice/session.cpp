@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 
+#include <calligraphy/devices/flush_denormals.hpp>
 #include <calligraphy/error.hpp>
 
 namespace calligraphy {
@@ -37,6 +38,7 @@ Recording write_page(const Page& page, const SessionOptions& options) {
   SimulatedDevice device(options.device, options.skill.hand,
                          mapping.to_device({0.5 * page.width, 0.5 * page.height, resting_height}));
 
+  const FlushDenormals as_a_servo_thread;
   using Clock = std::chrono::steady_clock;
   const double period = 1.0 / options.renderer.servo_rate;
   const double longest = options.longest_character * static_cast<double>(page.characters.size());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -41,6 +42,28 @@ void require_valid(const MotionMapping& mapping) {
   }
 }
 
+/// In page axes, where masses and forces look `scale` times as the device has them (MotionMapping).
+PassivityController passivity_controller(const RendererOptions& options, const Capabilities& capabilities,
+                                         double scale) {
+  const double period = 1.0 / options.servo_rate;
+  PassivityOptions passivity;
+  passivity.delay = capabilities.sample_delay;
+  if (options.passivity_control) {
+    passivity.max_damping =
+        PassivityController::usable_damping(capabilities.apparent_mass, period, passivity.delay) / (scale * scale);
+  }
+  passivity.energy_budget = options.energy_budget;
+  if (options.limit_force_rate) {
+    passivity.force_rate = std::min(options.in_plane_force_rate, options.normal_force_rate) / scale;
+  }
+  return PassivityController(passivity, period);
+}
+
+Eigen::Vector3d shortened(const Eigen::Vector3d& force, double longest) noexcept {
+  const double size = force.norm();
+  return size > longest ? Eigen::Vector3d(force * (longest / size)) : force;
+}
+
 }  // namespace
 
 HapticRenderer::HapticRenderer(std::vector<PlacedCharacter> page, const MotionMapping& mapping,
@@ -67,6 +90,15 @@ HapticRenderer::HapticRenderer(std::vector<PlacedCharacter> page, const MotionMa
   limiter_.normal_step = options.normal_force_rate / options.servo_rate / mapping.scale;
   limiter_.peak = capabilities.peak_force / mapping.scale;
   limiter_.limit_rate = options.limit_force_rate;
+  const double period = 1.0 / options.servo_rate;
+  limiter_.jerk = options.force_jerk * period * period / mapping.scale;
+  observes_energy_ = options.passivity_control || std::isfinite(options.energy_budget);
+  if (observes_energy_) passivity_ = passivity_controller(options, capabilities, mapping.scale);
+  if (options.thermal_time_constant > 0.0) {
+    thermal_.peak = limiter_.peak;
+    thermal_.continuous = std::min(capabilities.continuous_force, capabilities.peak_force) / mapping.scale;
+    thermal_.time_constant = options.thermal_time_constant;
+  }
   restart();
 }
 
@@ -76,6 +108,10 @@ void HapticRenderer::restart() noexcept {
   lifted_ = true;
   has_sample_ = false;
   has_rejected_ = false;
+  limiter_.last_step.setZero();
+  passivity_.restart();
+  thermal_.heat = 0.0;
+  friction_.release();
   activate(0, 0);
 }
 
@@ -89,8 +125,9 @@ const HapticTick& HapticRenderer::update(const DeviceState& state) noexcept {
     follow(sense());
     send(sum_forces());
   } else {
-    tick_.attraction = tick_.wrong_way = Point::Zero();
+    tick_.attraction = tick_.wrong_way = tick_.friction = Point::Zero();
     tick_.normal = 0.0;
+    friction_.release();
     send(Eigen::Vector3d::Zero());
   }
   return tick_;
@@ -150,7 +187,7 @@ TransitionInput HapticRenderer::sense() noexcept {
   const double slack = inside_box_ ? options_.box_hysteresis * (writing ? 3.0 : 1.0) : 0.0;
   inside_box_ = active_character().box.exteriorDistance(tip) <= slack;
   input.inside_box = inside_box_;
-  input.may_start = !character_done_ && (lifted_ || !options_.lift_between_strokes);
+  input.may_start = may_start();
   if (!input.contact) return input;
   if (writing) {
     tick_.contact = active_.update(tip, options_.stroke);
@@ -170,6 +207,7 @@ void HapticRenderer::follow(const TransitionInput& input) noexcept {
     tick_.events |= TickEvent::contact;
   }
   if (before == InteractionState::writing && after != InteractionState::writing) {
+    if (options_.assist.enabled) adapt_help(!input.stroke_finished);
     if (input.stroke_finished) {
       finish_stroke();
     } else {
@@ -218,30 +256,76 @@ void HapticRenderer::activate(int character, int stroke) noexcept {
                page_[static_cast<std::size_t>(character)].placement);
 }
 
+void HapticRenderer::measure_error() noexcept {
+  const Point tip = tick_.pen_tip.head<2>();
+  if (has(tick_.events, TickEvent::stroke_started)) {
+    error_square_ = error_way_ = 0.0;
+    error_tip_ = tip;
+  }
+  const double way = (tip - error_tip_).norm();
+  error_square_ += way * tick_.contact.foot.distance * tick_.contact.foot.distance;
+  error_way_ += way;
+  error_tip_ = tip;
+}
+
+void HapticRenderer::adapt_help(bool abandoned) noexcept {
+  const AssistPolicy& policy = options_.assist;
+  const double error = error_way_ > 0.0 ? std::sqrt(error_square_ / error_way_) : 0.0;
+  tick_.help = policy.next(tick_.help, abandoned ? std::max(error, policy.full_help_error) : error);
+}
+
 Eigen::Vector3d HapticRenderer::sum_forces() noexcept {
   tick_.attraction = tick_.wrong_way = Point::Zero();
   tick_.normal = 0.0;
   const bool solid = tick_.state == InteractionState::calibration || tick_.state == InteractionState::writing ||
                      (tick_.state == InteractionState::adjusting && options_.solid_paper);
   if (solid) tick_.normal = normal_force(options_.paper_stiffness, tick_.penetration, options_.force_sign);
-  if (tick_.state == InteractionState::writing) {
+  Point in_plane = guide();
+  if (options_.friction.coefficient > 0.0) in_plane += rub();
+  return {in_plane.x(), in_plane.y(), tick_.normal};
+}
+
+Point HapticRenderer::guide() noexcept {
+  const Point tip = tick_.pen_tip.head<2>();
+  const double stiffness = options_.guidance_stiffness * tick_.help;
+  const bool saturating = options_.guidance == GuidanceLaw::saturating;
+  const bool writing = tick_.state == InteractionState::writing;
+  if (writing) {
     const StrokeContact& contact = tick_.contact;
-    const double stiffness = options_.guidance_stiffness * contact.attraction * contact.share;
-    tick_.attraction = attraction_force(stiffness, tick_.pen_tip.head<2>(), contact.foot.point, options_.force_sign);
+    const double share = saturating ? contact.attraction : contact.attraction * contact.share;
+    tick_.attraction = attraction_force(stiffness * share, tip, contact.foot.point, options_.force_sign);
     tick_.wrong_way =
         contact.share * wrong_way_force(options_.wrong_way_stiffness, options_.wrong_way_limit,
                                         options_.wrong_way_slack, contact.backwards, contact.foot.tangent);
+    if (options_.assist.enabled) measure_error();
+  } else if (options_.guide_to_start && tick_.state == InteractionState::calibration && may_start()) {
+    tick_.attraction = attraction_force(stiffness, tip, active_.start(), options_.force_sign);
+  } else {
+    return Point::Zero();
   }
-  Point in_plane = tick_.attraction + tick_.wrong_way;
-  if (tick_.state == InteractionState::writing) in_plane = fade(in_plane);
-  return {in_plane.x(), in_plane.y(), tick_.normal};
+  if (saturating) tick_.attraction = saturated_force(tick_.attraction, options_.guidance_limit);
+  return fade(tick_.attraction + tick_.wrong_way);
+}
+
+Point HapticRenderer::rub() noexcept {
+  if (tick_.normal > 0.0) {
+    const double normal = std::max(0.0, tick_.page_force.z());  // what the hand really presses against
+    tick_.friction =
+        friction_.update(options_.friction, tick_.device_point.head<2>(), normal, 1.0 / options_.servo_rate);
+  } else {
+    tick_.friction = Point::Zero();
+    friction_.release();
+  }
+  return tick_.friction;
 }
 
 /// Where the foot leaps, at the start of a stroke and at a feature point, a spring that appears at once throws the pen:
 /// the force passes from what it was to what it is now to be over the fade-in.
 Point HapticRenderer::fade(const Point& force) noexcept {
-  if (has(tick_.events, TickEvent::stroke_started | TickEvent::feature_passed)) {
-    fade_from_ = tick_.page_force.head<2>();
+  constexpr TickEvent leaps =
+      TickEvent::stroke_started | TickEvent::feature_passed | TickEvent::contact | TickEvent::stroke_abandoned;
+  if (has(tick_.events, leaps)) {
+    fade_from_ = tick_.page_force.head<2>() - tick_.friction - tick_.damping.head<2>();
     faded_ = 0.0;
   }
   faded_ = std::min(1.0, faded_ + fade_step_);
@@ -249,9 +333,29 @@ Point HapticRenderer::fade(const Point& force) noexcept {
   return fade_from_ + share * (force - fade_from_);
 }
 
-void HapticRenderer::send(const Eigen::Vector3d& target) noexcept {
-  tick_.page_force = limiter_.next(tick_.page_force, target);
+/// The last stages, in this order: passivity, direction-keeping saturation, rate and jerk, account of what is sent.
+void HapticRenderer::send(const Eigen::Vector3d& wanted) noexcept {
+  Eigen::Vector3d force = observes_energy_ ? control_passivity(wanted) : wanted;
+  if (thermal_.peak > 0.0) force = shortened(force, thermal_.largest_force());
+  const bool trusted = tick_.status == TickStatus::ok;
+  tick_.page_force = trusted ? limiter_.next(tick_.page_force, force) : limiter_.release(tick_.page_force);
+  if (observes_energy_) passivity_.sent(tick_.page_force);
+  if (thermal_.peak > 0.0) {
+    thermal_.held(tick_.page_force.norm(), 1.0 / options_.servo_rate);
+    tick_.heat = thermal_.heat;
+  }
   tick_.force = mapping_.force_to_device(tick_.page_force);
+}
+
+Eigen::Vector3d HapticRenderer::control_passivity(const Eigen::Vector3d& wanted) noexcept {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  const bool known = tick_.status == TickStatus::ok;
+  Eigen::Vector3d force = passivity_.next(known ? last_position_ : Eigen::Vector3d(unknown, unknown, unknown), wanted);
+  // Paper does not pull, however fast the pen is lifted.
+  if (wanted.z() >= 0.0) force.z() = std::max(0.0, force.z());
+  tick_.damping = passivity_.damping();
+  tick_.energy_given = passivity_.energy_given();
+  return force;
 }
 
 }  // namespace calligraphy

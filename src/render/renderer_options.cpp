@@ -76,6 +76,22 @@ RendererOptions RendererOptions::for_device(const Capabilities& capabilities) {
   return options;
 }
 
+RendererOptions RendererOptions::everything(const Capabilities& capabilities) {
+  RendererOptions options = for_device(capabilities);
+  options.guidance = GuidanceLaw::saturating;
+  options.guidance_limit = std::min(options.guidance_limit, 0.5 * capabilities.peak_force);
+  options.guide_to_start = true;
+  options.box_margin = 0.02;
+  options.assist.enabled = true;
+  options.friction.coefficient = 0.15;
+  options.force_jerk = 1e5;
+  options.passivity_control = true;
+  options.energy_budget = 0.1;
+  const bool warms = capabilities.continuous_force > 0.0 && capabilities.continuous_force < capabilities.peak_force;
+  options.thermal_time_constant = warms ? 10.0 : 0.0;
+  return options;
+}
+
 void validate(const RendererOptions& options, const Capabilities& capabilities, double largest_attraction) {
   require("servo_rate", options.servo_rate, Bound::above_zero, 1e6);
   require_stiffness("paper_stiffness", options.paper_stiffness, 1.0, capabilities);
@@ -84,6 +100,14 @@ void validate(const RendererOptions& options, const Capabilities& capabilities, 
   require("guidance_fade_in", options.guidance_fade_in, Bound::from_zero);
   require("wrong_way_limit", options.wrong_way_limit, Bound::from_zero);
   require("wrong_way_slack", options.wrong_way_slack, Bound::from_zero);
+  require("guidance_limit", options.guidance_limit, Bound::above_zero);
+  require("assist.retention", options.assist.retention, Bound::from_zero, 1.0);
+  require("assist.full_help_error", options.assist.full_help_error, Bound::above_zero);
+  require("assist.least", options.assist.least, Bound::from_zero, 1.0);
+  require("friction.coefficient", options.friction.coefficient, Bound::from_zero, 10.0);
+  require("friction.stiffness", options.friction.stiffness, Bound::above_zero, stiffest);
+  require("friction.static_ratio", options.friction.static_ratio, Bound::above_zero, 10.0);
+  require("friction.stick_speed", options.friction.stick_speed, Bound::from_zero);
   require("stroke.nearest.tolerance", options.stroke.nearest.tolerance, Bound::above_zero, 1.0);
   require_count("stroke.nearest.samples", options.stroke.nearest.samples, 2, 64);
   require_count("stroke.nearest.refinements", options.stroke.nearest.refinements, 0, 8);
@@ -97,6 +121,20 @@ void validate(const RendererOptions& options, const Capabilities& capabilities, 
   require("box_hysteresis", options.box_hysteresis, Bound::from_zero);
   require("in_plane_force_rate", options.in_plane_force_rate, Bound::above_zero);
   require("normal_force_rate", options.normal_force_rate, Bound::above_zero);
+  if (!(options.force_jerk == std::numeric_limits<double>::infinity())) {
+    require("force_jerk", options.force_jerk, Bound::above_zero);
+  }
+  if (!(options.energy_budget == std::numeric_limits<double>::infinity())) {
+    require("energy_budget", options.energy_budget, Bound::from_zero);
+  }
+  require("thermal_time_constant", options.thermal_time_constant, Bound::from_zero);
+  if (options.thermal_time_constant > 0.0) {
+    require("continuous_force of the device, for thermal_time_constant", capabilities.continuous_force,
+            Bound::above_zero);
+  }
+  if (options.passivity_control) {
+    require("apparent_mass of the device, for passivity_control", capabilities.apparent_mass, Bound::above_zero);
+  }
   require("largest_speed", options.largest_speed, Bound::above_zero);
 }
 

@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr ForceLimiter limiter{0.1, 0.4, 3.3, true};
+ForceLimiter limiter{0.1, 0.4, 3.3, true};
 
 Vector3d random_force(Sequence& random, double largest) {
   const double x = random.between(-largest, largest), y = random.between(-largest, largest);
@@ -66,12 +66,12 @@ TEST_CASE("a target above the peak is approached along its direction", "[render]
   Vector3d force = Vector3d::Zero();
   for (int i = 0; i < 5000; ++i) force = limiter.next(force, target);
   CHECK(force.norm() == Approx(3.3));
-  const ForceLimiter unlimited{0.1, 0.4, 3.3, false};
+  ForceLimiter unlimited{0.1, 0.4, 3.3, false};
   CHECK(unlimited.next({0, 0, 0}, target).isApprox(3.3 * target.normalized()));
 }
 
 TEST_CASE("without a rate limit a force comes at once", "[render]") {
-  const ForceLimiter unlimited{0.1, 0.4, 3.3, false};
+  ForceLimiter unlimited{0.1, 0.4, 3.3, false};
   CHECK(unlimited.next({0, 0, 0}, {1.0, -2.0, 0.5}) == Vector3d(1.0, -2.0, 0.5));
   CHECK(std::isinf(unlimited.max_step()));
 }

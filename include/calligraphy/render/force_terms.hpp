@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include <calligraphy/model/point.hpp>
 
@@ -18,6 +19,13 @@ enum class ForceSign {
 inline Point attraction_force(double stiffness, const Point& tip, const Point& foot,
                               ForceSign sign = ForceSign::attracting) noexcept {
   return (sign == ForceSign::attracting ? stiffness : -stiffness) * (foot - tip);
+}
+
+/// A pull of `force` [N] by the linear law, kept below `limit` [N]: F / sqrt(1 + (F / limit)^2). The stiffness of eq.
+/// (8) near the stroke; beyond limit / K the pull hardly grows any more, so that a device can give it at any distance.
+inline Point saturated_force(const Point& force, double limit) noexcept {
+  const double share = force.norm() / limit;
+  return force / std::sqrt(1.0 + share * share);
 }
 
 /// Normal force, eq. (9): K d along the normal out of the paper, d = max(0, penetration) [N]. As printed, K (z_p - z_0)

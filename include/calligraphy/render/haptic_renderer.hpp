@@ -11,7 +11,10 @@
 #include <calligraphy/render/force_limiter.hpp>
 #include <calligraphy/render/haptic_tick.hpp>
 #include <calligraphy/render/motion_mapping.hpp>
+#include <calligraphy/render/paper_friction.hpp>
+#include <calligraphy/render/passivity_controller.hpp>
 #include <calligraphy/render/renderer_options.hpp>
+#include <calligraphy/render/thermal_budget.hpp>
 
 namespace calligraphy {
 
@@ -52,10 +55,16 @@ class HapticRenderer {
   TransitionInput sense() noexcept;
   void follow(const TransitionInput& input) noexcept;
   void finish_stroke() noexcept;
+  void measure_error() noexcept;
+  void adapt_help(bool abandoned) noexcept;
   void activate(int character, int stroke) noexcept;
   Eigen::Vector3d sum_forces() noexcept;
+  Point guide() noexcept;
+  Point rub() noexcept;
   Point fade(const Point& force) noexcept;
-  void send(const Eigen::Vector3d& target) noexcept;
+  void send(const Eigen::Vector3d& wanted) noexcept;
+  Eigen::Vector3d control_passivity(const Eigen::Vector3d& wanted) noexcept;
+  bool may_start() const noexcept { return !character_done_ && (lifted_ || !options_.lift_between_strokes); }
   bool all_written() const noexcept { return tick_.character >= static_cast<int>(page_.size()); }
   const PreparedCharacter& active_character() const noexcept {
     return prepared_[static_cast<std::size_t>(tick_.character)];
@@ -67,11 +76,18 @@ class HapticRenderer {
   RendererOptions options_;
   ForceLimiter limiter_;
   double fade_step_ = 1.0;  ///< per tick
+  bool observes_energy_ = false;
+  PassivityController passivity_;
+  ThermalBudget thermal_;  ///< peak 0: none
+  PaperFriction friction_;
 
   ActiveStroke active_;
   HapticTick tick_;
   Point fade_from_ = Point::Zero();  ///< in-plane force at the last leap of the foot [N, page]
   double faded_ = 0.0;               ///< 0 at that leap, 1 after the fade-in
+  double error_square_ = 0.0;        ///< lateral error squared, over the way on the active stroke [m^3]
+  double error_way_ = 0.0;           ///< [m]
+  Point error_tip_ = Point::Zero();  ///< where it was last measured [m]
   bool inside_box_ = false;
   bool lifted_ = true;           ///< since the last stroke was finished
   bool character_done_ = false;  ///< its last stroke is finished, the pen still down

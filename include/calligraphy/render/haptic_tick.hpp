@@ -48,9 +48,14 @@ struct HapticTick {
   Eigen::Vector3d pen_tip = Eigen::Vector3d::Zero();       ///< virtual pen tip, page frame [m]
   double penetration = 0.0;                                ///< of the device point into the paper [m]
   StrokeContact contact;             ///< meaningful in the writing state and on the tick that leaves it
-  Point attraction = Point::Zero();  ///< force term, before fade-in and limits [N, page]
+  Point attraction = Point::Zero();  ///< force term, help included, before fade-in and limits [N, page]
   Point wrong_way = Point::Zero();   ///< force term, before fade-in and limits [N, page]
+  Point friction = Point::Zero();    ///< force term, before limits [N, page]
   double normal = 0.0;               ///< force term, before limits [N, out of the paper]
+  Eigen::Vector3d damping = Eigen::Vector3d::Zero();  ///< of the passivity controller, before limits [N, page]
+  double help = 1.0;                                  ///< share of the guidance that the assist policy gives
+  double energy_given = 0.0;  ///< net, to the hand, as the passivity observer has it; 0 without one [J]
+  double heat = 0.0;          ///< of the motors; 1: that of the continuous force; 0 without a thermal budget
   Eigen::Vector3d page_force = Eigen::Vector3d::Zero();  ///< sent, page axes [N]
   Eigen::Vector3d force = Eigen::Vector3d::Zero();       ///< sent, device axes [N]
 };

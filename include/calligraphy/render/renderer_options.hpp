@@ -1,10 +1,14 @@
 // Everything that a user of the renderer may choose.
 #pragma once
 
+#include <limits>
+
 #include <calligraphy/collision/active_stroke.hpp>
 #include <calligraphy/devices/device_state.hpp>
+#include <calligraphy/render/assist_policy.hpp>
 #include <calligraphy/render/force_terms.hpp>
 #include <calligraphy/render/motion_mapping.hpp>
+#include <calligraphy/render/paper_friction.hpp>
 
 namespace calligraphy {
 
@@ -12,6 +16,12 @@ namespace calligraphy {
 enum class PenTipRule {
   projected,  ///< on the paper, above or below the device: Table 2
   wang2006    ///< at the device, eq. (5)
+};
+
+/// How the guidance grows with the distance from the stroke.
+enum class GuidanceLaw {
+  linear,     ///< eq. (8) within the constraint space, none outside
+  saturating  ///< eq. (8) near the stroke, never above `guidance_limit`, anywhere in the character's box
 };
 
 struct RendererOptions {
@@ -22,6 +32,12 @@ struct RendererOptions {
   double wrong_way_stiffness = 200.0;  ///< resistance against writing backwards; 0: none [N/m]
   double wrong_way_limit = 1.0;        ///< its largest force [N]
   double wrong_way_slack = 0.002;      ///< a pen may go back this far unhindered [m]
+
+  GuidanceLaw guidance = GuidanceLaw::linear;
+  double guidance_limit = 1.5;  ///< saturating: the largest guidance force [N]
+  bool guide_to_start = false;  ///< on the paper before a stroke, guidance pulls to the stroke's start
+  AssistPolicy assist;          ///< off by default: full help
+  FrictionOptions friction;     ///< off by default
 
   StrokeRules stroke;  ///< nearest point, constraint space, feature planes, attraction factors
 
@@ -36,6 +52,15 @@ struct RendererOptions {
   double normal_force_rate = 400.0;    ///< largest change of the force along its normal [N/s]
   bool limit_force_rate = true;        ///< false: `wang2006`, forces step at every transition
 
+  /// Largest change of the rate of the force; infinite: any [N/s^2].
+  double force_jerk = std::numeric_limits<double>::infinity();
+
+  bool passivity_control = false;  ///< damps out what sampling, delay and limits add to the force field's energy
+  /// Net energy that may be given to the hand from the start on; infinite: any [J].
+  double energy_budget = std::numeric_limits<double>::infinity();
+  /// Of the motors' heat: the force falls from the device's peak to its continuous force as they warm; 0: no limit [s].
+  double thermal_time_constant = 0.0;
+
   double largest_speed = 5.0;  ///< a sample that implies a faster pen is a fault, not a motion [m/s, page]
 
   ForceSign force_sign = ForceSign::attracting;
@@ -48,6 +73,10 @@ struct RendererOptions {
 
   /// The defaults with stiffnesses no larger than the device's usable stiffness, at its update rate.
   static RendererOptions for_device(const Capabilities& capabilities);
+
+  /// for_device() with every stage switched on: friction, guidance for large deviations, help as needed, limited jerk,
+  /// passivity control, and a thermal budget where the device states a continuous force.
+  static RendererOptions everything(const Capabilities& capabilities);
 };
 
 /// @throws ValueError naming the option and its value: not finite, out of its domain, or a stiffness (times the largest

@@ -1,0 +1,76 @@
+#include <calligraphy/render/paper_friction.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace calligraphy {
+namespace {
+
+/// Where alpha of Hayward and Armstrong rises, as a share of z_max.
+constexpr double stick_share = 0.75;
+
+/// alpha(z) z_max.
+double creep(double share) noexcept {
+  const double ratio = share / stick_share;
+  const double square = ratio * ratio;
+  const double eighth = square * square * square * square;
+  return eighth / (1.0 + eighth);
+}
+
+Point shortened(const Point& vector, double longest) noexcept {
+  const double length = vector.norm();
+  return length > longest ? Point(vector * (longest / length)) : vector;
+}
+
+}  // namespace
+
+Point PaperFriction::update(const FrictionOptions& options, const Point& tip, double normal, double seconds) noexcept {
+  const double most = options.coefficient * std::max(0.0, normal);
+  if (!holds_) {
+    anchor_ = tip_ = tip;
+    holds_ = sticks_ = true;
+  }
+  Point force;
+  if (options.model == FrictionModel::karnopp) {
+    force = karnopp(options, tip, most, seconds);
+  } else {
+    force = -options.stiffness * stretch(options, tip, most / options.stiffness);
+  }
+  tip_ = tip;
+  return force;
+}
+
+/// z = x - w after the anchor has followed the tip.
+Point PaperFriction::stretch(const FrictionOptions& options, const Point& tip, double longest) noexcept {
+  if (options.model == FrictionModel::hayward_armstrong) {
+    const double length = (tip - anchor_).norm();
+    if (length < longest) {  // else it slides, as below; longest > 0
+      const double followed = (tip - tip_).norm() * creep(length / longest) / longest;
+      anchor_ += std::min(1.0, followed) * (tip - anchor_);
+    }
+  }
+  const Point held = shortened(tip - anchor_, longest);
+  if (held != tip - anchor_) anchor_ = tip - held;
+  return held;
+}
+
+Point PaperFriction::karnopp(const FrictionOptions& options, const Point& tip, double most, double seconds) noexcept {
+  const Point motion = tip - tip_;
+  const double way = motion.norm();
+  const bool slow = way <= options.stick_speed * seconds;
+  if (slow && !sticks_) {
+    // Holds with the force that it slid with: no step.
+    sticks_ = true;
+    anchor_ = tip + shortened(anchor_ - tip, most / options.stiffness);
+  }
+  if (sticks_) {
+    const Point pull = options.stiffness * (anchor_ - tip);
+    if (pull.norm() <= options.static_ratio * most) return pull;
+    sticks_ = false;
+  }
+  const Point direction = way > 0.0 ? Point(motion / way) : Point(0.0, 0.0);
+  anchor_ = tip - direction * (most / options.stiffness);
+  return -most * direction;
+}
+
+}  // namespace calligraphy

@@ -1,0 +1,56 @@
+// A hand that writes a page for days: well, badly, off the stroke, backwards, or not at all.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <calligraphy/devices/device_state.hpp>
+#include <calligraphy/devices/simulated_device.hpp>
+#include <calligraphy/render/haptic_renderer.hpp>
+
+#include "hard_cases.hpp"
+
+namespace calligraphy_test {
+
+/// Goes to the start of the stroke that is due, lowers the pen, follows the stroke with an error, raises the pen, again
+/// and again. Allocates when it is made and never after.
+class RestlessHand {
+ public:
+  RestlessHand(const calligraphy::HapticRenderer& renderer, std::uint64_t seed);
+
+  /// How the pen is meant to move over the next `seconds`, in device axes.
+  calligraphy::Intention next(const calligraphy::HapticTick& tick, double seconds);
+
+  const Eigen::Vector3d& place() const { return place_; }  ///< page [m]
+
+ private:
+  enum class Phase { approach, lower, write, raise, rest };
+  struct Drawn {
+    calligraphy::Point origin;
+    std::vector<std::vector<calligraphy::Point>> strokes;  ///< points 0.5 mm apart [m]
+  };
+
+  void choose(const calligraphy::HapticTick& tick);
+  calligraphy::Point on_stroke(double way) const;
+  Eigen::Vector3d goal() const;
+
+  const calligraphy::HapticRenderer& renderer_;
+  Sequence random_;
+  std::vector<Drawn> drawn_;  ///< of the page's first characters, which repeat
+  Phase phase_ = Phase::rest;
+  double left_ = 0.1;  ///< of a rest [s]
+  const std::vector<calligraphy::Point>* path_ = nullptr;
+  calligraphy::Point error_ = {0.0, 0.0};     ///< of the whole stroke [m]
+  double way_ = 0.0, end_ = 0.0;              ///< on the stroke, in points
+  double speed_ = 0.06;                       ///< [m/s]
+  double depth_ = 0.001;                      ///< pressed in [m]
+  Eigen::Vector3d place_ = {0.0, 0.0, 0.02};  ///< page [m]
+};
+
+/// How many different characters a soak page has before they repeat.
+inline constexpr int soak_characters = 12;
+
+/// `count` characters of the built-in set, one over the other in a row of three squares.
+std::vector<calligraphy::PlacedCharacter> soak_page(int count);
+
+}  // namespace calligraphy_test

@@ -1,0 +1,152 @@
+// session_soak: days at the device in virtual time, with faults at random, and every promise of the loop watched.
+// Exit code 0 all kept, 1 one broken, 2 usage.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <string>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <calligraphy/calligraphy.hpp>
+
+#include "allocation_counter.hpp"
+#include "faults.hpp"
+#include "restless_hand.hpp"
+#include "tools/options.hpp"
+#include "tools/progress.hpp"
+
+namespace calligraphy_test {
+namespace {
+
+using namespace calligraphy;
+using Eigen::Vector3d;
+
+struct Options {
+  std::uint64_t ticks = 1'000'000;
+  std::uint64_t seed = 1;
+  std::string composition = "everything";
+  std::string device = "omni";
+  bool faults = true;
+};
+
+struct Watched {
+  std::uint64_t faults = 0, bad_ticks = 0, not_finite = 0, above_peak = 0, steps_too_large = 0, strokes = 0,
+                allocations = 0;
+  double largest_force = 0.0, largest_step = 0.0;
+  double given = 0.0, most_given = 0.0, least_given = 0.0;  ///< net work of the force really applied [J]
+  double furthest_drift = 0.0;                              ///< between observed and true energy [J]
+  bool page_was_too_short = false;
+};
+
+RendererOptions renderer_options(const Options& options, const Capabilities& capabilities) {
+  return options.composition == "everything" ? RendererOptions::everything(capabilities)
+                                             : RendererOptions::for_device(capabilities);
+}
+
+Watched run(const Options& options) {
+  const DeviceProfile& profile = device_profile(options.device);
+  const RendererOptions chosen = renderer_options(options, profile.capabilities);
+  // More characters than the hand can write: restarting the page would be a new start-up budget.
+  const auto characters = static_cast<int>(options.ticks / 1500 + 2);
+  HapticRenderer renderer(soak_page(characters), upright_page(0.145, 0.08), profile.capabilities, chosen);
+  RestlessHand hand(renderer, options.seed);
+  Faults faults(options.seed + 1);
+  SimulatedDevice device(profile, {0.1, 3.0, 300.0}, renderer.mapping().to_device(hand.place()));
+  const double period = 1.0 / chosen.servo_rate;
+  const double peak = profile.capabilities.peak_force * (1.0 + 1e-12);
+  const double step_limit = renderer.max_force_step() * (1.0 + 1e-9);
+
+  tools::Progress progress;
+  const FlushDenormals as_a_servo_thread;
+  Watched watched;
+  Vector3d last = Vector3d::Zero();
+  const std::size_t allocated = allocations();
+  for (std::uint64_t i = 0; i < options.ticks; ++i) {
+    const DeviceState state = device.read();
+    const HapticTick& tick = renderer.update(options.faults ? faults.tamper(state) : state);
+    const double size = tick.force.norm(), step = (tick.force - last).norm();
+    watched.not_finite += !tick.force.allFinite();
+    watched.above_peak += size > peak;
+    watched.steps_too_large += step > step_limit;
+    watched.largest_force = std::max(watched.largest_force, size);
+    watched.largest_step = std::max(watched.largest_step, step);
+    watched.bad_ticks += tick.status != TickStatus::ok;
+    watched.strokes += has(tick.events, TickEvent::stroke_finished);
+    last = tick.force;
+
+    device.write(faults.force_is_lost() ? Vector3d(0.0, 0.0, 0.0) : tick.force);
+    device.set_intention(hand.next(tick, period));
+    const Vector3d before = device.true_position();
+    device.advance(period);
+    watched.given += device.applied_force().dot(device.true_position() - before);
+    watched.most_given = std::max(watched.most_given, watched.given);
+    watched.least_given = std::min(watched.least_given, watched.given);
+    watched.page_was_too_short = tick.character >= characters;
+    if (i % 1'000'000 == 999'999) {
+      watched.allocations = allocations() - allocated;
+      progress.show(static_cast<double>(i + 1) / static_cast<double>(options.ticks));
+    }
+  }
+  watched.allocations = std::max<std::uint64_t>(watched.allocations, allocations() - allocated);
+  watched.faults = faults.count();
+  return watched;
+}
+
+bool kept(const char* promise, bool is_kept) {
+  fmt::print("  {:<60} {}\n", promise, is_kept ? "kept" : "BROKEN");
+  return is_kept;
+}
+
+int report(const Options& options, const Watched& watched) {
+  const Capabilities& capabilities = device_profile(options.device).capabilities;
+  const RendererOptions chosen = renderer_options(options, capabilities);
+  fmt::print("{} ticks ({:.1f} h at {} Hz), composition {}, device {}, seed {}\n", options.ticks,
+             static_cast<double>(options.ticks) / chosen.servo_rate / 3600.0, chosen.servo_rate, options.composition,
+             options.device, options.seed);
+  fmt::print("  {} strokes written, {} faults in {} ticks\n", watched.strokes, watched.faults, watched.bad_ticks);
+  fmt::print("  largest force {:.3f} N, largest step {:.3f} N\n", watched.largest_force, watched.largest_step);
+  fmt::print("  net energy given to the hand: {:.4f} J at the end, {:.4f} J at most\n", watched.given,
+             watched.most_given);
+  bool all = kept("no allocation", watched.allocations == 0);
+  all &= kept("no force that is not finite", watched.not_finite == 0);
+  all &= kept("no force above the peak", watched.above_peak == 0);
+  all &= kept("no step of the force above the limit", watched.steps_too_large == 0);
+  if (std::isfinite(chosen.energy_budget)) {
+    all &= kept("net energy given never above the start-up budget", watched.most_given <= chosen.energy_budget);
+  }
+  all &= kept("strokes are written", watched.strokes > options.ticks / 20'000 && !watched.page_was_too_short);
+  return all ? 0 : 1;
+}
+
+int parse_and_run(int argc, char** argv) {
+  Options options;
+  CLI::App program("Days at the device in virtual time, with faults at random.", "session_soak");
+  program.add_option("--ticks", options.ticks, "How many; 86400000 are 24 h at 1 kHz")
+      ->check(tools::integer(1, 10'000'000'000ull));
+  program.add_option("--seed", options.seed, "Of hand and faults");
+  program.add_option("--composition", options.composition, "default or everything")
+      ->check(CLI::IsMember({"default", "everything"}));
+  program.add_option("--device", options.device, "Profile of the simulated device");
+  program.add_flag("!--no-faults", options.faults, "Nothing goes wrong");
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? 0 : 2;
+  }
+  return report(options, run(options));
+}
+
+}  // namespace
+}  // namespace calligraphy_test
+
+int main(int argc, char** argv) {
+  try {
+    return calligraphy_test::parse_and_run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "session_soak: %s\n", error.what());
+    return 1;
+  }
+}
