@@ -147,7 +147,7 @@ TEST_CASE("no encoder step keeps up a swing at the advised stiffness", "[stabili
   for (const bool with_control : {false, true}) {
     WallEncounter encounter;
     encounter.controlled = with_control;
-    const double advised = std::min(passive, with_control ? 0.5 * held : held);
+    const double advised = std::min(passive, held);
     CAPTURE(step, friction, damping, advised, with_control);
     const WallOutcome outcome = meet_wall(loop, advised, encounter);
     CHECK(outcome.settles);
@@ -168,6 +168,20 @@ TEST_CASE("rounding that dry friction does not hold keeps up a swing on a passiv
   loop.coulomb_friction = 0.0;
   CHECK(advise_stiffness(loop).quantised.value == 0.0);
   CHECK_FALSE(meet_wall(loop, 9000.0).settles);
+}
+
+TEST_CASE("where positions are rounded, what settles without control settles with it", "[stability map]") {
+  const double rate = GENERATE(1000.0, 4000.0);
+  const double step = GENERATE(23e-6, 55e-6);
+  for (const double wall_damping : {0.0, 1.0}) {
+    SampledLoop loop = loop_of(rate, 0.1, 0, wall_damping);
+    loop.encoder_step = step;
+    loop.coulomb_friction = 0.06;
+    for (double stiffness = 10.0; stiffness < 1e5; stiffness *= 1.5) {
+      CAPTURE(rate, step, wall_damping, stiffness);
+      if (meet_wall(loop, stiffness).settles) CHECK(meet_wall(loop, stiffness, controlled()).settles);
+    }
+  }
 }
 
 TEST_CASE("from 100 Hz to 20 kHz a passive wall settles, with control and without", "[stability map]") {
