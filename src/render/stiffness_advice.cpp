@@ -166,8 +166,7 @@ StiffnessBound quantised_bound(const SampledLoop& loop, double passive) {
   return {
       value, "K <= min(passive, 2 f_c / D - 2 B / T)",
       "Abbott & Okamura 2005 for B = 0 and no delay; the terms in B and d are the worst case, derived here; relies on "
-      "dry friction that is the same everywhere, and does not count the grip; a passivity controller takes half of "
-      "f_c"};
+      "dry friction that is the same everywhere, and does not count the grip"};
 }
 
 StiffnessBound approximate_bound(const SampledLoop& loop) {

@@ -214,6 +214,18 @@ TEST_CASE("samples late by 0 to 5 ticks, lost or out of order leave a wall stabl
   }
 }
 
+TEST_CASE("samples that are lost or out of order cost stiffness", "[stability map]") {
+  const SampledLoop loop = loop_of(1000.0, 0.5);
+  const double stiffness = 0.95 * critical_stiffness(loop);
+  WallEncounter encounter;
+  CHECK(meet_wall(loop, stiffness, encounter).settles);
+  encounter.lost = 0.3;
+  CHECK_FALSE(meet_wall(loop, stiffness, encounter).settles);
+  encounter.lost = 0.0;
+  encounter.reordered = 0.3;
+  CHECK_FALSE(meet_wall(loop, stiffness, encounter).settles);
+}
+
 TEST_CASE("the force of the wall is cut off at the device's peak", "[stability map]") {
   WallEncounter encounter;
   encounter.height = 0.01;
