@@ -239,7 +239,9 @@ StiffnessAdvice advise_stiffness(const SampledLoop& loop) {
 double injectable_damping(const SampledLoop& loop) {
   validate(loop);
   double damping = PassivityController::usable_damping(loop.mass, 1.0 / loop.rate, loop.delay) - loop.wall_damping;
-  if (loop.encoder_step > 0.0) damping = std::min(damping, loop.coulomb_friction / (loop.encoder_step * loop.rate));
+  if (loop.encoder_step > 0.0 && loop.coulomb_friction > 0.0) {
+    damping = std::min(damping, loop.coulomb_friction / (loop.encoder_step * loop.rate));
+  }
   return std::max(0.0, damping);
 }
 
