@@ -37,6 +37,7 @@ FrictionOptions options_of(FrictionModel model) {
   FrictionOptions options;
   options.model = model;
   options.coefficient = coefficient;
+  options.stiffness = sliding_force / longest_stretch;
   return options;
 }
 
