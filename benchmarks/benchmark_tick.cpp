@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -115,6 +116,92 @@ BENCHMARK_CAPTURE(whole_tick, nearest_wang2006_1e_6, with_method<NearestPointMet
 BENCHMARK_CAPTURE(whole_tick, nearest_wang2006_1e_9, with_method<NearestPointMethod::wang2006, 9>)->UseManualTime();
 BENCHMARK_CAPTURE(whole_tick, all_rules_wang2006, RendererOptions::wang2006)->UseManualTime();
 
+/// What a stage adds: the whole page in one piece, no clock within, by turns with the default.
+void tick_with(benchmark::State& state, void (*add)(RendererOptions&)) {
+  const WrittenPage& written = written_page();
+  RendererOptions options = RendererOptions::for_device(written.capabilities);
+  add(options);
+  HapticRenderer renderer(written.page.characters, written.mapping, written.capabilities, options);
+  HapticRenderer plain(written.page.characters, written.mapping, written.capabilities,
+                       RendererOptions::for_device(written.capabilities));
+  const auto run = [&](HapticRenderer& one) {
+    one.restart();
+    const auto start = Clock::now();
+    for (const DeviceState& sample : written.states) benchmark::DoNotOptimize(one.update(sample).force.data());
+    return nanoseconds(Clock::now() - start) / static_cast<double>(written.states.size());
+  };
+  std::vector<double> with, added;
+  for (auto _ : state) {
+    with.push_back(run(renderer));
+    added.push_back(with.back() - run(plain));
+  }
+  state.counters["ns_per_tick"] = percentile(with, 0.5);
+  state.counters["added_ns"] = percentile(added, 0.5);
+}
+void nothing(RendererOptions&) {}
+void friction(RendererOptions& options) { options.friction.coefficient = 0.15; }
+void friction_hayward_armstrong(RendererOptions& options) {
+  friction(options);
+  options.friction.model = FrictionModel::hayward_armstrong;
+}
+void friction_karnopp(RendererOptions& options) {
+  friction(options);
+  options.friction.model = FrictionModel::karnopp;
+}
+void saturating_guidance(RendererOptions& options) { options.guidance = GuidanceLaw::saturating; }
+void guidance_to_start(RendererOptions& options) { options.guide_to_start = true; }
+void assist_policy(RendererOptions& options) { options.assist.enabled = true; }
+void jerk_limit(RendererOptions& options) { options.force_jerk = 1e5; }
+void passivity_control(RendererOptions& options) { options.passivity_control = true; }
+void energy_budget(RendererOptions& options) {
+  passivity_control(options);
+  options.energy_budget = 0.1;
+}
+void thermal_budget(RendererOptions& options) { options.thermal_time_constant = 10.0; }
+void everything(RendererOptions& options) { options = RendererOptions::everything(written_page().capabilities); }
+BENCHMARK_CAPTURE(tick_with, nothing_added, nothing);
+BENCHMARK_CAPTURE(tick_with, friction_breakaway, friction);
+BENCHMARK_CAPTURE(tick_with, friction_hayward_armstrong, friction_hayward_armstrong);
+BENCHMARK_CAPTURE(tick_with, friction_karnopp, friction_karnopp);
+BENCHMARK_CAPTURE(tick_with, saturating_guidance, saturating_guidance);
+BENCHMARK_CAPTURE(tick_with, guidance_to_start, guidance_to_start);
+BENCHMARK_CAPTURE(tick_with, assist_policy, assist_policy);
+BENCHMARK_CAPTURE(tick_with, jerk_limit, jerk_limit);
+BENCHMARK_CAPTURE(tick_with, passivity_control, passivity_control);
+BENCHMARK_CAPTURE(tick_with, passivity_control_and_budget, energy_budget);
+BENCHMARK_CAPTURE(tick_with, thermal_budget, thermal_budget);
+BENCHMARK_CAPTURE(tick_with, everything, everything);
+
+/// A pen that writes with every distance a denormal number, and one with the same motion in millimetres, a tick of each
+/// in turn; once as any thread, once with denormals flushed.
+void denormal_ticks(benchmark::State& state, bool flush) {
+  RendererOptions options = RendererOptions::everything(written_page().capabilities);
+  const StrokeInput heng{1, {{0.0, 0.0}, {1.0, 0.0}}, {}};
+  const std::vector<PlacedCharacter> page = {{make_character(U'一', std::span(&heng, 1)), {{0.0, 0.0}, 0.04}}};
+  HapticRenderer usual(page, {}, written_page().capabilities, options);
+  HapticRenderer denormal(page, {}, written_page().capabilities, options);
+  const auto run = [](HapticRenderer& renderer, double unit) {
+    const auto start = Clock::now();
+    for (int i = 0; i < 1000; ++i) {
+      DeviceState sample;
+      sample.time = 0.001 * i;
+      sample.position = unit * Eigen::Vector3d(i % 7, i % 5 - 2, -(i % 3) - 0.5);
+      benchmark::DoNotOptimize(renderer.update(sample).force.data());
+    }
+    return nanoseconds(Clock::now() - start);
+  };
+  std::optional<FlushDenormals> as_a_servo_thread;
+  if (flush) as_a_servo_thread.emplace();
+  std::vector<double> ratios;
+  for (auto _ : state) {
+    const double reference = run(usual, 1e-4);
+    ratios.push_back(run(denormal, 1e-311) / reference);
+  }
+  state.counters["ratio_p50"] = percentile(ratios, 0.5);
+}
+BENCHMARK_CAPTURE(denormal_ticks, as_any_thread, false);
+BENCHMARK_CAPTURE(denormal_ticks, flushed, true);
+
 void stage_motion_mapping(benchmark::State& state) {
   const WrittenPage& written = written_page();
   std::size_t i = 0;
@@ -171,6 +258,9 @@ BENCHMARK(stage_limiter);
 void bytes_per_object(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(sizeof(HapticRenderer));
   state.counters["HapticRenderer"] = sizeof(HapticRenderer);
+  state.counters["PassivityController"] = sizeof(PassivityController);
+  state.counters["ThermalBudget"] = sizeof(ThermalBudget);
+  state.counters["PaperFriction"] = sizeof(PaperFriction);
   state.counters["ActiveStroke"] = sizeof(ActiveStroke);
   state.counters["LineElement"] = sizeof(LineElement);
   state.counters["CurveElement"] = sizeof(CurveElement);

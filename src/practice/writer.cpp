@@ -8,6 +8,8 @@
 #include <calligraphy/collision/nearest_point.hpp>
 #include <calligraphy/error.hpp>
 
+#include "minimum_jerk.hpp"
+
 namespace calligraphy {
 namespace {
 
@@ -23,11 +25,6 @@ constexpr double close_enough = 0.02;      // a corner or an end looks reached a
 constexpr double notice_time = 0.5;        // on the paper without a green trace until the writer notices [s]
 constexpr double wandering_time = 1.0;     // after which drift is forgotten [s]
 constexpr int most_attempts = 10;
-
-double minimum_jerk(double share) {
-  const double t = std::clamp(share, 0.0, 1.0);
-  return t * t * t * (10.0 + t * (-15.0 + 6.0 * t));
-}
 
 /// A generator of its own for each question, so that no answer depends on how many were asked before.
 std::mt19937_64 generator(std::uint64_t seed, int character, int stroke, int attempt) {
@@ -52,6 +49,7 @@ void require(const char* name, double value, double least, double most) {
 
 void validate(const WriterSkill& skill) {
   require("offset", skill.offset, 0.0, 1.0);
+  require("bias", skill.bias, 0.0, 1.0);
   require("scale", skill.scale, 0.0, 0.5);
   require("tilt", skill.tilt, 0.0, 1.0);
   require("shape", skill.shape, 0.0, 1.0);
@@ -260,9 +258,11 @@ void SimulatedWriter::plan_attempt() {
   const Point offset = skill_.offset * em * normal_point(of_character);
   const double scale = skill_.scale * normal(of_character);
   const double tilt = misbelief * skill_.tilt * normal(of_character);
+  const double direction = 2.0 * std::numbers::pi * uniform(of_character);
+  const Point bias = skill_.bias * em * Point(std::cos(direction), std::sin(direction));
   std::mt19937_64 of_stroke = generator(seed_, character_, stroke_, -1);
   const Point shape = skill_.shape * em * normal_point(of_stroke);
-  belief_ = {placed.placement.to_page(Point(0.5, 0.5)), misbelief * (offset + shape), 1.0 + misbelief * scale,
+  belief_ = {placed.placement.to_page(Point(0.5, 0.5)), misbelief * (offset + bias + shape), 1.0 + misbelief * scale,
              std::cos(tilt), std::sin(tilt)};
 
   random_ = generator(seed_, character_, stroke_, attempt_);

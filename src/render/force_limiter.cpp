@@ -6,16 +6,24 @@
 namespace calligraphy {
 namespace {
 
-/// The largest first step of a run that ends after `way`, steps getting smaller by `jerk` each.
+Eigen::Vector3d shortened(const Eigen::Vector3d& force, double longest) noexcept {
+  const double size = force.norm();
+  return size > longest ? Eigen::Vector3d(force * (longest / size)) : force;
+}
+
+/// The largest first step of a run that ends after `way`, each step smaller by `jerk` than the last. With k whole jerks
+/// in it that is way = (k + 1) (step - k jerk / 2).
 double braking_step(double way, double jerk) noexcept {
-  return std::sqrt(0.25 * jerk * jerk + 2.0 * jerk * way) - 0.5 * jerk;
+  const double smooth = std::sqrt(0.25 * jerk * jerk + 2.0 * jerk * way) - 0.5 * jerk;
+  const double whole = jerk > 0.0 ? std::floor(smooth / jerk) : 0.0;
+  return way / (whole + 1.0) + 0.5 * whole * jerk;
 }
 
 /// One step towards a target `way` off, after the step `last`.
 template <typename Vector>
 Vector jerk_limited(const Vector& way, const Vector& last, double longest, double jerk) noexcept {
   const double distance = way.norm();
-  const double wanted = std::min({distance, longest, std::max(braking_step(distance, jerk), std::min(distance, jerk))});
+  const double wanted = std::min(longest, braking_step(distance, jerk));
   Vector step = Vector::Zero();
   if (distance > 0.0) step = way * (wanted / distance);
   const Vector change = step - last;
@@ -31,28 +39,35 @@ double ForceLimiter::max_step() const noexcept {
   return limit_rate ? std::hypot(in_plane_step, normal_step) : no_limit;
 }
 
-Eigen::Vector3d ForceLimiter::next(const Eigen::Vector3d& previous, const Eigen::Vector3d& target) noexcept {
-  Eigen::Vector3d force = target;
-  if (limit_rate) {
-    const Eigen::Vector2d change = (target - previous).head<2>();
-    const double normal_change = target.z() - previous.z();
-    if (jerk < no_limit) {
-      using Line = Eigen::Matrix<double, 1, 1>;
-      last_step.head<2>() = jerk_limited<Eigen::Vector2d>(change, last_step.head<2>(), in_plane_step, jerk);
-      last_step.z() = jerk_limited<Line>(Line(normal_change), Line(last_step.z()), normal_step, jerk)[0];
-      force = previous + last_step;
-    } else {
-      const double length = change.norm();
-      force.head<2>() = length <= in_plane_step
-                            ? Eigen::Vector2d(target.head<2>())
-                            : Eigen::Vector2d(previous.head<2>() + change * (in_plane_step / length));
-      force.z() = previous.z() + std::clamp(normal_change, -normal_step, normal_step);
-    }
+Eigen::Vector3d ForceLimiter::next(const Eigen::Vector3d& previous, const Eigen::Vector3d& target,
+                                   double longest) noexcept {
+  double most = std::min(peak, longest);
+  Eigen::Vector3d force = shortened(target, most);
+  if (!limit_rate) return force;
+  Eigen::Vector3d from = previous;
+  double taken = 0.0;
+  if (longest < peak) {
+    const double size = previous.norm();
+    taken = std::clamp(size - most, 0.0, std::min(in_plane_step, normal_step));
+    if (taken > 0.0) from *= 1.0 - taken / size;
+    most = std::max(most, size - taken);
   }
-  const double size = force.norm();
-  if (size <= peak) return force;
-  force *= peak / size;
-  last_step = force - previous;
+  const Eigen::Vector2d change = (force - from).head<2>();
+  const double normal_change = force.z() - from.z();
+  if (jerk < no_limit) {
+    using Line = Eigen::Matrix<double, 1, 1>;
+    last_step.head<2>() = jerk_limited<Eigen::Vector2d>(change, last_step.head<2>(), in_plane_step - taken, jerk);
+    last_step.z() = jerk_limited<Line>(Line(normal_change), Line(last_step.z()), normal_step - taken, jerk)[0];
+    force = from + last_step;
+  } else {
+    const double length = change.norm();
+    if (length > in_plane_step - taken) force.head<2>() = from.head<2>() + change * ((in_plane_step - taken) / length);
+    force.z() = from.z() + std::clamp(normal_change, taken - normal_step, normal_step - taken);
+  }
+  force = shortened(force, most);
+  // Shortening takes some of the way on which a force with limited jerk comes to rest.
+  if (previous.z() >= 0.0 && target.z() >= 0.0) force.z() = std::max(0.0, force.z());
+  last_step = force - from;
   return force;
 }
 

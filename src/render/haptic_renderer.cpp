@@ -59,11 +59,6 @@ PassivityController passivity_controller(const RendererOptions& options, const C
   return PassivityController(passivity, period);
 }
 
-Eigen::Vector3d shortened(const Eigen::Vector3d& force, double longest) noexcept {
-  const double size = force.norm();
-  return size > longest ? Eigen::Vector3d(force * (longest / size)) : force;
-}
-
 }  // namespace
 
 HapticRenderer::HapticRenderer(std::vector<PlacedCharacter> page, const MotionMapping& mapping,
@@ -81,7 +76,10 @@ HapticRenderer::HapticRenderer(std::vector<PlacedCharacter> page, const MotionMa
     prepared_.push_back({strokes(page_[i].character), box});
   }
   require_valid(mapping);
-  validate(options, capabilities, largest_attraction);
+  if (options_.stiffness_check == StiffnessCheck::clip) {
+    clipped_ = clip_stiffness(options_, capabilities, largest_attraction);
+  }
+  validate(options_, capabilities, largest_attraction);
   if (!(capabilities.peak_force > 0.0)) {
     throw ValueError("peak force of the device = " + std::to_string(capabilities.peak_force) + " N");
   }
@@ -335,10 +333,11 @@ Point HapticRenderer::fade(const Point& force) noexcept {
 
 /// The last stages, in this order: passivity, direction-keeping saturation, rate and jerk, account of what is sent.
 void HapticRenderer::send(const Eigen::Vector3d& wanted) noexcept {
-  Eigen::Vector3d force = observes_energy_ ? control_passivity(wanted) : wanted;
-  if (thermal_.peak > 0.0) force = shortened(force, thermal_.largest_force());
+  const Eigen::Vector3d force = observes_energy_ ? control_passivity(wanted) : wanted;
+  double longest = observes_energy_ ? passivity_.longest_force() : ForceLimiter::no_limit;
+  if (thermal_.peak > 0.0) longest = std::min(longest, thermal_.largest_force());
   const bool trusted = tick_.status == TickStatus::ok;
-  tick_.page_force = trusted ? limiter_.next(tick_.page_force, force) : limiter_.release(tick_.page_force);
+  tick_.page_force = trusted ? limiter_.next(tick_.page_force, force, longest) : limiter_.release(tick_.page_force);
   if (observes_energy_) passivity_.sent(tick_.page_force);
   if (thermal_.peak > 0.0) {
     thermal_.held(tick_.page_force.norm(), 1.0 / options_.servo_rate);

@@ -66,9 +66,12 @@ Point PaperFriction::karnopp(const FrictionOptions& options, const Point& tip, d
   if (sticks_) {
     const Point pull = options.stiffness * (anchor_ - tip);
     if (pull.norm() <= options.static_ratio * most) return pull;
+    // It slips the way that it was pulled, whatever it did in this tick: a pen at rest slips as the pressure falls.
     sticks_ = false;
+    anchor_ = tip + shortened(anchor_ - tip, most / options.stiffness);
+    return options.stiffness * (anchor_ - tip);
   }
-  const Point direction = way > 0.0 ? Point(motion / way) : Point(0.0, 0.0);
+  const Point direction = motion / way;  // faster than stick_speed, so not nothing
   anchor_ = tip - direction * (most / options.stiffness);
   return -most * direction;
 }

@@ -49,16 +49,18 @@ void PassivityController::restart() noexcept {
   sent_.fill(Eigen::Vector3d::Zero());
   has_position_ = false;
   wanted_ = damping_ = Eigen::Vector3d::Zero();
-  speed_ = surplus_in_plane_ = surplus_normal_ = given_ = 0.0;
+  lost_ = 0;
+  speed_ = presumed_way_ = force_while_lost_ = surplus_in_plane_ = surplus_normal_ = given_ = 0.0;
+  longest_ = std::numeric_limits<double>::infinity();
   left_ = budget_;
 }
 
 Eigen::Vector3d PassivityController::next(const Eigen::Vector3d& position, const Eigen::Vector3d& wanted) noexcept {
   damping_.setZero();
   if (!position.allFinite()) {
-    // Where the pen went is not known: pay for a pen that keeps its speed, along the force.
-    pay(force_at_work().norm() * (speed_ + sudden_speed) * period_);
-    has_position_ = false;
+    presume();
+  } else if (lost_ > 0) {
+    find_again(position);
   } else {
     const Eigen::Vector3d step = has_position_ ? Eigen::Vector3d(position - position_) : Eigen::Vector3d(0.0, 0.0, 0.0);
     if (has_position_) observe(step, wanted);
@@ -73,11 +75,34 @@ Eigen::Vector3d PassivityController::next(const Eigen::Vector3d& position, const
   wanted_ = wanted;
   Eigen::Vector3d force = wanted + damping_;
   if (std::isfinite(budget_)) {
-    const double most = largest_force(speed_ + sudden_speed);
+    longest_ = longest_payable(speed_ + sudden_speed);
     const double size = force.norm();
-    if (size > most) force *= most / size;
+    if (size > longest_) force *= longest_ / size;
   }
   return force;
+}
+
+/// Where the pen went is not known: pay for one that keeps its speed, and some more, along the force.
+void PassivityController::presume() noexcept {
+  const double way = (speed_ + sudden_speed) * period_;
+  const double force = force_at_work().norm();
+  pay(force * way);
+  presumed_way_ += way;
+  force_while_lost_ = std::max(force_while_lost_, force);
+  ++lost_;
+}
+
+/// The period that ends with this sample is not known either; and if the pen went further than presumed, then along the
+/// largest force meanwhile.
+void PassivityController::find_again(const Eigen::Vector3d& position) noexcept {
+  presume();
+  const double way = has_position_ ? (position - position_).norm() : 0.0;
+  pay(force_while_lost_ * std::max(0.0, way - presumed_way_));
+  speed_ = way / (static_cast<double>(lost_) * period_);
+  has_position_ = true;
+  position_ = position;
+  lost_ = 0;
+  presumed_way_ = force_while_lost_ = 0.0;
 }
 
 void PassivityController::observe(const Eigen::Vector3d& step, const Eigen::Vector3d& wanted) noexcept {
@@ -95,7 +120,7 @@ void PassivityController::pay(double energy) noexcept {
 
 /// Largest F with F^2 v / (2 rate) + F v T <= E, where E is what remains after forces sent whose work no sample has
 /// shown yet.
-double PassivityController::largest_force(double speed) const noexcept {
+double PassivityController::longest_payable(double speed) const noexcept {
   const double way = speed * period_;
   double remaining = left_;
   for (std::size_t age = 0; age < delay_; ++age) {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include <calligraphy/error.hpp>
+#include <calligraphy/render/stiffness_advice.hpp>
 
 namespace calligraphy {
 namespace {
@@ -14,14 +15,14 @@ namespace {
 /// For a device that states no limit; keeps every force a number [N/m].
 constexpr double stiffest = 1e6;
 
-enum class Bound { above_zero, from_zero };
+enum class Bound { above_zero, from_zero, from_one };
 
 void require(const char* name, double value, Bound bound, double most = std::numeric_limits<double>::max()) {
-  const bool in_domain = bound == Bound::above_zero ? value > 0.0 : value >= 0.0;
+  const bool in_domain = bound == Bound::above_zero ? value > 0.0 : value >= (bound == Bound::from_one ? 1.0 : 0.0);
   if (std::isfinite(value) && in_domain && value <= most) return;
+  const char* domain = bound == Bound::above_zero ? "above 0" : bound == Bound::from_zero ? "from 0 up" : "from 1 up";
   std::ostringstream message;
-  message << name << " = " << value << ": expected a finite number "
-          << (bound == Bound::above_zero ? "above 0" : "from 0 up");
+  message << name << " = " << value << ": expected a finite number " << domain;
   if (most < std::numeric_limits<double>::max()) message << ", at most " << most;
   throw ValueError(message.str());
 }
@@ -33,16 +34,31 @@ void require_count(const char* name, int value, int least, int most) {
   throw ValueError(message.str());
 }
 
-void require_stiffness(const char* name, double value, double factor, const Capabilities& capabilities) {
-  require(name, value, Bound::from_zero);
-  const double stated = capabilities.usable_stiffness;
-  const double usable = stated > 0.0 ? std::min(stated, stiffest) : stiffest;
-  if (value * factor <= usable) return;
-  std::ostringstream message;
-  message << name << " = " << value << " N/m";
-  if (factor != 1.0) message << " times the largest attraction factor " << factor;
-  message << ": the device " << capabilities.model << " is usable up to " << usable << " N/m";
-  throw ValueError(message.str());
+/// Of the critical stiffness, what is left for what a rigid mass does not show.
+constexpr double stable_share = 0.9;
+
+struct StiffnessLimit {
+  double value;  ///< [N/m]
+  std::string reason;
+};
+
+StiffnessLimit usable_stiffness(const Capabilities& capabilities) {
+  if (!(capabilities.usable_stiffness > 0.0 && capabilities.usable_stiffness < stiffest)) {
+    return {stiffest, "no stiffness above it is taken"};
+  }
+  std::ostringstream reason;
+  reason << "the device " << capabilities.model << " is usable up to " << capabilities.usable_stiffness << " N/m";
+  return {capabilities.usable_stiffness, reason.str()};
+}
+
+StiffnessLimit stable_stiffness(const RendererOptions& options, const Capabilities& capabilities) {
+  if (!(capabilities.apparent_mass > 0.0)) return {std::numeric_limits<double>::infinity(), ""};
+  const double critical = critical_stiffness(sampled_loop(capabilities, options.servo_rate, options.softest_grip));
+  std::ostringstream reason;
+  reason << "held in the softest grip at " << options.servo_rate << " Hz the device " << capabilities.model
+         << " is stable below " << critical << " N/m (critical_stiffness), nine tenths of which is "
+         << stable_share * critical << " N/m";
+  return {stable_share * critical, reason.str()};
 }
 
 }  // namespace
@@ -68,11 +84,7 @@ RendererOptions RendererOptions::wang2006() {
 RendererOptions RendererOptions::for_device(const Capabilities& capabilities) {
   RendererOptions options;
   options.servo_rate = capabilities.update_rate;
-  if (capabilities.usable_stiffness > 0.0) {
-    for (double* stiffness : {&options.paper_stiffness, &options.guidance_stiffness, &options.wrong_way_stiffness}) {
-      *stiffness = std::min(*stiffness, capabilities.usable_stiffness);
-    }
-  }
+  clip_stiffness(options, capabilities);
   return options;
 }
 
@@ -84,6 +96,7 @@ RendererOptions RendererOptions::everything(const Capabilities& capabilities) {
   options.box_margin = 0.02;
   options.assist.enabled = true;
   options.friction.coefficient = 0.15;
+  clip_stiffness(options, capabilities);
   options.force_jerk = 1e5;
   options.passivity_control = true;
   options.energy_budget = 0.1;
@@ -92,11 +105,44 @@ RendererOptions RendererOptions::everything(const Capabilities& capabilities) {
   return options;
 }
 
+std::vector<std::string> clip_stiffness(RendererOptions& options, const Capabilities& capabilities,
+                                        double largest_attraction) {
+  require("servo_rate", options.servo_rate, Bound::above_zero, 1e6);
+  const StiffnessLimit usable = usable_stiffness(capabilities), stable = stable_stiffness(options, capabilities);
+  std::vector<std::string> clipped;
+  const auto clip = [&](const char* name, double& stiffness, double most, const std::string& reason) {
+    require(name, stiffness, Bound::from_zero);
+    if (stiffness <= most) return;
+    std::ostringstream message;
+    message << name << " = " << stiffness << " N/m" << reason;
+    clipped.push_back(message.str());
+    stiffness = most;
+  };
+  const StiffnessLimit& limit = usable.value < stable.value ? usable : stable;
+  std::ostringstream attraction;
+  if (largest_attraction != 1.0) attraction << " times the largest attraction factor " << largest_attraction;
+  clip("paper_stiffness", options.paper_stiffness, limit.value, ": " + limit.reason);
+  clip("guidance_stiffness", options.guidance_stiffness, limit.value / largest_attraction,
+       attraction.str() + ": " + limit.reason);
+  clip("wrong_way_stiffness", options.wrong_way_stiffness, limit.value, ": " + limit.reason);
+  if (options.friction.coefficient > 0.0) {
+    // A device may be usable with both springs at once, one along the stroke and one across; stable it must be with
+    // both.
+    clip("friction.stiffness", options.friction.stiffness, limit.value, ": " + limit.reason);
+    const double guidance = options.guidance_stiffness * largest_attraction;
+    std::ostringstream beside;
+    beside << " beside " << guidance << " N/m of guidance: ";
+    clip("friction.stiffness", options.friction.stiffness, std::max(0.1 * stable.value, stable.value - guidance),
+         beside.str() + stable.reason);
+  }
+  return clipped;
+}
+
 void validate(const RendererOptions& options, const Capabilities& capabilities, double largest_attraction) {
   require("servo_rate", options.servo_rate, Bound::above_zero, 1e6);
-  require_stiffness("paper_stiffness", options.paper_stiffness, 1.0, capabilities);
-  require_stiffness("guidance_stiffness", options.guidance_stiffness, largest_attraction, capabilities);
-  require_stiffness("wrong_way_stiffness", options.wrong_way_stiffness, 1.0, capabilities);
+  RendererOptions stable = options;
+  const std::vector<std::string> too_stiff = clip_stiffness(stable, capabilities, largest_attraction);
+  if (!too_stiff.empty()) throw ValueError(too_stiff.front());
   require("guidance_fade_in", options.guidance_fade_in, Bound::from_zero);
   require("wrong_way_limit", options.wrong_way_limit, Bound::from_zero);
   require("wrong_way_slack", options.wrong_way_slack, Bound::from_zero);
@@ -106,7 +152,7 @@ void validate(const RendererOptions& options, const Capabilities& capabilities, 
   require("assist.least", options.assist.least, Bound::from_zero, 1.0);
   require("friction.coefficient", options.friction.coefficient, Bound::from_zero, 10.0);
   require("friction.stiffness", options.friction.stiffness, Bound::above_zero, stiffest);
-  require("friction.static_ratio", options.friction.static_ratio, Bound::above_zero, 10.0);
+  require("friction.static_ratio", options.friction.static_ratio, Bound::from_one, 10.0);
   require("friction.stick_speed", options.friction.stick_speed, Bound::from_zero);
   require("stroke.nearest.tolerance", options.stroke.nearest.tolerance, Bound::above_zero, 1.0);
   require_count("stroke.nearest.samples", options.stroke.nearest.samples, 2, 64);

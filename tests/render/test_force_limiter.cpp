@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 #include <calligraphy/render/force_limiter.hpp>
 
 #include "../hard_cases.hpp"
@@ -65,7 +67,7 @@ TEST_CASE("a target above the peak is approached along its direction", "[render]
   const Vector3d target(6.0, -8.0, 24.0);
   Vector3d force = Vector3d::Zero();
   for (int i = 0; i < 5000; ++i) force = limiter.next(force, target);
-  CHECK(force.norm() == Approx(3.3));
+  CHECK(force.isApprox(3.3 * target.normalized()));
   ForceLimiter unlimited{0.1, 0.4, 3.3, false};
   CHECK(unlimited.next({0, 0, 0}, target).isApprox(3.3 * target.normalized()));
 }
@@ -74,4 +76,151 @@ TEST_CASE("without a rate limit a force comes at once", "[render]") {
   ForceLimiter unlimited{0.1, 0.4, 3.3, false};
   CHECK(unlimited.next({0, 0, 0}, {1.0, -2.0, 0.5}) == Vector3d(1.0, -2.0, 0.5));
   CHECK(std::isinf(unlimited.max_step()));
+}
+
+TEST_CASE("a force that is longer than asked for shortens by the full step in every tick, wherever its target is",
+          "[render]") {
+  Sequence random(13);
+  for (const double jerk : {ForceLimiter::no_limit, 0.05, 0.001}) {
+    for (int run = 0; run < 200; ++run) {
+      ForceLimiter limited{0.1, 0.4, 3.3, true, jerk};
+      Vector3d force(0, 0, 0);
+      for (int i = 0; i < 200; ++i) force = limited.next(force, random_force(random, 5.0) + Vector3d(3.0, 0, 0));
+      double longest = force.norm();
+      for (int i = 0; i < 40; ++i) {
+        longest -= random.between(0.0, 0.1);
+        const Vector3d target = i % 2 ? random_force(random, 5.0) : Vector3d(3.0 * force + random_force(random, 3.0));
+        const Vector3d next = limited.next(force, target, std::max(0.0, longest));
+        CHECK(next.norm() <= std::max(0.0, longest) + 1e-12);
+        CHECK((next - force).norm() <= limited.max_step() * (1.0 + 1e-12));
+        force = next;
+      }
+    }
+  }
+}
+
+TEST_CASE("a force that is to end at once falls by the smaller of the two steps in each tick", "[render]") {
+  ForceLimiter limited{0.1, 0.4, 3.3, true, 0.01};
+  Vector3d force(0, 0, 0);
+  for (int i = 0; i < 200; ++i) force = limited.next(force, {1.2, 1.6, 0.0});
+  REQUIRE(force.isApprox(Vector3d(1.2, 1.6, 0.0)));
+  for (int i = 1; i <= 20; ++i) {
+    force = limited.next(force, {1.2, 1.6, 0.0}, 0.0);
+    CHECK(force.norm() == Approx(2.0 - 0.1 * i).margin(1e-12));
+  }
+}
+
+TEST_CASE("with jerk the step changes by no more than that, but where the peak or the paper outranks it", "[render]") {
+  Sequence random(14);
+  for (const double jerk : {0.0003, 0.01, 0.1, 1.0}) {
+    ForceLimiter limited{0.1, 0.4, 3.3, true, jerk};
+    Vector3d force(0, 0, 0), last_step(0, 0, 0), target(0, 0, 0);
+    double in_plane = 0.0, normal = 0.0, largest_step = 0.0;
+    bool was_shortened = false;
+    for (int i = 0; i < 50'000; ++i) {
+      if (i % 40 == 0) target = random_force(random, 3.0);
+      const Vector3d next = limited.next(force, target);
+      const Vector3d step = next - force;
+      const bool shortened = next.norm() >= 3.3 * (1.0 - 1e-12) || next.z() == 0.0;  // or stopped: it would pull
+      if (!shortened && !was_shortened) {
+        in_plane = std::max(in_plane, (step - last_step).head<2>().norm());
+        normal = std::max(normal, std::abs(step.z() - last_step.z()));
+      }
+      largest_step = std::max(largest_step, step.norm());
+      was_shortened = shortened;
+      last_step = step;
+      force = next;
+    }
+    INFO("jerk " << jerk);
+    CHECK(in_plane <= jerk + 1e-12);
+    CHECK(normal <= jerk + 1e-12);
+    CHECK(in_plane > 0.9 * std::min(jerk, 0.1));
+    CHECK(largest_step <= limited.max_step() * (1.0 + 1e-12));
+  }
+}
+
+TEST_CASE("with jerk a target that stays is reached without going beyond it, and soon", "[render]") {
+  for (const double jerk : {0.001, 0.013, 0.1, 0.5}) {
+    for (const double target : {0.0001, 0.0123, 0.7, 3.0}) {
+      for (const int axis : {0, 2}) {
+        ForceLimiter limited{0.1, 0.4, 3.3, true, jerk};
+        const double longest = axis == 0 ? 0.1 : 0.4;
+        Vector3d aim(0, 0, 0), force(0, 0, 0);
+        aim[axis] = target;
+        double furthest = 0.0;
+        int ticks = 0;
+        while (force != aim && ticks < 10'000) {
+          force = limited.next(force, aim);
+          furthest = std::max(furthest, force[axis]);
+          ++ticks;
+        }
+        INFO("jerk " << jerk << ", target " << target << ", axis " << axis);
+        CHECK(furthest <= target * (1.0 + 1e-12));
+        CHECK(force[axis] == Approx(target));
+        // At constant acceleration up and down, or up to the longest step and down from it, and the ticks of rounding.
+        const double fastest = std::min(longest, std::sqrt(jerk * target));
+        CHECK(ticks <= target / fastest + fastest / jerk + 4.0);
+        CHECK(limited.next(force, aim) == force);
+      }
+    }
+  }
+}
+
+TEST_CASE("with jerk no target, however it moves, carries a force beyond the limits", "[render]") {
+  Sequence random(15);
+  for (const double jerk : {1e-6, 0.01, 10.0}) {
+    ForceLimiter limited{0.1, 0.4, 3.3, true, jerk};
+    Vector3d force(0, 0, 0);
+    double largest_step = 0.0, largest_force = 0.0;
+    for (int i = 0; i < 50'000; ++i) {
+      Vector3d target = random_force(random, 10.0);
+      if (i % 3 == 0) target = -force;
+      if (i % 5 == 0) target = 1e100 * random_force(random, 1.0);
+      const bool releases = i % 17 == 0;
+      const Vector3d next = releases ? limited.release(force) : limited.next(force, target);
+      largest_step = std::max(largest_step, (next - force).norm());
+      largest_force = std::max(largest_force, next.norm());
+      force = next;
+    }
+    INFO("jerk " << jerk);
+    CHECK(largest_step <= limited.max_step() * (1.0 + 1e-12));
+    CHECK(largest_force <= 3.3 * (1.0 + 1e-12));
+  }
+}
+
+TEST_CASE("with jerk a force whose targets all press never pulls", "[render]") {
+  Sequence random(16);
+  for (const double jerk : {0.001, 0.02, 0.2}) {
+    ForceLimiter limited{0.1, 0.4, 3.3, true, jerk};
+    Vector3d force(0, 0, 0);
+    double least = 0.0, longest = 3.3;
+    for (int i = 0; i < 100'000; ++i) {
+      Vector3d target = random_force(random, 4.0);
+      target.z() = random.next() < 0.5 ? 0.0 : std::abs(target.z());
+      if (i % 50 == 0) longest = random.between(0.0, 5.0);
+      force = limited.next(force, target, longest);
+      least = std::min(least, force.z());
+    }
+    INFO("jerk " << jerk);
+    CHECK(least == 0.0);
+  }
+}
+
+TEST_CASE("a release goes straight to zero, in |F| over the largest step ticks", "[render]") {
+  for (const double jerk : {ForceLimiter::no_limit, 0.001}) {
+    ForceLimiter limited{0.1, 0.4, 3.3, true, jerk};
+    const Vector3d from(1.0, -0.5, 2.0);
+    Vector3d force = from;
+    int ticks = 0;
+    while (force != Vector3d(0, 0, 0)) {
+      const Vector3d next = limited.release(force);
+      CHECK(next.cross(from).norm() < 1e-12);
+      CHECK(next.dot(from) >= 0.0);
+      force = next;
+      ++ticks;
+    }
+    CHECK(ticks == static_cast<int>(std::ceil(from.norm() / limited.max_step())));
+    // And what follows begins from rest.
+    CHECK(limited.next({0, 0, 0}, {1.0, 0, 0}).norm() <= std::min(jerk, 0.1) + 1e-12);
+  }
 }

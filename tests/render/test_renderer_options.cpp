@@ -1,6 +1,7 @@
 // Set-up validates everything and names what is wrong.
 #include "../catch.hpp"
 
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <string>
@@ -39,6 +40,7 @@ struct Domain {
   const char* name;
   std::function<double&(RendererOptions&)> option;
   bool zero_allowed;
+  bool infinity_allowed = false;
 };
 
 const Domain domains[] = {
@@ -61,6 +63,17 @@ const Domain domains[] = {
     {"in_plane_force_rate", [](RendererOptions& o) -> double& { return o.in_plane_force_rate; }, false},
     {"normal_force_rate", [](RendererOptions& o) -> double& { return o.normal_force_rate; }, false},
     {"largest_speed", [](RendererOptions& o) -> double& { return o.largest_speed; }, false},
+    {"guidance_limit", [](RendererOptions& o) -> double& { return o.guidance_limit; }, false},
+    {"assist.retention", [](RendererOptions& o) -> double& { return o.assist.retention; }, true},
+    {"assist.full_help_error", [](RendererOptions& o) -> double& { return o.assist.full_help_error; }, false},
+    {"assist.least", [](RendererOptions& o) -> double& { return o.assist.least; }, true},
+    {"friction.coefficient", [](RendererOptions& o) -> double& { return o.friction.coefficient; }, true},
+    {"friction.stiffness", [](RendererOptions& o) -> double& { return o.friction.stiffness; }, false},
+    {"friction.static_ratio", [](RendererOptions& o) -> double& { return o.friction.static_ratio; }, false},
+    {"friction.stick_speed", [](RendererOptions& o) -> double& { return o.friction.stick_speed; }, true},
+    {"force_jerk", [](RendererOptions& o) -> double& { return o.force_jerk; }, false, true},
+    {"energy_budget", [](RendererOptions& o) -> double& { return o.energy_budget; }, true, true},
+    {"thermal_time_constant", [](RendererOptions& o) -> double& { return o.thermal_time_constant; }, true},
 };
 
 }  // namespace
@@ -74,7 +87,7 @@ TEST_CASE("each option out of its domain is named with its value", "[render]") {
       domain.option(options) = value;
       const std::string found = complaint(options);
       INFO(domain.name << " = " << value << ": " << found);
-      if (value == 0.0 && domain.zero_allowed) {
+      if ((value == 0.0 && domain.zero_allowed) || (value == infinity && domain.infinity_allowed)) {
         CHECK(found.empty());
       } else {
         CHECK(contains(found, domain.name));
@@ -104,6 +117,83 @@ TEST_CASE("upper bounds are named too", "[render]") {
   }
   options.stroke.nearest.tolerance = 1.5;
   CHECK(contains(complaint(options), "stroke.nearest.tolerance"));
+}
+
+TEST_CASE("shares and ratios of the stages have their upper and lower bounds", "[render]") {
+  const auto refused = [](const char* name, double value) {
+    RendererOptions options;
+    for (const Domain& domain : domains) {
+      if (std::string(name) == domain.name) domain.option(options) = value;
+    }
+    return contains(complaint(options), name);
+  };
+  for (const char* name : {"assist.retention", "assist.least"}) {
+    CHECK_FALSE(refused(name, 1.0));
+    CHECK(refused(name, 1.0 + 1e-9));
+  }
+  CHECK_FALSE(refused("friction.coefficient", 10.0));
+  CHECK(refused("friction.coefficient", 10.5));
+  CHECK(refused("friction.stiffness", 2e6));
+  CHECK_FALSE(refused("friction.static_ratio", 1.0));
+  CHECK(refused("friction.static_ratio", 0.999));  // below 1 every slip would give energy
+  CHECK(refused("friction.static_ratio", 11.0));
+}
+
+TEST_CASE("a stage that needs to know the device says what it misses", "[render]") {
+  RendererOptions options;
+  options.passivity_control = true;
+  for (const double mass : {0.0, -0.1, infinity, not_a_number}) {
+    Capabilities device = test_device();
+    device.apparent_mass = mass;
+    CHECK(contains(complaint(options, device), "apparent_mass of the device, for passivity_control"));
+  }
+  options = {};
+  options.thermal_time_constant = 10.0;
+  for (const double force : {0.0, -1.0, infinity, not_a_number}) {
+    Capabilities device = test_device();
+    device.continuous_force = force;
+    CHECK(contains(complaint(options, device), "continuous_force of the device, for thermal_time_constant"));
+  }
+  Capabilities late = test_device();
+  late.sample_delay = 16;
+  options = {};
+  options.energy_budget = 0.1;
+  CHECK(contains(complaint([&] { HapticRenderer({placed(U'永')}, {}, late, options); }), "delay = 16"));
+}
+
+TEST_CASE("everything() is valid for devices as they are shipped, and every stage is on", "[render]") {
+  struct Shipped {
+    double peak, continuous, stiffness, mass;
+    int delay;
+  };
+  for (const Shipped& shipped : {Shipped{3.3, 0.88, 700.0, 0.045, 0}, Shipped{3.3, 0.88, 400.0, 0.045, 1},
+                                 Shipped{7.9, 1.75, 1000.0, 0.045, 0}, Shipped{8.5, 1.4, 800.0, 0.075, 2},
+                                 Shipped{infinity, infinity, infinity, 0.045, 0}, Shipped{3.3, 0.0, 0.0, 0.045, 0}}) {
+    Capabilities device = test_device();
+    device.peak_force = shipped.peak;
+    device.continuous_force = shipped.continuous;
+    device.usable_stiffness = shipped.stiffness;
+    device.apparent_mass = shipped.mass;
+    device.sample_delay = shipped.delay;
+    for (const double rate : {500.0, 1000.0, 4000.0}) {
+      device.update_rate = rate;
+      const RendererOptions options = RendererOptions::everything(device);
+      INFO("peak " << shipped.peak << " N, " << rate << " Hz: " << complaint(options, device));
+      CHECK(complaint(options, device).empty());
+      CHECK(complaint([&] { HapticRenderer({placed(U'永')}, {}, device, options); }).empty());
+      CHECK(options.servo_rate == rate);
+      CHECK(options.guidance == GuidanceLaw::saturating);
+      CHECK(options.guide_to_start);
+      CHECK(options.assist.enabled);
+      CHECK(options.friction.coefficient > 0.0);
+      CHECK(options.passivity_control);
+      CHECK(std::isfinite(options.force_jerk));
+      CHECK(std::isfinite(options.energy_budget));
+      const bool warms = shipped.continuous > 0.0 && shipped.continuous < shipped.peak;
+      CHECK((options.thermal_time_constant > 0.0) == warms);
+      CHECK(options.guidance_limit <= 0.5 * shipped.peak);
+    }
+  }
 }
 
 TEST_CASE("a stiffness above what the device can hold is refused, the attraction factor counted", "[render]") {

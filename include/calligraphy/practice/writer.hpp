@@ -19,6 +19,7 @@ namespace calligraphy {
 struct WriterSkill {
   Hand hand;                     ///< impedance between the plan and the device
   double offset = 0.0;           ///< of the believed character [em]
+  double bias = 0.0;             ///< length of one more offset, in a direction drawn for each character; no spread [em]
   double scale = 0.0;            ///< of the believed character [1]
   double tilt = 0.0;             ///< of the believed character [rad]
   double shape = 0.0;            ///< of each stroke's believed place within the character [em]

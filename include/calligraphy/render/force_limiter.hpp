@@ -9,12 +9,17 @@ namespace calligraphy {
 
 /// Brings every change of force in at a limited rate, and at choice a limited jerk, and keeps it within the peak force.
 ///
-/// Each tick the force moves towards its target by at most `in_plane_step` within the paper and `normal_step` along z;
-/// then it is shortened to `peak`, its direction kept. Shortening is a projection onto a ball that the last force lies
-/// in, so it never lengthens the step: no step exceeds max_step().
+/// The target is shortened to `peak`, its direction kept. Each tick the force moves towards it by at most
+/// `in_plane_step` within the paper and `normal_step` along z; what is then beyond `peak` is shortened again. That is a
+/// projection onto a ball that the last force lies in, so it never lengthens the step: no step exceeds max_step().
 ///
-/// With `jerk` the step itself changes by at most that much per tick, and in time to stop at the target; only the peak
-/// and release() outrank it.
+/// A stage before this one may ask for less than `peak` for one tick. A force that is longer still is first shortened
+/// by as much as the smaller of the two steps allows, and what is left of them leads to the target: so its length falls
+/// by that much a tick, wherever the target is.
+///
+/// With `jerk` the step itself changes by at most that much per tick, and in time to stop at the target. Outranked by
+/// shortening, by release(), and along z by paper that does not pull: a force that presses, on the way to one that
+/// presses, stops at none.
 struct ForceLimiter {
   static constexpr double no_limit = std::numeric_limits<double>::infinity();
 
@@ -26,9 +31,10 @@ struct ForceLimiter {
   Eigen::Vector3d last_step = Eigen::Vector3d::Zero();  ///< kept with `jerk` [N]
 
   double max_step() const noexcept;
-  /// The force after `previous` on the way to `target` [N, page axes]. `target` is finite, `previous` what the last
-  /// call gave.
-  Eigen::Vector3d next(const Eigen::Vector3d& previous, const Eigen::Vector3d& target) noexcept;
+  /// The force after `previous` on the way to `target`, no longer than `longest` if that can be [N, page axes].
+  /// `target` is finite, `previous` what the last call gave.
+  Eigen::Vector3d next(const Eigen::Vector3d& previous, const Eigen::Vector3d& target,
+                       double longest = no_limit) noexcept;
   /// The force after `previous` on the shortest way to none, by max_step() a tick: the device cannot be trusted.
   Eigen::Vector3d release(const Eigen::Vector3d& previous) noexcept;
 };

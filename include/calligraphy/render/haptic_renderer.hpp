@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -38,7 +39,10 @@ class HapticRenderer {
   void restart() noexcept;
 
   const HapticTick& last() const noexcept { return tick_; }
+  /// As they are at work: with StiffnessCheck::clip, stiffnesses may be smaller than asked for.
   const RendererOptions& options() const noexcept { return options_; }
+  /// What was clipped, each with its value and the reason.
+  const std::vector<std::string>& clipped() const noexcept { return clipped_; }
   const MotionMapping& mapping() const noexcept { return mapping_; }
   const std::vector<PlacedCharacter>& page() const noexcept { return page_; }
   /// Largest change of force from one tick to the next [N]; infinite when the rate is not limited.
@@ -74,6 +78,7 @@ class HapticRenderer {
   std::vector<PreparedCharacter> prepared_;  ///< views into page_
   MotionMapping mapping_;
   RendererOptions options_;
+  std::vector<std::string> clipped_;
   ForceLimiter limiter_;
   double fade_step_ = 1.0;  ///< per tick
   bool observes_energy_ = false;

@@ -21,7 +21,7 @@ enum class FrictionModel {
 struct FrictionOptions {
   FrictionModel model = FrictionModel::breakaway;
   double coefficient = 0.0;    ///< mu, force within the paper over the force along its normal; 0: no friction [1]
-  double stiffness = 1000.0;   ///< of the pen's hold on the paper [N/m]
+  double stiffness = 500.0;    ///< of the pen's hold on the paper [N/m]
   double static_ratio = 1.2;   ///< karnopp: break-away over sliding friction, at least 1 [1]
   double stick_speed = 0.002;  ///< karnopp [m/s]
 };

@@ -32,7 +32,15 @@ struct PassivityOptions {
 /// deficit, energy dissipated, is forgotten: it is no credit.
 ///
 /// Budget: with E of the budget left, a force is shortened to what can be taken away at force_rate before a pen at its
-/// present speed (and 0.25 m/s more) has used up E. Energy that the hand gives flows back into E, up to the budget.
+/// present speed (and 0.25 m/s more) has used up E. Energy that the hand gives flows back into E, up to the budget. The
+/// true work never exceeds the budget, whatever the field, as long as
+/// - a limit behind, if there is one, keeps a force within longest_force(), and one that is longer falls by
+///   force_rate x period in every tick (ForceLimiter::next does so with that as `longest`);
+/// - the pen is never faster than 0.25 m/s above its speed at the last tick whose force was within longest_force(),
+///   until that force is taken away: |F| / force_rate + delay + 1 ticks. A pen that is faster by u may be given
+///   |F| u times that time more;
+/// - each sample is `delay` ticks old, or known to be lost; of an encoder of step D at most D / 2 times the sum of all
+///   changes of the force is not seen.
 class PassivityController {
  public:
   static constexpr int longest_delay = 15;
@@ -46,7 +54,8 @@ class PassivityController {
   PassivityController(const PassivityOptions& options, double period);
 
   /// The force to be sent for a wanted one [N], at the device's position of this tick [m]; limits may follow. With
-  /// NaN in the position, the sample of this tick is not known: nothing is damped.
+  /// NaN in the position, the sample of this tick is lost: nothing is damped, and the pen is presumed to go on along
+  /// the force.
   Eigen::Vector3d next(const Eigen::Vector3d& position, const Eigen::Vector3d& wanted) noexcept;
   /// The force that came out of the limits and holds from now on. Call it once after every next().
   void sent(const Eigen::Vector3d& force) noexcept;
@@ -57,6 +66,8 @@ class PassivityController {
   double energy_given() const noexcept { return given_; }
   /// What is left of the budget [J].
   double energy_left() const noexcept { return left_; }
+  /// What the last next() shortened to; infinite without a budget [N].
+  double longest_force() const noexcept { return longest_; }
   /// Injected in the last tick [N].
   const Eigen::Vector3d& damping() const noexcept { return damping_; }
 
@@ -66,7 +77,9 @@ class PassivityController {
   }
   void observe(const Eigen::Vector3d& step, const Eigen::Vector3d& wanted) noexcept;
   void pay(double energy) noexcept;
-  double largest_force(double speed) const noexcept;
+  void presume() noexcept;
+  void find_again(const Eigen::Vector3d& position) noexcept;
+  double longest_payable(double speed) const noexcept;
 
   double max_damping_ = 0.0;
   double budget_ = std::numeric_limits<double>::infinity();
@@ -81,6 +94,10 @@ class PassivityController {
   Eigen::Vector3d wanted_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d damping_ = Eigen::Vector3d::Zero();
   double speed_ = 0.0;             ///< [m/s]
+  int lost_ = 0;                   ///< ticks since the last position
+  double presumed_way_ = 0.0;      ///< of those [m]
+  double force_while_lost_ = 0.0;  ///< the largest at work in those [N]
+  double longest_ = std::numeric_limits<double>::infinity();
   double surplus_in_plane_ = 0.0;  ///< not yet damped out [J]
   double surplus_normal_ = 0.0;    ///< [J]
   double given_ = 0.0;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <limits>
+#include <string>
+#include <vector>
 
 #include <calligraphy/collision/active_stroke.hpp>
 #include <calligraphy/devices/device_state.hpp>
@@ -24,6 +26,12 @@ enum class GuidanceLaw {
   saturating  ///< eq. (8) near the stroke, never above `guidance_limit`, anywhere in the character's box
 };
 
+/// What becomes of a stiffness that the device is not usable or not stable with.
+enum class StiffnessCheck {
+  refuse,  ///< the renderer is not made: ValueError
+  clip     ///< the largest that is; HapticRenderer::clipped() has the reasons
+};
+
 struct RendererOptions {
   double servo_rate = 1000.0;         ///< [Hz]
   double paper_stiffness = 600.0;     ///< K_en of eq. (9) [N/m]
@@ -33,8 +41,12 @@ struct RendererOptions {
   double wrong_way_limit = 1.0;        ///< its largest force [N]
   double wrong_way_slack = 0.002;      ///< a pen may go back this far unhindered [m]
 
+  StiffnessCheck stiffness_check = StiffnessCheck::refuse;
+  /// The softest grip that the loop is to be stable in, where the device states its mass (critical_stiffness()).
+  Hand softest_grip = {0.05, 1.0, 100.0};
+
   GuidanceLaw guidance = GuidanceLaw::linear;
-  double guidance_limit = 1.5;  ///< saturating: the largest guidance force [N]
+  double guidance_limit = 2.0;  ///< saturating: the largest guidance force [N]
   bool guide_to_start = false;  ///< on the paper before a stroke, guidance pulls to the stroke's start
   AssistPolicy assist;          ///< off by default: full help
   FrictionOptions friction;     ///< off by default
@@ -71,7 +83,7 @@ struct RendererOptions {
   /// they stand nothing can be written (set force_sign to see it). Widths and stiffnesses as above.
   static RendererOptions wang2006();
 
-  /// The defaults with stiffnesses no larger than the device's usable stiffness, at its update rate.
+  /// The defaults at the device's update rate, their stiffnesses clipped to what it is usable and stable with.
   static RendererOptions for_device(const Capabilities& capabilities);
 
   /// for_device() with every stage switched on: friction, guidance for large deviations, help as needed, limited jerk,
@@ -79,8 +91,16 @@ struct RendererOptions {
   static RendererOptions everything(const Capabilities& capabilities);
 };
 
-/// @throws ValueError naming the option and its value: not finite, out of its domain, or a stiffness (times the largest
-/// attraction factor on the page) above the device's usable stiffness
+/// Clips the stiffnesses to nine tenths of what is stable in the softest grip, at the options' rate and the device's
+/// sample delay, where the device states its mass; and to its usable stiffness, where it states one. The guidance
+/// counts with the largest attraction factor on the page, the pen's hold on the paper (friction) on top of it.
+/// @return what was clipped, each with its reason
+/// @throws ValueError naming the option when a stiffness is negative or not finite, or the rate is none
+std::vector<std::string> clip_stiffness(RendererOptions& options, const Capabilities& capabilities,
+                                        double largest_attraction = 1.0);
+
+/// @throws ValueError naming the option and its value: not finite, out of its domain, or a stiffness that
+/// clip_stiffness() would clip
 void validate(const RendererOptions& options, const Capabilities& capabilities, double largest_attraction = 1.0);
 
 }  // namespace calligraphy

@@ -1,0 +1,301 @@
+// The extremes of a device, a loop and a page, each with its outcome, over the default composition and over everything
+// switched on. Samples that no pen gives, faults and days of work: tests/render and tests/soak.
+#include "../catch.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <calligraphy/calligraphy.hpp>
+
+#include "hard_cases.hpp"
+#include "pen_path.hpp"
+
+using namespace calligraphy;
+using calligraphy_test::path_of;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr Hand normal_grip = {0.1, 3.0, 300.0};
+
+struct Composition {
+  const char* name;
+  RendererOptions (*options)(const Capabilities&);
+};
+const std::vector<Composition> compositions = {{"default", RendererOptions::for_device},
+                                               {"everything", RendererOptions::everything}};
+
+PlacedCharacter one_stroke() { return {calligraphy_test::typical_character(1), {{0.02, 0.02}, 0.04}}; }
+
+/// A hand that writes a heng beside its place, in closed loop, however fast the servo.
+struct Writing {
+  std::vector<Vector3d> forces, places;  ///< every 10 ms, page
+  double largest_force = 0.0, largest_step = 0.0, step_limit = 0.0;
+  bool finite = true, finished = false;
+  double late_swing = 0.0;  ///< of the pen along z, in the last 0.3 s of a rest on the paper [m]
+  RendererOptions options;
+};
+
+Writing write_beside(const DeviceProfile& profile, RendererOptions options, double offset) {
+  options.stiffness_check = StiffnessCheck::clip;
+  const MotionMapping mapping = upright_page(0.08, 0.08);
+  HapticRenderer renderer({one_stroke()}, mapping, profile.capabilities, options);
+  const auto path = path_of(strokes(renderer.page()[0].character)[0], renderer.page()[0].placement, 0.0001);
+  const Point begin = path.front() + Point(0.0, offset), end = path.back() + Point(0.0, offset);
+  // Down in 0.2 s, along the stroke in 1 s, a rest of 0.8 s on the way at its middle.
+  const auto meant = [&](double t) -> Vector3d {
+    const auto smooth = [](double s) {
+      s = std::clamp(s, 0.0, 1.0);
+      return s * s * s * (10.0 + s * (6.0 * s - 15.0));
+    };
+    const double along = 0.5 * smooth((t - 0.2) / 0.5) + 0.5 * smooth((t - 1.5) / 0.5);
+    const Point tip = begin + along * (end - begin);
+    return {tip.x(), tip.y(), 0.003 - 0.005 * smooth(t / 0.2)};
+  };
+  SimulatedDevice device(profile, normal_grip, mapping.to_device(meant(0.0)));
+  Writing writing;
+  writing.step_limit = renderer.max_force_step();
+  writing.options = renderer.options();
+  const double period = 1.0 / options.servo_rate;
+  const int ticks = static_cast<int>(2.1 / period);
+  const int between = std::max(1, static_cast<int>(0.01 / period));
+  Vector3d last = Vector3d::Zero();
+  double low = infinity, high = -infinity;
+  for (int i = 0; i < ticks; ++i) {
+    const HapticTick& tick = renderer.update(device.read());
+    writing.finite = writing.finite && tick.force.allFinite();
+    writing.largest_force = std::max(writing.largest_force, tick.force.norm());
+    writing.largest_step = std::max(writing.largest_step, (tick.force - last).norm());
+    last = tick.force;
+    writing.finished = writing.finished || has(tick.events, TickEvent::stroke_finished);
+    const double t = i * period;
+    if (i % between == 0) {
+      writing.forces.push_back(tick.page_force);
+      writing.places.push_back(mapping.to_page(device.true_position()));
+    }
+    if (t > 1.2 && t < 1.5) {
+      low = std::min(low, mapping.to_page(device.true_position()).z());
+      high = std::max(high, mapping.to_page(device.true_position()).z());
+    }
+    device.write(tick.force);
+    const Vector3d now = meant(t);
+    device.set_intention(
+        {mapping.to_device(now), mapping.rotation.transpose() * (meant(t + period) - now) / (period * mapping.scale)});
+    device.advance(period);
+  }
+  writing.late_swing = high - low;
+  return writing;
+}
+
+/// Root mean square of the difference of two histories, and of the first.
+double rms_difference(const std::vector<Vector3d>& a, const std::vector<Vector3d>& b) {
+  double sum = 0.0;
+  const std::size_t count = std::min(a.size(), b.size());
+  for (std::size_t i = 0; i < count; ++i) sum += (a[i] - b[i]).squaredNorm();
+  return std::sqrt(sum / static_cast<double>(count));
+}
+double rms(const std::vector<Vector3d>& a) {
+  return rms_difference(a, std::vector<Vector3d>(a.size(), Vector3d(0.0, 0.0, 0.0)));
+}
+
+void check_kept(const Writing& writing, const DeviceProfile& profile) {
+  CHECK(writing.finite);
+  CHECK(writing.finished);
+  CHECK(writing.largest_force <= profile.capabilities.peak_force * (1.0 + 1e-12));
+  CHECK(writing.largest_step <= writing.step_limit * (1.0 + 1e-9));
+}
+
+}  // namespace
+
+TEST_CASE("the same hand is led the same way at every rate, to what a person can tell", "[practice][extremes]") {
+  // The stiffness is one that every rate is stable with, so that the rate alone differs.
+  const DeviceProfile& profile = device_profile("desktop");
+  for (const Composition& composition : compositions) {
+    RendererOptions options = composition.options(profile.capabilities);
+    options.servo_rate = 100.0;
+    options.stiffness_check = StiffnessCheck::clip;
+    options = HapticRenderer({one_stroke()}, {}, profile.capabilities, options).options();
+    options.servo_rate = 20'000.0;
+    const Writing reference = write_beside(profile, options, 0.003);
+    for (const double rate : {100.0, 500.0, 1000.0, 4000.0, 10'000.0}) {
+      options.servo_rate = rate;
+      const Writing writing = write_beside(profile, options, 0.003);
+      CAPTURE(composition.name, rate, writing.late_swing);
+      check_kept(writing, profile);
+      // At 100 Hz a held force is 5 ms old on the way down and up; JNDs go from 6 to 10 %.
+      const double just_noticeable = rate < 500.0 ? 0.1 : 0.05;
+      CHECK(rms_difference(writing.forces, reference.forces) <= just_noticeable * rms(reference.forces));
+      CHECK(rms_difference(writing.places, reference.places) <= 0.05 * 0.003);
+    }
+  }
+}
+
+TEST_CASE("with delays of 0 to 5 samples the stiffness is clipped and a pen pressed on the paper comes to rest",
+          "[practice][extremes]") {
+  for (const std::string name : {"omni", "desktop"}) {
+    for (const Composition& composition : compositions) {
+      for (const int delay : {0, 1, 2, 3, 5}) {
+        DeviceProfile profile = device_profile(name);
+        profile.delay = profile.capabilities.sample_delay = delay;
+        const Writing writing = write_beside(profile, composition.options(profile.capabilities), 0.002);
+        CAPTURE(name, composition.name, delay, writing.options.paper_stiffness);
+        check_kept(writing, profile);
+        CHECK(writing.late_swing < 2e-5);
+      }
+    }
+  }
+}
+
+TEST_CASE("at the stiffness that is let through no encoder step keeps up a swing", "[practice][extremes]") {
+  for (const Composition& composition : compositions) {
+    for (const double step : {1e-6, 23e-6, 55e-6, 200e-6}) {
+      DeviceProfile profile = device_profile("omni");
+      profile.encoder_step = profile.capabilities.resolution = step;
+      const Writing writing = write_beside(profile, composition.options(profile.capabilities), 0.002);
+      CAPTURE(composition.name, step);
+      check_kept(writing, profile);
+      CHECK(writing.late_swing < std::max(5e-6, 0.1 * step));
+    }
+  }
+}
+
+TEST_CASE("every stiffness has a defined outcome: taken, clipped with its reason, or refused by name",
+          "[practice][extremes]") {
+  const Capabilities& capabilities = device_profile("omni").capabilities;
+  for (const Composition& composition : compositions) {
+    const RendererOptions base = composition.options(capabilities);
+    for (double RendererOptions::*stiffness : {&RendererOptions::paper_stiffness, &RendererOptions::guidance_stiffness,
+                                               &RendererOptions::wrong_way_stiffness}) {
+      for (const double value : {not_a_number, -1e-300, -600.0, infinity}) {
+        RendererOptions options = base;
+        options.*stiffness = value;
+        for (const StiffnessCheck check : {StiffnessCheck::refuse, StiffnessCheck::clip}) {
+          options.stiffness_check = check;
+          CHECK_THROWS_WITH(HapticRenderer({one_stroke()}, {}, capabilities, options),
+                            Catch::Matchers::Contains("stiffness = "));
+        }
+      }
+      for (const double value : {0.0, 1e-12, 1e-310}) {
+        RendererOptions options = base;
+        options.*stiffness = value;
+        HapticRenderer renderer({one_stroke()}, {}, capabilities, options);
+        CHECK(renderer.options().*stiffness == value);
+        CHECK(renderer.clipped().empty());
+      }
+      RendererOptions options = base;
+      options.*stiffness = 1e6;
+      CHECK_THROWS_WITH(HapticRenderer({one_stroke()}, {}, capabilities, options),
+                        Catch::Matchers::Contains("Phantom Omni") && Catch::Matchers::Contains("1e+06 N/m"));
+      options.stiffness_check = StiffnessCheck::clip;
+      HapticRenderer renderer({one_stroke()}, {}, capabilities, options);
+      CHECK(renderer.options().*stiffness == Approx(capabilities.usable_stiffness));
+      REQUIRE(!renderer.clipped().empty());
+      CHECK_THAT(renderer.clipped().front(), Catch::Matchers::Contains("usable up to 700"));
+    }
+  }
+}
+
+TEST_CASE(
+    "at a rate too low for the stiffness, it is clipped to nine tenths of the critical one, and the reason says so",
+    "[practice][extremes]") {
+  const Capabilities& capabilities = device_profile("omni").capabilities;
+  RendererOptions options;
+  options.servo_rate = 100.0;
+  CHECK_THROWS_WITH(HapticRenderer({one_stroke()}, {}, capabilities, options),
+                    Catch::Matchers::Contains("paper_stiffness = 600") && Catch::Matchers::Contains("100 Hz"));
+  options.stiffness_check = StiffnessCheck::clip;
+  HapticRenderer renderer({one_stroke()}, {}, capabilities, options);
+  const double critical = critical_stiffness(sampled_loop(capabilities, 100.0, options.softest_grip));
+  CHECK(renderer.options().paper_stiffness == Approx(0.9 * critical));
+  CHECK_THAT(renderer.clipped().front(), Catch::Matchers::Contains("critical_stiffness"));
+}
+
+TEST_CASE("hard curves as strokes are refused by name or written with finite forces", "[practice][extremes]") {
+  const DeviceProfile& profile = device_profile("desktop");
+  int written = 0;
+  for (const Composition& composition : compositions) {
+    for (const calligraphy_test::HardCurve& hard : calligraphy_test::hard_curves()) {
+      if (hard.control_points.size() != 4) continue;
+      // As the pie, one cubic, brought into the unit square.
+      Point low = hard.control_points[0], high = low;
+      for (const Point& point : hard.control_points) {
+        low = low.cwiseMin(point);
+        high = high.cwiseMax(point);
+      }
+      const double size = std::max((high - low).maxCoeff(), std::numeric_limits<double>::min());
+      StrokeInput input{4, {}, {}};
+      for (const Point& point : hard.control_points) input.control_points.push_back((point - low) / size);
+      CAPTURE(composition.name, hard.name);
+      try {
+        HapticRenderer renderer({{make_character(U'丿', std::span(&input, 1)), {{0.02, 0.02}, 0.04}}}, {},
+                                profile.capabilities, composition.options(profile.capabilities));
+        Eigen::Vector3d last = Vector3d::Zero();
+        bool finite = true, stepped = false;
+        calligraphy_test::Sequence random(5);
+        for (int i = 0; i < 4000; ++i) {
+          // From the start over the curve, and across it.
+          const double t = 0.001 * (i % 1000);
+          Point tip = renderer.page()[0].placement.to_page(Bezier<3>{
+              {input.control_points[0], input.control_points[1], input.control_points[2],
+               input.control_points[3]}}.point(t));
+          if (i >= 2000) tip += random.point(-0.002, 0.002);
+          DeviceState state;
+          state.time = 0.001 * i;
+          state.position = {tip.x(), tip.y(), i % 1000 < 5 ? 0.002 : -0.001};
+          const HapticTick& tick = renderer.update(state);
+          finite = finite && tick.force.allFinite();
+          stepped = stepped || (tick.force - last).norm() > renderer.max_force_step() * (1.0 + 1e-9);
+          last = tick.force;
+        }
+        CHECK(finite);
+        CHECK_FALSE(stepped);
+        ++written;
+      } catch (const Error& error) {
+        UNSCOPED_INFO(error.what());
+        CHECK_THAT(error.what(), Catch::Matchers::Contains("stroke"));
+      }
+    }
+  }
+  CHECK(written > 0);
+}
+
+TEST_CASE("denormal places, depths and stiffnesses give finite forces, with and without flushing",
+          "[practice][extremes]") {
+  const Capabilities& capabilities = device_profile("desktop").capabilities;
+  for (const Composition& composition : compositions) {
+    for (const bool flush : {false, true}) {
+      std::unique_ptr<FlushDenormals> as_a_servo_thread;
+      if (flush) as_a_servo_thread = std::make_unique<FlushDenormals>();
+      RendererOptions options = composition.options(capabilities);
+      options.paper_stiffness = 1e-310;
+      HapticRenderer renderer({{one_stroke().character, {{0.0, 0.0}, 0.04}}}, {}, capabilities, options);
+      for (int i = 0; i < 2000; ++i) {
+        DeviceState state;
+        state.time = 0.001 * i;
+        state.position = {i % 2 ? 5e-324 : 1e-310, i % 3 ? -1e-310 : 5e-324, -5e-324 * (i % 5)};
+        REQUIRE(renderer.update(state).force.allFinite());
+      }
+    }
+  }
+}
+
+TEST_CASE("a servo thread takes denormal numbers as zero, and only while it is told to", "[practice][extremes]") {
+  if (!FlushDenormals::available()) {
+    WARN("this processor has no such mode");
+    return;
+  }
+  volatile double small = 1e-310, half = 0.5, least = 2.3e-308;
+  CHECK(small * half != 0.0);
+  {
+    const FlushDenormals as_a_servo_thread;
+    CHECK(small * half == 0.0);  // in
+    CHECK(least * half == 0.0);  // out
+  }
+  CHECK(small * half != 0.0);
+  CHECK(least * half != 0.0);
+}

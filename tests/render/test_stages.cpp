@@ -1,0 +1,506 @@
+// The renderer's stages by choice: guidance for large deviations, friction, passivity, heat, and all of them at once.
+#include "../catch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "../hard_cases.hpp"
+#include "../scripted_pen.hpp"
+
+using namespace calligraphy;
+using calligraphy_test::beside;
+using calligraphy_test::path_of;
+using calligraphy_test::placed;
+using calligraphy_test::ScriptedPen;
+using calligraphy_test::Sequence;
+using Eigen::Vector3d;
+
+namespace {
+
+Capabilities warm_device() {
+  Capabilities device = calligraphy_test::test_device();
+  device.continuous_force = 0.88;
+  device.apparent_mass = 0.045;
+  return device;
+}
+
+RendererOptions everything() { return RendererOptions::everything(warm_device()); }
+
+RendererOptions saturating() {
+  RendererOptions options;
+  options.guidance = GuidanceLaw::saturating;
+  options.guidance_limit = 1.2;
+  options.box_margin = 0.06;
+  return options;
+}
+
+HapticRenderer renderer_of(char32_t code, const RendererOptions& options) {
+  return {{placed(code, {0.07, 0.07})}, {}, warm_device(), options};
+}
+
+Vector3d at(const Point& point, double z) { return {point.x(), point.y(), z}; }
+
+/// The first, straight stroke of 三.
+struct FirstStroke {
+  Point start, end, along, left;
+
+  explicit FirstStroke(const HapticRenderer& renderer) {
+    const Stroke stroke = strokes(renderer.page()[0].character)[0];
+    start = renderer.page()[0].placement.to_page(stroke.control_points[0]);
+    end = renderer.page()[0].placement.to_page(stroke.control_points[1]);
+    along = (end - start).normalized();
+    left = {-along.y(), along.x()};
+  }
+};
+
+void rest(ScriptedPen& pen, const Vector3d& place, int ticks) {
+  for (int i = 0; i < ticks; ++i) pen.at(place);
+}
+
+/// Starts the first stroke and goes 10 mm along it, pressed in by 2 mm.
+FirstStroke begin_writing(ScriptedPen& pen, const HapticRenderer& renderer) {
+  const FirstStroke stroke(renderer);
+  pen.go(at(stroke.start, 0.005));
+  pen.go(at(stroke.start, -0.002));
+  pen.go(at(stroke.start + 0.01 * stroke.along, -0.002));
+  return stroke;
+}
+
+/// Changes of state, and what went on meanwhile.
+struct Watch {
+  std::string states, events;
+
+  void operator()(const HapticTick& tick) {
+    const std::string state = short_name(tick.state);
+    if (states.empty() || states.substr(states.size() - 2) != state) states += states.empty() ? state : " " + state;
+    const std::pair<TickEvent, char> names[] = {{TickEvent::stroke_started, 's'},
+                                                {TickEvent::feature_passed, 'p'},
+                                                {TickEvent::stroke_finished, 'f'},
+                                                {TickEvent::stroke_abandoned, 'a'}};
+    for (const auto& [event, letter] : names) {
+      if (has(tick.events, event)) events += letter;
+    }
+  }
+};
+
+void check_steps(const ScriptedPen& pen, const HapticRenderer& renderer) {
+  CHECK(pen.finite);
+  CHECK(pen.largest_step <= renderer.max_force_step() * (1.0 + 1e-12));
+  CHECK(pen.largest_force <= 3.3 * (1.0 + 1e-12));
+}
+
+#ifdef __SANITIZE_ADDRESS__
+constexpr int random_strokes = 2;
+#else
+constexpr int random_strokes = 10;
+#endif
+
+/// Writing, leaps, wanderings in and above the paper, at speeds up to 1 m/s.
+void wander(ScriptedPen& pen, const HapticRenderer& renderer, std::uint64_t seed) {
+  Sequence random(seed);
+  const auto all = strokes(renderer.page()[0].character);
+  for (int i = 0; i < random_strokes; ++i) {
+    pen.speed = random.between(0.05, 1.0);
+    const auto& stroke = all[static_cast<std::size_t>(random.next() * static_cast<double>(all.size()))];
+    pen.write(beside(path_of(stroke, renderer.page()[0].placement, 1e-3), random.between(-0.012, 0.012)),
+              random.between(0.0, 0.006));
+    for (int k = 0; k < 5; ++k) pen.go(at(random.point(0.03, 0.15), random.between(-0.006, 0.004)));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("saturating guidance has the stiffness of eq. (8) near the stroke and its limit far off, at any distance",
+          "[render]") {
+  HapticRenderer renderer = renderer_of(U'三', saturating());
+  ScriptedPen pen(renderer);
+  const FirstStroke stroke = begin_writing(pen, renderer);
+  const double stiffness = renderer.options().guidance_stiffness;
+  double last = 0.0;
+  for (const double distance : {0.00005, 0.0001, 0.001, 0.002, 0.005, 0.011, 0.013, 0.02, 0.03, 0.05}) {
+    pen.go(at(stroke.start + 0.01 * stroke.along + distance * stroke.left, -0.002));
+    const HapticTick& tick = renderer.last();
+    REQUIRE(tick.state == InteractionState::writing);
+    const double pull = -tick.attraction.dot(stroke.left);
+    INFO(distance << " m: " << pull << " N");
+    CHECK(pull == Approx(tick.attraction.norm()));  // straight back
+    CHECK(pull > last);
+    CHECK(pull < 1.2);
+    if (distance < 0.0002) CHECK(pull == Approx(stiffness * distance).epsilon(0.01));
+    if (distance > 0.01) CHECK(pull > 0.95 * 1.2);
+    last = pull;
+  }
+}
+
+TEST_CASE("the linear law lets go where the saturating one still guides", "[render]") {
+  for (const bool saturates : {false, true}) {
+    RendererOptions options = saturating();
+    if (!saturates) options.guidance = GuidanceLaw::linear;
+    HapticRenderer renderer = renderer_of(U'三', options);
+    ScriptedPen pen(renderer);
+    const FirstStroke stroke = begin_writing(pen, renderer);
+    pen.go(at(stroke.start + 0.01 * stroke.along - 0.015 * stroke.left, -0.002));
+    CHECK(renderer.last().state == InteractionState::writing);
+    CHECK((renderer.last().attraction.norm() > 1.1) == saturates);
+    CHECK((renderer.last().attraction.norm() == 0.0) == !saturates);
+  }
+}
+
+TEST_CASE("a pen led astray is drawn to the stroke's start, but on the paper only and before the stroke", "[render]") {
+  for (const bool leads : {false, true}) {
+    RendererOptions options = saturating();
+    options.guide_to_start = leads;
+    HapticRenderer renderer = renderer_of(U'三', options);
+    const FirstStroke stroke(renderer);
+    const Point astray = stroke.start + 0.03 * stroke.along + 0.02 * stroke.left;
+    ScriptedPen pen(renderer);
+    pen.go(at(astray, 0.005));
+    rest(pen, at(astray, 0.005), 50);
+    CHECK(renderer.last().force == Vector3d(0, 0, 0));  // in the air
+    pen.go(at(astray, -0.001));
+    rest(pen, at(astray, -0.001), 500);
+    CHECK(renderer.last().state == InteractionState::calibration);
+    const Point in_plane = renderer.last().page_force.head<2>();
+    if (leads) {
+      CHECK(in_plane.normalized().isApprox((stroke.start - astray).normalized()));
+      CHECK(in_plane.norm() > 1.0);
+      CHECK(in_plane.norm() <= 1.2);
+    } else {
+      CHECK(in_plane == Point(0, 0));
+    }
+    pen.go(at(stroke.start, -0.001));
+    CHECK(renderer.last().state == InteractionState::writing);
+    pen.go(at(stroke.end, -0.001));
+    CHECK(renderer.last().stroke == 1);
+    pen.go(at(astray, -0.001));  // not lifted yet: the next stroke may not begin
+    rest(pen, at(astray, -0.001), 100);
+    CHECK(renderer.last().attraction == Point(0, 0));
+    pen.go({-0.05, -0.05, -0.001});  // outside the box
+    CHECK(renderer.last().state == InteractionState::adjusting);
+    CHECK(renderer.last().attraction == Point(0, 0));
+    check_steps(pen, renderer);
+  }
+}
+
+TEST_CASE("a pen comes back from anywhere without a step of the force, whatever the stages", "[render]") {
+  for (const RendererOptions& options : {RendererOptions{}, saturating(), everything()}) {
+    HapticRenderer renderer = renderer_of(U'三', options);
+    ScriptedPen pen(renderer);
+    const FirstStroke stroke(renderer);
+    Sequence random(77);
+    double largest = 0.0;
+    for (int i = 0; i < 20; ++i) {
+      pen.speed = random.between(0.05, 0.5);
+      begin_writing(pen, renderer);
+      // Out of the tube, out of the box, into the air, and back on a way of its own.
+      pen.go(at(stroke.start + random.point(-0.1, 0.1), i % 3 == 0 ? 0.004 : -random.between(0.0, 0.005)));
+      pen.go(at(stroke.start + random.point(-0.03, 0.05), -random.between(0.0, 0.005)));
+      rest(pen, at(stroke.start + 0.015 * stroke.along + random.point(-0.01, 0.01), -0.004), 50);
+      largest = std::max(largest, renderer.last().force.norm());
+    }
+    CHECK(largest > 1.0);
+    check_steps(pen, renderer);
+  }
+}
+
+TEST_CASE("friction opposes the motion of writing with mu N and is none in the air", "[render]") {
+  for (const FrictionModel model :
+       {FrictionModel::breakaway, FrictionModel::hayward_armstrong, FrictionModel::karnopp}) {
+    RendererOptions options;
+    options.friction.coefficient = 0.2;
+    options.friction.model = model;
+    HapticRenderer renderer = renderer_of(U'三', options);
+    ScriptedPen pen(renderer);
+    const FirstStroke stroke = begin_writing(pen, renderer);
+    double in_air = 0.0;
+    int writing = 0;
+    pen.on_tick = [&](const HapticTick& tick) {
+      if (tick.state == InteractionState::separation) in_air = std::max(in_air, tick.friction.norm());
+      if (tick.state != InteractionState::writing || tick.penetration < 0.0019) return;
+      // Against the force of the last tick, which this one's pressure follows.
+      CHECK((tick.friction + 0.2 * 0.002 * 600.0 * stroke.along).norm() < 1e-6);
+      ++writing;
+    };
+    pen.go(at(stroke.end - 0.004 * stroke.along, -0.002));
+    pen.go(at(stroke.end - 0.004 * stroke.along, 0.01));
+    rest(pen, at(stroke.end, 0.01), 100);
+    CHECK(writing > 50);
+    CHECK(in_air == 0.0);
+    CHECK(renderer.last().force == Vector3d(0, 0, 0));
+    check_steps(pen, renderer);
+  }
+}
+
+TEST_CASE("a pen held at rest on the paper feels no friction, and the next contact none at first", "[render]") {
+  RendererOptions options;
+  options.friction.coefficient = 0.3;
+  HapticRenderer renderer = renderer_of(U'三', options);
+  ScriptedPen pen(renderer);
+  const FirstStroke stroke = begin_writing(pen, renderer);
+  CHECK(renderer.last().friction.norm() > 0.1);
+  pen.go(at(stroke.start, 0.005));
+  const Point elsewhere = stroke.start + 0.02 * stroke.along;
+  pen.go(at(elsewhere, 0.005));
+  bool none = true;
+  pen.on_tick = [&](const HapticTick& tick) { none = none && tick.friction == Point(0, 0); };
+  for (int i = 0; i < 500; ++i) pen.at(at(elsewhere, 0.001 - 1e-5 * i));
+  CHECK(renderer.last().normal > 1.0);
+  CHECK(none);
+}
+
+TEST_CASE("a pen pressed for a minute: warm motors bring the force down to the continuous one, its direction kept",
+          "[render]") {
+  RendererOptions plain;
+  plain.thermal_time_constant = 10.0;
+  for (const RendererOptions& options : {plain, everything()}) {
+    HapticRenderer renderer = renderer_of(U'三', options);
+    ScriptedPen pen(renderer);
+    const FirstStroke stroke = begin_writing(pen, renderer);
+    const Vector3d place = at(stroke.start + 0.01 * stroke.along + 0.006 * stroke.left, -0.02);
+    pen.go(place);
+    rest(pen, place, 500);
+    const HapticTick& tick = renderer.last();
+    CHECK(pen.largest_force == Approx(3.3));
+    double last = tick.force.norm(), largest_rise = 0.0, largest_turn = 0.0, hottest = 0.0;
+#ifdef __SANITIZE_ADDRESS__
+    constexpr int seconds = 40;
+#else
+    constexpr int seconds = 60;
+#endif
+    for (int i = 0; i < 1000 * seconds; ++i) {
+      pen.at(place);
+      const double size = tick.force.norm();
+      // What friction is left from the way here falls with the pressure, and turns the force a little.
+      Vector3d wanted(0, 0, tick.normal);
+      wanted.head<2>() = tick.attraction + tick.wrong_way + tick.friction;
+      largest_rise = std::max(largest_rise, size - last);
+      largest_turn = std::max(largest_turn, (tick.force / size - wanted.normalized()).norm());
+      hottest = std::max(hottest, tick.heat);
+      last = size;
+    }
+    CHECK(last == Approx(0.88).epsilon(0.03));
+    CHECK(last >= 0.88 * (1.0 - 1e-9));
+    CHECK(largest_rise <= 1e-9);
+    CHECK(largest_turn < 1e-3);
+    CHECK(hottest <= 1.0);
+    pen.go(at(stroke.start, 0.01));
+    rest(pen, at(stroke.start, 0.01), 30'000);
+    CHECK(tick.heat < 0.06);
+    check_steps(pen, renderer);
+  }
+}
+
+TEST_CASE("with passivity control the paper still never pulls, however fast the pen is lifted", "[render]") {
+  RendererOptions controlled;
+  controlled.passivity_control = true;
+  RendererOptions with_jerk = controlled;
+  with_jerk.force_jerk = 2e4;
+  for (const RendererOptions& options : {controlled, with_jerk, everything()}) {
+    HapticRenderer renderer = renderer_of(U'三', options);
+    ScriptedPen pen(renderer);
+    const FirstStroke stroke(renderer);
+    double least = 0.0, most_damped = 0.0;
+    pen.on_tick = [&](const HapticTick& tick) {
+      least = std::min(least, tick.page_force.z());
+      most_damped = std::max(most_damped, tick.damping.norm());
+    };
+    Sequence random(5);
+    for (int i = 0; i < 200; ++i) {
+      pen.speed = random.between(0.05, 1.5);
+      pen.go(at(stroke.start + random.point(-0.01, 0.03), -random.between(0.0, 0.01)));
+      pen.go(at(stroke.start + random.point(-0.01, 0.03), random.between(0.0, 0.01)));
+    }
+    CHECK(least == 0.0);
+    CHECK(most_damped > 0.5);
+    check_steps(pen, renderer);
+  }
+}
+
+TEST_CASE("passivity control damps what sampling adds where the pen moves through the paper, and not at rest",
+          "[render]") {
+  RendererOptions options;
+  options.passivity_control = true;
+  HapticRenderer renderer = renderer_of(U'三', options);
+  ScriptedPen pen(renderer);
+  const FirstStroke stroke(renderer);
+  pen.speed = 0.02;
+  pen.go(at(stroke.start, 0.001));
+  bool inwards = true;
+  pen.on_tick = [&](const HapticTick& tick) {
+    if (tick.penetration > 0.0005) inwards = inwards && tick.damping.z() > 0.0;
+  };
+  pen.go(at(stroke.start, -0.003));
+  CHECK(inwards);
+  // At a steady speed it is Colgate's bound, K T / 2.
+  CHECK(renderer.last().damping.z() == Approx(0.5 * 600.0 * 0.001 * 0.02));
+  pen.on_tick = [](const HapticTick&) {};
+  rest(pen, at(stroke.start, -0.003), 10);
+  CHECK(renderer.last().damping == Vector3d(0, 0, 0));
+}
+
+TEST_CASE("a stage that is off changes no bit, whatever its parameters", "[render]") {
+  RendererOptions changed;
+  changed.guidance_limit = 0.01;
+  changed.assist.retention = 0.1;
+  changed.assist.full_help_error = 1e-5;
+  changed.assist.least = 0.9;
+  changed.friction.model = FrictionModel::karnopp;
+  changed.friction.stiffness = 10.0;
+  changed.friction.static_ratio = 3.0;
+  changed.friction.stick_speed = 1.0;
+  for (const char32_t code : {U'三', U'永'}) {
+    HapticRenderer one = renderer_of(code, RendererOptions{}), other = renderer_of(code, changed);
+    ScriptedPen pen(one);
+    int different = 0, with_force = 0;
+    pen.on_tick = [&](const HapticTick& tick) {
+      DeviceState state;
+      state.position = one.mapping().to_device(tick.device_point);
+      state.time = tick.time;
+      const HapticTick& twin = other.update(state);
+      different += !(twin.force == tick.force) || twin.state != tick.state;
+      with_force += tick.force.norm() > 0.5;
+    };
+    wander(pen, one, 6);
+    CHECK(different == 0);
+    CHECK(with_force > 100);
+  }
+}
+
+TEST_CASE("with every stage off the force is that of the plain composition: terms, sum, limits", "[render]") {
+  RendererOptions options;
+  options.guidance_fade_in = 0.0;
+  HapticRenderer renderer = renderer_of(U'永', options);
+  ScriptedPen pen(renderer);
+  ForceLimiter limiter{0.1, 0.4, 3.3, true};
+  Vector3d force(0, 0, 0);
+  double largest_difference = 0.0, largest_force = 0.0;
+  pen.on_tick = [&](const HapticTick& tick) {
+    Vector3d sum(0, 0, 0);
+    if (tick.state == InteractionState::writing) {
+      const StrokeContact& contact = tick.contact;
+      sum.head<2>() =
+          attraction_force(600.0 * contact.share * contact.attraction, tick.pen_tip.head<2>(), contact.foot.point) +
+          contact.share * wrong_way_force(200.0, 1.0, 0.002, contact.backwards, contact.foot.tangent);
+    }
+    const bool solid = tick.state == InteractionState::writing || tick.state == InteractionState::calibration;
+    if (solid) sum.z() = normal_force(600.0, -tick.device_point.z());
+    force = limiter.next(force, sum);
+    largest_difference = std::max(largest_difference, (force - tick.force).norm());
+    largest_force = std::max(largest_force, force.norm());
+    CHECK(tick.friction == Point(0, 0));
+    CHECK(tick.damping == Vector3d(0, 0, 0));
+    CHECK(tick.help == 1.0);
+    CHECK(tick.heat == 0.0);
+    CHECK(tick.energy_given == 0.0);
+  };
+  wander(pen, renderer, 8);
+  CHECK(largest_difference < 1e-12);
+  CHECK(largest_force > 1.0);
+}
+
+TEST_CASE("with everything on each stroke of 永 is written, exactly and 3 mm beside itself", "[render]") {
+  for (const double offset : {0.0, 0.003}) {
+    HapticRenderer renderer = renderer_of(U'永', everything());
+    ScriptedPen pen(renderer);
+    Watch watch;
+    pen.on_tick = [&](const HapticTick& tick) { watch(tick); };
+    pen.write(renderer.page()[0], offset);
+    INFO(offset << " m: " << watch.events);
+    CHECK(renderer.last().character == 1);
+    CHECK(watch.events.find('a') == std::string::npos);
+    check_steps(pen, renderer);
+  }
+}
+
+TEST_CASE("on the feature plane and in chatter across it one feature point is passed and the state stays", "[render]") {
+  for (const RendererOptions& options : {RendererOptions{}, everything()}) {
+    const PlacedCharacter corner{calligraphy_test::typical_character(16), {{0.07, 0.07}, 0.04}};
+    const Stroke stroke = strokes(corner.character)[0];
+    const Point start = corner.placement.to_page(stroke.control_points[0]);
+    const Point turn = corner.placement.to_page(stroke.control_points[1]);
+    const Point along = (turn - start).normalized();
+    for (const double before : {0.0, options.stroke.plane_tolerance}) {
+      HapticRenderer renderer({corner}, {}, warm_device(), options);
+      ScriptedPen pen(renderer);
+      pen.go(at(start, 0.005));
+      pen.go(at(start, -0.001));
+      Watch watch;
+      pen.on_tick = [&](const HapticTick& tick) { watch(tick); };
+      const Point plane = turn - before * along;
+      pen.go(at(plane, -0.001));
+      rest(pen, at(plane, -0.001), 500);
+      for (const int half : {1, 2, 7, 50}) {
+        for (int i = 0; i < 400; ++i) pen.at(at(plane + (i / half % 2 ? 1e-4 : -1e-4) * along, -0.001));
+      }
+      CHECK(watch.states == "WS");
+      CHECK(watch.events == "p");
+      check_steps(pen, renderer);
+    }
+  }
+}
+
+TEST_CASE("back onto a written stroke: it stays written, and the pen on it changes no state", "[render]") {
+  for (const RendererOptions& options : {RendererOptions{}, everything()}) {
+    HapticRenderer renderer = renderer_of(U'三', options);
+    ScriptedPen pen(renderer);
+    const auto first = path_of(strokes(renderer.page()[0].character)[0], renderer.page()[0].placement, 1e-4);
+    pen.write(first);
+    CHECK(renderer.last().stroke == 1);
+    Watch watch;
+    pen.on_tick = [&](const HapticTick& tick) { watch(tick); };
+    pen.write(first);
+    CHECK(watch.states == "SS CS SS");
+    CHECK(watch.events.empty());
+    CHECK(renderer.last().stroke == 1);
+    check_steps(pen, renderer);
+  }
+}
+
+TEST_CASE("a pen lifted after one sample gives the stroke up, each time anew, and nothing steps", "[render]") {
+  for (const RendererOptions& options : {RendererOptions{}, everything()}) {
+    HapticRenderer renderer = renderer_of(U'三', options);
+    ScriptedPen pen(renderer);
+    const FirstStroke stroke(renderer);
+    Watch watch;
+    pen.on_tick = [&](const HapticTick& tick) { watch(tick); };
+    rest(pen, at(stroke.start, 0.001), 1);
+    for (int i = 0; i < 20; ++i) {
+      pen.at(at(stroke.start, -0.003));
+      rest(pen, at(stroke.start, 0.001), i % 4 + 1);
+    }
+    std::string states = "SS", events;
+    for (int i = 0; i < 20; ++i) {
+      states += " WS SS";
+      events += "sa";
+    }
+    CHECK(watch.states == states);
+    CHECK(watch.events == events);
+    CHECK(renderer.last().stroke == 0);
+    check_steps(pen, renderer);
+    watch = {};
+    pen.write(renderer.page()[0]);
+    CHECK(renderer.last().character == 1);
+  }
+}
+
+TEST_CASE("a stroke that crosses a written one is written as if it were alone", "[render]") {
+  for (const RendererOptions& options : {RendererOptions{}, everything()}) {
+    HapticRenderer renderer = renderer_of(U'木', options);
+    ScriptedPen pen(renderer);
+    for (const Stroke& stroke : strokes(renderer.page()[0].character)) {
+      Watch watch;
+      pen.on_tick = [&](const HapticTick& tick) { watch(tick); };
+      const int before = renderer.last().stroke;
+      pen.write(path_of(stroke, renderer.page()[0].placement, 1e-4));
+      INFO("stroke " << before + 1 << ": " << watch.states << ", " << watch.events);
+      CHECK(watch.states == "SS WS CS SS");
+      CHECK(watch.events.front() == 's');
+      CHECK(watch.events.back() == 'f');
+      CHECK(std::count(watch.events.begin(), watch.events.end(), 's') == 1);
+    }
+    CHECK(renderer.last().character == 1);
+    check_steps(pen, renderer);
+  }
+}
