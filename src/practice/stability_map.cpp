@@ -313,8 +313,8 @@ StabilityMap stability_map(const StabilityMapOptions& options) {
   StabilityMap map;
   map.encounter = options.encounter;
   map.stiffnesses = stiffnesses_of(options);
-  map.sweeps = sweeps_of(options.coulomb_friction);
-  if (!options.sweeps_alone) map.grid = grid_of(options);
+  if (options.with_sweeps) map.sweeps = sweeps_of(options.coulomb_friction);
+  if (options.with_grid) map.grid = grid_of(options);
   std::vector<StabilityLine*> lines;
   for (StabilitySweep& sweep : map.sweeps) {
     for (StabilityLine& line : sweep.lines) lines.push_back(&line);

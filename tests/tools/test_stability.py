@@ -101,7 +101,7 @@ class Map(ProgramTest):
                 self.assertEqual(len(line["settles"]), len(stability["stiffnesses_N_per_m"]))
         damping = {line["value"]: line for line in stability["sweeps"][0]["lines"]}
         line = damping["0.1"]
-        self.assertAlmostEqual(line["largest_settling_N_per_m"] / 200.1, 1.0, delta=0.03)
+        self.assertAlmostEqual(line["largest_settling_N_per_m"] / 200.1, 1.0, delta=0.05)
         self.assertGreater(line["controlled_largest_settling_below_peak_force_N_per_m"],
                            10 * line["largest_settling_N_per_m"])
 
