@@ -83,6 +83,35 @@ TEST_CASE("a hand on a trace never jumps", "[practice]") {
   }
 }
 
+TEST_CASE("the pen-downs of a recording are its contacts, bounces and refused samples left out", "[practice]") {
+  const Placement placement{{0.05, 0.04}, 0.04};
+  Recording recording;
+  const auto add = [&](double seconds, InteractionState state, TickStatus status = TickStatus::ok) {
+    for (int i = 0; i < static_cast<int>(std::lround(seconds * 1e3)); ++i) {
+      Sample sample;
+      sample.time = 1e-3 * static_cast<double>(recording.samples.size());
+      sample.pen_tip = {0.06, 0.05, 0.0};
+      sample.state = state;
+      sample.status = status;
+      recording.samples.push_back(sample);
+    }
+  };
+  constexpr auto up = InteractionState::separation;
+  add(0.1, up);
+  add(0.2, InteractionState::calibration);
+  add(0.03, up);  // nobody lifts a pen for 30 ms
+  add(0.2, InteractionState::writing);
+  add(0.08, up);
+  add(0.01, InteractionState::adjusting);
+  add(0.04, InteractionState::adjusting, TickStatus::bad_sample);
+  add(0.01, InteractionState::adjusting);
+  const std::vector<PenPath> paths = pen_paths(recording, placement);
+  REQUIRE(paths.size() == 2);
+  CHECK(paths[0].size() == 400);
+  CHECK(paths[1].size() == 20);
+  CHECK(paths[0].front().isApprox(Point(0.25, 0.25)));
+}
+
 TEST_CASE("the box of what was written comes onto the box of the character", "[practice]") {
   const Character ten = page_of("十").characters.front().character;
   std::vector<PenPath> paths = copy_of(ten);
