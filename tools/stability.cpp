@@ -100,7 +100,11 @@ void map(const Options& options) {
   std::optional<OutputDirectory> out;
   if (options.out) out.emplace(*options.out);
   StabilityMapOptions wanted;
-  wanted.sweeps_alone = options.quick;
+  if (options.quick) {
+    wanted.with_grid = false;
+    wanted.per_decade = 4;
+    wanted.encounter.seconds = 4.0;
+  }
   Progress progress;
   wanted.progress = [&progress](double share) { progress.show(share); };
   const StabilityMap map = stability_map(wanted);
@@ -139,7 +143,7 @@ void add_stability(CLI::App& program) {
   add_number("--wall-damping", options->wall_damping, "Of the wall (default: 0)", "N_S/M");
   add("--grip", options->grip, "soft, normal, firm or m,b,k [kg, N s/m, N/m] (default: none)", "GRIP");
   add("--out", options->out, "Directory for the map as JSON and picture, created when missing", "DIR");
-  command->add_flag("--quick", options->quick, "The map's sweeps alone, without the grid")->disable_flag_override();
+  command->add_flag("--quick", options->quick, "The map's sweeps alone, and coarser")->disable_flag_override();
   command->add_flag("--json", options->json, "Print JSON instead of the tables")->disable_flag_override();
   command->callback([options] { asks_for_a_point(*options) ? advise(*options) : map(*options); });
 }

@@ -80,26 +80,26 @@ std::string sweep_table(const StabilitySweep& sweep) {
   return text + "\n";
 }
 
-/// How the simulation stands to theory over a set of lines.
-std::string summary(const std::vector<StabilityLine>& grid) {
-  if (grid.empty()) return "";
-  double least = std::numeric_limits<double>::infinity(), most = 0.0;
-  int linear = 0, helped = 0, harmed = 0, below_passive = 0;
-  for (const StabilityLine& line : grid) {
+/// How the simulation stands to theory over the grid.
+std::string summary(const StabilityMap& map) {
+  if (map.grid.empty()) return "";
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  double least = infinity, most = 0.0, least_passive = infinity;
+  int helped = 0, harmed = 0;
+  for (const StabilityLine& line : map.grid) {
     helped += line.controlled_largest > line.largest ? 1 : 0;
     harmed += line.controlled_largest < line.largest ? 1 : 0;
-    below_passive += line.largest < 0.98 * line.quantised ? 1 : 0;
-    if (line.loop.encoder_step > 0.0 || line.loop.coulomb_friction > 0.0 || line.largest == 0.0) continue;
-    ++linear;
+    if (line.quantised > map.stiffnesses[1]) {  // else it lies below what was tried
+      least_passive = std::min(least_passive, line.largest / line.quantised);
+    }
+    if (line.loop.coulomb_friction > 0.0 || line.stable <= map.stiffnesses[1]) continue;
     least = std::min(least, line.largest / line.stable);
     most = std::max(most, line.largest / line.stable);
   }
-  std::string text = fmt::format("Grid: {} loops, each with control off and on\n", grid.size());
-  if (linear > 0) {
-    text += fmt::format("  simulated over exact, {} loops without friction and rounding: {:.3f} to {:.3f}\n", linear,
-                        least, most);
-  }
-  return text + fmt::format("  loops that do not settle up to the quantised passive bound: {}\n", below_passive) +
+  return fmt::format("Grid: {} loops, each with control off and on\n", map.grid.size()) +
+         fmt::format("  largest that settles, of the stable bound, without dry friction: {:.3f} to {:.3f}\n", least,
+                     most) +
+         fmt::format("  of the quantised passive bound, with it and without: {:.3f} at least\n", least_passive) +
          fmt::format("  control allows more stiffness in {} loops, less in {}\n", helped, harmed);
 }
 
@@ -132,7 +132,7 @@ std::string tables(const StabilityMap& map) {
       "the peak force\n\n",
       encounter.height * millimetres, encounter.push, encounter.seconds, encounter.peak_force);
   for (const StabilitySweep& sweep : map.sweeps) text += sweep_table(sweep);
-  return text + summary(map.grid);
+  return text + summary(map);
 }
 
 std::string json(const StabilityMap& map) {

@@ -7,7 +7,6 @@
 #include <optional>
 #include <sstream>
 #include <string>
-#include <string_view>
 #include <tuple>
 #include <vector>
 
@@ -56,22 +55,6 @@ struct Sheet {
   Page page;
   int first_position;  ///< from 1
 };
-
-std::string device_names() {
-  std::string names;
-  for (const DeviceProfile& profile : device_profiles()) names += (names.empty() ? "" : ", ") + profile.name;
-  return names;
-}
-
-DeviceProfile chosen_device(const std::string& name) {
-  const std::string kind = "simulated:";
-  if (name.rfind(kind, 0) == 0) {
-    for (const DeviceProfile& profile : device_profiles()) {
-      if (profile.name == name.substr(kind.size())) return profile;
-    }
-  }
-  throw UsageError(fmt::format("--device: {}: expected simulated:NAME with one of {}", name, device_names()));
-}
 
 RendererOptions chosen_renderer(const Options& options, const Capabilities& capabilities) {
   RendererOptions renderer = RendererOptions::for_device(capabilities);
@@ -139,12 +122,9 @@ Result measure(const CharacterScore& score, const Recording& part) {
   return result;
 }
 
-/// "03-北-force"; a character that is no good in a file name goes by its code.
+/// "03-北-force".
 std::string file_stem(int position, char32_t code, Mode mode) {
-  constexpr std::string_view plain = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
-  const bool good = code >= 0xA0 || plain.find(static_cast<char>(code)) != std::string_view::npos;
-  const std::string name = good ? encode_utf8(code) : fmt::format("U+{:04X}", static_cast<unsigned>(code));
-  return fmt::format("{:02}-{}-{}", position, name, mode_name(mode));
+  return fmt::format("{:02}-{}-{}", position, name_in_file(code), mode_name(mode));
 }
 
 class Run {
@@ -266,9 +246,7 @@ void add_write(CLI::App& program) {
   add_characters_option(*command, options->characters);
   command->add_option("--order", options->order, "Alternate stroke order (default: the standard one)")
       ->type_name("NAME");
-  command->add_option("--device", options->device, "simulated:NAME with one of " + device_names())
-      ->capture_default_str()
-      ->type_name("DEVICE");
+  add_device_option(*command, options->device);
   command->add_option("--writer", options->writer, "How well the writer writes")
       ->check(CLI::IsMember({"novice", "skilled"}))
       ->capture_default_str();

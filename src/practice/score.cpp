@@ -7,6 +7,10 @@
 #include <span>
 
 #include <calligraphy/collision/active_stroke.hpp>
+#include <calligraphy/practice/pen_path.hpp>
+
+#include "resemblance.hpp"
+#include "stroke_name.hpp"
 
 namespace calligraphy {
 namespace {
@@ -16,29 +20,18 @@ constexpr double shortest_attempt = 0.1;     // a path on the paper that is shor
 constexpr double shortest_time = 0.15;       // a pen that is down for less has bounced [s]
 constexpr double doubt = 0.05;               // another stroke must be resembled more than the due one by this [em]
 constexpr double backward_tolerance = 0.15;  // going back by more within a stroke is a mistake [em]
-constexpr std::size_t points_compared = 32;  // of an attempt
 
 /// A stroke of the template, all elements prepared.
 struct Template {
   std::vector<StrokeElement> elements;
+  std::vector<Point> line;
   const TypicalStroke* type;
-
-  Point start() const { return elements.front().point(0.0); }
-  Point end() const { return elements.back().point(1.0); }
 };
 
-struct Foot {
-  double distance;
-  double arc;  ///< from the start of the stroke [m]
-};
-
-Foot find_foot(const Template& stroke, const Point& tip) {
-  Foot nearest{std::numeric_limits<double>::infinity(), 0.0};
-  double before = 0.0;
+double distance_from(const Template& stroke, const Point& tip) {
+  double nearest = std::numeric_limits<double>::infinity();
   for (const StrokeElement& element : stroke.elements) {
-    const NearestPoint found = nearest_point(element, tip);
-    if (found.distance < nearest.distance) nearest = {found.distance, before + element.arc_length(found.parameter)};
-    before += element.length();
+    nearest = std::min(nearest, nearest_point(element, tip).distance);
   }
   return nearest;
 }
@@ -46,7 +39,7 @@ Foot find_foot(const Template& stroke, const Point& tip) {
 std::vector<Template> templates(const PlacedCharacter& placed) {
   std::vector<Template> result;
   for (const Stroke& stroke : strokes(placed.character)) {
-    result.push_back({place_elements(stroke, placed.placement), stroke.type});
+    result.push_back({place_elements(stroke, placed.placement), middle_line(stroke, placed.placement), stroke.type});
   }
   return result;
 }
@@ -68,17 +61,15 @@ PathError lateral_error(const Template& stroke, std::span<const Sample> path) {
   for (std::size_t i = 0; i < path.size(); ++i) {
     const Point tip = path[i].pen_tip.head<2>();
     const double step = i > 0 ? (tip - path[i - 1].pen_tip.head<2>()).norm() : 0.0;
-    error.add(find_foot(stroke, tip).distance, step);
+    error.add(distance_from(stroke, tip), step);
   }
   return error;
 }
 
-double path_length(std::span<const Sample> path) {
-  double length = 0.0;
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    length += (path[i].pen_tip - path[i - 1].pen_tip).head<2>().norm();
-  }
-  return length;
+std::vector<Point> points_of(std::span<const Sample> path) {
+  std::vector<Point> points;
+  for (const Sample& sample : path) points.push_back(sample.pen_tip.head<2>());
+  return points;
 }
 
 /// How far the pen went back within a stroke, at most [m].
@@ -97,23 +88,18 @@ struct Resemblance {
   bool backwards = false;
 };
 
-Resemblance compare(const Template& stroke, std::span<const Sample> path) {
-  double mean = 0.0;
-  for (std::size_t k = 0; k < points_compared; ++k) {
-    const Sample& sample = path[k * (path.size() - 1) / (points_compared - 1)];
-    mean += find_foot(stroke, sample.pen_tip.head<2>()).distance / points_compared;
-  }
-  const Point first = path.front().pen_tip.head<2>(), last = path.back().pen_tip.head<2>();
-  const double headway = find_foot(stroke, last).arc - find_foot(stroke, first).arc;
-  const bool backwards = headway < 0.0;
-  const double miss = (first - (backwards ? stroke.end() : stroke.start())).norm();
-  // A path along a stroke makes headway on it; one across it does not.
-  const double across = std::max(0.0, (last - first).norm() - std::abs(headway));
-  return {mean + 0.5 * miss + across, backwards};
+/// A pen that was lifted early is compared with as much of the stroke as it wrote.
+Resemblance compare(const Template& stroke, const std::vector<Point>& path) {
+  const double length = std::min(path_length(path), path_length(stroke.line));
+  const std::vector<Point> from_its_end(stroke.line.rbegin(), stroke.line.rend());
+  const Outline drawn = outline(path);
+  const double forwards = mean_distance(drawn, outline(stroke.line, length));
+  const double backwards = mean_distance(drawn, outline(from_its_end, length));
+  return {std::min(forwards, backwards), backwards < forwards};
 }
 
 std::string name_of(const std::vector<Template>& strokes, std::size_t index) {
-  return "stroke " + std::to_string(index + 1) + " (" + std::string(strokes[index].type->pinyin) + ")";
+  return stroke_name(index, *strokes[index].type);
 }
 
 class CharacterScorer {
@@ -174,12 +160,13 @@ class CharacterScorer {
   void judge_attempt(std::span<const Sample> path) {
     const double em = placed_.placement.em;
     if (path.size() < 2 || path.back().time - path.front().time < shortest_time) return;
-    if (path_length(path) < shortest_attempt * em) return;
+    const std::vector<Point> points = points_of(path);
+    if (path_length(points) < shortest_attempt * em) return;
     std::size_t meant = due_;
-    Resemblance best = compare(strokes_[due_], path);
+    Resemblance best = compare(strokes_[due_], points);
     const double of_due = best.cost;
     for (std::size_t j = 0; j < strokes_.size(); ++j) {
-      const Resemblance other = compare(strokes_[j], path);
+      const Resemblance other = compare(strokes_[j], points);
       if (other.cost >= best.cost || other.cost + doubt * em >= of_due) continue;
       best = other;
       meant = j;

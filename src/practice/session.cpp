@@ -5,6 +5,7 @@
 
 #include <calligraphy/devices/flush_denormals.hpp>
 #include <calligraphy/error.hpp>
+#include <calligraphy/practice/trace_hand.hpp>
 
 namespace calligraphy {
 namespace {
@@ -19,6 +20,8 @@ Intention to_device(const Intention& page, const MotionMapping& mapping) {
   return {mapping.to_device(page.position), mapping.rotation.transpose() * page.velocity / mapping.scale};
 }
 
+Eigen::Vector3d resting_point(const Page& page) { return {0.5 * page.width, 0.5 * page.height, resting_height}; }
+
 double share_written(const Page& page, const HapticTick& tick) {
   const auto count = static_cast<double>(page.characters.size());
   if (tick.character >= static_cast<int>(page.characters.size())) return 1.0;
@@ -28,15 +31,13 @@ double share_written(const Page& page, const HapticTick& tick) {
 
 }  // namespace
 
-Recording write_page(const Page& page, const SessionOptions& options) {
+Recording run_session(const Page& page, const SessionOptions& options, const PenMotion& motion) {
   if (!std::isfinite(options.longest_character) || options.longest_character <= 0.0) {
     throw ValueError("longest_character = " + std::to_string(options.longest_character) + " s");
   }
   const MotionMapping mapping = upright_page(page.width, page.height);
   HapticRenderer renderer(page.characters, mapping, options.device.capabilities, options.renderer);
-  SimulatedWriter writer(page, options.skill, options.seed);
-  SimulatedDevice device(options.device, options.skill.hand,
-                         mapping.to_device({0.5 * page.width, 0.5 * page.height, resting_height}));
+  SimulatedDevice device(options.device, options.skill.hand, mapping.to_device(resting_point(page)));
 
   const FlushDenormals as_a_servo_thread;
   using Clock = std::chrono::steady_clock;
@@ -44,7 +45,7 @@ Recording write_page(const Page& page, const SessionOptions& options) {
   const double longest = options.longest_character * static_cast<double>(page.characters.size());
   Recording recording;
   recording.rate = options.renderer.servo_rate;
-  while (!writer.done() && device.time() < longest) {
+  while (device.time() < longest) {
     const DeviceState state = device.read();
     const auto before = options.measure_ticks ? Clock::now() : Clock::time_point();
     const HapticTick& tick = renderer.update(state);
@@ -52,10 +53,6 @@ Recording write_page(const Page& page, const SessionOptions& options) {
 
     const bool feels = options.mode == Mode::force;
     device.write(feels ? tick.force : Eigen::Vector3d(Eigen::Vector3d::Zero()));
-    const Sight sight{tick.pen_tip, tick.character, tick.stroke, tick.state == InteractionState::writing};
-    device.set_intention(to_device(writer.update(sight, period), mapping));
-    device.advance(period);
-
     recording.samples.push_back({tick.time, tick.device_point, tick.pen_tip,
                                  feels ? tick.page_force : Eigen::Vector3d(Eigen::Vector3d::Zero()), tick.state,
                                  tick.events, tick.status, tick.character, tick.stroke,
@@ -63,9 +60,37 @@ Recording write_page(const Page& page, const SessionOptions& options) {
     if (options.progress && recording.samples.size() % progress_interval == 0) {
       options.progress(share_written(page, tick));
     }
+    const std::optional<Intention> next = motion(tick, period);
+    if (!next) break;
+    device.set_intention(to_device(*next, mapping));
+    device.advance(period);
   }
   if (options.progress) options.progress(1.0);
   return recording;
+}
+
+Recording write_page(const Page& page, const SessionOptions& options) {
+  SimulatedWriter writer(page, options.skill, options.seed);
+  return run_session(page, options, [&writer](const HapticTick& tick, double seconds) -> std::optional<Intention> {
+    const Sight sight{tick.pen_tip, tick.character, tick.stroke, tick.state == InteractionState::writing};
+    const Intention next = writer.update(sight, seconds);
+    if (writer.done()) return std::nullopt;
+    return next;
+  });
+}
+
+Recording follow_trace(const Page& page, const PenTrace& trace, const SessionOptions& options) {
+  if (page.characters.size() != 1) {
+    throw ValueError("a trace is followed on a page of 1 character, not of " + std::to_string(page.characters.size()));
+  }
+  const TraceHand hand(trace, page.characters.front(), resting_point(page));
+  double time = 0.0;
+  return run_session(page, options, [&](const HapticTick&, double seconds) -> std::optional<Intention> {
+    if (time > hand.duration()) return std::nullopt;
+    const Eigen::Vector3d from = hand.at(time);
+    time += seconds;
+    return Intention{from, (hand.at(time) - from) / seconds};
+  });
 }
 
 }  // namespace calligraphy

@@ -110,9 +110,7 @@ PassivityController controller_for(const SampledLoop& loop, bool controlled) {
   PassivityOptions options;
   if (controlled) {
     options.delay = std::min(loop.delay, PassivityController::longest_delay);
-    // The wall's own damping takes its part of what the mass can bear.
-    const double usable = PassivityController::usable_damping(loop.mass, 1.0 / loop.rate, options.delay);
-    options.max_damping = std::max(0.0, usable - loop.wall_damping);
+    options.max_damping = injectable_damping(loop);
   }
   return {options, 1.0 / loop.rate};
 }
@@ -266,7 +264,8 @@ std::vector<StabilitySweep> sweeps_of(double friction) {
                 [](SampledLoop& loop, int value) { loop.delay = value; }),
           sweep("wall_damping", "damping of the wall B [N s/m]", Values{0.0, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 30.0},
                 1.0, [](SampledLoop& loop, double value) { loop.wall_damping = value; }),
-          sweep("encoder_step", "encoder step [um], with dry friction", Values{0.0, 1e-6, 23e-6, 55e-6, 200e-6}, micrometres,
+          sweep("encoder_step", "encoder step [um], with dry friction", Values{0.0, 1e-6, 23e-6, 55e-6, 200e-6},
+                micrometres,
                 [friction](SampledLoop& loop, double value) {
                   loop.encoder_step = value;
                   loop.coulomb_friction = friction;
@@ -314,8 +313,8 @@ StabilityMap stability_map(const StabilityMapOptions& options) {
   StabilityMap map;
   map.encounter = options.encounter;
   map.stiffnesses = stiffnesses_of(options);
-  map.sweeps = sweeps_of(options.coulomb_friction);
-  if (!options.sweeps_alone) map.grid = grid_of(options);
+  if (options.with_sweeps) map.sweeps = sweeps_of(options.coulomb_friction);
+  if (options.with_grid) map.grid = grid_of(options);
   std::vector<StabilityLine*> lines;
   for (StabilitySweep& sweep : map.sweeps) {
     for (StabilityLine& line : sweep.lines) lines.push_back(&line);

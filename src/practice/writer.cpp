@@ -8,6 +8,8 @@
 #include <calligraphy/collision/nearest_point.hpp>
 #include <calligraphy/error.hpp>
 
+#include "minimum_jerk.hpp"
+
 namespace calligraphy {
 namespace {
 
@@ -23,11 +25,6 @@ constexpr double close_enough = 0.02;      // a corner or an end looks reached a
 constexpr double notice_time = 0.5;        // on the paper without a green trace until the writer notices [s]
 constexpr double wandering_time = 1.0;     // after which drift is forgotten [s]
 constexpr int most_attempts = 10;
-
-double minimum_jerk(double share) {
-  const double t = std::clamp(share, 0.0, 1.0);
-  return t * t * t * (10.0 + t * (-15.0 + 6.0 * t));
-}
 
 /// A generator of its own for each question, so that no answer depends on how many were asked before.
 std::mt19937_64 generator(std::uint64_t seed, int character, int stroke, int attempt) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <calligraphy/error.hpp>
+#include <calligraphy/render/stiffness_advice.hpp>
 
 namespace calligraphy {
 namespace {
@@ -49,8 +50,7 @@ PassivityController passivity_controller(const RendererOptions& options, const C
   PassivityOptions passivity;
   passivity.delay = capabilities.sample_delay;
   if (options.passivity_control) {
-    passivity.max_damping =
-        PassivityController::usable_damping(capabilities.apparent_mass, period, passivity.delay) / (scale * scale);
+    passivity.max_damping = injectable_damping(sampled_loop(capabilities, options.servo_rate)) / (scale * scale);
   }
   passivity.energy_budget = options.energy_budget;
   if (options.limit_force_rate) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <calligraphy/error.hpp>
+#include <calligraphy/render/passivity_controller.hpp>
 
 namespace calligraphy {
 namespace {
@@ -233,6 +234,15 @@ StiffnessAdvice advise_stiffness(const SampledLoop& loop) {
       "optimistic, nor dry friction, rounding and saturation"};
   advice.approximate = approximate_bound(loop);
   return advice;
+}
+
+double injectable_damping(const SampledLoop& loop) {
+  validate(loop);
+  double damping = PassivityController::usable_damping(loop.mass, 1.0 / loop.rate, loop.delay) - loop.wall_damping;
+  if (loop.encoder_step > 0.0 && loop.coulomb_friction > 0.0) {
+    damping = std::min(damping, loop.coulomb_friction / (loop.encoder_step * loop.rate));
+  }
+  return std::max(0.0, damping);
 }
 
 }  // namespace calligraphy

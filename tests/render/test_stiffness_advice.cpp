@@ -208,6 +208,23 @@ TEST_CASE("every bound names its formula and in one line its validity", "[stiffn
   CHECK(advice.passive.validity.find("sufficient") != std::string::npos);
 }
 
+TEST_CASE("the damping that a controller may inject is bounded by mass, wall and encoder", "[stiffness advice]") {
+  SampledLoop loop = loop_of(1000.0, 0.1);
+  CHECK(injectable_damping(loop) == Approx(0.9 * 0.045 * 1000.0));
+  loop.wall_damping = 10.0;
+  CHECK(injectable_damping(loop) == Approx(0.9 * 0.045 * 1000.0 - 10.0));
+  loop.wall_damping = 100.0;
+  CHECK(injectable_damping(loop) == 0.0);
+  loop = loop_of(1000.0, 0.1, 2);
+  CHECK(injectable_damping(loop) == Approx(0.9 * 0.045 * 1000.0 / 5.0));
+  loop.encoder_step = 55e-6;
+  CHECK(injectable_damping(loop) == 0.0);  // nothing would hold its steps
+  loop.coulomb_friction = 0.26;
+  CHECK(injectable_damping(loop) == Approx(0.26 / 55e-6 / 1000.0));
+  loop.mass = 0.0;
+  CHECK_THROWS_AS(injectable_damping(loop), ValueError);
+}
+
 TEST_CASE("the loop of a device is made of what it tells", "[stiffness advice]") {
   Capabilities capabilities;
   capabilities.apparent_mass = 0.045;

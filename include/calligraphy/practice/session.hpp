@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 
 #include <calligraphy/devices/simulated_device.hpp>
 #include <calligraphy/practice/page.hpp>
+#include <calligraphy/practice/pen_trace.hpp>
 #include <calligraphy/practice/recording.hpp>
 #include <calligraphy/practice/writer.hpp>
 #include <calligraphy/render/haptic_renderer.hpp>
@@ -29,8 +31,21 @@ struct SessionOptions {
   std::function<void(double)> progress = nullptr;  ///< called now and then with the share of characters written
 };
 
+/// Says after each tick how the pen is meant to move on the page in the `seconds` until the next one; nothing ends the
+/// session.
+using PenMotion = std::function<std::optional<Intention>(const HapticTick& tick, double seconds)>;
+
+/// The loop: device.read, renderer.update, device.write, `motion`, device.advance. The hand that holds the device is
+/// that of the skill; it starts above the middle of the page.
+/// @throws ValueError when an option is out of its domain
+Recording run_session(const Page& page, const SessionOptions& options, const PenMotion& motion);
+
 /// Writes the page once. Deterministic per seed, measured times aside.
 /// @throws ValueError when an option is out of its domain
 Recording write_page(const Page& page, const SessionOptions& options);
+
+/// A hand that moves as a person's pen did, TraceHand, on a page of one character. Of the skill only the hand counts.
+/// @throws ValueError when an option is out of its domain, or the page has not exactly one character
+Recording follow_trace(const Page& page, const PenTrace& trace, const SessionOptions& options);
 
 }  // namespace calligraphy

@@ -66,7 +66,7 @@ struct StabilityMapOptions {
   std::vector<double> encoder_steps = {0.0, 23e-6, 55e-6};  ///< [m]
   std::vector<double> wall_dampings = {0.0, 1.0};           ///< [N s/m]
   std::vector<Hand> grips = {{0.0, 0.0, 0.0}, {0.1, 3.0, 300.0}};
-  bool sweeps_alone = false;                       ///< leave the grid out
+  bool with_sweeps = true, with_grid = true;       ///< what to try
   std::function<void(double)> progress = nullptr;  ///< called now and then with the share that is done
 };
 

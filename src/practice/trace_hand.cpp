@@ -1,0 +1,97 @@
+#include <calligraphy/practice/trace_hand.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include <calligraphy/error.hpp>
+
+#include "minimum_jerk.hpp"
+
+namespace calligraphy {
+namespace {
+
+constexpr double raised_height = 0.008;     // pen above the paper between strokes [m]
+constexpr double pressed_depth = 0.0025;    // where the hand means to be while writing, below the paper [m]
+constexpr double lowering_time = 0.2;       // [s]
+constexpr double raising_time = 0.12;       // [s]
+constexpr double approach_speed = 0.12;     // mean, in the air, at most [m/s]
+constexpr double shortest_approach = 0.15;  // [s]
+constexpr double first_approach = 0.5;      // time to the first stroke [s]
+constexpr double longest_rest = 3.0;        // in the air, beyond which nothing is waited for [s]
+constexpr double air_step = 0.004;          // between knots in the air [s]
+
+void require_valid(const PenTrace& trace) {
+  double last = 0.0;
+  bool any = false;
+  for (const PenStroke& stroke : trace.strokes) {
+    for (const TimedPoint& timed : stroke) {
+      if (!timed.point.allFinite()) throw ValueError("a trace with a point that is not finite");
+      if (!(timed.time >= last) || !std::isfinite(timed.time)) {
+        throw ValueError("a trace whose time goes from " + std::to_string(last) + " s to " +
+                         std::to_string(timed.time) + " s");
+      }
+      last = timed.time;
+      any = true;
+    }
+  }
+  if (!any) throw ValueError("a trace without a point");
+}
+
+}  // namespace
+
+TraceHand::TraceHand(const PenTrace& trace, const PlacedCharacter& placed, const Eigen::Vector3d& start)
+    : knots_{{0.0, start}} {
+  require_valid(trace);
+  const BoxMap map = fit_box(pen_paths(trace), placed.character);
+  double last_time = 0.0;
+  for (const PenStroke& stroke : trace.strokes) {
+    if (stroke.empty()) continue;
+    const bool first = knots_.size() == 1;
+    Eigen::Vector3d above = Eigen::Vector3d::Zero();
+    above << placed.placement.to_page(map(stroke.front().point)), raised_height;
+    const double rest = std::min(stroke.front().time - last_time, longest_rest) - lowering_time - raising_time;
+    const double way = (above - knots_.back().point).norm();
+    move(above, std::max({first ? first_approach : rest, way / approach_speed, shortest_approach}));
+    move({above.x(), above.y(), -pressed_depth}, lowering_time);
+    write(stroke, map, placed.placement);
+    const Eigen::Vector3d end = knots_.back().point;
+    move({end.x(), end.y(), raised_height}, raising_time);
+    last_time = stroke.back().time;
+  }
+}
+
+Eigen::Vector3d TraceHand::at(double time) const noexcept {
+  const auto after = std::upper_bound(knots_.begin(), knots_.end(), time,
+                                      [](double value, const Knot& knot) { return value < knot.time; });
+  if (after == knots_.begin()) return knots_.front().point;
+  if (after == knots_.end()) return knots_.back().point;
+  const Knot& before = *(after - 1);
+  const double share = (time - before.time) / (after->time - before.time);
+  return before.point + share * (after->point - before.point);
+}
+
+void TraceHand::move(const Eigen::Vector3d& to, double seconds) {
+  const Knot from = knots_.back();
+  const int steps = std::max(1, static_cast<int>(std::ceil(seconds / air_step)));
+  for (int i = 1; i <= steps; ++i) {
+    const double share = static_cast<double>(i) / steps;
+    knots_.push_back({from.time + share * seconds, from.point + minimum_jerk(share) * (to - from.point)});
+  }
+}
+
+void TraceHand::write(const PenStroke& stroke, const BoxMap& map, const Placement& placement) {
+  const double shift = knots_.back().time - stroke.front().time;
+  for (const TimedPoint& timed : stroke) {
+    Eigen::Vector3d point = Eigen::Vector3d::Zero();
+    point << placement.to_page(map(timed.point)), -pressed_depth;
+    // Points at one time are where the pen went between two samples: the last of them is where it was.
+    if (timed.time + shift <= knots_.back().time) {
+      knots_.back().point = point;
+    } else {
+      knots_.push_back({timed.time + shift, point});
+    }
+  }
+}
+
+}  // namespace calligraphy

@@ -1,0 +1,157 @@
+import json
+import math
+import xml.etree.ElementTree as xml
+
+from program import ProgramTest
+
+# 三 and 十 of the built-in set as straight lines on a square of 1000, y down.
+THREE = [((160, 220), (840, 200)), ((240, 500), (760, 480)), ((80, 800), (920, 790))]
+TEN = [((100, 500), (900, 470)), ((500, 80), (500, 940))]
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+def stroke(begin, end, time):
+    steps = 40
+    words = [f"S {steps + 1}"]
+    for i in range(steps + 1):
+        x, y = (a + (b - a) * i / steps for a, b in zip(begin, end))
+        words.append(f"{x:.1f} {y:.1f} {time + 10 * i}")
+    return " ".join(words)
+
+
+def character(code, lines, name="made-up"):
+    text = f"C {code} {ord(code):04X} {name} 1000 {len(lines)}\n"
+    return text + "".join(stroke(*line, 1000 * i) + "\n" for i, line in enumerate(lines))
+
+
+class ReplayTest(ProgramTest):
+    def traces(self, *texts):
+        (self.directory / "pens.txt").write_text("# CC0, drawn by this test\n" + "".join(texts))
+        return "pens.txt"
+
+    def replay(self, *texts, options=()):
+        return json.loads(self.run_program("replay", self.traces(*texts), "--json", *options).stdout)
+
+    def remarks(self, *texts):
+        return [[(r["kind"], r["pen_down"], r["stroke"]) for r in trace["remarks"]]
+                for trace in self.replay(*texts)["traces"]]
+
+
+class Replay(ReplayTest):
+    def test_the_right_order_and_direction_have_no_remark(self):
+        report = self.replay(character("三", THREE), character("十", TEN))
+        self.assertEqual([trace["character"] for trace in report["traces"]], ["三", "十"])
+        for trace in report["traces"]:
+            self.assertEqual(trace["remarks"], [])
+            self.assertEqual(trace["order_mistakes"], 0)
+            self.assertEqual(trace["direction_mistakes"], 0)
+            self.assertEqual(trace["strokes_drawn"], trace["strokes"])
+            self.assertEqual([d["strokes"] for d in trace["drawn"]], [[i + 1] for i in range(trace["strokes"])])
+            self.assertEqual({d["course"] for d in trace["drawn"]}, {"forwards"})
+
+    def test_a_wrong_order_names_the_stroke_and_what_was_due(self):
+        one, two, three = THREE
+        self.assertEqual(self.remarks(character("三", [one, three, two])), [[("order", 2, 3)]])
+        self.assertEqual(self.remarks(character("三", [three, two, one])), [[("order", 1, 3), ("order", 2, 2)]])
+        text = self.run_program("replay", self.traces(character("三", [one, three, two]))).stdout
+        self.assertIn("stroke 3 (héng) was written where stroke 2 (héng) was due", text)
+        self.assertIn("0 of 1 in the right order, 1 in the right direction", text)
+
+    def test_a_stroke_from_its_end_is_a_mistake_of_direction(self):
+        one, two, three = THREE
+        self.assertEqual(self.remarks(character("三", [one, two[::-1], three])), [[("direction", 2, 2)]])
+
+    def test_joined_strokes_are_no_mistake_of_order(self):
+        lines = "".join(stroke(*line, 500 * i)[len("S 41"):] for i, line in enumerate(THREE[:2]))
+        text = "C 三 4E09 made-up 1000 2\nS 82" + lines + "\n" + stroke(*THREE[2], 2000) + "\n"
+        self.assertEqual(self.remarks(text), [[("joined", 1, 1)]])
+
+    def test_what_is_missing_or_too_much_is_told(self):
+        one, two, three = THREE
+        self.assertEqual(self.remarks(character("三", [one, three])), [[("missing", None, 2)]])
+        extra = ((950, 60), (990, 400))
+        self.assertEqual(self.remarks(character("三", [one, two, three, extra])), [[("extra", 4, None)]])
+
+    def test_the_pen_under_guidance_stays_within_the_limits_on_every_device(self):
+        devices = [(device, "default") for device in ("omni", "touch", "desktop", "premium-1.5", "ideal")]
+        for device, renderer in [*devices, ("desktop", "everything")]:
+            with self.subTest(device=device, renderer=renderer):
+                options = ["--device", "simulated:" + device, "--renderer", renderer]
+                report = self.replay(character("三", THREE), options=options)
+                self.assertEqual(report["renderer"], renderer)
+                (trace,) = report["traces"]
+                self.assertEqual(trace["faults"], 0)
+                self.assertEqual(trace["strokes_completed"], 3)
+                self.assertGreater(trace["peak_force_N"], 0.1)
+                limit = report["peak_force_limit_N"]  # of the ideal device: none
+                self.assertLessEqual(trace["peak_force_N"], math.inf if limit is None else limit)
+                self.assertLessEqual(trace["max_force_step_N"], report["force_step_limit_N"] * (1 + 1e-9))
+
+    def test_the_directory_gets_a_picture_of_each_and_the_json(self):
+        traces = self.traces(character("三", THREE[::-1]), character("十", TEN), character("〇", TEN, "other"))
+        done = self.run_program("replay", traces, "--out", "deep/out", "--json")
+        self.assertEqual(done.stderr, "", "no progress bar in a pipe")
+        out = self.directory / "deep" / "out"
+        self.assertEqual((out / "replay.json").read_text(), done.stdout)
+        pictures = sorted(path.name for path in out.glob("*.svg"))
+        self.assertEqual(pictures, ["01-三.svg", "02-十.svg", "03-〇.svg"])
+        for name in pictures:
+            root = xml.parse(out / name).getroot()
+            self.assertEqual(root.tag, SVG + "svg")
+            self.assertLess((out / name).stat().st_size, 150000)
+        root = xml.parse(out / "01-三.svg").getroot()
+        group = {g.get("class"): g for g in root.iter(SVG + "g")}
+        self.assertEqual([t.text for t in group["drawn-number"]], ["1", "2", "3"])
+        self.assertEqual([t.text for t in group["standard-number"]], ["1", "2", "3"])
+        colours = [p.get("stroke") for p in group["written"] if p.get("stroke") != "none"]
+        self.assertEqual(colours, ["#e02020", "#e02020", "#333333"])
+        self.assertGreaterEqual(len(list(group["guided"])), 3)
+
+    def test_only_the_characters_asked_for_are_replayed(self):
+        texts = [character("三", THREE), character("十", TEN), character("三", THREE)]
+        report = self.replay(*texts, options=["--only", "三"])
+        self.assertEqual([trace["position"] for trace in report["traces"]], [1, 3])
+
+    def test_a_character_without_a_template_is_named_and_costs_no_other(self):
+        report = self.replay(character("\u9f98", TEN), character("十", TEN))
+        self.assertEqual([trace["character"] for trace in report["traces"]], ["十"])
+        self.assertEqual(report["without_template"], ["\u9f98"])
+
+    def test_the_table_has_units_and_limits(self):
+        text = self.run_program("replay", self.traces(character("三", THREE))).stdout
+        for word in ("[N]", "[N/tick]", "3/3", "right", "limits of"):
+            self.assertIn(word, text)
+
+    def test_the_same_run_gives_the_same_bytes(self):
+        traces = self.traces(character("三", THREE[::-1]), character("十", TEN))
+        first = self.run_program("replay", traces, "--json", "--out", "a")
+        second = self.run_program("replay", traces, "--json", "--out", "b")
+        self.assertEqual(first.stdout, second.stdout)
+        for path in (self.directory / "a").iterdir():
+            self.assertEqual(path.read_bytes(), (self.directory / "b" / path.name).read_bytes())
+
+
+class Refusals(ReplayTest):
+    def test_usage_errors_are_one_line_and_exit_with_two(self):
+        traces = self.traces(character("十", TEN))
+        for arguments, words in (
+                ([], ["TRACES"]),
+                ([traces, "--only", ""], ["TEXT"]),
+                ([traces, "--device", "desktop"], ["--device", "simulated:NAME"]),
+                ([traces, "--out", ""], ["--out"]),
+                ([traces, "--renderer", "none"], ["--renderer"]),
+                ([traces, "more"], ["more"])):
+            with self.subTest(arguments=arguments):
+                self.assert_refused(2, ["replay", *arguments], *words)
+
+    def test_what_cannot_be_replayed_is_named(self):
+        traces = self.traces(character("十", TEN))
+        self.assert_refused(1, ["replay", "none.txt"], "none.txt")
+        self.assert_refused(1, ["replay", traces, "--only", "三"], "三", "pens.txt")
+        self.assert_refused(1, ["replay", traces, "--characters", "none"], "none")
+        (self.directory / "bad.txt").write_text(character("十", TEN) + "S 1 0 0 0\n")
+        self.assert_refused(1, ["replay", "bad.txt"], "bad.txt:4")
+        (self.directory / "empty.txt").write_text("")
+        self.assert_refused(1, ["replay", "empty.txt"], "empty.txt")
+        (self.directory / "rare.txt").write_text(character("\u9f98", TEN))
+        self.assert_refused(1, ["replay", "rare.txt"], "--characters")

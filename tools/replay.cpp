@@ -1,0 +1,164 @@
+// calligraphy replay: pens of people, as hands that hold the simulated device, and verdicts on what they wrote.
+#include <algorithm>
+#include <cstddef>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <calligraphy/error.hpp>
+#include <calligraphy/model/text.hpp>
+#include <calligraphy/practice/pen_trace.hpp>
+#include <calligraphy/practice/replay_picture.hpp>
+#include <calligraphy/practice/session.hpp>
+
+#include "character_source.hpp"
+#include "commands.hpp"
+#include "options.hpp"
+#include "output_directory.hpp"
+#include "progress.hpp"
+#include "replay_report.hpp"
+
+namespace calligraphy::tools {
+namespace {
+
+struct Options {
+  std::string traces;
+  std::vector<std::string> characters;
+  std::optional<std::string> out;
+  std::optional<std::string> only;
+  std::string device = "simulated:desktop";
+  std::string renderer = "default";
+  bool json = false;
+};
+
+/// A trace and where it stands in the file, from 1.
+struct Chosen {
+  int position;
+  PenTrace trace;
+};
+
+std::vector<Chosen> chosen_traces(const Options& options) {
+  std::u32string only;
+  if (options.only) only = characters_of(*options.only);
+  std::vector<Chosen> chosen;
+  int position = 0;
+  for (PenTrace& trace : read_pen_traces(options.traces)) {
+    ++position;
+    if (!only.empty() && only.find(trace.character) == std::u32string::npos) continue;
+    chosen.push_back({position, std::move(trace)});
+  }
+  const auto is_there = [&chosen](char32_t code) {
+    return std::any_of(chosen.begin(), chosen.end(),
+                       [code](const Chosen& each) { return each.trace.character == code; });
+  };
+  for (const char32_t code : only) {
+    if (!is_there(code)) throw Error("character " + name_of(code) + " is not in " + options.traces);
+  }
+  if (chosen.empty()) throw Error(options.traces + " has no trace");
+  return chosen;
+}
+
+std::u32string text_of(const std::vector<Chosen>& traces) {
+  std::u32string text;
+  for (const Chosen& each : traces) {
+    if (text.find(each.trace.character) == std::u32string::npos) text += each.trace.character;
+  }
+  return text;
+}
+
+class Run {
+ public:
+  explicit Run(const Options& options) : options_(options) {
+    if (options.out && options.out->empty()) throw UsageError("--out: an empty name");
+    session_.device = chosen_device(options.device);
+    session_.renderer = options.renderer == "everything" ? RendererOptions::everything(session_.device.capabilities)
+                                                         : RendererOptions::for_device(session_.device.capabilities);
+    report_.renderer = options.renderer;
+    report_.device = session_.device.capabilities.model;
+    report_.peak_force = session_.device.capabilities.peak_force;
+  }
+
+  void replay() {
+    const std::vector<Chosen> traces = chosen_traces(options_);
+    const std::u32string text = text_of(traces);
+    const CharacterSet set =
+        options_.only ? open_characters(options_.characters, text) : open_sources(options_.characters, text);
+    for (const char32_t code : text) {
+      if (!set.find(code)) report_.without_template += code;
+    }
+    if (report_.without_template == text) throw Error("none of the characters written is in --characters");
+    std::optional<OutputDirectory> out;
+    if (options_.out) out.emplace(*options_.out);
+    Progress progress;
+    for (std::size_t i = 0; i < traces.size(); ++i) {
+      const auto stored = set.find(traces[i].trace.character);
+      if (stored) replay_one(traces[i], stored->character(), out);
+      progress.show(static_cast<double>(i + 1) / static_cast<double>(traces.size()));
+    }
+    if (out) out->write("replay.json", json(report_));
+    fmt::print("{}", options_.json ? json(report_) : table(report_));
+  }
+
+ private:
+  void replay_one(const Chosen& chosen, const Character& character, const std::optional<OutputDirectory>& out) {
+    PageLayout layout;
+    layout.width = session_.device.capabilities.workspace.x();
+    layout.height = session_.device.capabilities.workspace.y();
+    const Page page = lay_out({&character, 1}, layout).front();
+    const HapticRenderer renderer(page.characters, upright_page(page.width, page.height), session_.device.capabilities,
+                                  session_.renderer);
+    report_.max_force_step = renderer.max_force_step();
+
+    const Recording recording = follow_trace(page, chosen.trace, session_);
+    const std::vector<PenPath> paths = pen_paths(chosen.trace);
+    Replayed result;
+    result.position = chosen.position;
+    result.set = chosen.trace.set;
+    result.verdict = judge_strokes(character, paths);
+    result.guided = score(page, recording).front();
+    result.faults =
+        static_cast<int>(std::count_if(recording.samples.begin(), recording.samples.end(),
+                                       [](const Sample& sample) { return sample.status != TickStatus::ok; }));
+    if (out) {
+      const std::string title =
+          fmt::format("{}, {}, {}", encode_utf8(character.code), chosen.trace.set, report_.device);
+      const std::vector<PenPath> guided = pen_paths(recording, page.characters.front().placement);
+      out->write(fmt::format("{:02}-{}.svg", chosen.position, name_in_file(character.code)),
+                 replay_picture(character, paths, result.verdict, guided, title));
+    }
+    report_.traces.push_back(std::move(result));
+  }
+
+  const Options& options_;
+  SessionOptions session_;
+  ReplayReport report_;
+};
+
+}  // namespace
+
+void add_replay(CLI::App& program) {
+  CLI::App* const command = program.add_subcommand(
+      "replay",
+      "Pens of people, as recorded, hold the simulated device: what order and direction they wrote in, and what they "
+      "felt. With --out DIR also a picture of each and replay.json.");
+  const auto options = std::make_shared<Options>();
+  command->add_option("TRACES", options->traces, "Pen traces in the format of docs/pen-traces.md")
+      ->required()
+      ->type_name("FILE");
+  add_characters_option(*command, options->characters);
+  command->add_option("--out", options->out, "Directory for pictures and JSON, created when missing")->type_name("DIR");
+  command->add_option("--only", options->only, "Only traces of these characters")->type_name("TEXT");
+  add_device_option(*command, options->device);
+  command->add_option("--renderer", options->renderer, "The default stages, or every stage switched on")
+      ->check(CLI::IsMember({"default", "everything"}))
+      ->capture_default_str();
+  command->add_flag("--json", options->json, "Print JSON instead of the table")->disable_flag_override();
+  command->callback([options] { Run(*options).replay(); });
+}
+
+}  // namespace calligraphy::tools
