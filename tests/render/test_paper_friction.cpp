@@ -27,11 +27,7 @@ constexpr double sliding_force = 0.3;         // mu N [N]
 constexpr double longest_stretch = 0.3e-3;    // mu N / stiffness [m]
 constexpr double vibration_frequency = 20.0;  // a whole number of samples a period at each rate [Hz]
 
-#ifdef __SANITIZE_ADDRESS__
-constexpr int last_second = 6;
-#else
 constexpr int last_second = 20;
-#endif
 
 FrictionOptions options_of(FrictionModel model) {
   FrictionOptions options;
