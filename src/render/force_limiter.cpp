@@ -44,30 +44,29 @@ Eigen::Vector3d ForceLimiter::next(const Eigen::Vector3d& previous, const Eigen:
   double most = std::min(peak, longest);
   Eigen::Vector3d force = shortened(target, most);
   if (!limit_rate) return force;
-  Eigen::Vector3d from = previous;
   double taken = 0.0;
   if (longest < peak) {
     const double size = previous.norm();
     taken = std::clamp(size - most, 0.0, std::min(in_plane_step, normal_step));
-    if (taken > 0.0) from *= 1.0 - taken / size;
     most = std::max(most, size - taken);
   }
-  const Eigen::Vector2d change = (force - from).head<2>();
-  const double normal_change = force.z() - from.z();
+  const Eigen::Vector2d change = (force - previous).head<2>();
+  const double normal_change = force.z() - previous.z();
   if (jerk < no_limit) {
     using Line = Eigen::Matrix<double, 1, 1>;
     last_step.head<2>() = jerk_limited<Eigen::Vector2d>(change, last_step.head<2>(), in_plane_step - taken, jerk);
     last_step.z() = jerk_limited<Line>(Line(normal_change), Line(last_step.z()), normal_step - taken, jerk)[0];
-    force = from + last_step;
+    force = previous + last_step;
   } else {
     const double length = change.norm();
-    if (length > in_plane_step - taken) force.head<2>() = from.head<2>() + change * ((in_plane_step - taken) / length);
-    force.z() = from.z() + std::clamp(normal_change, taken - normal_step, normal_step - taken);
+    const double reach = in_plane_step - taken;
+    if (length > reach) force.head<2>() = previous.head<2>() + change * (reach / length);
+    force.z() = previous.z() + std::clamp(normal_change, taken - normal_step, normal_step - taken);
   }
   force = shortened(force, most);
   // Shortening takes some of the way on which a force with limited jerk comes to rest.
   if (previous.z() >= 0.0 && target.z() >= 0.0) force.z() = std::max(0.0, force.z());
-  last_step = force - from;
+  last_step = force - previous;
   return force;
 }
 

@@ -160,6 +160,7 @@ TEST_CASE("a pen led astray is drawn to the stroke's start, but on the paper onl
     rest(pen, at(astray, 0.005), 50);
     CHECK(renderer.last().force == Vector3d(0, 0, 0));  // in the air
     pen.go(at(astray, -0.001));
+    CHECK(renderer.last().page_force.head<2>().norm() < 0.1);  // 10 ms on the paper: it has begun to come in
     rest(pen, at(astray, -0.001), 500);
     CHECK(renderer.last().state == InteractionState::calibration);
     const Point in_plane = renderer.last().page_force.head<2>();
@@ -170,6 +171,10 @@ TEST_CASE("a pen led astray is drawn to the stroke's start, but on the paper onl
     } else {
       CHECK(in_plane == Point(0, 0));
     }
+    pen.go(at(astray, 0.005));
+    rest(pen, at(astray, 0.005), 50);
+    pen.go(at(astray, -0.001));
+    CHECK(renderer.last().page_force.head<2>().norm() < 0.1);  // and comes in anew with each contact
     pen.go(at(stroke.start, -0.001));
     CHECK(renderer.last().state == InteractionState::writing);
     pen.go(at(stroke.end, -0.001));
