@@ -103,7 +103,6 @@ void map(const Options& options) {
   if (options.quick) {
     wanted.with_grid = false;
     wanted.per_decade = 4;
-    wanted.encounter.seconds = 4.0;
   }
   Progress progress;
   wanted.progress = [&progress](double share) { progress.show(share); };
