@@ -70,18 +70,10 @@ calligraphy::Point RestlessHand::on_stroke(double way) const {
 }
 
 Vector3d RestlessHand::goal() const {
+  if (phase_ == Phase::rest) return place_;
   const Point tip = on_stroke(way_);
-  switch (phase_) {
-    case Phase::approach:
-    case Phase::raise:
-      return {tip.x(), tip.y(), raised};
-    case Phase::lower:
-    case Phase::write:
-      return {tip.x(), tip.y(), -depth_};
-    case Phase::rest:
-      return place_;
-  }
-  return place_;
+  const bool down = phase_ == Phase::lower || phase_ == Phase::write;
+  return {tip.x(), tip.y(), down ? -depth_ : raised};
 }
 
 calligraphy::Intention RestlessHand::next(const HapticTick& tick, double seconds) {
