@@ -136,6 +136,10 @@ class Run {
         text_(characters_of(options.text)) {
     if (options.out.empty()) throw UsageError("--out: an empty name");
     try {
+      // At a low rate less is stable than at the device's own.
+      for (const std::string& reason : clip_stiffness(session_.renderer, session_.device.capabilities)) {
+        spdlog::warn("clipped: {}", reason);
+      }
       validate(session_.renderer, session_.device.capabilities);
     } catch (const ValueError& error) {
       throw UsageError(error.what());

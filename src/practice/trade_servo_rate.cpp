@@ -25,7 +25,8 @@ constexpr double softest = 50.0, hardest = 1e6;  ///< stiffnesses that are tried
 
 DeviceProfile unrestricted(const std::string& name) {
   DeviceProfile profile = device_profile(name);
-  profile.capabilities.usable_stiffness = 0.0;  // stability is what is asked here
+  // Stability is what is asked here: nothing is known, so nothing is refused.
+  profile.capabilities.usable_stiffness = profile.capabilities.apparent_mass = 0.0;
   return profile;
 }
 
@@ -125,7 +126,8 @@ std::vector<ServoRateTrade> servo_rate_trade(std::span<const Character> characte
   if (characters.empty()) throw ValueError("servo rate: no characters");
   if (options.seeds < 1) throw ValueError("servo rate: " + std::to_string(options.seeds) + " seeds");
   const DeviceProfile profile = unrestricted(options.device);
-  const RendererOptions usual = RendererOptions::for_device(device_profile(options.device).capabilities);
+  const Capabilities& known = device_profile(options.device).capabilities;
+  const RendererOptions usual = RendererOptions::for_device(known);
   const Page page = lay_out(characters.first(1)).front();
   double total = 0.0, done = 0.0;
   for (const double rate : options.rates) total += rate;
@@ -146,8 +148,8 @@ std::vector<ServoRateTrade> servo_rate_trade(std::span<const Character> characte
     entry.written = written.share;
     entry.loop_stiffness = largest_stable_stiffness(page, profile, hand, renderer, true);
     entry.unlimited_stiffness = largest_stable_stiffness(page, profile, hand, renderer, false);
-    entry.held_stiffness = critical_stiffness(sampled_loop(profile.capabilities, rate, hand));
-    entry.free_stiffness = critical_stiffness(sampled_loop(profile.capabilities, rate));
+    entry.held_stiffness = critical_stiffness(sampled_loop(known, rate, hand));
+    entry.free_stiffness = critical_stiffness(sampled_loop(known, rate));
     entry.hard_stiffness = 0.5 * entry.unlimited_stiffness;
     const Written hard = write_all(characters, profile, with_paper(renderer, entry.hard_stiffness, false), options);
     entry.hard_penetration = hard.penetration;

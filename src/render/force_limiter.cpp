@@ -66,7 +66,8 @@ Eigen::Vector3d ForceLimiter::next(const Eigen::Vector3d& previous, const Eigen:
   force = shortened(force, most);
   // Shortening takes some of the way on which a force with limited jerk comes to rest.
   if (previous.z() >= 0.0 && target.z() >= 0.0) force.z() = std::max(0.0, force.z());
-  last_step = force - previous;
+  // What was taken is no swing to be brought to rest.
+  last_step = taken > 0.0 ? Eigen::Vector3d(0.0, 0.0, 0.0) : Eigen::Vector3d(force - previous);
   return force;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -14,6 +15,9 @@ namespace {
 
 /// A pen further from the page than this is a fault, whatever its speed [m].
 constexpr double furthest_point = 1e3;
+
+/// Smallest motion scale, and one over the largest; keeps every force a number.
+constexpr double smallest_scale = 1e-6;
 
 /// Longest time that eq. (3) integrates over in one tick [s].
 constexpr double longest_tick = 0.1;
@@ -38,8 +42,11 @@ void require_valid(const MotionMapping& mapping) {
       mapping.rotation.allFinite() && mapping.rotation.isUnitary(1e-9) && mapping.rotation.determinant() > 0.0;
   if (!rigid) throw ValueError("motion mapping: rotation is not a rotation matrix");
   if (!mapping.offset.allFinite()) throw ValueError("motion mapping: offset is not finite");
-  if (!std::isfinite(mapping.scale) || mapping.scale <= 0.0) {
-    throw ValueError("motion mapping: scale = " + std::to_string(mapping.scale) + ": expected a finite number above 0");
+  if (!(mapping.scale >= smallest_scale && mapping.scale <= 1.0 / smallest_scale)) {
+    std::ostringstream message;
+    message << "motion mapping: scale = " << mapping.scale << ": expected from " << smallest_scale << " to "
+            << 1.0 / smallest_scale;
+    throw ValueError(message.str());
   }
 }
 
@@ -77,9 +84,9 @@ HapticRenderer::HapticRenderer(std::vector<PlacedCharacter> page, const MotionMa
   }
   require_valid(mapping);
   if (options_.stiffness_check == StiffnessCheck::clip) {
-    clipped_ = clip_stiffness(options_, capabilities, largest_attraction);
+    clipped_ = clip_stiffness(options_, capabilities, largest_attraction, mapping.scale);
   }
-  validate(options_, capabilities, largest_attraction);
+  validate(options_, capabilities, largest_attraction, mapping.scale);
   if (!(capabilities.peak_force > 0.0)) {
     throw ValueError("peak force of the device = " + std::to_string(capabilities.peak_force) + " N");
   }

@@ -12,6 +12,12 @@ namespace {
 /// What a hand may add to its speed while a force is taken away [m/s].
 constexpr double sudden_speed = 0.25;
 
+/// A sample that is further from the last one is not of a pen that went there [m/s].
+constexpr double fastest_pen = 10.0;
+
+constexpr double strongest_brake = 0.1;  ///< with an overdrawn budget [N]
+constexpr double slow_pen = 0.01;        ///< braked by half of it [m/s]
+
 void require(bool in_domain, const char* name, double value, const char* domain) {
   if (in_domain) return;
   std::ostringstream message;
@@ -48,7 +54,7 @@ PassivityController::PassivityController(const PassivityOptions& options, double
 void PassivityController::restart() noexcept {
   sent_.fill(Eigen::Vector3d::Zero());
   has_position_ = false;
-  wanted_ = damping_ = Eigen::Vector3d::Zero();
+  wanted_ = damping_ = velocity_ = Eigen::Vector3d::Zero();
   lost_ = 0;
   speed_ = presumed_way_ = force_while_lost_ = surplus_in_plane_ = surplus_normal_ = given_ = 0.0;
   longest_ = std::numeric_limits<double>::infinity();
@@ -62,28 +68,42 @@ Eigen::Vector3d PassivityController::next(const Eigen::Vector3d& position, const
   } else if (lost_ > 0) {
     find_again(position);
   } else {
-    const Eigen::Vector3d step = has_position_ ? Eigen::Vector3d(position - position_) : Eigen::Vector3d(0.0, 0.0, 0.0);
-    if (has_position_) observe(step, wanted);
+    Eigen::Vector3d step = has_position_ ? Eigen::Vector3d(position - position_) : Eigen::Vector3d(0.0, 0.0, 0.0);
+    if (step.norm() > fastest_pen * period_) {
+      pay(force_at_work().norm() * (speed_ + sudden_speed) * period_);  // it is elsewhere; it did not go there
+      step.setZero();
+    } else if (has_position_) {
+      observe(step, wanted);
+    }
     has_position_ = true;
     position_ = position;
-    speed_ = step.norm() / period_;
+    velocity_ = step / period_;
+    speed_ = velocity_.norm();
     const double in_plane = damping_for(surplus_in_plane_, step.head<2>().squaredNorm(), period_, max_damping_);
     const double normal = damping_for(surplus_normal_, step.z() * step.z(), period_, max_damping_);
     damping_.head<2>() = -in_plane / period_ * step.head<2>();
     damping_.z() = -normal / period_ * step.z();
   }
   wanted_ = wanted;
-  Eigen::Vector3d force = wanted + damping_;
-  if (std::isfinite(budget_)) {
-    longest_ = longest_payable(speed_ + sudden_speed);
-    const double size = force.norm();
-    if (size > longest_) force *= longest_ / size;
+  const Eigen::Vector3d force = wanted + damping_;
+  return std::isfinite(budget_) ? within_budget(force) : force;
+}
+
+/// Less than nothing is left when lost samples were paid for: then a pen that moves is braked lightly, so that it pays
+/// back.
+Eigen::Vector3d PassivityController::within_budget(const Eigen::Vector3d& force) noexcept {
+  longest_ = longest_payable(speed_ + sudden_speed);
+  if (left_ < 0.0) {
+    longest_ = strongest_brake;
+    return -strongest_brake / (speed_ + slow_pen) * velocity_;
   }
-  return force;
+  const double size = force.norm();
+  return size > longest_ ? Eigen::Vector3d(force * (longest_ / size)) : force;
 }
 
 /// Where the pen went is not known: pay for one that keeps its speed, and some more, along the force.
 void PassivityController::presume() noexcept {
+  velocity_.setZero();
   const double way = (speed_ + sudden_speed) * period_;
   const double force = force_at_work().norm();
   pay(force * way);
@@ -92,13 +112,13 @@ void PassivityController::presume() noexcept {
   ++lost_;
 }
 
-/// The period that ends with this sample is not known either; and if the pen went further than presumed, then along the
-/// largest force meanwhile.
+/// The period that ends with this sample is not known either. A pen that went further than presumed is believed as far
+/// again: beyond that it was taken elsewhere, or the sample lies.
 void PassivityController::find_again(const Eigen::Vector3d& position) noexcept {
   presume();
   const double way = has_position_ ? (position - position_).norm() : 0.0;
-  pay(force_while_lost_ * std::max(0.0, way - presumed_way_));
-  speed_ = way / (static_cast<double>(lost_) * period_);
+  pay(force_while_lost_ * std::clamp(way - presumed_way_, 0.0, presumed_way_));
+  speed_ = std::min(way / (static_cast<double>(lost_) * period_), fastest_pen);
   has_position_ = true;
   position_ = position;
   lost_ = 0;

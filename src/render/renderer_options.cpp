@@ -7,6 +7,7 @@
 #include <string>
 
 #include <calligraphy/error.hpp>
+#include <calligraphy/render/passivity_controller.hpp>
 #include <calligraphy/render/stiffness_advice.hpp>
 
 namespace calligraphy {
@@ -34,6 +35,9 @@ void require_count(const char* name, int value, int least, int most) {
   throw ValueError(message.str());
 }
 
+/// Keeps every step of a force a number [N/s].
+constexpr double fastest_force = 1e12;
+
 /// Of the critical stiffness, what is left for what a rigid mass does not show.
 constexpr double stable_share = 0.9;
 
@@ -49,6 +53,19 @@ StiffnessLimit usable_stiffness(const Capabilities& capabilities) {
   std::ostringstream reason;
   reason << "the device " << capabilities.model << " is usable up to " << capabilities.usable_stiffness << " N/m";
   return {capabilities.usable_stiffness, reason.str()};
+}
+
+/// A pen that meets the paper at `meeting_speed` calls for a change of force of K times that; a limiter that gives less
+/// lags behind and throws it back.
+StiffnessLimit followed_stiffness(const RendererOptions& options, const Capabilities& capabilities) {
+  constexpr double meeting_speed = 0.1;  // [m/s]
+  if (!options.limit_force_rate || !(capabilities.apparent_mass > 0.0)) {
+    return {std::numeric_limits<double>::infinity(), ""};
+  }
+  std::ostringstream reason;
+  reason << ": with normal_force_rate = " << options.normal_force_rate << " N/s the force follows a pen of "
+         << meeting_speed << " m/s up to " << options.normal_force_rate / meeting_speed << " N/m";
+  return {options.normal_force_rate / meeting_speed, reason.str()};
 }
 
 StiffnessLimit stable_stiffness(const RendererOptions& options, const Capabilities& capabilities) {
@@ -98,17 +115,28 @@ RendererOptions RendererOptions::everything(const Capabilities& capabilities) {
   options.friction.coefficient = 0.15;
   clip_stiffness(options, capabilities);
   options.force_jerk = 1e5;
-  options.passivity_control = true;
-  options.energy_budget = 0.1;
+  const bool is_modelled =
+      capabilities.apparent_mass > 0.0 && capabilities.sample_delay <= PassivityController::longest_delay;
+  options.passivity_control = is_modelled;
+  if (is_modelled) options.energy_budget = 0.1;
   const bool warms = capabilities.continuous_force > 0.0 && capabilities.continuous_force < capabilities.peak_force;
   options.thermal_time_constant = warms ? 10.0 : 0.0;
   return options;
 }
 
 std::vector<std::string> clip_stiffness(RendererOptions& options, const Capabilities& capabilities,
-                                        double largest_attraction) {
+                                        double largest_attraction, double scale) {
   require("servo_rate", options.servo_rate, Bound::above_zero, 1e6);
-  const StiffnessLimit usable = usable_stiffness(capabilities), stable = stable_stiffness(options, capabilities);
+  StiffnessLimit usable = usable_stiffness(capabilities), stable = stable_stiffness(options, capabilities);
+  if (scale != 1.0) {
+    // Motion appears enlarged and so does force: the device feels K K_S^2.
+    std::ostringstream enlarged;
+    enlarged << " times the square of the motion scale " << scale << ": ";
+    for (StiffnessLimit* limit : {&usable, &stable})
+      *limit = {limit->value / (scale * scale), enlarged.str() + limit->reason};
+  } else {
+    for (StiffnessLimit* limit : {&usable, &stable}) limit->reason = ": " + limit->reason;
+  }
   std::vector<std::string> clipped;
   const auto clip = [&](const char* name, double& stiffness, double most, const std::string& reason) {
     require(name, stiffness, Bound::from_zero);
@@ -121,27 +149,30 @@ std::vector<std::string> clip_stiffness(RendererOptions& options, const Capabili
   const StiffnessLimit& limit = usable.value < stable.value ? usable : stable;
   std::ostringstream attraction;
   if (largest_attraction != 1.0) attraction << " times the largest attraction factor " << largest_attraction;
-  clip("paper_stiffness", options.paper_stiffness, limit.value, ": " + limit.reason);
+  clip("paper_stiffness", options.paper_stiffness, limit.value, limit.reason);
+  const StiffnessLimit followed = followed_stiffness(options, capabilities);
+  clip("paper_stiffness", options.paper_stiffness, followed.value / (scale * scale), followed.reason);
   clip("guidance_stiffness", options.guidance_stiffness, limit.value / largest_attraction,
-       attraction.str() + ": " + limit.reason);
-  clip("wrong_way_stiffness", options.wrong_way_stiffness, limit.value, ": " + limit.reason);
+       attraction.str() + limit.reason);
+  clip("wrong_way_stiffness", options.wrong_way_stiffness, limit.value, limit.reason);
   if (options.friction.coefficient > 0.0) {
     // A device may be usable with both springs at once, one along the stroke and one across; stable it must be with
     // both.
-    clip("friction.stiffness", options.friction.stiffness, limit.value, ": " + limit.reason);
+    clip("friction.stiffness", options.friction.stiffness, limit.value, limit.reason);
     const double guidance = options.guidance_stiffness * largest_attraction;
     std::ostringstream beside;
-    beside << " beside " << guidance << " N/m of guidance: ";
+    beside << " beside " << guidance << " N/m of guidance";
     clip("friction.stiffness", options.friction.stiffness, std::max(0.1 * stable.value, stable.value - guidance),
          beside.str() + stable.reason);
   }
   return clipped;
 }
 
-void validate(const RendererOptions& options, const Capabilities& capabilities, double largest_attraction) {
+void validate(const RendererOptions& options, const Capabilities& capabilities, double largest_attraction,
+              double scale) {
   require("servo_rate", options.servo_rate, Bound::above_zero, 1e6);
   RendererOptions stable = options;
-  const std::vector<std::string> too_stiff = clip_stiffness(stable, capabilities, largest_attraction);
+  const std::vector<std::string> too_stiff = clip_stiffness(stable, capabilities, largest_attraction, scale);
   if (!too_stiff.empty()) throw ValueError(too_stiff.front());
   require("guidance_fade_in", options.guidance_fade_in, Bound::from_zero);
   require("wrong_way_limit", options.wrong_way_limit, Bound::from_zero);
@@ -165,10 +196,10 @@ void validate(const RendererOptions& options, const Capabilities& capabilities, 
   require("box_margin", options.box_margin, Bound::from_zero);
   require("lift_height", options.lift_height, Bound::from_zero);
   require("box_hysteresis", options.box_hysteresis, Bound::from_zero);
-  require("in_plane_force_rate", options.in_plane_force_rate, Bound::above_zero);
-  require("normal_force_rate", options.normal_force_rate, Bound::above_zero);
+  require("in_plane_force_rate", options.in_plane_force_rate, Bound::above_zero, fastest_force);
+  require("normal_force_rate", options.normal_force_rate, Bound::above_zero, fastest_force);
   if (!(options.force_jerk == std::numeric_limits<double>::infinity())) {
-    require("force_jerk", options.force_jerk, Bound::above_zero);
+    require("force_jerk", options.force_jerk, Bound::above_zero, 1e3 * fastest_force);
   }
   if (!(options.energy_budget == std::numeric_limits<double>::infinity())) {
     require("energy_budget", options.energy_budget, Bound::from_zero);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <iomanip>
 #include <limits>
 #include <numbers>
 #include <sstream>
@@ -21,10 +22,14 @@ constexpr double fastest_rate = 1e6;  // [Hz]
 constexpr double largest = 1e9;       // of any other field, so that no product of them leaves the numbers
 constexpr int longest_delay = 1000;
 
+/// Of a device that states none: that of the shipped profile with the least [N].
+constexpr double presumed_friction = 0.04;
+
 void require(const char* name, double value, const char* unit, double least, double most = largest) {
   if (value >= least && value <= most) return;
   std::ostringstream message;
-  message << name << " = " << value << " " << unit << ": expected from " << least << " to " << most;
+  message << std::setprecision(10) << name << " = " << value << " " << unit << ": expected from " << least << " to "
+          << most;
   throw ValueError(message.str());
 }
 
@@ -239,8 +244,9 @@ StiffnessAdvice advise_stiffness(const SampledLoop& loop) {
 double injectable_damping(const SampledLoop& loop) {
   validate(loop);
   double damping = PassivityController::usable_damping(loop.mass, 1.0 / loop.rate, loop.delay) - loop.wall_damping;
-  if (loop.encoder_step > 0.0 && loop.coulomb_friction > 0.0) {
-    damping = std::min(damping, loop.coulomb_friction / (loop.encoder_step * loop.rate));
+  if (loop.encoder_step > 0.0) {
+    const double held = loop.coulomb_friction > 0.0 ? loop.coulomb_friction : presumed_friction;
+    damping = std::min(damping, held / (loop.encoder_step * loop.rate));
   }
   return std::max(0.0, damping);
 }

@@ -215,6 +215,24 @@ TEST_CASE(
   CHECK_THAT(renderer.clipped().front(), Catch::Matchers::Contains("critical_stiffness"));
 }
 
+TEST_CASE("paper stiffer than the limited rate of the force can follow is clipped, and the reason says so",
+          "[practice][extremes]") {
+  DeviceProfile profile = device_profile("desktop");
+  profile.capabilities.usable_stiffness = 0.0;
+  for (const double rate : {4000.0, 10'000.0}) {
+    RendererOptions options;
+    options.servo_rate = rate;
+    options.stiffness_check = StiffnessCheck::clip;
+    options.paper_stiffness = 1e6;
+    HapticRenderer renderer({one_stroke()}, {}, profile.capabilities, options);
+    CHECK(renderer.options().paper_stiffness == Approx(options.normal_force_rate / 0.1));
+    CHECK_THAT(renderer.clipped().back(), Catch::Matchers::Contains("normal_force_rate = 400"));
+    const Writing writing = write_beside(profile, renderer.options(), 0.002);
+    check_kept(writing, profile);
+    CHECK(writing.late_swing < 5e-6);
+  }
+}
+
 TEST_CASE("hard curves as strokes are refused by name or written with finite forces", "[practice][extremes]") {
   const DeviceProfile& profile = device_profile("desktop");
   int written = 0;

@@ -302,8 +302,25 @@ TEST_CASE("the largest step of the force is per tick, in the device's newtons", 
     mapping.scale = scale;
     RendererOptions options;
     options.servo_rate = 500.0;
+    options.stiffness_check = StiffnessCheck::clip;
     const HapticRenderer renderer({placed(U'永')}, mapping, test_device(), options);
     CHECK(renderer.max_force_step() == Approx(std::hypot(0.2, 0.8)));  // 100 and 400 N/s at 500 Hz
+  }
+}
+
+TEST_CASE("a stiffness counts with the square of the motion scale, as the device feels it", "[render]") {
+  MotionMapping mapping;
+  mapping.scale = 2.0;  // 600 N/m on the page are 2400 at the device, which is usable up to 1000
+  CHECK(complaint([&] {
+          HapticRenderer({placed(U'永')}, mapping, test_device());
+        }).find("times the square of the motion scale 2") != std::string::npos);
+  RendererOptions options;
+  options.stiffness_check = StiffnessCheck::clip;
+  CHECK(HapticRenderer({placed(U'永')}, mapping, test_device(), options).options().paper_stiffness == Approx(250.0));
+  for (const double scale : {1e300, 1e-300, 1e7, 0.0}) {
+    mapping.scale = scale;
+    CHECK(complaint([&] { HapticRenderer({placed(U'永')}, mapping, test_device(), options); }).find("scale = ") !=
+          std::string::npos);
   }
 }
 
@@ -311,7 +328,9 @@ TEST_CASE("with any scale the device's peak and rate hold on the device's side",
   for (const double scale : {0.2, 1.0, 5.0}) {
     MotionMapping mapping;
     mapping.scale = scale;
-    HapticRenderer renderer({placed(U'永')}, mapping, test_device());
+    RendererOptions options;
+    options.stiffness_check = StiffnessCheck::clip;
+    HapticRenderer renderer({placed(U'永')}, mapping, test_device(), options);
     calligraphy_test::ScriptedPen pen(renderer);
     pen.speed = 0.1;
     pen.write(renderer.page()[0], 0.002);

@@ -218,7 +218,7 @@ TEST_CASE("the damping that a controller may inject is bounded by mass, wall and
   loop = loop_of(1000.0, 0.1, 2);
   CHECK(injectable_damping(loop) == Approx(0.9 * 0.045 * 1000.0 / 5.0));
   loop.encoder_step = 55e-6;
-  CHECK(injectable_damping(loop) == Approx(0.9 * 0.045 * 1000.0 / 5.0));  // nothing holds its steps, with or without
+  CHECK(injectable_damping(loop) == Approx(0.04 / 55e-6 / 1000.0));  // presumed
   loop.coulomb_friction = 0.26;
   CHECK(injectable_damping(loop) == Approx(0.26 / 55e-6 / 1000.0));
   loop.mass = 0.0;
@@ -268,7 +268,7 @@ TEST_CASE("a loop that is not physical is refused by the field's name and value"
     loop.grip.*field = -1.0;
     CHECK(error_of(loop).find("grip.") == 0);
   }
-  CHECK(error_of(loop_of(0.0, 0.1)) == "rate = 0 Hz: expected from 1 to 1e+06");
+  CHECK(error_of(loop_of(0.0, 0.1)) == "rate = 0 Hz: expected from 1 to 1000000");
   CHECK(error_of(loop_of(1000.0, 0.1, -1)) == "delay = -1 ticks: expected from 0 to 1000");
   CHECK(error_of(loop_of(1000.0, 0.1, 1001)) == "delay = 1001 ticks: expected from 0 to 1000");
 }

@@ -35,9 +35,9 @@ struct Options {
 struct Watched {
   std::uint64_t faults = 0, bad_ticks = 0, not_finite = 0, above_peak = 0, steps_too_large = 0, strokes = 0,
                 allocations = 0;
+  std::uint64_t felt_late = 0;  ///< ticks of the last tenth with a force above 0.1 N
   double largest_force = 0.0, largest_step = 0.0;
   double given = 0.0, most_given = 0.0, least_given = 0.0;  ///< net work of the force really applied [J]
-  double furthest_drift = 0.0;                              ///< between observed and true energy [J]
   bool page_was_too_short = false;
 };
 
@@ -73,6 +73,7 @@ Watched run(const Options& options) {
     watched.steps_too_large += step > step_limit;
     watched.largest_force = std::max(watched.largest_force, size);
     watched.largest_step = std::max(watched.largest_step, step);
+    watched.felt_late += i >= options.ticks / 10 * 9 && size > 0.1;
     watched.bad_ticks += tick.status != TickStatus::ok;
     watched.strokes += has(tick.events, TickEvent::stroke_finished);
     last = tick.force;
@@ -117,6 +118,7 @@ int report(const Options& options, const Watched& watched) {
   if (std::isfinite(chosen.energy_budget)) {
     all &= kept("net energy given never above the start-up budget", watched.most_given <= chosen.energy_budget);
   }
+  all &= kept("forces are still felt in the last tenth", watched.felt_late > options.ticks / 200);
   all &= kept("strokes are written", watched.strokes > options.ticks / 20'000 && !watched.page_was_too_short);
   return all ? 0 : 1;
 }

@@ -32,15 +32,17 @@ struct PassivityOptions {
 /// deficit, energy dissipated, is forgotten: it is no credit.
 ///
 /// Budget: with E of the budget left, a force is shortened to what can be taken away at force_rate before a pen at its
-/// present speed (and 0.25 m/s more) has used up E. Energy that the hand gives flows back into E, up to the budget. The
-/// true work never exceeds the budget, whatever the field, as long as
+/// present speed (and 0.25 m/s more) has used up E. Energy that the hand gives flows back into E, up to the budget;
+/// when it is overdrawn, as lost samples are paid for generously, a brake of at most 0.1 N against the motion is all
+/// that remains, so that the pen pays back. The true work never exceeds the budget, whatever the field, as long as
 /// - a limit behind, if there is one, keeps a force within longest_force(), and one that is longer falls by
 ///   force_rate x period in every tick (ForceLimiter::next does so with that as `longest`);
 /// - the pen is never faster than 0.25 m/s above its speed at the last tick whose force was within longest_force(),
 ///   until that force is taken away: |F| / force_rate + delay + 1 ticks. A pen that is faster by u may be given
 ///   |F| u times that time more;
-/// - each sample is `delay` ticks old, or known to be lost; of an encoder of step D at most D / 2 times the sum of all
-///   changes of the force is not seen.
+/// - each sample is `delay` ticks old, or known to be lost, or more than 10 m/s away (then the pen is elsewhere and is
+///   presumed to have kept its speed); of an encoder of step D at most D / 2 times the sum of all changes of the force
+///   is not seen.
 class PassivityController {
  public:
   static constexpr int longest_delay = 15;
@@ -75,6 +77,7 @@ class PassivityController {
   const Eigen::Vector3d& force_at_work() const noexcept {
     return sent_[(newest_ + sent_.size() - delay_) % sent_.size()];
   }
+  Eigen::Vector3d within_budget(const Eigen::Vector3d& force) noexcept;
   void observe(const Eigen::Vector3d& step, const Eigen::Vector3d& wanted) noexcept;
   void pay(double energy) noexcept;
   void presume() noexcept;
@@ -93,10 +96,11 @@ class PassivityController {
   Eigen::Vector3d position_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d wanted_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d damping_ = Eigen::Vector3d::Zero();
-  double speed_ = 0.0;             ///< [m/s]
-  int lost_ = 0;                   ///< ticks since the last position
-  double presumed_way_ = 0.0;      ///< of those [m]
-  double force_while_lost_ = 0.0;  ///< the largest at work in those [N]
+  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  ///< over the last period; zero while lost [m/s]
+  double speed_ = 0.0;                                  ///< as last known [m/s]
+  int lost_ = 0;                                        ///< ticks since the last position
+  double presumed_way_ = 0.0;                           ///< of those [m]
+  double force_while_lost_ = 0.0;                       ///< the largest at work in those [N]
   double longest_ = std::numeric_limits<double>::infinity();
   double surplus_in_plane_ = 0.0;  ///< not yet damped out [J]
   double surplus_normal_ = 0.0;    ///< [J]

@@ -87,20 +87,24 @@ struct RendererOptions {
   static RendererOptions for_device(const Capabilities& capabilities);
 
   /// for_device() with every stage switched on: friction, guidance for large deviations, help as needed, limited jerk,
-  /// passivity control, and a thermal budget where the device states a continuous force.
+  /// passivity control and an energy budget where the device states its mass and a delay of at most 15 ticks, a thermal
+  /// budget where it states a continuous force below its peak.
   static RendererOptions everything(const Capabilities& capabilities);
 };
 
 /// Clips the stiffnesses to nine tenths of what is stable in the softest grip, at the options' rate and the device's
 /// sample delay, where the device states its mass; and to its usable stiffness, where it states one. The guidance
-/// counts with the largest attraction factor on the page, the pen's hold on the paper (friction) on top of it.
+/// counts with the largest attraction factor on the page, the pen's hold on the paper (friction) on top of it;
+/// paper_stiffness is also clipped to what normal_force_rate can follow at 0.1 m/s. With a motion scale K_S
+/// (MotionMapping) all count K_S^2 times: that is what the device feels of them.
 /// @return what was clipped, each with its reason
 /// @throws ValueError naming the option when a stiffness is negative or not finite, or the rate is none
 std::vector<std::string> clip_stiffness(RendererOptions& options, const Capabilities& capabilities,
-                                        double largest_attraction = 1.0);
+                                        double largest_attraction = 1.0, double scale = 1.0);
 
 /// @throws ValueError naming the option and its value: not finite, out of its domain, or a stiffness that
 /// clip_stiffness() would clip
-void validate(const RendererOptions& options, const Capabilities& capabilities, double largest_attraction = 1.0);
+void validate(const RendererOptions& options, const Capabilities& capabilities, double largest_attraction = 1.0,
+              double scale = 1.0);
 
 }  // namespace calligraphy

@@ -62,8 +62,8 @@ StiffnessAdvice advise_stiffness(const SampledLoop& loop);
 /// Largest damping that a PassivityController may inject into this loop [N s/m]: what the device's mass bears at its
 /// rate and delay, less the wall's own, and no more than f_c T / D, so that the force on one step of the encoder within
 /// a tick is held by dry friction. Above that the steps themselves keep up a swing (found by the stability map: a
-/// controller without the last limit settles less stiffness at 4 kHz than none). Without dry friction, or where none is
-/// stated, nothing stops the steps and the limit is not applied.
+/// controller without the last limit settles less stiffness at 4 kHz than none). Where no dry friction is stated,
+/// 0.04 N are presumed.
 /// @throws ValueError as validate()
 double injectable_damping(const SampledLoop& loop);
 

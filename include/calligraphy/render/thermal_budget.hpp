@@ -18,11 +18,11 @@ struct ThermalBudget {
   double largest_force() const noexcept {
     constexpr double warm = 0.8;
     const double share = std::clamp((1.0 - heat) / (1.0 - warm), 0.0, 1.0);
-    return continuous + share * (peak - continuous);
+    return share > 0.0 ? continuous + share * (peak - continuous) : continuous;  // the peak may be infinite
   }
   /// `force` [N] was held for `seconds`.
   void held(double force, double seconds) noexcept {
-    const double ratio = force / continuous;
+    const double ratio = std::min(force / continuous, 1e6);
     heat += (ratio * ratio - heat) * -std::expm1(-seconds / time_constant);
   }
 };
