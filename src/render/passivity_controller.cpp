@@ -15,7 +15,8 @@ constexpr double sudden_speed = 0.25;
 /// A sample that is further from the last one is not of a pen that went there [m/s].
 constexpr double fastest_pen = 10.0;
 
-constexpr double strongest_brake = 0.1;  ///< with an overdrawn budget [N]
+constexpr double empty_share = 1e-3;     ///< of the budget
+constexpr double strongest_brake = 0.1;  ///< with an empty budget [N]
 constexpr double slow_pen = 0.01;        ///< braked by half of it [m/s]
 
 void require(bool in_domain, const char* name, double value, const char* domain) {
@@ -89,13 +90,13 @@ Eigen::Vector3d PassivityController::next(const Eigen::Vector3d& position, const
   return std::isfinite(budget_) ? within_budget(force) : force;
 }
 
-/// Less than nothing is left when lost samples were paid for: then a pen that moves is braked lightly, so that it pays
-/// back.
+/// With next to nothing left, or less, as when lost samples were paid for, a pen that moves is braked lightly: it pays
+/// back. Without that an empty budget would stay empty for ever, as no force does no work.
 Eigen::Vector3d PassivityController::within_budget(const Eigen::Vector3d& force) noexcept {
   longest_ = longest_payable(speed_ + sudden_speed);
-  if (left_ < 0.0) {
-    longest_ = strongest_brake;
-    return -strongest_brake / (speed_ + slow_pen) * velocity_;
+  if (left_ < empty_share * budget_) {
+    longest_ = left_ > 0.0 ? std::min(longest_, strongest_brake) : strongest_brake;
+    return -longest_ / (speed_ + slow_pen) * velocity_;
   }
   const double size = force.norm();
   return size > longest_ ? Eigen::Vector3d(force * (longest_ / size)) : force;

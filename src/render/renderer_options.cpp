@@ -55,17 +55,23 @@ StiffnessLimit usable_stiffness(const Capabilities& capabilities) {
   return {capabilities.usable_stiffness, reason.str()};
 }
 
-/// A pen that meets the paper at `meeting_speed` calls for a change of force of K times that; a limiter that gives less
-/// lags behind and throws it back.
+/// A pen that meets the paper calls for a change of force of K times its speed v; a limiter that gives less, or comes
+/// up to it too slowly for the swing of mass and spring, lags behind and throws the pen back, ever on. Found by
+/// simulation (docs/stability.md): no such swing where K v <= rate, and where K v / jerk, the time to come up to it, is
+/// at most two fifths of sqrt(m / K).
 StiffnessLimit followed_stiffness(const RendererOptions& options, const Capabilities& capabilities) {
-  constexpr double meeting_speed = 0.1;  // [m/s]
+  constexpr double meeting_speed = 0.2;  // [m/s]
   if (!options.limit_force_rate || !(capabilities.apparent_mass > 0.0)) {
     return {std::numeric_limits<double>::infinity(), ""};
   }
+  const double mass = capabilities.apparent_mass + options.softest_grip.mass;
+  const double by_rate = options.normal_force_rate / meeting_speed;
+  const double by_jerk = std::pow(0.4 * options.force_jerk * std::sqrt(mass) / meeting_speed, 2.0 / 3.0);
+  const double followed = std::min(by_rate, by_jerk);
   std::ostringstream reason;
-  reason << ": with normal_force_rate = " << options.normal_force_rate << " N/s the force follows a pen of "
-         << meeting_speed << " m/s up to " << options.normal_force_rate / meeting_speed << " N/m";
-  return {options.normal_force_rate / meeting_speed, reason.str()};
+  reason << ": with normal_force_rate = " << options.normal_force_rate << " N/s and force_jerk = " << options.force_jerk
+         << " N/s^2 the force follows a pen of " << meeting_speed << " m/s up to " << followed << " N/m";
+  return {followed, reason.str()};
 }
 
 StiffnessLimit stable_stiffness(const RendererOptions& options, const Capabilities& capabilities) {

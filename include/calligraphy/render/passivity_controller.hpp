@@ -32,9 +32,10 @@ struct PassivityOptions {
 /// deficit, energy dissipated, is forgotten: it is no credit.
 ///
 /// Budget: with E of the budget left, a force is shortened to what can be taken away at force_rate before a pen at its
-/// present speed (and 0.25 m/s more) has used up E. Energy that the hand gives flows back into E, up to the budget;
-/// when it is overdrawn, as lost samples are paid for generously, a brake of at most 0.1 N against the motion is all
-/// that remains, so that the pen pays back. The true work never exceeds the budget, whatever the field, as long as
+/// present speed (and 0.25 m/s more) has used up E. Energy that the hand gives flows back into E, up to the budget.
+/// With less than a thousandth of it left, or overdrawn, as lost samples are paid for generously, a brake of at most
+/// 0.1 N against the motion is all that remains, so that the pen pays back. The true work never exceeds the budget,
+/// whatever the field, as long as
 /// - a limit behind, if there is one, keeps a force within longest_force(), and one that is longer falls by
 ///   force_rate x period in every tick (ForceLimiter::next does so with that as `longest`);
 /// - the pen is never faster than 0.25 m/s above its speed at the last tick whose force was within longest_force(),

@@ -95,8 +95,8 @@ struct RendererOptions {
 /// Clips the stiffnesses to nine tenths of what is stable in the softest grip, at the options' rate and the device's
 /// sample delay, where the device states its mass; and to its usable stiffness, where it states one. The guidance
 /// counts with the largest attraction factor on the page, the pen's hold on the paper (friction) on top of it;
-/// paper_stiffness is also clipped to what normal_force_rate can follow at 0.1 m/s. With a motion scale K_S
-/// (MotionMapping) all count K_S^2 times: that is what the device feels of them.
+/// paper_stiffness is also clipped to what normal_force_rate and force_jerk can follow at 0.2 m/s. With a motion scale
+/// K_S (MotionMapping) all count K_S^2 times: that is what the device feels of them.
 /// @return what was clipped, each with its reason
 /// @throws ValueError naming the option when a stiffness is negative or not finite, or the rate is none
 std::vector<std::string> clip_stiffness(RendererOptions& options, const Capabilities& capabilities,
