@@ -76,19 +76,18 @@ std::string name_in_file(char32_t code) {
 }
 
 CLI::Option* add_device_option(CLI::App& command, std::string& device) {
-  return command.add_option("--device", device, "simulated:NAME with one of " + device_names())
+  return command.add_option("--device", device, "[simulated:]NAME with one of " + device_names())
       ->capture_default_str()
       ->type_name("DEVICE");
 }
 
 DeviceProfile chosen_device(const std::string& device) {
   const std::string kind = "simulated:";
-  if (device.rfind(kind, 0) == 0) {
-    for (const DeviceProfile& profile : device_profiles()) {
-      if (profile.name == device.substr(kind.size())) return profile;
-    }
+  const std::string name = device.rfind(kind, 0) == 0 ? device.substr(kind.size()) : device;
+  for (const DeviceProfile& profile : device_profiles()) {
+    if (profile.name == name) return profile;
   }
-  throw UsageError(fmt::format("--device: {}: expected simulated:NAME with one of {}", device, device_names()));
+  throw UsageError(fmt::format("--device: {}: expected [simulated:]NAME with one of {}", device, device_names()));
 }
 
 }  // namespace calligraphy::tools

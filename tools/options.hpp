@@ -24,7 +24,7 @@ std::string name_of(char32_t code);
 /// The character, or "U+002F" where it is no good in a file name.
 std::string name_in_file(char32_t code);
 
-/// --device simulated:NAME, the desktop unless told otherwise.
+/// --device [simulated:]NAME, the desktop unless told otherwise.
 CLI::Option* add_device_option(CLI::App& command, std::string& device);
 
 /// The profile that --device names. @throws UsageError naming those that there are

@@ -21,7 +21,23 @@ int strokes_drawn(const StrokeVerdict& verdict) {
                                         [](const DrawnStroke& drawn) { return drawn.stroke >= 0 || !drawn.tap; }));
 }
 
-std::string judged(int wrong, const char* what) { return wrong == 0 ? "right" : fmt::format("{} {}", wrong, what); }
+bool none_recognised(const StrokeVerdict& verdict) {
+  return std::none_of(verdict.drawn.begin(), verdict.drawn.end(),
+                      [](const DrawnStroke& drawn) { return drawn.stroke >= 0; });
+}
+
+std::string order_of(const StrokeVerdict& verdict) {
+  if (none_recognised(verdict)) return "not told";
+  const int wrong = verdict.count(RemarkKind::order);
+  return wrong == 0 ? "right" : fmt::format("{} out of turn", wrong);
+}
+
+std::string direction_of(const StrokeVerdict& verdict) {
+  if (none_recognised(verdict)) return "not told";
+  const int wrong = verdict.count(RemarkKind::direction), unclear = verdict.count(RemarkKind::shape);
+  if (wrong > 0) return fmt::format("{} backwards", wrong);
+  return unclear == 0 ? "right" : fmt::format("{} not told", unclear);
+}
 
 /// "1 joined, 2 missing"
 std::string others(const StrokeVerdict& verdict) {
@@ -94,9 +110,8 @@ std::string table(const ReplayReport& report) {
     const StrokeVerdict& verdict = trace.verdict;
     const std::string character = encode_utf8(trace.guided.character);
     text += fmt::format("{:>3} {}  {:>10}  {:<16}{:<14}{:<22}{:>11}{:>8}{:>8.2f}{:>11.3f}\n", trace.position, character,
-                        fmt::format("{}/{}", strokes_drawn(verdict), trace.guided.stroke_count),
-                        judged(verdict.count(RemarkKind::order), "out of turn"),
-                        judged(verdict.count(RemarkKind::direction), "backwards"), others(verdict),
+                        fmt::format("{}/{}", strokes_drawn(verdict), trace.guided.stroke_count), order_of(verdict),
+                        direction_of(verdict), others(verdict),
                         fmt::format("{}/{}", trace.guided.strokes_completed, trace.guided.stroke_count), trace.faults,
                         trace.guided.peak_force, trace.guided.max_force_step);
     for (const Remark& remark : verdict.remarks) {
@@ -107,12 +122,12 @@ std::string table(const ReplayReport& report) {
   text += fmt::format("limits of {}: force {:.2f} N, force step {:.3f} N/tick\n", report.device, report.peak_force,
                       report.max_force_step);
   if (!remarks.empty()) text += "\n" + remarks;
-  const auto right = [&report](RemarkKind kind) {
+  const auto right = [&report](std::string (*judged)(const StrokeVerdict&)) {
     return std::count_if(report.traces.begin(), report.traces.end(),
-                         [kind](const Replayed& trace) { return trace.verdict.count(kind) == 0; });
+                         [judged](const Replayed& trace) { return judged(trace.verdict) == "right"; });
   };
-  text += fmt::format("\n{} of {} in the right order, {} in the right direction\n", right(RemarkKind::order),
-                      report.traces.size(), right(RemarkKind::direction));
+  text += fmt::format("\n{} of {} in the right order, {} in the right direction\n", right(order_of),
+                      report.traces.size(), right(direction_of));
   if (!report.without_template.empty()) {
     text += fmt::format("{} without a template:", report.without_template.size());
     for (const char32_t code : report.without_template) text += " " + encode_utf8(code);

@@ -61,7 +61,7 @@ SampledLoop loop_of(const Options& options) {
   try {
     SampledLoop loop;
     if (options.device) {
-      const Capabilities& capabilities = device_profile(*options.device).capabilities;
+      const Capabilities capabilities = chosen_device(*options.device).capabilities;
       loop = sampled_loop(capabilities, capabilities.update_rate);
     } else if (!options.mass || !options.damping) {
       throw UsageError(std::string(options.mass ? "--damping" : "--mass") + " is missing, or --device");

@@ -137,7 +137,7 @@ class Refusals(ReplayTest):
         for arguments, words in (
                 ([], ["TRACES"]),
                 ([traces, "--only", ""], ["TEXT"]),
-                ([traces, "--device", "desktop"], ["--device", "simulated:NAME"]),
+                ([traces, "--device", "phantom"], ["--device", "simulated:", "desktop"]),
                 ([traces, "--out", ""], ["--out"]),
                 ([traces, "--renderer", "none"], ["--renderer"]),
                 ([traces, "more"], ["more"])):

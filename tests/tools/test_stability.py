@@ -65,6 +65,7 @@ class Point(ProgramTest):
 
     def test_a_device_tells_its_figures_and_options_change_them(self):
         own = self.point("--device", "omni")
+        self.assertEqual(own, self.point("--device", "simulated:omni"))
         self.assertEqual(own["loop"]["mass_kg"], 0.045)
         self.assertEqual(own["loop"]["coulomb_friction_N"], 0.26)
         self.assertEqual(own["passive_stiffness_N_per_m"], 200.0)
