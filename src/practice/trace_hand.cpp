@@ -7,15 +7,11 @@
 #include <calligraphy/error.hpp>
 
 #include "minimum_jerk.hpp"
+#include "pen_lift.hpp"
 
 namespace calligraphy {
 namespace {
 
-constexpr double raised_height = 0.008;     // pen above the paper between strokes [m]
-constexpr double pressed_depth = 0.0025;    // where the hand means to be while writing, below the paper [m]
-constexpr double lowering_time = 0.2;       // [s]
-constexpr double raising_time = 0.12;       // [s]
-constexpr double approach_speed = 0.12;     // mean, in the air, at most [m/s]
 constexpr double shortest_approach = 0.15;  // [s]
 constexpr double first_approach = 0.5;      // time to the first stroke [s]
 constexpr double longest_rest = 3.0;        // in the air, beyond which nothing is waited for [s]

@@ -9,15 +9,11 @@
 #include <calligraphy/error.hpp>
 
 #include "minimum_jerk.hpp"
+#include "pen_lift.hpp"
 
 namespace calligraphy {
 namespace {
 
-constexpr double raised_height = 0.008;    // pen above the paper between strokes [m]
-constexpr double pressed_depth = 0.0025;   // where the hand means to be while writing, below the paper [m]
-constexpr double lowering_time = 0.2;      // [s]
-constexpr double raising_time = 0.12;      // [s]
-constexpr double approach_speed = 0.12;    // mean, in the air [m/s]
 constexpr double shortest_approach = 0.2;  // [s]
 constexpr double shortest_element = 0.12;  // time for a hook or a dot [s]
 constexpr double longest_settling = 1.2;   // how long the writer looks for the end of a stroke or for a corner [s]
