@@ -1,9 +1,14 @@
 // The interface of every haptic device.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include <calligraphy/devices/device_state.hpp>
 
 namespace calligraphy {
+
+class ServoClock;
 
 /// A force-feedback device with three sensed and three driven translations. Several may be open at once.
 ///
@@ -23,6 +28,12 @@ class HapticDevice {
 
   /// Sets the force to zero and lets the device go; later reads say `disconnected`.
   virtual void close() noexcept = 0;
+
+  /// The device's own scheduler where that must be the clock of the servo loop; null: any clock will do.
+  virtual ServoClock* clock() noexcept { return nullptr; }
+
+  /// What the system did not permit to threads of the device's own, each with what to do; ServoLoop::start() tells it.
+  virtual std::vector<std::string> warnings() const { return {}; }
 };
 
 }  // namespace calligraphy

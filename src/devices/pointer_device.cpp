@@ -1,0 +1,102 @@
+#include <calligraphy/devices/pointer_device.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include <calligraphy/error.hpp>
+
+namespace calligraphy {
+namespace {
+
+void require(const char* name, double value, double smallest, double largest, const char* unit) {
+  if (std::isfinite(value) && value >= smallest && value <= largest) return;
+  std::ostringstream message;
+  message << "pointer: " << name << " is " << value << ", must be from " << smallest << " to " << largest << " "
+          << unit;
+  throw ValueError(message.str());
+}
+
+const PointerOptions& checked(const PointerOptions& options) {
+  require("rate", options.rate, 100.0, 1e5, "Hz");
+  require("smoothing time", options.smoothing_time, 0.0, 1.0, "s");
+  require("largest speed", options.largest_speed, 1e-3, 10.0, "m/s");
+  require("lifting speed", options.lifting_speed, 1e-3, 10.0, "m/s");
+  require("hover height", options.hover_height, 0.0, 0.1, "m");
+  require("press depth", options.press_depth, 0.0, 0.1, "m");
+  const Eigen::Matrix3d rotation = options.paper.linear();
+  if (!options.paper.matrix().allFinite() ||
+      !(rotation.transpose() * rotation).isApprox(Eigen::Matrix3d::Identity(), 1e-9) || rotation.determinant() < 0.0) {
+    throw ValueError("pointer: the paper's place is not a rotation and a shift");
+  }
+  return options;
+}
+
+/// Copies of a place while it changes are thrown away; a writer is done in some nanoseconds.
+constexpr int most_attempts = 8;
+
+}  // namespace
+
+PointerDevice::PointerDevice(const DeviceProfile& profile, const Hand& hand, const PointerOptions& options)
+    : options_(checked(options)),
+      device_(profile, hand, options.paper * Eigen::Vector3d(0.0, 0.0, options.hover_height)),
+      target_(0.0, 0.0, options.hover_height),
+      between_(target_),
+      meant_(target_) {
+  intention_.position = options_.paper * meant_;
+}
+
+void PointerDevice::move(double x, double y, double pressure, std::uint32_t buttons) noexcept {
+  if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(pressure)) return;
+  const double height = pressure > 0.0 ? -std::min(pressure, 1.0) * options_.press_depth : options_.hover_height;
+  const Eigen::Vector3d& workspace = device_.capabilities().workspace;  // from which no hand reaches twice as far
+  sequence_.fetch_add(1, std::memory_order_acquire);
+  place_[0].store(std::clamp(x, -workspace.x(), workspace.x()), std::memory_order_release);
+  place_[1].store(std::clamp(y, -workspace.y(), workspace.y()), std::memory_order_release);
+  place_[2].store(height, std::memory_order_release);
+  buttons_.store(buttons, std::memory_order_release);
+  sequence_.fetch_add(1, std::memory_order_release);
+}
+
+DeviceState PointerDevice::read() noexcept {
+  take_target();
+  follow();
+  device_.set_intention(intention_);
+  device_.advance(1.0 / options_.rate);
+  return device_.read();
+}
+
+void PointerDevice::take_target() noexcept {
+  for (int attempt = 0; attempt < most_attempts; ++attempt) {
+    const std::uint32_t before = sequence_.load(std::memory_order_acquire);
+    if (before == taken_) return;
+    if (before % 2 == 1) continue;
+    const Eigen::Vector3d place(place_[0].load(std::memory_order_acquire), place_[1].load(std::memory_order_acquire),
+                                place_[2].load(std::memory_order_acquire));
+    const std::uint32_t buttons = buttons_.load(std::memory_order_acquire);
+    if (sequence_.load(std::memory_order_relaxed) != before) continue;
+    taken_ = before;
+    target_ = place;
+    device_.set_buttons(buttons);
+    return;
+  }
+}
+
+/// Two equal lags in a row: a staircase of places becomes a path of continuous speed. The second is limited in speed,
+/// so that a pointer which leaps, or is lifted, does not fling the pen.
+void PointerDevice::follow() noexcept {
+  const double period = 1.0 / options_.rate;
+  const double lag = 0.5 * options_.smoothing_time;
+  const double share = lag > 0.0 ? -std::expm1(-period / lag) : 1.0;
+  between_ += share * (target_ - between_);
+  Eigen::Vector3d step = share * (between_ - meant_);
+  const double along = step.head<2>().norm();
+  const double longest = options_.largest_speed * period;
+  if (along > longest) step.head<2>() *= longest / along;
+  step.z() = std::clamp(step.z(), -options_.lifting_speed * period, options_.lifting_speed * period);
+  intention_.position = options_.paper * meant_;
+  intention_.velocity = options_.paper.linear() * step / period;
+  meant_ += step;
+}
+
+}  // namespace calligraphy

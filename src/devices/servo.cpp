@@ -1,0 +1,298 @@
+#include <calligraphy/devices/servo.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include <calligraphy/devices/flush_denormals.hpp>
+#include <calligraphy/error.hpp>
+
+namespace calligraphy {
+namespace {
+
+constexpr std::uint64_t owner_bits = 2;  // below the count of changes
+constexpr int fault_shift = 8;           // within the packed status
+
+std::uint64_t with_fault(std::uint64_t status, DeviceFault fault) noexcept {
+  return (status & ~(std::uint64_t{0xff} << fault_shift)) | (static_cast<std::uint64_t>(fault) << fault_shift);
+}
+
+double monotonic_seconds() noexcept {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+void require(bool valid, const char* name, double value, const char* domain) {
+  if (valid) return;
+  std::ostringstream message;
+  message << "servo loop: " << name << " is " << value << ", must be " << domain;
+  throw ValueError(message.str());
+}
+
+ServoOptions checked(ServoOptions options) {
+  require(options.rate >= 1.0 && options.rate <= 1e5, "rate", options.rate, "from 1 to 100000 Hz");
+  require(options.patience >= 2.0 / options.rate && options.patience <= 1.0, "patience", options.patience,
+          "from two periods of the rate to 1 s");
+  if (options.work_clock == nullptr) options.work_clock = monotonic_seconds;
+  options.patience += 1e-3 / options.rate;  // sums of ticks that should come to it exactly are a little beside
+  return options;
+}
+
+/// Written by one thread alone.
+void increment(std::atomic<std::uint64_t>& count, std::uint64_t by = 1) noexcept {
+  count.store(count.load(std::memory_order_relaxed) + by, std::memory_order_relaxed);
+}
+
+/// A device that says no more than that it cannot go on.
+DeviceFault unnamed_fault(DeviceStatus status) noexcept {
+  switch (status) {
+    case DeviceStatus::disconnected:
+      return DeviceFault::unplugged;
+    case DeviceStatus::needs_calibration:
+      return DeviceFault::uncalibrated;
+    case DeviceStatus::stale:
+      return DeviceFault::silent;
+    default:
+      return DeviceFault::device_error;
+  }
+}
+
+/// The servo whose force law this thread is in.
+thread_local const Servo* asking = nullptr;
+
+}  // namespace
+
+Servo::Servo(HapticDevice& device, ForceLaw law, const ServoOptions& options)
+    : device_(device), law_(std::move(law)), options_(checked(options)), guard_(options.fall_time, options.rise_time) {
+  const double peak = device.capabilities().peak_force;
+  if (peak > 0.0) peak_force_ = peak;  // 0 is "not known"
+  if (!law_) throw ValueError("servo loop: the force law is empty");
+}
+
+void Servo::step(double now) noexcept {
+  // Decaying filters of the force law end in denormal numbers, whatever thread this is.
+  const FlushDenormals flush;
+  std::uint64_t owner = owner_.load(std::memory_order_acquire);
+  if (owner_of(owner) != Owner::nobody || !hand_over(owner, Owner::tick)) {
+    idle_ticks_.fetch_add(1, std::memory_order_relaxed);
+    return;
+  }
+  const double period = 1.0 / options_.rate;
+  const double begun = options_.work_clock();
+  const double elapsed = elapsed_since_last_tick(now);
+  const DeviceState sample = device_.read();
+  device_status_ = sample.status;
+  const bool released = released_.load(std::memory_order_relaxed);
+  DeviceFault fault = judge(sample, elapsed);
+
+  if (fault == DeviceFault::none && !released && sample.status != DeviceStatus::stale) {
+    hand_over(owner, Owner::law);
+    Eigen::Vector3d force;
+    const double asked = options_.work_clock();
+    const bool answered = ask(sample, force);
+    const double answer_time = options_.work_clock() - asked;
+    if (!hand_over(owner, Owner::tick)) {  // the watchdog has taken the device meanwhile
+      idle_ticks_.fetch_add(1, std::memory_order_relaxed);
+      return;
+    }
+    if (!answered) {
+      fault = DeviceFault::bad_force;
+    } else if (answer_time > options_.patience) {
+      fault = DeviceFault::slow_force_law;
+    } else {
+      guard_.pass(force, std::min(elapsed, period));  // what a late clock left out does not rise
+    }
+  } else if (fault == DeviceFault::none && released) {
+    guard_.fall(guard_.fault(), elapsed, period);
+  } else if (fault == DeviceFault::none) {
+    guard_.hold(elapsed);
+  }
+  if (fault != DeviceFault::none) guard_.fall(fault, elapsed, period);
+  if (fault != DeviceFault::none && fault != last_fault_) count_fault(fault);
+  last_fault_ = fault;
+
+  device_.write(guard_.force());
+  publish();
+  increment(ticks_);
+  work_.add(options_.work_clock() - begun);
+  hand_over(owner, Owner::nobody);
+}
+
+/// Also counts what the clock left out.
+double Servo::elapsed_since_last_tick(double now) noexcept {
+  const double period = 1.0 / options_.rate;
+  if (!std::isfinite(now)) {
+    increment(standing_);
+    return period;
+  }
+  const double elapsed = now - std::exchange(last_time_, now);
+  if (!std::exchange(has_time_, true)) return period;
+  if (!(elapsed > 0.0)) {
+    increment(standing_);
+    return period;
+  }
+  periods_.add(elapsed);
+  const double periods = std::min(std::round(elapsed * options_.rate), 1e15);
+  if (periods > 1.0) increment(missed_, static_cast<std::uint64_t>(periods) - 1);
+  return elapsed;
+}
+
+DeviceFault Servo::judge(const DeviceState& sample, double elapsed) noexcept {
+  // Where the force is at zero a gap does no harm, and the fault that brought it there keeps its name.
+  const bool gap = elapsed > options_.patience && guard_.phase() != ServoPhase::zero;
+  if (sample.status == DeviceStatus::stale) {
+    increment(stale_);
+    stale_for_ += elapsed;
+  } else {
+    stale_for_ = 0.0;
+  }
+  const DeviceFault named = sample.fault != DeviceFault::none ? sample.fault : unnamed_fault(sample.status);
+  switch (sample.status) {
+    case DeviceStatus::ok:
+    case DeviceStatus::warm_motors:
+      // A velocity that the device does not measure is not a number; one that is infinite is no velocity.
+      if (!sample.position.allFinite() || sample.velocity.array().isInf().any()) return DeviceFault::corrupted_frame;
+      break;
+    case DeviceStatus::stale:
+      if (stale_for_ > options_.patience) return named;
+      break;
+    default:
+      return named;
+  }
+  return gap ? DeviceFault::late_clock : DeviceFault::none;
+}
+
+bool Servo::ask(const DeviceState& sample, Eigen::Vector3d& force) noexcept {
+  asking = this;
+  bool answered = true;
+  try {
+    force = law_(sample);
+  } catch (...) {
+    answered = false;
+  }
+  asking = nullptr;
+  if (!answered) return false;
+  const double norm = force.norm();
+  if (!std::isfinite(norm)) return false;
+  if (norm > peak_force_) force *= peak_force_ / norm;
+  return true;
+}
+
+bool Servo::in_law() const noexcept { return asking == this; }
+
+void Servo::supervise(double now) noexcept {
+  const double period = 1.0 / options_.rate;
+  double elapsed = 0.0;
+  if (std::isfinite(now)) {
+    if (std::exchange(watch_has_time_, true) && now > watch_time_) elapsed = now - watch_time_;
+    watch_time_ = now;
+  }
+  std::uint64_t owner = owner_.load(std::memory_order_acquire);
+  if (owner_of(owner) == Owner::watchdog) {
+    let_fall(owner, elapsed);
+    return;
+  }
+  if (owner != watched_owner_) {
+    watched_owner_ = owner;
+    unchanged_for_ = 0.0;
+    return;
+  }
+  unchanged_for_ += elapsed;
+  if (unchanged_for_ <= options_.patience || owner == dealt_with_) return;
+
+  dealt_with_ = owner;
+  const Owner who = owner_of(owner);
+  if (who == Owner::tick) {
+    // Within read() or write(): out of reach.
+    count_fault(DeviceFault::timed_out);
+    std::uint64_t told = status_.load(std::memory_order_relaxed);
+    status_.compare_exchange_strong(told, with_fault(told, DeviceFault::timed_out), std::memory_order_relaxed);
+    return;
+  }
+  if (!hand_over(owner, Owner::watchdog)) return;  // it has just gone on
+  if (released_.load(std::memory_order_relaxed) && guard_.phase() == ServoPhase::zero) {
+    give_back(owner);  // a loop that ends may let its clock end first
+    return;
+  }
+  reason_ = who == Owner::law ? DeviceFault::slow_force_law : DeviceFault::late_clock;
+  taken_over_.fetch_add(1, std::memory_order_relaxed);
+  count_fault(reason_);
+  let_fall(owner, std::min(elapsed, period));
+}
+
+/// The watchdog's tick while it has the device: the same fall as that of the servo.
+void Servo::let_fall(std::uint64_t owner, double elapsed) noexcept {
+  guard_.fall(reason_, elapsed, 1.0 / options_.rate);
+  device_.write(guard_.force());
+  publish();
+  if (guard_.phase() != ServoPhase::zero) return;
+  give_back(owner);
+}
+
+void Servo::give_back(std::uint64_t owner) noexcept {
+  hand_over(owner, Owner::nobody);
+  watched_owner_ = dealt_with_ = owner;  // not to be taken again until a tick has come
+}
+
+void Servo::reset() noexcept {
+  guard_.reset();
+  device_.write(Eigen::Vector3d::Zero());
+  publish();
+  owner_.store(0, std::memory_order_release);
+  released_.store(false, std::memory_order_relaxed);
+  last_fault_ = reason_ = DeviceFault::none;
+  has_time_ = watch_has_time_ = false;
+  stale_for_ = unchanged_for_ = 0.0;
+  watched_owner_ = dealt_with_ = 0;
+}
+
+/// From what the caller saw to another owner, unless somebody has changed it since; `owner` is then the new word.
+bool Servo::hand_over(std::uint64_t& owner, Owner to) noexcept {
+  const std::uint64_t next = (((owner >> owner_bits) + 1) << owner_bits) | static_cast<std::uint64_t>(to);
+  std::uint64_t expected = owner;
+  if (!owner_.compare_exchange_strong(expected, next, std::memory_order_acq_rel, std::memory_order_acquire))
+    return false;
+  owner = next;
+  return true;
+}
+
+void Servo::count_fault(DeviceFault fault) noexcept {
+  faults_[static_cast<std::size_t>(fault)].fetch_add(1, std::memory_order_relaxed);
+}
+
+/// Phase, fault and device status in a byte each, the gain as a float: one word, so that they belong together.
+void Servo::publish() noexcept {
+  const auto gain = std::bit_cast<std::uint32_t>(static_cast<float>(guard_.gain()));
+  const std::uint64_t word = (std::uint64_t{gain} << 32) | (static_cast<std::uint64_t>(device_status_) << 16) |
+                             (static_cast<std::uint64_t>(guard_.fault()) << fault_shift) |
+                             static_cast<std::uint64_t>(guard_.phase());
+  status_.store(word, std::memory_order_relaxed);
+}
+
+ServoStatus Servo::status() const noexcept {
+  const std::uint64_t word = status_.load(std::memory_order_relaxed);
+  ServoStatus status;
+  status.phase = static_cast<ServoPhase>(word & 0xff);
+  status.fault = static_cast<DeviceFault>((word >> fault_shift) & 0xff);
+  status.device = static_cast<DeviceStatus>((word >> 16) & 0xff);
+  status.gain = std::bit_cast<float>(static_cast<std::uint32_t>(word >> 32));
+  return status;
+}
+
+ServoStatistics Servo::statistics() const noexcept {
+  ServoStatistics result;
+  result.period = periods_.figures();
+  result.work = work_.figures();
+  result.ticks = ticks_.load(std::memory_order_relaxed);
+  result.missed_deadlines = missed_.load(std::memory_order_relaxed);
+  result.stale_samples = stale_.load(std::memory_order_relaxed);
+  result.standing_clock = standing_.load(std::memory_order_relaxed);
+  result.taken_over = taken_over_.load(std::memory_order_relaxed);
+  result.idle_ticks = idle_ticks_.load(std::memory_order_relaxed);
+  for (std::size_t i = 0; i < faults_.size(); ++i) result.faults[i] = faults_[i].load(std::memory_order_relaxed);
+  return result;
+}
+
+}  // namespace calligraphy

@@ -1,0 +1,780 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <calligraphy/devices/servo.hpp>
+#include <calligraphy/devices/simulated_device.hpp>
+#include <calligraphy/error.hpp>
+
+#include "../allocation_counter.hpp"
+#include "../catch.hpp"
+#include "watched_device.hpp"
+
+using namespace calligraphy;
+using calligraphy_test::WatchedDevice;
+
+namespace {
+
+constexpr double period = 1e-3;  // [s]
+constexpr double wanted = 2.0;   // [N]
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double virtual_time = 0.0;  // [s]
+double virtual_clock() noexcept { return virtual_time; }
+
+/// A servo with its device, its clock and its watchdog, all in virtual time.
+struct Bench {
+  explicit Bench(ServoOptions options = {})
+      : servo(
+            device, [this](const DeviceState& s) { return law(s); }, timed(options)) {
+    virtual_time = 0.0;
+  }
+
+  static ServoOptions timed(ServoOptions options) {
+    options.work_clock = virtual_clock;
+    return options;
+  }
+
+  void tick() {
+    virtual_time += period;
+    servo.step(virtual_time);
+    servo.supervise(virtual_time);
+  }
+  void ticks(int count) {
+    for (int i = 0; i < count; ++i) tick();
+  }
+  /// Time passes with the watchdog alone.
+  void wait(int milliseconds) {
+    for (int i = 0; i < milliseconds; ++i) {
+      virtual_time += 1e-3;
+      servo.supervise(virtual_time);
+    }
+  }
+  /// Runs until the whole force is sent.
+  void warm_up() {
+    ticks(250);
+    REQUIRE(servo.status().phase == ServoPhase::running);
+    REQUIRE(device.last() == wanted);
+    device.forces.clear();
+  }
+
+  WatchedDevice device;
+  std::function<Eigen::Vector3d(const DeviceState&)> law = [](const DeviceState&) {
+    return Eigen::Vector3d(wanted, 0.0, 0.0);
+  };
+  Servo servo;
+};
+
+/// The forces of a fall in ticks of a millisecond: nine tenths, eight tenths, ... zero.
+void check_fall(const std::vector<Eigen::Vector3d>& forces, std::size_t first = 0) {
+  REQUIRE(forces.size() >= first + 10);
+  for (std::size_t i = 0; i < 10; ++i) {
+    CAPTURE(i);
+    CHECK(forces[first + i].x() == Approx(wanted * (0.9 - 0.1 * static_cast<double>(i))).margin(1e-12));
+  }
+  CHECK(forces[first + 9].isZero(0.0));
+}
+
+double largest_step(const std::vector<Eigen::Vector3d>& forces, double before) {
+  double largest = 0.0;
+  for (const Eigen::Vector3d& force : forces) {
+    largest = std::max(largest, std::abs(force.x() - before));
+    before = force.x();
+  }
+  return largest;
+}
+
+/// The device has come back, or the law: the force grows from zero by a two hundredth a tick.
+void check_return(Bench& bench) {
+  const double before = bench.device.last();
+  CHECK(before <= wanted * 0.151);
+  bench.device.forces.clear();
+  bench.ticks(250);
+  CHECK(largest_step(bench.device.forces, before) <= wanted * 1.001 / 200.0);
+  CHECK(bench.device.last() == wanted);
+  CHECK(bench.servo.status().phase == ServoPhase::running);
+  CHECK(bench.servo.status().fault == DeviceFault::none);
+}
+
+std::string error_of(const ServoOptions& options) {
+  WatchedDevice device;
+  try {
+    Servo servo(
+        device, [](const DeviceState&) { return Eigen::Vector3d::Zero().eval(); }, options);
+  } catch (const ValueError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("a servo begins with no force, which rises in a straight line to what the law wants", "[servo]") {
+  Bench bench;
+  bench.ticks(199);
+  for (std::size_t i = 0; i < 199; ++i) {
+    CHECK(bench.device.forces[i].x() == Approx(wanted * static_cast<double>(i + 1) / 200.0));
+  }
+  CHECK(bench.servo.status().phase == ServoPhase::rising);
+  bench.ticks(2);
+  CHECK(bench.device.last() == wanted);
+  CHECK(bench.servo.status().phase == ServoPhase::running);
+}
+
+TEST_CASE("the law sees each fresh sample once and its force is written in the same tick", "[servo]") {
+  Bench bench;
+  bench.warm_up();
+  int calls = 0;
+  bench.law = [&](const DeviceState& state) {
+    ++calls;
+    return Eigen::Vector3d(0.0, state.position.y(), 0.0);
+  };
+  for (int i = 1; i <= 10; ++i) {
+    bench.device.state.position.y() = i;
+    bench.tick();
+    CHECK(bench.device.forces.back() == Eigen::Vector3d(0.0, i, 0.0));
+  }
+  CHECK(calls == 10);
+}
+
+TEST_CASE("a device that cannot be used gets a force that falls to zero in 10 ms, and its fault is named", "[servo]") {
+  struct Case {
+    DeviceStatus status;
+    DeviceFault reason, named;
+  };
+  const Case each = GENERATE(Case{DeviceStatus::disconnected, DeviceFault::none, DeviceFault::unplugged},
+                             Case{DeviceStatus::disconnected, DeviceFault::link_error, DeviceFault::link_error},
+                             Case{DeviceStatus::needs_calibration, DeviceFault::none, DeviceFault::uncalibrated},
+                             Case{DeviceStatus::fault, DeviceFault::none, DeviceFault::device_error},
+                             Case{DeviceStatus::fault, DeviceFault::stalled, DeviceFault::stalled},
+                             Case{DeviceStatus::fault, DeviceFault::overheated, DeviceFault::overheated});
+  CAPTURE(fault_name(each.named));
+  Bench bench;
+  bench.warm_up();
+  int calls = 0;
+  bench.law = [&](const DeviceState&) {
+    ++calls;
+    return Eigen::Vector3d(wanted, 0.0, 0.0);
+  };
+  bench.device.state.status = each.status;
+  bench.device.state.fault = each.reason;
+  bench.ticks(30);
+  check_fall(bench.device.forces);
+  CHECK(std::all_of(bench.device.forces.begin() + 9, bench.device.forces.end(),
+                    [](const Eigen::Vector3d& force) { return force.isZero(0.0); }));
+  CHECK(calls == 0);
+  CHECK(bench.servo.status().phase == ServoPhase::zero);
+  CHECK(bench.servo.status().fault == each.named);
+  CHECK(bench.servo.status().device == each.status);
+  CHECK(bench.servo.statistics().fault_count(each.named) == 1);
+
+  bench.device.state = {};
+  check_return(bench);
+  CHECK(bench.servo.statistics().fault_count(each.named) == 1);
+}
+
+TEST_CASE("warm motors are no reason to let the force fall", "[servo]") {
+  Bench bench;
+  bench.warm_up();
+  bench.device.state.status = DeviceStatus::warm_motors;
+  bench.ticks(10);
+  CHECK(bench.device.last() == wanted);
+  CHECK(bench.servo.status().device == DeviceStatus::warm_motors);
+}
+
+TEST_CASE("a fall goes down to zero even when the fault is over sooner", "[servo]") {
+  Bench bench;
+  bench.warm_up();
+  bench.device.state.status = DeviceStatus::fault;
+  bench.tick();
+  bench.device.state.status = DeviceStatus::ok;
+  bench.ticks(9);
+  check_fall(bench.device.forces);
+  check_return(bench);
+}
+
+TEST_CASE("a fault while the force rises lets it fall from where it is", "[servo]") {
+  Bench bench;
+  bench.ticks(100);
+  CHECK(bench.device.last() == Approx(0.5 * wanted));
+  bench.device.forces.clear();
+  bench.device.state.status = DeviceStatus::fault;
+  bench.ticks(10);
+  CHECK(bench.device.forces[0].x() == Approx(0.45 * wanted));
+  CHECK(bench.device.forces[9].isZero(0.0));
+}
+
+TEST_CASE("a stale sample holds the force for 4 ms, and a longer silence lets it fall within 20 ms", "[servo]") {
+  Bench bench;
+  bench.warm_up();
+  int calls = 0;
+  bench.law = [&](const DeviceState&) {
+    ++calls;
+    return Eigen::Vector3d(wanted, 0.0, 0.0);
+  };
+  bench.device.state.status = DeviceStatus::stale;
+  bench.ticks(4);
+  CHECK(bench.device.last() == wanted);
+  CHECK(calls == 0);
+  bench.device.state.status = DeviceStatus::ok;
+  bench.tick();
+  CHECK(calls == 1);
+  CHECK(bench.device.last() == wanted);
+
+  bench.device.forces.clear();
+  bench.device.state.status = DeviceStatus::stale;
+  const DeviceFault reason = GENERATE(DeviceFault::none, DeviceFault::timed_out);
+  bench.device.state.fault = reason;
+  bench.ticks(20);
+  check_fall(bench.device.forces, 4);
+  CHECK(bench.servo.status().fault == (reason == DeviceFault::none ? DeviceFault::silent : reason));
+  CHECK(bench.servo.statistics().stale_samples == 24);
+  bench.device.state = {};
+  check_return(bench);
+}
+
+TEST_CASE("an ok sample that is not finite is a corrupted one, and the law does not see it", "[servo]") {
+  const double bad = GENERATE(as<double>{}, not_a_number, infinity, -infinity);
+  Bench bench;
+  bench.warm_up();
+  bench.law = [](const DeviceState& state) { return Eigen::Vector3d(wanted + 0.0 * state.position.z(), 0.0, 0.0); };
+  bench.device.state.position.z() = bad;
+  bench.ticks(10);
+  check_fall(bench.device.forces);
+  CHECK(bench.servo.status().fault == DeviceFault::corrupted_frame);
+  bench.device.state = {};
+  check_return(bench);
+}
+
+TEST_CASE("a velocity that is not measured is no fault, an infinite one is", "[servo]") {
+  Bench bench;
+  bench.warm_up();
+  bench.device.state.velocity.setConstant(not_a_number);
+  bench.ticks(10);
+  CHECK(bench.device.last() == wanted);
+  bench.device.state.velocity.x() = infinity;
+  bench.ticks(10);
+  CHECK(bench.device.last() == 0.0);
+}
+
+TEST_CASE("a law that throws or gives no number is counted, and the last good force falls", "[servo]") {
+  const int kind = GENERATE(0, 1, 2, 3);
+  Bench bench;
+  bench.warm_up();
+  const auto good = bench.law;
+  bench.law = [kind](const DeviceState&) -> Eigen::Vector3d {
+    if (kind == 0) throw std::runtime_error("no force today");
+    if (kind == 1) throw 42;
+    return {0.0, kind == 2 ? not_a_number : -infinity, 0.0};
+  };
+  bench.ticks(15);
+  check_fall(bench.device.forces);
+  CHECK(bench.servo.status().fault == DeviceFault::bad_force);
+  CHECK(bench.servo.statistics().fault_count(DeviceFault::bad_force) == 1);
+  bench.law = good;
+  check_return(bench);
+}
+
+TEST_CASE("a force beyond the device's peak is shortened to it, and one too long for a number is none", "[servo]") {
+  WatchedDevice device(3.3);
+  Eigen::Vector3d asked(1e6, -1e6, 0.0);
+  ServoOptions options = Bench::timed({});
+  options.rise_time = 0.0;
+  virtual_time = 0.0;
+  Servo servo(
+      device, [&asked](const DeviceState&) { return asked; }, options);
+  const auto tick = [&servo] { servo.step(virtual_time += period); };
+  for (int i = 0; i < 5; ++i) tick();
+  CHECK(device.forces.back().isApprox(3.3 * Eigen::Vector3d(1.0, -1.0, 0.0).normalized(), 1e-12));
+  asked = {1.0, 2.0, -2.0};
+  tick();
+  CHECK(device.forces.back() == asked);
+  asked = {1e300, 1e300, 0.0};
+  for (int i = 0; i < 12; ++i) tick();
+  CHECK(device.forces.back().isZero(0.0));
+  CHECK(servo.status().fault == DeviceFault::bad_force);
+}
+
+TEST_CASE("a law that takes longer than the patience gives a force that is not written", "[servo]") {
+  Bench bench;
+  bench.warm_up();
+  const auto good = bench.law;
+  bench.law = [](const DeviceState&) {
+    virtual_time += 4.5e-3;
+    return Eigen::Vector3d(100.0, 0.0, 0.0);
+  };
+  bench.ticks(10);  // without a watchdog that looks meanwhile
+  CHECK(bench.device.forces[0].x() == Approx(0.9 * wanted));
+  CHECK(std::all_of(bench.device.forces.begin(), bench.device.forces.end(),
+                    [](const Eigen::Vector3d& force) { return force.x() < wanted; }));
+  CHECK(bench.device.last() == 0.0);
+  CHECK(bench.servo.status().fault == DeviceFault::slow_force_law);
+  bench.law = good;
+  bench.tick();  // the clock has leapt once more, with no force to be held
+  check_return(bench);
+}
+
+TEST_CASE("the watchdog takes the device from a law that hangs, and zero is reached within 20 ms", "[servo]") {
+  Bench bench;
+  bench.warm_up();
+  const auto good = bench.law;
+  double zero_after = infinity;
+  bench.law = [&](const DeviceState&) {
+    const double begun = virtual_time;
+    for (int i = 0; i < 100; ++i) {
+      bench.wait(1);
+      if (bench.device.last() == 0.0 && !bench.device.forces.empty()) {
+        zero_after = std::min(zero_after, virtual_time - begun);
+      }
+    }
+    return Eigen::Vector3d(100.0, 0.0, 0.0);
+  };
+  bench.tick();
+  check_fall(bench.device.forces);
+  CHECK(bench.device.forces.size() == 10);  // not written to again: neither by the watchdog nor by the late tick
+  CHECK(zero_after <= 0.016 + 1e-9);
+  CHECK(bench.servo.status().phase == ServoPhase::zero);
+  CHECK(bench.servo.status().fault == DeviceFault::slow_force_law);
+  const ServoStatistics statistics = bench.servo.statistics();
+  CHECK(statistics.taken_over == 1);
+  CHECK(statistics.idle_ticks == 1);
+  CHECK(statistics.fault_count(DeviceFault::slow_force_law) == 1);
+  bench.law = good;
+  check_return(bench);
+  CHECK(bench.servo.statistics().fault_count(DeviceFault::late_clock) == 0);
+  CHECK_FALSE(bench.device.touched_by_two);
+}
+
+TEST_CASE("a law that returns while the watchdog lets the force fall writes nothing", "[servo]") {
+  Bench bench;
+  bench.warm_up();
+  const auto good = bench.law;
+  bench.law = [&](const DeviceState&) {
+    bench.wait(9);  // taken after 5, four of the ten steps of the fall are done
+    return Eigen::Vector3d(100.0, 0.0, 0.0);
+  };
+  bench.servo.step(virtual_time += period);
+  bench.law = good;
+  const long reads = bench.device.reads;
+  for (int i = 0; i < 3; ++i) bench.tick();  // the watchdog has the device
+  CHECK(bench.device.reads == reads);
+  CHECK(bench.servo.statistics().idle_ticks == 4);
+  bench.ticks(3);
+  check_fall(bench.device.forces);
+  check_return(bench);
+}
+
+TEST_CASE("when the clock stops, the watchdog lets the force fall, once, and the loop goes on when ticks return",
+          "[servo]") {
+  Bench bench;
+  bench.warm_up();
+  bench.wait(16);
+  check_fall(bench.device.forces);
+  CHECK(bench.servo.status().fault == DeviceFault::late_clock);
+  bench.wait(1000);
+  CHECK(bench.device.forces.size() == 10);
+  CHECK(bench.servo.statistics().taken_over == 1);
+  CHECK(bench.servo.statistics().fault_count(DeviceFault::late_clock) == 1);
+  check_return(bench);
+  CHECK(bench.servo.statistics().fault_count(DeviceFault::late_clock) == 1);
+}
+
+TEST_CASE("the watchdog leaves a loop alone that ticks, however slowly its patience allows", "[servo]") {
+  Bench bench;
+  bench.warm_up();
+  for (int i = 0; i < 100; ++i) {
+    bench.wait(3);
+    bench.tick();
+  }
+  CHECK(bench.servo.statistics().taken_over == 0);
+  CHECK(bench.device.last() == wanted);
+}
+
+TEST_CASE("nobody touches a device whose read hangs, and the status says timed out", "[servo]") {
+  Bench bench;
+  bench.warm_up();
+  bench.device.while_reading = [&] {
+    bench.wait(100);
+    CHECK(bench.device.forces.empty());
+    CHECK(bench.servo.status().fault == DeviceFault::timed_out);
+    CHECK(bench.servo.status().phase == ServoPhase::running);
+  };
+  bench.tick();
+  CHECK(bench.servo.statistics().fault_count(DeviceFault::timed_out) == 1);
+  CHECK(bench.servo.statistics().taken_over == 0);
+  CHECK_FALSE(bench.device.touched_by_two);
+  bench.device.while_reading = nullptr;
+  bench.ticks(15);  // so long without a tick: a late clock, once the device answers again
+  CHECK(bench.servo.statistics().fault_count(DeviceFault::late_clock) == 1);
+  check_return(bench);
+}
+
+TEST_CASE("a clock that leaps lets the force fall without a leap of its own", "[servo]") {
+  const double leap = GENERATE(4.6e-3, 0.1, 3600.0, 1e6);
+  Bench bench;
+  bench.warm_up();
+  double now = virtual_time + leap;
+  for (int i = 0; i < 10; ++i) bench.servo.step(now += period);
+  check_fall(bench.device.forces);
+  CHECK(bench.servo.statistics().fault_count(DeviceFault::late_clock) == 1);
+}
+
+TEST_CASE("a clock that stands still, runs back or is no number still makes ticks of a period", "[servo]") {
+  const double step = GENERATE(as<double>{}, 0.0, -1e-3, -1e9, not_a_number, infinity);
+  Bench bench;
+  bench.warm_up();
+  bench.device.state.status = DeviceStatus::fault;
+  double now = virtual_time;
+  for (int i = 0; i < 10; ++i) bench.servo.step(now += step);
+  check_fall(bench.device.forces);
+  CHECK(bench.servo.statistics().standing_clock == 10);
+  bench.device.state = {};
+  for (int i = 0; i < 250; ++i) bench.servo.step(now += step);
+  CHECK(bench.device.last() == wanted);
+}
+
+TEST_CASE("the watchdog's own clock may stand still, run back or be no number", "[servo]") {
+  Bench bench;
+  bench.warm_up();
+  for (const double now :
+       {virtual_time, virtual_time - 100.0, not_a_number, -infinity, infinity, virtual_time - 200.0}) {
+    bench.servo.supervise(now);
+  }
+  CHECK(bench.servo.statistics().taken_over == 0);
+  double now = virtual_time - 200.0;
+  for (int i = 0; i < 16; ++i) bench.servo.supervise(now += 1e-3);
+  CHECK(bench.device.last() == 0.0);
+}
+
+TEST_CASE("a tick within a tick does nothing", "[servo]") {
+  Bench bench;
+  bench.warm_up();
+  bench.law = [&](const DeviceState&) {
+    bench.servo.step(virtual_time);
+    return Eigen::Vector3d(wanted, 0.0, 0.0);
+  };
+  const long reads = bench.device.reads;
+  bench.ticks(10);
+  CHECK(bench.device.reads == reads + 10);
+  CHECK(bench.device.forces.size() == 10);
+  CHECK(bench.servo.statistics().idle_ticks == 10);
+}
+
+TEST_CASE("a loop that ends well does not name a fault that is over", "[servo]") {
+  Bench bench;
+  bench.warm_up();
+  bench.wait(20);
+  CHECK(bench.servo.status().fault == DeviceFault::late_clock);
+  bench.warm_up();
+  bench.servo.release();
+  bench.ticks(20);
+  bench.wait(20);
+  CHECK(bench.servo.status().fault == DeviceFault::none);
+  CHECK(bench.servo.status().phase == ServoPhase::zero);
+  CHECK(bench.servo.statistics().taken_over == 1);
+}
+
+TEST_CASE("a released servo lets the force fall, asks the law no more and stays at zero until it is reset", "[servo]") {
+  Bench bench;
+  bench.warm_up();
+  bench.servo.release();
+  int calls = 0;
+  const auto good = bench.law;
+  bench.law = [&](const DeviceState& state) {
+    ++calls;
+    return good(state);
+  };
+  bench.ticks(300);
+  check_fall(bench.device.forces);
+  CHECK(bench.device.last() == 0.0);
+  CHECK(calls == 0);
+  bench.wait(100);  // and a clock that has ended is no fault then
+  CHECK(bench.servo.statistics().taken_over == 0);
+  CHECK(bench.servo.status().fault == DeviceFault::none);
+  bench.servo.reset();
+  check_return(bench);
+}
+
+TEST_CASE("a servo whose clock stops once it is released falls to zero all the same", "[servo]") {
+  Bench bench;
+  bench.warm_up();
+  bench.servo.release();
+  bench.wait(16);
+  check_fall(bench.device.forces);
+}
+
+TEST_CASE("a reset leaves the force at zero", "[servo]") {
+  Bench bench;
+  bench.warm_up();
+  bench.servo.reset();
+  CHECK(bench.device.last() == 0.0);
+  CHECK(bench.servo.status().phase == ServoPhase::zero);
+}
+
+TEST_CASE("the time between two runs is no period of either", "[servo]") {
+  Bench bench;
+  bench.ticks(10);
+  bench.servo.reset();
+  virtual_time += 100.0;
+  bench.ticks(10);
+  CHECK(bench.servo.statistics().missed_deadlines == 0);
+  CHECK(bench.servo.statistics().period.worst == Approx(period));
+  CHECK(bench.servo.statistics().taken_over == 0);
+}
+
+TEST_CASE("before the first tick the watchdog has nothing to do", "[servo]") {
+  Bench bench;
+  bench.wait(1000);
+  CHECK(bench.device.forces.empty());
+  CHECK(bench.servo.statistics().taken_over == 0);
+}
+
+TEST_CASE("periods, work and missed deadlines are counted as the clocks tell them", "[servo]") {
+  Bench bench;
+  bench.law = [](const DeviceState&) {
+    virtual_time += 0.25e-3;
+    return Eigen::Vector3d(wanted, 0.0, 0.0);
+  };
+  double now = 0.0;
+  for (int i = 0; i < 1000; ++i) bench.servo.step(now += period);
+  bench.servo.step(now += 2.0 * period);
+  CHECK(bench.servo.statistics().missed_deadlines == 1);
+  bench.servo.step(now += 3.0 * period);
+  const ServoStatistics statistics = bench.servo.statistics();
+  CHECK(statistics.ticks == 1002);
+  CHECK(statistics.missed_deadlines == 3);
+  CHECK(statistics.period.count == 1001);
+  CHECK(statistics.period.p50 == Approx(1e-3).epsilon(DurationHistogram::relative_error));
+  CHECK(statistics.period.p99 == Approx(1e-3).epsilon(DurationHistogram::relative_error));
+  CHECK(statistics.period.worst == Approx(3e-3));
+  CHECK(statistics.work.count == 1002);
+  CHECK(statistics.work.p50 == Approx(0.25e-3).epsilon(DurationHistogram::relative_error));
+}
+
+TEST_CASE("every fault has a name of its own", "[servo]") {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < device_fault_count; ++i) {
+    const std::string name = fault_name(static_cast<DeviceFault>(i));
+    CHECK(name != "unknown");
+    CHECK(std::count(names.begin(), names.end(), name) == 0);
+    names.push_back(name);
+  }
+  CHECK(fault_name(static_cast<DeviceFault>(device_fault_count)) == std::string("unknown"));
+}
+
+TEST_CASE("options out of their domain are refused with name and value", "[servo]") {
+  const auto message = [](auto&& change) {
+    ServoOptions options;
+    change(options);
+    return error_of(options);
+  };
+  for (const double bad : {0.0, 0.5, 2e5, not_a_number}) {
+    CHECK(message([&](ServoOptions& o) { o.rate = bad; }).find("rate is") != std::string::npos);
+  }
+  CHECK(message([](ServoOptions& o) { o.patience = 1e-3; }) ==
+        "servo loop: patience is 0.001, must be from two periods of the rate to 1 s");
+  CHECK(message([](ServoOptions& o) { o.patience = infinity; }).find("patience") != std::string::npos);
+  for (const double bad : {-1e-3, 0.2, not_a_number}) {
+    CHECK(message([&](ServoOptions& o) { o.fall_time = bad; }).find("fall time") != std::string::npos);
+  }
+  for (const double bad : {-1e-3, 11.0, not_a_number}) {
+    CHECK(message([&](ServoOptions& o) { o.rise_time = bad; }).find("rise time") != std::string::npos);
+  }
+  CHECK(message([](ServoOptions&) {}).empty());
+  WatchedDevice device;
+  CHECK_THROWS_AS(Servo(device, nullptr), ValueError);
+}
+
+TEST_CASE("times of zero make the force fall and rise at once", "[servo]") {
+  ServoOptions options;
+  options.fall_time = options.rise_time = 0.0;
+  Bench bench(options);
+  bench.tick();
+  CHECK(bench.device.last() == wanted);
+  bench.device.state.status = DeviceStatus::fault;
+  bench.tick();
+  CHECK(bench.device.last() == 0.0);
+  bench.device.state = {};
+  bench.tick();
+  CHECK(bench.device.last() == wanted);
+}
+
+TEST_CASE("a servo takes nothing from the heap, whatever goes wrong", "[servo]") {
+  Bench bench;
+  bench.warm_up();
+  const auto hang = [&](const DeviceState&) {
+    bench.wait(30);
+    return Eigen::Vector3d(not_a_number, 0.0, 0.0);
+  };
+  const auto good = bench.law;
+  std::function<Eigen::Vector3d(const DeviceState&)> bad = hang;
+  const std::size_t before = calligraphy_test::allocations();
+  for (int i = 0; i < 20; ++i) {
+    bench.ticks(10);
+    std::swap(bench.law, bad);
+    bench.tick();
+    std::swap(bench.law, bad);
+    bench.ticks(210);
+    bench.device.state.status = static_cast<DeviceStatus>(i % 6);
+    bench.ticks(10);
+    bench.device.state.status = DeviceStatus::ok;
+    const ServoStatistics statistics = bench.servo.statistics();
+    static_cast<void>(statistics);
+  }
+  const std::size_t after = calligraphy_test::allocations();
+  CHECK(after == before);
+}
+
+TEST_CASE("whatever goes wrong, the force stays finite, never leaps up and is zero in time", "[servo]") {
+  const unsigned seed = GENERATE(range(1u, 9u));
+  Bench bench;
+  std::mt19937 random(seed);
+  const auto chance = [&](double share) { return std::uniform_real_distribution<>(0.0, 1.0)(random) < share; };
+  int bad_law = 0;  // ticks left
+  bench.law = [&](const DeviceState& state) -> Eigen::Vector3d {
+    CHECK(state.position.allFinite());
+    if (bad_law > 0) {
+      switch (random() % 4) {
+        case 0:
+          throw std::runtime_error("bad");
+        case 1:
+          return Eigen::Vector3d::Constant(not_a_number);
+        case 2:
+          bench.wait(static_cast<int>(random() % 40));
+          break;
+        default:
+          break;
+      }
+    }
+    return {wanted, 0.0, 0.0};
+  };
+  int bad_device = 0;
+  double unusable_since = infinity;
+  const double before = 0.0;
+  for (int tick = 0; tick < 20'000; ++tick) {
+    if (chance(0.004)) bad_device = 1 + static_cast<int>(random() % 40);
+    if (chance(0.002)) bad_law = 1 + static_cast<int>(random() % 20);
+    bench.device.state = {};
+    if (bad_device-- > 0) {
+      bench.device.state.status = static_cast<DeviceStatus>(random() % 6);
+      if (chance(0.1)) bench.device.state.position.x() = not_a_number;
+    }
+    if (chance(0.002)) bench.wait(static_cast<int>(random() % 40));
+    bench.tick();
+    --bad_law;
+    const DeviceStatus status = bench.device.state.status;
+    const bool unusable = status == DeviceStatus::disconnected || status == DeviceStatus::fault ||
+                          status == DeviceStatus::needs_calibration;
+    unusable_since = unusable ? std::min(unusable_since, virtual_time) : infinity;
+    if (virtual_time - unusable_since > 0.0165) REQUIRE(bench.device.last() == 0.0);
+  }
+  double last = before;
+  for (const Eigen::Vector3d& force : bench.device.forces) {
+    REQUIRE(force.allFinite());
+    REQUIRE(force.x() >= 0.0);
+    REQUIRE(force.x() <= wanted);
+    // Up by one tick of the rise, down by at most a fall through ticks that come late.
+    REQUIRE(force.x() - last <= wanted * 1.001 / 200.0);
+    REQUIRE(last - force.x() <= wanted * 0.47);
+    last = force.x();
+  }
+  CHECK_FALSE(bench.device.touched_by_two);
+}
+
+TEST_CASE("at whatever moment of a tick the watchdog looks, the device has one owner", "[servo]") {
+  const unsigned seed = GENERATE(range(1u, 5u));
+  Bench bench;
+  std::mt19937 random(seed);
+  bool looking = false;
+  const auto look_in = [&] {
+    if (looking) return;  // the watchdog's own writes come here too
+    looking = true;
+    const int milliseconds = random() % 4 == 0 ? static_cast<int>(random() % 30) : 0;
+    bench.wait(milliseconds);
+    looking = false;
+  };
+  bench.device.while_reading = look_in;
+  bench.device.while_writing = look_in;
+  bench.law = [&](const DeviceState&) {
+    look_in();
+    return Eigen::Vector3d(wanted, 0.0, 0.0);
+  };
+  for (int tick = 0; tick < 5'000; ++tick) {
+    bench.servo.step(virtual_time += period);
+    look_in();
+  }
+  CHECK_FALSE(bench.device.touched_by_two);
+  CHECK(bench.servo.statistics().taken_over > 0);
+  CHECK(bench.servo.statistics().fault_count(DeviceFault::timed_out) > 0);
+  CHECK(std::all_of(bench.device.forces.begin(), bench.device.forces.end(),
+                    [](const Eigen::Vector3d& force) { return force.x() >= 0.0 && force.x() <= wanted; }));
+  bench.device.while_reading = bench.device.while_writing = nullptr;
+  bench.law = [](const DeviceState&) { return Eigen::Vector3d(wanted, 0.0, 0.0); };
+  bench.ticks(30);
+  check_return(bench);
+}
+
+TEST_CASE("servo and watchdog in two real threads never touch the device at once", "[servo]") {
+  WatchedDevice device;
+  std::atomic<long> calls = 0;
+  ServoOptions options;
+  options.rise_time = 1e-3;
+  Servo servo(
+      device,
+      [&](const DeviceState&) {
+        // Every now and then slow enough to lose the device.
+        if (++calls % 50 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(8));
+        return Eigen::Vector3d(wanted, 0.0, 0.0);
+      },
+      options);
+  const auto now = [] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  };
+  std::atomic<bool> done = false;
+  std::thread watchdog([&] {
+    while (!done) servo.supervise(now());
+  });
+  for (int i = 0; i < 1000; ++i) servo.step(now());
+  done = true;
+  watchdog.join();
+  CHECK_FALSE(device.touched_by_two);
+  const ServoStatistics statistics = servo.statistics();
+  CHECK(statistics.ticks + statistics.idle_ticks == 1000);
+  CHECK(std::all_of(device.forces.begin(), device.forces.end(),
+                    [](const Eigen::Vector3d& force) { return force.x() >= 0.0 && force.x() <= wanted; }));
+}
+
+TEST_CASE("two servos with two devices do not touch each other", "[servo]") {
+  Bench first;
+  Bench second;
+  second.law = [](const DeviceState&) -> Eigen::Vector3d { throw std::runtime_error("bad"); };
+  for (int i = 0; i < 300; ++i) {
+    first.tick();
+    second.servo.step(virtual_time);
+  }
+  CHECK(first.device.last() == wanted);
+  CHECK(second.device.last() == 0.0);
+  CHECK(first.servo.status().fault == DeviceFault::none);
+  CHECK(second.servo.status().fault == DeviceFault::bad_force);
+}
+
+TEST_CASE("a simulated pen rests on a wall through the servo as it does without it", "[servo]") {
+  SimulatedDevice device(device_profile("desktop"), {0.15, 5.0, 500.0}, {0.0, 0.0, 0.01});
+  device.set_intention({{0.0, 0.0, -0.005}, Eigen::Vector3d::Zero()});
+  Servo servo(device, [](const DeviceState& state) {
+    const double penetration = -state.position.z();
+    return Eigen::Vector3d(0.0, 0.0, penetration > 0.0 ? 800.0 * penetration - 2.0 * state.velocity.z() : 0.0);
+  });
+  for (int tick = 0; tick < 2000; ++tick) {
+    servo.step(device.time());
+    device.advance(period);
+  }
+  CHECK(-device.true_position().z() == Approx(0.005 * 500.0 / 1300.0).margin(2e-4));
+}

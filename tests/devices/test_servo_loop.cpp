@@ -1,0 +1,298 @@
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <calligraphy/devices/servo_loop.hpp>
+#include <calligraphy/error.hpp>
+
+#include "../catch.hpp"
+#include "watched_device.hpp"
+
+using namespace calligraphy;
+using calligraphy_test::WatchedDevice;
+
+namespace {
+
+/// Waits for what must come, ten seconds at most; how long it takes is nobody's claim.
+bool comes(const std::function<bool()>& condition) {
+  for (int i = 0; i < 10'000; ++i) {
+    if (condition()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return false;
+}
+
+Eigen::Vector3d push(const DeviceState&) { return {2.0, 0.0, 0.0}; }
+
+ServoLoopOptions ordinary_thread() {
+  ServoLoopOptions options;
+  options.thread.priority = 0;
+  options.thread.lock_memory = false;
+  return options;
+}
+
+/// A machine under load may stop a thread for longer than a person would want to wait.
+ServoLoopOptions patient() {
+  ServoLoopOptions options = ordinary_thread();
+  options.servo.patience = 1.0;
+  options.servo.rise_time = 0.0;
+  return options;
+}
+
+/// Ticks when the test says so.
+class SteppedClock final : public ServoClock {
+ public:
+  void start(std::function<void(double)> tick) override {
+    if (refuses) throw DeviceError("no clock today");
+    tick_ = std::move(tick);
+  }
+  void stop() noexcept override { tick_ = nullptr; }
+  bool running() const noexcept override { return tick_ != nullptr; }
+  void tick(double now) { tick_(now); }
+  bool refuses = false;
+
+ private:
+  std::function<void(double)> tick_;
+};
+
+class DeviceWithClock final : public HapticDevice {
+ public:
+  const Capabilities& capabilities() const noexcept override { return inner.capabilities(); }
+  DeviceState read() noexcept override { return inner.read(); }
+  void write(const Eigen::Vector3d& force) noexcept override { inner.write(force); }
+  void close() noexcept override {}
+  ServoClock* clock() noexcept override { return &own_clock; }
+  WatchedDevice inner;
+  SteppedClock own_clock;
+};
+
+}  // namespace
+
+TEST_CASE("a late tick is followed at the next deadline of the grid, and the skipped ones are counted", "[servo]") {
+  const auto next = [](double deadline, double now) { return next_deadline(deadline, 1.0, now); };
+  CHECK(next(10.0, 10.2).time == 11.0);
+  CHECK(next(10.0, 10.2).skipped == 0);
+  CHECK(next(10.0, 10.999).time == 11.0);
+  CHECK(next(10.0, 11.0).time == 12.0);
+  CHECK(next(10.0, 11.0).skipped == 1);
+  CHECK(next(10.0, 13.5).time == 14.0);
+  CHECK(next(10.0, 13.5).skipped == 3);
+  CHECK(next(10.0, 9.0).time == 11.0);  // a clock that ran back makes no burst either
+  for (const double now : {1e3, 1e6 + 0.5, 1e9 + 0.25}) {
+    CHECK(next(10.0, now).time > now);
+    CHECK(next(10.0, now).time <= now + 1.0);
+  }
+}
+
+TEST_CASE("a servo thread ticks with a clock that never runs back until it is stopped", "[servo]") {
+  ServoThreadOptions options;
+  options.priority = 0;
+  options.lock_memory = false;
+  ServoThread thread(options);
+  std::vector<double> times;
+  times.reserve(100'000);
+  std::atomic<int> count = 0;
+  thread.start([&](double now) {
+    if (times.size() < times.capacity()) times.push_back(now);
+    ++count;
+  });
+  CHECK(thread.running());
+  CHECK_THROWS_AS(thread.start([](double) {}), ValueError);
+  CHECK(comes([&] { return count >= 20; }));
+  thread.stop();
+  CHECK_FALSE(thread.running());
+  const int after = count;
+  std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  CHECK(count == after);
+  CHECK(std::is_sorted(times.begin(), times.end()));
+  CHECK(thread.warnings().empty());
+  thread.stop();
+  thread.start([&](double) { ++count; });
+  CHECK(comes([&] { return count > after; }));
+}
+
+TEST_CASE("what the system does not permit is a warning that says what to do, not a failure", "[servo]") {
+  ServoThreadOptions options;
+  options.priority = 0;
+  options.lock_memory = false;
+  options.core = 1023;
+  ServoThread thread(options);
+  std::atomic<int> count = 0;
+  thread.start([&](double) { ++count; });
+  CHECK(comes([&] { return count > 0; }));
+  thread.stop();
+  REQUIRE(thread.warnings().size() == 1);
+  CHECK(thread.warnings()[0].find("1023") != std::string::npos);
+  CHECK(thread.warnings()[0].find("choose one") != std::string::npos);
+}
+
+TEST_CASE("asking for real time never keeps a loop from running", "[servo]") {
+  WatchedDevice device;
+  ServoLoopOptions options = patient();
+  options.thread.priority = 50;
+  options.thread.lock_memory = true;
+  ServoLoop loop(device, push, options);
+  std::vector<std::string> warnings = loop.start();
+  std::sort(warnings.begin(), warnings.end());
+  CHECK(std::unique(warnings.begin(), warnings.end()) == warnings.end());
+  for (const std::string& warning : warnings) {
+    CHECK(warning.find("may delay the servo loop") != std::string::npos);
+    CHECK(warning.find("limits.d") != std::string::npos);
+  }
+  CHECK(comes([&] { return loop.statistics().ticks > 10; }));
+  loop.stop();
+}
+
+TEST_CASE("options of the thread out of their domain are refused with name and value", "[servo]") {
+  const auto message = [](auto&& change) -> std::string {
+    ServoThreadOptions options;
+    change(options);
+    try {
+      ServoThread thread(options);
+    } catch (const ValueError& error) {
+      return error.what();
+    }
+    return {};
+  };
+  CHECK(message([](auto& o) { o.rate = 0.0; }) == "servo thread: rate is 0, must be from 1 to 100000 Hz");
+  CHECK(message([](auto& o) { o.priority = 100; }).find("priority is 100") != std::string::npos);
+  CHECK(message([](auto& o) { o.priority = -1; }).find("priority is -1") != std::string::npos);
+  CHECK(message([](auto& o) { o.core = -2; }).find("core is -2") != std::string::npos);
+  CHECK(message([](auto& o) { o.core = 1024; }).find("core is 1024") != std::string::npos);
+  CHECK(message([](auto&) {}).empty());
+  CHECK_THROWS_AS(ServoThread().start(nullptr), ValueError);
+}
+
+TEST_CASE("a loop writes what the law wants, and stopping leaves the force at zero", "[servo]") {
+  WatchedDevice device;
+  ServoLoop loop(device, push, patient());
+  CHECK_FALSE(loop.running());
+  loop.start();
+  CHECK(loop.running());
+  CHECK_THROWS_AS(loop.start(), ValueError);
+  CHECK(comes([&] { return loop.status().phase == ServoPhase::running; }));
+  CHECK(comes([&] { return loop.statistics().ticks >= 20; }));
+  loop.stop();
+  CHECK_FALSE(loop.running());
+  REQUIRE(device.forces.size() > 10);
+  CHECK(device.forces.back().isZero(0.0));
+  CHECK(std::any_of(device.forces.begin(), device.forces.end(),  // it fell, it was not cut
+                    [](const Eigen::Vector3d& force) { return force.x() > 0.0 && force.x() < 2.0; }));
+  CHECK(loop.status().phase == ServoPhase::zero);
+  const std::uint64_t ticks = loop.statistics().ticks;
+  CHECK(loop.statistics().period.count <= ticks);
+  CHECK(loop.statistics().work.count == ticks);
+
+  loop.start();
+  CHECK(comes([&] { return loop.status().phase == ServoPhase::running; }));
+  CHECK(loop.statistics().ticks > ticks);
+}
+
+TEST_CASE("the end of a loop stops it", "[servo]") {
+  WatchedDevice device;
+  {
+    ServoLoop loop(device, push, patient());
+    loop.start();
+    CHECK(comes([&] { return loop.status().phase == ServoPhase::running; }));
+  }
+  CHECK(device.last() == 0.0);
+}
+
+TEST_CASE("a force law that hangs in the loop's own thread loses the device to the watchdog", "[servo]") {
+  WatchedDevice device;
+  std::atomic<bool> hang = false;
+  std::atomic<bool> hangs = false;
+  ServoLoopOptions options = patient();
+  options.servo.patience = 0.05;
+  ServoLoop loop(
+      device,
+      [&](const DeviceState& state) {
+        while (hang) {
+          hangs = true;
+          std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        return push(state);
+      },
+      options);
+  loop.start();
+  CHECK(comes([&] { return loop.status().phase == ServoPhase::running; }));
+  hang = true;
+  CHECK(comes([&] {
+    const ServoStatus status = loop.status();
+    return hangs && status.phase == ServoPhase::zero && status.fault == DeviceFault::slow_force_law;
+  }));
+  CHECK(loop.statistics().fault_count(DeviceFault::slow_force_law) >= 1);
+  hang = false;
+  CHECK(comes([&] { return loop.status().phase == ServoPhase::running; }));
+  loop.stop();
+  CHECK(device.last() == 0.0);
+  CHECK_FALSE(device.touched_by_two);
+}
+
+TEST_CASE("a loop that is stopped from within its own law lets the force fall, and ends when it is stopped outside",
+          "[servo]") {
+  WatchedDevice device;
+  ServoLoop* itself = nullptr;
+  std::atomic<int> asked = 0;
+  ServoLoop loop(
+      device,
+      [&](const DeviceState& state) {
+        if (++asked == 20) itself->stop();
+        return push(state);
+      },
+      patient());
+  itself = &loop;
+  loop.start();
+  REQUIRE(comes([&] { return asked >= 20 && loop.status().phase == ServoPhase::zero; }));
+  CHECK(loop.running());
+  loop.stop();
+  CHECK(!loop.running());
+  CHECK(asked == 20);
+  CHECK(device.last() == 0.0);
+}
+
+TEST_CASE("two loops run two devices at once", "[servo]") {
+  WatchedDevice left;
+  WatchedDevice right;
+  right.state.status = DeviceStatus::disconnected;
+  ServoLoop first(left, push, patient());
+  ServoLoop second(right, push, patient());
+  first.start();
+  second.start();
+  CHECK(comes([&] { return first.statistics().ticks > 20 && second.statistics().ticks > 20; }));
+  CHECK(first.status().fault == DeviceFault::none);
+  CHECK(second.status().fault == DeviceFault::unplugged);
+  second.stop();
+  const std::uint64_t ticks = first.statistics().ticks;
+  CHECK(comes([&] { return first.statistics().ticks > ticks; }));
+  first.stop();
+  for (const Eigen::Vector3d& force : right.forces) REQUIRE(force.isZero(0.0));
+}
+
+TEST_CASE("a device that brings a clock is run by it and by nothing else", "[servo]") {
+  DeviceWithClock device;
+  ServoLoop loop(device, push, patient());
+  loop.start();
+  CHECK(device.own_clock.running());
+  for (int i = 1; i <= 10; ++i) device.own_clock.tick(1e-3 * i);
+  CHECK(loop.statistics().ticks == 10);
+  CHECK(device.inner.last() == 2.0);
+  loop.stop();  // this clock ticks no more: the wait for the fall is bounded, the end is zero all the same
+  CHECK_FALSE(device.own_clock.running());
+  CHECK(device.inner.last() == 0.0);
+}
+
+TEST_CASE("a clock that cannot be started leaves the loop stopped", "[servo]") {
+  DeviceWithClock device;
+  device.own_clock.refuses = true;
+  ServoLoop loop(device, push, patient());
+  CHECK_THROWS_AS(loop.start(), DeviceError);
+  CHECK_FALSE(loop.running());
+  device.own_clock.refuses = false;
+  loop.start();
+  CHECK(loop.running());
+}
