@@ -1,0 +1,103 @@
+#include "motion_tracker.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace calligraphy::phantom {
+namespace {
+
+constexpr int settled_after = 20;        // reports in the inkwell
+constexpr double settled_within = 2e-3;  // [rad]
+// By how far the joints may seem to be beyond their published limits before that is impossible: stops are soft, and a
+// calibration is a little wrong [rad].
+constexpr double limit_margin = 0.15;
+
+}  // namespace
+
+MotionTracker::MotionTracker(const WireProfile& profile, const Linkage& linkage, double velocity_cutoff)
+    : linkage_(linkage),
+      docked_angles_(*profile.docked_angles),
+      period_(1.0 / profile.rate),
+      velocity_cutoff_(velocity_cutoff),
+      has_sequence_(profile.sequence.has_value()),
+      sequence_(has_sequence_ ? profile.sequence->bits : 32),
+      encoders_(profile.encoders, *profile.counts_per_radian),
+      offset_(docked_angles_) {}
+
+MotionTracker::Judgement MotionTracker::take(const RawSample& sample, double now) noexcept {
+  Judgement judgement;
+  judgement.fault = sample.fault;
+  if (!is_readable(sample.fault)) return judgement;
+  SequenceWatch::Answer sequence;
+  if (has_sequence_) sequence = sequence_.judge(sample.sequence);
+  if (sequence.fault != DeviceFault::none) judgement.fault = sequence.fault;
+  judgement.repeated = !sequence.fresh;
+  if (!sequence.fresh) return judgement;
+  judgement.lost = static_cast<std::uint64_t>(sequence.steps - 1);
+
+  double elapsed = static_cast<double>(sequence.steps) * period_;
+  if (!has_sequence_) elapsed = std::max(now - last_time_, 0.5 * period_);
+  last_time_ = now;
+  const EncoderWatch::Answer encoders = encoders_.judge(sample.encoders, elapsed, has_sequence_);
+  if (encoders.fault != DeviceFault::none) judgement.fault = encoders.fault;
+  if (!encoders.used) return judgement;
+  if (encoders.lost_count) {
+    offset_ = motion_.joints;  // the best guess there is
+    motion_.calibrated = false;
+    docked_for_ = 0;
+  }
+
+  motion_.time = now;
+  motion_.buttons = sample.buttons;
+  follow_docking(sample.docked);
+  motion_.joints = offset_ + encoders_.angles();
+  const double passed = 1.0 - std::exp(-2.0 * std::numbers::pi * velocity_cutoff_ * encoders_.interval());
+  joint_velocity_ += passed * (encoders_.velocity() - joint_velocity_);
+  motion_.position = tip_position(linkage_, motion_.joints) - linkage_.centre;
+  motion_.velocity = tip_jacobian(linkage_, motion_.joints) * joint_velocity_;
+  if (motion_.calibrated && !within_limits(linkage_, motion_.joints, limit_margin) &&
+      judgement.fault == DeviceFault::none) {
+    judgement.fault = DeviceFault::outside_workspace;
+  }
+  judgement.fresh = true;
+  return judgement;
+}
+
+void MotionTracker::follow_docking(bool docked) noexcept {
+  motion_.docked = docked;
+  const Joints at = encoders_.angles();
+  if (!docked) {
+    docked_for_ = 0;
+    return;
+  }
+  if (docked_for_ == 0 || (at - docked_at_).cwiseAbs().maxCoeff() > settled_within) {
+    docked_at_ = at;
+    docked_for_ = 0;
+  }
+  docked_for_ = std::min(docked_for_ + 1, settled_after + 1);
+  if (docked_for_ == settled_after) {
+    offset_ = docked_angles_ - at;
+    motion_.calibrated = true;
+  }
+}
+
+void MotionTracker::restart(bool keep_calibration) noexcept {
+  sequence_.restart();
+  joint_velocity_.setZero();
+  docked_for_ = 0;
+  if (keep_calibration) {
+    encoders_.interrupt();
+    return;
+  }
+  encoders_.restart();
+  offset_ = docked_angles_;
+  motion_.calibrated = false;
+}
+
+void MotionTracker::calibrate(const Joints& joints) noexcept {
+  offset_ = joints - encoders_.angles();
+  motion_.calibrated = true;
+}
+
+}  // namespace calligraphy::phantom

@@ -1,0 +1,59 @@
+// The newest packet of one thread for another: wait-free on both sides, and an older one that nobody took is lost.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace calligraphy::phantom {
+
+/// Longer than any packet of a full-speed device, with room for the profile of an unknown one.
+constexpr std::size_t longest_packet = 512;
+
+struct Packet {
+  std::array<std::byte, longest_packet> bytes = {};
+  std::size_t size = 0;
+
+  std::span<const std::byte> content() const noexcept { return {bytes.data(), size}; }
+  void assign(std::span<const std::byte> from) noexcept {
+    size = std::min(from.size(), bytes.size());
+    std::copy_n(from.begin(), size, bytes.begin());
+  }
+};
+
+/// A triple buffer: the writer fills its own packet, then exchanges it for the one in the middle; the reader does the
+/// same when the middle is fresh. One thread may put, one may take.
+class NewestPacket {
+ public:
+  /// True when it replaced a packet that had not been taken. A packet longer than longest_packet is cut.
+  bool put(std::span<const std::byte> packet) noexcept {
+    packets_[writing_].assign(packet);
+    const std::uint8_t before =
+        middle_.exchange(static_cast<std::uint8_t>(writing_ | fresh), std::memory_order_acq_rel);
+    writing_ = before & index;
+    return (before & fresh) != 0;
+  }
+
+  bool waiting() const noexcept { return (middle_.load(std::memory_order_acquire) & fresh) != 0; }
+
+  /// The newest packet, valid until the next call; null when none has come since the last one.
+  const Packet* take() noexcept {
+    if (!waiting()) return nullptr;
+    reading_ = middle_.exchange(reading_, std::memory_order_acq_rel) & index;
+    return &packets_[reading_];
+  }
+
+ private:
+  static constexpr std::uint8_t fresh = 4;
+  static constexpr std::uint8_t index = 3;
+
+  std::array<Packet, 3> packets_;
+  std::uint8_t writing_ = 0;
+  std::atomic<std::uint8_t> middle_{1};
+  std::uint8_t reading_ = 2;
+};
+
+}  // namespace calligraphy::phantom
