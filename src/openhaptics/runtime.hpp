@@ -1,0 +1,41 @@
+// The vendor's runtime: one for all devices of a process, loaded while one is open.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "hdapi.hpp"
+
+namespace calligraphy::hdapi {
+
+class Runtime {
+ public:
+  /// The runtime that is loaded already, or loads it. An empty name: see OpenHapticsOptions::library.
+  /// @throws DeviceError naming what was tried or what is missing, and what to do
+  static std::shared_ptr<Runtime> load(const std::string& name);
+
+  /// With the handle of its file.
+  Runtime(void* file, std::string library);
+  ~Runtime();
+  Runtime(const Runtime&) = delete;
+  Runtime& operator=(const Runtime&) = delete;
+
+  const Functions& functions() const noexcept { return functions_; }
+  const std::string& library() const noexcept { return library_; }
+
+  /// The first user starts the scheduler, the last one stops it. @throws DeviceError when it does not start
+  void use_scheduler();
+  void leave_scheduler() noexcept;
+  bool scheduler_runs() const;
+
+  /// "HD error 0x0301: text": takes all errors that the runtime holds; empty when there is none.
+  std::string take_errors() const;
+
+ private:
+  void* file_;
+  std::string library_;
+  Functions functions_ = {};
+  int users_ = 0;  ///< of the scheduler
+};
+
+}  // namespace calligraphy::hdapi

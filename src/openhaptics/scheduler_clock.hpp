@@ -1,0 +1,48 @@
+// The vendor's scheduler as the clock of a servo loop: one frame of one device a tick.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+
+#include <calligraphy/devices/servo_clock.hpp>
+
+#include "runtime.hpp"
+
+namespace calligraphy::hdapi {
+
+class SchedulerClock final : public ServoClock {
+ public:
+  SchedulerClock(std::shared_ptr<Runtime> runtime, Handle device, double (*time)() noexcept);
+  ~SchedulerClock() override;
+
+  void start(std::function<void(double now)> tick) override;
+  void stop() noexcept override;
+  bool running() const noexcept override { return running_; }
+
+  /// Whether the caller is within a tick of this clock: the one place from which a frame may be touched.
+  bool within_tick() const noexcept;
+
+  /// Ends all force from outside a tick; the next frame that sets one switches the output on again.
+  void cut_force() noexcept;
+  /// Within a tick.
+  void set_force(const double (&force)[3]) noexcept;
+
+ private:
+  static CallbackCode call(void* clock) noexcept;
+  CallbackCode frame() noexcept;
+
+  std::shared_ptr<Runtime> runtime_;
+  Handle device_;
+  double (*time_)() noexcept;
+  std::function<void(double now)> tick_;
+  SchedulerHandle callback_ = 0;
+  bool running_ = false;
+
+  std::atomic<bool> output_on_ = false;  ///< the device's force output
+  std::atomic<bool> stopping_ = false;
+  std::atomic<bool> inside_ = false;    ///< a frame runs
+  std::atomic<bool> finished_ = false;  ///< the callback has seen the end and will not be called again
+};
+
+}  // namespace calligraphy::hdapi
