@@ -198,7 +198,12 @@ class Importer {
   void read() {
     Selection selection(options_);
     SourceFiles found = read_source(
-        source_, [&](std::string_view path) { return selection.skip_reason(path); }, options_.limits);
+        source_,
+        [&](std::string_view path) {
+          if (options_.progress) options_.progress(0.0);  // reading may take seconds, too
+          return selection.skip_reason(path);
+        },
+        options_.limits);
     skipped_ = std::move(found.skipped);
     for (SourceFile& file : found.files) {
       const std::string place = source_.string() + ": " + file.path;

@@ -3,7 +3,9 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdio>
 #include <memory>
+#include <span>
 #include <string>
 #include <system_error>
 
@@ -16,59 +18,117 @@
 namespace calligraphy {
 namespace {
 
-constexpr std::size_t longest_path = 512;             // [byte]; of an entry
+constexpr std::size_t longest_path = 512;  // [byte]; of an entry
+constexpr std::size_t end_mark = 1024;     // [byte]; zeros that end a tar, more than stand within one of texts
 constexpr std::size_t ratio_judged_from = 16u << 20;  // [byte]; what little is unpacked may pack any way
 
-/// The tar as a stream of bytes, within the limits. Remembers what went wrong, for libarchive cannot throw.
+/// The tar as a stream of bytes, within the limits, unpacked if it is gzip data. By inflate(), for gzread() takes data
+/// that end too early for whole when what it unpacked until there just fills its buffer. Remembers what went wrong, as
+/// libarchive cannot throw.
 class Unpacker {
  public:
   Unpacker(const std::filesystem::path& path, const SourceLimits& limits)
-      : name_(path.string()), limits_(limits), file_(gzopen(path.c_str(), "rb")) {
+      : name_(path.string()), limits_(limits), file_(std::fopen(path.c_str(), "rb")) {
     if (!file_) throw FileError(name_ + ": cannot be opened: " + std::generic_category().message(errno));
+    if (inflateInit2(&stream_, gzip_window) != Z_OK) throw std::bad_alloc();
+    read_packed();
+    is_packed_ = begins_member();
   }
+  ~Unpacker() { inflateEnd(&stream_); }
+  Unpacker(const Unpacker&) = delete;
+  Unpacker& operator=(const Unpacker&) = delete;
 
   /// The next bytes: their count, 0 at the end, -1 when there was a failure.
   la_ssize_t next(const void** bytes) noexcept {
-    const int count = gzread(file_.get(), buffer_.data(), static_cast<unsigned>(buffer_.size()));
-    int error = Z_OK;
-    const char* const message = gzerror(file_.get(), &error);
-    if (count < 0 || error == Z_BUF_ERROR) {
-      return fail(error == Z_ERRNO       ? "cannot be read"
-                  : error == Z_BUF_ERROR ? "the gzip data ends too early"
-                                         : std::string("damaged gzip data: ") + message);
+    std::size_t count = 0;
+    if (is_packed_) {
+      count = unpack();
+      *bytes = unpacked_.data();
+    } else {
+      if (stream_.avail_in == 0) read_packed();
+      count = stream_.avail_in;
+      *bytes = stream_.next_in;
+      stream_.avail_in = 0;
     }
-    unpacked_ += static_cast<std::size_t>(count);
-    if (unpacked_ > limits_.total_bytes) {
-      return fail("unpacks to more than " + std::to_string(limits_.total_bytes) + " bytes");
+    bytes_ += count;
+    look_for_end_mark(std::span(static_cast<const unsigned char*>(*bytes), count));
+    if (bytes_ > limits_.total_bytes) {
+      fail("unpacks to more than " + std::to_string(limits_.total_bytes) + " bytes");
+    } else if (bytes_ > ratio_judged_from &&
+               static_cast<double>(bytes_) > limits_.unpacked_to_packed * static_cast<double>(packed_offset())) {
+      fail("unpacks to more than " + std::to_string(static_cast<int>(limits_.unpacked_to_packed)) + " times its size");
     }
-    const auto packed = static_cast<double>(std::max<z_off_t>(gzoffset(file_.get()), 1));
-    if (unpacked_ > ratio_judged_from && static_cast<double>(unpacked_) > limits_.unpacked_to_packed * packed) {
-      return fail("unpacks to more than " + std::to_string(static_cast<int>(limits_.unpacked_to_packed)) +
-                  " times its size");
-    }
-    *bytes = buffer_.data();
-    return count;
+    return failure_.empty() ? static_cast<la_ssize_t>(count) : -1;
   }
+
+  /// The zeros that end a tar were among the bytes: libarchive does without, and so would take for whole what was cut
+  /// behind a file.
+  bool has_end_mark() const { return zeros_ >= end_mark; }
 
   const std::string& name() const { return name_; }
   const std::string& failure() const { return failure_; }
-  std::string place() const { return " (packed byte " + std::to_string(gzoffset(file_.get())) + ")"; }
+  std::string place() const { return " (packed byte " + std::to_string(packed_offset()) + ")"; }
 
  private:
-  la_ssize_t fail(std::string what) noexcept {
-    failure_ = std::move(what);
-    return -1;
+  static constexpr int gzip_window = 15 + 16;  // zlib's words for any gzip data
+
+  /// The first failure is the one that is told.
+  void fail(std::string what) noexcept {
+    if (failure_.empty()) failure_ = std::move(what);
+  }
+
+  std::size_t packed_offset() const { return packed_bytes_ - stream_.avail_in; }
+
+  void look_for_end_mark(std::span<const unsigned char> bytes) noexcept {
+    for (std::size_t i = 0; i < bytes.size() && !has_end_mark(); ++i) zeros_ = bytes[i] == 0 ? zeros_ + 1 : 0;
+  }
+
+  void read_packed() noexcept {
+    const std::size_t count = std::fread(packed_.data(), 1, packed_.size(), file_.get());
+    if (std::ferror(file_.get()) != 0) fail("cannot be read");
+    packed_bytes_ += count;
+    stream_.next_in = packed_.data();
+    stream_.avail_in = static_cast<uInt>(count);
+  }
+
+  bool begins_member() const { return stream_.avail_in > 0 && *stream_.next_in == 0x1F; }
+
+  std::size_t unpack() noexcept {
+    stream_.next_out = unpacked_.data();
+    stream_.avail_out = static_cast<uInt>(unpacked_.size());
+    while (stream_.avail_out > 0 && !is_at_end_ && failure_.empty()) {
+      if (stream_.avail_in == 0) read_packed();
+      if (stream_.avail_in == 0) {
+        fail("the gzip data ends too early");
+        break;
+      }
+      const int result = inflate(&stream_, Z_NO_FLUSH);
+      if (result == Z_STREAM_END) {
+        if (stream_.avail_in == 0) read_packed();
+        is_at_end_ = !begins_member();  // what stands behind the data and is no gzip is not read, as gzip does it
+        inflateReset(&stream_);
+      } else if (result != Z_OK) {
+        fail(std::string("damaged gzip data: ") + (stream_.msg == nullptr ? "unreadable" : stream_.msg));
+      }
+    }
+    return unpacked_.size() - stream_.avail_out;
   }
 
   struct Close {
-    void operator()(gzFile file) const noexcept { gzclose(file); }
+    void operator()(std::FILE* file) const noexcept { std::fclose(file); }
   };
 
   std::string name_;
   SourceLimits limits_;
-  std::unique_ptr<gzFile_s, Close> file_;
-  std::array<char, 1 << 16> buffer_{};
-  std::size_t unpacked_ = 0;
+  std::unique_ptr<std::FILE, Close> file_;
+  z_stream stream_{};
+  bool is_packed_ = false;
+  bool is_at_end_ = false;
+  std::array<unsigned char, 1 << 16> packed_{};
+  std::array<unsigned char, 1 << 16> unpacked_{};
+  std::size_t packed_bytes_ = 0;  ///< read of the file
+  std::size_t bytes_ = 0;         ///< of the tar
+  std::size_t zeros_ = 0;         ///< in a row, until the end mark
   std::string failure_;
 };
 
@@ -150,6 +210,7 @@ class Tarball {
   static std::string kind_reason(archive_entry* entry) {
     const bool is_hard_link = archive_entry_hardlink(entry) != nullptr || archive_entry_hardlink_utf8(entry) != nullptr;
     if (is_hard_link || archive_entry_filetype(entry) == AE_IFLNK) return "a link";
+    if (archive_entry_sparse_count(entry) > 0) return "a sparse file";
     return archive_entry_filetype(entry) == AE_IFREG ? "" : "not a regular file";
   }
 
@@ -178,6 +239,7 @@ class Tarball {
       count = unpacker_->next(&bytes);
     } while (count > 0);
     if (count < 0) fail("", unpacker_->failure() + unpacker_->place());
+    if (!unpacker_->has_end_mark()) fail("", "ends without a tar's end mark: it was cut short" + unpacker_->place());
   }
 
   struct Free {

@@ -3,11 +3,13 @@ import io
 import json
 import os
 import pty
+import random
 import resource
 import signal
 import subprocess
 import tarfile
 import time
+import zlib
 from pathlib import Path
 
 from program import ProgramTest
@@ -210,9 +212,9 @@ class Hostile(ImportTest):
         self.assertIn(b"source.tgz", done.stderr)
 
     def test_a_tarball_cut_short_or_damaged_is_refused(self):
-        members = [member(f"package/{code:05x}.svg", svg(HENG + f"<!-- {os.urandom(500).hex()} -->"))
-                   for code in range(0x4e00, 0x4e10)]
-        whole = (self.directory / self.tar(*members)).read_bytes()
+        # Seeded: of 15,000 such files, one unpacks to the same bytes when damaged (a copy of equal bytes from farther).
+        tar = self.noisy_tar(files=16)
+        whole = gzip.compress(tar, mtime=0)
         for length in (0, 1, 10, 11, 50, len(whole) // 2, len(whole) - 9, len(whole) - 1):
             with self.subTest(length=length):
                 self.assert_fails(self.write("cut.tgz", whole[:length]))
@@ -221,10 +223,56 @@ class Hostile(ImportTest):
                 damaged = bytearray(whole)
                 damaged[at] ^= 0x15
                 self.assert_fails(self.write("damaged.tgz", bytes(damaged)))
-        plain = gzip.decompress(whole)
         for length in (300, 513, 1000, 5000):
-            with self.subTest(plain=length):
-                self.assert_fails(self.write("cut.tar", plain[:length]))
+            with self.subTest(tar=length):
+                self.assert_fails(self.write("cut.tar", tar[:length]))
+        for length in (2048, 4096, 16 * 2048, 16 * 2048 + 512):  # where a file ends, and before the tar does
+            with self.subTest(tar=length):
+                self.assert_fails(self.write("cut.tar", tar[:length]), "end mark")
+                self.assert_fails(self.write("cut.tgz", gzip.compress(tar[:length])), "end mark")
+        self.assertEqual(self.report(self.write("whole.tar", tar[:16 * 2048 + 1024]))["characters"], 16)
+
+    def noisy_tar(self, files):
+        """Bytes of a tar of files that pack badly, 2 KiB each with its header."""
+        noise = random.Random(1)
+        return (self.directory / self.tar(
+            *(member(f"package/{code:05x}.svg", svg(HENG + f"<!-- {noise.randbytes(500).hex()} -->"))
+              for code in range(0x4e00, 0x4e00 + files)), name="source.tar", mode="w")).read_bytes()
+
+    def test_a_tarball_cut_where_a_file_and_a_buffer_end_is_refused(self):
+        """zlib's gzread() takes some of these for whole: all that is packed was read, and its buffer was full."""
+        whole = gzip.compress(self.noisy_tar(files=40), mtime=0)
+        unpacker, sizes = zlib.decompressobj(wbits=31), [0]
+        for byte in whole:
+            sizes.append(sizes[-1] + len(unpacker.decompress(bytes([byte]))))
+        cuts = [length for length, size in enumerate(sizes)
+                for buffer in (1 << 14, 1 << 15, 1 << 16) if buffer <= size <= buffer + 300]
+        self.assertGreater(len(cuts), 20)
+        for length in cuts:
+            with self.subTest(length=length):
+                self.assert_fails(self.write("cut.tgz", whole[:length]), "ends too early")
+
+    def test_gzip_data_in_pieces_and_with_something_behind_are_read(self):
+        tar = self.noisy_tar(files=16)
+        self.write("whole.tgz", gzip.compress(tar))
+        expected = self.report("whole.tgz")["characters"]
+        self.assertEqual(expected, 16)
+        for name, data in (("pieces", b"".join(gzip.compress(tar[at:at + 5000]) for at in range(0, len(tar), 5000))),
+                           ("empty", gzip.compress(b"") + gzip.compress(tar) + gzip.compress(b"")),
+                           ("behind", gzip.compress(tar) + bytes(1000) + b"and more")):
+            with self.subTest(name=name):
+                self.assertEqual(self.report(self.write("source.tgz", data))["characters"], expected)
+        self.assert_fails(self.write("cut.tgz", gzip.compress(tar) + gzip.compress(b"more")[:-1]), "ends too early")
+
+    def test_a_sparse_file_is_passed_over_as_what_it_is(self):
+        (self.directory / "package").mkdir()
+        self.write("package/04e00.svg", svg())
+        with open(self.directory / "package/05341.svg", "wb") as file:
+            file.truncate(900_000)
+        subprocess.run(["tar", "-Sczf", "sparse.tgz", "package"], cwd=self.directory, check=True)
+        report = self.report("sparse.tgz")
+        self.assertEqual((report["characters"], [(row["reason"], row["count"]) for row in report["skipped"]]),
+                         (1, [("a sparse file", 1)]))
 
     def test_what_is_no_source_is_refused(self):
         self.write("empty", "")
