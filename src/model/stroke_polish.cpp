@@ -101,7 +101,7 @@ double largest_of(std::span<const Offset> offsets) {
 class Polish {
  public:
   Polish(const TypicalStroke& type, const Path& path)
-      : type_(type), variables_(type), path_(path), chords_(stroke_chords(type.elements, curve_steps)) {
+      : variables_(type), path_(path), chords_(stroke_chords(type.elements, curve_steps)) {
     constexpr double tolerance = 2e-4;  // [em]
     const Path outline = simplified(path, 64, tolerance);
     for (std::size_t i = 1; i < outline.size(); ++i) outline_.add(outline[i - 1], outline[i]);
@@ -193,7 +193,6 @@ class Polish {
     return place;
   }
 
-  const TypicalStroke& type_;
   StrokeVariables variables_;
   const Path& path_;
   std::vector<StrokeChord> chords_;

@@ -28,13 +28,6 @@ void require(const char* name, double value, Bound bound, double most = std::num
   throw ValueError(message.str());
 }
 
-void require_count(const char* name, int value, int least, int most) {
-  if (value >= least && value <= most) return;
-  std::ostringstream message;
-  message << name << " = " << value << ": expected a whole number from " << least << " to " << most;
-  throw ValueError(message.str());
-}
-
 /// Keeps every step of a force a number [N/s].
 constexpr double fastest_force = 1e12;
 
@@ -133,6 +126,8 @@ RendererOptions RendererOptions::everything(const Capabilities& capabilities) {
 std::vector<std::string> clip_stiffness(RendererOptions& options, const Capabilities& capabilities,
                                         double largest_attraction, double scale) {
   require("servo_rate", options.servo_rate, Bound::above_zero, 1e6);
+  require("largest_attraction", largest_attraction, Bound::from_zero);
+  require("scale", scale, Bound::above_zero);
   StiffnessLimit usable = usable_stiffness(capabilities), stable = stable_stiffness(options, capabilities);
   if (scale != 1.0) {
     // Motion appears enlarged and so does force: the device feels K K_S^2.
@@ -191,9 +186,11 @@ void validate(const RendererOptions& options, const Capabilities& capabilities, 
   require("friction.stiffness", options.friction.stiffness, Bound::above_zero, stiffest);
   require("friction.static_ratio", options.friction.static_ratio, Bound::from_one, 10.0);
   require("friction.stick_speed", options.friction.stick_speed, Bound::from_zero);
-  require("stroke.nearest.tolerance", options.stroke.nearest.tolerance, Bound::above_zero, 1.0);
-  require_count("stroke.nearest.samples", options.stroke.nearest.samples, 2, 64);
-  require_count("stroke.nearest.refinements", options.stroke.nearest.refinements, 0, 8);
+  try {
+    validate(options.stroke.nearest);
+  } catch (const ValueError& error) {
+    throw ValueError(std::string("stroke.nearest.") + error.what());
+  }
   require("stroke.space.radius", options.stroke.space.radius, Bound::above_zero);
   require("stroke.space.edge", options.stroke.space.edge, Bound::above_zero, options.stroke.space.radius);
   require("stroke.plane_tolerance", options.stroke.plane_tolerance, Bound::from_zero);

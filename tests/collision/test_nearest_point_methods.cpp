@@ -3,9 +3,12 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <calligraphy/collision/stroke_tracker.hpp>
+#include <calligraphy/error.hpp>
 
 #include "../allocation_counter.hpp"
 #include "../hard_cases.hpp"
@@ -33,6 +36,39 @@ double fastest(const std::vector<Point>& points) {
 }
 
 }  // namespace
+
+TEST_CASE("options out of their domain are refused by name and value", "[collision]") {
+  const auto complaint = [](const NearestPointOptions& options) -> std::string {
+    try {
+      validate(options);
+    } catch (const ValueError& error) {
+      return error.what();
+    }
+    return {};
+  };
+  NearestPointOptions options;
+  for (const double good : {std::numeric_limits<double>::denorm_min(), 1.0}) {
+    options.tolerance = good;
+    CHECK(complaint(options).empty());
+  }
+  for (const double bad : {0.0, -1.0, 1.5, infinity, std::numeric_limits<double>::quiet_NaN()}) {
+    options.tolerance = bad;
+    CHECK(complaint(options).starts_with("tolerance = "));
+  }
+  options = {};
+  const auto judge = [&](int& option, const std::string& name, int least, int most) {
+    const int usual = option;
+    for (const auto& [value, is_good] : {std::pair{least, true}, {most, true}, {least - 1, false}, {most + 1, false}}) {
+      option = value;
+      CHECK(complaint(options) == (is_good ? ""
+                                           : name + " = " + std::to_string(value) + ": expected a whole number from " +
+                                                 std::to_string(least) + " to " + std::to_string(most)));
+    }
+    option = usual;
+  };
+  judge(options.samples, "samples", 2, 64);
+  judge(options.refinements, "refinements", 0, 8);
+}
 
 TEST_CASE("a certified nearest point is off by no more than its tolerance", "[collision]") {
   for (const HardCurve& curve : hard_curves()) {

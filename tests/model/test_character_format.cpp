@@ -104,7 +104,8 @@ TEST_CASE("a licence text of many lines is kept to the last blank", "[model]") {
 TEST_CASE("a character may stand in a file once in each order", "[model]") {
   CharacterList set;
   for (const char* const order : {"", "Table 3", "degree 4", "\xE5\x8C\x97 | 2"}) {
-    set.characters.push_back(std::string_view(order) == "degree 4" ? with_quartic_curves(paper_example()) : paper_example());
+    set.characters.push_back(std::string_view(order) == "degree 4" ? with_quartic_curves(paper_example())
+                                                                   : paper_example());
     set.characters.back().order = order;
   }
   CHECK(same(read(write(set)), set));
@@ -222,7 +223,7 @@ TEST_CASE("random damage is refused or read, never worse", "[model]") {
       if (i % 3 == 0)
         damaged.resize(at);
       else if (i % 3 == 1)
-        damaged[at] = static_cast<char>(256.0 * random.next());
+        damaged[at] = static_cast<char>(static_cast<int>(256.0 * random.next()));
       else
         damaged.erase(at, static_cast<std::size_t>(20.0 * random.next()));
       if (damaged.empty()) break;

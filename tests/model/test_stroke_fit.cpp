@@ -55,7 +55,8 @@ Path changed(Path path, double scale, double noise) {
   };
   for (Point& point : path) {
     point = Point(0.5, 0.5) + scale * (point - Point(0.5, 0.5));
-    point += Point(shake(), shake());
+    const double up = shake(), right = shake();  // in this order with every compiler
+    point += Point(right, up);
   }
   return path;
 }

@@ -97,6 +97,29 @@ TEST_CASE("each option out of its domain is named with its value", "[render]") {
   }
 }
 
+TEST_CASE("stiffness is not clipped by factors that are none", "[render]") {
+  const Capabilities device = test_device();
+  const auto complaint_of = [&](double largest_attraction, double scale) -> std::string {
+    RendererOptions options;
+    options.guidance_stiffness = 1e9;
+    try {
+      clip_stiffness(options, device, largest_attraction, scale);
+    } catch (const ValueError& error) {
+      CHECK(options.guidance_stiffness == 1e9);
+      return error.what();
+    }
+    CHECK(options.guidance_stiffness >= 0.0);
+    return {};
+  };
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double bad : {-1.0, -infinity, infinity, std::numeric_limits<double>::quiet_NaN()}) {
+    CHECK(contains(complaint_of(bad, 1.0), "largest_attraction"));
+    CHECK(contains(complaint_of(1.0, bad), "scale"));
+  }
+  CHECK(contains(complaint_of(1.0, 0.0), "scale"));
+  CHECK(complaint_of(0.0, 1.0).empty());  // no stroke pulls
+}
+
 TEST_CASE("upper bounds are named too", "[render]") {
   RendererOptions options;
   options.servo_rate = 2e6;

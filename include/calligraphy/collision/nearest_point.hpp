@@ -24,6 +24,9 @@ struct NearestPointOptions {
   int refinements = 2;  ///< sampled: steps of Halley's method, clamped to [0, 8]
 };
 
+/// For set-up, which refuses what nearest_point() would clamp. @throws ValueError naming the option and its value
+void validate(const NearestPointOptions& options);
+
 enum class NearestPointStatus {
   certified,    ///< no other point of the range is nearer, up to the tolerance and rounding
   approximate,  ///< not certified: sampled or wang2006 on a curve, or exact at its limit of work
