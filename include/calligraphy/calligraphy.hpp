@@ -11,9 +11,18 @@
 #include <calligraphy/collision/stroke_element.hpp>
 #include <calligraphy/collision/stroke_tracker.hpp>
 #include <calligraphy/devices/device_state.hpp>
+#include <calligraphy/devices/duration_histogram.hpp>
 #include <calligraphy/devices/flush_denormals.hpp>
+#include <calligraphy/devices/force_guard.hpp>
 #include <calligraphy/devices/haptic_device.hpp>
+#include <calligraphy/devices/pointer_device.hpp>
 #include <calligraphy/devices/replay_device.hpp>
+#include <calligraphy/devices/sample_queue.hpp>
+#include <calligraphy/devices/servo.hpp>
+#include <calligraphy/devices/servo_clock.hpp>
+#include <calligraphy/devices/servo_loop.hpp>
+#include <calligraphy/devices/servo_statistics.hpp>
+#include <calligraphy/devices/servo_thread.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
 #include <calligraphy/error.hpp>
 #include <calligraphy/model/bezier.hpp>
@@ -32,6 +41,7 @@
 #include <calligraphy/practice/force_field.hpp>
 #include <calligraphy/practice/hanzi_writer.hpp>
 #include <calligraphy/practice/kanjivg.hpp>
+#include <calligraphy/practice/live_session.hpp>
 #include <calligraphy/practice/nearest_point_workload.hpp>
 #include <calligraphy/practice/page.hpp>
 #include <calligraphy/practice/pen_path.hpp>

@@ -101,4 +101,15 @@ void write_file(const fs::path& path, std::string_view content) {
 
 void check_can_write(const fs::path& path) { TemporaryFile(target_of(path)).write(""); }
 
+std::ifstream open_file(const fs::path& path) {
+  std::error_code failure;
+  if (fs::exists(path, failure) && !fs::is_regular_file(path, failure)) {
+    throw FileError(path.string() + ": is not a regular file");
+  }
+  errno = 0;
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw FileError(path.string() + ": cannot be opened: " + reason_of(errno));
+  return in;
+}
+
 }  // namespace calligraphy

@@ -118,9 +118,10 @@ std::optional<Crossing> crossing(const Field& field, Point begin, Point end, Pul
 /// What is found at each place of a square, and the lines across which it jumps.
 class Scan {
  public:
-  Scan(const Field& field, const ForceField& square, double least_jump)
-      : field_(field), square_(square), least_jump_(least_jump) {
+  Scan(const Field& field, const ForceField& square, const ForceFieldOptions& options)
+      : field_(field), square_(square), options_(options) {
     for (int row = 0; row < square.columns; ++row) {
+      tell(row);
       for (int column = 0; column < square.columns; ++column) pulls_.push_back(field(square.place(column, row)));
     }
   }
@@ -132,6 +133,7 @@ class Scan {
     const int n = square_.columns;
     std::vector<std::optional<Crossing>> right(pulls_.size()), above(pulls_.size());
     for (int row = 0; row < n; ++row) {
+      tell(n + row);
       for (int column = 0; column < n; ++column) {
         if (column + 1 < n) right[index(column, row)] = between(column, row, column + 1, row);
         if (row + 1 < n) above[index(column, row)] = between(column, row, column, row + 1);
@@ -151,12 +153,17 @@ class Scan {
     return jumps;
   }
 
+  /// Rows, of which there are once as many for the forces and once as many for the jumps.
+  void tell(int rows_done) const {
+    if (options_.progress) options_.progress(0.5 * rows_done / square_.columns);
+  }
+
  private:
   std::size_t index(int column, int row) const { return static_cast<std::size_t>(row * square_.columns + column); }
 
   std::optional<Crossing> between(int column, int row, int next_column, int next_row) const {
     return crossing(field_, square_.place(column, row), square_.place(next_column, next_row),
-                    pulls_[index(column, row)], pulls_[index(next_column, next_row)], least_jump_);
+                    pulls_[index(column, row)], pulls_[index(next_column, next_row)], options_.least_jump);
   }
 
   static void join(const std::vector<Crossing>& found, std::vector<ForceJump>& jumps) {
@@ -181,7 +188,7 @@ class Scan {
 
   const Field& field_;
   const ForceField& square_;
-  double least_jump_;
+  const ForceFieldOptions& options_;
   std::vector<Pull> pulls_;
 };
 
@@ -226,11 +233,12 @@ ForceField guidance_field(const PlacedCharacter& placed, int stroke, double prog
                           ? nearest_stroke_field(placed, options)
                           : active_stroke_field(active, placed.placement, progress, options);
   ForceField field{corner, edge, options.columns, {}, {}};
-  const Scan scan(pulls, field, options.least_jump);
+  const Scan scan(pulls, field, options);
   for (const Pull& each : scan.pulls()) field.forces.push_back(each.force);
   field.jumps = scan.jumps();
   const std::vector<StrokeElement> elements = place_elements(active, placed.placement);
   for (ForceJump& jump : field.jumps) jump.from_stroke = distance_to(elements, 0.5 * (jump.begin + jump.end));
+  scan.tell(2 * options.columns);
   return field;
 }
 

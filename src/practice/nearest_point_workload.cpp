@@ -136,7 +136,9 @@ Curve symmetric(NumberSequence& random, int) {
 
 /// Its own image when turned by half a turn about the origin, to the last bit.
 Curve symmetric_s(NumberSequence& random, int) {
-  const Point end = random.point(0.3, 1.0), handle(random.between(-1.5, -0.2), random.between(0.2, 1.5));
+  const Point end = random.point(0.3, 1.0);
+  const double up = random.between(0.2, 1.5);
+  const Point handle(random.between(-1.5, -0.2), up);
   return {{-end, -handle, handle, end}};
 }
 

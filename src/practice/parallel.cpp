@@ -22,11 +22,11 @@ class Queue {
       if (i >= count_) return;
       try {
         work_(i);
+        const std::size_t done = ++done_;
+        if (progress) progress(static_cast<double>(done) / static_cast<double>(count_));
       } catch (...) {
         record(i, std::current_exception());
       }
-      const std::size_t done = ++done_;
-      if (progress) progress(static_cast<double>(done) / static_cast<double>(count_));
     }
   }
 

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
 #include <istream>
 #include <optional>
 #include <ostream>
@@ -15,6 +13,7 @@
 
 #include <calligraphy/error.hpp>
 #include <calligraphy/model/text.hpp>
+#include <calligraphy/practice/file.hpp>
 
 namespace calligraphy {
 namespace {
@@ -242,12 +241,7 @@ void append_notice(std::string& text, std::string_view notice) {
 std::vector<PenTrace> read_pen_traces(std::istream& in, std::string_view name) { return Parser(in, name).parse(); }
 
 std::vector<PenTrace> read_pen_traces(const std::string& path) {
-  std::error_code error;
-  if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error)) {
-    throw FileError(path + ": is not a regular file");
-  }
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw FileError(path + ": cannot be opened");
+  std::ifstream in = open_file(path);
   return read_pen_traces(in, path);
 }
 

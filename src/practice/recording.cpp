@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include <calligraphy/error.hpp>
+#include <calligraphy/practice/file.hpp>
 
 namespace calligraphy {
 namespace {
@@ -194,6 +195,11 @@ void write_csv(std::ostream& out, const Recording& recording) {
 }
 
 Recording read_csv(std::istream& in, std::string_view name) { return Parser(in, name).parse(); }
+
+Recording read_csv(const std::filesystem::path& path) {
+  std::ifstream in = open_file(path);
+  return read_csv(in, path.string());
+}
 
 std::vector<DeviceState> device_states(const Recording& recording, const MotionMapping& mapping) {
   std::vector<DeviceState> result;

@@ -1,11 +1,12 @@
 #include <calligraphy/practice/session.hpp>
 
-#include <chrono>
 #include <cmath>
 
 #include <calligraphy/devices/flush_denormals.hpp>
 #include <calligraphy/error.hpp>
 #include <calligraphy/practice/trace_hand.hpp>
+
+#include "session_tick.hpp"
 
 namespace calligraphy {
 namespace {
@@ -22,14 +23,14 @@ Intention to_device(const Intention& page, const MotionMapping& mapping) {
 
 Eigen::Vector3d resting_point(const Page& page) { return {0.5 * page.width, 0.5 * page.height, resting_height}; }
 
-double share_written(const Page& page, const HapticTick& tick) {
-  const auto count = static_cast<double>(page.characters.size());
-  if (tick.character >= static_cast<int>(page.characters.size())) return 1.0;
-  const auto& character = page.characters[static_cast<std::size_t>(tick.character)].character;
-  return (tick.character + tick.stroke / static_cast<double>(character.stroke_count())) / count;
-}
-
 }  // namespace
+
+double share_written(const Page& page, int character, int stroke) noexcept {
+  const auto count = static_cast<double>(page.characters.size());
+  if (character >= static_cast<int>(page.characters.size())) return 1.0;
+  const auto& active = page.characters[static_cast<std::size_t>(character)].character;
+  return (character + stroke / static_cast<double>(active.stroke_count())) / count;
+}
 
 Recording run_session(const Page& page, const SessionOptions& options, const PenMotion& motion) {
   if (!std::isfinite(options.longest_character) || options.longest_character <= 0.0) {
@@ -40,25 +41,17 @@ Recording run_session(const Page& page, const SessionOptions& options, const Pen
   SimulatedDevice device(options.device, options.skill.hand, mapping.to_device(resting_point(page)));
 
   const FlushDenormals as_a_servo_thread;
-  using Clock = std::chrono::steady_clock;
+  SessionTick session(renderer, options.mode, options.measure_ticks);
   const double period = 1.0 / options.renderer.servo_rate;
   const double longest = options.longest_character * static_cast<double>(page.characters.size());
   Recording recording;
   recording.rate = options.renderer.servo_rate;
   while (device.time() < longest) {
-    const DeviceState state = device.read();
-    const auto before = options.measure_ticks ? Clock::now() : Clock::time_point();
-    const HapticTick& tick = renderer.update(state);
-    const auto after = options.measure_ticks ? Clock::now() : Clock::time_point();
-
-    const bool feels = options.mode == Mode::force;
-    device.write(feels ? tick.force : Eigen::Vector3d(Eigen::Vector3d::Zero()));
-    recording.samples.push_back({tick.time, tick.device_point, tick.pen_tip,
-                                 feels ? tick.page_force : Eigen::Vector3d(Eigen::Vector3d::Zero()), tick.state,
-                                 tick.events, tick.status, tick.character, tick.stroke,
-                                 std::chrono::duration<float, std::nano>(after - before).count()});
+    const HapticTick& tick = session.update(device.read());
+    device.write(session.force());
+    recording.samples.push_back(session.sample());
     if (options.progress && recording.samples.size() % progress_interval == 0) {
-      options.progress(share_written(page, tick));
+      options.progress(share_written(page, tick.character, tick.stroke));
     }
     const std::optional<Intention> next = motion(tick, period);
     if (!next) break;
@@ -91,6 +84,25 @@ Recording follow_trace(const Page& page, const PenTrace& trace, const SessionOpt
     time += seconds;
     return Intention{from, (hand.at(time) - from) / seconds};
   });
+}
+
+Recording replay_page(const Page& page, ReplayDevice& device, const SessionOptions& options) {
+  HapticRenderer renderer(page.characters, upright_page(page.width, page.height), device.capabilities(),
+                          options.renderer);
+  const FlushDenormals as_a_servo_thread;
+  SessionTick session(renderer, options.mode, options.measure_ticks);
+  Recording recording;
+  recording.rate = options.renderer.servo_rate;
+  while (!device.finished()) {
+    const HapticTick& tick = session.update(device.read());
+    device.write(session.force());
+    recording.samples.push_back(session.sample());
+    if (options.progress && recording.samples.size() % progress_interval == 0) {
+      options.progress(share_written(page, tick.character, tick.stroke));
+    }
+  }
+  if (options.progress) options.progress(1.0);
+  return recording;
 }
 
 }  // namespace calligraphy

@@ -22,6 +22,7 @@ namespace {
 
 constexpr double at_rest = 1e-7;      ///< from peak to peak, a hundredth of a coarse encoder's step [m]
 constexpr double shrunk = 0.95;       ///< in half of the time
+constexpr double still = 0.99;        ///< in the last quarter: an approach to a smaller swing stands still by then
 constexpr double out_of_reach = 1.0;  ///< no pen is there [m]
 constexpr int windows = 16;           ///< of the time, in each of which the swing is measured
 constexpr double precision = 1.02;    ///< of the largest stable stiffness
@@ -100,10 +101,10 @@ class Wall {
   double stiffness_, damping_, before_;
 };
 
-/// From window to window, so that a swing which merely varies does not pass, and by enough in all.
+/// From window to window, so that a swing which merely varies does not pass, by enough in all, and to the end.
 bool shrinks(std::span<const double> swings) {
   const bool falls = std::is_sorted(swings.rbegin(), swings.rend(), std::less_equal<>());
-  return falls && swings.back() < shrunk * swings.front();
+  return falls && swings.back() < shrunk * swings.front() && swings.back() < still * swings[swings.size() / 2];
 }
 
 PassivityController controller_for(const SampledLoop& loop, bool controlled) {

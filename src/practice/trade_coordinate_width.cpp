@@ -50,9 +50,12 @@ Character with_coordinate_width(const Character& character, int bits) {
   return rounded;
 }
 
-std::vector<CoordinateWidthTrade> coordinate_width_trade(std::span<const Character> characters) {
+std::vector<CoordinateWidthTrade> coordinate_width_trade(std::span<const Character> characters,
+                                                         const std::function<void(double)>& progress) {
   if (characters.empty()) throw ValueError("coordinate width: no characters");
   const Placement em_square{Point::Zero(), 1.0};
+  const double total = static_cast<double>(characters.size()) * (widest - narrowest + 1);
+  double done = 0.0;
   std::vector<CoordinateWidthTrade> trade;
   for (int bits = narrowest; bits <= widest; ++bits) {
     CoordinateWidthTrade entry;
@@ -69,6 +72,7 @@ std::vector<CoordinateWidthTrade> coordinate_width_trade(std::span<const Charact
         measure(as_stored, as_drawn, distances);
       }
       entry.bytes += stored_bytes(character, bits) / static_cast<double>(characters.size());
+      if (progress) progress(++done / total);
     }
     entry.largest_error = distances.largest;
     entry.rms_error = distances.length > 0.0 ? std::sqrt(distances.weighted_squares / distances.length) : 0.0;

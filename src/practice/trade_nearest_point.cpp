@@ -210,8 +210,8 @@ std::vector<NearestPointTrade> nearest_point_trade(std::span<const Character> ch
   drawing.rate = options.rate;
   drawing.speed = options.speed;
   drawing.seed = options.seed;
-  const DrawnStrokes drawn = drawn_strokes(stroke_queries(characters, drawing));
-  const std::vector<DrawnStrokes> groups = in_groups(drawn);
+  const PennedStrokes drawn = drawn_strokes(stroke_queries(characters, drawing));
+  const std::vector<PennedStrokes> groups = in_groups(drawn);
   const double step = options.speed / options.rate;
   const std::vector<DrawnCurve> curves = drawn_curves(drawn, step), arcs = gentle_arcs(step);
 
@@ -233,8 +233,9 @@ std::vector<NearestPointTrade> nearest_point_trade(std::span<const Character> ch
           times.batch.push_back(batch_time_of(workloads[w], own));
         }
       }
+      const double done = round + static_cast<double>(w + 1) / static_cast<double>(parts);
+      if (options.progress) options.progress(done / options.rounds);
     }
-    if (options.progress) options.progress((round + 1.0) / options.rounds);
   }
 
   std::vector<NearestPointTrade> trade;

@@ -27,8 +27,8 @@ NearestPoint over_all(const std::vector<StrokeElement>& elements, const Point& q
 
 /// Follows the pen along each stroke; `use` gets the stroke, the tick and the foot.
 template <typename Use>
-void follow(const DrawnStrokes& strokes, const NearestPointOptions& options, const Use& use) {
-  for (const DrawnStroke& stroke : strokes) {
+void follow(const PennedStrokes& strokes, const NearestPointOptions& options, const Use& use) {
+  for (const PennedStroke& stroke : strokes) {
     if (options.method == NearestPointMethod::tracked) {
       StrokeTracker tracker(stroke.elements, options.tolerance);
       for (std::size_t i = 0; i < stroke.path.size(); ++i) use(stroke, i, tracker.update(stroke.path[i]).foot);
@@ -55,10 +55,10 @@ DrawnCurve arc(double radius, double offset, double step) {
 
 }  // namespace
 
-DrawnStrokes drawn_strokes(const std::vector<StrokeQueries>& queries) {
-  DrawnStrokes strokes;
+PennedStrokes drawn_strokes(const std::vector<StrokeQueries>& queries) {
+  PennedStrokes strokes;
   for (const StrokeQueries& each : queries) {
-    DrawnStroke stroke;
+    PennedStroke stroke;
     for (const auto& element : each.elements) {
       stroke.elements.push_back(prepare_element(element));
       stroke.size = std::max(stroke.size, stroke.elements.back().size());
@@ -72,9 +72,9 @@ DrawnStrokes drawn_strokes(const std::vector<StrokeQueries>& queries) {
   return strokes;
 }
 
-std::vector<DrawnStrokes> in_groups(const DrawnStrokes& strokes) {
+std::vector<PennedStrokes> in_groups(const PennedStrokes& strokes) {
   constexpr std::size_t size = 4;
-  std::vector<DrawnStrokes> groups;
+  std::vector<PennedStrokes> groups;
   for (std::size_t i = 0; i < strokes.size(); ++i) {
     if (i % size == 0) groups.emplace_back();
     groups.back().push_back(strokes[i]);
@@ -82,26 +82,26 @@ std::vector<DrawnStrokes> in_groups(const DrawnStrokes& strokes) {
   return groups;
 }
 
-std::vector<double> tick_errors(const DrawnStrokes& strokes, const NearestPointOptions& options) {
+std::vector<double> tick_errors(const PennedStrokes& strokes, const NearestPointOptions& options) {
   std::vector<double> errors;
-  follow(strokes, options, [&errors](const DrawnStroke& stroke, std::size_t i, const NearestPoint& foot) {
+  follow(strokes, options, [&errors](const PennedStroke& stroke, std::size_t i, const NearestPoint& foot) {
     errors.push_back(std::abs(foot.distance - stroke.distances[i]) / stroke.size);
   });
   return errors;
 }
 
-double tick_time(const DrawnStrokes& strokes, const NearestPointOptions& options) {
+double tick_time(const PennedStrokes& strokes, const NearestPointOptions& options) {
   return seconds_of([&] {
     double sum = 0.0;
     follow(strokes, options,
-           [&sum](const DrawnStroke&, std::size_t, const NearestPoint& foot) { sum += foot.parameter; });
+           [&sum](const PennedStroke&, std::size_t, const NearestPoint& foot) { sum += foot.parameter; });
     return sum;
   });
 }
 
-std::vector<DrawnCurve> drawn_curves(const DrawnStrokes& strokes, double step) {
+std::vector<DrawnCurve> drawn_curves(const PennedStrokes& strokes, double step) {
   std::vector<DrawnCurve> curves;
-  for (const DrawnStroke& stroke : strokes) {
+  for (const PennedStroke& stroke : strokes) {
     double end = 0.0;
     std::size_t tick = 0;
     for (const StrokeElement& element : stroke.elements) {

@@ -13,25 +13,26 @@ inline constexpr double wrong_branch = 1e-3;
 /// What every answer is compared with.
 inline constexpr NearestPointOptions reference = {.method = NearestPointMethod::exact, .tolerance = 1e-12};
 
-struct DrawnStroke {
+/// A stroke and the path of a pen over it.
+struct PennedStroke {
   std::vector<StrokeElement> elements;
   std::vector<Point> path;
   std::vector<double> distances;  ///< to the nearest element, exact
   double size = 0.0;              ///< of the largest element
 };
 
-using DrawnStrokes = std::vector<DrawnStroke>;
+using PennedStrokes = std::vector<PennedStroke>;
 
-DrawnStrokes drawn_strokes(const std::vector<StrokeQueries>& queries);
+PennedStrokes drawn_strokes(const std::vector<StrokeQueries>& queries);
 
 /// A few strokes at a time: short enough that most are timed undisturbed.
-std::vector<DrawnStrokes> in_groups(const DrawnStrokes& strokes);
+std::vector<PennedStrokes> in_groups(const PennedStrokes& strokes);
 
 /// Errors of the distance at every tick, in sizes of the stroke's largest element.
-std::vector<double> tick_errors(const DrawnStrokes& strokes, const NearestPointOptions& options);
+std::vector<double> tick_errors(const PennedStrokes& strokes, const NearestPointOptions& options);
 
 /// For all ticks [s].
-double tick_time(const DrawnStrokes& strokes, const NearestPointOptions& options);
+double tick_time(const PennedStrokes& strokes, const NearestPointOptions& options);
 
 /// A pen drawn along one curve: the guidance of the active element alone.
 struct DrawnCurve {
@@ -40,7 +41,7 @@ struct DrawnCurve {
 };
 
 /// The part of each pen path that belongs to a curve. `step`: way of the pen along the stroke in a tick [m].
-std::vector<DrawnCurve> drawn_curves(const DrawnStrokes& strokes, double step);
+std::vector<DrawnCurve> drawn_curves(const PennedStrokes& strokes, double step);
 
 /// Arcs of 90 degrees, 15 to 40 mm in radius, the pen steadily 1 to 4 mm beside them.
 std::vector<DrawnCurve> gentle_arcs(double step);

@@ -62,8 +62,9 @@ bool comes_to_rest(const Page& page, const DeviceProfile& profile, const Hand& h
 
 /// The largest below which no stiffness that was tried is unstable, to 2 % [N/m].
 double largest_stable_stiffness(const Page& page, const DeviceProfile& profile, const Hand& hand,
-                                const RendererOptions& options, bool limit) {
+                                const RendererOptions& options, bool limit, const std::function<void()>& pause) {
   const auto stable = [&](double stiffness) {
+    pause();
     return comes_to_rest(page, profile, hand, with_paper(options, stiffness, limit));
   };
   double good = softest, bad = softest;
@@ -86,8 +87,9 @@ struct Written {
 
 /// Each character on a page of its own, each with every seed.
 Written write_all(std::span<const Character> characters, const DeviceProfile& profile, const RendererOptions& renderer,
-                  const ServoRateTradeOptions& options) {
+                  const ServoRateTradeOptions& options, const std::function<void()>& pause) {
   SessionOptions session;
+  session.progress = [&pause](double) { pause(); };
   session.device = profile;
   session.renderer = renderer;
   session.skill = WriterSkill::novice();
@@ -131,6 +133,10 @@ std::vector<ServoRateTrade> servo_rate_trade(std::span<const Character> characte
   const Page page = lay_out(characters.first(1)).front();
   double total = 0.0, done = 0.0;
   for (const double rate : options.rates) total += rate;
+  // Within a rate, which may take a minute, too.
+  const auto pause = [&] {
+    if (options.progress) options.progress(done / total);
+  };
   std::vector<ServoRateTrade> trade;
   for (const double rate : options.rates) {
     RendererOptions renderer = usual;
@@ -141,22 +147,23 @@ std::vector<ServoRateTrade> servo_rate_trade(std::span<const Character> characte
     entry.rate = rate;
     entry.stiffness = renderer.paper_stiffness;
     entry.stable = comes_to_rest(page, profile, hand, renderer);
-    const Written written = write_all(characters, profile, renderer, options);
+    const Written written = write_all(characters, profile, renderer, options, pause);
     entry.penetration = written.penetration;
     entry.path_error = written.path_error;
     entry.force_step = written.force_step;
     entry.written = written.share;
-    entry.loop_stiffness = largest_stable_stiffness(page, profile, hand, renderer, true);
-    entry.unlimited_stiffness = largest_stable_stiffness(page, profile, hand, renderer, false);
+    entry.loop_stiffness = largest_stable_stiffness(page, profile, hand, renderer, true, pause);
+    entry.unlimited_stiffness = largest_stable_stiffness(page, profile, hand, renderer, false, pause);
     entry.held_stiffness = critical_stiffness(sampled_loop(known, rate, hand));
     entry.free_stiffness = critical_stiffness(sampled_loop(known, rate));
     entry.hard_stiffness = 0.5 * entry.unlimited_stiffness;
-    const Written hard = write_all(characters, profile, with_paper(renderer, entry.hard_stiffness, false), options);
+    const Written hard =
+        write_all(characters, profile, with_paper(renderer, entry.hard_stiffness, false), options, pause);
     entry.hard_penetration = hard.penetration;
     entry.hard_force_step = hard.force_step;
     trade.push_back(entry);
     done += rate;
-    if (options.progress) options.progress(done / total);
+    pause();
   }
   return trade;
 }

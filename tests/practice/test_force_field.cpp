@@ -171,6 +171,27 @@ TEST_CASE("a field of what does not exist is refused", "[force field]") {
   CHECK_THROWS_AS(force_field_picture({}), ValueError);
 }
 
+TEST_CASE("a field tells how much of it is done, and ends by what that throws", "[force field]") {
+  const PlacedCharacter three = placed(U'\u4E09');
+  ForceFieldOptions options;
+  options.columns = 8;
+  std::vector<double> shares;
+  options.progress = [&shares](double share) { shares.push_back(share); };
+  const ForceField told = guidance_field(three, 0, 0.5, {0.0, 0.0}, 0.04, options);
+  CHECK(shares.size() == 17);
+  CHECK(std::is_sorted(shares.begin(), shares.end()));
+  CHECK(shares.front() == 0.0);
+  CHECK(shares.back() == 1.0);
+  options.progress = nullptr;
+  CHECK(guidance_field(three, 0, 0.5, {0.0, 0.0}, 0.04, options).forces == told.forces);
+  for (const double enough : {0.25, 0.75}) {
+    options.progress = [enough](double share) {
+      if (share >= enough) throw Error("enough");
+    };
+    CHECK_THROWS_AS(guidance_field(three, 0, 0.5, {0.0, 0.0}, 0.04, options), Error);
+  }
+}
+
 TEST_CASE("a picture of a field shows its panels, strokes, arrows and jumps, and stays small", "[force field]") {
   const std::vector<ForceFieldFigure> figures = ambiguity_figures();
   REQUIRE(figures.size() == 4);

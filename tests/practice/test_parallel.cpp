@@ -2,6 +2,7 @@
 #include <atomic>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "../catch.hpp"
@@ -30,6 +31,24 @@ TEST_CASE("of several failures the one of the lowest index is thrown", "[practic
     }
     REQUIRE(message == "20");
   }
+}
+
+TEST_CASE("what progress throws is thrown on and ends the work of every thread", "[practice]") {
+  std::atomic<int> calls = 0;
+  std::atomic<bool> given_up = false;
+  const auto give_up = [&](double) {
+    given_up = true;
+    throw std::runtime_error("given up");
+  };
+  const std::thread::id caller = std::this_thread::get_id();
+  CHECK_THROWS_WITH(parallel_for(1'000'000, 4, give_up,
+                                 [&](std::size_t) {
+                                   // Nobody goes far before the caller has had its turn.
+                                   while (!given_up && std::this_thread::get_id() != caller) std::this_thread::yield();
+                                   ++calls;
+                                 }),
+                    "given up");
+  CHECK(calls < 1'000'000);
 }
 
 TEST_CASE("progress rises, from the calling thread alone, and one thread reports to the end", "[practice]") {

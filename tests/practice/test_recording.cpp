@@ -118,6 +118,11 @@ struct GermanNumbers : std::numpunct<char> {
 
 }  // namespace
 
+TEST_CASE("a recording is read from a regular file alone, and others are named", "[practice]") {
+  CHECK_THROWS_WITH(read_csv("/dev/zero"), "/dev/zero: is not a regular file");
+  CHECK_THROWS_WITH(read_csv("none.csv"), "none.csv: cannot be opened: No such file or directory");
+}
+
 TEST_CASE("a recording read back is the same to the last bit", "[practice]") {
   check_same(parsed(csv(hard_recording())), hard_recording());
   check_same(parsed(csv({})), {});

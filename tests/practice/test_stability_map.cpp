@@ -108,6 +108,21 @@ TEST_CASE("a pen that falls on a wall settles up to the critical stiffness of th
   }
 }
 
+TEST_CASE("a swing that shrinks onto a smaller one, and stays there, has not settled", "[stability map]") {
+  const double seconds = GENERATE(4.0, 12.0, 60.0);
+  WallEncounter encounter;
+  encounter.seconds = seconds;
+  CAPTURE(seconds);
+  const Hand grip{0.1, 3.0, 300.0};
+  CHECK_FALSE(meet_wall(loop_of(500.0, 0.1, 0, 0.0, grip), std::pow(10.0, 4.5), encounter).settles);
+  SampledLoop rounded = loop_of(2000.0, 2.0, 0, 0.0, grip);
+  rounded.encoder_step = 23e-6;
+  rounded.coulomb_friction = 0.06;
+  CHECK_FALSE(meet_wall(rounded, std::pow(10.0, 4.75), encounter).settles);
+  // One that shrinks slowly all the way, by 2.6 % in the last quarter of the first 4 s, settles.
+  CHECK(meet_wall(loop_of(4000.0, 0.2, 2), std::pow(10.0, 2.5), encounter).settles);
+}
+
 TEST_CASE("with the passivity controller a wall ten times as stiff settles below the peak force", "[stability map]") {
   const SampledLoop loop = loop_of(1000.0, 0.1);
   const double critical = critical_stiffness(loop);

@@ -1,7 +1,8 @@
-// Files that are whole or not there.
+// Files that are whole or not there, and those that are read.
 #pragma once
 
 #include <filesystem>
+#include <fstream>
 #include <string_view>
 
 namespace calligraphy {
@@ -13,5 +14,9 @@ void write_file(const std::filesystem::path& path, std::string_view content);
 /// Tells before long work that write_file would fail: makes a temporary file beside `path` and removes it.
 /// @throws FileError as write_file does
 void check_can_write(const std::filesystem::path& path);
+
+/// A regular file to read from: a pipe might never say a word, and a device never end.
+/// @throws FileError naming the path and the reason
+std::ifstream open_file(const std::filesystem::path& path);
 
 }  // namespace calligraphy

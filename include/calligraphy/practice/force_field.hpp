@@ -1,6 +1,7 @@
 // The guidance force on a resting pen over a part of the page (Wang 2006, sec. 6, Figs. 25 to 28).
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,8 @@ struct ForceFieldOptions {
   double stiffness = 600.0;  ///< guidance, where the attraction factor is 1 [N/m]
   int columns = 96;          ///< places per edge of the square
   double least_jump = 0.1;   ///< smaller jumps of the force are left out [N]
+  /// Called now and then with the share that is done. What it throws ends the field.
+  std::function<void(double)> progress = nullptr;
 };
 
 /// A piece of a line across which the force jumps.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <iosfwd>
 #include <string_view>
 #include <vector>
@@ -39,6 +40,8 @@ void write_csv(std::ostream& out, const Recording& recording);
 /// @throws FormatError naming the line and the value, also when the file is cut off within a line; FileError when the
 /// stream fails
 Recording read_csv(std::istream& in, std::string_view name);
+/// @throws FileError when the file cannot be opened, FormatError as above
+Recording read_csv(const std::filesystem::path& path);
 
 /// The device point of each sample in device axes, for a ReplayDevice on the same mapping. A bad sample has no position
 /// (NaN) and a device fault says so, so that they are replayed as what they were.

@@ -23,7 +23,7 @@ struct WallEncounter {
 
 struct WallOutcome {
   /// The pen comes to rest: its swing from peak to peak falls below 0.1 um, or becomes smaller in each sixteenth of the
-  /// second half of the time, by 5 % or more in all.
+  /// second half of the time, by 5 % or more in all and by 1 % or more in the last quarter.
   bool settles = false;
   double swing = 0.0;          ///< from peak to peak, in the last sixteenth that was simulated [m]
   double largest_force = 0.0;  ///< sent [N]

@@ -118,9 +118,11 @@ struct CoordinateWidthTrade {
 /// @throws ValueError when bits are not in [1, 32]
 Character with_coordinate_width(const Character& character, int bits);
 
-/// One entry per width from 4 to 16 bits. The same in every run.
+/// One entry per width from 4 to 16 bits. The same in every run. `progress` is called now and then with the share that
+/// is done.
 /// @throws ValueError when there is no character
-std::vector<CoordinateWidthTrade> coordinate_width_trade(std::span<const Character> characters);
+std::vector<CoordinateWidthTrade> coordinate_width_trade(std::span<const Character> characters,
+                                                         const std::function<void(double)>& progress = {});
 
 /// SVG by gnuplot, log-log: cost against largest error of every method and setting, on real strokes and on the hard
 /// workloads; penetration, path error, force step and stability over the servo rate; error and bytes over the width.

@@ -1,0 +1,83 @@
+#include <calligraphy/practice/live_session.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include <calligraphy/devices/sample_queue.hpp>
+#include <calligraphy/error.hpp>
+
+#include "session_tick.hpp"
+
+namespace calligraphy {
+namespace {
+
+/// Between two looks at what the servo loop has done.
+constexpr std::chrono::milliseconds glance(20);
+
+/// For as long may the calling thread be away before ticks are lost [s].
+constexpr double longest_absence = 2.0;
+
+/// Of the servo loop, when its rate is low [ticks].
+constexpr double least_patience = 3.0;
+
+}  // namespace
+
+Capabilities limited(Capabilities capabilities, double peak_force) {
+  if (!(peak_force > 0.0)) throw ValueError("peak_force = " + std::to_string(peak_force) + " N, must be above 0");
+  capabilities.peak_force = std::min(capabilities.peak_force, peak_force);
+  capabilities.continuous_force = std::min(capabilities.continuous_force, peak_force);
+  return capabilities;
+}
+
+LiveResult write_with_device(const Page& page, HapticDevice& device, const LiveOptions& options) {
+  if (!std::isfinite(options.longest) || options.longest <= 0.0) {
+    throw ValueError("longest = " + std::to_string(options.longest) + " s");
+  }
+  const MotionMapping mapping = upright_page(page.width, page.height);
+  HapticRenderer renderer(page.characters, mapping, limited(device.capabilities(), options.peak_force),
+                          options.renderer);
+  SessionTick session(renderer, options.mode, true);
+  SampleQueue<Sample> queue(static_cast<std::size_t>(std::ceil(longest_absence * options.renderer.servo_rate)));
+  ServoLoopOptions servo = options.servo;
+  servo.servo.rate = options.renderer.servo_rate;
+  servo.servo.patience = std::max(servo.servo.patience, least_patience / servo.servo.rate);
+  bool in_front = false;  // an inkwell lies behind the paper: what happens on the way out of it is no writing
+  ServoLoop loop(
+      device,
+      [&](const DeviceState& state) noexcept {
+        in_front = in_front || mapping.to_page(state.position).z() > 0.0;
+        if (!in_front) return Eigen::Vector3d(Eigen::Vector3d::Zero());
+        session.update(state);
+        queue.push(session.sample());
+        return Eigen::Vector3d(session.force());
+      },
+      servo);
+
+  LiveResult result;
+  result.recording.rate = options.renderer.servo_rate;
+  LiveView view;
+  const auto take_over = [&] {
+    while (queue.pop(view.newest)) result.recording.samples.push_back(view.newest);
+  };
+  const int count = static_cast<int>(page.characters.size());
+  const auto begin = std::chrono::steady_clock::now();
+  const std::chrono::duration<double> longest(options.longest);
+  result.warnings = loop.start();
+  while (std::chrono::steady_clock::now() - begin < longest) {
+    std::this_thread::sleep_for(glance);
+    take_over();
+    view.servo = loop.status();
+    view.share = share_written(page, view.newest.character, view.newest.stroke);
+    if (options.watch && !options.watch(view)) break;
+    if (view.newest.character >= count && view.newest.state != InteractionState::writing) break;
+  }
+  loop.stop();
+  take_over();
+  result.statistics = loop.statistics();
+  result.dropped = queue.dropped();
+  return result;
+}
+
+}  // namespace calligraphy
