@@ -6,6 +6,10 @@ if(CALLIGRAPHY_PRACTICE)
   install(FILES include/calligraphy/calligraphy.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/calligraphy)
 endif()
 install(EXPORT calligraphyTargets NAMESPACE calligraphy:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/calligraphy)
+if(CALLIGRAPHY_WITH_PHANTOM)
+  install(EXPORT calligraphyPhantomTargets NAMESPACE calligraphy::
+    DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/calligraphy)
+endif()
 configure_package_config_file(cmake/calligraphyConfig.cmake.in ${PROJECT_BINARY_DIR}/calligraphyConfig.cmake
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/calligraphy)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/calligraphyConfigVersion.cmake COMPATIBILITY SameMinorVersion)

@@ -1,6 +1,9 @@
-# calligraphy_room(name SOURCES ... DEPENDS ...): one room of the house as the target calligraphy::name.
+# calligraphy_room(name [EXPORT set] SOURCES ... DEPENDS ...): one room of the house as the target calligraphy::name.
 function(calligraphy_room name)
-  cmake_parse_arguments(ROOM "" "" "SOURCES;DEPENDS" ${ARGN})
+  cmake_parse_arguments(ROOM "" "EXPORT" "SOURCES;DEPENDS" ${ARGN})
+  if(NOT ROOM_EXPORT)
+    set(ROOM_EXPORT calligraphyTargets)
+  endif()
   set(target calligraphy_${name})
   add_library(${target} ${ROOM_SOURCES})
   add_library(calligraphy::${name} ALIAS ${target})
@@ -10,7 +13,18 @@ function(calligraphy_room name)
                                               $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(${target} PUBLIC ${ROOM_DEPENDS})
   calligraphy_warnings(${target})
-  install(TARGETS ${target} EXPORT calligraphyTargets)
+  if(CALLIGRAPHY_SANITIZE)  # a build for tests: several files as one compile in a third of the time
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON)
+    target_compile_options(${target} PRIVATE -Wno-shadow)  # of names that stand in a neighbour
+    set_source_files_properties(
+      src/collision/certified_nearest_point.cpp src/collision/sampled_nearest_point.cpp src/devices/oscillator.cpp
+      src/model/stroke_recognition.cpp src/practice/hanzi_writer.cpp src/practice/pen_trace.cpp
+      src/practice/recording.cpp src/practice/replay_picture.cpp src/practice/stability_plot.cpp
+      src/practice/typical_strokes_picture.cpp
+      src/render/paper_friction.cpp
+      PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)  # these have names that a neighbour has too
+  endif()
+  install(TARGETS ${target} EXPORT ${ROOM_EXPORT})
   install(DIRECTORY include/calligraphy/${name} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/calligraphy)
 endfunction()
 
@@ -21,6 +35,14 @@ function(calligraphy_warnings target)
     $<$<CXX_COMPILER_ID:Clang,AppleClang>:-Wno-sign-conversion>
     # g++ 12 warns of std::string's own operator+ (GCC bug 105651).
     $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict>)
+endfunction()
+
+# calligraphy_call_foreign_code(target): it calls functions of a library that it loads, whose types clang's sanitizer
+# cannot know to be the same.
+function(calligraphy_call_foreign_code target)
+  if(CALLIGRAPHY_SANITIZE MATCHES "undefined" AND CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    target_compile_options(${target} PRIVATE -fno-sanitize=function)
+  endif()
 endfunction()
 
 # calligraphy_embed(variable room name file ...): a source file that holds each text file as

@@ -23,5 +23,6 @@ void add_stability(CLI::App& program);
 void add_import(CLI::App& program);
 void add_validate(CLI::App& program);
 void add_replay(CLI::App& program);
+void add_devices(CLI::App& program);
 
 }  // namespace calligraphy::tools

@@ -44,6 +44,7 @@ int run(int argc, char** argv) {
   calligraphy::tools::add_import(program);
   calligraphy::tools::add_validate(program);
   calligraphy::tools::add_replay(program);
+  calligraphy::tools::add_devices(program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

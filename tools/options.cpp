@@ -20,12 +20,6 @@ bool parse(const std::string& word, Number& value) {
   return failure == std::errc() && rest == end;
 }
 
-std::string device_names() {
-  std::string names;
-  for (const DeviceProfile& profile : device_profiles()) names += (names.empty() ? "" : ", ") + profile.name;
-  return names;
-}
-
 bool is_white_space(char32_t code) {
   constexpr std::u32string_view spaces = U"\t\n\v\f\r \u0085\u00A0\u2028\u2029\u202F\u205F\u3000\uFEFF";
   return spaces.find(code) != std::u32string_view::npos || (code >= U'\u2000' && code <= U'\u200B');
@@ -73,6 +67,12 @@ std::string name_in_file(char32_t code) {
   constexpr std::string_view plain = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
   const bool good = code >= 0xA0 || plain.find(static_cast<char>(code)) != std::string_view::npos;
   return good ? encode_utf8(code) : fmt::format("U+{:04X}", static_cast<unsigned>(code));
+}
+
+std::string device_names() {
+  std::string names;
+  for (const DeviceProfile& profile : device_profiles()) names += (names.empty() ? "" : ", ") + profile.name;
+  return names;
 }
 
 CLI::Option* add_device_option(CLI::App& command, std::string& device) {

@@ -27,6 +27,9 @@ std::string name_in_file(char32_t code);
 /// --device [simulated:]NAME, the desktop unless told otherwise.
 CLI::Option* add_device_option(CLI::App& command, std::string& device);
 
+/// "desktop, ideal, ...": the profiles by name.
+std::string device_names();
+
 /// The profile that --device names. @throws UsageError naming those that there are
 DeviceProfile chosen_device(const std::string& device);
 

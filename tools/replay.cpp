@@ -18,6 +18,7 @@
 
 #include "character_source.hpp"
 #include "commands.hpp"
+#include "interrupt.hpp"
 #include "options.hpp"
 #include "output_directory.hpp"
 #include "progress.hpp"
@@ -92,10 +93,12 @@ class Run {
       if (!set.find(code)) report_.without_template += code;
     }
     if (report_.without_template == text) throw Error("none of the characters written is in --characters");
+    const Interrupt interrupt;
     std::optional<OutputDirectory> out;
     if (options_.out) out.emplace(*options_.out);
     Progress progress;
     for (std::size_t i = 0; i < traces.size(); ++i) {
+      interrupt.check();
       const auto stored = set.find(traces[i].trace.character);
       if (stored) replay_one(traces[i], stored->character(), out);
       progress.show(static_cast<double>(i + 1) / static_cast<double>(traces.size()));

@@ -18,6 +18,7 @@
 #include <calligraphy/practice/stability_map.hpp>
 
 #include "commands.hpp"
+#include "interrupt.hpp"
 #include "options.hpp"
 #include "output_directory.hpp"
 #include "progress.hpp"
@@ -97,6 +98,7 @@ void advise(const Options& options) {
 
 void map(const Options& options) {
   if (options.out && options.out->empty()) throw UsageError("--out: an empty name");
+  const Interrupt interrupt;
   std::optional<OutputDirectory> out;
   if (options.out) out.emplace(*options.out);
   StabilityMapOptions wanted;
@@ -105,13 +107,18 @@ void map(const Options& options) {
     wanted.per_decade = 4;
   }
   Progress progress;
-  wanted.progress = [&progress](double share) { progress.show(share); };
+  wanted.progress = [&](double share) {
+    interrupt.check();
+    progress.show(share);
+  };
   const StabilityMap map = stability_map(wanted);
   fmt::print("{}", options.json ? json(map) : tables(map));
   std::fflush(stdout);  // what was found is not lost when drawing fails
   if (!out) return;
   out->write("stability.json", json(map));
-  if (can_plot()) {
+  const bool plots = can_plot();
+  interrupt.check();  // Ctrl-C is for gnuplot too, which then cannot be run
+  if (plots) {
     out->write("stability.svg", stability_map_plot(map));
   } else {
     spdlog::warn("gnuplot cannot be run: no picture of the map");

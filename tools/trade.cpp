@@ -20,6 +20,7 @@
 
 #include "character_source.hpp"
 #include "commands.hpp"
+#include "interrupt.hpp"
 #include "options.hpp"
 #include "output_directory.hpp"
 #include "progress.hpp"
@@ -58,25 +59,30 @@ TradeReport asked_for(const Options& options) {
   return report;
 }
 
-void measure(TradeReport& report, const std::vector<Character>& characters) {
+void measure(TradeReport& report, const std::vector<Character>& characters, const Interrupt& interrupt) {
   Progress progress;
-  const auto part = [&progress](double begin, double end) {
-    return [&progress, begin, end](double share) { progress.show(begin + share * (end - begin)); };
+  const auto part = [&](double begin, double end) {
+    return [&, begin, end](double share) {
+      interrupt.check();
+      progress.show(begin + share * (end - begin));
+    };
   };
   report.nearest_options.progress = part(0.0, 0.6);
   report.nearest_point = nearest_point_trade(characters, report.nearest_options);
   report.servo_options.progress = part(0.6, 0.95);
   report.servo_rate = servo_rate_trade(std::span(characters).first(report.written.size()), report.servo_options);
-  report.coordinate_width = coordinate_width_trade(characters);
+  report.coordinate_width = coordinate_width_trade(characters, part(0.95, 1.0));
   progress.show(1.0);
 }
 
-void draw(const TradeReport& report, const OutputDirectory& out) {
+void draw(const TradeReport& report, const OutputDirectory& out, const Interrupt& interrupt) {
   out.write("trade.json", json(report));
   for (const ForceFieldFigure& figure : ambiguity_figures()) {
     out.write("field-" + figure.name + ".svg", force_field_picture(figure));
   }
-  if (!can_plot()) {
+  const bool plots = can_plot();
+  interrupt.check();  // Ctrl-C is for gnuplot too, which then cannot be run
+  if (!plots) {
     spdlog::warn("gnuplot cannot be run: no plots of the trade");
     return;
   }
@@ -93,12 +99,19 @@ void run(const Options& options) {
   if (curve_control_points(characters).empty()) {
     throw Error("no stroke of the text has a curve, which is what the nearest point is measured on");
   }
+  const Interrupt interrupt;
   std::optional<OutputDirectory> out;
   if (options.out) out.emplace(*options.out);
-  measure(report, characters);
+  measure(report, characters, interrupt);
   fmt::print("{}", options.json ? json(report) : tables(report));
   std::fflush(stdout);  // what was measured is not lost when drawing fails
-  if (out) draw(report, *out);
+  if (!out) return;
+  try {
+    draw(report, *out, interrupt);
+  } catch (const Error&) {
+    interrupt.check();
+    throw;
+  }
 }
 
 }  // namespace
@@ -117,13 +130,10 @@ void add_trade(CLI::App& program) {
       ->check(integer(0, std::numeric_limits<std::uint64_t>::max()))
       ->type_name("N")
       ->capture_default_str();
-  CLI::Option* const queries =
-      command->add_option("--queries", options->queries, "Of each of the 19 workloads (default: 4000)")
-          ->check(integer(1, 1000000))
-          ->type_name("N");
-  command->add_flag("--quick", options->quick, "In a few seconds, and coarse")
-      ->excludes(queries)
-      ->disable_flag_override();
+  command->add_option("--queries", options->queries, "Of each of the 19 workloads (default: 4000, quick: 400)")
+      ->check(integer(1, 1000000))
+      ->type_name("N");
+  command->add_flag("--quick", options->quick, "In a few seconds, and coarse")->disable_flag_override();
   command->add_flag("--json", options->json, "Print JSON instead of the tables")->disable_flag_override();
   command->callback([options] { run(*options); });
 }

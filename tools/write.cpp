@@ -1,4 +1,4 @@
-// calligraphy write: a simulated writer writes a text in closed loop, with vision only and with vision and force.
+// calligraphy write: a text is written in closed loop, with vision only and with vision and force.
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
@@ -27,7 +27,9 @@
 #include "commands.hpp"
 #include "options.hpp"
 #include "output_directory.hpp"
+#include "pen.hpp"
 #include "progress.hpp"
+#include "servo_report.hpp"
 #include "summary.hpp"
 
 namespace calligraphy::tools {
@@ -39,12 +41,18 @@ struct Options {
   std::vector<std::string> characters;
   std::string order;
   std::string device = "simulated:desktop";
-  std::string writer = "novice";
-  std::string mode = "both";
+  std::optional<std::string> writer;
+  std::optional<std::string> like;
+  std::optional<double> peak_force;
+  std::optional<double> longest;
+  std::string wire_profile;
+  std::string model;
+  std::optional<std::string> mode;
   std::optional<double> rate;
   int repeat = 1;
   std::uint64_t seed = 1;
   std::string rules = "default";
+  std::string renderer = "default";
   std::optional<std::string> method;
   std::optional<double> tolerance;
   bool json = false;
@@ -57,9 +65,11 @@ struct Sheet {
 };
 
 RendererOptions chosen_renderer(const Options& options, const Capabilities& capabilities) {
-  RendererOptions renderer = RendererOptions::for_device(capabilities);
+  RendererOptions renderer = options.renderer == "everything" ? RendererOptions::everything(capabilities)
+                                                              : RendererOptions::for_device(capabilities);
   const RendererOptions printed = RendererOptions::wang2006();
   if (options.rules == "wang2006") {
+    if (options.renderer == "everything") throw UsageError("--renderer everything: the rules of wang2006 have no more");
     RendererOptions rules = printed;
     rules.servo_rate = renderer.servo_rate;
     rules.paper_stiffness = renderer.paper_stiffness;
@@ -74,18 +84,42 @@ RendererOptions chosen_renderer(const Options& options, const Capabilities& capa
   return renderer;
 }
 
-SessionOptions chosen_session(const Options& options) {
+PenOptions chosen_pen(const Options& options) {
+  PenOptions pen;
+  pen.device = device_choice(options.device);
+  const DeviceKind kind = pen.device.kind;
+  const bool is_person = kind == DeviceKind::phantom || kind == DeviceKind::openhaptics;
+  const auto refuse = [&options](bool given, const char* option, const char* reason) {
+    if (given) throw UsageError(fmt::format("{} with --device {}: it is {}", option, options.device, reason));
+  };
+  refuse(options.writer && kind != DeviceKind::simulated, "--writer", "of the simulated writer");
+  refuse(options.like && kind != DeviceKind::replay, "--like", "for replay:FILE");
+  refuse(options.rate && kind == DeviceKind::replay, "--rate", "that of the trace");
+  refuse(options.rate && kind == DeviceKind::openhaptics, "--rate", "that of the vendor's scheduler");
+  refuse(options.repeat > 1 && kind == DeviceKind::replay, "--repeat", "the same again");
+  refuse(options.longest && !is_person, "--longest", "for a device that a person holds");
+  refuse(!options.wire_profile.empty() && kind != DeviceKind::phantom, "--wire-profile", "for a phantom");
+  refuse(!options.model.empty() && kind != DeviceKind::phantom, "--model", "for a phantom");
+  pen.device.wire_profile = options.wire_profile;
+  pen.device.model = options.model;
+  pen.like = options.like.value_or(pen.like);
+  pen.peak_force = options.peak_force.value_or(pen.peak_force);
+  pen.longest = options.longest.value_or(pen.longest);
+  return pen;
+}
+
+SessionOptions chosen_session(const Options& options, const DeviceProfile& device) {
   SessionOptions session;
-  session.device = chosen_device(options.device);
-  session.renderer = chosen_renderer(options, session.device.capabilities);
+  session.device = device;
+  session.renderer = chosen_renderer(options, device.capabilities);
   session.skill = options.writer == "skilled" ? WriterSkill::skilled() : WriterSkill::novice();
   session.measure_ticks = true;
   return session;
 }
 
-std::vector<Mode> chosen_modes(const std::string& mode) {
+std::vector<Mode> chosen_modes(const std::optional<std::string>& mode, bool simulated) {
   if (mode == "vision") return {Mode::vision};
-  if (mode == "force") return {Mode::force};
+  if (mode == "force" || (!mode && !simulated)) return {Mode::force};
   return {Mode::vision, Mode::force};
 }
 
@@ -131,10 +165,10 @@ class Run {
  public:
   explicit Run(const Options& options)
       : options_(options),
-        session_(chosen_session(options)),
-        modes_(chosen_modes(options.mode)),
-        text_(characters_of(options.text)) {
-    if (options.out.empty()) throw UsageError("--out: an empty name");
+        text_(characters_of(options.text)),
+        pen_(chosen_pen(options)),
+        session_(chosen_session(options, pen_.profile())),
+        modes_(chosen_modes(options.mode, !pen_.is_person() && !pen_.is_replay())) {
     try {
       // At a low rate less is stable than at the device's own.
       for (const std::string& reason : clip_stiffness(session_.renderer, session_.device.capabilities)) {
@@ -149,6 +183,7 @@ class Run {
   void write() {
     const CharacterSet set = open_characters(options_.characters, text_, options_.order);
     sheets_ = sheets(characters_of(set, text_, options_.order), session_.device.capabilities);
+    if (pen_.is_replay() && sheets_.size() > 1) throw UsageError("TEXT: a replay is of one page");
     const OutputDirectory out(options_.out);
     plots_ = can_plot();
     if (!plots_) spdlog::warn("gnuplot cannot be run: no plots of the force");
@@ -158,7 +193,9 @@ class Run {
     };
     std::sort(results_.begin(), results_.end(), order);
     out.write("summary.json", json(results_));
+    if (pen_.is_person()) out.write("servo.json", json(pen_.statistics()));
     report();
+    if (pen_.interrupted()) throw Error("interrupted; what was written until then is in " + options_.out);
   }
 
  private:
@@ -175,7 +212,8 @@ class Run {
           session_.progress = [&](double share) {
             progress.show((static_cast<double>(done) + share * static_cast<double>(count)) / static_cast<double>(runs));
           };
-          write_sheet(sheets_[sheet], repetition, out);
+          write_sheet(sheet, repetition, out);
+          if (pen_.interrupted()) return;
           done += count;
           progress.show(static_cast<double>(done) / static_cast<double>(runs));
         }
@@ -183,8 +221,18 @@ class Run {
     }
   }
 
-  void write_sheet(const Sheet& sheet, int repetition, const OutputDirectory& out) {
-    const Recording recording = write_page(sheet.page, session_);
+  void write_sheet(std::size_t number, int repetition, const OutputDirectory& out) {
+    const Sheet& sheet = sheets_[number];
+    if (pen_.is_person()) {
+      spdlog::info("page {} of {}, {}: hold the pen above the paper and write; Ctrl-C stops", number + 1,
+                   sheets_.size(), session_.mode == Mode::vision ? "vision only" : "with force");
+    }
+    const Recording recording = pen_.write(sheet.page, session_);
+    if (pen_.is_person()) {  // one that replay:FILE takes
+      std::ostringstream trace;
+      write_csv(trace, recording);
+      out.write(fmt::format("page-{}-{}-{}.csv", number + 1, mode_name(session_.mode), repetition), trace.str());
+    }
     const std::vector<CharacterScore> scores = score(sheet.page, recording);
     for (std::size_t i = 0; i < scores.size(); ++i) {
       const int index = static_cast<int>(i);
@@ -220,6 +268,7 @@ class Run {
     } else {
       if (options_.repeat > 1) fmt::print("means over {} repetitions\n", options_.repeat);
       fmt::print("{}{}", table(results_), reductions(results_));
+      for (const ServoStatistics& statistics : pen_.statistics()) fmt::print("{}", lines(statistics));
     }
     const auto given_up = [](const Result& r) { return r.score.strokes_completed < r.score.stroke_count; };
     const auto unfinished = std::count_if(results_.begin(), results_.end(), given_up);
@@ -227,9 +276,10 @@ class Run {
   }
 
   const Options& options_;
+  std::u32string text_;
+  Pen pen_;
   SessionOptions session_;
   std::vector<Mode> modes_;
-  std::u32string text_;
   std::vector<Sheet> sheets_;
   std::vector<Result> results_;
   bool plots_ = false;
@@ -238,10 +288,11 @@ class Run {
 }  // namespace
 
 void add_write(CLI::App& program) {
-  CLI::App* const command = program.add_subcommand(
-      "write",
-      "A simulated writer writes a text in closed loop on a simulated device. DIR receives, per character and mode, a "
-      "picture, a plot of the force and a trace (of the first repetition), and summary.json.");
+  CLI::App* const command =
+      program.add_subcommand("write",
+                             "A text is written in closed loop: by a simulated writer on a simulated device, or by a "
+                             "person on a real one. DIR receives, per character and mode, a "
+                             "picture, a plot of the force and a trace (of the first repetition), and summary.json.");
   const auto options = std::make_shared<Options>();
   command->add_option("TEXT", options->text, "Characters to write; white space is skipped")->required();
   command->add_option("--out", options->out, "Directory for the results, created when missing")
@@ -250,13 +301,31 @@ void add_write(CLI::App& program) {
   add_characters_option(*command, options->characters);
   command->add_option("--order", options->order, "Alternate stroke order (default: the standard one)")
       ->type_name("NAME");
-  add_device_option(*command, options->device);
-  command->add_option("--writer", options->writer, "How well the writer writes")
-      ->check(CLI::IsMember({"novice", "skilled"}))
-      ->capture_default_str();
-  command->add_option("--mode", options->mode, "Vision only, vision and force, or both one after the other")
-      ->check(CLI::IsMember({"both", "vision", "force"}))
-      ->capture_default_str();
+  command
+      ->add_option("--device", options->device,
+                   "[simulated:]NAME with one of " + device_names() +
+                       "; phantom[:SERIAL] or openhaptics[:NAME], which a person holds; or replay:FILE, a trace that "
+                       "this command recorded")
+      ->capture_default_str()
+      ->type_name("DEVICE");
+  command->add_option("--writer", options->writer, "How well the simulated writer writes (default: novice)")
+      ->check(CLI::IsMember({"novice", "skilled"}));
+  command
+      ->add_option("--mode", options->mode,
+                   "Vision only, vision and force, or both one after the other (default: both; of a device that is "
+                   "not simulated: force)")
+      ->check(CLI::IsMember({"both", "vision", "force"}));
+  command->add_option("--peak-force", options->peak_force, "At most so much, whatever the device can do, 0.1 to 1000")
+      ->check(number(0.1, 1000.0))
+      ->type_name("N");
+  command
+      ->add_option("--longest", options->longest,
+                   "A page that a person writes is given up after so long (default: 600)")
+      ->check(number(1.0, 1e5))
+      ->type_name("SECONDS");
+  command->add_option("--like", options->like, "Device whose limits and workspace a replay gets (default: desktop)")
+      ->type_name("NAME");
+  add_phantom_options(*command, options->wire_profile, options->model);
   command->add_option("--rate", options->rate, "Servo rate, 10 to 20000 (default: the device's)")
       ->check(number(10.0, 20000.0))
       ->type_name("HZ");
@@ -271,13 +340,19 @@ void add_write(CLI::App& program) {
   command->add_option("--rules", options->rules, "The rules as they should be, or as the paper prints them")
       ->check(CLI::IsMember({"default", "wang2006"}))
       ->capture_default_str();
+  command->add_option("--renderer", options->renderer, "The default stages, or every stage switched on")
+      ->check(CLI::IsMember({"default", "everything"}))
+      ->capture_default_str();
   command->add_option("--method", options->method, "Nearest point on a curve (default: that of the rules)")
       ->check(CLI::IsMember({"exact", "wang2006"}));
   command->add_option("--tolerance", options->tolerance, "Of the nearest point, 1e-15 to 1, in sizes of the curve")
       ->check(number(1e-15, 1.0))
       ->type_name("T");
   command->add_flag("--json", options->json, "Print summary.json instead of the table")->disable_flag_override();
-  command->callback([options] { Run(*options).write(); });
+  command->callback([options] {
+    if (options->out.empty()) throw UsageError("--out: an empty name");
+    Run(*options).write();
+  });
 }
 
 }  // namespace calligraphy::tools

@@ -1,7 +1,10 @@
 """Runs the program as a person would."""
 import os
+import shutil
+import signal
 import subprocess
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -14,23 +17,48 @@ class ProgramTest(unittest.TestCase):
         self.addCleanup(directory.cleanup)
         self.directory = Path(directory.name)
 
-    def run_program(self, *arguments, code=0):
+    def run_program(self, *arguments, code=0, environment=None):
         program = os.environ["CALLIGRAPHY_PROGRAM"]
-        done = subprocess.run([program, *arguments], cwd=self.directory, capture_output=True, stdin=subprocess.DEVNULL)
+        done = subprocess.run([program, *arguments], cwd=self.directory, capture_output=True, stdin=subprocess.DEVNULL,
+                              env={**os.environ, **(environment or {})})
         done.stdout = done.stdout.decode()
         done.stderr = done.stderr.decode(errors="replace")
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
         return done
 
-    def assert_refused(self, code, arguments, *words):
+    def run_on_emulated_phantom(self, *arguments, hand=(), code=0):
+        """The program on a device behind the real libusb and hidapi (docs/emulated-phantom.md)."""
+        emulated = os.environ.get("CALLIGRAPHY_EMULATED_PHANTOM")
+        if not emulated or shutil.which("umockdev-wrapper") is None:
+            if os.environ.get("CALLIGRAPHY_REQUIRE_DATA"):
+                self.fail("umockdev and its wrapper must be there")
+            self.skipTest("no emulated Phantom: umockdev is missing")
+        done = subprocess.run([emulated, *hand, "--", os.environ["CALLIGRAPHY_PROGRAM"], *arguments],
+                              cwd=self.directory, capture_output=True, text=True, stdin=subprocess.DEVNULL, timeout=600)
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done
+
+    def assert_refused(self, code, arguments, *words, environment=None):
         """One line that says where and what, and nothing left behind."""
         before = self.files()
-        done = self.run_program(*arguments, code=code)
+        done = self.run_program(*arguments, code=code, environment=environment)
         self.assertEqual(done.stdout, "")
         self.assertRegex(done.stderr, r"\Acalligraphy: [^\n]+\n\Z")
         for word in words:
             self.assertIn(word, done.stderr)
         self.assertEqual(self.files(), before)
+
+    def assert_interrupted_leaves_nothing(self, *arguments):
+        """Ctrl-C once the new directory out/new, where the command is to write, is there."""
+        running = subprocess.Popen([os.environ["CALLIGRAPHY_PROGRAM"], *arguments, "--out", "out/new"],
+                                   cwd=self.directory, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, text=True)
+        while running.poll() is None and not (self.directory / "out/new").exists():
+            time.sleep(0.001)
+        running.send_signal(signal.SIGINT)
+        printed, told = running.communicate(timeout=600)
+        self.assertEqual((running.returncode, printed, told), (1, "", "calligraphy: interrupted\n"))
+        self.assertEqual(self.files(), [])
 
     def files(self):
         return sorted(str(path.relative_to(self.directory)) for path in self.directory.rglob("*"))

@@ -136,3 +136,6 @@ class Refusals(ProgramTest):
         (self.directory / "file").write_text("keep")
         self.assert_refused(1, ["stability", "--out", "file"], "file")
         self.assertEqual((self.directory / "file").read_text(), "keep")
+
+    def test_a_map_that_is_interrupted_leaves_no_directory(self):
+        self.assert_interrupted_leaves_nothing("stability")

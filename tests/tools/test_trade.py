@@ -1,6 +1,8 @@
 import json
 import math
+import os
 import shutil
+import subprocess
 import xml.etree.ElementTree as xml
 
 from program import ProgramTest
@@ -77,7 +79,7 @@ class Trade(ProgramTest):
             self.assertLess(picture.stat().st_size, 150000)
 
     def test_more_queries_are_asked_when_told(self):
-        done = self.run_program("trade", "永", "--queries", "50")
+        done = self.run_program("trade", "永", "--quick", "--queries", "50")
         self.assertIn("real strokes, 100 queries", done.stdout)
         self.assertIn("hard workloads, 850 queries", done.stdout)
 
@@ -99,7 +101,6 @@ class Refusals(ProgramTest):
                 (["--queries", "x"], ["--queries", "x"]),
                 (["--queries", "1e3"], ["--queries"]),
                 (["--seed", "-1"], ["--seed", "-1"]),
-                (["--quick", "--queries", "10"], ["--quick", "--queries"]),
                 (["永", "北"], ["北"]),
                 (["--unknown"], ["--unknown"])):
             with self.subTest(arguments=arguments):
@@ -115,3 +116,17 @@ class Refusals(ProgramTest):
         self.assert_refused(1, ["trade", "--out", "file"], "file")
         self.assert_refused(1, ["trade", "--out", "/proc/calligraphy/out"], "/proc/calligraphy/out")
         self.assertEqual((self.directory / "file").read_text(), "keep")
+
+    def test_a_trade_that_is_interrupted_leaves_no_directory(self):
+        self.assert_interrupted_leaves_nothing("trade")
+
+    def test_an_interrupt_that_gnuplot_gets_is_one_of_the_program(self):
+        """As a terminal sends it to both: this gnuplot sends it to whoever started it, and ends by it."""
+        (self.directory / "bin").mkdir()
+        gnuplot = self.directory / "bin/gnuplot"
+        gnuplot.write_text('#!/bin/sh\nkill -INT $PPID\nkill -INT $$\n')
+        gnuplot.chmod(0o755)
+        environment = {**os.environ, "PATH": f"{gnuplot.parent}:{os.environ['PATH']}"}
+        done = subprocess.run([os.environ["CALLIGRAPHY_PROGRAM"], "trade", "--quick", "--out", "out"],
+                              cwd=self.directory, env=environment, capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stderr), (1, "calligraphy: interrupted\n"))

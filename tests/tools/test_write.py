@@ -115,6 +115,37 @@ class Write(ProgramTest):
         printed = max(row["max_force_step_N"] for row in self.summary("printed"))
         self.assertLess(ours, printed)
 
+    def test_a_recorded_trace_is_a_device(self):
+        self.run_program("write", "十", "--out", "first", "--mode", "force")
+        trace = self.directory / "first" / "01-十-force.csv"
+        self.run_program("write", "十", "--out", "again", "--device", f"replay:{trace}")
+        first, again = self.summary("first")[0], self.summary("again")
+        self.assertEqual([row["mode"] for row in again], ["force"])
+        for field in ("strokes_completed", "rms_error_mm", "max_error_mm", "time_s"):
+            self.assertAlmostEqual(again[0][field], first[field], places=6)
+        lines = [path.read_text().count("\n") for path in (trace, self.directory / "again" / trace.name)]
+        self.assertEqual(lines[0], lines[1])
+
+    def test_a_trace_whose_time_runs_back_is_named(self):
+        self.run_program("write", "一", "--out", "first", "--mode", "force")
+        lines = (self.directory / "first" / "01-一-force.csv").read_text().splitlines(keepends=True)
+        lines[10], lines[11] = lines[11], lines[10]
+        (self.directory / "back.csv").write_text("".join(lines))
+        self.assert_refused(1, ["write", "一", "--out", "again", "--device", "replay:back.csv"], "back.csv", "time")
+
+    def test_the_peak_force_asked_for_is_never_exceeded(self):
+        self.run_program("write", "十", "--out", "out", "--mode", "force", "--peak-force", "0.3")
+        self.assertLessEqual(self.summary()[0]["peak_force_N"], 0.3 + 1e-9)
+        self.run_program("write", "十", "--out", "free", "--mode", "force")
+        self.assertGreater(self.summary("free")[0]["peak_force_N"], 0.3)
+
+    def test_every_stage_can_be_switched_on(self):
+        for renderer in ("default", "everything"):
+            self.run_program("write", "十", "--out", renderer, "--mode", "force", "--renderer", renderer)
+        plain, everything = self.summary("default")[0], self.summary("everything")[0]
+        self.assertEqual(everything["strokes_completed"], 2)
+        self.assertNotEqual(everything["rms_error_mm"], plain["rms_error_mm"])
+
     def test_every_choice_of_device_and_method_runs(self):
         for device in ("omni", "touch", "desktop", "premium-1.5", "ideal"):
             self.run_program("write", "一", "--out", device, "--device", "simulated:" + device, "--method", "wang2006",
@@ -160,7 +191,16 @@ class Refusals(ProgramTest):
                 (["write", " \u3000\n", "--out", "out"], ["TEXT"]),
                 (["write", b"\xe5\x8c", "--out", "out"], ["TEXT", "byte 0"]),
                 (["write", "北", "--out", ""], ["--out"]),
-                (["write", "北", "--out", "out", "--device", "phantom"], ["--device", "phantom"]),
+                (["write", "北", "--out", "out", "--device", "phantasm"], ["--device", "phantasm", "phantom"]),
+                (["write", "北", "--out", "out", "--device", "simulated:"], ["--device", "simulated:", "desktop"]),
+                (["write", "北", "--out", "out", "--device", "phantom:"], ["--device", "phantom:", "colon"]),
+                (["write", "北", "--out", "out", "--device", "replay"], ["--device", "replay", "file"]),
+                (["write", "北", "--out", "out", "--device", "replay:x", "--writer", "novice"], ["--writer", "replay"]),
+                (["write", "北", "--out", "out", "--device", "replay:x", "--rate", "500"], ["--rate", "replay"]),
+                (["write", "北", "--out", "out", "--like", "omni"], ["--like", "replay"]),
+                (["write", "北", "--out", "out", "--longest", "5"], ["--longest", "simulated"]),
+                (["write", "北", "--out", "out", "--wire-profile", "omni"], ["--wire-profile", "simulated"]),
+                (["write", "北", "--out", "out", "--rules", "wang2006", "--renderer", "everything"], ["--renderer"]),
                 (["write", "北", "--out", "out", "--device", "simulated:novint"], ["--device", "novint", "desktop"]),
                 (["write", "北", "--out", "out", "--writer", "poet"], ["--writer", "poet"]),
                 (["write", "北", "--out", "out", "--mode", "blind"], ["--mode", "blind"]),
@@ -171,7 +211,7 @@ class Refusals(ProgramTest):
                 self.assert_refused(2, arguments, *words)
 
     def test_impossible_numbers_are_named(self):
-        for option in ("--rate", "--tolerance", "--repeat", "--seed"):
+        for option in ("--rate", "--tolerance", "--repeat", "--seed", "--peak-force", "--longest"):
             for value in ("nan", "inf", "1e999", "-1", "x", "", "1x", "0x10", "18446744073709551616"):
                 with self.subTest(option=option, value=value):
                     self.assert_refused(2, ["write", "北", "--out", "out", f"{option}={value}"], option, value)
@@ -185,6 +225,7 @@ class Refusals(ProgramTest):
 
     def test_a_missing_or_malformed_file_is_named(self):
         self.assert_refused(1, ["write", "北", "--out", "out", "--characters", "none.txt"], "none.txt")
+        self.assert_refused(1, ["write", "北", "--out", "out", "--device", "replay:none.csv"], "none.csv")
         self.assert_refused(1, ["info", "北", "--characters", "/dev/zero"], "/dev/zero", "regular file")
         (self.directory / "bad.txt").write_text("calligraphy characters 1\ncharacter 北\nstroke 99 0,0 1,1\n")
         self.assert_refused(1, ["write", "北", "--out", "out", "--characters", "bad.txt"], "bad.txt", "3", "99")

@@ -1,0 +1,98 @@
+"""A character written in real time: with the device that is plugged in, else with a pointer that is led along it.
+
+usage: live_writing.py [--wire-profile NAME|FILE] [--character 永] [--peak-force N] [--out DIRECTORY]
+A Phantom needs a wire profile (docs/wire-profile.md). Without one the vendor's runtime is tried, then the pointer.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import pathlib
+from typing import Callable, Optional
+
+import matplotlib.pyplot as plt
+import numpy as np
+from plotting import draw_template, draw_trace, name_of, save, square
+
+import calligraphy as cal
+
+Watch = Callable[[cal.LiveView], object]
+
+
+def open_device(wire_profile: str) -> cal.HapticDevice:
+    """What is there; a simulated device that follows a pointer when nothing is."""
+    try:
+        plugged = cal.plugged_devices()
+    except cal.DeviceError:  # no bus, or a module without Phantoms
+        plugged = []
+    for device in plugged:
+        print(cal.describe(device), device.advice)
+    if plugged and wire_profile:
+        return cal.PhantomDevice(cal.PhantomOptions(wire_profile=wire_profile))
+    if cal.openhaptics_runtime().found:
+        return cal.OpenHapticsDevice()
+    return cal.PointerDevice(cal.device_profile("desktop"))
+
+
+class LedPointer:
+    """Moves a pointer along the strokes of a page, on when the pen has come near: in place of a person's mouse."""
+
+    def __init__(self, device: cal.PointerDevice, page: cal.Page) -> None:
+        self.device, self.centre = device, np.array([page.width / 2, page.height / 2])
+        self.places: list[tuple[np.ndarray, float]] = []
+        for placed in page.characters:
+            for stroke in placed.character.strokes():
+                elements = cal.place_elements(stroke, placed.placement)
+                way = np.concatenate([element.point(np.linspace(0, 1, 12)) for element in elements])
+                self.places += [(way[0], 0.0), *((place, 0.5) for place in way), (way[-1], 0.0)]
+
+    def __call__(self, view: cal.LiveView) -> None:
+        place, pressure = self.places[0]
+        self.device.move(*(place - self.centre), pressure)
+        pen = view.newest["device_point"]
+        is_down = pen[2] < 0.0
+        if np.hypot(*(pen[:2] - place)) < 3e-3 and is_down == (pressure > 0) and len(self.places) > 1:
+            del self.places[0]
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--wire-profile", default=os.environ.get("CALLIGRAPHY_WIRE_PROFILE", ""))
+    parser.add_argument("--character", default="永")
+    parser.add_argument("--peak-force", type=float, default=1.0, help="at most this [1 N]")
+    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out"), help="where the picture goes [out]")
+    arguments = parser.parse_args()
+    arguments.out.mkdir(parents=True, exist_ok=True)
+
+    with open_device(arguments.wire_profile) as device:
+        able = cal.limited(device.capabilities(), arguments.peak_force)
+        layout = cal.PageLayout(width=able.workspace[0], height=able.workspace[1])
+        page = cal.lay_out([cal.built_in_characters()[arguments.character]], layout)[0]
+        options = cal.LiveOptions(renderer=cal.RendererOptions.for_device(able), peak_force=arguments.peak_force)
+        watch: Optional[Watch] = LedPointer(device, page) if isinstance(device, cal.PointerDevice) else None
+        print(f"{able.model}: write {name_of(page.characters[0].character)}; Ctrl-C ends it")
+        try:
+            result = cal.write_with_device(page, device, options, watch)
+        except KeyboardInterrupt as pressed:
+            result = pressed.result  # type: ignore[attr-defined]
+
+    for warning in result.warnings:
+        print(warning)
+    score, timing = cal.score(page, result.recording)[0], result.statistics
+    print(f"{score.strokes_completed} of {score.stroke_count} strokes, RMS {1e3 * score.rms_error:.2f} mm, "
+          f"period p99 {1e3 * timing.period.p99:.2f} ms, {timing.missed_deadlines} deadlines missed")  # fmt: skip
+    samples = result.recording.samples
+    figure, (left, right) = plt.subplots(1, 2, figsize=(10, 4.5), layout="constrained")
+    draw_template(left, page.characters[0])
+    draw_trace(left, samples)
+    square(left, page.characters[0])
+    left.set(xlabel="x [mm]", ylabel="y [mm]", title="what the pen left")
+    right.plot(samples["time"], np.linalg.norm(samples["force"], axis=1), linewidth=0.8)
+    right.set(xlabel="time [s]", ylabel="force [N]", title="what the hand felt")
+    figure.suptitle(able.model)
+    save(figure, arguments.out / "live-writing.png")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,74 @@
+"""A force law of one's own, unit-tested against the simulated device: a groove that a pen falls into."""
+
+import unittest
+
+import matplotlib.pyplot as plt
+import numpy as np
+from plotting import output_directory, save
+
+import calligraphy as cal
+
+PROFILE = cal.device_profile("desktop")
+
+
+class Groove:
+    """Pulls the pen into the plane y = 0: a spring with a reach, and a damper [N, m]."""
+
+    def __init__(self, stiffness: float = 400.0, damping: float = 1.0, reach: float = 0.01) -> None:
+        self.stiffness, self.damping, self.reach = stiffness, damping, reach
+
+    def __call__(self, state: cal.DeviceState) -> np.ndarray:
+        y, speed = state.position[1], state.velocity[1]
+        if abs(y) > self.reach:
+            return np.zeros(3)
+        fade = (1.0 - (y / self.reach) ** 2) ** 2  # no step where it ends
+        return np.array([0.0, -self.stiffness * y * fade - self.damping * speed * fade, 0.0])
+
+
+def simulate(law, start: float, meant: float, seconds: float = 1.0) -> tuple[np.ndarray, np.ndarray]:
+    """A hand at `start` means to be at y = `meant` from then on; the pen's y and the force, tick by tick."""
+    device = cal.SimulatedDevice(PROFILE, cal.Hand(mass=0.1, damping=3.0, stiffness=300.0), (0.0, start, 0.0))
+    device.set_intention(cal.Intention(position=(0.0, meant, 0.0)))
+    servo = cal.Servo(device, law, rise_time=0.05)
+    path, force = [], []
+    for tick in range(round(seconds * 1000)):
+        servo.step(tick * 1e-3)
+        path.append(device.true_position[1])
+        force.append(device.applied_force[1])
+        device.advance(1e-3)
+    return np.array(path), np.array(force)
+
+
+class GrooveTest(unittest.TestCase):
+    def test_the_pen_rests_where_hand_and_groove_balance(self):
+        path, _ = simulate(Groove(), 0.004, 0.004)
+        # 300 (0.004 - y) = 400 y (1 - (y / 0.01)^2)^2 has one root in (0, 4 mm): 1.86 mm; dry friction holds it nearby.
+        y = np.linspace(0, 0.004, 100_001)
+        balance = y[np.argmin(np.abs(300 * (0.004 - y) - 400 * y * (1 - (y / 0.01) ** 2) ** 2))]
+        self.assertAlmostEqual(path[-1], balance, delta=2e-4)
+
+    def test_beyond_its_reach_nothing_pulls(self):
+        _, force = simulate(Groove(), 0.03, 0.03)
+        self.assertEqual(np.abs(force).max(), 0.0)
+
+    def test_the_force_never_steps(self):
+        path, force = simulate(Groove(), 0.02, -0.02)
+        travel = np.abs(np.diff(path)).max()  # in a tick [m]
+        speed, rounding = 1e3 * travel, 2 * PROFILE.encoder_step
+        push = np.abs(1e3 * np.diff(path, 2)).max()  # change of speed in a tick [m/s]
+        steepest = 1.54 / 0.01  # of the fade, per metre
+        self.assertLess(np.abs(np.diff(force)).max(), 400 * (travel + rounding) + push + speed * steepest * (travel + rounding))
+
+
+if __name__ == "__main__":
+    out = output_directory(__doc__)
+    figure, (above, below) = plt.subplots(2, 1, figsize=(7.5, 5), sharex=True, layout="constrained")
+    for stiffness in (0.0, 200.0, 400.0, 800.0):
+        path, force = simulate(Groove(stiffness), 0.008, 0.002)
+        above.plot(1e3 * path, label=f"{stiffness:.0f} N/m")
+        below.plot(force)
+    above.set(ylabel="y of the pen [mm]", title="A groove at y = 0; the hand means to be at 2 mm")
+    above.legend()
+    below.set(xlabel="time [ms]", ylabel="force [N]")
+    save(figure, out / "own-force-law.png")
+    unittest.main(argv=["own_force_law"], exit=True)

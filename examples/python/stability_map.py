@@ -1,0 +1,44 @@
+"""How stiff virtual paper may be: a pen is let fall on walls of many stiffnesses, beside the bounds of theory."""
+
+import matplotlib.pyplot as plt
+import numpy as np
+from plotting import output_directory, save
+
+import calligraphy as cal
+
+out = output_directory(__doc__)
+stiffnesses = np.geomspace(100.0, 1e5, 37)
+encounter = cal.WallEncounter(seconds=4.0)
+rates = [250.0, 500.0, 1000.0, 2000.0, 4000.0]
+
+figure, axes = plt.subplots(figsize=(8.5, 5), layout="constrained")
+bounds: dict[str, list[float]] = {"passive": [], "stable": [], "approximate": []}
+for rate in rates:
+    loop = cal.SampledLoop(rate=rate, mass=0.045, damping=0.1, grip=cal.Hand())
+    outcomes = [cal.meet_wall(loop, k, encounter) for k in stiffnesses]
+    # A swing that dies down to a smaller one, as large as the device's peak force keeps it, is no rest.
+    settles = np.array([outcome.settles and outcome.last_force < encounter.peak_force for outcome in outcomes])
+    at = np.full(len(stiffnesses), rate)
+    axes.plot(at[settles], stiffnesses[settles], "o", color="#228833", markersize=5)
+    axes.plot(at[~settles], stiffnesses[~settles], "x", color="#ee6677", markersize=5)
+    advice = cal.advise_stiffness(loop)
+    for name, values in bounds.items():
+        values.append(getattr(advice, name).value)
+    print(f"{rate:6.0f} Hz: settles below {stiffnesses[np.argmin(settles)]:7.0f} N/m, theory {advice.stable.value:7.0f} N/m")
+styles = {  # the last two all but coincide
+    "passive": {"color": "black", "linestyle": "--"},
+    "stable": {"color": "#ddaa33", "linewidth": 4.0, "zorder": 1},
+    "approximate": {"color": "black", "linestyle": ":"},
+}
+for name, values in bounds.items():
+    axes.plot(rates, values, label=f"bound: {name}", **{"linewidth": 1.4, **styles[name]})
+axes.plot([], [], "o", color="#228833", label="the pen comes to rest")
+axes.plot([], [], "x", color="#ee6677", label="it keeps swinging")
+axes.set(
+    xscale="log", yscale="log", xlabel="servo rate [Hz]", ylabel="stiffness of the wall [N/m]",
+    title="45 g with b = 0.1 N s/m in a normal grip, on a virtual wall",
+)  # fmt: skip
+axes.set_xticks(rates, [f"{rate:.0f}" for rate in rates])
+axes.minorticks_off()
+figure.legend(loc="outside right center")
+save(figure, out / "stability-map.png")

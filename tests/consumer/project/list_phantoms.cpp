@@ -1,0 +1,18 @@
+// Lists what is plugged in, with the Phantom backend of an installed copy.
+#include <cstdio>
+#include <string>
+
+#include <calligraphy/error.hpp>
+#include <calligraphy/phantom/device_list.hpp>
+#include <calligraphy/phantom/phantom_device.hpp>
+
+int main() {
+  try {
+    for (const calligraphy::PluggedDevice& device : calligraphy::plugged_devices()) {
+      std::printf("%s\n", calligraphy::describe(device).c_str());
+    }
+  } catch (const calligraphy::DeviceError& error) {
+    std::printf("%s\n", error.what());  // a machine without USB
+  }
+  return std::string(calligraphy::fault_name(calligraphy::DeviceFault::unplugged)) == "unplugged" ? 0 : 1;
+}

@@ -1,0 +1,116 @@
+import json
+import math
+import os
+import re
+
+from program import ProgramTest
+
+
+class Devices(ProgramTest):
+    """The list, the probe and the watch; tests/phantom/emulator has what a device may do wrong."""
+
+    def test_every_kind_of_device_is_told_of(self):
+        text = self.run_program("devices").stdout
+        for word in ("phantom", "openhaptics", "simulated", "desktop", "omni"):
+            self.assertIn(word, text)
+
+    def test_the_list_is_json_by_choice(self):
+        devices = json.loads(self.run_program("devices", "--json").stdout)
+        self.assertEqual(set(devices), {"phantom", "openhaptics", "simulated"})
+        self.assertIn("simulated:desktop", devices["simulated"])
+        for name in devices["simulated"]:
+            self.run_program("write", "一", "--out", "out", "--mode", "force", "--device", name)
+
+    def test_what_is_not_there_is_named(self):
+        self.assert_refused(1, ["devices", "probe", "none-such", "--out", "probe.txt"], "none-such")
+        phantom = ["phantom:none-such", "--wire-profile", "simulated"]
+        self.assert_refused(1, ["devices", "watch", *phantom], "none-such")
+        self.assert_refused(1, ["write", "一", "--out", "out", "--device", *phantom], "none-such")
+        self.assert_refused(1, ["devices", "watch", "openhaptics"], "libHD")
+        self.assert_refused(1, ["write", "一", "--out", "out", "--device", "openhaptics"], "libHD")
+
+    def test_a_wire_profile_is_read_before_the_device_is_looked_for(self):
+        write = ["write", "一", "--out", "out", "--device", "phantom"]
+        self.assert_refused(1, write, "wire profile")
+        self.assert_refused(1, [*write, "--wire-profile", "omni"], "omni", "lacks")
+        (self.directory / "mine.profile").write_text("calligraphy wire profile 1\nname mine\nfrobnicate 3\n")
+        self.assert_refused(1, [*write, "--wire-profile", "mine.profile"], "mine.profile:3", "frobnicate")
+
+    def test_usage_errors_are_one_line_and_exit_with_two(self):
+        for arguments, words in (
+                (["devices", "probe"], ["--out"]),
+                (["devices", "probe", "--out", ""], ["--out"]),
+                (["devices", "probe", "--out", "x", "--seconds", "0"], ["--seconds"]),
+                (["devices", "watch"], ["DEVICE"]),
+                (["devices", "watch", "omni"], ["omni", "phantom"]),
+                (["devices", "watch", "phantasm"], ["phantasm"]),
+                (["devices", "frobnicate"], ["frobnicate"])):
+            with self.subTest(arguments=arguments):
+                self.assert_refused(2, arguments, *words)
+
+    def test_a_device_that_is_plugged_in_is_listed_with_what_names_it(self):
+        for kind, ids in (("usb", "2988:0302"), ("hid", "2988:0304")):
+            with self.subTest(kind=kind):
+                done = self.run_on_emulated_phantom("devices", "--json", hand=["--kind", kind, "--serial", "540-77"])
+                device, = json.loads(done.stdout)["phantom"]
+                self.assertEqual((device["device"], device["ids"], device["link"]), ("phantom:540-77", ids, kind))
+                self.assertTrue(device["may_open"])
+                self.assertTrue(device["nodes"])
+
+    def test_a_probe_holds_descriptors_and_what_came(self):
+        done = self.run_on_emulated_phantom("devices", "probe", "--out", "probe.txt", "--seconds", "1")
+        self.assertIn("probe.txt", done.stdout)
+        lines = (self.directory / "probe.txt").read_text().splitlines()
+        self.assertTrue(any("2988:0302" in line for line in lines))
+        transfers = [line for line in lines if re.fullmatch(r"\d+\.\d{6}( [0-9a-f]{2}){44}", line)]
+        self.assertGreater(len(transfers), 10)
+
+    def test_a_device_is_watched_without_force(self):
+        done = self.run_on_emulated_phantom("devices", "watch", "phantom", "--seconds", "2")
+        self.assertIn("ticks", done.stdout)
+        number = r" +(-?\d+\.\d\d)"
+        lines = re.findall(rf"^x{number} +y{number} +z{number} mm +joints{number}{number}{number} deg +buttons",
+                           done.stdout, re.MULTILINE)
+        told = [line for line in ([float(value) for value in line] for line in lines) if any(line)]
+        self.assertGreater(len(set(map(tuple, told))), 1)  # the hand moves
+        for x, y, z, *angles in told:  # docs/phantom.md: the arm of a Touch, its zero at (0, 160, 50) mm
+            q1, q2, q3 = map(math.radians, angles)
+            reach = 133.35 * (math.cos(q2) + math.sin(q3))
+            self.assertAlmostEqual(x, -reach * math.sin(q1), delta=0.1)
+            self.assertAlmostEqual(y, 133.35 * (math.sin(q2) - math.cos(q3) + 1) - 160, delta=0.1)
+            self.assertAlmostEqual(z, reach * math.cos(q1) - 133.35 - 50, delta=0.1)
+
+    def test_a_character_is_written_through_a_real_usb_stack(self):
+        """In real time: a busy machine may cost force and strokes, never the program's end or its files."""
+        done = self.run_on_emulated_phantom("write", "十", "--device", "phantom", "--out", "out", "--longest", "30",
+                                            hand=["--write", "十", "--skill", "skilled"])
+        row, = json.loads((self.directory / "out" / "summary.json").read_text())
+        self.assertEqual(row["mode"], "force")
+        if "the force went to zero" not in done.stderr:
+            self.assertEqual(row["strokes_completed"], 2, done.stderr)
+        self.assertGreater(row["peak_force_N"], 0.0)
+        loop, = json.loads((self.directory / "out" / "servo.json").read_text())
+        self.assertGreater(loop["ticks"], 1000)
+        self.assertIn("missed deadlines", done.stdout)
+        self.run_program("write", "十", "--device", "replay:out/page-1-force-1.csv", "--like", "touch", "--out", "again")
+        again, = json.loads((self.directory / "again" / "summary.json").read_text())
+        self.assertEqual(again["strokes_completed"], row["strokes_completed"])
+
+    def test_the_vendors_runtime_is_listed_watched_and_written_through(self):
+        """On a library that stands in for it, its device held by a hand that writes; in real time, as above."""
+        library = os.environ.get("CALLIGRAPHY_HELD_LIBHD")
+        if not library:
+            self.skipTest("built without the backend for openhaptics")
+        with_runtime = {"CALLIGRAPHY_LIBHD": library, "STAND_IN_TEXT": "十"}
+        listed = json.loads(self.run_program("devices", "--json", environment=with_runtime).stdout)["openhaptics"]
+        self.assertEqual(listed, {"found": True, "library": library})
+        watched = self.run_program("devices", "watch", "openhaptics", "--seconds", "1", environment=with_runtime)
+        self.assertIn("ticks", watched.stdout)
+        self.assert_refused(1, ["write", "十", "--out", "out", "--device", "openhaptics:Nobody's"], "Nobody's",
+                            environment=with_runtime)
+        done = self.run_program("write", "十", "--device", "openhaptics", "--out", "out", "--longest", "30",
+                                environment=with_runtime)
+        row, = json.loads((self.directory / "out" / "summary.json").read_text())
+        if "the force went to zero" not in done.stderr:
+            self.assertEqual(row["strokes_completed"], 2, done.stderr)
+        self.assertGreater(row["peak_force_N"], 0.0)

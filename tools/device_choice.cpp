@@ -1,0 +1,92 @@
+#include "device_choice.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <calligraphy/devices/simulated_device.hpp>
+#ifdef CALLIGRAPHY_WITH_PHANTOM
+#include <calligraphy/phantom/phantom_device.hpp>
+#endif
+#ifdef CALLIGRAPHY_WITH_OPENHAPTICS
+#include <calligraphy/openhaptics/openhaptics_device.hpp>
+#endif
+
+#include "commands.hpp"
+#include "options.hpp"
+
+namespace calligraphy::tools {
+namespace {
+
+constexpr std::array<std::pair<const char*, DeviceKind>, 4> kinds = {{{"simulated", DeviceKind::simulated},
+                                                                      {"replay", DeviceKind::replay},
+                                                                      {"phantom", DeviceKind::phantom},
+                                                                      {"openhaptics", DeviceKind::openhaptics}}};
+
+bool is_profile(const std::string& name) {
+  const auto profiles = device_profiles();
+  return std::any_of(profiles.begin(), profiles.end(), [&name](const auto& profile) { return profile.name == name; });
+}
+
+[[noreturn]] void refuse(const std::string& text, const std::string& reason) {
+  throw UsageError(fmt::format(
+      "--device: {}: {}; expected [simulated:]NAME with one of {}, replay:FILE, phantom[:SERIAL] or openhaptics[:NAME]",
+      text, reason, device_names()));
+}
+
+}  // namespace
+
+DeviceChoice device_choice(const std::string& text) {
+  if (is_profile(text)) return {DeviceKind::simulated, text, {}, {}};
+  const std::size_t colon = text.find(':');
+  const std::string name = text.substr(0, colon);
+  const std::string which = colon == std::string::npos ? "" : text.substr(colon + 1);
+  const auto kind = std::find_if(kinds.begin(), kinds.end(), [&name](const auto& each) { return each.first == name; });
+  if (kind == kinds.end()) refuse(text, "no such device");
+  if (colon != std::string::npos && which.empty()) refuse(text, "nothing behind the colon");
+  if (kind->second == DeviceKind::simulated && !is_profile(which)) {
+    refuse(text, which.empty() ? "which one?" : "no such profile");
+  }
+  if (kind->second == DeviceKind::replay && which.empty()) refuse(text, "which file?");
+  return {kind->second, which, {}, {}};
+}
+
+void add_phantom_options(CLI::App& command, std::string& wire_profile, std::string& model) {
+  command
+      .add_option("--wire-profile", wire_profile,
+                  "What the packets of a phantom hold: a name or a file of docs/wire-profile.md (default: "
+                  "CALLIGRAPHY_WIRE_PROFILE of the environment)")
+      ->type_name("NAME|FILE");
+  command.add_option("--model", model, "Arm of a phantom (default: touch)")
+      ->check(CLI::IsMember({"omni", "touch", "premium-1.5"}));
+}
+
+std::unique_ptr<HapticDevice> open_device(const DeviceChoice& choice, [[maybe_unused]] bool drive) {
+#ifdef CALLIGRAPHY_WITH_PHANTOM
+  if (choice.kind == DeviceKind::phantom) {
+    PhantomOptions options;
+    options.serial = choice.which;
+    const char* const environment = std::getenv("CALLIGRAPHY_WIRE_PROFILE");
+    if (environment != nullptr) options.wire_profile = environment;
+    if (!choice.wire_profile.empty()) options.wire_profile = choice.wire_profile;
+    if (!choice.model.empty()) options.model = choice.model;
+    options.drive = drive;
+    return std::make_unique<PhantomDevice>(options);
+  }
+#endif
+#ifdef CALLIGRAPHY_WITH_OPENHAPTICS
+  if (choice.kind == DeviceKind::openhaptics) {
+    OpenHapticsOptions options;
+    options.device = choice.which;
+    return std::make_unique<OpenHapticsDevice>(options);
+  }
+#endif
+  throw UsageError(fmt::format("--device: this program was built without {}",
+                               choice.kind == DeviceKind::phantom ? "phantom (CALLIGRAPHY_PHANTOM=ON)"
+                                                                  : "openhaptics (CALLIGRAPHY_OPENHAPTICS=ON)"));
+}
+
+}  // namespace calligraphy::tools

@@ -1,0 +1,299 @@
+// calligraphy devices: what is plugged in, whether it may be opened, and what to do if not; and, of one device, what it
+// sends.
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <calligraphy/devices/sample_queue.hpp>
+#include <calligraphy/devices/servo_loop.hpp>
+#include <calligraphy/devices/simulated_device.hpp>
+#include <calligraphy/error.hpp>
+#include <calligraphy/practice/file.hpp>
+#ifdef CALLIGRAPHY_WITH_PHANTOM
+#include <calligraphy/phantom/capture.hpp>
+#include <calligraphy/phantom/device_list.hpp>
+#include <calligraphy/phantom/phantom_device.hpp>
+#endif
+#ifdef CALLIGRAPHY_WITH_OPENHAPTICS
+#include <calligraphy/openhaptics/openhaptics_device.hpp>
+#endif
+
+#include "commands.hpp"
+#include "device_choice.hpp"
+#include "interrupt.hpp"
+#include "options.hpp"
+#include "servo_report.hpp"
+
+namespace calligraphy::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// One backend: what it found, for a person and for a program.
+struct Section {
+  std::string text;
+  Json json;
+};
+
+#ifdef CALLIGRAPHY_WITH_PHANTOM
+std::string ids(const PluggedDevice& device) {
+  return fmt::format("{:04x}:{:04x}", device.vendor_id, device.product_id);
+}
+
+Section phantoms() {
+  const std::vector<PluggedDevice> devices = plugged_devices();
+  Section section{devices.empty() ? "phantom: none is plugged in (2988:0302, 0301:2988, 2988:0304)\n" : "",
+                  Json::array()};
+  for (const PluggedDevice& device : devices) {
+    section.text += fmt::format("phantom:{}  {}  {}, {} on bus {} port {}\n  {}: {}\n", device.serial, ids(device),
+                                device.model, link_name(device.link), device.bus, device.port,
+                                fmt::join(device.nodes, ", "), device.may_open ? "may be opened" : "may NOT be opened");
+    if (!device.advice.empty()) section.text += "  " + device.advice + "\n";
+    section.json.push_back({{"device", "phantom" + (device.serial.empty() ? "" : ":" + device.serial)},
+                            {"ids", ids(device)},
+                            {"model", device.model},
+                            {"link", link_name(device.link)},
+                            {"bus", device.bus},
+                            {"port", device.port},
+                            {"nodes", device.nodes},
+                            {"serial", device.serial},
+                            {"may_open", device.may_open},
+                            {"advice", device.advice}});
+  }
+  return section;
+}
+#else
+Section phantoms() { return {"phantom: this program was built without it (CALLIGRAPHY_PHANTOM=ON)\n", Json()}; }
+#endif
+
+#ifdef CALLIGRAPHY_WITH_OPENHAPTICS
+Section vendor_runtime() {
+  const OpenHapticsRuntime runtime = openhaptics_runtime();
+  if (runtime.found) {
+    return {fmt::format("openhaptics: {}\n", runtime.library), {{"found", true}, {"library", runtime.library}}};
+  }
+  return {fmt::format("openhaptics: {}\n", runtime.advice), {{"found", false}, {"advice", runtime.advice}}};
+}
+#else
+Section vendor_runtime() {
+  return {"openhaptics: this program was built without it (CALLIGRAPHY_OPENHAPTICS=ON)\n", Json()};
+}
+#endif
+
+Section simulated() {
+  Section section{fmt::format("simulated: {}\n", device_names()), Json::array()};
+  for (const DeviceProfile& profile : device_profiles()) section.json.push_back("simulated:" + profile.name);
+  return section;
+}
+
+void list(bool as_json) {
+  const Section phantom = phantoms(), openhaptics = vendor_runtime(), profiles = simulated();
+  if (as_json) {
+    const Json all = {{"phantom", phantom.json}, {"openhaptics", openhaptics.json}, {"simulated", profiles.json}};
+    fmt::print("{}\n", all.dump(2));
+  } else {
+    fmt::print("{}{}{}", phantom.text, openhaptics.text, profiles.text);
+  }
+}
+
+struct ProbeOptions {
+  std::string serial;
+  std::string out;
+  double seconds = 10.0;
+};
+
+#ifdef CALLIGRAPHY_WITH_PHANTOM
+PluggedDevice chosen_phantom(const std::string& serial) {
+  const std::vector<PluggedDevice> devices = plugged_devices();
+  if (serial.empty() && devices.size() == 1) return devices.front();
+  std::string there;
+  for (const PluggedDevice& device : devices) {
+    if (!serial.empty() && device.serial == serial) return device;
+    there += (there.empty() ? "" : "; ") + describe(device);
+  }
+  const std::string wanted = serial.empty() ? "" : " with serial number " + serial;
+  if (devices.empty()) throw DeviceError("no Phantom" + wanted + " is plugged in");
+  throw DeviceError(serial.empty() ? "several are plugged in, name a serial number: " + there
+                                   : "no Phantom" + wanted + " is plugged in; there are: " + there);
+}
+
+/// The descriptors first: they need no permission, and are worth having when the device cannot be opened.
+void probe(const ProbeOptions& options) {
+  if (options.out.empty()) throw UsageError("--out: an empty name");
+  const PluggedDevice device = chosen_phantom(options.serial);
+  check_can_write(options.out);
+  const Interrupt interrupt;
+  std::ostringstream text;
+  text << "# " << describe(device) << "\n" << dump_descriptors(device);
+  std::string failure;
+  std::size_t transfers = 0;
+  try {
+    CaptureOptions limits;
+    limits.seconds = options.seconds;
+    limits.transfers = 1000000;
+    limits.stop = [&interrupt] { return interrupt.asked(); };
+    const Capture captured = capture(device, limits);
+    transfers = captured.transfers.size();
+    write_capture(text, captured);
+  } catch (const DeviceError& error) {
+    failure = error.what();
+    text << "# " << failure << "\n";
+  }
+  write_file(options.out, text.str());
+  if (!failure.empty()) throw DeviceError(failure + "; the descriptors alone are in " + options.out);
+  fmt::print("{}: descriptors and {} transfers in {}\n", describe(device), transfers, options.out);
+}
+#else
+void probe(const ProbeOptions&) {
+  throw UsageError("devices probe: this program was built without phantom (CALLIGRAPHY_PHANTOM=ON)");
+}
+#endif
+
+struct WatchOptions {
+  std::string device;
+  std::string wire_profile;
+  std::string model;
+  double seconds = 0.0;  ///< 0: until Ctrl-C
+};
+
+struct Sighting {
+  DeviceState state;
+  Eigen::Vector3d joints = Eigen::Vector3d::Zero();  ///< of a phantom [rad]
+};
+
+/// Shows whatever a device says, also before it is calibrated and while it is at fault, when no force law is asked.
+class SeenDevice final : public HapticDevice {
+ public:
+  explicit SeenDevice(HapticDevice& device) : device_(device) {
+#ifdef CALLIGRAPHY_WITH_PHANTOM
+    phantom_ = dynamic_cast<const PhantomDevice*>(&device);
+#endif
+  }
+
+  const Capabilities& capabilities() const noexcept override { return device_.capabilities(); }
+  DeviceState read() noexcept override {
+    Sighting seen{device_.read()};
+#ifdef CALLIGRAPHY_WITH_PHANTOM
+    if (phantom_ != nullptr) seen.joints = phantom_->joints();
+#endif
+    queue_.push(seen);
+    return seen.state;
+  }
+  void write(const Eigen::Vector3d& force) noexcept override { device_.write(force); }
+  void close() noexcept override { device_.close(); }
+  ServoClock* clock() noexcept override { return device_.clock(); }
+  std::vector<std::string> warnings() const override { return device_.warnings(); }
+
+  /// Of the watching thread.
+  void look(Sighting& newest) {
+    while (queue_.pop(newest)) {
+    }
+  }
+  bool has_joints() const {
+#ifdef CALLIGRAPHY_WITH_PHANTOM
+    return phantom_ != nullptr;
+#else
+    return false;
+#endif
+  }
+
+ private:
+  HapticDevice& device_;
+#ifdef CALLIGRAPHY_WITH_PHANTOM
+  const PhantomDevice* phantom_ = nullptr;
+#endif
+  SampleQueue<Sighting> queue_{4096};
+};
+
+std::string angles(const Eigen::Vector3d& joints) {
+  const Eigen::Vector3d q = 180.0 / std::numbers::pi * joints;
+  return fmt::format("  joints {:7.2f} {:7.2f} {:7.2f} deg", q[0], q[1], q[2]);
+}
+
+/// Reads and never drives: the force law says zero.
+void watch(const WatchOptions& options) {
+  DeviceChoice choice = device_choice(options.device);
+  if (choice.kind != DeviceKind::phantom && choice.kind != DeviceKind::openhaptics) {
+    throw UsageError("DEVICE: " + options.device + ": expected phantom[:SERIAL] or openhaptics[:NAME]");
+  }
+  choice.wire_profile = options.wire_profile;
+  choice.model = options.model;
+  const std::unique_ptr<HapticDevice> device = open_device(choice, false);
+  fmt::print("{}; no force. Ctrl-C ends.\n", device->capabilities().model);
+  SeenDevice seen(*device);
+  ServoLoopOptions servo;
+  servo.servo.rate = device->capabilities().update_rate;
+  ServoLoop loop(
+      seen, [](const DeviceState&) { return Eigen::Vector3d(Eigen::Vector3d::Zero()); }, servo);
+  const Interrupt interrupt;
+  for (const std::string& warning : loop.start()) spdlog::warn("{}", warning);
+  const auto begin = std::chrono::steady_clock::now();
+  const auto seconds = [&begin] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  };
+  Sighting newest;
+  while (!interrupt.asked() && (options.seconds == 0.0 || seconds() < options.seconds)) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(250));
+    seen.look(newest);
+    const ServoStatus status = loop.status();
+    const Eigen::Vector3d p = 1e3 * newest.state.position;
+    fmt::print("x {:8.2f}  y {:8.2f}  z {:8.2f} mm{}  buttons {:04b}  {}{}{}  {} stale of {} ticks\n", p.x(), p.y(),
+               p.z(), seen.has_joints() ? angles(newest.joints) : "", newest.state.buttons, status_name(status.device),
+               status.fault == DeviceFault::none ? "" : ": ",
+               status.fault == DeviceFault::none ? "" : fault_name(status.fault), loop.statistics().stale_samples,
+               loop.statistics().ticks);
+    std::fflush(stdout);
+  }
+  loop.stop();
+  fmt::print("{}", lines(loop.statistics()));
+}
+
+}  // namespace
+
+void add_devices(CLI::App& program) {
+  CLI::App* const command = program.add_subcommand(
+      "devices", "Lists the devices that --device of `write` can name, and what to do when one may not be opened.");
+  const auto as_json = std::make_shared<bool>(false);
+  command->add_flag("--json", *as_json, "Print JSON instead of lines")->disable_flag_override();
+  command->require_subcommand(0, 1);
+
+  CLI::App* const prober = command->add_subcommand(
+      "probe",
+      "Writes the descriptors of a phantom and what it sends into a text file, the raw material of a wire "
+      "profile. Sends it no command.");
+  const auto probe_options = std::make_shared<ProbeOptions>();
+  prober->add_option("SERIAL", probe_options->serial, "Which one, when several are plugged in");
+  prober->add_option("--out", probe_options->out, "The text file")->required()->type_name("FILE");
+  prober->add_option("--seconds", probe_options->seconds, "How long to listen, 0.1 to 600")
+      ->check(number(0.1, 600.0))
+      ->capture_default_str()
+      ->type_name("S");
+  prober->callback([probe_options] { probe(*probe_options); });
+
+  CLI::App* const watcher = command->add_subcommand(
+      "watch", "Shows position, buttons and status of a device, four times a second, forceless.");
+  const auto watch_options = std::make_shared<WatchOptions>();
+  watcher->add_option("DEVICE", watch_options->device, "phantom[:SERIAL] or openhaptics[:NAME]")->required();
+  add_phantom_options(*watcher, watch_options->wire_profile, watch_options->model);
+  watcher->add_option("--seconds", watch_options->seconds, "How long, up to 86400 (default: until Ctrl-C)")
+      ->check(number(0.1, 86400.0))
+      ->type_name("S");
+  watcher->callback([watch_options] { watch(*watch_options); });
+
+  command->callback([command, as_json] {
+    if (command->get_subcommands().empty()) list(*as_json);
+  });
+}
+
+}  // namespace calligraphy::tools

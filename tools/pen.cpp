@@ -1,0 +1,81 @@
+#include "pen.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <spdlog/spdlog.h>
+
+#include <calligraphy/error.hpp>
+#include <calligraphy/practice/live_session.hpp>
+#include <calligraphy/practice/recording.hpp>
+#include <calligraphy/render/motion_mapping.hpp>
+
+#include "interrupt.hpp"
+#include "options.hpp"
+
+namespace calligraphy::tools {
+
+Pen::Pen(const PenOptions& options) : options_(options) {
+  switch (options.device.kind) {
+    case DeviceKind::simulated:
+      profile_ = chosen_device(options.device.which);
+      break;
+    case DeviceKind::replay:
+      profile_ = chosen_device(options.like);
+      break;
+    case DeviceKind::phantom:
+    case DeviceKind::openhaptics:
+      device_ = open_device(options.device);
+      interrupt_.emplace();
+      profile_.capabilities = device_->capabilities();
+      break;
+  }
+  profile_.capabilities = limited(profile_.capabilities, options.peak_force);
+}
+
+Recording Pen::write(const Page& page, const SessionOptions& session) {
+  if (is_person()) return live(page, session);
+  return is_replay() ? replay(page, session) : write_page(page, session);
+}
+
+Recording Pen::replay(const Page& page, const SessionOptions& session) const {
+  const Recording trace = read_csv(options_.device.which);
+  auto device = [&] {
+    try {
+      return ReplayDevice(device_states(trace, upright_page(page.width, page.height)), profile_.capabilities);
+    } catch (const ValueError& error) {
+      throw FormatError(options_.device.which + ": " + error.what());
+    }
+  }();
+  SessionOptions at_its_rate = session;
+  at_its_rate.renderer.servo_rate = trace.rate;
+  return replay_page(page, device, at_its_rate);
+}
+
+Recording Pen::live(const Page& page, const SessionOptions& session) {
+  DeviceFault told = DeviceFault::none;
+  LiveOptions options;
+  options.mode = session.mode;
+  options.renderer = session.renderer;
+  options.peak_force = options_.peak_force;
+  options.longest = options_.longest;
+  options.watch = [&](const LiveView& view) {
+    if (session.progress) session.progress(view.share);
+    if (view.servo.fault != told && view.servo.fault != DeviceFault::none) {
+      spdlog::warn("the force went to zero: {}", fault_name(view.servo.fault));
+    }
+    told = view.servo.fault;
+    return !interrupt_->asked();
+  };
+  LiveResult result = write_with_device(page, *device_, options);
+  for (const std::string& warning : result.warnings) {
+    if (std::find(warnings_.begin(), warnings_.end(), warning) != warnings_.end()) continue;
+    spdlog::warn("{}", warning);
+    warnings_.push_back(warning);
+  }
+  if (result.dropped > 0) spdlog::warn("{} ticks are missing from the recording", result.dropped);
+  statistics_.push_back(result.statistics);
+  return std::move(result.recording);
+}
+
+}  // namespace calligraphy::tools
