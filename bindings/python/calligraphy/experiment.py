@@ -1,0 +1,408 @@
+"""Closed-loop trials over a grid of conditions: a simulated writer, a simulated device and the renderer.
+
+A trial is deterministic: its row depends on its condition alone, not on the order, the process or the machine's load.
+"""
+
+from __future__ import annotations
+
+import concurrent.futures
+import csv
+import itertools
+import operator
+import os
+import pathlib
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Any, NamedTuple, Union
+
+import numpy as np
+import numpy.typing as npt
+
+import calligraphy as cal
+
+__all__ = ["Condition", "Grid", "TrialsLost", "conditions", "novice_and_skilled", "run", "to_table", "trial", "write"]
+
+Row = dict[str, Any]
+Writer = Union[str, cal.WriterSkill]
+
+
+class TrialsLost(RuntimeError):
+    """Trials that failed, or whose worker died, more often than `retries` allows."""
+
+
+class Condition(NamedTuple):
+    """What one trial is done under."""
+
+    character: str
+    writer: str  #: name of the writer
+    mode: str  #: "vision" or "force"
+    stiffness: float  #: of the guidance and the paper [N/m]
+    rate: float  #: of the servo loop [Hz]
+    method: str  #: of the nearest point: "exact", "tracked", "sampled", "wang2006"
+    tolerance: float  #: of the nearest point, relative to the element's size
+    seed: int
+
+
+class Grid:
+    """The conditions of an experiment: every combination of the lists, in this order, the last one fastest.
+
+    writers: names ("novice", "skilled") or a dict from name to WriterSkill.
+    stiffness: of the guidance and the paper [N/m]; clipped to nine tenths of what is stable, as RendererOptions does:
+    the columns guidance_stiffness and paper_stiffness have what was at work.
+    characters come from `characters`, a CharacterSet or CharacterList; the built-in ones by default.
+    """
+
+    def __init__(
+        self,
+        characters: Iterable[str],
+        *,
+        writers: Union[Sequence[str], Mapping[str, cal.WriterSkill]] = ("novice",),
+        modes: Sequence[str] = ("vision", "force"),
+        stiffness: Sequence[float] = (600.0,),
+        rate: Sequence[float] = (1000.0,),
+        method: Sequence[str] = ("tracked",),
+        tolerance: Sequence[float] = (1e-9,),
+        seeds: Union[int, Iterable[int]] = 1,
+        device: Union[str, cal.DeviceProfile] = "desktop",
+        options: cal.RendererOptions | None = None,
+        source: cal.CharacterSet | cal.CharacterList | None = None,
+        longest_character: float = 120.0,
+    ) -> None:
+        self.characters = {code: _character(source, code) for code in characters}
+        self.writers = _writers(writers)
+        self.modes = [_known("modes", mode, cal.Mode) for mode in modes]
+        self.stiffness = _positive("stiffness", stiffness)
+        self.rate = _positive("rate", rate)
+        self.method = [_known("method", name, cal.NearestPointMethod) for name in method]
+        self.tolerance = _positive("tolerance", tolerance)
+        if isinstance(seeds, Iterable):
+            self.seeds = [_whole("seeds", seed, most=2**64 - 1) for seed in seeds]
+        else:
+            self.seeds = list(range(1, _whole("seeds", seeds) + 1))
+        self.device = cal.device_profile(device) if isinstance(device, str) else device
+        self.options = cal.RendererOptions.for_device(self.device.capabilities) if options is None else options
+        self.longest_character = float(longest_character)
+
+    def __repr__(self) -> str:
+        axes = ("characters", "writers", "modes", "stiffness", "rate", "method", "tolerance", "seeds")
+        lengths = " x ".join(f"{len(getattr(self, axis))} {axis}" for axis in axes)
+        return f"Grid({len(self)} trials: {lengths})"
+
+    def __len__(self) -> int:
+        return len(self.characters) * len(self.writers) * len(self.modes) * len(self.stiffness) * len(self.rate) * len(
+            self.method
+        ) * len(self.tolerance) * len(self.seeds)
+
+    def __iter__(self) -> Iterator[Condition]:
+        return itertools.starmap(
+            Condition,
+            itertools.product(
+                self.characters,
+                self.writers,
+                self.modes,
+                self.stiffness,
+                self.rate,
+                self.method,
+                self.tolerance,
+                self.seeds,
+            ),
+        )
+
+
+#: The columns of a table, of which the first ones are those of Condition, and their types.
+_COLUMNS: dict[str, type] = {
+    "character": str,
+    "writer": str,
+    "mode": str,
+    "stiffness": float,
+    "rate": float,
+    "method": str,
+    "tolerance": float,
+    "seed": int,
+    "guidance_stiffness": float,
+    "paper_stiffness": float,
+    "time": float,
+    "rms_error": float,
+    "max_error": float,
+    "peak_force": float,
+    "max_force_step": float,
+    "stroke_count": int,
+    "strokes_completed": int,
+    "order_mistakes": int,
+    "direction_mistakes": int,
+    "contour": float,
+    "external_sequence": float,
+    "internal_sequence": float,
+    "fidelity": float,
+    "simulated_time": float,
+}
+
+
+def conditions(grid: Grid) -> list[Condition]:
+    """Every condition of the grid, in the order of the table's rows."""
+    return list(grid)
+
+
+def novice_and_skilled() -> dict[str, cal.WriterSkill]:
+    """The writers of the library, by name."""
+    return {"novice": cal.WriterSkill.novice(), "skilled": cal.WriterSkill.skilled()}
+
+
+def trial(grid: Grid, condition: Condition) -> Row:
+    """One trial in this process: the condition and what came of it, a number each."""
+    character = grid.characters[condition.character]
+    options = cal.SessionOptions(
+        mode=getattr(cal.Mode, condition.mode),
+        device=grid.device,
+        renderer=grid.options,
+        skill=grid.writers[condition.writer],
+        seed=condition.seed,
+        longest_character=grid.longest_character,
+    )
+    renderer = options.renderer
+    renderer.servo_rate = condition.rate
+    renderer.paper_stiffness = renderer.guidance_stiffness = condition.stiffness
+    renderer.stiffness_check = cal.StiffnessCheck.clip
+    renderer.stroke.nearest.method = getattr(cal.NearestPointMethod, condition.method)
+    renderer.stroke.nearest.tolerance = condition.tolerance
+    # As the session's renderer would, which says to nobody what it made of them.
+    cal.clip_stiffness(renderer, grid.device.capabilities, max(1.0, *character.attraction_factors))
+    workspace = grid.device.capabilities.workspace
+    page = cal.lay_out([character], cal.PageLayout(width=workspace[0], height=workspace[1]))[0]
+    recording = cal.write_page(page, options)
+    score = cal.score(page, recording)[0]
+    return {
+        **condition._asdict(),
+        "guidance_stiffness": renderer.guidance_stiffness,
+        "paper_stiffness": renderer.paper_stiffness,
+        "time": score.time,
+        "rms_error": score.rms_error,
+        "max_error": score.max_error,
+        "peak_force": score.peak_force,
+        "max_force_step": score.max_force_step,
+        "stroke_count": score.stroke_count,
+        "strokes_completed": score.strokes_completed,
+        "order_mistakes": score.order_mistakes(),
+        "direction_mistakes": score.direction_mistakes(),
+        "contour": score.contour,
+        "external_sequence": score.external_sequence,
+        "internal_sequence": score.internal_sequence,
+        "fidelity": score.fidelity,
+        "simulated_time": len(recording) / recording.rate,
+    }
+
+
+def run(
+    grid: Grid,
+    executor: concurrent.futures.Executor | None = None,
+    *,
+    progress: bool = True,
+    chunk: int = 8,
+    retries: int = 3,
+) -> Any:
+    """Runs every trial of the grid and gives the table: a pandas.DataFrame, or a structured array without pandas.
+
+    executor: any concurrent.futures.Executor; a process pool on one machine, `dask.distributed.Client.get_executor()`
+    on several; None: this process. Trials go out `chunk` at a time. A chunk whose worker died is sent again, up to
+    `retries` times each, so that nothing is lost; with a pool that breaks as a whole (concurrent.futures' own does), its
+    chunks are done in this process. Rows are in the order of conditions(grid), whatever came back first, and the same
+    for the same condition and seed. With tqdm and a terminal a bar shows the progress.
+    Raises TrialsLost naming the first condition when a chunk fails for good.
+    """
+    every = conditions(grid)
+    chunk, retries = _whole("chunk", chunk, least=1), _whole("retries", retries)
+    chunks = [every[first : first + chunk] for first in range(0, len(every), chunk)]
+    rows: list[list[Row] | None] = [None] * len(chunks)
+    with _Bar(len(every), progress) as bar:
+        if executor is None:
+            for i, part in enumerate(chunks):
+                rows[i] = _run_chunk(grid, part)
+                bar.add(len(part))
+        else:
+            _run_on(executor, grid, chunks, rows, retries, bar)
+    return to_table([row for part in rows if part is not None for row in part])
+
+
+def to_table(rows: Sequence[Row]) -> Any:
+    """Rows as a pandas.DataFrame, or as a structured array where pandas is not installed."""
+    try:
+        import pandas
+    except ImportError:
+        return _structured(rows)
+    table = pandas.DataFrame(list(rows), columns=_columns(rows))
+    return table if rows else table.astype(_COLUMNS)  # from no values pandas cannot tell
+
+
+def write(table: Any, path: str | os.PathLike[str]) -> None:
+    """Writes a table of run() as .csv or .parquet (needs pyarrow); a whole file or none."""
+    path = pathlib.Path(path)
+    temporary = path.with_name(path.name + f".{os.getpid()}.part")
+    columns = _columns_of(table)
+    try:
+        if path.suffix == ".csv":
+            with open(temporary, "w", newline="", encoding="utf-8") as file:
+                writer = csv.writer(file)
+                writer.writerow(columns)
+                writer.writerows(zip(*(np.asarray(column).tolist() for column in columns.values())))
+        elif path.suffix == ".parquet":
+            import pyarrow
+            import pyarrow.parquet
+
+            pyarrow.parquet.write_table(
+                pyarrow.table({name: _parquet(np.asarray(column)) for name, column in columns.items()}), temporary
+            )
+        else:
+            raise cal.InvalidValue(f"{path}: .csv or .parquet is expected, not {path.suffix!r}")
+        os.replace(temporary, path)
+    finally:
+        temporary.unlink(missing_ok=True)
+
+
+def _run_chunk(grid: Grid, part: Sequence[Condition]) -> list[Row]:
+    return [trial(grid, condition) for condition in part]
+
+
+def _run_on(
+    executor: concurrent.futures.Executor,
+    grid: Grid,
+    chunks: list[list[Condition]],
+    rows: list[list[Row] | None],
+    retries: int,
+    bar: _Bar,
+) -> None:
+    failures = [0] * len(chunks)
+    pending: dict[concurrent.futures.Future[list[Row]], int] = {}
+
+    def send(index: int) -> None:
+        pending[executor.submit(_run_chunk, grid, chunks[index])] = index
+
+    def done(index: int, part: list[Row]) -> None:
+        if len(part) != len(chunks[index]):
+            raise TrialsLost(f"the executor returned {len(part)} rows for {len(chunks[index])} trials: {chunks[index][0]}")
+        rows[index] = part
+        bar.add(len(part))
+
+    def failed(index: int, error: BaseException) -> None:
+        if isinstance(error, (cal.Error, TypeError, AttributeError)):
+            raise error  # would fail anywhere
+        failures[index] += 1
+        if failures[index] > retries:
+            raise TrialsLost(f"{chunks[index][0]} and {len(chunks[index]) - 1} more: {error!r}") from error
+        if isinstance(error, concurrent.futures.BrokenExecutor):
+            done(index, _run_chunk(grid, chunks[index]))
+            return
+        try:
+            send(index)
+        except (concurrent.futures.BrokenExecutor, RuntimeError):
+            done(index, _run_chunk(grid, chunks[index]))
+
+    try:
+        for index in range(len(chunks)):
+            try:
+                send(index)
+            except concurrent.futures.BrokenExecutor as error:
+                failed(index, error)
+        while pending:
+            finished, _ = concurrent.futures.wait(pending, return_when=concurrent.futures.FIRST_COMPLETED)
+            for future in sorted(finished, key=pending.__getitem__):
+                index = pending.pop(future)
+                problem = concurrent.futures.CancelledError() if future.cancelled() else future.exception()
+                if problem is None:
+                    done(index, future.result())
+                else:
+                    failed(index, problem)
+    except BaseException:
+        for future in pending:
+            future.cancel()
+        raise
+
+
+class _Bar:
+    """tqdm's progress bar where it is installed, on a terminal; else nothing."""
+
+    def __init__(self, total: int, wanted: bool) -> None:
+        self._bar: Any = None
+        if wanted:
+            try:
+                from tqdm import tqdm
+            except ImportError:
+                return
+            self._bar = tqdm(total=total, unit="trial", disable=None)
+
+    def add(self, count: int) -> None:
+        if self._bar is not None:
+            self._bar.update(count)
+
+    def __enter__(self) -> _Bar:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._bar is not None:
+            self._bar.close()
+
+
+def _character(source: cal.CharacterSet | cal.CharacterList | None, code: str) -> cal.Character:
+    found = (cal.built_in_characters() if source is None else source).find(code)
+    if found is None:
+        raise cal.InvalidValue(f"characters: there is no {code!r} in the set")
+    return found.character() if isinstance(found, cal.StoredCharacter) else found
+
+
+def _writers(writers: Union[Sequence[str], Mapping[str, cal.WriterSkill]]) -> dict[str, cal.WriterSkill]:
+    if isinstance(writers, Mapping):
+        return dict(writers)
+    known = novice_and_skilled()
+    for name in writers:
+        if name not in known:
+            raise cal.InvalidValue(f"writers: one of {', '.join(known)} or a dict is expected, not {name!r}")
+    return {name: known[name] for name in writers}
+
+
+def _known(what: str, name: str, kind: Any) -> str:
+    if name not in kind.__members__:
+        raise cal.InvalidValue(f"{what}: one of {', '.join(kind.__members__)} is expected, not {name!r}")
+    return name
+
+
+def _whole(what: str, value: Any, least: int = 0, most: float = np.inf) -> int:
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise cal.InvalidValue(f"{what}: a whole number is expected, not {value!r}") from None
+    if not least <= number <= most:
+        raise cal.InvalidValue(f"{what}: {value!r} is not in [{least}, {most}]")
+    return number
+
+
+def _positive(what: str, values: Iterable[float]) -> list[float]:
+    numbers = []
+    for value in values:
+        if isinstance(value, (str, bytes)) or not (np.isfinite(value) and value > 0):
+            raise cal.InvalidValue(f"{what}: a positive number is expected, not {value!r}")
+        numbers.append(float(value))
+    return numbers
+
+
+def _columns(rows: Sequence[Row]) -> list[str]:
+    return list(rows[0]) if rows else list(_COLUMNS)
+
+
+def _parquet(column: npt.NDArray[Any]) -> Any:
+    import pyarrow
+
+    return pyarrow.array(column.tolist(), pyarrow.string()) if column.dtype.kind in "OUT" else pyarrow.array(column)
+
+
+def _structured(rows: Sequence[Row]) -> npt.NDArray[np.void]:
+    types = []
+    for name in _columns(rows):
+        values = [row[name] for row in rows]
+        types.append((name, np.asarray(values).dtype if values else np.dtype(_COLUMNS[name])))
+    result = np.zeros(len(rows), dtype=types)
+    for name, _ in types:
+        result[name] = [row[name] for row in rows]
+    return result
+
+
+def _columns_of(table: Any) -> dict[str, Any]:
+    names = table.dtype.names if isinstance(table, np.ndarray) else list(table.columns)
+    return {name: table[name] for name in names}

@@ -1,0 +1,298 @@
+// Real time: the servo loop in a thread of its own, and a person who writes a page with a device.
+#include <unistd.h>
+
+#include <chrono>
+#include <exception>
+#include <memory>
+#include <set>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <pybind11/stl.h>
+
+#include <calligraphy/error.hpp>
+#include <calligraphy/practice/live_session.hpp>
+
+#include "at_work.hpp"
+#include "force_law.hpp"
+#include "python_device.hpp"
+#include "record.hpp"
+#include "rooms.hpp"
+
+namespace calligraphy::python {
+namespace {
+
+bool program_ends = false;  ///< under the GIL
+
+/// Threads that the program does not wait for would begin again what has been ended for them.
+void refuse_at_the_end() {
+  if (program_ends) throw Error("the program ends: nothing may begin that moves a hand");
+}
+
+/// A ServoLoop that keeps device and law alive, waits without the GIL, which its law may need to end, and stops with
+/// the program.
+class Loop {
+ public:
+  Loop(HapticDevice& device, HapticRenderer& renderer, const ServoLoopOptions& options)
+      : Loop(
+            device, py::cast(&renderer), &renderer, nullptr,
+            [&renderer](const DeviceState& state) { return renderer.update(state).force; }, options) {}
+  // A clock of a vendor may end its thread when the device is closed, with the GIL held.
+  Loop(HapticDevice& device, const py::function& law, const ServoLoopOptions& options)
+      : Loop(device, PythonLaw::make(law), options) {}
+  ~Loop() {
+    stop();
+    if (!loop_->running()) return;
+    // This thread cannot join itself, nor threads that fork() left behind: the force is let go, the rest is for later.
+    running.erase(this);
+    orphans.push_back(
+        {std::move(device_), std::move(renderer_of_python_), std::move(loop_), std::move(at_work_), process_});
+  }
+  Loop(const Loop&) = delete;
+  Loop& operator=(const Loop&) = delete;
+
+  std::vector<std::string> start() {
+    refuse_at_the_end();
+    if (changing_ || loop_->running())
+      throw ValueError("the servo loop runs already: stop it before it is started again");
+    if (!InLaw::here()) stop_orphans();
+    refuse_without_capabilities(device_.cast<HapticDevice&>());
+    at_work_ = std::make_unique<AtWork>(device_.cast<HapticDevice&>(), renderer_);
+    if (python_law_) python_law_->forget_errors();
+    changing_ = true;
+    process_ = getpid();
+    try {
+      const py::gil_scoped_release release;
+      warnings_ = loop_->start();
+    } catch (...) {
+      changing_ = false;
+      at_work_.reset();
+      throw;
+    }
+    changing_ = false;
+    running.insert(this);
+    return warnings_;
+  }
+
+  void stop() {
+    if (changing_ || !loop_->running() || is_of_a_parent()) return;
+    if (InLaw::here()) return loop_->stop();
+    changing_ = true;
+    {
+      const py::gil_scoped_release release;
+      loop_->stop();
+    }
+    changing_ = false;
+    at_work_.reset();
+    running.erase(this);
+  }
+
+  static void stop_all() {
+    const std::set<Loop*> all = running;
+    for (Loop* const loop : all) loop->stop();
+    stop_orphans();
+  }
+
+  bool is_running() const { return loop_->running(); }
+  ServoStatus status() const { return loop_->status(); }
+  ServoStatistics statistics() const { return loop_->statistics(); }
+  const std::vector<std::string>& warnings() const { return warnings_; }
+  py::object error() const { return python_law_ ? python_law_->error() : py::none(); }
+  std::size_t errors() const { return python_law_ ? python_law_->errors() : 0; }
+
+ private:
+  Loop(HapticDevice& device, const std::shared_ptr<PythonLaw>& law, const ServoLoopOptions& options)
+      : Loop(device, py::none(), nullptr, law, force_law(law, device.clock() == nullptr), options) {}
+  Loop(HapticDevice& device, py::object renderer_of_python, HapticRenderer* renderer, std::shared_ptr<PythonLaw> law,
+       ForceLaw force, const ServoLoopOptions& options)
+      : device_(py::cast(&device)),
+        renderer_of_python_(std::move(renderer_of_python)),
+        renderer_(renderer),
+        python_law_(std::move(law)),
+        loop_(std::make_unique<ServoLoop>(device, std::move(force), options)) {}
+
+  bool is_of_a_parent() const { return process_ != 0 && process_ != getpid(); }
+
+  /// What is left of loops that ended within their own law.
+  struct Orphan {
+    py::object device, renderer;
+    std::unique_ptr<ServoLoop> loop;
+    std::unique_ptr<AtWork> at_work;
+    pid_t process;
+  };
+
+  static void stop_orphans() {
+    for (std::size_t i = orphans.size(); i-- > 0;) {
+      if (orphans[i].process != getpid()) continue;
+      const Orphan orphan = std::move(orphans[i]);
+      orphans.erase(orphans.begin() + static_cast<std::ptrdiff_t>(i));
+      const py::gil_scoped_release release;
+      orphan.loop->stop();
+    }
+  }
+
+  // Under the GIL, as all that is not in the loop. Those of a parent are never let go.
+  static std::set<Loop*> running;
+  static std::vector<Orphan>& orphans;
+
+  py::object device_, renderer_of_python_;  ///< kept alive
+  const HapticRenderer* renderer_;
+  std::shared_ptr<PythonLaw> python_law_;  ///< none where the law is a renderer
+  std::unique_ptr<ServoLoop> loop_;
+  std::unique_ptr<AtWork> at_work_;
+  std::vector<std::string> warnings_;
+  pid_t process_ = 0;      ///< that started it
+  bool changing_ = false;  ///< another thread waits in start() or stop()
+};
+
+std::set<Loop*> Loop::running;
+std::vector<Loop::Orphan>& Loop::orphans = *new std::vector<Orphan>;
+
+void add_loop(py::module_& module) {
+  py::class_<Loop>(
+      module, "ServoLoop",
+      "A servo loop in real time: a thread of its own, or the device's own clock, reads the device, asks the force "
+      "law,\n"
+      "guards the force and writes it, with a watchdog over both. The law is a HapticRenderer, and then no tick waits\n"
+      "for Python, or a callable from DeviceState to a force (3,) [N], which needs the GIL: docs/python.md has its "
+      "cost\n"
+      "and what other Python threads do to it. A `with` block starts it and stops it at its end, whatever ends it.")
+      .def(py::init<HapticDevice&, HapticRenderer&, const ServoLoopOptions&>(), py::arg("device"), py::arg("law"),
+           py::arg("options") = ServoLoopOptions{})
+      .def(py::init<HapticDevice&, const py::function&, const ServoLoopOptions&>(), py::arg("device"), py::arg("law"),
+           py::arg("options") = ServoLoopOptions{})
+      .def("start", &Loop::start,
+           "Begins with no force, which rises. What the system did not permit, each with what to do.")
+      .def("stop", &Loop::stop,
+           "Lets the force fall to zero, then ends the thread. From within the law it lets the force fall and returns.")
+      .def_property_readonly("running", &Loop::is_running)
+      .def_property_readonly("status", &Loop::status, "ServoStatus, while it runs and afterwards")
+      .def_property_readonly("statistics", &Loop::statistics, "ServoStatistics, while it runs and afterwards")
+      .def_property_readonly("warnings", &Loop::warnings, "what the last start() returned")
+      .def_property_readonly("error", &Loop::error,
+                             "the last exception of a law in Python since start(), or None; the first one goes to\n"
+                             "sys.unraisablehook too")
+      .def_property_readonly("errors", &Loop::errors, "how often a law in Python raised since start()")
+      .def("__enter__",
+           [](const py::object& self) {
+             self.cast<Loop&>().start();
+             return self;
+           })
+      .def("__exit__", [](Loop& self, const py::args&) { self.stop(); });
+}
+
+// Sessions of threads that the program does not wait for end with it; under the GIL.
+int live_sessions = 0;
+pid_t process_of_sessions = 0;
+
+struct LiveSession {
+  LiveSession() {
+    refuse_at_the_end();
+    if (process_of_sessions != getpid()) live_sessions = 0;  // those of a parent
+    process_of_sessions = getpid();
+    ++live_sessions;
+  }
+  ~LiveSession() { --live_sessions; }
+  LiveSession(const LiveSession&) = delete;
+  LiveSession& operator=(const LiveSession&) = delete;
+};
+
+void end_all() {
+  program_ends = true;
+  Loop::stop_all();
+  while (live_sessions > 0 && process_of_sessions == getpid()) {
+    const py::gil_scoped_release release;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
+LiveResult write_live(const Page& page, HapticDevice& device, LiveOptions options, const py::object& watch) {
+  refuse_without_capabilities(device);
+  const AtWork at_work(device);
+  const LiveSession counted;
+  std::exception_ptr raised;
+  options.watch = [&](const LiveView& view) {
+    const py::gil_scoped_acquire gil;
+    try {
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      if (program_ends) return false;
+      if (watch.is_none()) return true;
+      const py::object answer = watch(view);
+      const int goes_on = answer.is_none() ? 1 : PyObject_IsTrue(answer.ptr());
+      if (goes_on < 0) throw py::error_already_set();
+      return goes_on == 1;
+    } catch (const py::error_already_set&) {
+      raised = std::current_exception();
+      return false;
+    }
+  };
+  LiveResult result;
+  {
+    const py::gil_scoped_release release;
+    result = write_with_device(page, device, options);
+  }
+  if (!raised) return result;
+  try {
+    std::rethrow_exception(raised);
+  } catch (py::error_already_set& error) {
+    // What was written until then is not lost.
+    if (PyObject_SetAttrString(error.value().ptr(), "result", py::cast(std::move(result)).ptr()) != 0) PyErr_Clear();
+    throw;
+  }
+}
+
+void add_live_session(py::module_& module) {
+  py::class_<LiveView>(module, "LiveView", "What a display shows, some 50 times a second.")
+      .def_property_readonly(
+          "newest",
+          [](const LiveView& self) {
+            return py::array(py::module_::import("calligraphy._calligraphy").attr("sample_dtype").cast<py::dtype>(),
+                             std::vector<py::ssize_t>{}, std::vector<py::ssize_t>{}, &self.newest);
+          },
+          "The newest tick, all zero before the first one: a structured array () of sample_dtype, copied.")
+      .def_property_readonly(
+          "servo", [](const LiveView& self) { return self.servo; }, "ServoStatus")
+      .def_readonly("share", &LiveView::share, "of the page that is written, in [0, 1]")
+      .def("__repr__", [](const py::object& self) {
+        return told("LiveView(share {:.3f}, servo {})", self.attr("share"),
+                    self.attr("servo").attr("phase").attr("name"));
+      });
+  Record<LiveOptions>(module, "LiveOptions", "A person who writes with a device.")
+      .field("mode", &LiveOptions::mode, "Mode")
+      .field("renderer", &LiveOptions::renderer, "RendererOptions; its servo rate is that of the loop too")
+      .field("servo", &LiveOptions::servo, "ServoLoopOptions; its rate is not read")
+      .field("peak_force", &LiveOptions::peak_force, "at most this, whatever the device can do [N]")
+      .field("longest", &LiveOptions::longest, "given up after so long [s]");
+  py::class_<LiveResult>(module, "LiveResult", "What came of it.")
+      .def_readonly("recording", &LiveResult::recording)
+      .def_property_readonly(
+          "statistics", [](const LiveResult& self) { return self.statistics; }, "ServoStatistics")
+      .def_readonly("dropped", &LiveResult::dropped, "ticks that the recording lacks, because `watch` took 2 s or more")
+      .def_readonly("warnings", &LiveResult::warnings, "what the servo loop could not have")
+      .def("__repr__", [](const py::object& self) {
+        return told("LiveResult({!r}, {} dropped, {} warnings)", self.attr("recording"), self.attr("dropped"),
+                    py::len(self.attr("warnings")));
+      });
+  module.def("limited", &limited, py::arg("capabilities"), py::arg("peak_force"),
+             "The device with its forces lowered to a peak [N].");
+  module.def(
+      "write_with_device", &write_live, py::arg("page"), py::arg("device"), py::arg("options") = LiveOptions{},
+      py::arg("watch") = py::none(),
+      "A person writes the page in real time: the loop runs in C++ and needs no GIL, unless the device is written in\n"
+      "Python. Ends when the page is written and the pen lifted, `watch` says False, or time is up; then the force is\n"
+      "zero and the device still open. `watch` is called with a LiveView some 50 times a second.\n"
+      "Ctrl-C, in the main thread, and what `watch` raises end it too: the force falls to zero, then the exception is\n"
+      "raised, with the LiveResult as its attribute `result`.");
+}
+
+}  // namespace
+
+void add_live(py::module_& module) {
+  add_loop(module);
+  add_live_session(module);
+  // A program that ends must not leave a force behind, nor threads that ask for a Python that is gone.
+  py::module_::import("atexit").attr("register")(py::cpp_function(&end_all));
+}
+
+}  // namespace calligraphy::python

@@ -1,0 +1,34 @@
+// A haptic device that is written in Python.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <calligraphy/devices/haptic_device.hpp>
+
+namespace calligraphy::python {
+
+/// Calls the methods of a Python subclass. What they raise cannot pass through the servo loop: it goes to
+/// sys.unraisablehook, once until the method works again, and the sample says `fault`. A call costs about a microsecond
+/// and the GIL.
+class PythonDevice final : public HapticDevice {
+ public:
+  const Capabilities& capabilities() const noexcept override;
+  DeviceState read() noexcept override;
+  void write(const Eigen::Vector3d& force) noexcept override;
+  void close() noexcept override;
+
+  /// As capabilities(), for those whom what it raises can reach. @throws what the subclass raises, or TypeError
+  void ask_capabilities() const;
+
+ private:
+  mutable Capabilities capabilities_;  ///< as last told
+  // Whether the last call failed; under the GIL.
+  mutable bool no_capabilities_ = false;
+  bool no_read_ = false;
+  bool no_write_ = false;
+};
+
+/// A device in Python is asked before a loop relies on it. @throws what it raises, or TypeError
+void refuse_without_capabilities(const HapticDevice& device);
+
+}  // namespace calligraphy::python

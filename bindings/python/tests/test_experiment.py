@@ -1,0 +1,535 @@
+"""Experiments: the same table whatever runs the trials, in whatever order, and nothing lost."""
+
+import concurrent.futures
+import concurrent.futures.process
+import copy
+import itertools
+import multiprocessing
+import os
+import pickle
+import random
+import signal
+import sys
+
+import numpy as np
+import pytest
+
+import calligraphy as cal
+from calligraphy import experiment
+
+
+def grid(seeds=2, **axes):
+    return experiment.Grid("一人", seeds=seeds, **axes)
+
+
+def columns(table):
+    names = table.dtype.names if isinstance(table, np.ndarray) else table.columns
+    return {name: np.asarray(table[name]).tolist() for name in names}
+
+
+@pytest.fixture(scope="module")
+def expected():
+    return columns(experiment.run(grid(), progress=False))
+
+
+class Shuffling(concurrent.futures.Executor):
+    """Does what it is given last first, once everything is there."""
+
+    def __init__(self):
+        self.waiting = []
+
+    def submit(self, function, *arguments, **keywords):
+        future = concurrent.futures.Future()
+        self.waiting.append((future, function, arguments, keywords))
+        if len(self.waiting) == 8:
+            random.Random(1).shuffle(self.waiting)
+            for task, call, args, kwargs in self.waiting:
+                task.set_result(call(*args, **kwargs))
+        return future
+
+
+class Failing(concurrent.futures.Executor):
+    """Every chunk's first attempts fail, as if its worker had died."""
+
+    def __init__(self, attempts):
+        self.attempts = attempts
+        self.seen = {}
+
+    def submit(self, function, grid, part):
+        future = concurrent.futures.Future()
+        self.seen[tuple(part)] = self.seen.get(tuple(part), 0) + 1
+        if self.seen[tuple(part)] <= self.attempts:
+            future.set_exception(ConnectionError("the worker is gone"))
+        else:
+            future.set_result(function(grid, part))
+        return future
+
+
+def test_a_row_per_condition_in_the_order_of_the_grid(expected):
+    rows = list(zip(*(expected[name] for name in experiment.Condition._fields)))
+    assert rows == [tuple(c) for c in experiment.conditions(grid())]
+    assert len(rows) == len(grid()) == 2 * 2 * 2
+    assert all(error > 0 for error in expected["rms_error"])
+
+
+def test_a_row_is_that_of_the_trial_by_hand(expected):
+    condition = experiment.conditions(grid())[3]
+    row = experiment.trial(grid(), condition)
+    assert {name: values[3] for name, values in expected.items()} == row
+
+
+def test_the_order_in_which_trials_are_done_does_not_matter(expected):
+    assert columns(experiment.run(grid(), Shuffling(), chunk=1, progress=False)) == expected
+
+
+def test_threads_give_the_same_table(expected):
+    with concurrent.futures.ThreadPoolExecutor(3) as pool:
+        assert columns(experiment.run(grid(), pool, chunk=3, progress=False)) == expected
+
+
+def test_processes_give_the_same_table(expected):
+    context = multiprocessing.get_context("spawn")
+    with concurrent.futures.ProcessPoolExecutor(2, mp_context=context) as pool:
+        assert columns(experiment.run(grid(), pool, chunk=2, progress=False)) == expected
+
+
+def test_a_chunk_whose_worker_dies_is_sent_again(expected):
+    executor = Failing(attempts=3)
+    assert columns(experiment.run(grid(), executor, chunk=2, retries=3, progress=False)) == expected
+    assert set(executor.seen.values()) == {4}
+
+
+def test_a_chunk_that_always_fails_is_named():
+    with pytest.raises(experiment.TrialsLost, match="character='一'.*seed=1.*and 1 more.*the worker is gone"):
+        experiment.run(grid(), Failing(attempts=99), chunk=2, retries=2, progress=False)
+
+
+def test_an_option_that_is_refused_is_not_tried_again():
+    executor = Failing(attempts=0)
+    with pytest.raises(cal.InvalidValue, match="longest_character"):
+        experiment.run(grid(longest_character=-1.0), _Here(), progress=False)
+    assert executor.seen == {}
+
+
+class _Here(concurrent.futures.Executor):
+    def __init__(self):
+        self.count = 0
+
+    def submit(self, function, *arguments):
+        self.count += 1
+        assert self.count == 1
+        future = concurrent.futures.Future()
+        try:
+            future.set_result(function(*arguments))
+        except BaseException as error:
+            future.set_exception(error)
+        return future
+
+
+def _die_once(path, real, *arguments):
+    if not os.path.exists(path):
+        open(path, "w").close()
+        os.kill(os.getpid(), signal.SIGKILL)
+    return real(*arguments)
+
+
+class _Deadly:
+    """An executor whose first worker is killed in the middle of its work."""
+
+    def __init__(self, executor, path):
+        self.executor, self.path = executor, path
+
+    def submit(self, function, *arguments):
+        return self.executor.submit(_die_once, self.path, function, *arguments)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there is no SIGKILL here")
+def test_a_broken_process_pool_loses_nothing(expected, tmp_path):
+    context = multiprocessing.get_context("spawn")
+    with concurrent.futures.ProcessPoolExecutor(2, mp_context=context) as pool:
+        deadly = _Deadly(pool, str(tmp_path / "died"))
+        assert columns(experiment.run(grid(), deadly, chunk=2, progress=False)) == expected
+    assert (tmp_path / "died").exists()
+
+
+def test_dask_distributed_with_a_worker_killed_midway_loses_nothing(tmp_path):
+    distributed = pytest.importorskip("distributed")
+    import dask
+
+    # A worker that dies while it hands a result over keeps the others waiting for no longer.
+    dask.config.set({"distributed.comm.timeouts.connect": "10s"})
+    large = grid(seeds=12, stiffness=[300.0, 600.0])
+    expected = columns(experiment.run(large, progress=False))
+    killed = []
+    with distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, local_directory=str(tmp_path)
+    ) as cluster, distributed.Client(cluster) as client:
+        executor = client.get_executor(pure=False)
+        done = []
+
+        class Watching:
+            """Kills a worker, once, after the first chunks have come back."""
+
+            def submit(self, function, *arguments):
+                future = executor.submit(function, *arguments)
+                future.add_done_callback(self.count)
+                return future
+
+            def count(self, _):
+                done.append(1)
+                if len(done) == 3 and not killed:
+                    pid = next(iter(cluster.workers.values())).pid
+                    killed.append(pid)
+                    os.kill(pid, signal.SIGKILL)
+
+        table = experiment.run(large, Watching(), chunk=1, progress=False)
+    assert killed
+    assert columns(table) == expected
+    assert len(expected["seed"]) == len(large) == 96
+
+
+def test_methods_and_rates_are_what_is_asked_for():
+    table = columns(experiment.run(grid(seeds=1, rate=[500.0, 1000.0], method=["exact", "sampled"]), progress=False))
+    assert set(table["rate"]) == {500.0, 1000.0} and set(table["method"]) == {"exact", "sampled"}
+    times = {rate: [t for t, r in zip(table["simulated_time"], table["rate"]) if r == rate] for rate in (500.0, 1000.0)}
+    assert all(abs(t * 500.0 - round(t * 500.0)) < 1e-6 for t in times[500.0])
+
+
+def test_a_writer_of_ones_own():
+    still = cal.WriterSkill.novice()
+    still.tremor = 0.0
+    table = columns(experiment.run(grid(writers={"still": still, "novice": cal.WriterSkill.novice()}), progress=False))
+    assert table["writer"][0] == "still" and "novice" in table["writer"]
+
+
+@pytest.mark.parametrize(
+    "axes, name",
+    [
+        ({"modes": ["blind"]}, "modes"),
+        ({"method": ["newton"]}, "method"),
+        ({"writers": ["master"]}, "writers"),
+        ({"rate": [0.0]}, "rate"),
+        ({"tolerance": [float("nan")]}, "tolerance"),
+        ({"stiffness": ["600"]}, "stiffness: a positive number is expected, not '600'"),
+        ({"seeds": [1, 1.7]}, "seeds: a whole number is expected, not 1.7"),
+        ({"seeds": 2.0}, "seeds: a whole number is expected, not 2.0"),
+        ({"seeds": "12"}, "seeds: a whole number is expected, not '1'"),
+        ({"seeds": -2}, "seeds: -2 is not in"),
+        ({"seeds": [-1]}, "seeds: -1 is not in"),
+        ({"seeds": [2**64]}, "seeds: 18446744073709551616 is not in"),
+    ],
+)
+def test_what_a_grid_cannot_be_is_refused_by_name(axes, name):
+    with pytest.raises(cal.InvalidValue, match=name):
+        grid(**axes)
+    with pytest.raises(cal.InvalidValue, match="characters: there is no '龘'"):
+        experiment.Grid("龘")
+
+
+def test_whole_numbers_of_any_kind_are_seeds():
+    assert experiment.Grid("一", seeds=np.int64(3)).seeds == [1, 2, 3] and experiment.Grid("一", seeds=0).seeds == []
+    assert experiment.Grid("一", seeds=np.arange(4, 6, dtype=np.uint8)).seeds == [4, 5]
+    assert experiment.Grid("一", seeds=(seed for seed in (0, 2**64 - 1))).seeds == [0, 2**64 - 1]
+    assert experiment.Grid("一", stiffness=(value for value in (1, 2.5))).stiffness == [1.0, 2.5]
+    for wrong in ({"chunk": 1.5}, {"chunk": 0}, {"retries": 0.5}, {"retries": -1}):
+        with pytest.raises(cal.InvalidValue, match=next(iter(wrong))):
+            experiment.run(grid(), progress=False, **wrong)
+
+
+def dtypes(table):
+    """Of columns; of text only that it is."""
+    names = table.dtype.names if isinstance(table, np.ndarray) else table.columns
+    kinds = {name: table[name].dtype for name in names}
+    return {name: "text" if getattr(kind, "kind", "O") in "OUT" else kind for name, kind in kinds.items()}
+
+
+@pytest.mark.parametrize("with_pandas", [True, False])
+def test_an_empty_grid_gives_an_empty_table_of_the_same_columns(with_pandas, monkeypatch, tmp_path):
+    if with_pandas:
+        pytest.importorskip("pandas")
+    else:
+        monkeypatch.setitem(sys.modules, "pandas", None)
+    table = experiment.run(experiment.Grid(""), progress=False)
+    full = experiment.run(experiment.Grid("一", modes=["force"]), progress=False)
+    assert len(table) == 0 and len(full) == 1
+    assert dtypes(table) == dtypes(full) and list(dtypes(table)) == list(dtypes(full))
+    experiment.write(table, tmp_path / "none.csv")
+    experiment.write(full, tmp_path / "one.csv")
+    header = (tmp_path / "none.csv").read_text(encoding="utf-8").splitlines()
+    assert header == (tmp_path / "one.csv").read_text(encoding="utf-8").splitlines()[:1]
+    parquet = pytest.importorskip("pyarrow.parquet")
+    experiment.write(table, tmp_path / "none.parquet")
+    experiment.write(full, tmp_path / "one.parquet")
+    schemas = [parquet.read_schema(tmp_path / name) for name in ("none.parquet", "one.parquet")]
+    assert schemas[0].equals(schemas[1])
+
+
+def test_a_grid_says_how_large_it_is():
+    assert repr(grid(stiffness=[300.0, 600.0])) == (
+        "Grid(16 trials: 2 characters x 1 writers x 2 modes x 2 stiffness x 1 rate x 1 method x 1 tolerance x 2 seeds)"
+    )
+
+
+def test_without_pandas_the_table_is_a_structured_array(expected, monkeypatch, tmp_path):
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    table = experiment.run(grid(), progress=False)
+    assert isinstance(table, np.ndarray) and table.dtype.names == tuple(expected)
+    assert columns(table) == expected
+    experiment.write(table, tmp_path / "table.csv")
+    assert len((tmp_path / "table.csv").read_text(encoding="utf-8").splitlines()) == 9
+
+
+def test_tables_are_written_whole(expected, tmp_path):
+    pandas = pytest.importorskip("pandas")
+    table = experiment.run(grid(), progress=False)
+    experiment.write(table, tmp_path / "table.csv")
+    assert columns(pandas.read_csv(tmp_path / "table.csv")) == expected
+    pytest.importorskip("pyarrow")
+    experiment.write(table, tmp_path / "table.parquet")
+    assert columns(pandas.read_parquet(tmp_path / "table.parquet")) == expected
+    with pytest.raises(cal.InvalidValue, match=".csv or .parquet"):
+        experiment.write(table, tmp_path / "table.xls")
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["table.csv", "table.parquet"]
+
+
+def test_a_progress_bar_shows_every_trial(monkeypatch):
+    tqdm = pytest.importorskip("tqdm")
+    seen = []
+
+    class Bar:
+        def __init__(self, total, **_):
+            seen.append(("total", total))
+
+        def update(self, count):
+            seen.append(("done", count))
+
+        def close(self):
+            seen.append(("closed", 0))
+
+    monkeypatch.setattr(tqdm, "tqdm", Bar)
+    experiment.run(grid(), chunk=3)
+    assert seen[0] == ("total", 8) and seen[-1][0] == "closed"
+    assert sum(count for what, count in seen if what == "done") == 8
+
+
+def test_a_grid_survives_pickling():
+    again = pickle.loads(pickle.dumps(grid()))
+    assert experiment.conditions(again) == experiment.conditions(grid())
+
+
+def by_hand(condition, device, renderer):
+    """The trial of a condition, written out."""
+    renderer = copy.deepcopy(renderer)
+    renderer.servo_rate = condition.rate
+    renderer.paper_stiffness = renderer.guidance_stiffness = condition.stiffness
+    renderer.stiffness_check = cal.StiffnessCheck.clip
+    clipped = copy.deepcopy(renderer)
+    cal.clip_stiffness(clipped, device.capabilities)
+    renderer.stroke.nearest = cal.NearestPointOptions(
+        method=cal.NearestPointMethod.__members__[condition.method], tolerance=condition.tolerance
+    )
+    options = cal.SessionOptions(
+        mode=cal.Mode.__members__[condition.mode], device=device, renderer=renderer, seed=condition.seed,
+        skill=cal.WriterSkill.novice() if condition.writer == "novice" else cal.WriterSkill.skilled(),
+    )  # fmt: skip
+    width, height, _ = device.capabilities.workspace
+    page = cal.lay_out([cal.built_in_characters()[condition.character]], cal.PageLayout(width=width, height=height))[0]
+    recording = cal.write_page(page, options)
+    score = cal.score(page, recording)[0]
+    figures = {name: getattr(score, name) for name in score.fields if name not in ("character", "mistakes")}
+    return {
+        **condition._asdict(), **figures, "order_mistakes": score.order_mistakes(),
+        "guidance_stiffness": clipped.guidance_stiffness, "paper_stiffness": clipped.paper_stiffness,
+        "direction_mistakes": score.direction_mistakes(), "simulated_time": len(recording) / recording.rate,
+    }  # fmt: skip
+
+
+def test_a_trial_is_the_session_that_its_condition_says():
+    """One axis after the other leaves what is usual; each makes another trial, and the one that it should be."""
+    usual = {"writers": ["novice"], "modes": ["force"], "seeds": [1], "method": ["wang2006"], "rate": [1000.0]}
+    others = [
+        {}, {"seeds": [2]}, {"modes": ["vision"]}, {"writers": ["skilled"]}, {"stiffness": [200.0]},
+        {"stiffness": [1e7]}, {"rate": [500.0]}, {"method": ["exact"]}, {"tolerance": [0.3]}, {"device": "omni"},
+        {"options": cal.RendererOptions.everything(cal.device_profile("desktop").capabilities)},
+    ]  # fmt: skip
+    seen = []
+    for other in others:
+        one = experiment.Grid("永", **{**usual, **other})
+        (condition,) = experiment.conditions(one)
+        row = experiment.trial(one, condition)
+        profile = cal.device_profile(other.get("device", "desktop"))
+        renderer = other.get("options", cal.RendererOptions.for_device(profile.capabilities))
+        assert row == by_hand(condition, profile, renderer)
+        figures = {name: value for name, value in row.items() if name not in experiment.Condition._fields}
+        assert figures not in seen
+        seen.append(figures)
+    assert all(row["simulated_time"] < 60 for row in seen)
+
+
+def test_a_trial_leaves_the_grid_as_it_was():
+    one = grid(stiffness=[200.0], rate=[500.0])
+    before = copy.deepcopy(one.options)
+    experiment.run(one, progress=False)
+    assert one.options == before
+
+
+def test_the_conditions_are_every_combination_the_last_axis_fastest():
+    large = experiment.Grid(
+        "人一", writers=["skilled", "novice"], modes=["force", "vision"], stiffness=[2.0, 1.0], rate=[30.0, 40.0, 50.0],
+        method=["exact", "sampled"], tolerance=[0.1, 0.2], seeds=[9, 4],
+    )  # fmt: skip
+    every = experiment.conditions(large)
+    axes = ["人一", large.writers, large.modes, [2.0, 1.0], [30.0, 40.0, 50.0], large.method, [0.1, 0.2], [9, 4]]
+    assert [tuple(c) for c in every] == list(itertools.product(*axes)) and len(every) == len(large) == len(set(every))
+    assert every[0] == experiment.Condition("人", "skilled", "force", 2.0, 30.0, "exact", 0.1, 9)
+    assert [c.seed for c in experiment.Grid("人", seeds=3, modes=["force"])] == [1, 2, 3]
+
+
+def test_characters_come_from_the_source_given():
+    mine = cal.CharacterList([cal.with_quartic_curves(cal.built_in_characters()["人"])])
+    for source in (mine, cal.CharacterSet(mine)):
+        assert experiment.Grid("人", source=source).characters["人"].curve_degree == 4
+        with pytest.raises(cal.InvalidValue, match="there is no '一'"):
+            experiment.Grid("一", source=source)
+
+
+@pytest.mark.parametrize("name", ["stiffness", "rate", "tolerance"])
+@pytest.mark.parametrize("value", [0.0, -1.0, float("nan"), float("inf")])
+def test_numbers_that_are_none_are_refused_by_name(name, value):
+    with pytest.raises(cal.InvalidValue, match=f"{name}: a positive number is expected"):
+        grid(**{name: [1.0, value]})
+
+
+def test_chunks_of_any_size_hold_every_trial(expected):
+    for chunk in (1, 3, 8, 1000):
+        assert columns(experiment.run(grid(), chunk=chunk, progress=False)) == expected
+    for chunk in (0, -1):
+        with pytest.raises(cal.InvalidValue, match=r"chunk: (0|-1) is not in \[1, inf\]"):
+            experiment.run(grid(), chunk=chunk, progress=False)
+
+
+def test_retries_are_as_many_as_were_asked_for(expected):
+    assert columns(experiment.run(grid(), Failing(attempts=2), chunk=4, retries=2, progress=False)) == expected
+    executor = Failing(attempts=99)
+    with pytest.raises(experiment.TrialsLost, match="seed=1.*ConnectionError") as lost:
+        experiment.run(grid(), executor, chunk=8, retries=2, progress=False)
+    assert set(executor.seen.values()) == {3} and isinstance(lost.value.__cause__, ConnectionError)
+
+
+class Cancelling(concurrent.futures.Executor):
+    """Cancels the first of every chunk, and never does what comes after a failure."""
+
+    def __init__(self):
+        self.seen, self.given = set(), []
+
+    def submit(self, function, grid, part):
+        future = concurrent.futures.Future()
+        self.given.append(future)
+        if tuple(part) not in self.seen:
+            self.seen.add(tuple(part))
+            future.cancel()
+            future.set_running_or_notify_cancel()
+        else:
+            future.set_result(function(grid, part))
+        return future
+
+
+def test_a_chunk_that_was_cancelled_is_sent_again(expected):
+    assert columns(experiment.run(grid(), Cancelling(), chunk=2, progress=False)) == expected
+
+
+class Broken(concurrent.futures.Executor):
+    """A pool that breaks: at once, or when something is sent again."""
+
+    def __init__(self, good, error):
+        self.good, self.error = good, error
+
+    def submit(self, function, grid, part):
+        if self.good == 0:
+            raise self.error
+        self.good -= 1
+        future = concurrent.futures.Future()
+        future.set_exception(ConnectionError("gone"))
+        return future
+
+
+@pytest.mark.parametrize("good", [0, 1, 4])
+def test_a_pool_that_takes_nothing_more_loses_nothing(expected, good):
+    broken = Broken(good, concurrent.futures.process.BrokenProcessPool("broken"))
+    assert columns(experiment.run(grid(), broken, chunk=2, progress=False)) == expected
+
+
+def test_when_all_ends_early_what_waits_is_cancelled():
+    class Half(concurrent.futures.Executor):
+        def __init__(self):
+            self.given = []
+
+        def submit(self, function, *arguments):
+            future = concurrent.futures.Future()
+            if not self.given:
+                future.set_exception(cal.InvalidValue("no such thing"))
+            self.given.append(future)
+            return future
+
+    half = Half()
+    with pytest.raises(cal.InvalidValue, match="no such thing"):
+        experiment.run(grid(), half, chunk=2, progress=False)
+    assert len(half.given) == 4 and all(future.cancelled() for future in half.given[1:])
+
+
+def test_a_file_that_cannot_be_written_leaves_nothing_behind(tmp_path, monkeypatch):
+    table = experiment.run(grid(seeds=1, modes=["force"]), progress=False)
+    (tmp_path / "table.csv").write_text("before", encoding="utf-8")
+
+    def broken(*_):
+        raise OSError("disk full")
+
+    monkeypatch.setattr(os, "replace", broken)
+    with pytest.raises(OSError, match="disk full"):
+        experiment.write(table, tmp_path / "table.csv")
+    assert [p.name for p in tmp_path.iterdir()] == ["table.csv"]
+    assert (tmp_path / "table.csv").read_text(encoding="utf-8") == "before"
+
+
+def test_no_progress_bar_where_none_is_wanted(monkeypatch):
+    tqdm = pytest.importorskip("tqdm")
+    monkeypatch.setattr(tqdm, "tqdm", None)
+    experiment.run(grid(seeds=1, modes=["force"]), progress=False)
+
+
+def test_rows_that_an_executor_lost_are_missed():
+    class Losing(concurrent.futures.Executor):
+        def submit(self, function, *arguments):
+            future = concurrent.futures.Future()
+            future.set_result(function(*arguments)[1:])
+            return future
+
+    with pytest.raises(experiment.TrialsLost, match="1 rows for 2 trials"):
+        experiment.run(grid(), Losing(), chunk=2, progress=False)
+
+
+@pytest.mark.parametrize("factor", [1.0, 1.7])
+def test_the_table_has_the_stiffness_that_was_at_work(factor):
+    """What a renderer of the same page says of itself, to the last bit; it costs the trial no second one."""
+    drawn = cal.built_in_characters()["人"]
+    inputs = [
+        cal.StrokeInput(stroke.type.id, stroke.control_points, [factor] * stroke.type.feature_point_count())
+        for stroke in drawn.strokes()
+    ]
+    character = cal.make_character("人", inputs)
+    axes = {"modes": ["force"], "stiffness": [600.0, 1e6], "rate": [500.0, 1000.0]}
+    grid = experiment.Grid("人", source=cal.CharacterList([character]), **axes)
+    table = columns(experiment.run(grid, progress=False))
+    assert table["stiffness"] == [600.0, 600.0, 1e6, 1e6]
+    able = cal.device_profile("desktop").capabilities
+    page = cal.lay_out([character], cal.PageLayout(width=able.workspace[0], height=able.workspace[1]))[0]
+    for name in ("guidance_stiffness", "paper_stiffness"):
+        for row, (asked, rate) in enumerate(zip(table["stiffness"], table["rate"])):
+            options = cal.RendererOptions.for_device(able)
+            options.guidance_stiffness = options.paper_stiffness = asked
+            options.servo_rate = rate
+            options.stiffness_check = cal.StiffnessCheck.clip
+            renderer = cal.HapticRenderer(page.characters, cal.upright_page(page.width, page.height), able, options)
+            assert table[name][row] == getattr(renderer.options, name)
+        assert table[name][3] < 1e5
+    assert table["paper_stiffness"][1] == 600.0 < table["paper_stiffness"][3]

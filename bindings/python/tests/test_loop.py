@@ -1,0 +1,492 @@
+"""Devices, renderer, writer and servo from Python."""
+
+import concurrent.futures
+import copy
+import math
+import multiprocessing
+import os
+import pickle
+import sys
+import traceback
+
+import numpy as np
+import pytest
+
+import calligraphy as cal
+
+PROFILE = cal.device_profile("desktop")
+
+
+def one_page(text="永"):
+    characters = cal.built_in_characters()
+    return cal.lay_out([characters[code] for code in text])[0]
+
+
+def session(**fields):
+    return cal.SessionOptions(
+        **{
+            "device": PROFILE,
+            "renderer": cal.RendererOptions.for_device(PROFILE.capabilities),
+            "skill": cal.WriterSkill.novice(),
+            **fields,
+        }
+    )
+
+
+def wall(state):
+    """A wall below z = 0: spring and damper, and it never pulls [N]."""
+    depth = -state.position[2]
+    return [0.0, 0.0, max(0.0, 800.0 * depth - 2.0 * state.velocity[2]) if depth > 0 else 0.0]
+
+
+def held_device():
+    device = cal.SimulatedDevice(PROFILE, cal.Hand(mass=0.15, damping=5.0, stiffness=500.0), (0, 0, 0.01))
+    device.set_intention(cal.Intention(position=(0, 0, -0.005)))
+    return device
+
+
+def test_a_wall_of_ones_own_rests_where_two_springs_do():
+    device = held_device()
+    for _ in range(1000):
+        device.write(wall(device.read()))
+        device.advance(1e-3)
+    assert -device.true_position[2] == pytest.approx(0.005 * 500 / (500 + 800), abs=2e-4)
+
+
+def test_a_servo_runs_a_force_law_in_virtual_time():
+    device = held_device()
+    servo = cal.Servo(device, wall, rise_time=0.01)
+    for tick in range(1500):
+        servo.step(tick * 1e-3)
+        device.advance(1e-3)
+    assert -device.true_position[2] == pytest.approx(0.005 * 500 / (500 + 800), abs=2e-4)
+    assert servo.status.phase == cal.ServoPhase.running
+    assert servo.statistics.ticks == 1500
+
+
+@pytest.mark.parametrize(
+    "answer, raises",
+    [
+        (lambda: 1 / 0, True),
+        (lambda: "no force", True),
+        (lambda: [0, 0], True),
+        (lambda: [math.nan, 0, 0], False),
+    ],
+    ids=["raises", "text", "two numbers", "not a number"],
+)
+def test_a_force_law_that_fails_lets_the_force_fall(answer, raises, monkeypatch):
+    told = []
+    monkeypatch.setattr(sys, "unraisablehook", lambda unraisable: told.append(unraisable.exc_type))
+    device = held_device()
+    servo = cal.Servo(device, lambda state: answer() if state.time > 0.3 else wall(state), rise_time=0.0)
+    pushed = False
+    for tick in range(400):
+        servo.step(tick * 1e-3)
+        device.advance(1e-3)
+        pushed = pushed or np.linalg.norm(device.applied_force) > 0.1
+    assert pushed
+    assert np.linalg.norm(device.applied_force) == 0.0
+    assert servo.status.fault == cal.DeviceFault.bad_force
+    assert sum(servo.statistics.faults) >= 1
+    assert bool(told) == raises
+
+
+def test_what_a_law_raises_is_told_once_and_kept(monkeypatch):
+    told = []
+    monkeypatch.setattr(sys, "unraisablehook", told.append)
+
+    def law(state):
+        raise LookupError(f"at {state.time:.3f}")
+
+    device = held_device()
+    servo = cal.Servo(device, law)
+    assert servo.error is None and servo.errors == 0
+    for tick in range(50):
+        servo.step(tick * 1e-3)
+        device.advance(1e-3)
+    assert len(told) == 1 and told[0].exc_type is LookupError
+    assert servo.errors == 50 and type(servo.error) is LookupError and str(servo.error) == "at 0.049"
+    assert traceback.extract_tb(servo.error.__traceback__)[-1].name == "law"
+    servo.reset()
+    assert servo.error is None and servo.errors == 0
+    servo.step(0.1)
+    assert len(told) == 2 and servo.errors == 1
+
+
+def test_an_answer_that_is_no_force_is_an_error_of_the_law(monkeypatch):
+    told = []
+    monkeypatch.setattr(sys, "unraisablehook", told.append)
+    servo = cal.Servo(held_device(), lambda state: [0, 0])
+    for tick in range(3):
+        servo.step(tick * 1e-3)
+    assert len(told) == 1 and servo.errors == 3
+    assert isinstance(servo.error, ValueError) and str(servo.error) == "force: shape (3,) is expected, not (2,)"
+
+
+@pytest.mark.parametrize("kind", [KeyboardInterrupt, SystemExit])
+def test_what_is_to_end_the_program_is_raised_by_the_step_whose_law_it_came_from(kind, monkeypatch):
+    told = []
+    monkeypatch.setattr(sys, "unraisablehook", told.append)
+
+    def law(state):
+        if len(steps) == 2:
+            raise kind
+        return [0, 0, 0]
+
+    servo, steps = cal.Servo(held_device(), law), []
+    with pytest.raises(kind):
+        for tick in range(5):
+            servo.step(tick * 1e-3)
+            steps.append(tick)
+    assert steps == [0, 1] and servo.status.fault == cal.DeviceFault.bad_force
+    steps.append(None)
+    servo.step(0.01)  # the next tick is one like any other
+    assert servo.errors == 1
+
+
+class Recorder(cal.HapticDevice):
+    """A device written in Python: a mass that nobody holds, and what it was told."""
+
+    def __init__(self):
+        super().__init__()
+        self.forces = []
+        self.time = 0.0
+        self.closed = False
+
+    def capabilities(self):
+        return PROFILE.capabilities
+
+    def read(self):
+        self.time += 1e-3
+        return cal.DeviceState(time=self.time, position=(0, 0, -1e-3), velocity=(0, 0, 0))
+
+    def write(self, force):
+        self.forces.append(force)
+
+    def close(self):
+        self.closed = True
+
+
+def test_a_device_of_ones_own_works_in_the_loop():
+    device = Recorder()
+    servo = cal.Servo(device, lambda state: [0, 0, -1000 * state.position[2]], rise_time=0.0)
+    for tick in range(100):
+        servo.step(tick * 1e-3)
+    assert len(device.forces) == 100
+    assert device.forces[-1] == pytest.approx([0, 0, 1.0])
+
+
+def test_the_servo_keeps_a_device_alive_that_python_has_let_go():
+    servo = cal.Servo(Recorder(), lambda state: [0, 0, 1])
+    for tick in range(10):
+        servo.step(tick * 1e-3)
+    assert servo.statistics.ticks == 10
+
+
+@pytest.mark.parametrize("kind", ["raises", "wrong type", "missing"])
+def test_a_device_of_ones_own_that_fails_is_a_fault_not_a_crash(kind, monkeypatch):
+    told = []
+    monkeypatch.setattr(sys, "unraisablehook", lambda unraisable: told.append(unraisable.exc_type))
+
+    class Broken(Recorder):
+        def read(self):
+            if kind == "raises":
+                raise OSError("gone")
+            return "nothing"
+
+    class Missing(cal.HapticDevice):
+        def capabilities(self):
+            return PROFILE.capabilities
+
+    device = Missing() if kind == "missing" else Broken()
+    servo = cal.Servo(device, wall)
+    for tick in range(10):
+        servo.step(tick * 1e-3)
+    assert servo.status.fault == cal.DeviceFault.device_error
+    assert len(told) == (2 if kind == "missing" else 1)  # once each method, until it works again
+
+
+def test_a_device_that_fails_again_is_told_again(monkeypatch):
+    told = []
+    monkeypatch.setattr(sys, "unraisablehook", lambda unraisable: told.append(str(unraisable.exc_value)))
+
+    class Loose(Recorder):
+        def read(self):
+            state = super().read()
+            if round(state.time * 1e3) % 10 in (7, 8):
+                raise OSError(f"{state.time:.3f}")
+            return state
+
+        def write(self, force):
+            raise OSError("write")
+
+    servo = cal.Servo(Loose(), wall)
+    for tick in range(20):
+        servo.step(tick * 1e-3)
+    assert told == ["write", "0.007", "0.017"]
+
+
+@pytest.mark.parametrize("answer", [None, 5, KeyError("none")])
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
+def test_a_device_that_cannot_tell_its_capabilities_is_refused_at_once(answer):
+    class Silent(Recorder):
+        def capabilities(self):
+            if isinstance(answer, Exception):
+                raise answer
+            return answer
+
+    page = one_page()
+    users = [
+        lambda device: cal.Servo(device, wall),
+        lambda device: cal.ServoLoop(device, wall).start(),
+        lambda device: cal.write_with_device(page, device),
+    ]
+    for use in users:
+        with pytest.raises(KeyError if isinstance(answer, Exception) else TypeError, match="none|Capabilities"):
+            use(Silent())
+    with pytest.raises(TypeError, match="capabilities must be defined"):
+        cal.Servo(cal.HapticDevice(), wall)
+
+
+def test_a_servo_is_stepped_by_one_at_a_time():
+    refused = []
+
+    def law(state):
+        try:
+            servo.step(1.0)
+        except cal.Error as error:
+            refused.append(str(error))
+        return 0, 0, 0
+
+    servo = cal.Servo(cal.SimulatedDevice(PROFILE), law)
+    servo.step(0.0)
+    servo.step(1e-3)
+    assert len(refused) == 2 and "within a tick" in refused[0] and servo.statistics.ticks == 2
+
+
+def test_methods_that_c_plus_plus_would_not_call_cannot_be_overridden():
+    for kind in (cal.SimulatedDevice, cal.ReplayDevice, cal.PointerDevice, cal.HapticRenderer):
+        with pytest.raises(TypeError, match="not an acceptable base type"):
+            type("Mine", (kind,), {})
+
+
+def test_writing_is_the_same_again_and_differs_between_seeds():
+    page, options = one_page(), session()
+    first, again = cal.write_page(page, options), cal.write_page(page, options)
+    assert np.array_equal(first.samples, again.samples)
+    assert not np.array_equal(cal.write_page(page, session(seed=2)).samples, first.samples)
+
+
+def test_a_recording_is_a_structured_array_over_its_own_memory():
+    recording = cal.write_page(one_page(), session())
+    samples = recording.samples
+    assert samples.dtype == cal.sample_dtype and len(samples) == len(recording)
+    assert np.shares_memory(samples, recording.samples)
+    assert np.all(np.diff(samples["time"]) > 0)
+    assert samples["force"].shape == (len(recording), 3)
+    assert set(np.unique(samples["state"])) <= {int(s) for s in cal.InteractionState.__members__.values()}
+    with pytest.raises(ValueError, match="read-only"):
+        samples["time"][0] = 1.0
+    time = cal.write_page(one_page("一"), session()).samples["time"]  # its owner is gone
+    assert np.allclose(np.diff(time), 1e-3)
+
+
+def test_recordings_survive_csv_pickling_and_arrays(tmp_path):
+    recording = cal.write_page(one_page("一"), session())
+    cal.write_csv(tmp_path / "one.csv", recording)
+    for again in (
+        cal.read_csv(tmp_path / "one.csv"),
+        cal.read_csv_text(recording.to_csv()),
+        pickle.loads(pickle.dumps(recording)),
+        cal.Recording(recording.rate, recording.samples),
+    ):
+        assert again.rate == recording.rate
+        assert np.array_equal(again.samples, recording.samples)
+    wrong = recording.samples.copy()
+    wrong["state"][5] = 200
+    with pytest.raises(cal.InvalidValue, match=r"samples\[5\]: state 200"):
+        cal.Recording(1000.0, wrong)
+
+
+def test_a_whole_trace_is_what_single_ticks_are():
+    recording = cal.write_page(one_page("一"), session())
+    page = one_page("一")
+    mapping = cal.upright_page(page.width, page.height)
+    states = cal.device_states(recording, mapping)
+
+    def renderer():
+        return cal.HapticRenderer(page.characters, mapping, PROFILE.capabilities)
+
+    single, whole = renderer(), renderer()
+    forces = np.array([single.update(state).force for state in states])
+    ticks = whole.trace([s.position for s in states], [s.time for s in states])
+    assert ticks.dtype == cal.tick_dtype
+    assert np.array_equal(ticks["force"], forces)
+    assert ticks["character"][-1] == 1 and np.abs(forces).max() > 0.1
+    events = np.bitwise_or.reduce(ticks["events"])
+    assert cal.has(events, cal.TickEvent.page_finished) and not cal.has(events, cal.TickEvent.stroke_abandoned)
+    at_the_rate = renderer().trace([s.position for s in states])
+    assert np.allclose(np.diff(at_the_rate["time"]), 1e-3)
+    with pytest.raises(cal.InvalidValue, match="times: shape"):
+        whole.trace(np.zeros((3, 3)), np.zeros(2))
+    assert len(whole.trace(np.zeros((0, 3)))) == 0
+
+
+def test_a_position_that_is_not_finite_is_a_bad_sample():
+    page = one_page()
+    renderer = cal.HapticRenderer(page.characters, cal.upright_page(page.width, page.height), PROFILE.capabilities)
+    ticks = renderer.trace([[0, 0, 0.02], [math.nan, 0, 0], [0, 0, 0.02]])
+    assert ticks["status"].tolist() == [0, int(cal.TickStatus.bad_sample), 0]
+    assert np.isfinite(ticks["force"]).all()
+
+
+def test_the_loop_by_hand_is_the_session():
+    page = one_page("一")
+    options = session()
+    mapping = cal.upright_page(page.width, page.height)
+    writer = cal.SimulatedWriter(page, options.skill, options.seed)
+
+    def motion(tick, seconds):
+        writing = tick.state == cal.InteractionState.writing
+        sight = cal.Sight(pen_tip=tick.pen_tip, character=tick.character, stroke=tick.stroke, writing=writing)
+        intention = writer.update(sight, seconds)
+        return None if writer.done else intention
+
+    by_hand = cal.run_session(page, options, motion)
+    assert np.array_equal(by_hand.samples, cal.write_page(page, options).samples)
+    with pytest.raises(ZeroDivisionError):
+        cal.run_session(page, options, lambda tick, seconds: 1 / 0)
+    assert mapping.to_device([page.width / 2, page.height / 2, 0.0]) == pytest.approx([0, 0, 0])
+
+
+def test_a_replay_gives_the_forces_that_were_given():
+    page, options = one_page("一"), session()
+    recording = cal.write_page(page, options)
+    states = cal.device_states(recording, cal.upright_page(page.width, page.height))
+    replay = cal.replay_page(page, cal.ReplayDevice(states, PROFILE.capabilities), options)
+    assert np.allclose(replay.samples["force"][: len(recording)], recording.samples["force"], atol=1e-6)
+
+
+def test_a_score_tells_force_from_vision():
+    page = one_page("永")
+    errors = {
+        mode: np.mean([cal.score(page, cal.write_page(page, session(mode=mode, seed=s)))[0].rms_error for s in range(8)])
+        for mode in (cal.Mode.vision, cal.Mode.force)
+    }
+    assert errors[cal.Mode.force] < errors[cal.Mode.vision]
+
+
+def test_several_renderers_in_several_threads_do_what_one_does():
+    page = one_page("永")
+    mapping = cal.upright_page(page.width, page.height)
+    recording = cal.write_page(page, session())
+    positions = [s.position for s in cal.device_states(recording, mapping)]
+
+    def forces(_):
+        renderer = cal.HapticRenderer(page.characters, mapping, PROFILE.capabilities)
+        return renderer.trace(positions)["force"]
+
+    expected = forces(0)
+    with concurrent.futures.ThreadPoolExecutor(4) as pool:
+        for result in pool.map(forces, range(12)):
+            assert np.array_equal(result, expected)
+
+
+def _write_in_child(seed):
+    return cal.score(one_page("一"), cal.write_page(one_page("一"), session(seed=seed)))[0]
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="there is no fork here")
+@pytest.mark.filterwarnings("ignore:.*fork.*:DeprecationWarning")
+def test_a_forked_process_writes_as_this_one_does():
+    context = multiprocessing.get_context("fork")
+    with concurrent.futures.ProcessPoolExecutor(2, mp_context=context) as pool:
+        assert list(pool.map(_write_in_child, [1, 2, 3])) == [_write_in_child(s) for s in (1, 2, 3)]
+
+
+RECORDS = [
+    session(seed=7, mode=cal.Mode.vision),
+    cal.RendererOptions.wang2006(),
+    cal.RendererOptions.everything(PROFILE.capabilities),
+    cal.WriterSkill.skilled(),
+    PROFILE,
+    cal.DeviceState(buttons=3),
+    cal.upright_page(0.16, 0.12),
+    cal.sampled_loop(PROFILE.capabilities, 1000.0),
+    cal.advise_stiffness(cal.sampled_loop(PROFILE.capabilities, 1000.0)),
+    cal.StabilityMapOptions(rates=[500.0]),
+    cal.PageLayout(em=0.03),
+    cal.ServoStatistics(),
+    cal.CharacterScore(character="永", mistakes=[cal.Mistake(kind=cal.MistakeKind.order, reason="so")]),
+]
+
+
+@pytest.mark.parametrize("record", RECORDS, ids=lambda r: type(r).__name__)
+def test_options_and_results_survive_pickling_and_copying(record):
+    for protocol in range(2, pickle.HIGHEST_PROTOCOL + 1):
+        assert pickle.loads(pickle.dumps(record, protocol)) == record
+    assert copy.copy(record) == record and copy.deepcopy(record) == record
+    assert type(record).__name__ in repr(record)
+
+
+def test_a_field_that_is_none_is_refused_with_those_that_are():
+    with pytest.raises(TypeError, match="Hand has no field 'weight'; it has mass, damping, stiffness"):
+        cal.Hand(weight=1.0)
+
+
+def test_records_differ_when_a_field_does():
+    one, other = session(), session()
+    assert one == other
+    other.renderer.stroke.space.radius = 0.01
+    assert one != other and one != 3
+
+
+def test_a_simulated_device_refuses_what_is_not_physical():
+    with pytest.raises(cal.InvalidValue, match="mass"):
+        cal.SimulatedDevice(cal.DeviceProfile(mass=-1.0))
+
+
+def test_stiffness_beyond_what_is_stable_is_refused_or_clipped():
+    page = one_page()
+    mapping = cal.upright_page(page.width, page.height)
+    options = cal.RendererOptions(paper_stiffness=1e6)
+    with pytest.raises(cal.InvalidValue, match="paper_stiffness"):
+        cal.HapticRenderer(page.characters, mapping, PROFILE.capabilities, options)
+    assert cal.clip_stiffness(options, PROFILE.capabilities)
+    assert options.paper_stiffness < 1e6
+    cal.validate(options, PROFILE.capabilities)
+
+
+def test_the_advisor_and_a_wall_agree():
+    loop = cal.SampledLoop(mass=0.045, damping=0.1, rate=1000.0)
+    critical = cal.critical_stiffness(loop)
+    assert cal.advise_stiffness(loop).stable.value == critical
+    assert cal.meet_wall(loop, 0.8 * critical).settles and not cal.meet_wall(loop, 1.5 * critical).settles
+
+
+def test_a_stability_map_reports_its_progress():
+    shares = []
+    options = cal.StabilityMapOptions(
+        with_sweeps=False, per_decade=2, dampings=[0.5], rates=[1000.0], delays=[0], encoder_steps=[0.0],
+        wall_dampings=[0.0], grips=[cal.Hand(mass=0, damping=0, stiffness=0)],
+    )  # fmt: skip
+    result = cal.stability_map(options, shares.append)
+    assert len(result.grid) == 1 and len(result.grid[0].settles) == len(result.stiffnesses)
+    assert shares and shares[-1] == 1.0
+
+
+def test_a_force_field_is_an_array_of_forces():
+    placed = one_page().characters[0]
+    field = cal.guidance_field(placed, 0, 0.2, placed.placement.origin, placed.placement.em, columns=12)
+    assert field.forces.shape == (12, 12, 2)
+    assert np.max(np.linalg.norm(field.forces, axis=2)) == pytest.approx(field.largest_force())
+
+
+def test_a_trace_of_a_person_is_followed(tmp_path):
+    t = np.linspace(0, 1, 50)
+    trace = cal.PenTrace("一", [np.column_stack([0.1 + 0.8 * t, np.full(50, 0.5), t])], set="made")
+    cal.write_pen_traces(tmp_path / "traces.txt", [trace])
+    again = cal.read_pen_traces(str(tmp_path / "traces.txt"))[0]
+    assert again.character == "一" and np.allclose(again.strokes[0], trace.strokes[0], atol=1e-6)
+    recording = cal.follow_trace(one_page("一"), again, session())
+    assert cal.score(one_page("一"), recording)[0].strokes_completed == 1

@@ -1,0 +1,126 @@
+"""Characters, typical strokes and sets from Python."""
+
+import copy
+import os
+import pickle
+
+import numpy as np
+import pytest
+
+import calligraphy as cal
+
+
+def test_the_example_of_table_3_has_its_counts():
+    character = cal.paper_example()
+    assert character.stroke_ids.tolist() == [2, 1, 10, 31, 4]
+    assert character.control_points.shape == (15, 2)
+    assert len(character.feature_points) == 13
+
+
+def test_there_are_39_typical_strokes():
+    strokes = cal.typical_strokes()
+    assert [stroke.id for stroke in strokes] == list(range(1, 40))
+    for stroke in strokes:
+        assert stroke.shape.shape == (stroke.control_point_count(), 2)
+        assert len(stroke.feature_points()) == stroke.feature_point_count() == len(stroke.elements) + 1
+        assert pickle.loads(pickle.dumps(stroke)).id == stroke.id
+    with pytest.raises(cal.InvalidValue, match="40"):
+        cal.typical_stroke(40)
+
+
+def test_a_character_is_made_of_its_strokes_again():
+    original = cal.built_in_characters()["永"]
+    inputs = [
+        cal.StrokeInput(stroke.type.id, stroke.control_points, list(stroke.attraction_factors))
+        for stroke in original.strokes()
+    ]
+    again = cal.make_character("永", inputs)
+    assert np.array_equal(again.control_points, original.control_points)
+    assert np.array_equal(again.stroke_ids, original.stroke_ids)
+    assert cal.validate(again) == []
+    inputs[2].id = 99
+    with pytest.raises(cal.InvalidValue, match="99"):
+        cal.make_character("永", inputs)
+
+
+@pytest.mark.parametrize("again", [lambda x: pickle.loads(pickle.dumps(x)), copy.copy, copy.deepcopy])
+def test_a_character_survives_pickling_and_copying(again):
+    original = cal.with_quartic_curves(cal.built_in_characters()["永"])
+    result = again(original)
+    assert (result.code, result.order, result.curve_degree) == ("永", "", 4)
+    for name in ("control_points", "stroke_ids", "feature_points", "attraction_factors"):
+        assert np.array_equal(getattr(result, name), getattr(original, name))
+
+
+def test_a_damaged_pickle_of_a_character_is_refused():
+    character = cal.built_in_characters()["永"]
+    state = list(character.__getstate__())
+    state[4] = [99] * len(state[4])
+    with pytest.raises(cal.InvalidValue):
+        cal.Character.__new__(cal.Character).__setstate__(tuple(state))
+
+
+def test_a_list_and_a_set_hold_the_same_characters(tmp_path):
+    characters = cal.built_in_characters()
+    cal.write_characters(str(tmp_path / "list.txt"), characters)
+    assert len(cal.read_characters(str(tmp_path / "list.txt"))) == len(characters)
+    (tmp_path / "characters.set").write_bytes(cal.encode_character_set(characters, cal.CoordinatePrecision.exact))
+    stored = cal.CharacterSet.open(str(tmp_path / "characters.set"))
+    assert "永" in stored and "龘" not in stored and stored.find("龘") is None
+    assert np.array_equal(stored["永"].control_points, characters["永"].control_points)
+    assert [s.code for s in stored] == sorted({c.code for c in characters.characters})
+    assert len(stored) == len({c.code for c in characters.characters})
+    assert stored.coordinate_error() == 0.0
+    assert len(cal.CharacterSet.layered([stored, cal.CharacterSet(characters)])) == len(stored)
+    assert len(pickle.loads(pickle.dumps(characters))) == len(characters)
+    with pytest.raises(KeyError):
+        stored["龘"]
+
+
+def test_a_stored_character_outlives_its_set():
+    found = cal.CharacterSet.from_bytes(cal.encode_character_set(cal.built_in_characters())).find("北")
+    assert found.character().stroke_count == found.stroke_count == 5
+
+
+def test_errors_are_of_one_family_and_of_the_built_in_ones(tmp_path):
+    with pytest.raises(cal.FileError) as missing:
+        cal.CharacterSet.open(str(tmp_path / "nowhere.set"))
+    assert isinstance(missing.value, (cal.Error, OSError)) and "nowhere.set" in str(missing.value)
+    with pytest.raises(cal.FormatError) as wrong:
+        cal.CharacterSet.from_bytes(b"no set", "this one")
+    assert isinstance(wrong.value, ValueError) and "this one" in str(wrong.value)
+    assert issubclass(cal.DeviceError, OSError) and issubclass(cal.Error, RuntimeError)
+
+
+def test_a_path_is_recognised_and_fitted():
+    path = np.column_stack([np.linspace(0.1, 0.9, 30), np.full(30, 0.5)])
+    fitted = cal.fit_stroke(path, cal.DrawnWith.pen)
+    assert cal.typical_stroke(fitted.stroke.id).name == "横"
+    assert fitted.error < 0.01
+    with pytest.raises(cal.InvalidValue):
+        cal.fit_stroke(np.zeros((0, 2)))
+
+
+READERS = {
+    "read_characters": cal.read_characters,
+    "CharacterSet.open": cal.CharacterSet.open,
+    "read_pen_traces": cal.read_pen_traces,
+    "read_wire_profile": cal.read_wire_profile,
+    "read_csv": cal.read_csv,
+}
+
+
+@pytest.mark.parametrize("name", READERS)
+def test_a_file_of_any_bytes_is_refused_by_its_name(name, tmp_path):
+    path = tmp_path / "wrong"
+    path.write_bytes(bytes(range(1, 256)) * 20)
+    for how in (path, str(path), os.fsencode(path)):
+        with pytest.raises(cal.FormatError, match="wrong"):
+            READERS[name](how)
+    odd = os.fsencode(tmp_path) + b"/\xff\xfe"
+    with pytest.raises(cal.FileError):
+        READERS[name](odd)
+    with open(odd, "wb") as file:
+        file.write(b"\xff")
+    with pytest.raises(cal.FormatError):
+        READERS[name](odd)

@@ -1,0 +1,512 @@
+"""Loops in real time. The machine may be slow: nothing here is judged by a clock."""
+
+import gc
+import os
+import pathlib
+import subprocess
+import sys
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import calligraphy as cal
+
+PROFILE = cal.device_profile("desktop")
+#: Of the watchdog: by the machine's clock, which a busy machine does not keep.
+PATIENT = cal.ServoOptions(patience=1.0, rise_time=0.05)
+PRESSED = (0.0, 0.0, -1e-3)
+
+
+def options(servo=PATIENT, **thread):
+    return cal.ServoLoopOptions(
+        servo=servo, thread=cal.ServoThreadOptions(**{"priority": 0, "lock_memory": False, **thread})
+    )
+
+
+def until(condition):
+    """For at most a minute of the machine."""
+    end = time.monotonic() + 60
+    while not condition():
+        assert time.monotonic() < end, "nothing happens"
+        time.sleep(1e-3)
+
+
+class Bench(cal.HapticDevice):
+    """A pen that rests 1 mm below the paper, and what it was told."""
+
+    def __init__(self):
+        super().__init__()
+        self.ticks, self.forces, self.closed = 0, [], False
+
+    def capabilities(self):
+        return PROFILE.capabilities
+
+    def read(self):
+        self.ticks += 1
+        return cal.DeviceState(time=self.ticks * 1e-3, position=PRESSED, velocity=(0, 0, 0))
+
+    def write(self, force):
+        self.forces.append(force[2])
+
+    def close(self):
+        self.closed = True
+
+
+def wall(state):
+    return 0.0, 0.0, max(0.0, -1000.0 * state.position[2])
+
+
+def one_page(text="一"):
+    characters = cal.built_in_characters()
+    size = PROFILE.capabilities.workspace
+    return cal.lay_out([characters[code] for code in text], cal.PageLayout(width=size[0], height=size[1]))[0]
+
+
+def renderer_of(page):
+    return cal.HapticRenderer(
+        page.characters, cal.upright_page(page.width, page.height), PROFILE.capabilities,
+        cal.RendererOptions.for_device(PROFILE.capabilities),
+    )  # fmt: skip
+
+
+def test_the_force_rises_to_that_of_the_law_and_falls_to_zero_when_the_loop_stops():
+    device = Bench()
+    loop = cal.ServoLoop(device, wall, options())
+    loop.start()
+    until(lambda: loop.status.phase == cal.ServoPhase.running and device.forces and device.forces[-1] == 1.0)
+    loop.stop()
+    forces = np.array(device.forces)
+    assert forces[0] == 0.0 and forces[-1] == 0.0 and forces.max() == 1.0
+    top = len(forces) - 1 - np.argmax(forces[::-1])
+    assert (np.diff(forces[: np.argmax(forces) + 1]) >= 0).all()
+    assert (np.diff(forces[top:]) <= 0).all() and len(forces) - top > 2
+    assert not loop.running and loop.status.phase == cal.ServoPhase.zero
+    told = len(device.forces)
+    time.sleep(0.01)
+    assert len(device.forces) == told
+
+
+def test_what_the_loop_has_done_is_told_while_it_runs_and_afterwards():
+    with cal.ServoLoop(Bench(), wall, options()) as loop:
+        assert loop.running
+        until(lambda: loop.statistics.ticks > 20)
+        until(lambda: loop.statistics.period.count > 20 and loop.statistics.work.p50 > 0)
+    assert loop.statistics.ticks > 20
+    assert loop.statistics.faults[int(cal.DeviceFault.bad_force)] == 0
+
+
+def test_a_loop_is_started_again_after_it_was_stopped():
+    device = Bench()
+    loop = cal.ServoLoop(device, wall, options())
+    for _ in range(2):
+        before = device.ticks
+        loop.start()
+        until(lambda: device.ticks > before + 5)
+        loop.stop()
+        loop.stop()
+        assert device.forces[-1] == 0.0
+
+
+def test_a_with_block_lets_the_force_fall_whatever_ends_it():
+    device = Bench()
+    with pytest.raises(LookupError, match="of one's own"):
+        with cal.ServoLoop(device, wall, options()) as loop:
+            until(lambda: device.forces and device.forces[-1] > 0)
+            raise LookupError("of one's own")
+    assert not loop.running and device.forces[-1] == 0.0
+
+
+def test_a_loop_that_nobody_holds_any_more_stops():
+    device = Bench()
+    loop = cal.ServoLoop(device, wall, options())
+    loop.start()
+    until(lambda: device.forces and device.forces[-1] > 0)
+    del loop
+    gc.collect()
+    assert device.forces[-1] == 0.0
+
+
+def test_a_renderer_for_a_law_needs_no_python():
+    device = cal.PointerDevice(PROFILE)
+    loop = cal.ServoLoop(device, renderer_of(one_page()), options())
+    interval = sys.getswitchinterval()
+    with loop:
+        sys.setswitchinterval(1000.0)  # from here on this thread lets no other have the GIL
+        try:
+            end = time.monotonic() + 30
+            reached = loop.statistics.ticks + 100
+            while loop.statistics.ticks < reached and time.monotonic() < end:
+                pass
+            ticks = loop.statistics.ticks
+        finally:
+            sys.setswitchinterval(interval)
+    assert ticks >= reached
+
+
+def test_what_a_running_loop_uses_is_refused_to_others():
+    device, renderer = cal.PointerDevice(PROFILE), renderer_of(one_page())
+    state = cal.DeviceState(position=(0, 0, 0.01))
+    with cal.ServoLoop(device, renderer, options()) as loop:
+        until(lambda: loop.statistics.ticks > 20)
+        for forbidden in (
+            device.read,
+            lambda: device.write((0, 0, 0)),
+            device.close,
+            lambda: device.intention,
+            lambda: renderer.update(state),
+            lambda: renderer.trace(np.zeros((3, 3))),
+            renderer.restart,
+            lambda: renderer.last,
+            lambda: cal.ServoLoop(device, wall, options()).start(),
+            lambda: cal.ServoLoop(cal.PointerDevice(PROFILE), renderer, options()).start(),
+            lambda: cal.write_with_device(one_page(), device),
+        ):
+            with pytest.raises(cal.Error, match="at work in a running loop"):
+                forbidden()
+        device.move(0.01, 0.0, 0.5)  # from any thread
+        assert device.capabilities().model == PROFILE.capabilities.model
+        assert renderer.options.servo_rate == 1000.0
+    device.read()
+    assert renderer.last.time > 0.0
+    renderer.restart()
+
+
+def test_a_law_may_use_the_device_that_it_is_asked_for():
+    device = cal.SimulatedDevice(PROFILE, cal.Hand(), (0, 0, 0.01))
+    device.set_intention(cal.Intention(position=(0, 0, -0.005)))
+
+    def law(state):
+        device.advance(1e-3)  # virtual time goes on as the loop does
+        return wall(state)
+
+    with cal.ServoLoop(device, law, options()) as loop:
+        until(lambda: loop.statistics.ticks > 300)
+    assert device.time > 0.25
+    assert -5e-3 < device.true_position[2] < 0.0
+
+
+def test_what_a_law_raises_is_told_and_lets_the_force_fall():
+    told = []
+    before, sys.unraisablehook = sys.unraisablehook, lambda unraisable: told.append(unraisable.exc_value)
+    try:
+        with cal.ServoLoop(Bench(), lambda state: 1 / 0, options()) as loop:
+            until(lambda: loop.status.fault == cal.DeviceFault.bad_force)
+    finally:
+        sys.unraisablehook = before
+    assert len(told) == 1 and isinstance(told[0], ZeroDivisionError)
+    assert loop.errors > 0 and isinstance(loop.error, ZeroDivisionError)
+    assert loop.statistics.faults[int(cal.DeviceFault.bad_force)] == 1
+
+
+def test_a_law_may_stop_its_loop():
+    device = Bench()
+
+    def law(state):
+        if device.ticks > 100:
+            loop.stop()
+        return wall(state)
+
+    loop = cal.ServoLoop(device, law, options())
+    loop.start()
+    until(lambda: device.ticks > 100 and loop.status.phase == cal.ServoPhase.zero)
+    assert loop.running and max(device.forces) == 1.0 and device.forces[-1] == 0.0
+    loop.stop()
+    assert not loop.running
+
+
+def test_threads_that_start_and_stop_at_once_do_not_trip():
+    loop = cal.ServoLoop(Bench(), wall, options())
+    loop.start()
+    threads = [threading.Thread(target=loop.stop) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert not loop.running
+
+
+def test_bad_options_and_a_second_start_are_refused():
+    with pytest.raises(cal.InvalidValue, match="rate"):
+        cal.ServoLoop(Bench(), wall, options(cal.ServoOptions(rate=0.0)))
+    with pytest.raises(cal.InvalidValue, match="priority is 100"):
+        cal.ServoLoop(Bench(), wall, options(priority=100))
+    with pytest.raises(TypeError):
+        cal.ServoLoop(Bench(), 3.0)
+    with cal.ServoLoop(Bench(), wall, options()) as loop:
+        with pytest.raises(cal.InvalidValue, match="runs already"):
+            loop.start()
+    with pytest.raises(cal.InvalidValue, match="paper"):
+        cal.PointerOptions(paper=np.zeros((4, 4)))
+    with pytest.raises(cal.InvalidValue, match="rotation"):
+        cal.PointerDevice(PROFILE, options=cal.PointerOptions(paper=np.diag([2.0, 1.0, 1.0, 1.0])))
+
+
+def test_what_the_system_does_not_permit_is_told():
+    loop = cal.ServoLoop(Bench(), wall, options(core=1023))
+    told = loop.start()
+    loop.stop()
+    assert told == loop.warnings and any("core" in line for line in told)
+
+
+def python(program, **arguments):
+    environment = {**os.environ, "PYTHONPATH": str(pathlib.Path(cal.__file__).parents[1])}
+    return subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, env=environment, timeout=120, **arguments
+    )
+
+
+BENCH = """
+import atexit, os, sys, threading, time
+forces = []
+atexit.register(lambda: print("last force", forces[-1]))  # after what the module does at the end
+import calligraphy as cal
+
+class Bench(cal.HapticDevice):
+    ticks = 0
+    def capabilities(self):
+        return cal.device_profile("desktop").capabilities
+    def read(self):
+        self.ticks += 1
+        return cal.DeviceState(time=self.ticks * 1e-3, position=(0, 0, -1e-3), velocity=(0, 0, 0))
+    def write(self, force):
+        forces.append(force[2])
+    def close(self):
+        pass
+
+options = cal.ServoLoopOptions(
+    servo=cal.ServoOptions(patience=1.0, rise_time=0.05), thread=cal.ServoThreadOptions(priority=0, lock_memory=False)
+)
+device = Bench()
+def pressed():
+    return bool(forces) and forces[-1] > 0
+def wait(condition):
+    for _ in range(60_000):
+        if condition():
+            return
+        time.sleep(1e-3)
+    sys.exit("nothing happens")
+"""
+
+
+def test_a_program_that_ends_leaves_no_force():
+    ended = python(
+        BENCH + "loop = cal.ServoLoop(device, lambda state: (0, 0, 1.0), options)\nloop.start()\nwait(pressed)\n"
+    )
+    assert (ended.returncode, ended.stdout, ended.stderr) == (0, "last force 0.0\n", "")
+
+
+def test_a_law_may_drop_the_last_hold_on_its_loop():
+    ended = python(
+        BENCH
+        + "held = []\n"
+        + "def law(state):\n    if device.ticks > 100:\n        held.clear()\n    return 0, 0, 1.0\n"
+        + "held.append(cal.ServoLoop(device, law, options))\nheld[0].start()\nwait(pressed)\n"
+        + "wait(lambda: not held and forces[-1] == 0.0)\n"
+    )
+    assert (ended.returncode, ended.stdout, ended.stderr) == (0, "last force 0.0\n", "")
+
+
+def test_a_session_in_a_thread_that_nobody_waits_for_ends_with_the_program():
+    ended = python(
+        BENCH
+        + "page = cal.lay_out([cal.built_in_characters()['一']])[0]\n"
+        + "session = cal.LiveOptions(servo=options)\n"
+        + "threading.Thread(target=cal.write_with_device, args=(page, device, session), daemon=True).start()\n"
+        + "wait(lambda: device.ticks > 50)\n"
+    )
+    assert (ended.returncode, ended.stdout, ended.stderr) == (0, "last force 0.0\n", "")
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")
+def test_a_thread_that_begins_again_and_again_ends_with_the_program():
+    ended = python(
+        BENCH
+        + "page = cal.lay_out([cal.built_in_characters()['一']])[0]\n"
+        + "session = cal.LiveOptions(servo=options, longest=0.05)\n"
+        + "refused = []\n"
+        + "def again():\n    try:\n        while True:\n            cal.write_with_device(page, device, session)\n"
+        + "    except cal.Error as error:\n        refused.append(str(error))\n"
+        + "threading.Thread(target=again, daemon=True).start()\n"
+        + "wait(lambda: device.ticks > 50)\n"
+    )
+    assert (ended.returncode, ended.stdout, ended.stderr) == (0, "last force 0.0\n", "")
+
+
+def test_a_servo_is_not_stepped_on_the_device_of_a_running_loop():
+    device = cal.PointerDevice(cal.device_profile("desktop"))
+    servo = cal.Servo(device, lambda state: (0, 0, 0))
+    with cal.ServoLoop(device, lambda state: (0, 0, 0)):
+        with pytest.raises(cal.Error, match="at work"):
+            servo.step(0.0)
+    servo.step(0.0)
+
+
+@pytest.mark.parametrize("peak", [float("nan"), 0.0, -1.0])
+def test_a_peak_that_is_none_is_refused(peak):
+    device = cal.PointerDevice(cal.device_profile("desktop"))
+    page = cal.lay_out([cal.built_in_characters()["一"]])[0]
+    with pytest.raises(cal.InvalidValue, match="peak_force"):
+        cal.write_with_device(page, device, cal.LiveOptions(peak_force=peak, longest=1.0))
+    with pytest.raises(cal.InvalidValue, match="peak_force"):
+        cal.limited(device.capabilities(), peak)
+
+
+def test_a_forked_child_ends_and_the_loop_of_the_parent_goes_on():
+    ended = python(
+        BENCH
+        + "loop = cal.ServoLoop(device, lambda state: (0, 0, 1.0), options)\nloop.start()\nwait(pressed)\n"
+        + "child = os.fork()\n"
+        + "if child == 0:\n    del loop\n    forces.append(7.0)\n    sys.exit(3)\n"
+        + "code = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])\n"
+        + "before = device.ticks\nwait(lambda: device.ticks > before + 20)\n"
+        + "loop.stop()\nprint('child', code)\n"
+    )
+    assert ended.returncode == 0, ended.stderr
+    assert ended.stdout.splitlines() == ["last force 7.0", "child 3", "last force 0.0"]
+
+
+class Writer:
+    """Moves the pointer along the strokes of a page: on when the pen has come where it should be."""
+
+    def __init__(self, device, page):
+        self.device, self.page, self.views = device, page, []
+        placed = page.characters[0]
+        shift = np.array([page.width / 2, page.height / 2])  # the page is centred on the device's zero
+        self.places = []
+        for stroke in placed.character.strokes():
+            way = np.concatenate([e.point(np.linspace(0, 1, 12)) for e in cal.place_elements(stroke, placed.placement)])
+            self.places += [(way[0] - shift, 0.0), *((p - shift, 0.5) for p in way), (way[-1] - shift, 0.0)]
+        self.device.move(*self.places[0][0], 0.0)
+
+    def __call__(self, view):
+        self.views.append(view.share)
+        place, pressure = self.places[0]
+        self.device.move(*place, pressure)
+        where = view.newest["device_point"][:2] - [self.page.width / 2, self.page.height / 2]
+        height = view.newest["device_point"][2]
+        near = np.hypot(*(where - place)) < 3e-3 and (height < 0 if pressure else height > 3e-3)
+        if near and len(self.places) > 1:
+            del self.places[0]
+
+
+def live_options(**fields):
+    return cal.LiveOptions(
+        renderer=cal.RendererOptions.for_device(PROFILE.capabilities),
+        servo=options(cal.ServoOptions(patience=1.0)),
+        **fields,
+    )
+
+
+def test_a_page_is_written_in_real_time_and_scored():
+    page = one_page("十")
+    device = cal.PointerDevice(PROFILE)
+    writer = Writer(device, page)
+    result = cal.write_with_device(page, device, live_options(longest=120.0), writer)
+    score = cal.score(page, result.recording)[0]
+    assert score.strokes_completed == 2
+    assert score.peak_force > 0.05
+    assert writer.views[-1] == 1.0 and sorted(writer.views) == writer.views
+    assert len(result.recording) + result.dropped <= result.statistics.ticks
+    assert device.read().status == cal.DeviceStatus.ok  # still open
+    back = cal.read_csv_text(result.recording.to_csv())
+    assert len(back) == len(result.recording)
+
+
+@pytest.mark.parametrize("answer", [False, 0])
+def test_a_session_ends_when_watch_says_so_and_the_force_is_zero(answer):
+    device, seen = Bench(), []
+
+    def watch(view):
+        seen.append(view)
+        return answer if len(seen) == 5 else None
+
+    result = cal.write_with_device(one_page(), device, live_options(longest=60.0), watch)
+    assert len(seen) == 5 and seen[-1].servo.device == cal.DeviceStatus.ok
+    assert device.forces[-1] == 0.0 and not device.closed
+    assert result.statistics.ticks > 0
+
+
+def test_what_watch_raises_is_raised_once_the_force_is_zero_with_what_was_written():
+    device = cal.PointerDevice(PROFILE)
+
+    def watch(view):
+        if view.newest["time"] > 0:
+            raise LookupError("enough")
+
+    with pytest.raises(LookupError, match="enough") as raised:
+        cal.write_with_device(one_page(), device, live_options(longest=60.0), watch)
+    result = raised.value.result
+    assert isinstance(result, cal.LiveResult) and len(result.recording) > 0
+    device.read()
+
+
+def test_no_force_goes_beyond_the_peak_that_was_asked_for():
+    assert cal.limited(PROFILE.capabilities, 0.3).peak_force == 0.3
+    page = one_page()
+    device = cal.PointerDevice(PROFILE)
+    result = cal.write_with_device(page, device, live_options(longest=120.0, peak_force=0.3), Writer(device, page))
+    force = np.linalg.norm(result.recording.samples["force"], axis=1)
+    assert 0.05 < force.max() <= 0.3 + 1e-9
+
+
+@pytest.mark.parametrize("longest", [0.0, -1.0, np.nan, np.inf])
+def test_a_session_without_end_is_not_begun(longest):
+    with pytest.raises(cal.InvalidValue, match="longest"):
+        cal.write_with_device(one_page(), Bench(), live_options(longest=longest))
+
+
+def test_a_with_block_closes_a_device():
+    with Bench() as device:
+        assert not device.closed
+    assert device.closed
+    with cal.PointerDevice(PROFILE) as pointer:
+        assert pointer.read().status == cal.DeviceStatus.ok
+    assert pointer.read().status == cal.DeviceStatus.disconnected
+
+
+def test_a_pointer_is_followed_on_a_paper_anywhere():
+    turn = np.eye(4)
+    turn[:3, :3] = [[0, 0, 1], [1, 0, 0], [0, 1, 0]]  # x of the paper is y of the device
+    turn[:3, 3] = [0.01, 0.0, 0.0]
+    choice = cal.PointerOptions(paper=turn)
+    assert (choice.paper == turn).all() and choice == cal.PointerOptions(paper=turn)
+    device = cal.PointerDevice(PROFILE, options=choice)
+    device.move(0.02, 0.0, 0.0)
+    for _ in range(1000):
+        device.read()
+    assert device.intention.position == pytest.approx([0.01 + 8e-3, 0.02, 0.0], abs=1e-6)
+
+
+def test_what_a_backend_lacks_is_said_in_words():
+    if "phantom" not in cal.backends:
+        for call in (cal.plugged_devices, cal.wire_profile_names, lambda: cal.PhantomDevice(cal.PhantomOptions())):
+            with pytest.raises(cal.DeviceError, match="libusb"):
+                call()
+    else:
+        assert {"omni", "simulated"} <= set(cal.wire_profile_names())
+        with pytest.raises(cal.InvalidValue, match="nothing"):
+            cal.PhantomDevice(cal.PhantomOptions(wire_profile="simulated", model="nothing"))
+    runtime = cal.openhaptics_runtime("/nowhere/libHD.so")
+    assert not runtime.found and runtime.advice
+    with pytest.raises(cal.DeviceError):
+        cal.OpenHapticsDevice(cal.OpenHapticsOptions(library="/nowhere/libHD.so"))
+    with pytest.raises(OSError):
+        cal.OpenHapticsDevice(cal.OpenHapticsOptions(library="/nowhere/libHD.so"))
+
+
+@pytest.mark.skipif("phantom" not in cal.backends, reason="this module was built without Phantoms")
+def test_a_wire_profile_says_where_its_fields_are_and_what_it_lacks(tmp_path):
+    omni = cal.wire_profile("omni")
+    assert omni.name == "omni" and omni.report_size > 0 and len(omni.encoders) == 3
+    position, force = set(cal.missing_for_position(omni)), set(cal.missing_for_force(omni))
+    assert position and position < force and any("torque" in line for line in force - position)
+    simulated = cal.wire_profile("simulated")
+    assert cal.missing_for_force(simulated) == [] and simulated.counts_per_radian.shape == (3,)
+    assert simulated.encoders[0].bits > 0 and simulated.docked is not None
+    with pytest.raises(cal.FileError):
+        cal.read_wire_profile(str(tmp_path / "none"))
+    (tmp_path / "bad").write_text("nonsense\n")
+    with pytest.raises(cal.FormatError, match="bad"):
+        cal.read_wire_profile(str(tmp_path / "bad"))
