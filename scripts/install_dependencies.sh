@@ -5,13 +5,14 @@
 #   peers   also what benchmarks/nearest_point/run.sh compares with, and its valgrind
 set -euo pipefail
 
-packages=(cmake g++ gnuplot-nox libarchive-dev libboost-dev libcli11-dev libeigen3-dev libfmt-dev libpugixml-dev
-          libspdlog-dev libutfcpp-dev ninja-build nlohmann-json3-dev zlib1g-dev)
+packages=(cmake g++ gnuplot-nox libarchive-dev libboost-dev libcli11-dev libeigen3-dev libfmt-dev libhidapi-dev
+          libpugixml-dev libspdlog-dev libusb-1.0-0-dev libutfcpp-dev ninja-build nlohmann-json3-dev pkg-config zlib1g-dev)
 if [[ ${1:-} == tests ]]; then
-  packages+=(ca-certificates catch2 libbenchmark-dev python3)
+  packages+=(ca-certificates catch2 clang-14 libbenchmark-dev libclang-rt-14-dev libumockdev-dev python3 python3-dev python3-venv
+             udev umockdev)
   command -v npm > /dev/null || packages+=(npm)
 elif [[ ${1:-} == peers ]]; then
-  packages+=(ca-certificates lib2geom-dev libbenchmark-dev pkg-config python3 valgrind)
+  packages+=(ca-certificates lib2geom-dev libbenchmark-dev python3 valgrind)
   command -v cargo > /dev/null || packages+=(cargo)
   command -v npm > /dev/null || packages+=(npm)
 elif [[ $# -gt 0 ]]; then

@@ -2,15 +2,18 @@
 # Installs what is missing, builds and runs every test, then all of them again under the sanitizers.
 # The last line is "N passed, N failed".
 #
-# CALLIGRAPHY_REQUIRE_DATA=1 (and any CI): the npm packages that tests read must be had; else those tests are skipped.
+# CALLIGRAPHY_REQUIRE_DATA=1 (and any CI): the npm packages that tests read, and the Python packages that the tests of
+# the Python module need, must be had; else those tests are skipped.
 # CALLIGRAPHY_PEN_TRACES=DIRECTORY: pen traces of people (docs/pen-traces.md), which no package has; without them the
 # tests on them are skipped.
+# CALLIGRAPHY_SANITIZE_PYTHON=1: the Python module under the sanitizers as well, and of its tests those in which memory
+# changes hands: four minutes more on two cores, with which the whole takes more than half an hour.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 if [[ -n ${CI:-} && ${CI:-} != false ]]; then export CALLIGRAPHY_REQUIRE_DATA=1; fi
 build=$PWD/build-tests
-results=()  # JUnit files of CTest
+results=()  # JUnit files of CTest and pytest
 broken=0    # steps that failed and left no such file
 
 # step COMMAND...: runs it; a failure is counted and told.
@@ -70,6 +73,81 @@ test_build() {
   fi
 }
 
+# python_environment: exports PYTHON, that of an environment with what the Python module's tests need; made once.
+python_environment() {
+  local environment=$build/python-environment
+  export PYTHON=$environment/bin/python
+  if python3 -m venv "$environment" &&
+    "$PYTHON" -m pip install -q --disable-pip-version-check -r bindings/python/requirements-test.txt; then
+    return 0
+  fi
+  echo "== what bindings/python/requirements-test.txt lists could not be had by pip: the Python tests are skipped" >&2
+  if [[ -n ${CALLIGRAPHY_REQUIRE_DATA:-} ]]; then broken=$((broken + 1)); fi
+  return 1
+}
+
+# python_tests RELEASE_BUILD: a wheel of the Python module, against the library as that build installs it (compiled
+# once), and pytest on it.
+python_tests() {
+  local release=$1 junit=$build/python.xml work=$build/python
+  rm -rf "$junit" "$work/wheel" "$work/installed"
+  python_environment || return 0
+  step cmake --install "$release" --prefix "$work/installed" > /dev/null || return 0
+  # In full, as the pip of Debian 12 does not know -C.
+  step "$PYTHON" -m pip wheel -q --disable-pip-version-check --no-build-isolation --no-deps . -w "$work/wheel" \
+    --config-settings=build-dir="$work/build" --config-settings=cmake.source-dir=bindings/python \
+    --config-settings=cmake.define.CMAKE_PREFIX_PATH="$work/installed" || return 0
+  step "$PYTHON" -m pip install -q --disable-pip-version-check --no-deps --force-reinstall \
+    "$work"/wheel/calligraphy-*.whl || return 0
+  echo "== pytest"
+  CALLIGRAPHY_EMULATED_PHANTOM=$release/tests/phantom/emulator/emulated_phantom \
+    CALLIGRAPHY_STAND_IN_LIBHD=$release/tests/openhaptics/libstand_in_libhd.so \
+    "$PYTHON" -m pytest -q -p no:cacheprovider --junitxml="$junit" bindings/python/tests || true
+  if [[ -s $junit ]]; then
+    results+=("$junit")
+  else
+    broken=$((broken + 1))
+  fi
+}
+
+# sanitized_python_tests SANITIZED_BUILD COMPILER: the module under the sanitizers, against the library that is under
+# them already, and the tests in which memory changes hands.
+sanitized_python_tests() {
+  local library=$1 compiler=$2 junit=$build/python-sanitized.xml work=$build/python-sanitized
+  rm -rf "$junit" "$work/installed" "$work/site"
+  [[ -s $build/python.xml ]] || return 0  # told already
+  local runtime
+  runtime=$("$compiler" -print-file-name="libclang_rt.asan-$(uname -m).so")
+  if [[ ! -f $runtime ]]; then
+    echo "== $compiler has no libclang_rt.asan-$(uname -m).so: the Python module is not tested under the sanitizers" >&2
+    if [[ -n ${CALLIGRAPHY_REQUIRE_DATA:-} ]]; then broken=$((broken + 1)); fi
+    return 0
+  fi
+  step cmake --install "$library" --prefix "$work/installed" > /dev/null || return 0
+  # With the runtime as a library of its own, which Python is started with: it is not of this compiler.
+  local flags="-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer"
+  step cmake -S bindings/python -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_COMPILER="$compiler" \
+    -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" -DCMAKE_CXX_FLAGS="$flags" -DCMAKE_MODULE_LINKER_FLAGS=-shared-libsan \
+    -DCMAKE_PREFIX_PATH="$work/installed" -DPython_EXECUTABLE="$PYTHON" > /dev/null || return 0
+  step cmake --build "$work/build" || return 0
+  mkdir -p "$work/site/calligraphy"
+  cp bindings/python/calligraphy/*.py "$work"/build/_calligraphy*.so "$work/site/calligraphy"
+  echo "== pytest, sanitized"
+  # libstdc++ too, as Python alone does not load it and the runtime looks for what throws when it starts. Python itself
+  # and NumPy leave memory behind when they end, hence no leaks. Freed memory is filled, for NumPy's own reading of it
+  # is not watched. Memory that cannot be had is what some tests ask for.
+  LD_PRELOAD="$runtime $("$compiler" -print-file-name=libstdc++.so.6)" PYTHONPATH="$work/site" PYTHONMALLOC=malloc \
+    ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1:max_free_fill_size=65536:free_fill_byte=255 \
+    UBSAN_OPTIONS=print_stacktrace=1 \
+    "$PYTHON" -m pytest -q -p no:cacheprovider --capture=sys --junitxml="$junit" --junit-prefix=sanitized \
+    bindings/python/tests/test_{arrays,enumerations,kinematics,loop,model,records,threads}.py || true
+  if [[ -s $junit ]]; then
+    results+=("$junit")
+  else
+    broken=$((broken + 1))
+  fi
+}
+
 # Counts, says what did not pass, and ends the script.
 finish() {
   local status=0
@@ -82,8 +160,16 @@ for path in sys.argv[2:]:
     for case in xml.parse(path).getroot().iter("testcase"):
         skipped = case.find("skipped")
         reason = "" if skipped is None else skipped.get("message", "")
-        if case.get("status") == "run":
+        if case.get("status") == "run":  # CTest's word
             passed += 1
+        elif case.get("status") is None:  # pytest: no word but what is wrong
+            if skipped is not None:
+                print("skipped:", case.get("name"))
+            elif case.find("failure") is None and case.find("error") is None:
+                passed += 1
+            else:
+                failed += 1
+                print("failed:", case.get("name"), "in", path)
         elif reason.startswith("SKIP_"):  # the test said so; anything else that did not run should have
             print("skipped:", case.get("name"))
         else:
@@ -108,6 +194,11 @@ if [[ -z ${CALLIGRAPHY_PEN_TRACES:-} && -d ../shared/data/traces ]]; then
 fi
 everything=(-DCALLIGRAPHY_TESTS=ON -DCALLIGRAPHY_EXAMPLES=ON -DCALLIGRAPHY_TOOLS=ON)
 test_build release -DCMAKE_BUILD_TYPE=Release -DCALLIGRAPHY_BENCHMARKS=ON "${everything[@]}"
+python_tests "$build/release"
+# By the other compiler: it finds other things, and is done sooner.
+sanitizing=$(command -v clang++-14 || command -v clang++ || command -v c++)
 test_build sanitized -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" -DCALLIGRAPHY_BENCHMARKS=OFF \
+  -DCMAKE_CXX_COMPILER="$sanitizing" \
   -DCALLIGRAPHY_SANITIZE=address,undefined "${everything[@]}"
+if [[ -n ${CALLIGRAPHY_SANITIZE_PYTHON:-} ]]; then sanitized_python_tests "$build/sanitized" "$sanitizing"; fi
 finish
