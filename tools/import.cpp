@@ -17,6 +17,7 @@
 
 #include "commands.hpp"
 #include "import_report.hpp"
+#include "interrupt.hpp"
 #include "options.hpp"
 #include "progress.hpp"
 
@@ -53,7 +54,7 @@ std::string encoded(const CharacterList& list, const Options& options) {
   return text.str();
 }
 
-Import imported(const Options& options) {
+Import imported(const Options& options, const Interrupt& interrupt) {
   ImportOptions asked;
   asked.letters = options.letters;
   asked.alternates = options.alternates;
@@ -62,7 +63,10 @@ Import imported(const Options& options) {
   asked.date = options.date;
   asked.threads = options.threads;
   Progress progress;
-  asked.progress = [&progress](double share) { progress.show(share); };
+  asked.progress = [&](double share) {
+    interrupt.check();
+    progress.show(share);
+  };
   return import_characters(options.source, asked);
 }
 
@@ -83,8 +87,10 @@ void run(const Options& options) {
   if (is_in_source(options)) throw UsageError("--out: " + options.out + " is the source, or a file of it");
   if (options.format == "text" && options.precision) throw UsageError("--precision: the text format is always exact");
   check_can_write(options.out);
-  const Import import = imported(options);
+  const Interrupt interrupt;
+  const Import import = imported(options, interrupt);
   const std::string bytes = encoded(import.list, options);
+  interrupt.check();
   write_file(options.out, bytes);
   const ImportOutput output{options.out, options.format, bytes.size()};
   fmt::print("{}", options.json ? json(import, output) : tables(import, output));

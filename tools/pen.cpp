@@ -26,16 +26,21 @@ Pen::Pen(const PenOptions& options) : options_(options) {
     case DeviceKind::phantom:
     case DeviceKind::openhaptics:
       device_ = open_device(options.device);
-      interrupt_.emplace();
       profile_.capabilities = device_->capabilities();
       break;
   }
   profile_.capabilities = limited(profile_.capabilities, options.peak_force);
+  interrupt_.emplace();
 }
 
 Recording Pen::write(const Page& page, const SessionOptions& session) {
   if (is_person()) return live(page, session);
-  return is_replay() ? replay(page, session) : write_page(page, session);
+  SessionOptions until_ctrl_c = session;
+  until_ctrl_c.progress = [this, &session](double share) {
+    interrupt_->check();
+    if (session.progress) session.progress(share);
+  };
+  return is_replay() ? replay(page, until_ctrl_c) : write_page(page, until_ctrl_c);
 }
 
 Recording Pen::replay(const Page& page, const SessionOptions& session) const {

@@ -39,8 +39,9 @@ class Pen {
   /// DeviceError
   Recording write(const Page& page, const SessionOptions& session);
 
-  /// Ctrl-C was pressed since a person's device was opened.
-  bool interrupted() const noexcept { return interrupt_ && interrupt_->asked(); }
+  /// Ctrl-C was pressed since the device was opened. It ends a simulated writer's or a trace's write() with an Error, a
+  /// person's with what they wrote until then.
+  bool interrupted() const noexcept { return interrupt_->asked(); }
   /// Of the servo loop, page by page; a person's alone.
   const std::vector<ServoStatistics>& statistics() const noexcept { return statistics_; }
 
@@ -51,7 +52,7 @@ class Pen {
   PenOptions options_;
   DeviceProfile profile_;
   std::unique_ptr<HapticDevice> device_;  ///< a person's
-  std::optional<Interrupt> interrupt_;    ///< with a person's device, until what was written is in its files
+  std::optional<Interrupt> interrupt_;    ///< from when the device is open until what was written is in its files
   std::vector<std::string> warnings_;     ///< that were told
   std::vector<ServoStatistics> statistics_;
 };

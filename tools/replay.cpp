@@ -93,18 +93,24 @@ class Run {
       if (!set.find(code)) report_.without_template += code;
     }
     if (report_.without_template == text) throw Error("none of the characters written is in --characters");
+    const auto has_template = [&set](const Chosen& each) { return set.find(each.trace.character).has_value(); };
+    const auto with_template = static_cast<std::size_t>(std::count_if(traces.begin(), traces.end(), has_template));
     const Interrupt interrupt;
     std::optional<OutputDirectory> out;
     if (options_.out) out.emplace(*options_.out);
     Progress progress;
     for (std::size_t i = 0; i < traces.size(); ++i) {
-      interrupt.check();
+      if (interrupt.asked()) break;
       const auto stored = set.find(traces[i].trace.character);
       if (stored) replay_one(traces[i], stored->character(), out);
       progress.show(static_cast<double>(i + 1) / static_cast<double>(traces.size()));
     }
+    if (report_.traces.empty()) interrupt.check();
     if (out) out->write("replay.json", json(report_));
     fmt::print("{}", options_.json ? json(report_) : table(report_));
+    if (report_.traces.size() < with_template) {
+      throw Error(fmt::format("interrupted after {} of {} traces", report_.traces.size(), with_template));
+    }
   }
 
  private:

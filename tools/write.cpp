@@ -188,6 +188,7 @@ class Run {
     plots_ = can_plot();
     if (!plots_) spdlog::warn("gnuplot cannot be run: no plots of the force");
     write_all(out);
+    if (pen_.interrupted() && results_.empty()) throw Error("interrupted");
     const auto order = [](const Result& a, const Result& b) {
       return std::tie(a.position, a.mode, a.repetition) < std::tie(b.position, b.mode, b.repetition);
     };
@@ -212,7 +213,11 @@ class Run {
           session_.progress = [&](double share) {
             progress.show((static_cast<double>(done) + share * static_cast<double>(count)) / static_cast<double>(runs));
           };
-          write_sheet(sheet, repetition, out);
+          try {
+            write_sheet(sheet, repetition, out);
+          } catch (const Error&) {
+            if (!pen_.interrupted()) throw;  // else by Ctrl-C itself, or by gnuplot, which gets it too
+          }
           if (pen_.interrupted()) return;
           done += count;
           progress.show(static_cast<double>(done) / static_cast<double>(runs));

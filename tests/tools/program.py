@@ -48,16 +48,21 @@ class ProgramTest(unittest.TestCase):
             self.assertIn(word, done.stderr)
         self.assertEqual(self.files(), before)
 
-    def assert_interrupted_leaves_nothing(self, *arguments):
-        """Ctrl-C once the new directory out/new, where the command is to write, is there."""
-        running = subprocess.Popen([os.environ["CALLIGRAPHY_PROGRAM"], *arguments, "--out", "out/new"],
-                                   cwd=self.directory, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                                   stderr=subprocess.PIPE, text=True)
-        while running.poll() is None and not (self.directory / "out/new").exists():
+    def interrupted(self, *arguments, once):
+        """Ctrl-C once the file or directory `once` is there: what was printed, and what was told."""
+        running = subprocess.Popen([os.environ["CALLIGRAPHY_PROGRAM"], *arguments], cwd=self.directory,
+                                   stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        while running.poll() is None and not (self.directory / once).exists():
             time.sleep(0.001)
         running.send_signal(signal.SIGINT)
         printed, told = running.communicate(timeout=600)
-        self.assertEqual((running.returncode, printed, told), (1, "", "calligraphy: interrupted\n"))
+        self.assertEqual(running.returncode, 1, told)
+        return printed, told
+
+    def assert_interrupted_leaves_nothing(self, *arguments):
+        """Ctrl-C once the new directory, where the command is to write, is there."""
+        done = self.interrupted(*arguments, "--out", "out/new", once="out/new")
+        self.assertEqual(done, ("", "calligraphy: interrupted\n"))
         self.assertEqual(self.files(), [])
 
     def files(self):

@@ -9,7 +9,6 @@ import resource
 import signal
 import subprocess
 import tarfile
-import time
 import zlib
 from pathlib import Path
 
@@ -35,6 +34,17 @@ def member(name, content="", **fields):
 
 
 class ImportTest(ProgramTest):
+    @contextlib.contextmanager
+    def on_terminal(self, *arguments):
+        """The program and what it tells a terminal, as a file that ends with it."""
+        terminal, end = pty.openpty()
+        with open(terminal, "rb", buffering=0) as screen, \
+                subprocess.Popen([os.environ["CALLIGRAPHY_PROGRAM"], *arguments], stderr=end,
+                                 stdout=subprocess.DEVNULL, cwd=self.directory) as running:
+            os.close(end)
+            with contextlib.suppress(OSError):  # EIO is how a terminal that nobody writes to any more ends
+                yield running, screen
+
     def tar(self, *members, name="source.tgz", format=tarfile.PAX_FORMAT, mode="w:gz"):
         with tarfile.open(self.directory / name, mode, format=format) as tar:
             for info, data in members:
@@ -111,14 +121,10 @@ class Import(ImportTest):
 
     def test_progress_is_shown_on_a_terminal(self):
         self.write("data/04e00.svg", svg())
-        terminal, end = pty.openpty()
-        with subprocess.Popen([os.environ["CALLIGRAPHY_PROGRAM"], "import", "data", "-o", "out.txt"], stderr=end,
-                              stdout=subprocess.DEVNULL, cwd=self.directory) as running:
-            os.close(end)
-            shown = b""
-            with open(terminal, "rb", buffering=0) as screen, contextlib.suppress(OSError):  # EIO: nobody writes any more
-                while part := screen.read(10000):  # what has come so far, be it a part of a line
-                    shown += part
+        shown = b""
+        with self.on_terminal("import", "data", "-o", "out.txt") as (running, screen):
+            while part := screen.read(10000):  # what has come so far, be it a part of a line
+                shown += part
         self.assertEqual(running.returncode, 0)
         self.assertIn(b"****", shown)
 
@@ -337,11 +343,13 @@ class Output(ImportTest):
         self.write("out.txt", "keep")
         for code in range(0x4e00, 0x5600):
             self.write(f"data/{code:05x}.svg", svg((HENG + SHU) * 50))
-        running = subprocess.Popen([os.environ["CALLIGRAPHY_PROGRAM"], "import", "data", "-o", "out.txt"],
-                                   cwd=self.directory, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        time.sleep(0.3)
-        running.send_signal(signal.SIGINT)
-        self.assertEqual(running.wait(60), -signal.SIGINT)
+        with self.on_terminal("import", "data", "-o", "out.txt") as (running, screen):
+            shown = screen.read(1)  # the work has begun
+            running.send_signal(signal.SIGINT)
+            while part := screen.read(10000):
+                shown += part
+        self.assertEqual(running.returncode, 1)
+        self.assertIn(b"calligraphy: interrupted", shown)
         self.assertEqual((self.directory / "out.txt").read_text(), "keep")
         self.assertEqual([name for name in self.files() if not name.startswith("data")], ["out.txt"])
 

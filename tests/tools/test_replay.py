@@ -61,6 +61,14 @@ class Replay(ReplayTest):
         one, two, three = THREE
         self.assertEqual(self.remarks(character("三", [one, two[::-1], three])), [[("direction", 2, 2)]])
 
+    def test_what_was_replayed_until_ctrl_c_is_in_its_files(self):
+        self.traces(*[character("三", THREE)] * 2000)
+        printed, told = self.interrupted("replay", "pens.txt", "--out", "out", once="out/01-三.svg")
+        self.assertIn("三", printed)
+        replayed = len(json.loads((self.directory / "out/replay.json").read_text())["traces"])
+        self.assertEqual(told, f"calligraphy: interrupted after {replayed} of 2000 traces\n")
+        self.assertEqual(len(list((self.directory / "out").glob("*.svg"))), replayed)
+
     def test_joined_strokes_are_no_mistake_of_order(self):
         lines = "".join(stroke(*line, 500 * i)[len("S 41"):] for i, line in enumerate(THREE[:2]))
         text = "C 三 4E09 made-up 1000 2\nS 82" + lines + "\n" + stroke(*THREE[2], 2000) + "\n"

@@ -11,6 +11,15 @@ FIELDS = ["character", "mode", "time_s", "rms_error_mm", "max_error_mm", "order_
 
 
 class Write(ProgramTest):
+    def test_what_was_written_until_ctrl_c_is_in_its_files(self):
+        printed, told = self.interrupted("write", "一", "--mode", "force", "--repeat", "100000", "--out", "out",
+                                         once="out/01-一-force.csv")
+        self.assertIn("calligraphy: interrupted; what was written until then is in out\n", told)
+        self.assertIn("一", printed)
+        written = len(self.summary())
+        self.assertGreater(written, 0)
+        self.assertLess(written, 100000)
+
     def summary(self, out="out"):
         return json.loads((self.directory / out / "summary.json").read_text())
 
