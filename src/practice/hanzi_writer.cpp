@@ -2,13 +2,13 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 
 #include <nlohmann/json.hpp>
 
 #include <calligraphy/error.hpp>
 #include <calligraphy/model/stroke_fit.hpp>
 #include <calligraphy/model/text.hpp>
+#include <calligraphy/practice/file.hpp>
 
 namespace calligraphy {
 namespace {
@@ -21,21 +21,6 @@ constexpr std::size_t most_points = 10000;  // of one median
 constexpr double units_per_em = 1024.0;
 constexpr double baseline = -124.0;                        // [unit]
 constexpr double largest_coordinate = 8.0 * units_per_em;  // [unit]
-
-std::string read_file(const std::filesystem::path& path, const std::string& name) {
-  std::error_code failure;
-  if (!std::filesystem::is_regular_file(path, failure)) {
-    throw FileError(path.string() + ": no such file; is this the unpacked npm package hanzi-writer-data, and has it " +
-                    name + "?");
-  }
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw FileError(path.string() + ": cannot be opened");
-  std::string text(largest_file + 1, '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (in.bad()) throw FileError(path.string() + ": cannot be read");
-  text.resize(static_cast<std::size_t>(in.gcount()));
-  return text;
-}
 
 /// What the JSON text of one character says, with messages that name the file and the place.
 class Reader {
@@ -103,7 +88,12 @@ Character read_hanzi_writer(const std::string& directory, char32_t code) {
   if (!is_character) throw FileError(directory + ": no code point " + std::to_string(static_cast<unsigned>(code)));
   const std::string name = encode_utf8(code);
   const std::filesystem::path path = std::filesystem::path(directory) / (name + ".json");
-  const auto medians = parse_hanzi_writer(read_file(path, name), path.filename().string());
+  std::error_code failure;
+  if (!std::filesystem::is_regular_file(path, failure)) {
+    throw FileError(path.string() + ": no such file; is this the unpacked npm package hanzi-writer-data, and has it " +
+                    name + "?");
+  }
+  const auto medians = parse_hanzi_writer(read_file(path, largest_file), path.filename().string());
   std::vector<StrokeInput> strokes;
   for (const std::vector<Point>& median : medians) strokes.push_back(fit_stroke(median).stroke);
   return make_character(code, strokes);

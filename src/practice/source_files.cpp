@@ -1,10 +1,10 @@
 #include <calligraphy/practice/source_files.hpp>
 
 #include <algorithm>
-#include <fstream>
 #include <system_error>
 
 #include <calligraphy/error.hpp>
+#include <calligraphy/practice/file.hpp>
 
 #include "tarball.hpp"
 
@@ -14,25 +14,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int deepest = 16;  // levels of directories
-
-std::string read_text(const fs::path& path, const SourceLimits& limits) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw FileError(path.string() + ": cannot be opened");
-  std::string text;
-  constexpr std::size_t chunk = 1 << 16;  // files are small: what is not read is not asked for
-  while (in && text.size() <= limits.entry_bytes) {
-    const std::size_t before = text.size();
-    text.resize(before + chunk);
-    in.read(text.data() + before, chunk);
-    text.resize(before + static_cast<std::size_t>(in.gcount()));
-  }
-  if (in.bad()) throw FileError(path.string() + ": cannot be read");
-  if (text.size() > limits.entry_bytes) {
-    throw FormatError(path.string() + ": more than the " + std::to_string(limits.entry_bytes) +
-                      " bytes that are read of a file");
-  }
-  return text;
-}
 
 /// Reads one directory and those below it.
 class Directory {
@@ -48,7 +29,7 @@ class Directory {
         skipped_.push_back({path, std::move(reason)});
         continue;
       }
-      found.files.push_back({path, read_text(path_ / path, limits_)});
+      found.files.push_back({path, read_file(path_ / path, limits_.entry_bytes)});
       total += found.files.back().text.size();
       if (total > limits_.total_bytes) {
         throw FormatError(path_.string() + ": more than " + std::to_string(limits_.total_bytes) + " bytes to read");

@@ -1,13 +1,12 @@
 #include <calligraphy/practice/stroke_letters.hpp>
 
-#include <fstream>
-#include <iterator>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include <calligraphy/error.hpp>
 #include <calligraphy/model/text.hpp>
+#include <calligraphy/practice/file.hpp>
 #include <calligraphy/practice/source_files.hpp>
 
 namespace calligraphy {
@@ -56,17 +55,6 @@ StrokeLetters letters_of(const Json& table) {
   return letters;
 }
 
-std::string read_file(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw FileError(path.string() + ": cannot be opened");
-  std::string text(largest_file + 1, '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(in.gcount()));
-  if (in.bad()) throw FileError(path.string() + ": cannot be read");
-  if (text.size() > largest_file) throw FormatError(path.string() + ": larger than 4 MB");
-  return text;
-}
-
 }  // namespace
 
 StrokeLetters parse_stroke_letters(std::string_view javascript, const std::string& name) {
@@ -87,7 +75,7 @@ StrokeLetters parse_stroke_letters(std::string_view javascript, const std::strin
 StrokeLetters read_stroke_letters(const std::filesystem::path& source) {
   std::error_code failure;
   if (std::filesystem::is_regular_file(source, failure) && source.extension() == ".js") {
-    return parse_stroke_letters(read_file(source), source.string());
+    return parse_stroke_letters(read_file(source, largest_file), source.string());
   }
   const auto reason = [](std::string_view path) {
     return std::filesystem::path(path).filename() == file_name ? std::string() : std::string("not the letters");

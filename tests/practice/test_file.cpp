@@ -64,6 +64,25 @@ struct SmallDisk {
 
 }  // namespace
 
+TEST_CASE("a file is read whole, up to the number of bytes that is asked for", "[practice]") {
+  const Directory directory;
+  const fs::path path = directory.path / "text";
+  for (const std::size_t size : {0u, 1u, 65535u, 65536u, 65537u, 200000u}) {
+    std::string all(size, 'x');
+    if (size > 0) all.back() = '\0';
+    write_file(path, all);
+    CAPTURE(size);
+    CHECK(read_file(path, size) == all);
+    CHECK(read_file(path, size + 1) == all);
+    if (size == 0) continue;
+    const std::string reason = ": more than the " + std::to_string(size - 1) + " bytes that are read of a file";
+    CHECK_THROWS_WITH(read_file(path, size - 1), path.string() + reason);
+    CHECK_THROWS_AS(read_file(path, size - 1), FormatError);
+  }
+  CHECK_THROWS_WITH(read_file("/dev/zero", 10), "/dev/zero: is not a regular file");
+  CHECK_THROWS_WITH(read_file(directory.path, 10), directory.path.string() + ": is not a regular file");
+}
+
 TEST_CASE("a written file holds the content byte for byte, and nothing else is left", "[practice]") {
   const Directory directory;
   std::string all(100006, 'x');

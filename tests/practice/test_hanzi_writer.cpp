@@ -131,7 +131,9 @@ TEST_CASE("a file of more than a megabyte is refused", "[practice]") {
   const std::string valid = R"({"medians":[[[100,200],[600,200]]]})";
   CHECK(complaint(valid).empty());
   CHECK(complaint(std::string(500000, ' ') + valid).empty());
-  CHECK(complaint(std::string(1100000, ' ') + valid) == "FormatError 永.json: larger than 1 MB");
+  const std::string too_large = complaint(std::string(1100000, ' ') + valid);
+  CHECK(has(too_large, "FormatError "));
+  CHECK(has(too_large, "永.json: more than the 1048576 bytes"));
 }
 
 TEST_CASE("a median of one point becomes a dian", "[practice]") {

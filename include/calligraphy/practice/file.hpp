@@ -1,8 +1,10 @@
 // Files that are whole or not there, and those that are read.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
+#include <string>
 #include <string_view>
 
 namespace calligraphy {
@@ -18,5 +20,9 @@ void check_can_write(const std::filesystem::path& path);
 /// A regular file to read from: a pipe might never say a word, and a device never end.
 /// @throws FileError naming the path and the reason
 std::ifstream open_file(const std::filesystem::path& path);
+
+/// All that a regular file holds. @throws FileError as open_file does; FormatError naming a file of more than `most`
+/// bytes
+std::string read_file(const std::filesystem::path& path, std::size_t most);
 
 }  // namespace calligraphy
