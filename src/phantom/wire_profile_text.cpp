@@ -11,6 +11,8 @@
 #include <tuple>
 #include <utility>
 
+#include <utf8.h>
+
 #include <calligraphy/error.hpp>
 #include <calligraphy/phantom/wire_profile.hpp>
 
@@ -23,6 +25,7 @@ constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
 /// What was found, as a message shows it.
 std::string in_quotes(std::string_view text) {
+  if (text.empty()) return "the end of the line";
   constexpr std::size_t most = 60;
   return "'" + std::string(text.substr(0, most)) + (text.size() > most ? "..." : "") + "'";
 }
@@ -82,6 +85,7 @@ class Parser {
       ++number_;
       read_ += line_.size() + 1;
       if (read_ > longest_text) fail("this is no wire profile: it is longer than 1 MB");
+      if (!utf8::is_valid(line_.begin(), line_.end())) fail("this is no wire profile: it is not UTF-8");
       if (number_ == 1 && line_.starts_with(byte_order_mark)) line_.erase(0, byte_order_mark.size());
       left_ = line_;
       if (!is_free_text(word())) line_.erase(std::min(line_.find('#'), line_.size()));

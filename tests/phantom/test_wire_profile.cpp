@@ -143,7 +143,11 @@ TEST_CASE("an error in a profile names file, line and value", "[phantom][profile
   CHECK(with("start -7") == "lab.txt:7: '-7' is not a byte of two hexadecimal digits");
   CHECK(with("name") == "lab.txt:7: 'name' stands here a second time");
   CHECK(with("source") == "lab.txt:7: 'source' is empty");
-  CHECK(with("counts-per-radian 1 2") == "lab.txt:7: '' is not a number");
+  CHECK(with("counts-per-radian 1 2") == "lab.txt:7: the end of the line is not a number");
+  CHECK(with("button 1 u8") == "lab.txt:7: expected 'at', found the end of the line");
+  CHECK(with("# p\xC3\xA4per") == "");
+  CHECK(with("source p\xE4per") == "lab.txt:7: this is no wire profile: it is not UTF-8");
+  CHECK(with("# p\xE4per") == "lab.txt:7: this is no wire profile: it is not UTF-8");
   CHECK_THAT(with("button 2 u8 at 6 bit 0"), Contains("button 2 of 1"));
   CHECK_THAT(format_error("no profile\n"), Contains("lab.txt:1: expected 'calligraphy wire profile 1'"));
   CHECK_THAT(format_error(""), Contains("lab.txt: empty"));
