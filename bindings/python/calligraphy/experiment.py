@@ -11,8 +11,8 @@ import itertools
 import operator
 import os
 import pathlib
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import Any, NamedTuple, Union
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from typing import Any, NamedTuple, TypeVar, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -22,7 +22,7 @@ import calligraphy as cal
 __all__ = ["Condition", "Grid", "TrialsLost", "conditions", "novice_and_skilled", "run", "to_table", "trial", "write"]
 
 Row = dict[str, Any]
-Writer = Union[str, cal.WriterSkill]
+_Value = TypeVar("_Value")
 
 
 class TrialsLost(RuntimeError):
@@ -45,6 +45,8 @@ class Condition(NamedTuple):
 class Grid:
     """The conditions of an experiment: every combination of the lists, in this order, the last one fastest.
 
+    No list has a value twice, as that would be the same trial again: a trial is repeated with another seed.
+
     writers: names ("novice", "skilled") or a dict from name to WriterSkill.
     stiffness: of the guidance and the paper [N/m]; clipped to nine tenths of what is stable, as RendererOptions does:
     the columns guidance_stiffness and paper_stiffness have what was at work.
@@ -56,10 +58,10 @@ class Grid:
         characters: Iterable[str],
         *,
         writers: Union[Sequence[str], Mapping[str, cal.WriterSkill]] = ("novice",),
-        modes: Sequence[str] = ("vision", "force"),
+        modes: Sequence[Union[str, cal.Mode]] = ("vision", "force"),
         stiffness: Sequence[float] = (600.0,),
         rate: Sequence[float] = (1000.0,),
-        method: Sequence[str] = ("tracked",),
+        method: Sequence[Union[str, cal.NearestPointMethod]] = ("tracked",),
         tolerance: Sequence[float] = (1e-9,),
         seeds: Union[int, Iterable[int]] = 1,
         device: Union[str, cal.DeviceProfile] = "desktop",
@@ -67,20 +69,22 @@ class Grid:
         source: cal.CharacterSet | cal.CharacterList | None = None,
         longest_character: float = 120.0,
     ) -> None:
-        self.characters = {code: _character(source, code) for code in characters}
+        codes = _axis("characters", characters, _text)
+        self.characters = {code: _character(source, code) for code in codes}
         self.writers = _writers(writers)
-        self.modes = [_known("modes", mode, cal.Mode) for mode in modes]
-        self.stiffness = _positive("stiffness", stiffness)
-        self.rate = _positive("rate", rate)
-        self.method = [_known("method", name, cal.NearestPointMethod) for name in method]
-        self.tolerance = _positive("tolerance", tolerance)
+        self.modes = _axis("modes", _list("modes", modes), _name_of(cal.Mode))
+        self.stiffness = _axis("stiffness", stiffness, _positive)
+        self.rate = _axis("rate", rate, _positive)
+        self.method = _axis("method", _list("method", method), _name_of(cal.NearestPointMethod))
+        self.tolerance = _axis("tolerance", tolerance, _positive)
         if isinstance(seeds, Iterable):
-            self.seeds = [_whole("seeds", seed, most=2**64 - 1) for seed in seeds]
+            self.seeds = _axis("seeds", seeds, lambda what, seed: _whole(what, seed, most=2**64 - 1))
         else:
             self.seeds = list(range(1, _whole("seeds", seeds) + 1))
-        self.device = cal.device_profile(device) if isinstance(device, str) else device
-        self.options = cal.RendererOptions.for_device(self.device.capabilities) if options is None else options
-        self.longest_character = float(longest_character)
+        self.device = _one("device", cal.device_profile(device) if isinstance(device, str) else device, cal.DeviceProfile)
+        usual = cal.RendererOptions.for_device(self.device.capabilities)
+        self.options = usual if options is None else _one("options", options, cal.RendererOptions)
+        self.longest_character = _positive("longest_character", longest_character)
 
     def __repr__(self) -> str:
         axes = ("characters", "writers", "modes", "stiffness", "rate", "method", "tolerance", "seeds")
@@ -349,18 +353,57 @@ def _character(source: cal.CharacterSet | cal.CharacterList | None, code: str) -
 
 def _writers(writers: Union[Sequence[str], Mapping[str, cal.WriterSkill]]) -> dict[str, cal.WriterSkill]:
     if isinstance(writers, Mapping):
-        return dict(writers)
+        return {_text("writers", name): _one("writers", skill, cal.WriterSkill) for name, skill in writers.items()}
     known = novice_and_skilled()
-    for name in writers:
-        if name not in known:
-            raise cal.InvalidValue(f"writers: one of {', '.join(known)} or a dict is expected, not {name!r}")
-    return {name: known[name] for name in writers}
+
+    def named(what: str, name: Any) -> str:
+        if not isinstance(name, str) or name not in known:
+            raise cal.InvalidValue(f"{what}: one of {', '.join(known)} or a dict is expected, not {name!r}")
+        return name
+
+    return {name: known[name] for name in _axis("writers", _list("writers", writers), named)}
 
 
-def _known(what: str, name: str, kind: Any) -> str:
-    if name not in kind.__members__:
-        raise cal.InvalidValue(f"{what}: one of {', '.join(kind.__members__)} is expected, not {name!r}")
-    return name
+def _axis(what: str, values: Iterable[Any], checked: Callable[[str, Any], _Value]) -> list[_Value]:
+    """The values of one axis, none of them twice."""
+    if not isinstance(values, Iterable):
+        raise cal.InvalidValue(f"{what}: a list is expected, not {values!r}")
+    result: dict[_Value, None] = {}
+    for value in values:
+        right = checked(what, value)
+        if right in result:
+            raise cal.InvalidValue(f"{what}: {right!r} stands there twice")
+        result[right] = None
+    return list(result)
+
+
+def _list(what: str, values: Any) -> Any:
+    """Names are in a list: a name alone would be taken for one of its letters."""
+    if isinstance(values, str):
+        raise cal.InvalidValue(f"{what}: a list is expected, not {values!r}")
+    return values
+
+
+def _one(what: str, value: Any, kind: type[_Value]) -> _Value:
+    if not isinstance(value, kind):
+        raise cal.InvalidValue(f"{what}: a {kind.__name__} is expected, not {value!r}")
+    return value
+
+
+def _text(what: str, value: Any) -> str:
+    if not isinstance(value, str):
+        raise cal.InvalidValue(f"{what}: a str is expected, not {value!r}")
+    return value
+
+
+def _name_of(kind: Any) -> Callable[[str, Any], str]:
+    def name_of(what: str, value: Any) -> str:
+        name = value.name if isinstance(value, kind) else value
+        if not isinstance(name, str) or name not in kind.__members__:
+            raise cal.InvalidValue(f"{what}: one of {', '.join(kind.__members__)} is expected, not {value!r}")
+        return name
+
+    return name_of
 
 
 def _whole(what: str, value: Any, least: int = 0, most: float = np.inf) -> int:
@@ -373,13 +416,14 @@ def _whole(what: str, value: Any, least: int = 0, most: float = np.inf) -> int:
     return number
 
 
-def _positive(what: str, values: Iterable[float]) -> list[float]:
-    numbers = []
-    for value in values:
-        if isinstance(value, (str, bytes)) or not (np.isfinite(value) and value > 0):
-            raise cal.InvalidValue(f"{what}: a positive number is expected, not {value!r}")
-        numbers.append(float(value))
-    return numbers
+def _positive(what: str, value: Any) -> float:
+    try:
+        number = float("nan") if isinstance(value, (str, bytes)) else float(value)
+    except TypeError:
+        number = float("nan")
+    if not 0.0 < number < np.inf:
+        raise cal.InvalidValue(f"{what}: a positive number is expected, not {value!r}")
+    return number
 
 
 def _columns(rows: Sequence[Row]) -> list[str]:

@@ -217,6 +217,24 @@ def test_a_writer_of_ones_own():
         ({"seeds": -2}, "seeds: -2 is not in"),
         ({"seeds": [-1]}, "seeds: -1 is not in"),
         ({"seeds": [2**64]}, "seeds: 18446744073709551616 is not in"),
+        ({"seeds": [3, 1, 3]}, "seeds: 3 stands there twice"),
+        ({"seeds": None}, "seeds: a whole number is expected, not None"),
+        ({"stiffness": 600.0}, "stiffness: a list is expected, not 600.0"),
+        ({"stiffness": [None]}, "stiffness: a positive number is expected, not None"),
+        ({"stiffness": [[600.0]]}, "stiffness: a positive number is expected, not .*600"),
+        ({"stiffness": [600, 300.0, 600.0]}, "stiffness: 600.0 stands there twice"),
+        ({"rate": [1000 + 0j]}, "rate: a positive number is expected"),
+        ({"rate": None}, "rate: a list is expected, not None"),
+        ({"modes": "force"}, "modes: a list is expected, not 'force'"),
+        ({"modes": [["force"]]}, "modes: one of vision, force is expected"),
+        ({"modes": ["force", cal.Mode.force]}, "modes: 'force' stands there twice"),
+        ({"modes": [cal.NearestPointMethod.exact]}, "modes: one of"),
+        ({"writers": "novice"}, "writers: a list is expected, not 'novice'"),
+        ({"writers": {"mine": "novice"}}, "writers: a WriterSkill is expected, not 'novice'"),
+        ({"writers": {1: cal.WriterSkill.novice()}}, "writers: a str is expected, not 1"),
+        ({"device": 7}, "device: a DeviceProfile is expected, not 7"),
+        ({"options": "default"}, "options: a RendererOptions is expected, not 'default'"),
+        ({"longest_character": -1.0}, "longest_character: a positive number is expected, not -1.0"),
     ],
 )
 def test_what_a_grid_cannot_be_is_refused_by_name(axes, name):
@@ -224,6 +242,15 @@ def test_what_a_grid_cannot_be_is_refused_by_name(axes, name):
         grid(**axes)
     with pytest.raises(cal.InvalidValue, match="characters: there is no '龘'"):
         experiment.Grid("龘")
+    for wrong, what in (("永永", "'永' stands there twice"), ([7], "a str is expected, not 7"), (7, "a list is expected")):
+        with pytest.raises(cal.InvalidValue, match="characters: " + what):
+            experiment.Grid(wrong)
+
+
+def test_members_of_an_enumeration_are_names():
+    members = grid(modes=[cal.Mode.force], method=[cal.NearestPointMethod.exact])
+    names = grid(modes=["force"], method=["exact"])
+    assert experiment.conditions(members) == experiment.conditions(names)
 
 
 def test_whole_numbers_of_any_kind_are_seeds():
