@@ -73,14 +73,18 @@ test_build() {
   fi
 }
 
-# python_environment: exports PYTHON, that of an environment with what the Python module's tests need; made once.
-python_environment() {
-  local environment=$build/python-environment
-  export PYTHON=$environment/bin/python
-  if python3 -m venv "$environment" &&
-    "$PYTHON" -m pip install -q --disable-pip-version-check -r bindings/python/requirements-test.txt; then
-    return 0
-  fi
+# What the tests of the Python module need, as an environment that is made once: while other things are compiled, as it
+# is the network that takes its time.
+begin_python_environment() {
+  export PYTHON=$build/python-environment/bin/python
+  mkdir -p "$build"
+  (python3 -m venv "$build/python-environment" &&
+    "$PYTHON" -m pip install -q --disable-pip-version-check -r bindings/python/requirements-test.txt) &
+  python_environment=$!
+}
+
+end_python_environment() {
+  wait "$python_environment" && return 0
   echo "== what bindings/python/requirements-test.txt lists could not be had by pip: the Python tests are skipped" >&2
   if [[ -n ${CALLIGRAPHY_REQUIRE_DATA:-} ]]; then broken=$((broken + 1)); fi
   return 1
@@ -91,7 +95,7 @@ python_environment() {
 python_tests() {
   local release=$1 junit=$build/python.xml work=$build/python
   rm -rf "$junit" "$work/wheel" "$work/installed"
-  python_environment || return 0
+  end_python_environment || return 0
   step cmake --install "$release" --prefix "$work/installed" > /dev/null || return 0
   # In full, as the pip of Debian 12 does not know -C.
   step "$PYTHON" -m pip wheel -q --disable-pip-version-check --no-build-isolation --no-deps . -w "$work/wheel" \
@@ -192,6 +196,7 @@ if [[ -z ${CALLIGRAPHY_PEN_TRACES:-} && -d ../shared/data/traces ]]; then
   CALLIGRAPHY_PEN_TRACES=$(cd ../shared/data/traces && pwd)
   export CALLIGRAPHY_PEN_TRACES
 fi
+begin_python_environment
 everything=(-DCALLIGRAPHY_TESTS=ON -DCALLIGRAPHY_EXAMPLES=ON -DCALLIGRAPHY_TOOLS=ON)
 test_build release -DCMAKE_BUILD_TYPE=Release -DCALLIGRAPHY_BENCHMARKS=ON "${everything[@]}"
 python_tests "$build/release"

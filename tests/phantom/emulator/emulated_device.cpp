@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 
 constexpr std::size_t most_waiting = 16;
 constexpr std::size_t kept_plugs = 4;
-constexpr auto longest_wait = 10s;
+constexpr auto longest_wait = 60s;
 
 std::string formatted(const char* format, int first, int second) {
   char text[64];

@@ -13,7 +13,7 @@
 namespace calligraphy_test {
 namespace {
 
-constexpr int longest_wait = 10'000;  // [ms]
+constexpr int longest_wait = 60'000;  // [ms]
 
 }  // namespace
 

@@ -31,7 +31,7 @@ class RecordingListener final : public calligraphy::phantom::LinkListener {
     happened_.notify_all();
   }
 
-  /// For at most ten seconds; false when they did not come.
+  /// For at most a minute; false when they did not come.
   bool wait_for_packets(std::size_t count) const {
     return wait([&] { return packets_.size() >= count; });
   }
@@ -61,7 +61,7 @@ class RecordingListener final : public calligraphy::phantom::LinkListener {
  private:
   bool wait(const std::function<bool()>& reached) const {
     std::unique_lock<std::mutex> lock(mutex_);
-    return happened_.wait_for(lock, std::chrono::seconds(10), reached);
+    return happened_.wait_for(lock, std::chrono::seconds(60), reached);
   }
 
   mutable std::mutex mutex_;
