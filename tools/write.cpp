@@ -215,6 +215,8 @@ class Run {
           };
           try {
             write_sheet(sheet, repetition, out);
+          } catch (const FileError&) {
+            throw;
           } catch (const Error&) {
             if (!pen_.interrupted()) throw;  // else by Ctrl-C itself, or by gnuplot, which gets it too
           }
