@@ -165,14 +165,14 @@ DeviceFault Servo::judge(const DeviceState& sample, double elapsed) noexcept {
 }
 
 bool Servo::ask(const DeviceState& sample, Eigen::Vector3d& force) noexcept {
-  asking = this;
+  const Servo* const outer = std::exchange(asking, this);  // a law may step another servo
   bool answered = true;
   try {
     force = law_(sample);
   } catch (...) {
     answered = false;
   }
-  asking = nullptr;
+  asking = outer;
   if (!answered) return false;
   const double norm = force.norm();
   if (!std::isfinite(norm)) return false;

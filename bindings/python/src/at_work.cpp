@@ -3,14 +3,15 @@
 
 #include <set>
 #include <string>
+#include <utility>
 
 #include <calligraphy/error.hpp>
 
 namespace calligraphy::python {
 namespace {
 
-std::set<const void*> busy;  ///< under the GIL
-thread_local int laws = 0;   ///< that this thread is within
+std::set<const void*> busy;                     ///< under the GIL
+thread_local const InLaw* innermost = nullptr;  ///< law that this thread is within
 
 void refuse(const void* thing, const char* what) {
   if (busy.empty() || InLaw::here() || busy.count(thing) == 0) return;
@@ -32,9 +33,14 @@ AtWork::~AtWork() {
   busy.erase(renderer_);
 }
 
-InLaw::InLaw() noexcept { ++laws; }
-InLaw::~InLaw() { --laws; }
-bool InLaw::here() noexcept { return laws > 0; }
+InLaw::InLaw(const void* law) noexcept : law_(law), outer_(std::exchange(innermost, this)) {}
+InLaw::~InLaw() { innermost = outer_; }
+bool InLaw::here() noexcept { return innermost != nullptr; }
+bool InLaw::here(const void* law) noexcept {
+  const InLaw* each = innermost;
+  while (each != nullptr && each->law_ != law) each = each->outer_;
+  return each != nullptr;
+}
 
 void refuse_at_work(const HapticDevice& device) { refuse(&device, "device"); }
 void refuse_at_work(const HapticRenderer& renderer) { refuse(&renderer, "renderer"); }

@@ -24,12 +24,18 @@ class AtWork {
 /// Within a force law, which runs in the loop's own thread, everything may be used.
 class InLaw {
  public:
-  InLaw() noexcept;
+  explicit InLaw(const void* law) noexcept;
   ~InLaw();
   InLaw(const InLaw&) = delete;
   InLaw& operator=(const InLaw&) = delete;
 
   static bool here() noexcept;
+  /// Within this one, also where it has called another.
+  static bool here(const void* law) noexcept;
+
+ private:
+  const void* law_;
+  const InLaw* outer_;
 };
 
 /// @throws Error when a loop uses it and this is not its force law

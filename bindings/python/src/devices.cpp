@@ -36,6 +36,7 @@ void add_states(py::module_& module) {
     for (char& letter : name) letter = letter == ' ' ? '_' : letter;
     faults.value(name.c_str(), fault);
   }
+  module.def("fault_name", &fault_name, py::arg("fault"), "In words, such as 'bad force'.");
   Record<DeviceState>(module, "DeviceState", "One sample of a device.")
       .field("time", &DeviceState::time, "since the device was opened [s]")
       .field("position", &DeviceState::position, "(3,), device axes [m]")
@@ -195,14 +196,16 @@ class VirtualServo {
       : device_(device), law_(PythonLaw::make(std::move(law))), servo_(device, force_law(law_, true), options) {}
 
   /// One tick. A law in Python lets other threads run, which must not begin another meanwhile. What the law raises is
-  /// kept, but for Ctrl-C and the like, which are for whoever runs the loop.
+  /// kept, but for Ctrl-C and the like, which are for whoever runs the loop, from a device as well.
   void step(double now) {
     refuse_at_work(device_);
     if (stepping_) throw Error("this Servo is within a tick already: one thread steps it, and not from its law");
     const std::size_t errors = law_->errors();
     stepping_ = true;
+    const InStep here;
     servo_.step(now);
     stepping_ = false;
+    here.raise();
     const py::object& error = law_->error();
     if (law_->errors() == errors || PyErr_GivenExceptionMatches(error.ptr(), PyExc_Exception) != 0) return;
     PyErr_SetObject(py::type::handle_of(error).ptr(), error.ptr());

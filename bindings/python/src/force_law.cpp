@@ -19,7 +19,7 @@ std::shared_ptr<PythonLaw> PythonLaw::make(py::function law) {
 }
 
 Eigen::Vector3d PythonLaw::operator()(const DeviceState& state) {
-  const InLaw here;
+  const InLaw here(this);
   try {
     try {
       return vector(law_(state), "force");

@@ -77,7 +77,7 @@ class Loop {
 
   void stop() {
     if (changing_ || !loop_->running() || is_of_a_parent()) return;
-    if (InLaw::here()) return loop_->stop();
+    if (python_law_ && InLaw::here(python_law_.get())) return loop_->stop();
     changing_ = true;
     {
       const py::gil_scoped_release release;
@@ -254,6 +254,8 @@ void add_live_session(py::module_& module) {
       .def_property_readonly(
           "servo", [](const LiveView& self) { return self.servo; }, "ServoStatus")
       .def_readonly("share", &LiveView::share, "of the page that is written, in [0, 1]")
+      .def_readonly("begun", &LiveView::begun,
+                    "the pen has been in front of the paper; before, nothing is felt and nothing recorded")
       .def("__repr__", [](const py::object& self) {
         return told("LiveView(share {:.3f}, servo {})", self.attr("share"),
                     self.attr("servo").attr("phase").attr("name"));

@@ -26,6 +26,10 @@ bool call(const PythonDevice& device, const char* method, bool& failed, Take&& t
     failed = false;
     return true;
   } catch (py::error_already_set& error) {
+    if (!error.matches(PyExc_Exception) && InStep::keep(error)) {
+      failed = known;
+      return false;
+    }
     if (!known) error.discard_as_unraisable(method);
   } catch (const py::builtin_exception& error) {
     if (!known) {
@@ -41,7 +45,25 @@ bool call(const PythonDevice& device, const char* method, bool& failed, Take&& t
   return false;
 }
 
+thread_local InStep* stepping = nullptr;
+
 }  // namespace
+
+InStep::InStep() noexcept : outer_(std::exchange(stepping, this)) {}
+InStep::~InStep() { stepping = outer_; }
+
+bool InStep::keep(const py::error_already_set& error) noexcept {
+  if (stepping == nullptr) return false;
+  stepping->kept_ = error.value();
+  if (error.trace()) PyException_SetTraceback(stepping->kept_.ptr(), error.trace().ptr());
+  return true;
+}
+
+void InStep::raise() const {
+  if (!kept_) return;
+  PyErr_SetObject(py::type::handle_of(kept_).ptr(), kept_.ptr());
+  throw py::error_already_set();
+}
 
 const Capabilities& PythonDevice::capabilities() const noexcept {
   call(*this, "capabilities", no_capabilities_,
@@ -67,8 +89,17 @@ void refuse_without_capabilities(const HapticDevice& device) {
 }
 
 DeviceState PythonDevice::read() noexcept {
+  keep_thread_state();
+  const py::gil_scoped_acquire gil;
   DeviceState state;
-  if (!call(*this, "read", no_read_, [&state](const py::object& result) { state = result.cast<DeviceState>(); })) {
+  const bool answered = call(*this, "read", no_read_, [&state](const py::object& result) {
+    if (!py::isinstance<DeviceState>(result)) {
+      throw py::type_error("read() returned " + py::repr(result).cast<std::string>() +
+                           ", a calligraphy.DeviceState is expected");
+    }
+    state = result.cast<DeviceState>();
+  });
+  if (!answered || no_write_) {
     state.status = DeviceStatus::fault;
     state.fault = DeviceFault::device_error;
   }

@@ -8,8 +8,8 @@
 namespace calligraphy::python {
 
 /// Calls the methods of a Python subclass. What they raise cannot pass through the servo loop: it goes to
-/// sys.unraisablehook, once until the method works again, and the sample says `fault`. A call costs about a microsecond
-/// and the GIL.
+/// sys.unraisablehook, once until the method works again, and the sample says `fault`, also when it is write() that
+/// raised. A call costs about a microsecond and the GIL.
 class PythonDevice final : public HapticDevice {
  public:
   const Capabilities& capabilities() const noexcept override;
@@ -26,6 +26,25 @@ class PythonDevice final : public HapticDevice {
   mutable bool no_capabilities_ = false;
   bool no_read_ = false;
   bool no_write_ = false;
+};
+
+/// While it lives, what a device in Python raises to end the program (Ctrl-C, SystemExit) is kept for whoever steps a
+/// Servo in this thread. Under the GIL.
+class InStep {
+ public:
+  InStep() noexcept;
+  ~InStep();
+  InStep(const InStep&) = delete;
+  InStep& operator=(const InStep&) = delete;
+
+  /// False: nobody steps here.
+  static bool keep(const pybind11::error_already_set& error) noexcept;
+  /// @throws error_already_set what was kept
+  void raise() const;
+
+ private:
+  pybind11::object kept_;
+  InStep* outer_;
 };
 
 /// A device in Python is asked before a loop relies on it. @throws what it raises, or TypeError

@@ -185,8 +185,11 @@ def test_the_servo_keeps_a_device_alive_that_python_has_let_go():
 
 @pytest.mark.parametrize("kind", ["raises", "wrong type", "missing"])
 def test_a_device_of_ones_own_that_fails_is_a_fault_not_a_crash(kind, monkeypatch):
-    told = []
-    monkeypatch.setattr(sys, "unraisablehook", lambda unraisable: told.append(unraisable.exc_type))
+    told, words = [], []
+    monkeypatch.setattr(
+        sys, "unraisablehook",
+        lambda unraisable: (told.append(unraisable.exc_type), words.append(str(unraisable.exc_value))),
+    )  # fmt: skip
 
     class Broken(Recorder):
         def read(self):
@@ -203,7 +206,69 @@ def test_a_device_of_ones_own_that_fails_is_a_fault_not_a_crash(kind, monkeypatc
     for tick in range(10):
         servo.step(tick * 1e-3)
     assert servo.status.fault == cal.DeviceFault.device_error
+    if kind == "wrong type":
+        assert words == ["read() returned 'nothing', a calligraphy.DeviceState is expected"]
     assert len(told) == (2 if kind == "missing" else 1)  # once each method, until it works again
+
+
+@pytest.mark.parametrize("method", ["read", "write"])
+@pytest.mark.parametrize("kind", [KeyboardInterrupt, SystemExit])
+def test_what_ends_the_program_passes_from_a_device_to_whoever_steps(method, kind):
+    class Pressed(Recorder):
+        def read(self):
+            if method == "read" and len(self.forces) == 3:
+                raise kind("pressed")
+            return super().read()
+
+        def write(self, force):
+            super().write(force)
+            if method == "write" and len(self.forces) == 4:
+                raise kind("pressed")
+
+    device = Pressed()
+    servo = cal.Servo(device, wall)
+    for tick in range(3):
+        servo.step(tick * 1e-3)
+    with pytest.raises(kind, match="pressed"):
+        servo.step(3e-3)
+    assert len(device.forces) == 4
+    servo.step(4e-3)
+
+
+def test_a_force_that_a_device_does_not_take_is_a_fault_until_it_takes_one(monkeypatch):
+    told = []
+    monkeypatch.setattr(sys, "unraisablehook", lambda unraisable: told.append(str(unraisable.exc_value)))
+
+    class Loose(Recorder):
+        broken = False
+
+        def write(self, force):
+            if self.broken:
+                raise OSError("bus gone")
+            super().write(force)
+
+    device = Loose()
+    servo = cal.Servo(device, lambda state: (0.0, 0.0, 1.0), rise_time=0.0)
+    tick = 0
+
+    def steps(count):
+        nonlocal tick
+        for _ in range(count):
+            servo.step(tick * 1e-3)
+            tick += 1
+
+    steps(10)
+    assert servo.status.phase == cal.ServoPhase.running and device.forces[-1][2] == 1.0
+    device.broken = True
+    steps(30)
+    assert servo.status.fault == cal.DeviceFault.device_error and servo.status.phase == cal.ServoPhase.zero
+    assert servo.statistics.faults[cal.DeviceFault.device_error] == 1 and told == ["bus gone"]
+    device.broken = False
+    steps(1)
+    assert device.forces[-1][2] == 0.0  # the first that it takes again
+    steps(10)
+    assert servo.status.phase == cal.ServoPhase.running and device.forces[-1][2] == 1.0
+    assert cal.fault_name(cal.DeviceFault.device_error) == "device error"
 
 
 def test_a_device_that_fails_again_is_told_again(monkeypatch):

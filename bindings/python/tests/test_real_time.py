@@ -128,6 +128,30 @@ def test_a_loop_that_nobody_holds_any_more_stops():
     assert device.forces[-1] == 0.0
 
 
+def test_a_law_may_start_and_stop_and_drop_other_loops():
+    other = cal.ServoLoop(cal.PointerDevice(PROFILE), lambda state: (0, 0, 0.5), options())
+    done = []
+
+    def law(state):
+        if not done:
+            other.start()
+            done.append(other.running)
+            other.stop()
+            done.append(other.running)
+            third = cal.ServoLoop(cal.PointerDevice(PROFILE), wall, options())
+            third.start()
+            del third
+            done.append(True)
+        return (0, 0, 0.25)
+
+    device = Bench()
+    with cal.ServoLoop(device, law, options()) as loop:
+        until(lambda: len(done) == 3 or loop.error)
+        assert loop.error is None and done == [True, False, True]
+        until(lambda: loop.status.phase == cal.ServoPhase.running)
+    assert not other.running
+
+
 def test_a_renderer_for_a_law_needs_no_python():
     device = cal.PointerDevice(PROFILE)
     loop = cal.ServoLoop(device, renderer_of(one_page()), options())
