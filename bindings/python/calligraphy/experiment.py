@@ -6,11 +6,13 @@ A trial is deterministic: its row depends on its condition alone, not on the ord
 from __future__ import annotations
 
 import concurrent.futures
+import contextlib
 import csv
 import itertools
 import operator
 import os
 import pathlib
+import queue
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple, TypeVar, Union
 
@@ -237,28 +239,35 @@ def to_table(rows: Sequence[Row]) -> Any:
 
 
 def write(table: Any, path: str | os.PathLike[str]) -> None:
-    """Writes a table of run() as .csv or .parquet (needs pyarrow); a whole file or none."""
+    """Writes a table of run() as .csv or .parquet (needs pyarrow); a whole file or none.
+
+    Raises FileError naming the file and the reason.
+    """
     path = pathlib.Path(path)
-    temporary = path.with_name(path.name + f".{os.getpid()}.part")
+    if path.suffix not in (".csv", ".parquet"):
+        raise cal.InvalidValue(f"{path}: .csv or .parquet is expected, not {path.suffix!r}")
     columns = _columns_of(table)
+    temporary = path.with_name(path.name + f".{os.getpid()}.part")
     try:
         if path.suffix == ".csv":
             with open(temporary, "w", newline="", encoding="utf-8") as file:
                 writer = csv.writer(file)
                 writer.writerow(columns)
                 writer.writerows(zip(*(np.asarray(column).tolist() for column in columns.values())))
-        elif path.suffix == ".parquet":
+        else:
             import pyarrow
             import pyarrow.parquet
 
             pyarrow.parquet.write_table(
                 pyarrow.table({name: _parquet(np.asarray(column)) for name, column in columns.items()}), temporary
             )
-        else:
-            raise cal.InvalidValue(f"{path}: .csv or .parquet is expected, not {path.suffix!r}")
         os.replace(temporary, path)
+    except OSError as error:
+        reason = os.strerror(error.errno) if error.errno else str(error)  # pyarrow's own words name the temporary file
+        raise cal.FileError(f"{path}: cannot be written: {reason}") from error
     finally:
-        temporary.unlink(missing_ok=True)
+        with contextlib.suppress(OSError):
+            temporary.unlink()
 
 
 def _run_chunk(grid: Grid, part: Sequence[Condition]) -> list[Row]:
@@ -275,9 +284,13 @@ def _run_on(
 ) -> None:
     failures = [0] * len(chunks)
     pending: dict[concurrent.futures.Future[list[Row]], int] = {}
+    # Told by each future itself: concurrent.futures.wait does not hear of one that was cancelled before it ran.
+    ended: queue.SimpleQueue[concurrent.futures.Future[list[Row]]] = queue.SimpleQueue()
 
     def send(index: int) -> None:
-        pending[executor.submit(_run_chunk, grid, chunks[index])] = index
+        future = executor.submit(_run_chunk, grid, chunks[index])
+        pending[future] = index
+        future.add_done_callback(ended.put)
 
     def done(index: int, part: list[Row]) -> None:
         if len(part) != len(chunks[index]):
@@ -306,14 +319,13 @@ def _run_on(
             except concurrent.futures.BrokenExecutor as error:
                 failed(index, error)
         while pending:
-            finished, _ = concurrent.futures.wait(pending, return_when=concurrent.futures.FIRST_COMPLETED)
-            for future in sorted(finished, key=pending.__getitem__):
-                index = pending.pop(future)
-                problem = concurrent.futures.CancelledError() if future.cancelled() else future.exception()
-                if problem is None:
-                    done(index, future.result())
-                else:
-                    failed(index, problem)
+            future = ended.get()
+            index = pending.pop(future)
+            problem = concurrent.futures.CancelledError() if future.cancelled() else future.exception()
+            if problem is None:
+                done(index, future.result())
+            else:
+                failed(index, problem)
     except BaseException:
         for future in pending:
             future.cancel()
@@ -448,5 +460,7 @@ def _structured(rows: Sequence[Row]) -> npt.NDArray[np.void]:
 
 
 def _columns_of(table: Any) -> dict[str, Any]:
+    if not hasattr(table, "columns") and getattr(getattr(table, "dtype", None), "names", None) is None:
+        raise cal.InvalidValue(f"a table of run() is expected, not a {type(table).__name__}")
     names = table.dtype.names if isinstance(table, np.ndarray) else list(table.columns)
     return {name: table[name] for name in names}

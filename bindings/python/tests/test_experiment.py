@@ -105,10 +105,32 @@ def test_a_chunk_that_always_fails_is_named():
 
 
 def test_an_option_that_is_refused_is_not_tried_again():
-    executor = Failing(attempts=0)
-    with pytest.raises(cal.InvalidValue, match="longest_character"):
-        experiment.run(grid(longest_character=-1.0), _Here(), progress=False)
-    assert executor.seen == {}
+    with pytest.raises(cal.InvalidValue, match="rate"):
+        experiment.run(grid(rate=[1e-3]), _Here(), progress=False)
+
+
+class _Cancelling(concurrent.futures.Executor):
+    """Takes work, and cancels what it has not begun: as a pool that somebody shuts down does."""
+
+    def __init__(self, shut):
+        self.shut, self.count = shut, 0
+
+    def submit(self, function, *arguments):
+        self.count += 1
+        if self.shut and self.count > 4:  # all four chunks are on their way
+            raise RuntimeError("cannot schedule new futures after shutdown")
+        future = concurrent.futures.Future()
+        if self.shut and self.count == 2:
+            future.set_result(function(*arguments))
+        else:
+            future.cancel()
+        return future
+
+
+def test_work_that_its_executor_cancels_is_done_or_named(expected):
+    assert columns(experiment.run(grid(), _Cancelling(shut=True), chunk=2, progress=False)) == expected
+    with pytest.raises(experiment.TrialsLost, match="CancelledError"):
+        experiment.run(grid(), _Cancelling(shut=False), chunk=2, retries=2, progress=False)
 
 
 class _Here(concurrent.futures.Executor):
@@ -280,6 +302,9 @@ def test_an_empty_grid_gives_an_empty_table_of_the_same_columns(with_pandas, mon
     full = experiment.run(experiment.Grid("一", modes=["force"]), progress=False)
     assert len(table) == 0 and len(full) == 1
     assert dtypes(table) == dtypes(full) and list(dtypes(table)) == list(dtypes(full))
+    for place in ("nowhere/none.csv", "nowhere/none.parquet"):
+        with pytest.raises(cal.FileError, match="nowhere/none[.][a-z]*: cannot be written: No such file or directory$"):
+            experiment.write(table, tmp_path / place)
     experiment.write(table, tmp_path / "none.csv")
     experiment.write(full, tmp_path / "one.csv")
     header = (tmp_path / "none.csv").read_text(encoding="utf-8").splitlines()
