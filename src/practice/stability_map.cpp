@@ -186,30 +186,60 @@ double largest(const StabilityLine& line, const std::vector<WallOutcome>& outcom
   return good;
 }
 
-void fill(StabilityLine& line, const StabilityMap& map) {
-  const StiffnessAdvice advice = advise_stiffness(line.loop);
-  line.passive = advice.passive.value;
-  line.quantised = advice.quantised.value;
-  line.stable = advice.stable.value;
-  line.approximate = advice.approximate.value;
-  WallEncounter encounter = map.encounter;
-  const auto try_all = [&](bool controlled, std::vector<bool>& settles) {
-    encounter.controlled = controlled;
-    std::vector<WallOutcome> outcomes;
-    for (const double stiffness : map.stiffnesses) {
-      outcomes.push_back(meet_wall(line.loop, stiffness, encounter));
-      settles.push_back(outcomes.back().settles);
-    }
-    return outcomes;
-  };
+/// What became of a pen on each stiffness of a line, without and with passivity control.
+using Trials = std::array<std::vector<WallOutcome>, 2>;
+
+/// Many short pieces of work, so that whoever waits for them can give up soon.
+void try_all(const std::vector<StabilityLine*>& lines, const StabilityMap& map,
+             const std::function<void(double)>& progress, std::vector<Trials>& trials) {
+  const std::size_t stiffnesses = map.stiffnesses.size();
+  for (Trials& each : trials) each.fill(std::vector<WallOutcome>(stiffnesses));
+  parallel_for(2 * stiffnesses * lines.size(), 0, progress, [&](std::size_t i) {
+    const std::size_t line = i / (2 * stiffnesses), controlled = i / stiffnesses % 2, stiffness = i % stiffnesses;
+    WallEncounter encounter = map.encounter;
+    encounter.controlled = controlled == 1;
+    trials[line][controlled][stiffness] = meet_wall(lines[line]->loop, map.stiffnesses[stiffness], encounter);
+  });
+}
+
+void find_largest(const std::vector<StabilityLine*>& lines, const StabilityMap& map,
+                  const std::function<void(double)>& progress, const std::vector<Trials>& trials) {
   const Test comes_to_rest = [](const WallOutcome& outcome) { return outcome.settles; };
-  const Test within_peak = [&](const WallOutcome& outcome) {
-    return outcome.settles && outcome.largest_force < encounter.peak_force;
+  const Test within_peak = [&map](const WallOutcome& outcome) {
+    return outcome.settles && outcome.largest_force < map.encounter.peak_force;
   };
-  line.largest = largest(line, try_all(false, line.settles), map, encounter, comes_to_rest);
-  const std::vector<WallOutcome> controlled = try_all(true, line.controlled_settles);
-  line.controlled_largest = largest(line, controlled, map, encounter, comes_to_rest);
-  line.controlled_within_peak = largest(line, controlled, map, encounter, within_peak);
+  WallEncounter free = map.encounter, controlled = map.encounter;
+  free.controlled = false;
+  controlled.controlled = true;
+  parallel_for(3 * lines.size(), 0, progress, [&](std::size_t i) {
+    StabilityLine& line = *lines[i / 3];
+    const auto& [without, with] = trials[i / 3];
+    if (i % 3 == 0) line.largest = largest(line, without, map, free, comes_to_rest);
+    if (i % 3 == 1) line.controlled_largest = largest(line, with, map, controlled, comes_to_rest);
+    if (i % 3 == 2) line.controlled_within_peak = largest(line, with, map, controlled, within_peak);
+  });
+}
+
+void fill(const std::vector<StabilityLine*>& lines, const StabilityMap& map,
+          const std::function<void(double)>& progress) {
+  constexpr double share_of_trials = 0.8;  // of the time, about
+  const auto part = [&progress](double from, double share) -> std::function<void(double)> {
+    if (!progress) return nullptr;
+    return [&progress, from, share](double done) { progress(from + share * done); };
+  };
+  std::vector<Trials> trials(lines.size());
+  try_all(lines, map, part(0.0, share_of_trials), trials);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    StabilityLine& line = *lines[i];
+    const StiffnessAdvice advice = advise_stiffness(line.loop);
+    line.passive = advice.passive.value;
+    line.quantised = advice.quantised.value;
+    line.stable = advice.stable.value;
+    line.approximate = advice.approximate.value;
+    for (const WallOutcome& outcome : trials[i][0]) line.settles.push_back(outcome.settles);
+    for (const WallOutcome& outcome : trials[i][1]) line.controlled_settles.push_back(outcome.settles);
+  }
+  find_largest(lines, map, part(share_of_trials, 1.0 - share_of_trials), trials);
 }
 
 SampledLoop base() {
@@ -322,7 +352,7 @@ StabilityMap stability_map(const StabilityMapOptions& options) {
   }
   for (StabilityLine& line : map.grid) lines.push_back(&line);
   for (const StabilityLine* line : lines) validate(line->loop);
-  parallel_for(lines.size(), 0, options.progress, [&](std::size_t i) { fill(*lines[i], map); });
+  fill(lines, map, options.progress);
   return map;
 }
 

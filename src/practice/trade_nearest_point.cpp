@@ -219,6 +219,8 @@ std::vector<NearestPointTrade> nearest_point_trade(std::span<const Character> ch
   // Per setting; of each workload, then of each group of strokes.
   const std::size_t parts = workloads.size() + groups.size();
   std::vector<std::vector<Rounds>> rounds(settings.size(), std::vector<Rounds>(parts));
+  const std::size_t to_measure = static_cast<std::size_t>(options.rounds) * parts * settings.size();
+  std::size_t measured = 0;
   for (int round = 0; round < options.rounds; ++round) {
     for (std::size_t w = 0; w < parts; ++w) {
       for (std::size_t i = 0; i < settings.size(); ++i) {
@@ -232,9 +234,9 @@ std::vector<NearestPointTrade> nearest_point_trade(std::span<const Character> ch
           times.one_by_one.push_back(time_of(workloads[w], own));
           times.batch.push_back(batch_time_of(workloads[w], own));
         }
+        ++measured;
+        if (options.progress) options.progress(static_cast<double>(measured) / static_cast<double>(to_measure));
       }
-      const double done = round + static_cast<double>(w + 1) / static_cast<double>(parts);
-      if (options.progress) options.progress(done / options.rounds);
     }
   }
 
@@ -260,6 +262,7 @@ std::vector<NearestPointTrade> nearest_point_trade(std::span<const Character> ch
     entry.strokes = feel(curves, own, options.stiffness);
     entry.arcs = feel(arcs, own, options.stiffness);
     trade.push_back(std::move(entry));
+    if (options.progress) options.progress(1.0);
   }
   return trade;
 }
