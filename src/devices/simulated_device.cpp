@@ -36,6 +36,7 @@ const DeviceProfile& checked(const DeviceProfile& profile) {
   if (!(profile.capabilities.peak_force > 0.0)) {
     refuse(of_profile + "peak force", profile.capabilities.peak_force, "above 0");
   }
+  validate(profile.capabilities);
   return profile;
 }
 

@@ -1,6 +1,7 @@
 #include <calligraphy/practice/live_session.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <thread>
@@ -33,8 +34,9 @@ Capabilities limited(Capabilities capabilities, double peak_force) {
 
 LiveResult write_with_device(const Page& page, HapticDevice& device, const LiveOptions& options) {
   if (!std::isfinite(options.longest) || options.longest <= 0.0) {
-    throw ValueError("longest = " + std::to_string(options.longest) + " s");
+    throw ValueError("longest = " + std::to_string(options.longest) + " s, must be finite and above 0");
   }
+  validate(device.capabilities());
   const MotionMapping mapping = upright_page(page.width, page.height);
   HapticRenderer renderer(page.characters, mapping, limited(device.capabilities(), options.peak_force),
                           options.renderer);
@@ -43,12 +45,14 @@ LiveResult write_with_device(const Page& page, HapticDevice& device, const LiveO
   ServoLoopOptions servo = options.servo;
   servo.servo.rate = options.renderer.servo_rate;
   servo.servo.patience = std::max(servo.servo.patience, least_patience / servo.servo.rate);
-  bool in_front = false;  // an inkwell lies behind the paper: what happens on the way out of it is no writing
+  std::atomic<bool> in_front = false;  // an inkwell lies behind the paper: the way out of it is no writing
   ServoLoop loop(
       device,
       [&](const DeviceState& state) noexcept {
-        in_front = in_front || mapping.to_page(state.position).z() > 0.0;
-        if (!in_front) return Eigen::Vector3d(Eigen::Vector3d::Zero());
+        if (!in_front.load(std::memory_order_relaxed)) {
+          if (!(mapping.to_page(state.position).z() > 0.0)) return Eigen::Vector3d(Eigen::Vector3d::Zero());
+          in_front.store(true, std::memory_order_relaxed);
+        }
         session.update(state);
         queue.push(session.sample());
         return Eigen::Vector3d(session.force());
@@ -69,6 +73,7 @@ LiveResult write_with_device(const Page& page, HapticDevice& device, const LiveO
     std::this_thread::sleep_for(glance);
     take_over();
     view.servo = loop.status();
+    view.begun = in_front.load(std::memory_order_relaxed);
     view.share = share_written(page, view.newest.character, view.newest.stroke);
     if (options.watch && !options.watch(view)) break;
     if (view.newest.character >= count && view.newest.state != InteractionState::writing) break;

@@ -11,7 +11,8 @@ namespace {
 
 void require_length(const char* name, double value, bool may_be_zero) {
   if (std::isfinite(value) && (value > 0.0 || (may_be_zero && value == 0.0))) return;
-  throw ValueError(std::string("page layout: ") + name + " = " + std::to_string(value) + " m");
+  throw ValueError(std::string("page layout: ") + name + " = " + std::to_string(value) + " m, must be finite and " +
+                   (may_be_zero ? "at least 0" : "above 0"));
 }
 
 }  // namespace

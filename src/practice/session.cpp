@@ -34,7 +34,8 @@ double share_written(const Page& page, int character, int stroke) noexcept {
 
 Recording run_session(const Page& page, const SessionOptions& options, const PenMotion& motion) {
   if (!std::isfinite(options.longest_character) || options.longest_character <= 0.0) {
-    throw ValueError("longest_character = " + std::to_string(options.longest_character) + " s");
+    throw ValueError("longest_character = " + std::to_string(options.longest_character) +
+                     " s, must be finite and above 0");
   }
   const MotionMapping mapping = upright_page(page.width, page.height);
   HapticRenderer renderer(page.characters, mapping, options.device.capabilities, options.renderer);

@@ -729,6 +729,22 @@ TEST_CASE("a profile or hand that is not physical is refused with the name and t
   for (const double bad : {0.0, -1.0, not_a_number}) {
     CHECK(contains(profile_error([&](DeviceProfile& p) { p.capabilities.peak_force = bad; }), "peak force"));
   }
+  for (const double bad : {-1.0, not_a_number}) {
+    CHECK(contains(profile_error([&](DeviceProfile& p) { p.capabilities.workspace.y() = bad; }), "workspace is"));
+    CHECK(
+        contains(profile_error([&](DeviceProfile& p) { p.capabilities.continuous_force = bad; }), "continuous force"));
+    CHECK(
+        contains(profile_error([&](DeviceProfile& p) { p.capabilities.usable_stiffness = bad; }), "usable stiffness"));
+    CHECK(contains(profile_error([&](DeviceProfile& p) { p.capabilities.resolution = bad; }), "resolution"));
+    CHECK(contains(profile_error([&](DeviceProfile& p) { p.capabilities.update_rate = bad; }), "update rate"));
+    CHECK(contains(profile_error([&](DeviceProfile& p) { p.capabilities.apparent_mass = bad; }), "apparent mass"));
+    CHECK(
+        contains(profile_error([&](DeviceProfile& p) { p.capabilities.viscous_friction = bad; }), "viscous friction"));
+    CHECK(
+        contains(profile_error([&](DeviceProfile& p) { p.capabilities.coulomb_friction = bad; }), "Coulomb friction"));
+  }
+  CHECK(contains(profile_error([](DeviceProfile& p) { p.capabilities.sample_delay = -1; }), "sample delay is -1"));
+  CHECK(profile_error([](DeviceProfile& p) { p.capabilities.usable_stiffness = infinity; }).empty());
   for (const int bad : {-1, 100'001}) {
     CHECK(contains(profile_error([&](DeviceProfile& p) { p.delay = bad; }), "delay is " + std::to_string(bad)));
   }

@@ -196,7 +196,12 @@ TEST_CASE("a pen that comes from an inkwell behind the paper has written nothing
   const Page page = page_of("十");
   HeldDevice device(page);
   device.behind_until = 0.2;
-  const LiveResult result = write_with_device(page, device, watched(device));
+  std::vector<LiveView> views;
+  const LiveResult result = write_with_device(page, device, watched(device, &views));
+  REQUIRE(views.size() > 2);
+  CHECK_FALSE(views.front().begun);
+  CHECK(views.back().begun);
+  CHECK(std::is_partitioned(views.begin(), views.end(), [](const LiveView& view) { return !view.begun; }));
   const CharacterScore written = score(page, result.recording).front();
   CHECK(written.strokes_completed == 2);
   CHECK(written.mistakes.empty());

@@ -29,6 +29,7 @@ namespace phantom {
 
 std::vector<std::string> wire_profile_names() { refuse(); }
 const WireProfile& wire_profile(std::string_view) { refuse(); }
+std::string_view wire_profile_text(std::string_view) { refuse(); }
 WireProfile read_wire_profile(const std::string&) { refuse(); }
 std::vector<std::string> missing_for_position(const WireProfile&) { refuse(); }
 std::vector<std::string> missing_for_force(const WireProfile&) { refuse(); }

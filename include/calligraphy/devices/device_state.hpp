@@ -81,6 +81,9 @@ struct Capabilities {
   int sample_delay = 0;                                 ///< age of a sample when it is read [ticks]
 };
 
+/// @throws ValueError naming what is negative or no number; 0 may be "not known", and forces may have no limit
+void validate(const Capabilities& capabilities);
+
 /// Impedance of the grip, relative to where the person means to be, the same along each axis. Typical grips: soft
 /// (0.05, 1, 100), normal (0.1, 3, 300), firm (0.15, 5, 500).
 struct Hand {

@@ -20,6 +20,7 @@ struct LiveView {
   Sample newest;       ///< the newest tick; before the first one all zero
   ServoStatus servo;   ///< of the loop: its state and the fault that it names
   double share = 0.0;  ///< of the page that is written, in [0, 1]
+  bool begun = false;  ///< the pen has been in front of the paper; before, nothing is felt and nothing recorded
 };
 
 struct LiveOptions {
@@ -42,6 +43,7 @@ struct LiveResult {
 /// @throws ValueError unless the peak is above 0
 Capabilities limited(Capabilities capabilities, double peak_force);
 
+/// It begins when the pen is in front of the paper for the first time: it may come out of an inkwell that lies behind.
 /// Runs the servo loop on the device's own clock or a thread of this library while the calling thread records, until
 /// the page is written and the pen lifted, `watch` says false, or time is up. Then the force is zero and the device
 /// still open.
