@@ -24,6 +24,7 @@
 #include <calligraphy/phantom/capture.hpp>
 #include <calligraphy/phantom/device_list.hpp>
 #include <calligraphy/phantom/phantom_device.hpp>
+#include <calligraphy/phantom/wire_profile.hpp>
 #endif
 #ifdef CALLIGRAPHY_WITH_OPENHAPTICS
 #include <calligraphy/openhaptics/openhaptics_device.hpp>
@@ -280,6 +281,14 @@ void add_devices(CLI::App& program) {
       ->capture_default_str()
       ->type_name("S");
   prober->callback([probe_options] { probe(*probe_options); });
+
+#ifdef CALLIGRAPHY_WITH_PHANTOM
+  CLI::App* const profiles =
+      command->add_subcommand("profile", "Prints a shipped wire profile of a phantom, to begin one's own with.");
+  const auto profile = std::make_shared<std::string>();
+  profiles->add_option("NAME", *profile, "Which one")->required()->check(CLI::IsMember(phantom::wire_profile_names()));
+  profiles->callback([profile] { fmt::print("{}", phantom::wire_profile_text(*profile)); });
+#endif
 
   CLI::App* const watcher = command->add_subcommand(
       "watch", "Shows position, buttons and status of a device, four times a second, forceless.");

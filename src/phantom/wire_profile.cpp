@@ -221,6 +221,7 @@ std::vector<std::string> missing_for_position(const WireProfile& profile) {
 
 std::vector<std::string> missing_for_force(const WireProfile& profile) {
   std::vector<std::string> missing = missing_for_position(profile);
+  if (profile.command_size == 0) missing.emplace_back("command");
   for (std::size_t joint = 0; joint < 3; ++joint) {
     if (!profile.dac[joint]) missing.push_back(numbered("dac", joint));
   }
@@ -230,22 +231,23 @@ std::vector<std::string> missing_for_force(const WireProfile& profile) {
 
 std::vector<std::string> wire_profile_names() { return {"omni", "simulated"}; }
 
-const WireProfile& wire_profile(std::string_view name) {
-  const auto parsed = [](const char* text, const char* place) {
-    std::istringstream in(text);
-    return read_wire_profile(in, place);
-  };
-  if (name == "omni") {
-    static const WireProfile profile = parsed(built_in::wire_profile_omni, "data/profiles/omni.txt");
-    return profile;
-  }
-  if (name == "simulated") {
-    static const WireProfile profile = parsed(built_in::wire_profile_simulated, "data/profiles/simulated.txt");
-    return profile;
-  }
+std::string_view wire_profile_text(std::string_view name) {
+  if (name == "omni") return built_in::wire_profile_omni;
+  if (name == "simulated") return built_in::wire_profile_simulated;
   std::string known;
   for (const std::string& other : wire_profile_names()) known += (known.empty() ? "" : ", ") + other;
   throw ValueError("wire profile \"" + std::string(name) + "\" does not exist; there are " + known);
+}
+
+const WireProfile& wire_profile(std::string_view name) {
+  const auto parsed = [](std::string_view shipped) {
+    std::istringstream in{std::string(wire_profile_text(shipped))};
+    return read_wire_profile(in, "data/profiles/" + std::string(shipped) + ".txt");
+  };
+  static const WireProfile omni = parsed("omni");
+  static const WireProfile simulated = parsed("simulated");
+  wire_profile_text(name);  // knows which names there are
+  return name == "omni" ? omni : simulated;
 }
 
 }  // namespace calligraphy::phantom

@@ -45,7 +45,14 @@ TEST_CASE("the shipped profiles are valid and say what they lack", "[phantom][pr
   CHECK(missing_for_position(omni) == std::vector<std::string>{"counts-per-radian", "docked-angles"});
   CHECK(missing_for_force(omni) == std::vector<std::string>{"counts-per-radian", "docked-angles", "torque-per-count"});
   CHECK(missing_for_force(wire_profile("simulated")).empty());
-  for (const std::string& name : wire_profile_names()) CHECK(wire_profile(name).name == name);
+  for (const std::string& name : wire_profile_names()) {
+    CHECK(wire_profile(name).name == name);
+    CHECK(parsed(std::string(wire_profile_text(name))).report_size == wire_profile(name).report_size);
+  }
+  CHECK_THROWS_WITH(wire_profile_text("touch"), Contains("\"touch\"") && Contains("omni, simulated"));
+  CHECK(missing_for_force(parsed(smallest_profile)) == std::vector<std::string>{"counts-per-radian", "docked-angles",
+                                                                                "command", "dac 1", "dac 2", "dac 3",
+                                                                                "torque-per-count"});
   CHECK_THROWS_WITH(wire_profile("touch"), Contains("\"touch\"") && Contains("omni, simulated"));
 }
 

@@ -96,6 +96,13 @@ class Devices(ProgramTest):
         again, = json.loads((self.directory / "again" / "summary.json").read_text())
         self.assertEqual(again["strokes_completed"], row["strokes_completed"])
 
+    def test_a_shipped_profile_is_printed_as_a_file_that_is_taken(self):
+        for name in ("omni", "simulated"):
+            text = self.run_program("devices", "profile", name).stdout
+            self.assertTrue(text.startswith("calligraphy wire profile 1\n"))
+            self.assertIn(f"\nname {name}\n", text)
+        self.assert_refused(2, ["devices", "profile", "touch"], "NAME", "omni")
+
     def test_the_vendors_runtime_is_listed_watched_and_written_through(self):
         """On a library that stands in for it, its device held by a hand that writes; in real time, as above."""
         library = os.environ.get("CALLIGRAPHY_HELD_LIBHD")

@@ -129,6 +129,8 @@ void add_wire_profiles(py::module_& module) {
   module.def("wire_profile_names", &phantom::wire_profile_names, "The shipped profiles.");
   module.def("wire_profile", &phantom::wire_profile, py::return_value_policy::copy, py::arg("name"),
              "The shipped profile of this name.");
+  module.def("wire_profile_text", &phantom::wire_profile_text, py::arg("name"),
+             "The file of a shipped profile, to begin one's own with.");
   module.def(
       "read_wire_profile", [](const std::filesystem::path& path) { return phantom::read_wire_profile(path.string()); },
       py::arg("path"), Release(),

@@ -112,6 +112,8 @@ std::vector<std::string> wire_profile_names();
 
 /// @throws ValueError naming the name and those that exist
 const WireProfile& wire_profile(std::string_view name);
+/// The file of a shipped profile, to begin one's own with. @throws ValueError as above
+std::string_view wire_profile_text(std::string_view name);
 
 /// Reads and validates the text format of docs/wire-profile.md. `name` is used in messages.
 /// @throws FormatError naming the line and the value

@@ -55,6 +55,10 @@ Options options_of(int argc, char** argv) {
   int i = 1;
   for (; i < argc && std::string(argv[i]) != "--"; i += 2) {
     const std::string name = argv[i];
+    if (name == "--help" || name == "-h") {
+      std::cout << usage;
+      std::exit(0);
+    }
     if (i + 1 >= argc) throw UsageError(name + ": a value is missing");
     const std::string value = argv[i + 1];
     if (name == "--kind" && (value == "usb" || value == "hid")) {
