@@ -6,7 +6,7 @@
 namespace calligraphy::tools {
 
 /// While it lives, SIGINT, SIGTERM and SIGHUP are remembered; only the third one ends the program as it would have
-/// before: people press Ctrl-C twice.
+/// before: people press Ctrl-C twice. One that was ignored stays so.
 class Interrupt {
  public:
   Interrupt();

@@ -1,5 +1,6 @@
 // The program `calligraphy`: exit code 0 done, 1 the work failed, 2 usage.
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -30,6 +31,7 @@ int flush() noexcept {
 }
 
 int run(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that grows beyond its limit is an error of writing
   spdlog::set_default_logger(spdlog::stderr_logger_st("calligraphy"));
   spdlog::set_pattern("%n: %l: %v");
 

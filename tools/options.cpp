@@ -81,13 +81,13 @@ CLI::Option* add_device_option(CLI::App& command, std::string& device) {
       ->type_name("DEVICE");
 }
 
-DeviceProfile chosen_device(const std::string& device) {
+DeviceProfile chosen_device(const std::string& device, const char* option) {
   const std::string kind = "simulated:";
   const std::string name = device.rfind(kind, 0) == 0 ? device.substr(kind.size()) : device;
   for (const DeviceProfile& profile : device_profiles()) {
     if (profile.name == name) return profile;
   }
-  throw UsageError(fmt::format("--device: {}: expected [simulated:]NAME with one of {}", device, device_names()));
+  throw UsageError(fmt::format("{}: {}: expected [simulated:]NAME with one of {}", option, device, device_names()));
 }
 
 }  // namespace calligraphy::tools

@@ -21,7 +21,7 @@ Pen::Pen(const PenOptions& options) : options_(options) {
       profile_ = chosen_device(options.device.which);
       break;
     case DeviceKind::replay:
-      profile_ = chosen_device(options.like);
+      profile_ = chosen_device(options.like, "--like");
       break;
     case DeviceKind::phantom:
     case DeviceKind::openhaptics:

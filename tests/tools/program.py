@@ -9,6 +9,10 @@ import unittest
 from pathlib import Path
 
 
+# Who runs the tests in the background may ignore Ctrl-C, and what they start would, too.
+signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
 class ProgramTest(unittest.TestCase):
     """A test with a directory of its own, where the program runs."""
 

@@ -1,6 +1,11 @@
 import csv
 import json
+import os
+import resource
 import shutil
+import signal
+import subprocess
+import time
 import xml.etree.ElementTree as xml
 from pathlib import Path
 
@@ -11,6 +16,30 @@ FIELDS = ["character", "mode", "time_s", "rms_error_mm", "max_error_mm", "order_
 
 
 class Write(ProgramTest):
+    def test_a_hang_up_that_is_ignored_stays_so(self):
+        """As nohup starts a program."""
+        before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
+        try:
+            running = subprocess.Popen([os.environ["CALLIGRAPHY_PROGRAM"], "write", "一", "--mode", "force", "--repeat",
+                                        "20", "--out", "out"], cwd=self.directory, stdout=subprocess.DEVNULL)
+        finally:
+            signal.signal(signal.SIGHUP, before)
+        while running.poll() is None and not (self.directory / "out/01-一-force.csv").exists():
+            time.sleep(0.001)
+        running.send_signal(signal.SIGHUP)
+        self.assertEqual(running.wait(600), 0)
+        self.assertEqual(len(self.summary()), 20)
+
+    def test_a_file_that_may_not_grow_is_an_error_like_a_full_disk(self):
+        def limit():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
+
+        done = subprocess.run([os.environ["CALLIGRAPHY_PROGRAM"], "strokes", "--out", "strokes.svg"],
+                              cwd=self.directory, preexec_fn=limit, capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stderr),
+                         (1, "calligraphy: strokes.svg: cannot be written: File too large\n"))
+        self.assertEqual(self.files(), [])
+
     def test_what_was_written_until_ctrl_c_is_in_its_files(self):
         printed, told = self.interrupted("write", "一", "--mode", "force", "--repeat", "100000", "--out", "out",
                                          once="out/01-一-force.csv")
@@ -207,6 +236,7 @@ class Refusals(ProgramTest):
                 (["write", "北", "--out", "out", "--device", "replay:x", "--writer", "novice"], ["--writer", "replay"]),
                 (["write", "北", "--out", "out", "--device", "replay:x", "--rate", "500"], ["--rate", "replay"]),
                 (["write", "北", "--out", "out", "--like", "omni"], ["--like", "replay"]),
+                (["write", "北", "--out", "out", "--device", "replay:t.csv", "--like", "omnibus"], ["--like: omnibus"]),
                 (["write", "北", "--out", "out", "--longest", "5"], ["--longest", "simulated"]),
                 (["write", "北", "--out", "out", "--wire-profile", "omni"], ["--wire-profile", "simulated"]),
                 (["write", "北", "--out", "out", "--rules", "wang2006", "--renderer", "everything"], ["--renderer"]),
