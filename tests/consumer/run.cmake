@@ -9,7 +9,7 @@ function(run)
   set(output "${output}" PARENT_SCOPE)
 endfunction()
 
-file(REMOVE_RECURSE ${WORK}/prefix ${WORK}/build)
+file(REMOVE_RECURSE ${WORK}/prefix ${WORK}/build ${WORK}/build-alone)
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix --config ${TYPE})
 set(flags "")
 if(SANITIZE)
@@ -38,6 +38,15 @@ if(ldd)
     message(FATAL_ERROR "collision_alone needs ${CMAKE_MATCH_1}")
   endif()
 endif()
+
+# Asked for by name, it can be had where what other rooms need is missing.
+set(without "")
+foreach(package LibArchive pugixml ZLIB)
+  list(APPEND without -DCMAKE_DISABLE_FIND_PACKAGE_${package}=ON)
+endforeach()
+run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build-alone -G ${GENERATOR} -DCMAKE_PREFIX_PATH=${WORK}/prefix
+    -DCMAKE_BUILD_TYPE=${TYPE} -DCMAKE_CXX_COMPILER=${COMPILER} -DCOLLISION_ALONE=ON ${flags} ${without})
+run(${CMAKE_COMMAND} --build ${WORK}/build-alone --config ${TYPE} --target collision_alone)
 
 if(PRACTICE)
   run(${CMAKE_COMMAND} --build ${WORK}/build --config ${TYPE} --target write_one)
