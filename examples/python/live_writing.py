@@ -32,6 +32,7 @@ def open_device(wire_profile: str) -> cal.HapticDevice:
         return cal.PhantomDevice(cal.PhantomOptions(wire_profile=wire_profile))
     if cal.openhaptics_runtime().found:
         return cal.OpenHapticsDevice()
+    print("no device: a simulated one, whose hand follows a pointer that is led along the strokes")
     return cal.PointerDevice(cal.device_profile("desktop"))
 
 
@@ -71,7 +72,8 @@ def main() -> None:
         page = cal.lay_out([cal.built_in_characters()[arguments.character]], layout)[0]
         options = cal.LiveOptions(renderer=cal.RendererOptions.for_device(able), peak_force=arguments.peak_force)
         watch: Optional[Watch] = LedPointer(device, page) if isinstance(device, cal.PointerDevice) else None
-        print(f"{able.model}: write {name_of(page.characters[0].character)}; Ctrl-C ends it")
+        name = ("simulated " if isinstance(device, cal.PointerDevice) else "") + able.model
+        print(f"{name}: write {name_of(page.characters[0].character)}; Ctrl-C ends it")
         try:
             result = cal.write_with_device(page, device, options, watch)
         except KeyboardInterrupt as pressed:
@@ -90,7 +92,7 @@ def main() -> None:
     left.set(xlabel="x [mm]", ylabel="y [mm]", title="what the pen left")
     right.plot(samples["time"], np.linalg.norm(samples["force"], axis=1), linewidth=0.8)
     right.set(xlabel="time [s]", ylabel="force [N]", title="what the hand felt")
-    figure.suptitle(able.model)
+    figure.suptitle(name)
     save(figure, arguments.out / "live-writing.png")
 
 

@@ -67,7 +67,7 @@ if __name__ == "__main__":
         path, force = simulate(Groove(stiffness), 0.008, 0.002)
         above.plot(1e3 * path, label=f"{stiffness:.0f} N/m")
         below.plot(force)
-    above.set(ylabel="y of the pen [mm]", title="A groove at y = 0; the hand means to be at 2 mm")
+    above.set(ylabel="y of the pen [mm]", title="A groove at y = 0 with a damper of 1 N s/m; the hand means to be at 2 mm")
     above.legend()
     below.set(xlabel="time [ms]", ylabel="force [N]")
     save(figure, out / "own-force-law.png")

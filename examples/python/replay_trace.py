@@ -1,7 +1,7 @@
 """A recorded pen trace under guidance: what the renderer would have made of a person's own movement.
 
-With a file in the format of docs/pen-traces.md its first trace of a built-in character is replayed; without one, a
-trace is made: a hand that writes the character smaller, tilted, with a wobble and every stroke a little too long.
+With a file in the format of docs/pen-traces.md its first trace of a known character is replayed (--characters: of a set
+file, else of the built-in ones); without one, a trace is made: a hand that writes the character smaller, tilted, with a wobble and every stroke a little too long.
 """
 
 import argparse
@@ -35,17 +35,18 @@ def synthetic_trace(character: cal.Character) -> cal.PenTrace:
 
 parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
 parser.add_argument("file", nargs="?", type=pathlib.Path)
+parser.add_argument("--characters", help="a set file, such as `calligraphy import` makes")
 parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out"))
 arguments = parser.parse_args()
 arguments.out.mkdir(parents=True, exist_ok=True)
-characters = cal.built_in_characters()
+characters = cal.CharacterSet.open(arguments.characters) if arguments.characters else cal.built_in_characters()
 path = arguments.file
 if path is None:
     path = arguments.out / "trace.txt"
     cal.write_pen_traces(path, [synthetic_trace(characters["永"])], notice="made by replay_trace.py, not by a person")
 known = [trace for trace in cal.read_pen_traces(str(path)) if trace.character in characters]
 if not known:
-    raise SystemExit(f"{path}: no trace of a built-in character")
+    raise SystemExit(f"{path}: no trace of a character in {arguments.characters or 'the built-in set'}")
 trace = known[0]
 
 profile = cal.device_profile("desktop")

@@ -24,7 +24,9 @@ for rate in rates:
     advice = cal.advise_stiffness(loop)
     for name, values in bounds.items():
         values.append(getattr(advice, name).value)
-    print(f"{rate:6.0f} Hz: settles below {stiffnesses[np.argmin(settles)]:7.0f} N/m, theory {advice.stable.value:7.0f} N/m")
+    last = max(np.argmin(settles) - 1, 0)
+    print(f"{rate:6.0f} Hz: settles up to {stiffnesses[last]:7.0f} N/m, no more at {stiffnesses[last + 1]:7.0f}; "
+          f"theory {advice.stable.value:7.0f} N/m")  # fmt: skip
 styles = {  # the last two all but coincide
     "passive": {"color": "black", "linestyle": "--"},
     "stable": {"color": "#ddaa33", "linewidth": 4.0, "zorder": 1},
