@@ -65,6 +65,7 @@ TYPES = {
     "numpy.bool]": "numpy.bool_]",  # the other name is NumPy 2's alone
     "list[typing.Any]": "list[Stroke]",
     "def typical_strokes() -> list:": "def typical_strokes() -> list[TypicalStroke]:",
+    "-> collections.abc.Iterator:": "-> collections.abc.Iterator[Character]:",
     "-> list:": "-> list[numpy.typing.NDArray[numpy.float64]]:",
 }
 

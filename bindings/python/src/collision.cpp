@@ -36,13 +36,15 @@ StrokeElement element_of(const ArrayLike& control_points, const char* name = "co
 
 /// The name of a method, or one of NearestPointMethod.
 NearestPointMethod method_of(const py::object& method) {
-  if (!py::isinstance<py::str>(method)) return method.cast<NearestPointMethod>();
+  if (py::isinstance<NearestPointMethod>(method)) return method.cast<NearestPointMethod>();
   const py::dict members =
       py::module_::import("calligraphy._calligraphy").attr("NearestPointMethod").attr("__members__");
-  if (!members.contains(method)) {
-    throw ValueError("method: one of " + py::str(", ").attr("join")(members).cast<std::string>() +
-                     " is expected, not " + py::repr(method).cast<std::string>());
-  }
+  const auto complaint = [&] {
+    return "method: one of " + py::str(", ").attr("join")(members).cast<std::string>() + " is expected, not " +
+           py::repr(method).cast<std::string>();
+  };
+  if (!py::isinstance<py::str>(method)) throw py::type_error(complaint());
+  if (!members.contains(method)) throw ValueError(complaint());
   return members[method].cast<NearestPointMethod>();
 }
 

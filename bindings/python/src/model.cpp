@@ -93,6 +93,10 @@ void add_typical_strokes(py::module_& module) {
 
 /// Views, each of which keeps the character alive.
 std::vector<py::object> strokes_of(const py::object& character) {
+  if (!py::isinstance<Character>(character)) {
+    throw py::type_error("character: a calligraphy.Character is expected, not " +
+                         py::str(py::type::handle_of(character).attr("__name__")).cast<std::string>());
+  }
   std::vector<py::object> result;
   for (const Stroke& stroke : strokes(character.cast<const Character&>())) {
     result.push_back(py::cast(stroke));
@@ -276,6 +280,10 @@ void add_sets(py::module_& module) {
           py::arg("code"), py::arg("order") = "",
           "The character in the standard order or the one of this name, or None.")
       .def("__len__", [](const CharacterList& self) { return self.characters.size(); })
+      .def("__iter__",
+           [](const CharacterList& self) -> py::iterator {
+             return py::iter(py::cast(std::vector<Character>(self.characters)));  // a copy, as a list may be changed
+           })
       .def(
           "__getitem__",
           [](const CharacterList& self, char32_t code) {

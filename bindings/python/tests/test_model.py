@@ -124,3 +124,18 @@ def test_a_file_of_any_bytes_is_refused_by_its_name(name, tmp_path):
         file.write(b"\xff")
     with pytest.raises(cal.FormatError):
         READERS[name](odd)
+
+
+def test_a_list_of_characters_is_gone_through_in_its_order():
+    built_in = cal.built_in_characters()
+    assert [character.code for character in built_in] == [character.code for character in built_in.characters]
+    assert len(cal.lay_out(list(built_in)[:3])[0].characters) == 3
+    for wrong in (built_in, None, "永"):
+        with pytest.raises(TypeError, match="a calligraphy.Character is expected"):
+            cal.strokes(wrong)
+
+
+@pytest.mark.parametrize("method", [cal.NearestPointOptions(), {}, None, 3])
+def test_what_is_no_method_is_named(method):
+    with pytest.raises(TypeError, match="method: one of exact"):
+        cal.nearest_point([[0, 0], [1, 0]], [[0, 1]], method)
