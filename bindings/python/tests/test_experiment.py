@@ -262,11 +262,20 @@ def test_a_writer_of_ones_own():
 def test_what_a_grid_cannot_be_is_refused_by_name(axes, name):
     with pytest.raises(cal.InvalidValue, match=name):
         grid(**axes)
-    with pytest.raises(cal.InvalidValue, match="characters: there is no '龘'"):
-        experiment.Grid("龘")
-    for wrong, what in (("永永", "'永' stands there twice"), ([7], "a str is expected, not 7"), (7, "a list is expected")):
-        with pytest.raises(cal.InvalidValue, match="characters: " + what):
-            experiment.Grid(wrong)
+
+
+@pytest.mark.parametrize(
+    "characters, what",
+    [
+        ("龘", "there is no '龘'"),
+        ("永永", "'永' stands there twice"),
+        ([7], "a str is expected, not 7"),
+        (7, "a list is expected, not 7"),
+    ],
+)
+def test_what_the_characters_of_a_grid_cannot_be_is_told(characters, what):
+    with pytest.raises(cal.InvalidValue, match="characters: " + what):
+        experiment.Grid(characters)
 
 
 def test_members_of_an_enumeration_are_names():
