@@ -12,6 +12,8 @@ function(calligraphy_room name)
   target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
                                               $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(${target} PUBLIC ${ROOM_DEPENDS})
+  # The same bits on every processor: no contraction into fused operations.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-ffp-contract=off>)
   calligraphy_warnings(${target})
   if(CALLIGRAPHY_SANITIZE)  # a build for tests: several files as one compile in a third of the time
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON)
