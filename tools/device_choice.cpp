@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include <calligraphy/devices/simulated_device.hpp>
+#include <calligraphy/devices/device_profiles.hpp>
 #ifdef CALLIGRAPHY_WITH_PHANTOM
 #include <calligraphy/phantom/phantom_device.hpp>
 #endif

@@ -15,9 +15,9 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/devices/sample_queue.hpp>
 #include <calligraphy/devices/servo_loop.hpp>
-#include <calligraphy/devices/simulated_device.hpp>
 #include <calligraphy/error.hpp>
 #include <calligraphy/practice/file.hpp>
 #ifdef CALLIGRAPHY_WITH_PHANTOM
@@ -94,7 +94,7 @@ Section vendor_runtime() {
 
 Section simulated() {
   Section section{fmt::format("simulated: {}\n", device_names()), Json::array()};
-  for (const DeviceProfile& profile : device_profiles()) section.json.push_back("simulated:" + profile.name);
+  for (const Capabilities& profile : device_profiles()) section.json.push_back("simulated:" + profile.name);
   return section;
 }
 

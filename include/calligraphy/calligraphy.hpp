@@ -10,6 +10,8 @@
 #include <calligraphy/collision/placed_character.hpp>
 #include <calligraphy/collision/stroke_element.hpp>
 #include <calligraphy/collision/stroke_tracker.hpp>
+#include <calligraphy/devices/capabilities.hpp>
+#include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/devices/device_state.hpp>
 #include <calligraphy/devices/duration_histogram.hpp>
 #include <calligraphy/devices/flush_denormals.hpp>

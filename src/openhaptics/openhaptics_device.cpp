@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include <calligraphy/devices/simulated_device.hpp>
+#include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/error.hpp>
 
 #include "errors.hpp"
@@ -32,7 +32,7 @@ std::string text(const char* string) { return string != nullptr ? string : ""; }
 bool holds(const std::string& name, const char* part) { return name.find(part) != std::string::npos; }
 
 /// For what the runtime does not say: the shipped profile that is closest, the weakest one where none is.
-const DeviceProfile& closest_profile(const std::string& model) {
+const Capabilities& closest_profile(const std::string& model) {
   if (holds(model, "Premium")) return device_profile("premium-1.5");
   if (holds(model, "Desktop") || holds(model, "Touch X")) return device_profile("desktop");
   if (holds(model, "Omni")) return device_profile("omni");
@@ -135,7 +135,7 @@ Handle OpenHapticsDevice::Implementation::open_device(const OpenHapticsOptions& 
 Capabilities OpenHapticsDevice::Implementation::ask_capabilities() {
   const std::string model = text(hd().hdGetString(device_model));
   serial = text(hd().hdGetString(device_serial));
-  Capabilities result = closest_profile(model).capabilities;
+  Capabilities result = closest_profile(model);
   if (!model.empty()) result.model = model;
 
   // Larger than what is asked for, should a model say more.

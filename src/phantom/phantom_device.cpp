@@ -8,6 +8,7 @@
 #include <thread>
 #include <utility>
 
+#include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/devices/force_guard.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
 #include <calligraphy/error.hpp>
@@ -85,7 +86,7 @@ class PhantomDevice::Core final : public LinkListener {
         clock_(clock_or_steady(std::move(clock))),
         codec_(profile_of(options)),
         linkage_(linkage(options.model)),
-        capabilities_(device_profile(options.model).capabilities),
+        capabilities_(device_profile(options.model)),
         frames_(codec_),
         tracker_(codec_.profile(), linkage_, options.velocity_cutoff),
         guard_(fall_time, rise_time),

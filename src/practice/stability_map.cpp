@@ -42,22 +42,14 @@ void validate(const WallEncounter& encounter) {
           "from 0 to below 1 m");
   require(positive(encounter.seconds) && encounter.seconds <= 1000.0, "seconds", encounter.seconds,
           "above 0, at most 1000");
-  require(encounter.peak_force > 0.0, "peak force", encounter.peak_force, "above 0");
   require(encounter.lost >= 0.0 && encounter.lost <= 0.9, "share of samples lost", encounter.lost, "from 0 to 0.9");
   require(encounter.reordered >= 0.0 && encounter.reordered <= 1.0, "share of samples out of order",
           encounter.reordered, "from 0 to 1");
 }
 
-DeviceProfile profile_of(const SampledLoop& loop) {
-  DeviceProfile profile;
-  profile.name = "loop";
-  profile.mass = loop.mass;
-  profile.viscous_friction = loop.damping;
-  profile.coulomb_friction = loop.coulomb_friction;
-  profile.encoder_step = loop.encoder_step;
-  profile.delay = loop.delay;
-  profile.capabilities.peak_force = std::numeric_limits<double>::infinity();  // the push is the hand's, not its own
-  return profile;
+Capabilities pushed(Capabilities device) {
+  device.peak_force = std::numeric_limits<double>::infinity();  // the push is the hand's, not its own
+  return device;
 }
 
 /// Samples as they come over a bad line.
@@ -110,7 +102,7 @@ bool shrinks(std::span<const double> swings) {
 PassivityController controller_for(const SampledLoop& loop, bool controlled) {
   PassivityOptions options;
   if (controlled) {
-    options.delay = std::min(loop.delay, PassivityController::longest_delay);
+    options.delay = std::min(loop.device.sample_delay, PassivityController::longest_delay);
     options.max_damping = injectable_damping(loop);
   }
   return {options, 1.0 / loop.rate};
@@ -121,9 +113,10 @@ PassivityController controller_for(const SampledLoop& loop, bool controlled) {
 WallOutcome meet_wall(const SampledLoop& loop, double stiffness, const WallEncounter& encounter) {
   validate(loop);
   validate(encounter);
+  require(loop.device.peak_force > 0.0, "peak force of the device", loop.device.peak_force, "above 0");
   require(std::isfinite(stiffness) && stiffness >= 0.0, "stiffness", stiffness, "a finite number from 0 up");
   const double period = 1.0 / loop.rate;
-  SimulatedDevice device(profile_of(loop), loop.grip, {0.0, 0.0, encounter.height});
+  SimulatedDevice device(pushed(loop.device), loop.grip, {0.0, 0.0, encounter.height});
   device.set_intention({});
   Line line(encounter, encounter.height);
   Wall wall(loop, stiffness, encounter.height);
@@ -138,7 +131,7 @@ WallOutcome meet_wall(const SampledLoop& loop, double stiffness, const WallEncou
       const double position = line.receive(device.read().position[normal]);
       Eigen::Vector3d wanted(0.0, 0.0, wall.force(position));
       if (encounter.controlled) wanted = controller.next({0.0, 0.0, position}, wanted);
-      const double sent = std::clamp(wanted[normal], -encounter.peak_force, encounter.peak_force);
+      const double sent = std::clamp(wanted[normal], -loop.device.peak_force, loop.device.peak_force);
       controller.sent({0.0, 0.0, sent});
       device.write({0.0, 0.0, sent - encounter.push});
       device.advance(period);
@@ -206,7 +199,7 @@ void find_largest(const std::vector<StabilityLine*>& lines, const StabilityMap& 
                   const std::function<void(double)>& progress, const std::vector<Trials>& trials) {
   const Test comes_to_rest = [](const WallOutcome& outcome) { return outcome.settles; };
   const Test within_peak = [&map](const WallOutcome& outcome) {
-    return outcome.settles && outcome.largest_force < map.encounter.peak_force;
+    return outcome.settles && outcome.largest_force < map.device.peak_force;
   };
   WallEncounter free = map.encounter, controlled = map.encounter;
   free.controlled = false;
@@ -242,12 +235,6 @@ void fill(const std::vector<StabilityLine*>& lines, const StabilityMap& map,
   find_largest(lines, map, part(share_of_trials, 1.0 - share_of_trials), trials);
 }
 
-SampledLoop base() {
-  SampledLoop loop;
-  loop.damping = 0.1;
-  return loop;
-}
-
 std::string text(double value) {
   std::ostringstream stream;
   stream << value;
@@ -255,12 +242,12 @@ std::string text(double value) {
 }
 
 template <typename Value, typename Change>
-StabilitySweep sweep(const char* name, const char* label, const std::vector<Value>& values, double in_unit,
-                     Change change) {
+StabilitySweep sweep(const Capabilities& device, const char* name, const char* label, const std::vector<Value>& values,
+                     double in_unit, Change change) {
   StabilitySweep result{name, label, {}, {}};
   for (const Value& value : values) {
     StabilityLine line;
-    line.loop = base();
+    line.loop.device = device;
     change(line.loop, value);
     result.values.push_back(text(static_cast<double>(value) * in_unit));
     result.lines.push_back(std::move(line));
@@ -268,7 +255,7 @@ StabilitySweep sweep(const char* name, const char* label, const std::vector<Valu
   return result;
 }
 
-StabilitySweep grip_sweep() {
+StabilitySweep grip_sweep(const Capabilities& device) {
   const std::pair<const char*, Hand> grips[] = {{"none", {0.0, 0.0, 0.0}},
                                                 {"soft", {0.05, 1.0, 100.0}},
                                                 {"normal", {0.1, 3.0, 300.0}},
@@ -276,7 +263,7 @@ StabilitySweep grip_sweep() {
   StabilitySweep result{"grip", "grip", {}, {}};
   for (const auto& [name, grip] : grips) {
     StabilityLine line;
-    line.loop = base();
+    line.loop.device = device;
     line.loop.grip = grip;
     result.values.push_back(name);
     result.lines.push_back(std::move(line));
@@ -284,24 +271,26 @@ StabilitySweep grip_sweep() {
   return result;
 }
 
-std::vector<StabilitySweep> sweeps_of(double friction) {
+std::vector<StabilitySweep> sweeps_of(const Capabilities& device, double friction) {
   using Values = std::vector<double>;
   constexpr double kilohertz = 1e-3, micrometres = 1e6;
-  return {sweep("damping", "damping of the device b [N s/m]", Values{0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0}, 1.0,
-                [](SampledLoop& loop, double value) { loop.damping = value; }),
-          sweep("rate", "servo rate [kHz]", Values{100.0, 200.0, 500.0, 1000.0, 2000.0, 5000.0, 10000.0, 20000.0},
-                kilohertz, [](SampledLoop& loop, double value) { loop.rate = value; }),
-          sweep("delay", "delay [ticks]", std::vector<int>{0, 1, 2, 3, 4, 5}, 1.0,
-                [](SampledLoop& loop, int value) { loop.delay = value; }),
-          sweep("wall_damping", "damping of the wall B [N s/m]", Values{0.0, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 30.0},
-                1.0, [](SampledLoop& loop, double value) { loop.wall_damping = value; }),
-          sweep("encoder_step", "encoder step [um], with dry friction", Values{0.0, 1e-6, 23e-6, 55e-6, 200e-6},
-                micrometres,
-                [friction](SampledLoop& loop, double value) {
-                  loop.encoder_step = value;
-                  loop.coulomb_friction = friction;
-                }),
-          grip_sweep()};
+  return {
+      sweep(device, "damping", "damping of the device b [N s/m]", Values{0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0}, 1.0,
+            [](SampledLoop& loop, double value) { loop.device.viscous_friction = value; }),
+      sweep(device, "rate", "servo rate [kHz]", Values{100.0, 200.0, 500.0, 1000.0, 2000.0, 5000.0, 10000.0, 20000.0},
+            kilohertz, [](SampledLoop& loop, double value) { loop.rate = value; }),
+      sweep(device, "delay", "delay [ticks]", std::vector<int>{0, 1, 2, 3, 4, 5}, 1.0,
+            [](SampledLoop& loop, int value) { loop.device.sample_delay = value; }),
+      sweep(device, "wall_damping", "damping of the wall B [N s/m]",
+            Values{0.0, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 30.0}, 1.0,
+            [](SampledLoop& loop, double value) { loop.wall_damping = value; }),
+      sweep(device, "encoder_step", "encoder step [um], with dry friction", Values{0.0, 1e-6, 23e-6, 55e-6, 200e-6},
+            micrometres,
+            [friction](SampledLoop& loop, double value) {
+              loop.device.encoder_step = value;
+              loop.device.coulomb_friction = friction;
+            }),
+      grip_sweep(device)};
 }
 
 std::vector<StabilityLine> grid_of(const StabilityMapOptions& options) {
@@ -313,12 +302,12 @@ std::vector<StabilityLine> grid_of(const StabilityMapOptions& options) {
           for (const double rate : options.rates) {
             for (const double damping : options.dampings) {
               StabilityLine line;
-              line.loop = base();
-              line.loop.damping = damping;
+              line.loop.device = options.device;
+              line.loop.device.viscous_friction = damping;
               line.loop.rate = rate;
-              line.loop.delay = delay;
-              line.loop.encoder_step = encoder_step;
-              line.loop.coulomb_friction = encoder_step > 0.0 ? options.coulomb_friction : 0.0;
+              line.loop.device.sample_delay = delay;
+              line.loop.device.encoder_step = encoder_step;
+              line.loop.device.coulomb_friction = encoder_step > 0.0 ? options.coulomb_friction : 0.0;
               line.loop.wall_damping = wall_damping;
               line.loop.grip = grip;
               grid.push_back(std::move(line));
@@ -333,6 +322,14 @@ std::vector<StabilityLine> grid_of(const StabilityMapOptions& options) {
 
 }  // namespace
 
+Capabilities StabilityMapOptions::point_mass() {
+  Capabilities device;
+  device.apparent_mass = 0.045;
+  device.viscous_friction = 0.1;
+  device.peak_force = 7.9;
+  return device;
+}
+
 StabilityMap stability_map(const StabilityMapOptions& options) {
   validate(options.encounter);
   require(options.per_decade >= 1 && options.per_decade <= 100, "stiffnesses per decade", options.per_decade,
@@ -341,10 +338,12 @@ StabilityMap stability_map(const StabilityMapOptions& options) {
           "a finite number above 0");
   require(std::isfinite(options.stiffest) && options.stiffest > options.softest, "stiffest", options.stiffest,
           "a finite number above the softest");
+  require(options.device.peak_force > 0.0, "peak force of the device", options.device.peak_force, "above 0");
   StabilityMap map;
   map.encounter = options.encounter;
+  map.device = options.device;
   map.stiffnesses = stiffnesses_of(options);
-  if (options.with_sweeps) map.sweeps = sweeps_of(options.coulomb_friction);
+  if (options.with_sweeps) map.sweeps = sweeps_of(options.device, options.coulomb_friction);
   if (options.with_grid) map.grid = grid_of(options);
   std::vector<StabilityLine*> lines;
   for (StabilitySweep& sweep : map.sweeps) {

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/error.hpp>
 #include <calligraphy/practice/page.hpp>
 #include <calligraphy/practice/score.hpp>
@@ -23,13 +24,6 @@ constexpr double at_rest = 5e-6;                            ///< peak to peak, a
 
 constexpr double softest = 50.0, hardest = 1e6;  ///< stiffnesses that are tried [N/m]
 
-DeviceProfile unrestricted(const std::string& name) {
-  DeviceProfile profile = device_profile(name);
-  // Stability is what is asked here: nothing is known, so nothing is refused.
-  profile.capabilities.usable_stiffness = profile.capabilities.apparent_mass = 0.0;
-  return profile;
-}
-
 RendererOptions with_paper(RendererOptions options, double stiffness, bool limit) {
   options.paper_stiffness = stiffness;
   if (!limit) options.normal_force_rate = no_rate_limit;
@@ -37,12 +31,13 @@ RendererOptions with_paper(RendererOptions options, double stiffness, bool limit
 }
 
 /// Whether a pen pressed on the paper comes to rest: the whole loop, dry friction, encoder and force limits included.
-bool comes_to_rest(const Page& page, const DeviceProfile& profile, const Hand& hand, const RendererOptions& options) {
+bool comes_to_rest(const Page& page, const Capabilities& capabilities, const Hand& hand,
+                   const RendererOptions& options) {
   const MotionMapping mapping = upright_page(page.width, page.height);
-  HapticRenderer renderer(page.characters, mapping, profile.capabilities, options);
+  HapticRenderer renderer(page.characters, mapping, capabilities, options);
   const Point middle = bounding_box(page.characters.front()).center();
   const auto above = [&](double z) { return mapping.to_device({middle.x(), middle.y(), z}); };
-  SimulatedDevice device(profile, hand, above(lowered_from));
+  SimulatedDevice device(capabilities, hand, above(lowered_from));
   const double period = 1.0 / options.servo_rate;
   double low = lowered_from, high = -lowered_from;
   while (device.time() < pressed_for) {
@@ -61,11 +56,11 @@ bool comes_to_rest(const Page& page, const DeviceProfile& profile, const Hand& h
 }
 
 /// The largest below which no stiffness that was tried is unstable, to 2 % [N/m].
-double largest_stable_stiffness(const Page& page, const DeviceProfile& profile, const Hand& hand,
+double largest_stable_stiffness(const Page& page, const Capabilities& device, const Hand& hand,
                                 const RendererOptions& options, bool limit, const std::function<void()>& pause) {
   const auto stable = [&](double stiffness) {
     pause();
-    return comes_to_rest(page, profile, hand, with_paper(options, stiffness, limit));
+    return comes_to_rest(page, device, hand, with_paper(options, stiffness, limit));
   };
   double good = softest, bad = softest;
   if (!stable(good)) return 0.0;
@@ -86,11 +81,11 @@ struct Written {
 };
 
 /// Each character on a page of its own, each with every seed.
-Written write_all(std::span<const Character> characters, const DeviceProfile& profile, const RendererOptions& renderer,
+Written write_all(std::span<const Character> characters, const Capabilities& device, const RendererOptions& renderer,
                   const ServoRateTradeOptions& options, const std::function<void()>& pause) {
   SessionOptions session;
   session.progress = [&pause](double) { pause(); };
-  session.device = profile;
+  session.device = device;
   session.renderer = renderer;
   session.skill = WriterSkill::novice();
   Written written;
@@ -127,9 +122,9 @@ std::vector<ServoRateTrade> servo_rate_trade(std::span<const Character> characte
                                              const ServoRateTradeOptions& options) {
   if (characters.empty()) throw ValueError("servo rate: no characters");
   if (options.seeds < 1) throw ValueError("servo rate: " + std::to_string(options.seeds) + " seeds");
-  const DeviceProfile profile = unrestricted(options.device);
-  const Capabilities& known = device_profile(options.device).capabilities;
-  const RendererOptions usual = RendererOptions::for_device(known);
+  const Capabilities& device = device_profile(options.device);
+  RendererOptions usual = RendererOptions::for_device(device);
+  usual.stiffness_check = StiffnessCheck::none;  // stability is what is asked here
   const Page page = lay_out(characters.first(1)).front();
   double total = 0.0, done = 0.0;
   for (const double rate : options.rates) total += rate;
@@ -141,24 +136,24 @@ std::vector<ServoRateTrade> servo_rate_trade(std::span<const Character> characte
   for (const double rate : options.rates) {
     RendererOptions renderer = usual;
     renderer.servo_rate = rate;
-    validate(renderer, profile.capabilities);
+    validate(renderer, device);
     const Hand hand = WriterSkill::novice().hand;
     ServoRateTrade entry;
     entry.rate = rate;
     entry.stiffness = renderer.paper_stiffness;
-    entry.stable = comes_to_rest(page, profile, hand, renderer);
-    const Written written = write_all(characters, profile, renderer, options, pause);
+    entry.stable = comes_to_rest(page, device, hand, renderer);
+    const Written written = write_all(characters, device, renderer, options, pause);
     entry.penetration = written.penetration;
     entry.path_error = written.path_error;
     entry.force_step = written.force_step;
     entry.written = written.share;
-    entry.loop_stiffness = largest_stable_stiffness(page, profile, hand, renderer, true, pause);
-    entry.unlimited_stiffness = largest_stable_stiffness(page, profile, hand, renderer, false, pause);
-    entry.held_stiffness = critical_stiffness(sampled_loop(known, rate, hand));
-    entry.free_stiffness = critical_stiffness(sampled_loop(known, rate));
+    entry.loop_stiffness = largest_stable_stiffness(page, device, hand, renderer, true, pause);
+    entry.unlimited_stiffness = largest_stable_stiffness(page, device, hand, renderer, false, pause);
+    entry.held_stiffness = critical_stiffness({device, rate, hand});
+    entry.free_stiffness = critical_stiffness({device, rate});
     entry.hard_stiffness = 0.5 * entry.unlimited_stiffness;
     const Written hard =
-        write_all(characters, profile, with_paper(renderer, entry.hard_stiffness, false), options, pause);
+        write_all(characters, device, with_paper(renderer, entry.hard_stiffness, false), options, pause);
     entry.hard_penetration = hard.penetration;
     entry.hard_force_step = hard.force_step;
     trade.push_back(entry);

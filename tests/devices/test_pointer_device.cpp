@@ -6,6 +6,7 @@
 #include <string>
 #include <thread>
 
+#include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/devices/pointer_device.hpp>
 #include <calligraphy/error.hpp>
 

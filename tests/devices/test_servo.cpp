@@ -8,6 +8,7 @@
 #include <thread>
 #include <vector>
 
+#include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/devices/servo.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
 #include <calligraphy/error.hpp>

@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/devices/servo_loop.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
 #include <calligraphy/error.hpp>
@@ -156,7 +157,7 @@ TEST_CASE("capabilities are the runtime's where it says them, the closest profil
   OpenHapticsOptions options;
   options.library = STAND_IN_LIBHD;
   OpenHapticsDevice device(options);
-  const Capabilities& expected = device_profile(row.profile).capabilities;
+  const Capabilities& expected = device_profile(row.profile);
   CHECK(device.capabilities().model == row.model);
   CHECK(device.capabilities().workspace.isApprox(expected.workspace));  // the stand-in's box is not centred
   CHECK(device.capabilities().peak_force == expected.peak_force);

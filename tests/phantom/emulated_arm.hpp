@@ -78,7 +78,7 @@ class MemoryLink final : public Link {
 /// An arm on a wire. One step() is one report.
 class EmulatedArm {
  public:
-  EmulatedArm(const WireProfile& profile, const std::string& model, const DeviceProfile& physics, const Hand& hand)
+  EmulatedArm(const WireProfile& profile, const std::string& model, const Capabilities& physics, const Hand& hand)
       : codec(profile),
         arm(linkage(model)),
         wire(std::make_shared<Wire>()),

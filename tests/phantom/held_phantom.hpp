@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/phantom/phantom_device.hpp>
 
 #include "../temporary_directory.hpp"

@@ -6,6 +6,7 @@
 
 #include <Eigen/LU>
 
+#include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
 #include <calligraphy/error.hpp>
 #include <calligraphy/phantom/kinematics.hpp>
@@ -158,7 +159,7 @@ TEST_CASE("torque does the work of the force and stays bounded where the arm is 
 TEST_CASE("the workspace of each model lies within the limits of its joints", "[phantom][kinematics]") {
   for (const std::string model : {"omni", "touch", "premium-1.5"}) {
     const Linkage& arm = linkage(model);
-    const Eigen::Vector3d half = device_profile(model).capabilities.workspace / 2.0;
+    const Eigen::Vector3d half = device_profile(model).workspace / 2.0;
     for (int i = 0; i < 5 * 5 * 5; ++i) {
       const Eigen::Vector3d part(i % 5 / 2.0 - 1.0, i / 5 % 5 / 2.0 - 1.0, i / 25 / 2.0 - 1.0);
       const InverseKinematics inverse = inverse_kinematics(arm, arm.centre + part.cwiseProduct(half));

@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <thread>
 
+#include <calligraphy/devices/device_profiles.hpp>
+
 #include "../catch.hpp"
 #include "held_phantom.hpp"
 #include "phantom/latest_value.hpp"

@@ -25,8 +25,9 @@ const Hand nobody{0.0, 0.0, 0.0};
 SampledLoop loop_of(double rate, double damping, int delay = 0, double wall_damping = 0.0, const Hand& grip = nobody) {
   SampledLoop loop;
   loop.rate = rate;
-  loop.damping = damping;
-  loop.delay = delay;
+  loop.device = StabilityMapOptions::point_mass();
+  loop.device.viscous_friction = damping;
+  loop.device.sample_delay = delay;
   loop.wall_damping = wall_damping;
   loop.grip = grip;
   return loop;
@@ -34,11 +35,9 @@ SampledLoop loop_of(double rate, double damping, int delay = 0, double wall_damp
 
 /// Whether a bilateral wall feeds the swing of a simulated device, by comparing early and late swings.
 bool grows(const SampledLoop& loop, double stiffness) {
-  DeviceProfile profile = device_profile("ideal");
-  profile.mass = loop.mass;
-  profile.viscous_friction = loop.damping;
-  profile.delay = loop.delay;
-  SimulatedDevice device(profile, loop.grip, {1e-3, 0.0, 0.0});
+  Capabilities endless = loop.device;
+  endless.peak_force = std::numeric_limits<double>::infinity();
+  SimulatedDevice device(endless, loop.grip, {1e-3, 0.0, 0.0});
   device.set_intention({});
   constexpr int ticks = 20000;
   double previous = 1e-3, early = 0.0, late = 0.0;
@@ -116,8 +115,8 @@ TEST_CASE("a swing that shrinks onto a smaller one, and stays there, has not set
   const Hand grip{0.1, 3.0, 300.0};
   CHECK_FALSE(meet_wall(loop_of(500.0, 0.1, 0, 0.0, grip), std::pow(10.0, 4.5), encounter).settles);
   SampledLoop rounded = loop_of(2000.0, 2.0, 0, 0.0, grip);
-  rounded.encoder_step = 23e-6;
-  rounded.coulomb_friction = 0.06;
+  rounded.device.encoder_step = 23e-6;
+  rounded.device.coulomb_friction = 0.06;
   CHECK_FALSE(meet_wall(rounded, std::pow(10.0, 4.75), encounter).settles);
   // One that shrinks slowly all the way, by 2.6 % in the last quarter of the first 4 s, settles.
   CHECK(meet_wall(loop_of(4000.0, 0.2, 2), std::pow(10.0, 2.5), encounter).settles);
@@ -154,8 +153,8 @@ TEST_CASE("no encoder step keeps up a swing at the advised stiffness", "[stabili
   const double friction = GENERATE(0.06, 0.26);
   const double damping = GENERATE(0.1, 1.0, 5.0);  // at 5 N s/m friction is the tighter bound for a coarse encoder
   SampledLoop loop = loop_of(1000.0, damping);
-  loop.encoder_step = step;
-  loop.coulomb_friction = friction;
+  loop.device.encoder_step = step;
+  loop.device.coulomb_friction = friction;
   const double passive = advise_stiffness(loop).passive.value;
   const double held = 2.0 * friction / step;  // of the rounding, by dry friction
   CHECK(advise_stiffness(loop).quantised.value == Approx(std::min(passive, held)));
@@ -174,13 +173,13 @@ TEST_CASE("rounding that dry friction does not hold keeps up a swing on a passiv
   SampledLoop loop = loop_of(1000.0, 5.0);
   const double step = GENERATE(23e-6, 55e-6, 200e-6);
   CHECK(meet_wall(loop, 5000.0).settles);  // half of what is passive
-  loop.encoder_step = step;
-  loop.coulomb_friction = 0.06;
+  loop.device.encoder_step = step;
+  loop.device.coulomb_friction = 0.06;
   const double held = advise_stiffness(loop).quantised.value;
   CAPTURE(step, held);
   CHECK(meet_wall(loop, held).settles);
   CHECK_FALSE(meet_wall(loop, 1.5 * held).settles);
-  loop.coulomb_friction = 0.0;
+  loop.device.coulomb_friction = 0.0;
   CHECK(advise_stiffness(loop).quantised.value == 0.0);
   CHECK_FALSE(meet_wall(loop, 9000.0).settles);
 }
@@ -190,8 +189,8 @@ TEST_CASE("where positions are rounded, what settles without control settles wit
   const double step = GENERATE(23e-6, 55e-6);
   for (const double wall_damping : {0.0, 1.0}) {
     SampledLoop loop = loop_of(rate, 0.1, 0, wall_damping);
-    loop.encoder_step = step;
-    loop.coulomb_friction = 0.06;
+    loop.device.encoder_step = step;
+    loop.device.coulomb_friction = 0.06;
     for (double stiffness = 10.0; stiffness < 1e5; stiffness *= 2.0) {
       CAPTURE(rate, step, wall_damping, stiffness);
       if (meet_wall(loop, stiffness).settles) CHECK(meet_wall(loop, stiffness, controlled()).settles);
@@ -216,7 +215,7 @@ TEST_CASE("samples late by 0 to 5 ticks, lost or out of order leave a wall stabl
   const int delay = GENERATE(0, 1, 2, 3, 4, 5);
   const SampledLoop loop = loop_of(1000.0, 0.5, delay);
   SampledLoop later = loop;
-  later.delay = delay + 1;
+  later.device.sample_delay = delay + 1;
   const double stiffness = 0.95 * critical_stiffness(later);
   for (const double share : {0.0, 0.01, 0.2}) {
     for (const bool with_control : {false, true}) {
@@ -244,10 +243,11 @@ TEST_CASE("samples that are lost or out of order cost stiffness", "[stability ma
 TEST_CASE("the force of the wall is cut off at the device's peak", "[stability map]") {
   WallEncounter encounter;
   encounter.height = 0.01;
-  encounter.peak_force = 2.0;
-  CHECK(meet_wall(loop_of(1000.0, 5.0), 5000.0, encounter).largest_force == 2.0);
-  encounter.peak_force = 50.0;
-  CHECK(meet_wall(loop_of(1000.0, 5.0), 5000.0, encounter).largest_force > 2.0);
+  SampledLoop loop = loop_of(1000.0, 5.0);
+  loop.device.peak_force = 2.0;
+  CHECK(meet_wall(loop, 5000.0, encounter).largest_force == 2.0);
+  loop.device.peak_force = 50.0;
+  CHECK(meet_wall(loop, 5000.0, encounter).largest_force > 2.0);
 }
 
 TEST_CASE("a wall that gives way is not one that settles", "[stability map]") {
@@ -294,7 +294,7 @@ TEST_CASE("the largest stiffness that settles is found to 2 %", "[stability map]
   options.encoder_steps = {0.0};
   options.grips = {nobody};
   for (const StabilityLine& line : stability_map(options).grid) {
-    CAPTURE(line.loop.damping, line.loop.delay);
+    CAPTURE(line.loop.device.viscous_friction, line.loop.device.sample_delay);
     CHECK(line.largest == Approx(std::min(line.stable, 3162.3)).epsilon(0.04));
   }
 }
@@ -309,7 +309,9 @@ TEST_CASE("an encounter or a map out of its domain is refused", "[stability map]
     refused([bad](WallEncounter& e) { e.push = bad; });
     refused([bad](WallEncounter& e) { e.height = bad; });
     refused([bad](WallEncounter& e) { e.seconds = bad; });
-    refused([bad](WallEncounter& e) { e.peak_force = bad; });
+    SampledLoop weak = loop_of(1000.0, 0.1);
+    weak.device.peak_force = bad;
+    CHECK_THROWS_AS(meet_wall(weak, 100.0), ValueError);
     refused([bad](WallEncounter& e) { e.lost = bad; });
     refused([bad](WallEncounter& e) { e.reordered = bad; });
     CHECK_THROWS_AS(meet_wall(loop_of(1000.0, 0.1), bad), ValueError);

@@ -241,7 +241,7 @@ void add_sessions(py::module_& module) {
       .value("force", Mode::force, "vision and force");
   Record<SessionOptions>(module, "SessionOptions", "A writer, a device and a renderer in closed loop.")
       .field("mode", &SessionOptions::mode, "Mode")
-      .field("device", &SessionOptions::device, "DeviceProfile")
+      .field("device", &SessionOptions::device, "Capabilities")
       .field("renderer", &SessionOptions::renderer, "RendererOptions")
       .field("skill", &SessionOptions::skill, "WriterSkill")
       .field("seed", &SessionOptions::seed, "of the writer")

@@ -15,7 +15,6 @@ struct WallEncounter {
   double push = 1.0;        ///< steady force towards the wall, not limited by the device [N]
   double height = 0.00025;  ///< from which the pen falls [m]: with 45 g alone it meets the wall at 0.1 m/s
   double seconds = 12.0;    ///< of virtual time
-  double peak_force = 7.9;  ///< of the device; the wall's force is cut off there [N]
   bool controlled = false;  ///< a PassivityController at its usable damping follows the wall
   double lost = 0.0;        ///< share of the samples that do not arrive: the last one is used again
   double reordered = 0.0;   ///< share of the samples that change places with the next one
@@ -30,8 +29,9 @@ struct WallOutcome {
   double last_force = 0.0;     ///< largest sent in the last sixteenth that was simulated [N]
 };
 
-/// One pen on one wall of this stiffness [N/m], in virtual time.
-/// @throws ValueError naming the value when the loop, the stiffness or the encounter is out of its domain
+/// One pen on one wall of this stiffness [N/m], in virtual time. The wall's force is cut off at the device's peak.
+/// @throws ValueError naming the value when the loop, its device's peak force, the stiffness or the encounter is
+/// out of its domain
 WallOutcome meet_wall(const SampledLoop& loop, double stiffness, const WallEncounter& encounter = {});
 
 /// Every stiffness against one loop.
@@ -55,6 +55,7 @@ struct StabilitySweep {
 };
 
 struct StabilityMapOptions {
+  Capabilities device = point_mass();
   WallEncounter encounter;         ///< `controlled` does not count: both are tried
   int per_decade = 8;              ///< stiffnesses that are tried
   double softest = 10.0;           ///< [N/m]
@@ -68,12 +69,16 @@ struct StabilityMapOptions {
   std::vector<Hand> grips = {{0.0, 0.0, 0.0}, {0.1, 3.0, 300.0}};
   bool with_sweeps = true, with_grid = true;       ///< what to try
   std::function<void(double)> progress = nullptr;  ///< called now and then with the share that is done
+
+  /// 45 g, 0.1 N s/m, the Desktop's peak of 7.9 N; no dry friction, rounding or delay.
+  static Capabilities point_mass();
 };
 
 struct StabilityMap {
+  Capabilities device;
   WallEncounter encounter;
   std::vector<double> stiffnesses;     ///< that every line was tried at [N/m]
-  std::vector<StabilitySweep> sweeps;  ///< round a 45 g device of 0.1 N s/m at 1 kHz that nobody holds
+  std::vector<StabilitySweep> sweeps;  ///< one property of the device, held by nobody at 1 kHz, varied
   std::vector<StabilityLine> grid;     ///< every combination of the options' lists
 };
 

@@ -16,6 +16,7 @@
 #include <thread>
 #include <vector>
 
+#include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
 
 #include "../stand_in.hpp"
@@ -184,12 +185,12 @@ void give(const Eigen::Vector3d& values, double result[3]) { std::copy(values.be
 
 #ifdef STAND_IN_IS_HELD
 [[maybe_unused]] const bool held = [] {
-  const DeviceProfile profile = device_profile("touch");
+  const Capabilities profile = device_profile("touch");
   const WriterSkill skill = WriterSkill::skilled();
   const char* const text = std::getenv("STAND_IN_TEXT");
-  const Page page = calligraphy_test::page_to_write(text == nullptr ? "永" : text, CharacterSet(built_in_characters()),
-                                                    profile.capabilities);
-  const auto writer = std::make_shared<calligraphy_test::WritingHand>(page, profile.capabilities, skill, 1);
+  const Page page =
+      calligraphy_test::page_to_write(text == nullptr ? "永" : text, CharacterSet(built_in_characters()), profile);
+  const auto writer = std::make_shared<calligraphy_test::WritingHand>(page, profile, skill, 1);
   auto device = std::make_unique<Device>("Default Device", "PHANTOM Touch", "touch", skill.hand, writer->start());
   device->hand = [writer](const Eigen::Vector3d& tip) { return writer->next(tip, period); };
   world().devices.push_back(std::move(device));

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <mutex>
 
+#include <calligraphy/devices/device_profiles.hpp>
+
 #include "../emulated_arm.hpp"
 #include "emulated_device.hpp"
 

@@ -18,6 +18,7 @@
 #include "hand_motion.hpp"
 
 #ifdef CALLIGRAPHY_TEST_WRITING_HAND
+#include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/model/character_list.hpp>
 #include <calligraphy/model/character_set.hpp>
 
@@ -98,7 +99,7 @@ std::unique_ptr<HandMotion> hand_of(const Options& options) {
 #ifdef CALLIGRAPHY_TEST_WRITING_HAND
   const CharacterSet set =
       options.characters.empty() ? CharacterSet(built_in_characters()) : CharacterSet::open(options.characters);
-  const Capabilities& capabilities = device_profile(model).capabilities;
+  const Capabilities& capabilities = device_profile(model);
   return std::make_unique<WritingHand>(page_to_write(options.text, set, capabilities), capabilities, skill_of(options),
                                        options.seed);
 #else
