@@ -1,6 +1,7 @@
 // Everything.
 #pragma once
 
+#include <calligraphy/base/random.hpp>
 #include <calligraphy/collision/active_stroke.hpp>
 #include <calligraphy/collision/constraint_space.hpp>
 #include <calligraphy/collision/curve_element.hpp>

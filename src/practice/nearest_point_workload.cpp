@@ -9,7 +9,7 @@
 #include <calligraphy/error.hpp>
 #include <calligraphy/model/bezier.hpp>
 
-#include "number_sequence.hpp"
+#include "../model/random_points.hpp"
 
 namespace calligraphy {
 namespace {
@@ -44,7 +44,7 @@ double power_of_ten(int exponent) {
 }
 
 /// Nothing in one case of four, else 1e-15 to 1e-2.
-double slight(NumberSequence& random) {
+double slight(RandomPoints& random) {
   const bool none = random.index(4) == 0;
   const int exponent = 2 + static_cast<int>(random.index(14));
   return none ? 0.0 : power_of_ten(-exponent);
@@ -53,7 +53,7 @@ double slight(NumberSequence& random) {
 Point perpendicular(const Point& vector) { return {-vector.y(), vector.x()}; }
 
 /// The vertices turned, scaled by 0.5 to 2, mirrored in one case of two, and moved.
-Curve placed(NumberSequence& random, Vertices vertices) {
+Curve placed(RandomPoints& random, Vertices vertices) {
   const Point along = random.between(0.5, 2.0) * random.direction();
   const Point across = random.index(2) == 0 ? perpendicular(along) : -perpendicular(along);
   const Point offset = random.point(-1.0, 1.0);
@@ -61,21 +61,21 @@ Curve placed(NumberSequence& random, Vertices vertices) {
   return {vertices};
 }
 
-Vertices moved_slightly(NumberSequence& random, Vertices vertices, double by) {
+Vertices moved_slightly(RandomPoints& random, Vertices vertices, double by) {
   for (Point& vertex : vertices) vertex += by * random.in_disc();
   return vertices;
 }
 
 // Curves. `i` counts the curves of a workload, so that each kind of a mixed one occurs.
 
-Curve random_curve(NumberSequence& random, int) {
+Curve random_curve(RandomPoints& random, int) {
   Vertices vertices;
   for (Point& vertex : vertices) vertex = random.point(0.0, 1.0);
   return {vertices};
 }
 
 /// Strong bends on which a greedy subdivision takes the wrong branch.
-Curve hook(NumberSequence& random, int i) {
+Curve hook(RandomPoints& random, int i) {
   constexpr double bends[2][4][2] = {{{0.0, 0.0}, {1.2, 0.0}, {1.3, 0.1}, {0.9, 0.15}},
                                      {{0.4, 0.9}, {0.7, 0.05}, {0.75, 0.35}, {0.7, 0.65}}};
   Vertices vertices;
@@ -83,13 +83,13 @@ Curve hook(NumberSequence& random, int i) {
   return placed(random, moved_slightly(random, vertices, 0.03));
 }
 
-Curve loop(NumberSequence& random, int) {
+Curve loop(RandomPoints& random, int) {
   const Vertices vertices = {Point(0, 0), Point(1.5, 1), Point(-0.5, 1), Point(1, 0)};
   return placed(random, moved_slightly(random, vertices, 0.1));
 }
 
 /// B' = 3 ((1-t)^2 a + 2 t (1-t) b + t^2 c) vanishes at a chosen t: c follows from a and b.
-Curve cusp(NumberSequence& random, int) {
+Curve cusp(RandomPoints& random, int) {
   const double t = random.between(0.3, 0.7), s = 1.0 - t;
   const Point a = random.between(0.5, 1.0) * random.direction();
   const Point b = random.between(0.5, 1.0) * random.direction();
@@ -99,7 +99,7 @@ Curve cusp(NumberSequence& random, int) {
 }
 
 /// In order, folded back, or beyond its own ends; a third of them parallel to an axis, where they are exact.
-Curve collinear(NumberSequence& random, int i) {
+Curve collinear(RandomPoints& random, int i) {
   std::array<double, 4> at;
   for (double& value : at) value = random.between(-1.0, 1.0);
   if (i % 2 == 0) std::sort(at.begin(), at.end());
@@ -109,7 +109,7 @@ Curve collinear(NumberSequence& random, int i) {
 }
 
 /// Each pair of control points equal, then both handles, three of them, and all of them.
-Curve degenerate(NumberSequence& random, int i) {
+Curve degenerate(RandomPoints& random, int i) {
   Vertices v = random_curve(random, i).control_points;
   constexpr std::size_t pairs[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
   const int kind = i % 10;
@@ -122,20 +122,20 @@ Curve degenerate(NumberSequence& random, int i) {
 }
 
 /// Bowed by 1e-2 to 1e-14.
-Curve near_straight(NumberSequence& random, int i) {
+Curve near_straight(RandomPoints& random, int i) {
   const double bow = power_of_ten(-2 - i % 13);
   return placed(random, {Point(0, 0), Point(random.between(0.2, 0.45), bow * random.between(-1.0, 1.0)),
                          Point(random.between(0.55, 0.8), bow), Point(1, 0)});
 }
 
 /// Arches that are their own mirror image about x = 0, to the last bit.
-Curve symmetric(NumberSequence& random, int) {
+Curve symmetric(RandomPoints& random, int) {
   const double foot = random.between(0.2, 1.0), shoulder = random.between(-1.0, 1.0), height = random.between(0.3, 1.5);
   return {{Point(-foot, 0), Point(-shoulder, height), Point(shoulder, height), Point(foot, 0)}};
 }
 
 /// Its own image when turned by half a turn about the origin, to the last bit.
-Curve symmetric_s(NumberSequence& random, int) {
+Curve symmetric_s(RandomPoints& random, int) {
   const Point end = random.point(0.3, 1.0);
   const double up = random.between(0.2, 1.5);
   const Point handle(random.between(-1.5, -0.2), up);
@@ -143,7 +143,7 @@ Curve symmetric_s(NumberSequence& random, int) {
 }
 
 /// The cubic that is usual for an arc round the origin; 25 to 180 degrees. With T = tan(angle / 4) all is rational.
-Curve arc(NumberSequence& random, int) {
+Curve arc(RandomPoints& random, int) {
   const double tangent = random.between(0.11, 1.0), square = tangent * tangent;
   const double cosine = (1.0 - square) / (1.0 + square), sine = 2.0 * tangent / (1.0 + square);
   const double handle = 4.0 / 3.0 * tangent;
@@ -158,14 +158,14 @@ Curve scaled(Curve curve, double factor, const Point& offset) {
   return curve;
 }
 
-Curve large(NumberSequence& random, int i) { return scaled(random_curve(random, i), 1e8, Point::Zero()); }
-Curve distant(NumberSequence& random, int i) { return scaled(random_curve(random, i), 1.0, {1e8, -1e8}); }
-Curve small(NumberSequence& random, int i) { return scaled(random_curve(random, i), 1e-12, Point::Zero()); }
+Curve large(RandomPoints& random, int i) { return scaled(random_curve(random, i), 1e8, Point::Zero()); }
+Curve distant(RandomPoints& random, int i) { return scaled(random_curve(random, i), 1.0, {1e8, -1e8}); }
+Curve small(RandomPoints& random, int i) { return scaled(random_curve(random, i), 1e-12, Point::Zero()); }
 
 // Queries.
 
 /// In the control points' box, a quarter of the size wider on each side.
-Point in_box(NumberSequence& random, const Target& target) {
+Point in_box(RandomPoints& random, const Target& target) {
   Point low = target.curve.control_points[0], high = low;
   for (const Point& vertex : target.curve.control_points) {
     low = low.cwiseMin(vertex);
@@ -177,49 +177,49 @@ Point in_box(NumberSequence& random, const Target& target) {
 }
 
 /// Within a tenth of the size.
-Point near(NumberSequence& random, const Target& target) {
+Point near(RandomPoints& random, const Target& target) {
   const Point on = target.curve.point(random.next());
   return on + 0.1 * target.size * random.in_disc();
 }
 
-Point near_or_in_box(NumberSequence& random, const Target& target) {
+Point near_or_in_box(RandomPoints& random, const Target& target) {
   return random.index(2) == 0 ? near(random, target) : in_box(random, target);
 }
 
 /// 1 to 5 mm from a point of the curve.
-Point of_pen(NumberSequence& random, const Target& target) {
+Point of_pen(RandomPoints& random, const Target& target) {
   const Point on = target.curve.point(random.next());
   return on + random.between(0.001, 0.005) * random.direction();
 }
 
-Point on_curve(NumberSequence& random, const Target& target) {
+Point on_curve(RandomPoints& random, const Target& target) {
   const std::uint64_t choice = random.index(32);
   const double t = random.next();
   return target.curve.point(choice == 0 ? 0.0 : choice == 1 ? 1.0 : t);
 }
 
 /// On the straight line through the curve, also beyond it, or anywhere.
-Point along_line(NumberSequence& random, const Target& target) {
+Point along_line(RandomPoints& random, const Target& target) {
   if (random.index(2) == 0) return in_box(random, target);
   const Point from = target.curve.point(random.next()), to = target.curve.point(random.next());
   return from + random.between(-2.0, 3.0) * (to - from);
 }
 
 /// On the axis x = 0, where two feet are equally near, or slightly beside it.
-Point near_axis(NumberSequence& random, const Target& target) {
+Point near_axis(RandomPoints& random, const Target& target) {
   if (random.index(4) == 0) return in_box(random, target);
   const double y = random.between(-1.5, 1.5) * target.size;
   return {slight(random) * target.size * random.between(-1.0, 1.0), y};
 }
 
 /// At the origin or slightly beside it.
-Point near_origin(NumberSequence& random, const Target& target) {
+Point near_origin(RandomPoints& random, const Target& target) {
   if (random.index(4) == 0) return in_box(random, target);
   return slight(random) * target.size * random.in_disc();
 }
 
 /// At a centre of curvature no further than ten sizes, or slightly beside it: three feet are one there.
-Point near_centre_of_curvature(NumberSequence& random, const Target& target) {
+Point near_centre_of_curvature(RandomPoints& random, const Target& target) {
   const Bezier<2> first = target.curve.hodograph();
   const Bezier<1> second = first.hodograph();
   for (int attempt = 0; attempt < 16; ++attempt) {
@@ -234,15 +234,15 @@ Point near_centre_of_curvature(NumberSequence& random, const Target& target) {
 }
 
 /// 1 to 1e6 sizes away, each power of ten alike.
-Point far(NumberSequence& random, const Target& target) {
+Point far(RandomPoints& random, const Target& target) {
   const double sizes = power_of_ten(static_cast<int>(random.index(6))) * random.between(1.0, 10.0);
   return target.curve.point(0.5) + sizes * target.size * random.direction();
 }
 
 struct Recipe {
   const char* name;
-  Curve (*curve)(NumberSequence&, int);  ///< null: one of the real curves
-  Point (*query)(NumberSequence&, const Target&);
+  Curve (*curve)(RandomPoints&, int);  ///< null: one of the real curves
+  Point (*query)(RandomPoints&, const Target&);
   double allowed_error = 1e-9;
 };
 
@@ -283,11 +283,11 @@ std::vector<NearestPointWorkload> nearest_point_workloads(std::span<const std::v
   if (queries < 1) throw ValueError("nearest_point_workloads: " + std::to_string(queries) + " queries");
   if (real_curves.empty()) throw ValueError("nearest_point_workloads: no real curves");
   std::vector<NearestPointWorkload> workloads;
-  NumberSequence seeds(seed);
+  RandomPoints seeds(seed);
   const int curve_count = std::min(queries, curves_per_workload);
   for (const Recipe& recipe : recipes) {
     NearestPointWorkload workload{recipe.name, {}, recipe.allowed_error};
-    NumberSequence random(seeds.bits());
+    RandomPoints random(seeds.bits());
     for (int i = 0; i < curve_count; ++i) {
       const Target target(recipe.curve != nullptr ? recipe.curve(random, i)
                                                   : as_cubic(real_curves[random.index(real_curves.size())]));

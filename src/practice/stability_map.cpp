@@ -10,11 +10,11 @@
 #include <sstream>
 #include <utility>
 
+#include <calligraphy/base/random.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
 #include <calligraphy/error.hpp>
 #include <calligraphy/render/passivity_controller.hpp>
 
-#include "number_sequence.hpp"
 #include "parallel.hpp"
 
 namespace calligraphy {
@@ -75,7 +75,7 @@ class Line {
   double lost_, reordered_;
   double last_, waiting_;
   bool is_waiting_ = false, has_last_ = false;
-  NumberSequence random_{1};
+  Random random_{1};
 };
 
 /// The force of the wall, which may push and not pull.

@@ -8,7 +8,7 @@
 #include <calligraphy/collision/stroke_element.hpp>
 #include <calligraphy/error.hpp>
 
-#include "number_sequence.hpp"
+#include "../model/random_points.hpp"
 
 namespace calligraphy {
 namespace {
@@ -19,7 +19,7 @@ constexpr double stray_length = 0.01;
 /// A smooth way through points drawn at even distances: it rests at each, with neither speed nor acceleration.
 class Stray {
  public:
-  Stray(NumberSequence& random, double length, double most) {
+  Stray(RandomPoints& random, double length, double most) {
     const double amplitude = most * random.next();
     const auto count = static_cast<std::size_t>(length / stray_length) + 2;
     for (std::size_t i = 0; i < count; ++i) turning_points_.push_back(amplitude * random.in_disc());
@@ -50,7 +50,7 @@ std::vector<std::vector<Point>> elements_of(const Stroke& stroke, double em) {
 }
 
 std::vector<Point> path_along(const std::vector<std::vector<Point>>& elements, const StrokeQueryOptions& options,
-                              NumberSequence& random) {
+                              RandomPoints& random) {
   std::vector<StrokeElement> prepared;
   double length = 0.0;
   for (const auto& element : elements) {
@@ -86,7 +86,7 @@ std::vector<StrokeQueries> stroke_queries(std::span<const Character> characters,
   require(positive(options.speed), "speed", options.speed);
   require(std::isfinite(options.wobble) && options.wobble >= 0.0, "wobble", options.wobble);
   std::vector<StrokeQueries> drawn;
-  NumberSequence random(options.seed);
+  RandomPoints random(options.seed);
   for (const Character& character : characters) {
     for (const Stroke& stroke : strokes(character)) {
       StrokeQueries& queries = drawn.emplace_back();

@@ -1,11 +1,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <random>
 #include <string>
 
 #include <Eigen/LU>
 
+#include <calligraphy/base/random.hpp>
 #include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
 #include <calligraphy/error.hpp>
@@ -21,12 +21,9 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 /// Within the limits of the Omni, which the Premium bears too.
-Joints random_joints(std::mt19937& random) {
-  const auto between = [&](double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random);
-  };
-  const double shoulder = between(0.0, 1.75);
-  return {between(-0.98, 0.98), shoulder, shoulder + between(-0.81, 1.25)};
+Joints random_joints(Random& random) {
+  const double shoulder = random.between(0.0, 1.75);
+  return {random.between(-0.98, 0.98), shoulder, shoulder + random.between(-0.81, 1.25)};
 }
 
 }  // namespace
@@ -65,7 +62,7 @@ TEST_CASE("the tip is at zero when every joint is, and moves as the published fo
 TEST_CASE("the Jacobian is the derivative of the tip", "[phantom][kinematics]") {
   for (const std::string model : {"omni", "premium-1.5"}) {
     const Linkage& arm = linkage(model);
-    std::mt19937 random(1);
+    Random random(1);
     for (int i = 0; i < 500; ++i) {
       const Joints joints = random_joints(random);
       const Eigen::Matrix3d jacobian = tip_jacobian(arm, joints);
@@ -83,7 +80,7 @@ TEST_CASE("the Jacobian is the derivative of the tip", "[phantom][kinematics]") 
 TEST_CASE("the inverse leads back to the joints", "[phantom][kinematics]") {
   for (const std::string model : {"omni", "premium-1.5"}) {
     const Linkage& arm = linkage(model);
-    std::mt19937 random(2);
+    Random random(2);
     for (int i = 0; i < 2000; ++i) {
       const Joints joints = random_joints(random);
       // Bent all the way back, the arm has its tip behind the waist: the inverse gives the other solution for it.
@@ -99,10 +96,10 @@ TEST_CASE("the inverse leads back to the joints", "[phantom][kinematics]") {
 TEST_CASE("a place out of reach is told, and the joints lead as near as the arm can", "[phantom][kinematics]") {
   const Linkage& omni = linkage("omni");
   const Eigen::Vector3d shoulder(0.0, 0.13335, -0.13335);
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> coordinate(-1.0, 1.0);
+  Random random(3);
+  const auto coordinate = [&] { return random.between(-1.0, 1.0); };
   for (int i = 0; i < 500; ++i) {
-    Eigen::Vector3d ray{coordinate(random), coordinate(random), coordinate(random)};
+    Eigen::Vector3d ray{coordinate(), coordinate(), coordinate()};
     ray.normalize();
     const InverseKinematics far = inverse_kinematics(omni, shoulder + 0.3 * ray);
     REQUIRE_FALSE(far.reachable);
@@ -122,7 +119,7 @@ TEST_CASE("the arm is singular stretched, folded and above the waist, and only t
   for (const std::string model : {"omni", "premium-1.5"}) {
     const Linkage& arm = linkage(model);
     const double l1 = arm.upper_arm, l2 = arm.forearm;
-    std::mt19937 random(4);
+    Random random(4);
     for (int i = 0; i < 500; ++i) {
       const Joints joints = random_joints(random);
       const double r = l1 * std::cos(joints[1]) + l2 * std::sin(joints[2]);
@@ -141,14 +138,14 @@ TEST_CASE("the arm is singular stretched, folded and above the waist, and only t
 
 TEST_CASE("torque does the work of the force and stays bounded where the arm is singular", "[phantom][kinematics]") {
   const Linkage& omni = linkage("omni");
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> any(-4.0, 4.0);
+  Random random(5);
+  const auto any = [&] { return random.between(-4.0, 4.0); };
   for (int i = 0; i < 2000; ++i) {
     // Anywhere, the singular set included at every fourth.
-    Joints joints{any(random), any(random), any(random)};
+    Joints joints{any(), any(), any()};
     if (i % 4 == 0) joints[2] = joints[1] + pi / 2.0;
-    const Eigen::Vector3d force{any(random), any(random), any(random)};
-    const Joints velocity{any(random), any(random), any(random)};
+    const Eigen::Vector3d force{any(), any(), any()};
+    const Joints velocity{any(), any(), any()};
     const Eigen::Vector3d torque = joint_torque(omni, joints, force);
     const double work = force.dot(tip_jacobian(omni, joints) * velocity);
     REQUIRE(torque.dot(velocity) == Approx(work).margin(1e-12));
@@ -189,7 +186,7 @@ TEST_CASE("each limit of a joint is kept on both sides", "[phantom][kinematics]"
 TEST_CASE("gravity is held by the slope of the weight's potential", "[phantom][kinematics]") {
   // Weights at part of each link: V = a sin q2 - b cos q3, and the torque that holds them is its gradient.
   const Eigen::Vector2d gravity(0.07, -0.03);
-  std::mt19937 random(6);
+  Random random(6);
   for (int i = 0; i < 100; ++i) {
     const Joints joints = random_joints(random);
     const auto potential = [&](const Joints& at) { return 0.07 * std::sin(at[1]) + 0.03 * std::cos(at[2]); };

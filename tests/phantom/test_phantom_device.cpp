@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <calligraphy/base/random.hpp>
 #include <calligraphy/devices/servo_loop.hpp>
 #include <calligraphy/error.hpp>
 
@@ -13,6 +14,7 @@
 #include "phantom/motor_temperature.hpp"
 
 using namespace calligraphy_test;
+using calligraphy::Random;
 using Catch::Matchers::Contains;
 
 namespace {
@@ -121,14 +123,14 @@ TEST_CASE("a lost report does not show in the velocity", "[phantom][device]") {
 
 TEST_CASE("a force comes back at the tip to within the steps of the converters", "[phantom][device]") {
   for (const std::string model : {"omni", "premium-1.5"}) {
-    std::mt19937 random(21);
-    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    Random random(21);
+    const auto unit = [&] { return random.between(-1.0, 1.0); };
     for (int pose = 0; pose < 12; ++pose) {
       HeldPhantom held(simulated_options(model));
       const Eigen::Vector3d half = held.device.capabilities().workspace / 2.0;
-      const Eigen::Vector3d place = Eigen::Vector3d{unit(random), unit(random), unit(random)}.cwiseProduct(0.9 * half);
+      const Eigen::Vector3d place = Eigen::Vector3d{unit(), unit(), unit()}.cwiseProduct(0.9 * half);
       held.bring_up(place);
-      const Eigen::Vector3d force{unit(random), unit(random), unit(random)};
+      const Eigen::Vector3d force{unit(), unit(), unit()};
       for (int i = 0; i < 400; ++i) held.turn([&](const DeviceState&) { return force; });
       // Half a step of torque at each joint is J^-T of it at the tip; the angles are known to half a count.
       const Eigen::Matrix3d to_tip = tip_jacobian(held.arm.arm, held.arm.joints()).transpose().inverse();
