@@ -5,7 +5,7 @@
 #include <thread>
 
 #include <calligraphy/devices/servo_loop.hpp>
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 
 namespace {
 

@@ -9,10 +9,10 @@
 
 #include <calligraphy/devices/device_profiles.hpp>
 #ifdef CALLIGRAPHY_WITH_PHANTOM
-#include <calligraphy/phantom/phantom_device.hpp>
+#include <calligraphy/devices/phantom/phantom_device.hpp>
 #endif
 #ifdef CALLIGRAPHY_WITH_OPENHAPTICS
-#include <calligraphy/openhaptics/openhaptics_device.hpp>
+#include <calligraphy/devices/openhaptics/openhaptics_device.hpp>
 #endif
 
 #include "commands.hpp"

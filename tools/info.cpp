@@ -13,7 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include <calligraphy/model/character_set.hpp>
-#include <calligraphy/model/text.hpp>
+#include <calligraphy/base/text.hpp>
 
 #include "character_source.hpp"
 #include "commands.hpp"

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include <calligraphy/devices/device_profiles.hpp>
-#include <calligraphy/error.hpp>
-#include <calligraphy/model/text.hpp>
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/base/text.hpp>
 
 #include "commands.hpp"
 

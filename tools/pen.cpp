@@ -5,7 +5,7 @@
 
 #include <spdlog/spdlog.h>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/practice/live_session.hpp>
 #include <calligraphy/practice/recording.hpp>
 #include <calligraphy/render/motion_mapping.hpp>

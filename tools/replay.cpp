@@ -10,10 +10,10 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include <calligraphy/error.hpp>
-#include <calligraphy/model/text.hpp>
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/base/text.hpp>
 #include <calligraphy/practice/pen_trace.hpp>
-#include <calligraphy/practice/replay_picture.hpp>
+#include <calligraphy/pictures/replay_picture.hpp>
 #include <calligraphy/practice/session.hpp>
 
 #include "character_source.hpp"

@@ -12,9 +12,9 @@
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
-#include <calligraphy/error.hpp>
-#include <calligraphy/practice/plot.hpp>
-#include <calligraphy/practice/stability_map.hpp>
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/pictures/plot.hpp>
+#include <calligraphy/experiments/stability_map.hpp>
 
 #include "commands.hpp"
 #include "interrupt.hpp"

@@ -14,10 +14,10 @@
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
-#include <calligraphy/model/text.hpp>
+#include <calligraphy/base/text.hpp>
 #include <calligraphy/practice/page.hpp>
-#include <calligraphy/practice/picture.hpp>
-#include <calligraphy/practice/plot.hpp>
+#include <calligraphy/pictures/picture.hpp>
+#include <calligraphy/pictures/plot.hpp>
 #include <calligraphy/practice/recording.hpp>
 #include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/session.hpp>

@@ -3,7 +3,7 @@
 #include <numeric>
 
 #include <calligraphy/model/character_list.hpp>
-#include <calligraphy/practice/nearest_point_workload.hpp>
+#include <calligraphy/experiments/nearest_point_workload.hpp>
 
 #include "runs.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <calligraphy/model/bezier.hpp>
 #include <calligraphy/model/character_list.hpp>
-#include <calligraphy/practice/stroke_queries.hpp>
+#include <calligraphy/experiments/stroke_queries.hpp>
 
 #include "runs.hpp"
 

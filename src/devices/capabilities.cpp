@@ -3,7 +3,7 @@
 #include <cmath>
 #include <sstream>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 
 namespace calligraphy {
 namespace {

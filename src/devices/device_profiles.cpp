@@ -5,7 +5,7 @@
 #include <array>
 #include <limits>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 
 namespace calligraphy {
 namespace {

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include <calligraphy/devices/replay_device.hpp>
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 
 namespace calligraphy {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include <calligraphy/devices/flush_denormals.hpp>
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 
 namespace calligraphy {
 namespace {

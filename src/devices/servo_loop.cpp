@@ -5,7 +5,7 @@
 #include <thread>
 #include <utility>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 
 namespace calligraphy {
 namespace {

@@ -3,7 +3,7 @@
 #include <sstream>
 
 #include <calligraphy/devices/simulated_device.hpp>
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 
 #include "axis_motion.hpp"
 

@@ -7,7 +7,7 @@
 #include <thread>
 
 #include <calligraphy/devices/sample_queue.hpp>
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 
 #include "session_tick.hpp"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include <calligraphy/devices/flush_denormals.hpp>
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/practice/trace_hand.hpp>
 
 #include "session_tick.hpp"

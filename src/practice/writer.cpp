@@ -6,7 +6,7 @@
 #include <string>
 
 #include <calligraphy/collision/nearest_point.hpp>
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 
 #include "minimum_jerk.hpp"
 #include "pen_lift.hpp"

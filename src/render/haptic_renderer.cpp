@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/render/stiffness_advice.hpp>
 
 namespace calligraphy {

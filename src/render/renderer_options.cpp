@@ -6,7 +6,7 @@
 #include <sstream>
 #include <string>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/render/passivity_controller.hpp>
 #include <calligraphy/render/stiffness_advice.hpp>
 

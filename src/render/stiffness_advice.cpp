@@ -10,7 +10,7 @@
 #include <sstream>
 #include <vector>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/render/passivity_controller.hpp>
 
 namespace calligraphy {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <calligraphy/collision/stroke_tracker.hpp>
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 
 #include "../allocation_counter.hpp"
 #include "../hard_cases.hpp"

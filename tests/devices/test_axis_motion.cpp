@@ -4,7 +4,7 @@
 
 #include <calligraphy/base/random.hpp>
 
-#include "../../src/devices/axis_motion.hpp"
+#include "devices/axis_motion.hpp"
 #include "../catch.hpp"
 
 using namespace calligraphy;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include <calligraphy/devices/replay_device.hpp>
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 
 #include "../allocation_counter.hpp"
 #include "../catch.hpp"

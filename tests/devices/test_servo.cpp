@@ -11,7 +11,7 @@
 #include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/devices/servo.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 
 #include "../allocation_counter.hpp"
 #include "../catch.hpp"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <calligraphy/devices/servo_loop.hpp>
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 
 #include "../catch.hpp"
 #include "watched_device.hpp"

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include <calligraphy/model/character_list.hpp>
-#include <calligraphy/practice/stroke_queries.hpp>
+#include <calligraphy/experiments/stroke_queries.hpp>
 
 #include "hostile_queries.hpp"
 

@@ -6,7 +6,7 @@
 
 #include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/model/character_list.hpp>
-#include <calligraphy/model/text.hpp>
+#include <calligraphy/base/text.hpp>
 #include <calligraphy/practice/page.hpp>
 #include <calligraphy/practice/session.hpp>
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <calligraphy/devices/replay_device.hpp>
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/practice/recording.hpp>
 
 #include "../catch.hpp"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <calligraphy/devices/device_profiles.hpp>
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/model/character_set.hpp>
 #include <calligraphy/model/set_encoding.hpp>
 #include <calligraphy/practice/score.hpp>

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include <calligraphy/devices/device_profiles.hpp>
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/session.hpp>
 #include <calligraphy/practice/stroke_verdict.hpp>

@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 
 #include "../scripted_pen.hpp"
 

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <string>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/render/stiffness_advice.hpp>
 
 #include "../catch.hpp"

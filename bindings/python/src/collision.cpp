@@ -11,7 +11,7 @@
 #include <calligraphy/collision/nearest_point.hpp>
 #include <calligraphy/collision/placed_character.hpp>
 #include <calligraphy/collision/stroke_tracker.hpp>
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 
 #include "enumeration.hpp"
 #include "interrupt.hpp"

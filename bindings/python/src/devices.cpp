@@ -10,7 +10,7 @@
 #include <calligraphy/devices/replay_device.hpp>
 #include <calligraphy/devices/servo_loop.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 
 #include "at_work.hpp"
 #include "enumeration.hpp"

@@ -10,13 +10,13 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <calligraphy/devices/replay_device.hpp>
-#include <calligraphy/error.hpp>
-#include <calligraphy/model/text.hpp>
-#include <calligraphy/practice/character_import.hpp>
-#include <calligraphy/practice/file.hpp>
-#include <calligraphy/practice/picture.hpp>
-#include <calligraphy/practice/plot.hpp>
-#include <calligraphy/practice/replay_picture.hpp>
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/base/text.hpp>
+#include <calligraphy/importers/character_import.hpp>
+#include <calligraphy/base/file.hpp>
+#include <calligraphy/pictures/picture.hpp>
+#include <calligraphy/pictures/plot.hpp>
+#include <calligraphy/pictures/replay_picture.hpp>
 #include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/session.hpp>
 

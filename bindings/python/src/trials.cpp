@@ -2,10 +2,10 @@
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
-#include <calligraphy/practice/force_field.hpp>
-#include <calligraphy/practice/nearest_point_workload.hpp>
-#include <calligraphy/practice/stability_map.hpp>
-#include <calligraphy/practice/trade.hpp>
+#include <calligraphy/experiments/force_field.hpp>
+#include <calligraphy/experiments/nearest_point_workload.hpp>
+#include <calligraphy/experiments/stability_map.hpp>
+#include <calligraphy/experiments/trade.hpp>
 
 #include "enumeration.hpp"
 #include "interrupt.hpp"
