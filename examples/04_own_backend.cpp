@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <thread>
 
-#include <calligraphy/devices/servo_loop.hpp>
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/devices/servo_loop.hpp>
 
 namespace {
 

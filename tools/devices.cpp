@@ -15,11 +15,11 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/base/file.hpp>
 #include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/devices/sample_queue.hpp>
 #include <calligraphy/devices/servo_loop.hpp>
-#include <calligraphy/base/error.hpp>
-#include <calligraphy/base/file.hpp>
 #ifdef CALLIGRAPHY_WITH_PHANTOM
 #include <calligraphy/devices/phantom/capture.hpp>
 #include <calligraphy/devices/phantom/device_list.hpp>

@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/text.hpp>
+#include <calligraphy/devices/device_profiles.hpp>
 
 #include "commands.hpp"
 

@@ -12,8 +12,8 @@
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/text.hpp>
-#include <calligraphy/practice/pen_trace.hpp>
 #include <calligraphy/pictures/replay_picture.hpp>
+#include <calligraphy/practice/pen_trace.hpp>
 #include <calligraphy/practice/session.hpp>
 
 #include "character_source.hpp"

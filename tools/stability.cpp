@@ -13,8 +13,8 @@
 #include <CLI/CLI.hpp>
 
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/pictures/plot.hpp>
 #include <calligraphy/experiments/stability_map.hpp>
+#include <calligraphy/pictures/plot.hpp>
 
 #include "commands.hpp"
 #include "interrupt.hpp"

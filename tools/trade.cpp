@@ -15,8 +15,8 @@
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/experiments/force_field.hpp>
 #include <calligraphy/experiments/nearest_point_workload.hpp>
-#include <calligraphy/pictures/plot.hpp>
 #include <calligraphy/experiments/trade.hpp>
+#include <calligraphy/pictures/plot.hpp>
 
 #include "character_source.hpp"
 #include "commands.hpp"

@@ -15,9 +15,9 @@
 #include <CLI/CLI.hpp>
 
 #include <calligraphy/base/text.hpp>
-#include <calligraphy/practice/page.hpp>
 #include <calligraphy/pictures/picture.hpp>
 #include <calligraphy/pictures/plot.hpp>
+#include <calligraphy/practice/page.hpp>
 #include <calligraphy/practice/recording.hpp>
 #include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/session.hpp>

@@ -7,8 +7,8 @@
 #include <sstream>
 #include <utility>
 
-#include <calligraphy/devices/flush_denormals.hpp>
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/devices/flush_denormals.hpp>
 
 namespace calligraphy {
 namespace {

@@ -2,8 +2,8 @@
 #include <limits>
 #include <sstream>
 
-#include <calligraphy/devices/simulated_device.hpp>
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/devices/simulated_device.hpp>
 
 #include "axis_motion.hpp"
 

@@ -10,9 +10,9 @@
 #include <sstream>
 #include <utility>
 
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/base/random.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
-#include <calligraphy/base/error.hpp>
 #include <calligraphy/render/passivity_controller.hpp>
 
 #include "base/parallel.hpp"

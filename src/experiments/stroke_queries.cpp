@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <string>
 
-#include <calligraphy/collision/stroke_element.hpp>
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/collision/stroke_element.hpp>
 
 #include "model/random_points.hpp"
 

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <cstddef>
 
-#include <calligraphy/collision/placed_character.hpp>
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/collision/placed_character.hpp>
 #include <calligraphy/experiments/trade.hpp>
 
 namespace calligraphy {

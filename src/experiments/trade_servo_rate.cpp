@@ -2,12 +2,12 @@
 #include <cmath>
 #include <cstddef>
 
-#include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/devices/device_profiles.hpp>
+#include <calligraphy/experiments/trade.hpp>
 #include <calligraphy/practice/page.hpp>
 #include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/session.hpp>
-#include <calligraphy/experiments/trade.hpp>
 #include <calligraphy/render/stiffness_advice.hpp>
 
 namespace calligraphy {

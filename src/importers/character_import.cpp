@@ -16,16 +16,16 @@
 #include <nlohmann/json.hpp>
 
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/model/character_set.hpp>
-#include <calligraphy/importers/doubtful_strokes.hpp>
-#include <calligraphy/importers/stroke_fit.hpp>
 #include <calligraphy/base/text.hpp>
+#include <calligraphy/importers/doubtful_strokes.hpp>
 #include <calligraphy/importers/hanzi_writer.hpp>
 #include <calligraphy/importers/kanjivg.hpp>
+#include <calligraphy/importers/stroke_fit.hpp>
 #include <calligraphy/importers/stroke_letters.hpp>
+#include <calligraphy/model/character_set.hpp>
 
-#include "imported_character.hpp"
 #include "base/parallel.hpp"
+#include "imported_character.hpp"
 #include "stroke_labels.hpp"
 
 namespace calligraphy {

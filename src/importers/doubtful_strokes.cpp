@@ -7,8 +7,8 @@
 #include <numbers>
 #include <span>
 
-#include <calligraphy/model/bezier.hpp>
 #include <calligraphy/importers/stroke_fit.hpp>
+#include <calligraphy/model/bezier.hpp>
 
 #include "polyline.hpp"
 

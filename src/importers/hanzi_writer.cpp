@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/importers/stroke_fit.hpp>
-#include <calligraphy/base/text.hpp>
 #include <calligraphy/base/file.hpp>
+#include <calligraphy/base/text.hpp>
+#include <calligraphy/importers/stroke_fit.hpp>
 
 namespace calligraphy {
 namespace {

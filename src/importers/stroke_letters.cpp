@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/base/text.hpp>
 #include <calligraphy/base/file.hpp>
+#include <calligraphy/base/text.hpp>
 #include <calligraphy/importers/source_files.hpp>
 
 namespace calligraphy {

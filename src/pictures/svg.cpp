@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <sstream>
 
-#include <calligraphy/model/bezier.hpp>
 #include <calligraphy/base/text.hpp>
+#include <calligraphy/model/bezier.hpp>
 
 namespace calligraphy::svg {
 

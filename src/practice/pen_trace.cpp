@@ -12,8 +12,8 @@
 #include <type_traits>
 
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/base/text.hpp>
 #include <calligraphy/base/file.hpp>
+#include <calligraphy/base/text.hpp>
 
 namespace calligraphy {
 namespace {

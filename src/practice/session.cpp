@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include <calligraphy/devices/flush_denormals.hpp>
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/devices/flush_denormals.hpp>
 #include <calligraphy/practice/trace_hand.hpp>
 
 #include "session_tick.hpp"

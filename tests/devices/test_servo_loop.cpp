@@ -6,8 +6,8 @@
 #include <thread>
 #include <vector>
 
-#include <calligraphy/devices/servo_loop.hpp>
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/devices/servo_loop.hpp>
 
 #include "../catch.hpp"
 #include "watched_device.hpp"

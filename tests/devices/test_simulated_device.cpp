@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
-#include <calligraphy/base/error.hpp>
 
 #include "../allocation_counter.hpp"
 #include "../catch.hpp"

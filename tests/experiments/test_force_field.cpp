@@ -7,8 +7,8 @@
 #include <pugixml.hpp>
 
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/model/character_list.hpp>
 #include <calligraphy/experiments/force_field.hpp>
+#include <calligraphy/model/character_list.hpp>
 #include <calligraphy/render/renderer_options.hpp>
 
 #include "../catch.hpp"

@@ -3,9 +3,9 @@
 #include <limits>
 
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/experiments/nearest_point_workload.hpp>
 #include <calligraphy/model/bezier.hpp>
 #include <calligraphy/model/character_list.hpp>
-#include <calligraphy/experiments/nearest_point_workload.hpp>
 
 #include "../catch.hpp"
 #include "hard_cases.hpp"

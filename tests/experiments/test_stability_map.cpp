@@ -8,10 +8,10 @@
 
 #include <pugixml.hpp>
 
-#include <calligraphy/devices/simulated_device.hpp>
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/pictures/plot.hpp>
+#include <calligraphy/devices/simulated_device.hpp>
 #include <calligraphy/experiments/stability_map.hpp>
+#include <calligraphy/pictures/plot.hpp>
 
 #include "../catch.hpp"
 

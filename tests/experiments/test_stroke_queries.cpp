@@ -2,8 +2,8 @@
 #include <cmath>
 #include <limits>
 
-#include <calligraphy/collision/nearest_point.hpp>
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/collision/nearest_point.hpp>
 #include <calligraphy/experiments/stroke_queries.hpp>
 
 #include "../catch.hpp"

@@ -10,8 +10,8 @@
 #include <pugixml.hpp>
 
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/pictures/plot.hpp>
 #include <calligraphy/experiments/trade.hpp>
+#include <calligraphy/pictures/plot.hpp>
 
 #include "../catch.hpp"
 #include "../practice/pages.hpp"

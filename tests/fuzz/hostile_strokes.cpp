@@ -7,8 +7,8 @@
 #include <iterator>
 #include <limits>
 
-#include <calligraphy/model/character_list.hpp>
 #include <calligraphy/experiments/stroke_queries.hpp>
+#include <calligraphy/model/character_list.hpp>
 
 #include "hostile_queries.hpp"
 

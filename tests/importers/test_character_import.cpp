@@ -5,8 +5,8 @@
 #include <vector>
 
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/model/set_encoding.hpp>
 #include <calligraphy/importers/character_import.hpp>
+#include <calligraphy/model/set_encoding.hpp>
 
 #include "../catch.hpp"
 #include "../temporary_directory.hpp"

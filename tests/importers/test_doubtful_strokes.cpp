@@ -2,9 +2,9 @@
 #include <string>
 #include <vector>
 
-#include <calligraphy/model/character_list.hpp>
-#include <calligraphy/importers/doubtful_strokes.hpp>
 #include <calligraphy/base/text.hpp>
+#include <calligraphy/importers/doubtful_strokes.hpp>
+#include <calligraphy/model/character_list.hpp>
 
 #include "../catch.hpp"
 

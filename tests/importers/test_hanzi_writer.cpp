@@ -4,9 +4,9 @@
 #include <vector>
 
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/model/character.hpp>
 #include <calligraphy/base/text.hpp>
 #include <calligraphy/importers/hanzi_writer.hpp>
+#include <calligraphy/model/character.hpp>
 
 #include "../catch.hpp"
 #include "../package_data.hpp"

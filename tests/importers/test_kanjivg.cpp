@@ -5,8 +5,8 @@
 #include <vector>
 
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/model/bezier.hpp>
 #include <calligraphy/importers/kanjivg.hpp>
+#include <calligraphy/model/bezier.hpp>
 
 #include "../catch.hpp"
 #include "importers/path_data.hpp"

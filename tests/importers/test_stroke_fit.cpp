@@ -11,9 +11,9 @@
 #include <vector>
 
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/importers/stroke_fit.hpp>
 #include <calligraphy/model/bezier.hpp>
 #include <calligraphy/model/character.hpp>
-#include <calligraphy/importers/stroke_fit.hpp>
 #include <calligraphy/model/typical_stroke.hpp>
 
 #include "../catch.hpp"

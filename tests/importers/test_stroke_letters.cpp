@@ -3,8 +3,8 @@
 #include <string>
 
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/model/typical_stroke.hpp>
 #include <calligraphy/importers/stroke_letters.hpp>
+#include <calligraphy/model/typical_stroke.hpp>
 
 #include "../catch.hpp"
 #include "../package_data.hpp"

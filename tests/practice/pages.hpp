@@ -4,9 +4,9 @@
 #include <string_view>
 #include <vector>
 
+#include <calligraphy/base/text.hpp>
 #include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/model/character_list.hpp>
-#include <calligraphy/base/text.hpp>
 #include <calligraphy/practice/page.hpp>
 #include <calligraphy/practice/session.hpp>
 

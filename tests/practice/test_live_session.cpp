@@ -8,9 +8,9 @@
 #include <thread>
 #include <vector>
 
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
-#include <calligraphy/base/error.hpp>
 #include <calligraphy/practice/live_session.hpp>
 #include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/writer.hpp>

@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <vector>
 
-#include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/model/character_set.hpp>
 #include <calligraphy/model/set_encoding.hpp>
 #include <calligraphy/practice/score.hpp>

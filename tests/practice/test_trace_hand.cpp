@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/session.hpp>
 #include <calligraphy/practice/stroke_verdict.hpp>

@@ -5,12 +5,12 @@
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/devices/pointer_device.hpp>
 #include <calligraphy/devices/replay_device.hpp>
 #include <calligraphy/devices/servo_loop.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
-#include <calligraphy/base/error.hpp>
 
 #include "at_work.hpp"
 #include "enumeration.hpp"

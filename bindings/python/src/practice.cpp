@@ -9,11 +9,11 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include <calligraphy/devices/replay_device.hpp>
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/base/text.hpp>
-#include <calligraphy/importers/character_import.hpp>
 #include <calligraphy/base/file.hpp>
+#include <calligraphy/base/text.hpp>
+#include <calligraphy/devices/replay_device.hpp>
+#include <calligraphy/importers/character_import.hpp>
 #include <calligraphy/pictures/picture.hpp>
 #include <calligraphy/pictures/plot.hpp>
 #include <calligraphy/pictures/replay_picture.hpp>

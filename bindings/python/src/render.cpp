@@ -1,8 +1,8 @@
 // The render room: what the hand feels, tick by tick or over a whole trace.
 #include <algorithm>
 
-#include <calligraphy/devices/flush_denormals.hpp>
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/devices/flush_denormals.hpp>
 #include <calligraphy/render/haptic_renderer.hpp>
 #include <calligraphy/render/passivity_controller.hpp>
 #include <calligraphy/render/stiffness_advice.hpp>

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include <calligraphy/importers/source_files.hpp>
 #include <calligraphy/model/character_list.hpp>
 #include <calligraphy/model/typical_stroke.hpp>
-#include <calligraphy/importers/source_files.hpp>
 
 namespace calligraphy {
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
-#include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/devices/device_profiles.hpp>
 
 #include "errors.hpp"
 #include "scheduler_clock.hpp"

@@ -11,8 +11,8 @@
 
 #include <calligraphy/base/error.hpp>
 
-#include "devices/phantom/wire/hexadecimal.hpp"
 #include "devices/phantom/link/make_link.hpp"
+#include "devices/phantom/wire/hexadecimal.hpp"
 
 namespace calligraphy {
 namespace {

@@ -9,8 +9,8 @@
 #include <calligraphy/devices/phantom/kinematics.hpp>
 #include <calligraphy/devices/phantom/phantom_device.hpp>
 
-#include "motor_temperature.hpp"
 #include "devices/phantom/wire/packet_codec.hpp"
+#include "motor_temperature.hpp"
 
 namespace calligraphy::phantom {
 

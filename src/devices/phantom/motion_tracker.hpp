@@ -6,8 +6,8 @@
 #include <calligraphy/devices/phantom/kinematics.hpp>
 #include <calligraphy/devices/phantom/wire_profile.hpp>
 
-#include "encoder_watch.hpp"
 #include "devices/phantom/wire/packet_codec.hpp"
+#include "encoder_watch.hpp"
 #include "sequence_watch.hpp"
 
 namespace calligraphy::phantom {

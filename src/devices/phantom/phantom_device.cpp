@@ -8,18 +8,18 @@
 #include <thread>
 #include <utility>
 
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/devices/force_guard.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
-#include <calligraphy/base/error.hpp>
 
-#include "force_output.hpp"
-#include "latest_value.hpp"
 #include "devices/phantom/link/link.hpp"
-#include "motion_tracker.hpp"
-#include "motor_temperature.hpp"
 #include "devices/phantom/wire/packet_codec.hpp"
 #include "devices/phantom/wire/report_frames.hpp"
+#include "force_output.hpp"
+#include "latest_value.hpp"
+#include "motion_tracker.hpp"
+#include "motor_temperature.hpp"
 
 namespace calligraphy {
 namespace {

@@ -9,11 +9,11 @@
 #include <thread>
 #include <vector>
 
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/device_profiles.hpp>
+#include <calligraphy/devices/openhaptics/openhaptics_device.hpp>
 #include <calligraphy/devices/servo_loop.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
-#include <calligraphy/base/error.hpp>
-#include <calligraphy/devices/openhaptics/openhaptics_device.hpp>
 
 #include "../../allocation_counter.hpp"
 #include "../../catch.hpp"

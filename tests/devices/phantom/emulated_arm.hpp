@@ -14,9 +14,9 @@
 
 #include <Eigen/LU>
 
-#include <calligraphy/devices/simulated_device.hpp>
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/phantom/kinematics.hpp>
+#include <calligraphy/devices/simulated_device.hpp>
 
 #include "devices/phantom/link/link.hpp"
 #include "devices/phantom/wire/packet_codec.hpp"

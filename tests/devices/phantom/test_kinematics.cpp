@@ -5,11 +5,11 @@
 
 #include <Eigen/LU>
 
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/base/random.hpp>
 #include <calligraphy/devices/device_profiles.hpp>
-#include <calligraphy/devices/simulated_device.hpp>
-#include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/phantom/kinematics.hpp>
+#include <calligraphy/devices/simulated_device.hpp>
 
 #include "../../catch.hpp"
 

@@ -4,14 +4,14 @@
 #include <string>
 #include <vector>
 
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/base/random.hpp>
 #include <calligraphy/devices/servo_loop.hpp>
-#include <calligraphy/base/error.hpp>
 
 #include "../../allocation_counter.hpp"
 #include "../../catch.hpp"
-#include "held_phantom.hpp"
 #include "devices/phantom/motor_temperature.hpp"
+#include "held_phantom.hpp"
 
 using namespace calligraphy_test;
 using calligraphy::Random;

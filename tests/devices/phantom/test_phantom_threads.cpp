@@ -6,8 +6,8 @@
 #include <calligraphy/devices/device_profiles.hpp>
 
 #include "../../catch.hpp"
-#include "held_phantom.hpp"
 #include "devices/phantom/latest_value.hpp"
+#include "held_phantom.hpp"
 
 using namespace calligraphy_test;
 

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <array>
 
-#include <calligraphy/devices/servo_thread.hpp>
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/devices/servo_thread.hpp>
 
 #include "report_descriptor.hpp"
 #include "sysfs.hpp"

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <memory>
 
-#include <calligraphy/devices/servo_thread.hpp>
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/devices/servo_thread.hpp>
 
 namespace calligraphy::phantom {
 namespace {

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <vector>
 
+#include <calligraphy/devices/openhaptics/openhaptics_device.hpp>
 #include <calligraphy/devices/servo.hpp>
 #include <calligraphy/devices/servo_clock.hpp>
 #include <calligraphy/model/character_list.hpp>
-#include <calligraphy/devices/openhaptics/openhaptics_device.hpp>
 #include <calligraphy/practice/page.hpp>
 #include <calligraphy/practice/writer.hpp>
 #include <calligraphy/render/haptic_renderer.hpp>

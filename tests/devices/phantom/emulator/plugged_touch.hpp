@@ -8,8 +8,8 @@
 #include <hidapi.h>
 
 #include "catch.hpp"
-#include "emulated_device.hpp"
 #include "devices/phantom/link/make_link.hpp"
+#include "emulated_device.hpp"
 #include "recording_listener.hpp"
 
 namespace calligraphy_test {

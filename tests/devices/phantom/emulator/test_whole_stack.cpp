@@ -6,8 +6,8 @@
 #include <functional>
 #include <thread>
 
-#include <calligraphy/devices/servo.hpp>
 #include <calligraphy/devices/phantom/phantom_device.hpp>
+#include <calligraphy/devices/servo.hpp>
 
 #include "catch.hpp"
 #include "emulated_phantom.hpp"

@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "packet_codec.hpp"
 #include "devices/phantom/wire/serial_framing.hpp"
+#include "packet_codec.hpp"
 
 namespace calligraphy_test {
 
