@@ -11,7 +11,6 @@
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/devices/force_guard.hpp>
-#include <calligraphy/devices/simulated_device.hpp>
 
 #include "devices/phantom/link/link.hpp"
 #include "devices/phantom/wire/packet_codec.hpp"
