@@ -36,9 +36,9 @@ struct WrittenPage {
     mapping = upright_page(page.width, page.height);
     SessionOptions session;
     session.device = device_profile("desktop");
-    session.renderer = RendererOptions::for_device(session.device.capabilities);
+    session.renderer = RendererOptions::for_device(session.device);
     session.skill = WriterSkill::novice();
-    capabilities = session.device.capabilities;
+    capabilities = session.device;
     states = device_states(write_page(page, session), mapping);
   }
 };

@@ -6,7 +6,7 @@
 #include <limits>
 #include <sstream>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 
 #include "approximate_nearest_point.hpp"
 #include "certified_nearest_point.hpp"

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <string>
 
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/collision/nearest_point.hpp>
-#include <calligraphy/error.hpp>
 
 #include "minimum_jerk.hpp"
 #include "pen_lift.hpp"

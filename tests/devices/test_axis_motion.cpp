@@ -4,8 +4,8 @@
 
 #include <calligraphy/base/random.hpp>
 
-#include "../../src/devices/axis_motion.hpp"
 #include "../catch.hpp"
+#include "devices/axis_motion.hpp"
 
 using namespace calligraphy;
 

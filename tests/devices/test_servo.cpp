@@ -7,10 +7,11 @@
 #include <thread>
 #include <vector>
 
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/base/random.hpp>
+#include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/devices/servo.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
-#include <calligraphy/error.hpp>
 
 #include "../allocation_counter.hpp"
 #include "../catch.hpp"

@@ -7,8 +7,8 @@
 #include <iterator>
 #include <limits>
 
+#include <calligraphy/experiments/stroke_queries.hpp>
 #include <calligraphy/model/character_list.hpp>
-#include <calligraphy/practice/stroke_queries.hpp>
 
 #include "hostile_queries.hpp"
 

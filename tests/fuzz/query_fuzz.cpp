@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 
 #include <calligraphy/collision/nearest_point.hpp>
+#include <calligraphy/experiments/nearest_point_workload.hpp>
 #include <calligraphy/model/character_list.hpp>
-#include <calligraphy/practice/nearest_point_workload.hpp>
 
 #include "../last_interval.hpp"
 #include "hostile_curves.hpp"

@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/model/character_list.hpp>
 
 using namespace calligraphy;
