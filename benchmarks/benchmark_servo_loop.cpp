@@ -17,9 +17,9 @@ Eigen::Vector3d wall(const calligraphy::DeviceState& state) {
   return {0.0, 0.0, penetration > 0.0 ? 400.0 * penetration : 0.0};
 }
 
-void print(const char* name, const calligraphy::DurationFigures& figures) {
-  std::printf("%-8s %9.1f %9.1f %9.1f %9.1f\n", name, 1e6 * figures.p50, 1e6 * figures.p99, 1e6 * figures.p99_9,
-              1e6 * figures.worst);
+void print(const char* name, const calligraphy::DurationSummary& summary) {
+  std::printf("%-8s %9.1f %9.1f %9.1f %9.1f\n", name, 1e6 * summary.p50, 1e6 * summary.p99, 1e6 * summary.p99_9,
+              1e6 * summary.worst);
 }
 
 }  // namespace
@@ -59,6 +59,6 @@ int main(int argc, char** argv) {
   print("work", done.work);
   std::printf("%llu ticks, %llu missed deadlines, %llu times taken over by the watchdog\n",
               static_cast<unsigned long long>(done.ticks), static_cast<unsigned long long>(done.missed_deadlines),
-              static_cast<unsigned long long>(done.taken_over));
+              static_cast<unsigned long long>(done.watchdog_takeovers));
   return 0;
 }

@@ -24,7 +24,7 @@ double percentile(std::vector<double>& values, double share) {
 
 /// Four characters as a guided novice wrote them on a Desktop.
 struct WrittenPage {
-  Page page;
+  PracticePage page;
   MotionMapping mapping;
   Capabilities capabilities;
   std::vector<DeviceState> states;
@@ -230,12 +230,12 @@ void stage_constraint_share(benchmark::State& state, ConstraintSpaceRule rule) {
   const CurveQueries& queries = curve_queries();
   ConstraintSpace space;
   space.rule = rule;
-  std::vector<NearestPoint> feet;
-  for (const Point& tip : queries.tips) feet.push_back(nearest_point(queries.element, tip));
+  std::vector<NearestPoint> closest_points;
+  for (const Point& tip : queries.tips) closest_points.push_back(nearest_point(queries.element, tip));
   std::size_t i = 0;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(guidance_share(space, queries.element, queries.tips[i], feet[i]));
-    i = (i + 1) % feet.size();
+    benchmark::DoNotOptimize(guidance_weight(space, queries.element, queries.tips[i], closest_points[i]));
+    i = (i + 1) % closest_points.size();
   }
 }
 BENCHMARK_CAPTURE(stage_constraint_share, tube, ConstraintSpaceRule::tube);
@@ -267,7 +267,7 @@ void bytes_per_object(benchmark::State& state) {
   state.counters["CurveElement"] = sizeof(CurveElement);
   state.counters["HapticTick"] = sizeof(HapticTick);
   state.counters["DeviceState"] = sizeof(DeviceState);
-  state.counters["Sample"] = sizeof(Sample);
+  state.counters["RecordedSample"] = sizeof(RecordedSample);
 }
 BENCHMARK(bytes_per_object)->Iterations(1);
 

@@ -19,7 +19,7 @@ Eigen::Vector3d wall(const calligraphy::DeviceState& state) {
 
 int main() {
   using namespace calligraphy;
-  const Hand firm{0.15, 5.0, 500.0};
+  const GripImpedance firm{0.15, 5.0, 500.0};
   SimulatedDevice device(device_profile("desktop"), firm, {0.0, 0.0, 0.01});
   device.set_intention({{0.0, 0.0, -0.005}, Eigen::Vector3d::Zero()});  // the hand means to be 5 mm inside
 

@@ -8,13 +8,13 @@
 int main() {
   using namespace calligraphy;
   const std::vector<Character> text = {*built_in_characters().find(U'永')};
-  const Page page = lay_out(text).at(0);
+  const PracticePage page = lay_out(text).at(0);
   const MotionMapping mapping = upright_page(page.width, page.height);
 
   const WriterSkill skill = WriterSkill::novice();
   SimulatedWriter writer(page, skill, 1);
   const Eigen::Vector3d above_the_page(page.width / 2, page.height / 2, 0.02);
-  SimulatedDevice device(device_profile("desktop"), skill.hand, mapping.to_device(above_the_page));
+  SimulatedDevice device(device_profile("desktop"), skill.grip, mapping.to_device(above_the_page));
   HapticRenderer renderer(page.characters, mapping, device.capabilities(),
                           RendererOptions::for_device(device.capabilities()));
 
@@ -23,10 +23,10 @@ int main() {
   while (!writer.done() && device.time() < 120.0) {
     const HapticTick& tick = renderer.update(device.read());
     device.write(tick.force);
-    if (has(tick.events, TickEvent::stroke_finished)) std::printf("%6.2f s: a stroke is finished\n", tick.time);
+    if (has_event(tick.events, TickEvent::stroke_finished)) std::printf("%6.2f s: a stroke is finished\n", tick.time);
     largest = std::max(largest, tick.force.norm());
 
-    const Sight sight{tick.pen_tip, tick.character, tick.stroke, tick.state == InteractionState::writing};
+    const VisualFeedback sight{tick.pen_tip, tick.character, tick.stroke, tick.state == InteractionState::writing};
     const Intention intention = writer.update(sight, period);
     device.set_intention({mapping.to_device(intention.position), mapping.rotation.transpose() * intention.velocity});
     device.advance(period);

@@ -10,7 +10,7 @@
 
 #include <calligraphy/collision/nearest_point.hpp>
 
-#include "least_distance.hpp"
+#include "min_distance.hpp"
 
 namespace calligraphy_test {
 
@@ -158,7 +158,7 @@ class NearestPointOracle {
   template <typename Real, int n>
   oracle::Bounds search_degree(const Point& query, long double hint, const ParameterRange& range,
                                long double enough) const {
-    typename oracle::LeastDistance<Real, n>::Polygon polygon;
+    typename oracle::MinDistance<Real, n>::Polygon polygon;
     for (std::size_t i = 0; i <= n; ++i) polygon[i] = relative<Real>(i, query);
     const long double width = static_cast<long double>(range.end) - range.begin;
     if (!(width > 0.0L)) return {distance_floor(query, range.begin), distance(query, range.begin), 1};
@@ -168,9 +168,9 @@ class NearestPointOracle {
     }
     constexpr long double tight = 1e-14L;
     hint = std::clamp(hint, static_cast<long double>(range.begin), static_cast<long double>(range.end));
-    return oracle::LeastDistance<Real, n>().run(polygon, static_cast<Real>(distance(query, hint)),
-                                                static_cast<Real>((hint - range.begin) / width),
-                                                static_cast<Real>(tight * size_), static_cast<Real>(enough));
+    return oracle::MinDistance<Real, n>().run(polygon, static_cast<Real>(distance(query, hint)),
+                                              static_cast<Real>((hint - range.begin) / width),
+                                              static_cast<Real>(tight * size_), static_cast<Real>(enough));
   }
 
   long double distance_floor(const Point& query, long double t) const {

@@ -49,8 +49,8 @@ class ScriptedPen {
     const Eigen::Vector3d last = force_;
     const HapticTick& tick = renderer_.update(state);
     force_ = tick.force;
-    largest_step = std::max(largest_step, (force_ - last).norm());
-    largest_force = std::max(largest_force, force_.norm());
+    max_step = std::max(max_step, (force_ - last).norm());
+    max_force = std::max(max_force, force_.norm());
     finite = finite && force_.allFinite();
     if (tick.status == calligraphy::TickStatus::ok) position_ = renderer_.mapping().to_page(state.position);
     on_tick(tick);
@@ -79,8 +79,8 @@ class ScriptedPen {
     }
   }
 
-  double largest_step = 0.0;   ///< of the force, from one tick to the next [N]
-  double largest_force = 0.0;  ///< [N]
+  double max_step = 0.0;   ///< of the force, from one tick to the next [N]
+  double max_force = 0.0;  ///< [N]
   bool finite = true;
 
  private:

@@ -47,8 +47,8 @@ CharacterSet open_characters(const std::vector<std::string>& paths, const std::u
   for (const char32_t code : text) {
     if (set.find(code, order)) continue;
     const bool has_others = set.find(code).has_value();
-    throw Error("character " + name_of(code) + (has_others ? " has no order \"" + order + "\" in " : " is not in ") +
-                names_of(paths));
+    throw Error("character " + character_label(code) +
+                (has_others ? " has no order \"" + order + "\" in " : " is not in ") + names_of(paths));
   }
   return set;
 }

@@ -18,7 +18,7 @@ class UsageError : public Error {
 void add_write(CLI::App& program);
 void add_strokes(CLI::App& program);
 void add_info(CLI::App& program);
-void add_trade(CLI::App& program);
+void add_tradeoff(CLI::App& program);
 void add_stability(CLI::App& program);
 void add_import(CLI::App& program);
 void add_validate(CLI::App& program);

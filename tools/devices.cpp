@@ -21,8 +21,8 @@
 #include <calligraphy/devices/sample_queue.hpp>
 #include <calligraphy/devices/servo_loop.hpp>
 #ifdef CALLIGRAPHY_WITH_PHANTOM
-#include <calligraphy/devices/phantom/capture.hpp>
 #include <calligraphy/devices/phantom/device_list.hpp>
+#include <calligraphy/devices/phantom/packet_capture.hpp>
 #include <calligraphy/devices/phantom/phantom_device.hpp>
 #include <calligraphy/devices/phantom/wire_profile.hpp>
 #endif
@@ -58,13 +58,13 @@ Section phantoms() {
                   Json::array()};
   for (const PluggedDevice& device : devices) {
     section.text += fmt::format("phantom:{}  {}  {}, {} on bus {} port {}\n  {}: {}\n", device.serial, ids(device),
-                                device.model, link_name(device.link), device.bus, device.port,
+                                device.model, to_string(device.link), device.bus, device.port,
                                 fmt::join(device.nodes, ", "), device.may_open ? "may be opened" : "may NOT be opened");
     if (!device.advice.empty()) section.text += "  " + device.advice + "\n";
     section.json.push_back({{"device", "phantom" + (device.serial.empty() ? "" : ":" + device.serial)},
                             {"ids", ids(device)},
                             {"model", device.model},
-                            {"link", link_name(device.link)},
+                            {"link", to_string(device.link)},
                             {"bus", device.bus},
                             {"port", device.port},
                             {"nodes", device.nodes},
@@ -121,7 +121,7 @@ PluggedDevice chosen_phantom(const std::string& serial) {
   std::string there;
   for (const PluggedDevice& device : devices) {
     if (!serial.empty() && device.serial == serial) return device;
-    there += (there.empty() ? "" : "; ") + describe(device);
+    there += (there.empty() ? "" : "; ") + describe_device(device);
   }
   const std::string wanted = serial.empty() ? "" : " with serial number " + serial;
   if (devices.empty()) throw DeviceError("no Phantom" + wanted + " is plugged in");
@@ -136,7 +136,7 @@ void probe(const ProbeOptions& options) {
   check_can_write(options.out);
   const Interrupt interrupt;
   std::ostringstream text;
-  text << "# " << describe(device) << "\n" << dump_descriptors(device);
+  text << "# " << describe_device(device) << "\n" << dump_descriptors(device);
   std::string failure;
   std::size_t transfers = 0;
   try {
@@ -144,16 +144,16 @@ void probe(const ProbeOptions& options) {
     limits.seconds = options.seconds;
     limits.transfers = 1000000;
     limits.stop = [&interrupt] { return interrupt.asked(); };
-    const Capture captured = capture(device, limits);
+    const PacketCapture captured = capture_packets(device, limits);
     transfers = captured.transfers.size();
-    write_capture(text, captured);
+    write_packet_capture(text, captured);
   } catch (const DeviceError& error) {
     failure = error.what();
     text << "# " << failure << "\n";
   }
   write_file(options.out, text.str());
   if (!failure.empty()) throw DeviceError(failure + "; the descriptors alone are in " + options.out);
-  fmt::print("{}: descriptors and {} transfers in {}\n", describe(device), transfers, options.out);
+  fmt::print("{}: descriptors and {} transfers in {}\n", describe_device(device), transfers, options.out);
 }
 #else
 void probe(const ProbeOptions&) {
@@ -250,9 +250,9 @@ void watch(const WatchOptions& options) {
     const ServoStatus status = loop.status();
     const Eigen::Vector3d p = 1e3 * newest.state.position;
     fmt::print("x {:8.2f}  y {:8.2f}  z {:8.2f} mm{}  buttons {:04b}  {}{}{}  {} stale of {} ticks\n", p.x(), p.y(),
-               p.z(), seen.has_joints() ? angles(newest.joints) : "", newest.state.buttons, status_name(status.device),
+               p.z(), seen.has_joints() ? angles(newest.joints) : "", newest.state.buttons, to_string(status.device),
                status.fault == DeviceFault::none ? "" : ": ",
-               status.fault == DeviceFault::none ? "" : fault_name(status.fault), loop.statistics().stale_samples,
+               status.fault == DeviceFault::none ? "" : to_string(status.fault), loop.statistics().stale_samples,
                loop.statistics().ticks);
     std::fflush(stdout);
   }

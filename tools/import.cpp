@@ -54,7 +54,7 @@ std::string encoded(const CharacterList& list, const Options& options) {
   return text.str();
 }
 
-Import imported(const Options& options, const Interrupt& interrupt) {
+ImportResult imported(const Options& options, const Interrupt& interrupt) {
   ImportOptions asked;
   asked.letters = options.letters;
   asked.alternates = options.alternates;
@@ -88,7 +88,7 @@ void run(const Options& options) {
   if (options.format == "text" && options.precision) throw UsageError("--precision: the text format is always exact");
   check_can_write(options.out);
   const Interrupt interrupt;
-  const Import import = imported(options, interrupt);
+  const ImportResult import = imported(options, interrupt);
   const std::string bytes = encoded(import.list, options);
   interrupt.check();
   write_file(options.out, bytes);

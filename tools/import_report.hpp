@@ -14,14 +14,14 @@ struct ImportOutput {
   std::size_t bytes = 0;
 };
 
-std::string tables(const Import& import, const ImportOutput& output);
+std::string tables(const ImportResult& import, const ImportOutput& output);
 
-std::string json(const Import& import, const ImportOutput& output);
+std::string json(const ImportResult& import, const ImportOutput& output);
 
-/// "obeyed", "overruled", "unknown".
-const char* name_of(LabelFate fate) noexcept;
+/// "accepted", "overridden", "unknown".
+const char* to_string(LabelResolution resolution) noexcept;
 
 /// "永 (U+6C38)", with the order's name where it is not the standard one.
-std::string name_of(char32_t code, const std::string& order);
+std::string character_label(char32_t code, const std::string& order);
 
 }  // namespace calligraphy::tools

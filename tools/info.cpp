@@ -100,7 +100,7 @@ void print(const Provenance& provenance) {
 
 void print(const Character& character) {
   const SequenceData& sequence = character.sequence;
-  fmt::print("{}{}\n", name_of(character.code), character.order.empty() ? "" : ", order " + character.order);
+  fmt::print("{}{}\n", character_label(character.code), character.order.empty() ? "" : ", order " + character.order);
   fmt::print("  {:<28} {}\n", "Number of typical strokes", sequence.stroke_ids.size());
   fmt::print("  {:<28} {}\n", "ID array of typical strokes", fmt::join(sequence.stroke_ids, ", "));
   fmt::print("  {:<28} {}\n", "Number of control points", character.structure.control_points.size());
@@ -181,7 +181,7 @@ void run_paper_example(const Options& options) {
   if (options.second) throw UsageError("--paper-example: comes with the program, not with FILE");
   const Character& example = paper_example();
   if (options.first && characters_of(*options.first) != std::u32string(1, example.code)) {
-    throw UsageError(fmt::format("--paper-example: is {}, not \"{}\"", name_of(example.code), *options.first));
+    throw UsageError(fmt::format("--paper-example: is {}, not \"{}\"", character_label(example.code), *options.first));
   }
   Provenance provenance = built_in_characters().provenance;
   provenance.source += ", after Wang 2006, Table 3";

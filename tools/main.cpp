@@ -41,7 +41,7 @@ int run(int argc, char** argv) {
   calligraphy::tools::add_write(program);
   calligraphy::tools::add_strokes(program);
   calligraphy::tools::add_info(program);
-  calligraphy::tools::add_trade(program);
+  calligraphy::tools::add_tradeoff(program);
   calligraphy::tools::add_stability(program);
   calligraphy::tools::add_import(program);
   calligraphy::tools::add_validate(program);

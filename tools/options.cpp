@@ -58,7 +58,7 @@ std::u32string characters_of(const std::string& text) {
   return codes;
 }
 
-std::string name_of(char32_t code) {
+std::string character_label(char32_t code) {
   const std::string number = fmt::format("U+{:04X}", static_cast<unsigned>(code));
   const bool is_control = code < 0x20 || (code >= 0x7F && code < 0xA0);
   return is_control ? number : fmt::format("{} ({})", encode_utf8(code), number);

@@ -19,7 +19,7 @@ CLI::Validator integer(unsigned long long least, unsigned long long most);
 std::u32string characters_of(const std::string& text);
 
 /// "北 (U+5317)", and the code alone where the character cannot be printed.
-std::string name_of(char32_t code);
+std::string character_label(char32_t code);
 
 /// The character, or "U+002F" where it is no good in a file name.
 std::string name_in_file(char32_t code);

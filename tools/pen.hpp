@@ -20,7 +20,7 @@ struct PenOptions {
   DeviceChoice device;
   std::string like = "desktop";  ///< profile whose limits and workspace a recorded trace gets
   double peak_force = std::numeric_limits<double>::infinity();  ///< at most this, whatever the device can do [N]
-  double longest = 600.0;                                       ///< after which a person's page is given up [s]
+  double timeout = 600.0;                                       ///< after which a person's page is given up [s]
 };
 
 class Pen {
@@ -37,7 +37,7 @@ class Pen {
 
   /// Of the session the mode, the renderer and the progress count for everyone. @throws FileError, FormatError,
   /// DeviceError
-  Recording write(const Page& page, const SessionOptions& session);
+  Recording write(const PracticePage& page, const SessionOptions& session);
 
   /// Ctrl-C was pressed since the device was opened. It ends a simulated writer's or a trace's write() with an Error, a
   /// person's with what they wrote until then.
@@ -46,8 +46,8 @@ class Pen {
   const std::vector<ServoStatistics>& statistics() const noexcept { return statistics_; }
 
  private:
-  Recording replay(const Page& page, const SessionOptions& session) const;
-  Recording live(const Page& page, const SessionOptions& session);
+  Recording replay(const PracticePage& page, const SessionOptions& session) const;
+  Recording live(const PracticePage& page, const SessionOptions& session);
 
   PenOptions options_;
   Capabilities capabilities_;

@@ -58,7 +58,7 @@ std::vector<Chosen> chosen_traces(const Options& options) {
                        [code](const Chosen& each) { return each.trace.character == code; });
   };
   for (const char32_t code : only) {
-    if (!is_there(code)) throw Error("character " + name_of(code) + " is not in " + options.traces);
+    if (!is_there(code)) throw Error("character " + character_label(code) + " is not in " + options.traces);
   }
   if (chosen.empty()) throw Error(options.traces + " has no trace");
   return chosen;
@@ -118,7 +118,7 @@ class Run {
     PageLayout layout;
     layout.width = session_.device.workspace.x();
     layout.height = session_.device.workspace.y();
-    const Page page = lay_out({&character, 1}, layout).front();
+    const PracticePage page = lay_out({&character, 1}, layout).front();
     const HapticRenderer renderer(page.characters, upright_page(page.width, page.height), session_.device,
                                   session_.renderer);
     report_.max_force_step = renderer.max_force_step();
@@ -128,17 +128,17 @@ class Run {
     Replayed result;
     result.position = chosen.position;
     result.set = chosen.trace.set;
-    result.verdict = judge_strokes(character, paths);
-    result.guided = score(page, recording).front();
+    result.match = match_strokes(character, paths);
+    result.guided = score_page(page, recording).front();
     result.faults =
         static_cast<int>(std::count_if(recording.samples.begin(), recording.samples.end(),
-                                       [](const Sample& sample) { return sample.status != TickStatus::ok; }));
+                                       [](const RecordedSample& sample) { return sample.status != TickStatus::ok; }));
     if (out) {
       const std::string title =
           fmt::format("{}, {}, {}", encode_utf8(character.code), chosen.trace.set, report_.device);
       const std::vector<PenPath> guided = pen_paths(recording, page.characters.front().placement);
       out->write(fmt::format("{:02}-{}.svg", chosen.position, name_in_file(character.code)),
-                 replay_picture(character, paths, result.verdict, guided, title));
+                 replay_picture(character, paths, result.match, guided, title));
     }
     report_.traces.push_back(std::move(result));
   }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <calligraphy/practice/score.hpp>
-#include <calligraphy/practice/stroke_verdict.hpp>
+#include <calligraphy/practice/stroke_matching.hpp>
 
 namespace calligraphy::tools {
 
@@ -13,7 +13,7 @@ namespace calligraphy::tools {
 struct Replayed {
   int position = 0;  ///< in the file, from 1
   std::string set;
-  StrokeVerdict verdict;  ///< on what the person wrote
+  MatchResult match;      ///< on what the person wrote
   CharacterScore guided;  ///< of the device under guidance
   int faults = 0;         ///< ticks whose sample the renderer refused
 };

@@ -36,11 +36,11 @@ struct Options {
   bool json = false;
 };
 
-Hand grip_of(const std::string& word) {
-  constexpr std::array<std::pair<std::string_view, Hand>, 3> named = {
+GripImpedance grip_of(const std::string& word) {
+  constexpr std::array<std::pair<std::string_view, GripImpedance>, 3> named = {
       {{"soft", {0.05, 1.0, 100.0}}, {"normal", {0.1, 3.0, 300.0}}, {"firm", {0.15, 5.0, 500.0}}}};
-  for (const auto& [name, hand] : named) {
-    if (word == name) return hand;
+  for (const auto& [name, grip] : named) {
+    if (word == name) return grip;
   }
   std::array<double, 3> values{};
   const char* at = word.data();
@@ -115,7 +115,7 @@ void map(const Options& options) {
   std::fflush(stdout);  // what was found is not lost when drawing fails
   if (!out) return;
   out->write("stability.json", json(map));
-  const bool plots = can_plot();
+  const bool plots = gnuplot_available();
   interrupt.check();  // Ctrl-C is for gnuplot too, which then cannot be run
   if (plots) {
     out->write("stability.svg", stability_map_plot(map));

@@ -30,12 +30,12 @@ double mean(const std::vector<Result>& results, std::size_t begin, std::size_t e
 std::vector<std::pair<double, double>> pairs(const std::vector<Result>& results, const Quantity& quantity) {
   std::map<std::pair<int, int>, double> vision;
   for (const Result& result : results) {
-    if (result.mode == Mode::vision) vision[{result.position, result.repetition}] = quantity(result);
+    if (result.mode == FeedbackMode::vision) vision[{result.position, result.repetition}] = quantity(result);
   }
   std::vector<std::pair<double, double>> both;
   for (const Result& result : results) {
     const auto found = vision.find({result.position, result.repetition});
-    if (result.mode == Mode::force && found != vision.end()) both.emplace_back(found->second, quantity(result));
+    if (result.mode == FeedbackMode::force && found != vision.end()) both.emplace_back(found->second, quantity(result));
   }
   return both;
 }
@@ -60,7 +60,7 @@ std::string reduction(const char* what, const char* unit, const std::vector<std:
 
 }  // namespace
 
-const char* mode_name(Mode mode) noexcept { return mode == Mode::vision ? "vision" : "force"; }
+const char* to_string(FeedbackMode mode) noexcept { return mode == FeedbackMode::vision ? "vision" : "force"; }
 
 double percentile(std::vector<float>& values, double share) {
   if (values.empty()) return 0.0;
@@ -85,7 +85,7 @@ std::string table(const std::vector<Result>& results) {
     const double written = of([](const Result& r) { return r.score.strokes_completed; });
     text += fmt::format(
         "{:<10}{:<8}{:>8.2f}{:>10.3f}{:>10.3f}{:>7.{}f}{:>11.{}f}{:>9}{:>10.2f}{:>10.3f}{:>10.0f}{:>12.0f}\n",
-        encode_utf8(first.score.character), mode_name(first.mode), of([](const Result& r) { return r.score.time; }),
+        encode_utf8(first.score.character), to_string(first.mode), of([](const Result& r) { return r.score.time; }),
         of([](const Result& r) { return r.score.rms_error * millimetres; }),
         of([](const Result& r) { return r.score.max_error * millimetres; }),
         of([](const Result& r) { return r.score.order_mistakes(); }), decimals,
@@ -107,15 +107,15 @@ std::string json(const std::vector<Result>& results) {
       return score.strokes_completed > 0 ? Json(metres * millimetres) : Json();
     };
     Json mistakes = Json::array();
-    for (const Mistake& mistake : score.mistakes) {
-      mistakes.push_back({{"kind", mistake.kind == MistakeKind::order ? "order" : "direction"},
+    for (const WritingMistake& mistake : score.mistakes) {
+      mistakes.push_back({{"kind", mistake.kind == WritingMistakeKind::order ? "order" : "direction"},
                           {"stroke", mistake.stroke + 1},
                           {"time_s", mistake.time},
                           {"reason", mistake.reason}});
     }
     list.push_back({{"character", encode_utf8(score.character)},
                     {"position", result.position},
-                    {"mode", mode_name(result.mode)},
+                    {"mode", to_string(result.mode)},
                     {"repetition", result.repetition},
                     {"seed", result.seed},
                     {"time_s", score.time},

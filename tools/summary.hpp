@@ -13,7 +13,7 @@ namespace calligraphy::tools {
 /// One character, written once.
 struct Result {
   int position = 0;  ///< in the text, from 1
-  Mode mode = Mode::force;
+  FeedbackMode mode = FeedbackMode::force;
   int repetition = 1;  ///< from 1
   std::uint64_t seed = 0;
   CharacterScore score;
@@ -22,7 +22,7 @@ struct Result {
 };
 
 /// "vision" or "force".
-const char* mode_name(Mode mode) noexcept;
+const char* to_string(FeedbackMode mode) noexcept;
 
 /// The smallest value that at least `share` of the values do not exceed; 0 of none. Reorders `values`.
 double percentile(std::vector<float>& values, double share);

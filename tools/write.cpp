@@ -43,7 +43,7 @@ struct Options {
   std::optional<std::string> writer;
   std::optional<std::string> like;
   std::optional<double> peak_force;
-  std::optional<double> longest;
+  std::optional<double> timeout;
   std::string wire_profile;
   std::string model;
   std::optional<std::string> mode;
@@ -59,7 +59,7 @@ struct Options {
 
 /// A page and where its characters stand in the text.
 struct Sheet {
-  Page page;
+  PracticePage page;
   int first_position;  ///< from 1
 };
 
@@ -96,14 +96,14 @@ PenOptions chosen_pen(const Options& options) {
   refuse(options.rate && kind == DeviceKind::replay, "--rate", "that of the trace");
   refuse(options.rate && kind == DeviceKind::openhaptics, "--rate", "that of the vendor's scheduler");
   refuse(options.repeat > 1 && kind == DeviceKind::replay, "--repeat", "the same again");
-  refuse(options.longest && !is_person, "--longest", "for a device that a person holds");
+  refuse(options.timeout && !is_person, "--timeout", "for a device that a person holds");
   refuse(!options.wire_profile.empty() && kind != DeviceKind::phantom, "--wire-profile", "for a phantom");
   refuse(!options.model.empty() && kind != DeviceKind::phantom, "--model", "for a phantom");
   pen.device.wire_profile = options.wire_profile;
   pen.device.model = options.model;
   pen.like = options.like.value_or(pen.like);
   pen.peak_force = options.peak_force.value_or(pen.peak_force);
-  pen.longest = options.longest.value_or(pen.longest);
+  pen.timeout = options.timeout.value_or(pen.timeout);
   return pen;
 }
 
@@ -116,10 +116,10 @@ SessionOptions chosen_session(const Options& options, const Capabilities& device
   return session;
 }
 
-std::vector<Mode> chosen_modes(const std::optional<std::string>& mode, bool simulated) {
-  if (mode == "vision") return {Mode::vision};
-  if (mode == "force" || (!mode && !simulated)) return {Mode::force};
-  return {Mode::vision, Mode::force};
+std::vector<FeedbackMode> chosen_modes(const std::optional<std::string>& mode, bool simulated) {
+  if (mode == "vision") return {FeedbackMode::vision};
+  if (mode == "force" || (!mode && !simulated)) return {FeedbackMode::force};
+  return {FeedbackMode::vision, FeedbackMode::force};
 }
 
 std::vector<Sheet> sheets(const std::vector<Character>& characters, const Capabilities& capabilities) {
@@ -128,7 +128,7 @@ std::vector<Sheet> sheets(const std::vector<Character>& characters, const Capabi
   layout.height = capabilities.workspace.y();
   std::vector<Sheet> result;
   int position = 1;
-  for (Page& page : lay_out(characters, layout)) {
+  for (PracticePage& page : lay_out(characters, layout)) {
     const int count = static_cast<int>(page.characters.size());
     result.push_back({std::move(page), position});
     position += count;
@@ -140,7 +140,7 @@ std::vector<Sheet> sheets(const std::vector<Character>& characters, const Capabi
 Recording part(const Recording& recording, int character) {
   Recording result;
   result.rate = recording.rate;
-  const auto active = [character](const Sample& sample) { return sample.character == character; };
+  const auto active = [character](const RecordedSample& sample) { return sample.character == character; };
   std::copy_if(recording.samples.begin(), recording.samples.end(), std::back_inserter(result.samples), active);
   return result;
 }
@@ -149,15 +149,15 @@ Result measure(const CharacterScore& score, const Recording& part) {
   Result result;
   result.score = score;
   std::vector<float> ticks;
-  for (const Sample& sample : part.samples) ticks.push_back(sample.tick_ns);
+  for (const RecordedSample& sample : part.samples) ticks.push_back(sample.tick_ns);
   result.tick_p50 = percentile(ticks, 0.5);
   result.tick_p999 = percentile(ticks, 0.999);
   return result;
 }
 
 /// "03-北-force".
-std::string file_stem(int position, char32_t code, Mode mode) {
-  return fmt::format("{:02}-{}-{}", position, name_in_file(code), mode_name(mode));
+std::string file_stem(int position, char32_t code, FeedbackMode mode) {
+  return fmt::format("{:02}-{}-{}", position, name_in_file(code), to_string(mode));
 }
 
 class Run {
@@ -184,7 +184,7 @@ class Run {
     sheets_ = sheets(characters_of(set, text_, options_.order), session_.device);
     if (pen_.is_replay() && sheets_.size() > 1) throw UsageError("TEXT: a replay is of one page");
     const OutputDirectory out(options_.out);
-    plots_ = can_plot();
+    plots_ = gnuplot_available();
     if (!plots_) spdlog::warn("gnuplot cannot be run: no plots of the force");
     write_all(out);
     if (pen_.interrupted() && results_.empty()) throw Error("interrupted");
@@ -207,7 +207,7 @@ class Run {
       const std::size_t count = sheets_[sheet].page.characters.size();
       for (int repetition = 1; repetition <= options_.repeat; ++repetition) {
         session_.seed = options_.seed + static_cast<std::uint64_t>(repetition - 1) * sheets_.size() + sheet;
-        for (const Mode mode : modes_) {
+        for (const FeedbackMode mode : modes_) {
           session_.mode = mode;
           session_.progress = [&](double share) {
             progress.show((static_cast<double>(done) + share * static_cast<double>(count)) / static_cast<double>(runs));
@@ -231,13 +231,13 @@ class Run {
     const Sheet& sheet = sheets_[number];
     if (pen_.is_person()) {
       spdlog::info("page {} of {}, {}: hold the pen above the paper and write; Ctrl-C stops", number + 1,
-                   sheets_.size(), session_.mode == Mode::vision ? "vision only" : "with force");
+                   sheets_.size(), session_.mode == FeedbackMode::vision ? "vision only" : "with force");
     }
     const Recording recording = pen_.write(sheet.page, session_);
     if (pen_.is_person()) {  // one that replay:FILE takes
       std::ostringstream trace;
-      write_csv(trace, recording);
-      out.write(fmt::format("page-{}-{}-{}.csv", number + 1, mode_name(session_.mode), repetition), trace.str());
+      write_recording(trace, recording);
+      out.write(fmt::format("page-{}-{}-{}.csv", number + 1, to_string(session_.mode), repetition), trace.str());
     }
     const std::vector<CharacterScore> scores = score(sheet.page, recording);
     for (std::size_t i = 0; i < scores.size(); ++i) {
@@ -253,18 +253,18 @@ class Run {
     }
   }
 
-  void draw(const Page& page, const Recording& recording, const Recording& own, int index, const Result& result,
+  void draw(const PracticePage& page, const Recording& recording, const Recording& own, int index, const Result& result,
             const OutputDirectory& out) const {
     const char32_t code = result.score.character;
     const std::string stem = file_stem(result.position, code, result.mode);
     const std::string title =
-        fmt::format("{}, {}, {}", encode_utf8(code), result.mode == Mode::vision ? "vision only" : "vision and force",
-                    session_.device.model);
+        fmt::format("{}, {}, {}", encode_utf8(code),
+                    result.mode == FeedbackMode::vision ? "vision only" : "vision and force", session_.device.model);
     out.write(stem + ".svg", page_picture(page, recording, index, title));
     const bool reached = !own.samples.empty();  // the writer may have given up before
     if (plots_ && reached) out.write(stem + "-force.svg", force_plot(recording, index, title));
     std::ostringstream trace;
-    write_csv(trace, own);
+    write_recording(trace, own);
     out.write(stem + ".csv", trace.str());
   }
 
@@ -285,7 +285,7 @@ class Run {
   std::u32string text_;
   Pen pen_;
   SessionOptions session_;
-  std::vector<Mode> modes_;
+  std::vector<FeedbackMode> modes_;
   std::vector<Sheet> sheets_;
   std::vector<Result> results_;
   bool plots_ = false;
@@ -325,7 +325,7 @@ void add_write(CLI::App& program) {
       ->check(number(0.1, 1000.0))
       ->type_name("N");
   command
-      ->add_option("--longest", options->longest,
+      ->add_option("--timeout", options->timeout,
                    "A page that a person writes is given up after so long (default: 600)")
       ->check(number(1.0, 1e5))
       ->type_name("SECONDS");

@@ -12,7 +12,7 @@ using calligraphy::NearestPointMethod;
 using calligraphy::NearestPointOptions;
 using calligraphy::StrokeElement;
 
-Answer answer_of(const NearestPoint& foot) { return {foot.parameter, foot.point, foot.distance}; }
+Answer answer_of(const NearestPoint& closest) { return {closest.parameter, closest.point, closest.distance}; }
 
 /// One call a query.
 struct LibraryKernel {
@@ -58,7 +58,7 @@ class Tracker : public MethodOf<LibraryKernel> {
   using MethodOf::MethodOf;
   void follow(std::size_t first, std::size_t last, std::span<const Point> path, std::span<Answer> answers) override {
     calligraphy::StrokeTracker tracker{std::span(elements_).subspan(first, last - first)};
-    for (std::size_t i = 0; i < path.size(); ++i) answers[i] = answer_of(tracker.update(path[i]).foot);
+    for (std::size_t i = 0; i < path.size(); ++i) answers[i] = answer_of(tracker.update(path[i]).closest);
   }
 };
 

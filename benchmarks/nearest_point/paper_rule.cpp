@@ -62,8 +62,8 @@ class PaperRule {
     const Point along = p[1] - p[0];
     const double square = along.squaredNorm();
     const double t = square > 0.0 ? std::clamp(along.dot(query - p[0]) / square, 0.0, 1.0) : 0.0;
-    const Point foot = p[0] + t * along;
-    return {t, foot, (query - foot).norm()};
+    const Point closest = p[0] + t * along;
+    return {t, closest, (query - closest).norm()};
   }
 
   /// What the text leaves open: a tie goes to the child with the nearer middle, and neither rounding nor 64 steps are
@@ -84,10 +84,10 @@ class PaperRule {
       const double to_left = distance(left_middle), to_right = distance(right_middle);
       if (std::abs(to_left - to_right) < epsilon) break;
       const double to_shared = distance(right[0]);
-      const double left_smallest = std::min({distance(left[0]), to_left, to_shared});
-      const double right_smallest = std::min({to_shared, to_right, distance(right[3])});
+      const double left_min = std::min({distance(left[0]), to_left, to_shared});
+      const double right_min = std::min({to_shared, to_right, distance(right[3])});
       const double half = 0.5 * (begin + end);
-      if (left_smallest < right_smallest || (left_smallest == right_smallest && to_left <= to_right)) {
+      if (left_min < right_min || (left_min == right_min && to_left <= to_right)) {
         parent = left;
         end = half;
       } else {

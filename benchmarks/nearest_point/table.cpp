@@ -81,12 +81,12 @@ void print_workloads(std::FILE* out, Measurements results) {
   fmt::print(out, "|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (const std::string& method : methods) {
     Errors worst;
-    std::string largest_on, wrong_on;
+    std::string worst_on, wrong_on;
     for (const Measurement& each : results) {
       if (each.method != method) continue;
       if (each.allowed <= 1e-9 && each.errors.largest > worst.largest) {
         worst.largest = each.errors.largest;
-        largest_on = each.workload;
+        worst_on = each.workload;
       }
       if (each.errors.wrong > worst.wrong) {
         worst.wrong = each.errors.wrong;
@@ -99,7 +99,7 @@ void print_workloads(std::FILE* out, Measurements results) {
                "{:<20} |\n",
                method, time(find(results, "real strokes near", method)),
                time(find(results, "real strokes box", method)), time(find(results, "random box", method)),
-               time(find(results, "hook", method)), geometric_mean(results, method, any), worst.largest, largest_on,
+               time(find(results, "hook", method)), geometric_mean(results, method, any), worst.largest, worst_on,
                100.0 * worst.beyond, 100.0 * worst.wrong, wrong_on);
   }
   if (std::find(methods.begin(), methods.end(), "exact") == methods.end()) return;

@@ -27,7 +27,7 @@ def open_device(wire_profile: str) -> cal.HapticDevice:
     except cal.DeviceError:  # no bus, or a module without Phantoms
         plugged = []
     for device in plugged:
-        print(cal.describe(device), device.advice)
+        print(cal.describe_device(device), device.advice)
     if plugged and wire_profile:
         return cal.PhantomDevice(cal.PhantomOptions(wire_profile=wire_profile))
     if cal.openhaptics_runtime().found:
@@ -39,7 +39,7 @@ def open_device(wire_profile: str) -> cal.HapticDevice:
 class LedPointer:
     """Moves a pointer along the strokes of a page, on when the pen has come near: in place of a person's mouse."""
 
-    def __init__(self, device: cal.PointerDevice, page: cal.Page) -> None:
+    def __init__(self, device: cal.PointerDevice, page: cal.PracticePage) -> None:
         self.device, self.centre = device, np.array([page.width / 2, page.height / 2])
         self.places: list[tuple[np.ndarray, float]] = []
         for placed in page.characters:
@@ -67,7 +67,7 @@ def main() -> None:
     arguments.out.mkdir(parents=True, exist_ok=True)
 
     with open_device(arguments.wire_profile) as device:
-        able = cal.limited(device.capabilities(), arguments.peak_force)
+        able = cal.with_peak_force(device.capabilities(), arguments.peak_force)
         layout = cal.PageLayout(width=able.workspace[0], height=able.workspace[1])
         page = cal.lay_out([cal.built_in_characters()[arguments.character]], layout)[0]
         options = cal.LiveOptions(renderer=cal.RendererOptions.for_device(able), peak_force=arguments.peak_force)
@@ -81,7 +81,7 @@ def main() -> None:
 
     for warning in result.warnings:
         print(warning)
-    score, timing = cal.score(page, result.recording)[0], result.statistics
+    score, timing = cal.score_page(page, result.recording)[0], result.statistics
     print(f"{score.strokes_completed} of {score.stroke_count} strokes, RMS {1e3 * score.rms_error:.2f} mm, "
           f"period p99 {1e3 * timing.period.p99:.2f} ms, {timing.missed_deadlines} deadlines missed")  # fmt: skip
     samples = result.recording.samples

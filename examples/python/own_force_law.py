@@ -27,9 +27,9 @@ class Groove:
 
 def simulate(law, start: float, meant: float, seconds: float = 1.0) -> tuple[np.ndarray, np.ndarray]:
     """A hand at `start` means to be at y = `meant` from then on; the pen's y and the force, tick by tick."""
-    device = cal.SimulatedDevice(PROFILE, cal.Hand(mass=0.1, damping=3.0, stiffness=300.0), (0.0, start, 0.0))
+    device = cal.SimulatedDevice(PROFILE, cal.GripImpedance(mass=0.1, damping=3.0, stiffness=300.0), (0.0, start, 0.0))
     device.set_intention(cal.Intention(position=(0.0, meant, 0.0)))
-    servo = cal.Servo(device, law, rise_time=0.05)
+    servo = cal.Servo(device, law, ramp_up=0.05)
     path, force = [], []
     for tick in range(round(seconds * 1000)):
         servo.step(tick * 1e-3)

@@ -45,7 +45,7 @@
 #include <calligraphy/practice/recording.hpp>
 #include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/session.hpp>
-#include <calligraphy/practice/stroke_verdict.hpp>
+#include <calligraphy/practice/stroke_matching.hpp>
 #include <calligraphy/practice/trace_hand.hpp>
 #include <calligraphy/practice/writer.hpp>
 #include <calligraphy/render/assist_policy.hpp>

@@ -112,19 +112,20 @@ std::ifstream open_file(const fs::path& path) {
   return in;
 }
 
-std::string read_file(const fs::path& path, std::size_t most) {
+std::string read_file(const fs::path& path, std::size_t max_bytes) {
   std::ifstream in = open_file(path);
   std::string text;
   constexpr std::size_t chunk = 1 << 16;  // most files are small: what is not read is not asked for
-  while (in && text.size() <= most) {
+  while (in && text.size() <= max_bytes) {
     const std::size_t before = text.size();
     text.resize(before + chunk);
     in.read(text.data() + before, chunk);
     text.resize(before + static_cast<std::size_t>(in.gcount()));
   }
   if (in.bad()) throw FileError(path.string() + ": cannot be read");
-  if (text.size() > most) {
-    throw FormatError(path.string() + ": more than the " + std::to_string(most) + " bytes that are read of a file");
+  if (text.size() > max_bytes) {
+    throw FormatError(path.string() + ": more than the " + std::to_string(max_bytes) +
+                      " bytes that are read of a file");
   }
   return text;
 }

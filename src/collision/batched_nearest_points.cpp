@@ -80,7 +80,7 @@ template <int Degree>
     const std::size_t to = block.index[i];
     const Residue residue{block.step[i], block.slope[i], block.bend[i]};
     const double t = block.t[i];
-    if (residue.converged(curve, allowed) && t >= 0.0 && t <= 1.0 && block.speed[i] > least_speed) {
+    if (residue.converged(curve, allowed) && t >= 0.0 && t <= 1.0 && block.speed[i] > min_speed) {
       results[to] = {t, Point(block.point_x[i], block.point_y[i]), block.distance[i],
                      Point(block.tangent_x[i], block.tangent_y[i]), NearestPointStatus::certified};
     } else {

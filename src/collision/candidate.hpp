@@ -24,7 +24,7 @@ template <int Degree, typename Vector>
 }
 
 /// Below it the direction of the velocity is rounding noise [sizes].
-inline constexpr double least_speed = 1e-7;
+inline constexpr double min_speed = 1e-7;
 
 /// Whether `next` takes the place of `best`: it is nearer, or as near up to rounding and its parameter is smaller.
 [[gnu::always_inline]] inline bool nearer(const Candidate& next, const Candidate& best) {
@@ -44,7 +44,7 @@ inline constexpr double least_speed = 1e-7;
   const Pair tangent = at.velocity * (1.0 / speed);
   NearestPoint answer{at.t, Point(point[0], point[1]), curve.size * std::sqrt(dot(at.offset, at.offset)),
                       Point(tangent[0], tangent[1]), status};
-  if (!(speed > least_speed)) [[unlikely]]
+  if (!(speed > min_speed)) [[unlikely]]
     answer.tangent = curve.tangent(at.t);
   return answer;
 }

@@ -207,7 +207,7 @@ CurveElement prepare_curve(std::span<const Point> control_points) noexcept {
   for (std::size_t k = 1; k <= n; ++k) {
     for (std::size_t i = 0; i + k <= n; ++i) difference[i] = difference[i + 1] - difference[i];
     curve.coefficients[k - 1] = binomial[n][k] * difference[0];
-    curve.least_slope += 1e-5 * curve.coefficients[k - 1].squaredNorm();
+    curve.min_slope += 1e-5 * curve.coefficients[k - 1].squaredNorm();
   }
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t k = 0; k < n; ++k) {

@@ -172,10 +172,10 @@ class MinimumSearch {
     if (*lowest >= 0.0 || *highest <= 0.0) return false;  // monotone: nothing nearer inside than at the ends
     // What would be nearer by a thousandth of the tolerance, or by what rounds away, is not worth halving.
     const double slack = 2e-3 * tolerance_ * larger_coordinate(best_.offset) + 2.0 * epsilon * best_square_;
-    if (least_square(interval, *lowest, *highest) >= best_square_ - slack) return false;
+    if (min_square(interval, *lowest, *highest) >= best_square_ - slack) return false;
     // Signs within rounding of zero: one between different ones leaves one change whatever it is; at an end they can
     // only hide a minimum as near as the end itself.
-    const double noise = 16.0 * epsilon * largest_product(interval);
+    const double noise = 16.0 * epsilon * max_product(interval);
     int changes = 0, change = 0, last = -1;
     bool doubtful = false;
     for (int i = 0; i <= slope_degree; ++i) {
@@ -203,7 +203,7 @@ class MinimumSearch {
   }
 
   /// Bound of the terms of which g is the sum.
-  static double largest_product(const Interval& interval) {
+  static double max_product(const Interval& interval) {
     double offset = 0.0, velocity = 0.0;
     for (std::size_t i = 0; i <= Degree; ++i) {
       offset = std::max(offset, larger_coordinate(interval.controls[i]));
@@ -213,7 +213,7 @@ class MinimumSearch {
   }
 
   /// No point of the interval is nearer: the squared distance falls from its ends by at most twice the ordinates.
-  static double least_square(const Interval& interval, double lowest, double highest) {
+  static double min_square(const Interval& interval, double lowest, double highest) {
     const double width = interval.end - interval.begin;
     return (interval.begin_square * highest - interval.end_square * lowest + 2.0 * width * lowest * highest) /
            (highest - lowest);

@@ -21,23 +21,23 @@ constexpr double furthest_query = 1e100;
 /// Wang 2006, sec. 4.3.1: the perpendicular foot, clamped to the range. Not inlined, so that all nearest_point does is
 /// jump.
 [[gnu::noinline]] NearestPoint on_line(const LineElement& line, const Point& query, const ParameterRange& range) {
-  NearestPoint foot;
-  foot.parameter = range.begin;
-  foot.tangent = line.direction;
+  NearestPoint closest;
+  closest.parameter = range.begin;
+  closest.tangent = line.direction;
   const Point from_start = query - line.origin;
   const bool is_point = !(line.length > 0.0);
   if (std::isnan(line.length) || !query.allFinite() ||
       !(is_point || from_start.cwiseAbs().maxCoeff() <= furthest_query * line.length)) {
-    foot.point = line.point(range.begin);
-    foot.distance = std::numeric_limits<double>::infinity();
-    foot.status = NearestPointStatus::not_finite;
-    return foot;
+    closest.point = line.point(range.begin);
+    closest.distance = std::numeric_limits<double>::infinity();
+    closest.status = NearestPointStatus::not_finite;
+    return closest;
   }
-  if (!is_point) foot.parameter = std::clamp(line.direction.dot(from_start) / line.length, range.begin, range.end);
-  foot.point = line.point(foot.parameter);
-  foot.distance = length(query - foot.point);
-  foot.status = NearestPointStatus::certified;
-  return foot;
+  if (!is_point) closest.parameter = std::clamp(line.direction.dot(from_start) / line.length, range.begin, range.end);
+  closest.point = line.point(closest.parameter);
+  closest.distance = length(query - closest.point);
+  closest.status = NearestPointStatus::certified;
+  return closest;
 }
 
 bool usable(const ParameterRange& range) { return 0.0 <= range.begin && range.begin <= range.end && range.end <= 1.0; }

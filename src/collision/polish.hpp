@@ -76,8 +76,8 @@ struct Residue {
 
   [[gnu::always_inline]] bool converged(const CurveElement& curve, double allowed) const {
     // The last step is so small that two terms of the curve's Taylor series give the new place to rounding.
-    constexpr double largest_step = 1e-5;
-    return std::abs(step) <= largest_step && slope > curve.least_slope &&
+    constexpr double max_step = 1e-5;
+    return std::abs(step) <= max_step && slope > curve.min_slope &&
            step * step * std::abs(bend) <= 2.0 * allowed * slope;
   }
 };
@@ -122,13 +122,13 @@ template <int Degree>
   const double slope = dot(at.velocity, at.velocity) + dot(at.offset, acceleration);
   const double bend = 0.5 * (3.0 * dot(at.velocity, acceleration) + dot(at.offset, jerk));
   const double step = g * slope / (slope * slope - g * bend);
-  constexpr double largest_step = 1e-3;  // what a quartic's fourth derivative adds is below rounding
+  constexpr double max_step = 1e-3;  // what a quartic's fourth derivative adds is below rounding
   const Pair moved = (at.velocity - (acceleration - jerk * (step / 3.0)) * (0.5 * step)) * step;
   at.t -= step;
   at.place -= moved;
   at.offset -= moved;
   at.velocity -= (acceleration - jerk * (0.5 * step)) * step;
-  return std::abs(step) <= largest_step && slope > curve.least_slope &&
+  return std::abs(step) <= max_step && slope > curve.min_slope &&
          std::abs(dot(at.offset, at.velocity)) <= allowed * slope;
 }
 

@@ -29,7 +29,7 @@ bool may_hide_nearer(const CurveElement& curve, const ParameterRange& part, doub
 }
 
 /// A point on the curve and its distance from the query.
-struct Sample {
+struct RecordedSample {
   Pair point;
   double distance;
 };
@@ -43,21 +43,21 @@ NearestPoint subdivided(const CurveElement& curve, const Point& query, double to
   const auto distance_to = [&](Pair point) { return std::sqrt(dot(point - relative, point - relative)); };
   const auto sample = [&](double t) {
     const Pair point = place<Degree>(curve, t);
-    return Sample{point, distance_to(point)};
+    return RecordedSample{point, distance_to(point)};
   };
 
   ParameterRange part = range;
   double t = 0.5 * (part.begin + part.end);
-  Sample begin = sample(part.begin), middle = sample(t), end = sample(part.end), left, right;
+  RecordedSample begin = sample(part.begin), middle = sample(t), end = sample(part.end), left, right;
   bool stopped = false;
   for (int step = 0; step < 64; ++step) {
     left = sample(0.5 * (part.begin + t));
     right = sample(0.5 * (t + part.end));
     stopped = std::abs(left.distance - right.distance) < epsilon;
     if (stopped) break;
-    const double left_least = std::min({begin.distance, left.distance, middle.distance});
-    const double right_least = std::min({middle.distance, right.distance, end.distance});
-    if (left_least < right_least || (left_least == right_least && left.distance <= right.distance)) {
+    const double left_min = std::min({begin.distance, left.distance, middle.distance});
+    const double right_min = std::min({middle.distance, right.distance, end.distance});
+    if (left_min < right_min || (left_min == right_min && left.distance <= right.distance)) {
       part.end = t;
       end = middle;
       middle = left;

@@ -78,8 +78,8 @@ double sticking_time(double drive, double rate, double dry_friction) noexcept {
 
 }  // namespace
 
-AxisState move_axis(const Oscillator& oscillator, const ImpulseResponse& whole_step, AxisState start,
-                    const AxisLoad& load, double seconds) noexcept {
+AxisState advance_axis(const Oscillator& oscillator, const ImpulseResponse& whole_step, AxisState start,
+                       const AxisLoad& load, double seconds) noexcept {
   const double rate = oscillator.stiffness() * load.target_velocity;  // of the spring's force while the mass rests
   AxisState state = start;
   double remaining = seconds;

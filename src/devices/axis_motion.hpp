@@ -25,7 +25,7 @@ inline constexpr int max_phases = 256;
 /// Exact motion through `seconds`: m x'' = force + k (target(t) - x) - d x' - dry friction. While the velocity keeps
 /// its sign the equation is linear and solved in closed form; at each stop the mass sticks or turns back.
 /// `whole_step` is oscillator.impulse_response(seconds), which several axes can share.
-AxisState move_axis(const Oscillator& oscillator, const ImpulseResponse& whole_step, AxisState start,
-                    const AxisLoad& load, double seconds) noexcept;
+AxisState advance_axis(const Oscillator& oscillator, const ImpulseResponse& whole_step, AxisState start,
+                       const AxisLoad& load, double seconds) noexcept;
 
 }  // namespace calligraphy

@@ -46,9 +46,9 @@ void DurationHistogram::add(double seconds) noexcept {
   if (whole > worst_.load(std::memory_order_relaxed)) worst_.store(whole, std::memory_order_relaxed);
 }
 
-DurationFigures DurationHistogram::figures() const noexcept {
+DurationSummary DurationHistogram::summary() const noexcept {
   std::array<std::uint64_t, octaves * DurationHistogram::per_octave> counts;
-  DurationFigures result;
+  DurationSummary result;
   for (std::size_t i = 0; i < counts.size(); ++i) {
     counts[i] = buckets_[i].load(std::memory_order_relaxed);
     result.count += counts[i];

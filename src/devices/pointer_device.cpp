@@ -20,7 +20,7 @@ void require(const char* name, double value, double smallest, double largest, co
 const PointerOptions& checked(const PointerOptions& options) {
   require("rate", options.rate, 100.0, 1e5, "Hz");
   require("smoothing time", options.smoothing_time, 0.0, 1.0, "s");
-  require("largest speed", options.largest_speed, 1e-3, 10.0, "m/s");
+  require("largest speed", options.max_speed, 1e-3, 10.0, "m/s");
   require("lifting speed", options.lifting_speed, 1e-3, 10.0, "m/s");
   require("hover height", options.hover_height, 0.0, 0.1, "m");
   require("press depth", options.press_depth, 0.0, 0.1, "m");
@@ -33,13 +33,13 @@ const PointerOptions& checked(const PointerOptions& options) {
 }
 
 /// Copies of a place while it changes are thrown away; a writer is done in some nanoseconds.
-constexpr int most_attempts = 8;
+constexpr int max_attempts = 8;
 
 }  // namespace
 
-PointerDevice::PointerDevice(const Capabilities& device, const Hand& hand, const PointerOptions& options)
+PointerDevice::PointerDevice(const Capabilities& device, const GripImpedance& grip, const PointerOptions& options)
     : options_(checked(options)),
-      device_(device, hand, options.paper * Eigen::Vector3d(0.0, 0.0, options.hover_height)),
+      device_(device, grip, options.paper * Eigen::Vector3d(0.0, 0.0, options.hover_height)),
       target_(0.0, 0.0, options.hover_height),
       between_(target_),
       meant_(target_) {
@@ -67,7 +67,7 @@ DeviceState PointerDevice::read() noexcept {
 }
 
 void PointerDevice::take_target() noexcept {
-  for (int attempt = 0; attempt < most_attempts; ++attempt) {
+  for (int attempt = 0; attempt < max_attempts; ++attempt) {
     const std::uint32_t before = sequence_.load(std::memory_order_acquire);
     if (before == taken_) return;
     if (before % 2 == 1) continue;
@@ -91,7 +91,7 @@ void PointerDevice::follow() noexcept {
   between_ += share * (target_ - between_);
   Eigen::Vector3d step = share * (between_ - meant_);
   const double along = step.head<2>().norm();
-  const double longest = options_.largest_speed * period;
+  const double longest = options_.max_speed * period;
   if (along > longest) step.head<2>() *= longest / along;
   step.z() = std::clamp(step.z(), -options_.lifting_speed * period, options_.lifting_speed * period);
   intention_.position = options_.paper * meant_;

@@ -33,10 +33,10 @@ void require(bool valid, const char* name, double value, const char* domain) {
 
 ServoOptions checked(ServoOptions options) {
   require(options.rate >= 1.0 && options.rate <= 1e5, "rate", options.rate, "from 1 to 100000 Hz");
-  require(options.patience >= 2.0 / options.rate && options.patience <= 1.0, "patience", options.patience,
+  require(options.timeout >= 2.0 / options.rate && options.timeout <= 1.0, "timeout", options.timeout,
           "from two periods of the rate to 1 s");
   if (options.work_clock == nullptr) options.work_clock = monotonic_seconds;
-  options.patience += 1e-3 / options.rate;  // sums of ticks that should come to it exactly are a little beside
+  options.timeout += 1e-3 / options.rate;  // sums of ticks that should come to it exactly are a little beside
   return options;
 }
 
@@ -65,7 +65,7 @@ thread_local const Servo* asking = nullptr;
 }  // namespace
 
 Servo::Servo(HapticDevice& device, ForceLaw law, const ServoOptions& options)
-    : device_(device), law_(std::move(law)), options_(checked(options)), guard_(options.fall_time, options.rise_time) {
+    : device_(device), law_(std::move(law)), options_(checked(options)), guard_(options.ramp_down, options.ramp_up) {
   const double peak = device.capabilities().peak_force;
   if (peak > 0.0) peak_force_ = peak;  // 0 is "not known"
   if (!law_) throw ValueError("servo loop: the force law is empty");
@@ -99,7 +99,7 @@ void Servo::step(double now) noexcept {
     }
     if (!answered) {
       fault = DeviceFault::bad_force;
-    } else if (answer_time > options_.patience) {
+    } else if (answer_time > options_.timeout) {
       fault = DeviceFault::slow_force_law;
     } else {
       guard_.pass(force, std::min(elapsed, period));  // what a late clock left out does not rise
@@ -141,7 +141,7 @@ double Servo::elapsed_since_last_tick(double now) noexcept {
 
 DeviceFault Servo::judge(const DeviceState& sample, double elapsed) noexcept {
   // Where the force is at zero a gap does no harm, and the fault that brought it there keeps its name.
-  const bool gap = elapsed > options_.patience && guard_.phase() != ServoPhase::zero;
+  const bool gap = elapsed > options_.timeout && guard_.phase() != ServoPhase::zero;
   if (sample.status == DeviceStatus::stale) {
     increment(stale_);
     stale_for_ += elapsed;
@@ -156,7 +156,7 @@ DeviceFault Servo::judge(const DeviceState& sample, double elapsed) noexcept {
       if (!sample.position.allFinite() || sample.velocity.array().isInf().any()) return DeviceFault::corrupted_frame;
       break;
     case DeviceStatus::stale:
-      if (stale_for_ > options_.patience) return named;
+      if (stale_for_ > options_.timeout) return named;
       break;
     default:
       return named;
@@ -200,7 +200,7 @@ void Servo::supervise(double now) noexcept {
     return;
   }
   unchanged_for_ += elapsed;
-  if (unchanged_for_ <= options_.patience || owner == dealt_with_) return;
+  if (unchanged_for_ <= options_.timeout || owner == dealt_with_) return;
 
   dealt_with_ = owner;
   const Owner who = owner_of(owner);
@@ -217,7 +217,7 @@ void Servo::supervise(double now) noexcept {
     return;
   }
   reason_ = who == Owner::law ? DeviceFault::slow_force_law : DeviceFault::late_clock;
-  taken_over_.fetch_add(1, std::memory_order_relaxed);
+  watchdog_takeovers_.fetch_add(1, std::memory_order_relaxed);
   count_fault(reason_);
   let_fall(owner, std::min(elapsed, period));
 }
@@ -283,13 +283,13 @@ ServoStatus Servo::status() const noexcept {
 
 ServoStatistics Servo::statistics() const noexcept {
   ServoStatistics result;
-  result.period = periods_.figures();
-  result.work = work_.figures();
+  result.period = periods_.summary();
+  result.work = work_.summary();
   result.ticks = ticks_.load(std::memory_order_relaxed);
   result.missed_deadlines = missed_.load(std::memory_order_relaxed);
   result.stale_samples = stale_.load(std::memory_order_relaxed);
-  result.standing_clock = standing_.load(std::memory_order_relaxed);
-  result.taken_over = taken_over_.load(std::memory_order_relaxed);
+  result.stalled_clock = standing_.load(std::memory_order_relaxed);
+  result.watchdog_takeovers = watchdog_takeovers_.load(std::memory_order_relaxed);
   result.idle_ticks = idle_ticks_.load(std::memory_order_relaxed);
   for (std::size_t i = 0; i < faults_.size(); ++i) result.faults[i] = faults_[i].load(std::memory_order_relaxed);
   return result;

@@ -69,8 +69,8 @@ void ServoLoop::stop() noexcept {
   if (!running_) return;
   servo_.release();
   // A clock that stands still would never let the force fall: the watchdog does, and the wait is bounded.
-  constexpr int longest_wait = 500;  // [ms]
-  for (int i = 0; i < longest_wait && servo_.status().phase != ServoPhase::zero; ++i) {
+  constexpr int max_wait = 500;  // [ms]
+  for (int i = 0; i < max_wait && servo_.status().phase != ServoPhase::zero; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   clock_->stop();

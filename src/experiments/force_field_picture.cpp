@@ -21,7 +21,7 @@ using svg::number;
 
 // [px]
 constexpr double square = 318.0, margin = 16.0, gap = 14.0, top = 66.0, note_height = 22.0, key_height = 46.0;
-constexpr double longest_arrow = 15.0, arrow_spacing = 16.6;
+constexpr double max_arrow = 15.0, arrow_spacing = 16.6;
 constexpr double millimetres = 1e3;
 constexpr double fullest = 5.0;  ///< force that has the last colour and the longest arrow [N]
 
@@ -89,7 +89,7 @@ void draw_arrows(pugi::xml_node parent, const ForceField& field, const svg::View
   for (int row = stride / 2; row < field.columns; row += stride) {
     for (int column = stride / 2; column < field.columns; column += stride) {
       const Point force = field.force(column, row);
-      const double length = std::min(force.norm() / fullest, 1.0) * longest_arrow;
+      const double length = std::min(force.norm() / fullest, 1.0) * max_arrow;
       if (length < 0.8) continue;
       data += arrow(view(field.place(column, row)), Point(force.x(), -force.y()).normalized(), length);
     }

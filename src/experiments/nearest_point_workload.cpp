@@ -205,7 +205,7 @@ Point along_line(RandomPoints& random, const Target& target) {
   return from + random.between(-2.0, 3.0) * (to - from);
 }
 
-/// On the axis x = 0, where two feet are equally near, or slightly beside it.
+/// On the axis x = 0, where two closest points are equally near, or slightly beside it.
 Point near_axis(RandomPoints& random, const Target& target) {
   if (random.index(4) == 0) return in_box(random, target);
   const double y = random.between(-1.5, 1.5) * target.size;
@@ -218,7 +218,7 @@ Point near_origin(RandomPoints& random, const Target& target) {
   return slight(random) * target.size * random.in_disc();
 }
 
-/// At a centre of curvature no further than ten sizes, or slightly beside it: three feet are one there.
+/// At a centre of curvature no further than ten sizes, or slightly beside it: three closest points are one there.
 Point near_centre_of_curvature(RandomPoints& random, const Target& target) {
   const Bezier<2> first = target.curve.hodograph();
   const Bezier<1> second = first.hodograph();

@@ -24,7 +24,7 @@ constexpr double top = 0.88, bottom = 0.085, between = 0.115;
 
 /// What a cell of the map may be.
 struct Kind {
-  bool settles, controlled_settles;
+  bool stable, controlled_stable;
   const char* colour;
   const char* title;
 };
@@ -56,7 +56,7 @@ std::string rectangles(const StabilitySweep& sweep, const Kind& kind, const std:
   for (std::size_t i = 0; i < sweep.lines.size(); ++i) {
     const StabilityLine& line = sweep.lines[i];
     const auto is_kind = [&](std::size_t k) {
-      return line.settles[k] == kind.settles && line.controlled_settles[k] == kind.controlled_settles;
+      return line.stable_at[k] == kind.stable && line.controlled_stable_at[k] == kind.controlled_stable;
     };
     const double x = static_cast<double>(i);
     for (std::size_t k = 0; k < stiffnesses.size(); ++k) {

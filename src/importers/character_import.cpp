@@ -17,11 +17,11 @@
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/text.hpp>
-#include <calligraphy/importers/doubtful_strokes.hpp>
 #include <calligraphy/importers/hanzi_writer.hpp>
 #include <calligraphy/importers/kanjivg.hpp>
 #include <calligraphy/importers/stroke_fit.hpp>
 #include <calligraphy/importers/stroke_letters.hpp>
+#include <calligraphy/importers/stroke_warnings.hpp>
 #include <calligraphy/model/character_set.hpp>
 
 #include "base/parallel.hpp"
@@ -36,9 +36,9 @@ namespace fs = std::filesystem;
 constexpr std::string_view licence_file = "ARPHICPL.TXT";
 constexpr std::string_view package_file = "package.json";
 constexpr double label_turn = std::numbers::pi / 3.0;  // [rad]; nor one whose stroke starts in another direction
-constexpr double label_error = 0.01;       // [em]; a label whose stroke leaves the drawing farther is no help
-constexpr int most_strokes = 1'000'000;    // of an import; the largest source known has 148 thousand
-constexpr std::size_t longest_order = 64;  // [byte]
+constexpr double label_error = 0.01;    // [em]; a label whose stroke leaves the drawing farther is no help
+constexpr int max_strokes = 1'000'000;  // of an import; the largest source known has 148 thousand
+constexpr std::size_t max_order = 64;   // [byte]
 
 /// Which character a file of a source holds, as its name says.
 struct FileName {
@@ -53,7 +53,7 @@ bool is_ideograph(char32_t code) {
 }
 
 bool is_word(std::string_view text) {
-  return !text.empty() && text.size() <= longest_order && std::all_of(text.begin(), text.end(), [](char c) {
+  return !text.empty() && text.size() <= max_order && std::all_of(text.begin(), text.end(), [](char c) {
     return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
   });
 }
@@ -148,14 +148,14 @@ struct DrawnStroke {
 /// How the strokes of a source are drawn: medians of a brush, or lines of a textbook hand.
 StrokeFitOptions drawing_of(SourceKind kind) {
   const bool brush = kind == SourceKind::hanzi_writer_data;
-  return {.drawn_with = brush ? DrawnWith::brush : DrawnWith::textbook_pen};
+  return {.drawing_tool = brush ? DrawingTool::brush : DrawingTool::textbook_pen};
 }
 
 /// May the label have its way with a stroke of its own kind, where geometry alone recognised another?
 bool is_plausible(const FittedStroke& labelled, const FittedStroke& recognised) {
   const StrokeInput& stroke = labelled.stroke;
   return labelled.error <= std::max(label_error, recognised.error) &&
-         turn_from_typical_start({&typical_stroke(stroke.id), 3, stroke.control_points, {}}) <= label_turn;
+         start_direction_error({&typical_stroke(stroke.id), 3, stroke.control_points, {}}) <= label_turn;
 }
 
 /// Fits a stroke. A label is heard only where it contradicts the shape: most strokes are fitted once.
@@ -182,12 +182,12 @@ class Importer {
     if (!options.letters.empty()) letters_ = read_stroke_letters(options.letters);
   }
 
-  Import run() {
+  ImportResult run() {
     read();
     std::vector<ImportedCharacter> characters(drawings_.size());
     parallel_for(drawings_.size(), options_.threads, options_.progress,
                  [&](std::size_t i) { characters[i] = imported(drawings_[i]); });
-    Import result{{provenance(characters.front().notice), {}}, report_of(kind_, characters)};
+    ImportResult result{{provenance(characters.front().notice), {}}, report_of(kind_, characters)};
     result.report.skipped = std::move(skipped_);
     result.report.notes = std::move(notes_);
     for (ImportedCharacter& character : characters) result.list.characters.push_back(std::move(character.character));
@@ -244,8 +244,8 @@ class Importer {
   ImportedCharacter imported(const Drawing& drawing) {
     ImportedCharacter result;
     const std::vector<DrawnStroke> drawn = drawn_strokes(drawing, result);
-    if ((strokes_ += static_cast<int>(drawn.size())) > most_strokes) {
-      throw FormatError(source_.string() + ": more than " + std::to_string(most_strokes) + " strokes");
+    if ((strokes_ += static_cast<int>(drawn.size())) > max_strokes) {
+      throw FormatError(source_.string() + ": more than " + std::to_string(max_strokes) + " strokes");
     }
     std::vector<StrokeInput> strokes;
     for (const DrawnStroke& stroke : drawn) {
@@ -342,7 +342,7 @@ bool is_own_format(const fs::path& source) {
   return !is_gzip && !is_tar;
 }
 
-Import import_own_format(const fs::path& source, const ImportOptions& options) {
+ImportResult import_own_format(const fs::path& source, const ImportOptions& options) {
   if (!options.letters.empty())
     throw ValueError("letters: they are for hanzi-writer-data, not for a set of characters");
   CharacterList list = CharacterSet::open(source.string()).list();
@@ -358,9 +358,9 @@ Import import_own_format(const fs::path& source, const ImportOptions& options) {
 }
 
 void check(const ImportOptions& options) {
-  constexpr int most_threads = 256;
-  if (options.threads < 0 || options.threads > most_threads) {
-    throw ValueError("threads " + std::to_string(options.threads) + ": expected 0 to " + std::to_string(most_threads));
+  constexpr int max_threads = 256;
+  if (options.threads < 0 || options.threads > max_threads) {
+    throw ValueError("threads " + std::to_string(options.threads) + ": expected 0 to " + std::to_string(max_threads));
   }
   if (options.date.size() > 40 || options.date.find_first_of("\r\n") != std::string::npos) {
     throw ValueError("date '" + options.date.substr(0, 40) + "': expected one line of at most 40 bytes");
@@ -369,7 +369,7 @@ void check(const ImportOptions& options) {
 
 }  // namespace
 
-Import import_characters(const fs::path& source, const ImportOptions& options) {
+ImportResult import_characters(const fs::path& source, const ImportOptions& options) {
   check(options);
   if (is_own_format(source)) return import_own_format(source, options);
   return Importer(source, options).run();

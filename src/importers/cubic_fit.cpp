@@ -37,7 +37,7 @@ bool solve_handles(std::span<const Point> points, std::span<const double> parame
   return handles[0].allFinite() && handles[1].allFinite();
 }
 
-/// One Newton step of each parameter towards the foot of its point on the curve (Plass and Stone 1983).
+/// One Newton step of each parameter towards the closest point of its point on the curve (Plass and Stone 1983).
 void improve_parameters(std::span<const Point> points, const Bezier<3>& curve, std::vector<double>& parameters) {
   const Bezier<2> velocity = curve.hodograph();
   for (std::size_t i = 1; i + 1 < points.size(); ++i) {

@@ -14,9 +14,9 @@
 namespace calligraphy {
 namespace {
 
-constexpr std::size_t largest_file = 1 << 20;  // [byte]; the largest of the package has 8 thousand
-constexpr std::size_t most_strokes = 256;
-constexpr std::size_t longest_label = 64;  // [byte]
+constexpr std::size_t max_file_bytes = 1 << 20;  // [byte]; the largest of the package has 8 thousand
+constexpr std::size_t max_strokes = 256;
+constexpr std::size_t max_label = 64;  // [byte]
 constexpr double units_per_em = 109.0;
 constexpr double tolerance = 5e-5;  // [em]
 
@@ -47,7 +47,7 @@ void check_view_box(pugi::xml_node root, const std::string& name) {
 
 KanjivgStroke stroke_of(pugi::xml_node path, const std::string& place) {
   KanjivgStroke stroke{path.attribute("kvg:type").value(), {}};
-  if (stroke.label.size() > longest_label) fail(place, "kvg:type of more than 64 bytes");
+  if (stroke.label.size() > max_label) fail(place, "kvg:type of more than 64 bytes");
   try {
     decode_utf8(stroke.label);
     stroke.path = flattened_path(path.attribute("d").value(), tolerance * units_per_em);
@@ -61,7 +61,7 @@ KanjivgStroke stroke_of(pugi::xml_node path, const std::string& place) {
 }  // namespace
 
 KanjivgDrawing parse_kanjivg(std::string_view svg, const std::string& name) {
-  if (svg.size() > largest_file) fail(name, "larger than 1 MB");
+  if (svg.size() > max_file_bytes) fail(name, "larger than 1 MB");
   pugi::xml_document document;
   const auto result =
       document.load_buffer(svg.data(), svg.size(), pugi::parse_default | pugi::parse_comments, pugi::encoding_utf8);
@@ -82,7 +82,7 @@ KanjivgDrawing parse_kanjivg(std::string_view svg, const std::string& name) {
     const bool is_drawn = is_path || std::strcmp(node.name(), "g") == 0 || std::strcmp(node.name(), "svg") == 0;
     if (is_drawn && node.attribute("transform")) fail(place, "a transform, which is not supported");
     if (!is_path) continue;
-    if (drawing.strokes.size() == most_strokes) fail(name, "more than 256 strokes");
+    if (drawing.strokes.size() == max_strokes) fail(name, "more than 256 strokes");
     drawing.strokes.push_back(stroke_of(node, place));
   }
   if (drawing.strokes.empty()) fail(name, "no <path> element: there is no stroke");

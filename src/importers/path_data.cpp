@@ -13,9 +13,9 @@
 namespace calligraphy {
 namespace {
 
-constexpr double largest_coordinate = 1e4;  // [unit]; a drawing has 109
-constexpr std::size_t most_points = 20000;
-constexpr int most_pieces = 1000;  // of one curve
+constexpr double max_coordinate = 1e4;  // [unit]; a drawing has 109
+constexpr std::size_t max_points = 20000;
+constexpr int max_pieces = 1000;  // of one curve
 
 class Reader {
  public:
@@ -55,17 +55,17 @@ class Reader {
     const auto& p = curve.control_points;
     const double second = 6.0 * std::max((p[0] - 2.0 * p[1] + p[2]).norm(), (p[1] - 2.0 * p[2] + p[3]).norm());
     const double needed = std::ceil(std::sqrt(second / (8.0 * tolerance_)));
-    const int pieces = static_cast<int>(std::clamp(needed, 1.0, static_cast<double>(most_pieces)));
+    const int pieces = static_cast<int>(std::clamp(needed, 1.0, static_cast<double>(max_pieces)));
     for (int i = 1; i < pieces; ++i) points_.push_back(curve.point(static_cast<double>(i) / pieces));
     points_.push_back(p[3]);
-    if (points_.size() > most_points) fail("more than " + std::to_string(most_points) + " points");
+    if (points_.size() > max_points) fail("more than " + std::to_string(max_points) + " points");
   }
 
   Point pair(const Point& origin) {
     const double x = number();
     const double y = number();
     const Point point = origin + Point(x, y);
-    if (point.cwiseAbs().maxCoeff() > largest_coordinate) fail("a coordinate beyond 10000");
+    if (point.cwiseAbs().maxCoeff() > max_coordinate) fail("a coordinate beyond 10000");
     return point;
   }
 

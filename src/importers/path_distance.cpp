@@ -52,9 +52,9 @@ class FarthestPoint {
       : to_(to), tolerance_(tolerance), at_from_(to_.count()), at_end_(to_.count()) {}
 
   double run(std::span<const Point> from) {
-    constexpr std::size_t most_distances = 20'000'000;  // about 50 ms
+    constexpr std::size_t max_distances = 20'000'000;  // about 50 ms
     for (const Point& point : from) largest_ = std::max(largest_, nearest(point, at_end_));
-    left_ = most_distances / to_.count();
+    left_ = max_distances / to_.count();
     double bound = largest_;
     for (std::size_t i = 1; i < from.size(); ++i) bound = std::max(bound, search(from[i - 1], from[i]));
     return bound;

@@ -90,8 +90,8 @@ double distance_to_simplified(std::span<const Point> path, std::span<const Point
 }
 
 Path refined(const Path& path, double step) {
-  constexpr double most_steps = 96.0;
-  step = std::max(step, path_length(path) / most_steps);
+  constexpr double max_steps = 96.0;
+  step = std::max(step, path_length(path) / max_steps);
   Path result{path.front()};
   for (std::size_t i = 1; i < path.size(); ++i) {
     const int pieces = std::max(1, static_cast<int>(std::ceil((path[i] - path[i - 1]).norm() / step)));

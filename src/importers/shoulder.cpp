@@ -13,10 +13,10 @@
 namespace calligraphy::recognition {
 namespace {
 
-constexpr double longest_shoulder = 0.1;    // [em], along the path: as long as a heng's press may be
+constexpr double max_shoulder = 0.1;        // [em], along the path: as long as a heng's press may be
 constexpr double farthest_corner = 0.04;    // [em], from the path: half a brush, so that the corner is still in the ink
 constexpr double limb_length = 0.12;        // [em], that a limb's direction is taken over
-constexpr double shortest_limb = 0.03;      // [em]
+constexpr double min_limb = 0.03;           // [em]
 constexpr double slightest_turn = 8.0;      // [degree]; a vertex that turns by less belongs to a limb
 constexpr double price_of_length = 400.0;   // [degree/em], of a shoulder
 constexpr Range right_turn{-165.0, -60.0};  // [degree]
@@ -49,7 +49,7 @@ Shoulder shoulder_from(const Path& path, std::size_t first) {
   for (std::size_t i = first; i + 1 < path.size(); ++i) {
     if (i > first) length += (path[i] - path[i - 1]).norm();
     const double turn = turn_at(path, i);
-    if (length > longest_shoulder || turn > slightest_turn) break;
+    if (length > max_shoulder || turn > slightest_turn) break;
     if (turn < -slightest_turn) turned -= turn;
     const double merit = turned - length * price_of_length;
     if (merit > shoulder.merit) shoulder = {first, i, merit};
@@ -63,7 +63,7 @@ std::optional<Point> corner_of(const Path& path, const Shoulder& shoulder) {
   const Point& last = path[shoulder.last];
   const Point before = first - point_before(path, shoulder.first, limb_length);
   const Point after = point_after(path, shoulder.last, limb_length) - last;
-  if (before.norm() < shortest_limb || after.norm() < shortest_limb) return std::nullopt;
+  if (before.norm() < min_limb || after.norm() < min_limb) return std::nullopt;
   if (!contains(right_turn, wrapped(direction_of(after) - direction_of(before)))) return std::nullopt;
   const auto joins = [&](const Limbs& limbs) {
     return contains(limbs.before, direction_of(before)) && contains(limbs.after, direction_of(after));
@@ -77,8 +77,8 @@ std::optional<Point> corner_of(const Path& path, const Shoulder& shoulder) {
   const Point corner = first + lengths.x() * before.normalized();
   Point nearest = first;
   for (std::size_t i = shoulder.first; i < shoulder.last; ++i) {
-    const Point foot = nearest_on_segment(corner, path[i], path[i + 1]);
-    if ((corner - foot).norm() < (corner - nearest).norm()) nearest = foot;
+    const Point closest = nearest_on_segment(corner, path[i], path[i + 1]);
+    if ((corner - closest).norm() < (corner - nearest).norm()) nearest = closest;
   }
   const double distance = (corner - nearest).norm();
   return distance <= farthest_corner ? corner : Point(nearest + farthest_corner / distance * (corner - nearest));

@@ -37,9 +37,9 @@ int kind_of_pie(const SimpleShape& shape) {
   constexpr double shu_pie_bulge = 0.02;  // [1]; and turns off towards its end
   constexpr double flat = -148.0;         // [degree]; as on top of 千
   constexpr double short_length = 0.15;   // [em]
-  constexpr double longest_flat = 0.5;    // [em]
+  constexpr double max_flat = 0.5;        // [em]
   if (shape.direction > upright && shape.bulge > shu_pie_bulge) return 3;
-  const bool is_short = shape.length < short_length || (shape.direction < flat && shape.length < longest_flat);
+  const bool is_short = shape.length < short_length || (shape.direction < flat && shape.length < max_flat);
   return is_short && shape.line_error < straight ? 5 : 4;
 }
 

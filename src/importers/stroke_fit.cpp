@@ -26,10 +26,10 @@ namespace {
 
 using namespace recognition;
 
-constexpr double largest_coordinate = 15.0;  // [em]; validate() allows 16, and a handle may lie outside its path
-constexpr double shortest_path = 0.01;       // [em]; what is shorter is a dot
-constexpr double dot_length = 0.02;          // [em]
-constexpr double shortest_element = 1e-4;    // [em]
+constexpr double max_coordinate = 15.0;  // [em]; validate() allows 16, and a handle may lie outside its path
+constexpr double min_path = 0.01;        // [em]; what is shorter is a dot
+constexpr double dot_length = 0.02;      // [em]
+constexpr double min_element = 1e-4;     // [em]
 
 /// Where each element of a stroke begins among the control points.
 std::vector<std::size_t> element_starts(std::string_view elements) {
@@ -41,7 +41,7 @@ std::vector<std::size_t> element_starts(std::string_view elements) {
 void check(std::span<const Point> median) {
   if (median.empty()) throw ValueError("a stroke needs at least one point");
   for (std::size_t i = 0; i < median.size(); ++i) {
-    if (median[i].allFinite() && median[i].cwiseAbs().maxCoeff() <= largest_coordinate) continue;
+    if (median[i].allFinite() && median[i].cwiseAbs().maxCoeff() <= max_coordinate) continue;
     throw ValueError("point " + std::to_string(i + 1) + " of a stroke is (" + std::to_string(median[i].x()) + ", " +
                      std::to_string(median[i].y()) + "): expected finite numbers within 15 em of the origin");
   }
@@ -98,11 +98,11 @@ std::vector<Point> initial_points(const TypicalStroke& type, const Path& path, s
 /// Can make_character take it? Elements without length and far handles come from inputs that nobody wrote.
 bool usable(const TypicalStroke& type, std::span<const Point> points) {
   for (const Point& point : points) {
-    if (!point.allFinite() || point.cwiseAbs().maxCoeff() > largest_coordinate) return false;
+    if (!point.allFinite() || point.cwiseAbs().maxCoeff() > max_coordinate) return false;
   }
   const std::vector<std::size_t> starts = element_starts(type.elements);
   for (std::size_t element = 0; element + 1 < starts.size(); ++element) {
-    if ((points[starts[element + 1]] - points[starts[element]]).norm() < shortest_element) return false;
+    if ((points[starts[element + 1]] - points[starts[element]]).norm() < min_element) return false;
   }
   return true;
 }
@@ -130,14 +130,14 @@ FittedStroke dot_around(const Path& path) {
 
 /// Vertices where an element may end: those of the path and, on long pieces, points between.
 std::vector<std::size_t> corners_of(const Path& vertices, const Path& refined) {
-  constexpr double longest_gap = 0.10;  // [em]
+  constexpr double max_gap = 0.10;  // [em]
   std::vector<std::size_t> corners{0};
   std::size_t vertex = 1;
   double travelled = 0.0;
   for (std::size_t i = 1; i < refined.size(); ++i) {
     travelled += (refined[i] - refined[i - 1]).norm();
     const bool at_vertex = vertex < vertices.size() && refined[i] == vertices[vertex];
-    if (!at_vertex && (travelled < longest_gap || corners.size() > 24)) continue;
+    if (!at_vertex && (travelled < max_gap || corners.size() > 24)) continue;
     if (at_vertex) ++vertex;
     corners.push_back(i);
     travelled = 0.0;
@@ -160,8 +160,8 @@ constexpr Rounder rounder_strokes[] = {
 
 /// The path that the pen follows: without what a brush adds to it.
 Path pen_path(const CleanPath& clean, const StrokeFitOptions& options) {
-  if (options.drawn_with == DrawnWith::brush) return without_shoulders(clean.points);
-  return options.drawn_with == DrawnWith::textbook_pen ? without_entry(clean.points) : clean.points;
+  if (options.drawing_tool == DrawingTool::brush) return without_shoulders(clean.points);
+  return options.drawing_tool == DrawingTool::textbook_pen ? without_entry(clean.points) : clean.points;
 }
 
 /// Fits of one path as one stroke after another.
@@ -179,10 +179,10 @@ class Fit {
   /// when none is usable.
   FittedStroke best() const {
     constexpr double far_off = 0.02;  // [em]
-    constexpr std::size_t most_tries = 4;
+    constexpr std::size_t max_tries = 4;
     const std::vector<Recognition> found = recognised(options_.ids);
     FittedStroke best = nothing();
-    for (std::size_t i = 0; i < std::min(found.size(), most_tries) && best.error > far_off; ++i) {
+    for (std::size_t i = 0; i < std::min(found.size(), max_tries) && best.error > far_off; ++i) {
       keep_better(best, as(found[i]));
     }
     for (const Rounder& rounder : rounder_strokes) {
@@ -199,7 +199,7 @@ class Fit {
   /// A straight dian is always a stroke.
   FittedStroke straight() const {
     Point end = path_.back();
-    if ((end - path_.front()).norm() < shortest_path) end = path_.front() + dot_length * Point(1.0, -1.0).normalized();
+    if ((end - path_.front()).norm() < min_path) end = path_.front() + dot_length * Point(1.0, -1.0).normalized();
     const std::vector<Point> points{path_.front(), end};
     return measured({8, points});
   }
@@ -217,7 +217,7 @@ class Fit {
   }
 
   std::vector<Recognition> recognised(std::span<const int> ids) const {
-    return recognise(path_, corners_of(vertices_, path_), clean_, options_.drawn_with == DrawnWith::brush, ids);
+    return recognise(path_, corners_of(vertices_, path_), clean_, options_.drawing_tool == DrawingTool::brush, ids);
   }
 
   FittedStroke as(const Recognition& found) const {
@@ -230,7 +230,7 @@ class Fit {
   FittedStroke measured(StrokeInput stroke) const {
     const TypicalStroke& type = typical_stroke(stroke.id);
     const double error = two_sided_error(pen_, type, stroke.control_points) + clean_.slack;
-    const bool squared = options_.drawn_with == DrawnWith::brush && pen_.size() != clean_.points.size();
+    const bool squared = options_.drawing_tool == DrawingTool::brush && pen_.size() != clean_.points.size();
     const double median_error =
         squared ? two_sided_error(clean_.points, type, stroke.control_points) + clean_.slack : error;
     return {std::move(stroke), error, median_error};
@@ -249,8 +249,8 @@ class Fit {
 FittedStroke fit_stroke(std::span<const Point> median, const StrokeFitOptions& options) {
   check(median);
   for (const int id : options.ids) typical_stroke(id);  // throws when there is none
-  const CleanPath clean = options.drawn_with == DrawnWith::brush ? clean_median(median) : clean_pen_path(median);
-  if (path_length(clean.points) < shortest_path) return dot_around(clean.points);
+  const CleanPath clean = options.drawing_tool == DrawingTool::brush ? clean_median(median) : clean_pen_path(median);
+  if (path_length(clean.points) < min_path) return dot_around(clean.points);
 
   const Fit fit(clean, options);
   FittedStroke best = fit.best();

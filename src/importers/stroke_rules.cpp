@@ -82,9 +82,9 @@ const std::vector<CompoundRule>& compound_rules() {
 namespace {
 
 /// A heng gou's second limb is no longer than this [em].
-constexpr double longest_heng_gou_hook = 0.25;
+constexpr double max_heng_gou_hook = 0.25;
 /// A pen's hook is no longer than this [em].
-constexpr double longest_pen_hook = 0.17;
+constexpr double max_pen_hook = 0.17;
 
 /// Prices in the currency of the choice, em of deviation.
 constexpr double price_of_degree = 0.0009;
@@ -131,7 +131,7 @@ int sibling_of(int id, const Path& path, std::span<const std::size_t> splits, bo
   const auto chord = [&](std::size_t index) { return Point(element(index).back() - element(index).front()); };
   switch (id) {
     case 11:  // the hook of heng gou is short; a long straight limb is a heng pie
-      return path_length(element(1)) > longest_heng_gou_hook ? 17 : 11;
+      return path_length(element(1)) > max_heng_gou_hook ? 17 : 11;
     case 15:  // wo gou starts on a slant, shu wan gou upright
       return leaving(0) < -78.0 ? 31 : 15;
     case 13: {  // a shu gou may bow a little and leans to the left; a wan gou swings back under its start
@@ -141,10 +141,10 @@ int sibling_of(int id, const Path& path, std::span<const std::size_t> splits, bo
     case 16: {  // the second limb of heng pie leans farther; in a pen's hand a long one need not lean as far
       const double direction = direction_of(chord(1));
       const double length = path_length(element(1));
-      const bool leans = !brush && length > longest_pen_hook ? contains({-180.0, -109.0}, direction)
-                                                             : contains({-180.0, -118.0}, direction);
+      const bool leans = !brush && length > max_pen_hook ? contains({-180.0, -109.0}, direction)
+                                                         : contains({-180.0, -118.0}, direction);
       if (!leans) return 16;
-      return length > longest_heng_gou_hook ? 17 : 11;
+      return length > max_heng_gou_hook ? 17 : 11;
     }
     case 21: {  // heng xie gou falls all the way to its hook, heng zhe wan gou runs out level
       const std::span<const Point> curve = element(1);

@@ -9,8 +9,8 @@ namespace {
 
 /// Bounds of a handle's length, over the distance from the joint to the fixed point: never on the joint, where the
 /// curve would lose its direction, and never so far that it makes a loop.
-constexpr double shortest_handle = 0.02;
-constexpr double longest_handle = 8.0;
+constexpr double min_handle = 0.02;
+constexpr double max_handle = 8.0;
 
 }  // namespace
 
@@ -53,7 +53,7 @@ std::vector<Point> StrokeVariables::control_points_of(const Eigen::VectorXd& val
     points[point] = values.segment<2>(std::min(first, variables_ - 2));
   }
   for (const Handle& handle : handles_) {
-    const double reach = std::clamp(values[first_variable_[handle.at]], shortest_handle, longest_handle);
+    const double reach = std::clamp(values[first_variable_[handle.at]], min_handle, max_handle);
     points[handle.at] = points[handle.joint] + reach * (points[handle.joint] - points[handle.fixed]);
   }
   return points;

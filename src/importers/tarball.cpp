@@ -18,8 +18,8 @@
 namespace calligraphy {
 namespace {
 
-constexpr std::size_t longest_path = 512;  // [byte]; of an entry
-constexpr std::size_t end_mark = 1024;     // [byte]; zeros that end a tar, more than stand within one of texts
+constexpr std::size_t max_path = 512;   // [byte]; of an entry
+constexpr std::size_t end_mark = 1024;  // [byte]; zeros that end a tar, more than stand within one of texts
 constexpr std::size_t ratio_judged_from = 16u << 20;  // [byte]; what little is unpacked may pack any way
 
 /// The tar as a stream of bytes, within the limits, unpacked if it is gzip data. By inflate(), for gzread() takes data
@@ -196,8 +196,8 @@ class Tarball {
     if (path == nullptr) path = archive_entry_pathname(entry);
     if (path == nullptr) fail(last.empty() ? "" : "after " + last, "an entry without a name that can be read");
     std::string name(path);
-    if (name.size() > longest_path) {
-      fail(name.substr(0, 60) + "...", "a name of more than " + std::to_string(longest_path) + " bytes");
+    if (name.size() > max_path) {
+      fail(name.substr(0, 60) + "...", "a name of more than " + std::to_string(max_path) + " bytes");
     }
     const std::filesystem::path parts(name);
     if (parts.is_absolute()) fail(name, "an absolute path in a tarball");

@@ -11,9 +11,9 @@
 namespace calligraphy {
 namespace {
 
-constexpr double largest_coordinate = 16.0;               // [em]; far outside any em square, far inside double's range
+constexpr double max_coordinate = 16.0;                   // [em]; far outside any em square, far inside double's range
 constexpr double smooth_angle = std::numbers::pi / 12.0;  // a joint called smooth may bend by this much [rad]
-constexpr double shortest_element = 1e-6;                 // [em]
+constexpr double min_element = 1e-6;                      // [em]
 
 std::string format_point(const Point& point) {
   return "(" + std::to_string(point.x()) + ", " + std::to_string(point.y()) + ")";
@@ -25,7 +25,7 @@ bool known_degree(int degree) { return degree == 3 || degree == 4; }
 Point leaving_direction(std::span<const Point> points) {
   for (const Point& point : points.subspan(1)) {
     const Point difference = point - points.front();
-    if (difference.norm() > shortest_element) return difference.normalized();
+    if (difference.norm() > min_element) return difference.normalized();
   }
   return Point::Zero();
 }
@@ -35,10 +35,10 @@ Point arriving_direction(std::span<const Point> points) {
   return -leaving_direction(reversed);
 }
 
-void validate_stroke(const Stroke& stroke, int number, std::vector<Problem>& problems) {
+void validate_stroke(const Stroke& stroke, int number, std::vector<ValidationIssue>& problems) {
   bool finite = true;
   for (const Point& point : stroke.control_points) {
-    if (point.allFinite() && point.cwiseAbs().maxCoeff() <= largest_coordinate) continue;
+    if (point.allFinite() && point.cwiseAbs().maxCoeff() <= max_coordinate) continue;
     problems.push_back({number, "control point " + format_point(point) + " is not within 16 em of the origin"});
     finite = false;
   }
@@ -111,7 +111,7 @@ Character make_character(char32_t code, std::span<const StrokeInput> inputs, int
       factors.insert(factors.end(), input.attraction_factors.begin(), input.attraction_factors.end());
     }
   }
-  const std::vector<Problem> problems = validate(character);
+  const std::vector<ValidationIssue> problems = validate(character);
   if (!problems.empty()) {
     throw ValueError((problems[0].stroke > 0 ? "stroke " + std::to_string(problems[0].stroke) + ": " : std::string()) +
                      problems[0].what);
@@ -162,8 +162,8 @@ Character with_quartic_curves(const Character& character) {
   return result;
 }
 
-std::vector<Problem> validate(const Character& character) {
-  std::vector<Problem> problems;
+std::vector<ValidationIssue> validate(const Character& character) {
+  std::vector<ValidationIssue> problems;
   if (!known_degree(character.curve_degree)) {
     return {{0, "curve degree " + std::to_string(character.curve_degree) + ": expected 3 or 4"}};
   }

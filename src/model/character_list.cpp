@@ -20,7 +20,7 @@ namespace calligraphy {
 namespace {
 
 constexpr std::string_view first_line = "calligraphy characters 1";
-constexpr std::uintmax_t largest_file = 64 << 20;  // twice all of Make Me a Hanzi [bytes]
+constexpr std::uintmax_t max_file_bytes = 64 << 20;  // twice all of Make Me a Hanzi [bytes]
 constexpr std::string_view licence_text_key = "licence-text";
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
@@ -33,7 +33,7 @@ std::string in_quotes(std::string_view text) {
 /// Statements whose text goes to the end of the line, '#' and all.
 bool is_free_text(std::string_view key) { return key == "source" || key == "licence" || key == "attribution"; }
 
-std::string name_of(char32_t code, std::string_view order) {
+std::string character_label(char32_t code, std::string_view order) {
   return "character " + encode_utf8(code) + (order.empty() ? "" : " order " + std::string(order));
 }
 
@@ -156,7 +156,7 @@ class Parser {
     } else if (!key.empty()) {
       fail("expected 'degree', 'order' or nothing more, found " + in_quotes(key));
     }
-    if (!seen_.emplace(code_, order_).second) fail(name_of(code_, order_) + " stands here a second time");
+    if (!seen_.emplace(code_, order_).second) fail(character_label(code_, order_) + " stands here a second time");
     in_character_ = true;
   }
 
@@ -201,7 +201,7 @@ class Parser {
 
   void end_character() {
     if (!in_character_) return;
-    if (strokes_.empty()) fail_at(character_line_, name_of(code_, order_) + " has no stroke");
+    if (strokes_.empty()) fail_at(character_line_, character_label(code_, order_) + " has no stroke");
     set_.characters.push_back(make_character(code_, strokes_, degree_));
     set_.characters.back().order = order_;
     strokes_.clear();
@@ -273,8 +273,8 @@ CharacterList read_characters(const std::string& path) {
     throw FileError(path + ": is not a regular file");
   }
   const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (!error && size > largest_file) {
-    throw FileError(path + ": " + std::to_string(size) + " bytes, more than the " + std::to_string(largest_file) +
+  if (!error && size > max_file_bytes) {
+    throw FileError(path + ": " + std::to_string(size) + " bytes, more than the " + std::to_string(max_file_bytes) +
                     " that are read");
   }
   std::ifstream in(path, std::ios::binary);

@@ -21,16 +21,16 @@ constexpr std::uint32_t last_surrogate_block = 0xDFFF >> group_shift;
 
 std::uint64_t bit_of(std::uint32_t number) { return std::uint64_t{1} << (number & 63); }
 
-CoordinateCoding load_coding(const std::byte* at) noexcept {
+CoordinateEncoding load_coding(const std::byte* at) noexcept {
   return {load<std::uint32_t>(at), static_cast<std::int32_t>(load<std::uint32_t>(at + 4)),
           static_cast<std::int32_t>(load<std::uint32_t>(at + 8)), load<std::uint8_t>(at + 12),
           load<std::uint8_t>(at + 13)};
 }
 
-bool is_sound(const CoordinateCoding& coding) noexcept {
+bool is_sound(const CoordinateEncoding& coding) noexcept {
   if (coding.steps_per_em == 0) return coding.x_bits == 64 && coding.y_bits == 64;
-  const auto is_width = [](std::uint8_t bits) { return bits >= 1 && bits <= most_coordinate_bits; };
-  return coding.steps_per_em <= most_steps_per_em && is_width(coding.x_bits) && is_width(coding.y_bits);
+  const auto is_width = [](std::uint8_t bits) { return bits >= 1 && bits <= max_coordinate_bits; };
+  return coding.steps_per_em <= max_steps_per_em && is_width(coding.x_bits) && is_width(coding.y_bits);
 }
 
 /// A number of up to 32 bits, seven of them a byte, the lowest first. False when it ends beyond `end` or is too large.
@@ -254,8 +254,8 @@ bool SetFile::read_form(Record& rest, StoredCharacter& form) const noexcept {
   rest.begin = end;
   form.first_bit_ = 8 * std::uint64_t{at};
   form.end_bit_ = 8 * std::uint64_t{end};
-  if (strokes == 0 || std::uint64_t{strokes} * least_id_bits > form.end_bit_ - form.first_bit_) return false;
-  if (strokes > most_strokes) return false;
+  if (strokes == 0 || std::uint64_t{strokes} * min_id_bits > form.end_bit_ - form.first_bit_) return false;
+  if (strokes > max_strokes) return false;
   form.stroke_count_ = static_cast<int>(strokes);
   return true;
 }
@@ -264,7 +264,7 @@ SetFile::Found SetFile::find(const std::shared_ptr<const SetFile>& file, char32_
                              StoredCharacter& form) noexcept {
   std::optional<Record> record = file->record(code);
   if (!record) return Found::nothing;
-  for (std::size_t i = 0; i < most_forms && (i == 0 || record->begin < record->end); ++i) {
+  for (std::size_t i = 0; i < max_forms && (i == 0 || record->begin < record->end); ++i) {
     if (!file->read_form(*record, form) || form.order_ == order) {
       form.code_ = code;
       form.file_ = file;
@@ -285,7 +285,7 @@ std::vector<StoredCharacter> SetFile::find_all(const std::shared_ptr<const SetFi
   std::vector<StoredCharacter> forms;
   std::optional<Record> record = file->record(code);
   if (!record) return forms;
-  while (forms.size() < most_forms && (forms.empty() || record->begin < record->end)) {
+  while (forms.size() < max_forms && (forms.empty() || record->begin < record->end)) {
     StoredCharacter form;
     form.code_ = code;
     form.file_ = file;

@@ -84,7 +84,7 @@ class SetFile {
   std::unique_ptr<const MappedFile> file_;
   std::span<const std::byte> bytes_;
   Provenance provenance_;
-  CoordinateCoding coding_;
+  CoordinateEncoding coding_;
   set_format::RankedIds ranked_ids_{};
   double coordinate_error_ = 0.0;
   std::size_t group_count_ = 0;

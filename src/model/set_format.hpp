@@ -49,20 +49,20 @@ inline constexpr unsigned factors = 8;
 inline constexpr unsigned own_coding = 16;
 inline constexpr unsigned special = 128;
 inline constexpr unsigned known_flags = more_forms | named | quartic | factors | own_coding | special;
-inline constexpr std::size_t most_plain_strokes = 127;
-inline constexpr std::size_t most_strokes = 4096;       ///< of a form
-inline constexpr std::size_t most_forms = 255;          ///< of a character
-inline constexpr std::size_t longest_order_name = 255;  // [byte]
+inline constexpr std::size_t max_plain_strokes = 127;
+inline constexpr std::size_t max_strokes = 4096;          ///< of a form
+inline constexpr std::size_t max_forms = 255;             ///< of a character
+inline constexpr std::size_t max_order_name_bytes = 255;  // [byte]
 
 // A stroke id is its rank in a Rice code of parameter 1: half the rank as so many ones, a zero, and the odd bit.
-inline constexpr int least_id_bits = 2;
-inline constexpr int most_id_bits = (typical_stroke_count - 1) / 2 + 2;
+inline constexpr int min_id_bits = 2;
+inline constexpr int max_id_bits = (typical_stroke_count - 1) / 2 + 2;
 
 using RankedIds = std::array<std::uint8_t, typical_stroke_count>;
 
-inline constexpr std::uint32_t most_steps_per_em = 1U << 26;
-inline constexpr std::uint8_t most_coordinate_bits = 32;
-inline constexpr double largest_coordinate = 16.0;  // [em]
+inline constexpr std::uint32_t max_steps_per_em = 1U << 26;
+inline constexpr std::uint8_t max_coordinate_bits = 32;
+inline constexpr double max_coordinate = 16.0;  // [em]
 
 /// Control points and feature points of each typical stroke: counts[degree - 3][id].
 struct StrokeCounts {

@@ -5,7 +5,7 @@
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/model/character_set.hpp>
 
-#include "code_name.hpp"
+#include "code_point_name.hpp"
 #include "little_endian.hpp"
 #include "set_file.hpp"
 #include "set_format.hpp"
@@ -23,7 +23,7 @@ double load_double(std::span<const std::byte> bytes, std::uint64_t at) noexcept 
 /// Reads coordinates one after the other.
 class PointReader {
  public:
-  PointReader(std::span<const std::byte> bytes, const CoordinateCoding& coding, std::uint64_t at) noexcept
+  PointReader(std::span<const std::byte> bytes, const CoordinateEncoding& coding, std::uint64_t at) noexcept
       : bytes_(bytes), coding_(coding), at_(at) {}
 
   Point next() noexcept {
@@ -40,7 +40,7 @@ class PointReader {
   }
 
   std::span<const std::byte> bytes_;
-  CoordinateCoding coding_;
+  CoordinateEncoding coding_;
   std::uint64_t at_;
 };
 
@@ -51,7 +51,7 @@ class IdReader {
 
   /// 0 when it is none.
   int next() noexcept {
-    const std::uint32_t bits = load_bits(file_.bytes(), at_, most_id_bits);
+    const std::uint32_t bits = load_bits(file_.bytes(), at_, max_id_bits);
     const int ones = std::countr_one(bits);
     at_ += static_cast<std::uint64_t>(ones + 2);
     const std::size_t rank = 2 * static_cast<std::size_t>(ones) + ((bits >> (ones + 1)) & 1);
@@ -65,7 +65,7 @@ class IdReader {
 };
 
 bool in_domain(const Point& point) noexcept {
-  return std::abs(point.x()) <= largest_coordinate && std::abs(point.y()) <= largest_coordinate;  // and is a number
+  return std::abs(point.x()) <= max_coordinate && std::abs(point.y()) <= max_coordinate;  // and is a number
 }
 
 }  // namespace
@@ -128,7 +128,8 @@ std::optional<StoredStroke> StoredCharacter::stroke(int index) const noexcept {
 
 Character StoredCharacter::character() const {
   const auto fail = [&](const std::string& what) {
-    throw FormatError((file_ ? file_->name() : "no set") + ": character " + code_name(code_) + " is damaged: " + what);
+    throw FormatError((file_ ? file_->name() : "no set") + ": character " + code_point_name(code_) +
+                      " is damaged: " + what);
   };
   if (stroke_count_ == 0) fail("the checksum or the numbers of the place where it is kept do not agree");
   const auto& counts = stroke_counts()[static_cast<std::size_t>(curve_degree_ - 3)];

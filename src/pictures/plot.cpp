@@ -43,12 +43,12 @@ Signals signals_of(const Recording& recording, int character) {
   Signals signals{{}, {{"fx", {}}, {"fy", {}}, {"size", {}}, {"normal", {}}}, {}};
   bool writing = false;
   double end = 0.0;
-  for (const Sample& sample : recording.samples) {
+  for (const RecordedSample& sample : recording.samples) {
     // The tick that finishes the last stroke may already belong to the next character.
     const bool here = sample.character == character;
     if (writing && !(here && sample.state == InteractionState::writing)) {
       signals.bands.back().end = sample.time;
-      signals.bands.back().abandoned = has(sample.events, TickEvent::stroke_abandoned);
+      signals.bands.back().abandoned = has_event(sample.events, TickEvent::stroke_abandoned);
       writing = false;
     }
     if (!here || !std::isfinite(sample.time)) continue;
@@ -165,7 +165,7 @@ std::string band_caption(const std::vector<Band>& bands) {
 
 }  // namespace
 
-bool can_plot() {
+bool gnuplot_available() {
   try {
     return run_process({"gnuplot", "--version"}, "").exit_code == 0;
   } catch (const Error&) {

@@ -17,7 +17,7 @@ void require_length(const char* name, double value, bool may_be_zero) {
 
 }  // namespace
 
-std::vector<Page> lay_out(std::span<const Character> characters, const PageLayout& layout) {
+std::vector<PracticePage> lay_out(std::span<const Character> characters, const PageLayout& layout) {
   require_length("width", layout.width, false);
   require_length("height", layout.height, false);
   require_length("em", layout.em, false);
@@ -33,11 +33,11 @@ std::vector<Page> lay_out(std::span<const Character> characters, const PageLayou
   const auto columns = static_cast<std::size_t>(std::min(columns_that_fit, static_cast<double>(most)));
   const auto rows = static_cast<std::size_t>(std::min(rows_that_fit, static_cast<double>(most)));
 
-  std::vector<Page> pages;
+  std::vector<PracticePage> pages;
   for (std::size_t first = 0; first < characters.size(); first += columns * rows) {
     const auto on_page = characters.subspan(first, std::min(columns * rows, characters.size() - first));
     const std::size_t rows_used = (on_page.size() + columns - 1) / columns;
-    Page page{layout.width, layout.height, {}};
+    PracticePage page{layout.width, layout.height, {}};
     for (std::size_t i = 0; i < on_page.size(); ++i) {
       const std::size_t row = i / columns;
       const std::size_t in_row = std::min(columns, on_page.size() - row * columns);

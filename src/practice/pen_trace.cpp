@@ -19,13 +19,13 @@ namespace calligraphy {
 namespace {
 
 // What no person's pen exceeds: a file beyond is not what it should be.
-constexpr std::size_t most_traces = 1000000;
-constexpr std::size_t most_strokes = 1000;
-constexpr std::size_t most_points = 1000000;  // of a stroke: a quarter of an hour at 1 kHz
-constexpr double farthest = 10.0;             // coordinate [em]
-constexpr double largest_em = 1e9;            // [file's units]
-constexpr double longest_time = 86400.0;      // [s]
-constexpr double finest = 1e-6;               // that is written [unit, ms]
+constexpr std::size_t max_traces = 1000000;
+constexpr std::size_t max_strokes = 1000;
+constexpr std::size_t max_points = 1000000;  // of a stroke: a quarter of an hour at 1 kHz
+constexpr double farthest = 10.0;            // coordinate [em]
+constexpr double max_em = 1e9;               // [file's units]
+constexpr double max_time = 86400.0;         // [s]
+constexpr double finest = 1e-6;              // that is written [unit, ms]
 
 constexpr double milliseconds = 1e3;
 
@@ -65,7 +65,7 @@ class Parser {
       const std::string_view kind = next_word("C, S or a comment");
       if (kind == "C") {
         require_complete(traces);
-        if (traces.size() >= most_traces) fail("more than " + std::to_string(most_traces) + " characters");
+        if (traces.size() >= max_traces) fail("more than " + std::to_string(max_traces) + " characters");
         traces.push_back(trace());
       } else if (kind == "S") {
         if (traces.empty()) fail("a stroke before the first character");
@@ -142,8 +142,8 @@ class Parser {
       fail("the character is not that of the code " + std::string(hex) + ", or it is not UTF-8");
     }
     trace.set = utf8(next_word("the name of a set"));
-    trace.em = next_number("the em", finest, largest_em);
-    announced_ = next_count("the number of strokes", most_strokes);
+    trace.em = next_number("the em", finest, max_em);
+    announced_ = next_count("the number of strokes", max_strokes);
     last_time_ = 0.0;
     return trace;
   }
@@ -158,7 +158,7 @@ class Parser {
   }
 
   PenStroke stroke(const PenTrace& trace) {
-    const std::size_t count = next_count("the number of points", most_points);
+    const std::size_t count = next_count("the number of points", max_points);
     // Each point is a word of three numbers: a count beyond them must not be believed.
     if (count > rest_.size() / 5 + 1) fail("the line is too short for " + std::to_string(count) + " points");
     PenStroke stroke;
@@ -167,7 +167,7 @@ class Parser {
     for (std::size_t i = 0; i < count; ++i) {
       const double x = next_number("x", -bound, bound);
       const double y = next_number("y", -bound, bound);
-      const double time = next_number("the time", 0.0, longest_time * milliseconds);
+      const double time = next_number("the time", 0.0, max_time * milliseconds);
       if (time < last_time_) fail("the time falls from " + shown(last_time_) + " to " + shown(time) + " ms");
       last_time_ = time;
       stroke.push_back({{x / trace.em, 1.0 - y / trace.em}, time / milliseconds});
@@ -209,19 +209,19 @@ void require_writable(const PenTrace& trace, std::size_t index) {
   require(!trace.set.empty() && trace.set.find_first_of(" \r\n") == std::string::npos,
           "its set is '" + trace.set + "': expected a word");
   decode_utf8(trace.set);
-  require(trace.em >= finest && trace.em <= largest_em, "its em is " + std::to_string(trace.em));
-  require(!trace.strokes.empty() && trace.strokes.size() <= most_strokes,
+  require(trace.em >= finest && trace.em <= max_em, "its em is " + std::to_string(trace.em));
+  require(!trace.strokes.empty() && trace.strokes.size() <= max_strokes,
           "it has " + std::to_string(trace.strokes.size()) + " strokes");
   double last = 0.0;
   for (std::size_t i = 0; i < trace.strokes.size(); ++i) {
     const std::string place = "stroke " + std::to_string(i + 1);
     const PenStroke& stroke = trace.strokes[i];
-    require(!stroke.empty() && stroke.size() <= most_points,
+    require(!stroke.empty() && stroke.size() <= max_points,
             place + " has " + std::to_string(stroke.size()) + " points");
     for (const TimedPoint& point : stroke) {
       require(std::abs(point.point.x()) <= farthest && std::abs(1.0 - point.point.y()) <= farthest,
               place + " has a point at " + std::to_string(point.point.x()) + ", " + std::to_string(point.point.y()));
-      require(point.time >= last && point.time <= longest_time,
+      require(point.time >= last && point.time <= max_time,
               place + " has a time of " + std::to_string(point.time) + " s after " + std::to_string(last) + " s");
       last = point.time;
     }

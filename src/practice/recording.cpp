@@ -27,7 +27,7 @@ constexpr std::array states = {InteractionState::separation, InteractionState::a
 constexpr std::array statuses = {TickStatus::ok, TickStatus::bad_sample, TickStatus::device_fault};
 constexpr int all_events = 2 * static_cast<int>(TickEvent::page_finished) - 1;
 
-const char* name_of(TickStatus status) noexcept {
+const char* to_string(TickStatus status) noexcept {
   switch (status) {
     case TickStatus::ok:
       return "ok";
@@ -51,21 +51,21 @@ void append(std::string& text, Number value) {
   text.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
 }
 
-void append_row(std::string& text, const Sample& sample) {
+void append_row(std::string& text, const RecordedSample& sample) {
   append(text, sample.time);
   for (const Eigen::Vector3d* vector : {&sample.device_point, &sample.pen_tip, &sample.force}) {
     for (const double value : *vector) append(text += ',', value);
   }
-  text.append(",").append(short_name(sample.state));
+  text.append(",").append(to_string(sample.state));
   append(text += ',', static_cast<int>(sample.events));
-  text.append(",").append(name_of(sample.status));
+  text.append(",").append(to_string(sample.status));
   append(text += ',', sample.character);
   append(text += ',', sample.stroke);
   append(text += ',', sample.tick_ns);
   text += '\n';
 }
 
-/// Reads what write_csv writes, and nothing else but line ends of either kind.
+/// Reads what write_recording writes, and nothing else but line ends of either kind.
 class Parser {
  public:
   Parser(std::istream& in, std::string_view name) : in_(in), name_(name) {}
@@ -102,17 +102,19 @@ class Parser {
     return true;
   }
 
-  Sample sample() {
+  RecordedSample sample() {
     split();
     column_ = 0;
-    Sample sample;
+    RecordedSample sample;
     sample.time = next_number<double>();
     for (Eigen::Vector3d* vector : {&sample.device_point, &sample.pen_tip, &sample.force}) {
       for (double& value : *vector) value = next_number<double>();
     }
-    sample.state = next_of(states, short_name, "SS, AS, CS or WS");
+    sample.state = next_of(
+        states, [](auto each) { return to_string(each); }, "SS, AS, CS or WS");
     sample.events = static_cast<TickEvent>(next_integer(all_events));
-    sample.status = next_of(statuses, name_of, "ok, bad_sample or device_fault");
+    sample.status = next_of(
+        statuses, [](auto each) { return to_string(each); }, "ok, bad_sample or device_fault");
     sample.character = next_integer(std::numeric_limits<int>::max());
     sample.stroke = next_integer(std::numeric_limits<int>::max());
     sample.tick_ns = next_number<float>();
@@ -181,11 +183,11 @@ class Parser {
 
 }  // namespace
 
-void write_csv(std::ostream& out, const Recording& recording) {
+void write_recording(std::ostream& out, const Recording& recording) {
   std::string text = header().append("\n").append(rate_comment);
   append(text, recording.rate);
   text += '\n';
-  for (const Sample& sample : recording.samples) {
+  for (const RecordedSample& sample : recording.samples) {
     append_row(text, sample);
     if (text.size() < chunk) continue;
     out.write(text.data(), static_cast<std::streamsize>(text.size()));
@@ -194,17 +196,17 @@ void write_csv(std::ostream& out, const Recording& recording) {
   out.write(text.data(), static_cast<std::streamsize>(text.size()));
 }
 
-Recording read_csv(std::istream& in, std::string_view name) { return Parser(in, name).parse(); }
+Recording read_recording(std::istream& in, std::string_view name) { return Parser(in, name).parse(); }
 
-Recording read_csv(const std::filesystem::path& path) {
+Recording read_recording(const std::filesystem::path& path) {
   std::ifstream in = open_file(path);
-  return read_csv(in, path.string());
+  return read_recording(in, path.string());
 }
 
 std::vector<DeviceState> device_states(const Recording& recording, const MotionMapping& mapping) {
   std::vector<DeviceState> result;
   result.reserve(recording.samples.size());
-  for (const Sample& sample : recording.samples) {
+  for (const RecordedSample& sample : recording.samples) {
     DeviceState state;
     state.time = sample.time;
     state.position = mapping.to_device(sample.device_point);

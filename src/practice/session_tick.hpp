@@ -12,7 +12,7 @@ namespace calligraphy {
 /// Asks the renderer, and by choice reads the clock round it.
 class SessionTick {
  public:
-  SessionTick(HapticRenderer& renderer, Mode mode, bool measure)
+  SessionTick(HapticRenderer& renderer, FeedbackMode mode, bool measure)
       : renderer_(renderer), mode_(mode), measure_(measure) {}
 
   /// The force for the device is force().
@@ -21,7 +21,7 @@ class SessionTick {
     const auto before = measure_ ? Clock::now() : Clock::time_point();
     const HapticTick& tick = renderer_.update(state);
     const auto after = measure_ ? Clock::now() : Clock::time_point();
-    const bool feels = mode_ == Mode::force;
+    const bool feels = mode_ == FeedbackMode::force;
     force_ = feels ? tick.force : Eigen::Vector3d(Eigen::Vector3d::Zero());
     sample_ = {tick.time,    tick.device_point,
                tick.pen_tip, feels ? tick.page_force : Eigen::Vector3d(Eigen::Vector3d::Zero()),
@@ -32,17 +32,17 @@ class SessionTick {
   }
 
   const Eigen::Vector3d& force() const noexcept { return force_; }
-  const Sample& sample() const noexcept { return sample_; }
+  const RecordedSample& sample() const noexcept { return sample_; }
 
  private:
   HapticRenderer& renderer_;
-  Mode mode_;
+  FeedbackMode mode_;
   bool measure_;
   Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
-  Sample sample_;
+  RecordedSample sample_;
 };
 
 /// Of the strokes of the page, by characters.
-double share_written(const Page& page, int character, int stroke) noexcept;
+double share_written(const PracticePage& page, int character, int stroke) noexcept;
 
 }  // namespace calligraphy

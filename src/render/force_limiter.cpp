@@ -6,9 +6,9 @@
 namespace calligraphy {
 namespace {
 
-Eigen::Vector3d shortened(const Eigen::Vector3d& force, double longest) noexcept {
+Eigen::Vector3d shortened(const Eigen::Vector3d& force, double max_length) noexcept {
   const double size = force.norm();
-  return size > longest ? Eigen::Vector3d(force * (longest / size)) : force;
+  return size > max_length ? Eigen::Vector3d(force * (max_length / size)) : force;
 }
 
 /// The largest first step of a run that ends after `way`, each step smaller by `jerk` than the last. With k whole jerks
@@ -21,16 +21,16 @@ double braking_step(double way, double jerk) noexcept {
 
 /// One step towards a target `way` off, after the step `last`.
 template <typename Vector>
-Vector jerk_limited(const Vector& way, const Vector& last, double longest, double jerk) noexcept {
+Vector jerk_limited(const Vector& way, const Vector& last, double max_length, double jerk) noexcept {
   const double distance = way.norm();
-  const double wanted = std::min(longest, braking_step(distance, jerk));
+  const double wanted = std::min(max_length, braking_step(distance, jerk));
   Vector step = Vector::Zero();
   if (distance > 0.0) step = way * (wanted / distance);
   const Vector change = step - last;
   const double size = change.norm();
   if (size > jerk) step = last + change * (jerk / size);
   const double length = step.norm();
-  return length > longest ? Vector(step * (longest / length)) : step;
+  return length > max_length ? Vector(step * (max_length / length)) : step;
 }
 
 }  // namespace
@@ -40,12 +40,12 @@ double ForceLimiter::max_step() const noexcept {
 }
 
 Eigen::Vector3d ForceLimiter::next(const Eigen::Vector3d& previous, const Eigen::Vector3d& target,
-                                   double longest) noexcept {
-  double most = std::min(peak, longest);
+                                   double max_length) noexcept {
+  double most = std::min(peak, max_length);
   Eigen::Vector3d force = shortened(target, most);
   if (!limit_rate) return force;
   double taken = 0.0;
-  if (longest < peak) {
+  if (max_length < peak) {
     const double size = previous.norm();
     taken = std::clamp(size - most, 0.0, std::min(in_plane_step, normal_step));
     most = std::max(most, size - taken);

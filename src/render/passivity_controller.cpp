@@ -48,7 +48,7 @@ PassivityController::PassivityController(const PassivityOptions& options, double
   require(budget_ >= 0.0, "energy_budget", budget_, "a number from 0 up");
   require(force_rate_ > 0.0, "force_rate", force_rate_, "a number above 0");
   require(std::isfinite(period) && period > 0.0, "period", period, "a finite number above 0");
-  require(options.delay >= 0 && options.delay <= longest_delay, "delay", options.delay, "0 to 15 ticks");
+  require(options.delay >= 0 && options.delay <= max_delay, "delay", options.delay, "0 to 15 ticks");
   restart();
 }
 
@@ -58,7 +58,7 @@ void PassivityController::restart() noexcept {
   wanted_ = damping_ = velocity_ = Eigen::Vector3d::Zero();
   lost_ = 0;
   speed_ = presumed_way_ = force_while_lost_ = surplus_in_plane_ = surplus_normal_ = given_ = 0.0;
-  longest_ = std::numeric_limits<double>::infinity();
+  max_force_ = std::numeric_limits<double>::infinity();
   left_ = budget_;
 }
 
@@ -93,13 +93,13 @@ Eigen::Vector3d PassivityController::next(const Eigen::Vector3d& position, const
 /// With next to nothing left, or less, as when lost samples were paid for, a pen that moves is braked lightly: it pays
 /// back. Without that an empty budget would stay empty for ever, as no force does no work.
 Eigen::Vector3d PassivityController::within_budget(const Eigen::Vector3d& force) noexcept {
-  longest_ = longest_payable(speed_ + sudden_speed);
+  max_force_ = max_payable_force(speed_ + sudden_speed);
   if (left_ < empty_share * budget_) {
-    longest_ = left_ > 0.0 ? std::min(longest_, strongest_brake) : strongest_brake;
-    return -longest_ / (speed_ + slow_pen) * velocity_;
+    max_force_ = left_ > 0.0 ? std::min(max_force_, strongest_brake) : strongest_brake;
+    return -max_force_ / (speed_ + slow_pen) * velocity_;
   }
   const double size = force.norm();
-  return size > longest_ ? Eigen::Vector3d(force * (longest_ / size)) : force;
+  return size > max_force_ ? Eigen::Vector3d(force * (max_force_ / size)) : force;
 }
 
 /// Where the pen went is not known: pay for one that keeps its speed, and some more, along the force.
@@ -141,7 +141,7 @@ void PassivityController::pay(double energy) noexcept {
 
 /// Largest F with F^2 v / (2 rate) + F v T <= E, where E is what remains after forces sent whose work no sample has
 /// shown yet.
-double PassivityController::longest_payable(double speed) const noexcept {
+double PassivityController::max_payable_force(double speed) const noexcept {
   const double way = speed * period_;
   double remaining = left_;
   for (std::size_t age = 0; age < delay_; ++age) {

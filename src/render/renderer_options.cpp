@@ -119,7 +119,7 @@ RendererOptions RendererOptions::everything(const Capabilities& capabilities) {
   clip_stiffness(options, capabilities);
   options.force_jerk = 1e5;
   const bool is_modelled =
-      capabilities.apparent_mass > 0.0 && capabilities.sample_delay <= PassivityController::longest_delay;
+      capabilities.apparent_mass > 0.0 && capabilities.sample_delay <= PassivityController::max_delay;
   options.passivity_control = is_modelled;
   if (is_modelled) options.energy_budget = 0.1;
   const bool warms = capabilities.continuous_force > 0.0 && capabilities.continuous_force < capabilities.peak_force;
@@ -128,12 +128,12 @@ RendererOptions RendererOptions::everything(const Capabilities& capabilities) {
 }
 
 std::vector<std::string> clip_stiffness(RendererOptions& options, const Capabilities& capabilities,
-                                        double largest_attraction, double scale) {
+                                        double max_attraction, double scale) {
   require("servo_rate", options.servo_rate, Bound::above_zero, 1e6);
-  require("largest_attraction", largest_attraction, Bound::from_zero);
+  require("max_attraction", max_attraction, Bound::from_zero);
   require("scale", scale, Bound::above_zero);
   const Capabilities unknown;  // states no limit
-  const Capabilities& known = options.stiffness_check == StiffnessCheck::none ? unknown : capabilities;
+  const Capabilities& known = options.stiffness_check == StiffnessCheck::off ? unknown : capabilities;
   StiffnessLimit usable = usable_stiffness(known), stable = stable_stiffness(options, known);
   if (scale != 1.0) {
     // Motion appears enlarged and so does force: the device feels K K_S^2.
@@ -155,18 +155,17 @@ std::vector<std::string> clip_stiffness(RendererOptions& options, const Capabili
   };
   const StiffnessLimit& limit = usable.value < stable.value ? usable : stable;
   std::ostringstream attraction;
-  if (largest_attraction != 1.0) attraction << " times the largest attraction factor " << largest_attraction;
+  if (max_attraction != 1.0) attraction << " times the largest attraction factor " << max_attraction;
   clip("paper_stiffness", options.paper_stiffness, limit.value, limit.reason);
   const StiffnessLimit followed = followed_stiffness(options, known);
   clip("paper_stiffness", options.paper_stiffness, followed.value / (scale * scale), followed.reason);
-  clip("guidance_stiffness", options.guidance_stiffness, limit.value / largest_attraction,
-       attraction.str() + limit.reason);
+  clip("guidance_stiffness", options.guidance_stiffness, limit.value / max_attraction, attraction.str() + limit.reason);
   clip("wrong_way_stiffness", options.wrong_way_stiffness, limit.value, limit.reason);
   if (options.friction.coefficient > 0.0) {
     // A device may be usable with both springs at once, one along the stroke and one across; stable it must be with
     // both.
     clip("friction.stiffness", options.friction.stiffness, limit.value, limit.reason);
-    const double guidance = options.guidance_stiffness * largest_attraction;
+    const double guidance = options.guidance_stiffness * max_attraction;
     std::ostringstream beside;
     beside << " beside " << guidance << " N/m of guidance";
     clip("friction.stiffness", options.friction.stiffness, std::max(0.1 * stable.value, stable.value - guidance),
@@ -175,19 +174,18 @@ std::vector<std::string> clip_stiffness(RendererOptions& options, const Capabili
   return clipped;
 }
 
-void validate(const RendererOptions& options, const Capabilities& capabilities, double largest_attraction,
-              double scale) {
+void validate(const RendererOptions& options, const Capabilities& capabilities, double max_attraction, double scale) {
   require("servo_rate", options.servo_rate, Bound::above_zero, 1e6);
   RendererOptions stable = options;
-  const std::vector<std::string> too_stiff = clip_stiffness(stable, capabilities, largest_attraction, scale);
+  const std::vector<std::string> too_stiff = clip_stiffness(stable, capabilities, max_attraction, scale);
   if (!too_stiff.empty()) throw ValueError(too_stiff.front());
   require("guidance_fade_in", options.guidance_fade_in, Bound::from_zero);
   require("wrong_way_limit", options.wrong_way_limit, Bound::from_zero);
   require("wrong_way_slack", options.wrong_way_slack, Bound::from_zero);
   require("guidance_limit", options.guidance_limit, Bound::above_zero);
   require("assist.retention", options.assist.retention, Bound::from_zero, 1.0);
-  require("assist.full_help_error", options.assist.full_help_error, Bound::above_zero);
-  require("assist.least", options.assist.least, Bound::from_zero, 1.0);
+  require("assist.full_assistance_error", options.assist.full_assistance_error, Bound::above_zero);
+  require("min_assistance", options.assist.min_assistance, Bound::from_zero, 1.0);
   require("friction.coefficient", options.friction.coefficient, Bound::from_zero, 10.0);
   require("friction.stiffness", options.friction.stiffness, Bound::above_zero, stiffest);
   require("friction.static_ratio", options.friction.static_ratio, Bound::from_one, 10.0);
@@ -198,7 +196,7 @@ void validate(const RendererOptions& options, const Capabilities& capabilities, 
     throw ValueError(std::string("stroke.nearest.") + error.what());
   }
   require("stroke.space.radius", options.stroke.space.radius, Bound::above_zero);
-  require("stroke.space.edge", options.stroke.space.edge, Bound::above_zero, options.stroke.space.radius);
+  require("stroke.space.fade_width", options.stroke.space.fade_width, Bound::above_zero, options.stroke.space.radius);
   require("stroke.plane_tolerance", options.stroke.plane_tolerance, Bound::from_zero);
   require("stroke.window", options.stroke.window, Bound::from_zero);
   require("start_radius", options.start_radius, Bound::above_zero);
@@ -221,7 +219,7 @@ void validate(const RendererOptions& options, const Capabilities& capabilities, 
   if (options.passivity_control) {
     require("apparent_mass of the device, for passivity_control", capabilities.apparent_mass, Bound::above_zero);
   }
-  require("largest_speed", options.largest_speed, Bound::above_zero);
+  require("max_speed", options.max_speed, Bound::above_zero);
 }
 
 }  // namespace calligraphy

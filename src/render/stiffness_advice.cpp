@@ -20,7 +20,7 @@ using Complex = std::complex<double>;
 
 constexpr double fastest_rate = 1e6;  // [Hz]
 constexpr double largest = 1e9;       // of any other field, so that no product of them leaves the numbers
-constexpr int longest_delay = 1000;
+constexpr int max_delay = 1000;
 
 /// Of a device that states none: that of the shipped profile with the least [N].
 constexpr double presumed_friction = 0.04;
@@ -194,9 +194,9 @@ void validate(const SampledLoop& loop) {
   require("grip.mass", loop.grip.mass, "kg", 0.0);
   require("grip.damping", loop.grip.damping, "N s/m", 0.0);
   require("grip.stiffness", loop.grip.stiffness, "N/m", 0.0);
-  if (loop.device.sample_delay < 0 || loop.device.sample_delay > longest_delay) {
+  if (loop.device.sample_delay < 0 || loop.device.sample_delay > max_delay) {
     throw ValueError("device.sample_delay = " + std::to_string(loop.device.sample_delay) +
-                     " ticks: expected from 0 to " + std::to_string(longest_delay));
+                     " ticks: expected from 0 to " + std::to_string(max_delay));
   }
 }
 

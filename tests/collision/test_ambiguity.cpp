@@ -26,7 +26,7 @@ Character stroke_of(int id, std::vector<Point> points) {
 
 struct Run {
   bool finished = false;
-  double largest_jump = 0.0;   ///< of the foot from one update to the next [m]
+  double max_jump = 0.0;       ///< of the closest point from one update to the next [m]
   double furthest_back = 0.0;  ///< [m]
 };
 
@@ -39,7 +39,7 @@ Run follow(const Character& character, const std::vector<Point>& path, const Str
     const StrokeContact contact = active.update(path[i], rules);
     run.finished = contact.finished;
     run.furthest_back = std::max(run.furthest_back, contact.backwards);
-    if (i > 0) run.largest_jump = std::max(run.largest_jump, (contact.foot.point - last.foot.point).norm());
+    if (i > 0) run.max_jump = std::max(run.max_jump, (contact.closest.point - last.closest.point).norm());
     last = contact;
   }
   return run;
@@ -47,19 +47,19 @@ Run follow(const Character& character, const std::vector<Point>& path, const Str
 
 }  // namespace
 
-TEST_CASE("Fig. 25, strong bend: the foot stays on its own limb of a hairpin", "[collision]") {
+TEST_CASE("Fig. 25, strong bend: the closest point stays on its own limb of a hairpin", "[collision]") {
   // Limbs 3.5 mm apart, the pen 2.5 mm towards the other limb: the whole element has its nearest point there.
   const Character hairpin = stroke_of(4, {{0.1, 0.5}, {1.3, 0.5}, {1.3, 0.6}, {0.1, 0.59}});
   const std::vector<Point> path = beside(path_of(strokes(hairpin)[0], place, pen_step), 0.0025);
   std::vector<Point> first_limb(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(path.size() / 3));
   const Run windowed = follow(hairpin, first_limb);
   CHECK(windowed.furthest_back == Approx(0.0).margin(1e-6));
-  CHECK(windowed.largest_jump < 3.0 * pen_step);
+  CHECK(windowed.max_jump < 3.0 * pen_step);
   StrokeRules whole;
   whole.window = 0.0;
   CHECK_FALSE(windowed.finished);
   CHECK(follow(hairpin, first_limb, whole)
-            .finished);  // sought on the whole element, the foot is on the other limb at once
+            .finished);  // sought on the whole element, the closest point is on the other limb at once
   CHECK(follow(hairpin, path_of(strokes(hairpin)[0], place, pen_step)).finished);
 }
 
@@ -109,21 +109,22 @@ TEST_CASE("Fig. 26, corner: a pen that keeps inside it goes on where both limbs 
     draw_line(path, end + inside * left, pen_step);
     ActiveStroke active;
     active.load(stroke, place);
-    double last = inside, largest_change = 0.0;
+    double last = inside, max_change = 0.0;
     bool finished = false;
     for (std::size_t i = 0; i < path.size() && !finished; ++i) {
       const StrokeContact contact = active.update(path[i], {});
-      largest_change = std::max(largest_change, std::abs(contact.foot.distance - last));
-      last = contact.foot.distance;
+      max_change = std::max(max_change, std::abs(contact.closest.distance - last));
+      last = contact.closest.distance;
       finished = contact.finished;
     }
     INFO("inside by " << inside << " m");
     CHECK(finished);
-    CHECK(largest_change < 2.0 * pen_step);  // so the size of the force does not step where its direction turns
+    CHECK(max_change < 2.0 * pen_step);  // so the size of the force does not step where its direction turns
   }
 }
 
-TEST_CASE("Fig. 26, corner: on its bisector the foot belongs to one limb, not to both in turn", "[collision]") {
+TEST_CASE("Fig. 26, corner: on its bisector the closest point belongs to one limb, not to both in turn",
+          "[collision]") {
   const Character corner = calligraphy_test::typical_character(16);
   ActiveStroke active;
   const Stroke stroke = strokes(corner)[0];
@@ -151,7 +152,7 @@ TEST_CASE("Fig. 27, parallel strokes: the active one alone attracts", "[collisio
   for (const Point& tip : path_of(all[0], place, pen_step)) {  // the pen runs along the stroke above
     const StrokeContact contact = active.update(tip, {});
     const double to_active = nearest_point(active.element(0), tip).distance;
-    REQUIRE(contact.foot.distance >= to_active - 1e-12);
+    REQUIRE(contact.closest.distance >= to_active - 1e-12);
     REQUIRE_FALSE(contact.finished);
   }
 }
@@ -162,12 +163,12 @@ TEST_CASE("Fig. 28, crossed strokes: crossing the other stroke changes nothing",
   const std::vector<Stroke> all = strokes(*ten);
   ActiveStroke active;
   active.load(all[1], place);  // the vertical, across the written horizontal
-  double largest_force_arm = 0.0, last_arc = 0.0;
+  double max_force_arm = 0.0, last_arc = 0.0;
   int falls = 0;
   bool finished = false;
   for (const Point& tip : path_of(all[1], place, pen_step)) {
     const StrokeContact contact = active.update(tip, {});
-    largest_force_arm = std::max(largest_force_arm, contact.foot.distance);
+    max_force_arm = std::max(max_force_arm, contact.closest.distance);
     falls += contact.arc < last_arc;
     last_arc = contact.arc;
     finished = finished || contact.finished;
@@ -175,5 +176,5 @@ TEST_CASE("Fig. 28, crossed strokes: crossing the other stroke changes nothing",
   }
   CHECK(finished);
   CHECK(falls == 0);
-  CHECK(largest_force_arm < 1e-9);
+  CHECK(max_force_arm < 1e-9);
 }

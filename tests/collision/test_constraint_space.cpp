@@ -15,7 +15,7 @@ constexpr ConstraintSpace printed{ConstraintSpaceRule::wang2006};
 StrokeElement element_of(std::vector<Point> points) { return prepare_element(points); }
 
 double share_at(const ConstraintSpace& space, const StrokeElement& element, const Point& query) {
-  return guidance_share(space, element, query, nearest_point(element, query));
+  return guidance_weight(space, element, query, nearest_point(element, query));
 }
 
 const StrokeElement horizontal = element_of({{0.01, 0.02}, {0.05, 0.02}});  // 40 mm
@@ -77,16 +77,16 @@ TEST_CASE("the tube is whole inside, nothing outside, and without step or kink b
   CHECK(share(0.008) == 0.0);
   CHECK(share(1.0) == 0.0);
   const double step = 1e-6;
-  double largest_step = 0.0, largest_bend = 0.0, rises = 0.0;
+  double max_step = 0.0, max_bend = 0.0, rises = 0.0;
   for (double y = 0.0; y < 0.010; y += step) {
     const double before = share(y), at = share(y + step), after = share(y + 2.0 * step);
-    largest_step = std::max(largest_step, std::abs(at - before));
-    largest_bend = std::max(largest_bend, std::abs(after - 2.0 * at + before));
+    max_step = std::max(max_step, std::abs(at - before));
+    max_bend = std::max(max_bend, std::abs(after - 2.0 * at + before));
     rises = std::max(rises, at - before);
   }
   CHECK(rises <= 1e-12);
-  CHECK(largest_step <= 1.5 / 0.003 * step * 1.001);                  // slope of the smooth step: 3/2 per edge
-  CHECK(largest_bend <= 6.0 / (0.003 * 0.003) * step * step * 1.01);  // a kink would bend by a whole slope
+  CHECK(max_step <= 1.5 / 0.003 * step * 1.001);                  // slope of the smooth step: 3/2 per edge
+  CHECK(max_bend <= 6.0 / (0.003 * 0.003) * step * step * 1.01);  // a kink would bend by a whole slope
 }
 
 TEST_CASE("the tube is the same on both sides of a stroke and round both of its ends", "[collision]") {

@@ -17,10 +17,10 @@ TEST_CASE("a feature point is written where V_t . V_f of eq. (6) is positive", "
   const FeaturePlane plane = plane_of({{0, 0}, {3, 4}});
   CHECK(plane.point == Point(3, 4));
   CHECK(plane.normal.isApprox(Point(0.6, 0.8)));
-  CHECK(plane.beyond({3, 4}) == 0.0);
-  CHECK(plane.beyond({3 + 0.6, 4 + 0.8}) == Approx(1.0));
-  CHECK(plane.beyond({3 - 0.6, 4 - 0.8}) == Approx(-1.0));
-  CHECK(plane.beyond({3 - 8, 4 + 6}) == Approx(0.0).margin(1e-12));  // on the plane, however far
+  CHECK(plane.signed_distance({3, 4}) == 0.0);
+  CHECK(plane.signed_distance({3 + 0.6, 4 + 0.8}) == Approx(1.0));
+  CHECK(plane.signed_distance({3 - 0.6, 4 - 0.8}) == Approx(-1.0));
+  CHECK(plane.signed_distance({3 - 8, 4 + 6}) == Approx(0.0).margin(1e-12));  // on the plane, however far
 }
 
 TEST_CASE("the plane of a curve stands across its tangent at the end, also where the derivative vanishes",
@@ -34,5 +34,5 @@ TEST_CASE("the plane of a curve stands across its tangent at the end, also where
 TEST_CASE("the plane of a point has no side", "[collision]") {
   const FeaturePlane plane = plane_of({{1, 1}, {1, 1}});
   CHECK(plane.normal == Point(0, 0));
-  CHECK(plane.beyond({5, -7}) == 0.0);
+  CHECK(plane.signed_distance({5, -7}) == 0.0);
 }

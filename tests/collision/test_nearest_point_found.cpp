@@ -100,5 +100,5 @@ TEST_CASE("a pen that comes back from very far is on the nearest element at once
   tracker.update({-0x1.2342019b69a86p+23, 0x1.3582f30a0eb2p+26});
   const Point back(0x1.4900005c57961p+6, -0x1.4800006a5551p+6);
   CHECK(tracker.update(back).element == 1);
-  CHECK(tracker.update(back).foot.distance == Approx(nearest_point(elements[1], back).distance).margin(1e-12));
+  CHECK(tracker.update(back).closest.distance == Approx(nearest_point(elements[1], back).distance).margin(1e-12));
 }

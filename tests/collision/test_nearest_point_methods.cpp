@@ -179,7 +179,7 @@ TEST_CASE("no method takes anything from the heap", "[collision]") {
       const std::size_t count = std::min(results.size(), queries[i].size());
       nearest_points(elements[0], std::span(queries[i]).first(count), std::span(results).first(count), {method});
     }
-    for (const Point& query : queries[i]) sum += tracker.update(query).foot.distance;
+    for (const Point& query : queries[i]) sum += tracker.update(query).closest.distance;
   }
   CHECK(calligraphy_test::allocations() == before);
   CHECK(sum > 0.0);

@@ -218,11 +218,11 @@ TEST_CASE("of two equally near elements the first is the tracker's, however the 
     StrokeTracker tracker(elements);
     for (int k = 0; k < 20; ++k) {
       const Point tie(0.0, random.between(-1.0, 2.0));
-      // Straight away from a foot the distances change by exactly what the pen travels.
+      // Straight away from a closest point the distances change by exactly what the pen travels.
       const Point before = k % 2 == 0 ? random.point(-1.0, 1.0) : Point(0.1 * random.point(-1.0, 0.0));
       tracker.update(before);
       const StrokePoint from_there = tracker.update(tie);
-      tracker.update(tie + random.between(0.0, 0.5) * (tie - from_there.foot.point));
+      tracker.update(tie + random.between(0.0, 0.5) * (tie - from_there.closest.point));
       second += tracker.update(tie).element != 0;
       second += from_there.element != 0;
       ++ties;

@@ -101,9 +101,9 @@ TEST_CASE("the printed rule never claims a certificate on a curve and never beat
 TEST_CASE("on a line both methods are the perpendicular foot", "[collision]") {
   const std::vector<Point> line = {{0.1, 0.2}, {0.9, 0.2}};
   for (const double x : {-1.0, 0.1, 0.35, 0.5, 0.9, 3.0}) {
-    const double foot = std::min(std::max(x, 0.1), 0.9);
-    CHECK(printed(line, {x, 0.7}).point.isApprox(Point(foot, 0.2)));
-    CHECK(exact(line, {x, 0.7}).point.isApprox(Point(foot, 0.2)));
+    const double closest = std::min(std::max(x, 0.1), 0.9);
+    CHECK(printed(line, {x, 0.7}).point.isApprox(Point(closest, 0.2)));
+    CHECK(exact(line, {x, 0.7}).point.isApprox(Point(closest, 0.2)));
   }
 }
 

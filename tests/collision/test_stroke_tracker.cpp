@@ -17,7 +17,7 @@ using calligraphy_test::Sequence;
 
 namespace {
 
-double least_distance(const std::vector<StrokeElement>& elements, const Point& query) {
+double min_distance(const std::vector<StrokeElement>& elements, const Point& query) {
   double least = std::numeric_limits<double>::infinity();
   for (const StrokeElement& element : elements) least = std::min(least, nearest_point(element, query).distance);
   return least;
@@ -51,10 +51,10 @@ TEST_CASE("the tracker finds the nearest point of the whole stroke at every tick
       StrokeTracker tracker(elements);
       for (const Point& tip : path) {
         const StrokePoint found = tracker.update(tip);
-        worst = std::max(worst, std::abs(found.foot.distance - least_distance(elements, tip)));
-        uncertified += !found.foot.certified();
+        worst = std::max(worst, std::abs(found.closest.distance - min_distance(elements, tip)));
+        uncertified += !found.closest.certified();
         const double of_its_element = nearest_point(elements[static_cast<std::size_t>(found.element)], tip).distance;
-        elsewhere += std::abs(of_its_element - found.foot.distance) > 1e-12;
+        elsewhere += std::abs(of_its_element - found.closest.distance) > 1e-12;
       }
     }
   }
@@ -90,18 +90,18 @@ TEST_CASE("a query that is not finite leaves the tracker as it was", "[collision
   CHECK(before.element == 1);
   for (const double x : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e300}) {
     const StrokePoint lost = tracker.update({x, 0.0});
-    CHECK(lost.foot.status == NearestPointStatus::not_finite);
-    CHECK(std::isinf(lost.foot.distance));
-    CHECK(lost.foot.point.allFinite());
+    CHECK(lost.closest.status == NearestPointStatus::not_finite);
+    CHECK(std::isinf(lost.closest.distance));
+    CHECK(lost.closest.point.allFinite());
   }
   const StrokePoint after = tracker.update(tip);
   CHECK(after.element == before.element);
-  CHECK(after.foot.distance == Approx(before.foot.distance).epsilon(1e-12));
+  CHECK(after.closest.distance == Approx(before.closest.distance).epsilon(1e-12));
 }
 
 TEST_CASE("a tracker of no element refuses every query, and one of too many keeps the first five", "[collision]") {
   StrokeTracker none{std::span<const StrokeElement>()};
-  CHECK(none.update({0.0, 0.0}).foot.status == NearestPointStatus::not_finite);
+  CHECK(none.update({0.0, 0.0}).closest.status == NearestPointStatus::not_finite);
   std::vector<StrokeElement> elements;
   for (int i = 0; i < 9; ++i) {
     elements.push_back(prepare_element(std::vector<Point>{{0.01 * i, 0.0}, {0.01 * (i + 1), 0.0}}));

@@ -39,7 +39,7 @@ if(ldd)
   endif()
 endif()
 
-# Asked for by name, it can be had where what other rooms need is missing.
+# Asked for by name, it can be had where what other components need is missing.
 set(without "")
 foreach(package LibArchive pugixml ZLIB)
   list(APPEND without -DCMAKE_DISABLE_FIND_PACKAGE_${package}=ON)

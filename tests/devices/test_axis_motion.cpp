@@ -15,7 +15,7 @@ AxisState move(const Oscillator& oscillator, AxisState state, AxisLoad load, dou
   const double step = seconds / steps;
   const ImpulseResponse response = oscillator.impulse_response(step);
   for (int i = 0; i < steps; ++i) {
-    state = move_axis(oscillator, response, state, load, step);
+    state = advance_axis(oscillator, response, state, load, step);
     load.target += load.target_velocity * step;
   }
   return state;

@@ -68,8 +68,8 @@ TEST_CASE("coarse and irregular events become a path of bounded, continuous spee
   const double speed = 0.1;  // [m/s], of the pointer along a circle of 20 mm
   const double radius = 0.02;
   double next_event = 0.0;
-  double largest_change = 0.0;
-  double largest_speed_error = 0.0;
+  double max_change = 0.0;
+  double max_speed_error = 0.0;
   Eigen::Vector3d position = device.intention().position;
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
   for (int tick = 0; tick < 4000; ++tick) {
@@ -84,16 +84,16 @@ TEST_CASE("coarse and irregular events become a path of bounded, continuous spee
     // The next line begins where the last one ended.
     REQUIRE((meant.position - (position + velocity * period)).norm() < 1e-12);
     if (tick > 500) {
-      largest_change = std::max(largest_change, (meant.velocity - velocity).norm());
-      largest_speed_error = std::max(largest_speed_error, std::abs(meant.velocity.norm() - speed));
+      max_change = std::max(max_change, (meant.velocity - velocity).norm());
+      max_speed_error = std::max(max_speed_error, std::abs(meant.velocity.norm() - speed));
     }
     position = meant.position;
     velocity = meant.velocity;
   }
   CAPTURE(rate);
   // Without smoothing an event of 60 Hz moves the pen by 1.7 mm within one tick: 1.7 m/s, up and down again.
-  CHECK(largest_change < 0.12 * speed);
-  CHECK(largest_speed_error < 0.25 * speed);
+  CHECK(max_change < 0.12 * speed);
+  CHECK(max_speed_error < 0.25 * speed);
 }
 
 TEST_CASE("the intention is as late as the smoothing time says", "[pointer]") {
@@ -175,7 +175,7 @@ TEST_CASE("moving and reading a pointer take nothing from the heap", "[pointer]"
 TEST_CASE("places that another thread gives arrive whole", "[pointer]") {
   PointerOptions options;
   options.smoothing_time = 0.0;
-  options.largest_speed = options.lifting_speed = 10.0;
+  options.max_speed = options.lifting_speed = 10.0;
   PointerDevice device(device_profile("ideal"), {}, options);
   std::atomic<bool> done = false;
   std::thread hand([&] {
@@ -201,7 +201,7 @@ TEST_CASE("options of a pointer out of their domain are refused with name and va
   CHECK(message([](PointerOptions&) {}).empty());
   CHECK(message([](PointerOptions& o) { o.rate = 0.0; }) == "pointer: rate is 0, must be from 100 to 100000 Hz");
   CHECK(message([](PointerOptions& o) { o.smoothing_time = -1.0; }).find("smoothing time is -1") != std::string::npos);
-  CHECK(message([](PointerOptions& o) { o.largest_speed = 0.0; }).find("largest speed is 0") != std::string::npos);
+  CHECK(message([](PointerOptions& o) { o.max_speed = 0.0; }).find("largest speed is 0") != std::string::npos);
   CHECK(message([](PointerOptions& o) { o.lifting_speed = infinity; }).find("lifting speed") != std::string::npos);
   CHECK(message([](PointerOptions& o) { o.hover_height = not_a_number; }).find("hover height") != std::string::npos);
   CHECK(message([](PointerOptions& o) { o.press_depth = 1.0; }).find("press depth is 1") != std::string::npos);

@@ -83,7 +83,7 @@ void check_fall(const std::vector<Eigen::Vector3d>& forces, std::size_t first = 
   CHECK(forces[first + 9].isZero(0.0));
 }
 
-double largest_step(const std::vector<Eigen::Vector3d>& forces, double before) {
+double max_step(const std::vector<Eigen::Vector3d>& forces, double before) {
   double largest = 0.0;
   for (const Eigen::Vector3d& force : forces) {
     largest = std::max(largest, std::abs(force.x() - before));
@@ -98,7 +98,7 @@ void check_return(Bench& bench) {
   CHECK(before <= wanted * 0.151);
   bench.device.forces.clear();
   bench.ticks(250);
-  CHECK(largest_step(bench.device.forces, before) <= wanted * 1.001 / 200.0);
+  CHECK(max_step(bench.device.forces, before) <= wanted * 1.001 / 200.0);
   CHECK(bench.device.last() == wanted);
   CHECK(bench.servo.status().phase == ServoPhase::running);
   CHECK(bench.servo.status().fault == DeviceFault::none);
@@ -156,7 +156,7 @@ TEST_CASE("a device that cannot be used gets a force that falls to zero in 10 ms
                              Case{DeviceStatus::fault, DeviceFault::none, DeviceFault::device_error},
                              Case{DeviceStatus::fault, DeviceFault::stalled, DeviceFault::stalled},
                              Case{DeviceStatus::fault, DeviceFault::overheated, DeviceFault::overheated});
-  CAPTURE(fault_name(each.named));
+  CAPTURE(to_string(each.named));
   Bench bench;
   bench.warm_up();
   int calls = 0;
@@ -287,7 +287,7 @@ TEST_CASE("a force beyond the device's peak is shortened to it, and one too long
   WatchedDevice device(3.3);
   Eigen::Vector3d asked(1e6, -1e6, 0.0);
   ServoOptions options = Bench::timed({});
-  options.rise_time = 0.0;
+  options.ramp_up = 0.0;
   virtual_time = 0.0;
   Servo servo(
       device, [&asked](const DeviceState&) { return asked; }, options);
@@ -303,7 +303,7 @@ TEST_CASE("a force beyond the device's peak is shortened to it, and one too long
   CHECK(servo.status().fault == DeviceFault::bad_force);
 }
 
-TEST_CASE("a law that takes longer than the patience gives a force that is not written", "[servo]") {
+TEST_CASE("a law that takes longer than the timeout gives a force that is not written", "[servo]") {
   Bench bench;
   bench.warm_up();
   const auto good = bench.law;
@@ -344,7 +344,7 @@ TEST_CASE("the watchdog takes the device from a law that hangs, and zero is reac
   CHECK(bench.servo.status().phase == ServoPhase::zero);
   CHECK(bench.servo.status().fault == DeviceFault::slow_force_law);
   const ServoStatistics statistics = bench.servo.statistics();
-  CHECK(statistics.taken_over == 1);
+  CHECK(statistics.watchdog_takeovers == 1);
   CHECK(statistics.idle_ticks == 1);
   CHECK(statistics.fault_count(DeviceFault::slow_force_law) == 1);
   bench.law = good;
@@ -381,20 +381,20 @@ TEST_CASE("when the clock stops, the watchdog lets the force fall, once, and the
   CHECK(bench.servo.status().fault == DeviceFault::late_clock);
   bench.wait(1000);
   CHECK(bench.device.forces.size() == 10);
-  CHECK(bench.servo.statistics().taken_over == 1);
+  CHECK(bench.servo.statistics().watchdog_takeovers == 1);
   CHECK(bench.servo.statistics().fault_count(DeviceFault::late_clock) == 1);
   check_return(bench);
   CHECK(bench.servo.statistics().fault_count(DeviceFault::late_clock) == 1);
 }
 
-TEST_CASE("the watchdog leaves a loop alone that ticks, however slowly its patience allows", "[servo]") {
+TEST_CASE("the watchdog leaves a loop alone that ticks, however slowly its timeout allows", "[servo]") {
   Bench bench;
   bench.warm_up();
   for (int i = 0; i < 100; ++i) {
     bench.wait(3);
     bench.tick();
   }
-  CHECK(bench.servo.statistics().taken_over == 0);
+  CHECK(bench.servo.statistics().watchdog_takeovers == 0);
   CHECK(bench.device.last() == wanted);
 }
 
@@ -409,7 +409,7 @@ TEST_CASE("nobody touches a device whose read hangs, and the status says timed o
   };
   bench.tick();
   CHECK(bench.servo.statistics().fault_count(DeviceFault::timed_out) == 1);
-  CHECK(bench.servo.statistics().taken_over == 0);
+  CHECK(bench.servo.statistics().watchdog_takeovers == 0);
   CHECK_FALSE(bench.device.touched_by_two);
   bench.device.while_reading = nullptr;
   bench.ticks(15);  // so long without a tick: a late clock, once the device answers again
@@ -435,7 +435,7 @@ TEST_CASE("a clock that stands still, runs back or is no number still makes tick
   double now = virtual_time;
   for (int i = 0; i < 10; ++i) bench.servo.step(now += step);
   check_fall(bench.device.forces);
-  CHECK(bench.servo.statistics().standing_clock == 10);
+  CHECK(bench.servo.statistics().stalled_clock == 10);
   bench.device.state = {};
   for (int i = 0; i < 250; ++i) bench.servo.step(now += step);
   CHECK(bench.device.last() == wanted);
@@ -448,7 +448,7 @@ TEST_CASE("the watchdog's own clock may stand still, run back or be no number", 
        {virtual_time, virtual_time - 100.0, not_a_number, -infinity, infinity, virtual_time - 200.0}) {
     bench.servo.supervise(now);
   }
-  CHECK(bench.servo.statistics().taken_over == 0);
+  CHECK(bench.servo.statistics().watchdog_takeovers == 0);
   double now = virtual_time - 200.0;
   for (int i = 0; i < 16; ++i) bench.servo.supervise(now += 1e-3);
   CHECK(bench.device.last() == 0.0);
@@ -479,7 +479,7 @@ TEST_CASE("a loop that ends well does not name a fault that is over", "[servo]")
   bench.wait(20);
   CHECK(bench.servo.status().fault == DeviceFault::none);
   CHECK(bench.servo.status().phase == ServoPhase::zero);
-  CHECK(bench.servo.statistics().taken_over == 1);
+  CHECK(bench.servo.statistics().watchdog_takeovers == 1);
 }
 
 TEST_CASE("a released servo lets the force fall, asks the law no more and stays at zero until it is reset", "[servo]") {
@@ -497,7 +497,7 @@ TEST_CASE("a released servo lets the force fall, asks the law no more and stays 
   CHECK(bench.device.last() == 0.0);
   CHECK(calls == 0);
   bench.wait(100);  // and a clock that has ended is no fault then
-  CHECK(bench.servo.statistics().taken_over == 0);
+  CHECK(bench.servo.statistics().watchdog_takeovers == 0);
   CHECK(bench.servo.status().fault == DeviceFault::none);
   bench.servo.reset();
   check_return(bench);
@@ -527,14 +527,14 @@ TEST_CASE("the time between two runs is no period of either", "[servo]") {
   bench.ticks(10);
   CHECK(bench.servo.statistics().missed_deadlines == 0);
   CHECK(bench.servo.statistics().period.worst == Approx(period));
-  CHECK(bench.servo.statistics().taken_over == 0);
+  CHECK(bench.servo.statistics().watchdog_takeovers == 0);
 }
 
 TEST_CASE("before the first tick the watchdog has nothing to do", "[servo]") {
   Bench bench;
   bench.wait(1000);
   CHECK(bench.device.forces.empty());
-  CHECK(bench.servo.statistics().taken_over == 0);
+  CHECK(bench.servo.statistics().watchdog_takeovers == 0);
 }
 
 TEST_CASE("periods, work and missed deadlines are counted as the clocks tell them", "[servo]") {
@@ -562,12 +562,12 @@ TEST_CASE("periods, work and missed deadlines are counted as the clocks tell the
 TEST_CASE("every fault has a name of its own", "[servo]") {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < device_fault_count; ++i) {
-    const std::string name = fault_name(static_cast<DeviceFault>(i));
+    const std::string name = to_string(static_cast<DeviceFault>(i));
     CHECK(name != "unknown");
     CHECK(std::count(names.begin(), names.end(), name) == 0);
     names.push_back(name);
   }
-  CHECK(fault_name(static_cast<DeviceFault>(device_fault_count)) == std::string("unknown"));
+  CHECK(to_string(static_cast<DeviceFault>(device_fault_count)) == std::string("unknown"));
 }
 
 TEST_CASE("options out of their domain are refused with name and value", "[servo]") {
@@ -579,14 +579,14 @@ TEST_CASE("options out of their domain are refused with name and value", "[servo
   for (const double bad : {0.0, 0.5, 2e5, not_a_number}) {
     CHECK(message([&](ServoOptions& o) { o.rate = bad; }).find("rate is") != std::string::npos);
   }
-  CHECK(message([](ServoOptions& o) { o.patience = 1e-3; }) ==
-        "servo loop: patience is 0.001, must be from two periods of the rate to 1 s");
-  CHECK(message([](ServoOptions& o) { o.patience = infinity; }).find("patience") != std::string::npos);
+  CHECK(message([](ServoOptions& o) { o.timeout = 1e-3; }) ==
+        "servo loop: timeout is 0.001, must be from two periods of the rate to 1 s");
+  CHECK(message([](ServoOptions& o) { o.timeout = infinity; }).find("timeout") != std::string::npos);
   for (const double bad : {-1e-3, 0.2, not_a_number}) {
-    CHECK(message([&](ServoOptions& o) { o.fall_time = bad; }).find("fall time") != std::string::npos);
+    CHECK(message([&](ServoOptions& o) { o.ramp_down = bad; }).find("ramp-down time") != std::string::npos);
   }
   for (const double bad : {-1e-3, 11.0, not_a_number}) {
-    CHECK(message([&](ServoOptions& o) { o.rise_time = bad; }).find("rise time") != std::string::npos);
+    CHECK(message([&](ServoOptions& o) { o.ramp_up = bad; }).find("ramp-up time") != std::string::npos);
   }
   CHECK(message([](ServoOptions&) {}).empty());
   WatchedDevice device;
@@ -595,7 +595,7 @@ TEST_CASE("options out of their domain are refused with name and value", "[servo
 
 TEST_CASE("times of zero make the force fall and rise at once", "[servo]") {
   ServoOptions options;
-  options.fall_time = options.rise_time = 0.0;
+  options.ramp_down = options.ramp_up = 0.0;
   Bench bench(options);
   bench.tick();
   CHECK(bench.device.last() == wanted);
@@ -712,7 +712,7 @@ TEST_CASE("at whatever moment of a tick the watchdog looks, the device has one o
     look_in();
   }
   CHECK_FALSE(bench.device.touched_by_two);
-  CHECK(bench.servo.statistics().taken_over > 0);
+  CHECK(bench.servo.statistics().watchdog_takeovers > 0);
   CHECK(bench.servo.statistics().fault_count(DeviceFault::timed_out) > 0);
   CHECK(std::all_of(bench.device.forces.begin(), bench.device.forces.end(),
                     [](const Eigen::Vector3d& force) { return force.x() >= 0.0 && force.x() <= wanted; }));
@@ -726,7 +726,7 @@ TEST_CASE("servo and watchdog in two real threads never touch the device at once
   WatchedDevice device;
   std::atomic<long> calls = 0;
   ServoOptions options;
-  options.rise_time = 1e-3;
+  options.ramp_up = 1e-3;
   Servo servo(
       device,
       [&](const DeviceState&) {

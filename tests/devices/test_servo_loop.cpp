@@ -38,8 +38,8 @@ ServoLoopOptions ordinary_thread() {
 /// A machine under load may stop a thread for longer than a person would want to wait.
 ServoLoopOptions patient() {
   ServoLoopOptions options = ordinary_thread();
-  options.servo.patience = 1.0;
-  options.servo.rise_time = 0.0;
+  options.servo.timeout = 1.0;
+  options.servo.ramp_up = 0.0;
   return options;
 }
 
@@ -209,7 +209,7 @@ TEST_CASE("a force law that hangs in the loop's own thread loses the device to t
   std::atomic<bool> hang = false;
   std::atomic<bool> hangs = false;
   ServoLoopOptions options = patient();
-  options.servo.patience = 0.05;
+  options.servo.timeout = 0.05;
   ServoLoop loop(
       device,
       [&](const DeviceState& state) {

@@ -28,10 +28,10 @@ Capabilities point_mass(double mass, double viscous_friction = 0.0, double coulo
   return profile;
 }
 
-Hand spring(double stiffness, double damping = 0.0) { return {0.0, damping, stiffness}; }
+GripImpedance spring(double stiffness, double damping = 0.0) { return {0.0, damping, stiffness}; }
 
-SimulatedDevice at_x(const Capabilities& profile, const Hand& hand, double x) {
-  SimulatedDevice device(profile, hand, {x, 0.0, 0.0});
+SimulatedDevice at_x(const Capabilities& profile, const GripImpedance& grip, double x) {
+  SimulatedDevice device(profile, grip, {x, 0.0, 0.0});
   device.set_intention({});
   return device;
 }
@@ -78,10 +78,10 @@ Motion textbook(double mass, double damping, double stiffness, Motion start, dou
   return {static_cast<double>(x), static_cast<double>(v)};
 }
 
-std::string error_of(const Capabilities& profile, const Hand& hand = {0.0, 0.0, 0.0},
+std::string error_of(const Capabilities& profile, const GripImpedance& grip = {0.0, 0.0, 0.0},
                      const Eigen::Vector3d& position = Eigen::Vector3d::Zero()) {
   try {
-    SimulatedDevice device(profile, hand, position);
+    SimulatedDevice device(profile, grip, position);
   } catch (const ValueError& error) {
     return error.what();
   }
@@ -292,7 +292,7 @@ TEST_CASE("each half swing against dry friction loses twice friction over stiffn
 TEST_CASE("the answer does not depend on the step, through stops, starts and turns", "[devices]") {
   struct Case {
     double viscous, coulomb;
-    Hand hand;
+    GripImpedance grip;
     double amplitude;
   };
   // From slow creeping over stick-slip to several swings within one long step.
@@ -300,9 +300,9 @@ TEST_CASE("the answer does not depend on the step, through stops, starts and tur
                           Case{0.0, 0.26, {0.0, 0.0, 1e5}, 0.001}, Case{0.1, 0.06, {0.15, 5.0, 500.0}, 0.02},
                           Case{0.5, 0.04, {0.1, 20.0, 300.0}, 0.01}, Case{0.0, 0.0, {0.0, 0.0, 1e5}, 0.001},
                           Case{0.1, 0.26, {0.0, 0.0, 0.0}, 0.0});
-  CAPTURE(c.viscous, c.coulomb, c.hand.stiffness);
-  SimulatedDevice coarse(point_mass(0.045, c.viscous, c.coulomb), c.hand);
-  SimulatedDevice fine(point_mass(0.045, c.viscous, c.coulomb), c.hand);
+  CAPTURE(c.viscous, c.coulomb, c.grip.stiffness);
+  SimulatedDevice coarse(point_mass(0.045, c.viscous, c.coulomb), c.grip);
+  SimulatedDevice fine(point_mass(0.045, c.viscous, c.coulomb), c.grip);
   int stuck = 0;
   int sliding = 0;
   for (int tick = 0; tick < 60; ++tick) {
@@ -331,9 +331,9 @@ TEST_CASE("what the force and the hand put in equals what is stored and what fri
   constexpr double mass = 0.045;
   constexpr double viscous = 0.2;
   constexpr double dry = 0.15;
-  const Hand hand{0.1, 2.0, 300.0};
-  SimulatedDevice device(point_mass(mass, viscous, dry), hand, {0.02, 0.0, 0.0});
-  const double moving_mass = mass + hand.mass;
+  const GripImpedance grip{0.1, 2.0, 300.0};
+  SimulatedDevice device(point_mass(mass, viscous, dry), grip, {0.02, 0.0, 0.0});
+  const double moving_mass = mass + grip.mass;
   double work = 0.0;
   double lost = 0.0;
   const auto energy = [&] { return 0.5 * moving_mass * v_of(device) * v_of(device); };
@@ -346,7 +346,7 @@ TEST_CASE("what the force and the hand put in equals what is stored and what fri
     device.set_intention({{target, 0.0, 0.0}, {speed, 0.0, 0.0}});
     device.write({force, 0.0, 0.0});
     const auto pull = [&](double time) {
-      return force + hand.stiffness * (target + speed * time - x_of(device)) + hand.damping * (speed - v_of(device));
+      return force + grip.stiffness * (target + speed * time - x_of(device)) + grip.damping * (speed - v_of(device));
     };
     for (int i = 0; i < 500; ++i) {
       const double x = x_of(device), v = v_of(device), pull_before = pull(i * step);
@@ -386,7 +386,7 @@ namespace {
 struct Wall {
   double period, friction, damping;
   int delay;
-  Hand hand;
+  GripImpedance grip;
   double critical_stiffness;
 };
 
@@ -394,7 +394,7 @@ struct Wall {
 bool grows(const Wall& wall, double stiffness) {
   Capabilities profile = point_mass(0.045, wall.friction);
   profile.sample_delay = wall.delay;
-  SimulatedDevice device = at_x(profile, wall.hand, 1e-3);
+  SimulatedDevice device = at_x(profile, wall.grip, 1e-3);
   const int ticks = static_cast<int>(20.0 / wall.period);
   double previous = 1e-3;
   double early = 0.0;
@@ -425,7 +425,7 @@ double critical_stiffness(const Wall& wall) {
 }  // namespace
 
 TEST_CASE("a sampled wall turns unstable at the stiffness that theory gives", "[devices]") {
-  const Hand none{0.0, 0.0, 0.0};
+  const GripImpedance none{0.0, 0.0, 0.0};
   const Wall wall = GENERATE_COPY(
       Wall{10e-3, 0.5, 0.0, 0, none, 101.9}, Wall{1e-3, 0.05, 0.0, 0, none, 100.0},
       Wall{1e-3, 0.1, 0.0, 0, none, 200.1}, Wall{1e-3, 0.5, 0.0, 0, none, 1001.9},
@@ -437,7 +437,7 @@ TEST_CASE("a sampled wall turns unstable at the stiffness that theory gives", "[
       Wall{1e-3, 0.1, 10.0, 0, none, 16170.0}, Wall{1e-3, 0.1, 20.0, 0, none, 25606.0},
       Wall{1e-3, 0.1, 30.0, 0, none, 30139.0}, Wall{1e-3, 0.05, 0.0, 0, {0.05, 1.0, 100.0}, 2104.0},
       Wall{1e-3, 0.05, 0.0, 0, {0.1, 3.0, 300.0}, 6123.0}, Wall{1e-3, 0.05, 0.0, 0, {0.15, 5.0, 500.0}, 10146.0});
-  CAPTURE(wall.period, wall.friction, wall.damping, wall.delay, wall.hand.stiffness);
+  CAPTURE(wall.period, wall.friction, wall.damping, wall.delay, wall.grip.stiffness);
   CHECK(critical_stiffness(wall) == Approx(wall.critical_stiffness).epsilon(0.002));
 }
 
@@ -722,9 +722,9 @@ TEST_CASE("a profile or hand that is not physical is refused with the name and t
     CHECK(contains(profile_error([&](Capabilities& p) { p.viscous_friction = bad; }), "viscous friction"));
     CHECK(contains(profile_error([&](Capabilities& p) { p.coulomb_friction = bad; }), "Coulomb friction"));
     CHECK(contains(profile_error([&](Capabilities& p) { p.encoder_step = bad; }), "encoder step"));
-    CHECK(contains(error_of(device_profile("omni"), {bad, 1.0, 1.0}), "mass of the hand"));
-    CHECK(contains(error_of(device_profile("omni"), {1.0, bad, 1.0}), "damping of the hand"));
-    CHECK(contains(error_of(device_profile("omni"), {1.0, 1.0, bad}), "stiffness of the hand"));
+    CHECK(contains(error_of(device_profile("omni"), {bad, 1.0, 1.0}), "mass of the grip"));
+    CHECK(contains(error_of(device_profile("omni"), {1.0, bad, 1.0}), "damping of the grip"));
+    CHECK(contains(error_of(device_profile("omni"), {1.0, 1.0, bad}), "stiffness of the grip"));
   }
   for (const double bad : {0.0, -1.0, not_a_number}) {
     CHECK(contains(profile_error([&](Capabilities& p) { p.peak_force = bad; }), "peak force"));
@@ -749,8 +749,8 @@ TEST_CASE("a hand can be changed, and a refused one leaves the old", "[devices]"
   device.set_intention({{0.01, 0.0, 0.0}, Eigen::Vector3d::Zero()});
   device.advance(1.0);
   CHECK(x_of(device) == 0.0);
-  device.set_hand({0.1, 3.0, 300.0});
-  CHECK_THROWS_AS(device.set_hand({0.1, 3.0, -1.0}), ValueError);
+  device.set_grip({0.1, 3.0, 300.0});
+  CHECK_THROWS_AS(device.set_grip({0.1, 3.0, -1.0}), ValueError);
   device.advance(100.0);
   CHECK(x_of(device) == Approx(0.01));
 }

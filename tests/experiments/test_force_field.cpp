@@ -66,14 +66,14 @@ TEST_CASE("beside a line the force is stiffness times distance, towards the line
       CHECK(field.force(column, row).y() == Approx(500.0 * (0.02 - place.y())).margin(1e-9));
     }
   }
-  CHECK(field.largest_force() == Approx(500.0 * 0.00325));
+  CHECK(field.max_force() == Approx(500.0 * 0.00325));
   CHECK(field.jumps.empty());
 }
 
 TEST_CASE("the default field of one line has no jump anywhere, the printed one ends in jumps", "[force field]") {
   ForceFieldOptions options;
   options.columns = 40;
-  options.least_jump = 0.01;
+  options.min_jump = 0.01;
   CHECK(guidance_field(straight_line(), 0, 0.5, {0.0, 0.0}, 0.04, options).jumps.empty());
   options.rules = RendererOptions::wang2006().stroke;
   const ForceField field = guidance_field(straight_line(), 0, 0.5, {0.0, 0.0}, 0.04, options);
@@ -110,7 +110,7 @@ TEST_CASE("without an active stroke the force jumps where two strokes are equall
 TEST_CASE("Figs. 27 and 28: with the default rules parallel and crossed strokes make no jump", "[force field]") {
   const std::string name = GENERATE("parallel", "crossed");
   CHECK(usual(name).jumps.empty());
-  CHECK(usual(name).largest_force() > 1.0);
+  CHECK(usual(name).max_force() > 1.0);
 }
 
 TEST_CASE("Fig. 26: with the default rules a corner jumps where it is passed, and nowhere else", "[force field]") {
@@ -135,15 +135,15 @@ TEST_CASE("where the pen has written to, its own stroke holds it, as printed and
   constexpr double edge = 1e-4;
   const Point corner = shown.pen - Point(0.5 * edge, 0.5 * edge);
   const ForceField field = guidance_field(shown.placed, shown.stroke, shown.progress, corner, edge, options);
-  CHECK(field.largest_force() > 0.0);
+  CHECK(field.max_force() > 0.0);
   // Subdivision as printed may stop half a millimetre off; the element before is many millimetres away.
-  CHECK(field.largest_force() < (as_printed ? 1.0 : options.stiffness * edge));
+  CHECK(field.max_force() < (as_printed ? 1.0 : options.stiffness * edge));
 }
 
 TEST_CASE("the rules as printed make the force jump on the stroke itself", "[force field]") {
   const std::string name = GENERATE("bend", "corner", "parallel", "crossed");
   CHECK(nearest_jump(printed(name)) < 1.5 * printed(name).edge / printed(name).columns);
-  CHECK(printed(name).largest_force() > 2.0 * usual(name).largest_force());
+  CHECK(printed(name).max_force() > 2.0 * usual(name).max_force());
 }
 
 TEST_CASE("a field of what does not exist is refused", "[force field]") {
@@ -167,7 +167,7 @@ TEST_CASE("a field of what does not exist is refused", "[force field]") {
   CHECK_THROWS_AS(field(0, 0.5, {0.0, not_a_number}, 0.04, as_it_is), ValueError);
   CHECK_THROWS_AS(field(0, 0.5, {0.0, 0.0}, 0.04, [](ForceFieldOptions& o) { o.columns = 1; }), ValueError);
   CHECK_THROWS_AS(field(0, 0.5, {0.0, 0.0}, 0.04, [](ForceFieldOptions& o) { o.stiffness = -1.0; }), ValueError);
-  CHECK_THROWS_AS(field(0, 0.5, {0.0, 0.0}, 0.04, [](ForceFieldOptions& o) { o.least_jump = 0.0; }), ValueError);
+  CHECK_THROWS_AS(field(0, 0.5, {0.0, 0.0}, 0.04, [](ForceFieldOptions& o) { o.min_jump = 0.0; }), ValueError);
   CHECK_THROWS_AS(force_field_picture({}), ValueError);
 }
 

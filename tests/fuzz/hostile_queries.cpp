@@ -99,7 +99,7 @@ Point on_handle(RandomPoints& random, Points points) {
   return points[i] + share * (points[i + 1] - points[i]);
 }
 
-/// Two or three feet are one there.
+/// Two or three closest points are one there.
 Point at_centre_of_curvature(RandomPoints& random, Points points) {
   const double size = size_of_box(points);
   for (int attempt = 0; attempt < 8; ++attempt) {
@@ -107,7 +107,7 @@ Point at_centre_of_curvature(RandomPoints& random, Points points) {
     const double turn = at.slope.x() * at.bend.y() - at.slope.y() * at.bend.x();
     const Point radius = perpendicular(at.slope) * at.slope.squaredNorm();
     if (!(radius.norm() < 100.0 * size * std::abs(turn))) continue;
-    // Beside it the feet part, by so little that signs in single precision hardly tell them apart.
+    // Beside it the closest points part, by so little that signs in single precision hardly tell them apart.
     const double beside = one_in(random, 2) ? slight(random) : magnitude(random, -7.0, -1.0);
     return at.point + radius / turn + beside * size * random.in_disc();
   }
@@ -145,13 +145,13 @@ Point draw_query(RandomPoints& random, Points control_points) {
 
 Point draw_tie(RandomPoints& random, Points control_points) {
   const calligraphy::StrokeElement element = calligraphy::prepare_element(control_points);
-  const auto foot = [&](const Point& query) { return calligraphy::nearest_point(element, query).parameter; };
+  const auto closest = [&](const Point& query) { return calligraphy::nearest_point(element, query).parameter; };
   Point one = in_box(random, control_points), other = in_box(random, control_points);
-  double at_one = foot(one), at_other = foot(other);
+  double at_one = closest(one), at_other = closest(other);
   const int halvings = 10 + static_cast<int>(random.index(45));
   for (int i = 0; i < halvings; ++i) {
     const Point middle = 0.5 * (one + other);
-    const double at_middle = foot(middle);
+    const double at_middle = closest(middle);
     if (std::abs(at_middle - at_one) < std::abs(at_middle - at_other)) {
       one = middle, at_one = at_middle;
     } else {

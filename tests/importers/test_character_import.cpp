@@ -63,7 +63,7 @@ TEST_CASE("the content of a source says what it is", "[practice]") {
   neither.write("picture.svg", "<svg/>");
   neither.write("4e00.svg", "<svg/>");
   for (const TemporaryDirectory* const directory : {&brush, &lines}) {
-    const Import import = import_characters(directory->path());
+    const ImportResult import = import_characters(directory->path());
     CHECK(import.report.kind == (directory == &brush ? SourceKind::hanzi_writer_data : SourceKind::kanjivg));
     REQUIRE(import.list.characters.size() == 1);
     CHECK(import.list.characters[0].code == U'一');
@@ -80,7 +80,7 @@ TEST_CASE("the text format and set files are imported as they are, in the order 
   const std::string one = "\ncharacter 一\nstroke 1 0.1,0.5 0.9,0.5\n";
   const std::string ten = "\ncharacter 十\nstroke 1 0.1,0.5 0.9,0.5\nstroke 2 0.5,0.9 0.5,0.1\n";
   directory.write("own.txt", head + ten + one);
-  const Import import = import_characters(directory.path() / "own.txt");
+  const ImportResult import = import_characters(directory.path() / "own.txt");
   CHECK(text_of(import.list) == head + one + ten);
   CHECK(import.report.kind == SourceKind::calligraphy);
   CHECK(import.report.characters == 2);
@@ -105,7 +105,7 @@ TEST_CASE("characters come by rising code point and are the same from any number
   }
   ImportOptions options;
   options.threads = 1;
-  const Import expected = import_characters(directory.path(), options);
+  const ImportResult expected = import_characters(directory.path(), options);
   REQUIRE(expected.list.characters.size() == 6);
   for (std::size_t i = 1; i < 6; ++i) CHECK(expected.list.characters[i - 1].code < expected.list.characters[i].code);
   CHECK(expected.report.strokes == 12);
@@ -119,28 +119,28 @@ TEST_CASE("characters come by rising code point and are the same from any number
 TEST_CASE("a label decides between strokes that follow the drawing, and is overruled by the shape", "[practice]") {
   const TemporaryDirectory directory;
   directory.write("04e00.svg", kanjivg({{"㇐", heng},           // agrees
-                                        {"㇐", steep_heng},     // obeyed: geometry alone says ti
-                                        {"㇑", shu_with_hook},  // overruled: a line loses the hook
+                                        {"㇐", steep_heng},     // accepted: geometry alone says ti
+                                        {"㇑", shu_with_hook},  // overridden: a line loses the hook
                                         {"６", heng},           // unknown
                                         {"", shu},
                                         {"㇐", shu}}));  // none
-  const Import import = import_characters(directory.path());
+  const ImportResult import = import_characters(directory.path());
   const ImportReport& report = import.report;
   CHECK(import.list.characters[0].sequence.stroke_ids == std::vector<int>{1, 1, 12, 1, 2, 2});
   CHECK(report.labelled == 4);
   CHECK(report.agreed == 1);
-  REQUIRE(report.label_doubts.size() == 4);
-  CHECK(report.label_doubts[0].place.stroke == 2);
-  CHECK(report.label_doubts[0].fate == LabelFate::obeyed);
-  CHECK(report.label_doubts[0].recognised == 10);
-  CHECK(report.label_doubts[0].id == 1);
-  CHECK(report.label_doubts[1].place.stroke == 3);
-  CHECK(report.label_doubts[1].fate == LabelFate::overruled);
-  CHECK(report.label_doubts[1].id == 12);
-  CHECK(report.label_doubts[2].place.stroke == 4);
-  CHECK(report.label_doubts[2].fate == LabelFate::unknown);
-  CHECK(report.label_doubts[3].place.stroke == 6);
-  CHECK(report.label_doubts[3].fate == LabelFate::overruled);  // a line fits, but no heng goes down
+  REQUIRE(report.label_conflicts.size() == 4);
+  CHECK(report.label_conflicts[0].place.stroke == 2);
+  CHECK(report.label_conflicts[0].resolution == LabelResolution::accepted);
+  CHECK(report.label_conflicts[0].recognised == 10);
+  CHECK(report.label_conflicts[0].id == 1);
+  CHECK(report.label_conflicts[1].place.stroke == 3);
+  CHECK(report.label_conflicts[1].resolution == LabelResolution::overridden);
+  CHECK(report.label_conflicts[1].id == 12);
+  CHECK(report.label_conflicts[2].place.stroke == 4);
+  CHECK(report.label_conflicts[2].resolution == LabelResolution::unknown);
+  CHECK(report.label_conflicts[3].place.stroke == 6);
+  CHECK(report.label_conflicts[3].resolution == LabelResolution::overridden);  // a line fits, but no heng goes down
   REQUIRE(report.confusions.size() == 3);
   CHECK(report.confusions[0].count == 1);
 }
@@ -153,7 +153,7 @@ TEST_CASE("stroke letters are labels where there is one per stroke", "[practice]
   directory.write("letters.js", R"js(x=JSON.parse('{"一":"jj","十":"jf"}'))js");
   ImportOptions options;
   options.letters = directory.path() / "letters.js";
-  const Import import = import_characters(directory.path() / "data", options);
+  const ImportResult import = import_characters(directory.path() / "data", options);
   CHECK(import.report.labelled == 2);
   CHECK(import.report.agreed == 2);
   CHECK(import.report.letters_unused == std::vector<char32_t>{U'一'});
@@ -170,12 +170,12 @@ TEST_CASE("variants are alternate orders when asked for, kana come when asked fo
   directory.write("a/05341-VtFst.svg", kanjivg({{"㇑", shu}, {"㇐", heng}}));
   directory.write("a/03044.svg", kanjivg({{"", heng}}));
   directory.write("a/05341-a_b.svg", "no name of a variant");
-  const auto reasons = [](const Import& import) {
+  const auto reasons = [](const ImportResult& import) {
     std::vector<std::string> all;
     for (const SkippedFile& file : import.report.skipped) all.push_back(file.path + ": " + file.reason);
     return all;
   };
-  const Import plain = import_characters(directory.path());
+  const ImportResult plain = import_characters(directory.path());
   CHECK(plain.list.characters.size() == 1);
   CHECK(reasons(plain) == std::vector<std::string>{"a/03044.svg: no ideograph", "a/05341-VtFst.svg: an alternate order",
                                                    "a/05341-a_b.svg: no file of a character",
@@ -183,7 +183,7 @@ TEST_CASE("variants are alternate orders when asked for, kana come when asked fo
   ImportOptions options;
   options.alternates = true;
   options.ideographs_only = false;
-  const Import all = import_characters(directory.path(), options);
+  const ImportResult all = import_characters(directory.path(), options);
   REQUIRE(all.list.characters.size() == 3);
   CHECK(all.list.characters[0].code == U'い');
   CHECK(all.list.characters[1].order.empty());
@@ -205,7 +205,7 @@ TEST_CASE("an import says whose work it is, that it was changed, and under which
   brush.write("inner/ARPHICPL.TXT", "another");
   ImportOptions options;
   options.date = "2026-11-21";
-  const Import import = import_characters(brush.path(), options);
+  const ImportResult import = import_characters(brush.path(), options);
   found = import.list.provenance;
   CHECK(found.source == "Make Me a Hanzi, as hanzi-writer-data 2.0.1");
   CHECK(found.licence == "Arphic Public License");

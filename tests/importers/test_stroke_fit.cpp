@@ -102,7 +102,7 @@ std::set<int> accepted_ids(int id) {
 }
 
 /// Largest bend at the joints that the typical stroke calls smooth [degree].
-double largest_smooth_bend(const StrokeInput& stroke) {
+double max_smooth_bend(const StrokeInput& stroke) {
   const TypicalStroke& type = typical_stroke(stroke.id);
   const std::vector<int> joints = type.feature_points();
   double largest = 0.0;
@@ -163,7 +163,7 @@ TEST_CASE("every typical shape drawn by a pen is recognised as itself or as a do
     for (const double noise : {0.0, 0.002, 0.005}) {
       for (const TypicalStroke& type : typical_strokes()) {
         const Path path = changed(sampled(type, typical_points(type), 12), scale, noise * scale);
-        const FittedStroke fitted = fit_stroke(path, {.drawn_with = DrawnWith::pen});
+        const FittedStroke fitted = fit_stroke(path, {.drawing_tool = DrawingTool::pen});
         INFO("typical stroke " << type.id << " at scale " << scale << " with noise " << noise << " became "
                                << fitted.stroke.id);
         CHECK(accepted_ids(type.id).contains(fitted.stroke.id));
@@ -184,7 +184,7 @@ TEST_CASE("a dense typical shape is followed within 0.3 % of the em when its id 
   for (const TypicalStroke& type : typical_strokes()) {
     const int only[] = {type.id};
     const FittedStroke fitted =
-        fit_stroke(sampled(type, typical_points(type), 40), {.drawn_with = DrawnWith::pen, .ids = only});
+        fit_stroke(sampled(type, typical_points(type), 40), {.drawing_tool = DrawingTool::pen, .ids = only});
     INFO("typical stroke " << type.id << ", error " << fitted.error);
     CHECK(fitted.stroke.id == type.id);
     CHECK(fitted.error < (type.id == 39 ? 0.004 : 0.003));
@@ -195,7 +195,7 @@ TEST_CASE("a typical shape with noise of 0.5 % of the em is followed within 1 %,
   for (const TypicalStroke& type : typical_strokes()) {
     const Path path = changed(sampled(type, typical_points(type), 12), 1.0, 0.005);
     const int only[] = {type.id};
-    const FittedStroke fitted = fit_stroke(path, {.drawn_with = DrawnWith::pen, .ids = only});
+    const FittedStroke fitted = fit_stroke(path, {.drawing_tool = DrawingTool::pen, .ids = only});
     INFO("typical stroke " << type.id << ", error " << fitted.error);
     CHECK(fitted.error < (type.id == 39 ? 0.02 : 0.01));
   }
@@ -214,7 +214,7 @@ TEST_CASE("the stroke found does not depend on where it is written", "[model]") 
 TEST_CASE("the reported error of a pen path is the largest distance both ways to 1e-4 em", "[model]") {
   for (const TypicalStroke& type : typical_strokes()) {
     const Path path = changed(sampled(type, typical_points(type), 12), 1.0, 0.004);  // noise keeps it above zero
-    const FittedStroke fitted = fit_stroke(path, {.drawn_with = DrawnWith::pen});
+    const FittedStroke fitted = fit_stroke(path, {.drawing_tool = DrawingTool::pen});
     const Path model = sampled(typical_stroke(fitted.stroke.id), fitted.stroke.control_points, 400);
     Path dense{path.front()};
     for (std::size_t i = 1; i < path.size(); ++i) {
@@ -230,7 +230,7 @@ TEST_CASE("joints that a typical stroke calls smooth bend by less than 5 degrees
     for (const TypicalStroke& type : typical_strokes()) {
       const FittedStroke fitted = fit_stroke(changed(sampled(type, typical_points(type), 12), 0.8, noise));
       INFO("typical stroke " << type.id << " became " << fitted.stroke.id);
-      CHECK(largest_smooth_bend(fitted.stroke) < 5.0);
+      CHECK(max_smooth_bend(fitted.stroke) < 5.0);
     }
   }
 }
@@ -262,9 +262,9 @@ TEST_CASE("a short first limb is not taken for a brush entry", "[model]") {
 TEST_CASE("a pen path keeps its ends, and its pressed start goes only when that is asked for", "[model]") {
   const Path path{{0.35, 0.79}, {0.37, 0.775}, {0.38, 0.755}, {0.378, 0.40}, {0.376, 0.22}};
   const int shu[] = {2};
-  CHECK(fit_stroke(path, {.drawn_with = DrawnWith::pen, .ids = shu}).error >
+  CHECK(fit_stroke(path, {.drawing_tool = DrawingTool::pen, .ids = shu}).error >
         0.005);  // a line cannot follow the slanted start
-  const FittedStroke fitted = fit_stroke(path, {.drawn_with = DrawnWith::textbook_pen, .ids = shu});
+  const FittedStroke fitted = fit_stroke(path, {.drawing_tool = DrawingTool::textbook_pen, .ids = shu});
   CHECK(std::abs(fitted.stroke.control_points.front().x() - 0.38) < 0.004);
   CHECK(fitted.error < 0.002);
 }
@@ -313,7 +313,7 @@ TEST_CASE("neighbouring strokes are told apart by direction and length", "[model
 TEST_CASE("hard inputs give a valid finite stroke, whatever is asked for", "[model]") {
   const std::vector<int> labels{16, 30, 39};
   const std::vector<StrokeFitOptions> asked{
-      {}, {.drawn_with = DrawnWith::pen}, {.drawn_with = DrawnWith::textbook_pen}, {.ids = labels}};
+      {}, {.drawing_tool = DrawingTool::pen}, {.drawing_tool = DrawingTool::textbook_pen}, {.ids = labels}};
   for (const auto& [name, path] : hard_inputs()) {
     for (std::size_t i = 0; i < asked.size(); ++i) {
       INFO(name << ", options " << i);
@@ -344,7 +344,7 @@ TEST_CASE("random scribbles give valid strokes, and the same ones again", "[mode
     const int count = 2 + static_cast<int>(random() * 14);
     const double size = trial % 5 == 0 ? 10.0 : trial % 3 == 0 ? 0.05 : 1.0;
     for (int i = 0; i < count; ++i) path.emplace_back(size * random(), size * random());
-    const StrokeFitOptions options{.drawn_with = trial % 2 == 0 ? DrawnWith::brush : DrawnWith::pen};
+    const StrokeFitOptions options{.drawing_tool = trial % 2 == 0 ? DrawingTool::brush : DrawingTool::pen};
     INFO("scribble " << trial);
     const FittedStroke fitted = fit_stroke(path, options);
     const std::array strokes{fitted.stroke};
@@ -362,7 +362,7 @@ TEST_CASE("a shoulder that a brush has cut is squared, and by half a brush at mo
   const double reach = distance_to_segment(fitted.stroke.control_points[1], median[2], median[3]);
   CHECK(reach > 0.02);
   CHECK(reach < 0.04 + fitted.error);
-  const FittedStroke pen = fit_stroke(median, {.drawn_with = DrawnWith::pen});
+  const FittedStroke pen = fit_stroke(median, {.drawing_tool = DrawingTool::pen});
   CHECK(pen.error == pen.median_error);
   CHECK(distance_to_segment(pen.stroke.control_points[1], median[2], median[3]) <= pen.error + 1e-4);
 }
@@ -402,15 +402,15 @@ TEST_CASE("a path of many points is the same stroke as one of few, and its error
       corner.push_back(t < 0.5 ? Point(0.2 + t, 0.8) : Point(0.7, 1.3 - t));
     }
     INFO(count);
-    const FittedStroke heng = fit_stroke(line, {.drawn_with = DrawnWith::pen});
+    const FittedStroke heng = fit_stroke(line, {.drawing_tool = DrawingTool::pen});
     CHECK(heng.stroke.id == 1);
     CHECK(heng.error <= 2e-4);
-    const FittedStroke turn = fit_stroke(corner, {.drawn_with = DrawnWith::pen});
+    const FittedStroke turn = fit_stroke(corner, {.drawing_tool = DrawingTool::pen});
     CHECK(turn.stroke.id == 16);
     CHECK(turn.error <= 2e-3);
   }
   // A saw of 5,000 teeth, each 2 % of the em high, is no line within less.
   std::vector<Point> saw;
   for (int i = 0; i <= 10'000; ++i) saw.emplace_back(1e-4 * i, i % 2 == 0 ? 0.5 : 0.52);
-  CHECK(fit_stroke(saw, {.drawn_with = DrawnWith::pen}).error >= 0.0099);
+  CHECK(fit_stroke(saw, {.drawing_tool = DrawingTool::pen}).error >= 0.0099);
 }

@@ -363,7 +363,7 @@ TEST_CASE("a coding of a character's own is checked like that of the file", "[mo
   CHECK(with_bits(x + y, 0).find("一") != std::string::npos);  // as many bits as before, but not a width
   CHECK(with_bits(0, x + y).find("一") != std::string::npos);
   Bytes bytes = whole;
-  store(bytes, coding, most_steps_per_em + 1);
+  store(bytes, coding, max_steps_per_em + 1);
   forge_checksums(bytes);
   CHECK(complaint(bytes).find("一") != std::string::npos);
 }
@@ -415,18 +415,18 @@ TEST_CASE("a character of too many strokes or orders is refused by name", "[mode
     }
   };
   const StrokeInput heng{1, {{0.1, 0.5}, {0.9, 0.5}}, {}};
-  CharacterList strokes{{}, {make_character(U'一', std::vector<StrokeInput>(set_format::most_strokes, heng))}};
-  CHECK(CharacterSet(strokes).find(U'一')->stroke_count() == static_cast<int>(set_format::most_strokes));
-  strokes.characters = {make_character(U'一', std::vector<StrokeInput>(set_format::most_strokes + 1, heng))};
+  CharacterList strokes{{}, {make_character(U'一', std::vector<StrokeInput>(set_format::max_strokes, heng))}};
+  CHECK(CharacterSet(strokes).find(U'一')->stroke_count() == static_cast<int>(set_format::max_strokes));
+  strokes.characters = {make_character(U'一', std::vector<StrokeInput>(set_format::max_strokes + 1, heng))};
   CHECK(complaint(strokes).find("4097 strokes") != std::string::npos);
 
   CharacterList orders{{}, {}};
   const Character one = make_character(U'一', std::vector{heng});
-  for (std::size_t i = 0; i < set_format::most_forms; ++i) {
+  for (std::size_t i = 0; i < set_format::max_forms; ++i) {
     orders.characters.push_back(one);
     orders.characters.back().order = "order " + std::to_string(i);
   }
-  CHECK(CharacterSet(orders).orders(U'一').size() == set_format::most_forms);
+  CHECK(CharacterSet(orders).orders(U'一').size() == set_format::max_forms);
   CHECK(CharacterSet(orders).find(U'一', "order 254").has_value());
   orders.characters.push_back(one);
   CHECK(complaint(orders).find("more than 255 orders") != std::string::npos);
@@ -445,12 +445,12 @@ TEST_CASE("all characters of an imported set take no more room, and err no more,
   CHECK(list.characters.size() >= 9574);
   const struct {
     CoordinatePrecision precision;
-    double most_bytes, most_error;
+    double max_bytes, max_error;
   } marks[] = {{CoordinatePrecision::standard, 110.0, 1e-3}, {CoordinatePrecision::coarse, 75.0, 4e-3}};
-  for (const auto& [precision, most_bytes, most_error] : marks) {
+  for (const auto& [precision, max_bytes, max_error] : marks) {
     const CharacterSet set = CharacterSet::from_bytes(encode_character_set(list, precision), path);
     CHECK(set.size() == list.characters.size());
-    CHECK(static_cast<double>(set.bytes()) <= most_bytes * static_cast<double>(set.size()));
+    CHECK(static_cast<double>(set.bytes()) <= max_bytes * static_cast<double>(set.size()));
     double largest = 0.0;
     for (const Character& character : list.characters) {
       const Character stored = set.find(character.code)->character();
@@ -461,6 +461,6 @@ TEST_CASE("all characters of an imported set take no more room, and err no more,
       }
     }
     CHECK(largest <= coordinate_error_bound(precision));
-    CHECK(largest <= most_error);
+    CHECK(largest <= max_error);
   }
 }

@@ -20,7 +20,7 @@ std::string problems_after(const std::function<void(Character&)>& change) {
   Character character = paper_example();
   change(character);
   std::string text;
-  for (const Problem& problem : validate(character))
+  for (const ValidationIssue& problem : validate(character))
     text += std::to_string(problem.stroke) + ": " + problem.what + "\n";
   return text;
 }

@@ -85,8 +85,9 @@ Point start_of(const PlacedCharacter& placed, std::size_t stroke) {
   return placed.placement.to_page(strokes(placed.character)[stroke].control_points[0]);
 }
 
-Sample sample(InteractionState state, int character, int stroke, const Point& tip, TickEvent events = TickEvent::none) {
-  Sample result;
+RecordedSample sample(InteractionState state, int character, int stroke, const Point& tip,
+                      TickEvent events = TickEvent::none) {
+  RecordedSample result;
   result.state = state;
   result.character = character;
   result.stroke = stroke;
@@ -104,7 +105,7 @@ void append_run(Recording& recording, int character, int stroke, const std::vect
   for (std::size_t i = 0; i + 1 < tips.size(); ++i) {
     recording.samples.push_back(sample(ws, character, stroke, tips[i]));
   }
-  const bool finished = has(end, TickEvent::stroke_finished);
+  const bool finished = has_event(end, TickEvent::stroke_finished);
   recording.samples.push_back(sample(finished ? cs : ss, character, finished ? stroke + 1 : stroke, tips.back(), end));
 }
 
@@ -113,7 +114,7 @@ const std::vector<Point> corner = {{0.05, 0.05}, {0.06, 0.05}, {0.06, 0.06}};
 }  // namespace
 
 TEST_CASE("a page picture has one path per stroke of every character", "[practice]") {
-  const Page page = page_of("永北京");
+  const PracticePage page = page_of("永北京");
   const auto document = xml(page_picture(page, {}, 0, "title"));
   const auto groups = templates(document);
   REQUIRE(groups.size() == page.characters.size());
@@ -124,7 +125,7 @@ TEST_CASE("a page picture has one path per stroke of every character", "[practic
 }
 
 TEST_CASE("only the active character is yellow, the others are blue", "[practice]") {
-  const Page page = page_of("永北京");
+  const PracticePage page = page_of("永北京");
   for (int active = 0; active < 3; ++active) {
     const auto document = xml(page_picture(page, {}, active, "title"));
     const auto groups = templates(document);
@@ -137,7 +138,7 @@ TEST_CASE("only the active character is yellow, the others are blue", "[practice
 }
 
 TEST_CASE("template paths are the strokes' control points at their place, in millimetres and upright", "[practice]") {
-  const Page page = page_of("永北");
+  const PracticePage page = page_of("永北");
   const auto document = xml(page_picture(page, {}, 0, "title"));
   const auto groups = templates(document);
   REQUIRE(groups.size() == 2);
@@ -162,7 +163,7 @@ TEST_CASE("template paths are the strokes' control points at their place, in mil
 
 TEST_CASE("quartic curves are drawn where the same cubic ones are", "[practice]") {
   for (const Character& character : built_in_characters().characters) {
-    Page page = lay_out({&character, 1}).front();
+    PracticePage page = lay_out({&character, 1}).front();
     const auto cubic = xml(page_picture(page, {}, 0, "title"));
     page.characters[0].character = with_quartic_curves(character);
     const auto quartic = xml(page_picture(page, {}, 0, "title"));
@@ -191,7 +192,7 @@ TEST_CASE("quartic curves are drawn where the same cubic ones are", "[practice]"
 }
 
 TEST_CASE("the red ellipse is at the start of the stroke that was active last", "[practice]") {
-  const Page page = page_of("永北");
+  const PracticePage page = page_of("永北");
   const auto at = [&](const Recording& recording, int active, std::size_t stroke) {
     const auto document = xml(page_picture(page, recording, active, "title"));
     const Point expected = in_picture(document, start_of(page.characters[static_cast<std::size_t>(active)], stroke));
@@ -215,7 +216,7 @@ TEST_CASE("the red ellipse is at the start of the stroke that was active last", 
 }
 
 TEST_CASE("traces are the pen's path in light green, in page coordinates", "[practice]") {
-  const Page page = page_of("永北");
+  const PracticePage page = page_of("永北");
   Recording recording;
   recording.samples.push_back(sample(ss, 0, 0, {0.01, 0.01}));
   append_run(recording, 0, 0, corner, TickEvent::stroke_finished);
@@ -230,7 +231,7 @@ TEST_CASE("traces are the pen's path in light green, in page coordinates", "[pra
 }
 
 TEST_CASE("traces of abandoned attempts are absent, an unfinished one is there", "[practice]") {
-  const Page page = page_of("永北");
+  const PracticePage page = page_of("永北");
   const auto count = [&page](const Recording& recording) {
     const auto document = xml(page_picture(page, recording, 0, "title"));
     return all(document, "//g[@class='trace']/path").size();
@@ -248,7 +249,7 @@ TEST_CASE("traces of abandoned attempts are absent, an unfinished one is there",
 }
 
 TEST_CASE("a stroke that ends as the next character begins belongs to the one it was written for", "[practice]") {
-  const Page page = page_of("永北");
+  const PracticePage page = page_of("永北");
   Recording recording;
   append_run(recording, 0, 4, corner, TickEvent::stroke_finished);
   recording.samples.back().character = 1;
@@ -261,10 +262,10 @@ TEST_CASE("a stroke that ends as the next character begins belongs to the one it
 }
 
 TEST_CASE("samples that were refused leave no mark", "[practice]") {
-  const Page page = page_of("永");
+  const PracticePage page = page_of("永");
   Recording recording;
   append_run(recording, 0, 0, corner, TickEvent::stroke_finished);
-  Sample bad = sample(ws, 0, 0, {1.0, 1.0});
+  RecordedSample bad = sample(ws, 0, 0, {1.0, 1.0});
   bad.status = TickStatus::bad_sample;
   recording.samples.insert(recording.samples.begin() + 1, bad);
   bad.status = TickStatus::ok;
@@ -298,7 +299,7 @@ TEST_CASE("a drawn trace is within 0.03 mm of the recorded one", "[practice]") {
 }
 
 TEST_CASE("the picture of a long scribble stays under 300 kB", "[practice]") {
-  const Page page = page_of("永北京航空天");
+  const PracticePage page = page_of("永北京航空天");
   Recording recording;
   calligraphy_test::Sequence random(1);
   for (int character = 0; character < 6; ++character) {
@@ -314,10 +315,10 @@ TEST_CASE("the picture of a long scribble stays under 300 kB", "[practice]") {
 }
 
 TEST_CASE("a real session's picture shows as many traces as strokes were finished", "[practice]") {
-  const Page page = page_of("永北");
-  const Recording recording = write_page(page, calligraphy_test::session(WriterSkill::novice(), Mode::force));
+  const PracticePage page = page_of("永北");
+  const Recording recording = write_page(page, calligraphy_test::session(WriterSkill::novice(), FeedbackMode::force));
   std::size_t finished = 0;
-  for (const Sample& each : recording.samples) finished += has(each.events, TickEvent::stroke_finished);
+  for (const RecordedSample& each : recording.samples) finished += has_event(each.events, TickEvent::stroke_finished);
   REQUIRE(finished > 0);
   const std::string svg = page_picture(page, recording, 1, "title");
   CHECK(all(xml(svg), "//g[@class='trace']/path").size() == finished);
@@ -325,7 +326,7 @@ TEST_CASE("a real session's picture shows as many traces as strokes were finishe
 }
 
 TEST_CASE("a title may hold anything but broken UTF-8", "[practice]") {
-  const Page page = page_of("永");
+  const PracticePage page = page_of("永");
   for (const std::string title : {"<&>\"'", "北京 ]]> <!--", "bell \x07 and tab\t", "",
                                   "a very long title, much longer than the page is wide, which must be set smaller"}) {
     CAPTURE(title);
@@ -338,8 +339,8 @@ TEST_CASE("a title may hold anything but broken UTF-8", "[practice]") {
 }
 
 TEST_CASE("a picture without its page or its character is an error naming the value", "[practice]") {
-  const Page page = page_of("永");
-  const auto error = [](const Page& some, int active) -> std::string {
+  const PracticePage page = page_of("永");
+  const auto error = [](const PracticePage& some, int active) -> std::string {
     try {
       page_picture(some, {}, active, "title");
     } catch (const ValueError& caught) {

@@ -24,7 +24,7 @@ namespace {
 
 /// True when gnuplot is there; without it a test is skipped, or fails where all must run.
 bool gnuplot_is_there() {
-  if (can_plot()) return true;
+  if (gnuplot_available()) return true;
   if (std::getenv("CALLIGRAPHY_REQUIRE_DATA") != nullptr) {
     FAIL("gnuplot cannot be started, and CALLIGRAPHY_REQUIRE_DATA is set");
   }
@@ -72,7 +72,7 @@ class Directory {
 Recording recording() {
   Recording result;
   for (int i = 0; i < 10000; ++i) {
-    Sample sample;
+    RecordedSample sample;
     sample.time = i / 1000.0;
     const auto within = [&sample](double begin, double end) { return sample.time >= begin && sample.time < end; };
     sample.character = sample.time < 8.0 ? 0 : 1;
@@ -181,7 +181,7 @@ TEST_CASE("a long recording is drawn with few points and every peak", "[practice
   directory.provide_gnuplot("cat > script; echo '<svg><title/></svg>'");
   Recording long_one = recording();
   for (int i = 0; i < 200000; ++i) {
-    Sample sample;
+    RecordedSample sample;
     sample.time = 10.0 + i / 1000.0;
     sample.force.z() = i == 123500 ? 7.125 : i == 150050 ? -3.25 : 0.5;
     long_one.samples.push_back(sample);
@@ -214,7 +214,7 @@ TEST_CASE("a recording with few forces that are numbers, or none, is plotted", "
   }
   const std::string svg = force_plot(some, 0, "title");
   CHECK_FALSE(contains(svg, "nan"));
-  for (Sample& sample : some.samples) sample.force.setConstant(std::numeric_limits<double>::infinity());
+  for (RecordedSample& sample : some.samples) sample.force.setConstant(std::numeric_limits<double>::infinity());
   CHECK(error_of(some, 0) == "");
   some.samples.resize(1);
   CHECK(error_of(some, 0) == "");
@@ -229,14 +229,14 @@ TEST_CASE("a plot of a character without samples is an error naming it", "[pract
 TEST_CASE("without gnuplot there is no plot, and the error says so", "[practice]") {
   const Directory directory;
   directory.hide_others();
-  CHECK_FALSE(can_plot());
+  CHECK_FALSE(gnuplot_available());
   CHECK(error_of(recording(), 0) == "gnuplot cannot be run: No such file or directory");
 }
 
 TEST_CASE("a gnuplot that fails is an error with its message", "[practice]") {
   const Directory directory;
   directory.provide_gnuplot("echo 'line 7: no such terminal' >&2; exit 3");
-  CHECK_FALSE(can_plot());
+  CHECK_FALSE(gnuplot_available());
   CHECK(contains(error_of(recording(), 0), "gnuplot failed with exit code 3: line 7: no such terminal"));
 }
 

@@ -28,7 +28,7 @@ std::size_t count(const pugi::xml_document& document, const char* query) { retur
 TEST_CASE("the picture of a replay numbers pen-downs and strokes and draws what the device drew", "[practice]") {
   for (const Character& character : built_in_characters().characters) {
     const auto paths = copy_of(character);
-    const auto document = xml(replay_picture(character, paths, judge_strokes(character, paths), paths, "title"));
+    const auto document = xml(replay_picture(character, paths, match_strokes(character, paths), paths, "title"));
     CAPTURE(encode_utf8(character.code));
     CHECK(count(document, "//g[@class='drawn-number']/text") == paths.size());
     CHECK(count(document, "//g[@class='standard-number']/text") == paths.size());
@@ -43,17 +43,17 @@ TEST_CASE("the picture of a replay shows mistakes in red, tells them, and leaves
   std::vector<PenPath> paths = copy_of(ten);
   std::swap(paths[0], paths[1]);
   paths.push_back({{2.0, 2.0}});
-  const StrokeVerdict verdict = judge_strokes(ten, paths);
-  const std::string text = replay_picture(ten, paths, verdict, {}, "<十>");
+  const MatchResult match = match_strokes(ten, paths);
+  const std::string text = replay_picture(ten, paths, match, {}, "<十>");
   const auto document = xml(text);
   CHECK(count(document, "//g[@class='drawn-number']/text") == 2);
   CHECK(count(document, "//g[@class='written']/path[@stroke='#e02020']") == 1);
-  CHECK(text.find(verdict.remarks.at(0).reason) != std::string::npos);
+  CHECK(text.find(match.remarks.at(0).reason) != std::string::npos);
 }
 
-TEST_CASE("a verdict on other pen-downs is refused by the picture of a replay", "[practice]") {
+TEST_CASE("a match on other pen-downs is refused by the picture of a replay", "[practice]") {
   const Character ten = calligraphy_test::characters("十").front();
   const auto paths = copy_of(ten);
-  CHECK_THROWS_AS(replay_picture(ten, paths, judge_strokes(ten, {}), {}, "title"), ValueError);
-  CHECK_THROWS_AS(replay_picture(ten, paths, judge_strokes(ten, paths), {}, "\xff"), FormatError);
+  CHECK_THROWS_AS(replay_picture(ten, paths, match_strokes(ten, {}), {}, "title"), ValueError);
+  CHECK_THROWS_AS(replay_picture(ten, paths, match_strokes(ten, paths), {}, "\xff"), FormatError);
 }

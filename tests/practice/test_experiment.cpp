@@ -34,14 +34,14 @@ struct Sums {
 TEST_CASE("force makes an unskilled writer's error and time smaller on every character's mean", "[practice]") {
   Sums error_reduction, time_reduction;
   for (const Character& character : calligraphy_test::characters(text)) {
-    const Page page = lay_out(std::span(&character, 1)).front();
+    const PracticePage page = lay_out(std::span(&character, 1)).front();
     Sums error[2], time[2];
     for (int seed = 1; seed <= seeds; ++seed) {
       CharacterScore result[2];
-      for (const Mode mode : {Mode::vision, Mode::force}) {
+      for (const FeedbackMode mode : {FeedbackMode::vision, FeedbackMode::force}) {
         const auto i = static_cast<std::size_t>(mode);
         result[i] =
-            score(page, write_page(page, session(WriterSkill::novice(), mode, static_cast<std::uint64_t>(seed))))
+            score_page(page, write_page(page, session(WriterSkill::novice(), mode, static_cast<std::uint64_t>(seed))))
                 .front();
         CHECK(result[i].strokes_completed == result[i].stroke_count);
         error[i].add(result[i].rms_error);

@@ -21,7 +21,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-constexpr Hand normal_grip = {0.1, 3.0, 300.0};
+constexpr GripImpedance normal_grip = {0.1, 3.0, 300.0};
 
 struct Composition {
   const char* name;
@@ -35,7 +35,7 @@ PlacedCharacter one_stroke() { return {calligraphy_test::typical_character(1), {
 /// A hand that writes a heng beside its place, in closed loop, however fast the servo.
 struct Writing {
   std::vector<Vector3d> forces, places;  ///< every 10 ms, page
-  double largest_force = 0.0, largest_step = 0.0, step_limit = 0.0;
+  double max_force = 0.0, max_step = 0.0, step_limit = 0.0;
   bool finite = true, finished = false;
   double late_swing = 0.0;  ///< of the pen along z, in the last 0.3 s of a rest on the paper [m]
   RendererOptions options;
@@ -69,10 +69,10 @@ Writing write_beside(const Capabilities& profile, RendererOptions options, doubl
   for (int i = 0; i < ticks; ++i) {
     const HapticTick& tick = renderer.update(device.read());
     writing.finite = writing.finite && tick.force.allFinite();
-    writing.largest_force = std::max(writing.largest_force, tick.force.norm());
-    writing.largest_step = std::max(writing.largest_step, (tick.force - last).norm());
+    writing.max_force = std::max(writing.max_force, tick.force.norm());
+    writing.max_step = std::max(writing.max_step, (tick.force - last).norm());
     last = tick.force;
-    writing.finished = writing.finished || has(tick.events, TickEvent::stroke_finished);
+    writing.finished = writing.finished || has_event(tick.events, TickEvent::stroke_finished);
     const double t = i * period;
     if (i % between == 0) {
       writing.forces.push_back(tick.page_force);
@@ -106,8 +106,8 @@ double rms(const std::vector<Vector3d>& a) {
 void check_kept(const Writing& writing, const Capabilities& profile) {
   CHECK(writing.finite);
   CHECK(writing.finished);
-  CHECK(writing.largest_force <= profile.peak_force * (1.0 + 1e-12));
-  CHECK(writing.largest_step <= writing.step_limit * (1.0 + 1e-9));
+  CHECK(writing.max_force <= profile.peak_force * (1.0 + 1e-12));
+  CHECK(writing.max_step <= writing.step_limit * (1.0 + 1e-9));
 }
 
 }  // namespace
@@ -174,7 +174,7 @@ TEST_CASE("every stiffness has a defined outcome: taken, clipped with its reason
       for (const double value : {not_a_number, -1e-300, -600.0, infinity}) {
         RendererOptions options = base;
         options.*stiffness = value;
-        for (const StiffnessCheck check : {StiffnessCheck::refuse, StiffnessCheck::clip}) {
+        for (const StiffnessCheck check : {StiffnessCheck::reject, StiffnessCheck::clip}) {
           options.stiffness_check = check;
           CHECK_THROWS_WITH(HapticRenderer({one_stroke()}, {}, capabilities, options),
                             Catch::Matchers::Contains("stiffness = "));
@@ -218,7 +218,8 @@ TEST_CASE(
 namespace {
 
 /// Swing along z of a pen that was tapped onto the paper beside the stroke and is held pressed [m].
-double swing_after_a_tap(const Capabilities& profile, const RendererOptions& options, const Hand& grip, double speed) {
+double swing_after_a_tap(const Capabilities& profile, const RendererOptions& options, const GripImpedance& grip,
+                         double speed) {
   HapticRenderer renderer({one_stroke()}, {}, profile, options);
   const Eigen::AlignedBox2d box = bounding_box(renderer.page()[0]);
   const Vector3d above(box.center().x(), box.max().y() + 0.003, 0.01);
@@ -254,7 +255,8 @@ TEST_CASE("paper stiffer than the limits of the force's rate and jerk can follow
       CHECK(renderer.options().paper_stiffness <= options.normal_force_rate / 0.2);
       CHECK_THAT(renderer.clipped().back(), Catch::Matchers::Contains("normal_force_rate = 400") ||
                                                 Catch::Matchers::Contains("critical_stiffness"));
-      for (const Hand& grip : {Hand{0.05, 1.0, 100.0}, normal_grip, Hand{0.15, 5.0, 500.0}}) {
+      for (const GripImpedance& grip :
+           {GripImpedance{0.05, 1.0, 100.0}, normal_grip, GripImpedance{0.15, 5.0, 500.0}}) {
         for (const double speed : {0.1, 0.2, 0.4}) {
           CAPTURE(rate, jerk, grip.mass, speed, renderer.options().paper_stiffness);
           CHECK(swing_after_a_tap(profile, renderer.options(), grip, speed) < 1e-5);

@@ -34,7 +34,7 @@ struct Outcome {
   double share_at_once() const { return at_once / static_cast<double>(strokes); }
   double rms() const { return std::sqrt(square / way); }
 
-  void add(const Page& page, const Recording& recording) {
+  void add(const PracticePage& page, const Recording& recording) {
     strokes += page.characters.front().character.stroke_count();
     const auto drawn = calligraphy::strokes(page.characters.front().character);
     const Placement& placement = page.characters.front().placement;
@@ -42,9 +42,9 @@ struct Outcome {
     int loaded = -1, contacts = 0;
     Eigen::Vector3d force = Eigen::Vector3d::Zero();
     Point last = recording.samples.front().pen_tip.head<2>();
-    for (const Sample& sample : recording.samples) {
-      contacts += has(sample.events, TickEvent::contact);
-      if (has(sample.events, TickEvent::stroke_finished)) {
+    for (const RecordedSample& sample : recording.samples) {
+      contacts += has_event(sample.events, TickEvent::contact);
+      if (has_event(sample.events, TickEvent::stroke_finished)) {
         ++completed;
         at_once += contacts == 1;
         contacts = 0;
@@ -92,7 +92,7 @@ Outcome write(const std::string& device, Law law, double bias) {
   session.skill.bias = bias;
   Outcome outcome;
   for (const Character& character : calligraphy_test::characters(text)) {
-    const Page page = lay_out(std::span(&character, 1)).front();
+    const PracticePage page = lay_out(std::span(&character, 1)).front();
     for (int seed = 1; seed <= seeds; ++seed) {
       session.seed = static_cast<std::uint64_t>(seed);
       outcome.add(page, write_page(page, session));

@@ -12,7 +12,7 @@ TEST_CASE("every square lies on its page and none overlaps another", "[practice]
   const PageLayout layout;
   const auto pages = lay_out(characters("永北京航空天大学和年中国书法"), layout);
   std::size_t placed = 0;
-  for (const Page& page : pages) {
+  for (const PracticePage& page : pages) {
     placed += page.characters.size();
     for (std::size_t i = 0; i < page.characters.size(); ++i) {
       const Placement& place = page.characters[i].placement;

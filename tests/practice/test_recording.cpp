@@ -43,7 +43,7 @@ Recording hard_recording() {
   recording.rate = 1000.0 / 3.0;
   for (std::size_t i = 0; i < hard_numbers.size(); ++i) {
     const auto next = [i](std::size_t offset) { return hard_numbers[(i + offset) % hard_numbers.size()]; };
-    Sample sample;
+    RecordedSample sample;
     sample.time = next(0);
     sample.device_point = {next(1), next(2), next(3)};
     sample.pen_tip = {next(4), next(5), next(6)};
@@ -65,7 +65,7 @@ bool same(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return bits(a.x()) == bits(b.x()) && bits(a.y()) == bits(b.y()) && bits(a.z()) == bits(b.z());
 }
 
-bool same(const Sample& a, const Sample& b) {
+bool same(const RecordedSample& a, const RecordedSample& b) {
   return bits(a.time) == bits(b.time) && same(a.device_point, b.device_point) && same(a.pen_tip, b.pen_tip) &&
          same(a.force, b.force) && a.state == b.state && a.events == b.events && a.status == b.status &&
          a.character == b.character && a.stroke == b.stroke && a.tick_ns == b.tick_ns;
@@ -82,13 +82,13 @@ void check_same(const Recording& a, const Recording& b) {
 
 std::string csv(const Recording& recording) {
   std::ostringstream out;
-  write_csv(out, recording);
+  write_recording(out, recording);
   return out.str();
 }
 
 Recording parsed(const std::string& text) {
   std::istringstream in(text);
-  return read_csv(in, "trace.csv");
+  return read_recording(in, "trace.csv");
 }
 
 std::string error_of(const std::string& text) {
@@ -119,8 +119,8 @@ struct GermanNumbers : std::numpunct<char> {
 }  // namespace
 
 TEST_CASE("a recording is read from a regular file alone, and others are named", "[practice]") {
-  CHECK_THROWS_WITH(read_csv("/dev/zero"), "/dev/zero: is not a regular file");
-  CHECK_THROWS_WITH(read_csv("none.csv"), "none.csv: cannot be opened: No such file or directory");
+  CHECK_THROWS_WITH(read_recording("/dev/zero"), "/dev/zero: is not a regular file");
+  CHECK_THROWS_WITH(read_recording("none.csv"), "none.csv: cannot be opened: No such file or directory");
 }
 
 TEST_CASE("a recording read back is the same to the last bit", "[practice]") {
@@ -129,7 +129,7 @@ TEST_CASE("a recording read back is the same to the last bit", "[practice]") {
 
   Recording longer{500.0, {}};  // more than is given to the stream at a time
   for (int i = 0; i < 2000; ++i) {
-    Sample sample;
+    RecordedSample sample;
     sample.time = i / 500.0;
     sample.device_point = {std::sin(i), std::cos(i), 1e-3 * i};
     longer.samples.push_back(sample);
@@ -138,7 +138,7 @@ TEST_CASE("a recording read back is the same to the last bit", "[practice]") {
 }
 
 TEST_CASE("the first line names columns and units, and a row is what it says", "[practice]") {
-  Sample sample;
+  RecordedSample sample;
   sample.time = 0.5;
   sample.device_point = {1, 2, 3};
   sample.pen_tip = {4, 5, 6};
@@ -206,7 +206,7 @@ TEST_CASE("a stream that fails is not taken for the end of the file", "[practice
     int_type uflow() override { throw 1; }
   } buffer;
   std::istream in(&buffer);
-  CHECK_THROWS_AS(read_csv(in, "trace.csv"), FileError);
+  CHECK_THROWS_AS(read_recording(in, "trace.csv"), FileError);
 }
 
 TEST_CASE("CSV does not depend on the locale of streams", "[practice]") {
@@ -255,7 +255,7 @@ TEST_CASE("device states are the device points in device axes, and faults stay f
   mapping.scale = 2.0;
   Recording recording;
   for (int i = 0; i < 4; ++i) {
-    Sample sample;
+    RecordedSample sample;
     sample.time = 0.25 * i;
     sample.device_point = {0.1 * i, 0.05, -0.001 * i};
     sample.pen_tip = {9, 9, 9};
@@ -267,7 +267,7 @@ TEST_CASE("device states are the device points in device axes, and faults stay f
   REQUIRE(states.size() == 4);
   for (std::size_t i = 0; i < 4; ++i) {
     CAPTURE(i);
-    const Sample& sample = recording.samples[i];
+    const RecordedSample& sample = recording.samples[i];
     CHECK(states[i].time == sample.time);
     CHECK(states[i].velocity.array().isNaN().all());
     CHECK(states[i].status == (i == 2 ? DeviceStatus::fault : DeviceStatus::ok));

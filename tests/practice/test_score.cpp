@@ -15,7 +15,7 @@ namespace {
 /// A pen moved by hand through a renderer: no device, no writer, so that the truth is known.
 class Pen {
  public:
-  explicit Pen(const Page& page)
+  explicit Pen(const PracticePage& page)
       : page_(page),
         mapping_(upright_page(page.width, page.height)),
         renderer_(page.characters, mapping_, device_profile("ideal")) {
@@ -39,7 +39,7 @@ class Pen {
     hover(path.back());
   }
 
-  std::vector<CharacterScore> scores() const { return score(page_, recording_); }
+  std::vector<CharacterScore> scores() const { return score_page(page_, recording_); }
 
  private:
   void rest() { hover({0.5 * page_.width, 0.5 * page_.height}); }
@@ -55,7 +55,7 @@ class Pen {
                                   tick.status, tick.character, tick.stroke, 0.0F});
   }
 
-  Page page_;
+  PracticePage page_;
   MotionMapping mapping_;
   HapticRenderer renderer_;
   Recording recording_;
@@ -74,7 +74,7 @@ TEST_CASE("a perfect copy has no error, no mistake and full fidelity", "[practic
 }
 
 TEST_CASE("a heng drawn 1 mm too high has a lateral error of 1 mm", "[practice]") {
-  const Page page = page_of("一");
+  const PracticePage page = page_of("一");
   const Point along = strokes(page.characters[0].character)[0].control_points[1] -
                       strokes(page.characters[0].character)[0].control_points[0];
   const Point across = 1e-3 * Point(-along.y(), along.x()).normalized();
@@ -116,7 +116,7 @@ TEST_CASE("a stroke already written and written again is an order mistake", "[pr
 TEST_CASE("every stroke of every built-in character, written backwards, is a direction mistake and not taken",
           "[practice]") {
   for (const Character& character : built_in_characters().characters) {
-    const Page page = lay_out(std::span(&character, 1)).front();
+    const PracticePage page = lay_out(std::span(&character, 1)).front();
     const auto drawn = strokes(character);
     for (int stroke = 0; stroke < character.stroke_count(); ++stroke) {
       const auto& points = drawn[static_cast<std::size_t>(stroke)].control_points;
@@ -146,8 +146,8 @@ TEST_CASE("a page half written scores what was written and nothing for the rest"
 }
 
 TEST_CASE("an empty recording scores nothing", "[practice]") {
-  const Page page = page_of("永");
-  const auto results = score(page, Recording());
+  const PracticePage page = page_of("永");
+  const auto results = score_page(page, Recording());
   REQUIRE(results.size() == 1);
   CHECK(results[0].strokes_completed == 0);
   CHECK(results[0].fidelity == 0.0);

@@ -29,20 +29,20 @@ TEST_CASE("no step exceeds the largest step and no force the peak, whatever the 
   Sequence random(11);
   for (const double largest : {0.05, 1.0, 3.3, 10.0, 1e6, 1e100}) {
     Vector3d force = Vector3d::Zero();
-    double largest_step = 0.0, largest_force = 0.0;
+    double max_step = 0.0, max_force = 0.0;
     for (int i = 0; i < 20'000; ++i) {
       Vector3d target = random_force(random, largest);
       if (i % 3 == 0) target = -force;
       if (i % 7 == 0) target = Vector3d(0.0, 0.0, largest);
       const Vector3d next = limiter.next(force, target);
-      largest_step = std::max(largest_step, (next - force).norm());
-      largest_force = std::max(largest_force, next.norm());
+      max_step = std::max(max_step, (next - force).norm());
+      max_force = std::max(max_force, next.norm());
       force = next;
     }
     INFO("targets up to " << largest);
     CHECK(limiter.max_step() == Approx(std::hypot(0.1, 0.4)));
-    CHECK(largest_step <= limiter.max_step() * (1.0 + 1e-12));
-    CHECK(largest_force <= 3.3 * (1.0 + 1e-12));
+    CHECK(max_step <= limiter.max_step() * (1.0 + 1e-12));
+    CHECK(max_force <= 3.3 * (1.0 + 1e-12));
   }
 }
 
@@ -115,7 +115,7 @@ TEST_CASE("with jerk the step changes by no more than that, but where the peak o
   for (const double jerk : {0.0003, 0.01, 0.1, 1.0}) {
     ForceLimiter limited{0.1, 0.4, 3.3, true, jerk};
     Vector3d force(0, 0, 0), last_step(0, 0, 0), target(0, 0, 0);
-    double in_plane = 0.0, normal = 0.0, largest_step = 0.0;
+    double in_plane = 0.0, normal = 0.0, max_step = 0.0;
     bool was_shortened = false;
     for (int i = 0; i < 50'000; ++i) {
       if (i % 40 == 0) target = random_force(random, 3.0);
@@ -126,7 +126,7 @@ TEST_CASE("with jerk the step changes by no more than that, but where the peak o
         in_plane = std::max(in_plane, (step - last_step).head<2>().norm());
         normal = std::max(normal, std::abs(step.z() - last_step.z()));
       }
-      largest_step = std::max(largest_step, step.norm());
+      max_step = std::max(max_step, step.norm());
       was_shortened = shortened;
       last_step = step;
       force = next;
@@ -135,7 +135,7 @@ TEST_CASE("with jerk the step changes by no more than that, but where the peak o
     CHECK(in_plane <= jerk + 1e-12);
     CHECK(normal <= jerk + 1e-12);
     CHECK(in_plane > 0.9 * std::min(jerk, 0.1));
-    CHECK(largest_step <= limited.max_step() * (1.0 + 1e-12));
+    CHECK(max_step <= limited.max_step() * (1.0 + 1e-12));
   }
 }
 
@@ -171,20 +171,20 @@ TEST_CASE("with jerk no target, however it moves, carries a force beyond the lim
   for (const double jerk : {1e-6, 0.01, 10.0}) {
     ForceLimiter limited{0.1, 0.4, 3.3, true, jerk};
     Vector3d force(0, 0, 0);
-    double largest_step = 0.0, largest_force = 0.0;
+    double max_step = 0.0, max_force = 0.0;
     for (int i = 0; i < 50'000; ++i) {
       Vector3d target = random_force(random, 10.0);
       if (i % 3 == 0) target = -force;
       if (i % 5 == 0) target = 1e100 * random_force(random, 1.0);
       const bool releases = i % 17 == 0;
       const Vector3d next = releases ? limited.release(force) : limited.next(force, target);
-      largest_step = std::max(largest_step, (next - force).norm());
-      largest_force = std::max(largest_force, next.norm());
+      max_step = std::max(max_step, (next - force).norm());
+      max_force = std::max(max_force, next.norm());
       force = next;
     }
     INFO("jerk " << jerk);
-    CHECK(largest_step <= limited.max_step() * (1.0 + 1e-12));
-    CHECK(largest_force <= 3.3 * (1.0 + 1e-12));
+    CHECK(max_step <= limited.max_step() * (1.0 + 1e-12));
+    CHECK(max_force <= 3.3 * (1.0 + 1e-12));
   }
 }
 

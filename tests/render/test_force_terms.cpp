@@ -5,13 +5,13 @@
 
 using namespace calligraphy;
 
-TEST_CASE("eq. (8) draws the tip to its foot, and away from it as the text stands", "[render]") {
-  const Point tip(0.003, 0.004), foot(0.0, 0.0);
-  CHECK(attraction_force(400.0, tip, foot).isApprox(Point(-1.2, -1.6)));
-  CHECK(attraction_force(400.0, tip, foot).dot(foot - tip) > 0.0);
-  CHECK(attraction_force(400.0, tip, foot, ForceSign::wang2006).isApprox(Point(1.2, 1.6)));
-  CHECK(attraction_force(400.0, foot, foot) == Point(0, 0));
-  CHECK(attraction_force(0.0, tip, foot) == Point(0, 0));
+TEST_CASE("eq. (8) draws the tip to its closest point, and away from it as the text stands", "[render]") {
+  const Point tip(0.003, 0.004), closest(0.0, 0.0);
+  CHECK(attraction_force(400.0, tip, closest).isApprox(Point(-1.2, -1.6)));
+  CHECK(attraction_force(400.0, tip, closest).dot(closest - tip) > 0.0);
+  CHECK(attraction_force(400.0, tip, closest, ForceSign::wang2006).isApprox(Point(1.2, 1.6)));
+  CHECK(attraction_force(400.0, closest, closest) == Point(0, 0));
+  CHECK(attraction_force(0.0, tip, closest) == Point(0, 0));
 }
 
 TEST_CASE("eq. (9) pushes out of the paper, in proportion, and only below it", "[render]") {

@@ -38,9 +38,9 @@ struct Log {
                                                 {TickEvent::character_finished, 'C'},
                                                 {TickEvent::page_finished, 'P'}};
     for (const auto& [event, letter] : names) {
-      if (has(tick.events, event)) letters += letter;
+      if (has_event(tick.events, event)) letters += letter;
     }
-    features += has(tick.events, TickEvent::feature_passed);
+    features += has_event(tick.events, TickEvent::feature_passed);
   }
 };
 
@@ -53,13 +53,13 @@ TEST_CASE("a pen that writes 永 well finishes each of its strokes in order", "[
   ScriptedPen pen(renderer);
   Log log;
   int last_stroke = 0, falls = 0;
-  double largest_attraction = 0.0;
+  double max_attraction = 0.0;
   pen.on_tick = [&](const HapticTick& tick) {
     log(tick);
     falls += tick.stroke < last_stroke && tick.character == 0;
     last_stroke = tick.stroke;
-    if (!has(tick.events, TickEvent::feature_passed)) {
-      largest_attraction = std::max(largest_attraction, tick.attraction.norm());
+    if (!has_event(tick.events, TickEvent::feature_passed)) {
+      max_attraction = std::max(max_attraction, tick.attraction.norm());
     }
   };
   pen.write(renderer.page()[0]);
@@ -68,7 +68,7 @@ TEST_CASE("a pen that writes 永 well finishes each of its strokes in order", "[
   CHECK(falls == 0);
   CHECK(renderer.last().character == 1);
   // On the path the guide is silent but for the last 1.5 mm before a corner, where the next limb already draws.
-  CHECK(largest_attraction <= renderer.options().guidance_stiffness * 0.0016);
+  CHECK(max_attraction <= renderer.options().guidance_stiffness * 0.0016);
 }
 
 TEST_CASE("several characters follow one another, and writing on afterwards changes nothing", "[render]") {
@@ -94,7 +94,7 @@ TEST_CASE("each built-in character can be written, exactly and 1 mm beside itsel
       pen.write(renderer.page()[0], offset);
       INFO("U+" << std::hex << static_cast<unsigned>(character.code) << ", " << offset << " m: " << log.letters);
       CHECK(renderer.last().character == 1);
-      CHECK(pen.largest_step <= renderer.max_force_step());
+      CHECK(pen.max_step <= renderer.max_force_step());
     }
   }
 }

@@ -52,7 +52,7 @@ DeviceState state_with(const Vector3d& position, DeviceStatus status = DeviceSta
 double any_of(Sequence& random) { return extremes[static_cast<std::size_t>(random.next() * std::size(extremes))]; }
 
 /// Ticks of every kind: pen-like motion, leaps, extremes, frozen samples, faults, clocks that stop or go back.
-void torment(HapticRenderer& renderer, std::uint64_t seed, int ticks, double& largest_excess, int& not_finite) {
+void torment(HapticRenderer& renderer, std::uint64_t seed, int ticks, double& max_excess, int& not_finite) {
   Sequence random(seed);
   Vector3d position(0.03, 0.05, 0.0), last = renderer.last().force;
   double time = 0.0;
@@ -75,8 +75,8 @@ void torment(HapticRenderer& renderer, std::uint64_t seed, int ticks, double& la
     state.status = kind > 0.985 && kind < 0.99 ? static_cast<DeviceStatus>(i % 9) : DeviceStatus::ok;
     const HapticTick& tick = renderer.update(state);
     not_finite += !tick.force.allFinite() || !tick.page_force.allFinite() || !tick.pen_tip.allFinite() ||
-                  !tick.contact.foot.point.allFinite();
-    largest_excess = std::max({largest_excess, (tick.force - last).norm() - step, tick.force.norm() - 3.3});
+                  !tick.contact.closest.point.allFinite();
+    max_excess = std::max({max_excess, (tick.force - last).norm() - step, tick.force.norm() - 3.3});
     last = tick.force;
   }
 }
@@ -105,7 +105,7 @@ TEST_CASE("a bad sample takes the force to zero by a ramp, and the next good one
       CHECK(test.renderer.last().status == TickStatus::ok);
       CHECK(test.renderer.last().force.isApprox(before));
       CHECK(test.pen.finite);
-      CHECK(test.pen.largest_step <= test.renderer.max_force_step() * (1.0 + 1e-12));
+      CHECK(test.pen.max_step <= test.renderer.max_force_step() * (1.0 + 1e-12));
     }
   }
 }
@@ -122,7 +122,7 @@ TEST_CASE("a device that is gone or at fault gets zero force by a ramp, and no j
     test.rest(100);
     CHECK(test.renderer.last().status == TickStatus::ok);
     CHECK(test.renderer.last().force.norm() > 1.0);
-    CHECK(test.pen.largest_step <= test.renderer.max_force_step() * (1.0 + 1e-12));
+    CHECK(test.pen.max_step <= test.renderer.max_force_step() * (1.0 + 1e-12));
   }
 }
 
@@ -146,7 +146,7 @@ TEST_CASE("a lone sample far away is refused, a second one near it believed", "[
   CHECK(test.pen.sample(state_with(away)).status == TickStatus::bad_sample);
   CHECK(test.pen.sample(state_with(away)).status == TickStatus::ok);
   CHECK(test.renderer.last().state == InteractionState::adjusting);
-  CHECK(test.pen.largest_step <= test.renderer.max_force_step() * (1.0 + 1e-12));
+  CHECK(test.pen.max_step <= test.renderer.max_force_step() * (1.0 + 1e-12));
 }
 
 TEST_CASE("clocks that stand still, go back or leap change neither force nor state", "[render]") {
@@ -172,7 +172,7 @@ TEST_CASE("no sequence of samples gives a force that is not finite, steps or exc
   all[3].motion = MotionMappingRule::wang2006;
   all[3].force_sign = ForceSign::wang2006;
   all[4].stroke.window = 0.0;
-  all[4].largest_speed = 1e9;
+  all[4].max_speed = 1e9;
   for (std::size_t i = 0; i < all.size(); ++i) {
     HapticRenderer renderer({placed(U'永'), placed(U'北', {0.03, 0.02})}, {}, test_device(), all[i]);
     INFO("options " << i);
@@ -182,11 +182,11 @@ TEST_CASE("no sequence of samples gives a force that is not finite, steps or exc
     pen.go({start.x(), start.y(), 0.005});
     pen.go({start.x(), start.y(), -0.002});
     CHECK(renderer.last().state == InteractionState::writing);  // it is a stroke that is tormented, at first
-    double largest_excess = -infinity;
+    double max_excess = -infinity;
     int not_finite = 0;
-    torment(renderer, 17 + i, torment_ticks, largest_excess, not_finite);
+    torment(renderer, 17 + i, torment_ticks, max_excess, not_finite);
     CHECK(not_finite == 0);
-    CHECK(largest_excess <= 1e-12);
+    CHECK(max_excess <= 1e-12);
   }
 }
 
@@ -210,7 +210,7 @@ TEST_CASE("with no stiffness there is no force, whatever the pen does", "[render
   HapticRenderer renderer({placed(U'永')}, {}, test_device(), options);
   ScriptedPen pen(renderer);
   pen.write(renderer.page()[0], 0.002);
-  CHECK(pen.largest_force == 0.0);
+  CHECK(pen.max_force == 0.0);
   CHECK(renderer.last().character == 1);
 }
 
@@ -221,5 +221,5 @@ TEST_CASE("a page and a device far from their zeros are written as those near", 
   ScriptedPen pen(renderer);
   pen.write(renderer.page()[0], 0.001);
   CHECK(renderer.last().character == 1);
-  CHECK(pen.largest_step <= renderer.max_force_step() * (1.0 + 1e-12));
+  CHECK(pen.max_step <= renderer.max_force_step() * (1.0 + 1e-12));
 }

@@ -43,7 +43,7 @@ S by_table(S from, const TransitionInput& in) {
 TEST_CASE("every state and every input lead where the written table says", "[render]") {
   for (const S from : states) {
     for (int bits = 0; bits < 32; ++bits) {
-      INFO(short_name(from) << ", input " << bits);
+      INFO(to_string(from) << ", input " << bits);
       CHECK(next_state(from, input_of(bits)) == by_table(from, input_of(bits)));
     }
   }
@@ -81,7 +81,7 @@ TEST_CASE("Fig. 6: every state can be reached from every other", "[render]") {
 
 TEST_CASE("states have the paper's short names", "[render]") {
   std::string names;
-  for (const S state : states) names += short_name(state) + std::string(" ");
+  for (const S state : states) names += to_string(state) + std::string(" ");
   CHECK(names == "SS AS CS WS ");
-  CHECK(std::string(short_name(static_cast<S>(77))).empty());
+  CHECK(std::string(to_string(static_cast<S>(77))).empty());
 }

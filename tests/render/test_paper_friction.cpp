@@ -24,7 +24,7 @@ constexpr int rates[] = {100, 500, 1000, 4000, 10'000, 20'000};
 constexpr double coefficient = 0.3;
 constexpr double normal = 1.0;                // [N]
 constexpr double sliding_force = 0.3;         // mu N [N]
-constexpr double longest_stretch = 0.3e-3;    // mu N / stiffness [m]
+constexpr double max_stretch = 0.3e-3;        // mu N / stiffness [m]
 constexpr double vibration_frequency = 20.0;  // a whole number of samples a period at each rate [Hz]
 
 constexpr int last_second = 20;
@@ -33,7 +33,7 @@ FrictionOptions options_of(FrictionModel model) {
   FrictionOptions options;
   options.model = model;
   options.coefficient = coefficient;
-  options.stiffness = sliding_force / longest_stretch;
+  options.stiffness = sliding_force / max_stretch;
   return options;
 }
 
@@ -73,7 +73,7 @@ double drift_of_hold(FrictionModel model, int rate, double amplitude) {
   const FrictionOptions options = options_of(model);
   PaperFriction friction;
   return drift(rate, [&](double time) {
-    const double tip = biased_vibration(0.5 * longest_stretch, amplitude, time);
+    const double tip = biased_vibration(0.5 * max_stretch, amplitude, time);
     return tip + friction.update(options, {tip, 0.0}, normal, 1.0 / rate).x() / options.stiffness;
   });
 }
@@ -99,7 +99,7 @@ std::vector<Point> random_path(Sequence& random, int count, double step, bool cl
 }
 
 /// Most work that the force has done on the pen at any moment of a path, by the trapezoid rule [J].
-double most_given(const FrictionOptions& options, const std::vector<Point>& path) {
+double max_given(const FrictionOptions& options, const std::vector<Point>& path) {
   PaperFriction friction;
   double given = 0.0, most = 0.0;
   Point last_force(0.0, 0.0), last_tip = path.front();
@@ -161,7 +161,7 @@ TEST_CASE("break-away friction depends on the path alone: the rate changes nothi
     double from = 0.0;
     std::vector<double> found;
     for (int leg = 0; leg < 200; ++leg) {
-      const double to = from + random.between(-2.0, 2.0) * longest_stretch;
+      const double to = from + random.between(-2.0, 2.0) * max_stretch;
       const int samples = rate / 100;
       double force = 0.0;
       for (int i = 1; i <= samples; ++i) {
@@ -273,14 +273,14 @@ TEST_CASE("when the pressure falls and rises on a resting pen its friction follo
     for (int i = 1; i <= 28; ++i) last = friction.update(options, {1e-5 * i, 0.0}, normal, 0.001);  // 0.01 m/s
     const Point held = last;
     REQUIRE(held.norm() > 0.05);
-    double largest_step = 0.0;
+    double max_step = 0.0;
     bool along = true;
     for (const double to : {0.1, 1.0, 0.0, 1.0}) {
       const double from = to > 0.5 ? last.norm() / sliding_force : 1.0;
       for (int i = 0; i <= 1000; ++i) {
         const double pressed = from + (to - from) * i / 1000.0;
         const Point force = friction.update(options, {2.8e-4, 0.0}, pressed, 0.001);
-        largest_step = std::max(largest_step, (force - last).norm());
+        max_step = std::max(max_step, (force - last).norm());
         along = along && force.x() <= 0.0 && force.y() == 0.0;
         last = force;
         if (to < from && pressed < 0.2 && pressed >= 0.1) CHECK(force.norm() > 0.9 * coefficient * 0.1);
@@ -290,7 +290,7 @@ TEST_CASE("when the pressure falls and rises on a resting pen its friction follo
     CHECK(along);
     // mu N falls by 0.3 mN a tick. At its own break-away Karnopp's falls from static_ratio mu N to mu N.
     const double break_away = model == FrictionModel::karnopp ? (options.static_ratio - 1.0) * sliding_force : 0.0;
-    CHECK(largest_step <= break_away + 0.0004);
+    CHECK(max_step <= break_away + 0.0004);
   }
 }
 
@@ -300,7 +300,7 @@ TEST_CASE("break-away friction gives no energy on any path, however coarse", "[r
   for (const double step : {1e-6, 3e-5, 3e-4, 3e-3}) {
     for (int i = 0; i < 100; ++i) {
       INFO("steps up to " << step << " m");
-      CHECK(most_given(options_of(FrictionModel::breakaway), random_path(random, 300, step, i % 2 == 0)) <= 1e-12);
+      CHECK(max_given(options_of(FrictionModel::breakaway), random_path(random, 300, step, i % 2 == 0)) <= 1e-12);
     }
   }
 }
@@ -311,7 +311,7 @@ TEST_CASE("the other models give no energy as long as a step is a tenth of the l
     for (const double step : {1e-6, 1e-5, 3e-5}) {
       for (int i = 0; i < 100; ++i) {
         INFO("model " << static_cast<int>(model) << ", steps up to " << step << " m");
-        CHECK(most_given(options_of(model), random_path(random, 1000, step, i % 2 == 0)) <= 1e-12);
+        CHECK(max_given(options_of(model), random_path(random, 1000, step, i % 2 == 0)) <= 1e-12);
       }
     }
   }

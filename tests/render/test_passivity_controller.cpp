@@ -84,7 +84,7 @@ struct Setting {
 constexpr double force_rate = 100.0, peak = 3.3;
 
 /// Most energy that the force has given to a pen which goes its own way, at any tick, over the budget: true work.
-double most_given(const Setting& setting, const Pen& pen, const Field& field, double seconds) {
+double max_given(const Setting& setting, const Pen& pen, const Field& field, double seconds) {
   const double period = 1.0 / setting.rate;
   PassivityOptions options;
   options.energy_budget = setting.budget;
@@ -106,7 +106,7 @@ double most_given(const Setting& setting, const Pen& pen, const Field& field, do
       force = limiter.release(force);
     } else {
       const Vector3d wanted = passivity.next(position, field(i * period, velocity, force));
-      force = limiter.next(force, wanted, passivity.longest_force());
+      force = limiter.next(force, wanted, passivity.max_force());
     }
     passivity.sent(force);
     const Vector3d next = pen((i + 1) * period);
@@ -176,18 +176,18 @@ constexpr double hostile_seconds = 2.0;
 
 TEST_CASE("the observed energy is the true work of the force that was held", "[render]") {
   // Random forces and steps, so that nothing but F(n) . (x(n + 1) - x(n)) can add up to it.
-  for (const int delay : {0, 1, 2, 5, PassivityController::longest_delay}) {
+  for (const int delay : {0, 1, 2, 5, PassivityController::max_delay}) {
     PassivityOptions options;
     options.delay = delay;
     PassivityController passivity(options, 0.001);
     Sequence random(41);
     std::vector<Vector3d> places = {random_vector(random, 0.1)};
     std::vector<double> work = {0.0};  // done until each tick
-    double largest_error = 0.0;
+    double max_error = 0.0;
     for (int i = 0; i < 5000; ++i) {
       const std::size_t seen = static_cast<std::size_t>(std::max(0, i - delay));
       passivity.next(places[seen], random_vector(random, 3.0));
-      largest_error = std::max(largest_error, std::abs(passivity.energy_given() - work[seen]));
+      max_error = std::max(max_error, std::abs(passivity.energy_given() - work[seen]));
       const Vector3d force = random_vector(random, 3.0);
       passivity.sent(force);
       places.push_back(places.back() + random_vector(random, 1e-3));
@@ -195,7 +195,7 @@ TEST_CASE("the observed energy is the true work of the force that was held", "[r
     }
     INFO("delay " << delay);
     CHECK(std::abs(work.back()) > 1e-3);
-    CHECK(largest_error < 1e-13 * 5000);
+    CHECK(max_error < 1e-13 * 5000);
   }
 }
 
@@ -282,7 +282,7 @@ TEST_CASE("no field, pen speed, rate or delay gets more than the budget out of t
           // With |F| / rate = 33 ms and two late samples of 10 ms, 0.25 m/s are 4 m/s^2.
           for (const Pen& pen : {straight(0.1), straight(1.0), to_and_fro(0.5, 4.0), round(0.3, 4.0)}) {
             INFO(name << ", " << rate << " Hz, delay " << delay << ", jerk " << jerk);
-            CHECK(most_given(setting, pen, field, seconds) <= 1.0 + 1e-9);
+            CHECK(max_given(setting, pen, field, seconds) <= 1.0 + 1e-9);
           }
         }
       }
@@ -294,7 +294,7 @@ TEST_CASE("the budget holds whatever its size, and is used", "[render]") {
   for (const double budget : {0.0, 1e-9, 1e-3, 0.1}) {
     for (const auto& [name, field] : hostile_fields) {
       const Setting setting{1000.0, 0, std::max(budget, 1e-300), 1e5};
-      const double share = most_given(setting, straight(1.0), field, hostile_seconds);
+      const double share = max_given(setting, straight(1.0), field, hostile_seconds);
       INFO(name << ", " << budget << " J");
       CHECK(share <= 1.0 + 1e-9);
       if (budget >= 1e-3) CHECK(share > 0.9);
@@ -307,7 +307,7 @@ TEST_CASE("the budget holds without a limiter behind, for then a force is taken 
     for (const double rate : {100.0, 1000.0, 20'000.0}) {
       const Setting setting{rate, 0, 0.01, infinity, false};
       INFO(name << ", " << rate << " Hz");
-      CHECK(most_given(setting, straight(1.0), field, 0.25 * hostile_seconds) <= 1.0 + 1e-9);
+      CHECK(max_given(setting, straight(1.0), field, 0.25 * hostile_seconds) <= 1.0 + 1e-9);
     }
   }
 }
@@ -320,7 +320,7 @@ TEST_CASE("lost samples are paid for as if the pen went on along the force", "[r
         setting.share_of_lost = share;
         for (const auto& [name, field] : hostile_fields) {
           INFO(name << ", " << share << " lost, " << speed << " m/s, delay " << delay);
-          CHECK(most_given(setting, straight(speed), field, hostile_seconds) <= 1.0 + 1e-9);
+          CHECK(max_given(setting, straight(speed), field, hostile_seconds) <= 1.0 + 1e-9);
         }
       }
     }
@@ -337,7 +337,7 @@ TEST_CASE("a pen that speeds up by more than is reckoned with gains no more than
   // F^2 v / (2 rate) with v = 0.251 m/s is all of the budget; u = 2 - 0.251 m/s.
   const double force = std::sqrt(2.0 * force_rate * budget / 0.251);
   const double beyond = force * (2.0 - 0.251) * (force / force_rate + 0.001);
-  const double given = budget * most_given(setting, thrown, along, 0.5);
+  const double given = budget * max_given(setting, thrown, along, 0.5);
   CHECK(given > budget);
   CHECK(given <= budget + beyond);
 }
@@ -354,13 +354,13 @@ TEST_CASE("energy that the hand gives comes back into the budget, up to its size
     passivity.next({place, 0, 0}, {force, 0, 0});
     passivity.sent({0, 0, 0});
   };
-  CHECK(passivity.energy_left() == 0.01);
+  CHECK(passivity.energy_remaining() == 0.01);
   move(0.004, 1.0);
-  CHECK(passivity.energy_left() == Approx(0.006));
+  CHECK(passivity.energy_remaining() == Approx(0.006));
   move(-0.003, 1.0);
-  CHECK(passivity.energy_left() == Approx(0.009));
+  CHECK(passivity.energy_remaining() == Approx(0.009));
   move(-0.009, 1.0);
-  CHECK(passivity.energy_left() == 0.01);
+  CHECK(passivity.energy_remaining() == 0.01);
   CHECK(passivity.energy_given() == Approx(0.004 - 0.003 - 0.009));
 }
 
@@ -372,7 +372,7 @@ TEST_CASE("without a budget or damping the wanted force comes out as it went in"
     CHECK(passivity.next(random_vector(random, 0.01), wanted) == wanted);
     passivity.sent(random_vector(random, 3.0));
   }
-  CHECK(std::isinf(passivity.longest_force()));
+  CHECK(std::isinf(passivity.max_force()));
 }
 
 TEST_CASE("a lost sample damps nothing and leaves every figure a number", "[render]") {
@@ -388,7 +388,7 @@ TEST_CASE("a lost sample damps nothing and leaves every figure a number", "[rend
     if (is_lost) position[i % 3] = i % 2 ? not_a_number : infinity;
     const Vector3d force = passivity.next(position, random_vector(random, 3.0));
     finite = finite && force.allFinite() && std::isfinite(passivity.energy_given()) &&
-             std::isfinite(passivity.energy_left());
+             std::isfinite(passivity.energy_remaining());
     if (is_lost) CHECK(passivity.damping() == Vector3d(0, 0, 0));
     passivity.sent(force);
   }
@@ -405,7 +405,7 @@ TEST_CASE("samples lost before the first cost nothing", "[render]") {
   }
   passivity.next({0.1, 0.2, 0.3}, {0, 0, 0});
   CHECK(passivity.energy_given() == 0.0);
-  CHECK(passivity.energy_left() == 0.01);
+  CHECK(passivity.energy_remaining() == 0.01);
 }
 
 TEST_CASE("restart forgets everything", "[render]") {
@@ -427,7 +427,7 @@ TEST_CASE("restart forgets everything", "[render]") {
     const Vector3d position = random_vector(random, 0.01), wanted = random_vector(random, 3.0);
     const Vector3d force = fresh.next(position, wanted);
     CHECK(used.next(position, wanted) == force);
-    CHECK(used.energy_left() == fresh.energy_left());
+    CHECK(used.energy_remaining() == fresh.energy_remaining());
     fresh.sent(force);
     used.sent(force);
   }

@@ -53,7 +53,7 @@ const Domain domains[] = {
     {"wrong_way_slack", [](RendererOptions& o) -> double& { return o.wrong_way_slack; }, true},
     {"stroke.nearest.tolerance", [](RendererOptions& o) -> double& { return o.stroke.nearest.tolerance; }, false},
     {"stroke.space.radius", [](RendererOptions& o) -> double& { return o.stroke.space.radius; }, false},
-    {"stroke.space.edge", [](RendererOptions& o) -> double& { return o.stroke.space.edge; }, false},
+    {"stroke.space.fade_width", [](RendererOptions& o) -> double& { return o.stroke.space.fade_width; }, false},
     {"stroke.plane_tolerance", [](RendererOptions& o) -> double& { return o.stroke.plane_tolerance; }, true},
     {"stroke.window", [](RendererOptions& o) -> double& { return o.stroke.window; }, true},
     {"start_radius", [](RendererOptions& o) -> double& { return o.start_radius; }, false},
@@ -62,11 +62,12 @@ const Domain domains[] = {
     {"box_hysteresis", [](RendererOptions& o) -> double& { return o.box_hysteresis; }, true},
     {"in_plane_force_rate", [](RendererOptions& o) -> double& { return o.in_plane_force_rate; }, false},
     {"normal_force_rate", [](RendererOptions& o) -> double& { return o.normal_force_rate; }, false},
-    {"largest_speed", [](RendererOptions& o) -> double& { return o.largest_speed; }, false},
+    {"max_speed", [](RendererOptions& o) -> double& { return o.max_speed; }, false},
     {"guidance_limit", [](RendererOptions& o) -> double& { return o.guidance_limit; }, false},
     {"assist.retention", [](RendererOptions& o) -> double& { return o.assist.retention; }, true},
-    {"assist.full_help_error", [](RendererOptions& o) -> double& { return o.assist.full_help_error; }, false},
-    {"assist.least", [](RendererOptions& o) -> double& { return o.assist.least; }, true},
+    {"assist.full_assistance_error", [](RendererOptions& o) -> double& { return o.assist.full_assistance_error; },
+     false},
+    {"min_assistance", [](RendererOptions& o) -> double& { return o.assist.min_assistance; }, true},
     {"friction.coefficient", [](RendererOptions& o) -> double& { return o.friction.coefficient; }, true},
     {"friction.stiffness", [](RendererOptions& o) -> double& { return o.friction.stiffness; }, false},
     {"friction.static_ratio", [](RendererOptions& o) -> double& { return o.friction.static_ratio; }, false},
@@ -99,11 +100,11 @@ TEST_CASE("each option out of its domain is named with its value", "[render]") {
 
 TEST_CASE("stiffness is not clipped by factors that are none", "[render]") {
   const Capabilities device = test_device();
-  const auto complaint_of = [&](double largest_attraction, double scale) -> std::string {
+  const auto complaint_of = [&](double max_attraction, double scale) -> std::string {
     RendererOptions options;
     options.guidance_stiffness = 1e9;
     try {
-      clip_stiffness(options, device, largest_attraction, scale);
+      clip_stiffness(options, device, max_attraction, scale);
     } catch (const ValueError& error) {
       CHECK(options.guidance_stiffness == 1e9);
       return error.what();
@@ -113,7 +114,7 @@ TEST_CASE("stiffness is not clipped by factors that are none", "[render]") {
   };
   const double infinity = std::numeric_limits<double>::infinity();
   for (const double bad : {-1.0, -infinity, infinity, std::numeric_limits<double>::quiet_NaN()}) {
-    CHECK(contains(complaint_of(bad, 1.0), "largest_attraction"));
+    CHECK(contains(complaint_of(bad, 1.0), "max_attraction"));
     CHECK(contains(complaint_of(1.0, bad), "scale"));
   }
   CHECK(contains(complaint_of(1.0, 0.0), "scale"));
@@ -125,8 +126,8 @@ TEST_CASE("upper bounds are named too", "[render]") {
   options.servo_rate = 2e6;
   CHECK(contains(complaint(options), "servo_rate"));
   options = {};
-  options.stroke.space.edge = 2.0 * options.stroke.space.radius;
-  CHECK(contains(complaint(options), "stroke.space.edge"));
+  options.stroke.space.fade_width = 2.0 * options.stroke.space.radius;
+  CHECK(contains(complaint(options), "stroke.space.fade_width"));
   options = {};
   for (const int samples : {1, 65, -3}) {
     RendererOptions coarse = options;
@@ -150,7 +151,7 @@ TEST_CASE("shares and ratios of the stages have their upper and lower bounds", "
     }
     return contains(complaint(options), name);
   };
-  for (const char* name : {"assist.retention", "assist.least"}) {
+  for (const char* name : {"assist.retention", "min_assistance"}) {
     CHECK_FALSE(refused(name, 1.0));
     CHECK(refused(name, 1.0 + 1e-9));
   }
@@ -194,7 +195,7 @@ TEST_CASE("a stiffness is taken as it is where no check is asked for, but for on
   RendererOptions options;
   options.paper_stiffness = 5000.0;
   CHECK(contains(complaint(options, device), "paper_stiffness = 5000"));
-  options.stiffness_check = StiffnessCheck::none;
+  options.stiffness_check = StiffnessCheck::off;
   CHECK(complaint(options, device).empty());
   CHECK(HapticRenderer({placed(U'永')}, {}, device, options).options().paper_stiffness == 5000.0);
   options.paper_stiffness = 2e6;
@@ -289,8 +290,8 @@ TEST_CASE("no stiffness that is a number makes a force that is none, for a devic
     pen.go({0.03, 0.05, -5.0});
     INFO(stiffness);
     CHECK(pen.finite);
-    CHECK(pen.largest_force <= 3.3 * (1.0 + 1e-12));
-    CHECK(pen.largest_step <= renderer.max_force_step() * (1.0 + 1e-12));
+    CHECK(pen.max_force <= 3.3 * (1.0 + 1e-12));
+    CHECK(pen.max_step <= renderer.max_force_step() * (1.0 + 1e-12));
   }
   CHECK(contains(complaint([&] {
                    HapticRenderer({{calligraphy_test::typical_character(1, {1.0, 1e300}), {}}}, {}, device);
@@ -390,8 +391,8 @@ TEST_CASE("with any scale the device's peak and rate hold on the device's side",
     pen.write(renderer.page()[0], 0.002);
     pen.go({0.04, 0.06, 0.005});
     pen.go({0.04, 0.06, -0.1});
-    CHECK(pen.largest_force <= 3.3 * (1.0 + 1e-12));
-    CHECK(pen.largest_step <= renderer.max_force_step() * (1.0 + 1e-12));
+    CHECK(pen.max_force <= 3.3 * (1.0 + 1e-12));
+    CHECK(pen.max_step <= renderer.max_force_step() * (1.0 + 1e-12));
     CHECK(renderer.last().character == 1);
   }
 }

@@ -73,22 +73,22 @@ struct Watch {
   std::string states, events;
 
   void operator()(const HapticTick& tick) {
-    const std::string state = short_name(tick.state);
+    const std::string state = to_string(tick.state);
     if (states.empty() || states.substr(states.size() - 2) != state) states += states.empty() ? state : " " + state;
     const std::pair<TickEvent, char> names[] = {{TickEvent::stroke_started, 's'},
                                                 {TickEvent::feature_passed, 'p'},
                                                 {TickEvent::stroke_finished, 'f'},
                                                 {TickEvent::stroke_abandoned, 'a'}};
     for (const auto& [event, letter] : names) {
-      if (has(tick.events, event)) events += letter;
+      if (has_event(tick.events, event)) events += letter;
     }
   }
 };
 
 void check_steps(const ScriptedPen& pen, const HapticRenderer& renderer) {
   CHECK(pen.finite);
-  CHECK(pen.largest_step <= renderer.max_force_step() * (1.0 + 1e-12));
-  CHECK(pen.largest_force <= 3.3 * (1.0 + 1e-12));
+  CHECK(pen.max_step <= renderer.max_force_step() * (1.0 + 1e-12));
+  CHECK(pen.max_force <= 3.3 * (1.0 + 1e-12));
 }
 
 #ifdef __SANITIZE_ADDRESS__
@@ -267,8 +267,8 @@ TEST_CASE("a pen pressed for a minute: warm motors bring the force down to the c
     pen.go(place);
     rest(pen, place, 500);
     const HapticTick& tick = renderer.last();
-    CHECK(pen.largest_force == Approx(3.3));
-    double last = tick.force.norm(), largest_rise = 0.0, largest_turn = 0.0, hottest = 0.0;
+    CHECK(pen.max_force == Approx(3.3));
+    double last = tick.force.norm(), max_rise = 0.0, max_turn = 0.0, hottest = 0.0;
 #ifdef __SANITIZE_ADDRESS__
     constexpr int seconds = 40;
 #else
@@ -280,15 +280,15 @@ TEST_CASE("a pen pressed for a minute: warm motors bring the force down to the c
       // What friction is left from the way here falls with the pressure, and turns the force a little.
       Vector3d wanted(0, 0, tick.normal);
       wanted.head<2>() = tick.attraction + tick.wrong_way + tick.friction;
-      largest_rise = std::max(largest_rise, size - last);
-      largest_turn = std::max(largest_turn, (tick.force / size - wanted.normalized()).norm());
+      max_rise = std::max(max_rise, size - last);
+      max_turn = std::max(max_turn, (tick.force / size - wanted.normalized()).norm());
       hottest = std::max(hottest, tick.heat);
       last = size;
     }
     CHECK(last == Approx(0.88).epsilon(0.03));
     CHECK(last >= 0.88 * (1.0 - 1e-9));
-    CHECK(largest_rise <= 1e-9);
-    CHECK(largest_turn < 1e-3);
+    CHECK(max_rise <= 1e-9);
+    CHECK(max_turn < 1e-3);
     CHECK(hottest <= 1.0);
     pen.go(at(stroke.start, 0.01));
     rest(pen, at(stroke.start, 0.01), 30'000);
@@ -307,10 +307,10 @@ TEST_CASE("with passivity control the paper still never pulls, however fast the 
     HapticRenderer renderer = renderer_of(U'三', options);
     ScriptedPen pen(renderer);
     const FirstStroke stroke(renderer);
-    double least = 0.0, most_damped = 0.0;
+    double least = 0.0, max_damped = 0.0;
     pen.on_tick = [&](const HapticTick& tick) {
       least = std::min(least, tick.page_force.z());
-      most_damped = std::max(most_damped, tick.damping.norm());
+      max_damped = std::max(max_damped, tick.damping.norm());
     };
     Sequence random(5);
     for (int i = 0; i < 200; ++i) {
@@ -319,7 +319,7 @@ TEST_CASE("with passivity control the paper still never pulls, however fast the 
       pen.go(at(stroke.start + random.point(-0.01, 0.03), random.between(0.0, 0.01)));
     }
     CHECK(least == 0.0);
-    CHECK(most_damped > 0.5);
+    CHECK(max_damped > 0.5);
     check_steps(pen, renderer);
   }
 }
@@ -350,8 +350,8 @@ TEST_CASE("a stage that is off changes no bit, whatever its parameters", "[rende
   RendererOptions changed;
   changed.guidance_limit = 0.01;
   changed.assist.retention = 0.1;
-  changed.assist.full_help_error = 1e-5;
-  changed.assist.least = 0.9;
+  changed.assist.full_assistance_error = 1e-5;
+  changed.assist.min_assistance = 0.9;
   changed.friction.model = FrictionModel::karnopp;
   changed.friction.stiffness = 10.0;
   changed.friction.static_ratio = 3.0;
@@ -381,29 +381,29 @@ TEST_CASE("with every stage off the force is that of the plain composition: term
   ScriptedPen pen(renderer);
   ForceLimiter limiter{0.1, 0.4, 3.3, true};
   Vector3d force(0, 0, 0);
-  double largest_difference = 0.0, largest_force = 0.0;
+  double max_difference = 0.0, max_force = 0.0;
   pen.on_tick = [&](const HapticTick& tick) {
     Vector3d sum(0, 0, 0);
     if (tick.state == InteractionState::writing) {
       const StrokeContact& contact = tick.contact;
       sum.head<2>() =
-          attraction_force(600.0 * contact.share * contact.attraction, tick.pen_tip.head<2>(), contact.foot.point) +
-          contact.share * wrong_way_force(200.0, 1.0, 0.002, contact.backwards, contact.foot.tangent);
+          attraction_force(600.0 * contact.weight * contact.attraction, tick.pen_tip.head<2>(), contact.closest.point) +
+          contact.weight * wrong_way_force(200.0, 1.0, 0.002, contact.backwards, contact.closest.tangent);
     }
     const bool solid = tick.state == InteractionState::writing || tick.state == InteractionState::calibration;
     if (solid) sum.z() = normal_force(600.0, -tick.device_point.z());
     force = limiter.next(force, sum);
-    largest_difference = std::max(largest_difference, (force - tick.force).norm());
-    largest_force = std::max(largest_force, force.norm());
+    max_difference = std::max(max_difference, (force - tick.force).norm());
+    max_force = std::max(max_force, force.norm());
     CHECK(tick.friction == Point(0, 0));
     CHECK(tick.damping == Vector3d(0, 0, 0));
-    CHECK(tick.help == 1.0);
+    CHECK(tick.assistance == 1.0);
     CHECK(tick.heat == 0.0);
     CHECK(tick.energy_given == 0.0);
   };
   wander(pen, renderer, 8);
-  CHECK(largest_difference < 1e-12);
-  CHECK(largest_force > 1.0);
+  CHECK(max_difference < 1e-12);
+  CHECK(max_force > 1.0);
 }
 
 TEST_CASE("with everything on each stroke of 永 is written, exactly and 3 mm beside itself", "[render]") {

@@ -16,9 +16,10 @@ namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
-const Hand nobody{0.0, 0.0, 0.0};
+const GripImpedance nobody{0.0, 0.0, 0.0};
 
-SampledLoop loop_of(double rate, double damping, int delay = 0, double wall_damping = 0.0, const Hand& grip = nobody) {
+SampledLoop loop_of(double rate, double damping, int delay = 0, double wall_damping = 0.0,
+                    const GripImpedance& grip = nobody) {
   SampledLoop loop;
   loop.rate = rate;
   loop.device.apparent_mass = 0.045;
@@ -38,7 +39,7 @@ double needed_damping(const SampledLoop& loop, double stiffness, double angle) {
   return ((1.0 - 1.0 / z) * wall).real() / (2.0 * loop.rate * (1.0 - std::cos(angle)));
 }
 
-double most_needed_damping(const SampledLoop& loop, double stiffness) {
+double max_needed_damping(const SampledLoop& loop, double stiffness) {
   double most = 0.0;
   constexpr int steps = 20000;
   for (int i = 1; i <= steps; ++i) {
@@ -63,7 +64,7 @@ TEST_CASE("the linear loop turns unstable at the stiffnesses of the table", "[st
     double period, damping;
     int delay;
     double wall_damping;
-    Hand grip;
+    GripImpedance grip;
     double critical;
   };
   // A simulation made for the project, with the exact zero-order hold of 45 g.
@@ -116,7 +117,8 @@ TEST_CASE("loops at the edge of what is accepted have a finite answer", "[stiffn
   const double damping = GENERATE(0.0, 1e-9, 1e9);
   const int delay = GENERATE(0, 1000);
   const double wall_damping = GENERATE(0.0, 1e9);
-  for (const Hand& grip : {nobody, Hand{1e9, 0.0, 0.0}, Hand{0.0, 1e9, 0.0}, Hand{0.0, 0.0, 1e9}}) {
+  for (const GripImpedance& grip :
+       {nobody, GripImpedance{1e9, 0.0, 0.0}, GripImpedance{0.0, 1e9, 0.0}, GripImpedance{0.0, 0.0, 1e9}}) {
     SampledLoop loop = loop_of(rate, damping, delay, wall_damping, grip);
     loop.device.apparent_mass = mass;
     loop.device.encoder_step = 1e-6;
@@ -139,11 +141,11 @@ TEST_CASE("the passive bound keeps the condition of Colgate and Schenkel, and no
     CAPTURE(damping, rate, delay, share);
     const double passive = advise_stiffness(loop).passive.value;
     CHECK(passive > 0.0);
-    CHECK(most_needed_damping(loop, passive) <= damping * (1.0 + 1e-6));
-    if (delay == 0 || share == 0.0) CHECK(most_needed_damping(loop, 1.01 * passive) > damping);
+    CHECK(max_needed_damping(loop, passive) <= damping * (1.0 + 1e-6));
+    if (delay == 0 || share == 0.0) CHECK(max_needed_damping(loop, 1.01 * passive) > damping);
   }
   CHECK(advise_stiffness(loop_of(rate, damping, delay, 1.01 * damping)).passive.value == 0.0);
-  CHECK(most_needed_damping(loop_of(rate, damping, delay, 1.01 * damping), 1e-9) > damping);
+  CHECK(max_needed_damping(loop_of(rate, damping, delay, 1.01 * damping), 1e-9) > damping);
 }
 
 TEST_CASE("what is passive is stable in every grip", "[stiffness advice]") {
@@ -151,8 +153,9 @@ TEST_CASE("what is passive is stable in every grip", "[stiffness advice]") {
   const double damping = GENERATE(0.001, 0.1, 5.0, 1000.0);
   for (const int delay : {0, 1, 2, 5, 50}) {
     for (const double share : {0.0, 0.3, 0.999, 2.0}) {
-      for (const Hand& grip : {nobody, Hand{0.1, 3.0, 300.0}, Hand{0.15, 5.0, 500.0}, Hand{0.0, 0.0, 1e6},
-                               Hand{10.0, 0.0, 0.0}, Hand{0.0, 500.0, 1.0}}) {
+      for (const GripImpedance& grip :
+           {nobody, GripImpedance{0.1, 3.0, 300.0}, GripImpedance{0.15, 5.0, 500.0}, GripImpedance{0.0, 0.0, 1e6},
+            GripImpedance{10.0, 0.0, 0.0}, GripImpedance{0.0, 500.0, 1.0}}) {
         const SampledLoop loop = loop_of(rate, damping, delay, share * damping, grip);
         CAPTURE(rate, damping, delay, share, grip.mass, grip.damping, grip.stiffness);
         const StiffnessAdvice advice = advise_stiffness(loop);
@@ -245,7 +248,7 @@ TEST_CASE("a loop that is not physical is refused by the field's name and value"
   refused([](SampledLoop& loop) -> double& { return loop.device.coulomb_friction; }, "device.coulomb_friction = ");
   refused([](SampledLoop& loop) -> double& { return loop.device.encoder_step; }, "device.encoder_step = ");
   refused([](SampledLoop& loop) -> double& { return loop.wall_damping; }, "wall_damping = ");
-  for (double Hand::*field : {&Hand::mass, &Hand::damping, &Hand::stiffness}) {
+  for (double GripImpedance::*field : {&GripImpedance::mass, &GripImpedance::damping, &GripImpedance::stiffness}) {
     SampledLoop loop = loop_of(1000.0, 0.1);
     loop.grip.*field = -1.0;
     CHECK(error_of(loop).find("grip.") == 0);

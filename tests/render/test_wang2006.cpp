@@ -31,8 +31,7 @@ RendererOptions direct() {
 const Character line = calligraphy_test::typical_character(1);
 
 /// Largest step of the in-plane force while the pen writes `path` on the first stroke of `character` [N].
-double largest_in_plane_step(const Character& character, const std::vector<Point>& path,
-                             const RendererOptions& options) {
+double max_in_plane_step(const Character& character, const std::vector<Point>& path, const RendererOptions& options) {
   HapticRenderer renderer({{character, {{0.02, 0.02}, 0.04}}}, {}, test_device(), options);
   ScriptedPen pen(renderer);
   Vector3d last = Vector3d::Zero();
@@ -60,9 +59,8 @@ TEST_CASE("the half disc drops K d before the end of a stroke, the tube does not
   printed.stroke.space.rule = ConstraintSpaceRule::wang2006;
   for (const double deviation : {0.001, 0.002, 0.004}) {
     INFO("deviation " << deviation << " m");
-    CHECK(largest_in_plane_step(line, page_path(line, deviation), printed) ==
-          Approx(stiffness * deviation).epsilon(1e-6));
-    CHECK(largest_in_plane_step(line, page_path(line, deviation), direct()) < 0.05 * stiffness * deviation);
+    CHECK(max_in_plane_step(line, page_path(line, deviation), printed) == Approx(stiffness * deviation).epsilon(1e-6));
+    CHECK(max_in_plane_step(line, page_path(line, deviation), direct()) < 0.05 * stiffness * deviation);
   }
 }
 
@@ -100,9 +98,9 @@ TEST_CASE("a factor that changes at a feature point steps the force by K d times
   printed.stroke.attraction = AttractionRule::wang2006;
   printed.stroke.plane_tolerance = whole.stroke.plane_tolerance = 0.0;
   constexpr double deviation = 0.001;
-  CHECK(largest_in_plane_step(bend, page_path(bend, deviation), printed) ==
+  CHECK(max_in_plane_step(bend, page_path(bend, deviation), printed) ==
         Approx(stiffness * deviation * 1.0).epsilon(0.05));
-  CHECK(largest_in_plane_step(bend, page_path(bend, deviation), whole) < 0.1 * stiffness * deviation);
+  CHECK(max_in_plane_step(bend, page_path(bend, deviation), whole) < 0.1 * stiffness * deviation);
 }
 
 TEST_CASE("crossing the box while pressed into the paper steps the normal force by K d as printed", "[render]") {
@@ -112,9 +110,9 @@ TEST_CASE("crossing the box while pressed into the paper steps the normal force 
     const Eigen::AlignedBox2d box = bounding_box(renderer.page()[0]);
     pen.go({box.min().x() - 0.012, 0.03, 0.005});
     pen.go({box.min().x() - 0.012, 0.03, -0.003});
-    pen.largest_step = 0.0;
+    pen.max_step = 0.0;
     pen.go({box.min().x() + 0.002, 0.03, -0.003});
-    return pen.largest_step;
+    return pen.max_step;
   };
   RendererOptions printed = RendererOptions::wang2006(), limited, solid;
   printed.paper_stiffness = limited.paper_stiffness = solid.paper_stiffness = stiffness;
@@ -134,7 +132,7 @@ TEST_CASE("the signs as the text has them push away from the stroke and into the
   for (std::size_t i = 0; i < 100; ++i) pen.go({path[i].x(), path[i].y(), -0.001});
   const HapticTick& tick = renderer.last();
   CHECK(tick.state == InteractionState::writing);
-  CHECK(tick.attraction.dot(tick.contact.foot.point - tick.pen_tip.head<2>()) < 0.0);
+  CHECK(tick.attraction.dot(tick.contact.closest.point - tick.pen_tip.head<2>()) < 0.0);
   CHECK(tick.page_force.z() == Approx(-stiffness * 0.001));
 }
 
@@ -158,8 +156,8 @@ TEST_CASE("the same pen feels steps above the default's limit where every rule i
   pen.write(usual.page()[0], 0.002);
   other.write(printed.page()[0], 0.002);
   CHECK(usual.last().character == 1);
-  CHECK(pen.largest_step <= usual.max_force_step() * (1.0 + 1e-12));
-  CHECK(other.largest_step > 2.0 * usual.max_force_step());
+  CHECK(pen.max_step <= usual.max_force_step() * (1.0 + 1e-12));
+  CHECK(other.max_step > 2.0 * usual.max_force_step());
   CHECK(std::isinf(printed.max_force_step()));
 }
 

@@ -82,7 +82,7 @@ class Devices(ProgramTest):
 
     def test_a_character_is_written_through_a_real_usb_stack(self):
         """In real time: a busy machine may cost force and strokes, never the program's end or its files."""
-        done = self.run_on_emulated_phantom("write", "十", "--device", "phantom", "--out", "out", "--longest", "30",
+        done = self.run_on_emulated_phantom("write", "十", "--device", "phantom", "--out", "out", "--timeout", "30",
                                             hand=["--write", "十", "--skill", "skilled"])
         row, = json.loads((self.directory / "out" / "summary.json").read_text())
         self.assertEqual(row["mode"], "force")
@@ -115,7 +115,7 @@ class Devices(ProgramTest):
         self.assertIn("ticks", watched.stdout)
         self.assert_refused(1, ["write", "十", "--out", "out", "--device", "openhaptics:Nobody's"], "Nobody's",
                             environment=with_runtime)
-        done = self.run_program("write", "十", "--device", "openhaptics", "--out", "out", "--longest", "30",
+        done = self.run_program("write", "十", "--device", "openhaptics", "--out", "out", "--timeout", "30",
                                 environment=with_runtime)
         row, = json.loads((self.directory / "out" / "summary.json").read_text())
         if "the force went to zero" not in done.stderr:

@@ -61,7 +61,7 @@ class ImportTest(ProgramTest):
         return json.loads(self.run_program("import", *arguments, "-o", "out.txt", "--json").stdout)
 
 
-class Import(ImportTest):
+class ImportResult(ImportTest):
     def test_a_directory_and_its_tarball_in_every_format_give_the_same_characters(self):
         for code in ("04e00", "05341"):
             self.write(f"package/dist/{code}.svg", svg(HENG + SHU))
@@ -103,8 +103,8 @@ class Import(ImportTest):
         self.assertEqual(sum(report["ids_used"].values()), 3)
         labels = report["labels"]
         self.assertEqual((labels["strokes"], labels["agreed"]), (2, 1))
-        self.assertEqual([doubt["label"] for doubt in labels["doubts"]], ["㇒", "６"])
-        self.assertEqual(labels["doubts"][1]["fate"], "unknown")
+        self.assertEqual([conflict["label"] for conflict in labels["conflicts"]], ["㇒", "６"])
+        self.assertEqual(labels["conflicts"][1]["resolution"], "unknown")
         self.assertEqual({row["reason"]: row["files"] for row in report["skipped"]},
                          {"a link": ["package/link"], "an alternate order": ["package/04e00-VtFst.svg"],
                           "no file of a character": ["package/readme.md"],

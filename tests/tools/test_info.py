@@ -80,7 +80,7 @@ class Info(ProgramTest):
 
     def test_version_and_help_succeed(self):
         self.assertRegex(self.run_program("--version").stdout, r"\Acalligraphy \d+\.\d+\.\d+\n\Z")
-        for command in ([], ["write"], ["strokes"], ["info"], ["trade"]):
+        for command in ([], ["write"], ["strokes"], ["info"], ["tradeoff"]):
             self.assertIn("--help", self.run_program(*command, "--help").stdout)
 
     def test_a_full_disk_is_no_success(self):

@@ -31,8 +31,8 @@ CRITICAL = [
 ]
 POINT = ["--mass", "0.045", "--damping", "0.5"]
 LINE = {"loop", "critical_stiffness_N_per_m", "passive_stiffness_N_per_m", "quantised_stiffness_N_per_m",
-        "approximate_stiffness_N_per_m", "largest_settling_N_per_m", "controlled_largest_settling_N_per_m",
-        "controlled_largest_settling_below_peak_force_N_per_m", "settles", "controlled_settles"}
+        "approximate_stiffness_N_per_m", "max_stable_N_per_m", "controlled_max_stable_N_per_m",
+        "controlled_max_stable_below_peak_force_N_per_m", "stable_at", "controlled_stable_at"}
 
 
 class Point(ProgramTest):
@@ -99,12 +99,12 @@ class Map(ProgramTest):
         for sweep in stability["sweeps"]:
             for line in sweep["lines"]:
                 self.assertEqual(set(line), LINE | {"value"})
-                self.assertEqual(len(line["settles"]), len(stability["stiffnesses_N_per_m"]))
+                self.assertEqual(len(line["stable_at"]), len(stability["stiffnesses_N_per_m"]))
         damping = {line["value"]: line for line in stability["sweeps"][0]["lines"]}
         line = damping["0.1"]
-        self.assertAlmostEqual(line["largest_settling_N_per_m"] / 200.1, 1.0, delta=0.05)
-        self.assertGreater(line["controlled_largest_settling_below_peak_force_N_per_m"],
-                           10 * line["largest_settling_N_per_m"])
+        self.assertAlmostEqual(line["max_stable_N_per_m"] / 200.1, 1.0, delta=0.05)
+        self.assertGreater(line["controlled_max_stable_below_peak_force_N_per_m"],
+                           10 * line["max_stable_N_per_m"])
 
 
 class Refusals(ProgramTest):

@@ -18,24 +18,24 @@ class Validate(ProgramTest):
         self.assertEqual([line.split(":")[:2] for line in lines[:-1]],
                          [["二 (U+4E8C) stroke 1", " direction"], ["二 (U+4E8C) stroke 2", " outside"],
                           ["十 (U+5341) stroke 2", " type"], ["十 (U+5341) stroke 3", " overlap"]])
-        self.assertEqual(lines[-1], "4 doubts in 2 characters, 5 strokes")
+        self.assertEqual(lines[-1], "4 warnings in 2 characters, 5 strokes")
         self.assertEqual(done.stderr, "", "no progress bar in a pipe")
         report = json.loads(self.run_program("validate", "own.txt", "--json").stdout)
         self.assertEqual((report["characters"], report["strokes"]), (2, 5))
-        self.assertEqual([(doubt["character"], doubt["stroke"], doubt["kind"]) for doubt in report["doubts"]],
+        self.assertEqual([(warning["character"], warning["stroke"], warning["kind"]) for warning in report["warnings"]],
                          [("二", 1, "direction"), ("二", 2, "outside"), ("十", 2, "type"), ("十", 3, "overlap")])
-        for doubt in report["doubts"]:
-            self.assertEqual(set(doubt), {"character", "order", "stroke", "kind", "what"})
+        for warning in report["warnings"]:
+            self.assertEqual(set(warning), {"character", "order", "stroke", "kind", "what"})
 
     def test_a_file_without_doubts_says_so(self):
         self.write("character 一\nstroke 1 0.1,0.5 0.9,0.5\n")
-        self.assertEqual(self.run_program("validate", "own.txt").stdout, "0 doubts in 1 characters, 1 strokes\n")
+        self.assertEqual(self.run_program("validate", "own.txt").stdout, "0 warnings in 1 characters, 1 strokes\n")
 
     def test_known_faults_of_kanjivg_are_listed(self):
         package = self.package("CALLIGRAPHY_KANJIVG_TARBALL")
         report = json.loads(self.run_program("validate", package, "--only", "祭禁標勵一", "--json").stdout)
-        found = {(doubt["character"], doubt["stroke"]): doubt["what"] for doubt in report["doubts"]
-                 if doubt["kind"] == "label"}
+        found = {(warning["character"], warning["stroke"]): warning["what"] for warning in report["warnings"]
+                 if warning["kind"] == "label"}
         for place in (("祭", 9), ("禁", 11), ("標", 13)):
             self.assertIn("is labelled ㇑ and has the shape of 12", found[place])
         self.assertTrue(any(character == "勵" and "label ６ is unknown" in what for (character, _), what in found.items()))

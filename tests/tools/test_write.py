@@ -237,7 +237,7 @@ class Refusals(ProgramTest):
                 (["write", "北", "--out", "out", "--device", "replay:x", "--rate", "500"], ["--rate", "replay"]),
                 (["write", "北", "--out", "out", "--like", "omni"], ["--like", "replay"]),
                 (["write", "北", "--out", "out", "--device", "replay:t.csv", "--like", "omnibus"], ["--like: omnibus"]),
-                (["write", "北", "--out", "out", "--longest", "5"], ["--longest", "simulated"]),
+                (["write", "北", "--out", "out", "--timeout", "5"], ["--timeout", "simulated"]),
                 (["write", "北", "--out", "out", "--wire-profile", "omni"], ["--wire-profile", "simulated"]),
                 (["write", "北", "--out", "out", "--rules", "wang2006", "--renderer", "everything"], ["--renderer"]),
                 (["write", "北", "--out", "out", "--device", "simulated:novint"], ["--device", "novint", "desktop"]),
@@ -250,7 +250,7 @@ class Refusals(ProgramTest):
                 self.assert_refused(2, arguments, *words)
 
     def test_impossible_numbers_are_named(self):
-        for option in ("--rate", "--tolerance", "--repeat", "--seed", "--peak-force", "--longest"):
+        for option in ("--rate", "--tolerance", "--repeat", "--seed", "--peak-force", "--timeout"):
             for value in ("nan", "inf", "1e999", "-1", "x", "", "1x", "0x10", "18446744073709551616"):
                 with self.subTest(option=option, value=value):
                     self.assert_refused(2, ["write", "北", "--out", "out", f"{option}={value}"], option, value)

@@ -60,7 +60,7 @@ class Grid:
         characters: Iterable[str],
         *,
         writers: Union[Sequence[str], Mapping[str, cal.WriterSkill]] = ("novice",),
-        modes: Sequence[Union[str, cal.Mode]] = ("vision", "force"),
+        modes: Sequence[Union[str, cal.FeedbackMode]] = ("vision", "force"),
         stiffness: Sequence[float] = (600.0,),
         rate: Sequence[float] = (1000.0,),
         method: Sequence[Union[str, cal.NearestPointMethod]] = ("tracked",),
@@ -69,12 +69,12 @@ class Grid:
         device: Union[str, cal.Capabilities] = "desktop",
         options: cal.RendererOptions | None = None,
         source: cal.CharacterSet | cal.CharacterList | None = None,
-        longest_character: float = 120.0,
+        character_timeout: float = 120.0,
     ) -> None:
         codes = _axis("characters", characters, _text)
         self.characters = {code: _character(source, code) for code in codes}
         self.writers = _writers(writers)
-        self.modes = _axis("modes", _list("modes", modes), _name_of(cal.Mode))
+        self.modes = _axis("modes", _list("modes", modes), _name_of(cal.FeedbackMode))
         self.stiffness = _axis("stiffness", stiffness, _positive)
         self.rate = _axis("rate", rate, _positive)
         self.method = _axis("method", _list("method", method), _name_of(cal.NearestPointMethod))
@@ -86,7 +86,7 @@ class Grid:
         self.device = _one("device", cal.device_profile(device) if isinstance(device, str) else device, cal.Capabilities)
         usual = cal.RendererOptions.for_device(self.device)
         self.options = usual if options is None else _one("options", options, cal.RendererOptions)
-        self.longest_character = _positive("longest_character", longest_character)
+        self.character_timeout = _positive("character_timeout", character_timeout)
 
     def __repr__(self) -> str:
         axes = ("characters", "writers", "modes", "stiffness", "rate", "method", "tolerance", "seeds")
@@ -157,12 +157,12 @@ def trial(grid: Grid, condition: Condition) -> Row:
     """One trial in this process: the condition and what came of it, a number each."""
     character = grid.characters[condition.character]
     options = cal.SessionOptions(
-        mode=getattr(cal.Mode, condition.mode),
+        mode=getattr(cal.FeedbackMode, condition.mode),
         device=grid.device,
         renderer=grid.options,
         skill=grid.writers[condition.writer],
         seed=condition.seed,
-        longest_character=grid.longest_character,
+        character_timeout=grid.character_timeout,
     )
     renderer = options.renderer
     renderer.servo_rate = condition.rate
@@ -175,7 +175,7 @@ def trial(grid: Grid, condition: Condition) -> Row:
     workspace = grid.device.workspace
     page = cal.lay_out([character], cal.PageLayout(width=workspace[0], height=workspace[1]))[0]
     recording = cal.write_page(page, options)
-    score = cal.score(page, recording)[0]
+    score = cal.score_page(page, recording)[0]
     return {
         **condition._asdict(),
         "guidance_stiffness": renderer.guidance_stiffness,

@@ -1,4 +1,4 @@
-// The collision room: nearest points, many at a time, and where a stroke attracts the pen.
+// The collision component: nearest points, many at a time, and where a stroke attracts the pen.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -13,10 +13,10 @@
 #include <calligraphy/collision/placed_character.hpp>
 #include <calligraphy/collision/stroke_tracker.hpp>
 
+#include "components.hpp"
 #include "enumeration.hpp"
 #include "interrupt.hpp"
 #include "record.hpp"
-#include "rooms.hpp"
 
 namespace calligraphy::python {
 namespace {
@@ -252,16 +252,16 @@ void add_tracker(py::module_& module) {
   py::class_<StrokePoint>(module, "StrokePoint", "A point of a stroke.")
       .def_readonly("element", &StrokePoint::element, "index")
       .def_property_readonly(
-          "parameter", [](const StrokePoint& self) { return self.foot.parameter; }, "in [0, 1]")
+          "parameter", [](const StrokePoint& self) { return self.closest.parameter; }, "in [0, 1]")
       .def_property_readonly(
-          "point", [](const StrokePoint& self) { return array_of(self.foot.point); }, "(2,)")
+          "point", [](const StrokePoint& self) { return array_of(self.closest.point); }, "(2,)")
       .def_property_readonly(
-          "tangent", [](const StrokePoint& self) { return array_of(self.foot.tangent); }, "(2,)")
-      .def_property_readonly("distance", [](const StrokePoint& self) { return self.foot.distance; })
-      .def_property_readonly("certified", [](const StrokePoint& self) { return self.foot.certified(); })
+          "tangent", [](const StrokePoint& self) { return array_of(self.closest.tangent); }, "(2,)")
+      .def_property_readonly("distance", [](const StrokePoint& self) { return self.closest.distance; })
+      .def_property_readonly("certified", [](const StrokePoint& self) { return self.closest.certified(); })
       .def("__repr__", [](const StrokePoint& self) {
-        return told("StrokePoint(element {}, parameter {:.6g}, distance {:.6g})", self.element, self.foot.parameter,
-                    self.foot.distance);
+        return told("StrokePoint(element {}, parameter {:.6g}, distance {:.6g})", self.element, self.closest.parameter,
+                    self.closest.distance);
       });
   py::class_<Tracker>(module, "StrokeTracker",
                       "Finds for each position of a pen the nearest point of a whole stroke, certified, and quickly "
@@ -293,14 +293,14 @@ void add_strokes(py::module_& module) {
   Record<ConstraintSpace>(module, "ConstraintSpace", "Where a stroke element attracts the pen.")
       .field("rule", &ConstraintSpace::rule, "ConstraintSpaceRule")
       .field("radius", &ConstraintSpace::radius, "[m]")
-      .field("edge", &ConstraintSpace::edge, "over which the attraction fades out, at most the radius [m]");
+      .field("fade_width", &ConstraintSpace::fade_width, "over which the attraction fades out, at most the radius [m]");
   Record<StrokeRules>(module, "StrokeRules", "How a pen is followed along the active stroke.")
       .field("nearest", &StrokeRules::nearest, "NearestPointOptions")
       .field("space", &StrokeRules::space, "ConstraintSpace")
       .field("plane", &StrokeRules::plane, "FeaturePlaneRule")
       .field("attraction", &StrokeRules::attraction, "AttractionRule")
       .field("plane_tolerance", &StrokeRules::plane_tolerance, "[m]")
-      .field("window", &StrokeRules::window, "arc length within which the foot is sought; 0: everywhere [m]");
+      .field("window", &StrokeRules::window, "arc length within which the closest point is sought; 0: everywhere [m]");
   Record<Placement>(module, "Placement", "em coordinates to metres: page point = origin + em * point.")
       .field("origin", &Placement::origin, "lower left corner of the em square, (2,) [m]")
       .field("em", &Placement::em, "edge of the em square [m]")
@@ -338,22 +338,22 @@ void add_strokes(py::module_& module) {
 
   py::class_<StrokeContact>(module, "StrokeContact", "Where the pen is with respect to the active stroke.")
       .def_readonly("element", &StrokeContact::element, "index of the active element")
-      .def_property_readonly("parameter", [](const StrokeContact& self) { return self.foot.parameter; })
+      .def_property_readonly("parameter", [](const StrokeContact& self) { return self.closest.parameter; })
       .def_property_readonly(
-          "foot", [](const StrokeContact& self) { return array_of(self.foot.point); }, "(2,) [m]")
+          "closest", [](const StrokeContact& self) { return array_of(self.closest.point); }, "(2,) [m]")
       .def_property_readonly(
-          "tangent", [](const StrokeContact& self) { return array_of(self.foot.tangent); }, "(2,)")
+          "tangent", [](const StrokeContact& self) { return array_of(self.closest.tangent); }, "(2,)")
       .def_property_readonly(
-          "distance", [](const StrokeContact& self) { return self.foot.distance; }, "[m]")
-      .def_property_readonly("certified", [](const StrokeContact& self) { return self.foot.certified(); })
-      .def_readonly("share", &StrokeContact::share, "of the guidance force, 0 outside the constraint space")
-      .def_readonly("attraction", &StrokeContact::attraction, "attraction factor at the foot")
-      .def_readonly("arc", &StrokeContact::arc, "of the foot from the start of the stroke [m]")
-      .def_readonly("backwards", &StrokeContact::backwards, "by which the foot is behind the furthest one [m]")
+          "distance", [](const StrokeContact& self) { return self.closest.distance; }, "[m]")
+      .def_property_readonly("certified", [](const StrokeContact& self) { return self.closest.certified(); })
+      .def_readonly("weight", &StrokeContact::weight, "of the guidance force, 0 outside the constraint space")
+      .def_readonly("attraction", &StrokeContact::attraction, "attraction factor at the closest point")
+      .def_readonly("arc", &StrokeContact::arc, "of the closest point from the start of the stroke [m]")
+      .def_readonly("backwards", &StrokeContact::backwards, "by which the closest point is behind the furthest one [m]")
       .def_readonly("passed_feature", &StrokeContact::passed_feature)
       .def_readonly("finished", &StrokeContact::finished)
       .def("__repr__", [](const StrokeContact& self) {
-        return told("StrokeContact(element {}, distance {:.6g} m, arc {:.6g} m)", self.element, self.foot.distance,
+        return told("StrokeContact(element {}, distance {:.6g} m, arc {:.6g} m)", self.element, self.closest.distance,
                     self.arc);
       });
   py::class_<ActiveStroke>(module, "ActiveStroke", "The stroke that is being written.")
@@ -373,7 +373,7 @@ void add_strokes(py::module_& module) {
       .def_property_readonly(
           "start", [](const ActiveStroke& self) { return array_of(self.start()); }, "(2,) [m]")
       .def_property_readonly("length", &ActiveStroke::length, "[m]")
-      .def_property_readonly("features_left", &ActiveStroke::features_left);
+      .def_property_readonly("features_remaining", &ActiveStroke::features_remaining);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The devices room: samples, the simulated device, devices and force laws written in Python.
+// The devices component: samples, the simulated device, devices and force laws written in Python.
 #include <memory>
 #include <utility>
 
@@ -13,11 +13,11 @@
 #include <calligraphy/devices/simulated_device.hpp>
 
 #include "at_work.hpp"
+#include "components.hpp"
 #include "enumeration.hpp"
 #include "force_law.hpp"
 #include "python_device.hpp"
 #include "record.hpp"
-#include "rooms.hpp"
 
 namespace calligraphy::python {
 namespace {
@@ -33,11 +33,13 @@ void add_states(py::module_& module) {
   Enumeration<DeviceFault> faults(module, "DeviceFault", "What is wrong with a device, its link or its loop.");
   for (std::size_t i = 0; i < device_fault_count; ++i) {
     const auto fault = static_cast<DeviceFault>(i);
-    std::string name = fault_name(fault);
+    std::string name = to_string(fault);
     for (char& letter : name) letter = letter == ' ' ? '_' : letter;
     faults.value(name.c_str(), fault);
   }
-  module.def("fault_name", &fault_name, py::arg("fault"), "In words, such as 'bad force'.");
+  module.def(
+      "fault_name", [](DeviceFault fault) { return to_string(fault); }, py::arg("fault"),
+      "In words, such as 'bad force'.");
   Record<DeviceState>(module, "DeviceState", "One sample of a device.")
       .field("time", &DeviceState::time, "since the device was opened [s]")
       .field("position", &DeviceState::position, "(3,), device axes [m]")
@@ -58,10 +60,11 @@ void add_states(py::module_& module) {
       .field("viscous_friction", &Capabilities::viscous_friction, "[N s/m]")
       .field("coulomb_friction", &Capabilities::coulomb_friction, "along each axis [N]")
       .field("sample_delay", &Capabilities::sample_delay, "age of a sample when it is read [ticks]");
-  Record<Hand>(module, "Hand", "Impedance of the grip. Soft (0.05, 1, 100), normal (0.1, 3, 300), firm (0.15, 5, 500).")
-      .field("mass", &Hand::mass, "[kg]")
-      .field("damping", &Hand::damping, "[N s/m]")
-      .field("stiffness", &Hand::stiffness, "[N/m]");
+  Record<GripImpedance>(module, "GripImpedance",
+                        "Impedance of the grip. Soft (0.05, 1, 100), normal (0.1, 3, 300), firm (0.15, 5, 500).")
+      .field("mass", &GripImpedance::mass, "[kg]")
+      .field("damping", &GripImpedance::damping, "[N s/m]")
+      .field("stiffness", &GripImpedance::stiffness, "[N/m]");
   Record<Intention>(module, "Intention", "Where the person means the pen to be.")
       .field("position", &Intention::position, "(3,) [m]")
       .field("velocity", &Intention::velocity, "(3,) [m/s]");
@@ -103,17 +106,18 @@ void add_devices_of_all_kinds(py::module_& module) {
       module, "SimulatedDevice", py::is_final(),
       "A simulated device and the hand that holds it, in virtual time: the motion between samples is solved exactly.\n"
       "Without a hand nobody holds it.")
-      .def(py::init([](const Capabilities& profile, const Hand& hand, const ArrayLike& position) {
-             return SimulatedDevice(profile, hand, vector(position, "position"));
+      .def(py::init([](const Capabilities& profile, const GripImpedance& grip, const ArrayLike& position) {
+             return SimulatedDevice(profile, grip, vector(position, "position"));
            }),
-           py::arg("profile"), py::arg("hand") = Hand{0.0, 0.0, 0.0},
+           py::arg("profile"), py::arg("grip") = GripImpedance{0.0, 0.0, 0.0},
            py::arg("position") = py::make_tuple(0.0, 0.0, 0.0))
       .def(
           "set_intention",
           [](SimulatedDevice& self, const Intention& intention) { idle(self).set_intention(intention); },
           py::arg("intention"), "Where the hand pulls to from now on; moves on along its line with every advance().")
       .def(
-          "set_hand", [](SimulatedDevice& self, const Hand& hand) { idle(self).set_hand(hand); }, py::arg("hand"))
+          "set_grip", [](SimulatedDevice& self, const GripImpedance& grip) { idle(self).set_grip(grip); },
+          py::arg("grip"))
       .def(
           "set_buttons", [](SimulatedDevice& self, std::uint32_t buttons) { idle(self).set_buttons(buttons); },
           py::arg("buttons"))
@@ -155,7 +159,7 @@ void add_pointer(py::module_& module) {
   Record<PointerOptions>(module, "PointerOptions", "How a simulated hand follows a pointer.")
       .field("rate", &PointerOptions::rate, "of read() [Hz]")
       .field("smoothing_time", &PointerOptions::smoothing_time, "how late the intention is behind the pointer [s]")
-      .field("largest_speed", &PointerOptions::largest_speed, "of the intention along the paper [m/s]")
+      .field("max_speed", &PointerOptions::max_speed, "of the intention along the paper [m/s]")
       .field("lifting_speed", &PointerOptions::lifting_speed, "of the intention towards the paper and away [m/s]")
       .field("hover_height", &PointerOptions::hover_height, "of a pointer that is not pressed [m]")
       .field("press_depth", &PointerOptions::press_depth, "where a hand at full pressure means to be [m]")
@@ -172,8 +176,8 @@ void add_pointer(py::module_& module) {
       module, "PointerDevice", py::is_final(),
       "A mouse, tablet or finger as the intention of a simulated hand, for people who have no haptic device. Each\n"
       "read() lets one period of virtual time pass; move() says where the pointer is, from any thread.")
-      .def(py::init<const Capabilities&, const Hand&, const PointerOptions&>(), py::arg("profile"),
-           py::arg("hand") = Hand{}, py::arg("options") = PointerOptions{})
+      .def(py::init<const Capabilities&, const GripImpedance&, const PointerOptions&>(), py::arg("profile"),
+           py::arg("grip") = GripImpedance{}, py::arg("options") = PointerOptions{})
       .def("move", &PointerDevice::move, py::arg("x"), py::arg("y"), py::arg("pressure"), py::arg("buttons") = 0,
            "Where the pointer is from now on: a place on the paper [m], a pressure from 0, not pressed, to 1.")
       .def_property_readonly(
@@ -221,14 +225,14 @@ class VirtualServo {
   bool stepping_ = false;
 };
 
-std::unique_ptr<VirtualServo> make_servo(HapticDevice& device, py::function law, double rate, double patience,
-                                         double fall_time, double rise_time) {
+std::unique_ptr<VirtualServo> make_servo(HapticDevice& device, py::function law, double rate, double timeout,
+                                         double ramp_down, double ramp_up) {
   refuse_without_capabilities(device);
   ServoOptions options;
   options.rate = rate;
-  options.patience = patience;
-  options.fall_time = fall_time;
-  options.rise_time = rise_time;
+  options.timeout = timeout;
+  options.ramp_down = ramp_down;
+  options.ramp_up = ramp_up;
   options.work_clock = no_time;
   return std::make_unique<VirtualServo>(device, std::move(law), options);
 }
@@ -237,10 +241,10 @@ void add_servo_options(py::module_& module) {
   using T = ServoThreadOptions;
   Record<ServoOptions>(module, "ServoOptions", "How a servo loop guards the force.")
       .field("rate", &ServoOptions::rate, "[Hz]")
-      .field("patience", &ServoOptions::patience,
+      .field("timeout", &ServoOptions::timeout,
              "without a fresh sample, a tick or an answer of the force law, before the force falls [s]")
-      .field("fall_time", &ServoOptions::fall_time, "of the force, from what it was to zero [s]")
-      .field("rise_time", &ServoOptions::rise_time, "of the share of the force, from 0 to 1 [s]");
+      .field("ramp_down", &ServoOptions::ramp_down, "of the force, from what it was to zero [s]")
+      .field("ramp_up", &ServoOptions::ramp_up, "of the share of the force, from 0 to 1 [s]");
   Record<T>(module, "ServoThreadOptions", "The thread of a servo loop.")
       .field("rate", &T::rate, "a ServoLoop takes that of its servo [Hz]")
       .field("priority", &T::priority, "real-time priority, 1 to 99; 0: an ordinary thread")
@@ -262,20 +266,20 @@ void add_servo(py::module_& module) {
       .field("fault", &ServoStatus::fault, "why the force fell, until it has risen again")
       .field("device", &ServoStatus::device, "DeviceStatus of the last sample")
       .field("gain", &ServoStatus::gain, "share of the wanted force that is sent");
-  Record<DurationFigures>(module, "DurationFigures", "Percentiles of durations [s].")
-      .field("count", &DurationFigures::count, "how many")
-      .field("p50", &DurationFigures::p50, "[s]")
-      .field("p99", &DurationFigures::p99, "[s]")
-      .field("p99_9", &DurationFigures::p99_9, "[s]")
-      .field("worst", &DurationFigures::worst, "[s]");
+  Record<DurationSummary>(module, "DurationSummary", "Percentiles of durations [s].")
+      .field("count", &DurationSummary::count, "how many")
+      .field("p50", &DurationSummary::p50, "[s]")
+      .field("p99", &DurationSummary::p99, "[s]")
+      .field("p99_9", &DurationSummary::p99_9, "[s]")
+      .field("worst", &DurationSummary::worst, "[s]");
   Record<ServoStatistics>(module, "ServoStatistics", "What a servo loop has done so far.")
       .field("period", &ServoStatistics::period, "from one tick to the next")
       .field("work", &ServoStatistics::work, "of a tick; 0 in virtual time")
       .field("ticks", &ServoStatistics::ticks, "that reached the device")
       .field("missed_deadlines", &ServoStatistics::missed_deadlines, "ticks that should have been")
       .field("stale_samples", &ServoStatistics::stale_samples, "ticks on which the device had nothing new")
-      .field("standing_clock", &ServoStatistics::standing_clock, "ticks whose time was not later than before")
-      .field("taken_over", &ServoStatistics::taken_over, "times that the watchdog took the device")
+      .field("stalled_clock", &ServoStatistics::stalled_clock, "ticks whose time was not later than before")
+      .field("watchdog_takeovers", &ServoStatistics::watchdog_takeovers, "times that the watchdog took the device")
       .field("idle_ticks", &ServoStatistics::idle_ticks, "ticks that wrote nothing")
       .field("faults", &ServoStatistics::faults, "times that each DeviceFault began, by its number");
   py::class_<VirtualServo>(
@@ -286,8 +290,7 @@ void add_servo(py::module_& module) {
       "raises\n"
       "makes the force fall to zero, as in C++, and is in `error`; the first goes to sys.unraisablehook too.")
       .def(py::init(&make_servo), py::keep_alive<1, 2>(), py::arg("device"), py::arg("law"), py::kw_only(),
-           py::arg("rate") = 1000.0, py::arg("patience") = 4e-3, py::arg("fall_time") = 10e-3,
-           py::arg("rise_time") = 0.2)
+           py::arg("rate") = 1000.0, py::arg("timeout") = 4e-3, py::arg("ramp_down") = 10e-3, py::arg("ramp_up") = 0.2)
       .def("step", &VirtualServo::step, py::arg("now"), "One tick at a time [s].")
       .def(
           "release", [](VirtualServo& self) { self.servo().release(); },

@@ -2,8 +2,8 @@
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/phantom/kinematics.hpp>
 
+#include "components.hpp"
 #include "record.hpp"
-#include "rooms.hpp"
 
 namespace calligraphy::python {
 namespace {
@@ -65,10 +65,10 @@ Inverse inverse(const Linkage& linkage, const ArrayLike& positions) {
 void add_arms(py::module_& module) {
   Record<JointLimits>(module, "JointLimits", "How far the joints of an arm turn.")
       .field("waist", &JointLimits::waist, "to either side [rad]")
-      .field("shoulder_least", &JointLimits::shoulder_least, "[rad]")
-      .field("shoulder_most", &JointLimits::shoulder_most, "[rad]")
-      .field("elbow_least", &JointLimits::elbow_least, "elbow less shoulder [rad]")
-      .field("elbow_most", &JointLimits::elbow_most, "elbow less shoulder [rad]");
+      .field("shoulder_min", &JointLimits::shoulder_min, "[rad]")
+      .field("shoulder_max", &JointLimits::shoulder_max, "[rad]")
+      .field("elbow_min", &JointLimits::elbow_min, "elbow less shoulder [rad]")
+      .field("elbow_max", &JointLimits::elbow_max, "elbow less shoulder [rad]");
   Record<Linkage>(
       module, "Linkage",
       "An arm of two links on a waist, x right, y up, z to the user: with r = l1 cos q2 + l2 sin q3 the tip "
@@ -131,11 +131,11 @@ void add_functions(py::module_& module) {
       py::arg("linkage"), py::arg("joints"), py::arg("margin") = 0.0,
       "Whether every joint of (3,) or (n, 3) [rad] keeps its limits to within `margin` [rad]: bool, () or (n,).");
   module.def(
-      "dexterity",
+      "manipulability",
       [](const Linkage& linkage, const ArrayLike& joints) {
         const Rows rows(joints, "joints");
         return for_each(rows, {}, [&](double* to, py::ssize_t i) {
-          *to = dexterity(linkage, rows[i]);
+          *to = manipulability(linkage, rows[i]);
           return to + 1;
         });
       },

@@ -15,10 +15,10 @@
 #include <calligraphy/practice/live_session.hpp>
 
 #include "at_work.hpp"
+#include "components.hpp"
 #include "force_law.hpp"
 #include "python_device.hpp"
 #include "record.hpp"
-#include "rooms.hpp"
 
 namespace calligraphy::python {
 namespace {
@@ -207,7 +207,7 @@ void end_all() {
   }
 }
 
-LiveResult write_live(const Page& page, HapticDevice& device, LiveOptions options, const py::object& watch) {
+LiveResult write_live(const PracticePage& page, HapticDevice& device, LiveOptions options, const py::object& watch) {
   refuse_without_capabilities(device);
   const AtWork at_work(device);
   const LiveSession counted;
@@ -253,19 +253,19 @@ void add_live_session(py::module_& module) {
           "The newest tick, all zero before the first one: a structured array () of sample_dtype, copied.")
       .def_property_readonly(
           "servo", [](const LiveView& self) { return self.servo; }, "ServoStatus")
-      .def_readonly("share", &LiveView::share, "of the page that is written, in [0, 1]")
-      .def_readonly("begun", &LiveView::begun,
+      .def_readonly("progress", &LiveView::progress, "of the page that is written, in [0, 1]")
+      .def_readonly("started", &LiveView::started,
                     "the pen has been in front of the paper; before, nothing is felt and nothing recorded")
       .def("__repr__", [](const py::object& self) {
-        return told("LiveView(share {:.3f}, servo {})", self.attr("share"),
+        return told("LiveView(progress {:.3f}, servo {})", self.attr("progress"),
                     self.attr("servo").attr("phase").attr("name"));
       });
   Record<LiveOptions>(module, "LiveOptions", "A person who writes with a device.")
-      .field("mode", &LiveOptions::mode, "Mode")
+      .field("mode", &LiveOptions::mode, "FeedbackMode")
       .field("renderer", &LiveOptions::renderer, "RendererOptions; its servo rate is that of the loop too")
       .field("servo", &LiveOptions::servo, "ServoLoopOptions; its rate is not read")
       .field("peak_force", &LiveOptions::peak_force, "at most this, whatever the device can do [N]")
-      .field("longest", &LiveOptions::longest, "given up after so long [s]");
+      .field("timeout", &LiveOptions::timeout, "given up after so long [s]");
   py::class_<LiveResult>(module, "LiveResult", "What came of it.")
       .def_readonly("recording", &LiveResult::recording)
       .def_property_readonly(
@@ -276,7 +276,7 @@ void add_live_session(py::module_& module) {
         return told("LiveResult({!r}, {} dropped, {} warnings)", self.attr("recording"), self.attr("dropped"),
                     py::len(self.attr("warnings")));
       });
-  module.def("limited", &limited, py::arg("capabilities"), py::arg("peak_force"),
+  module.def("with_peak_force", &with_peak_force, py::arg("capabilities"), py::arg("peak_force"),
              "The device with its forces lowered to a peak [N].");
   module.def(
       "write_with_device", &write_live, py::arg("page"), py::arg("device"), py::arg("options") = LiveOptions{},

@@ -1,4 +1,4 @@
-// The model room: characters, typical strokes, character sets.
+// The model component: characters, typical strokes, character sets.
 #include <filesystem>
 #include <sstream>
 
@@ -8,15 +8,15 @@
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/file.hpp>
 #include <calligraphy/base/text.hpp>
-#include <calligraphy/importers/doubtful_strokes.hpp>
 #include <calligraphy/importers/stroke_fit.hpp>
+#include <calligraphy/importers/stroke_warnings.hpp>
 #include <calligraphy/model/character_list.hpp>
 #include <calligraphy/model/character_set.hpp>
 #include <calligraphy/model/set_encoding.hpp>
 
+#include "components.hpp"
 #include "enumeration.hpp"
 #include "record.hpp"
-#include "rooms.hpp"
 
 namespace calligraphy::python {
 namespace {
@@ -140,11 +140,12 @@ void add_characters(py::module_& module) {
         return told("Stroke({}, {} control points)", self.type->name, self.control_points.size());
       });
 
-  py::class_<Problem>(module, "Problem", "What a validator has to say.")
-      .def_readonly("stroke", &Problem::stroke, "counted from 1; 0: the character as a whole")
-      .def_readonly("what", &Problem::what)
-      .def("__repr__",
-           [](const Problem& self) { return "Problem(" + std::to_string(self.stroke) + ", '" + self.what + "')"; });
+  py::class_<ValidationIssue>(module, "ValidationIssue", "What a validator has to say.")
+      .def_readonly("stroke", &ValidationIssue::stroke, "counted from 1; 0: the character as a whole")
+      .def_readonly("what", &ValidationIssue::what)
+      .def("__repr__", [](const ValidationIssue& self) {
+        return "ValidationIssue(" + std::to_string(self.stroke) + ", '" + self.what + "')";
+      });
 
   py::class_<Character> character(
       module, "Character",
@@ -219,23 +220,24 @@ void add_characters(py::module_& module) {
              "Everything that makes a character unusable; empty when it is valid.");
   module.def("paper_example", &paper_example, py::return_value_policy::copy, "The character of Table 3.");
 
-  Enumeration<DoubtKind>(module, "DoubtKind")
-      .value("type", DoubtKind::type)
-      .value("direction", DoubtKind::direction)
-      .value("overlap", DoubtKind::overlap)
-      .value("outside", DoubtKind::outside);
-  py::class_<Doubt>(module, "Doubt", "A stroke that is valid and yet looks wrong.")
-      .def_readonly("stroke", &Doubt::stroke, "from 1")
-      .def_readonly("kind", &Doubt::kind)
-      .def_readonly("what", &Doubt::what)
-      .def("__repr__", [](const Doubt& self) { return told("Doubt({}, {!r})", self.stroke, self.what); });
-  module.def("doubtful_strokes", &doubtful_strokes, py::arg("character"), Release(),
+  Enumeration<StrokeWarningKind>(module, "StrokeWarningKind")
+      .value("type", StrokeWarningKind::type)
+      .value("direction", StrokeWarningKind::direction)
+      .value("overlap", StrokeWarningKind::overlap)
+      .value("outside", StrokeWarningKind::outside);
+  py::class_<StrokeWarning>(module, "StrokeWarning", "A stroke that is valid and yet looks wrong.")
+      .def_readonly("stroke", &StrokeWarning::stroke, "from 1")
+      .def_readonly("kind", &StrokeWarning::kind)
+      .def_readonly("what", &StrokeWarning::what)
+      .def("__repr__",
+           [](const StrokeWarning& self) { return told("StrokeWarning({}, {!r})", self.stroke, self.what); });
+  module.def("stroke_warnings", &stroke_warnings, py::arg("character"), Release(),
              "Strokes of a valid character that look wrong.");
 
-  Enumeration<DrawnWith>(module, "DrawnWith", "What a path was drawn with, and so what of it a pen does not write.")
-      .value("brush", DrawnWith::brush)
-      .value("textbook_pen", DrawnWith::textbook_pen)
-      .value("pen", DrawnWith::pen);
+  Enumeration<DrawingTool>(module, "DrawingTool", "What a path was drawn with, and so what of it a pen does not write.")
+      .value("brush", DrawingTool::brush)
+      .value("textbook_pen", DrawingTool::textbook_pen)
+      .value("pen", DrawingTool::pen);
   py::class_<FittedStroke>(module, "FittedStroke", "A stroke recognised and fitted.")
       .def_readonly("stroke", &FittedStroke::stroke)
       .def_readonly("error", &FittedStroke::error, "largest distance between path and stroke, both ways [em]")
@@ -245,12 +247,12 @@ void add_characters(py::module_& module) {
       });
   module.def(
       "fit_stroke",
-      [](const ArrayLike& path, DrawnWith drawn_with, const std::vector<int>& ids) {
+      [](const ArrayLike& path, DrawingTool drawing_tool, const std::vector<int>& ids) {
         const std::vector<Point> way = points(path, "path");
         const py::gil_scoped_release release;
-        return fit_stroke(way, {drawn_with, ids});
+        return fit_stroke(way, {drawing_tool, ids});
       },
-      py::arg("path"), py::arg("drawn_with") = DrawnWith::brush, py::arg("ids") = std::vector<int>{},
+      py::arg("path"), py::arg("drawing_tool") = DrawingTool::brush, py::arg("ids") = std::vector<int>{},
       "Finds the typical stroke and its control points for a pen path (n, 2) [em], y up.");
 }
 

@@ -1,5 +1,5 @@
-// The extension module calligraphy._calligraphy: the rooms from the ground up, and the errors.
-#include "rooms.hpp"
+// The extension module calligraphy._calligraphy: the components from the ground up, and the errors.
+#include "components.hpp"
 
 #include <algorithm>
 #include <exception>

@@ -2,8 +2,8 @@
 #include <cstdlib>
 
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/devices/phantom/capture.hpp>
 #include <calligraphy/devices/phantom/device_list.hpp>
+#include <calligraphy/devices/phantom/packet_capture.hpp>
 #include <calligraphy/devices/phantom/phantom_device.hpp>
 #include <calligraphy/devices/phantom/wire_profile.hpp>
 
@@ -19,11 +19,11 @@ namespace {
 
 }  // namespace
 
-std::string describe(const PluggedDevice&) { refuse(); }
+std::string describe_device(const PluggedDevice&) { refuse(); }
 std::vector<PluggedDevice> plugged_devices() { refuse(); }
 std::string dump_descriptors(const PluggedDevice&) { refuse(); }
-Capture capture(const PluggedDevice&, const CaptureOptions&) { refuse(); }
-void write_capture(std::ostream&, const Capture&) { refuse(); }
+PacketCapture capture_packets(const PluggedDevice&, const CaptureOptions&) { refuse(); }
+void write_packet_capture(std::ostream&, const PacketCapture&) { refuse(); }
 
 namespace phantom {
 

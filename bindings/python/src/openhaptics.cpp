@@ -3,9 +3,9 @@
 
 #include <calligraphy/devices/openhaptics/openhaptics_device.hpp>
 
+#include "components.hpp"
 #include "enumeration.hpp"
 #include "record.hpp"
-#include "rooms.hpp"
 
 namespace calligraphy::python {
 

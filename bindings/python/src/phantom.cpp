@@ -9,16 +9,16 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <calligraphy/base/file.hpp>
-#include <calligraphy/devices/phantom/capture.hpp>
 #include <calligraphy/devices/phantom/device_list.hpp>
+#include <calligraphy/devices/phantom/packet_capture.hpp>
 #include <calligraphy/devices/phantom/phantom_device.hpp>
 #include <calligraphy/devices/phantom/wire_profile.hpp>
 
 #include "at_work.hpp"
+#include "components.hpp"
 #include "enumeration.hpp"
 #include "interrupt.hpp"
 #include "record.hpp"
-#include "rooms.hpp"
 
 namespace calligraphy::python {
 namespace {
@@ -41,7 +41,7 @@ void add_bus(py::module_& module) {
       .field("serial", &P::serial, "empty: it has none, or it cannot be read")
       .field("may_open", &P::may_open, "this user may read and write the node that would be opened")
       .field("advice", &P::advice, "what to do when it may not be opened");
-  module.def("describe", &describe, py::arg("device"), "2988:0302 on bus 1, port 2, serial 540-12345.");
+  module.def("describe_device", &describe_device, py::arg("device"), "2988:0302 on bus 1, port 2, serial 540-12345.");
   module.def("dump_descriptors", &dump_descriptors, py::arg("device"), Release(),
              "What a PluggedDevice says of itself: its descriptors, as hexadecimal bytes and in words. Opens nothing.");
   module.def("plugged_devices", &plugged_devices, Release(), "Every Phantom, by bus and port. Opens none of them.");
@@ -57,24 +57,24 @@ void add_captures(py::module_& module) {
       .def("__repr__", [](const py::object& self) {
         return told("CapturedTransfer(time={:.6f}, bytes={!r})", self.attr("time"), self.attr("bytes"));
       });
-  py::class_<Capture>(module, "Capture", "What a device sent: the raw material of a wire profile.")
-      .def_readonly("device", &Capture::device, "PluggedDevice")
+  py::class_<PacketCapture>(module, "PacketCapture", "What a device sent: the raw material of a wire profile.")
+      .def_readonly("device", &PacketCapture::device, "PluggedDevice")
       .def_property_readonly(
-          "transfers", [](const Capture& self) { return std::vector<CapturedTransfer>(self.transfers); },
+          "transfers", [](const PacketCapture& self) { return std::vector<CapturedTransfer>(self.transfers); },
           "list of CapturedTransfer, copied")
-      .def("__len__", [](const Capture& self) { return self.transfers.size(); })
-      .def("__repr__", [](const Capture& self) {
-        return told("Capture({} transfers of {})", self.transfers.size(), describe(self.device));
+      .def("__len__", [](const PacketCapture& self) { return self.transfers.size(); })
+      .def("__repr__", [](const PacketCapture& self) {
+        return told("PacketCapture({} transfers of {})", self.transfers.size(), describe_device(self.device));
       });
   module.def(
-      "capture",
+      "capture_packets",
       [](const PluggedDevice& device, std::size_t transfers, double seconds, std::function<bool()> stop) {
         CaptureOptions options{transfers, seconds, nullptr};
         options.stop = [interrupt = Interrupt(), stop = std::move(stop)]() mutable {
           interrupt.check();
           return stop && stop();
         };
-        return capture(device, options);
+        return capture_packets(device, options);
       },
       py::arg("device"), py::arg("transfers") = CaptureOptions{}.transfers,
       py::arg("seconds") = CaptureOptions{}.seconds, py::arg("stop") = py::none(), Release(),
@@ -82,10 +82,10 @@ void add_captures(py::module_& module) {
       "stop(),\n"
       "asked ten times a second, says True. Raises DeviceError when it cannot be opened.");
   module.def(
-      "write_capture",
-      [](const std::filesystem::path& path, const Capture& capture) {
+      "write_packet_capture",
+      [](const std::filesystem::path& path, const PacketCapture& capture) {
         std::ostringstream out;
-        write_capture(out, capture);
+        write_packet_capture(out, capture);
         write_file(path, out.str());
       },
       py::arg("path"), py::arg("capture"), Release(),

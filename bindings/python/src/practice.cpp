@@ -1,4 +1,4 @@
-// The practice room: pages, writers, recordings, scores, pictures.
+// The practice component: pages, writers, recordings, scores, pictures.
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -21,10 +21,10 @@
 #include <calligraphy/practice/session.hpp>
 
 #include "at_work.hpp"
+#include "components.hpp"
 #include "enumeration.hpp"
 #include "interrupt.hpp"
 #include "record.hpp"
-#include "rooms.hpp"
 
 namespace calligraphy::python {
 namespace {
@@ -32,10 +32,10 @@ namespace {
 using Release = py::call_guard<py::gil_scoped_release>;
 using Progress = std::function<void(double)>;
 
-/// The columns of a recording; the rows are Sample as it is in memory.
+/// The columns of a recording; the rows are RecordedSample as it is in memory.
 py::dtype sample_type() {
-  const Sample s;
-  return Columns<Sample>()
+  const RecordedSample s;
+  return Columns<RecordedSample>()
       .add("time", s, s.time)
       .add("device_point", s, s.device_point)
       .add("pen_tip", s, s.pen_tip)
@@ -62,7 +62,7 @@ Recording recording_of(double rate, const py::object& samples) {
   result.rate = rate;
   result.samples.resize(static_cast<std::size_t>(rows.size()));
   for (std::size_t i = 0; i < result.samples.size(); ++i) {
-    Sample& sample = result.samples[i];
+    RecordedSample& sample = result.samples[i];
     std::memcpy(static_cast<void*>(&sample), rows.data(static_cast<py::ssize_t>(i)), sizeof sample);
     if (sample.state > InteractionState::writing || sample.status > TickStatus::device_fault) {
       throw ValueError("samples[" + std::to_string(i) + "]: state " + std::to_string(static_cast<int>(sample.state)) +
@@ -75,7 +75,7 @@ Recording recording_of(double rate, const py::object& samples) {
 py::array samples_of(const py::object& self) {
   const auto& samples = self.cast<const Recording&>().samples;
   py::array result(sample_type(), {static_cast<py::ssize_t>(samples.size())},
-                   {static_cast<py::ssize_t>(sizeof(Sample))}, samples.data(), self);
+                   {static_cast<py::ssize_t>(sizeof(RecordedSample))}, samples.data(), self);
   result.attr("flags").attr("writeable") = false;
   return result;
 }
@@ -102,7 +102,7 @@ void add_recordings(py::module_& module) {
           "to_csv",
           [](const Recording& self) {
             std::ostringstream out;
-            write_csv(out, self);
+            write_recording(out, self);
             return out.str();
           },
           Release(), "As text; read_csv_text gives the same back.")
@@ -110,21 +110,21 @@ void add_recordings(py::module_& module) {
           [](const py::object& self) { return py::make_tuple(self.attr("rate"), samples_of(self).attr("copy")()); },
           [](const py::tuple& state) { return recording_of(state[0].cast<double>(), state[1]); }));
   module.def(
-      "write_csv",
+      "write_recording",
       [](const std::filesystem::path& path, const Recording& recording) {
         std::ostringstream out;
-        write_csv(out, recording);
+        write_recording(out, recording);
         write_file(path, out.str());
       },
       py::arg("path"), py::arg("recording"), Release(), "Writes a whole file or none.");
   module.def(
-      "read_csv", [](const std::filesystem::path& path) { return read_csv(path); }, py::arg("path"), Release(),
-      "What write_csv wrote, exactly.");
+      "read_recording", [](const std::filesystem::path& path) { return read_recording(path); }, py::arg("path"),
+      Release(), "What write_recording wrote, exactly.");
   module.def(
       "read_csv_text",
       [](const std::string& text) {
         std::istringstream in(text);
-        return read_csv(in, "text");
+        return read_recording(in, "text");
       },
       py::arg("text"), Release(), "What Recording.to_csv gave.");
   module.def("device_states", &device_states, py::arg("recording"), py::arg("mapping"),
@@ -137,10 +137,10 @@ void add_pages(py::module_& module) {
       .field("height", &PageLayout::height, "[m]")
       .field("em", &PageLayout::em, "edge of a character's square [m]")
       .field("gap", &PageLayout::gap, "between squares, and round them [m]");
-  Record<Page>(module, "Page", "Characters at their places.")
-      .field("width", &Page::width, "[m]")
-      .field("height", &Page::height, "[m]")
-      .field("characters", &Page::characters, "list of PlacedCharacter, copied");
+  Record<PracticePage>(module, "PracticePage", "Characters at their places.")
+      .field("width", &PracticePage::width, "[m]")
+      .field("height", &PracticePage::height, "[m]")
+      .field("characters", &PracticePage::characters, "list of PlacedCharacter, copied");
   module.def(
       "lay_out",
       [](const std::vector<Character>& characters, const PageLayout& layout) { return lay_out(characters, layout); },
@@ -204,7 +204,7 @@ void add_traces(py::module_& module) {
 void add_writers(py::module_& module) {
   Record<WriterSkill> skill(module, "WriterSkill", "How well a person writes; docs/practice.md.");
   using W = WriterSkill;
-  skill.field("hand", &W::hand, "Hand: impedance between the plan and the device")
+  skill.field("grip", &W::grip, "GripImpedance: impedance between the plan and the device")
       .field("offset", &W::offset, "of the believed character [em]")
       .field("bias", &W::bias, "length of one more offset, in a direction drawn for each character [em]")
       .field("scale", &W::scale, "of the believed character [1]")
@@ -217,17 +217,17 @@ void add_writers(py::module_& module) {
       .field("wrong_direction", &W::wrong_direction, "share of strokes begun at their end")
       .field("speed", &W::speed, "mean speed along a stroke [em/s]")
       .field("pause", &W::pause, "before the pen moves to a stroke [s]")
-      .field("sight_delay", &W::sight_delay, "[s]")
+      .field("visual_delay", &W::visual_delay, "[s]")
       .field("correction", &W::correction, "share of the error seen that is corrected per second [1/s]")
       .field("caution", &W::caution, "error seen at which the pace is halved [em]");
   skill.type().def_static("novice", &W::novice).def_static("skilled", &W::skilled);
-  Record<Sight>(module, "Sight", "What the display shows: nothing of forces, nothing of the mode.")
-      .field("pen_tip", &Sight::pen_tip, "(3,), page [m]")
-      .field("character", &Sight::character, "the yellow one, by index")
-      .field("stroke", &Sight::stroke, "the one whose start has the red ellipse")
-      .field("writing", &Sight::writing, "a green trace grows from the pen");
+  Record<VisualFeedback>(module, "VisualFeedback", "What the display shows: nothing of forces, nothing of the mode.")
+      .field("pen_tip", &VisualFeedback::pen_tip, "(3,), page [m]")
+      .field("character", &VisualFeedback::character, "the yellow one, by index")
+      .field("stroke", &VisualFeedback::stroke, "the one whose start has the red ellipse")
+      .field("writing", &VisualFeedback::writing, "a green trace grows from the pen");
   py::class_<SimulatedWriter>(module, "SimulatedWriter", "Moves a hand through the strokes of a page. Deterministic.")
-      .def(py::init<const Page&, const WriterSkill&, std::uint64_t>(), py::arg("page"), py::arg("skill"),
+      .def(py::init<const PracticePage&, const WriterSkill&, std::uint64_t>(), py::arg("page"), py::arg("skill"),
            py::arg("seed"))
       .def("update", &SimulatedWriter::update, py::arg("sight"), py::arg("seconds"),
            "Sees the display, lets time pass and says how the pen is meant to move, on the page.")
@@ -236,20 +236,20 @@ void add_writers(py::module_& module) {
 }
 
 void add_sessions(py::module_& module) {
-  Enumeration<Mode>(module, "Mode", "The two modes of the paper's experiment.")
-      .value("vision", Mode::vision, "the device is told zero")
-      .value("force", Mode::force, "vision and force");
+  Enumeration<FeedbackMode>(module, "FeedbackMode", "The two modes of the paper's experiment.")
+      .value("vision", FeedbackMode::vision, "the device is told zero")
+      .value("force", FeedbackMode::force, "vision and force");
   Record<SessionOptions>(module, "SessionOptions", "A writer, a device and a renderer in closed loop.")
-      .field("mode", &SessionOptions::mode, "Mode")
+      .field("mode", &SessionOptions::mode, "FeedbackMode")
       .field("device", &SessionOptions::device, "Capabilities")
       .field("renderer", &SessionOptions::renderer, "RendererOptions")
       .field("skill", &SessionOptions::skill, "WriterSkill")
       .field("seed", &SessionOptions::seed, "of the writer")
       .field("measure_ticks", &SessionOptions::measure_ticks, "reads the clock round every tick")
-      .field("longest_character", &SessionOptions::longest_character, "after which a character is given up [s]");
+      .field("character_timeout", &SessionOptions::character_timeout, "after which a character is given up [s]");
   module.def(
       "write_page",
-      [](const Page& page, SessionOptions options, Progress progress) {
+      [](const PracticePage& page, SessionOptions options, Progress progress) {
         options.progress = interruptible(std::move(progress));
         return write_page(page, options);
       },
@@ -257,7 +257,7 @@ void add_sessions(py::module_& module) {
       "Writes the page once, in virtual time. Deterministic per seed. progress(share) is called now and then.");
   module.def(
       "follow_trace",
-      [](const Page& page, const PenTrace& trace, SessionOptions options, Progress progress) {
+      [](const PracticePage& page, const PenTrace& trace, SessionOptions options, Progress progress) {
         options.progress = interruptible(std::move(progress));
         return follow_trace(page, trace, options);
       },
@@ -265,7 +265,7 @@ void add_sessions(py::module_& module) {
       "A hand that moves as a person's pen did, on a page of one character. progress(share) is called now and then.");
   module.def(
       "replay_page",
-      [](const Page& page, ReplayDevice& device, SessionOptions options, Progress progress) {
+      [](const PracticePage& page, ReplayDevice& device, SessionOptions options, Progress progress) {
         const AtWork at_work(device);
         const py::gil_scoped_release release;
         options.progress = interruptible(std::move(progress));
@@ -275,7 +275,7 @@ void add_sessions(py::module_& module) {
       "The renderer on recorded samples: what it would have done. progress(share) is called now and then.");
   module.def(
       "run_session",
-      [](const Page& page, SessionOptions options, const PenMotion& motion, Progress progress) {
+      [](const PracticePage& page, SessionOptions options, const PenMotion& motion, Progress progress) {
         options.progress = interruptible(std::move(progress));
         return run_session(page, options, motion);
       },
@@ -285,14 +285,14 @@ void add_sessions(py::module_& module) {
 }
 
 void add_scores(py::module_& module) {
-  Enumeration<MistakeKind>(module, "MistakeKind")
-      .value("order", MistakeKind::order)
-      .value("direction", MistakeKind::direction);
-  Record<Mistake>(module, "Mistake", "A mistake of the writer.")
-      .field("kind", &Mistake::kind, "MistakeKind")
-      .field("stroke", &Mistake::stroke, "that was due, from 0")
-      .field("time", &Mistake::time, "when the pen was put down [s]")
-      .field("reason", &Mistake::reason, "one line for a person");
+  Enumeration<WritingMistakeKind>(module, "WritingMistakeKind")
+      .value("order", WritingMistakeKind::order)
+      .value("direction", WritingMistakeKind::direction);
+  Record<WritingMistake>(module, "WritingMistake", "A mistake of the writer.")
+      .field("kind", &WritingMistake::kind, "WritingMistakeKind")
+      .field("stroke", &WritingMistake::stroke, "that was due, from 0")
+      .field("time", &WritingMistake::time, "when the pen was put down [s]")
+      .field("reason", &WritingMistake::reason, "one line for a person");
   using S = CharacterScore;
   Record<S>(module, "CharacterScore", "How well a character was written.")
       .field("character", &S::character, "a str of length 1")
@@ -303,7 +303,7 @@ void add_scores(py::module_& module) {
       .field("strokes_completed", &S::strokes_completed, "by the writer")
       .field("peak_force", &S::peak_force, "[N]")
       .field("max_force_step", &S::max_force_step, "from one tick to the next [N]")
-      .field("mistakes", &S::mistakes, "list of Mistake, copied")
+      .field("mistakes", &S::mistakes, "list of WritingMistake, copied")
       .field("contour", &S::contour, "exp(-rms error / 5 % of the em), [0, 1]")
       .field("external_sequence", &S::external_sequence, "share of pen-downs that wrote the stroke due")
       .field("internal_sequence", &S::internal_sequence, "share of strokes not written backwards")
@@ -311,14 +311,15 @@ void add_scores(py::module_& module) {
       .type()
       .def("order_mistakes", &S::order_mistakes)
       .def("direction_mistakes", &S::direction_mistakes);
-  module.def("score", &score, py::arg("page"), py::arg("recording"), Release(), "One score per character of the page.");
+  module.def("score_page", &score_page, py::arg("page"), py::arg("recording"), Release(),
+             "One score per character of the page.");
 }
 
 void add_pictures(py::module_& module) {
   module.def("page_picture", &page_picture, py::arg("page"), py::arg("recording"), py::arg("active"), py::arg("title"),
              Release(), "SVG text: templates blue, the active character yellow, traces green.");
   module.def("typical_strokes_picture", &typical_strokes_picture, Release(), "SVG text.");
-  module.def("can_plot", &can_plot, Release(), "Whether the program gnuplot can be started.");
+  module.def("gnuplot_available", &gnuplot_available, Release(), "Whether the program gnuplot can be started.");
   module.def("force_plot", &force_plot, py::arg("recording"), py::arg("character"), py::arg("title"), Release(),
              "SVG text by gnuplot: the forces while the character of this index was active.");
 }
@@ -335,7 +336,7 @@ py::list arrays_of(const std::vector<PenPath>& paths) {
   return result;
 }
 
-void add_verdicts(py::module_& module) {
+void add_matches(py::module_& module) {
   module.def(
       "pen_paths", [](const PenTrace& trace) { return arrays_of(pen_paths(trace)); }, py::arg("trace"),
       "(n, 2) of every pen-down, in the square that was written in [em].");
@@ -344,58 +345,58 @@ void add_verdicts(py::module_& module) {
       [](const Recording& recording, const Placement& placement) { return arrays_of(pen_paths(recording, placement)); },
       py::arg("recording"), py::arg("placement"),
       "(n, 2) of every pen-down, whatever the renderer made of it, in the square of a character [em].");
-  Enumeration<Course>(module, "Course", "How a pen-down runs along what it wrote.")
-      .value("forwards", Course::forwards)
-      .value("backwards", Course::backwards)
-      .value("neither", Course::neither)
-      .value("unknown", Course::unknown);
-  Enumeration<RemarkKind>(module, "RemarkKind", "What there is to say of a pen-down.")
-      .value("order", RemarkKind::order)
-      .value("direction", RemarkKind::direction)
-      .value("shape", RemarkKind::shape)
-      .value("joined", RemarkKind::joined)
-      .value("broken", RemarkKind::broken)
-      .value("missing", RemarkKind::missing)
-      .value("extra", RemarkKind::extra);
+  Enumeration<WritingDirection>(module, "WritingDirection", "How a pen-down runs along what it wrote.")
+      .value("forwards", WritingDirection::forwards)
+      .value("backwards", WritingDirection::backwards)
+      .value("neither", WritingDirection::neither)
+      .value("unknown", WritingDirection::unknown);
+  Enumeration<StrokeRemarkKind>(module, "StrokeRemarkKind", "What there is to say of a pen-down.")
+      .value("order", StrokeRemarkKind::order)
+      .value("direction", StrokeRemarkKind::direction)
+      .value("shape", StrokeRemarkKind::shape)
+      .value("joined", StrokeRemarkKind::joined)
+      .value("broken", StrokeRemarkKind::broken)
+      .value("missing", StrokeRemarkKind::missing)
+      .value("extra", StrokeRemarkKind::extra);
   Record<DrawnStroke>(module, "DrawnStroke", "One pen-down.")
       .field("stroke", &DrawnStroke::stroke, "that it wrote, or the first of those, from 0; -1: none")
       .field("stroke_count", &DrawnStroke::stroke_count, "1; above: joined; 0: none")
       .field("continues", &DrawnStroke::continues, "it goes on with the stroke that the pen-down before began")
       .field("in_turn", &DrawnStroke::in_turn, "no stroke that comes later was written before")
       .field("tap", &DrawnStroke::tap, "it left no more than a point")
-      .field("course", &DrawnStroke::course, "Course")
+      .field("direction", &DrawnStroke::direction, "WritingDirection")
       .field("distance", &DrawnStroke::distance, "mean, from what it wrote [em]");
-  Record<Remark>(module, "Remark", "What there is to say of a pen-down or a stroke.")
-      .field("kind", &Remark::kind, "RemarkKind")
-      .field("path", &Remark::path, "the pen-down, from 0; -1: none")
-      .field("stroke", &Remark::stroke, "of the character, from 0; -1: none")
-      .field("reason", &Remark::reason, "one sentence for a person");
+  Record<StrokeRemark>(module, "StrokeRemark", "What there is to say of a pen-down or a stroke.")
+      .field("kind", &StrokeRemark::kind, "StrokeRemarkKind")
+      .field("path", &StrokeRemark::path, "the pen-down, from 0; -1: none")
+      .field("stroke", &StrokeRemark::stroke, "of the character, from 0; -1: none")
+      .field("reason", &StrokeRemark::reason, "one sentence for a person");
   Record<BoxMap>(module, "BoxMap", "A map of the em square that moves and stretches: scale * point + offset.")
       .field("scale", &BoxMap::scale, "(2,)")
       .field("offset", &BoxMap::offset, "(2,) [em]");
-  Record<StrokeVerdict>(module, "StrokeVerdict", "Which stroke each pen-down wrote, in which order and direction.")
-      .field("drawn", &StrokeVerdict::drawn, "list of DrawnStroke, one per pen-down, copied")
-      .field("remarks", &StrokeVerdict::remarks, "list of Remark, copied")
-      .field("fit", &StrokeVerdict::fit, "BoxMap that laid the pen-downs on the character")
+  Record<MatchResult>(module, "MatchResult", "Which stroke each pen-down wrote, in which order and direction.")
+      .field("drawn", &MatchResult::drawn, "list of DrawnStroke, one per pen-down, copied")
+      .field("remarks", &MatchResult::remarks, "list of StrokeRemark, copied")
+      .field("fit", &MatchResult::fit, "BoxMap that laid the pen-downs on the character")
       .type()
-      .def("count", &StrokeVerdict::count, py::arg("kind"));
+      .def("count", &MatchResult::count, py::arg("kind"));
   module.def(
-      "judge_strokes",
+      "match_strokes",
       [](const Character& character, const std::vector<ArrayLike>& paths) {
         const std::vector<PenPath> drawn = paths_of(paths, "paths");
         const py::gil_scoped_release release;
-        return judge_strokes(character, drawn);
+        return match_strokes(character, drawn);
       },
       py::arg("character"), py::arg("paths"), "Matches pen-downs (n, 2) [em] with strokes, from geometry alone.");
   module.def(
       "replay_picture",
-      [](const Character& character, const std::vector<ArrayLike>& paths, const StrokeVerdict& verdict,
+      [](const Character& character, const std::vector<ArrayLike>& paths, const MatchResult& match,
          const std::vector<ArrayLike>& guided, const std::string& title) {
         const std::vector<PenPath> drawn = paths_of(paths, "paths"), led = paths_of(guided, "guided");
         const py::gil_scoped_release release;
-        return replay_picture(character, drawn, verdict, led, title);
+        return replay_picture(character, drawn, match, led, title);
       },
-      py::arg("character"), py::arg("paths"), py::arg("verdict"), py::arg("guided"), py::arg("title"),
+      py::arg("character"), py::arg("paths"), py::arg("match"), py::arg("guided"), py::arg("title"),
       "SVG text: a person's pen-downs beside the template, and where the pen of the device went; (n, 2) each [em].");
 }
 
@@ -404,33 +405,34 @@ void add_import(py::module_& module) {
       .value("hanzi_writer_data", SourceKind::hanzi_writer_data)
       .value("kanjivg", SourceKind::kanjivg)
       .value("calligraphy", SourceKind::calligraphy);
-  Enumeration<LabelFate>(module, "LabelFate", "What became of a label that does not say what the shape says.")
-      .value("unknown", LabelFate::unknown)
-      .value("obeyed", LabelFate::obeyed)
-      .value("overruled", LabelFate::overruled);
-  Record<StrokePlace>(module, "StrokePlace", "A stroke of the characters imported.")
-      .field("code", &StrokePlace::code, "a str of length 1")
-      .field("order", &StrokePlace::order, "empty for the standard one")
-      .field("stroke", &StrokePlace::stroke, "from 1");
+  Enumeration<LabelResolution>(module, "LabelResolution",
+                               "What became of a label that does not say what the shape says.")
+      .value("unknown", LabelResolution::unknown)
+      .value("accepted", LabelResolution::accepted)
+      .value("overridden", LabelResolution::overridden);
+  Record<StrokeReference>(module, "StrokeReference", "A stroke of the characters imported.")
+      .field("code", &StrokeReference::code, "a str of length 1")
+      .field("order", &StrokeReference::order, "empty for the standard one")
+      .field("stroke", &StrokeReference::stroke, "from 1");
   Record<FitCount>(module, "FitCount", "What is within an error of what was drawn.")
       .field("error", &FitCount::error, "[em]")
       .field("strokes", &FitCount::strokes, "how many")
       .field("characters", &FitCount::characters, "with every stroke");
   Record<StrokeError>(module, "StrokeError", "How far a stroke is from its drawing.")
-      .field("place", &StrokeError::place, "StrokePlace")
+      .field("place", &StrokeError::place, "StrokeReference")
       .field("id", &StrokeError::id, "of the typical stroke")
       .field("error", &StrokeError::error, "largest distance, both ways [em]");
-  Record<LabelDoubt>(module, "LabelDoubt", "A label that does not say what the shape says.")
-      .field("place", &LabelDoubt::place, "StrokePlace")
-      .field("label", &LabelDoubt::label, "as it stands in the source")
-      .field("fate", &LabelDoubt::fate, "LabelFate")
-      .field("recognised", &LabelDoubt::recognised, "id by geometry alone")
-      .field("id", &LabelDoubt::id, "as imported");
-  Record<Confusion>(module, "Confusion", "How often a label goes with an id that is none of the label's.")
-      .field("label", &Confusion::label, "as it stands in the source")
-      .field("recognised", &Confusion::recognised, "id by geometry alone")
-      .field("count", &Confusion::count, "how often")
-      .field("example", &Confusion::example, "StrokePlace");
+  Record<LabelConflict>(module, "LabelConflict", "A label that does not say what the shape says.")
+      .field("place", &LabelConflict::place, "StrokeReference")
+      .field("label", &LabelConflict::label, "as it stands in the source")
+      .field("resolution", &LabelConflict::resolution, "LabelResolution")
+      .field("recognised", &LabelConflict::recognised, "id by geometry alone")
+      .field("id", &LabelConflict::id, "as imported");
+  Record<LabelConfusion>(module, "LabelConfusion", "How often a label goes with an id that is none of the label's.")
+      .field("label", &LabelConfusion::label, "as it stands in the source")
+      .field("recognised", &LabelConfusion::recognised, "id by geometry alone")
+      .field("count", &LabelConfusion::count, "how often")
+      .field("example", &LabelConfusion::example, "StrokeReference");
   Record<SkippedFile>(module, "SkippedFile", "A file that was not read.")
       .field("path", &SkippedFile::path, "within the source")
       .field("reason", &SkippedFile::reason, "why");
@@ -445,16 +447,17 @@ void add_import(py::module_& module) {
       .field("ids_used", &R::ids_used, "strokes by id, copied")
       .field("labelled", &R::labelled, "strokes with a label or letter that is known")
       .field("agreed", &R::agreed, "of these, recognised by geometry alone as what the label says")
-      .field("confusions", &R::confusions, "list of Confusion, the commonest first, copied")
-      .field("label_doubts", &R::label_doubts, "list of LabelDoubt, copied")
+      .field("confusions", &R::confusions, "list of LabelConfusion, the commonest first, copied")
+      .field("label_conflicts", &R::label_conflicts, "list of LabelConflict, copied")
       .field("letters_unused", &R::letters_unused, "characters with more or fewer letters than strokes, copied")
       .field("skipped", &R::skipped, "list of SkippedFile, copied")
       .field("notes", &R::notes, "what else whoever passes the characters on should know, copied");
-  py::class_<Import>(module, "Import", "Characters and how their import went.")
-      .def_readonly("list", &Import::list, "CharacterList")
-      .def_readonly("report", &Import::report, "ImportReport")
-      .def("__repr__", [](const Import& self) {
-        return told("Import({} characters, {} files skipped)", self.list.characters.size(), self.report.skipped.size());
+  py::class_<ImportResult>(module, "ImportResult", "Characters and how their import went.")
+      .def_readonly("list", &ImportResult::list, "CharacterList")
+      .def_readonly("report", &ImportResult::report, "ImportReport")
+      .def("__repr__", [](const ImportResult& self) {
+        return told("ImportResult({} characters, {} files skipped)", self.list.characters.size(),
+                    self.report.skipped.size());
       });
   module.def(
       "import_characters",
@@ -488,7 +491,7 @@ void add_practice(py::module_& module) {
   add_sessions(module);
   add_scores(module);
   add_pictures(module);
-  add_verdicts(module);
+  add_matches(module);
   add_import(module);
 }
 

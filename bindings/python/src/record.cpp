@@ -40,13 +40,13 @@ namespace {
 
 /// For people who look at many records: of long lists and texts the beginning, and how much there is.
 std::string shortened(const py::object& value) {
-  constexpr std::size_t most_elements = 8, most_letters = 80;
-  if (py::isinstance<py::list>(value) && py::len(value) > most_elements) {
+  constexpr std::size_t max_elements = 8, max_letters = 80;
+  if (py::isinstance<py::list>(value) && py::len(value) > max_elements) {
     const auto some = py::repr(value[py::slice(0, 3, 1)]).cast<std::string>();
     return some.substr(0, some.size() - 1) + ", ... " + std::to_string(py::len(value)) + " in all]";
   }
-  if (py::isinstance<py::str>(value) && py::len(value) > most_letters) {
-    return py::repr(value[py::slice(0, most_letters / 2, 1)]).cast<std::string>() + "... " +
+  if (py::isinstance<py::str>(value) && py::len(value) > max_letters) {
+    return py::repr(value[py::slice(0, max_letters / 2, 1)]).cast<std::string>() + "... " +
            std::to_string(py::len(value)) + " letters in all";
   }
   return py::repr(value).cast<std::string>();

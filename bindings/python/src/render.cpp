@@ -1,4 +1,4 @@
-// The render room: what the hand feels, tick by tick or over a whole trace.
+// The render component: what the hand feels, tick by tick or over a whole trace.
 #include <algorithm>
 
 #include <calligraphy/base/error.hpp>
@@ -8,10 +8,10 @@
 #include <calligraphy/render/stiffness_advice.hpp>
 
 #include "at_work.hpp"
+#include "components.hpp"
 #include "enumeration.hpp"
 #include "interrupt.hpp"
 #include "record.hpp"
-#include "rooms.hpp"
 
 namespace calligraphy::python {
 namespace {
@@ -26,9 +26,9 @@ void add_options(py::module_& module) {
       .value("linear", GuidanceLaw::linear)
       .value("saturating", GuidanceLaw::saturating);
   Enumeration<StiffnessCheck>(module, "StiffnessCheck")
-      .value("refuse", StiffnessCheck::refuse)
+      .value("reject", StiffnessCheck::reject)
       .value("clip", StiffnessCheck::clip)
-      .value("none", StiffnessCheck::none);
+      .value("none", StiffnessCheck::off);
   Enumeration<ForceSign>(module, "ForceSign")
       .value("attracting", ForceSign::attracting)
       .value("wang2006", ForceSign::wang2006);
@@ -39,11 +39,12 @@ void add_options(py::module_& module) {
       .value("breakaway", FrictionModel::breakaway)
       .value("hayward_armstrong", FrictionModel::hayward_armstrong)
       .value("karnopp", FrictionModel::karnopp);
-  Record<AssistPolicy>(module, "AssistPolicy", "Help as needed: it fades as the writer improves.")
-      .field("enabled", &AssistPolicy::enabled, "False: full help always")
-      .field("retention", &AssistPolicy::retention, "of the last stroke's help [1]")
-      .field("full_help_error", &AssistPolicy::full_help_error, "RMS lateral error that keeps help at full [m]")
-      .field("least", &AssistPolicy::least, "help never falls below [1]");
+  Record<AssistPolicy>(module, "AssistPolicy", "Assistance as needed: it fades as the writer improves.")
+      .field("enabled", &AssistPolicy::enabled, "False: full assistance always")
+      .field("retention", &AssistPolicy::retention, "of the last stroke's assistance [1]")
+      .field("full_assistance_error", &AssistPolicy::full_assistance_error,
+             "RMS lateral error that keeps assistance at full [m]")
+      .field("min_assistance", &AssistPolicy::min_assistance, "assistance never falls below [1]");
   Record<FrictionOptions>(module, "FrictionOptions", "Friction between pen and paper.")
       .field("model", &FrictionOptions::model, "FrictionModel")
       .field("coefficient", &FrictionOptions::coefficient, "0: no friction [1]")
@@ -60,7 +61,7 @@ void add_options(py::module_& module) {
       .field("wrong_way_limit", &O::wrong_way_limit, "[N]")
       .field("wrong_way_slack", &O::wrong_way_slack, "[m]")
       .field("stiffness_check", &O::stiffness_check, "StiffnessCheck: refuse or clip what is not stable")
-      .field("softest_grip", &O::softest_grip, "Hand in which the loop is to be stable")
+      .field("softest_grip", &O::softest_grip, "GripImpedance in which the loop is to be stable")
       .field("guidance", &O::guidance, "GuidanceLaw")
       .field("guidance_limit", &O::guidance_limit, "saturating: the largest guidance force [N]")
       .field("guide_to_start", &O::guide_to_start, "on the paper before a stroke, pull to its start")
@@ -80,7 +81,7 @@ void add_options(py::module_& module) {
       .field("passivity_control", &O::passivity_control, "damps out what sampling, delay and limits add to the energy")
       .field("energy_budget", &O::energy_budget, "infinite: any [J]")
       .field("thermal_time_constant", &O::thermal_time_constant, "0: no limit [s]")
-      .field("largest_speed", &O::largest_speed, "a faster sample is a fault [m/s]")
+      .field("max_speed", &O::max_speed, "a faster sample is a fault [m/s]")
       .field("force_sign", &O::force_sign, "ForceSign")
       .field("pen_tip", &O::pen_tip, "PenTipRule")
       .field("motion", &O::motion, "MotionMappingRule");
@@ -90,10 +91,10 @@ void add_options(py::module_& module) {
                   "The defaults at the device's rate, stiffnesses clipped to what it is stable with.")
       .def_static("everything", &O::everything, py::arg("capabilities"), "for_device() with every stage switched on.");
   module.def("clip_stiffness", &clip_stiffness, py::arg("options"), py::arg("capabilities"),
-             py::arg("largest_attraction") = 1.0, py::arg("scale") = 1.0,
+             py::arg("max_attraction") = 1.0, py::arg("scale") = 1.0,
              "Clips the stiffnesses of `options` in place; what was clipped, each with its reason.");
   module.def("validate", py::overload_cast<const O&, const Capabilities&, double, double>(&validate),
-             py::arg("options"), py::arg("capabilities"), py::arg("largest_attraction") = 1.0, py::arg("scale") = 1.0,
+             py::arg("options"), py::arg("capabilities"), py::arg("max_attraction") = 1.0, py::arg("scale") = 1.0,
              "Raises InvalidValue naming an option out of its domain, or a stiffness that would be clipped.");
 }
 
@@ -136,17 +137,17 @@ py::dtype tick_type() {
       .add("pen_tip", t, t.pen_tip)
       .add("penetration", t, t.penetration)
       .add("element", t, t.contact.element)
-      .add("parameter", t, t.contact.foot.parameter)
-      .add("foot", t, t.contact.foot.point)
-      .add("distance", t, t.contact.foot.distance)
-      .add("share", t, t.contact.share)
+      .add("parameter", t, t.contact.closest.parameter)
+      .add("closest", t, t.contact.closest.point)
+      .add("distance", t, t.contact.closest.distance)
+      .add("weight", t, t.contact.weight)
       .add("arc", t, t.contact.arc)
       .add("attraction", t, t.attraction)
       .add("wrong_way", t, t.wrong_way)
       .add("friction", t, t.friction)
       .add("normal", t, t.normal)
       .add("damping", t, t.damping)
-      .add("help", t, t.help)
+      .add("assistance", t, t.assistance)
       .add("energy_given", t, t.energy_given)
       .add("heat", t, t.heat)
       .add("page_force", t, t.page_force)
@@ -201,7 +202,7 @@ void add_tick(py::module_& module) {
       .def_property_readonly("friction", vector_of(&HapticTick::friction), "force term (2,) [N]")
       .def_readonly("normal", &HapticTick::normal, "force term, out of the page [N]")
       .def_property_readonly("damping", vector_of(&HapticTick::damping), "of the passivity controller (3,) [N]")
-      .def_readonly("help", &HapticTick::help, "share of the guidance that the assist policy gives")
+      .def_readonly("assistance", &HapticTick::assistance, "share of the guidance that the assist policy gives")
       .def_readonly("energy_given", &HapticTick::energy_given, "[J]")
       .def_readonly("heat", &HapticTick::heat, "1: that of the continuous force")
       .def_property_readonly("page_force", vector_of(&HapticTick::page_force), "sent, page axes (3,) [N]")
@@ -304,8 +305,8 @@ void add_passivity(py::module_& module) {
           "The force (3,) that came out of the limits and holds from now on [N].")
       .def("restart", &P::restart, "Nothing sent, nothing given.")
       .def_property_readonly("energy_given", &P::energy_given, "net, to the hand, as observed [J]")
-      .def_property_readonly("energy_left", &P::energy_left, "of the budget [J]")
-      .def_property_readonly("longest_force", &P::longest_force, "what the last next() shortened to [N]")
+      .def_property_readonly("energy_remaining", &P::energy_remaining, "of the budget [J]")
+      .def_property_readonly("max_force", &P::max_force, "what the last next() shortened to [N]")
       .def_property_readonly(
           "damping", [](const P& self) { return array_of(self.damping()); }, "(3,), last tick [N]");
 }
@@ -315,7 +316,7 @@ void add_advice(py::module_& module) {
       .field("device", &SampledLoop::device, "Capabilities")
       .field("rate", &SampledLoop::rate, "[Hz]")
       .field("wall_damping", &SampledLoop::wall_damping, "[N s/m]")
-      .field("grip", &SampledLoop::grip, "Hand; by default nobody holds it");
+      .field("grip", &SampledLoop::grip, "GripImpedance; by default nobody holds it");
   Record<StiffnessBound>(module, "StiffnessBound", "A bound of the wall's stiffness, and what it is worth.")
       .field("value", &StiffnessBound::value, "[N/m]")
       .field("formula", &StiffnessBound::formula, "as text, in the letters of SampledLoop")

@@ -1,16 +1,16 @@
-// What accuracy costs and what is stable: trades, walls and force fields, as the practice room has them.
+// What accuracy costs and what is stable: tradeoffs, walls and force fields, as the practice component has them.
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
 #include <calligraphy/experiments/force_field.hpp>
 #include <calligraphy/experiments/nearest_point_workload.hpp>
 #include <calligraphy/experiments/stability_map.hpp>
-#include <calligraphy/experiments/trade.hpp>
+#include <calligraphy/experiments/tradeoff.hpp>
 
+#include "components.hpp"
 #include "enumeration.hpp"
 #include "interrupt.hpp"
 #include "record.hpp"
-#include "rooms.hpp"
 
 namespace calligraphy::python {
 namespace {
@@ -18,20 +18,21 @@ namespace {
 using Release = py::call_guard<py::gil_scoped_release>;
 
 void add_walls(py::module_& module) {
-  Record<WallEncounter>(module, "WallEncounter", "How the pen meets the wall in a simulation.")
-      .field("push", &WallEncounter::push, "steady force towards the wall [N]")
-      .field("height", &WallEncounter::height, "from which the pen falls [m]")
-      .field("seconds", &WallEncounter::seconds, "of virtual time")
-      .field("controlled", &WallEncounter::controlled, "a passivity controller follows the wall")
-      .field("lost", &WallEncounter::lost, "share of the samples that do not arrive")
-      .field("reordered", &WallEncounter::reordered, "share that change places with the next one");
-  Record<WallOutcome>(module, "WallOutcome", "What became of the pen.")
-      .field("settles", &WallOutcome::settles, "it comes to rest")
-      .field("swing", &WallOutcome::swing, "from peak to peak, at the end [m]")
-      .field("largest_force", &WallOutcome::largest_force, "sent [N]")
-      .field("last_force", &WallOutcome::last_force, "largest at the end [N]");
-  module.def("meet_wall", &meet_wall, py::arg("loop"), py::arg("stiffness"), py::arg("encounter") = WallEncounter{},
-             Release(), "One pen on one wall of this stiffness [N/m], in virtual time.");
+  Record<WallContact>(module, "WallContact", "How the pen meets the wall in a simulation.")
+      .field("push", &WallContact::push, "steady force towards the wall [N]")
+      .field("height", &WallContact::height, "from which the pen falls [m]")
+      .field("seconds", &WallContact::seconds, "of virtual time")
+      .field("controlled", &WallContact::controlled, "a passivity controller follows the wall")
+      .field("lost", &WallContact::lost, "share of the samples that do not arrive")
+      .field("reordered", &WallContact::reordered, "share that change places with the next one");
+  Record<WallContactResult>(module, "WallContactResult", "What became of the pen.")
+      .field("stable", &WallContactResult::stable, "it comes to rest")
+      .field("peak_to_peak", &WallContactResult::peak_to_peak, "from peak to peak, at the end [m]")
+      .field("max_force", &WallContactResult::max_force, "sent [N]")
+      .field("last_force", &WallContactResult::last_force, "largest at the end [N]");
+  module.def("simulate_wall_contact", &simulate_wall_contact, py::arg("loop"), py::arg("stiffness"),
+             py::arg("contact") = WallContact{}, Release(),
+             "One pen on one wall of this stiffness [N/m], in virtual time.");
 
   Record<StabilityLine>(module, "StabilityLine", "Every stiffness against one loop.")
       .field("loop", &StabilityLine::loop, "SampledLoop")
@@ -39,11 +40,12 @@ void add_walls(py::module_& module) {
       .field("quantised", &StabilityLine::quantised, "[N/m]")
       .field("stable", &StabilityLine::stable, "[N/m]")
       .field("approximate", &StabilityLine::approximate, "[N/m]")
-      .field("settles", &StabilityLine::settles, "for each stiffness of the map, copied")
-      .field("controlled_settles", &StabilityLine::controlled_settles, "the same with the controller, copied")
-      .field("largest", &StabilityLine::largest, "below which no stiffness tried is unstable [N/m]")
-      .field("controlled_largest", &StabilityLine::controlled_largest, "the same with the controller [N/m]")
-      .field("controlled_within_peak", &StabilityLine::controlled_within_peak, "and within the peak force [N/m]");
+      .field("stable_at", &StabilityLine::stable_at, "for each stiffness of the map, copied")
+      .field("controlled_stable_at", &StabilityLine::controlled_stable_at, "the same with the controller, copied")
+      .field("max_stable", &StabilityLine::max_stable, "below which no stiffness tried is unstable [N/m]")
+      .field("controlled_max_stable", &StabilityLine::controlled_max_stable, "the same with the controller [N/m]")
+      .field("controlled_max_stable_below_peak", &StabilityLine::controlled_max_stable_below_peak,
+             "and within the peak force [N/m]");
   Record<StabilitySweep>(module, "StabilitySweep", "One property of the loop varied.")
       .field("name", &StabilitySweep::name, "for example damping")
       .field("label", &StabilitySweep::label, "with its unit")
@@ -51,24 +53,24 @@ void add_walls(py::module_& module) {
       .field("lines", &StabilitySweep::lines, "list of StabilityLine, copied");
   Record<StabilityMap>(module, "StabilityMap", "Where a virtual wall is stable.")
       .field("device", &StabilityMap::device, "Capabilities")
-      .field("encounter", &StabilityMap::encounter, "WallEncounter")
+      .field("contact", &StabilityMap::contact, "WallContact")
       .field("stiffnesses", &StabilityMap::stiffnesses, "that every line was tried at [N/m]")
       .field("sweeps", &StabilityMap::sweeps, "list of StabilitySweep, copied")
       .field("grid", &StabilityMap::grid, "list of StabilityLine, copied");
   using O = StabilityMapOptions;
   Record<O>(module, "StabilityMapOptions", "What a stability map tries.")
       .field("device", &O::device, "Capabilities")
-      .field("encounter", &O::encounter, "WallEncounter")
+      .field("contact", &O::contact, "WallContact")
       .field("per_decade", &O::per_decade, "stiffnesses that are tried")
-      .field("softest", &O::softest, "[N/m]")
-      .field("stiffest", &O::stiffest, "[N/m]")
+      .field("min_stiffness", &O::min_stiffness, "[N/m]")
+      .field("max_stiffness", &O::max_stiffness, "[N/m]")
       .field("coulomb_friction", &O::coulomb_friction, "of the loops whose positions are rounded [N]")
       .field("dampings", &O::dampings, "of the grid, copied [N s/m]")
       .field("rates", &O::rates, "copied [Hz]")
       .field("delays", &O::delays, "copied [ticks]")
       .field("encoder_steps", &O::encoder_steps, "copied [m]")
       .field("wall_dampings", &O::wall_dampings, "copied [N s/m]")
-      .field("grips", &O::grips, "list of Hand, copied")
+      .field("grips", &O::grips, "list of GripImpedance, copied")
       .field("with_sweeps", &O::with_sweeps, "whether to try the sweeps")
       .field("with_grid", &O::with_grid, "whether to try the grid");
   module.def(
@@ -81,7 +83,7 @@ void add_walls(py::module_& module) {
       "The map, on every core; progress(share) is called now and then. With all defaults this takes minutes.");
 }
 
-void add_trades(py::module_& module) {
+void add_tradeoffs(py::module_& module) {
   py::class_<NearestPointCost>(module, "NearestPointCost", "What a method costs and how right it is.")
       .def_readonly("queries", &NearestPointCost::queries, "which ones")
       .def_readonly("ns", &NearestPointCost::ns, "per query, median [ns]")
@@ -95,31 +97,31 @@ void add_trades(py::module_& module) {
         return told("NearestPointCost({}: {:.0f} ns, error {:.3g}, wrong {:.3g})", self.queries, self.ns, self.error,
                     self.wrong);
       });
-  py::class_<NearestPointTrade>(module, "NearestPointTrade", "A method at a setting, its costs and its errors.")
-      .def_property_readonly("name", [](const NearestPointTrade& self) { return self.setting.name; })
-      .def_property_readonly("options", [](const NearestPointTrade& self) { return self.setting.options; })
-      .def_readonly("real", &NearestPointTrade::real, "on real strokes")
-      .def_readonly("hard", &NearestPointTrade::hard, "on hostile curves")
-      .def_readonly("ticks", &NearestPointTrade::ticks, "following a pen along whole strokes")
+  py::class_<NearestPointTradeoff>(module, "NearestPointTradeoff", "A method at a setting, its costs and its errors.")
+      .def_property_readonly("name", [](const NearestPointTradeoff& self) { return self.setting.name; })
+      .def_property_readonly("options", [](const NearestPointTradeoff& self) { return self.setting.options; })
+      .def_readonly("real", &NearestPointTradeoff::real, "on real strokes")
+      .def_readonly("hard", &NearestPointTradeoff::hard, "on hostile curves")
+      .def_readonly("ticks", &NearestPointTradeoff::ticks, "following a pen along whole strokes")
       .def("__repr__", [](const py::object& self) {
-        return told("NearestPointTrade({}, {!r})", self.attr("name"), self.attr("real"));
+        return told("NearestPointTradeoff({}, {!r})", self.attr("name"), self.attr("real"));
       });
   module.def(
-      "nearest_point_trade",
+      "nearest_point_tradeoff",
       [](const std::vector<Character>& characters, int queries, int rounds, std::uint64_t seed,
          std::function<void(double)> progress) {
-        NearestPointTradeOptions options;
+        NearestPointTradeoffOptions options;
         options.queries = queries;
         options.rounds = rounds;
         options.seed = seed;
         options.progress = interruptible(std::move(progress));
-        return nearest_point_trade(characters, options);
+        return nearest_point_tradeoff(characters, options);
       },
       py::arg("characters"), py::arg("queries") = 4000, py::arg("rounds") = 21, py::arg("seed") = 1,
       py::arg("progress") = py::none(), Release(),
       "One entry per method and setting; all but times is the same in every run.");
-  using S = ServoRateTrade;
-  Record<S>(module, "ServoRateTrade", "A simulated novice writes in closed loop at one servo rate.")
+  using S = ServoRateTradeoff;
+  Record<S>(module, "ServoRateTradeoff", "A simulated novice writes in closed loop at one servo rate.")
       .field("rate", &S::rate, "[Hz]")
       .field("stiffness", &S::stiffness, "of the paper, the default [N/m]")
       .field("stable", &S::stable, "a pen that is pressed on this paper comes to rest")
@@ -135,43 +137,44 @@ void add_trades(py::module_& module) {
       .field("hard_penetration", &S::hard_penetration, "on such paper [m]")
       .field("hard_force_step", &S::hard_force_step, "on such paper [N]");
   module.def(
-      "servo_rate_trade",
+      "servo_rate_tradeoff",
       [](const std::vector<Character>& characters, const std::vector<double>& rates, int seeds, std::uint64_t seed,
          const std::string& device, std::function<void(double)> progress) {
-        const ServoRateTradeOptions options{rates, seeds, seed, device, interruptible(std::move(progress))};
-        return servo_rate_trade(characters, options);
+        const ServoRateTradeoffOptions options{rates, seeds, seed, device, interruptible(std::move(progress))};
+        return servo_rate_tradeoff(characters, options);
       },
-      py::arg("characters"), py::arg("rates") = ServoRateTradeOptions{}.rates, py::arg("seeds") = 3,
+      py::arg("characters"), py::arg("rates") = ServoRateTradeoffOptions{}.rates, py::arg("seeds") = 3,
       py::arg("seed") = 1, py::arg("device") = "desktop", py::arg("progress") = py::none(), Release(),
       "One entry per rate, the same in every run; progress(share) is called now and then. Minutes with all defaults.");
-  using W = CoordinateWidthTrade;
-  Record<W>(module, "CoordinateWidthTrade", "Control points rounded to a grid of 2^bits places along each edge.")
+  using W = CoordinateWidthTradeoff;
+  Record<W>(module, "CoordinateWidthTradeoff", "Control points rounded to a grid of 2^bits places along each edge.")
       .field("bits", &W::bits, "per coordinate")
       .field("step", &W::step, "of the grid [em]")
-      .field("largest_error", &W::largest_error, "between the strokes as they are and as stored, both ways [em]")
+      .field("max_error", &W::max_error, "between the strokes as they are and as stored, both ways [em]")
       .field("rms_error", &W::rms_error, "over their length, both ways [em]")
       .field("bytes", &W::bytes, "per character");
   module.def("with_coordinate_width", &with_coordinate_width, py::arg("character"), py::arg("bits"),
              "The character with its control points on the grid, 1 to 32 bits.");
   module.def(
-      "coordinate_width_trade",
+      "coordinate_width_tradeoff",
       [](const std::vector<Character>& characters, std::function<void(double)> progress) {
-        return coordinate_width_trade(characters, interruptible(std::move(progress)));
+        return coordinate_width_tradeoff(characters, interruptible(std::move(progress)));
       },
       py::arg("characters"), py::arg("progress") = py::none(), Release(),
       "One entry per width from 4 to 16 bits; progress(share) is called now and then.");
-  const char* const plot = "SVG text by gnuplot; can_plot() says whether it is there.";
+  const char* const plot = "SVG text by gnuplot; gnuplot_available() says whether it is there.";
   module.def(
-      "nearest_point_trade_plot",
-      [](const std::vector<NearestPointTrade>& trade) { return nearest_point_trade_plot(trade); }, py::arg("trade"),
-      Release(), plot);
+      "nearest_point_tradeoff_plot",
+      [](const std::vector<NearestPointTradeoff>& tradeoff) { return nearest_point_tradeoff_plot(tradeoff); },
+      py::arg("tradeoff"), Release(), plot);
   module.def(
-      "servo_rate_trade_plot", [](const std::vector<ServoRateTrade>& trade) { return servo_rate_trade_plot(trade); },
-      py::arg("trade"), Release(), plot);
+      "servo_rate_tradeoff_plot",
+      [](const std::vector<ServoRateTradeoff>& tradeoff) { return servo_rate_tradeoff_plot(tradeoff); },
+      py::arg("tradeoff"), Release(), plot);
   module.def(
-      "coordinate_width_trade_plot",
-      [](const std::vector<CoordinateWidthTrade>& trade) { return coordinate_width_trade_plot(trade); },
-      py::arg("trade"), Release(), plot);
+      "coordinate_width_tradeoff_plot",
+      [](const std::vector<CoordinateWidthTradeoff>& tradeoff) { return coordinate_width_tradeoff_plot(tradeoff); },
+      py::arg("tradeoff"), Release(), plot);
   module.def(
       "curve_control_points",
       [](const std::vector<Character>& characters, double em) {
@@ -240,7 +243,7 @@ void add_fields(py::module_& module) {
           "jumps", [](const ForceField& self) { return structured(jump_type(), std::vector<ForceJump>(self.jumps)); },
           "Where the force jumps, a structured array (m,), copied: begin, end (2,) [m], size [N], from_stroke, the\n"
           "distance from the active stroke [m], passes_feature, which is crossed once, in order.")
-      .def("largest_force", &ForceField::largest_force, "[N]")
+      .def("max_force", &ForceField::max_force, "[N]")
       .def("__repr__", [](const ForceField& self) {
         return told("ForceField({0} x {0} places, edge {1:.6g} m)", self.columns, self.edge);
       });
@@ -267,7 +270,7 @@ void add_fields(py::module_& module) {
 
 void add_trials(py::module_& module) {
   add_walls(module);
-  add_trades(module);
+  add_tradeoffs(module);
   add_fields(module);
   add_figures(module);
 }

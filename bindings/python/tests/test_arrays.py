@@ -188,7 +188,7 @@ def test_arrays_outlive_their_owner():
     for array, copy in zip(kept, expected):
         assert np.array_equal(array, copy)
     position = cal.DeviceState(position=(1, 2, 3)).position
-    offset = cal.SessionOptions(skill=cal.WriterSkill(speed=2.0)).skill.hand
+    offset = cal.SessionOptions(skill=cal.WriterSkill(speed=2.0)).skill.grip
     gc.collect()
     np.zeros(1000)
     assert position.tolist() == [1, 2, 3] and offset.mass == 0.1
@@ -293,11 +293,11 @@ TAKERS = {
     "MotionMapping.force_to_device": ("page", (3,), TURNED.force_to_device),
     "SimulatedDevice": (
         "position", (3,),
-        lambda a: cal.SimulatedDevice(cal.device_profile("ideal"), cal.Hand(), a).true_position,
+        lambda a: cal.SimulatedDevice(cal.device_profile("ideal"), cal.GripImpedance(), a).true_position,
     ),
     "StrokeInput": ("control_points", (None, 2), lambda a: cal.StrokeInput(1, a).control_points),
     "PenTrace": ("strokes", (None, 3), lambda a: cal.PenTrace("一", [a]).strokes[0]),
-    "ActiveStroke.update": ("tip", (2,), lambda a: cal.ActiveStroke(STROKE, cal.Placement(em=9.0)).update(a).foot),
+    "ActiveStroke.update": ("tip", (2,), lambda a: cal.ActiveStroke(STROKE, cal.Placement(em=9.0)).update(a).closest),
 }  # fmt: skip
 
 

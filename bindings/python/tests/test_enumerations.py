@@ -11,7 +11,7 @@ KINDS = [value for value in vars(cal).values() if isinstance(value, type) and ha
 
 
 def test_there_are_enumerations():
-    assert len(KINDS) > 25 and cal.Mode in KINDS and cal.DeviceFault in KINDS
+    assert len(KINDS) > 25 and cal.FeedbackMode in KINDS and cal.DeviceFault in KINDS
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -13,7 +13,7 @@ import calligraphy as cal
 ROOT = pathlib.Path(__file__).parents[3]
 EXAMPLES = {
     "table_5_and_figures": ["figure-31.png", "figures-32-36.png", "figures-37-38.png"],
-    "speed_accuracy_trade": ["speed-accuracy-trade.png"],
+    "speed_accuracy_tradeoff": ["speed-accuracy-tradeoff.png"],
     "stability_map": ["stability-map.png"],
     "own_force_law": ["own-force-law.png"],
     "replay_trace": ["replay-trace.png"],

@@ -249,14 +249,14 @@ def test_a_writer_of_ones_own():
         ({"rate": None}, "rate: a list is expected, not None"),
         ({"modes": "force"}, "modes: a list is expected, not 'force'"),
         ({"modes": [["force"]]}, "modes: one of vision, force is expected"),
-        ({"modes": ["force", cal.Mode.force]}, "modes: 'force' stands there twice"),
+        ({"modes": ["force", cal.FeedbackMode.force]}, "modes: 'force' stands there twice"),
         ({"modes": [cal.NearestPointMethod.exact]}, "modes: one of"),
         ({"writers": "novice"}, "writers: a list is expected, not 'novice'"),
         ({"writers": {"mine": "novice"}}, "writers: a WriterSkill is expected, not 'novice'"),
         ({"writers": {1: cal.WriterSkill.novice()}}, "writers: a str is expected, not 1"),
         ({"device": 7}, "device: a DeviceProfile is expected, not 7"),
         ({"options": "default"}, "options: a RendererOptions is expected, not 'default'"),
-        ({"longest_character": -1.0}, "longest_character: a positive number is expected, not -1.0"),
+        ({"character_timeout": -1.0}, "character_timeout: a positive number is expected, not -1.0"),
     ],
 )
 def test_what_a_grid_cannot_be_is_refused_by_name(axes, name):
@@ -279,7 +279,7 @@ def test_what_the_characters_of_a_grid_cannot_be_is_told(characters, what):
 
 
 def test_members_of_an_enumeration_are_names():
-    members = grid(modes=[cal.Mode.force], method=[cal.NearestPointMethod.exact])
+    members = grid(modes=[cal.FeedbackMode.force], method=[cal.NearestPointMethod.exact])
     names = grid(modes=["force"], method=["exact"])
     assert experiment.conditions(members) == experiment.conditions(names)
 
@@ -390,13 +390,13 @@ def by_hand(condition, device, renderer):
         method=cal.NearestPointMethod.__members__[condition.method], tolerance=condition.tolerance
     )
     options = cal.SessionOptions(
-        mode=cal.Mode.__members__[condition.mode], device=device, renderer=renderer, seed=condition.seed,
+        mode=cal.FeedbackMode.__members__[condition.mode], device=device, renderer=renderer, seed=condition.seed,
         skill=cal.WriterSkill.novice() if condition.writer == "novice" else cal.WriterSkill.skilled(),
     )  # fmt: skip
     width, height, _ = device.capabilities.workspace
     page = cal.lay_out([cal.built_in_characters()[condition.character]], cal.PageLayout(width=width, height=height))[0]
     recording = cal.write_page(page, options)
-    score = cal.score(page, recording)[0]
+    score = cal.score_page(page, recording)[0]
     figures = {name: getattr(score, name) for name in score.fields if name not in ("character", "mistakes")}
     return {
         **condition._asdict(), **figures, "order_mistakes": score.order_mistakes(),

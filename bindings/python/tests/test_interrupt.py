@@ -53,7 +53,7 @@ def session(**fields):
 
 def long_page(count=40):
     placed = cal.lay_out([cal.built_in_characters()["永"]])[0].characters[0]
-    return cal.Page(width=0.16, height=0.12, characters=[placed] * count)
+    return cal.PracticePage(width=0.16, height=0.12, characters=[placed] * count)
 
 
 def characters(count=1):
@@ -81,20 +81,20 @@ def drawings(tmp_path, count=3000):
 LONG = {
     "write_page": lambda progress, _: cal.write_page(long_page(), session(), progress),
     "follow_trace": lambda progress, _: cal.follow_trace(
-        long_page(1), long_trace(), session(longest_character=2000.0), progress
+        long_page(1), long_trace(), session(character_timeout=2000.0), progress
     ),
     "replay_page": lambda progress, _: cal.replay_page(
         long_page(1), long_replay(), session(measure_ticks=True), progress
     ),
     "run_session": lambda progress, _: cal.run_session(
-        long_page(1), session(longest_character=1e4), lambda tick, seconds: cal.Intention(), progress
+        long_page(1), session(character_timeout=1e4), lambda tick, seconds: cal.Intention(), progress
     ),
     "stability_map": lambda progress, _: cal.stability_map(cal.StabilityMapOptions(with_grid=True), progress),
-    "nearest_point_trade": lambda progress, _: cal.nearest_point_trade(characters(), 1000, 200, progress=progress),
-    "servo_rate_trade": lambda progress, _: cal.servo_rate_trade(
+    "nearest_point_tradeoff": lambda progress, _: cal.nearest_point_tradeoff(characters(), 1000, 200, progress=progress),
+    "servo_rate_tradeoff": lambda progress, _: cal.servo_rate_tradeoff(
         characters(), [1000.0, 4000.0, 8000.0], progress=progress
     ),
-    "coordinate_width_trade": lambda progress, _: cal.coordinate_width_trade(characters(500), progress),
+    "coordinate_width_tradeoff": lambda progress, _: cal.coordinate_width_tradeoff(characters(500), progress),
     "import_characters": lambda progress, path: cal.import_characters(drawings(path), threads=1, progress=progress),
 }
 
@@ -195,7 +195,7 @@ def test_what_progress_raises_ends_the_call():
 
     for call in (
         lambda: cal.write_page(long_page(), session(), progress),
-        lambda: cal.coordinate_width_trade(characters(20), progress),
+        lambda: cal.coordinate_width_tradeoff(characters(20), progress),
         lambda: cal.stability_map(cal.StabilityMapOptions(with_grid=False, per_decade=1), progress),
     ):
         with pytest.raises(LookupError, match="enough"):
@@ -209,7 +209,7 @@ def test_progress_goes_to_the_end_and_changes_nothing():
     assert shares[-1] == 1.0 and sorted(shares) == shares and len(shares) > 10
     assert (told.samples == cal.write_page(page, session(seed=4)).samples).all()
     shares.clear()
-    rows = cal.coordinate_width_trade(characters(), shares.append)
+    rows = cal.coordinate_width_tradeoff(characters(), shares.append)
     assert shares[-1] == pytest.approx(1.0) and [row.bits for row in rows] == list(range(4, 17))
 
 
@@ -222,7 +222,7 @@ def test_in_another_thread_a_long_call_goes_on_whatever_is_pressed():
         os.kill(os.getpid(), signal.SIGINT)
         thread.join()
     thread.join()
-    assert len(done) == 1 and cal.score(page, done[0])[1].strokes_completed > 0
+    assert len(done) == 1 and cal.score_page(page, done[0])[1].strokes_completed > 0
 
 
 def test_ctrl_c_ends_an_experiment():
@@ -237,9 +237,9 @@ def test_ctrl_c_while_a_person_writes_lets_the_force_fall_and_keeps_what_was_wri
     device = cal.PointerDevice(PROFILE)
     views = []
     ctrl_c(views)
-    options = cal.LiveOptions(renderer=cal.RendererOptions.for_device(PROFILE.capabilities), longest=300.0)
+    options = cal.LiveOptions(renderer=cal.RendererOptions.for_device(PROFILE.capabilities), timeout=300.0)
     options.servo = cal.ServoLoopOptions(
-        servo=cal.ServoOptions(patience=1.0), thread=cal.ServoThreadOptions(priority=0, lock_memory=False)
+        servo=cal.ServoOptions(timeout=1.0), thread=cal.ServoThreadOptions(priority=0, lock_memory=False)
     )
     with pytest.raises(KeyboardInterrupt) as pressed:
         cal.write_with_device(page, device, options, views.append)

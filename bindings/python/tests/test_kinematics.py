@@ -36,7 +36,7 @@ def test_arms_have_the_measures_that_are_published():
     assert (omni.upper_arm, omni.forearm) == (0.13335, 0.13335)
     assert (premium.upper_arm, premium.forearm) == (0.20955, 0.169545)
     assert omni.limits == cal.JointLimits(
-        waist=0.98, shoulder_least=0.0, shoulder_most=1.75, elbow_least=-0.81, elbow_most=1.25
+        waist=0.98, shoulder_min=0.0, shoulder_max=1.75, elbow_min=-0.81, elbow_max=1.25
     )
     with pytest.raises(cal.InvalidValue, match='"falcon".*omni'):
         cal.linkage("falcon")
@@ -51,9 +51,9 @@ def test_tip_and_jacobian_are_those_of_the_formulas(model):
     assert cal.tip_position(arm, (0, 0, 0)).tolist() == [0.0, 0.0, 0.0]
     assert np.allclose(cal.tip_jacobian(arm, JOINTS), jacobian(arm, JOINTS), rtol=0, atol=1e-9)
     across = np.linalg.det(cal.tip_jacobian(arm, JOINTS))
-    dexterity = reach(arm, JOINTS) * np.cos(JOINTS[:, 1] - JOINTS[:, 2]) / (arm.upper_arm + arm.forearm)
-    assert np.allclose(cal.dexterity(arm, JOINTS), dexterity, rtol=0, atol=1e-15)
-    assert np.allclose(np.abs(across), arm.upper_arm * arm.forearm * (arm.upper_arm + arm.forearm) * np.abs(dexterity))
+    manipulability = reach(arm, JOINTS) * np.cos(JOINTS[:, 1] - JOINTS[:, 2]) / (arm.upper_arm + arm.forearm)
+    assert np.allclose(cal.manipulability(arm, JOINTS), manipulability, rtol=0, atol=1e-15)
+    assert np.allclose(np.abs(across), arm.upper_arm * arm.forearm * (arm.upper_arm + arm.forearm) * np.abs(manipulability))
 
 
 @pytest.mark.parametrize("model", MODELS)
@@ -95,7 +95,7 @@ CALLS = {
     "tip_jacobian": (cal.tip_jacobian, (3, 3)),
     "inverse_kinematics": (lambda arm, rows: cal.inverse_kinematics(arm, rows).joints, (3,)),
     "within_limits": (cal.within_limits, ()),
-    "dexterity": (cal.dexterity, ()),
+    "manipulability": (cal.manipulability, ()),
     "joint_torque": (lambda arm, rows: cal.joint_torque(arm, rows, np.ones(np.shape(rows))), (3,)),
     "gravity_torque": (lambda arm, rows: cal.gravity_torque((0.3, 0.2), rows), (3,)),
 }

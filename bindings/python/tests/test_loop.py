@@ -40,7 +40,7 @@ def wall(state):
 
 
 def held_device():
-    device = cal.SimulatedDevice(PROFILE, cal.Hand(mass=0.15, damping=5.0, stiffness=500.0), (0, 0, 0.01))
+    device = cal.SimulatedDevice(PROFILE, cal.GripImpedance(mass=0.15, damping=5.0, stiffness=500.0), (0, 0, 0.01))
     device.set_intention(cal.Intention(position=(0, 0, -0.005)))
     return device
 
@@ -55,7 +55,7 @@ def test_a_wall_of_ones_own_rests_where_two_springs_do():
 
 def test_a_servo_runs_a_force_law_in_virtual_time():
     device = held_device()
-    servo = cal.Servo(device, wall, rise_time=0.01)
+    servo = cal.Servo(device, wall, ramp_up=0.01)
     for tick in range(1500):
         servo.step(tick * 1e-3)
         device.advance(1e-3)
@@ -78,7 +78,7 @@ def test_a_force_law_that_fails_lets_the_force_fall(answer, raises, monkeypatch)
     told = []
     monkeypatch.setattr(sys, "unraisablehook", lambda unraisable: told.append(unraisable.exc_type))
     device = held_device()
-    servo = cal.Servo(device, lambda state: answer() if state.time > 0.3 else wall(state), rise_time=0.0)
+    servo = cal.Servo(device, lambda state: answer() if state.time > 0.3 else wall(state), ramp_up=0.0)
     pushed = False
     for tick in range(400):
         servo.step(tick * 1e-3)
@@ -169,7 +169,7 @@ class Recorder(cal.HapticDevice):
 
 def test_a_device_of_ones_own_works_in_the_loop():
     device = Recorder()
-    servo = cal.Servo(device, lambda state: [0, 0, -1000 * state.position[2]], rise_time=0.0)
+    servo = cal.Servo(device, lambda state: [0, 0, -1000 * state.position[2]], ramp_up=0.0)
     for tick in range(100):
         servo.step(tick * 1e-3)
     assert len(device.forces) == 100
@@ -248,7 +248,7 @@ def test_a_force_that_a_device_does_not_take_is_a_fault_until_it_takes_one(monke
             super().write(force)
 
     device = Loose()
-    servo = cal.Servo(device, lambda state: (0.0, 0.0, 1.0), rise_time=0.0)
+    servo = cal.Servo(device, lambda state: (0.0, 0.0, 1.0), ramp_up=0.0)
     tick = 0
 
     def steps(count):
@@ -358,9 +358,9 @@ def test_a_recording_is_a_structured_array_over_its_own_memory():
 
 def test_recordings_survive_csv_pickling_and_arrays(tmp_path):
     recording = cal.write_page(one_page("一"), session())
-    cal.write_csv(tmp_path / "one.csv", recording)
+    cal.write_recording(tmp_path / "one.csv", recording)
     for again in (
-        cal.read_csv(tmp_path / "one.csv"),
+        cal.read_recording(tmp_path / "one.csv"),
         cal.read_csv_text(recording.to_csv()),
         pickle.loads(pickle.dumps(recording)),
         cal.Recording(recording.rate, recording.samples),
@@ -413,7 +413,7 @@ def test_the_loop_by_hand_is_the_session():
 
     def motion(tick, seconds):
         writing = tick.state == cal.InteractionState.writing
-        sight = cal.Sight(pen_tip=tick.pen_tip, character=tick.character, stroke=tick.stroke, writing=writing)
+        sight = cal.VisualFeedback(pen_tip=tick.pen_tip, character=tick.character, stroke=tick.stroke, writing=writing)
         intention = writer.update(sight, seconds)
         return None if writer.done else intention
 
@@ -435,10 +435,10 @@ def test_a_replay_gives_the_forces_that_were_given():
 def test_a_score_tells_force_from_vision():
     page = one_page("永")
     errors = {
-        mode: np.mean([cal.score(page, cal.write_page(page, session(mode=mode, seed=s)))[0].rms_error for s in range(8)])
-        for mode in (cal.Mode.vision, cal.Mode.force)
+        mode: np.mean([cal.score_page(page, cal.write_page(page, session(mode=mode, seed=s)))[0].rms_error for s in range(8)])
+        for mode in (cal.FeedbackMode.vision, cal.FeedbackMode.force)
     }
-    assert errors[cal.Mode.force] < errors[cal.Mode.vision]
+    assert errors[cal.FeedbackMode.force] < errors[cal.FeedbackMode.vision]
 
 
 def test_several_renderers_in_several_threads_do_what_one_does():
@@ -458,7 +458,7 @@ def test_several_renderers_in_several_threads_do_what_one_does():
 
 
 def _write_in_child(seed):
-    return cal.score(one_page("一"), cal.write_page(one_page("一"), session(seed=seed)))[0]
+    return cal.score_page(one_page("一"), cal.write_page(one_page("一"), session(seed=seed)))[0]
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="there is no fork here")
@@ -470,7 +470,7 @@ def test_a_forked_process_writes_as_this_one_does():
 
 
 RECORDS = [
-    session(seed=7, mode=cal.Mode.vision),
+    session(seed=7, mode=cal.FeedbackMode.vision),
     cal.RendererOptions.wang2006(),
     cal.RendererOptions.everything(PROFILE.capabilities),
     cal.WriterSkill.skilled(),
@@ -482,7 +482,7 @@ RECORDS = [
     cal.StabilityMapOptions(rates=[500.0]),
     cal.PageLayout(em=0.03),
     cal.ServoStatistics(),
-    cal.CharacterScore(character="永", mistakes=[cal.Mistake(kind=cal.MistakeKind.order, reason="so")]),
+    cal.CharacterScore(character="永", mistakes=[cal.WritingMistake(kind=cal.WritingMistakeKind.order, reason="so")]),
 ]
 
 
@@ -495,8 +495,8 @@ def test_options_and_results_survive_pickling_and_copying(record):
 
 
 def test_a_field_that_is_none_is_refused_with_those_that_are():
-    with pytest.raises(TypeError, match="Hand has no field 'weight'; it has mass, damping, stiffness"):
-        cal.Hand(weight=1.0)
+    with pytest.raises(TypeError, match="GripImpedance has no field 'weight'; it has mass, damping, stiffness"):
+        cal.GripImpedance(weight=1.0)
 
 
 def test_records_differ_when_a_field_does():
@@ -526,17 +526,17 @@ def test_the_advisor_and_a_wall_agree():
     loop = cal.SampledLoop(mass=0.045, damping=0.1, rate=1000.0)
     critical = cal.critical_stiffness(loop)
     assert cal.advise_stiffness(loop).stable.value == critical
-    assert cal.meet_wall(loop, 0.8 * critical).settles and not cal.meet_wall(loop, 1.5 * critical).settles
+    assert cal.simulate_wall_contact(loop, 0.8 * critical).stable and not cal.simulate_wall_contact(loop, 1.5 * critical).stable
 
 
 def test_a_stability_map_reports_its_progress():
     shares = []
     options = cal.StabilityMapOptions(
         with_sweeps=False, per_decade=2, dampings=[0.5], rates=[1000.0], delays=[0], encoder_steps=[0.0],
-        wall_dampings=[0.0], grips=[cal.Hand(mass=0, damping=0, stiffness=0)],
+        wall_dampings=[0.0], grips=[cal.GripImpedance(mass=0, damping=0, stiffness=0)],
     )  # fmt: skip
     result = cal.stability_map(options, shares.append)
-    assert len(result.grid) == 1 and len(result.grid[0].settles) == len(result.stiffnesses)
+    assert len(result.grid) == 1 and len(result.grid[0].stable_at) == len(result.stiffnesses)
     assert shares and shares[-1] == 1.0
 
 
@@ -544,7 +544,7 @@ def test_a_force_field_is_an_array_of_forces():
     placed = one_page().characters[0]
     field = cal.guidance_field(placed, 0, 0.2, placed.placement.origin, placed.placement.em, columns=12)
     assert field.forces.shape == (12, 12, 2)
-    assert np.max(np.linalg.norm(field.forces, axis=2)) == pytest.approx(field.largest_force())
+    assert np.max(np.linalg.norm(field.forces, axis=2)) == pytest.approx(field.max_force())
 
 
 def test_a_trace_of_a_person_is_followed(tmp_path):
@@ -554,4 +554,4 @@ def test_a_trace_of_a_person_is_followed(tmp_path):
     again = cal.read_pen_traces(str(tmp_path / "traces.txt"))[0]
     assert again.character == "一" and np.allclose(again.strokes[0], trace.strokes[0], atol=1e-6)
     recording = cal.follow_trace(one_page("一"), again, session())
-    assert cal.score(one_page("一"), recording)[0].strokes_completed == 1
+    assert cal.score_page(one_page("一"), recording)[0].strokes_completed == 1

@@ -94,7 +94,7 @@ def test_errors_are_of_one_family_and_of_the_built_in_ones(tmp_path):
 
 def test_a_path_is_recognised_and_fitted():
     path = np.column_stack([np.linspace(0.1, 0.9, 30), np.full(30, 0.5)])
-    fitted = cal.fit_stroke(path, cal.DrawnWith.pen)
+    fitted = cal.fit_stroke(path, cal.DrawingTool.pen)
     assert cal.typical_stroke(fitted.stroke.id).name == "横"
     assert fitted.error < 0.01
     with pytest.raises(cal.InvalidValue):
@@ -106,7 +106,7 @@ READERS = {
     "CharacterSet.open": cal.CharacterSet.open,
     "read_pen_traces": cal.read_pen_traces,
     "read_wire_profile": cal.read_wire_profile,
-    "read_csv": cal.read_csv,
+    "read_recording": cal.read_recording,
 }
 
 

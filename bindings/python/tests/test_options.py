@@ -66,16 +66,16 @@ def test_a_stroke_is_followed_by_the_rules_given():
 def test_a_stroke_begins_anew_when_it_is_reloaded():
     stroke, placement = PLACED.character.strokes()[1], PLACED.placement
     active = cal.ActiveStroke(stroke, placement)
-    left = active.features_left
+    left = active.features_remaining
     elements = cal.place_elements(stroke, placement)
     for t in np.linspace(0, 1, 200):
         contact = active.update(elements[0].point(t))
-    assert active.features_left == left - 1 and contact.arc > 0.005
-    assert np.allclose(contact.foot, elements[0].point(1.0), atol=1e-3)
+    assert active.features_remaining == left - 1 and contact.arc > 0.005
+    assert np.allclose(contact.closest, elements[0].point(1.0), atol=1e-3)
     on = cal.ActiveStroke(stroke, placement).update(elements[0].point(0.4))
     assert on.parameter == pytest.approx(0.4, abs=1e-3) and on.distance < 1e-9
     active.reload()
-    assert active.features_left == left
+    assert active.features_remaining == left
 
 
 def test_an_alternate_order_is_found_by_its_name(tmp_path):
@@ -126,18 +126,18 @@ def test_a_character_has_the_degree_it_is_made_with():
 
 def test_a_path_is_fitted_as_what_it_was_drawn_with_and_by_the_strokes_given():
     path = np.column_stack([np.linspace(0.1, 0.9, 30), np.full(30, 0.5)])
-    rising = cal.fit_stroke(path + [0, 0.1] * np.linspace(0, 1, 30)[:, None], cal.DrawnWith.pen).stroke.id
+    rising = cal.fit_stroke(path + [0, 0.1] * np.linspace(0, 1, 30)[:, None], cal.DrawingTool.pen).stroke.id
     ids = [stroke.id for stroke in cal.typical_strokes() if stroke.elements == "L" and stroke.id != rising]
-    assert cal.fit_stroke(path, cal.DrawnWith.pen, ids[:1]).stroke.id == ids[0]
+    assert cal.fit_stroke(path, cal.DrawingTool.pen, ids[:1]).stroke.id == ids[0]
     # A brush comes down aslant before it goes its way; a pen that does so means it.
     entry = np.vstack([np.linspace([0.06, 0.58], [0.1, 0.5], 8)[:-1], path])
-    assert cal.fit_stroke(entry, cal.DrawnWith.brush).stroke.id == cal.fit_stroke(path, cal.DrawnWith.pen).stroke.id
-    assert cal.fit_stroke(entry, cal.DrawnWith.pen).stroke.id != cal.fit_stroke(entry, cal.DrawnWith.brush).stroke.id
+    assert cal.fit_stroke(entry, cal.DrawingTool.brush).stroke.id == cal.fit_stroke(path, cal.DrawingTool.pen).stroke.id
+    assert cal.fit_stroke(entry, cal.DrawingTool.pen).stroke.id != cal.fit_stroke(entry, cal.DrawingTool.brush).stroke.id
 
 
 def test_a_servo_runs_as_it_is_told():
-    quick, _ = stepped(rise_time=0.05)
-    slow, _ = stepped(rise_time=0.2)
+    quick, _ = stepped(ramp_up=0.05)
+    slow, _ = stepped(ramp_up=0.2)
     assert np.argmax(quick >= 0.999) < 60 < 150 < np.argmax(slow >= 0.999) < 210
     _, usual = stepped()
     assert usual.statistics.missed_deadlines == 0
@@ -146,9 +146,9 @@ def test_a_servo_runs_as_it_is_told():
 
 
 def test_a_servo_falls_as_it_is_told():
-    def fall(fall_time):
+    def fall(ramp_down):
         device = cal.SimulatedDevice(PROFILE)
-        servo = cal.Servo(device, lambda state: (0, 0, 1.0), rise_time=0.0, fall_time=fall_time)
+        servo = cal.Servo(device, lambda state: (0, 0, 1.0), ramp_up=0.0, ramp_down=ramp_down)
         sent = []
         for tick in range(200):
             if tick == 50:
@@ -163,10 +163,10 @@ def test_a_servo_falls_as_it_is_told():
 
 
 def test_a_servo_is_as_patient_as_it_is_told():
-    def ticks_with_force(patience):
+    def ticks_with_force(timeout):
         device = Weak()
         device.stale_from = 30
-        servo = cal.Servo(device, lambda state: (0, 0, 0.1), rise_time=0.0, patience=patience)
+        servo = cal.Servo(device, lambda state: (0, 0, 0.1), ramp_up=0.0, timeout=timeout)
         for tick in range(130):
             servo.step(tick * 1e-3)
         return sum(force[2] == 0.1 for force in device.forces[30:])
@@ -178,15 +178,15 @@ def test_a_law_takes_no_virtual_time_however_slow_it_is():
     """A second of work a tick would be a fault by the clock."""
 
     def slow(state):
-        sum(range(400_000))  # some 5 ms, more than the patience of 4 ms
+        sum(range(400_000))  # some 5 ms, more than the timeout of 4 ms
         return (0, 0, 1.0)
 
-    sent, servo = stepped(0.02, law=slow, rise_time=0.0)
+    sent, servo = stepped(0.02, law=slow, ramp_up=0.0)
     assert servo.statistics.work.worst == 0.0 and servo.status.fault == cal.DeviceFault.none and sent[-1] == 1.0
 
 
 def test_a_servo_begins_anew_when_it_is_reset():
-    _, servo = stepped(rise_time=0.05)
+    _, servo = stepped(ramp_up=0.05)
     assert servo.status.phase == cal.ServoPhase.running
     servo.reset()
     assert servo.status.phase == cal.ServoPhase.zero and servo.status.gain == 0.0
@@ -199,7 +199,7 @@ def test_faults_are_named_as_python_can_write_them():
 
 
 def test_a_simulated_device_has_the_place_the_hand_and_the_buttons_it_is_given():
-    device = cal.SimulatedDevice(PROFILE, cal.Hand(mass=0.1, damping=3.0, stiffness=300.0), (0.01, 0.02, 0.03))
+    device = cal.SimulatedDevice(PROFILE, cal.GripImpedance(mass=0.1, damping=3.0, stiffness=300.0), (0.01, 0.02, 0.03))
     assert np.allclose(device.true_position, (0.01, 0.02, 0.03)) and not device.true_velocity.any()
     device.set_intention(cal.Intention(position=(0.05, 0.02, 0.03)))
     device.advance(0.01)
@@ -207,8 +207,8 @@ def test_a_simulated_device_has_the_place_the_hand_and_the_buttons_it_is_given()
     device.set_buttons(5)
     device.advance(1e-3)
     assert device.read().buttons == 5
-    let_go = cal.SimulatedDevice(PROFILE, cal.Hand(mass=0.1, damping=3.0, stiffness=300.0), (0.01, 0.02, 0.03))
-    let_go.set_hand(cal.Hand(mass=0.0, damping=0.0, stiffness=0.0))
+    let_go = cal.SimulatedDevice(PROFILE, cal.GripImpedance(mass=0.1, damping=3.0, stiffness=300.0), (0.01, 0.02, 0.03))
+    let_go.set_grip(cal.GripImpedance(mass=0.0, damping=0.0, stiffness=0.0))
     let_go.set_intention(cal.Intention(position=(0.05, 0.02, 0.03)))
     let_go.advance(1.0)
     assert np.allclose(let_go.true_position, (0.01, 0.02, 0.03))
@@ -247,7 +247,7 @@ class Weak(cal.HapticDevice):
 
 def test_no_more_is_asked_of_a_device_of_ones_own_than_it_says_it_can():
     device = Weak()
-    servo = cal.Servo(device, lambda state: (0, 0, 3.0), rise_time=0.0)
+    servo = cal.Servo(device, lambda state: (0, 0, 3.0), ramp_up=0.0)
     for tick in range(10):
         servo.step(tick * 1e-3)
     assert device.forces[-1] == pytest.approx([0, 0, 0.5])
@@ -285,7 +285,7 @@ def test_a_tick_of_a_trace_is_the_tick_of_an_update_column_by_column():
     rows = all_at_once.trace([s.position for s in states], [s.time for s in states])
     ticks = [one.update(cal.DeviceState(time=s.time, position=s.position)) for s in states]
     for name in rows.dtype.names:
-        if name in ("element", "parameter", "foot", "distance", "share", "arc"):
+        if name in ("element", "parameter", "closest", "distance", "weight", "arc"):
             values = [getattr(tick.contact, name) for tick in ticks]
         else:
             values = [getattr(tick, name) for tick in ticks]
@@ -348,18 +348,18 @@ def test_a_recording_keeps_its_rate_and_takes_rows_of_rows_alone():
         with pytest.raises(cal.InvalidValue, match="rate"):
             cal.Recording(rate, rows[:1])
     with pytest.raises(cal.FileError, match="nowhere"):
-        cal.read_csv("nowhere.csv")
+        cal.read_recording("nowhere.csv")
 
 
-def test_a_trade_is_of_the_queries_and_the_seed_given():
+def test_a_tradeoff_is_of_the_queries_and_the_seed_given():
     def errors(**options):
-        trade = cal.nearest_point_trade([CHARACTERS["永"]], rounds=1, **options)
-        return [(t.name, getattr(t, k).error_worst, getattr(t, k).error) for t in trade for k in ("real", "hard")]
+        tradeoff = cal.nearest_point_tradeoff([CHARACTERS["永"]], rounds=1, **options)
+        return [(t.name, getattr(t, k).error_worst, getattr(t, k).error) for t in tradeoff for k in ("real", "hard")]
 
     usual = errors(queries=64)
     assert usual == errors(queries=64) and usual != errors(queries=64, seed=2) and usual != errors(queries=128)
     told = []
-    cal.nearest_point_trade([CHARACTERS["永"]], queries=16, rounds=3, progress=told.append)
+    cal.nearest_point_tradeoff([CHARACTERS["永"]], queries=16, rounds=3, progress=told.append)
     work = told[: told.index(1.0) + 1]
     assert len(work) % 3 == 0 and work == pytest.approx(np.linspace(0, 1, len(work) + 1)[1:])
     assert set(told[len(work) :]) == {1.0}  # while errors are looked for
@@ -425,8 +425,8 @@ def test_curves_are_as_large_as_asked():
 def test_a_closed_stability_map_is_of_what_was_asked():
     options = cal.StabilityMapOptions(
         with_sweeps=False, per_decade=1, dampings=[0.5, 1.0], rates=[1000.0], delays=[0], encoder_steps=[0.0],
-        wall_dampings=[0.0], grips=[cal.Hand(mass=0, damping=0, stiffness=0)], encounter=cal.WallEncounter(seconds=0.1),
+        wall_dampings=[0.0], grips=[cal.GripImpedance(mass=0, damping=0, stiffness=0)], contact=cal.WallContact(seconds=0.1),
     )  # fmt: skip
     result = cal.stability_map(options)
     assert [line.loop.damping for line in result.grid] == [0.5, 1.0] and result.sweeps == []
-    assert result.encounter == options.encounter
+    assert result.contact == options.contact

@@ -39,9 +39,9 @@ able = device.capabilities()
 page = cal.lay_out(
     [cal.built_in_characters()["一"]], cal.PageLayout(width=able.workspace[0], height=able.workspace[1])
 )[0]
-options = cal.LiveOptions(renderer=cal.RendererOptions.for_device(able), longest=20.0)
+options = cal.LiveOptions(renderer=cal.RendererOptions.for_device(able), timeout=20.0)
 # A machine that is busy with other things keeps neither the emulated bus nor the loop at 1 kHz.
-options.servo = cal.ServoLoopOptions(servo=cal.ServoOptions(patience=0.5))
+options.servo = cal.ServoLoopOptions(servo=cal.ServoOptions(timeout=0.5))
 """
 
 
@@ -63,11 +63,11 @@ def test_a_character_is_written_in_real_time_with_a_phantom(kind, ids):
         """
 views = []
 result = cal.write_with_device(page, device, options, views.append)
-score = cal.score(page, result.recording)[0]
+score = cal.score_page(page, result.recording)[0]
 with device:
     still_open = device.read().status.name
 print(json.dumps({
-    "found": [cal.describe(each) for each in found], "link": found[0].link.name, "may_open": found[0].may_open,
+    "found": [cal.describe_device(each) for each in found], "link": found[0].link.name, "may_open": found[0].may_open,
     "name": device.description, "model": able.model, "views": len(views), "written": score.strokes_completed,
     "peak": score.peak_force, "status": still_open, "closed": device.read().status.name,
     "reports": device.statistics.used_reports, "ticks": result.statistics.ticks, "samples": len(result.recording),
@@ -161,10 +161,10 @@ def test_what_a_phantom_says_of_itself_and_sends_is_captured(kind, ids, tmp_path
     told = on_a_phantom(
         f"""
 device.close()
-got = cal.capture(found[0], transfers=50, seconds=60.0)
-cal.write_capture({str(tmp_path / "capture.txt")!r}, got)
+got = cal.capture_packets(found[0], transfers=50, seconds=60.0)
+cal.write_packet_capture({str(tmp_path / "capture.txt")!r}, got)
 asked = []
-brief = cal.capture(found[0], transfers=10**9, seconds=20.0, stop=lambda: asked.append(1) or len(asked) > 2)
+brief = cal.capture_packets(found[0], transfers=10**9, seconds=20.0, stop=lambda: asked.append(1) or len(asked) > 2)
 class Pressed(Exception):
     pass
 seen = []
@@ -175,7 +175,7 @@ def press(*_):
 signal.signal(signal.SIGALRM, press)
 try:
     signal.setitimer(signal.ITIMER_REAL, 0.1, 0.1)
-    cal.capture(found[0], transfers=10**9, seconds=20.0)
+    cal.capture_packets(found[0], transfers=10**9, seconds=20.0)
     signal.setitimer(signal.ITIMER_REAL, 0)
     pressed = False
 except Pressed:
@@ -184,7 +184,7 @@ signal.setitimer(signal.ITIMER_REAL, 0)
 refused = []
 for wrong in (dict(transfers=0), dict(seconds=0.0)):
     try:
-        cal.capture(found[0], **wrong)
+        cal.capture_packets(found[0], **wrong)
     except cal.InvalidValue as error:
         refused.append(str(error))
 print(json.dumps([
@@ -196,7 +196,7 @@ print(json.dumps([
     )
     descriptors, text, first, times, packets, same, _, asked, pressed, refused = told
     assert f"idVendor 0x{ids[:4]}" in descriptors or ids[:4] in descriptors
-    assert text == f"Capture(50 transfers of {ids} on bus 1, port 2, serial 540-12345)" and same
+    assert text == f"PacketCapture(50 transfers of {ids} on bus 1, port 2, serial 540-12345)" and same
     assert first.startswith("CapturedTransfer(time=") and len(times) == len(packets) == 50
     assert times == sorted(times) and times[0] >= 0.0 and asked == 3 and pressed
     assert len(refused) == 2 and all("a capture of 0" in each for each in refused)

@@ -21,16 +21,16 @@ quiet = pytest.mark.filterwarnings("ignore:.*fork.*:DeprecationWarning")
 
 
 def work(seed):
-    """Something of every room, as bytes."""
+    """Something of every component, as bytes."""
     renderer = cal.RendererOptions.for_device(PROFILE.capabilities)
     options = cal.SessionOptions(device=PROFILE, renderer=renderer, seed=seed)
     recording = cal.write_page(PAGE, options)
     found = cal.nearest_point([[0, 0], [1, 2], [3, 0]], np.random.default_rng(seed).normal(size=(500, 2)))
     small = cal.StabilityMapOptions(
         with_sweeps=False, per_decade=1, dampings=[0.5], rates=[1000.0], delays=[0], encoder_steps=[0.0],
-        wall_dampings=[0.0], grips=[cal.Hand(mass=0, damping=0, stiffness=0)], encounter=cal.WallEncounter(seconds=0.1),
+        wall_dampings=[0.0], grips=[cal.GripImpedance(mass=0, damping=0, stiffness=0)], contact=cal.WallContact(seconds=0.1),
     )  # fmt: skip
-    score = cal.score(PAGE, recording)[0]
+    score = cal.score_page(PAGE, recording)[0]
     return pickle.dumps([recording.to_csv(), found.point.tobytes(), repr(score), repr(cal.stability_map(small).grid)])
 
 

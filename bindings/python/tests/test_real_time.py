@@ -15,7 +15,7 @@ import calligraphy as cal
 
 PROFILE = cal.device_profile("desktop")
 #: Of the watchdog: by the machine's clock, which a busy machine does not keep.
-PATIENT = cal.ServoOptions(patience=1.0, rise_time=0.05)
+PATIENT = cal.ServoOptions(timeout=1.0, ramp_up=0.05)
 PRESSED = (0.0, 0.0, -1e-3)
 
 
@@ -198,7 +198,7 @@ def test_what_a_running_loop_uses_is_refused_to_others():
 
 
 def test_a_law_may_use_the_device_that_it_is_asked_for():
-    device = cal.SimulatedDevice(PROFILE, cal.Hand(), (0, 0, 0.01))
+    device = cal.SimulatedDevice(PROFILE, cal.GripImpedance(), (0, 0, 0.01))
     device.set_intention(cal.Intention(position=(0, 0, -0.005)))
 
     def law(state):
@@ -300,7 +300,7 @@ class Bench(cal.HapticDevice):
         pass
 
 options = cal.ServoLoopOptions(
-    servo=cal.ServoOptions(patience=1.0, rise_time=0.05), thread=cal.ServoThreadOptions(priority=0, lock_memory=False)
+    servo=cal.ServoOptions(timeout=1.0, ramp_up=0.05), thread=cal.ServoThreadOptions(priority=0, lock_memory=False)
 )
 device = Bench()
 def pressed():
@@ -348,7 +348,7 @@ def test_a_thread_that_begins_again_and_again_ends_with_the_program():
     ended = python(
         BENCH
         + "page = cal.lay_out([cal.built_in_characters()['一']])[0]\n"
-        + "session = cal.LiveOptions(servo=options, longest=0.05)\n"
+        + "session = cal.LiveOptions(servo=options, timeout=0.05)\n"
         + "refused = []\n"
         + "def again():\n    try:\n        while True:\n            cal.write_with_device(page, device, session)\n"
         + "    except cal.Error as error:\n        refused.append(str(error))\n"
@@ -372,9 +372,9 @@ def test_a_peak_that_is_none_is_refused(peak):
     device = cal.PointerDevice(cal.device_profile("desktop"))
     page = cal.lay_out([cal.built_in_characters()["一"]])[0]
     with pytest.raises(cal.InvalidValue, match="peak_force"):
-        cal.write_with_device(page, device, cal.LiveOptions(peak_force=peak, longest=1.0))
+        cal.write_with_device(page, device, cal.LiveOptions(peak_force=peak, timeout=1.0))
     with pytest.raises(cal.InvalidValue, match="peak_force"):
-        cal.limited(device.capabilities(), peak)
+        cal.with_peak_force(device.capabilities(), peak)
 
 
 def test_a_forked_child_ends_and_the_loop_of_the_parent_goes_on():
@@ -405,7 +405,7 @@ class Writer:
         self.device.move(*self.places[0][0], 0.0)
 
     def __call__(self, view):
-        self.views.append(view.share)
+        self.views.append(view.progress)
         place, pressure = self.places[0]
         self.device.move(*place, pressure)
         where = view.newest["device_point"][:2] - [self.page.width / 2, self.page.height / 2]
@@ -418,7 +418,7 @@ class Writer:
 def live_options(**fields):
     return cal.LiveOptions(
         renderer=cal.RendererOptions.for_device(PROFILE.capabilities),
-        servo=options(cal.ServoOptions(patience=1.0)),
+        servo=options(cal.ServoOptions(timeout=1.0)),
         **fields,
     )
 
@@ -427,8 +427,8 @@ def test_a_page_is_written_in_real_time_and_scored():
     page = one_page("十")
     device = cal.PointerDevice(PROFILE)
     writer = Writer(device, page)
-    result = cal.write_with_device(page, device, live_options(longest=120.0), writer)
-    score = cal.score(page, result.recording)[0]
+    result = cal.write_with_device(page, device, live_options(timeout=120.0), writer)
+    score = cal.score_page(page, result.recording)[0]
     assert score.strokes_completed == 2
     assert score.peak_force > 0.05
     assert writer.views[-1] == 1.0 and sorted(writer.views) == writer.views
@@ -446,7 +446,7 @@ def test_a_session_ends_when_watch_says_so_and_the_force_is_zero(answer):
         seen.append(view)
         return answer if len(seen) == 5 else None
 
-    result = cal.write_with_device(one_page(), device, live_options(longest=60.0), watch)
+    result = cal.write_with_device(one_page(), device, live_options(timeout=60.0), watch)
     assert len(seen) == 5 and seen[-1].servo.device == cal.DeviceStatus.ok
     assert device.forces[-1] == 0.0 and not device.closed
     assert result.statistics.ticks > 0
@@ -460,25 +460,25 @@ def test_what_watch_raises_is_raised_once_the_force_is_zero_with_what_was_writte
             raise LookupError("enough")
 
     with pytest.raises(LookupError, match="enough") as raised:
-        cal.write_with_device(one_page(), device, live_options(longest=60.0), watch)
+        cal.write_with_device(one_page(), device, live_options(timeout=60.0), watch)
     result = raised.value.result
     assert isinstance(result, cal.LiveResult) and len(result.recording) > 0
     device.read()
 
 
 def test_no_force_goes_beyond_the_peak_that_was_asked_for():
-    assert cal.limited(PROFILE.capabilities, 0.3).peak_force == 0.3
+    assert cal.with_peak_force(PROFILE.capabilities, 0.3).peak_force == 0.3
     page = one_page()
     device = cal.PointerDevice(PROFILE)
-    result = cal.write_with_device(page, device, live_options(longest=120.0, peak_force=0.3), Writer(device, page))
+    result = cal.write_with_device(page, device, live_options(timeout=120.0, peak_force=0.3), Writer(device, page))
     force = np.linalg.norm(result.recording.samples["force"], axis=1)
     assert 0.05 < force.max() <= 0.3 + 1e-9
 
 
-@pytest.mark.parametrize("longest", [0.0, -1.0, np.nan, np.inf])
-def test_a_session_without_end_is_not_begun(longest):
-    with pytest.raises(cal.InvalidValue, match="longest"):
-        cal.write_with_device(one_page(), Bench(), live_options(longest=longest))
+@pytest.mark.parametrize("timeout", [0.0, -1.0, np.nan, np.inf])
+def test_a_session_without_end_is_not_begun(timeout):
+    with pytest.raises(cal.InvalidValue, match="timeout"):
+        cal.write_with_device(one_page(), Bench(), live_options(timeout=timeout))
 
 
 def test_a_with_block_closes_a_device():

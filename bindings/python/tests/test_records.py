@@ -59,24 +59,24 @@ def placed():
 
 
 LISTS = {
-    (cal.Page, "characters"): placed,
-    (cal.CharacterScore, "mistakes"): lambda: records(cal.Mistake),
+    (cal.PracticePage, "characters"): placed,
+    (cal.CharacterScore, "mistakes"): lambda: records(cal.WritingMistake),
     (cal.ServoStatistics, "faults"): lambda: st.integers(0, 1000),
     (cal.PluggedDevice, "nodes"): lambda: st.text(max_size=5),
     (cal.PhantomStatistics, "faults"): lambda: st.integers(0, 1000),
-    (cal.StrokeVerdict, "drawn"): lambda: records(cal.DrawnStroke),
-    (cal.StrokeVerdict, "remarks"): lambda: records(cal.Remark),
+    (cal.MatchResult, "drawn"): lambda: records(cal.DrawnStroke),
+    (cal.MatchResult, "remarks"): lambda: records(cal.StrokeRemark),
     (cal.ImportReport, "within"): lambda: records(cal.FitCount),
     (cal.ImportReport, "within_median"): lambda: records(cal.FitCount),
     (cal.ImportReport, "worst"): lambda: records(cal.StrokeError),
     (cal.ImportReport, "ids_used"): lambda: st.integers(0, 1000),
-    (cal.ImportReport, "confusions"): lambda: records(cal.Confusion),
-    (cal.ImportReport, "label_doubts"): lambda: records(cal.LabelDoubt),
+    (cal.ImportReport, "confusions"): lambda: records(cal.LabelConfusion),
+    (cal.ImportReport, "label_conflicts"): lambda: records(cal.LabelConflict),
     (cal.ImportReport, "letters_unused"): lambda: st.sampled_from("永一"),
     (cal.ImportReport, "skipped"): lambda: records(cal.SkippedFile),
     (cal.ImportReport, "notes"): lambda: st.text(max_size=3),
-    (cal.StabilityLine, "settles"): st.booleans,
-    (cal.StabilityLine, "controlled_settles"): st.booleans,
+    (cal.StabilityLine, "stable_at"): st.booleans,
+    (cal.StabilityLine, "controlled_stable_at"): st.booleans,
     (cal.StabilitySweep, "values"): lambda: st.text(max_size=3),
     (cal.StabilitySweep, "lines"): lambda: records(cal.StabilityLine),
     (cal.StabilityMap, "stiffnesses"): lambda: NUMBERS,
@@ -87,7 +87,7 @@ LISTS = {
     (cal.StabilityMapOptions, "delays"): lambda: st.integers(0, 9),
     (cal.StabilityMapOptions, "encoder_steps"): lambda: NUMBERS,
     (cal.StabilityMapOptions, "wall_dampings"): lambda: NUMBERS,
-    (cal.StabilityMapOptions, "grips"): lambda: records(cal.Hand),
+    (cal.StabilityMapOptions, "grips"): lambda: records(cal.GripImpedance),
 }
 
 
@@ -176,12 +176,12 @@ def _number(value):
 @pytest.mark.parametrize(
     "owner, name, make",
     [
-        (cal.Page(), "characters", lambda: cal.PlacedCharacter(cal.built_in_characters()["永"])),
-        (cal.CharacterScore(), "mistakes", lambda: cal.Mistake(reason="so long that it is kept elsewhere")),
-        (cal.StabilityMapOptions(), "grips", lambda: cal.Hand(mass=7.0)),
-        (cal.StabilitySweep(), "lines", lambda: cal.StabilityLine(largest=3.0)),
+        (cal.PracticePage(), "characters", lambda: cal.PlacedCharacter(cal.built_in_characters()["永"])),
+        (cal.CharacterScore(), "mistakes", lambda: cal.WritingMistake(reason="so long that it is kept elsewhere")),
+        (cal.StabilityMapOptions(), "grips", lambda: cal.GripImpedance(mass=7.0)),
+        (cal.StabilitySweep(), "lines", lambda: cal.StabilityLine(max_stable=3.0)),
         (cal.StabilityMap(), "sweeps", lambda: cal.StabilitySweep(name="damping of the device, viscous")),
-        (cal.StabilityMap(), "grid", lambda: cal.StabilityLine(settles=[True, False])),
+        (cal.StabilityMap(), "grid", lambda: cal.StabilityLine(stable_at=[True, False])),
         (cal.CharacterList(), "characters", lambda: cal.built_in_characters()["永"]),
     ],
     ids=lambda value: value if isinstance(value, str) else type(value).__name__,
@@ -197,10 +197,10 @@ def test_a_list_of_a_record_is_a_copy_that_outlives_what_it_came_from(owner, nam
 
 
 def test_a_change_to_an_element_of_a_list_does_not_reach_its_owner():
-    score = cal.CharacterScore(mistakes=[cal.Mistake(stroke=1)])
+    score = cal.CharacterScore(mistakes=[cal.WritingMistake(stroke=1)])
     score.mistakes[0].stroke = 2
-    score.mistakes.append(cal.Mistake())
-    assert score.mistakes == [cal.Mistake(stroke=1)]
+    score.mistakes.append(cal.WritingMistake())
+    assert score.mistakes == [cal.WritingMistake(stroke=1)]
 
 
 def test_what_is_not_a_field_or_not_of_its_type_is_refused():
@@ -215,7 +215,7 @@ def test_what_is_not_a_field_or_not_of_its_type_is_refused():
 
 
 def test_a_record_says_what_it_holds_as_it_would_be_written():
-    assert repr(cal.Hand(mass=0.5)) == "Hand(mass=0.5, damping=3.0, stiffness=300.0)"
+    assert repr(cal.GripImpedance(mass=0.5)) == "GripImpedance(mass=0.5, damping=3.0, stiffness=300.0)"
     state = repr(cal.DeviceState(position=(1, 2, 3)))
     assert state.startswith("DeviceState(time=0.0, position=[1.0, 2.0, 3.0], velocity=")
 
@@ -240,7 +240,7 @@ RESULTS = {
         [cal.built_in_characters()["永"]], cal.Provenance(source="mine", licence="MIT")
     ),
     "TypicalStroke": lambda: cal.typical_stroke(7),
-    "Mode": lambda: cal.Mode.force,
+    "FeedbackMode": lambda: cal.FeedbackMode.force,
     "InverseKinematics": lambda: cal.inverse_kinematics(cal.linkage("omni"), [[0, 0.1, 0.05], [9, 9, 9]]),
 }
 PARTS = {
@@ -250,7 +250,7 @@ PARTS = {
     "PenTrace": ("character", "set", "em", "strokes"),
     "CharacterList": ("provenance", "characters"),
     "TypicalStroke": ("id", "name"),
-    "Mode": ("name", "value"),
+    "FeedbackMode": ("name", "value"),
     "InverseKinematics": ("joints", "reachable"),
 }
 
@@ -302,7 +302,7 @@ def test_what_is_no_record_says_in_a_line_what_it_is(written):
     assert repr(cal.CharacterList([], cal.Provenance(source="me"))) == "CharacterList(0 characters of 'me')"
     tick = renderer.update(cal.DeviceState())
     assert repr(tick.contact).startswith("StrokeContact(element 0, distance ")
-    for value in (cal.fit_stroke([[0, 0], [1, 0.01]]), *cal.nearest_point_trade([characters["永"]], 10, 1)[:1]):
+    for value in (cal.fit_stroke([[0, 0], [1, 0.01]]), *cal.nearest_point_tradeoff([characters["永"]], 10, 1)[:1]):
         assert re.fullmatch(rf"{type(value).__name__}\(.{{5,120}}\)", repr(value))
 
 
@@ -316,8 +316,8 @@ def test_a_record_of_much_says_how_much():
     assert "stiffnesses=[0.0, 1.0, 2.0, 3.0]" in repr(cal.StabilityMap(stiffnesses=[0.0, 1.0, 2.0, 3.0]))
     licence = repr(cal.Provenance(licence_text="word " * 1000))
     assert "licence_text='word word" in licence and "... 5000 letters in all" in licence and len(licence) < 200
-    score = repr(cal.CharacterScore(character="永", mistakes=[cal.Mistake(reason="x")]))
-    assert score.startswith("CharacterScore(character='永', time=0.0") and "mistakes=[Mistake(kind=" in score
+    score = repr(cal.CharacterScore(character="永", mistakes=[cal.WritingMistake(reason="x")]))
+    assert score.startswith("CharacterScore(character='永', time=0.0") and "mistakes=[WritingMistake(kind=" in score
 
 
 def test_what_holds_a_device_or_a_file_does_not_pickle():

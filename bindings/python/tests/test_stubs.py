@@ -64,7 +64,7 @@ def test_mypy_finds_nothing_in_the_package_and_in_a_program_of_a_user(tmp_path, 
 @installed("mypy")
 def test_mypy_finds_what_a_user_does_wrong(tmp_path, mypy):
     (tmp_path / "wrong.py").write_text(
-        "import calligraphy as cal\ncal.RendererOptions(servo_rat=1.0)\ncal.Hand(mass='heavy')\ncal.nearest_pont\n"
+        "import calligraphy as cal\ncal.RendererOptions(servo_rat=1.0)\ncal.GripImpedance(mass='heavy')\ncal.nearest_pont\n"
     )
     checked = mypy(str(tmp_path / "wrong.py"), directory=tmp_path)
     assert {int(line) for line in re.findall(r"wrong\.py:(\d+): error", checked.stdout)} == {2, 3, 4}

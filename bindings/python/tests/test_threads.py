@@ -22,8 +22,8 @@ LINE = np.column_stack([np.linspace(0.1, 0.9, 30), np.full(30, 0.5)])
 TRACE = cal.PenTrace("一", [np.column_stack([LINE, np.linspace(0, 1, 30)])], set="made")
 SMALL_MAP = cal.StabilityMapOptions(
     with_sweeps=False, per_decade=1, dampings=[0.5], rates=[1000.0], delays=[0], encoder_steps=[0.0],
-    wall_dampings=[0.0], grips=[cal.Hand(mass=0, damping=0, stiffness=0)],
-    encounter=cal.WallEncounter(seconds=0.1),
+    wall_dampings=[0.0], grips=[cal.GripImpedance(mass=0, damping=0, stiffness=0)],
+    contact=cal.WallContact(seconds=0.1),
 )  # fmt: skip
 
 
@@ -71,7 +71,7 @@ def released(tmp_path):
     """Calls that must let other threads run."""
     file, text, characters = tmp_path / "one.csv", RECORDING.to_csv(), tmp_path / "characters.txt"
     traces = tmp_path / "traces.txt"
-    cal.write_csv(file, RECORDING)
+    cal.write_recording(file, RECORDING)
     cal.write_characters(str(characters), CHARACTERS)
     cal.write_pen_traces(traces, [TRACE])
     whole, states, many = renderer(), np.zeros((2000, 3)), np.zeros((1000, 2))  # NumPy's zeros release it, too
@@ -84,19 +84,19 @@ def released(tmp_path):
         "write_page": lambda: cal.write_page(SHORT, OPTIONS),
         "follow_trace": lambda: cal.follow_trace(SHORT, TRACE, OPTIONS),
         "replay_page": lambda: cal.replay_page(SHORT, cal.ReplayDevice(replayed, PROFILE.capabilities), OPTIONS),
-        "score": lambda: cal.score(SHORT, RECORDING),
+        "score": lambda: cal.score_page(SHORT, RECORDING),
         "to_csv": RECORDING.to_csv,
-        "write_csv": lambda: cal.write_csv(file, RECORDING),
-        "read_csv": lambda: cal.read_csv(file),
+        "write_recording": lambda: cal.write_recording(file, RECORDING),
+        "read_recording": lambda: cal.read_recording(file),
         "read_csv_text": lambda: cal.read_csv_text(text),
         "read_pen_traces": lambda: cal.read_pen_traces(str(traces)),
         "write_pen_traces": lambda: cal.write_pen_traces(traces, [TRACE]),
         "page_picture": lambda: cal.page_picture(SHORT, RECORDING, 0, "title"),
         "typical_strokes_picture": cal.typical_strokes_picture,
         "import_characters": lambda: cal.import_characters(characters),
-        "meet_wall": lambda: cal.meet_wall(LOOP, 100.0, cal.WallEncounter(seconds=0.5)),
+        "simulate_wall_contact": lambda: cal.simulate_wall_contact(LOOP, 100.0, cal.WallContact(seconds=0.5)),
         "stability_map": lambda: cal.stability_map(SMALL_MAP),
-        "nearest_point_trade": lambda: cal.nearest_point_trade([CHARACTERS["永"]], queries=64, rounds=1),
+        "nearest_point_tradeoff": lambda: cal.nearest_point_tradeoff([CHARACTERS["永"]], queries=64, rounds=1),
         "guidance_field": lambda: cal.guidance_field(placed, 0, 0.2, placed.placement.origin, 0.04, columns=12),
         "critical_stiffness": lambda: cal.critical_stiffness(LOOP),
         "advise_stiffness": lambda: cal.advise_stiffness(LOOP),
@@ -108,7 +108,7 @@ def released(tmp_path):
         "CharacterSet.list": stored.list,
         "CharacterSet.check": stored.check,
         "fit_stroke": lambda: cal.fit_stroke(LINE),
-        "doubtful_strokes": lambda: cal.doubtful_strokes(CHARACTERS["永"]),
+        "stroke_warnings": lambda: cal.stroke_warnings(CHARACTERS["永"]),
     }
 
 
@@ -177,7 +177,7 @@ def test_one_set_of_characters_serves_several_threads():
         assert all(pool.map(read, list(expected) * 4))
 
 
-@pytest.mark.parametrize("where", ["session", "map", "trade"])
+@pytest.mark.parametrize("where", ["session", "map", "tradeoff"])
 def test_what_a_callback_raises_comes_back_from_another_thread(where):
     def broken(*_):
         raise ZeroDivisionError(where)
@@ -185,7 +185,7 @@ def test_what_a_callback_raises_comes_back_from_another_thread(where):
     calls = {
         "session": lambda: cal.run_session(SHORT, OPTIONS, broken),
         "map": lambda: cal.stability_map(SMALL_MAP, broken),
-        "trade": lambda: cal.nearest_point_trade([CHARACTERS["永"]], queries=64, rounds=1, progress=broken),
+        "tradeoff": lambda: cal.nearest_point_tradeoff([CHARACTERS["永"]], queries=64, rounds=1, progress=broken),
     }
     with concurrent.futures.ThreadPoolExecutor(1) as pool, pytest.raises(ZeroDivisionError, match=where):
         pool.submit(calls[where]).result()

@@ -1,4 +1,4 @@
-"""Trades, imports, verdicts, trackers and controllers from Python: what crosses the boundary is what C++ has."""
+"""Tradeoffs, imports, verdicts, trackers and controllers from Python: what crosses the boundary is what C++ has."""
 
 import pickle
 import xml.etree.ElementTree
@@ -16,7 +16,7 @@ def is_svg(text):
     return xml.etree.ElementTree.fromstring(text).tag == "{http://www.w3.org/2000/svg}svg"
 
 
-needs_gnuplot = pytest.mark.skipif(not cal.can_plot(), reason="gnuplot is not installed")
+needs_gnuplot = pytest.mark.skipif(not cal.gnuplot_available(), reason="gnuplot is not installed")
 
 
 def recorded():
@@ -28,11 +28,11 @@ def recorded():
 
 
 def test_a_wider_grid_costs_bytes_and_halves_the_error():
-    rows = cal.coordinate_width_trade([YONG])
+    rows = cal.coordinate_width_tradeoff([YONG])
     assert [row.bits for row in rows] == list(range(4, 17))
     assert (np.diff([row.bytes for row in rows]) > 0).all()
     assert (np.diff([row.step for row in rows]) < 0).all()
-    assert rows[-1].largest_error < rows[0].largest_error / 1000
+    assert rows[-1].max_error < rows[0].max_error / 1000
     assert pickle.loads(pickle.dumps(rows[3])) == rows[3]
 
 
@@ -45,41 +45,41 @@ def test_a_character_on_a_grid_keeps_its_strokes():
 
 
 def test_a_faster_servo_bears_a_stiffer_paper():
-    slow, fast = cal.servo_rate_trade([cal.built_in_characters()["一"]], [500.0, 1000.0], seeds=1)
+    slow, fast = cal.servo_rate_tradeoff([cal.built_in_characters()["一"]], [500.0, 1000.0], seeds=1)
     assert (slow.rate, fast.rate) == (500.0, 1000.0)
     assert fast.held_stiffness > slow.held_stiffness > 0
     assert fast.written == 1.0
     with pytest.raises(cal.InvalidValue):
-        cal.servo_rate_trade([YONG], seeds=0)
+        cal.servo_rate_tradeoff([YONG], seeds=0)
 
 
 @needs_gnuplot
 def test_plots_are_pictures():
     page, recording = recorded()
     assert is_svg(cal.force_plot(recording, 0, "永"))
-    assert is_svg(cal.coordinate_width_trade_plot(cal.coordinate_width_trade([YONG])))
+    assert is_svg(cal.coordinate_width_tradeoff_plot(cal.coordinate_width_tradeoff([YONG])))
     with pytest.raises(cal.InvalidValue):
         cal.force_plot(recording, 7, "none")
     with pytest.raises(cal.InvalidValue):
-        cal.servo_rate_trade_plot([])
+        cal.servo_rate_tradeoff_plot([])
 
 
 def test_a_verdict_names_the_stroke_that_was_written_backwards():
     page, recording = recorded()
     paths = cal.pen_paths(recording, page.characters[0].placement)
-    right = cal.judge_strokes(YONG, paths)
+    right = cal.match_strokes(YONG, paths)
     assert [stroke.stroke for stroke in right.drawn] == list(range(len(YONG.strokes())))
-    assert right.remarks == [] and right.count(cal.RemarkKind.direction) == 0
+    assert right.remarks == [] and right.count(cal.StrokeRemarkKind.direction) == 0
     turned = [*paths[:-1], paths[-1][::-1]]
-    verdict = cal.judge_strokes(YONG, turned)
-    assert verdict.drawn[-1].course == cal.Course.backwards
-    assert verdict.count(cal.RemarkKind.direction) == 1 and verdict.remarks[0].stroke == len(paths) - 1
-    assert pickle.loads(pickle.dumps(verdict)) == verdict
-    assert is_svg(cal.replay_picture(YONG, turned, verdict, paths, "永"))
+    match = cal.match_strokes(YONG, turned)
+    assert match.drawn[-1].direction == cal.WritingDirection.backwards
+    assert match.count(cal.StrokeRemarkKind.direction) == 1 and match.remarks[0].stroke == len(paths) - 1
+    assert pickle.loads(pickle.dumps(match)) == match
+    assert is_svg(cal.replay_picture(YONG, turned, match, paths, "永"))
     with pytest.raises(cal.InvalidValue):
-        cal.replay_picture(YONG, turned[:-1], verdict, paths, "永")
+        cal.replay_picture(YONG, turned[:-1], match, paths, "永")
     with pytest.raises(cal.InvalidValue, match="paths"):
-        cal.judge_strokes(YONG, [np.zeros((3, 3))])
+        cal.match_strokes(YONG, [np.zeros((3, 3))])
 
 
 def test_the_paths_of_a_trace_are_its_pen_downs():
@@ -142,7 +142,7 @@ def test_a_passivity_controller_damps_what_a_sampled_spring_adds():
     held, on = swing(cal.PassivityController.usable_damping(0.045, 1e-3, 0))
     assert loose > 1.0 and held < loose / 100
     assert off.energy_given > on.energy_given and on.damping.shape == (3,)
-    assert on.longest_force == np.inf
+    assert on.max_force == np.inf
     on.restart()
     assert on.energy_given == 0.0
     with pytest.raises(cal.InvalidValue, match="delay"):

@@ -21,8 +21,8 @@ void check_can_write(const std::filesystem::path& path);
 /// @throws FileError naming the path and the reason
 std::ifstream open_file(const std::filesystem::path& path);
 
-/// All that a regular file holds. @throws FileError as open_file does; FormatError naming a file of more than `most`
-/// bytes
-std::string read_file(const std::filesystem::path& path, std::size_t most);
+/// All that a regular file holds. @throws FileError as open_file does; FormatError naming a file of more than
+/// `max_bytes` bytes
+std::string read_file(const std::filesystem::path& path, std::size_t max_bytes);
 
 }  // namespace calligraphy

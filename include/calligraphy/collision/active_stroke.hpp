@@ -29,19 +29,19 @@ struct StrokeRules {
   AttractionRule attraction = AttractionRule::interpolated;
   /// A bounded plane is passed this much before it is reached, at most 0.3 of the element's length [m].
   double plane_tolerance = 0.0015;
-  /// The foot is sought within this arc length of the last one, so that a strong bend, a loop or a limb close by cannot
-  /// attract the pen out of turn; 0: on the whole element, as printed [m].
+  /// The closest point is sought within this arc length of the last one, so that a strong bend, a loop or a limb close
+  /// by cannot attract the pen out of turn; 0: on the whole element, as printed [m].
   double window = 0.008;
 };
 
 /// Where the pen is with respect to the active stroke.
 struct StrokeContact {
   int element = 0;              ///< index of the active element
-  NearestPoint foot;            ///< on the active element
-  double share = 0.0;           ///< of the guidance force, 0 outside the constraint space
-  double attraction = 1.0;      ///< attraction factor at the foot
-  double arc = 0.0;             ///< arc length of the foot from the start of the stroke [m]
-  double backwards = 0.0;       ///< arc length by which the foot is behind the furthest one [m]
+  NearestPoint closest;         ///< on the active element
+  double weight = 0.0;          ///< of the guidance force, 0 outside the constraint space
+  double attraction = 1.0;      ///< attraction factor at the closest point
+  double arc = 0.0;             ///< arc length of the closest point from the start of the stroke [m]
+  double backwards = 0.0;       ///< arc length by which the closest point is behind the furthest one [m]
   bool passed_feature = false;  ///< a feature point was passed in this update
   bool finished = false;        ///< the last feature point has been passed
 };
@@ -65,7 +65,7 @@ class ActiveStroke {
   Point start() const noexcept { return elements_[0].origin(); }
   double length() const noexcept { return first_arc_[static_cast<std::size_t>(element_count_)]; }
   /// Feature points still to be passed; 0 once the stroke is finished.
-  int features_left() const noexcept { return element_count_ - active_; }
+  int features_remaining() const noexcept { return element_count_ - active_; }
   const StrokeElement& element(int index) const noexcept { return elements_[static_cast<std::size_t>(index)]; }
   int element_count() const noexcept { return element_count_; }
 
@@ -79,8 +79,8 @@ class ActiveStroke {
   std::array<double, max_elements_per_stroke + 1> first_arc_ = {};   ///< arc length at each feature point
   int element_count_ = 0;
   int active_ = 0;          ///< element being written; element_count_ once finished
-  double arc_ = 0.0;        ///< of the last foot, within the active element
-  double parameter_ = 0.0;  ///< of the last foot
+  double arc_ = 0.0;        ///< of the last closest point, within the active element
+  double parameter_ = 0.0;  ///< of the last closest point
   double furthest_ = 0.0;   ///< from the start of the stroke
 };
 

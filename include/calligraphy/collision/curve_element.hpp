@@ -35,7 +35,7 @@ struct CurveElement {
   int cells = 8;                                          ///< equal parts of [0, 1] that `ordinates` is given on
   double size = 0.0;                                      ///< diagonal of the control points' box [m]
   double per_size = 0.0;                                  ///< 1 / size
-  double least_slope = 0.0;                               ///< of g: below it Newton's method is not trusted
+  double min_slope = 0.0;                                 ///< of g: below it Newton's method is not trusted
   Point origin = Point::Zero();                           ///< first control point
   std::array<Point, max_curve_degree> coefficients = {};  ///< c_1 to c_n
   std::array<double, 2 * max_curve_degree> slope_of_square = {};  ///< of (B - origin) . B', by powers of t

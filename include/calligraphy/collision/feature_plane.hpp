@@ -11,7 +11,7 @@ struct FeaturePlane {
   Point normal = Point::Zero();  ///< the element's unit tangent at its end; zero for a point
 
   /// How far `query` is beyond the plane: V_t . V_f of eq. (6), positive once the feature point is written.
-  double beyond(const Point& query) const noexcept { return normal.dot(query - point); }
+  double signed_distance(const Point& query) const noexcept { return normal.dot(query - point); }
 };
 
 inline FeaturePlane end_plane(const StrokeElement& element) noexcept {

@@ -12,7 +12,7 @@ namespace calligraphy {
 /// A point of a stroke.
 struct StrokePoint {
   int element = 0;  ///< index
-  NearestPoint foot;
+  NearestPoint closest;
 };
 
 /// Finds for each position of a pen the nearest point of the whole stroke, certified, and quickly where the pen moves

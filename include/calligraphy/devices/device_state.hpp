@@ -20,7 +20,7 @@ enum class DeviceStatus : std::uint8_t {
 };
 
 /// "ok", "needs calibration": the status in words.
-const char* status_name(DeviceStatus status) noexcept;
+const char* to_string(DeviceStatus status) noexcept;
 
 /// What is wrong with a device, its link or its loop. Several are seen by the link alone, others by the codec, the
 /// device or the servo loop; all of them are told by name.
@@ -52,7 +52,7 @@ enum class DeviceFault : std::uint8_t {
 inline constexpr std::size_t device_fault_count = static_cast<std::size_t>(DeviceFault::device_error) + 1;
 
 /// "unplugged", "short frame": the name in words.
-const char* fault_name(DeviceFault fault) noexcept;
+const char* to_string(DeviceFault fault) noexcept;
 
 /// Where the pen points, in device axes: the direction from its tip to its other end is
 /// (sin tilt cos azimuth, sin tilt sin azimuth, cos tilt). NaN when the device does not measure it.
@@ -78,7 +78,7 @@ struct DeviceState {
 
 /// Impedance of the grip, relative to where the person means to be, the same along each axis. Typical grips: soft
 /// (0.05, 1, 100), normal (0.1, 3, 300), firm (0.15, 5, 500).
-struct Hand {
+struct GripImpedance {
   double mass = 0.1;         ///< [kg]
   double damping = 3.0;      ///< [N s/m]
   double stiffness = 300.0;  ///< [N/m]

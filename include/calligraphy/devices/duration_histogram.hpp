@@ -9,7 +9,7 @@
 namespace calligraphy {
 
 /// What a histogram has counted [s].
-struct DurationFigures {
+struct DurationSummary {
   std::uint64_t count = 0;
   double p50 = 0.0;
   double p99 = 0.0;
@@ -18,7 +18,7 @@ struct DurationFigures {
 };
 
 /// Fixed buckets, 128 to each doubling: a percentile is off by at most 1/256 of itself, or 1 ns. Durations beyond 18
-/// minutes count in the last bucket. add() is wait-free and takes no memory; figures() may run meanwhile and then
+/// minutes count in the last bucket. add() is wait-free and takes no memory; summary() may run meanwhile and then
 /// misses at most what is added during the call.
 class DurationHistogram {
  public:
@@ -27,7 +27,7 @@ class DurationHistogram {
   /// One thread at a time. Below 0 or not a number counts as 0 [s].
   void add(double seconds) noexcept;
 
-  DurationFigures figures() const noexcept;
+  DurationSummary summary() const noexcept;
 
  private:
   static constexpr std::size_t per_octave = 128;

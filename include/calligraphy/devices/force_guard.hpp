@@ -18,15 +18,15 @@ enum class ServoPhase : std::uint8_t {
 };
 
 /// "zero", "rising", "running", "falling".
-const char* phase_name(ServoPhase phase) noexcept;
+const char* to_string(ServoPhase phase) noexcept;
 
-/// Turns wanted forces into forces that may be sent. After a fault the force last sent falls to zero in `fall_time`,
+/// Turns wanted forces into forces that may be sent. After a fault the force last sent falls to zero in `ramp_down`,
 /// its direction kept; it always gets there, even when the fault is over sooner. Then the share of the wanted force
-/// grows from 0 to 1 in `rise_time`. Each call is one tick and takes the time since the last one [s].
+/// grows from 0 to 1 in `ramp_up`. Each call is one tick and takes the time since the last one [s].
 class ForceGuard {
  public:
-  /// @throws ValueError naming the value unless fall_time is from 0 to 0.1 s and rise_time from 0 to 10 s
-  ForceGuard(double fall_time, double rise_time);
+  /// @throws ValueError naming the value unless ramp_down is from 0 to 0.1 s and ramp_up from 0 to 10 s
+  ForceGuard(double ramp_down, double ramp_up);
 
   /// All is well: the force that may be sent for the one that is wanted, which must be finite [N].
   const Eigen::Vector3d& pass(const Eigen::Vector3d& wanted, double elapsed) noexcept;
@@ -34,9 +34,9 @@ class ForceGuard {
   /// Nothing new is known: the last force again, or the next one of a fall.
   const Eigen::Vector3d& hold(double elapsed) noexcept;
 
-  /// Something is wrong. The first tick of a fall counts as at most `longest_first`, so that a clock that leapt does
+  /// Something is wrong. The first tick of a fall counts as at most `max_first_step`, so that a clock that leapt does
   /// not make the force leap too.
-  const Eigen::Vector3d& fall(DeviceFault fault, double elapsed, double longest_first) noexcept;
+  const Eigen::Vector3d& fall(DeviceFault fault, double elapsed, double max_first_step) noexcept;
 
   /// Zero at once; the next force rises from there.
   void reset() noexcept;
@@ -49,8 +49,8 @@ class ForceGuard {
   const Eigen::Vector3d& force() const noexcept { return force_; }
 
  private:
-  double fall_time_;
-  double rise_time_;
+  double ramp_down_;
+  double ramp_up_;
   ServoPhase phase_ = ServoPhase::zero;
   DeviceFault fault_ = DeviceFault::none;
   double gain_ = 0.0;

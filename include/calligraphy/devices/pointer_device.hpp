@@ -17,7 +17,7 @@ struct PointerOptions {
   double rate = 1000.0;          ///< of read() [Hz]
   double smoothing_time = 0.03;  ///< how late the intention is behind the pointer: events come 60 to 120 times a
                                  ///< second, and what is made of them moves at a speed without leaps [s]
-  double largest_speed = 0.5;    ///< of the intention along the paper; a pointer that leaps is followed at this [m/s]
+  double max_speed = 0.5;        ///< of the intention along the paper; a pointer that leaps is followed at this [m/s]
   double lifting_speed = 0.12;   ///< of the intention towards the paper and away from it [m/s]
   double hover_height = 8e-3;    ///< of a pointer that is not pressed, above the paper [m]
   double press_depth = 5e-3;     ///< where a hand at full pressure means to be, below the paper [m]
@@ -30,7 +30,8 @@ struct PointerOptions {
 class PointerDevice final : public HapticDevice {
  public:
   /// @throws ValueError naming the value when the device, the hand or an option is out of its domain
-  explicit PointerDevice(const Capabilities& device, const Hand& hand = {}, const PointerOptions& options = {});
+  explicit PointerDevice(const Capabilities& device, const GripImpedance& grip = {},
+                         const PointerOptions& options = {});
 
   /// Where the pointer is from now on: a place on the paper [m] and its pressure, from 0, which is not pressed, to 1; a
   /// mouse presses with 0.5. Never waits; from one thread at a time, any thread. A place or pressure that is not finite

@@ -20,10 +20,10 @@ using ForceLaw = std::function<Eigen::Vector3d(const DeviceState&)>;
 
 struct ServoOptions {
   double rate = 1000.0;      ///< [Hz]
-  double patience = 4e-3;    ///< without a fresh sample, a tick or an answer of the force law, before the force falls:
+  double timeout = 4e-3;     ///< without a fresh sample, a tick or an answer of the force law, before the force falls:
                              ///< real devices pause for 2.4 ms now and then [s]
-  double fall_time = 10e-3;  ///< of the force, from what it was to zero [s]
-  double rise_time = 0.2;    ///< of the share of the force, from 0 to 1, when the loop begins and after a fault [s]
+  double ramp_down = 10e-3;  ///< of the force, from what it was to zero [s]
+  double ramp_up = 0.2;      ///< of the share of the force, from 0 to 1, when the loop begins and after a fault [s]
   double (*work_clock)() noexcept = nullptr;  ///< measures the force law [s]; null: the system's monotonic clock
 };
 
@@ -40,12 +40,12 @@ struct ServoStatus {
 /// A force beyond the device's peak is shortened to it, its direction kept.
 ///
 /// The force falls to zero when the device is disconnected, uncalibrated or at fault, when its samples stay stale for
-/// longer than `patience` or are not finite, when the force law throws, gives a force that is not finite or takes
-/// longer than `patience`, and when no tick comes for that long. The last two need supervise(), called by another
+/// longer than `timeout` or are not finite, when the force law throws, gives a force that is not finite or takes
+/// longer than `timeout`, and when no tick comes for that long. The last two need supervise(), called by another
 /// thread: while the force law runs, or between ticks, it takes the device over, lets the force fall, and gives the
 /// device back. A tick that returns from a slow force law then finds the device taken and writes nothing.
 ///
-/// So the force is zero at the latest `patience` + `fall_time` + two ticks after whatever went wrong: 16 ms. Only a
+/// So the force is zero at the latest `timeout` + `ramp_down` + two ticks after whatever went wrong: 16 ms. Only a
 /// device whose own read() or write() hangs is beyond reach: nobody else may touch it then, the status says
 /// `timed_out`, and what remains is the watchdog of the device itself.
 ///
@@ -125,7 +125,7 @@ class Servo {
   std::atomic<std::uint64_t> missed_ = 0;
   std::atomic<std::uint64_t> stale_ = 0;
   std::atomic<std::uint64_t> standing_ = 0;
-  std::atomic<std::uint64_t> taken_over_ = 0;
+  std::atomic<std::uint64_t> watchdog_takeovers_ = 0;
   std::atomic<std::uint64_t> idle_ticks_ = 0;
   std::array<std::atomic<std::uint64_t>, device_fault_count> faults_ = {};
 };

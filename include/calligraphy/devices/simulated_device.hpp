@@ -20,7 +20,7 @@ class SimulatedDevice final : public HapticDevice {
  public:
   /// @throws ValueError naming the value when the device or the hand is not physical, when the apparent mass is not
   /// known, and when a translation is not sensed or not driven
-  explicit SimulatedDevice(const Capabilities& device, const Hand& hand = {0.0, 0.0, 0.0},
+  explicit SimulatedDevice(const Capabilities& device, const GripImpedance& grip = {0.0, 0.0, 0.0},
                            const Eigen::Vector3d& position = Eigen::Vector3d::Zero());
 
   const Capabilities& capabilities() const noexcept override { return device_; }
@@ -34,7 +34,7 @@ class SimulatedDevice final : public HapticDevice {
   /// with every advance(). One that is not finite is ignored.
   void set_intention(const Intention& intention) noexcept;
   /// @throws ValueError naming the value when the hand is not physical
-  void set_hand(const Hand& hand);
+  void set_grip(const GripImpedance& grip);
   /// Seen by the samples of later advances.
   void set_buttons(std::uint32_t buttons) noexcept { buttons_ = buttons; }
 
@@ -52,7 +52,7 @@ class SimulatedDevice final : public HapticDevice {
   DeviceState sample() const noexcept;
 
   Capabilities device_;
-  Hand hand_;
+  GripImpedance grip_;
   Intention intention_;
   Eigen::Vector3d position_;
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();

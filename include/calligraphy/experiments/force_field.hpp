@@ -23,7 +23,7 @@ struct ForceFieldOptions {
   StrokeRules rules;  ///< with nearest_stroke, those for the nearest point, the constraint space and the attraction
   double stiffness = 600.0;  ///< guidance, where the attraction factor is 1 [N/m]
   int columns = 96;          ///< places per edge of the square
-  double least_jump = 0.1;   ///< smaller jumps of the force are left out [N]
+  double min_jump = 0.1;     ///< smaller jumps of the force are left out [N]
   /// Called now and then with the share that is done. What it throws ends the field.
   std::function<void(double)> progress = nullptr;
 };
@@ -46,7 +46,7 @@ struct ForceField {
   /// The middle of a cell, where its force was taken.
   Point place(int column, int row) const noexcept;
   const Point& force(int column, int row) const noexcept;
-  double largest_force() const noexcept;  ///< [N]
+  double max_force() const noexcept;  ///< [N]
 };
 
 /// The attraction of eq. (8) that a tick gives to a pen that has written `stroke` (by index) along its middle line up

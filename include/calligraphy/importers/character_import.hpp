@@ -31,10 +31,10 @@ enum class SourceKind {
 };
 
 /// "hanzi-writer-data", "KanjiVG", "calligraphy".
-const char* name_of(SourceKind kind) noexcept;
+const char* to_string(SourceKind kind) noexcept;
 
 /// A stroke of the characters imported.
-struct StrokePlace {
+struct StrokeReference {
   char32_t code;
   std::string order;  ///< empty for the standard one
   int stroke;         ///< from 1
@@ -48,32 +48,32 @@ struct FitCount {
 };
 
 struct StrokeError {
-  StrokePlace place;
+  StrokeReference place;
   int id;
   double error;  ///< largest distance between stroke and drawing, both ways [em]
 };
 
 /// What became of a label or letter that does not say what the shape says.
-enum class LabelFate {
-  unknown,   ///< nobody knows it: the shape decided
-  obeyed,    ///< a stroke of the label's kind follows the drawing well enough: the label decided
-  overruled  ///< no stroke of the label's kind does: the shape decided
+enum class LabelResolution {
+  unknown,    ///< nobody knows it: the shape decided
+  accepted,   ///< a stroke of the label's kind follows the drawing well enough: the label decided
+  overridden  ///< no stroke of the label's kind does: the shape decided
 };
 
-struct LabelDoubt {
-  StrokePlace place;
+struct LabelConflict {
+  StrokeReference place;
   std::string label;
-  LabelFate fate;
+  LabelResolution resolution;
   int recognised;  ///< id by geometry alone
   int id;          ///< as imported
 };
 
 /// How often a label goes with an id recognised by geometry alone that is none of the label's.
-struct Confusion {
+struct LabelConfusion {
   std::string label;
   int recognised;
   int count;
-  StrokePlace example;
+  StrokeReference example;
 };
 
 struct ImportReport {
@@ -87,17 +87,17 @@ struct ImportReport {
   std::vector<StrokeError> worst;                                    ///< at most ten
   std::array<int, typical_stroke_count + 1> ids_used{};              ///< strokes by id
 
-  int labelled = 0;                      ///< strokes with a label or letter that is known
-  int agreed = 0;                        ///< of these, recognised by geometry alone as what the label says
-  std::vector<Confusion> confusions;     ///< the commonest first
-  std::vector<LabelDoubt> label_doubts;  ///< by character and stroke
-  std::vector<char32_t> letters_unused;  ///< characters with more or fewer letters than strokes
+  int labelled = 0;                            ///< strokes with a label or letter that is known
+  int agreed = 0;                              ///< of these, recognised by geometry alone as what the label says
+  std::vector<LabelConfusion> confusions;      ///< the commonest first
+  std::vector<LabelConflict> label_conflicts;  ///< by character and stroke
+  std::vector<char32_t> letters_unused;        ///< characters with more or fewer letters than strokes
 
   std::vector<SkippedFile> skipped;
   std::vector<std::string> notes;  ///< what else whoever passes the characters on should know
 };
 
-struct Import {
+struct ImportResult {
   CharacterList list;  ///< by rising code point; of one character the standard order first
   ImportReport report;
 };
@@ -109,6 +109,6 @@ struct Import {
 /// @throws FileError when the source cannot be read; FormatError naming the file and the place when anything in it is
 ///         not what it should be or beyond the limits; ValueError for options out of their domain. Nothing is imported
 ///         in part.
-Import import_characters(const std::filesystem::path& source, const ImportOptions& options = {});
+ImportResult import_characters(const std::filesystem::path& source, const ImportOptions& options = {});
 
 }  // namespace calligraphy

@@ -9,14 +9,14 @@
 namespace calligraphy {
 
 /// What the path was drawn with, and so what of it a pen does not write.
-enum class DrawnWith {
+enum class DrawingTool {
   brush,         ///< the median of a brush stroke: entry, droop and shoulders are removed
   textbook_pen,  ///< a line in a textbook hand: its pressed start is removed
   pen            ///< a line as it is
 };
 
 struct StrokeFitOptions {
-  DrawnWith drawn_with = DrawnWith::brush;
+  DrawingTool drawing_tool = DrawingTool::brush;
   std::span<const int> ids = {};  ///< typical strokes that it may be, as a label says; none: all, by geometry alone
 };
 

@@ -65,7 +65,7 @@ std::vector<Stroke> strokes(const Character& character);
 Character with_quartic_curves(const Character& character);
 
 /// What a validator has to say: where (stroke, counted from 1; 0 for the character as a whole) and what.
-struct Problem {
+struct ValidationIssue {
   int stroke;
   std::string what;
 };
@@ -73,6 +73,6 @@ struct Problem {
 /// Everything that makes a character unusable: counts, ids, indices, non-finite or far-off points, missing factors,
 /// elements without length (but a stroke of a single LSE may be a point), a joint that its typical stroke calls smooth
 /// and that bends by more than 15 degrees. Empty when the character is valid.
-std::vector<Problem> validate(const Character& character);
+std::vector<ValidationIssue> validate(const Character& character);
 
 }  // namespace calligraphy

@@ -21,7 +21,7 @@ namespace calligraphy {
 class SetFile;
 
 /// How the coordinates of control points are kept.
-struct CoordinateCoding {
+struct CoordinateEncoding {
   std::uint32_t steps_per_em = 0;  ///< 0: doubles as they are
   std::int32_t x_origin = 0;       ///< what is kept as 0 [steps]
   std::int32_t y_origin = 0;
@@ -74,7 +74,7 @@ class StoredCharacter {
   int curve_degree_ = 3;
   int stroke_count_ = 0;
   bool has_factors_ = false;
-  CoordinateCoding coding_;
+  CoordinateEncoding coding_;
   std::uint64_t first_bit_ = 0;  // in the file: ids, points, factors
   std::uint64_t end_bit_ = 0;
 };

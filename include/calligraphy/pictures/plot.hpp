@@ -8,7 +8,7 @@
 namespace calligraphy {
 
 /// Whether the program gnuplot can be started.
-bool can_plot();
+bool gnuplot_available();
 
 /// SVG of the in-plane force components and size, and of the normal force, over time, for the samples in which
 /// character `character` is active; bands mark the writing state of each stroke.

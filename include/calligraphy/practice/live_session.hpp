@@ -17,18 +17,18 @@ namespace calligraphy {
 
 /// What a display shows, some 50 times a second.
 struct LiveView {
-  Sample newest;       ///< the newest tick; before the first one all zero
-  ServoStatus servo;   ///< of the loop: its state and the fault that it names
-  double share = 0.0;  ///< of the page that is written, in [0, 1]
-  bool begun = false;  ///< the pen has been in front of the paper; before, nothing is felt and nothing recorded
+  RecordedSample newest;  ///< the newest tick; before the first one all zero
+  ServoStatus servo;      ///< of the loop: its state and the fault that it names
+  double progress = 0.0;  ///< of the page that is written, in [0, 1]
+  bool started = false;   ///< the pen has been in front of the paper; before, nothing is felt and nothing recorded
 };
 
 struct LiveOptions {
-  Mode mode = Mode::force;
+  FeedbackMode mode = FeedbackMode::force;
   RendererOptions renderer;                                     ///< its servo rate is that of the loop too
   ServoLoopOptions servo;                                       ///< its rate is not read
   double peak_force = std::numeric_limits<double>::infinity();  ///< at most this, whatever the device can do [N]
-  double longest = 600.0;                                       ///< given up after so long [s]
+  double timeout = 600.0;                                       ///< given up after so long [s]
   std::function<bool(const LiveView&)> watch = nullptr;  ///< called from the calling thread; false ends the session
 };
 
@@ -41,13 +41,13 @@ struct LiveResult {
 
 /// The device with its forces lowered to a peak [N], which may be infinite.
 /// @throws ValueError unless the peak is above 0
-Capabilities limited(Capabilities capabilities, double peak_force);
+Capabilities with_peak_force(Capabilities capabilities, double peak_force);
 
 /// It begins when the pen is in front of the paper for the first time: it may come out of an inkwell that lies behind.
 /// Runs the servo loop on the device's own clock or a thread of this library while the calling thread records, until
 /// the page is written and the pen lifted, `watch` says false, or time is up. Then the force is zero and the device
 /// still open.
 /// @throws ValueError when an option is out of its domain, DeviceError when the clock cannot be started
-LiveResult write_with_device(const Page& page, HapticDevice& device, const LiveOptions& options);
+LiveResult write_with_device(const PracticePage& page, HapticDevice& device, const LiveOptions& options);
 
 }  // namespace calligraphy

@@ -15,7 +15,7 @@ struct PageLayout {
   double gap = 0.008;    ///< between squares, and round them [m]
 };
 
-struct Page {
+struct PracticePage {
   double width = 0.0;   ///< [m]
   double height = 0.0;  ///< [m]
   std::vector<PlacedCharacter> characters;
@@ -23,6 +23,6 @@ struct Page {
 
 /// Left to right, top to bottom, as many pages as it takes, the rows centred on each page.
 /// @throws ValueError when a length is not a positive number or not one square fits
-std::vector<Page> lay_out(std::span<const Character> characters, const PageLayout& layout = {});
+std::vector<PracticePage> lay_out(std::span<const Character> characters, const PageLayout& layout = {});
 
 }  // namespace calligraphy

@@ -13,7 +13,7 @@
 
 namespace calligraphy {
 
-struct Sample {
+struct RecordedSample {
   double time = 0.0;                                       ///< [s]
   Eigen::Vector3d device_point = Eigen::Vector3d::Zero();  ///< page frame [m]
   Eigen::Vector3d pen_tip = Eigen::Vector3d::Zero();       ///< page frame [m]
@@ -28,20 +28,20 @@ struct Sample {
 
 struct Recording {
   double rate = 1000.0;  ///< samples per second [Hz]
-  std::vector<Sample> samples;
+  std::vector<RecordedSample> samples;
 };
 
 /// Comma-separated values; the first line names columns and units, the second, a comment, gives the rate. Numbers are
 /// in the shortest form that reads back the same and do not depend on the locale; events are the sum of TickEvent's
 /// bits.
-void write_csv(std::ostream& out, const Recording& recording);
+void write_recording(std::ostream& out, const Recording& recording);
 
-/// What write_csv wrote, exactly. `name` is used in messages.
+/// What write_recording wrote, exactly. `name` is used in messages.
 /// @throws FormatError naming the line and the value, also when the file is cut off within a line; FileError when the
 /// stream fails
-Recording read_csv(std::istream& in, std::string_view name);
+Recording read_recording(std::istream& in, std::string_view name);
 /// @throws FileError when the file cannot be opened, FormatError as above
-Recording read_csv(const std::filesystem::path& path);
+Recording read_recording(const std::filesystem::path& path);
 
 /// The device point of each sample in device axes, for a ReplayDevice on the same mapping. A bad sample has no position
 /// (NaN) and a device fault says so, so that they are replayed as what they were.

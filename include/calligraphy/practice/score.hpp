@@ -10,13 +10,13 @@
 
 namespace calligraphy {
 
-enum class MistakeKind {
+enum class WritingMistakeKind {
   order,     ///< external sequence: a stroke was written out of turn
   direction  ///< internal sequence: a stroke was written backwards
 };
 
-struct Mistake {
-  MistakeKind kind;
+struct WritingMistake {
+  WritingMistakeKind kind;
   int stroke;          ///< the stroke that was due, from 0
   double time;         ///< when the pen was put down [s]
   std::string reason;  ///< one line for a person
@@ -32,7 +32,7 @@ struct CharacterScore {
   int strokes_completed = 0;
   double peak_force = 0.0;      ///< [N]
   double max_force_step = 0.0;  ///< from one tick to the next [N]
-  std::vector<Mistake> mistakes;
+  std::vector<WritingMistake> mistakes;
 
   /// The perceptible elements of Fig. 2, each in [0, 1].
   double contour = 0.0;            ///< exp(-rms error / 5 % of the em), 0 for strokes not completed
@@ -45,6 +45,6 @@ struct CharacterScore {
 };
 
 /// One score per character of the page.
-std::vector<CharacterScore> score(const Page& page, const Recording& recording);
+std::vector<CharacterScore> score_page(const PracticePage& page, const Recording& recording);
 
 }  // namespace calligraphy

@@ -17,7 +17,7 @@ namespace calligraphy {
 /// How well a person writes. Lengths in em are relative to the character's square. Spreads are standard deviations,
 /// drawn anew for each character, stroke or attempt.
 struct WriterSkill {
-  Hand hand;                     ///< impedance between the plan and the device
+  GripImpedance grip;            ///< impedance between the plan and the device
   double offset = 0.0;           ///< of the believed character [em]
   double bias = 0.0;             ///< length of one more offset, in a direction drawn for each character; no spread [em]
   double scale = 0.0;            ///< of the believed character [1]
@@ -30,7 +30,7 @@ struct WriterSkill {
   double wrong_direction = 0.0;  ///< share of strokes begun at their end [1]
   double speed = 0.8;            ///< mean speed along a stroke when nothing is wrong [em/s]
   double pause = 0.25;           ///< before the pen moves to a stroke [s]
-  double sight_delay = 0.18;     ///< age of what is seen [s]
+  double visual_delay = 0.18;    ///< age of what is seen [s]
   double correction = 2.0;       ///< share of the error seen that is corrected per second [1/s]
   double caution = 0.025;        ///< error seen at which the pace is halved [em]
 
@@ -39,7 +39,7 @@ struct WriterSkill {
 };
 
 /// What the display shows: nothing of forces, nothing of the mode.
-struct Sight {
+struct VisualFeedback {
   Eigen::Vector3d pen_tip = Eigen::Vector3d::Zero();  ///< page [m]
   int character = 0;                                  ///< the yellow one
   int stroke = 0;                                     ///< the one whose start has the red ellipse
@@ -57,10 +57,10 @@ struct Sight {
 class SimulatedWriter {
  public:
   /// @throws ValueError when the page is empty or a number of the skill is out of its domain
-  SimulatedWriter(const Page& page, const WriterSkill& skill, std::uint64_t seed);
+  SimulatedWriter(const PracticePage& page, const WriterSkill& skill, std::uint64_t seed);
 
   /// Sees the display, lets `seconds` pass and says how the pen is meant to move in that time, on the page.
-  Intention update(const Sight& sight, double seconds);
+  Intention update(const VisualFeedback& sight, double seconds);
 
   /// All characters are written, or given up, and the pen is off the paper.
   bool done() const noexcept { return phase_ == Phase::done; }
@@ -83,7 +83,7 @@ class SimulatedWriter {
   };
   struct Seen {
     double time;
-    Sight sight;
+    VisualFeedback sight;
     std::size_t element;
     Point planned;  ///< where the template is at that moment's progress
     bool on_paper;  ///< a stroke was being written
@@ -91,7 +91,7 @@ class SimulatedWriter {
 
   void plan_attempt();
   void plan_elements(int stroke, bool backwards);
-  void see(const Sight& sight);
+  void see(const VisualFeedback& sight);
   void think(double seconds);
   void follow_plan(double seconds);
   void leave_element();

@@ -31,10 +31,10 @@ struct ForceLimiter {
   Eigen::Vector3d last_step = Eigen::Vector3d::Zero();  ///< kept with `jerk` [N]
 
   double max_step() const noexcept;
-  /// The force after `previous` on the way to `target`, no longer than `longest` if that can be [N, page axes].
+  /// The force after `previous` on the way to `target`, no longer than `max_length` if that can be [N, page axes].
   /// `target` is finite, `previous` what the last call gave.
   Eigen::Vector3d next(const Eigen::Vector3d& previous, const Eigen::Vector3d& target,
-                       double longest = no_limit) noexcept;
+                       double max_length = no_limit) noexcept;
   /// The force after `previous` on the shortest way to none, by max_step() a tick: the device cannot be trusted.
   Eigen::Vector3d release(const Eigen::Vector3d& previous) noexcept;
 };

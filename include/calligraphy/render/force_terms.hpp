@@ -16,9 +16,9 @@ enum class ForceSign {
 
 /// In-plane attraction, eq. (8): K (X_s - X_p), scaled by the attraction factor and the share of the constraint space
 /// [N]. As printed it is K (X_p - X_s).
-inline Point attraction_force(double stiffness, const Point& tip, const Point& foot,
+inline Point attraction_force(double stiffness, const Point& tip, const Point& closest,
                               ForceSign sign = ForceSign::attracting) noexcept {
-  return (sign == ForceSign::attracting ? stiffness : -stiffness) * (foot - tip);
+  return (sign == ForceSign::attracting ? stiffness : -stiffness) * (closest - tip);
 }
 
 /// A pull of `force` [N] by the linear law, kept below `limit` [N]: F / sqrt(1 + (F / limit)^2). The stiffness of eq.

@@ -60,11 +60,11 @@ class HapticRenderer {
   void follow(const TransitionInput& input) noexcept;
   void finish_stroke() noexcept;
   void measure_error() noexcept;
-  void adapt_help(bool abandoned) noexcept;
+  void adapt_assistance(bool abandoned) noexcept;
   void activate(int character, int stroke) noexcept;
   Eigen::Vector3d sum_forces() noexcept;
-  Point guide() noexcept;
-  Point rub() noexcept;
+  Point guidance_force() noexcept;
+  Point friction_force() noexcept;
   Point fade(const Point& force) noexcept;
   void send(const Eigen::Vector3d& wanted) noexcept;
   Eigen::Vector3d control_passivity(const Eigen::Vector3d& wanted) noexcept;
@@ -88,7 +88,7 @@ class HapticRenderer {
 
   ActiveStroke active_;
   HapticTick tick_;
-  Point fade_from_ = Point::Zero();  ///< in-plane force at the last leap of the foot [N, page]
+  Point fade_from_ = Point::Zero();  ///< in-plane force at the last leap of the closest point [N, page]
   double faded_ = 0.0;               ///< 0 at that leap, 1 after the fade-in
   double error_square_ = 0.0;        ///< lateral error squared, over the way on the active stroke [m^3]
   double error_way_ = 0.0;           ///< [m]

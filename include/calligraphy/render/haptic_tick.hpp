@@ -26,7 +26,7 @@ constexpr TickEvent operator|(TickEvent a, TickEvent b) noexcept {
   return static_cast<TickEvent>(static_cast<std::uint16_t>(a) | static_cast<std::uint16_t>(b));
 }
 constexpr TickEvent& operator|=(TickEvent& a, TickEvent b) noexcept { return a = a | b; }
-constexpr bool has(TickEvent events, TickEvent event) noexcept {
+constexpr bool has_event(TickEvent events, TickEvent event) noexcept {
   return (static_cast<std::uint16_t>(events) & static_cast<std::uint16_t>(event)) != 0;
 }
 
@@ -48,12 +48,12 @@ struct HapticTick {
   Eigen::Vector3d pen_tip = Eigen::Vector3d::Zero();       ///< virtual pen tip, page frame [m]
   double penetration = 0.0;                                ///< of the device point into the paper [m]
   StrokeContact contact;             ///< meaningful in the writing state and on the tick that leaves it
-  Point attraction = Point::Zero();  ///< force term, help included, before fade-in and limits [N, page]
+  Point attraction = Point::Zero();  ///< force term, assistance included, before fade-in and limits [N, page]
   Point wrong_way = Point::Zero();   ///< force term, before fade-in and limits [N, page]
   Point friction = Point::Zero();    ///< force term, before limits [N, page]
   double normal = 0.0;               ///< force term, before limits [N, out of the paper]
   Eigen::Vector3d damping = Eigen::Vector3d::Zero();  ///< of the passivity controller, before limits [N, page]
-  double help = 1.0;                                  ///< share of the guidance that the assist policy gives
+  double assistance = 1.0;                            ///< share of the guidance that the assist policy gives
   double energy_given = 0.0;  ///< net, to the hand, as the passivity observer has it; 0 without one [J]
   double heat = 0.0;          ///< of the motors; 1: that of the continuous force; 0 without a thermal budget
   Eigen::Vector3d page_force = Eigen::Vector3d::Zero();  ///< sent, page axes [N]

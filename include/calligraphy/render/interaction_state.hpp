@@ -13,7 +13,7 @@ enum class InteractionState : std::uint8_t {
 };
 
 /// "SS", "AS", "CS" or "WS".
-const char* short_name(InteractionState state) noexcept;
+const char* to_string(InteractionState state) noexcept;
 
 /// Everything a transition depends on, hysteresis already applied.
 struct TransitionInput {

@@ -15,7 +15,7 @@ struct PassivityOptions {
   double energy_budget = std::numeric_limits<double>::infinity();
   /// With a budget: how fast the last stage takes a force away [N/s]. Infinite: at once.
   double force_rate = std::numeric_limits<double>::infinity();
-  int delay = 0;  ///< age of a sample when it is read, at most PassivityController::longest_delay [ticks]
+  int delay = 0;  ///< age of a sample when it is read, at most PassivityController::max_delay [ticks]
 };
 
 /// Keeps a sampled force law from giving out energy that it does not have.
@@ -36,9 +36,9 @@ struct PassivityOptions {
 /// With less than a thousandth of it left, or overdrawn, as lost samples are paid for generously, a brake of at most
 /// 0.1 N against the motion is all that remains, so that the pen pays back. The true work never exceeds the budget,
 /// whatever the field, as long as
-/// - a limit behind, if there is one, keeps a force within longest_force(), and one that is longer falls by
-///   force_rate x period in every tick (ForceLimiter::next does so with that as `longest`);
-/// - the pen is never faster than 0.25 m/s above its speed at the last tick whose force was within longest_force(),
+/// - a limit behind, if there is one, keeps a force within max_force(), and one that is longer falls by
+///   force_rate x period in every tick (ForceLimiter::next does so with that as `max_length`);
+/// - the pen is never faster than 0.25 m/s above its speed at the last tick whose force was within max_force(),
 ///   until that force is taken away: |F| / force_rate + delay + 1 ticks. A pen that is faster by u may be given
 ///   |F| u times that time more;
 /// - each sample is `delay` ticks old, or known to be lost, or more than 10 m/s away (then the pen is elsewhere and is
@@ -46,7 +46,7 @@ struct PassivityOptions {
 ///   is not seen.
 class PassivityController {
  public:
-  static constexpr int longest_delay = 15;
+  static constexpr int max_delay = 15;
 
   /// The damping at which a mass of the device, alone, is still damped and not thrown back within one period,
   /// 0.9 m / (T (1 + 2 delay)) [N s/m].
@@ -68,9 +68,9 @@ class PassivityController {
   /// Net energy given to the hand, as observed [J].
   double energy_given() const noexcept { return given_; }
   /// What is left of the budget [J].
-  double energy_left() const noexcept { return left_; }
+  double energy_remaining() const noexcept { return left_; }
   /// What the last next() shortened to; infinite without a budget [N].
-  double longest_force() const noexcept { return longest_; }
+  double max_force() const noexcept { return max_force_; }
   /// Injected in the last tick [N].
   const Eigen::Vector3d& damping() const noexcept { return damping_; }
 
@@ -83,7 +83,7 @@ class PassivityController {
   void pay(double energy) noexcept;
   void presume() noexcept;
   void find_again(const Eigen::Vector3d& position) noexcept;
-  double longest_payable(double speed) const noexcept;
+  double max_payable_force(double speed) const noexcept;
 
   double max_damping_ = 0.0;
   double budget_ = std::numeric_limits<double>::infinity();
@@ -91,7 +91,7 @@ class PassivityController {
   double period_ = 0.001;
   std::size_t delay_ = 0;
 
-  std::array<Eigen::Vector3d, longest_delay + 1> sent_ = {};  ///< ring
+  std::array<Eigen::Vector3d, max_delay + 1> sent_ = {};  ///< ring
   std::size_t newest_ = 0;
   bool has_position_ = false;
   Eigen::Vector3d position_ = Eigen::Vector3d::Zero();
@@ -102,7 +102,7 @@ class PassivityController {
   int lost_ = 0;                                        ///< ticks since the last position
   double presumed_way_ = 0.0;                           ///< of those [m]
   double force_while_lost_ = 0.0;                       ///< the largest at work in those [N]
-  double longest_ = std::numeric_limits<double>::infinity();
+  double max_force_ = std::numeric_limits<double>::infinity();
   double surplus_in_plane_ = 0.0;  ///< not yet damped out [J]
   double surplus_normal_ = 0.0;    ///< [J]
   double given_ = 0.0;

@@ -29,9 +29,9 @@ enum class GuidanceLaw {
 
 /// What happens to a stiffness that the device is not usable or not stable with.
 enum class StiffnessCheck {
-  refuse,  ///< the renderer is not made: ValueError
+  reject,  ///< the renderer is not made: ValueError
   clip,    ///< the largest that is; HapticRenderer::clipped() has the reasons
-  none     ///< it is taken, up to 1e6 N/m: for an experiment that looks for the limit itself
+  off      ///< it is taken, up to 1e6 N/m: for an experiment that looks for the limit itself
 };
 
 struct RendererOptions {
@@ -43,14 +43,14 @@ struct RendererOptions {
   double wrong_way_limit = 1.0;        ///< its largest force [N]
   double wrong_way_slack = 0.002;      ///< a pen may go back this far unhindered [m]
 
-  StiffnessCheck stiffness_check = StiffnessCheck::refuse;
+  StiffnessCheck stiffness_check = StiffnessCheck::reject;
   /// The softest grip that the loop is to be stable in, where the device states its mass (critical_stiffness()).
-  Hand softest_grip = {0.05, 1.0, 100.0};
+  GripImpedance softest_grip = {0.05, 1.0, 100.0};
 
   GuidanceLaw guidance = GuidanceLaw::linear;
   double guidance_limit = 2.0;  ///< saturating: the largest guidance force [N]
   bool guide_to_start = false;  ///< on the paper before a stroke, guidance pulls to the stroke's start
-  AssistPolicy assist;          ///< off by default: full help
+  AssistPolicy assist;          ///< off by default: full assistance
   FrictionOptions friction;     ///< off by default
 
   StrokeRules stroke;  ///< nearest point, constraint space, feature planes, attraction factors
@@ -75,7 +75,7 @@ struct RendererOptions {
   /// Of the motors' heat: the force falls from the device's peak to its continuous force as they warm; 0: no limit [s].
   double thermal_time_constant = 0.0;
 
-  double largest_speed = 5.0;  ///< a sample that implies a faster pen is a fault, not a motion [m/s, page]
+  double max_speed = 5.0;  ///< a sample that implies a faster pen is a fault, not a motion [m/s, page]
 
   ForceSign force_sign = ForceSign::attracting;
   PenTipRule pen_tip = PenTipRule::projected;
@@ -88,9 +88,9 @@ struct RendererOptions {
   /// The defaults at the device's update rate, their stiffnesses clipped to what it is usable and stable with.
   static RendererOptions for_device(const Capabilities& capabilities);
 
-  /// for_device() with every stage switched on: friction, guidance for large deviations, help as needed, limited jerk,
-  /// passivity control and an energy budget where the device states its mass and a delay of at most 15 ticks, a thermal
-  /// budget where it states a continuous force below its peak.
+  /// for_device() with every stage switched on: friction, guidance for large deviations, assistance as needed, limited
+  /// jerk, passivity control and an energy budget where the device states its mass and a delay of at most 15 ticks, a
+  /// thermal budget where it states a continuous force below its peak.
   static RendererOptions everything(const Capabilities& capabilities);
 };
 
@@ -102,11 +102,11 @@ struct RendererOptions {
 /// @return what was clipped, each with its reason
 /// @throws ValueError naming the option when a stiffness is negative or not finite, or the rate is none
 std::vector<std::string> clip_stiffness(RendererOptions& options, const Capabilities& capabilities,
-                                        double largest_attraction = 1.0, double scale = 1.0);
+                                        double max_attraction = 1.0, double scale = 1.0);
 
 /// @throws ValueError naming the option and its value: not finite, out of its domain, or a stiffness that
 /// clip_stiffness() would clip
-void validate(const RendererOptions& options, const Capabilities& capabilities, double largest_attraction = 1.0,
+void validate(const RendererOptions& options, const Capabilities& capabilities, double max_attraction = 1.0,
               double scale = 1.0);
 
 }  // namespace calligraphy

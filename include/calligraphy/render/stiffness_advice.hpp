@@ -11,10 +11,10 @@ namespace calligraphy {
 /// A point mass held against a wall that is computed once a tick: the force -K x - B (x - x_before) / T from the
 /// newest sample, held until the next. One axis; all that a stiffness has to be judged by.
 struct SampledLoop {
-  Capabilities device;          ///< m, b, f_c, D and d: mass, frictions, encoder step and sample delay
-  double rate = 1000.0;         ///< 1 / T: of the servo loop, which need not be the device's own [Hz]
-  Hand grip = {0.0, 0.0, 0.0};  ///< moves with the device; by default nobody holds it
-  double wall_damping = 0.0;    ///< B: of the wall, by the backward difference of the samples [N s/m]
+  Capabilities device;                   ///< m, b, f_c, D and d: mass, frictions, encoder step and sample delay
+  double rate = 1000.0;                  ///< 1 / T: of the servo loop, which need not be the device's own [Hz]
+  GripImpedance grip = {0.0, 0.0, 0.0};  ///< moves with the device; by default nobody holds it
+  double wall_damping = 0.0;             ///< B: of the wall, by the backward difference of the samples [N s/m]
 };
 
 /// @throws ValueError naming the field and its value: one that is not finite, negative or above 1e9; a rate that is not

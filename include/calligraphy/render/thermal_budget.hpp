@@ -15,7 +15,7 @@ struct ThermalBudget {
   double time_constant = 0.0;  ///< [s]
   double heat = 0.0;           ///< 1: that of the continuous force, for ever [1]
 
-  double largest_force() const noexcept {
+  double max_force() const noexcept {
     constexpr double warm = 0.8;
     const double share = std::clamp((1.0 - heat) / (1.0 - warm), 0.0, 1.0);
     return share > 0.0 ? continuous + share * (peak - continuous) : continuous;  // the peak may be infinite

@@ -18,7 +18,7 @@ namespace {
 using namespace hdapi;
 
 constexpr double millimetre = 1e-3;  // [m]
-constexpr int most_errors = 16;      // taken in one tick
+constexpr int max_errors = 16;       // taken in one tick
 
 /// How often calibration is looked at: often enough for a person, seldom enough to cost nothing [ticks].
 constexpr int calibration_interval = 50;
@@ -201,7 +201,7 @@ void OpenHapticsDevice::Implementation::look_at_calibration() noexcept {
 
 Judgement OpenHapticsDevice::Implementation::take_errors() noexcept {
   Judgement result;
-  for (int i = 0; i < most_errors; ++i) {
+  for (int i = 0; i < max_errors; ++i) {
     const ErrorInfo error = hd().hdGetError();
     if (error.code == no_error) break;
     last_error.store(error.code, std::memory_order_relaxed);

@@ -13,7 +13,7 @@
 namespace calligraphy::hdapi {
 namespace {
 
-constexpr int most_errors = 64;  // held by a runtime at once: a bound, should it never say that there are no more
+constexpr int max_errors = 64;  // held by a runtime at once: a bound, should it never say that there are no more
 
 /// The runtime is one for the whole process by its own nature: devices opened in several places must share the
 /// scheduler that it has.
@@ -126,7 +126,7 @@ bool Runtime::scheduler_runs() const {
 
 std::string Runtime::take_errors() const {
   std::string result;
-  for (int i = 0; i < most_errors; ++i) {
+  for (int i = 0; i < max_errors; ++i) {
     const ErrorInfo error = functions_.hdGetError();
     if (error.code == no_error) break;
     char code[32];

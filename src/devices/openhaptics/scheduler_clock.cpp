@@ -43,8 +43,8 @@ void SchedulerClock::stop() noexcept {
   if (!running_) return;
   stopping_ = true;
   // The callback ends itself with a last frame of no force. A scheduler that calls it no more is not waited for long.
-  constexpr int longest_wait = 100;  // [ms]
-  for (int i = 0; i < longest_wait && !finished_; ++i) wait_a_little();
+  constexpr int max_wait = 100;  // [ms]
+  for (int i = 0; i < max_wait && !finished_; ++i) wait_a_little();
   while (inside_) wait_a_little();
   if (!finished_) {
     cut_force();

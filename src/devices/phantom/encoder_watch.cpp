@@ -9,7 +9,7 @@ namespace calligraphy::phantom {
 namespace {
 
 constexpr double fastest = 60.0;          // [rad/s]
-constexpr double largest_change = 20.0;   // of the speed, from report to report [rad/s]
+constexpr double max_change = 20.0;       // of the speed, from report to report [rad/s]
 constexpr double rounding = 3.0;          // counts by which a change of speed may be wrong
 constexpr double compared_within = 5e-3;  // a longer interval says nothing of a change of speed [s]
 constexpr int leaps_to_give_up = 5;
@@ -31,7 +31,7 @@ EncoderWatch::Answer EncoderWatch::judge(const PerJoint<std::int64_t>& shown, do
   PerJoint<std::int64_t> steps{};
   Eigen::Vector3d moved;
   for (std::size_t joint = 0; joint < 3; ++joint) {
-    steps[joint] = shortest_step(shown_[joint], shown[joint], bits_[joint]);
+    steps[joint] = min_step(shown_[joint], shown[joint], bits_[joint]);
     const auto index = static_cast<Eigen::Index>(joint);
     moved[index] = static_cast<double>(steps[joint]) / counts_per_radian_[index];
   }
@@ -80,7 +80,7 @@ bool EncoderWatch::leaps(const Eigen::Vector3d& velocity, double interval, bool 
   if (velocity.cwiseAbs().maxCoeff() > fastest) return true;
   if (!even || !has_velocity_ || interval > compared_within) return false;
   const Eigen::Vector3d rounded = rounding / interval * counts_per_radian_.cwiseAbs().cwiseInverse();
-  return ((velocity - velocity_).cwiseAbs() - rounded).maxCoeff() > largest_change;
+  return ((velocity - velocity_).cwiseAbs() - rounded).maxCoeff() > max_change;
 }
 
 bool EncoderWatch::stuck(const Eigen::Vector3d& moved) noexcept {

@@ -86,12 +86,12 @@ InverseKinematics inverse_kinematics(const Linkage& linkage, const Eigen::Vector
 bool within_limits(const Linkage& linkage, const Joints& joints, double margin) noexcept {
   const JointLimits& limits = linkage.limits;
   const double elbow = joints[2] - joints[1];
-  return std::abs(joints[0]) <= limits.waist + margin && joints[1] >= limits.shoulder_least - margin &&
-         joints[1] <= limits.shoulder_most + margin && elbow >= limits.elbow_least - margin &&
-         elbow <= limits.elbow_most + margin;
+  return std::abs(joints[0]) <= limits.waist + margin && joints[1] >= limits.shoulder_min - margin &&
+         joints[1] <= limits.shoulder_max + margin && elbow >= limits.elbow_min - margin &&
+         elbow <= limits.elbow_max + margin;
 }
 
-double dexterity(const Linkage& linkage, const Joints& joints) noexcept {
+double manipulability(const Linkage& linkage, const Joints& joints) noexcept {
   const double r = linkage.upper_arm * std::cos(joints[1]) + linkage.forearm * std::sin(joints[2]);
   return r * std::cos(joints[1] - joints[2]) / (linkage.upper_arm + linkage.forearm);
 }

@@ -28,8 +28,8 @@ using namespace phantom;
 constexpr double fault_time = 20e-3;      // for which a fault is told: longer than any fall of the force [s]
 constexpr double silence = 8e-3;          // without a report: three times the longest pause of a real device [s]
 constexpr double write_patience = 20e-3;  // without a command [s]
-constexpr double fall_time = 10e-3;       // [s]
-constexpr double rise_time = 0.1;         // [s]
+constexpr double ramp_down = 10e-3;       // [s]
+constexpr double ramp_up = 0.1;           // [s]
 
 WireProfile profile_of(const PhantomOptions& options) {
   if (options.wire_profile.empty()) {
@@ -88,7 +88,7 @@ class PhantomDevice::Core final : public LinkListener {
         capabilities_(device_profile(options.model)),
         frames_(codec_),
         tracker_(codec_.profile(), linkage_, options.velocity_cutoff),
-        guard_(fall_time, rise_time),
+        guard_(ramp_down, ramp_up),
         output_(codec_, linkage_, capabilities_, options),
         bus_(link.get()),
         link_(std::move(link)) {
@@ -319,7 +319,7 @@ class PhantomDevice::Core final : public LinkListener {
 
   bool send_all(const std::vector<std::vector<std::byte>>& commands) noexcept {
     try {
-      std::array<std::byte, largest_packet> packet;
+      std::array<std::byte, max_framed_bytes> packet;
       for (const std::vector<std::byte>& bytes : commands) bus_->command(frames_.wrap(bytes, packet));
       return true;
     } catch (...) {
@@ -358,7 +358,7 @@ class PhantomDevice::Core final : public LinkListener {
   // Of whoever holds `sending_`.
   std::atomic_flag sending_;
   bool toggle_ = false;
-  std::array<std::byte, largest_packet> packet_{};
+  std::array<std::byte, max_framed_bytes> packet_{};
 
   // Of the servo loop.
   bool open_ = true;

@@ -28,7 +28,7 @@ class SequenceWatch {
   static constexpr std::int64_t lost_in_a_row = 3;
   static constexpr int repeats_in_a_row = 3;
   static constexpr double forgiven = 0.02;  ///< of a lost report, by each that arrives
-  static constexpr double most_debt = 10.0;
+  static constexpr double max_debt = 10.0;
 
   int bits_;
   bool started_ = false;

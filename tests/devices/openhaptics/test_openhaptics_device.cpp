@@ -544,8 +544,8 @@ TEST_CASE("a servo loop runs on the vendor's own thread and leaves no force behi
   options.time = nullptr;
   OpenHapticsDevice device(options);
   ServoLoopOptions patient;
-  patient.servo.patience = 1.0;  // for a machine under load
-  patient.servo.rise_time = 0.0;
+  patient.servo.timeout = 1.0;  // for a machine under load
+  patient.servo.ramp_up = 0.0;
   patient.thread.priority = 0;
   patient.thread.lock_memory = false;
   ServoLoop loop(

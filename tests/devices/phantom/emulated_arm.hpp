@@ -78,11 +78,12 @@ class MemoryLink final : public Link {
 /// An arm on a wire. One step() is one report.
 class EmulatedArm {
  public:
-  EmulatedArm(const WireProfile& profile, const std::string& model, const Capabilities& physics, const Hand& hand)
+  EmulatedArm(const WireProfile& profile, const std::string& model, const Capabilities& physics,
+              const GripImpedance& grip)
       : codec(profile),
         arm(linkage(model)),
         wire(std::make_shared<Wire>()),
-        tip(physics, hand, tip_position(arm, *profile.docked_angles) - arm.centre),
+        tip(physics, grip, tip_position(arm, *profile.docked_angles) - arm.centre),
         model_(model) {}
 
   PacketCodec codec;

@@ -42,9 +42,9 @@ inline const PhantomOptions& with_profile(PhantomOptions& options, const std::st
 struct HeldPhantom {
   explicit HeldPhantom(const PhantomOptions& options = simulated_options(),
                        const std::optional<WireProfile>& profile = wire_profile("simulated"),
-                       const Hand& hand = {0.1, 3.0, 300.0})
+                       const GripImpedance& grip = {0.1, 3.0, 300.0})
       : arm(profile ? *profile : read_wire_profile(options.wire_profile), options.model, device_profile(options.model),
-            hand),
+            grip),
         device(std::make_unique<MemoryLink>(arm.wire), options, [this] { return now; }) {}
 
   /// The simulated profile with one line changed.

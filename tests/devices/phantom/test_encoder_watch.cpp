@@ -13,7 +13,7 @@ namespace {
 
 /// 1000 counts a radian, 16 bits, the third joint counting backwards; a report every millisecond.
 struct Watched {
-  EncoderWatch watch{calligraphy_test::parsed(calligraphy_test::smallest_profile).encoders, {1000.0, 1000.0, -1000.0}};
+  EncoderWatch watch{calligraphy_test::parsed(calligraphy_test::minimal_profile).encoders, {1000.0, 1000.0, -1000.0}};
   PerJoint<std::int64_t> counts{65000, 0, 30000};
 
   EncoderWatch::Answer move(std::int64_t a, std::int64_t b, std::int64_t c, bool even = true, double elapsed = 1e-3) {

@@ -128,11 +128,11 @@ TEST_CASE("the arm is singular stretched, folded and above the waist, and only t
       const double planar = l1 * l2 * std::cos(joints[1] - joints[2]);
       REQUIRE(std::abs(plane.determinant()) == Approx(std::abs(planar)).epsilon(1e-12));
       REQUIRE(std::abs(tip_jacobian(arm, joints).determinant()) == Approx(std::abs(r * planar)).epsilon(1e-10));
-      REQUIRE(dexterity(arm, joints) == Approx(r * planar / (l1 * l2 * (l1 + l2))).epsilon(1e-12));
+      REQUIRE(manipulability(arm, joints) == Approx(r * planar / (l1 * l2 * (l1 + l2))).epsilon(1e-12));
     }
-    CHECK(std::abs(dexterity(arm, {0.2, 0.4, 0.4 + pi / 2.0})) < 1e-15);
-    CHECK(std::abs(dexterity(arm, {0.2, 0.4, 0.4 - pi / 2.0})) < 1e-15);
-    CHECK(dexterity(arm, {0.2, 0.0, pi / 2.0 - 0.1}) > 0.05);
+    CHECK(std::abs(manipulability(arm, {0.2, 0.4, 0.4 + pi / 2.0})) < 1e-15);
+    CHECK(std::abs(manipulability(arm, {0.2, 0.4, 0.4 - pi / 2.0})) < 1e-15);
+    CHECK(manipulability(arm, {0.2, 0.0, pi / 2.0 - 0.1}) > 0.05);
   }
 }
 

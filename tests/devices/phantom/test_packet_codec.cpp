@@ -16,8 +16,8 @@
 
 using namespace calligraphy;
 using namespace calligraphy::phantom;
+using calligraphy_test::minimal_profile;
 using calligraphy_test::parsed;
-using calligraphy_test::smallest_profile;
 
 namespace {
 
@@ -226,13 +226,13 @@ TEST_CASE("fields of any width, place, order and sign are read and written alike
 }
 
 TEST_CASE("a count that wraps goes on", "[phantom][codec]") {
-  CHECK(shortest_step(0xFFFF, 0, 16) == 1);
-  CHECK(shortest_step(0, 0xFFFF, 16) == -1);
-  CHECK(shortest_step(5, 5, 16) == 0);
-  CHECK(shortest_step(0, 0x7FFF, 16) == 0x7FFF);
-  CHECK(shortest_step(0, 0x8000, 16) == -0x8000);
-  CHECK(shortest_step(0xFFFFFFFF, 1, 32) == 2);
-  CHECK(shortest_step(-0x8000, 0x7FFF, 16) == -1);  // a signed field wraps as well
+  CHECK(min_step(0xFFFF, 0, 16) == 1);
+  CHECK(min_step(0, 0xFFFF, 16) == -1);
+  CHECK(min_step(5, 5, 16) == 0);
+  CHECK(min_step(0, 0x7FFF, 16) == 0x7FFF);
+  CHECK(min_step(0, 0x8000, 16) == -0x8000);
+  CHECK(min_step(0xFFFFFFFF, 1, 32) == 2);
+  CHECK(min_step(-0x8000, 0x7FFF, 16) == -1);  // a signed field wraps as well
 }
 
 TEST_CASE("decoding and encoding take nothing from the heap", "[phantom][codec]") {
@@ -249,7 +249,7 @@ TEST_CASE("decoding and encoding take nothing from the heap", "[phantom][codec]"
 }
 
 TEST_CASE("a profile without a command has an empty one", "[phantom][codec]") {
-  const PacketCodec codec(parsed(smallest_profile));
+  const PacketCodec codec(parsed(minimal_profile));
   std::array<std::byte, 8> frame{};
   CHECK(codec.encode_command({{1, 2, 3}, true, true, true, DeviceFault::none}, frame) == 0);
   CHECK(codec.torque_range() == PerJoint<std::int64_t>{0, 0, 0});

@@ -226,7 +226,7 @@ TEST_CASE("every docking calibrates anew", "[phantom][device]") {
     held.turn();
   }
   CHECK((held.turn().position - held.arm.tip.true_position()).norm() > 3e-3);
-  held.arm.tip.set_hand({0.1, 20.0, 20000.0});  // the inkwell guides the pen into its place
+  held.arm.tip.set_grip({0.1, 20.0, 20000.0});  // the inkwell guides the pen into its place
   held.carry(inkwell);
   held.arm.docked = true;
   for (int i = 0; i < 30; ++i) held.turn();

@@ -38,7 +38,7 @@ struct Loop {
   bool uses_servo;
   Servo servo;
   DeviceState state;
-  double largest_step = 0.0;  ///< of the force from one millisecond to the next [N]
+  double max_step = 0.0;  ///< of the force from one millisecond to the next [N]
   Eigen::Vector3d last_force = Eigen::Vector3d::Zero();
 
   void turn() {
@@ -50,7 +50,7 @@ struct Loop {
       held.device.write(spring(state));
     }
     const Eigen::Vector3d force = held.arm.motor_force();
-    largest_step = std::max(largest_step, (force - last_force).norm());
+    max_step = std::max(max_step, (force - last_force).norm());
     last_force = force;
   }
   void run(int ticks) {
@@ -187,7 +187,7 @@ TEST_CASE("every failure takes the force to zero within 20 ms, is named, and end
       Loop loop(with_servo);
       REQUIRE(loop.fault() == DeviceFault::none);
       REQUIRE(loop.last_force.norm() > 0.7);
-      loop.largest_step = 0.0;
+      loop.max_step = 0.0;
 
       failure.begin(loop);
       int found = 0;
@@ -195,7 +195,7 @@ TEST_CASE("every failure takes the force to zero within 20 ms, is named, and end
       while (!named && found < failure.found_within) {
         loop.turn();
         ++found;
-        // The servo loop's own patience with silence is shorter than the device's; both call it by the same name.
+        // The servo loop's own timeout with silence is shorter than the device's; both call it by the same name.
         named = loop.fault() == failure.fault;
       }
       REQUIRE(named);
@@ -215,7 +215,7 @@ TEST_CASE("every failure takes the force to zero within 20 ms, is named, and end
       REQUIRE(loop.fault() == DeviceFault::none);
       REQUIRE(loop.last_force.norm() > 0.7);
       // It falls by a tenth of itself a millisecond, and never faster, neither on its way down nor when it returns.
-      CHECK(loop.largest_step < 0.15);
+      CHECK(loop.max_step < 0.15);
       CHECK(loop.held.device.statistics().faults[static_cast<std::size_t>(failure.fault)] > 0);
     }
   }
@@ -227,7 +227,7 @@ TEST_CASE("a failure of a single report is told, and takes the force down as wel
       if (failure.found_within > 1) continue;
       CAPTURE(failure.name, with_servo);
       Loop loop(with_servo);
-      loop.largest_step = 0.0;
+      loop.max_step = 0.0;
       failure.begin(loop);
       loop.turn();
       failure.end(loop);
@@ -242,7 +242,7 @@ TEST_CASE("a failure of a single report is told, and takes the force down as wel
       loop.run(600);
       CHECK(loop.fault() == DeviceFault::none);
       CHECK(loop.last_force.norm() > 0.7);
-      CHECK(loop.largest_step < 0.15);
+      CHECK(loop.max_step < 0.15);
     }
   }
 }
@@ -273,7 +273,7 @@ TEST_CASE("after an unplug the device is disconnected, and back it needs its ink
     CHECK(loop.held.device.read().status == DeviceStatus::disconnected);
     loop.run(3000);
     CHECK(loop.fault() == DeviceFault::unplugged);
-    loop.largest_step = 0.0;  // what a device does that has lost its host is its own affair
+    loop.max_step = 0.0;  // what a device does that has lost its host is its own affair
 
     // Somewhere else on the bus, its encoders at some other count.
     loop.held.arm.count_offset = {111, 2222, 33333};
@@ -297,17 +297,17 @@ TEST_CASE("after an unplug the device is disconnected, and back it needs its ink
       loop.run(500);
     };
     // Friction leaves the tip a little off the inkwell: the inkwell itself guides the pen into place.
-    loop.held.arm.tip.set_hand({0.1, 20.0, 20000.0});
+    loop.held.arm.tip.set_grip({0.1, 20.0, 20000.0});
     carry(inkwell);
     loop.held.arm.docked = true;
     loop.run(50);
     loop.held.arm.docked = false;
-    loop.held.arm.tip.set_hand({0.1, 3.0, 300.0});
+    loop.held.arm.tip.set_grip({0.1, 3.0, 300.0});
     carry({0.01, 0.02, 0.01});
     CHECK(loop.fault() == DeviceFault::none);
     CHECK((loop.held.device.read().position - loop.held.arm.tip.true_position()).norm() < 3e-4);
     CHECK(loop.last_force.norm() > 0.7);
-    CHECK(loop.largest_step < 0.15);
+    CHECK(loop.max_step < 0.15);
   }
 }
 
@@ -315,7 +315,7 @@ TEST_CASE("encoders that are known to go on counting need no inkwell after an un
   PhantomOptions options = simulated_options();
   options.keep_calibration = true;
   Loop loop(true, options);
-  loop.largest_step = 0.0;
+  loop.max_step = 0.0;
   Wire& wire = *loop.held.arm.wire;
   wire.listener->changed(DeviceFault::unplugged);
   loop.held.arm.tamper = [](Bytes&) { return false; };
@@ -328,7 +328,7 @@ TEST_CASE("encoders that are known to go on counting need no inkwell after an un
   CHECK(loop.fault() == DeviceFault::none);
   CHECK((loop.held.device.read().position - loop.held.arm.tip.true_position()).norm() < 2e-4);
   CHECK(loop.last_force.norm() > 0.7);
-  CHECK(loop.largest_step < 0.15);
+  CHECK(loop.max_step < 0.15);
 }
 
 TEST_CASE("an encoder that stands while the others move is found, and its name is told", "[phantom][faults]") {

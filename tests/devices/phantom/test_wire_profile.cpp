@@ -12,8 +12,8 @@
 using namespace calligraphy;
 using namespace calligraphy::phantom;
 using calligraphy_test::format_error;
+using calligraphy_test::minimal_profile;
 using calligraphy_test::parsed;
-using calligraphy_test::smallest_profile;
 using Catch::Matchers::Contains;
 using Catch::Matchers::EndsWith;
 using Catch::Matchers::StartsWith;
@@ -50,9 +50,9 @@ TEST_CASE("the shipped profiles are valid and say what they lack", "[phantom][pr
     CHECK(parsed(std::string(wire_profile_text(name))).report_size == wire_profile(name).report_size);
   }
   CHECK_THROWS_WITH(wire_profile_text("touch"), Contains("\"touch\"") && Contains("omni, simulated"));
-  CHECK(missing_for_force(parsed(smallest_profile)) == std::vector<std::string>{"counts-per-radian", "docked-angles",
-                                                                                "command", "dac 1", "dac 2", "dac 3",
-                                                                                "torque-per-count"});
+  CHECK(missing_for_force(parsed(minimal_profile)) == std::vector<std::string>{"counts-per-radian", "docked-angles",
+                                                                               "command", "dac 1", "dac 2", "dac 3",
+                                                                               "torque-per-count"});
   CHECK_THROWS_WITH(wire_profile("touch"), Contains("\"touch\"") && Contains("omni, simulated"));
 }
 
@@ -125,7 +125,7 @@ TEST_CASE("a profile is read line by line", "[phantom][profile]") {
 }
 
 TEST_CASE("an error in a profile names file, line and value", "[phantom][profile]") {
-  const auto with = [](const std::string& line) { return format_error(smallest_profile + line + "\n"); };
+  const auto with = [](const std::string& line) { return format_error(minimal_profile + line + "\n"); };
   CHECK(with("gimbal 1 u16 at 6").empty());
   CHECK(with("wibble 3") == "lab.txt:7: unknown keyword 'wibble'");
   CHECK(with("encoder 1 u16 at 6") == "lab.txt:7: 'encoder 1' stands here a second time");
@@ -159,11 +159,11 @@ TEST_CASE("an error in a profile names file, line and value", "[phantom][profile
   CHECK_THAT(format_error("no profile\n"), Contains("lab.txt:1: expected 'calligraphy wire profile 1'"));
   CHECK_THAT(format_error(""), Contains("lab.txt: empty"));
   CHECK_THAT(format_error("calligraphy wire profile 1\nname x\nreport 8\n"), Contains("'encoder 1' is missing"));
-  CHECK_THAT(format_error(smallest_profile + std::string(2'000'000, ' ') + "\n"), Contains("longer than 1 MB"));
+  CHECK_THAT(format_error(minimal_profile + std::string(2'000'000, ' ') + "\n"), Contains("longer than 1 MB"));
 }
 
 TEST_CASE("fields outside their frame or on each other are refused with both names", "[phantom][profile]") {
-  const auto with = [](const std::string& line) { return format_error(smallest_profile + line + "\n"); };
+  const auto with = [](const std::string& line) { return format_error(minimal_profile + line + "\n"); };
   CHECK_THAT(with("gimbal 1 u16 at 7"), Contains("gimbal 1: offset is 7") && Contains("8 of the report"));
   CHECK_THAT(with("gimbal 1 u16 at 5"), Contains("encoder 3 lies on gimbal 1 in the report"));
   CHECK(with("gimbal 1 u16 at 5 bits 8..15").empty());
@@ -188,7 +188,7 @@ TEST_CASE("fields outside their frame or on each other are refused with both nam
 }
 
 TEST_CASE("what is wrong about one line of a profile is told with that line", "[phantom][profile]") {
-  const auto with = [](const std::string& lines) { return format_error(smallest_profile + lines + "\n"); };
+  const auto with = [](const std::string& lines) { return format_error(minimal_profile + lines + "\n"); };
   CHECK(with("source x\nrate 0") == "lab.txt:8: rate is 0, must be 1 to 100000 Hz");
   CHECK(with("gimbal 1 u16 at 5") == "lab.txt:6: encoder 3 lies on gimbal 1 in the report");
   CHECK_THAT(with("encoder-copy 1 u8 at 6"), StartsWith("lab.txt:7: encoder-copy 1: number of bits"));
@@ -209,7 +209,7 @@ TEST_CASE("what is wrong about one line of a profile is told with that line", "[
 }
 
 TEST_CASE("a profile made by a program is judged like one that was read", "[phantom][profile]") {
-  WireProfile profile = parsed(smallest_profile);
+  WireProfile profile = parsed(minimal_profile);
   CHECK(value_error(profile).empty());
   profile.encoders[1].bytes = 5;
   CHECK_THAT(value_error(profile), Contains("encoder 2: width is 5"));
@@ -217,10 +217,10 @@ TEST_CASE("a profile made by a program is judged like one that was read", "[phan
   CHECK_THAT(value_error(profile), Contains("encoder 2: offset is 2147483647"));
   profile.encoders[1] = {0, 1, std::numeric_limits<int>::max(), 8, false, false, false};
   CHECK_THAT(value_error(profile), Contains("encoder 2: highest bit is 2147483654"));
-  profile = parsed(smallest_profile);
+  profile = parsed(minimal_profile);
   profile.start.emplace_back();
   CHECK_THAT(value_error(profile), Contains("start 1 has 0 bytes"));
-  profile = parsed(smallest_profile);
+  profile = parsed(minimal_profile);
   profile.framing = Framing::serial;
   profile.report_size = 256;
   CHECK_THAT(value_error(profile), Contains("at most 255 bytes") && Contains("256"));
@@ -229,7 +229,7 @@ TEST_CASE("a profile made by a program is judged like one that was read", "[phan
 TEST_CASE("a profile is read from a file, and one that is not there is named", "[phantom][profile]") {
   const TemporaryDirectory directory;
   const std::string path = (directory.path() / "lab.txt").string();
-  directory.write("lab.txt", smallest_profile);
+  directory.write("lab.txt", minimal_profile);
   CHECK(read_wire_profile(path).name == "small");
   CHECK_THROWS_AS(read_wire_profile(path + "x"), FileError);
   CHECK_THROWS_WITH(read_wire_profile(path + "x"), EndsWith(": cannot be opened: No such file or directory"));

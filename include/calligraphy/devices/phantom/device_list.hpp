@@ -14,7 +14,7 @@ enum class LinkKind : std::uint8_t {
 };
 
 /// "usb", "hid".
-const char* link_name(LinkKind link) noexcept;
+const char* to_string(LinkKind link) noexcept;
 
 /// A device on the bus, open or not. Known by its ids alone: what it answers is asked when it is opened.
 struct PluggedDevice {
@@ -31,7 +31,7 @@ struct PluggedDevice {
 };
 
 /// "2988:0302 on bus 1, port 2, serial 540-12345".
-std::string describe(const PluggedDevice& device);
+std::string describe_device(const PluggedDevice& device);
 
 /// Every device whose ids are those of a Phantom, by bus and port. Opens none of them where the system tells the serial
 /// number otherwise, as Linux does. @throws DeviceError when the bus cannot be read at all

@@ -13,11 +13,11 @@ namespace calligraphy::phantom {
 using Joints = Eigen::Vector3d;
 
 struct JointLimits {
-  double waist = std::numeric_limits<double>::infinity();            ///< to either side [rad]
-  double shoulder_least = -std::numeric_limits<double>::infinity();  ///< [rad]
-  double shoulder_most = std::numeric_limits<double>::infinity();    ///< [rad]
-  double elbow_least = -1.5707963267948966;  ///< elbow less shoulder; the arm is singular at a right angle [rad]
-  double elbow_most = 1.5707963267948966;    ///< [rad]
+  double waist = std::numeric_limits<double>::infinity();          ///< to either side [rad]
+  double shoulder_min = -std::numeric_limits<double>::infinity();  ///< [rad]
+  double shoulder_max = std::numeric_limits<double>::infinity();   ///< [rad]
+  double elbow_min = -1.5707963267948966;  ///< elbow less shoulder; the arm is singular at a right angle [rad]
+  double elbow_max = 1.5707963267948966;   ///< [rad]
 };
 
 /// An arm of two links on a waist, x right, y up, z to the user:
@@ -64,7 +64,7 @@ bool within_limits(const Linkage& linkage, const Joints& joints, double margin =
 
 /// r cos(q2 - q3) / (l1 + l2): the part of the Jacobian's determinant that vanishes where the arm is singular:
 /// stretched or folded, or the tip above the waist. Up to 1.
-double dexterity(const Linkage& linkage, const Joints& joints) noexcept;
+double manipulability(const Linkage& linkage, const Joints& joints) noexcept;
 
 /// Torques that give this force [N] at the tip, J^T F [N m]. Never more than (l1 + l2) |F| in any joint, at singular
 /// joints too: there the arm bears a part of the force that no motor can give.

@@ -22,9 +22,9 @@ namespace calligraphy {
 
 using namespace phantom;
 
-const char* link_name(LinkKind link) noexcept { return link == LinkKind::hid ? "hid" : "usb"; }
+const char* to_string(LinkKind link) noexcept { return link == LinkKind::hid ? "hid" : "usb"; }
 
-std::string describe(const PluggedDevice& device) {
+std::string describe_device(const PluggedDevice& device) {
   char ids[10];
   std::snprintf(ids, sizeof ids, "%04x:%04x", device.vendor_id, device.product_id);
   std::string text = ids;
@@ -76,7 +76,7 @@ std::vector<PluggedDevice> plugged_devices() {
 std::string dump_descriptors(const PluggedDevice& device) {
   const std::string place = usb_place(device.bus, device.port);
   const std::vector<std::byte> descriptors = descriptors_at(place);
-  std::string text = describe(device) + "\n";
+  std::string text = describe_device(device) + "\n";
   if (descriptors.empty()) return text + "descriptors: the system does not tell them\n";
   text += descriptor_text(descriptors);
   if (device.link != LinkKind::hid) return text;

@@ -17,11 +17,11 @@
 namespace calligraphy::phantom {
 namespace {
 
-constexpr int longest_read = 5;        // [ms]; after it the reader looks whether a write has failed
+constexpr int max_read = 5;            // [ms]; after it the reader looks whether a write has failed
 constexpr double writer_pause = 0.05;  // [s]
 // From one opening to the next: a device that opens and fails at once must not take the processor, at the priority that
 // this thread may have.
-constexpr std::chrono::milliseconds shortest_stay(10);
+constexpr std::chrono::milliseconds min_stay(10);
 
 /// hidapi's list of devices, its start and its opening are not for several threads at once.
 std::mutex& hidapi_mutex() {
@@ -67,7 +67,7 @@ PluggedDevice found(libusb_context* context, const PluggedDevice& wanted) {
 }  // namespace
 
 HidLink::HidLink(const PluggedDevice& device, const LinkOptions& options) : wanted_(device), options_(options) {
-  descriptions_.push_back(describe(device));
+  descriptions_.push_back(describe_device(device));
   description_ = &descriptions_.back();
 }
 
@@ -95,14 +95,14 @@ void HidLink::open(LinkListener& listener) {
 }
 
 bool HidLink::send(std::span<const std::byte> packet) noexcept {
-  if (packet.size() > longest_packet) return false;
+  if (packet.size() > max_packet_bytes) return false;
   if (newest_.put(packet)) replaced_.fetch_add(1, std::memory_order_relaxed);
   bell_.ring();
   return true;
 }
 
 void HidLink::command(std::span<const std::byte> packet) {
-  if (packet.size() > longest_packet) refuse(wanted_, "a command of " + std::to_string(packet.size()) + " bytes");
+  if (packet.size() > max_packet_bytes) refuse(wanted_, "a command of " + std::to_string(packet.size()) + " bytes");
   const std::lock_guard<std::mutex> alone(device_mutex_);
   if (device_ == nullptr) refuse(wanted_, "the command was not sent: it is not plugged in");
   if (write_failed_ || !write_report(packet)) refuse(wanted_, "the command was not taken: the transfer failed");
@@ -134,7 +134,7 @@ void HidLink::connect() {
     numbered_ = numbered;
     write_failed_ = false;
   }
-  const std::string text = describe(place);
+  const std::string text = describe_device(place);
   auto known = std::find(descriptions_.begin(), descriptions_.end(), text);
   if (known == descriptions_.end()) known = descriptions_.insert(known, text);
   description_ = &*known;
@@ -189,9 +189,9 @@ void HidLink::read_and_tell(std::promise<void> opened) noexcept {
 
 /// Until the device fails or the link is closed.
 void HidLink::read_reports() noexcept {
-  std::array<unsigned char, longest_packet> report{};
+  std::array<unsigned char, max_packet_bytes> report{};
   while (!stopping_) {
-    const int size = hid_read_timeout(device_, report.data(), report.size(), longest_read);
+    const int size = hid_read_timeout(device_, report.data(), report.size(), max_read);
     if (size < 0 || write_failed_) {
       failed_.fetch_add(size < 0 ? 1 : 0, std::memory_order_relaxed);
       break;
@@ -210,7 +210,7 @@ void HidLink::read_reports() noexcept {
 }
 
 void HidLink::reopen() noexcept {
-  std::this_thread::sleep_until(opened_at_ + shortest_stay);
+  std::this_thread::sleep_until(opened_at_ + min_stay);
   try {
     connect();
     // hidapi does not say why a transfer failed: a device that opens again at once had an error, any other is gone.
@@ -220,7 +220,7 @@ void HidLink::reopen() noexcept {
     tell(DeviceFault::unplugged);
     for (const auto end = Clock::now() + std::chrono::duration<double>(options_.search);
          Clock::now() < end && !stopping_;) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(longest_read));
+      std::this_thread::sleep_for(std::chrono::milliseconds(max_read));
     }
   }
 }
@@ -242,7 +242,7 @@ void HidLink::write_packets() noexcept {
 
 /// The device's mutex is held. hidapi wants the number of a report in front, and 0 when there is none.
 bool HidLink::write_report(std::span<const std::byte> packet) noexcept {
-  std::array<unsigned char, longest_packet + 1> report{};
+  std::array<unsigned char, max_packet_bytes + 1> report{};
   const std::size_t start = numbered_ ? 0 : 1;
   std::copy_n(reinterpret_cast<const unsigned char*>(packet.data()), packet.size(), report.data() + start);
   if (hid_write(device_, report.data(), packet.size() + start) < 0) {

@@ -15,7 +15,7 @@ namespace {
 
 std::string listed(const std::vector<PluggedDevice>& devices) {
   std::string text;
-  for (const PluggedDevice& device : devices) text += (text.empty() ? "" : "; ") + describe(device);
+  for (const PluggedDevice& device : devices) text += (text.empty() ? "" : "; ") + describe_device(device);
   return text;
 }
 

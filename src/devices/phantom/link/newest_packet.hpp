@@ -11,10 +11,10 @@
 namespace calligraphy::phantom {
 
 /// Longer than any packet of a full-speed device, with room for the profile of an unknown one.
-constexpr std::size_t longest_packet = 512;
+constexpr std::size_t max_packet_bytes = 512;
 
 struct Packet {
-  std::array<std::byte, longest_packet> bytes = {};
+  std::array<std::byte, max_packet_bytes> bytes = {};
   std::size_t size = 0;
 
   std::span<const std::byte> content() const noexcept { return {bytes.data(), size}; }
@@ -28,7 +28,7 @@ struct Packet {
 /// same when the middle is fresh. One thread may put, one may take.
 class NewestPacket {
  public:
-  /// True when it replaced a packet that had not been taken. A packet longer than longest_packet is cut.
+  /// True when it replaced a packet that had not been taken. A packet longer than max_packet_bytes is cut.
   bool put(std::span<const std::byte> packet) noexcept {
     packets_[writing_].assign(packet);
     const std::uint8_t before =

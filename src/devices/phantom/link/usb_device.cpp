@@ -72,7 +72,7 @@ std::string permission_advice(const std::string& node) {
 }
 
 void refuse(const PluggedDevice& device, const std::string& reason) {
-  throw DeviceError(describe(device) + ": " + reason);
+  throw DeviceError(describe_device(device) + ": " + reason);
 }
 
 PluggedDevice identify(libusb_device* device) {

@@ -14,12 +14,12 @@ using namespace std::chrono_literals;
 
 constexpr auto pause_after_error = 10ms;       // a device that is being unplugged fails at once, again and again
 constexpr auto oldest_repeated_packet = 20ms;  // a force from before that is no longer the one that is meant
-constexpr double longest_cancel = 1.0;         // [s]
-constexpr double longest_flush = 0.1;          // [s]
+constexpr double max_cancel = 1.0;             // [s]
+constexpr double max_flush = 0.1;              // [s]
 
 unsigned milliseconds(double seconds) { return static_cast<unsigned>(std::max(1.0, seconds * 1e3)); }
 
-const char* name_of(libusb_transfer_status status) {
+const char* to_string(libusb_transfer_status status) {
   switch (status) {
     case LIBUSB_TRANSFER_TIMED_OUT:
       return "it did not take it in time";
@@ -35,7 +35,7 @@ const char* name_of(libusb_transfer_status status) {
 }  // namespace
 
 UsbLink::UsbLink(const PluggedDevice& device, const LinkOptions& options) : wanted_(device), options_(options) {
-  descriptions_.push_back(describe(device));
+  descriptions_.push_back(describe_device(device));
   description_ = &descriptions_.back();
   for (Inward& inward : inward_) inward.link = this;
 }
@@ -61,14 +61,14 @@ void UsbLink::open(LinkListener& listener) {
 }
 
 bool UsbLink::send(std::span<const std::byte> packet) noexcept {
-  if (packet.size() > longest_packet) return false;
+  if (packet.size() > max_packet_bytes) return false;
   if (newest_.put(packet)) replaced_.fetch_add(1, std::memory_order_relaxed);
   events_.ring();
   return true;
 }
 
 void UsbLink::command(std::span<const std::byte> packet) {
-  if (packet.size() > longest_packet) refuse(wanted_, "a command of " + std::to_string(packet.size()) + " bytes");
+  if (packet.size() > max_packet_bytes) refuse(wanted_, "a command of " + std::to_string(packet.size()) + " bytes");
   if (std::this_thread::get_id() == thread_id_) {
     transmit(packet);
     return;
@@ -98,7 +98,7 @@ void UsbLink::run(std::promise<void> opened) noexcept {
     opened.set_value();
     while (!stopping_) {
       serve();
-      events_.wait(longest_wait());
+      events_.wait(max_wait());
     }
     flush();
   } catch (...) {
@@ -131,7 +131,7 @@ void UsbLink::serve() noexcept {
   send_newest();
 }
 
-double UsbLink::longest_wait() const noexcept {
+double UsbLink::max_wait() const noexcept {
   if (gone_ || in_stalled_ || out_stalled_) return 0.0;
   if (device_.handle() == nullptr) return 0.05;
   return in_fault_ != DeviceFault::none || out_fault_ != DeviceFault::none ? 0.005 : 0.1;
@@ -153,7 +153,7 @@ void UsbLink::connect() {
   }
   outward_.transfer = libusb_alloc_transfer(0);
   if (outward_.transfer == nullptr) throw std::bad_alloc();
-  const std::string place = describe(device_.place());
+  const std::string place = describe_device(device_.place());
   auto known = std::find(descriptions_.begin(), descriptions_.end(), place);
   if (known == descriptions_.end()) known = descriptions_.insert(known, place);
   description_ = &*known;
@@ -169,7 +169,7 @@ void UsbLink::disconnect() noexcept {
   if (device_.handle() == nullptr) return;
   cancel_inward();
   if (outward_.flying) libusb_cancel_transfer(outward_.transfer);
-  pump_until(&UsbLink::outward_idle, longest_cancel);
+  pump_until(&UsbLink::outward_idle, max_cancel);
   device_.close(!gone_);
   // A transfer that has not come back by now was taken from libusb's list when the device was closed.
   for (Inward& inward : inward_) {
@@ -319,7 +319,7 @@ void UsbLink::cancel_inward() noexcept {
   for (Inward& inward : inward_) {
     if (inward.flying) libusb_cancel_transfer(inward.transfer);
   }
-  pump_until(&UsbLink::inward_idle, longest_cancel);
+  pump_until(&UsbLink::inward_idle, max_cancel);
 }
 
 bool UsbLink::inward_idle() const noexcept {
@@ -404,13 +404,13 @@ void UsbLink::transmit(std::span<const std::byte> packet) {
   outward_.refused = false;  // a command is the caller's to repeat
   if (outward_.flying || outward_.ended != LIBUSB_TRANSFER_COMPLETED) {
     refuse(device_.place(), std::string("the command was not taken: ") +
-                                (outward_.flying ? "it did not take it in time" : name_of(outward_.ended)));
+                                (outward_.flying ? "it did not take it in time" : to_string(outward_.ended)));
   }
 }
 
 /// The last packet of a servo loop is the one that sets the force to zero.
 void UsbLink::flush() noexcept {
-  const auto end = Clock::now() + std::chrono::duration<double>(longest_flush);
+  const auto end = Clock::now() + std::chrono::duration<double>(max_flush);
   while ((newest_.waiting() || outward_.flying) && device_.handle() != nullptr && !gone_ && Clock::now() < end) {
     send_newest();
     events_.wait(0.005);

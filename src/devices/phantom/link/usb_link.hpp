@@ -43,7 +43,7 @@ class UsbLink final : public Link {
     libusb_transfer* transfer = nullptr;
     bool flying = false;
     bool kept = false;  ///< its packet waits until the listener has heard of a change
-    std::array<unsigned char, longest_packet> buffer = {};
+    std::array<unsigned char, max_packet_bytes> buffer = {};
   };
   /// The transfer to the device.
   struct Outward {
@@ -53,7 +53,7 @@ class UsbLink final : public Link {
     std::size_t size = 0;
     Clock::time_point filled = {};  ///< when its packet was taken
     bool refused = false;           ///< its packet has not gone through yet
-    std::array<unsigned char, longest_packet> buffer = {};
+    std::array<unsigned char, max_packet_bytes> buffer = {};
   };
   /// A packet of command() from another thread.
   struct Request {
@@ -83,7 +83,7 @@ class UsbLink final : public Link {
   bool inward_idle() const noexcept;
   bool outward_idle() const noexcept { return !outward_.flying; }
   void pump_until(bool (UsbLink::*reached)() const noexcept, double seconds) noexcept;
-  double longest_wait() const noexcept;
+  double max_wait() const noexcept;
 
   static void LIBUSB_CALL inward_done(libusb_transfer* transfer) noexcept;
   static void LIBUSB_CALL outward_done(libusb_transfer* transfer) noexcept;

@@ -12,7 +12,7 @@
 namespace calligraphy::phantom {
 
 /// Of either direction, framing not counted [bytes].
-inline constexpr std::size_t largest_frame = 512;
+inline constexpr std::size_t max_frame_bytes = 512;
 
 inline std::uint32_t field_mask(const Field& field) noexcept {
   return field.bits >= 32 ? ~std::uint32_t{0} : (std::uint32_t{1} << field.bits) - 1;

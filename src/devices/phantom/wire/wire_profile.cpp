@@ -24,8 +24,8 @@ class FrameCheck {
  public:
   FrameCheck(const char* frame, std::size_t size) : frame_(frame), size_(size), taken_(8 * size) {
     const std::string name = std::string(frame) + " size";
-    if (size < 1 || size > largest_frame) {
-      refuse(name + " is " + std::to_string(size) + ", must be 1 to " + std::to_string(largest_frame) + " bytes");
+    if (size < 1 || size > max_frame_bytes) {
+      refuse(name + " is " + std::to_string(size) + ", must be 1 to " + std::to_string(max_frame_bytes) + " bytes");
     }
   }
 
@@ -127,7 +127,7 @@ void validate_report(const WireProfile& profile) {
   }
   for (std::size_t i = 0; i < profile.faults.size(); ++i) {
     const FaultBit& bit = profile.faults[i];
-    check.flag(bit.field, numbered("fault", i) + " (" + fault_name(bit.fault) + ")");
+    check.flag(bit.field, numbered("fault", i) + " (" + to_string(bit.fault) + ")");
   }
   for (std::size_t i = 0; i < profile.expected.size(); ++i) {
     check.alone(profile.expected[i].field, numbered("expect", i));
@@ -194,7 +194,7 @@ void validate(const WireProfile& profile) {
     refuse("serial frames hold at most 255 bytes; the report has " + std::to_string(profile.report_size) +
            ", the command " + std::to_string(profile.command_size));
   }
-  const std::size_t most = profile.framing == Framing::serial ? 256 : largest_frame;
+  const std::size_t most = profile.framing == Framing::serial ? 256 : max_frame_bytes;
   for (const bool is_start : {true, false}) {
     const auto& packets = is_start ? profile.start : profile.stop;
     for (std::size_t i = 0; i < packets.size(); ++i) {

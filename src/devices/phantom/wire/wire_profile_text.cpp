@@ -20,7 +20,7 @@ namespace calligraphy::phantom {
 namespace {
 
 constexpr std::string_view first_line = "calligraphy wire profile 1";
-constexpr std::size_t longest_text = 1 << 20;  // a profile is a page; more is another file [bytes]
+constexpr std::size_t max_text = 1 << 20;  // a profile is a page; more is another file [bytes]
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
 /// What was found, as a message shows it.
@@ -37,7 +37,7 @@ bool is_free_text(std::string_view key) { return key == "name" || key == "source
 std::optional<DeviceFault> fault_of(std::string_view word) {
   for (auto fault = DeviceFault::unplugged; fault <= DeviceFault::late_clock;
        fault = static_cast<DeviceFault>(static_cast<int>(fault) + 1)) {
-    std::string name = fault_name(fault);
+    std::string name = to_string(fault);
     std::ranges::replace(name, ' ', '-');
     if (name == word) return fault;
   }
@@ -84,7 +84,7 @@ class Parser {
     while (std::getline(in_, line_)) {
       ++number_;
       read_ += line_.size() + 1;
-      if (read_ > longest_text) fail("this is no wire profile: it is longer than 1 MB");
+      if (read_ > max_text) fail("this is no wire profile: it is longer than 1 MB");
       if (!utf8::is_valid(line_.begin(), line_.end())) fail("this is no wire profile: it is not UTF-8");
       if (number_ == 1 && line_.starts_with(byte_order_mark)) line_.erase(0, byte_order_mark.size());
       left_ = line_;
@@ -385,7 +385,7 @@ WireProfile read_wire_profile(const std::string& path) {
     throw FileError(path + ": is not a regular file");
   }
   const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (!error && size > longest_text) throw FormatError(path + ": this is no wire profile: it is longer than 1 MB");
+  if (!error && size > max_text) throw FormatError(path + ": this is no wire profile: it is longer than 1 MB");
   errno = 0;
   std::ifstream in(path, std::ios::binary);
   if (!in) throw FileError(path + ": cannot be opened: " + std::generic_category().message(errno));

@@ -49,7 +49,7 @@ constexpr unsigned needs_manual_input = 0x5002;
 constexpr double period = 1e-3;  // [s]
 
 struct Device {
-  Device(const char* device_name, const char* device_model, const char* profile, const Hand& grip = {},
+  Device(const char* device_name, const char* device_model, const char* profile, const GripImpedance& grip = {},
          const Eigen::Vector3d& position = Eigen::Vector3d::Zero())
       : name(device_name), model(device_model), physics(device_profile(profile), grip, position) {}
 
@@ -188,10 +188,10 @@ void give(const Eigen::Vector3d& values, double result[3]) { std::copy(values.be
   const Capabilities profile = device_profile("touch");
   const WriterSkill skill = WriterSkill::skilled();
   const char* const text = std::getenv("STAND_IN_TEXT");
-  const Page page =
+  const PracticePage page =
       calligraphy_test::page_to_write(text == nullptr ? "永" : text, CharacterSet(built_in_characters()), profile);
   const auto writer = std::make_shared<calligraphy_test::WritingHand>(page, profile, skill, 1);
-  auto device = std::make_unique<Device>("Default Device", "PHANTOM Touch", "touch", skill.hand, writer->start());
+  auto device = std::make_unique<Device>("Default Device", "PHANTOM Touch", "touch", skill.grip, writer->start());
   device->hand = [writer](const Eigen::Vector3d& tip) { return writer->next(tip, period); };
   world().devices.push_back(std::move(device));
   world().real_time = true;

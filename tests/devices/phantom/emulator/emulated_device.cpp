@@ -11,9 +11,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::size_t most_waiting = 16;
+constexpr std::size_t max_waiting = 16;
 constexpr std::size_t kept_plugs = 4;
-constexpr auto longest_wait = 60s;
+constexpr auto max_wait = 60s;
 
 std::string formatted(const char* format, int first, int second) {
   char text[64];
@@ -185,7 +185,7 @@ void EmulatedDevice::queue(Waiting packet) {
   const std::lock_guard<std::mutex> alone(mutex_);
   if (!usbfs_) return;
   waiting_.push_back(std::move(packet));
-  if (waiting_.size() > most_waiting) waiting_.pop_front();
+  if (waiting_.size() > max_waiting) waiting_.pop_front();
   usbfs_->deliver();
   if (hidraw_) hidraw_->show_state();
 }
@@ -212,12 +212,12 @@ std::uint64_t EmulatedDevice::packets_taken() const {
 
 bool EmulatedDevice::wait(const std::function<bool(const HostActions&)>& reached) const {
   std::unique_lock<std::mutex> lock(mutex_);
-  return happened_.wait_for(lock, longest_wait, [&] { return reached(host_); });
+  return happened_.wait_for(lock, max_wait, [&] { return reached(host_); });
 }
 
 bool EmulatedDevice::wait_for_packets(std::uint64_t count) const {
   std::unique_lock<std::mutex> lock(mutex_);
-  return happened_.wait_for(lock, longest_wait, [&] { return taken_ >= count; });
+  return happened_.wait_for(lock, max_wait, [&] { return taken_ >= count; });
 }
 
 std::vector<std::string> EmulatedDevice::node_files() const {

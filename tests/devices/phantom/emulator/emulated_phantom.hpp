@@ -16,8 +16,9 @@ namespace calligraphy_test {
 /// unplugged.
 class EmulatedPhantom {
  public:
-  EmulatedPhantom(TestBed& bed, const UsbIdentity& identity, const Hand& hand, const std::string& model = "touch")
-      : bus(bed, identity), arm(wire_profile("simulated"), model, device_profile(model), hand) {
+  EmulatedPhantom(TestBed& bed, const UsbIdentity& identity, const GripImpedance& grip,
+                  const std::string& model = "touch")
+      : bus(bed, identity), arm(wire_profile("simulated"), model, device_profile(model), grip) {
     arm.started = false;
     bus.on_packet([this](std::span<const std::byte> packet) {
       const std::lock_guard<std::mutex> alone(mutex);

@@ -86,7 +86,7 @@ WriterSkill skill_of(const Options& options) {
   return options.skilled ? WriterSkill::skilled() : WriterSkill::novice();
 }
 
-Hand hand_of_skill(const Options& options) { return skill_of(options).hand; }
+GripImpedance grip_of_skill(const Options& options) { return skill_of(options).grip; }
 
 std::unique_ptr<HandMotion> hand_of(const Options& options) {
   if (options.text.empty()) return std::make_unique<CirclingHand>();
@@ -105,7 +105,7 @@ enum class Stage { docked, carried, resting, moving };
 class Run {
  public:
   Run(const Options& options, HandMotion& hand)
-      : phantom_(bed_, options.hid ? hid_touch(options.serial) : serial_touch(options.serial), hand_of_skill(options),
+      : phantom_(bed_, options.hid ? hid_touch(options.serial) : serial_touch(options.serial), grip_of_skill(options),
                  model),
         hand_(hand) {
     phantom_.bus.plug_in(1, "2");

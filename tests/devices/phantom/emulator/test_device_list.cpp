@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/devices/phantom/capture.hpp>
+#include <calligraphy/devices/phantom/packet_capture.hpp>
 
 #include "as_nobody.hpp"
 #include "plugged_touch.hpp"
@@ -34,9 +34,9 @@ TEST_CASE("every Phantom on the bus is listed by place, other devices are not", 
   mouse.plug_in(1, "1");
   const std::vector<PluggedDevice> devices = plugged_devices();
   REQUIRE(devices.size() == 3);
-  CHECK(describe(devices[0]) == "2988:0302 on bus 1, port 2, serial U1");
-  CHECK(describe(devices[1]) == "2988:0304 on bus 2, port 1.4, serial H1");
-  CHECK(describe(devices[2]) == "0301:2988 on bus 2, port 3, serial S1");
+  CHECK(describe_device(devices[0]) == "2988:0302 on bus 1, port 2, serial U1");
+  CHECK(describe_device(devices[1]) == "2988:0304 on bus 2, port 1.4, serial H1");
+  CHECK(describe_device(devices[2]) == "0301:2988 on bus 2, port 3, serial S1");
   CHECK(devices[0].link == LinkKind::usb);
   CHECK(devices[1].link == LinkKind::hid);
   CHECK(devices[2].link == LinkKind::usb);
@@ -132,14 +132,14 @@ TEST_CASE("a capture holds the transfers with their times, and its text can be r
   EmulatedDevice touch(bed, serial_touch("U1"));
   touch.plug_in(1, "2");
   const PluggedDevice device = plugged_devices().front();
-  CHECK_THROWS_AS(capture(device, {0, 1.0}), ValueError);
-  CHECK_THROWS_AS(capture(device, {1, -1.0}), ValueError);
+  CHECK_THROWS_AS(capture_packets(device, {0, 1.0}), ValueError);
+  CHECK_THROWS_AS(capture_packets(device, {1, -1.0}), ValueError);
   for (std::uint8_t i = 0; i < 3; ++i) touch.push(numbered(i, 2));
   touch.push({});
-  const Capture got = capture(device, {4, 10.0});
+  const PacketCapture got = capture_packets(device, {4, 10.0});
   REQUIRE(got.transfers.size() == 4);
   std::ostringstream text;
-  write_capture(text, got);
+  write_packet_capture(text, got);
   std::istringstream lines(text.str());
   std::string line;
   std::getline(lines, line);

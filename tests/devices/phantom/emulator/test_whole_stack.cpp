@@ -54,7 +54,7 @@ struct Stack {
   EmulatedPhantom phantom;
   PhantomDevice device;
   Servo servo;
-  double largest_step = 0.0;  ///< of the force from one millisecond to the next [N]
+  double max_step = 0.0;  ///< of the force from one millisecond to the next [N]
   Eigen::Vector3d last_force = Eigen::Vector3d::Zero();
   std::uint64_t expected_reports = 0;
 
@@ -86,7 +86,7 @@ struct Stack {
       REQUIRE(reached([&] { return phantom.bus.packets_taken() > taken; }));
     }
     const Eigen::Vector3d force = phantom.motor_force();
-    largest_step = std::max(largest_step, (force - last_force).norm());
+    max_step = std::max(max_step, (force - last_force).norm());
     last_force = force;
   }
   void run(int ticks) {
@@ -103,7 +103,7 @@ void require_return_without_a_jump(Stack& stack) {
   stack.run(600);
   REQUIRE(stack.servo.status().fault == DeviceFault::none);
   CHECK(stack.last_force.norm() > 0.7);
-  CHECK(stack.largest_step < 0.15);
+  CHECK(stack.max_step < 0.15);
 }
 
 UsbIdentity touch_of_this_program() {
@@ -126,7 +126,7 @@ TEST_CASE("the tip is where the hand holds it and the force is the one asked for
 
 TEST_CASE("a device that is unplugged lets go, and resumes elsewhere without a jump", "[stack]") {
   Stack stack(touch_of_this_program());
-  stack.largest_step = 0.0;
+  stack.max_step = 0.0;
   stack.phantom.unplug(GENERATE(UnplugOrder::error_first, UnplugOrder::gone_first));
   REQUIRE(Stack::reached([&] { return stack.told(DeviceFault::unplugged); }));
   require_zero_within_20_ms(stack, false, false);
@@ -136,7 +136,7 @@ TEST_CASE("a device that is unplugged lets go, and resumes elsewhere without a j
   stack.phantom.bus.plug_in(2, "1.4");
   REQUIRE(Stack::reached([&] { return stack.device.statistics().opened == 2; }));
   REQUIRE(stack.phantom.bus.wait(listens));
-  stack.largest_step = 0.0;  // the motors of a device that is unplugged are off at once
+  stack.max_step = 0.0;  // the motors of a device that is unplugged are off at once
   require_return_without_a_jump(stack);
 }
 
@@ -158,7 +158,7 @@ TEST_CASE("a device that has reset itself without leaving the bus is started aga
   }));
   REQUIRE(stack.phantom.bus.wait(listens));
   for (int i = 0; i < 30; ++i) stack.turn(false, false);
-  stack.largest_step = 0.0;
+  stack.max_step = 0.0;
   require_return_without_a_jump(stack);
   CHECK(stack.phantom.times_started() == 2);
 }
@@ -218,7 +218,7 @@ TEST_CASE("frames that are short, empty, overlong, spoilt or missing take the fo
   Stack stack(identity);
   for (const Case& failure : cases) {
     CAPTURE(failure.name);
-    stack.largest_step = 0.0;
+    stack.max_step = 0.0;
     stack.phantom.arm.tamper = failure.tamper;
     require_zero_within_20_ms(stack, failure.reports, true);
     CHECK(stack.servo.status().fault == failure.fault);
@@ -231,7 +231,7 @@ TEST_CASE("frames that are short, empty, overlong, spoilt or missing take the fo
 
 TEST_CASE("a device that answers 15 ms late loses its force and gets it back", "[stack]") {
   Stack stack(touch_of_this_program());
-  stack.largest_step = 0.0;
+  stack.max_step = 0.0;
   int tick = 0;
   stack.phantom.arm.tamper = [&tick](Bytes&) { return ++tick % 15 == 0; };
   require_zero_within_20_ms(stack, true, true);
@@ -250,7 +250,7 @@ TEST_CASE("an endpoint that fails is named, and the force falls and comes back",
   for (const Case failure : {Case{EPIPE, DeviceFault::stalled}, Case{EPROTO, DeviceFault::link_error},
                              Case{EOVERFLOW, DeviceFault::overlong_frame}}) {
     CAPTURE(failure.error);
-    stack.largest_step = 0.0;
+    stack.max_step = 0.0;
     stack.phantom.bus.fail_next(failure.error);
     REQUIRE(Stack::reached([&] { return stack.told(failure.fault); }));
     REQUIRE(stack.phantom.bus.wait(listens));
@@ -282,7 +282,7 @@ TEST_CASE("a device that refuses commands is told as stalled, and takes them aga
     stack.turn(true, false);
     return stack.phantom.bus.packets_taken() > taken + 2;
   }));
-  stack.largest_step = 0.0;
+  stack.max_step = 0.0;
   require_return_without_a_jump(stack);
 }
 #endif

@@ -28,7 +28,7 @@ inline void try_packet_codec(std::span<const std::byte> input) {
   const auto choice = std::to_integer<unsigned>(input[0]);
   const PacketCodec& codec = codecs[choice % 2];
   const std::span<const std::byte> frame = input.subspan(1);
-  std::array<std::byte, largest_frame> again{};
+  std::array<std::byte, max_frame_bytes> again{};
   if ((choice & 2) != 0) {
     const RawSample sample = codec.decode_report(frame);
     claim(is_readable(sample.fault) ==

@@ -19,7 +19,7 @@ inline void try_wire_profile(std::span<const std::byte> input) {
     const PacketCodec codec(read_wire_profile(in, "fuzz.txt"));  // what is read is valid
     missing_for_force(codec.profile());
     // And any field of it can be read and written in its frame.
-    std::array<std::byte, largest_frame> frame{};
+    std::array<std::byte, max_frame_bytes> frame{};
     const std::span<std::byte> report = std::span(frame).first(codec.profile().report_size);
     for (const int byte : {0x00, 0xFF, 0xA5}) {
       std::ranges::fill(report, static_cast<std::byte>(byte));

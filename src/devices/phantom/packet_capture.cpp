@@ -1,5 +1,5 @@
 // A listener that keeps everything: unlike a servo loop it may take memory while it listens.
-#include <calligraphy/devices/phantom/capture.hpp>
+#include <calligraphy/devices/phantom/packet_capture.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -54,7 +54,7 @@ class Recorder final : public phantom::LinkListener {
 
 }  // namespace
 
-Capture capture(const PluggedDevice& device, const CaptureOptions& options) {
+PacketCapture capture_packets(const PluggedDevice& device, const CaptureOptions& options) {
   if (options.transfers == 0) throw ValueError("a capture of 0 transfers: ask for one at least");
   if (!(std::isfinite(options.seconds) && options.seconds > 0.0)) {
     throw ValueError("a capture of " + std::to_string(options.seconds) + " s: must be finite and above 0");
@@ -65,9 +65,9 @@ Capture capture(const PluggedDevice& device, const CaptureOptions& options) {
   return {device, recorder.wait(options)};
 }
 
-void write_capture(std::ostream& out, const Capture& capture) {
-  out << "# calligraphy capture 1\n# " << describe(capture.device) << "\n# " << capture.device.model << "\n# link "
-      << link_name(capture.device.link) << "\n# time [s], bytes\n";
+void write_packet_capture(std::ostream& out, const PacketCapture& capture) {
+  out << "# calligraphy capture 1\n# " << describe_device(capture.device) << "\n# " << capture.device.model
+      << "\n# link " << to_string(capture.device.link) << "\n# time [s], bytes\n";
   for (const CapturedTransfer& transfer : capture.transfers) {
     out << std::fixed << std::setprecision(6) << transfer.time << ' '
         << (transfer.bytes.empty() ? "-" : phantom::hexadecimal(transfer.bytes)) << '\n';

@@ -1,4 +1,4 @@
-#include "code_name.hpp"
+#include "code_point_name.hpp"
 
 #include <cstdio>
 
@@ -6,7 +6,7 @@
 
 namespace calligraphy {
 
-std::string code_name(char32_t code) {
+std::string code_point_name(char32_t code) {
   char number[16];
   std::snprintf(number, sizeof number, "U+%04X", static_cast<unsigned>(code));
   const bool is_control = code < 0x20 || (code >= 0x7F && code < 0xA0);

@@ -1,4 +1,4 @@
-// calligraphy trade: what accuracy costs, side by side in one run.
+// calligraphy tradeoff: what accuracy costs, side by side in one run.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -15,7 +15,7 @@
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/experiments/force_field.hpp>
 #include <calligraphy/experiments/nearest_point_workload.hpp>
-#include <calligraphy/experiments/trade.hpp>
+#include <calligraphy/experiments/tradeoff.hpp>
 #include <calligraphy/pictures/plot.hpp>
 
 #include "character_source.hpp"
@@ -24,13 +24,13 @@
 #include "options.hpp"
 #include "output_directory.hpp"
 #include "progress.hpp"
-#include "trade_report.hpp"
+#include "tradeoff_report.hpp"
 
 namespace calligraphy::tools {
 namespace {
 
 /// Characters that are written at every servo rate.
-constexpr std::size_t most_written = 2;
+constexpr std::size_t max_written = 2;
 
 struct Options {
   std::string text = "永北京航空天大学和年书法";
@@ -42,12 +42,12 @@ struct Options {
   bool json = false;
 };
 
-TradeReport asked_for(const Options& options) {
-  TradeReport report;
+TradeoffReport asked_for(const Options& options) {
+  TradeoffReport report;
   for (const char32_t code : characters_of(options.text)) {
     if (report.text.find(code) == std::u32string::npos) report.text += code;
   }
-  report.written = report.text.substr(0, options.quick ? 1 : most_written);
+  report.written = report.text.substr(0, options.quick ? 1 : max_written);
   report.seed = report.nearest_options.seed = report.servo_options.seed = options.seed;
   if (options.quick) {
     report.nearest_options.queries = 400;
@@ -59,7 +59,7 @@ TradeReport asked_for(const Options& options) {
   return report;
 }
 
-void measure(TradeReport& report, const std::vector<Character>& characters, const Interrupt& interrupt) {
+void measure(TradeoffReport& report, const std::vector<Character>& characters, const Interrupt& interrupt) {
   Progress progress;
   const auto part = [&](double begin, double end) {
     return [&, begin, end](double share) {
@@ -68,32 +68,32 @@ void measure(TradeReport& report, const std::vector<Character>& characters, cons
     };
   };
   report.nearest_options.progress = part(0.0, 0.6);
-  report.nearest_point = nearest_point_trade(characters, report.nearest_options);
+  report.nearest_point = nearest_point_tradeoff(characters, report.nearest_options);
   report.servo_options.progress = part(0.6, 0.95);
-  report.servo_rate = servo_rate_trade(std::span(characters).first(report.written.size()), report.servo_options);
-  report.coordinate_width = coordinate_width_trade(characters, part(0.95, 1.0));
+  report.servo_rate = servo_rate_tradeoff(std::span(characters).first(report.written.size()), report.servo_options);
+  report.coordinate_width = coordinate_width_tradeoff(characters, part(0.95, 1.0));
   progress.show(1.0);
 }
 
-void draw(const TradeReport& report, const OutputDirectory& out, const Interrupt& interrupt) {
-  out.write("trade.json", json(report));
+void draw(const TradeoffReport& report, const OutputDirectory& out, const Interrupt& interrupt) {
+  out.write("tradeoff.json", json(report));
   for (const ForceFieldFigure& figure : ambiguity_figures()) {
     out.write("field-" + figure.name + ".svg", force_field_picture(figure));
   }
-  const bool plots = can_plot();
+  const bool plots = gnuplot_available();
   interrupt.check();  // Ctrl-C is for gnuplot too, which then cannot be run
   if (!plots) {
-    spdlog::warn("gnuplot cannot be run: no plots of the trade");
+    spdlog::warn("gnuplot cannot be run: no plots of the tradeoff");
     return;
   }
-  out.write("trade.svg", nearest_point_trade_plot(report.nearest_point));
-  out.write("servo_rate.svg", servo_rate_trade_plot(report.servo_rate));
-  out.write("coordinate_width.svg", coordinate_width_trade_plot(report.coordinate_width));
+  out.write("tradeoff.svg", nearest_point_tradeoff_plot(report.nearest_point));
+  out.write("servo_rate.svg", servo_rate_tradeoff_plot(report.servo_rate));
+  out.write("coordinate_width.svg", coordinate_width_tradeoff_plot(report.coordinate_width));
 }
 
 void run(const Options& options) {
   if (options.out && options.out->empty()) throw UsageError("--out: an empty name");
-  TradeReport report = asked_for(options);
+  TradeoffReport report = asked_for(options);
   const CharacterSet set = open_characters(options.characters, report.text);
   const std::vector<Character> characters = characters_of(set, report.text);
   if (curve_control_points(characters).empty()) {
@@ -116,11 +116,11 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_trade(CLI::App& program) {
+void add_tradeoff(CLI::App& program) {
   CLI::App* const command = program.add_subcommand(
-      "trade",
+      "tradeoff",
       "What accuracy costs: every method of the nearest point, the servo rate, the width of stored coordinates. With "
-      "--out DIR also as plots and trade.json, and the force fields of Figs. 25 to 28.");
+      "--out DIR also as plots and tradeoff.json, and the force fields of Figs. 25 to 28.");
   const auto options = std::make_shared<Options>();
   command->add_option("TEXT", options->text, "Characters to measure on; the first two are written at every servo rate")
       ->capture_default_str();

@@ -22,17 +22,17 @@ struct CapturedTransfer {
   std::vector<std::byte> bytes;
 };
 
-struct Capture {
+struct PacketCapture {
   PluggedDevice device;
   std::vector<CapturedTransfer> transfers;
 };
 
 /// Opens the device, sends it nothing and listens. @throws DeviceError when it cannot be opened, ValueError when a
 /// limit is not above 0
-Capture capture(const PluggedDevice& device, const CaptureOptions& options = {});
+PacketCapture capture_packets(const PluggedDevice& device, const CaptureOptions& options = {});
 
 /// The capture as text: lines that begin with # tell of the device; then a line for each transfer, its time [s] with
 /// six decimals, a blank, and its bytes in hexadecimal with blanks between them; "-" is a transfer without a byte.
-void write_capture(std::ostream& out, const Capture& capture);
+void write_packet_capture(std::ostream& out, const PacketCapture& capture);
 
 }  // namespace calligraphy

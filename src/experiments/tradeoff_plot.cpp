@@ -1,4 +1,4 @@
-// The trade of speed against accuracy, drawn by gnuplot.
+// The tradeoff of speed against accuracy, drawn by gnuplot.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <functional>
 
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/experiments/trade.hpp>
+#include <calligraphy/experiments/tradeoff.hpp>
 
 #include "pictures/gnuplot.hpp"
 #include "pictures/svg.hpp"
@@ -18,7 +18,7 @@ using gnuplot::number;
 
 constexpr double millimetres = 1e3;
 constexpr double percent = 100.0;
-constexpr double least_error = 1e-17;  ///< what is drawn for no error at all
+constexpr double min_error = 1e-17;  ///< what is drawn for no error at all
 
 constexpr const char* style =
     "set grid back linetype 1 linecolor rgb '#dcdcdc' linewidth 0.5\n"
@@ -51,7 +51,7 @@ std::string block(const std::string& name, const std::string& lines) {
 
 std::string point_label(const NearestPointSetting& setting) { return setting.name.substr(setting.name.find(' ') + 1); }
 
-using Cost = NearestPointCost NearestPointTrade::*;
+using Cost = NearestPointCost NearestPointTradeoff::*;
 
 /// Where a setting is drawn.
 struct Mark {
@@ -70,12 +70,12 @@ std::string label_of(const Mark& mark) {
 }
 
 /// One line per setting of the method: cost, largest error, 99 % error, label.
-std::string points_of(std::span<const NearestPointTrade> trade, const MethodStyle& method, Cost cost) {
+std::string points_of(std::span<const NearestPointTradeoff> tradeoff, const MethodStyle& method, Cost cost) {
   std::vector<Mark> marks;
-  for (const NearestPointTrade& entry : trade) {
+  for (const NearestPointTradeoff& entry : tradeoff) {
     if (entry.setting.options.method != method.method) continue;
     const NearestPointCost& own = entry.*cost;
-    const auto shown = [](double error) { return std::isfinite(error) ? std::clamp(error, least_error, 1e3) : 1e3; };
+    const auto shown = [](double error) { return std::isfinite(error) ? std::clamp(error, min_error, 1e3) : 1e3; };
     Mark mark{own.ns, shown(own.error_worst), shown(own.error_p99), {}};
     const auto hidden_by = std::find_if(marks.begin(), marks.end(), [&](const Mark& earlier) {
       return !earlier.names.empty() && overlap(earlier, mark, method);
@@ -91,9 +91,10 @@ std::string points_of(std::span<const NearestPointTrade> trade, const MethodStyl
 }
 
 template <typename Entry>
-std::string series(std::span<const Entry> trade, std::initializer_list<std::function<double(const Entry&)>> columns) {
+std::string series(std::span<const Entry> tradeoff,
+                   std::initializer_list<std::function<double(const Entry&)>> columns) {
   std::string lines;
-  for (const Entry& entry : trade) {
+  for (const Entry& entry : tradeoff) {
     for (const auto& column : columns) lines += number(column(entry)) + " ";
     lines += "\n";
   }
@@ -101,16 +102,16 @@ std::string series(std::span<const Entry> trade, std::initializer_list<std::func
 }
 
 void require_some(std::size_t count) {
-  if (count == 0) throw ValueError("plot of a trade: no entries");
+  if (count == 0) throw ValueError("plot of a tradeoff: no entries");
 }
 
 }  // namespace
 
-std::string nearest_point_trade_plot(std::span<const NearestPointTrade> trade) {
-  require_some(trade.size());
+std::string nearest_point_tradeoff_plot(std::span<const NearestPointTradeoff> tradeoff) {
+  require_some(tradeoff.size());
   std::string text = gnuplot::svg_terminal(1180, 540) + style;
-  double cheapest = trade[0].real.ns, dearest = cheapest;
-  for (const NearestPointTrade& entry : trade) {
+  double cheapest = tradeoff[0].real.ns, dearest = cheapest;
+  for (const NearestPointTradeoff& entry : tradeoff) {
     for (const double ns : {entry.real.ns, entry.hard.ns, entry.ticks.ns}) {
       cheapest = std::min(cheapest, ns);
       dearest = std::max(dearest, ns);
@@ -128,10 +129,10 @@ std::string nearest_point_trade_plot(std::span<const NearestPointTrade> trade) {
   const auto panel = [&](const char* heading, double left, double right, Cost cost, bool key) {
     std::string plots;
     for (const MethodStyle& method : methods) {
-      const std::string points = points_of(trade, method, cost);
+      const std::string points = points_of(tradeoff, method, cost);
       if (points.empty()) continue;
       const std::string colour = std::string(" linecolor rgb '") + method.colour + "' ";
-      const std::string name = method_name(method.method);
+      const std::string name = to_string(method.method);
       text += block(name, points);
       plots += std::string(plots.empty() ? "" : ", ") + "$" + name +
                " using 1:2:3:2 with yerrorbars pointtype 0 linewidth 1" + colour + "notitle, $" + name +
@@ -144,23 +145,23 @@ std::string nearest_point_trade_plot(std::span<const NearestPointTrade> trade) {
             "plot " + plots + "\n";
   };
   text += "set ylabel 'error of the distance [sizes of the curve]: largest, and down to p99'\n";
-  panel("queries round real strokes", 0.075, 0.36, &NearestPointTrade::real, true);
+  panel("queries round real strokes", 0.075, 0.36, &NearestPointTradeoff::real, true);
   text += "unset ylabel\nset format y ''\n";
-  panel("hard workloads", 0.385, 0.67, &NearestPointTrade::hard, false);
-  panel("a pen along whole strokes, per tick", 0.695, 0.98, &NearestPointTrade::ticks, false);
+  panel("hard workloads", 0.385, 0.67, &NearestPointTradeoff::hard, false);
+  panel("a pen along whole strokes, per tick", 0.695, 0.98, &NearestPointTradeoff::ticks, false);
   return finish(text + "unset multiplot\n", "Nearest point: cost against error");
 }
 
-std::string servo_rate_trade_plot(std::span<const ServoRateTrade> trade) {
-  require_some(trade.size());
-  using Entry = ServoRateTrade;
+std::string servo_rate_tradeoff_plot(std::span<const ServoRateTradeoff> tradeoff) {
+  require_some(tradeoff.size());
+  using Entry = ServoRateTradeoff;
   const std::string rows = series<Entry>(
-      trade, {[](const Entry& e) { return e.rate; }, [](const Entry& e) { return e.penetration * millimetres; },
-              [](const Entry& e) { return e.hard_penetration * millimetres; },
-              [](const Entry& e) { return e.path_error * millimetres; }, [](const Entry& e) { return e.force_step; },
-              [](const Entry& e) { return e.hard_force_step; }, [](const Entry& e) { return e.loop_stiffness; },
-              [](const Entry& e) { return e.unlimited_stiffness; }, [](const Entry& e) { return e.held_stiffness; },
-              [](const Entry& e) { return e.free_stiffness; }});
+      tradeoff, {[](const Entry& e) { return e.rate; }, [](const Entry& e) { return e.penetration * millimetres; },
+                 [](const Entry& e) { return e.hard_penetration * millimetres; },
+                 [](const Entry& e) { return e.path_error * millimetres; }, [](const Entry& e) { return e.force_step; },
+                 [](const Entry& e) { return e.hard_force_step; }, [](const Entry& e) { return e.loop_stiffness; },
+                 [](const Entry& e) { return e.unlimited_stiffness; }, [](const Entry& e) { return e.held_stiffness; },
+                 [](const Entry& e) { return e.free_stiffness; }});
   std::string text = gnuplot::svg_terminal(1000, 620) + style + block("rates", rows) +
                      "set multiplot layout 2,2 margins 0.07,0.98,0.11,0.93 spacing 0.09,0.18\n"
                      "set logscale x\nset xrange [200:25000]\nset mxtics 1\nset mytics 1\nset key samplen 2\n"
@@ -187,13 +188,13 @@ std::string servo_rate_trade_plot(std::span<const ServoRateTrade> trade) {
   return finish(text + "unset multiplot\n", "Servo rate");
 }
 
-std::string coordinate_width_trade_plot(std::span<const CoordinateWidthTrade> trade) {
-  require_some(trade.size());
-  using Entry = CoordinateWidthTrade;
+std::string coordinate_width_tradeoff_plot(std::span<const CoordinateWidthTradeoff> tradeoff) {
+  require_some(tradeoff.size());
+  using Entry = CoordinateWidthTradeoff;
   const std::string rows = series<Entry>(
-      trade, {[](const Entry& e) { return static_cast<double>(e.bits); },
-              [](const Entry& e) { return e.largest_error * percent; },
-              [](const Entry& e) { return e.rms_error * percent; }, [](const Entry& e) { return e.bytes; }});
+      tradeoff,
+      {[](const Entry& e) { return static_cast<double>(e.bits); }, [](const Entry& e) { return e.max_error * percent; },
+       [](const Entry& e) { return e.rms_error * percent; }, [](const Entry& e) { return e.bytes; }});
   std::string text = gnuplot::svg_terminal(720, 420) + style + block("widths", rows) +
                      "set border 11\nset logscale y\nset xlabel 'bits per coordinate'\nset xtics 2\n"
                      "set ylabel 'shape error [% of the em]'\nset y2label 'bytes per character'\nset y2tics\n"

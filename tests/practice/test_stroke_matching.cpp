@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/practice/stroke_verdict.hpp>
+#include <calligraphy/practice/stroke_matching.hpp>
 
 #include "../catch.hpp"
 #include "../hard_cases.hpp"
@@ -68,9 +68,10 @@ int out_of_turn(const std::vector<std::size_t>& order) {
   return static_cast<int>(order.size() - tails.size());
 }
 
-std::string told(const StrokeVerdict& verdict) {
+std::string told(const MatchResult& match) {
   std::string text;
-  for (const Remark& remark : verdict.remarks) text += std::string(name_of(remark.kind)) + ": " + remark.reason + "\n";
+  for (const StrokeRemark& remark : match.remarks)
+    text += std::string(to_string(remark.kind)) + ": " + remark.reason + "\n";
   return text;
 }
 
@@ -85,31 +86,31 @@ void check_told(const Character& character, const std::vector<PenPath>& paths, S
     backwards.push_back(random.next() < 0.3 && apart > 0.5 * path_length(paths[stroke]));
     if (backwards.back()) reverse(drawn.back());
   }
-  const StrokeVerdict verdict = judge_strokes(character, drawn);
-  CAPTURE(encode_utf8(character.code), told(verdict));
+  const MatchResult match = match_strokes(character, drawn);
+  CAPTURE(encode_utf8(character.code), told(match));
   for (std::size_t i = 0; i < drawn.size(); ++i) {
     CAPTURE(i, order[i], static_cast<bool>(backwards[i]));
-    CHECK(verdict.drawn[i].stroke == static_cast<int>(order[i]));
-    CHECK(verdict.drawn[i].stroke_count == 1);
-    if (verdict.drawn[i].tap) continue;
-    CHECK(verdict.drawn[i].course == (backwards[i] ? Course::backwards : Course::forwards));
+    CHECK(match.drawn[i].stroke == static_cast<int>(order[i]));
+    CHECK(match.drawn[i].stroke_count == 1);
+    if (match.drawn[i].tap) continue;
+    CHECK(match.drawn[i].direction == (backwards[i] ? WritingDirection::backwards : WritingDirection::forwards));
   }
-  CHECK(verdict.count(RemarkKind::order) == out_of_turn(order));
-  CHECK(verdict.count(RemarkKind::missing) + verdict.count(RemarkKind::extra) == 0);
+  CHECK(match.count(StrokeRemarkKind::order) == out_of_turn(order));
+  CHECK(match.count(StrokeRemarkKind::missing) + match.count(StrokeRemarkKind::extra) == 0);
 }
 
 }  // namespace
 
 TEST_CASE("a copy of any built-in character is in order and forwards", "[practice]") {
   for (const Character& character : built_in_characters().characters) {
-    const StrokeVerdict verdict = judge_strokes(character, copy_of(character));
-    CAPTURE(encode_utf8(character.code), told(verdict));
-    CHECK(verdict.remarks.empty());
-    for (std::size_t i = 0; i < verdict.drawn.size(); ++i) {
-      CHECK(verdict.drawn[i].stroke == static_cast<int>(i));
-      CHECK(verdict.drawn[i].in_turn);
-      CHECK(verdict.drawn[i].course == Course::forwards);
-      CHECK(verdict.drawn[i].distance < 0.01);
+    const MatchResult match = match_strokes(character, copy_of(character));
+    CAPTURE(encode_utf8(character.code), told(match));
+    CHECK(match.remarks.empty());
+    for (std::size_t i = 0; i < match.drawn.size(); ++i) {
+      CHECK(match.drawn[i].stroke == static_cast<int>(i));
+      CHECK(match.drawn[i].in_turn);
+      CHECK(match.drawn[i].direction == WritingDirection::forwards);
+      CHECK(match.drawn[i].distance < 0.01);
     }
   }
 }
@@ -134,9 +135,9 @@ TEST_CASE("a character written elsewhere, larger, narrower and with a shaking ha
           point = Point(0.5, 0.5) + scale.cwiseProduct(point - Point(0.5, 0.5)) + offset + random.point(-0.004, 0.004);
         }
       }
-      const StrokeVerdict verdict = judge_strokes(character, paths);
-      CAPTURE(encode_utf8(character.code), offset, scale, told(verdict));
-      CHECK(verdict.remarks.empty());
+      const MatchResult match = match_strokes(character, paths);
+      CAPTURE(encode_utf8(character.code), offset, scale, told(match));
+      CHECK(match.remarks.empty());
     }
   }
 }
@@ -145,39 +146,39 @@ TEST_CASE("the order of three parallel lines is told by where they are", "[pract
   const Character three = character_of("三");
   const std::vector<PenPath> lines = copy_of(three);
   SECTION("the second last") {
-    const StrokeVerdict verdict = judge_strokes(three, std::vector<PenPath>{lines[0], lines[2], lines[1]});
-    REQUIRE(verdict.remarks.size() == 1);
-    CHECK(verdict.remarks[0].kind == RemarkKind::order);
-    CHECK(verdict.remarks[0].path == 1);
-    CHECK(verdict.remarks[0].stroke == 2);
-    CHECK(verdict.remarks[0].reason == "stroke 3 (héng) was written where stroke 2 (héng) was due");
+    const MatchResult match = match_strokes(three, std::vector<PenPath>{lines[0], lines[2], lines[1]});
+    REQUIRE(match.remarks.size() == 1);
+    CHECK(match.remarks[0].kind == StrokeRemarkKind::order);
+    CHECK(match.remarks[0].path == 1);
+    CHECK(match.remarks[0].stroke == 2);
+    CHECK(match.remarks[0].reason == "stroke 3 (héng) was written where stroke 2 (héng) was due");
   }
   SECTION("the first last") {
-    const StrokeVerdict verdict = judge_strokes(three, std::vector<PenPath>{lines[1], lines[2], lines[0]});
-    REQUIRE(verdict.remarks.size() == 1);
-    CHECK(verdict.remarks[0].reason == "stroke 1 (héng) was written only after stroke 3 (héng)");
+    const MatchResult match = match_strokes(three, std::vector<PenPath>{lines[1], lines[2], lines[0]});
+    REQUIRE(match.remarks.size() == 1);
+    CHECK(match.remarks[0].reason == "stroke 1 (héng) was written only after stroke 3 (héng)");
   }
   SECTION("from below") {
-    const StrokeVerdict verdict = judge_strokes(three, std::vector<PenPath>{lines[2], lines[1], lines[0]});
-    CHECK(verdict.count(RemarkKind::order) == 2);
-    CHECK(verdict.remarks.size() == 2);
+    const MatchResult match = match_strokes(three, std::vector<PenPath>{lines[2], lines[1], lines[0]});
+    CHECK(match.count(StrokeRemarkKind::order) == 2);
+    CHECK(match.remarks.size() == 2);
   }
   SECTION("one of them, in its place") {
     for (int stroke = 0; stroke < 3; ++stroke) {
-      const StrokeVerdict verdict = judge_strokes(three, std::vector<PenPath>{lines[static_cast<std::size_t>(stroke)]});
-      CAPTURE(stroke, told(verdict));
-      CHECK(verdict.drawn[0].stroke == stroke);
-      CHECK(verdict.count(RemarkKind::missing) == 2);
-      CHECK(verdict.remarks.size() == 2);
+      const MatchResult match = match_strokes(three, std::vector<PenPath>{lines[static_cast<std::size_t>(stroke)]});
+      CAPTURE(stroke, told(match));
+      CHECK(match.drawn[0].stroke == stroke);
+      CHECK(match.count(StrokeRemarkKind::missing) == 2);
+      CHECK(match.remarks.size() == 2);
     }
   }
   SECTION("backwards") {
     std::vector<PenPath> drawn = lines;
     reverse(drawn[1]);
-    const StrokeVerdict verdict = judge_strokes(three, drawn);
-    REQUIRE(verdict.remarks.size() == 1);
-    CHECK(verdict.remarks[0].kind == RemarkKind::direction);
-    CHECK(verdict.remarks[0].reason == "stroke 2 (héng) was written from its end");
+    const MatchResult match = match_strokes(three, drawn);
+    REQUIRE(match.remarks.size() == 1);
+    CHECK(match.remarks[0].kind == StrokeRemarkKind::direction);
+    CHECK(match.remarks[0].reason == "stroke 2 (héng) was written from its end");
   }
 }
 
@@ -185,9 +186,9 @@ TEST_CASE("crossing strokes are told by how they lie", "[practice]") {
   const Character ten = character_of("十");
   std::vector<PenPath> drawn = copy_of(ten);
   std::swap(drawn[0], drawn[1]);
-  const StrokeVerdict verdict = judge_strokes(ten, drawn);
-  REQUIRE(verdict.remarks.size() == 1);
-  CHECK(verdict.remarks[0].reason == "stroke 2 (shù) was written where stroke 1 (héng) was due");
+  const MatchResult match = match_strokes(ten, drawn);
+  REQUIRE(match.remarks.size() == 1);
+  CHECK(match.remarks[0].reason == "stroke 2 (shù) was written where stroke 1 (héng) was due");
 }
 
 TEST_CASE("strokes written without lifting the pen are joined and no mistake of order", "[practice]") {
@@ -198,13 +199,13 @@ TEST_CASE("strokes written without lifting the pen are joined and no mistake of 
       std::vector<PenPath> drawn = paths;
       append(drawn[first], paths[first + 1]);
       drawn.erase(drawn.begin() + static_cast<std::ptrdiff_t>(first) + 1);
-      const StrokeVerdict verdict = judge_strokes(character, drawn);
-      CAPTURE(encode_utf8(character.code), first, told(verdict));
-      CHECK(verdict.count(RemarkKind::order) == 0);
-      REQUIRE(verdict.count(RemarkKind::joined) == 1);
-      CHECK(verdict.drawn[first].stroke == static_cast<int>(first));
-      CHECK(verdict.drawn[first].stroke_count == 2);
-      CHECK(verdict.remarks.size() == 1);
+      const MatchResult match = match_strokes(character, drawn);
+      CAPTURE(encode_utf8(character.code), first, told(match));
+      CHECK(match.count(StrokeRemarkKind::order) == 0);
+      REQUIRE(match.count(StrokeRemarkKind::joined) == 1);
+      CHECK(match.drawn[first].stroke == static_cast<int>(first));
+      CHECK(match.drawn[first].stroke_count == 2);
+      CHECK(match.remarks.size() == 1);
       ++told_so;
     }
   }
@@ -217,12 +218,12 @@ TEST_CASE("a stroke that was left out is missing and no mistake of order", "[pra
     for (std::size_t left_out = 0; left_out < paths.size() && paths.size() > 1; ++left_out) {
       std::vector<PenPath> drawn = paths;
       drawn.erase(drawn.begin() + static_cast<std::ptrdiff_t>(left_out));
-      const StrokeVerdict verdict = judge_strokes(character, drawn);
-      CAPTURE(encode_utf8(character.code), left_out, told(verdict));
-      REQUIRE(verdict.remarks.size() == 1);
-      CHECK(verdict.remarks[0].kind == RemarkKind::missing);
-      CHECK(verdict.remarks[0].stroke == static_cast<int>(left_out));
-      CHECK(verdict.remarks[0].path == -1);
+      const MatchResult match = match_strokes(character, drawn);
+      CAPTURE(encode_utf8(character.code), left_out, told(match));
+      REQUIRE(match.remarks.size() == 1);
+      CHECK(match.remarks[0].kind == StrokeRemarkKind::missing);
+      CHECK(match.remarks[0].stroke == static_cast<int>(left_out));
+      CHECK(match.remarks[0].path == -1);
     }
   }
 }
@@ -232,25 +233,25 @@ TEST_CASE("a pen-down too many is extra and a bounce is nothing", "[practice]") 
   std::vector<PenPath> drawn = copy_of(ten);
   SECTION("a line far from any stroke") {
     drawn.push_back(line({0.05, 0.95}, {0.3, 0.95}));
-    const StrokeVerdict verdict = judge_strokes(ten, drawn);
-    REQUIRE(verdict.remarks.size() == 1);
-    CHECK(verdict.remarks[0].kind == RemarkKind::extra);
-    CHECK(verdict.remarks[0].path == 2);
-    CHECK(verdict.remarks[0].stroke == -1);
+    const MatchResult match = match_strokes(ten, drawn);
+    REQUIRE(match.remarks.size() == 1);
+    CHECK(match.remarks[0].kind == StrokeRemarkKind::extra);
+    CHECK(match.remarks[0].path == 2);
+    CHECK(match.remarks[0].stroke == -1);
   }
   SECTION("a stroke written again") {
     drawn.push_back(drawn[0]);
-    const StrokeVerdict verdict = judge_strokes(ten, drawn);
-    CHECK(verdict.count(RemarkKind::extra) == 1);
-    CHECK(verdict.count(RemarkKind::order) + verdict.count(RemarkKind::missing) == 0);
+    const MatchResult match = match_strokes(ten, drawn);
+    CHECK(match.count(StrokeRemarkKind::extra) == 1);
+    CHECK(match.count(StrokeRemarkKind::order) + match.count(StrokeRemarkKind::missing) == 0);
   }
   SECTION("a bounce beside the page") {
     drawn.insert(drawn.begin() + 1, PenPath{{1.3, 1.2}, {1.305, 1.2}});
-    const StrokeVerdict verdict = judge_strokes(ten, drawn);
-    CHECK(verdict.remarks.empty());
-    CHECK(verdict.drawn[1].tap);
-    CHECK(verdict.drawn[1].stroke == -1);
-    CHECK(verdict.drawn[1].course == Course::unknown);
+    const MatchResult match = match_strokes(ten, drawn);
+    CHECK(match.remarks.empty());
+    CHECK(match.drawn[1].tap);
+    CHECK(match.drawn[1].stroke == -1);
+    CHECK(match.drawn[1].direction == WritingDirection::unknown);
   }
 }
 
@@ -259,11 +260,11 @@ TEST_CASE("a dot that is no more than a tap is a dot without a direction", "[pra
   std::vector<PenPath> drawn = copy_of(eternal);
   const Point middle = 0.5 * (drawn[0].front() + drawn[0].back());
   drawn[0] = {middle};
-  const StrokeVerdict verdict = judge_strokes(eternal, drawn);
-  CAPTURE(told(verdict));
-  CHECK(verdict.remarks.empty());
-  CHECK(verdict.drawn[0].stroke == 0);
-  CHECK(verdict.drawn[0].course == Course::unknown);
+  const MatchResult match = match_strokes(eternal, drawn);
+  CAPTURE(told(match));
+  CHECK(match.remarks.empty());
+  CHECK(match.drawn[0].stroke == 0);
+  CHECK(match.drawn[0].direction == WritingDirection::unknown);
 }
 
 TEST_CASE("a stroke in two pen-downs is broken and neither missing nor extra", "[practice]") {
@@ -273,11 +274,11 @@ TEST_CASE("a stroke in two pen-downs is broken and neither missing nor extra", "
   const auto middle = static_cast<std::ptrdiff_t>(whole.size() / 2);
   drawn[1] = PenPath(whole.begin(), whole.begin() + middle);
   drawn.emplace_back(whole.begin() + middle, whole.end());
-  const StrokeVerdict verdict = judge_strokes(ten, drawn);
-  CAPTURE(told(verdict));
-  REQUIRE(verdict.remarks.size() == 1);
-  CHECK(verdict.remarks[0].kind == RemarkKind::broken);
-  CHECK(verdict.drawn[2].continues);
+  const MatchResult match = match_strokes(ten, drawn);
+  CAPTURE(told(match));
+  REQUIRE(match.remarks.size() == 1);
+  CHECK(match.remarks[0].kind == StrokeRemarkKind::broken);
+  CHECK(match.drawn[2].continues);
 }
 
 TEST_CASE("a stroke drawn across its direction has another shape and is not called backwards", "[practice]") {
@@ -290,23 +291,23 @@ TEST_CASE("a stroke drawn across its direction has another shape and is not call
     const Point arm(std::cos(angle) * half.x() - std::sin(angle) * half.y(),
                     std::sin(angle) * half.x() + std::cos(angle) * half.y());
     drawn[0] = line(middle - arm, middle + arm);
-    const StrokeVerdict verdict = judge_strokes(eternal, drawn);
-    CHECK(verdict.drawn[0].stroke == 0);
-    return verdict.drawn[0].course;
+    const MatchResult match = match_strokes(eternal, drawn);
+    CHECK(match.drawn[0].stroke == 0);
+    return match.drawn[0].direction;
   };
   for (const double sign : {1.0, -1.0}) {
-    CHECK(turned(sign * 45.0) == Course::forwards);
-    CHECK(turned(sign * 75.0) == Course::neither);
-    CHECK(turned(sign * 120.0) == Course::neither);
-    CHECK(turned(sign * 150.0) == Course::backwards);
+    CHECK(turned(sign * 45.0) == WritingDirection::forwards);
+    CHECK(turned(sign * 75.0) == WritingDirection::neither);
+    CHECK(turned(sign * 120.0) == WritingDirection::neither);
+    CHECK(turned(sign * 150.0) == WritingDirection::backwards);
   }
 }
 
 TEST_CASE("no pen-down at all leaves every stroke missing", "[practice]") {
   const Character ten = character_of("十");
-  const StrokeVerdict verdict = judge_strokes(ten, {});
-  CHECK(verdict.drawn.empty());
-  CHECK(verdict.count(RemarkKind::missing) == 2);
+  const MatchResult match = match_strokes(ten, {});
+  CHECK(match.drawn.empty());
+  CHECK(match.count(StrokeRemarkKind::missing) == 2);
 }
 
 TEST_CASE("paths that cannot be judged are refused by number", "[practice]") {
@@ -314,7 +315,7 @@ TEST_CASE("paths that cannot be judged are refused by number", "[practice]") {
   std::vector<PenPath> drawn = copy_of(ten);
   const auto refusal = [&]() -> std::string {
     try {
-      judge_strokes(ten, drawn);
+      match_strokes(ten, drawn);
     } catch (const ValueError& error) {
       return error.what();
     }
@@ -340,16 +341,16 @@ TEST_CASE("scribbles, points and far-off paths get a verdict of some kind", "[pr
       for (int k = 0; k < points; ++k)
         path.push_back(random.next() < 0.2 ? Point(0.5, 0.5) : random.point(-reach, reach));
     }
-    const StrokeVerdict verdict = judge_strokes(character, drawn);
-    REQUIRE(verdict.drawn.size() == drawn.size());
-    CHECK(verdict.fit.scale.allFinite());
-    CHECK(verdict.fit.offset.allFinite());
+    const MatchResult match = match_strokes(character, drawn);
+    REQUIRE(match.drawn.size() == drawn.size());
+    CHECK(match.fit.scale.allFinite());
+    CHECK(match.fit.offset.allFinite());
     std::map<int, int> written;
-    for (const DrawnStroke& each : verdict.drawn) {
+    for (const DrawnStroke& each : match.drawn) {
       for (int i = 0; i < each.stroke_count && !each.continues; ++i) ++written[each.stroke + i];
     }
     for (const auto& [stroke, times] : written) CHECK(times == 1);
-    CHECK(static_cast<int>(written.size()) + verdict.count(RemarkKind::missing) == character.stroke_count());
+    CHECK(static_cast<int>(written.size()) + match.count(StrokeRemarkKind::missing) == character.stroke_count());
   }
 }
 
@@ -360,7 +361,7 @@ TEST_CASE("of a real pen every order and direction of its own strokes is told", 
     const Character character = calligraphy_test::own_character(traces[at]);
     std::vector<PenPath> paths = pen_paths(traces[at]);
     std::erase_if(paths, [](const PenPath& path) { return path_length(path) < tap_length; });
-    CHECK(judge_strokes(character, paths).remarks.empty());
+    CHECK(match_strokes(character, paths).remarks.empty());
     for (int i = 0; i < rounds; ++i) check_told(character, paths, random);
   }
 }
@@ -387,8 +388,8 @@ TEST_CASE("the verdicts on a corpus of people are those of who looks at the pict
     const auto stored = set->find(trace.character);
     if (trace.set != "zh_TW-train" || expected == seen.end() || !stored) continue;
     std::vector<std::string> remarks;
-    for (const Remark& remark : judge_strokes(stored->character(), pen_paths(trace)).remarks) {
-      remarks.push_back(std::string(name_of(remark.kind)) + " " + std::to_string(remark.stroke + 1));
+    for (const StrokeRemark& remark : match_strokes(stored->character(), pen_paths(trace)).remarks) {
+      remarks.push_back(std::string(to_string(remark.kind)) + " " + std::to_string(remark.stroke + 1));
     }
     CAPTURE(character);
     CHECK(remarks == expected->second);
@@ -408,7 +409,7 @@ TEST_CASE("against the standard every order and direction of real pens is told w
     if (!stored) continue;
     const Character character = stored->character();
     const std::vector<PenPath> paths = pen_paths(trace);
-    if (!judge_strokes(character, paths).remarks.empty()) continue;
+    if (!match_strokes(character, paths).remarks.empty()) continue;
     ++compared;
     for (int i = 0; i < rounds; ++i) {
       const Point offset = random.point(-0.24, 0.24);

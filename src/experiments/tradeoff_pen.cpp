@@ -1,4 +1,4 @@
-#include "trade_pen.hpp"
+#include "tradeoff_pen.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,13 +25,13 @@ NearestPoint over_all(const std::vector<StrokeElement>& elements, const Point& q
   return nearest;
 }
 
-/// Follows the pen along each stroke; `use` gets the stroke, the tick and the foot.
+/// Follows the pen along each stroke; `use` gets the stroke, the tick and the closest point.
 template <typename Use>
 void follow(const PennedStrokes& strokes, const NearestPointOptions& options, const Use& use) {
   for (const PennedStroke& stroke : strokes) {
     if (options.method == NearestPointMethod::tracked) {
       StrokeTracker tracker(stroke.elements, options.tolerance);
-      for (std::size_t i = 0; i < stroke.path.size(); ++i) use(stroke, i, tracker.update(stroke.path[i]).foot);
+      for (std::size_t i = 0; i < stroke.path.size(); ++i) use(stroke, i, tracker.update(stroke.path[i]).closest);
     } else {
       for (std::size_t i = 0; i < stroke.path.size(); ++i) {
         use(stroke, i, over_all(stroke.elements, stroke.path[i], options));
@@ -84,8 +84,8 @@ std::vector<PennedStrokes> in_groups(const PennedStrokes& strokes) {
 
 std::vector<double> tick_errors(const PennedStrokes& strokes, const NearestPointOptions& options) {
   std::vector<double> errors;
-  follow(strokes, options, [&errors](const PennedStroke& stroke, std::size_t i, const NearestPoint& foot) {
-    errors.push_back(std::abs(foot.distance - stroke.distances[i]) / stroke.size);
+  follow(strokes, options, [&errors](const PennedStroke& stroke, std::size_t i, const NearestPoint& closest) {
+    errors.push_back(std::abs(closest.distance - stroke.distances[i]) / stroke.size);
   });
   return errors;
 }
@@ -94,7 +94,7 @@ double tick_time(const PennedStrokes& strokes, const NearestPointOptions& option
   return seconds_of([&] {
     double sum = 0.0;
     follow(strokes, options,
-           [&sum](const PennedStroke&, std::size_t, const NearestPoint& foot) { sum += foot.parameter; });
+           [&sum](const PennedStroke&, std::size_t, const NearestPoint& closest) { sum += closest.parameter; });
     return sum;
   });
 }
@@ -132,14 +132,14 @@ PenFeel feel(const std::vector<DrawnCurve>& curves, const NearestPointOptions& o
     double parameter = 0.5;
     for (std::size_t i = 0; i < curve.path.size(); ++i) {
       const Point& tip = curve.path[i];
-      const NearestPoint foot = nearest_point(curve.element, tip, options, {}, parameter);
-      parameter = foot.parameter;
+      const NearestPoint closest = nearest_point(curve.element, tip, options, {}, parameter);
+      parameter = closest.parameter;
       const double exact = nearest_point(curve.element, tip, reference).distance;
-      const Point force = attraction_force(stiffness, tip, foot.point);
-      if (i > 0) result.largest_step = std::max(result.largest_step, (force - last).norm());
+      const Point force = attraction_force(stiffness, tip, closest.point);
+      if (i > 0) result.max_step = std::max(result.max_step, (force - last).norm());
       last = force;
       ++ticks;
-      if (!(std::abs(foot.distance - exact) <= wrong_branch * curve.element.size())) ++wrong;
+      if (!(std::abs(closest.distance - exact) <= wrong_branch * curve.element.size())) ++wrong;
     }
   }
   result.wrong = ticks > 0 ? static_cast<double>(wrong) / static_cast<double>(ticks) : 0.0;

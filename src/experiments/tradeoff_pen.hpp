@@ -1,10 +1,10 @@
-// A pen that is drawn along strokes and curves: how right each tick's foot is, and what the hand feels of it.
+// A pen that is drawn along strokes and curves: how right each tick's closest point is, and what the hand feels of it.
 #pragma once
 
 #include <vector>
 
 #include <calligraphy/experiments/stroke_queries.hpp>
-#include <calligraphy/experiments/trade.hpp>
+#include <calligraphy/experiments/tradeoff.hpp>
 
 namespace calligraphy {
 

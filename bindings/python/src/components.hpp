@@ -1,4 +1,4 @@
-// One function a room: it adds the room's names to the module.
+// One function a component: it adds the component's names to the module.
 #pragma once
 
 #include <pybind11/pybind11.h>

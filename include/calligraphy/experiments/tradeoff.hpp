@@ -14,7 +14,7 @@
 namespace calligraphy {
 
 /// "exact", "tracked", "sampled", "wang2006".
-const char* method_name(NearestPointMethod method) noexcept;
+const char* to_string(NearestPointMethod method) noexcept;
 
 /// A method of the nearest point with its settings.
 struct NearestPointSetting {
@@ -38,13 +38,13 @@ struct NearestPointCost {
   double wrong = 0.0;  ///< share of wrong branches: error above 1e-3
 };
 
-/// What the hand feels when a pen is drawn along curves, with the force K (foot - tip).
+/// What the hand feels when a pen is drawn along curves, with the force K (closest - tip).
 struct PenFeel {
-  double largest_step = 0.0;  ///< change of the force from one tick to the next; the pen's own motion is a part [N]
-  double wrong = 0.0;         ///< share of the ticks on a wrong branch
+  double max_step = 0.0;  ///< change of the force from one tick to the next; the pen's own motion is a part [N]
+  double wrong = 0.0;     ///< share of the ticks on a wrong branch
 };
 
-struct NearestPointTrade {
+struct NearestPointTradeoff {
   NearestPointSetting setting;
   NearestPointCost real;                    ///< the workloads on real strokes together; times are the means of theirs
   NearestPointCost hard;                    ///< all others together, likewise
@@ -56,7 +56,7 @@ struct NearestPointTrade {
   PenFeel arcs;     ///< along gentle arcs, 15 to 40 mm in radius, steadily 1 to 4 mm beside them
 };
 
-struct NearestPointTradeOptions {
+struct NearestPointTradeoffOptions {
   int queries = 4000;  ///< of each of the 19 workloads
   int rounds = 21;     ///< in each of them every method has its turn on every workload
   std::uint64_t seed = 1;
@@ -68,11 +68,11 @@ struct NearestPointTradeOptions {
 
 /// One entry per setting. All but the times is the same in every run.
 /// @throws ValueError when the characters have no cubic curve or an option is not positive
-std::vector<NearestPointTrade> nearest_point_trade(std::span<const Character> characters,
-                                                   const NearestPointTradeOptions& options = {});
+std::vector<NearestPointTradeoff> nearest_point_tradeoff(std::span<const Character> characters,
+                                                         const NearestPointTradeoffOptions& options = {});
 
 /// A simulated novice writes in closed loop at one servo rate.
-struct ServoRateTrade {
+struct ServoRateTradeoff {
   double rate = 0.0;  ///< [Hz]
 
   double stiffness = 0.0;    ///< of the paper, the default [N/m]
@@ -92,7 +92,7 @@ struct ServoRateTrade {
   double hard_force_step = 0.0;   ///< on such paper [N]
 };
 
-struct ServoRateTradeOptions {
+struct ServoRateTradeoffOptions {
   std::vector<double> rates = {250.0, 500.0, 1000.0, 2000.0, 4000.0, 10000.0, 20000.0};  ///< [Hz]
   int seeds = 3;  ///< each character is written so often
   std::uint64_t seed = 1;
@@ -102,16 +102,16 @@ struct ServoRateTradeOptions {
 
 /// One entry per rate. The same in every run.
 /// @throws ValueError when there is no character or an option is out of its domain
-std::vector<ServoRateTrade> servo_rate_trade(std::span<const Character> characters,
-                                             const ServoRateTradeOptions& options = {});
+std::vector<ServoRateTradeoff> servo_rate_tradeoff(std::span<const Character> characters,
+                                                   const ServoRateTradeoffOptions& options = {});
 
 /// Control points rounded to a grid of 2^bits places along each edge of the em square.
-struct CoordinateWidthTrade {
-  int bits = 0;                ///< per coordinate
-  double step = 0.0;           ///< of the grid [em]
-  double largest_error = 0.0;  ///< distance between the strokes as they are and as stored, both ways [em]
-  double rms_error = 0.0;      ///< over their length, both ways [em]
-  double bytes = 0.0;          ///< per character: coordinates packed, and a byte per stroke for its id
+struct CoordinateWidthTradeoff {
+  int bits = 0;            ///< per coordinate
+  double step = 0.0;       ///< of the grid [em]
+  double max_error = 0.0;  ///< distance between the strokes as they are and as stored, both ways [em]
+  double rms_error = 0.0;  ///< over their length, both ways [em]
+  double bytes = 0.0;      ///< per character: coordinates packed, and a byte per stroke for its id
 };
 
 /// The character with its control points on the grid; those outside the em square go to its edge.
@@ -121,14 +121,14 @@ Character with_coordinate_width(const Character& character, int bits);
 /// One entry per width from 4 to 16 bits. The same in every run. `progress` is called now and then with the share that
 /// is done.
 /// @throws ValueError when there is no character
-std::vector<CoordinateWidthTrade> coordinate_width_trade(std::span<const Character> characters,
-                                                         const std::function<void(double)>& progress = {});
+std::vector<CoordinateWidthTradeoff> coordinate_width_tradeoff(std::span<const Character> characters,
+                                                               const std::function<void(double)>& progress = {});
 
 /// SVG by gnuplot, log-log: cost against largest error of every method and setting, on real strokes and on the hard
 /// workloads; penetration, path error, force step and stability over the servo rate; error and bytes over the width.
 /// @throws ValueError when there are no entries, Error with gnuplot's message when it cannot be started or fails
-std::string nearest_point_trade_plot(std::span<const NearestPointTrade> trade);
-std::string servo_rate_trade_plot(std::span<const ServoRateTrade> trade);
-std::string coordinate_width_trade_plot(std::span<const CoordinateWidthTrade> trade);
+std::string nearest_point_tradeoff_plot(std::span<const NearestPointTradeoff> tradeoff);
+std::string servo_rate_tradeoff_plot(std::span<const ServoRateTradeoff> tradeoff);
+std::string coordinate_width_tradeoff_plot(std::span<const CoordinateWidthTradeoff> tradeoff);
 
 }  // namespace calligraphy

@@ -11,7 +11,7 @@
 namespace calligraphy {
 
 /// How a pen-down runs along what it wrote.
-enum class Course {
+enum class WritingDirection {
   forwards,
   backwards,
   neither,  ///< it was drawn as another shape
@@ -25,11 +25,11 @@ struct DrawnStroke {
   bool continues = false;  ///< it goes on with the stroke that the pen-down before began
   bool in_turn = true;     ///< no stroke that comes later was written before, as far as the order can be told
   bool tap = false;        ///< it left no more than a point
-  Course course = Course::unknown;
+  WritingDirection direction = WritingDirection::unknown;
   double distance = 0.0;  ///< mean distance from what it wrote, once both lie on each other as well as they can [em]
 };
 
-enum class RemarkKind {
+enum class StrokeRemarkKind {
   order,      ///< a stroke out of turn
   direction,  ///< a stroke written backwards
   shape,      ///< a stroke whose direction cannot be told, because it was drawn as another shape
@@ -40,21 +40,21 @@ enum class RemarkKind {
 };
 
 /// "order", "direction", "shape", "joined", "broken", "missing", "extra".
-const char* name_of(RemarkKind kind) noexcept;
+const char* to_string(StrokeRemarkKind kind) noexcept;
 
-struct Remark {
-  RemarkKind kind;
+struct StrokeRemark {
+  StrokeRemarkKind kind;
   int path;            ///< the pen-down, from 0; -1: none
   int stroke;          ///< the stroke of the character, from 0; -1: none
   std::string reason;  ///< one sentence for a person
 };
 
-struct StrokeVerdict {
-  std::vector<DrawnStroke> drawn;  ///< one per pen-down, in the order of writing
-  std::vector<Remark> remarks;     ///< by pen-down, then what is missing
-  BoxMap fit;                      ///< that laid the pen-downs on the character
+struct MatchResult {
+  std::vector<DrawnStroke> drawn;     ///< one per pen-down, in the order of writing
+  std::vector<StrokeRemark> remarks;  ///< by pen-down, then what is missing
+  BoxMap fit;                         ///< that laid the pen-downs on the character
 
-  int count(RemarkKind kind) const noexcept;
+  int count(StrokeRemarkKind kind) const noexcept;
 };
 
 /// Matches pen-downs with strokes at the least cost in all. A pair costs the mean distance of points that are as far
@@ -66,6 +66,6 @@ struct StrokeVerdict {
 ///
 /// `paths` are in the square of the character, or are brought there by fit_box when they are somewhere else.
 /// @throws ValueError when the character is invalid, there are more than 1000 paths, one is empty or not finite
-StrokeVerdict judge_strokes(const Character& character, std::span<const PenPath> paths);
+MatchResult match_strokes(const Character& character, std::span<const PenPath> paths);
 
 }  // namespace calligraphy

@@ -6,6 +6,6 @@
 namespace calligraphy {
 
 /// "北 (U+5317)", and the number alone where the code point is no character or cannot be printed.
-std::string code_name(char32_t code);
+std::string code_point_name(char32_t code);
 
 }  // namespace calligraphy

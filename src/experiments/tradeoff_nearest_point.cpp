@@ -6,10 +6,10 @@
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/experiments/nearest_point_workload.hpp>
-#include <calligraphy/experiments/trade.hpp>
+#include <calligraphy/experiments/tradeoff.hpp>
 
 #include "base/stopwatch.hpp"
-#include "trade_pen.hpp"
+#include "tradeoff_pen.hpp"
 
 namespace calligraphy {
 namespace {
@@ -158,16 +158,16 @@ std::string setting_name(const NearestPointOptions& options) {
   } else {
     std::snprintf(setting, sizeof setting, " %.0e", options.tolerance);
   }
-  return method_name(options.method) + std::string(setting);
+  return to_string(options.method) + std::string(setting);
 }
 
 void require(bool holds, const char* what) {
-  if (!holds) throw ValueError(std::string("nearest point trade: ") + what);
+  if (!holds) throw ValueError(std::string("nearest point tradeoff: ") + what);
 }
 
 }  // namespace
 
-const char* method_name(NearestPointMethod method) noexcept {
+const char* to_string(NearestPointMethod method) noexcept {
   switch (method) {
     case NearestPointMethod::exact:
       return "exact";
@@ -196,8 +196,8 @@ std::vector<NearestPointSetting> nearest_point_settings() {
   return settings;
 }
 
-std::vector<NearestPointTrade> nearest_point_trade(std::span<const Character> characters,
-                                                   const NearestPointTradeOptions& options) {
+std::vector<NearestPointTradeoff> nearest_point_tradeoff(std::span<const Character> characters,
+                                                         const NearestPointTradeoffOptions& options) {
   require(options.rounds > 0, "rounds are not above 0");
   require(std::isfinite(options.stiffness) && options.stiffness > 0.0, "stiffness is not a number above 0");
   std::vector<Workload> workloads;
@@ -240,10 +240,10 @@ std::vector<NearestPointTrade> nearest_point_trade(std::span<const Character> ch
     }
   }
 
-  std::vector<NearestPointTrade> trade;
+  std::vector<NearestPointTradeoff> tradeoff;
   for (std::size_t s = 0; s < settings.size(); ++s) {
     const NearestPointOptions& own = settings[s].options;
-    NearestPointTrade entry;
+    NearestPointTradeoff entry;
     entry.setting = settings[s];
     Pool real, hard;
     for (std::size_t w = 0; w < workloads.size(); ++w) {
@@ -261,10 +261,10 @@ std::vector<NearestPointTrade> nearest_point_trade(std::span<const Character> ch
     entry.ticks = ticks.cost("ticks along strokes");
     entry.strokes = feel(curves, own, options.stiffness);
     entry.arcs = feel(arcs, own, options.stiffness);
-    trade.push_back(std::move(entry));
+    tradeoff.push_back(std::move(entry));
     if (options.progress) options.progress(1.0);
   }
-  return trade;
+  return tradeoff;
 }
 
 }  // namespace calligraphy

@@ -1,4 +1,4 @@
-#include <calligraphy/practice/stroke_verdict.hpp>
+#include <calligraphy/practice/stroke_matching.hpp>
 
 #include <algorithm>
 #include <array>
@@ -16,24 +16,24 @@
 namespace calligraphy {
 namespace {
 
-constexpr std::size_t most_paths = 1000;
+constexpr std::size_t max_paths = 1000;
 constexpr double left_over = 0.15;        // what a stroke or a pen-down without a partner costs [em]
 constexpr double backwards_cost = 0.02;   // by which a stroke must fit better backwards [em]
 constexpr double turned_cost = 0.05;      // of a quarter turn; twice as much of a half turn [em]
 constexpr double doubt = 0.05;            // by which another order must fit better than the right one [em]
 constexpr double certainty = 2.0;         // or as many times better, which tells small strokes apart
 constexpr double impossible = 1e3;        // [em]
-constexpr double longest_dot = 0.3;       // a tap may be a stroke up to this length [em]
+constexpr double max_dot = 0.3;           // a tap may be a stroke up to this length [em]
 constexpr double joined_distance = 0.15;  // mean distance up to which joined or broken strokes are told [em]
 constexpr double joined_length = 0.6;     // of the strokes that a pen-down joined, that it is long at least
 constexpr double joined_share = 0.75;     // of the distance from one of them alone, at most
-constexpr std::size_t most_joined = 5;    // strokes without lifting the pen
+constexpr std::size_t max_joined = 5;     // strokes without lifting the pen
 constexpr double broken_gap = 0.25;       // between the parts of a broken stroke, of its length
 constexpr double same_way = 0.5;          // accord from which a stroke runs forwards: 60 degrees for a straight one
 constexpr double opposite_way = 0.7;      // against the reversed stroke, from which it runs backwards: 45 degrees
-constexpr int most_refits = 6;
+constexpr int max_refits = 6;
 constexpr double stiffness = 0.1;  // spread of a shape [em] below which it says little of how it is stretched
-constexpr double least_stretch = 0.6, most_stretch = 1.0 / least_stretch;
+constexpr double min_stretch = 0.6, max_stretch = 1.0 / min_stretch;
 constexpr double better = 1e-6;  // by which a refit must be [em]
 
 /// What one pen-down wrote: `count` strokes from `first` on.
@@ -63,7 +63,7 @@ class Judge {
     }
   }
 
-  StrokeVerdict run() {
+  MatchResult run() {
     best_ = read(&Judge::match_in_order);
     const Reading free = read(&Judge::match_freely);
     if (is_believed(free, best_)) best_ = free;
@@ -71,7 +71,7 @@ class Judge {
     tell_drawn();
     tell_order();
     tell_rest();
-    return std::move(verdict_);
+    return std::move(result_);
   }
 
  private:
@@ -87,7 +87,7 @@ class Judge {
   /// From a first guess of how the paths lie, better and better.
   Reading refine(Rule rule, const BoxMap& guess) {
     Reading reading = match(rule, guess);
-    for (int i = 0; i < most_refits; ++i) {
+    for (int i = 0; i < max_refits; ++i) {
       const Reading next = match(rule, refit(reading, guess));
       if (next.cost >= reading.cost - better) break;
       reading = next;
@@ -158,7 +158,7 @@ class Judge {
   /// An outline against `count` strokes one after the other, with the ways between them.
   Match compare(const Outline& drawn, double length, std::size_t first, std::size_t count) const {
     Match match{first, count, impossible, false, false};
-    if (length < tap_length && written_length(first, count) > longest_dot) return match;
+    if (length < tap_length && written_length(first, count) > max_dot) return match;
     const Outline wanted = wanted_outline(first, count);
     const double forwards = distance(drawn, wanted);
     const double backwards = distance(drawn, reversed(wanted)) + backwards_cost;
@@ -247,7 +247,7 @@ class Judge {
         if (stroke < count) reach(0, 1, left_over, {});
         if (path == paths || stroke == count) continue;
         reach(1, 1, singles_[path][stroke].cost, singles_[path][stroke]);
-        for (std::size_t more = 2; more <= std::min(most_joined, count - stroke); ++more) {
+        for (std::size_t more = 2; more <= std::min(max_joined, count - stroke); ++more) {
           if (const auto match = joined(path, stroke, more)) reach(1, more, match->cost, *match);
         }
         if (path + 1 == paths) continue;
@@ -323,7 +323,7 @@ class Judge {
       return false;
     }
     const std::size_t end = match.first + match.count;
-    if (match.count >= most_joined) return false;
+    if (match.count >= max_joined) return false;
     if (match.first > 0 && !taken[match.first - 1] && take(match.first - 1, match.count + 1)) return true;
     return end < taken.size() && !taken[end] && take(match.first, match.count + 1);
   }
@@ -369,7 +369,7 @@ class Judge {
     BoxMap map;
     for (int axis = 0; axis < 2; ++axis) {
       const double stretch = (product[axis] + firm * guess.scale[axis]) / (square[axis] + firm);
-      map.scale[axis] = std::clamp(stretch, least_stretch * guess.scale[axis], most_stretch * guess.scale[axis]);
+      map.scale[axis] = std::clamp(stretch, min_stretch * guess.scale[axis], max_stretch * guess.scale[axis]);
     }
     map.offset = to_mean - map.scale.cwiseProduct(from_mean);
     return map;
@@ -380,23 +380,23 @@ class Judge {
     return path + 1 < matches.size() && matches[path + 1].continues;
   }
 
-  std::string name_of_stroke(std::size_t stroke) const { return stroke_name(stroke, *strokes_[stroke].type); }
+  std::string stroke_label(std::size_t stroke) const { return stroke_name(stroke, *strokes_[stroke].type); }
 
-  void add(RemarkKind kind, std::size_t path, std::size_t stroke, std::string reason) {
-    verdict_.remarks.push_back({kind, static_cast<int>(path), static_cast<int>(stroke), std::move(reason)});
+  void add(StrokeRemarkKind kind, std::size_t path, std::size_t stroke, std::string reason) {
+    result_.remarks.push_back({kind, static_cast<int>(path), static_cast<int>(stroke), std::move(reason)});
   }
 
   void tell_drawn() {
-    verdict_.fit = best_.fit;
+    result_.fit = best_.fit;
     for (std::size_t path = 0; path < paths_.size(); ++path) {
       const Match& match = best_.matches[path];
-      DrawnStroke& drawn = verdict_.drawn.emplace_back();
+      DrawnStroke& drawn = result_.drawn.emplace_back();
       drawn.tap = is_tap(path);
       if (match.count == 0) continue;
       drawn.stroke = static_cast<int>(match.first);
       drawn.stroke_count = static_cast<int>(match.count);
       drawn.continues = match.continues;
-      drawn.course = course_of(path, match);
+      drawn.direction = direction_of_path(path, match);
       const Outline wanted = wanted_outline(match.first, match.count);
       drawn.distance = mean_distance(whole_outline(path), match.backwards ? reversed(wanted) : wanted);
     }
@@ -408,13 +408,13 @@ class Judge {
     return goes_on(best_.matches, path) ? outline(together(path)) : drawn_[path];
   }
 
-  Course course_of(std::size_t path, const Match& match) const {
-    if (is_tap(path)) return Course::unknown;
+  WritingDirection direction_of_path(std::size_t path, const Match& match) const {
+    if (is_tap(path)) return WritingDirection::unknown;
     const Outline wanted = wanted_outline(match.first, match.count);
     const Outline drawn = whole_outline(path);
     const double with = accord(drawn, wanted), against = accord(drawn, reversed(wanted));
-    if (with >= against) return with >= same_way ? Course::forwards : Course::neither;
-    return against >= opposite_way ? Course::backwards : Course::neither;
+    if (with >= against) return with >= same_way ? WritingDirection::forwards : WritingDirection::neither;
+    return against >= opposite_way ? WritingDirection::backwards : WritingDirection::neither;
   }
 
   /// In turn is the longest series of pen-downs whose strokes rise; of several as long, the one drawn last.
@@ -435,7 +435,7 @@ class Judge {
     for (std::size_t i = paths.size(); i-- > 0;) {
       const std::size_t stroke = best_.matches[paths[i]].first;
       const bool chosen = wanted > 0 && series[i] == wanted && stroke < above;
-      verdict_.drawn[paths[i]].in_turn = chosen;
+      result_.drawn[paths[i]].in_turn = chosen;
       if (!chosen) continue;
       --wanted;
       above = stroke;
@@ -454,51 +454,51 @@ class Judge {
 
   std::string order_reason(std::size_t path) const {
     const std::size_t stroke = best_.matches[path].first, due = due_at(path);
-    if (stroke > due) return name_of_stroke(stroke) + " was written where " + name_of_stroke(due) + " was due";
+    if (stroke > due) return stroke_label(stroke) + " was written where " + stroke_label(due) + " was due";
     std::size_t last = 0;  // of the strokes written before
     for (std::size_t i = 0; i < path; ++i) {
       if (best_.matches[i].count > 0) last = std::max(last, best_.matches[i].first + best_.matches[i].count - 1);
     }
-    return name_of_stroke(stroke) + " was written only after " + name_of_stroke(last);
+    return stroke_label(stroke) + " was written only after " + stroke_label(last);
   }
 
   void tell_rest() {
     for (std::size_t path = 0; path < paths_.size(); ++path) {
       const Match& match = best_.matches[path];
-      const DrawnStroke& drawn = verdict_.drawn[path];
+      const DrawnStroke& drawn = result_.drawn[path];
       const std::string pen_down = "pen-down " + std::to_string(path + 1);
       if (match.count == 0) {
         if (drawn.tap) continue;  // the pen bounced
-        verdict_.remarks.push_back(
-            {RemarkKind::extra, static_cast<int>(path), -1, pen_down + " resembles no stroke that was still open"});
+        result_.remarks.push_back({StrokeRemarkKind::extra, static_cast<int>(path), -1,
+                                   pen_down + " resembles no stroke that was still open"});
         continue;
       }
       if (match.continues) {
-        add(RemarkKind::broken, path, match.first,
-            name_of_stroke(match.first) + " was written in two pen-downs, " + std::to_string(path) + " and " +
+        add(StrokeRemarkKind::broken, path, match.first,
+            stroke_label(match.first) + " was written in two pen-downs, " + std::to_string(path) + " and " +
                 std::to_string(path + 1));
         continue;
       }
       if (match.count > 1) {
-        add(RemarkKind::joined, path, match.first,
-            name_of_stroke(match.first) + " to " + name_of_stroke(match.first + match.count - 1) +
+        add(StrokeRemarkKind::joined, path, match.first,
+            stroke_label(match.first) + " to " + stroke_label(match.first + match.count - 1) +
                 " were written as one: connected writing, no mistake of order");
       }
-      if (!drawn.in_turn) add(RemarkKind::order, path, match.first, order_reason(path));
-      if (drawn.course == Course::backwards) {
-        add(RemarkKind::direction, path, match.first, name_of_stroke(match.first) + " was written from its end");
+      if (!drawn.in_turn) add(StrokeRemarkKind::order, path, match.first, order_reason(path));
+      if (drawn.direction == WritingDirection::backwards) {
+        add(StrokeRemarkKind::direction, path, match.first, stroke_label(match.first) + " was written from its end");
       }
-      if (drawn.course == Course::neither) {
-        add(RemarkKind::shape, path, match.first,
-            pen_down + " runs neither along " + name_of_stroke(match.first) +
+      if (drawn.direction == WritingDirection::neither) {
+        add(StrokeRemarkKind::shape, path, match.first,
+            pen_down + " runs neither along " + stroke_label(match.first) +
                 " nor against it: it was drawn as another shape");
       }
     }
     const std::vector<bool> done = written(best_.matches);
     for (std::size_t stroke = 0; stroke < strokes_.size(); ++stroke) {
       if (done[stroke]) continue;
-      verdict_.remarks.push_back(
-          {RemarkKind::missing, -1, static_cast<int>(stroke), name_of_stroke(stroke) + " was not written"});
+      result_.remarks.push_back(
+          {StrokeRemarkKind::missing, -1, static_cast<int>(stroke), stroke_label(stroke) + " was not written"});
     }
   }
 
@@ -513,16 +513,16 @@ class Judge {
   std::vector<Outline> drawn_;               ///< of placed_
   std::vector<std::vector<Match>> singles_;  ///< of each path with each stroke
   Reading best_;
-  StrokeVerdict verdict_;
+  MatchResult result_;
 };
 
 void require_valid(const Character& character, std::span<const PenPath> paths) {
-  const std::vector<Problem> problems = validate(character);
+  const std::vector<ValidationIssue> problems = validate(character);
   if (!problems.empty()) {
     throw ValueError("the character's stroke " + std::to_string(problems[0].stroke) + ": " + problems[0].what);
   }
-  if (paths.size() > most_paths) {
-    throw ValueError(std::to_string(paths.size()) + " pen-downs: expected at most " + std::to_string(most_paths));
+  if (paths.size() > max_paths) {
+    throw ValueError(std::to_string(paths.size()) + " pen-downs: expected at most " + std::to_string(max_paths));
   }
   for (std::size_t i = 0; i < paths.size(); ++i) {
     const bool finite =
@@ -535,17 +535,17 @@ void require_valid(const Character& character, std::span<const PenPath> paths) {
 
 }  // namespace
 
-const char* name_of(RemarkKind kind) noexcept {
+const char* to_string(StrokeRemarkKind kind) noexcept {
   constexpr std::array names = {"order", "direction", "shape", "joined", "broken", "missing", "extra"};
   return names[static_cast<std::size_t>(kind)];
 }
 
-int StrokeVerdict::count(RemarkKind kind) const noexcept {
-  return static_cast<int>(
-      std::count_if(remarks.begin(), remarks.end(), [kind](const Remark& remark) { return remark.kind == kind; }));
+int MatchResult::count(StrokeRemarkKind kind) const noexcept {
+  return static_cast<int>(std::count_if(remarks.begin(), remarks.end(),
+                                        [kind](const StrokeRemark& remark) { return remark.kind == kind; }));
 }
 
-StrokeVerdict judge_strokes(const Character& character, std::span<const PenPath> paths) {
+MatchResult match_strokes(const Character& character, std::span<const PenPath> paths) {
   require_valid(character, paths);
   return Judge(character, paths).run();
 }

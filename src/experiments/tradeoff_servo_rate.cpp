@@ -4,7 +4,7 @@
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/device_profiles.hpp>
-#include <calligraphy/experiments/trade.hpp>
+#include <calligraphy/experiments/tradeoff.hpp>
 #include <calligraphy/practice/page.hpp>
 #include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/session.hpp>
@@ -31,13 +31,13 @@ RendererOptions with_paper(RendererOptions options, double stiffness, bool limit
 }
 
 /// Whether a pen pressed on the paper comes to rest: the whole loop, dry friction, encoder and force limits included.
-bool comes_to_rest(const Page& page, const Capabilities& capabilities, const Hand& hand,
+bool comes_to_rest(const PracticePage& page, const Capabilities& capabilities, const GripImpedance& grip,
                    const RendererOptions& options) {
   const MotionMapping mapping = upright_page(page.width, page.height);
   HapticRenderer renderer(page.characters, mapping, capabilities, options);
   const Point middle = bounding_box(page.characters.front()).center();
   const auto above = [&](double z) { return mapping.to_device({middle.x(), middle.y(), z}); };
-  SimulatedDevice device(capabilities, hand, above(lowered_from));
+  SimulatedDevice device(capabilities, grip, above(lowered_from));
   const double period = 1.0 / options.servo_rate;
   double low = lowered_from, high = -lowered_from;
   while (device.time() < pressed_for) {
@@ -56,11 +56,11 @@ bool comes_to_rest(const Page& page, const Capabilities& capabilities, const Han
 }
 
 /// The largest below which no stiffness that was tried is unstable, to 2 % [N/m].
-double largest_stable_stiffness(const Page& page, const Capabilities& device, const Hand& hand,
-                                const RendererOptions& options, bool limit, const std::function<void()>& pause) {
+double max_stable_stiffness(const PracticePage& page, const Capabilities& device, const GripImpedance& grip,
+                            const RendererOptions& options, bool limit, const std::function<void()>& pause) {
   const auto stable = [&](double stiffness) {
     pause();
-    return comes_to_rest(page, device, hand, with_paper(options, stiffness, limit));
+    return comes_to_rest(page, device, grip, with_paper(options, stiffness, limit));
   };
   double good = softest, bad = softest;
   if (!stable(good)) return 0.0;
@@ -82,7 +82,7 @@ struct Written {
 
 /// Each character on a page of its own, each with every seed.
 Written write_all(std::span<const Character> characters, const Capabilities& device, const RendererOptions& renderer,
-                  const ServoRateTradeOptions& options, const std::function<void()>& pause) {
+                  const ServoRateTradeoffOptions& options, const std::function<void()>& pause) {
   SessionOptions session;
   session.progress = [&pause](double) { pause(); };
   session.device = device;
@@ -92,18 +92,18 @@ Written write_all(std::span<const Character> characters, const Capabilities& dev
   double squares = 0.0;
   int completed = 0, strokes = 0, scored = 0;
   for (const Character& character : characters) {
-    const Page page = lay_out(std::span(&character, 1)).front();
+    const PracticePage page = lay_out(std::span(&character, 1)).front();
     for (int i = 0; i < options.seeds; ++i) {
       session.seed = options.seed + static_cast<std::uint64_t>(i);
       const Recording recording = write_page(page, session);
       Eigen::Vector3d last = Eigen::Vector3d::Zero();
-      for (const Sample& sample : recording.samples) {
+      for (const RecordedSample& sample : recording.samples) {
         const bool solid = sample.state == InteractionState::calibration || sample.state == InteractionState::writing;
         if (solid) written.penetration = std::max(written.penetration, -sample.device_point.z());
         written.force_step = std::max(written.force_step, (sample.force - last).norm());
         last = sample.force;
       }
-      const CharacterScore own = score(page, recording).front();
+      const CharacterScore own = score_page(page, recording).front();
       completed += own.strokes_completed;
       strokes += own.stroke_count;
       if (own.strokes_completed == 0) continue;
@@ -118,49 +118,49 @@ Written write_all(std::span<const Character> characters, const Capabilities& dev
 
 }  // namespace
 
-std::vector<ServoRateTrade> servo_rate_trade(std::span<const Character> characters,
-                                             const ServoRateTradeOptions& options) {
+std::vector<ServoRateTradeoff> servo_rate_tradeoff(std::span<const Character> characters,
+                                                   const ServoRateTradeoffOptions& options) {
   if (characters.empty()) throw ValueError("servo rate: no characters");
   if (options.seeds < 1) throw ValueError("servo rate: " + std::to_string(options.seeds) + " seeds");
   const Capabilities& device = device_profile(options.device);
   RendererOptions usual = RendererOptions::for_device(device);
-  usual.stiffness_check = StiffnessCheck::none;  // stability is what is asked here
-  const Page page = lay_out(characters.first(1)).front();
+  usual.stiffness_check = StiffnessCheck::off;  // stability is what is asked here
+  const PracticePage page = lay_out(characters.first(1)).front();
   double total = 0.0, done = 0.0;
   for (const double rate : options.rates) total += rate;
   // Within a rate, which may take a minute, too.
   const auto pause = [&] {
     if (options.progress) options.progress(done / total);
   };
-  std::vector<ServoRateTrade> trade;
+  std::vector<ServoRateTradeoff> tradeoff;
   for (const double rate : options.rates) {
     RendererOptions renderer = usual;
     renderer.servo_rate = rate;
     validate(renderer, device);
-    const Hand hand = WriterSkill::novice().hand;
-    ServoRateTrade entry;
+    const GripImpedance grip = WriterSkill::novice().grip;
+    ServoRateTradeoff entry;
     entry.rate = rate;
     entry.stiffness = renderer.paper_stiffness;
-    entry.stable = comes_to_rest(page, device, hand, renderer);
+    entry.stable = comes_to_rest(page, device, grip, renderer);
     const Written written = write_all(characters, device, renderer, options, pause);
     entry.penetration = written.penetration;
     entry.path_error = written.path_error;
     entry.force_step = written.force_step;
     entry.written = written.share;
-    entry.loop_stiffness = largest_stable_stiffness(page, device, hand, renderer, true, pause);
-    entry.unlimited_stiffness = largest_stable_stiffness(page, device, hand, renderer, false, pause);
-    entry.held_stiffness = critical_stiffness({device, rate, hand});
+    entry.loop_stiffness = max_stable_stiffness(page, device, grip, renderer, true, pause);
+    entry.unlimited_stiffness = max_stable_stiffness(page, device, grip, renderer, false, pause);
+    entry.held_stiffness = critical_stiffness({device, rate, grip});
     entry.free_stiffness = critical_stiffness({device, rate});
     entry.hard_stiffness = 0.5 * entry.unlimited_stiffness;
     const Written hard =
         write_all(characters, device, with_paper(renderer, entry.hard_stiffness, false), options, pause);
     entry.hard_penetration = hard.penetration;
     entry.hard_force_step = hard.force_step;
-    trade.push_back(entry);
+    tradeoff.push_back(entry);
     done += rate;
     pause();
   }
-  return trade;
+  return tradeoff;
 }
 
 }  // namespace calligraphy

@@ -1,7 +1,7 @@
-# calligraphy_room(name [EXPORT set] [FOLDER folder] [SUBFOLDERS ...] [SOURCES ...] [WITHOUT ...] DEPENDS ...): a
+# calligraphy_component(name [EXPORT set] [FOLDER folder] [SUBFOLDERS ...] [SOURCES ...] [WITHOUT ...] DEPENDS ...): a
 # component as the target calligraphy::name: every source file of src/folder (by default src/name) and its subfolders,
 # but for those of WITHOUT, and what is generated, SOURCES.
-function(calligraphy_room name)
+function(calligraphy_component name)
   cmake_parse_arguments(ROOM "" "EXPORT;FOLDER" "SUBFOLDERS;SOURCES;WITHOUT;DEPENDS" ${ARGN})
   if(NOT ROOM_EXPORT)
     set(ROOM_EXPORT calligraphyTargets)

@@ -1,4 +1,4 @@
-#include "trade_report.hpp"
+#include "tradeoff_report.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -19,14 +19,14 @@ std::string utf8(const std::u32string& text) {
   return result;
 }
 
-using Cost = NearestPointCost NearestPointTrade::*;
+using Cost = NearestPointCost NearestPointTradeoff::*;
 
-std::string cost_table(const TradeReport& report, const std::string& heading, Cost cost) {
+std::string cost_table(const TradeoffReport& report, const std::string& heading, Cost cost) {
   constexpr const char* head = "{:<18}{:>9}{:>9}{:>10}{:>11}{:>11}{:>11}{:>10}\n";
   std::string text = heading + "; errors in sizes of the curve\n";
   text += fmt::format(fmt::runtime(head), "", "median", "p90", "in batch", "median", "p99", "largest", "wrong");
   text += fmt::format(fmt::runtime(head), "method", "[ns]", "[ns]", "[ns]", "error", "error", "error", "[%]");
-  for (const NearestPointTrade& entry : report.nearest_point) {
+  for (const NearestPointTradeoff& entry : report.nearest_point) {
     const NearestPointCost& own = entry.*cost;
     text +=
         fmt::format("{:<18}{:>9.1f}{:>9.1f}{:>10.1f}{:>11.1e}{:>11.1e}{:>11.1e}{:>10.3f}\n", entry.setting.name, own.ns,
@@ -35,8 +35,8 @@ std::string cost_table(const TradeReport& report, const std::string& heading, Co
   return text + "\n";
 }
 
-std::string hand_table(const TradeReport& report) {
-  const NearestPointTradeOptions& options = report.nearest_options;
+std::string hand_table(const TradeoffReport& report) {
+  const NearestPointTradeoffOptions& options = report.nearest_options;
   constexpr const char* head = "{:<18}{:>9}{:>9}{:>9}{:>13}{:>9}{:>13}{:>9}\n";
   std::string text =
       fmt::format("Nearest point from tick to tick, and what the hand feels of it: K = {:g} N/m, {:g} mm/s, {:g} Hz\n",
@@ -44,15 +44,15 @@ std::string hand_table(const TradeReport& report) {
   text += fmt::format("{:<18}{:>27}{:>22}{:>22}\n", "", "pen along whole strokes", "curves of strokes", "gentle arcs");
   text += fmt::format(fmt::runtime(head), "", "tick", "p90", "wrong", "force step", "wrong", "force step", "wrong");
   text += fmt::format(fmt::runtime(head), "method", "[ns]", "[ns]", "[%]", "[N/tick]", "[%]", "[N/tick]", "[%]");
-  for (const NearestPointTrade& entry : report.nearest_point) {
+  for (const NearestPointTradeoff& entry : report.nearest_point) {
     text += fmt::format("{:<18}{:>9.1f}{:>9.1f}{:>9.3f}{:>13.4f}{:>9.3f}{:>13.4f}{:>9.3f}\n", entry.setting.name,
-                        entry.ticks.ns, entry.ticks.ns_p90, entry.ticks.wrong * percent, entry.strokes.largest_step,
-                        entry.strokes.wrong * percent, entry.arcs.largest_step, entry.arcs.wrong * percent);
+                        entry.ticks.ns, entry.ticks.ns_p90, entry.ticks.wrong * percent, entry.strokes.max_step,
+                        entry.strokes.wrong * percent, entry.arcs.max_step, entry.arcs.wrong * percent);
   }
-  return text + "a perfect foot steps the force too, since the pen moves: the rows of exact\n\n";
+  return text + "a perfect closest point steps the force too, since the pen moves: the rows of exact\n\n";
 }
 
-std::string rate_table(const TradeReport& report) {
+std::string rate_table(const TradeoffReport& report) {
   const auto& rows = report.servo_rate;
   std::string text =
       fmt::format("Servo rate: the novice writes {}, {} seed{}, on a simulated {}; default paper {:g} N/m\n",
@@ -65,7 +65,7 @@ std::string rate_table(const TradeReport& report) {
   text += fmt::format("{:>7}{:>8}{:>9}{:>9}{:>9}{:>9}{:>11}{:>9}{:>9}{:>9}{:>11}{:>9}{:>9}\n", "[Hz]", "stable", "[mm]",
                       "[mm RMS]", "step [N]", "done [%]", "default", "limit", "held", "let go", "[N/m]", "[mm]",
                       "step [N]");
-  for (const ServoRateTrade& entry : rows) {
+  for (const ServoRateTradeoff& entry : rows) {
     text += fmt::format(
         "{:>7g}{:>8}{:>9.3f}{:>9.3f}{:>9.3f}{:>9.0f}{:>11.0f}{:>9.0f}{:>9.0f}{:>9.0f}{:>11.0f}{:>9.3f}{:>9.3f}\n",
         entry.rate, entry.stable ? "yes" : "no", entry.penetration * millimetres, entry.path_error * millimetres,
@@ -78,14 +78,14 @@ std::string rate_table(const TradeReport& report) {
          "then\n\n";
 }
 
-std::string width_table(const TradeReport& report) {
+std::string width_table(const TradeoffReport& report) {
   constexpr const char* head = "{:>6}{:>12}{:>16}{:>12}{:>14}\n";
   std::string text = fmt::format("Width of stored coordinates: {} characters\n", report.text.size());
   text += fmt::format(fmt::runtime(head), "", "grid step", "largest error", "RMS error", "bytes per");
   text += fmt::format(fmt::runtime(head), "bits", "[% em]", "[% em]", "[% em]", "character");
-  for (const CoordinateWidthTrade& entry : report.coordinate_width) {
+  for (const CoordinateWidthTradeoff& entry : report.coordinate_width) {
     text += fmt::format("{:>6}{:>12.4f}{:>16.4f}{:>12.4f}{:>14.1f}\n", entry.bits, entry.step * percent,
-                        entry.largest_error * percent, entry.rms_error * percent, entry.bytes);
+                        entry.max_error * percent, entry.rms_error * percent, entry.bytes);
   }
   return text;
 }
@@ -96,13 +96,13 @@ Json json_of(const NearestPointCost& cost) {
           {"error_max", cost.error_worst}, {"wrong_branches", cost.wrong}};
 }
 
-Json json_of(const PenFeel& feel) { return {{"max_force_step_N", feel.largest_step}, {"wrong_ticks", feel.wrong}}; }
+Json json_of(const PenFeel& feel) { return {{"max_force_step_N", feel.max_step}, {"wrong_ticks", feel.wrong}}; }
 
-Json json_of(const NearestPointTrade& entry) {
+Json json_of(const NearestPointTradeoff& entry) {
   Json workloads = Json::array();
   for (const NearestPointCost& cost : entry.workloads) workloads.push_back(json_of(cost));
   const NearestPointOptions& options = entry.setting.options;
-  Json object = {{"setting", entry.setting.name}, {"method", method_name(options.method)}};
+  Json object = {{"setting", entry.setting.name}, {"method", to_string(options.method)}};
   if (options.method == NearestPointMethod::sampled) {
     object["samples"] = options.samples;
     object["refinements"] = options.refinements;
@@ -118,7 +118,7 @@ Json json_of(const NearestPointTrade& entry) {
   return object;
 }
 
-Json json_of(const ServoRateTrade& entry) {
+Json json_of(const ServoRateTradeoff& entry) {
   return {{"rate_Hz", entry.rate},
           {"paper_stiffness_N_m", entry.stiffness},
           {"stable", entry.stable},
@@ -126,8 +126,8 @@ Json json_of(const ServoRateTrade& entry) {
           {"path_error_rms_mm", entry.path_error * millimetres},
           {"max_force_step_N", entry.force_step},
           {"strokes_written", entry.written},
-          {"largest_stable_stiffness_N_m", entry.loop_stiffness},
-          {"largest_stable_stiffness_without_force_rate_limit_N_m", entry.unlimited_stiffness},
+          {"max_stable_stiffness_N_m", entry.loop_stiffness},
+          {"max_stable_stiffness_without_force_rate_limit_N_m", entry.unlimited_stiffness},
           {"critical_stiffness_held_N_m", entry.held_stiffness},
           {"critical_stiffness_free_N_m", entry.free_stiffness},
           {"hard_paper",
@@ -136,10 +136,10 @@ Json json_of(const ServoRateTrade& entry) {
             {"max_force_step_N", entry.hard_force_step}}}};
 }
 
-Json json_of(const CoordinateWidthTrade& entry) {
+Json json_of(const CoordinateWidthTradeoff& entry) {
   return {{"bits", entry.bits},
           {"step_em", entry.step},
-          {"max_error_em", entry.largest_error},
+          {"max_error_em", entry.max_error},
           {"rms_error_em", entry.rms_error},
           {"bytes_per_character", entry.bytes}};
 }
@@ -153,17 +153,17 @@ Json list_of(const std::vector<Entry>& entries) {
 
 }  // namespace
 
-std::string tables(const TradeReport& report) {
+std::string tables(const TradeoffReport& report) {
   const int queries = report.nearest_options.queries;
   return cost_table(report, fmt::format("Nearest point on real strokes, {} queries", 2 * queries),
-                    &NearestPointTrade::real) +
+                    &NearestPointTradeoff::real) +
          cost_table(report, fmt::format("Nearest point on the hard workloads, {} queries", 17 * queries),
-                    &NearestPointTrade::hard) +
+                    &NearestPointTradeoff::hard) +
          hand_table(report) + rate_table(report) + width_table(report);
 }
 
-std::string json(const TradeReport& report) {
-  const NearestPointTradeOptions& options = report.nearest_options;
+std::string json(const TradeoffReport& report) {
+  const NearestPointTradeoffOptions& options = report.nearest_options;
   const Json object = {
       {"characters", utf8(report.text)},
       {"written_characters", utf8(report.written)},

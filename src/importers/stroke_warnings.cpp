@@ -1,4 +1,4 @@
-#include <calligraphy/importers/doubtful_strokes.hpp>
+#include <calligraphy/importers/stroke_warnings.hpp>
 
 #include <algorithm>
 #include <array>
@@ -20,10 +20,10 @@ using recognition::Path;
 constexpr double overlap_distance = 0.01;                     // [em]; a line of print is wider
 constexpr double outside_distance = 0.01;                     // [em]
 constexpr double against = 100.0 * std::numbers::pi / 180.0;  // of the typical start [rad]
-constexpr double longest_dot = 0.25;     // [em]; one element as short as this may be called dian, pie, ti or shu
-constexpr double shortest_start = 0.02;  // [em]; of what is shorter no direction is told
+constexpr double max_dot = 0.25;    // [em]; one element as short as this may be called dian, pie, ti or shu
+constexpr double min_start = 0.02;  // [em]; of what is shorter no direction is told
 constexpr int curve_steps = 24;
-constexpr double longest_step = 0.02;  // [em]
+constexpr double max_step = 0.02;  // [em]
 
 /// Typical strokes that one curve may be, so that geometry alone cannot say which is meant.
 constexpr std::array<std::array<int, 5>, 14> alike = {{{1, 10},
@@ -64,7 +64,7 @@ Path sampled(const Stroke& stroke) {
     if (kind == static_cast<char>(ElementKind::line)) {
       const Point from = stroke.control_points[at];
       const Point along = stroke.control_points[at + 1] - from;
-      const int steps = static_cast<int>(std::ceil(along.norm() / longest_step)) + 1;
+      const int steps = static_cast<int>(std::ceil(along.norm() / max_step)) + 1;
       for (int i = 1; i <= steps; ++i) path.push_back(from + (static_cast<double>(i) / steps) * along);
       at += 1;
     } else if (stroke.curve_degree == 3) {
@@ -91,13 +91,13 @@ Point typical_start(const TypicalStroke& type) {
 /// Is the stroke one short element, whose name is a matter of what it is part of?
 bool is_dot(const Stroke& stroke) {
   return stroke.type->elements.size() == 1 &&
-         (stroke.control_points.back() - stroke.control_points.front()).norm() < longest_dot;
+         (stroke.control_points.back() - stroke.control_points.front()).norm() < max_dot;
 }
 
 /// The typical stroke with whose shape the curve contradicts the one that is recorded; 0 when none does.
 int other_type(const Stroke& stroke, const Path& path) {
   if (is_dot(stroke)) return 0;
-  const int found = fit_stroke(path, {.drawn_with = DrawnWith::pen}).stroke.id;
+  const int found = fit_stroke(path, {.drawing_tool = DrawingTool::pen}).stroke.id;
   return found == stroke.type->id || are_alike(found, stroke.type->id) ? 0 : found;
 }
 
@@ -112,8 +112,8 @@ double distance_outside(const Path& path) {
 double squared_distance(const Point& point, const Path& path) {
   double nearest = (point - path.front()).squaredNorm();
   for (std::size_t i = 1; i < path.size(); ++i) {
-    const Point foot = recognition::nearest_on_segment(point, path[i - 1], path[i]);
-    nearest = std::min(nearest, (point - foot).squaredNorm());
+    const Point closest = recognition::nearest_on_segment(point, path[i - 1], path[i]);
+    nearest = std::min(nearest, (point - closest).squaredNorm());
   }
   return nearest;
 }
@@ -136,52 +136,53 @@ std::string percent_of_em(double length) {
 
 }  // namespace
 
-const char* name_of(DoubtKind kind) noexcept {
+const char* to_string(StrokeWarningKind kind) noexcept {
   switch (kind) {
-    case DoubtKind::type:
+    case StrokeWarningKind::type:
       return "type";
-    case DoubtKind::direction:
+    case StrokeWarningKind::direction:
       return "direction";
-    case DoubtKind::overlap:
+    case StrokeWarningKind::overlap:
       return "overlap";
-    case DoubtKind::outside:
+    case StrokeWarningKind::outside:
       break;
   }
   return "outside";
 }
 
-double turn_from_typical_start(const Stroke& stroke) {
+double start_direction_error(const Stroke& stroke) {
   const Point start = start_of(stroke.control_points, *stroke.type, stroke.curve_degree);
   const Point typical = typical_start(*stroke.type);
-  if (start.norm() < shortest_start || typical.norm() < shortest_start) return 0.0;  // a dot, a circle
+  if (start.norm() < min_start || typical.norm() < min_start) return 0.0;  // a dot, a circle
   return std::acos(std::clamp(start.normalized().dot(typical.normalized()), -1.0, 1.0));
 }
 
-std::vector<Doubt> doubtful_strokes(const Character& character) {
-  std::vector<Doubt> doubts;
+std::vector<StrokeWarning> stroke_warnings(const Character& character) {
+  std::vector<StrokeWarning> warnings;
   std::vector<Path> paths;
   int number = 0;
   for (const Stroke& stroke : strokes(character)) {
     ++number;
     paths.push_back(sampled(stroke));
     const Path& path = paths.back();
-    // A stroke written backwards has the shape of another: one doubt says it.
-    if (turn_from_typical_start(stroke) > against) {
-      doubts.push_back(
-          {number, DoubtKind::direction, "starts against the direction of " + name_with_id(stroke.type->id)});
+    // A stroke written backwards has the shape of another: one warning says it.
+    if (start_direction_error(stroke) > against) {
+      warnings.push_back(
+          {number, StrokeWarningKind::direction, "starts against the direction of " + name_with_id(stroke.type->id)});
     } else if (const int other = other_type(stroke, path); other != 0) {
-      doubts.push_back({number, DoubtKind::type,
-                        "is called " + name_with_id(stroke.type->id) + " and has the shape of " + name_with_id(other)});
+      warnings.push_back(
+          {number, StrokeWarningKind::type,
+           "is called " + name_with_id(stroke.type->id) + " and has the shape of " + name_with_id(other)});
     }
     if (const double outside = distance_outside(path); outside > outside_distance) {
-      doubts.push_back({number, DoubtKind::outside, "leaves the em square by " + percent_of_em(outside)});
+      warnings.push_back({number, StrokeWarningKind::outside, "leaves the em square by " + percent_of_em(outside)});
     }
     for (std::size_t other = 0; other + 1 < paths.size(); ++other) {
       if (!lies_on(path, paths[other]) && !lies_on(paths[other], path)) continue;
-      doubts.push_back({number, DoubtKind::overlap, "lies on stroke " + std::to_string(other + 1)});
+      warnings.push_back({number, StrokeWarningKind::overlap, "lies on stroke " + std::to_string(other + 1)});
     }
   }
-  return doubts;
+  return warnings;
 }
 
 }  // namespace calligraphy

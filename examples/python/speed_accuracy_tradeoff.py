@@ -8,13 +8,13 @@ import calligraphy as cal
 
 out = output_directory(__doc__)
 characters = [cal.built_in_characters()[code] for code in "永和九年"]
-trade = cal.nearest_point_trade(characters, queries=640, rounds=5)
+tradeoff = cal.nearest_point_tradeoff(characters, queries=640, rounds=5)
 
 colors = {"exact": "#4477aa", "tracked": "#228833", "sampled": "#ee6677", "wang2006": "#aa3377"}
 figure, columns = plt.subplots(1, 2, figsize=(11, 4.4), sharey=True, layout="constrained")
 for axes, kind, title in zip(columns, ("real", "hard"), ("on real strokes", "on hostile curves")):
     for method, color in colors.items():
-        costs = [getattr(entry, kind) for entry in trade if entry.options.method.name == method]
+        costs = [getattr(entry, kind) for entry in tradeoff if entry.options.method.name == method]
         costs.sort(key=lambda cost: cost.ns)
         worst = np.maximum([cost.error_worst for cost in costs], 1e-17)  # none at all is drawn there
         axes.loglog([cost.ns for cost in costs], worst, "o-", color=color, label=method, markersize=4)
@@ -25,6 +25,6 @@ for axes, kind, title in zip(columns, ("real", "hard"), ("on real strokes", "on 
 columns[0].set_ylabel("largest error of the distance [sizes of the curve]")
 figure.legend(*columns[1].get_legend_handles_labels(), loc="outside right center")
 figure.suptitle("Nearest point: speed against accuracy")
-save(figure, out / "speed-accuracy-trade.png")
-for entry in trade:
+save(figure, out / "speed-accuracy-tradeoff.png")
+for entry in tradeoff:
     print(f"{entry.name:22} {entry.real.ns:7.0f} ns, worst {entry.real.error_worst:8.1e}; hostile: wrong {entry.hard.wrong:7.2%}")

@@ -71,7 +71,7 @@ struct Bounds {
 
 /// The search for the least distance of the origin from one curve of degree n, whose control points are given.
 template <typename Real, int n>
-class LeastDistance {
+class MinDistance {
  public:
   using Polygon = std::array<Vector<Real>, n + 1>;
 

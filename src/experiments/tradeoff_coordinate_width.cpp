@@ -4,7 +4,7 @@
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/collision/placed_character.hpp>
-#include <calligraphy/experiments/trade.hpp>
+#include <calligraphy/experiments/tradeoff.hpp>
 
 namespace calligraphy {
 namespace {
@@ -50,15 +50,15 @@ Character with_coordinate_width(const Character& character, int bits) {
   return rounded;
 }
 
-std::vector<CoordinateWidthTrade> coordinate_width_trade(std::span<const Character> characters,
-                                                         const std::function<void(double)>& progress) {
+std::vector<CoordinateWidthTradeoff> coordinate_width_tradeoff(std::span<const Character> characters,
+                                                               const std::function<void(double)>& progress) {
   if (characters.empty()) throw ValueError("coordinate width: no characters");
   const Placement em_square{Point::Zero(), 1.0};
   const double total = static_cast<double>(characters.size()) * (widest - narrowest + 1);
   double done = 0.0;
-  std::vector<CoordinateWidthTrade> trade;
+  std::vector<CoordinateWidthTradeoff> tradeoff;
   for (int bits = narrowest; bits <= widest; ++bits) {
-    CoordinateWidthTrade entry;
+    CoordinateWidthTradeoff entry;
     entry.bits = bits;
     entry.step = 1.0 / (std::exp2(bits) - 1.0);
     Distances distances;
@@ -74,11 +74,11 @@ std::vector<CoordinateWidthTrade> coordinate_width_trade(std::span<const Charact
       entry.bytes += stored_bytes(character, bits) / static_cast<double>(characters.size());
       if (progress) progress(++done / total);
     }
-    entry.largest_error = distances.largest;
+    entry.max_error = distances.largest;
     entry.rms_error = distances.length > 0.0 ? std::sqrt(distances.weighted_squares / distances.length) : 0.0;
-    trade.push_back(entry);
+    tradeoff.push_back(entry);
   }
-  return trade;
+  return tradeoff;
 }
 
 }  // namespace calligraphy
