@@ -1,4 +1,4 @@
-// Where on a stroke is the nearest point to the pen, and is the pen within reach of the guidance?
+// The point of a stroke nearest to the pen tip, and the weight of the guidance there.
 #include <cstdio>
 #include <vector>
 

@@ -1,4 +1,4 @@
-// A device of one's own: how little a backend needs. This one speaks to a toy that holds a knob on a spring.
+// Your own backend: a complete device class. This one drives a toy, a knob on a spring.
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -9,10 +9,10 @@
 
 namespace {
 
-/// Stands for a vendor's library: a knob of 50 g on a spring of 100 N/m, in real time. Put your own calls in its place.
+/// Stands in for a vendor's library: a knob of 50 g on a spring of 100 N/m, in real time. Replace it by your own calls.
 struct Knob {
   bool plugged_in() const { return true; }
-  double position() {  // [mm], as such libraries like it
+  double position() {  // [mm], as many libraries have it
     for (int i = 0; i < 10; ++i) {
       speed_ += 1e-4 * (force_ - 100.0 * place_ - 2.0 * speed_) / 0.05;
       place_ += 1e-4 * speed_;
@@ -27,7 +27,7 @@ struct Knob {
 class KnobDevice final : public calligraphy::HapticDevice {
  public:
   KnobDevice() {
-    if (!knob_.plugged_in()) throw calligraphy::DeviceError("no knob found: plug it in, then start again");
+    if (!knob_.plugged_in()) throw calligraphy::DeviceError("no knob found: plug it in and start again");
     capabilities_.model = "Knob";
     capabilities_.sensed = capabilities_.driven = {.x = true, .y = false, .z = false};
     capabilities_.workspace = {0.1, 0.0, 0.0};  // [m]
@@ -35,7 +35,7 @@ class KnobDevice final : public calligraphy::HapticDevice {
     capabilities_.usable_stiffness = 300.0;     // [N/m]
   }
   const calligraphy::Capabilities& capabilities() const noexcept override { return capabilities_; }
-  // A millisecond has passed. No allocation, no lock, no exception, no log: trouble is a status.
+  // Called once a millisecond. Must not allocate, lock, throw or log: errors are reported as a status.
   calligraphy::DeviceState read() noexcept override {
     state_.time += 1e-3;
     state_.position.x() = 1e-3 * knob_.position();
@@ -63,14 +63,14 @@ int main() {
   using namespace calligraphy;
   KnobDevice device;
   std::atomic<double> place = 0.0;
-  // A spring that wants the knob at 20 mm; the knob's own wants it at zero.
+  // This spring pulls the knob to 20 mm, the knob's own spring pulls it to zero.
   ServoLoop loop(device, [&](const DeviceState& state) -> Eigen::Vector3d {
     place = state.position.x();
     return {100.0 * (0.02 - state.position.x()), 0.0, 0.0};
   });
   for (const std::string& warning : loop.start()) std::printf("%s\n", warning.c_str());
   while (loop.statistics().ticks < 1500) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  loop.stop();  // the force falls to zero
+  loop.stop();  // ramps the force down to zero
   const ServoStatistics done = loop.statistics();
   std::printf("%.1f mm at the end, p99 of the work %.1f us\n", 1e3 * place, 1e6 * done.work.p99);
   return 0;
