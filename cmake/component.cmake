@@ -1,47 +1,44 @@
-# calligraphy_component(name [EXPORT set] [FOLDER folder] [SUBFOLDERS ...] [SOURCES ...] [WITHOUT ...] DEPENDS ...): a
-# component as the target calligraphy::name: every source file of src/folder (by default src/name) and its subfolders,
-# but for those of WITHOUT, and what is generated, SOURCES.
+# calligraphy_component(name [EXPORT set] [FOLDER folder] [SUBFOLDERS ...] [SOURCES ...] [WITHOUT ...] DEPENDS ...
+# [NEEDS package ...]): a component as the target calligraphy::name: every source file of src/folder (by default
+# src/name) and of its subfolders except those of WITHOUT, and the generated ones, SOURCES. NEEDS: what find_package()
+# must find beside an installed copy before the target can be linked; DEPENDS are components, or needed by all of them.
 function(calligraphy_component name)
-  cmake_parse_arguments(ROOM "" "EXPORT;FOLDER" "SUBFOLDERS;SOURCES;WITHOUT;DEPENDS" ${ARGN})
-  if(NOT ROOM_EXPORT)
-    set(ROOM_EXPORT calligraphyTargets)
+  cmake_parse_arguments(COMPONENT "" "EXPORT;FOLDER" "SUBFOLDERS;SOURCES;WITHOUT;DEPENDS;NEEDS" ${ARGN})
+  if(NOT COMPONENT_EXPORT)
+    set(COMPONENT_EXPORT calligraphyTargets)
   endif()
-  if(NOT ROOM_FOLDER)
-    set(ROOM_FOLDER ${name})
+  if(NOT COMPONENT_FOLDER)
+    set(COMPONENT_FOLDER ${name})
   endif()
-  set(patterns src/${ROOM_FOLDER}/*.cpp)
-  foreach(subfolder ${ROOM_SUBFOLDERS})
-    list(APPEND patterns src/${ROOM_FOLDER}/${subfolder}/*.cpp)
+  set(patterns src/${COMPONENT_FOLDER}/*.cpp)
+  foreach(subfolder ${COMPONENT_SUBFOLDERS})
+    list(APPEND patterns src/${COMPONENT_FOLDER}/${subfolder}/*.cpp)
   endforeach()
   file(GLOB sources CONFIGURE_DEPENDS ${patterns})
-  foreach(file ${ROOM_WITHOUT})
-    list(REMOVE_ITEM sources ${PROJECT_SOURCE_DIR}/src/${ROOM_FOLDER}/${file})
+  foreach(file ${COMPONENT_WITHOUT})
+    list(REMOVE_ITEM sources ${PROJECT_SOURCE_DIR}/src/${COMPONENT_FOLDER}/${file})
   endforeach()
   set(target calligraphy_${name})
-  add_library(${target} ${sources} ${ROOM_SOURCES})
+  add_library(${target} ${sources} ${COMPONENT_SOURCES})
   add_library(calligraphy::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
                                               $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
                                        PRIVATE ${PROJECT_SOURCE_DIR}/src)
-  target_link_libraries(${target} PUBLIC ${ROOM_DEPENDS})
+  target_link_libraries(${target} PUBLIC ${COMPONENT_DEPENDS})
   # The same bits on every processor: no contraction into fused operations.
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-ffp-contract=off>)
   calligraphy_warnings(${target})
-  if(CALLIGRAPHY_SANITIZE)  # a build for tests: several files as one compile in a third of the time
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON)
-    target_compile_options(${target} PRIVATE -Wno-shadow)  # of names that stand in a neighbour
-    set_source_files_properties(
-      src/collision/certified_nearest_point.cpp src/collision/sampled_nearest_point.cpp src/devices/oscillator.cpp
-      src/importers/stroke_recognition.cpp src/importers/hanzi_writer.cpp src/practice/pen_trace.cpp
-      src/practice/recording.cpp src/pictures/replay_picture.cpp src/experiments/stability_plot.cpp
-      src/pictures/typical_strokes_picture.cpp
-      src/render/paper_friction.cpp
-      PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)  # these have names that a neighbour has too
-  endif()
-  install(TARGETS ${target} EXPORT ${ROOM_EXPORT})
-  install(DIRECTORY include/calligraphy/${ROOM_FOLDER}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/calligraphy/${ROOM_FOLDER}
+  calligraphy_unity(${target} 8)
+  set(components ${COMPONENT_DEPENDS})
+  list(FILTER components INCLUDE REGEX "^calligraphy_")
+  list(TRANSFORM components REPLACE "^calligraphy_" "")
+  set_property(GLOBAL APPEND PROPERTY CALLIGRAPHY_COMPONENTS ${name})
+  set_property(GLOBAL PROPERTY CALLIGRAPHY_${name}_DEPENDS "${components}")
+  set_property(GLOBAL PROPERTY CALLIGRAPHY_${name}_NEEDS "${COMPONENT_NEEDS}")
+  install(TARGETS ${target} EXPORT ${COMPONENT_EXPORT})
+  install(DIRECTORY include/calligraphy/${COMPONENT_FOLDER}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/calligraphy/${COMPONENT_FOLDER}
           PATTERN phantom EXCLUDE PATTERN openhaptics EXCLUDE)  # which install their own
 endfunction()
 

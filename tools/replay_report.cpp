@@ -12,9 +12,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr StrokeRemarkKind kinds[] = {StrokeRemarkKind::order,  StrokeRemarkKind::direction, StrokeRemarkKind::shape,
-                                      StrokeRemarkKind::joined, StrokeRemarkKind::broken,    StrokeRemarkKind::missing,
-                                      StrokeRemarkKind::extra};
+constexpr StrokeRemarkKind remark_kinds[] = {
+    StrokeRemarkKind::order,  StrokeRemarkKind::direction, StrokeRemarkKind::shape, StrokeRemarkKind::joined,
+    StrokeRemarkKind::broken, StrokeRemarkKind::missing,   StrokeRemarkKind::extra};
 
 /// Pen-downs that were not a mere bounce.
 int strokes_drawn(const MatchResult& match) {
@@ -43,7 +43,7 @@ std::string direction_of(const MatchResult& match) {
 /// "1 joined, 2 missing"
 std::string others(const MatchResult& match) {
   std::string text;
-  for (const StrokeRemarkKind kind : kinds) {
+  for (const StrokeRemarkKind kind : remark_kinds) {
     const int count = match.count(kind);
     if (count == 0 || kind == StrokeRemarkKind::order || kind == StrokeRemarkKind::direction) continue;
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, to_string(kind));
@@ -51,7 +51,7 @@ std::string others(const MatchResult& match) {
   return text;
 }
 
-const char* to_string(WritingDirection direction) {
+const char* course_name(WritingDirection direction) {
   switch (direction) {
     case WritingDirection::forwards:
       return "forwards";
@@ -72,7 +72,7 @@ Json json_of(const Replayed& trace) {
     for (int i = 0; i < each.stroke_count; ++i) strokes.push_back(each.stroke + i + 1);
     drawn.push_back({{"strokes", strokes},
                      {"in_turn", each.in_turn},
-                     {"course", to_string(each.direction)},
+                     {"course", course_name(each.direction)},
                      {"continues", each.continues},
                      {"tap", each.tap},
                      {"distance_em", each.stroke_count > 0 ? Json(each.distance) : Json()}});

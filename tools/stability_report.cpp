@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double millimetres = 1e3, micrometres = 1e6;
+constexpr double per_millimetre = 1e3, per_micrometre = 1e6;
 
 std::string row(const char* name, const StiffnessBound& bound) {
   return fmt::format("{:<12}{:>12.1f}  {}\n{:<26}{}\n", name, bound.value, bound.formula, "", bound.validity);
@@ -21,7 +21,7 @@ std::string description(const SampledLoop& loop) {
   std::string text =
       fmt::format("{:g} Hz, {:g} kg, b = {:g} N s/m, f_c = {:g} N, encoder step D = {:g} um, delay d = {}", loop.rate,
                   loop.device.apparent_mass, loop.device.viscous_friction, loop.device.coulomb_friction,
-                  loop.device.encoder_step * micrometres, loop.device.sample_delay);
+                  loop.device.encoder_step * per_micrometre, loop.device.sample_delay);
   text += fmt::format("{}, wall damping B = {:g} N s/m", loop.device.sample_delay == 1 ? " tick" : " ticks",
                       loop.wall_damping);
   const GripImpedance& grip = loop.grip;
@@ -132,7 +132,7 @@ std::string tables(const StabilityMap& map) {
       "{:g} "
       "N\nsettles: up to here it comes to rest; controlled: with the passivity controller; in peak: and never reaches "
       "the peak force\n\n",
-      contact.height * millimetres, contact.push, contact.seconds, map.device.peak_force);
+      contact.height * per_millimetre, contact.push, contact.seconds, map.device.peak_force);
   for (const StabilitySweep& sweep : map.sweeps) text += sweep_table(sweep);
   return text + summary(map);
 }

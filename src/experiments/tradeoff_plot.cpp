@@ -14,9 +14,9 @@
 namespace calligraphy {
 namespace {
 
-using gnuplot::number;
+using gnuplot::numeral;
 
-constexpr double millimetres = 1e3;
+constexpr double to_millimetres = 1e3;
 constexpr double percent = 100.0;
 constexpr double min_error = 1e-17;  ///< what is drawn for no error at all
 
@@ -85,7 +85,7 @@ std::string points_of(std::span<const NearestPointTradeoff> tradeoff, const Meth
   }
   std::string lines;
   for (const Mark& mark : marks) {
-    lines += number(mark.ns) + " " + number(mark.largest) + " " + number(mark.p99) + " \"" + label_of(mark) + "\"\n";
+    lines += numeral(mark.ns) + " " + numeral(mark.largest) + " " + numeral(mark.p99) + " \"" + label_of(mark) + "\"\n";
   }
   return lines;
 }
@@ -95,7 +95,7 @@ std::string series(std::span<const Entry> tradeoff,
                    std::initializer_list<std::function<double(const Entry&)>> columns) {
   std::string lines;
   for (const Entry& entry : tradeoff) {
-    for (const auto& column : columns) lines += number(column(entry)) + " ";
+    for (const auto& column : columns) lines += numeral(column(entry)) + " ";
     lines += "\n";
   }
   return lines;
@@ -118,7 +118,7 @@ std::string nearest_point_tradeoff_plot(std::span<const NearestPointTradeoff> tr
     }
   }
   text +=
-      "set multiplot\nset logscale xy\nset xrange [" + number(0.3 * cheapest) + ":" + number(2.0 * dearest) +
+      "set multiplot\nset logscale xy\nset xrange [" + numeral(0.3 * cheapest) + ":" + numeral(2.0 * dearest) +
       "]\nset yrange [1e-19:1e4]\nset format y '%.0e'\nset xlabel 'median cost [ns]'\n"
       "set ytics 1e-17,1000,10\nset mytics 1\nset mxtics 1\nset xtics (10,20,50,100,200,500,1000,2000,5000,10000)\n"
       "set tmargin at screen 0.84\nset bmargin at screen 0.13\n"
@@ -140,7 +140,7 @@ std::string nearest_point_tradeoff_plot(std::span<const NearestPointTradeoff> tr
                "title '" + name + "', $" + name + " using 1:2:4 with labels " + method.label +
                " font ',10' textcolor rgb '" + method.colour + "' notitle";
     }
-    text += "set lmargin at screen " + number(left) + "\nset rmargin at screen " + number(right) + "\nset title '" +
+    text += "set lmargin at screen " + numeral(left) + "\nset rmargin at screen " + numeral(right) + "\nset title '" +
             heading + "'\n" + (key ? "set key horizontal at screen 0.98, 0.995 right top samplen 1\n" : "unset key\n") +
             "plot " + plots + "\n";
   };
@@ -156,12 +156,12 @@ std::string servo_rate_tradeoff_plot(std::span<const ServoRateTradeoff> tradeoff
   require_some(tradeoff.size());
   using Entry = ServoRateTradeoff;
   const std::string rows = series<Entry>(
-      tradeoff, {[](const Entry& e) { return e.rate; }, [](const Entry& e) { return e.penetration * millimetres; },
-                 [](const Entry& e) { return e.hard_penetration * millimetres; },
-                 [](const Entry& e) { return e.path_error * millimetres; }, [](const Entry& e) { return e.force_step; },
-                 [](const Entry& e) { return e.hard_force_step; }, [](const Entry& e) { return e.loop_stiffness; },
-                 [](const Entry& e) { return e.unlimited_stiffness; }, [](const Entry& e) { return e.held_stiffness; },
-                 [](const Entry& e) { return e.free_stiffness; }});
+      tradeoff, {[](const Entry& e) { return e.rate; }, [](const Entry& e) { return e.penetration * to_millimetres; },
+                 [](const Entry& e) { return e.hard_penetration * to_millimetres; },
+                 [](const Entry& e) { return e.path_error * to_millimetres; },
+                 [](const Entry& e) { return e.force_step; }, [](const Entry& e) { return e.hard_force_step; },
+                 [](const Entry& e) { return e.loop_stiffness; }, [](const Entry& e) { return e.unlimited_stiffness; },
+                 [](const Entry& e) { return e.held_stiffness; }, [](const Entry& e) { return e.free_stiffness; }});
   std::string text = gnuplot::svg_terminal(1000, 620) + style + block("rates", rows) +
                      "set multiplot layout 2,2 margins 0.07,0.98,0.11,0.93 spacing 0.09,0.18\n"
                      "set logscale x\nset xrange [200:25000]\nset mxtics 1\nset mytics 1\nset key samplen 2\n"

@@ -15,6 +15,7 @@
 
 #include "../allocation_counter.hpp"
 #include "../catch.hpp"
+#include "../special_values.hpp"
 #include "watched_device.hpp"
 
 using namespace calligraphy;
@@ -24,8 +25,8 @@ namespace {
 
 constexpr double period = 1e-3;  // [s]
 constexpr double wanted = 2.0;   // [N]
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using calligraphy_test::infinity;
+using calligraphy_test::not_a_number;
 
 double virtual_time = 0.0;  // [s]
 double virtual_clock() noexcept { return virtual_time; }

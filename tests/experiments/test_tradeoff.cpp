@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,13 +14,14 @@
 
 #include "../catch.hpp"
 #include "../practice/pages.hpp"
+#include "../special_values.hpp"
 
 using namespace calligraphy;
 using calligraphy_test::characters;
 
 namespace {
 
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+using calligraphy_test::not_a_number;
 
 NearestPointTradeoffOptions small_tradeoff() {
   NearestPointTradeoffOptions options;

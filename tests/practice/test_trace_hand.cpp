@@ -24,7 +24,7 @@ namespace {
 
 const Eigen::Vector3d start(0.08, 0.06, 0.02);
 
-double max_step(const Recording& recording) {
+double max_traced_step(const Recording& recording) {
   double largest = 0.0;
   for (std::size_t i = 1; i < recording.samples.size(); ++i) {
     largest = std::max(largest, (recording.samples[i].force - recording.samples[i - 1].force).norm());
@@ -43,7 +43,7 @@ void check_bounded(const Character& character, const PenTrace& trace, const Sess
   CHECK(std::all_of(recording.samples.begin(), recording.samples.end(), [](const RecordedSample& sample) {
     return sample.status == TickStatus::ok && sample.force.allFinite();
   }));
-  CHECK(max_step(recording) <= renderer.max_force_step() * (1.0 + 1e-12));
+  CHECK(max_traced_step(recording) <= renderer.max_force_step() * (1.0 + 1e-12));
   CHECK(score_page(page, recording).front().peak_force <= options.device.peak_force);
   const double written = trace.strokes.back().back().time - trace.strokes.front().front().time;
   CHECK(recording.samples.back().time > std::min(written, 1.0));
