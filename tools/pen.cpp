@@ -67,7 +67,7 @@ Recording Pen::live(const PracticePage& page, const SessionOptions& session) {
   options.watch = [&](const LiveView& view) {
     if (session.progress) session.progress(view.progress);
     if (view.servo.fault != told && view.servo.fault != DeviceFault::none) {
-      spdlog::warn("the force went to zero: {}", to_string(view.servo.fault));
+      spdlog::warn("force ramped down to zero: {}", to_string(view.servo.fault));
     }
     told = view.servo.fault;
     return !interrupt_->asked();

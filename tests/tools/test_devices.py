@@ -86,7 +86,7 @@ class Devices(ProgramTest):
                                             hand=["--write", "十", "--skill", "skilled"])
         row, = json.loads((self.directory / "out" / "summary.json").read_text())
         self.assertEqual(row["mode"], "force")
-        if "the force went to zero" not in done.stderr:
+        if "force ramped down to zero" not in done.stderr:
             self.assertEqual(row["strokes_completed"], 2, done.stderr)
         self.assertGreater(row["peak_force_N"], 0.0)
         loop, = json.loads((self.directory / "out" / "servo.json").read_text())
@@ -118,6 +118,6 @@ class Devices(ProgramTest):
         done = self.run_program("write", "十", "--device", "openhaptics", "--out", "out", "--timeout", "30",
                                 environment=with_runtime)
         row, = json.loads((self.directory / "out" / "summary.json").read_text())
-        if "the force went to zero" not in done.stderr:
+        if "force ramped down to zero" not in done.stderr:
             self.assertEqual(row["strokes_completed"], 2, done.stderr)
         self.assertGreater(row["peak_force_N"], 0.0)

@@ -55,7 +55,7 @@ class Replay(ReplayTest):
         self.assertEqual(self.remarks(character("三", [three, two, one])), [[("order", 1, 3), ("order", 2, 2)]])
         text = self.run_program("replay", self.traces(character("三", [one, three, two]))).stdout
         self.assertIn("stroke 3 (héng) was written where stroke 2 (héng) was due", text)
-        self.assertIn("0 of 1 in the right order, 1 in the right direction", text)
+        self.assertIn("0 of 1 in the correct order, 1 in the correct direction", text)
 
     def test_a_stroke_from_its_end_is_a_mistake_of_direction(self):
         one, two, three = THREE
@@ -127,7 +127,7 @@ class Replay(ReplayTest):
 
     def test_the_table_has_units_and_limits(self):
         text = self.run_program("replay", self.traces(character("三", THREE))).stdout
-        for word in ("[N]", "[N/tick]", "3/3", "right", "limits of"):
+        for word in ("[N]", "[N/tick]", "3/3", "correct", "limits of"):
             self.assertIn(word, text)
 
     def test_the_same_run_gives_the_same_bytes(self):

@@ -37,15 +37,16 @@ class Validate(ProgramTest):
         found = {(warning["character"], warning["stroke"]): warning["what"] for warning in report["warnings"]
                  if warning["kind"] == "label"}
         for place in (("祭", 9), ("禁", 11), ("標", 13)):
-            self.assertIn("is labelled ㇑ and has the shape of 12", found[place])
-        self.assertTrue(any(character == "勵" and "label ６ is unknown" in what for (character, _), what in found.items()))
+            self.assertIn("is labelled ㇑ but has the shape of 12", found[place])
+        self.assertTrue(any(character == "勵" and "label ６ is unknown" in what
+                            for (character, _), what in found.items()))
         self.assertFalse(any(character == "一" for character, _ in found))
 
     def test_the_letter_of_a_hook_that_bends_is_listed(self):
         hanzi = self.package("CALLIGRAPHY_HANZI_WRITER_DATA_TARBALL")
         letters = self.package("CALLIGRAPHY_CNCHAR_ORDER_TARBALL")
         done = self.run_program("validate", hanzi, "--letters", letters, "--only", "了")
-        self.assertIn("了 (U+4E86) stroke 2: label: is labelled g and has the shape of 13", done.stdout)
+        self.assertIn("了 (U+4E86) stroke 2: label: is labelled g but has the shape of 13", done.stdout)
 
 
 class Refusals(ProgramTest):

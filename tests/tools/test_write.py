@@ -43,7 +43,7 @@ class Write(ProgramTest):
     def test_what_was_written_until_ctrl_c_is_in_its_files(self):
         printed, told = self.interrupted("write", "一", "--mode", "force", "--repeat", "100000", "--out", "out",
                                          once="out/01-一-force.csv")
-        self.assertIn("calligraphy: interrupted; what was written until then is in out\n", told)
+        self.assertIn("calligraphy: interrupted; results so far are in out\n", told)
         self.assertIn("一", printed)
         written = len(self.summary())
         self.assertGreater(written, 0)
@@ -129,7 +129,7 @@ class Write(ProgramTest):
 
     def test_a_character_given_up_costs_no_other_result(self):
         done = self.run_program("write", "永北", "--out", "out", "--rules", "wang2006", "--mode", "force")
-        self.assertIn("given up", done.stderr)
+        self.assertIn("not completed", done.stderr)
         rows = self.summary()
         self.assertEqual([row["character"] for row in rows], ["永", "北"])
         self.assertEqual(rows[1]["strokes_completed"], 0)
