@@ -75,7 +75,7 @@ TEST_CASE("a file is read whole, up to the number of bytes that is asked for", "
     CHECK(read_file(path, size) == all);
     CHECK(read_file(path, size + 1) == all);
     if (size == 0) continue;
-    const std::string reason = ": more than the " + std::to_string(size - 1) + " bytes that are read of a file";
+    const std::string reason = ": larger than the limit of " + std::to_string(size - 1) + " bytes";
     CHECK_THROWS_WITH(read_file(path, size - 1), path.string() + reason);
     CHECK_THROWS_AS(read_file(path, size - 1), FormatError);
   }
@@ -147,5 +147,5 @@ TEST_CASE("a file that is replaced keeps its permissions, and a link to it stays
   CHECK(fs::status(path).permissions() == (fs::perms::owner_read | fs::perms::owner_write));
 
   fs::create_symlink("missing.txt", directory.path / "dangling.txt");
-  CHECK(error_of(directory.path / "dangling.txt", "new").find("the link leads nowhere") != std::string::npos);
+  CHECK(error_of(directory.path / "dangling.txt", "new").find("the link is dangling") != std::string::npos);
 }

@@ -180,7 +180,7 @@ TEST_CASE("each kind of broken line is named by file, line and value", "[model]"
       {north + "stroke 1 0,0 1,1 | 1\n", "test.txt:3: ", "not 1"},
       {north + "stroke 1 0,0 1,1 | 1 two\n", "test.txt:3: ", "'two'"},
       {north + "stroke 1 0,0 1,1 | 1 -2\n", "test.txt:3: ", "-2"},
-      {north + "stroke 16 0,0 1,1 1,1\n", "test.txt:3: ", "element 2 has no length"},
+      {north + "stroke 16 0,0 1,1 1,1\n", "test.txt:3: ", "element 2 has zero length"},
   };
   for (const auto& [text, line, value] : cases) {
     const std::string found = complaint(text);

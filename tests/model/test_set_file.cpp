@@ -206,11 +206,11 @@ TEST_CASE("a file cut off anywhere, or with more behind it, is refused", "[model
   for (std::size_t length = 0; length < whole.size(); ++length) {
     const std::string found = complaint(Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length)));
     INFO(length << ": " << found);
-    CHECK(found.starts_with("test.set: is cut off"));
+    CHECK(found.starts_with("test.set: is truncated"));
   }
   Bytes longer = whole;
   longer.push_back(std::byte{0});
-  CHECK(complaint(longer).starts_with("test.set: goes on after its end"));
+  CHECK(complaint(longer).starts_with("test.set: continues after its end"));
   CHECK(complaint(whole).empty());
 }
 
@@ -322,9 +322,9 @@ TEST_CASE("each number of the header is checked for what it says, not only by it
   CHECK(with(error_at + 4, 0xBFF00000).find("coordinate error") != std::string::npos);
   CHECK(with(coding_at, 0).find("coding") != std::string::npos);  // doubles of 10 bits
   CHECK(with(coding_at, 0xFFFFFFFF).find("coding") != std::string::npos);
-  CHECK(with(header_size, 0xFFFFFFFF).find("names of its source") != std::string::npos);
-  CHECK(with(header_size + 1, 0xFF000000).find("names of its source") != std::string::npos);  // no UTF-8
-  CHECK(with(entries, 0).find("entry 1 ") != std::string::npos);                              // a group of no character
+  CHECK(with(header_size, 0xFFFFFFFF).find("its provenance") != std::string::npos);
+  CHECK(with(header_size + 1, 0xFF000000).find("its provenance") != std::string::npos);  // no UTF-8
+  CHECK(with(entries, 0).find("entry 1 ") != std::string::npos);                         // a group of no character
   const auto with_block = [&](std::size_t group, std::uint16_t value) {
     Bytes bytes = whole;
     store(bytes, entries - (groups - group) * block_size, value);
@@ -377,7 +377,7 @@ TEST_CASE("a newer version and another program's file are told so", "[model]") {
   CHECK(complaint(bytes).find("another program") != std::string::npos);
   const TestFile file("magic");
   file.write("\x89PNG\r\n\x1A\n");
-  CHECK(complaint_of_file(file.path()) == file.path() + ": is not a set file: its first bytes are others");
+  CHECK(complaint_of_file(file.path()) == file.path() + ": is not a set file: its first bytes differ");
 }
 
 TEST_CASE("what cannot be opened is named", "[model]") {

@@ -67,12 +67,12 @@ TEST_CASE("counts that do not fit the ids are found", "[model]") {
   CHECK(contains(problems_after([](Character& c) { c.structure.control_points.pop_back(); }),
                  "0: the stroke ids take 15 control points, not 14"));
   CHECK(contains(problems_after([](Character& c) { c.structure.control_points.emplace_back(0.5, 0.5); }), "not 16"));
-  CHECK(contains(problems_after([](Character& c) { c.sequence.feature_points[3] = 4; }),
-                 "0: the indices of feature points"));
+  CHECK(
+      contains(problems_after([](Character& c) { c.sequence.feature_points[3] = 4; }), "0: the feature point indices"));
   CHECK(contains(problems_after([](Character& c) { c.sequence.feature_points.clear(); }),
-                 "0: the indices of feature points"));
+                 "0: the feature point indices"));
   CHECK(contains(problems_after([](Character& c) { c.sequence.feature_points[0] = -7; }),
-                 "0: the indices of feature points"));
+                 "0: the feature point indices"));
   CHECK(contains(problems_after([](Character& c) { c.physics.attraction_factors.pop_back(); }),
                  "13 feature points have 12"));
   CHECK(contains(problems_after([](Character& c) { c.sequence.stroke_ids.pop_back(); }), "0: the stroke ids take 11"));
@@ -93,11 +93,11 @@ TEST_CASE("unknown ids and degrees, and a character without strokes, are found",
 TEST_CASE("elements without length are found, a stroke of one line may be a point", "[model]") {
   const std::string found =
       problems_after([](Character& c) { c.structure.control_points[8] = c.structure.control_points[7]; });
-  CHECK(found == "4: element 2 has no length\n");
+  CHECK(found == "4: element 2 has zero length\n");
   CHECK(contains(problems_after([](Character& c) {
                    for (std::size_t i = 11; i < 15; ++i) c.structure.control_points[i] = {0.5, 0.5};
                  }),
-                 "5: element 1 has no length"));
+                 "5: element 1 has zero length"));
   CHECK(problems_after([](Character& c) { c.structure.control_points[1] = c.structure.control_points[0]; }).empty());
 }
 

@@ -107,7 +107,7 @@ class Refusals(ProgramTest):
 
     def test_a_damaged_set_file_is_named(self):
         whole = (DATA / "version_1.set").read_bytes()
-        for name, content, words in (("cut.set", whole[:-1], ["cut off"]),
+        for name, content, words in (("cut.set", whole[:-1], ["truncated"]),
                                      ("index.set", whole[:70] + b"x" + whole[71:], ["checksum"]),
                                      ("group.set", whole[:-1] + bytes([whole[-1] ^ 1]), ["U+20000", "checksum"]),
                                      ("newer.set", whole[:8] + b"\2" + whole[9:], ["newer version"]),
