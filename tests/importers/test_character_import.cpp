@@ -70,7 +70,7 @@ TEST_CASE("the content of a source says what it is", "[practice]") {
     CHECK(import.list.characters[0].sequence.stroke_ids == std::vector<int>{1});
   }
   CHECK(has(complaint(both.path()), "both hanzi-writer-data and KanjiVG"));
-  CHECK(has(complaint(neither.path()), "no file of a character"));
+  CHECK(has(complaint(neither.path()), "contains no character file"));
   CHECK(has(complaint(neither.path() / "none"), "no such file or directory"));
 }
 
@@ -90,7 +90,7 @@ TEST_CASE("the text format and set files are imported as they are, in the order 
   options.only = U"永一";
   CHECK(text_of(import_characters(directory.path() / "own.txt", options).list) == head + one);
   options.only = U"永";
-  CHECK(has(complaint(directory.path() / "own.txt", options), "no character that was asked for"));
+  CHECK(has(complaint(directory.path() / "own.txt", options), "no character that was requested"));
   const std::vector<std::byte> bytes = encode_character_set(import.list, CoordinatePrecision::exact);
   directory.write("own.set", std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
   CHECK(text_of(import_characters(directory.path() / "own.set").list) == head + one + ten);
@@ -177,9 +177,9 @@ TEST_CASE("variants are alternate orders when asked for, kana come when asked fo
   };
   const ImportResult plain = import_characters(directory.path());
   CHECK(plain.list.characters.size() == 1);
-  CHECK(reasons(plain) == std::vector<std::string>{"a/03044.svg: no ideograph", "a/05341-VtFst.svg: an alternate order",
-                                                   "a/05341-a_b.svg: no file of a character",
-                                                   "b/05341.svg: a copy of a file read before"});
+  CHECK(reasons(plain) == std::vector<std::string>{
+                              "a/03044.svg: not an ideograph", "a/05341-VtFst.svg: an alternate order",
+                              "a/05341-a_b.svg: not a character file", "b/05341.svg: a duplicate of an earlier file"});
   ImportOptions options;
   options.alternates = true;
   options.ideographs_only = false;

@@ -133,7 +133,7 @@ TEST_CASE("a file of more than a megabyte is refused", "[practice]") {
   CHECK(complaint(std::string(500000, ' ') + valid).empty());
   const std::string too_large = complaint(std::string(1100000, ' ') + valid);
   CHECK(has(too_large, "FormatError "));
-  CHECK(has(too_large, "永.json: more than the 1048576 bytes"));
+  CHECK(has(too_large, "永.json: larger than the limit of 1048576 bytes"));
 }
 
 TEST_CASE("a median of one point becomes a dian", "[practice]") {

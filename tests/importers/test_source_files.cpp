@@ -63,7 +63,7 @@ TEST_CASE("links, pipes and what is nested too deeply are passed over and named"
   const SourceFiles found = read_source(directory.path(), take_all);
   REQUIRE(found.files.size() == 1);
   REQUIRE(found.skipped.size() == 5);
-  CHECK(has(found.skipped[0].reason, "nested more than 16 deep"));
+  CHECK(has(found.skipped[0].reason, "nested more than 16 levels deep"));
   for (const std::size_t link : {1u, 2u, 4u}) CHECK(found.skipped[link].reason == "a link");
   CHECK(found.skipped[3].reason == "not a regular file");
 }
@@ -78,7 +78,7 @@ TEST_CASE("a source beyond a limit is refused with the limit", "[practice]") {
   limits.entries = 2;
   CHECK(complaint(directory.path(), limits).empty());
   limits.entry_bytes = 99;
-  CHECK(has(complaint(directory.path(), limits), "a.txt: more than the 99 bytes"));
+  CHECK(has(complaint(directory.path(), limits), "a.txt: larger than the limit of 99 bytes"));
   limits.entry_bytes = 100;
   limits.total_bytes = 199;
   CHECK(has(complaint(directory.path(), limits), "more than 199 bytes"));

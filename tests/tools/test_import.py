@@ -107,15 +107,15 @@ class ImportResult(ImportTest):
         self.assertEqual(labels["conflicts"][1]["resolution"], "unknown")
         self.assertEqual({row["reason"]: row["files"] for row in report["skipped"]},
                          {"a link": ["package/link"], "an alternate order": ["package/04e00-VtFst.svg"],
-                          "no file of a character": ["package/readme.md"],
-                          "no ideograph": ["package/03042.svg"]})
+                          "not a character file": ["package/readme.md"],
+                          "not an ideograph": ["package/03042.svg"]})
 
     def test_the_tables_contain_what_the_json_contains(self):
         self.tar(member("package/04e00.svg", svg(HENG + SHU.replace("㇑", "㇒"))), member("package/03042.svg", svg()))
         done = self.run_program("import", "source.tgz", "-o", "out.txt")
         for words in ("1 characters, 2 strokes from KanjiVG", "Attribution-Share Alike", "Ulrich Apel", "100.00 %",
                       "一 (U+4E00) stroke 1", "横", "1 of 2 strokes recognised", "㇒ looks like 2 竖",
-                      "no ideograph: package/03042.svg", "note: "):
+                      "not an ideograph: package/03042.svg", "note: "):
             self.assertIn(words, done.stdout)
         self.assertEqual(done.stderr, "", "no progress bar in a pipe")
 
@@ -156,7 +156,7 @@ class ImportResult(ImportTest):
         for code in ("04e00", "05341", "04e8c"):
             self.write(f"data/{code}.svg", svg())
         self.assertEqual(self.report("data", "--only", "十 一 永")["characters"], 2)
-        self.assert_refused(1, ["import", "data", "-o", "none.txt", "--only", "永"], "asked for")
+        self.assert_refused(1, ["import", "data", "-o", "none.txt", "--only", "永"], "requested")
 
     def test_the_stroke_letters_of_a_package_are_used(self):
         hanzi = self.package("CALLIGRAPHY_HANZI_WRITER_DATA_TARBALL")
@@ -204,7 +204,7 @@ class Hostile(ImportTest):
                 out.write(info.tobuf())
                 for _ in range(1000):
                     out.write(b"\0" * (1 << 20))
-        for name, words in (("package/readme.txt", b"times its size"), ("package/04e00.svg", b"more than the")):
+        for name, words in (("package/readme.txt", b"times its size"), ("package/04e00.svg", b"larger than the limit")):
             with self.subTest(name=name):
                 bomb(name)
                 done = self.bounded("import", "bomb.tgz", "-o", "out.txt")
@@ -238,8 +238,8 @@ class Hostile(ImportTest):
                 self.assert_fails(self.write("cut.tar", tar[:length]))
         for length in (2048, 4096, 16 * 2048, 16 * 2048 + 512):  # at the end of a file, before the end of the tar
             with self.subTest(tar=length):
-                self.assert_fails(self.write("cut.tar", tar[:length]), "end mark")
-                self.assert_fails(self.write("cut.tgz", gzip.compress(tar[:length])), "end mark")
+                self.assert_fails(self.write("cut.tar", tar[:length]), "end-of-archive marker")
+                self.assert_fails(self.write("cut.tgz", gzip.compress(tar[:length])), "end-of-archive marker")
         self.assertEqual(self.report(self.write("whole.tar", tar[:16 * 2048 + 1024]))["characters"], 16)
 
     def noisy_tar(self, files):
