@@ -16,7 +16,7 @@
 namespace calligraphy::tools {
 namespace {
 
-/// What a source calls its files is not to move a terminal's cursor.
+/// Replaces control characters, so that a file name cannot control the terminal.
 std::string printable(std::string text) {
   const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
   std::replace_if(text.begin(), text.end(), is_control, '?');
@@ -30,7 +30,7 @@ constexpr double percent = 100.0;
 
 double share(int part, int whole) { return whole == 0 ? 1.0 : static_cast<double>(part) / whole; }
 
-/// What was skipped, by reason.
+/// Skipped files by reason.
 std::map<std::string, std::vector<std::string>> by_reason(const std::vector<SkippedFile>& skipped) {
   std::map<std::string, std::vector<std::string>> reasons;
   for (const SkippedFile& file : skipped) reasons[file.reason].push_back(file.path);
@@ -60,12 +60,12 @@ std::string fit_rows(const std::array<FitCount, 3>& counts, const ImportReport& 
 }
 
 std::string fit_table(const ImportReport& report) {
-  std::string text = "\nfar from what was drawn, at most         0.5 %       1 %       2 %  of the em\n";
+  std::string text = "\nwithin this distance of the drawing      0.5 %       1 %       2 %  of the em\n";
   text += fit_rows(report.within, report);
   if (report.kind == SourceKind::hanzi_writer_data) {
-    text += "with the corners that the brush's median cuts\n" + fit_rows(report.within_median, report);
+    text += "including the corners that the brush's median cuts\n" + fit_rows(report.within_median, report);
   }
-  text += "\nfarthest, in % of the em\n";
+  text += "\nlargest errors [% of the em]\n";
   for (const StrokeError& worst : report.worst) {
     text += fmt::format("{:>8.2f}  {}, {}\n", percent * worst.error, stroke_reference_text(worst.place),
                         typical_name(worst.id));
@@ -86,18 +86,20 @@ std::string id_table(const ImportReport& report) {
 
 std::string label_table(const ImportReport& report) {
   if (report.labelled == 0 && report.label_conflicts.empty()) return {};
-  std::string text = fmt::format("\nlabels: {} of {} strokes recognised by geometry alone as labelled ({:.2f} %)\n",
-                                 report.agreed, report.labelled, percent * share(report.agreed, report.labelled));
-  text += fmt::format("  of the others {} labels were accepted and {} overridden by the shape; {} labels are unknown\n",
-                      count_of(report, LabelResolution::accepted), count_of(report, LabelResolution::overridden),
-                      count_of(report, LabelResolution::unknown));
+  std::string text =
+      fmt::format("\nlabels: {} of {} strokes recognised by geometry alone agree with their label ({:.2f} %)\n",
+                  report.agreed, report.labelled, percent * share(report.agreed, report.labelled));
+  text +=
+      fmt::format("  of the others, {} labels were accepted and {} overridden by the shape; {} labels are unknown\n",
+                  count_of(report, LabelResolution::accepted), count_of(report, LabelResolution::overridden),
+                  count_of(report, LabelResolution::unknown));
   for (std::size_t i = 0; i < std::min(report.confusions.size(), max_examples); ++i) {
     const LabelConfusion& confusion = report.confusions[i];
     text += fmt::format("{:>8}  {} looks like {}, as in {}\n", confusion.count, printable(confusion.label),
                         typical_name(confusion.recognised), stroke_reference_text(confusion.example));
   }
   if (!report.letters_unused.empty()) {
-    text += fmt::format("  {} characters have more or fewer letters than strokes: their letters are not used\n",
+    text += fmt::format("  {} characters whose letters do not match their stroke count: letters ignored\n",
                         report.letters_unused.size());
   }
   return text;
@@ -232,7 +234,7 @@ std::string json(const ImportResult& import, const ImportOutput& output) {
   all["ids_used"] = ids_json(report);
   all["skipped"] = skipped_json(report);
   all["notes"] = report.notes;
-  return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // names of files may be in any encoding
+  return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // file names may be in any encoding
 }
 
 }  // namespace calligraphy::tools

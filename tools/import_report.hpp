@@ -1,4 +1,4 @@
-// What `calligraphy import` found: as tables for a person, as JSON for a program.
+// Report of `calligraphy import`, as tables and as JSON.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace calligraphy::tools {
 
-/// Where the characters went.
+/// The file that was written.
 struct ImportOutput {
   std::string file;
   std::string format;
@@ -21,7 +21,7 @@ std::string json(const ImportResult& import, const ImportOutput& output);
 /// "accepted", "overridden", "unknown".
 const char* to_string(LabelResolution resolution) noexcept;
 
-/// "永 (U+6C38)", with the order's name where it is not the standard one.
+/// "永 (U+6C38)", followed by the name of the stroke order unless it is the standard one.
 std::string character_label(char32_t code, const std::string& order);
 
 }  // namespace calligraphy::tools

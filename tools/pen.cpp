@@ -29,7 +29,7 @@ Pen::Pen(const PenOptions& options) : options_(options) {
       capabilities_ = device_->capabilities();
       break;
   }
-  capabilities_ = limited(capabilities_, options.peak_force);
+  capabilities_ = with_peak_force(capabilities_, options.peak_force);
   interrupt_.emplace();
 }
 
@@ -67,7 +67,7 @@ Recording Pen::live(const PracticePage& page, const SessionOptions& session) {
   options.watch = [&](const LiveView& view) {
     if (session.progress) session.progress(view.progress);
     if (view.servo.fault != told && view.servo.fault != DeviceFault::none) {
-      spdlog::warn("the force went to zero: {}", to_string(view.servo.fault));
+      spdlog::warn("force ramped down to zero: {}", to_string(view.servo.fault));
     }
     told = view.servo.fault;
     return !interrupt_->asked();

@@ -16,7 +16,7 @@ constexpr StrokeRemarkKind remark_kinds[] = {
     StrokeRemarkKind::order,  StrokeRemarkKind::direction, StrokeRemarkKind::shape, StrokeRemarkKind::joined,
     StrokeRemarkKind::broken, StrokeRemarkKind::missing,   StrokeRemarkKind::extra};
 
-/// Pen-downs that were not a mere bounce.
+/// Number of pen-downs, without taps that match no stroke.
 int strokes_drawn(const MatchResult& match) {
   return static_cast<int>(std::count_if(match.drawn.begin(), match.drawn.end(),
                                         [](const DrawnStroke& drawn) { return drawn.stroke >= 0 || !drawn.tap; }));
@@ -28,16 +28,16 @@ bool none_recognised(const MatchResult& match) {
 }
 
 std::string order_of(const MatchResult& match) {
-  if (none_recognised(match)) return "not told";
+  if (none_recognised(match)) return "unclear";
   const int wrong = match.count(StrokeRemarkKind::order);
-  return wrong == 0 ? "right" : fmt::format("{} out of turn", wrong);
+  return wrong == 0 ? "correct" : fmt::format("{} out of order", wrong);
 }
 
 std::string direction_of(const MatchResult& match) {
-  if (none_recognised(match)) return "not told";
+  if (none_recognised(match)) return "unclear";
   const int wrong = match.count(StrokeRemarkKind::direction), unclear = match.count(StrokeRemarkKind::shape);
   if (wrong > 0) return fmt::format("{} backwards", wrong);
-  return unclear == 0 ? "right" : fmt::format("{} not told", unclear);
+  return unclear == 0 ? "correct" : fmt::format("{} unclear", unclear);
 }
 
 /// "1 joined, 2 missing"
@@ -104,8 +104,8 @@ Json json_of(const Replayed& trace) {
 std::string table(const ReplayReport& report) {
   constexpr const char* head = "{:<8}{:>10}  {:<16}{:<14}{:<22}{:>11}{:>8}{:>8}{:>11}\n";
   std::string text = fmt::format(fmt::runtime(head), "", "strokes", "", "", "", "completed", "", "peak F", "max step");
-  text +=
-      fmt::format(fmt::runtime(head), "", "drawn", "order", "direction", "else", "guided", "faults", "[N]", "[N/tick]");
+  text += fmt::format(fmt::runtime(head), "", "drawn", "order", "direction", "other", "guided", "faults", "[N]",
+                      "[N/tick]");
   std::string remarks;
   for (const Replayed& trace : report.traces) {
     const MatchResult& match = trace.match;
@@ -125,9 +125,9 @@ std::string table(const ReplayReport& report) {
   if (!remarks.empty()) text += "\n" + remarks;
   const auto right = [&report](std::string (*judged)(const MatchResult&)) {
     return std::count_if(report.traces.begin(), report.traces.end(),
-                         [judged](const Replayed& trace) { return judged(trace.match) == "right"; });
+                         [judged](const Replayed& trace) { return judged(trace.match) == "correct"; });
   };
-  text += fmt::format("\n{} of {} in the right order, {} in the right direction\n", right(order_of),
+  text += fmt::format("\n{} of {} in the correct order, {} in the correct direction\n", right(order_of),
                       report.traces.size(), right(direction_of));
   if (!report.without_template.empty()) {
     text += fmt::format("{} without a template:", report.without_template.size());
@@ -144,7 +144,7 @@ std::string json(const ReplayReport& report) {
   for (const char32_t code : report.without_template) missing.push_back(encode_utf8(code));
   const Json all = {{"device", report.device},
                     {"renderer", report.renderer},
-                    {"peak_force_limit_N", report.peak_force},  // null: none
+                    {"peak_force_limit_N", report.peak_force},  // null: no limit
                     {"force_step_limit_N", report.max_force_step},
                     {"traces", traces},
                     {"without_template", missing}};

@@ -15,7 +15,7 @@ nlohmann::ordered_json object(const DurationSummary& summary) {
   return {{"p50_s", summary.p50}, {"p99_s", summary.p99}, {"p99_9_s", summary.p99_9}, {"worst_s", summary.worst}};
 }
 
-/// Calls `each` with the name and the count of every fault that there was.
+/// Calls `each` with the name and the count of every fault that occurred.
 template <class Each>
 void for_each_fault(const ServoStatistics& statistics, Each each) {
   for (std::size_t i = 0; i < statistics.faults.size(); ++i) {

@@ -25,7 +25,7 @@ std::string description(const SampledLoop& loop) {
   text += fmt::format("{}, wall damping B = {:g} N s/m", loop.device.sample_delay == 1 ? " tick" : " ticks",
                       loop.wall_damping);
   const GripImpedance& grip = loop.grip;
-  if (grip.mass == 0.0 && grip.damping == 0.0 && grip.stiffness == 0.0) return text + ", held by nobody";
+  if (grip.mass == 0.0 && grip.damping == 0.0 && grip.stiffness == 0.0) return text + ", no grip";
   return text + fmt::format(", grip {:g} kg, {:g} N s/m, {:g} N/m", grip.mass, grip.damping, grip.stiffness);
 }
 
@@ -72,7 +72,7 @@ Json json_of(const StabilitySweep& sweep) {
 
 std::string sweep_table(const StabilitySweep& sweep) {
   std::string text = fmt::format("{}\n{:>10}{:>10}{:>10}{:>10}{:>14}{:>10}{:>14}{:>10}\n", sweep.label, "", "passive",
-                                 "quantised", "stable", "Gil et al.", "simulated", "controlled", "in peak");
+                                 "quantised", "stable", "Gil et al.", "simulated", "controlled", "< peak");
   for (std::size_t i = 0; i < sweep.lines.size(); ++i) {
     const StabilityLine& line = sweep.lines[i];
     text += fmt::format("{:>10}{:>10.0f}{:>10.0f}{:>10.0f}{:>14.0f}{:>10.0f}{:>14.0f}{:>10.0f}\n", sweep.values[i],
@@ -82,7 +82,7 @@ std::string sweep_table(const StabilitySweep& sweep) {
   return text + "\n";
 }
 
-/// How the simulation stands to theory over the grid.
+/// Simulation relative to theory over the grid.
 std::string summary(const StabilityMap& map) {
   if (map.grid.empty()) return "";
   constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -91,7 +91,7 @@ std::string summary(const StabilityMap& map) {
   for (const StabilityLine& line : map.grid) {
     helped += line.controlled_max_stable > line.max_stable ? 1 : 0;
     harmed += line.controlled_max_stable < line.max_stable ? 1 : 0;
-    if (line.quantised > map.stiffnesses[1]) {  // else it lies below what was tried
+    if (line.quantised > map.stiffnesses[1]) {  // otherwise it lies below the range tried
       min_passive = std::min(min_passive, line.max_stable / line.quantised);
     }
     if (line.loop.device.coulomb_friction > 0.0 || line.stable <= map.stiffnesses[1]) continue;
@@ -99,16 +99,18 @@ std::string summary(const StabilityMap& map) {
     most = std::max(most, line.max_stable / line.stable);
   }
   return fmt::format("Grid: {} loops, each with control off and on\n", map.grid.size()) +
-         fmt::format("  largest that settles, of the stable bound, without dry friction: {:.3f} to {:.3f}\n", least,
-                     most) +
-         fmt::format("  of the quantised passive bound, with it and without: {:.3f} at least\n", min_passive) +
+         fmt::format(
+             "  maximum stable stiffness relative to the stable bound, without Coulomb friction: {:.3f} to {:.3f}\n",
+             least, most) +
+         fmt::format("  relative to the quantised bound, with and without Coulomb friction: at least {:.3f}\n",
+                     min_passive) +
          fmt::format("  control allows more stiffness in {} loops, less in {}\n", helped, harmed);
 }
 
 }  // namespace
 
 std::string table(const SampledLoop& loop, const StiffnessAdvice& advice) {
-  return description(loop) + fmt::format("\n\n{:<12}{:>12}\n", "largest", "K [N/m]") + row("passive", advice.passive) +
+  return description(loop) + fmt::format("\n\n{:<12}{:>12}\n", "bound", "K [N/m]") + row("passive", advice.passive) +
          row("quantised", advice.quantised) + row("stable", advice.stable) + row("approximate", advice.approximate);
 }
 
@@ -128,10 +130,9 @@ std::string json(const SampledLoop& loop, const StiffnessAdvice& advice) {
 std::string tables(const StabilityMap& map) {
   const WallContact& contact = map.contact;
   std::string text = fmt::format(
-      "Largest stiffness [N/m] of a wall. A pen falls on it from {:g} mm, pushed by {:g} N, for {:g} s; peak force "
-      "{:g} "
-      "N\nsettles: up to here it comes to rest; controlled: with the passivity controller; in peak: and never reaches "
-      "the peak force\n\n",
+      "Maximum stable stiffness [N/m] of a virtual wall. A pen is released {:g} mm above it and pushed down by {:g} N, "
+      "for {:g} s; peak force {:g} N\nsimulated: up to here the pen comes to rest; controlled: with the passivity "
+      "controller; < peak: and without reaching the peak force\n\n",
       contact.height * per_millimetre, contact.push, contact.seconds, map.device.peak_force);
   for (const StabilitySweep& sweep : map.sweeps) text += sweep_table(sweep);
   return text + summary(map);

@@ -26,7 +26,7 @@ double mean(const std::vector<Result>& results, std::size_t begin, std::size_t e
   return sum / static_cast<double>(end - begin);
 }
 
-/// Vision only minus vision and force, once per character and repetition that has both.
+/// Values without and with force, one pair per character and repetition that has both.
 std::vector<std::pair<double, double>> pairs(const std::vector<Result>& results, const Quantity& quantity) {
   std::map<std::pair<int, int>, double> vision;
   for (const Result& result : results) {
@@ -103,7 +103,7 @@ std::string json(const std::vector<Result>& results) {
   Json list = Json::array();
   for (const Result& result : results) {
     const CharacterScore& score = result.score;
-    const auto error = [&score](double metres) {  // null: nothing was written that could be off
+    const auto error = [&score](double metres) {  // null: no stroke was completed, so there is no error
       return score.strokes_completed > 0 ? Json(metres * millimetres) : Json();
     };
     Json mistakes = Json::array();
@@ -139,7 +139,7 @@ std::string json(const std::vector<Result>& results) {
 }
 
 std::string reductions(const std::vector<Result>& all) {
-  std::vector<Result> results;  // only what both modes completed: a character given up has neither error nor time
+  std::vector<Result> results;  // completed in both modes: an aborted character has no meaningful error or time
   for (const Result& result : all) {
     const bool complete = std::none_of(all.begin(), all.end(), [&](const Result& other) {
       return other.position == result.position && other.repetition == result.repetition &&
@@ -150,12 +150,11 @@ std::string reductions(const std::vector<Result>& all) {
   const auto errors = pairs(results, [](const Result& r) { return r.score.rms_error * millimetres; });
   const auto times = pairs(results, [](const Result& r) { return r.score.time; });
   if (errors.size() < 2) return "";
-  std::string text =
-      reduction("RMS error", "mm", errors) + reduction("time", "s", times) +
-      fmt::format("mean over n = {} pairs of a character and a seed; mean +/- t(0.975, n - 1) s / sqrt(n)\n",
-                  errors.size());
+  std::string text = reduction("RMS error", "mm", errors) + reduction("time", "s", times) +
+                     fmt::format("mean over n = {} pairs of character and seed; mean +/- t(0.975, n - 1) s / sqrt(n)\n",
+                                 errors.size());
   const std::size_t left_out = (all.size() - results.size()) / 2;
-  if (left_out > 0) text += fmt::format("{} pairs are left out: not every stroke was completed\n", left_out);
+  if (left_out > 0) text += fmt::format("{} pairs omitted: not every stroke was completed\n", left_out);
   return text;
 }
 

@@ -1,4 +1,4 @@
-// calligraphy tradeoff: what accuracy costs, side by side in one run.
+// calligraphy tradeoff: cost against accuracy, side by side in one run.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -29,7 +29,7 @@
 namespace calligraphy::tools {
 namespace {
 
-/// Characters that are written at every servo rate.
+/// Number of characters written at every servo rate.
 constexpr std::size_t max_written = 2;
 
 struct TradeArguments {
@@ -81,9 +81,9 @@ void draw(const TradeoffReport& report, const OutputDirectory& out, const Interr
     out.write("field-" + figure.name + ".svg", force_field_picture(figure));
   }
   const bool plots = gnuplot_available();
-  interrupt.check();  // Ctrl-C is for gnuplot too, which then cannot be run
+  interrupt.check();  // Ctrl-C also reaches gnuplot, which then seems unavailable
   if (!plots) {
-    spdlog::warn("gnuplot cannot be run: no plots of the tradeoff");
+    spdlog::warn("gnuplot is not available: tradeoffs are not plotted");
     return;
   }
   out.write("tradeoff.svg", nearest_point_tradeoff_plot(report.nearest_point));
@@ -92,19 +92,19 @@ void draw(const TradeoffReport& report, const OutputDirectory& out, const Interr
 }
 
 void run(const TradeArguments& options) {
-  if (options.out && options.out->empty()) throw UsageError("--out: an empty name");
+  if (options.out && options.out->empty()) throw UsageError("--out: the name is empty");
   TradeoffReport report = asked_for(options);
   const CharacterSet set = open_characters(options.characters, report.text);
   const std::vector<Character> characters = characters_of(set, report.text);
   if (curve_control_points(characters).empty()) {
-    throw Error("no stroke of the text has a curve, which is what the nearest point is measured on");
+    throw Error("TEXT has no stroke with a curve to measure the nearest point on");
   }
   const Interrupt interrupt;
   std::optional<OutputDirectory> out;
   if (options.out) out.emplace(*options.out);
   measure(report, characters, interrupt);
   fmt::print("{}", options.json ? json(report) : tables(report));
-  std::fflush(stdout);  // what was measured is not lost when drawing fails
+  std::fflush(stdout);  // results are printed even if plotting fails
   if (!out) return;
   try {
     draw(report, *out, interrupt);
@@ -117,23 +117,26 @@ void run(const TradeArguments& options) {
 }  // namespace
 
 void add_tradeoff(CLI::App& program) {
-  CLI::App* const command = program.add_subcommand(
-      "tradeoff",
-      "What accuracy costs: every method of the nearest point, the servo rate, the width of stored coordinates. With "
-      "--out DIR also as plots and tradeoff.json, and the force fields of Figs. 25 to 28.");
+  CLI::App* const command =
+      program.add_subcommand("tradeoff",
+                             "Measure cost against accuracy: nearest-point methods, servo rate and width of stored "
+                             "coordinates. With --out DIR, "
+                             "also write plots, tradeoff.json and the force fields of Figs. 25 to 28.");
   const auto options = std::make_shared<TradeArguments>();
-  command->add_option("TEXT", options->text, "Characters to measure on; the first two are written at every servo rate")
+  command->add_option("TEXT", options->text, "Characters to measure; the first two are written at every servo rate")
       ->capture_default_str();
   add_characters_option(*command, options->characters);
-  command->add_option("--out", options->out, "Directory for plots and JSON, created when missing")->type_name("DIR");
-  command->add_option("--seed", options->seed, "Seed of all that is drawn at random")
+  command->add_option("--out", options->out, "Directory for plots and JSON, created if missing")->type_name("DIR");
+  command->add_option("--seed", options->seed, "Seed of all random draws")
       ->check(integer(0, std::numeric_limits<std::uint64_t>::max()))
       ->type_name("N")
       ->capture_default_str();
-  command->add_option("--queries", options->queries, "Of each of the 19 workloads (default: 4000, quick: 400)")
+  command
+      ->add_option("--queries", options->queries,
+                   "Queries in each of the 19 workloads (default: 4000; with --quick: 400)")
       ->check(integer(1, 1000000))
       ->type_name("N");
-  command->add_flag("--quick", options->quick, "In a few seconds, and coarse")->disable_flag_override();
+  command->add_flag("--quick", options->quick, "Coarse results in a few seconds")->disable_flag_override();
   command->add_flag("--json", options->json, "Print JSON instead of the tables")->disable_flag_override();
   command->callback([options] { run(*options); });
 }

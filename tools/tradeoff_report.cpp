@@ -23,8 +23,8 @@ using Cost = NearestPointCost NearestPointTradeoff::*;
 
 std::string cost_table(const TradeoffReport& report, const std::string& heading, Cost cost) {
   constexpr const char* head = "{:<18}{:>9}{:>9}{:>10}{:>11}{:>11}{:>11}{:>10}\n";
-  std::string text = heading + "; errors in sizes of the curve\n";
-  text += fmt::format(fmt::runtime(head), "", "median", "p90", "in batch", "median", "p99", "largest", "wrong");
+  std::string text = heading + "; errors relative to the size of the curve\n";
+  text += fmt::format(fmt::runtime(head), "", "median", "p90", "batched", "median", "p99", "max", "wrong");
   text += fmt::format(fmt::runtime(head), "method", "[ns]", "[ns]", "[ns]", "error", "error", "error", "[%]");
   for (const NearestPointTradeoff& entry : report.nearest_point) {
     const NearestPointCost& own = entry.*cost;
@@ -39,7 +39,7 @@ std::string hand_table(const TradeoffReport& report) {
   const NearestPointTradeoffOptions& options = report.nearest_options;
   constexpr const char* head = "{:<18}{:>9}{:>9}{:>9}{:>13}{:>9}{:>13}{:>9}\n";
   std::string text =
-      fmt::format("Nearest point from tick to tick, and what the hand feels of it: K = {:g} N/m, {:g} mm/s, {:g} Hz\n",
+      fmt::format("Nearest point from tick to tick, and the resulting force steps: K = {:g} N/m, {:g} mm/s, {:g} Hz\n",
                   options.stiffness, options.speed * in_millimetres, options.rate);
   text += fmt::format("{:<18}{:>27}{:>22}{:>22}\n", "", "pen along whole strokes", "curves of strokes", "gentle arcs");
   text += fmt::format(fmt::runtime(head), "", "tick", "p90", "wrong", "force step", "wrong", "force step", "wrong");
@@ -49,22 +49,22 @@ std::string hand_table(const TradeoffReport& report) {
                         entry.ticks.ns, entry.ticks.ns_p90, entry.ticks.wrong * in_percent, entry.strokes.max_step,
                         entry.strokes.wrong * in_percent, entry.arcs.max_step, entry.arcs.wrong * in_percent);
   }
-  return text + "a perfect closest point steps the force too, since the pen moves: the rows of exact\n\n";
+  return text + "even the exact closest point steps the force, because the pen moves: see the rows of exact\n\n";
 }
 
 std::string rate_table(const TradeoffReport& report) {
   const auto& rows = report.servo_rate;
   std::string text =
-      fmt::format("Servo rate: the novice writes {}, {} seed{}, on a simulated {}; default paper {:g} N/m\n",
+      fmt::format("Servo rate: the novice writes {}, {} seed{}, on a simulated {}; default paper stiffness {:g} N/m\n",
                   utf8(report.written), report.servo_options.seeds, report.servo_options.seeds == 1 ? "" : "s",
                   report.servo_options.device, rows.empty() ? 0.0 : rows.front().stiffness);
-  text += fmt::format("{:>7}  {:<42}  {:<36}  {}\n", "", "default paper", "largest stable stiffness [N/m]",
+  text += fmt::format("{:>7}  {:<42}  {:<36}  {}\n", "", "default paper", "maximum stable stiffness [N/m]",
                       "hardest paper");
   text += fmt::format("{:>7}{:>8}{:>9}{:>9}{:>9}{:>9}{:>11}{:>9}{:>9}{:>9}{:>11}{:>9}{:>9}\n", "rate", "", "depth",
                       "path", "force", "strokes", "", "no rate", "theory,", "theory,", "", "depth", "force");
-  text += fmt::format("{:>7}{:>8}{:>9}{:>9}{:>9}{:>9}{:>11}{:>9}{:>9}{:>9}{:>11}{:>9}{:>9}\n", "[Hz]", "stable", "[mm]",
-                      "[mm RMS]", "step [N]", "done [%]", "default", "limit", "held", "let go", "[N/m]", "[mm]",
-                      "step [N]");
+  text +=
+      fmt::format("{:>7}{:>8}{:>9}{:>9}{:>9}{:>9}{:>11}{:>9}{:>9}{:>9}{:>11}{:>9}{:>9}\n", "[Hz]", "stable", "[mm]",
+                  "[mm RMS]", "step [N]", "done [%]", "default", "limit", "held", "free", "[N/m]", "[mm]", "step [N]");
   for (const ServoRateTradeoff& entry : rows) {
     text += fmt::format(
         "{:>7g}{:>8}{:>9.3f}{:>9.3f}{:>9.3f}{:>9.0f}{:>11.0f}{:>9.0f}{:>9.0f}{:>9.0f}{:>11.0f}{:>9.3f}{:>9.3f}\n",
@@ -74,14 +74,14 @@ std::string rate_table(const TradeoffReport& report) {
         entry.hard_force_step);
   }
   return text +
-         "depth: largest penetration; no rate limit: of the normal force; hardest paper: half as stiff as is stable "
-         "then\n\n";
+         "depth: maximum penetration; no rate limit: normal force without rate limit; hardest paper: half the maximum "
+         "stable stiffness without it\n\n";
 }
 
 std::string width_table(const TradeoffReport& report) {
   constexpr const char* head = "{:>6}{:>12}{:>16}{:>12}{:>14}\n";
   std::string text = fmt::format("Width of stored coordinates: {} characters\n", report.text.size());
-  text += fmt::format(fmt::runtime(head), "", "grid step", "largest error", "RMS error", "bytes per");
+  text += fmt::format(fmt::runtime(head), "", "grid step", "max error", "RMS error", "bytes per");
   text += fmt::format(fmt::runtime(head), "bits", "[% em]", "[% em]", "[% em]", "character");
   for (const CoordinateWidthTradeoff& entry : report.coordinate_width) {
     text += fmt::format("{:>6}{:>12.4f}{:>16.4f}{:>12.4f}{:>14.1f}\n", entry.bits, entry.step * in_percent,

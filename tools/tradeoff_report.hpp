@@ -1,4 +1,4 @@
-// What `calligraphy tradeoff` measured: as tables for a person, as JSON for a program.
+// Report of `calligraphy tradeoff`, as tables and as JSON.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 namespace calligraphy::tools {
 
 struct TradeoffReport {
-  std::u32string text;     ///< the characters it was measured on
-  std::u32string written;  ///< those of them that were written at every servo rate
+  std::u32string text;     ///< measured characters
+  std::u32string written;  ///< those of them written at every servo rate
   std::uint64_t seed = 1;
   NearestPointTradeoffOptions nearest_options;
   ServoRateTradeoffOptions servo_options;
@@ -21,7 +21,7 @@ struct TradeoffReport {
 
 std::string tables(const TradeoffReport& report);
 
-/// An object with a list per tradeoff.
+/// An object with one list per tradeoff.
 std::string json(const TradeoffReport& report);
 
 }  // namespace calligraphy::tools

@@ -1,4 +1,4 @@
-// calligraphy validate: strokes that are valid and yet look wrong.
+// calligraphy validate: lists suspicious strokes, which are valid but look wrong.
 #include <memory>
 #include <optional>
 #include <string>
@@ -30,7 +30,7 @@ struct ValidateArguments {
   bool json = false;
 };
 
-/// A stroke and what is doubtful about it.
+/// A suspicious stroke.
 struct Finding {
   StrokeReference place;
   std::string kind;
@@ -46,8 +46,8 @@ struct Findings {
 std::string words_for(const LabelConflict& conflict) {
   const std::string recognised = fmt::format("{} ({})", conflict.recognised, typical_stroke(conflict.recognised).name);
   if (conflict.resolution == LabelResolution::unknown)
-    return fmt::format("label {} is unknown; it looks like {}", conflict.label, recognised);
-  return fmt::format("is labelled {} and has the shape of {}", conflict.label, recognised);
+    return fmt::format("label {} is unknown; the shape is that of {}", conflict.label, recognised);
+  return fmt::format("is labelled {} but has the shape of {}", conflict.label, recognised);
 }
 
 Findings findings(const ValidateArguments& options) {
@@ -60,7 +60,7 @@ Findings findings(const ValidateArguments& options) {
   const ImportResult import = import_characters(options.file, asked);
   Findings found{import.report.characters, import.report.strokes, {}};
   for (const LabelConflict& conflict : import.report.label_conflicts) {
-    found.list.push_back({conflict.place, "label", words_for(warning)});
+    found.list.push_back({conflict.place, "label", words_for(conflict)});
   }
   const auto second_half = [&progress](double share) { progress.show(0.5 + 0.5 * share); };
   for (const CharacterWarnings& character : character_warnings(import.list.characters, options.threads, second_half)) {
@@ -96,7 +96,7 @@ std::string listed(const Findings& findings) {
 }
 
 void run(const ValidateArguments& options) {
-  if (options.file.empty()) throw UsageError("FILE: an empty name");
+  if (options.file.empty()) throw UsageError("FILE: the name is empty");
   const Findings found = findings(options);
   fmt::print("{}", options.json ? listed_as_json(found) : listed(found));
 }
@@ -106,13 +106,15 @@ void run(const ValidateArguments& options) {
 void add_validate(CLI::App& program) {
   CLI::App* const command = program.add_subcommand(
       "validate",
-      "List stroke warnings: type against shape, start against direction, overlaps, out of the em square. Of what "
-      "`import` reads, labels against shapes, too. Exit code 0 unless FILE cannot be read whole.");
+      "List suspicious strokes: a shape that contradicts the type, a start against the direction of the type, "
+      "overlaps, "
+      "strokes outside the em square and, in sources that `import` reads, labels that contradict the shape. The exit "
+      "code is 0 even if there are warnings.");
   const auto options = std::make_shared<ValidateArguments>();
-  command->add_option("FILE", options->file, "File of characters, or what `import` takes")->required();
+  command->add_option("FILE", options->file, "Character file, or any source of `import`")->required();
   command->add_option("--letters", options->letters, "Stroke letters for hanzi-writer-data: cnchar-order")
       ->type_name("PATH");
-  command->add_option("--only", options->only, "Look at these characters and no others")->type_name("TEXT");
+  command->add_option("--only", options->only, "Check only these characters")->type_name("TEXT");
   command->add_option("--threads", options->threads, "Threads (default: one per core)")
       ->check(integer(1, 256))
       ->type_name("N");

@@ -1,6 +1,6 @@
 #include "from_chars.hpp"
 
-#ifdef __cpp_lib_to_chars  // of floating-point numbers, too
+#ifdef __cpp_lib_to_chars  // including floating-point numbers
 
 namespace calligraphy {
 
@@ -30,7 +30,7 @@ std::from_chars_result from_chars(const char* begin, const char* end, double& va
 namespace calligraphy {
 namespace {
 
-/// strtod takes what from_chars does not: white space and a plus in front, and hexadecimal digits.
+/// strtod also accepts leading white space, a leading plus and hexadecimal digits, which from_chars does not.
 std::string_view decimal(std::string_view text) {
   const std::size_t sign = !text.empty() && text[0] == '-' ? 1 : 0;
   constexpr std::string_view first = "0123456789.iInN";

@@ -1,4 +1,4 @@
-// std::from_chars for every number, also with a standard library that has it for integers alone: libc++ before 20.
+// std::from_chars for all arithmetic types, even if the standard library has it only for integers: libc++ before 20.
 #pragma once
 
 #include <charconv>

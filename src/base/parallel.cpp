@@ -10,8 +10,8 @@
 namespace calligraphy {
 namespace {
 
-/// Indices are handed out in rising order and each one handed out is worked on: of all that would fail, the lowest
-/// does.
+/// Indices are handed out in ascending order, and every one handed out is processed, so the lowest that fails is always
+/// reached.
 class Queue {
  public:
   Queue(std::size_t count, const std::function<void(std::size_t)>& work) : count_(count), work_(work) {}

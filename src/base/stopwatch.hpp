@@ -1,11 +1,11 @@
-// Time that work takes.
+// Timing of a computation.
 #pragma once
 
 #include <chrono>
 
 namespace calligraphy {
 
-/// Seconds that `work` takes. What it returns is kept, or nothing would have to be computed.
+/// Duration of `work` [s]. Its result is kept, so that the computation is not optimised away.
 template <typename Work>
 double seconds_of(const Work& work) {
   const auto start = std::chrono::steady_clock::now();

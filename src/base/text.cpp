@@ -22,7 +22,7 @@ std::u32string decode_utf8(std::string_view text) {
 
 std::string encode_utf8(char32_t code) {
   if (code > U'\U0010FFFF' || (code >= 0xD800 && code <= 0xDFFF)) {
-    throw ValueError("code point " + std::to_string(static_cast<std::uint32_t>(code)) + " is no character");
+    throw ValueError("code point " + std::to_string(static_cast<std::uint32_t>(code)) + " is not a Unicode character");
   }
   std::string text;
   utf8::append(code, std::back_inserter(text));

@@ -22,7 +22,7 @@ constexpr double units_per_em = 1024.0;
 constexpr double baseline = -124.0;                    // [unit]
 constexpr double max_coordinate = 8.0 * units_per_em;  // [unit]
 
-/// What the JSON text of one character says, with messages that name the file and the place.
+/// Parses the JSON text of one character, with messages that name the file and the place.
 class Reader {
  public:
   Reader(std::string_view text, std::string name) : name_(std::move(name)) {
@@ -85,13 +85,14 @@ std::vector<std::vector<Point>> parse_hanzi_writer(std::string_view json, const 
 
 Character read_hanzi_writer(const std::string& directory, char32_t code) {
   const bool is_character = code > 0 && code <= 0x10FFFF && (code < 0xD800 || code > 0xDFFF);
-  if (!is_character) throw FileError(directory + ": no code point " + std::to_string(static_cast<unsigned>(code)));
+  if (!is_character) throw FileError(directory + ": invalid code point " + std::to_string(static_cast<unsigned>(code)));
   const std::string name = encode_utf8(code);
   const std::filesystem::path path = std::filesystem::path(directory) / (name + ".json");
   std::error_code failure;
   if (!std::filesystem::is_regular_file(path, failure)) {
-    throw FileError(path.string() + ": no such file; is this the unpacked npm package hanzi-writer-data, and has it " +
-                    name + "?");
+    throw FileError(path.string() +
+                    ": no such file; is this the unpacked npm package hanzi-writer-data, and does it contain " + name +
+                    "?");
   }
   const auto medians = parse_hanzi_writer(read_file(path, max_file_bytes), path.filename().string());
   std::vector<StrokeInput> strokes;

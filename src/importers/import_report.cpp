@@ -11,7 +11,7 @@ constexpr std::size_t max_worst = 10;
 
 using FitCounts = std::array<FitCount, 3>;
 
-/// Counts a character with every stroke within each error.
+/// Counts a character towards each error that none of its strokes exceeds.
 void count_character(FitCounts& counts, const std::vector<ImportedStroke>& strokes, double ImportedStroke::*error) {
   for (FitCount& count : counts) {
     const auto is_within = [&](const ImportedStroke& stroke) { return stroke.*error <= count.error; };

@@ -27,7 +27,7 @@ std::size_t line_of(std::string_view text, std::ptrdiff_t offset) {
   return 1 + static_cast<std::size_t>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
 }
 
-/// The node after this one in the order of the document. No recursion: nesting may be as deep as the file is long.
+/// The next node in document order. Not recursive, because nesting may be as deep as the file is long.
 pugi::xml_node next_in_document(pugi::xml_node node, pugi::xml_node root) {
   if (node.first_child()) return node.first_child();
   while (node && node != root && !node.next_sibling()) node = node.parent();
@@ -47,7 +47,7 @@ void check_view_box(pugi::xml_node root, const std::string& name) {
 
 KanjivgStroke stroke_of(pugi::xml_node path, const std::string& place) {
   KanjivgStroke stroke{path.attribute("kvg:type").value(), {}};
-  if (stroke.label.size() > max_label) fail(place, "kvg:type of more than 64 bytes");
+  if (stroke.label.size() > max_label) fail(place, "kvg:type is longer than 64 bytes");
   try {
     decode_utf8(stroke.label);
     stroke.path = flattened_path(path.attribute("d").value(), svg_tolerance * svg_units_per_em);
@@ -80,7 +80,7 @@ KanjivgDrawing parse_kanjivg(std::string_view svg, const std::string& name) {
     const bool is_path = std::strcmp(node.name(), "path") == 0;
     const std::string place = name + (is_path ? ": stroke " + std::to_string(drawing.strokes.size() + 1) : "");
     const bool is_drawn = is_path || std::strcmp(node.name(), "g") == 0 || std::strcmp(node.name(), "svg") == 0;
-    if (is_drawn && node.attribute("transform")) fail(place, "a transform, which is not supported");
+    if (is_drawn && node.attribute("transform")) fail(place, "a transform is not supported");
     if (!is_path) continue;
     if (drawing.strokes.size() == max_svg_strokes) fail(name, "more than 256 strokes");
     drawing.strokes.push_back(stroke_of(node, place));

@@ -25,8 +25,8 @@ class PathReader {
     const char start = command();
     if (start != 'M' && start != 'm') fail("expected M, found " + quoted(start));
     points_.push_back(pair(Point::Zero()));
-    // The first pair is absolute for m, too. More pairs would be straight lines.
-    if (number_follows()) fail("a second pair after M, which is a straight line: expected C or S");
+    // The first pair is absolute even for m. Further pairs would be straight lines.
+    if (number_follows()) fail("a second point after M draws a straight line: expected C or S");
     handle_ = points_.back();
     while (!at_end()) draw(command());
     return std::move(points_);
@@ -50,7 +50,7 @@ class PathReader {
     } while (number_follows());
   }
 
-  /// Pieces of equal parameter: a cubic is nowhere farther from its chord than h^2 / 8 max |B''|.
+  /// Pieces of equal parameter length h: the distance of a cubic from its chord is at most h^2 / 8 max |B''|.
   void add_curve(const Bezier<3>& curve) {
     const auto& p = curve.control_points;
     const double second = 6.0 * std::max((p[0] - 2.0 * p[1] + p[2]).norm(), (p[1] - 2.0 * p[2] + p[3]).norm());

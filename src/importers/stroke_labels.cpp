@@ -25,7 +25,7 @@ std::vector<int> parse_ids(std::string_view list) {
   return ids;
 }
 
-/// Rows of label, ids with commas between, example; the first row has the names of the columns.
+/// Rows of label, comma-separated ids and example; the first row has the column names.
 LabelIds parse_table(std::string_view table) {
   LabelIds labels;
   std::size_t begin = table.find('\n') + 1;

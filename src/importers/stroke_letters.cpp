@@ -19,7 +19,7 @@ constexpr std::string_view before_literal = "JSON.parse('";
 constexpr std::size_t max_script = 4 << 20;  // [byte]; the package's has 125 thousand
 constexpr std::size_t max_lettered_strokes = 256;
 
-/// The text of a JavaScript string in single quotes that begins at `at`; `at` goes past its end.
+/// The text of a single-quoted JavaScript string that begins at `at`; advances `at` past its end.
 std::string unquoted(std::string_view text, std::size_t& at, const std::string& name) {
   const std::size_t begin = at;
   std::string result;
@@ -32,7 +32,7 @@ std::string unquoted(std::string_view text, std::size_t& at, const std::string& 
     }
     result += text[at];
   }
-  if (at == text.size()) throw FormatError(name + ": byte " + std::to_string(begin) + ": a string without an end");
+  if (at == text.size()) throw FormatError(name + ": byte " + std::to_string(begin) + ": unterminated string");
   return result;
 }
 
@@ -43,7 +43,7 @@ bool is_letters(const Json& value) {
          text.find_first_not_of("abcdefghijklmnopqrstuvwxyz") == text.npos;
 }
 
-/// The entries of a table of letters; none when the table is about something else.
+/// The entries of a table of letters; empty if the table has other content.
 StrokeLetters letters_of(const Json& table) {
   StrokeLetters letters;
   if (!table.is_object()) return letters;
@@ -69,7 +69,7 @@ StrokeLetters parse_stroke_letters(std::string_view javascript, const std::strin
       throw FormatError(name + ": byte " + std::to_string(begin) + ": not JSON: " + error.what());
     }
   }
-  throw FormatError(name + ": no table of stroke letters, JSON.parse('{\"一\":\"j\",...}'), in it");
+  throw FormatError(name + ": no table of stroke letters found, such as JSON.parse('{\"一\":\"j\",...}')");
 }
 
 StrokeLetters read_stroke_letters(const std::filesystem::path& source) {
@@ -81,7 +81,7 @@ StrokeLetters read_stroke_letters(const std::filesystem::path& source) {
     return std::filesystem::path(path).filename() == file_name ? std::string() : std::string("not the letters");
   };
   const SourceFiles found = read_source(source, reason);
-  if (found.files.empty()) throw FileError(source.string() + ": holds no " + std::string(file_name));
+  if (found.files.empty()) throw FileError(source.string() + ": contains no " + std::string(file_name));
   const SourceFile& file = found.files.front();
   return parse_stroke_letters(file.text, source.string() + ": " + file.path);
 }

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Nearest place of a polyline's segment: squared distance and share of the way along.
+/// Nearest point on a segment of a polyline: squared distance and position along the segment.
 struct ClosestPoint {
   double squared = infinity;
   std::size_t segment = 0;
@@ -34,10 +34,10 @@ ClosestPoint foot_on(std::span<const Point> from, std::span<const Point> along, 
   return closest;
 }
 
-/// Segments of a polyline, ready for many closest points.
+/// Segments of a polyline, prepared for many closest-point queries.
 struct OutlineSegments {
   std::vector<Point> from, along;
-  std::vector<double> inverse;  ///< one over the squared length, 0 for a segment without length
+  std::vector<double> inverse;  ///< 1 / squared length, 0 for a segment of zero length
 
   void add(const Point& first, const Point& last) {
     from.push_back(first);
@@ -48,7 +48,7 @@ struct OutlineSegments {
   ClosestPoint closest_to(const Point& point) const { return foot_on(from, along, inverse, point); }
 };
 
-/// A distance with its direction and how far each control point of an element moves its end on the stroke.
+/// A distance, its direction, and the weight of each control point of an element in its end on the stroke.
 struct Offset {
   int first;
   int count;
@@ -57,8 +57,8 @@ struct Offset {
   Point unit;
 };
 
-/// Sum of a power of the distances, over a scale, with its derivatives after the coordinates of the control points.
-/// A distance is taken as linear in them, which makes the second derivative positive.
+/// Sum of a power of the scaled distances, with its derivatives with respect to the control point coordinates.
+/// Distances are linearised in them, which makes the second derivative positive.
 struct Penalty {
   double sum = infinity;
   Eigen::VectorXd gradient;
@@ -121,7 +121,7 @@ class Polish {
   static constexpr int curve_steps = 16;
   static constexpr int line_steps = 8;
 
-  /// Newton's method with Levenberg's damping on the sum of one power.
+  /// Newton's method with Levenberg damping on the sum of one power.
   void step_down(Eigen::VectorXd& values, int power) const {
     constexpr int max_steps = 20;
     double damping = 1e-3;
@@ -149,7 +149,7 @@ class Polish {
     }
   }
 
-  /// The derivatives after the variables.
+  /// Derivatives with respect to the variables.
   Penalty reduced(Penalty penalty, std::span<const Point> points) const {
     if (variables_.plain()) return penalty;
     const Eigen::MatrixXd slopes = variables_.slopes_at(points);
@@ -177,7 +177,7 @@ class Polish {
     return offsets;
   }
 
-  /// The offset of a place on the stroke from a place on the path.
+  /// Offset of a point on the stroke from a point on the path.
   void add(std::vector<Offset>& offsets, std::size_t segment, double share, const OutlineSegments& stroke,
            const Point& target) const {
     const StrokeChord& chord = chords_[segment];

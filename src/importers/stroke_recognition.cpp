@@ -20,7 +20,7 @@ struct Choice {
   std::vector<std::size_t> corners;
 };
 
-/// Cheapest way to divide the path into the elements of a compound stroke, by dynamic programming over the corners.
+/// Minimum-cost division of the path into the elements of a compound stroke, by dynamic programming over the corners.
 Choice divide(const CompoundRule& rule, std::string_view kinds, const PieceTable& table, double length) {
   const std::size_t corners = table.count();
   const std::size_t elements = rule.elements.size();
@@ -52,8 +52,8 @@ Choice divide(const CompoundRule& rule, std::string_view kinds, const PieceTable
 
 bool allowed(std::span<const int> ids, int id) { return ids.empty() || std::ranges::find(ids, id) != ids.end(); }
 
-/// The allowed stroke of one element that the path is: the one that the rules find, else the cheapest; 0 when none is
-/// allowed.
+/// The allowed one-element stroke that the path is: the one that the rules find, otherwise the one of minimum cost; 0
+/// if none is allowed.
 int simple_stroke(const SimpleShape& shape, const Piece& whole, bool brush, std::span<const int> ids) {
   const int found = brush ? brush_stroke(shape) : pen_stroke(shape);
   if (allowed(ids, found)) return found;
@@ -74,7 +74,7 @@ Recognition as_compound(const CompoundRule& rule, const PieceTable& table, std::
                         double length) {
   const Choice choice = divide(rule, typical_stroke(rule.id).elements, table, length);
   Recognition recognition{rule.id, {}, choice.cost};
-  // A circle closes; nothing else that turns so far does.
+  // Of the strokes that turn this far, only a circle closes.
   if (rule.id == 39) recognition.cost += 0.6 * table.whole().length;
   for (const std::size_t corner : choice.corners) recognition.splits.push_back(corners[corner]);
   return recognition;

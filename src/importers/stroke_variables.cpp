@@ -7,8 +7,8 @@
 namespace calligraphy::recognition {
 namespace {
 
-/// Bounds of a handle's length, over the distance from the joint to the fixed point: never on the joint, where the
-/// curve would lose its direction, and never so far that it makes a loop.
+/// Bounds of the length of a handle, relative to the distance from the joint to the fixed point: not zero, where the
+/// curve would have no direction, and not long enough to create a loop.
 constexpr double min_handle = 0.02;
 constexpr double max_handle = 8.0;
 

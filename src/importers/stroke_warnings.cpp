@@ -17,15 +17,15 @@ namespace {
 
 using recognition::Path;
 
-constexpr double overlap_distance = 0.01;                     // [em]; a line of print is wider
+constexpr double overlap_distance = 0.01;                     // [em]; a printed line is wider
 constexpr double outside_distance = 0.01;                     // [em]
-constexpr double against = 100.0 * std::numbers::pi / 180.0;  // of the typical start [rad]
+constexpr double against = 100.0 * std::numbers::pi / 180.0;  // to the typical start [rad]
 constexpr double max_dot = 0.25;    // [em]; one element as short as this may be called dian, pie, ti or shu
-constexpr double min_start = 0.02;  // [em]; of what is shorter no direction is told
+constexpr double min_start = 0.02;  // [em]; anything shorter has no direction
 constexpr int curve_steps = 24;
 constexpr double max_step = 0.02;  // [em]
 
-/// Typical strokes that one curve may be, so that geometry alone cannot say which is meant.
+/// Typical strokes that can have the same curve, so that geometry alone cannot distinguish them.
 constexpr std::array<std::array<int, 5>, 14> alike = {{{1, 10},
                                                        {3, 4, 5},
                                                        {2, 3},
@@ -56,7 +56,7 @@ void append_curve(std::span<const Point> points, Path& path) {
   for (int i = 1; i <= curve_steps; ++i) path.push_back(curve.point(static_cast<double>(i) / curve_steps));
 }
 
-/// The stroke as a polyline with steps short against the bounds.
+/// The stroke as a polyline with steps that are short relative to the thresholds.
 Path sampled(const Stroke& stroke) {
   Path path{stroke.control_points.front()};
   std::size_t at = 0;
@@ -88,13 +88,13 @@ Point typical_start(const TypicalStroke& type) {
   return Point(type.shape[end][0], type.shape[end][1]) - Point(type.shape[0][0], type.shape[0][1]);
 }
 
-/// Is the stroke one short element, whose name is a matter of what it is part of?
+/// True for a stroke of one short element, whose type depends on the character it is part of.
 bool is_dot(const Stroke& stroke) {
   return stroke.type->elements.size() == 1 &&
          (stroke.control_points.back() - stroke.control_points.front()).norm() < max_dot;
 }
 
-/// The typical stroke with whose shape the curve contradicts the one that is recorded; 0 when none does.
+/// The typical stroke whose shape the curve has, if it contradicts the recorded one; otherwise 0.
 int other_type(const Stroke& stroke, const Path& path) {
   if (is_dot(stroke)) return 0;
   const int found = fit_stroke(path, {.drawing_tool = DrawingTool::pen}).stroke.id;
@@ -165,21 +165,21 @@ std::vector<StrokeWarning> stroke_warnings(const Character& character) {
     ++number;
     paths.push_back(sampled(stroke));
     const Path& path = paths.back();
-    // A stroke written backwards has the shape of another: one warning says it.
+    // A stroke written backwards has the shape of another: one warning suffices.
     if (start_direction_error(stroke) > against) {
       warnings.push_back(
           {number, StrokeWarningKind::direction, "starts against the direction of " + name_with_id(stroke.type->id)});
     } else if (const int other = other_type(stroke, path); other != 0) {
       warnings.push_back(
           {number, StrokeWarningKind::type,
-           "is called " + name_with_id(stroke.type->id) + " and has the shape of " + name_with_id(other)});
+           "is recorded as " + name_with_id(stroke.type->id) + " but has the shape of " + name_with_id(other)});
     }
     if (const double outside = distance_outside(path); outside > outside_distance) {
       warnings.push_back({number, StrokeWarningKind::outside, "leaves the em square by " + percent_of_em(outside)});
     }
     for (std::size_t other = 0; other + 1 < paths.size(); ++other) {
       if (!lies_on(path, paths[other]) && !lies_on(paths[other], path)) continue;
-      warnings.push_back({number, StrokeWarningKind::overlap, "lies on stroke " + std::to_string(other + 1)});
+      warnings.push_back({number, StrokeWarningKind::overlap, "overlaps stroke " + std::to_string(other + 1)});
     }
   }
   return warnings;

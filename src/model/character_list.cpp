@@ -24,13 +24,13 @@ constexpr std::uintmax_t max_file_bytes = 64 << 20;  // twice all of Make Me a H
 constexpr std::string_view licence_text_key = "licence-text";
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
-/// What was found, as a message shows it: a file that is no such text may be one line of any length.
+/// Quotes text for a message, shortened: a file in another format may be one line of any length.
 std::string in_quotes(std::string_view text) {
   constexpr std::size_t most = 60;
   return "'" + std::string(text.substr(0, most)) + (text.size() > most ? "..." : "") + "'";
 }
 
-/// Statements whose text goes to the end of the line, '#' and all.
+/// Statements whose text extends to the end of the line, '#' included.
 bool is_free_text(std::string_view key) { return key == "source" || key == "licence" || key == "attribution"; }
 
 std::string character_label(char32_t code, std::string_view order) {
@@ -76,14 +76,14 @@ class Parser {
     throw FormatError(name_ + ":" + std::to_string(line) + ": " + what);
   }
 
-  /// The next line that says something, without comment and trailing blanks.
+  /// The next line that is not empty, without comment and trailing white space.
   bool next_line() {
     while (std::getline(in_, line_)) {
       ++number_;
       if (number_ == 1 && line_.starts_with(byte_order_mark)) line_.erase(0, byte_order_mark.size());
       left_ = line_;
       const std::string_view key = word();
-      if (key == licence_text_key) {  // kept to the last blank
+      if (key == licence_text_key) {  // trailing white space is kept
         if (line_.ends_with('\r')) line_.pop_back();
         left_ = line_;
         return true;
@@ -104,7 +104,7 @@ class Parser {
     return found;
   }
 
-  /// What stands after the keyword and one blank.
+  /// The text after the keyword and one space.
   void add_licence_line() {
     if (!left_.empty()) left_.remove_prefix(1);
     decode(left_);
@@ -154,13 +154,13 @@ class Parser {
     if (key == "order") {
       read_order();
     } else if (!key.empty()) {
-      fail("expected 'degree', 'order' or nothing more, found " + in_quotes(key));
+      fail("expected 'degree', 'order' or the end of the line, found " + in_quotes(key));
     }
-    if (!seen_.emplace(code_, order_).second) fail(character_label(code_, order_) + " stands here a second time");
+    if (!seen_.emplace(code_, order_).second) fail(character_label(code_, order_) + " is defined a second time");
     in_character_ = true;
   }
 
-  /// A name to the end of the line.
+  /// A name that extends to the end of the line.
   void read_order() {
     order_ = rest();
     try {
@@ -190,7 +190,7 @@ class Parser {
     strokes_.push_back(std::move(stroke));
   }
 
-  /// A wrong stroke is named by its own line, not by its character's.
+  /// An invalid stroke is reported with its own line, not that of its character.
   void check_stroke(const StrokeInput& stroke) const {
     try {
       make_character(code_, std::span(&stroke, 1), degree_);
@@ -236,7 +236,7 @@ std::string format_number(double value) {
   return error == std::errc() ? std::string(buffer, end) : std::string("0");
 }
 
-/// A statement for each line; "a\n" has two lines, and the second is empty.
+/// One statement per line; "a\n" has two lines, the second of them empty.
 void write_licence_text(std::ostream& out, std::string_view text) {
   if (text.empty()) return;
   for (std::size_t begin = 0, end = 0; end != std::string_view::npos; begin = end + 1) {
@@ -274,8 +274,8 @@ CharacterList read_characters(const std::string& path) {
   }
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (!error && size > max_file_bytes) {
-    throw FileError(path + ": " + std::to_string(size) + " bytes, more than the " + std::to_string(max_file_bytes) +
-                    " that are read");
+    throw FileError(path + ": " + std::to_string(size) + " bytes, larger than the limit of " +
+                    std::to_string(max_file_bytes) + " bytes");
   }
   std::ifstream in(path, std::ios::binary);
   if (!in) throw FileError(path + ": cannot be opened");
@@ -285,10 +285,11 @@ CharacterList read_characters(const std::string& path) {
 void write_characters(std::ostream& out, const CharacterList& set) {
   const Provenance& provenance = set.provenance;
   if (provenance.licence_text.find('\r') != std::string::npos) {
-    throw ValueError("the licence text has a carriage return; its lines must end with '\\n' alone");
+    throw ValueError("the licence text contains a carriage return; its lines must end with '\\n'");
   }
   for (const std::string& text : {provenance.source, provenance.licence, provenance.attribution}) {
-    if (text.find_first_of("\r\n") != std::string::npos) throw ValueError("more than one line: " + in_quotes(text));
+    if (text.find_first_of("\r\n") != std::string::npos)
+      throw ValueError("source, licence and attribution must be one line each: " + in_quotes(text));
   }
   out << first_line << '\n';
   if (!provenance.source.empty()) out << "source " << provenance.source << '\n';
@@ -304,7 +305,7 @@ void write_characters(std::ostream& out, const CharacterList& set) {
     }
     out << '\n';
     for (const Stroke& stroke : strokes(character)) {
-      out << "stroke " << std::to_string(stroke.type->id);  // neither the stream's base nor its locale
+      out << "stroke " << std::to_string(stroke.type->id);  // independent of the stream's base and locale
       for (const Point& point : stroke.control_points) {
         out << ' ' << format_number(point.x()) << ',' << format_number(point.y());
       }

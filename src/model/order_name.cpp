@@ -28,8 +28,8 @@ void check_order_name(std::string_view name) {
   std::replace_if(quoted.begin(), quoted.end(), is_control, '?');
   throw ValueError(
       "'" + quoted +
-      "' is no name of a stroke order: 1 to 255 bytes of UTF-8, without control characters, '#' and blanks "
-      "at its ends");
+      "' is not a valid name of a stroke order: expected 1 to 255 bytes of UTF-8 without control characters, '#' and "
+      "blanks at the ends");
 }
 
 }  // namespace calligraphy

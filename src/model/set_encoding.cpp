@@ -27,7 +27,7 @@ using namespace set_format;
 
 using Bytes = std::vector<std::byte>;
 
-/// From -0.14 em on, the steps of each precision reach to 1.14 em.
+/// The steps of each precision cover -0.14 to 1.14 em.
 CoordinateEncoding coding_of(CoordinatePrecision precision) {
   switch (precision) {
     case CoordinatePrecision::coarse:
@@ -48,7 +48,7 @@ void append_text(Bytes& bytes, std::string_view text) {
   for (const char c : text) bytes.push_back(static_cast<std::byte>(c));
 }
 
-/// Seven bits a byte, the lowest first.
+/// Seven bits per byte, the lowest first.
 void append_number(Bytes& bytes, std::size_t number) {
   for (; number >= 0x80; number >>= 7) bytes.push_back(static_cast<std::byte>((number & 0x7F) | 0x80));
   bytes.push_back(static_cast<std::byte>(number));
@@ -76,7 +76,7 @@ bool covers(const CoordinateEncoding& coding, const Character& character) {
          });
 }
 
-/// As few bits as cover the character.
+/// The fewest bits that cover the character.
 CoordinateEncoding fitted_coding(const Character& character, std::uint32_t steps_per_em) {
   CoordinateEncoding coding{steps_per_em, 0, 0, 0, 0};
   const auto fit = [&](int axis, std::int32_t& origin, std::uint8_t& bits) {
@@ -95,7 +95,7 @@ CoordinateEncoding fitted_coding(const Character& character, std::uint32_t steps
   return coding;
 }
 
-/// What the character is after it was stored.
+/// The character as it will be decoded.
 Character rounded(const Character& character, std::uint32_t steps_per_em) {
   Character result = character;
   if (steps_per_em == 0) return result;
@@ -114,14 +114,14 @@ double max_distance(const Character& a, const Character& b) {
   return largest;
 }
 
-/// A form and how it is kept.
+/// A form and its encoding.
 struct Form {
   const Character* character;
   CoordinateEncoding coding;
   bool has_own_coding;
 };
 
-/// The coding of the set, or else a finer one of the character's own.
+/// The encoding of the set, or a finer one specific to the character.
 Form choose_coding(const Character& character, const CoordinateEncoding& common, double& max_error) {
   constexpr std::uint32_t finer = 4;
   for (std::uint32_t steps_per_em = common.steps_per_em; steps_per_em != 0; steps_per_em *= finer) {
@@ -214,7 +214,7 @@ std::string character_label(const Character& character) {
 void check(const Character& character) {
   const auto fail = [&](const std::string& what) { throw ValueError(character_label(character) + ": " + what); };
   const auto code = static_cast<std::uint32_t>(character.code);
-  if (code > 0x10FFFF || (code >= 0xD800 && code <= 0xDFFF)) fail("is no Unicode character");
+  if (code > 0x10FFFF || (code >= 0xD800 && code <= 0xDFFF)) fail("is not a Unicode character");
   if (!character.order.empty()) check_order_name(character.order);
   if (const std::size_t count = character.sequence.stroke_ids.size(); count > max_strokes) {
     fail(std::to_string(count) + " strokes, more than " + std::to_string(max_strokes));
@@ -230,7 +230,7 @@ void check(const Provenance& provenance) {
     try {
       decode_utf8(text);
     } catch (const FormatError& error) {
-      throw ValueError("where the characters come from: " + std::string(error.what()));
+      throw ValueError("provenance: " + std::string(error.what()));
     }
   }
 }
@@ -242,8 +242,7 @@ std::map<char32_t, std::vector<const Character*>> sorted(const CharacterList& se
     check(character);
     auto& own = forms[character.code];
     const auto is_same = [&](const Character* other) { return other->order == character.order; };
-    if (std::any_of(own.begin(), own.end(), is_same))
-      throw ValueError(character_label(character) + ": stands there twice");
+    if (std::any_of(own.begin(), own.end(), is_same)) throw ValueError(character_label(character) + ": occurs twice");
     if (own.size() == max_forms) {
       throw ValueError(character_label(character) + ": more than " + std::to_string(max_forms) + " orders");
     }
@@ -252,7 +251,7 @@ std::map<char32_t, std::vector<const Character*>> sorted(const CharacterList& se
   return forms;
 }
 
-/// All ids, those that most strokes have first.
+/// All ids, the most frequent first.
 RankedIds ranked_ids(const CharacterList& set) {
   std::array<std::size_t, typical_stroke_count + 1> strokes{};
   for (const Character& character : set.characters) {
@@ -264,7 +263,7 @@ RankedIds ranked_ids(const CharacterList& set) {
   return ids;
 }
 
-/// Gathers the records of 64 neighbouring code points, group after group.
+/// Collects the records of 64 neighbouring code points, group by group.
 class GroupWriter {
  public:
   void add(char32_t code, const Bytes& record) {
@@ -302,7 +301,7 @@ class GroupWriter {
 
   struct Entry {
     std::uint64_t present;
-    std::size_t begin;  ///< from the first group on
+    std::size_t begin;  ///< relative to the first group
     std::uint32_t checksum;
   };
   std::vector<std::uint16_t> blocks;
@@ -321,7 +320,7 @@ struct Header {
   double coordinate_error;
 };
 
-/// The whole file, its checksum and all.
+/// The complete file, including its checksum.
 Bytes assemble(const Header& header, const Provenance& provenance, const GroupWriter& writer) {
   const auto texts = {&provenance.source, &provenance.licence, &provenance.attribution, &provenance.licence_text};
   std::size_t first_group = header_size + (block_size + entry_size) * writer.blocks.size();
@@ -330,7 +329,7 @@ Bytes assemble(const Header& header, const Provenance& provenance, const GroupWr
   if (size > std::numeric_limits<std::uint32_t>::max()) {
     throw ValueError("set file: " + std::to_string(size) + " bytes, more than 4 GiB");
   }
-  Bytes index;  // what the checksum is of
+  Bytes index;  // covered by the checksum
   append(index, static_cast<std::uint32_t>(size));
   append(index, static_cast<std::uint32_t>(first_group));
   append(index, static_cast<std::uint32_t>(writer.blocks.size()));

@@ -29,7 +29,7 @@ Parsed<Number> parse(const std::string& text) {
 
 // Expected values: the C++ standard, [charconv.from.chars].
 
-TEST_CASE("numbers are read to the last bit, as far as they go", "[base]") {
+TEST_CASE("numbers are parsed to the last bit, up to the first character that does not belong to them", "[base]") {
   CHECK(parse("0.1").value == 0.1);
   CHECK(parse("-12.5e-3mm").value == -0.0125);
   CHECK(parse("-12.5e-3mm").size == 8);
@@ -49,7 +49,7 @@ TEST_CASE("numbers are read to the last bit, as far as they go", "[base]") {
   CHECK(parse<int>("-12x").value == -12);
 }
 
-TEST_CASE("what from_chars does not take is no number here, either", "[base]") {
+TEST_CASE("text that std::from_chars rejects is rejected", "[base]") {
   for (const char* text : {"", "-", "+1", " 1", "--1", ".", "-.", "e5", "x", "abc", "\t1", "-+1"}) {
     CAPTURE(text);
     CHECK(parse(text).error == std::errc::invalid_argument);
@@ -60,7 +60,7 @@ TEST_CASE("what from_chars does not take is no number here, either", "[base]") {
   CHECK(parse("0x10").size == 1);
 }
 
-TEST_CASE("numbers that do not fit are told, and infinities are numbers", "[base]") {
+TEST_CASE("numbers out of range are reported, and infinities are numbers", "[base]") {
   for (const char* text : {"1e999", "-1e999", "1e-999"}) {
     CAPTURE(text);
     CHECK(parse(text).error == std::errc::result_out_of_range);

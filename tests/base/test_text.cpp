@@ -37,7 +37,7 @@ TEST_CASE("encoding undoes decoding over the whole of Unicode", "[model]") {
   CHECK(wrong == 0);
 }
 
-TEST_CASE("a code that is no character is refused", "[model]") {
+TEST_CASE("a code point that is not a character is rejected", "[model]") {
   for (const char32_t code : {char32_t{0xD800}, char32_t{0xDFFF}, char32_t{0x110000}, char32_t{0xFFFFFFFF}}) {
     CHECK_THROWS_AS(encode_utf8(code), ValueError);
   }

@@ -1,4 +1,4 @@
-// Claims about import_characters on sources made for them; test_corpora.cpp has the real ones.
+// import_characters on small artificial sources; test_corpora.cpp tests the real ones.
 #include <cstddef>
 #include <sstream>
 #include <string>
@@ -15,7 +15,7 @@ using namespace calligraphy;
 
 namespace {
 
-/// A file of KanjiVG; each stroke is its label and its path data.
+/// A KanjiVG file; each stroke is a label and path data.
 std::string kanjivg(const std::vector<std::pair<std::string, std::string>>& strokes, const std::string& notice = "") {
   std::string text = notice + "<svg viewBox=\"0 0 109 109\"><g>";
   for (const auto& [label, data] : strokes) text += "<path kvg:type=\"" + label + "\" d=\"" + data + "\"/>";
@@ -53,7 +53,7 @@ std::string text_of(const CharacterList& list) {
 
 }  // namespace
 
-TEST_CASE("the content of a source says what it is", "[practice]") {
+TEST_CASE("the kind of a source is detected from its content", "[practice]") {
   const TemporaryDirectory brush, lines, both, neither;
   brush.write("package/一.json", hanzi_writer_heng);
   lines.write("deep/down/04e00.svg", kanjivg({{"㇐", heng}}));
@@ -70,11 +70,11 @@ TEST_CASE("the content of a source says what it is", "[practice]") {
     CHECK(import.list.characters[0].sequence.stroke_ids == std::vector<int>{1});
   }
   CHECK(has(complaint(both.path()), "both hanzi-writer-data and KanjiVG"));
-  CHECK(has(complaint(neither.path()), "no file of a character"));
+  CHECK(has(complaint(neither.path()), "contains no character file"));
   CHECK(has(complaint(neither.path() / "none"), "no such file or directory"));
 }
 
-TEST_CASE("the text format and set files are imported as they are, in the order of code points", "[practice]") {
+TEST_CASE("the text format and set files are imported unchanged, by ascending code point", "[practice]") {
   const TemporaryDirectory directory;
   const std::string head = "calligraphy characters 1\nsource s\nlicence l\nattribution a\n";
   const std::string one = "\ncharacter 一\nstroke 1 0.1,0.5 0.9,0.5\n";
@@ -90,7 +90,7 @@ TEST_CASE("the text format and set files are imported as they are, in the order 
   options.only = U"永一";
   CHECK(text_of(import_characters(directory.path() / "own.txt", options).list) == head + one);
   options.only = U"永";
-  CHECK(has(complaint(directory.path() / "own.txt", options), "no character that was asked for"));
+  CHECK(has(complaint(directory.path() / "own.txt", options), "no character that was requested"));
   const std::vector<std::byte> bytes = encode_character_set(import.list, CoordinatePrecision::exact);
   directory.write("own.set", std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
   CHECK(text_of(import_characters(directory.path() / "own.set").list) == head + one + ten);
@@ -98,7 +98,7 @@ TEST_CASE("the text format and set files are imported as they are, in the order 
   CHECK(has(complaint(directory.path() / "other.bin"), "FormatError"));
 }
 
-TEST_CASE("characters come by rising code point and are the same from any number of threads", "[practice]") {
+TEST_CASE("characters are sorted by code point and do not depend on the number of threads", "[practice]") {
   const TemporaryDirectory directory;
   for (const char* const name : {"永", "一", "十", "丁", "七", "丈"}) {
     directory.write(std::string(name) + ".json", hanzi_writer_cross);
@@ -116,7 +116,7 @@ TEST_CASE("characters come by rising code point and are the same from any number
   }
 }
 
-TEST_CASE("a label decides between strokes that follow the drawing, and is overruled by the shape", "[practice]") {
+TEST_CASE("a label decides between strokes that follow the drawing, and is overridden by the shape", "[practice]") {
   const TemporaryDirectory directory;
   directory.write("04e00.svg", kanjivg({{"㇐", heng},           // agrees
                                         {"㇐", steep_heng},     // accepted: geometry alone says ti
@@ -140,12 +140,13 @@ TEST_CASE("a label decides between strokes that follow the drawing, and is overr
   CHECK(report.label_conflicts[2].place.stroke == 4);
   CHECK(report.label_conflicts[2].resolution == LabelResolution::unknown);
   CHECK(report.label_conflicts[3].place.stroke == 6);
-  CHECK(report.label_conflicts[3].resolution == LabelResolution::overridden);  // a line fits, but no heng goes down
+  CHECK(report.label_conflicts[3].resolution ==
+        LabelResolution::overridden);  // a line fits, but a heng never runs downwards
   REQUIRE(report.confusions.size() == 3);
   CHECK(report.confusions[0].count == 1);
 }
 
-TEST_CASE("stroke letters are labels where there is one per stroke", "[practice]") {
+TEST_CASE("stroke letters are used as labels if there is one per stroke", "[practice]") {
   const TemporaryDirectory directory;
   directory.write("data/一.json", hanzi_writer_heng);
   directory.write("data/十.json", hanzi_writer_cross);
@@ -163,7 +164,7 @@ TEST_CASE("stroke letters are labels where there is one per stroke", "[practice]
   CHECK(has(complaint(directory.path() / "lines", options), "ValueError letters"));
 }
 
-TEST_CASE("variants are alternate orders when asked for, kana come when asked for, copies once", "[practice]") {
+TEST_CASE("variants become alternate orders on request, kana are imported on request, duplicates once", "[practice]") {
   const TemporaryDirectory directory;
   directory.write("a/05341.svg", kanjivg({{"㇐", heng}, {"㇑", shu}}));
   directory.write("b/05341.svg", kanjivg({{"㇐", heng}, {"㇑", shu}}));
@@ -177,9 +178,9 @@ TEST_CASE("variants are alternate orders when asked for, kana come when asked fo
   };
   const ImportResult plain = import_characters(directory.path());
   CHECK(plain.list.characters.size() == 1);
-  CHECK(reasons(plain) == std::vector<std::string>{"a/03044.svg: no ideograph", "a/05341-VtFst.svg: an alternate order",
-                                                   "a/05341-a_b.svg: no file of a character",
-                                                   "b/05341.svg: a copy of a file read before"});
+  CHECK(reasons(plain) == std::vector<std::string>{
+                              "a/03044.svg: not an ideograph", "a/05341-VtFst.svg: an alternate order",
+                              "a/05341-a_b.svg: not a character file", "b/05341.svg: a duplicate of an earlier file"});
   ImportOptions options;
   options.alternates = true;
   options.ideographs_only = false;
@@ -192,7 +193,7 @@ TEST_CASE("variants are alternate orders when asked for, kana come when asked fo
   CHECK(all.list.characters[2].sequence.stroke_ids == std::vector<int>{2, 1});
 }
 
-TEST_CASE("an import says whose work it is, that it was changed, and under which licence", "[practice]") {
+TEST_CASE("an import states its source, its licence and that it was modified", "[practice]") {
   const TemporaryDirectory brush, lines;
   brush.write("一.json", hanzi_writer_heng);
   Provenance found = import_characters(brush.path()).list.provenance;
@@ -223,7 +224,7 @@ TEST_CASE("an import says whose work it is, that it was changed, and under which
   CHECK(found.licence_text == " Copyright U. Apel ");
 }
 
-TEST_CASE("one faulty file fails the import with its name, the same one whatever the threads", "[practice]") {
+TEST_CASE("one malformed file fails the import by name, the same one for any number of threads", "[practice]") {
   const TemporaryDirectory directory;
   for (int code = 0x4E00; code < 0x4E40; ++code) {
     char name[16];
@@ -240,7 +241,7 @@ TEST_CASE("one faulty file fails the import with its name, the same one whatever
   }
 }
 
-TEST_CASE("options of an import out of their domain are refused by name", "[practice]") {
+TEST_CASE("import options outside their domain are rejected by name", "[practice]") {
   const TemporaryDirectory directory;
   directory.write("一.json", hanzi_writer_heng);
   ImportOptions options;
@@ -253,10 +254,10 @@ TEST_CASE("options of an import out of their domain are refused by name", "[prac
   CHECK(has(complaint(directory.path(), options), "ValueError date"));
 }
 
-TEST_CASE("what is within an error counts strokes, and characters by their farthest stroke", "[practice]") {
+TEST_CASE("fit counts include strokes, and characters by their worst stroke", "[practice]") {
   const TemporaryDirectory directory;
   directory.write("一.json", hanzi_writer_heng);
-  // Zigzags of 3 % of the em are no typical stroke: nothing follows them within 2 %.
+  // No typical stroke follows zigzags of 3 % of the em within 2 %.
   std::string zigzag = R"({"medians":[[[100,400],[900,400]],[)";
   for (int i = 0; i <= 16; ++i) {
     zigzag += (i > 0 ? ",[" : "[") + std::to_string(100 + 50 * i) + "," + std::to_string(i % 2 == 0 ? 600 : 680) + "]";

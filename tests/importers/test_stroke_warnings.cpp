@@ -1,4 +1,4 @@
-// Claims about stroke_warnings: faults that validate() lets pass are found, good characters are left alone.
+// stroke_warnings finds faults that validate() accepts, and does not warn about good characters.
 #include <string>
 #include <vector>
 
@@ -12,7 +12,7 @@ using namespace calligraphy;
 
 namespace {
 
-/// "stroke kind" of each warning, one after the other.
+/// "stroke kind" of each warning, in order.
 std::string warnings_of(const std::vector<StrokeInput>& strokes, int degree = 3) {
   std::string text;
   for (const StrokeWarning& warning : stroke_warnings(make_character(U'永', strokes, degree))) {
@@ -26,7 +26,7 @@ const StrokeInput shu{2, {{0.5, 0.9}, {0.5, 0.1}}};
 
 }  // namespace
 
-TEST_CASE("strokes as they are taught raise no warning, nor does one more degree of their curves", "[model]") {
+TEST_CASE("strokes as taught in schools cause no warning, with cubics or quartics", "[model]") {
   CHECK(warnings_of({heng, shu}).empty());
   for (const Character& character : built_in_characters().characters) {
     INFO(encode_utf8(character.code));
@@ -36,25 +36,25 @@ TEST_CASE("strokes as they are taught raise no warning, nor does one more degree
 }
 
 TEST_CASE("a stroke with the shape of another is found", "[model]") {
-  CHECK(warnings_of({{2, {{0.1, 0.5}, {0.4, 0.1}}}, heng}) == "1 type");         // a pie called shu
-  CHECK(warnings_of({heng, {10, {{0.5, 0.9}, {0.8, 0.1}}}}) == "2 direction");   // a dian called ti
-  CHECK(warnings_of({{16, {{0.5, 0.9}, {0.5, 0.1}, {0.4, 0.2}}}}) == "1 type");  // a shu gou called heng zhe
+  CHECK(warnings_of({{2, {{0.1, 0.5}, {0.4, 0.1}}}, heng}) == "1 type");         // a pie recorded as shu
+  CHECK(warnings_of({heng, {10, {{0.5, 0.9}, {0.8, 0.1}}}}) == "2 direction");   // a dian recorded as ti
+  CHECK(warnings_of({{16, {{0.5, 0.9}, {0.5, 0.1}, {0.4, 0.2}}}}) == "1 type");  // a shu gou recorded as heng zhe
 }
 
-TEST_CASE("a stroke written from its end is found, once", "[model]") {
+TEST_CASE("a stroke written from its end is found, with one warning", "[model]") {
   CHECK(warnings_of({{1, {{0.9, 0.52}, {0.1, 0.5}}}, shu}) == "1 direction");
   CHECK(warnings_of({heng, {2, {{0.5, 0.1}, {0.5, 0.9}}}}) == "2 direction");
   CHECK(warnings_of({{4, {{0.2, 0.12}, {0.46, 0.31}, {0.62, 0.58}, {0.68, 0.88}}}}) == "1 direction");
 }
 
-TEST_CASE("a stroke on another is found, one that only touches or crosses is not", "[model]") {
+TEST_CASE("a stroke that overlaps another is found, one that only touches or crosses is not", "[model]") {
   CHECK(warnings_of({heng, heng}) == "2 overlap");
   CHECK(warnings_of({heng, shu, {1, {{0.3, 0.503}, {0.7, 0.508}}}}) == "3 overlap");
   CHECK(warnings_of({{1, {{0.3, 0.503}, {0.7, 0.508}}}, shu, heng}) == "3 overlap");
   CHECK(warnings_of({heng, {1, {{0.1, 0.53}, {0.9, 0.55}}}}).empty());
 }
 
-TEST_CASE("a stroke out of the em square is found by its curve, not by its handles", "[model]") {
+TEST_CASE("a stroke outside the em square is found by its curve, not by its handles", "[model]") {
   CHECK(warnings_of({{1, {{0.1, 0.5}, {1.02, 0.52}}}}) == "1 outside");
   CHECK(warnings_of({{1, {{-0.005, 0.5}, {0.9, 0.52}}}}).empty());
   CHECK(warnings_of({{4, {{0.68, 0.95}, {0.66, 1.5}, {0.46, 0.31}, {0.2, 0.12}}}}).find("outside") !=
@@ -63,6 +63,6 @@ TEST_CASE("a stroke out of the em square is found by its curve, not by its handl
         std::string::npos);
 }
 
-TEST_CASE("a dot that is a point is doubted for nothing", "[model]") {
+TEST_CASE("a dot that is a point causes no warning", "[model]") {
   CHECK(warnings_of({{8, {{0.5, 0.5}, {0.5, 0.5}}}, heng}).find("direction") == std::string::npos);
 }

@@ -47,12 +47,12 @@ class Trade(ProgramTest):
             self.assertEqual(set(row), WIDTH)
             self.assertLessEqual(row["max_error_em"], row["step_em"] / math.sqrt(2.0) * (1 + 1e-9))
 
-    def test_all_but_the_times_is_the_same_in_every_run(self):
+    def test_everything_but_the_times_is_reproducible(self):
         first, second = self.tradeoff("永", "--seed", "3"), self.tradeoff("永", "--seed", "3")
         self.assertEqual(without_times(first), without_times(second))
         self.assertNotEqual(without_times(first), without_times(self.tradeoff("永", "--seed", "4")))
 
-    def test_the_tables_name_units_and_have_a_row_for_each_entry(self):
+    def test_the_tables_have_units_and_a_row_for_each_entry(self):
         done = self.run_program("tradeoff", "--quick", "--out", "out")
         for word in ("[ns]", "[%]", "[N/tick]", "[Hz]", "[mm]", "[N/m]", "[% em]"):
             self.assertIn(word, done.stdout)
@@ -65,7 +65,7 @@ class Trade(ProgramTest):
             self.assertEqual(float(own[1].split()[-1]), round(100 * row["hard"]["wrong_branches"], 3))
             self.assertAlmostEqual(float(own[2].split()[-2]), row["along_arcs"]["max_force_step_N"], places=3)
 
-    def test_the_pictures_are_there_and_well_formed(self):
+    def test_all_pictures_are_written_and_well_formed(self):
         done = self.run_program("tradeoff", "--quick", "--out", "deep/out")
         self.assertNotIn("%\n", done.stderr)
         expected = {"tradeoff.json"} | {f"field-{name}.svg" for name in ("bend", "corner", "parallel", "crossed")}
@@ -78,12 +78,12 @@ class Trade(ProgramTest):
             self.assertEqual(xml.parse(picture).getroot().tag, "{http://www.w3.org/2000/svg}svg")
             self.assertLess(picture.stat().st_size, 150000)
 
-    def test_more_queries_are_asked_when_told(self):
+    def test_the_number_of_queries_is_an_option(self):
         done = self.run_program("tradeoff", "永", "--quick", "--queries", "50")
         self.assertIn("real strokes, 100 queries", done.stdout)
         self.assertIn("hard workloads, 850 queries", done.stdout)
 
-    def test_characters_that_no_one_here_drew(self):
+    def test_characters_of_hanzi_writer_data_are_measured(self):
         tradeoff = self.tradeoff("永和九年", "--characters", self.data_directory())
         self.assertEqual(tradeoff["characters"], "永和九年")
         for row in tradeoff["nearest_point"]:
@@ -106,22 +106,22 @@ class Refusals(ProgramTest):
             with self.subTest(arguments=arguments):
                 self.assert_refused(2, ["tradeoff", *arguments], *words)
 
-    def test_what_cannot_be_measured_is_named(self):
+    def test_unusable_input_is_named(self):
         self.assert_refused(1, ["tradeoff", "\u9f98", "--out", "out"], "U+9F98")
         self.assert_refused(1, ["tradeoff", "永", "--characters", "none"], "none")
         self.assert_refused(1, ["tradeoff", "一", "--out", "out"], "curve")
 
-    def test_a_directory_that_cannot_be_written_is_named_before_the_run(self):
+    def test_an_unwritable_directory_is_named_before_the_run(self):
         (self.directory / "file").write_text("keep")
         self.assert_refused(1, ["tradeoff", "--out", "file"], "file")
         self.assert_refused(1, ["tradeoff", "--out", "/proc/calligraphy/out"], "/proc/calligraphy/out")
         self.assertEqual((self.directory / "file").read_text(), "keep")
 
-    def test_a_tradeoff_that_is_interrupted_leaves_no_directory(self):
+    def test_an_interrupted_tradeoff_leaves_no_directory(self):
         self.assert_interrupted_leaves_nothing("tradeoff")
 
-    def test_an_interrupt_that_gnuplot_gets_is_one_of_the_program(self):
-        """As a terminal sends it to both: this gnuplot sends it to whoever started it, and ends by it."""
+    def test_an_interrupt_during_gnuplot_interrupts_the_program(self):
+        """A terminal sends it to both: this gnuplot sends it to its parent and to itself."""
         (self.directory / "bin").mkdir()
         gnuplot = self.directory / "bin/gnuplot"
         gnuplot.write_text('#!/bin/sh\nkill -INT $PPID\nkill -INT $$\n')

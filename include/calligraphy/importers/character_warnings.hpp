@@ -1,4 +1,4 @@
-// The stroke warnings of many characters.
+// Stroke warnings for many characters.
 #pragma once
 
 #include <functional>
@@ -16,8 +16,8 @@ struct CharacterWarnings {
   std::vector<StrokeWarning> warnings;
 };
 
-/// The characters with stroke warnings, in the order given, from `threads` threads (0: one per core). `progress` hears
-/// the share that is done, in the calling thread.
+/// The characters that have stroke warnings, in the given order, computed by `threads` threads (0: one per core).
+/// `progress` receives the fraction done, in the calling thread.
 std::vector<CharacterWarnings> character_warnings(std::span<const Character> characters, int threads = 0,
                                                   const std::function<void(double)>& progress = {});
 

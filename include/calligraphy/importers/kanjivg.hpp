@@ -1,4 +1,4 @@
-// KanjiVG: the centre lines of strokes, an SVG file per character.
+// KanjiVG: centre lines of strokes, one SVG file per character.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 namespace calligraphy {
 
 struct KanjivgStroke {
-  std::string label;        ///< kvg:type, such as ㇕a; empty where there is none
+  std::string label;        ///< kvg:type, such as ㇕a; empty if there is none
   std::vector<Point> path;  ///< [em], y up; within 5e-5 em of the centre line
 };
 
@@ -19,8 +19,8 @@ struct KanjivgDrawing {
   std::string notice;                  ///< the copyright notice at the head of the file
 };
 
-/// Reads one file. `name` is used in messages. Entities beyond XML's own five are not expanded.
-/// @throws FormatError naming the place, for what is no SVG of 109 units a side with at least one stroke, too, and for
+/// Parses one file. `name` is used in messages. Only the five predefined entities of XML are expanded.
+/// @throws FormatError naming the place, also if it is not an SVG of 109 x 109 units with at least one stroke, and for
 ///         path commands other than M, C and S
 KanjivgDrawing parse_kanjivg(std::string_view svg, const std::string& name);
 

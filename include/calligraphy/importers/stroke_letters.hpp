@@ -1,4 +1,4 @@
-// Stroke letters: what kind each stroke of a character is, as the npm package cnchar-order says.
+// Stroke letters: the kind of each stroke of a character, from the npm package cnchar-order.
 #pragma once
 
 #include <filesystem>
@@ -8,15 +8,15 @@
 
 namespace calligraphy {
 
-/// A letter per stroke, in writing order.
+/// One letter per stroke, in writing order, for each character.
 using StrokeLetters = std::unordered_map<char32_t, std::string>;
 
-/// Finds the table of letters in the text of cnchar.order.min.js; no JavaScript is run. `name` is used in messages.
+/// Extracts the letters from the text of cnchar.order.min.js, without running JavaScript. `name` is used in messages.
 /// @throws FormatError naming the place
 StrokeLetters parse_stroke_letters(std::string_view javascript, const std::string& name);
 
-/// Reads it from the package: its tarball, its directory or its cnchar.order.min.js alone.
-/// @throws FileError when that cannot be read or holds no such file, FormatError as above
+/// Reads the letters from the package: its tarball, its directory or only its cnchar.order.min.js.
+/// @throws FileError if it cannot be read or has no such file, FormatError as above
 StrokeLetters read_stroke_letters(const std::filesystem::path& source);
 
 }  // namespace calligraphy

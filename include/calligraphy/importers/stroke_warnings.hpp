@@ -1,4 +1,4 @@
-// Strokes that are valid and yet look wrong.
+// Warnings about strokes that are valid but look wrong.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 namespace calligraphy {
 
 enum class StrokeWarningKind {
-  type,       ///< the shape is that of another typical stroke
+  type,       ///< it has the shape of another typical stroke
   direction,  ///< it starts against the direction in which its typical stroke is written
   overlap,    ///< it lies on another stroke
   outside     ///< it leaves the em square
@@ -24,13 +24,13 @@ struct StrokeWarning {
   std::string what;
 };
 
-/// How far the chord of a stroke's first element is turned from that of its typical stroke [rad], 0 to pi; 0 where one
-/// of them is too short to have a direction.
+/// Angle between the chord of a stroke's first element and that of its typical stroke [rad], 0 to pi; 0 if one of them
+/// is too short to have a direction.
 double start_direction_error(const Stroke& stroke);
 
-/// Looks at every stroke of a valid character; docs/import.md has the bounds. A type is doubted when geometry alone
-/// recognises another in the stroke's own curve, unless the two differ by a matter of degree (as pie and short pie) or
-/// the stroke is a dot. O(strokes^2), about a fit per stroke.
+/// Checks every stroke of a valid character; docs/import.md lists the thresholds. The type is questioned if geometry
+/// alone recognises the curve of the stroke as another type, unless the two differ only in degree (as pie and short
+/// pie) or the stroke is a dot. O(strokes^2), about one fit per stroke.
 std::vector<StrokeWarning> stroke_warnings(const Character& character);
 
 }  // namespace calligraphy
