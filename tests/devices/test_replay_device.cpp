@@ -103,7 +103,7 @@ TEST_CASE("a trace without samples or with time that does not increase is refuse
   constexpr double infinity = std::numeric_limits<double>::infinity();
   CHECK(error_of({}).find("no sample") != std::string::npos);
   CHECK(error_of(trace({0.0, 0.25, 0.25})) ==
-        "replay sample 2: time is 0.25 s after 0.25 s, must be finite and increase");
+        "replay sample 2: time is 0.25 s after 0.25 s, must be finite and increasing");
   CHECK(error_of(trace({0.0, 0.5, 0.25, 0.75})).find("sample 2") != std::string::npos);
   CHECK(error_of(trace({std::numeric_limits<double>::quiet_NaN()})).find("sample 0") != std::string::npos);
   CHECK(error_of(trace({0.0, infinity})).find("sample 1") != std::string::npos);

@@ -760,7 +760,7 @@ TEST_CASE("a device whose mass is not known is described, but cannot be simulate
   unknown.apparent_mass = 0.0;
   CHECK_NOTHROW(validate(unknown));
   CHECK(error_of(unknown) ==
-        "device \"omni\": apparent mass is 0, must be above 0: a mass that is not known cannot be simulated");
+        "device \"omni\": apparent mass is 0, must be above 0: a device of unknown mass cannot be simulated");
 }
 
 TEST_CASE("axes that cannot be are named", "[devices]") {
@@ -781,11 +781,12 @@ TEST_CASE("axes that cannot be are named", "[devices]") {
   CHECK(axes_error(all, translations).empty());
   CHECK(axes_error(translations, none).empty());  // a tablet
   CHECK(axes_error(x, x).empty());
-  CHECK(axes_error(none, none) == "device \"omni\": sensed axes are none, must be at least one");
+  CHECK(axes_error(none, none) == "device \"omni\": no axis is sensed, at least one must be");
   CHECK(axes_error(translations, all) ==
-        "device \"omni\": driven axes are x, y, z, rotations, sensed ones x, y, z: must be sensed too: rotations");
+        "device \"omni\": driven axes are x, y, z, rotations, sensed axes are x, y, z; driven but not sensed: "
+        "rotations");
   CHECK(axes_error(x, translations) ==
-        "device \"omni\": driven axes are x, y, z, sensed ones x: must be sensed too: y, z");
+        "device \"omni\": driven axes are x, y, z, sensed axes are x; driven but not sensed: y, z");
 }
 
 TEST_CASE("the simulation is of three translations that are sensed and driven, without an orientation", "[devices]") {
