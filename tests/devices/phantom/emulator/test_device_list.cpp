@@ -117,7 +117,7 @@ TEST_CASE("descriptors are dumped in words and bytes without opening the device"
   REQUIRE(devices.size() == 2);
   const std::string serial = dump_descriptors(devices[0]);
   CHECK_THAT(serial, Catch::Contains("device 2988:0302, USB 2.00") && Catch::Contains("88 29 02 03") &&
-                         Catch::Contains("67 bytes in all") && Catch::Contains("interface 1, setting 0, class 0a") &&
+                         Catch::Contains("67 bytes in total") && Catch::Contains("interface 1, setting 0, class 0a") &&
                          Catch::Contains("endpoint 1 to the host, bulk, packets of 64 bytes") &&
                          Catch::Contains("endpoint 2 to the device, bulk, packets of 64 bytes"));
   const std::string reports = dump_descriptors(devices[1]);
