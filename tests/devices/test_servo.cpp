@@ -117,7 +117,7 @@ std::string error_of(const ServoOptions& options) {
 
 }  // namespace
 
-TEST_CASE("a servo begins with no force, which rises in a straight line to what the law wants", "[servo]") {
+TEST_CASE("a servo starts with zero force and ramps up linearly to the desired force", "[servo]") {
   Bench bench;
   bench.ticks(199);
   for (std::size_t i = 0; i < 199; ++i) {
@@ -129,7 +129,7 @@ TEST_CASE("a servo begins with no force, which rises in a straight line to what 
   CHECK(bench.servo.status().phase == ServoPhase::running);
 }
 
-TEST_CASE("the law sees each fresh sample once and its force is written in the same tick", "[servo]") {
+TEST_CASE("the force law sees each fresh sample once, and its force is written in the same tick", "[servo]") {
   Bench bench;
   bench.warm_up();
   int calls = 0;
@@ -145,7 +145,7 @@ TEST_CASE("the law sees each fresh sample once and its force is written in the s
   CHECK(calls == 10);
 }
 
-TEST_CASE("a device that cannot be used gets a force that falls to zero in 10 ms, and its fault is named", "[servo]") {
+TEST_CASE("for an unusable device the force ramps down to zero in 10 ms, and the fault is reported", "[servo]") {
   struct Case {
     DeviceStatus status;
     DeviceFault reason, named;
@@ -181,7 +181,7 @@ TEST_CASE("a device that cannot be used gets a force that falls to zero in 10 ms
   CHECK(bench.servo.statistics().fault_count(each.named) == 1);
 }
 
-TEST_CASE("warm motors are no reason to let the force fall", "[servo]") {
+TEST_CASE("warm motors do not cause a ramp-down", "[servo]") {
   Bench bench;
   bench.warm_up();
   bench.device.state.status = DeviceStatus::warm_motors;
@@ -190,7 +190,7 @@ TEST_CASE("warm motors are no reason to let the force fall", "[servo]") {
   CHECK(bench.servo.status().device == DeviceStatus::warm_motors);
 }
 
-TEST_CASE("a fall goes down to zero even when the fault is over sooner", "[servo]") {
+TEST_CASE("a ramp-down completes even if the fault clears sooner", "[servo]") {
   Bench bench;
   bench.warm_up();
   bench.device.state.status = DeviceStatus::fault;
@@ -201,7 +201,7 @@ TEST_CASE("a fall goes down to zero even when the fault is over sooner", "[servo
   check_return(bench);
 }
 
-TEST_CASE("a fault while the force rises lets it fall from where it is", "[servo]") {
+TEST_CASE("a fault during ramp-up ramps the force down from its current value", "[servo]") {
   Bench bench;
   bench.ticks(100);
   CHECK(bench.device.last() == Approx(0.5 * wanted));
@@ -212,7 +212,7 @@ TEST_CASE("a fault while the force rises lets it fall from where it is", "[servo
   CHECK(bench.device.forces[9].isZero(0.0));
 }
 
-TEST_CASE("a stale sample holds the force for 4 ms, and a longer silence lets it fall within 20 ms", "[servo]") {
+TEST_CASE("a stale sample holds the force for 4 ms, and after a longer silence it is zero within 20 ms", "[servo]") {
   Bench bench;
   bench.warm_up();
   int calls = 0;
@@ -241,7 +241,7 @@ TEST_CASE("a stale sample holds the force for 4 ms, and a longer silence lets it
   check_return(bench);
 }
 
-TEST_CASE("an ok sample that is not finite is a corrupted one, and the law does not see it", "[servo]") {
+TEST_CASE("an ok sample that is not finite counts as corrupted, and the force law does not see it", "[servo]") {
   const double bad = GENERATE(as<double>{}, not_a_number, infinity, -infinity);
   Bench bench;
   bench.warm_up();
@@ -254,7 +254,7 @@ TEST_CASE("an ok sample that is not finite is a corrupted one, and the law does 
   check_return(bench);
 }
 
-TEST_CASE("a velocity that is not measured is no fault, an infinite one is", "[servo]") {
+TEST_CASE("an unmeasured velocity is not a fault, an infinite one is", "[servo]") {
   Bench bench;
   bench.warm_up();
   bench.device.state.velocity.setConstant(not_a_number);
@@ -265,7 +265,7 @@ TEST_CASE("a velocity that is not measured is no fault, an infinite one is", "[s
   CHECK(bench.device.last() == 0.0);
 }
 
-TEST_CASE("a law that throws or gives no number is counted, and the last good force falls", "[servo]") {
+TEST_CASE("a force law that throws or returns NaN is counted, and the last good force ramps down", "[servo]") {
   const int kind = GENERATE(0, 1, 2, 3);
   Bench bench;
   bench.warm_up();
@@ -283,7 +283,7 @@ TEST_CASE("a law that throws or gives no number is counted, and the last good fo
   check_return(bench);
 }
 
-TEST_CASE("a force beyond the device's peak is shortened to it, and one too long for a number is none", "[servo]") {
+TEST_CASE("a force above the device's peak is limited to it, and one whose norm overflows is a bad force", "[servo]") {
   WatchedDevice device(3.3);
   Eigen::Vector3d asked(1e6, -1e6, 0.0);
   ServoOptions options = Bench::timed({});
@@ -303,7 +303,7 @@ TEST_CASE("a force beyond the device's peak is shortened to it, and one too long
   CHECK(servo.status().fault == DeviceFault::bad_force);
 }
 
-TEST_CASE("a law that takes longer than the timeout gives a force that is not written", "[servo]") {
+TEST_CASE("the force of a law that takes longer than the timeout is not written", "[servo]") {
   Bench bench;
   bench.warm_up();
   const auto good = bench.law;
@@ -322,7 +322,7 @@ TEST_CASE("a law that takes longer than the timeout gives a force that is not wr
   check_return(bench);
 }
 
-TEST_CASE("the watchdog takes the device from a law that hangs, and zero is reached within 20 ms", "[servo]") {
+TEST_CASE("the watchdog takes over the device from a hung force law, and the force is zero within 20 ms", "[servo]") {
   Bench bench;
   bench.warm_up();
   const auto good = bench.law;
@@ -353,7 +353,7 @@ TEST_CASE("the watchdog takes the device from a law that hangs, and zero is reac
   CHECK_FALSE(bench.device.touched_by_two);
 }
 
-TEST_CASE("a law that returns while the watchdog lets the force fall writes nothing", "[servo]") {
+TEST_CASE("a force law that returns while the watchdog ramps the force down writes nothing", "[servo]") {
   Bench bench;
   bench.warm_up();
   const auto good = bench.law;
@@ -372,7 +372,7 @@ TEST_CASE("a law that returns while the watchdog lets the force fall writes noth
   check_return(bench);
 }
 
-TEST_CASE("when the clock stops, the watchdog lets the force fall, once, and the loop goes on when ticks return",
+TEST_CASE("when the clock stops, the watchdog ramps the force down once, and the loop resumes when ticks return",
           "[servo]") {
   Bench bench;
   bench.warm_up();
@@ -387,7 +387,7 @@ TEST_CASE("when the clock stops, the watchdog lets the force fall, once, and the
   CHECK(bench.servo.statistics().fault_count(DeviceFault::late_clock) == 1);
 }
 
-TEST_CASE("the watchdog leaves a loop alone that ticks, however slowly its timeout allows", "[servo]") {
+TEST_CASE("the watchdog does not interfere with a loop that ticks as slowly as its timeout allows", "[servo]") {
   Bench bench;
   bench.warm_up();
   for (int i = 0; i < 100; ++i) {
@@ -398,7 +398,7 @@ TEST_CASE("the watchdog leaves a loop alone that ticks, however slowly its timeo
   CHECK(bench.device.last() == wanted);
 }
 
-TEST_CASE("nobody touches a device whose read hangs, and the status says timed out", "[servo]") {
+TEST_CASE("nothing touches a device whose read hangs, and the status is timed out", "[servo]") {
   Bench bench;
   bench.warm_up();
   bench.device.while_reading = [&] {
@@ -417,7 +417,7 @@ TEST_CASE("nobody touches a device whose read hangs, and the status says timed o
   check_return(bench);
 }
 
-TEST_CASE("a clock that leaps lets the force fall without a leap of its own", "[servo]") {
+TEST_CASE("a clock jump ramps the force down without a force step", "[servo]") {
   const double leap = GENERATE(4.6e-3, 0.1, 3600.0, 1e6);
   Bench bench;
   bench.warm_up();
@@ -427,7 +427,7 @@ TEST_CASE("a clock that leaps lets the force fall without a leap of its own", "[
   CHECK(bench.servo.statistics().fault_count(DeviceFault::late_clock) == 1);
 }
 
-TEST_CASE("a clock that stands still, runs back or is no number still makes ticks of a period", "[servo]") {
+TEST_CASE("with a clock that stalls, runs backwards or returns NaN each tick counts as one period", "[servo]") {
   const double step = GENERATE(as<double>{}, 0.0, -1e-3, -1e9, not_a_number, infinity);
   Bench bench;
   bench.warm_up();
@@ -441,7 +441,7 @@ TEST_CASE("a clock that stands still, runs back or is no number still makes tick
   CHECK(bench.device.last() == wanted);
 }
 
-TEST_CASE("the watchdog's own clock may stand still, run back or be no number", "[servo]") {
+TEST_CASE("the watchdog's own clock may stall, run backwards or return NaN", "[servo]") {
   Bench bench;
   bench.warm_up();
   for (const double now :
@@ -468,7 +468,7 @@ TEST_CASE("a tick within a tick does nothing", "[servo]") {
   CHECK(bench.servo.statistics().idle_ticks == 10);
 }
 
-TEST_CASE("a loop that ends well does not name a fault that is over", "[servo]") {
+TEST_CASE("a loop that ends normally does not report a fault that has cleared", "[servo]") {
   Bench bench;
   bench.warm_up();
   bench.wait(20);
@@ -482,7 +482,8 @@ TEST_CASE("a loop that ends well does not name a fault that is over", "[servo]")
   CHECK(bench.servo.statistics().watchdog_takeovers == 1);
 }
 
-TEST_CASE("a released servo lets the force fall, asks the law no more and stays at zero until it is reset", "[servo]") {
+TEST_CASE("a released servo ramps the force down, stops calling the force law and stays at zero until it is reset",
+          "[servo]") {
   Bench bench;
   bench.warm_up();
   bench.servo.release();
@@ -503,7 +504,7 @@ TEST_CASE("a released servo lets the force fall, asks the law no more and stays 
   check_return(bench);
 }
 
-TEST_CASE("a servo whose clock stops once it is released falls to zero all the same", "[servo]") {
+TEST_CASE("a released servo whose clock stops still ramps the force down to zero", "[servo]") {
   Bench bench;
   bench.warm_up();
   bench.servo.release();
@@ -519,7 +520,7 @@ TEST_CASE("a reset leaves the force at zero", "[servo]") {
   CHECK(bench.servo.status().phase == ServoPhase::zero);
 }
 
-TEST_CASE("the time between two runs is no period of either", "[servo]") {
+TEST_CASE("the time between two runs is not counted as a period", "[servo]") {
   Bench bench;
   bench.ticks(10);
   bench.servo.reset();
@@ -530,14 +531,14 @@ TEST_CASE("the time between two runs is no period of either", "[servo]") {
   CHECK(bench.servo.statistics().watchdog_takeovers == 0);
 }
 
-TEST_CASE("before the first tick the watchdog has nothing to do", "[servo]") {
+TEST_CASE("before the first tick the watchdog does nothing", "[servo]") {
   Bench bench;
   bench.wait(1000);
   CHECK(bench.device.forces.empty());
   CHECK(bench.servo.statistics().watchdog_takeovers == 0);
 }
 
-TEST_CASE("periods, work and missed deadlines are counted as the clocks tell them", "[servo]") {
+TEST_CASE("periods, work and missed deadlines are those of the clocks", "[servo]") {
   Bench bench;
   bench.law = [](const DeviceState&) {
     virtual_time += 0.25e-3;
@@ -559,7 +560,7 @@ TEST_CASE("periods, work and missed deadlines are counted as the clocks tell the
   CHECK(statistics.work.p50 == Approx(0.25e-3).epsilon(DurationHistogram::relative_error));
 }
 
-TEST_CASE("every fault has a name of its own", "[servo]") {
+TEST_CASE("every fault has a unique name", "[servo]") {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < device_fault_count; ++i) {
     const std::string name = to_string(static_cast<DeviceFault>(i));
@@ -570,7 +571,7 @@ TEST_CASE("every fault has a name of its own", "[servo]") {
   CHECK(to_string(static_cast<DeviceFault>(device_fault_count)) == std::string("unknown"));
 }
 
-TEST_CASE("options out of their domain are refused with name and value", "[servo]") {
+TEST_CASE("servo options out of range are rejected with name and value", "[servo]") {
   const auto message = [](auto&& change) {
     ServoOptions options;
     change(options);
@@ -593,7 +594,7 @@ TEST_CASE("options out of their domain are refused with name and value", "[servo
   CHECK_THROWS_AS(Servo(device, nullptr), ValueError);
 }
 
-TEST_CASE("times of zero make the force fall and rise at once", "[servo]") {
+TEST_CASE("with ramp times of zero the force changes immediately", "[servo]") {
   ServoOptions options;
   options.ramp_down = options.ramp_up = 0.0;
   Bench bench(options);
@@ -607,7 +608,7 @@ TEST_CASE("times of zero make the force fall and rise at once", "[servo]") {
   CHECK(bench.device.last() == wanted);
 }
 
-TEST_CASE("a servo takes nothing from the heap, whatever goes wrong", "[servo]") {
+TEST_CASE("a servo does not allocate, whatever fault occurs", "[servo]") {
   Bench bench;
   bench.warm_up();
   const auto hang = [&](const DeviceState&) {
@@ -633,7 +634,7 @@ TEST_CASE("a servo takes nothing from the heap, whatever goes wrong", "[servo]")
   CHECK(after == before);
 }
 
-TEST_CASE("whatever goes wrong, the force stays finite, never leaps up and is zero in time", "[servo]") {
+TEST_CASE("whatever fault occurs, the force stays finite, never steps up and is zero in time", "[servo]") {
   const unsigned seed = GENERATE(range(1u, 9u));
   Bench bench;
   Random random(seed);
@@ -689,7 +690,7 @@ TEST_CASE("whatever goes wrong, the force stays finite, never leaps up and is ze
   CHECK_FALSE(bench.device.touched_by_two);
 }
 
-TEST_CASE("at whatever moment of a tick the watchdog looks, the device has one owner", "[servo]") {
+TEST_CASE("at any point of a tick the device has exactly one owner", "[servo]") {
   const unsigned seed = GENERATE(range(1u, 5u));
   Bench bench;
   Random random(seed);
@@ -722,7 +723,7 @@ TEST_CASE("at whatever moment of a tick the watchdog looks, the device has one o
   check_return(bench);
 }
 
-TEST_CASE("servo and watchdog in two real threads never touch the device at once", "[servo]") {
+TEST_CASE("servo and watchdog in two real threads never touch the device at the same time", "[servo]") {
   WatchedDevice device;
   std::atomic<long> calls = 0;
   ServoOptions options;
@@ -752,7 +753,7 @@ TEST_CASE("servo and watchdog in two real threads never touch the device at once
                     [](const Eigen::Vector3d& force) { return force.x() >= 0.0 && force.x() <= wanted; }));
 }
 
-TEST_CASE("two servos with two devices do not touch each other", "[servo]") {
+TEST_CASE("two servos with two devices are independent", "[servo]") {
   Bench first;
   Bench second;
   second.law = [](const DeviceState&) -> Eigen::Vector3d { throw std::runtime_error("bad"); };
@@ -766,7 +767,7 @@ TEST_CASE("two servos with two devices do not touch each other", "[servo]") {
   CHECK(second.servo.status().fault == DeviceFault::bad_force);
 }
 
-TEST_CASE("a simulated pen rests on a wall through the servo as it does without it", "[servo]") {
+TEST_CASE("a simulated pen rests on a wall with the servo as it does without", "[servo]") {
   SimulatedDevice device(device_profile("desktop"), {0.15, 5.0, 500.0}, {0.0, 0.0, 0.01});
   device.set_intention({{0.0, 0.0, -0.005}, Eigen::Vector3d::Zero()});
   Servo servo(device, [](const DeviceState& state) {

@@ -26,7 +26,7 @@ struct Watched {
 
 }  // namespace
 
-TEST_CASE("angles begin at zero and follow the counts over their wraps with their signs", "[phantom][encoders]") {
+TEST_CASE("angles start at zero and follow the counts across wraps, with their signs", "[phantom][encoders]") {
   Watched held;
   CHECK(held.move(0, 0, 0).used);
   CHECK(held.watch.angles() == Eigen::Vector3d::Zero());
@@ -39,7 +39,7 @@ TEST_CASE("angles begin at zero and follow the counts over their wraps with thei
   CHECK(held.watch.velocity().isApprox(Eigen::Vector3d(7.0, -3.0, -5.0)));
 }
 
-TEST_CASE("a joint may turn at 59 rad/s and not at 61, whatever the clock of the reports", "[phantom][encoders]") {
+TEST_CASE("a joint may turn at 59 rad/s but not at 61, whatever the clock of the reports", "[phantom][encoders]") {
   for (const bool even : {false, true}) {
     Watched held;
     held.move(0, 0, 0, even);
@@ -59,7 +59,7 @@ TEST_CASE("a joint may turn at 59 rad/s and not at 61, whatever the clock of the
   }
 }
 
-TEST_CASE("a speed may change by 20 rad/s and its rounding from report to report, but only even time can tell",
+TEST_CASE("a speed may change by 20 rad/s plus rounding between reports, checked only with evenly spaced times",
           "[phantom][encoders]") {
   for (const bool even : {false, true}) {
     Watched held;
@@ -74,7 +74,7 @@ TEST_CASE("a speed may change by 20 rad/s and its rounding from report to report
   CHECK(late.move(200, 0, 0, true, 6e-3).used);  // 33 rad/s on the average of 6 ms: a hand may do that
 }
 
-TEST_CASE("after five leaps in a row the counts are taken for lost", "[phantom][encoders]") {
+TEST_CASE("after five jumps in a row the counts are considered lost", "[phantom][encoders]") {
   Watched held;
   held.move(0, 0, 0);
   held.move(5, 5, 5);
@@ -89,7 +89,7 @@ TEST_CASE("after five leaps in a row the counts are taken for lost", "[phantom][
   CHECK(held.watch.angles().x() == Approx(3e-3));
 }
 
-TEST_CASE("a joint is stuck once another has travelled 2.5 rad, to and fro or on, and not before",
+TEST_CASE("a joint is stuck once another has travelled 2.5 rad in either direction, and not before",
           "[phantom][encoders]") {
   for (const int turn : {1'000'000, 300}) {  // reports until it turns round
     Watched held;
@@ -108,7 +108,7 @@ TEST_CASE("a joint is stuck once another has travelled 2.5 rad, to and fro or on
   }
 }
 
-TEST_CASE("an interruption forgives a movement, a restart forgets it", "[phantom][encoders]") {
+TEST_CASE("after an interruption any movement is accepted, after a restart it is discarded", "[phantom][encoders]") {
   Watched held;
   held.move(0, 0, 0);
   held.move(5, 5, 5);
@@ -120,7 +120,7 @@ TEST_CASE("an interruption forgives a movement, a restart forgets it", "[phantom
   CHECK(held.watch.angles() == Eigen::Vector3d::Zero());
 }
 
-TEST_CASE("a watch that was restarted judges as a new one does", "[phantom][encoders]") {
+TEST_CASE("a restarted watch behaves like a new one", "[phantom][encoders]") {
   Watched used, fresh;
   used.move(0, 0, 0);
   for (int i = 0; i < 240; ++i) used.move(0, 10, 1);  // nearly long enough to call the first joint stuck

@@ -38,7 +38,8 @@ TEST_CASE("an arm without lengths reaches nothing", "[phantom][kinematics]") {
   }
 }
 
-TEST_CASE("the tip is at zero when every joint is, and moves as the published formulas say", "[phantom][kinematics]") {
+TEST_CASE("the tip is at zero when all joints are, and moves according to the published formulas",
+          "[phantom][kinematics]") {
   const Linkage& omni = linkage("omni");
   CHECK(tip_position(omni, Joints::Zero()).norm() == 0.0);
   CHECK(tip_position(linkage("premium-1.5"), Joints::Zero()).norm() == 0.0);
@@ -77,7 +78,7 @@ TEST_CASE("the Jacobian is the derivative of the tip", "[phantom][kinematics]") 
   }
 }
 
-TEST_CASE("the inverse leads back to the joints", "[phantom][kinematics]") {
+TEST_CASE("inverse kinematics recovers the joint angles", "[phantom][kinematics]") {
   for (const std::string model : {"omni", "premium-1.5"}) {
     const Linkage& arm = linkage(model);
     Random random(2);
@@ -93,7 +94,7 @@ TEST_CASE("the inverse leads back to the joints", "[phantom][kinematics]") {
   }
 }
 
-TEST_CASE("a place out of reach is told, and the joints lead as near as the arm can", "[phantom][kinematics]") {
+TEST_CASE("an unreachable position is reported, with the nearest pose of the arm", "[phantom][kinematics]") {
   const Linkage& omni = linkage("omni");
   const Eigen::Vector3d shoulder(0.0, 0.13335, -0.13335);
   Random random(3);
@@ -115,7 +116,7 @@ TEST_CASE("a place out of reach is told, and the joints lead as near as the arm 
   CHECK(inverse_kinematics(omni, {1e300, -1e300, 1e300}).joints.allFinite());
 }
 
-TEST_CASE("the arm is singular stretched, folded and above the waist, and only there", "[phantom][kinematics]") {
+TEST_CASE("the arm is singular when stretched, folded or above the waist, and only there", "[phantom][kinematics]") {
   for (const std::string model : {"omni", "premium-1.5"}) {
     const Linkage& arm = linkage(model);
     const double l1 = arm.upper_arm, l2 = arm.forearm;
@@ -136,7 +137,7 @@ TEST_CASE("the arm is singular stretched, folded and above the waist, and only t
   }
 }
 
-TEST_CASE("torque does the work of the force and stays bounded where the arm is singular", "[phantom][kinematics]") {
+TEST_CASE("torque does the work of the force and stays bounded in singular poses", "[phantom][kinematics]") {
   const Linkage& omni = linkage("omni");
   Random random(5);
   const auto any = [&] { return random.between(-4.0, 4.0); };
@@ -153,7 +154,7 @@ TEST_CASE("torque does the work of the force and stays bounded where the arm is 
   }
 }
 
-TEST_CASE("the workspace of each model lies within the limits of its joints", "[phantom][kinematics]") {
+TEST_CASE("the workspace of each model lies within its joint limits", "[phantom][kinematics]") {
   for (const std::string model : {"omni", "touch", "premium-1.5"}) {
     const Linkage& arm = linkage(model);
     const Eigen::Vector3d half = device_profile(model).workspace / 2.0;
@@ -167,7 +168,7 @@ TEST_CASE("the workspace of each model lies within the limits of its joints", "[
   }
 }
 
-TEST_CASE("each limit of a joint is kept on both sides", "[phantom][kinematics]") {
+TEST_CASE("each joint limit is checked on both sides", "[phantom][kinematics]") {
   const Linkage& omni = linkage("omni");
   const auto within = [&](double waist, double shoulder, double elbow_less_shoulder) {
     return within_limits(omni, {waist, shoulder, shoulder + elbow_less_shoulder});
@@ -183,7 +184,7 @@ TEST_CASE("each limit of a joint is kept on both sides", "[phantom][kinematics]"
   CHECK_FALSE(within_limits(omni, {std::nan(""), 1.0, 1.0}));
 }
 
-TEST_CASE("gravity is held by the slope of the weight's potential", "[phantom][kinematics]") {
+TEST_CASE("gravity torque is the gradient of the potential energy", "[phantom][kinematics]") {
   // Weights at part of each link: V = a sin q2 - b cos q3, and the torque that holds them is its gradient.
   const Eigen::Vector2d gravity(0.07, -0.03);
   Random random(6);

@@ -88,8 +88,7 @@ TEST_CASE("a pen that moves in the inkwell, or leaves it, is not at rest there",
   }
 }
 
-TEST_CASE("rest in the inkwell from before counts no longer when counts are lost or the link was",
-          "[phantom][tracker]") {
+TEST_CASE("rest in the inkwell before lost counts or a lost link does not count", "[phantom][tracker]") {
   Tracked held;
   held.sample.docked = true;
   held.rest(15);
@@ -115,7 +114,7 @@ TEST_CASE("a pen that stays in the inkwell is calibrated once and moves from the
   CHECK(held.tracker.motion().joints.x() == Approx((*held.profile.docked_angles)[0] + 2.0 / 2425.0));
 }
 
-TEST_CASE("joints that are told count from there, wherever the encoders are", "[phantom][tracker]") {
+TEST_CASE("given joint angles apply from there, wherever the encoders are", "[phantom][tracker]") {
   Tracked held;
   held.rest(1);
   for (int i = 0; i < 30; ++i) held.report(20, -10, 5);
@@ -126,7 +125,7 @@ TEST_CASE("joints that are told count from there, wherever the encoders are", "[
   CHECK(held.tracker.motion().joints.isApprox(Joints(told + Joints(0, 24.0 / 2425.0, 0))));
 }
 
-TEST_CASE("joints may seem 0.1 rad beyond their limits, and not 0.2", "[phantom][tracker]") {
+TEST_CASE("joints may read 0.1 rad beyond their limits, but not 0.2", "[phantom][tracker]") {
   for (const double beyond : {0.1, 0.2}) {
     Tracked held;
     held.calibrate_in_the_inkwell();
@@ -136,7 +135,7 @@ TEST_CASE("joints may seem 0.1 rad beyond their limits, and not 0.2", "[phantom]
   }
 }
 
-TEST_CASE("a pose is impossible once it is calibrated, and less urgent than what the link lost", "[phantom][tracker]") {
+TEST_CASE("an impossible pose is reported only when calibrated, and after faults of the link", "[phantom][tracker]") {
   Tracked held;
   held.rest(1);
   for (int i = 0; i < 200; ++i) REQUIRE(held.report(20).fault == DeviceFault::none);  // 1.65 rad, if it were known
@@ -146,7 +145,7 @@ TEST_CASE("a pose is impossible once it is calibrated, and less urgent than what
   CHECK(held.report().fault == DeviceFault::lost_frames);
 }
 
-TEST_CASE("where reports have no number the time of their arrival counts", "[phantom][tracker]") {
+TEST_CASE("without sequence numbers the arrival time of reports counts", "[phantom][tracker]") {
   for (const bool sequence : {false, true}) {
     Tracked held(sequence);
     held.rest(5);
@@ -159,7 +158,8 @@ TEST_CASE("where reports have no number the time of their arrival counts", "[pha
   }
 }
 
-TEST_CASE("without numbers neither reports at once nor an uneven clock look like a leap", "[phantom][tracker]") {
+TEST_CASE("without sequence numbers neither simultaneous reports nor an uneven clock look like a jump",
+          "[phantom][tracker]") {
   Tracked held(false);
   held.rest(5);
   held.report(5);
@@ -172,7 +172,7 @@ TEST_CASE("without numbers neither reports at once nor an uneven clock look like
   }
 }
 
-TEST_CASE("after an interruption nothing of before is left, unless the encoders have gone on counting",
+TEST_CASE("after an interruption no earlier state is left, unless the encoders have kept counting",
           "[phantom][tracker]") {
   const bool keep = GENERATE(false, true);
   Tracked held;

@@ -179,7 +179,7 @@ std::vector<Failure> failures() {
 
 }  // namespace
 
-TEST_CASE("every failure takes the force to zero within 20 ms, is named, and ends without a jump",
+TEST_CASE("every fault brings the force to zero within 20 ms, is reported by name, and clears without a force step",
           "[phantom][faults]") {
   for (const bool with_servo : {true, false}) {
     for (const Failure& failure : failures()) {
@@ -221,7 +221,7 @@ TEST_CASE("every failure takes the force to zero within 20 ms, is named, and end
   }
 }
 
-TEST_CASE("a failure of a single report is told, and takes the force down as well", "[phantom][faults]") {
+TEST_CASE("a fault in a single report is reported and ramps the force down, too", "[phantom][faults]") {
   for (const bool with_servo : {true, false}) {
     for (const Failure& failure : failures()) {
       if (failure.found_within > 1) continue;
@@ -247,7 +247,7 @@ TEST_CASE("a failure of a single report is told, and takes the force down as wel
   }
 }
 
-TEST_CASE("a fault between two reads is told by the next one", "[phantom][faults]") {
+TEST_CASE("a fault between two reads is reported by the next one", "[phantom][faults]") {
   HeldPhantom held;
   held.bring_up();
   held.arm.wire->listener->changed(DeviceFault::timed_out);
@@ -260,7 +260,8 @@ TEST_CASE("a fault between two reads is told by the next one", "[phantom][faults
   CHECK(held.device.read().status == DeviceStatus::ok);
 }
 
-TEST_CASE("after an unplug the device is disconnected, and back it needs its inkwell", "[phantom][faults]") {
+TEST_CASE("after an unplug the device is disconnected, and must be docked in the inkwell when it is back",
+          "[phantom][faults]") {
   for (const bool with_servo : {true, false}) {
     CAPTURE(with_servo);
     Loop loop(with_servo);
@@ -311,7 +312,7 @@ TEST_CASE("after an unplug the device is disconnected, and back it needs its ink
   }
 }
 
-TEST_CASE("encoders that are known to go on counting need no inkwell after an unplug", "[phantom][faults]") {
+TEST_CASE("encoders known to keep counting need no inkwell after an unplug", "[phantom][faults]") {
   PhantomOptions options = simulated_options();
   options.keep_calibration = true;
   Loop loop(true, options);
@@ -331,7 +332,7 @@ TEST_CASE("encoders that are known to go on counting need no inkwell after an un
   CHECK(loop.max_step < 0.15);
 }
 
-TEST_CASE("an encoder that stands while the others move is found, and its name is told", "[phantom][faults]") {
+TEST_CASE("an encoder that is stationary while the others move is reported as stuck", "[phantom][faults]") {
   for (const std::size_t joint : {0u, 1u, 2u}) {
     CAPTURE(joint);
     Loop loop(true);
@@ -366,7 +367,7 @@ TEST_CASE("an encoder that stands while the others move is found, and its name i
   }
 }
 
-TEST_CASE("a leap that stays means that counts were lost: the inkwell is needed", "[phantom][faults]") {
+TEST_CASE("a persistent jump means that counts were lost and the inkwell is needed", "[phantom][faults]") {
   HeldPhantom held;
   held.bring_up();
   const Eigen::Vector3d before = held.turn().position;
@@ -381,7 +382,7 @@ TEST_CASE("a leap that stays means that counts were lost: the inkwell is needed"
   CHECK(held.turn().status == DeviceStatus::needs_calibration);
 }
 
-TEST_CASE("one flipped bit of an encoder moves nothing, even where no checksum sees it", "[phantom][faults]") {
+TEST_CASE("one flipped bit of an encoder has no effect, even where no checksum detects it", "[phantom][faults]") {
   HeldPhantom held;
   held.bring_up();
   held.arm.tip.set_intention({held.arm.tip.true_position(), {0.1, 0.0, 0.0}});
@@ -407,7 +408,7 @@ TEST_CASE("one flipped bit of an encoder moves nothing, even where no checksum s
   }
 }
 
-TEST_CASE("a link that takes no packets is counted, and nothing blocks", "[phantom][faults]") {
+TEST_CASE("refused packets are counted, and nothing blocks", "[phantom][faults]") {
   HeldPhantom held;
   held.bring_up();
   held.arm.wire->takes_packets = false;
@@ -418,7 +419,7 @@ TEST_CASE("a link that takes no packets is counted, and nothing blocks", "[phant
   CHECK(held.device.statistics().refused_commands == 10);
 }
 
-TEST_CASE("any bytes at all leave a phantom whole", "[phantom][faults]") {
+TEST_CASE("arbitrary bytes do no harm to a phantom", "[phantom][faults]") {
   for (const bool is_serial : {false, true}) {
     HeldPhantom held(is_serial ? "framing packet" : "rate 1000", is_serial ? "framing serial 0x20 0x21" : "rate 1000");
     held.bring_up();

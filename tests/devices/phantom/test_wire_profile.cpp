@@ -37,7 +37,7 @@ std::string repeated(const std::string& text, int times) {
 
 }  // namespace
 
-TEST_CASE("the shipped profiles are valid and say what they lack", "[phantom][profile]") {
+TEST_CASE("the built-in profiles are valid and list what they lack", "[phantom][profile]") {
   const WireProfile& omni = wire_profile("omni");
   CHECK(omni.report_size == 44);
   CHECK(omni.command_size == 16);
@@ -162,7 +162,7 @@ TEST_CASE("an error in a profile names file, line and value", "[phantom][profile
   CHECK_THAT(format_error(minimal_profile + std::string(2'000'000, ' ') + "\n"), Contains("longer than 1 MB"));
 }
 
-TEST_CASE("fields outside their frame or on each other are refused with both names", "[phantom][profile]") {
+TEST_CASE("fields outside their frame or overlapping are rejected with both names", "[phantom][profile]") {
   const auto with = [](const std::string& line) { return format_error(minimal_profile + line + "\n"); };
   CHECK_THAT(with("gimbal 1 u16 at 7"), Contains("gimbal 1: offset is 7") && Contains("8 bytes of the report"));
   CHECK_THAT(with("gimbal 1 u16 at 5"), Contains("encoder 3 overlaps gimbal 1 in the report"));
@@ -187,7 +187,7 @@ TEST_CASE("fields outside their frame or on each other are refused with both nam
   CHECK_THAT(with("gravity inf 0"), Contains("gravity is inf, its magnitude must be at most 10 N m"));
 }
 
-TEST_CASE("what is wrong about one line of a profile is told with that line", "[phantom][profile]") {
+TEST_CASE("an error in one statement of a profile is reported with its line", "[phantom][profile]") {
   const auto with = [](const std::string& lines) { return format_error(minimal_profile + lines + "\n"); };
   CHECK(with("source x\nrate 0") == "lab.txt:8: rate is 0, must be 1 to 100000 Hz");
   CHECK(with("gimbal 1 u16 at 5") == "lab.txt:6: encoder 3 overlaps gimbal 1 in the report");
@@ -208,7 +208,7 @@ TEST_CASE("what is wrong about one line of a profile is told with that line", "[
   CHECK_THAT(with("dac 1 u16 at 0 zero 0"), StartsWith("lab.txt: command size is 0"));
 }
 
-TEST_CASE("a profile made by a program is judged like one that was read", "[phantom][profile]") {
+TEST_CASE("a profile created by a program is validated like one from a file", "[phantom][profile]") {
   WireProfile profile = parsed(minimal_profile);
   CHECK(value_error(profile).empty());
   profile.encoders[1].bytes = 5;
@@ -226,7 +226,7 @@ TEST_CASE("a profile made by a program is judged like one that was read", "[phan
   CHECK_THAT(value_error(profile), Contains("at most 255 bytes") && Contains("256"));
 }
 
-TEST_CASE("a profile is read from a file, and one that is not there is named", "[phantom][profile]") {
+TEST_CASE("a profile is read from a file, and a missing file is named", "[phantom][profile]") {
   const TemporaryDirectory directory;
   const std::string path = (directory.path() / "lab.txt").string();
   directory.write("lab.txt", minimal_profile);

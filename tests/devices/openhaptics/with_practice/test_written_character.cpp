@@ -24,7 +24,7 @@ double virtual_time() noexcept { return (*clock_of_stand_in)->time(); }
 
 }  // namespace
 
-TEST_CASE("a whole character is written through the vendor's runtime, faults on the way included", "[openhaptics]") {
+TEST_CASE("a complete character is written through the vendor's runtime despite faults", "[openhaptics]") {
   const bool with_faults = GENERATE(false, true);
   StandIn runtime(STAND_IN_LIBHD);
   clock_of_stand_in = &runtime;

@@ -23,7 +23,7 @@ UsbIdentity any_touch(const std::string& serial = "540-00001") {
 
 }  // namespace
 
-TEST_CASE("every Phantom on the bus is listed by place, other devices are not", "[list]") {
+TEST_CASE("every Phantom on the bus is listed by bus and port, other devices are not", "[list]") {
   FreshBed bed;
   EmulatedDevice hid(bed, hid_touch("H1")), usb(bed, serial_touch("U1")), swapped(bed, swapped_touch("S1"));
   EmulatedDevice mouse(bed, {0x046d, 0xc077, LinkKind::hid, "M1"});
@@ -72,7 +72,7 @@ TEST_CASE("a device that may not be opened is listed, and the message names the 
   CHECK_NOTHROW(link->open(listener));
 }
 
-TEST_CASE("of two identical devices each is opened by its serial number, both at once", "[list]") {
+TEST_CASE("two identical devices are opened by their serial numbers at the same time", "[list]") {
   FreshBed bed;
   EmulatedDevice first(bed, any_touch("A1")),
       second(bed, {first.identity().vendor, first.identity().product, first.identity().link, "B2"});
@@ -98,13 +98,13 @@ TEST_CASE("of two identical devices each is opened by its serial number, both at
   CHECK(second.packets_taken() == 0);
 }
 
-TEST_CASE("with nothing plugged in the message says so", "[list]") {
+TEST_CASE("without a connected device the message says so", "[list]") {
   FreshBed bed;
   CHECK_THROWS_WITH(make_link(""), Catch::Contains("no Phantom is plugged in"));
   CHECK_THROWS_WITH(make_link("A1"), Catch::Contains("A1"));
 }
 
-TEST_CASE("descriptors are dumped in words and bytes without opening the device", "[list]") {
+TEST_CASE("descriptors are dumped as text and bytes without opening the device", "[list]") {
   FreshBed bed;
   EmulatedDevice usb(bed, serial_touch("U1")), hid(bed, hid_touch("H1"));
   usb.plug_in(1, "2");
@@ -127,7 +127,7 @@ TEST_CASE("descriptors are dumped in words and bytes without opening the device"
                           Catch::Contains("end collection"));
 }
 
-TEST_CASE("a capture holds the transfers with their times, and its text can be read back", "[list]") {
+TEST_CASE("a capture has all transfers with their times, and its text can be read back", "[list]") {
   FreshBed bed;
   EmulatedDevice touch(bed, serial_touch("U1"));
   touch.plug_in(1, "2");

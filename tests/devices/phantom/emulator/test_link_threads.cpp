@@ -59,7 +59,7 @@ void exchange_both_ways(PluggedTouch& touch) {
 
 }  // namespace
 
-TEST_CASE("every thread of a link has the priority asked for, where that is permitted", "[threads]") {
+TEST_CASE("every thread of a link has the requested priority where permitted", "[threads]") {
   if (!permitted()) return;  // the next test's case
   const UsbIdentity identity = touch_of_this_program();
   PluggedTouch touch(identity, urgent(priority));
@@ -70,7 +70,7 @@ TEST_CASE("every thread of a link has the priority asked for, where that is perm
   CHECK(threads_at(priority) == (identity.link == LinkKind::usb ? 1 : CALLIGRAPHY_TEST_HIDRAW ? 2 : 3));
 }
 
-TEST_CASE("a link whose priority is not permitted says so once and works", "[threads]") {
+TEST_CASE("a link whose priority is refused reports it once and works", "[threads]") {
   PluggedTouch touch(touch_of_this_program(), urgent(priority));
   for (const std::string& file : touch.device.node_files()) REQUIRE(chmod(file.c_str(), 0666) == 0);
   const AsNobody nobody;
@@ -83,7 +83,7 @@ TEST_CASE("a link whose priority is not permitted says so once and works", "[thr
   CHECK(threads_at(priority) == 0);
 }
 
-TEST_CASE("a link that is asked for no priority has ordinary threads and nothing to say", "[threads]") {
+TEST_CASE("a link without a priority has normal threads and no warnings", "[threads]") {
   PluggedTouch touch(touch_of_this_program(), urgent(0));
   touch.open();
   exchange_both_ways(touch);

@@ -54,7 +54,7 @@ TEST_CASE("other program: has the device until it is told to end", "[.]") {
 
 TEST_CASE("other program: tries to open the device", "[.]") { say(opened_for_a_moment()); }
 
-TEST_CASE("a HID that this program has open cannot be opened a second time until it is closed", "[hid]") {
+TEST_CASE("a HID that this program has open cannot be opened again until it is closed", "[hid]") {
   PluggedTouch touch(hid_touch());
   touch.open();
   RecordingListener second;
@@ -69,7 +69,7 @@ TEST_CASE("a HID that this program has open cannot be opened a second time until
   CHECK(second.changes() == Faults{DeviceFault::none});
 }
 
-TEST_CASE("a HID that this program has open is refused to another program", "[hid]") {
+TEST_CASE("a HID that this program has open cannot be opened by another program", "[hid]") {
   PluggedTouch touch(hid_touch());
   touch.open();
   CHECK_THAT(OtherProgram("other program: tries to open the device").heard(), in_use);
@@ -78,7 +78,7 @@ TEST_CASE("a HID that this program has open is refused to another program", "[hi
   CHECK(OtherProgram("other program: tries to open the device").heard() == "open");
 }
 
-TEST_CASE("a HID that another program has open is free again when that has ended or was killed", "[hid]") {
+TEST_CASE("a HID that another program has open is free again when that program ends or is killed", "[hid]") {
   PluggedTouch touch(hid_touch());
   OtherProgram other("other program: has the device until it is told to end");
   REQUIRE(other.heard() == "open");
@@ -89,7 +89,7 @@ TEST_CASE("a HID that another program has open is free again when that has ended
   touch.exchange(numbered(1, report_size));
 }
 
-TEST_CASE("a HID that comes back is taken by whoever is first, and free when that one loses it", "[hid]") {
+TEST_CASE("a reconnected HID goes to the first program that opens it, and is free when that one loses it", "[hid]") {
   PluggedTouch touch(hid_touch());
   const int before = open_nodes();  // the test bed's own
   touch.open();
@@ -104,7 +104,7 @@ TEST_CASE("a HID that comes back is taken by whoever is first, and free when tha
   CHECK(opened_for_a_moment() == "open");
 }
 
-TEST_CASE("of two identical HIDs each is kept by whoever has it, and neither keeps the other", "[hid]") {
+TEST_CASE("two identical HIDs are locked independently", "[hid]") {
   FreshBed bed;
   EmulatedDevice first(bed, hid_touch("A1")), second(bed, hid_touch("B2"));
   first.plug_in(1, "1");

@@ -112,7 +112,7 @@ UsbIdentity touch_of_this_program() {
 
 }  // namespace
 
-TEST_CASE("the tip is where the hand holds it and the force is the one asked for, through the whole stack", "[stack]") {
+TEST_CASE("through the whole stack the tip is where the hand holds it, and the force is the one requested", "[stack]") {
   Stack stack(touch_of_this_program());
   CHECK(stack.servo.status().fault == DeviceFault::none);
   // 0.055 mm a count and the friction of the joints' rounding.
@@ -124,7 +124,7 @@ TEST_CASE("the tip is where the hand holds it and the force is the one asked for
   CHECK_FALSE(stack.phantom.arm.last_command().motors_on);
 }
 
-TEST_CASE("a device that is unplugged lets go, and resumes elsewhere without a jump", "[stack]") {
+TEST_CASE("an unplugged device loses its force, and resumes elsewhere without a force step", "[stack]") {
   Stack stack(touch_of_this_program());
   stack.max_step = 0.0;
   stack.phantom.unplug(GENERATE(UnplugOrder::error_first, UnplugOrder::gone_first));
@@ -140,7 +140,7 @@ TEST_CASE("a device that is unplugged lets go, and resumes elsewhere without a j
   require_return_without_a_jump(stack);
 }
 
-TEST_CASE("a device that has reset itself without leaving the bus is started again, and its force returns", "[stack]") {
+TEST_CASE("a device that resets itself without leaving the bus is restarted, and its force returns", "[stack]") {
   Stack stack(touch_of_this_program());
   CHECK(stack.phantom.times_started() == 1);
   stack.phantom.reset_itself();
@@ -163,7 +163,7 @@ TEST_CASE("a device that has reset itself without leaving the bus is started aga
   CHECK(stack.phantom.times_started() == 2);
 }
 
-TEST_CASE("a device that has reset itself and is silent until it is started is started", "[stack]") {
+TEST_CASE("a device that resets itself and is silent until started is restarted", "[stack]") {
   FreshBed bed;
   EmulatedPhantom phantom(bed, touch_of_this_program(), {0.1, 3.0, 300.0});
   phantom.silent_until_started = true;
@@ -186,7 +186,7 @@ TEST_CASE("a device that has reset itself and is silent until it is started is s
   CHECK(reports_come());
 }
 
-TEST_CASE("frames that are short, empty, overlong, spoilt or missing take the force to zero in 20 ms", "[stack]") {
+TEST_CASE("short, empty, overlong, corrupted or missing frames bring the force to zero within 20 ms", "[stack]") {
   struct Case {
     const char* name;
     DeviceFault fault;
@@ -229,7 +229,7 @@ TEST_CASE("frames that are short, empty, overlong, spoilt or missing take the fo
   }
 }
 
-TEST_CASE("a device that answers 15 ms late loses its force and gets it back", "[stack]") {
+TEST_CASE("a device that answers 15 ms late loses its force and recovers it", "[stack]") {
   Stack stack(touch_of_this_program());
   stack.max_step = 0.0;
   int tick = 0;
@@ -241,7 +241,7 @@ TEST_CASE("a device that answers 15 ms late loses its force and gets it back", "
 }
 
 #if CALLIGRAPHY_TEST_HIDRAW
-TEST_CASE("an endpoint that fails is named, and the force falls and comes back", "[stack]") {
+TEST_CASE("a failing endpoint is named, and the force ramps down and returns", "[stack]") {
   struct Case {
     int error;
     DeviceFault fault;
@@ -267,7 +267,7 @@ TEST_CASE("an endpoint that fails is named, and the force falls and comes back",
   }
 }
 
-TEST_CASE("a device that refuses commands is told as stalled, and takes them again", "[stack]") {
+TEST_CASE("a device that refuses commands is reported as stalled, and recovers", "[stack]") {
   Stack stack(serial_touch());
   stack.phantom.bus.set_taking(Taking::stalls);
   stack.turn(true, false);
