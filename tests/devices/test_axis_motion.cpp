@@ -1,4 +1,4 @@
-// The closed forms below the simulated device, from any state: the device itself starts at rest.
+// The closed-form solutions behind the simulated device, from arbitrary states: the device itself starts at rest.
 #include <algorithm>
 #include <cmath>
 
@@ -66,7 +66,7 @@ TEST_CASE("a mass thrown from the point where spring and friction balance slows 
   const Oscillator oscillator(1.0, damping, 256.0);
   AxisLoad load;
   load.dry_friction = 0.25;
-  // At the start the acceleration is exactly zero: force and spring carry friction and damper.
+  // At the start the acceleration is exactly zero: force and spring balance friction and damper.
   load.force = direction * (0.25 + 0.13 * damping);
   const AxisState once = move(oscillator, {0.0, direction * 0.13}, load, 0.3, 1);
   const AxisState often = move(oscillator, {0.0, direction * 0.13}, load, 0.3, 1000);

@@ -45,7 +45,7 @@ TEST_CASE("a pen moves to the pointer, hovers when not pressed and sinks when pr
   device.move(0.02, -0.01, 0.5);
   reads(device, 3000);
   CHECK(device.read().position.z() == Approx(-2.5e-3));
-  device.move(0.02, -0.01, 7.0);  // as much as there is
+  device.move(0.02, -0.01, 7.0);  // more than full pressure
   reads(device, 3000);
   CHECK(device.read().position.z() == Approx(-5e-3));
   device.move(0.02, -0.01, -1.0);

@@ -10,7 +10,7 @@ using namespace calligraphy;
 
 namespace {
 
-/// Larger than what a processor writes at once: a torn copy would show.
+/// Larger than an atomic write of the processor, so that a torn copy would be detected.
 struct Numbered {
   std::uint64_t number = 0;
   std::uint64_t again[15] = {};
@@ -110,7 +110,7 @@ TEST_CASE("between two threads every value is popped intact and in order, or cou
   producer.join();
   CHECK(whole);
   CHECK(in_order);
-  // Attempts to push the last one that found no room are counted too.
+  // Failed attempts to push the last value are counted, too.
   CHECK(popped + queue.dropped() >= count + 1);
   CHECK(popped <= count + 1);
 }

@@ -51,14 +51,14 @@ struct Bench {
   void ticks(int count) {
     for (int i = 0; i < count; ++i) tick();
   }
-  /// Time passes with the watchdog alone.
+  /// Advances time with only the watchdog running.
   void wait(int milliseconds) {
     for (int i = 0; i < milliseconds; ++i) {
       virtual_time += 1e-3;
       servo.supervise(virtual_time);
     }
   }
-  /// Runs until the whole force is sent.
+  /// Runs until the ramp-up is complete.
   void warm_up() {
     ticks(250);
     REQUIRE(servo.status().phase == ServoPhase::running);
@@ -73,7 +73,7 @@ struct Bench {
   Servo servo;
 };
 
-/// The forces of a fall in ticks of a millisecond: nine tenths, eight tenths, ... zero.
+/// The forces of a ramp-down in ticks of 1 ms: nine tenths, eight tenths, ... zero.
 void check_fall(const std::vector<Eigen::Vector3d>& forces, std::size_t first = 0) {
   REQUIRE(forces.size() >= first + 10);
   for (std::size_t i = 0; i < 10; ++i) {
@@ -92,7 +92,7 @@ double max_step(const std::vector<Eigen::Vector3d>& forces, double before) {
   return largest;
 }
 
-/// The device has come back, or the law: the force grows from zero by a two hundredth a tick.
+/// After recovery the force ramps up from zero by 1/200 per tick.
 void check_return(Bench& bench) {
   const double before = bench.device.last();
   CHECK(before <= wanted * 0.151);
@@ -311,14 +311,14 @@ TEST_CASE("the force of a law that takes longer than the timeout is not written"
     virtual_time += 4.5e-3;
     return Eigen::Vector3d(100.0, 0.0, 0.0);
   };
-  bench.ticks(10);  // without a watchdog that looks meanwhile
+  bench.ticks(10);  // without the watchdog
   CHECK(bench.device.forces[0].x() == Approx(0.9 * wanted));
   CHECK(std::all_of(bench.device.forces.begin(), bench.device.forces.end(),
                     [](const Eigen::Vector3d& force) { return force.x() < wanted; }));
   CHECK(bench.device.last() == 0.0);
   CHECK(bench.servo.status().fault == DeviceFault::slow_force_law);
   bench.law = good;
-  bench.tick();  // the clock has leapt once more, with no force to be held
+  bench.tick();  // the clock has jumped again, while the force is zero
   check_return(bench);
 }
 
@@ -339,7 +339,7 @@ TEST_CASE("the watchdog takes over the device from a hung force law, and the for
   };
   bench.tick();
   check_fall(bench.device.forces);
-  CHECK(bench.device.forces.size() == 10);  // not written to again: neither by the watchdog nor by the late tick
+  CHECK(bench.device.forces.size() == 10);  // written to by neither the watchdog nor the late tick
   CHECK(zero_after <= 0.016 + 1e-9);
   CHECK(bench.servo.status().phase == ServoPhase::zero);
   CHECK(bench.servo.status().fault == DeviceFault::slow_force_law);
@@ -358,7 +358,7 @@ TEST_CASE("a force law that returns while the watchdog ramps the force down writ
   bench.warm_up();
   const auto good = bench.law;
   bench.law = [&](const DeviceState&) {
-    bench.wait(9);  // taken after 5, four of the ten steps of the fall are done
+    bench.wait(9);  // taken over after 5; four of the ten steps of the ramp-down are done
     return Eigen::Vector3d(100.0, 0.0, 0.0);
   };
   bench.servo.step(virtual_time += period);
@@ -412,7 +412,7 @@ TEST_CASE("nothing touches a device whose read hangs, and the status is timed ou
   CHECK(bench.servo.statistics().watchdog_takeovers == 0);
   CHECK_FALSE(bench.device.touched_by_two);
   bench.device.while_reading = nullptr;
-  bench.ticks(15);  // so long without a tick: a late clock, once the device answers again
+  bench.ticks(15);  // long enough without a tick to be a late clock once the device responds again
   CHECK(bench.servo.statistics().fault_count(DeviceFault::late_clock) == 1);
   check_return(bench);
 }
@@ -497,7 +497,7 @@ TEST_CASE("a released servo ramps the force down, stops calling the force law an
   check_fall(bench.device.forces);
   CHECK(bench.device.last() == 0.0);
   CHECK(calls == 0);
-  bench.wait(100);  // and a clock that has ended is no fault then
+  bench.wait(100);  // a stopped clock is not a fault then
   CHECK(bench.servo.statistics().watchdog_takeovers == 0);
   CHECK(bench.servo.status().fault == DeviceFault::none);
   bench.servo.reset();
@@ -682,7 +682,7 @@ TEST_CASE("whatever fault occurs, the force stays finite, never steps up and is 
     REQUIRE(force.allFinite());
     REQUIRE(force.x() >= 0.0);
     REQUIRE(force.x() <= wanted);
-    // Up by one tick of the rise, down by at most a fall through ticks that come late.
+    // Up by at most one tick of the ramp-up, down by at most a ramp-down with late ticks.
     REQUIRE(force.x() - last <= wanted * 1.001 / 200.0);
     REQUIRE(last - force.x() <= wanted * 0.47);
     last = force.x();
@@ -696,7 +696,7 @@ TEST_CASE("at any point of a tick the device has exactly one owner", "[servo]") 
   Random random(seed);
   bool looking = false;
   const auto look_in = [&] {
-    if (looking) return;  // the watchdog's own writes come here too
+    if (looking) return;  // called for the watchdog's own writes, too
     looking = true;
     const int milliseconds = random.index(4) == 0 ? static_cast<int>(random.index(30)) : 0;
     bench.wait(milliseconds);
@@ -731,7 +731,7 @@ TEST_CASE("servo and watchdog in two real threads never touch the device at the 
   Servo servo(
       device,
       [&](const DeviceState&) {
-        // Every now and then slow enough to lose the device.
+        // Occasionally slow enough to lose the device.
         if (++calls % 50 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(8));
         return Eigen::Vector3d(wanted, 0.0, 0.0);
       },

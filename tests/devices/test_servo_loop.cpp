@@ -17,7 +17,7 @@ using calligraphy_test::WatchedDevice;
 
 namespace {
 
-/// Waits for what must come, ten seconds at most; how long it takes is nobody's claim.
+/// Waits at most ten seconds for a condition; no test asserts how long it takes.
 bool comes(const std::function<bool()>& condition) {
   for (int i = 0; i < 10'000; ++i) {
     if (condition()) return true;
@@ -35,7 +35,7 @@ ServoLoopOptions ordinary_thread() {
   return options;
 }
 
-/// A machine under load may stop a thread for longer than a person would want to wait.
+/// A machine under load may suspend a thread for longer than the default timeout.
 ServoLoopOptions patient() {
   ServoLoopOptions options = ordinary_thread();
   options.servo.timeout = 1.0;
@@ -84,7 +84,7 @@ TEST_CASE("after a late tick the next one runs at the next deadline of the grid,
   CHECK(next(10.0, 11.0).skipped == 1);
   CHECK(next(10.0, 13.5).time == 14.0);
   CHECK(next(10.0, 13.5).skipped == 3);
-  CHECK(next(10.0, 9.0).time == 11.0);  // a clock that ran back makes no burst either
+  CHECK(next(10.0, 9.0).time == 11.0);  // a clock that ran backwards causes no burst either
   for (const double now : {1e3, 1e6 + 0.5, 1e9 + 0.25}) {
     CHECK(next(10.0, now).time > now);
     CHECK(next(10.0, now).time <= now + 1.0);
@@ -183,7 +183,7 @@ TEST_CASE("a loop writes the desired force, and stopping leaves the force at zer
   CHECK_FALSE(loop.running());
   REQUIRE(device.forces.size() > 10);
   CHECK(device.forces.back().isZero(0.0));
-  CHECK(std::any_of(device.forces.begin(), device.forces.end(),  // it fell, it was not cut
+  CHECK(std::any_of(device.forces.begin(), device.forces.end(),  // ramped down, not cut off
                     [](const Eigen::Vector3d& force) { return force.x() > 0.0 && force.x() < 2.0; }));
   CHECK(loop.status().phase == ServoPhase::zero);
   const std::uint64_t ticks = loop.statistics().ticks;
@@ -337,7 +337,7 @@ TEST_CASE("a device with its own clock is clocked only by it", "[servo]") {
   for (int i = 1; i <= 10; ++i) device.own_clock.tick(1e-3 * i);
   CHECK(loop.statistics().ticks == 10);
   CHECK(device.inner.last() == 2.0);
-  loop.stop();  // this clock ticks no more: the wait for the fall is bounded, the end is zero all the same
+  loop.stop();  // this clock has stopped: the wait for the ramp-down is bounded, and the force still ends at zero
   CHECK_FALSE(device.own_clock.running());
   CHECK(device.inner.last() == 0.0);
 }

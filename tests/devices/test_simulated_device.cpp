@@ -36,7 +36,7 @@ SimulatedDevice at_x(const Capabilities& profile, const GripImpedance& grip, dou
   return device;
 }
 
-/// Gives the device a velocity along x by a hard push that lasts a nanosecond.
+/// Gives the device a velocity along x by an impulse of 1 ns.
 void push(SimulatedDevice& device, double moving_mass, double velocity) {
   device.write({moving_mass * velocity * 1e9, 0.0, 0.0});
   device.advance(1e-9);
@@ -61,7 +61,7 @@ Motion textbook(double mass, double damping, double stiffness, Motion start, dou
     const long double w = sqrtl(w2 - g * g), b = (v0 + g * x0) / w, e = expl(-g * t);
     x = e * (x0 * cosl(w * t) + b * sinl(w * t));
     v = -g * x + e * w * (b * cosl(w * t) - x0 * sinl(w * t));
-  } else if (g * g > w2 && sqrtl(g * g - w2) * t < 1) {  // the form below cancels beside critical damping
+  } else if (g * g > w2 && sqrtl(g * g - w2) * t < 1) {  // the form below cancels near critical damping
     const long double root = sqrtl(g * g - w2), b = v0 + g * x0, e = expl(-g * t);
     x = e * (x0 * coshl(root * t) + b * sinhl(root * t) / root);
     v = -g * x + e * (b * coshl(root * t) + x0 * root * sinhl(root * t));
@@ -133,7 +133,7 @@ TEST_CASE("the response to a held force and a moving intention is the superposit
   device.set_intention({{target, 0.0, 0.0}, {speed, 0.0, 0.0}});
   device.write({force, 0.0, 0.0});
   device.advance(seconds);
-  // Relative to this point that moves with the target the equation has no right-hand side.
+  // Relative to this point, which moves with the target, the equation is homogeneous.
   const double rest = target + (force - own_damping * speed) / stiffness;
   const Motion relative = textbook(mass, own_damping + hand_damping, stiffness, {0.01 - rest, -speed}, seconds);
   CHECK(std::abs(x_of(device) - (rest + speed * seconds + relative.position)) < 1e-14);
@@ -295,7 +295,7 @@ TEST_CASE("the result does not depend on the step, through stops, breakaways and
     GripImpedance grip;
     double amplitude;
   };
-  // From slow creeping over stick-slip to several swings within one long step.
+  // From slow creep and stick-slip to several oscillations within one long step.
   const Case c = GENERATE(Case{0.1, 0.26, {0.1, 3.0, 300.0}, 0.01}, Case{0.1, 0.26, {0.05, 1.0, 100.0}, 0.004},
                           Case{0.0, 0.26, {0.0, 0.0, 1e5}, 0.001}, Case{0.1, 0.06, {0.15, 5.0, 500.0}, 0.02},
                           Case{0.5, 0.04, {0.1, 20.0, 300.0}, 0.01}, Case{0.0, 0.0, {0.0, 0.0, 1e5}, 0.001},
@@ -390,7 +390,7 @@ struct Wall {
   double critical_stiffness;
 };
 
-/// Whether a bilateral wall of this stiffness feeds an oscillation, by comparing early and late swings of 20 s.
+/// Whether an oscillation on a bilateral wall of this stiffness grows: compares its early and late amplitude over 20 s.
 bool grows(const Wall& wall, double stiffness) {
   Capabilities profile = point_mass(0.045, wall.friction);
   profile.sample_delay = wall.delay;
@@ -441,7 +441,7 @@ TEST_CASE("a sampled wall becomes unstable at the theoretical stiffness", "[devi
   CHECK(critical_stiffness(wall) == Approx(wall.critical_stiffness).epsilon(0.002));
 }
 
-// ---- what the encoder and the amplifier do
+// ---- encoder and amplifier
 
 TEST_CASE("a delayed device returns the state of that many ticks ago", "[devices]") {
   Capabilities profile = point_mass(0.045);
@@ -634,7 +634,7 @@ TEST_CASE("reading, writing and advancing do not allocate", "[devices]") {
   profile.sample_delay = 3;
   SimulatedDevice device(profile, {0.1, 3.0, 300.0});
   const std::size_t control = calligraphy_test::allocations();
-  ::operator delete(::operator new(1));  // the counter counts; a new expression could be optimised away
+  ::operator delete(::operator new(1));  // checks the counter; a new-expression could be optimised away
   const std::size_t before = calligraphy_test::allocations();
   for (int tick = 0; tick < 1000; ++tick) {
     device.set_intention({{0.01 * std::sin(0.1 * tick), 0.0, 0.0}, {0.1, 0.0, 0.0}});

@@ -62,7 +62,7 @@ struct Lab {
   StandIn runtime{STAND_IN_LIBHD};
 };
 
-/// A servo that the device's own clock runs.
+/// A servo clocked by the device's own clock.
 struct Driven {
   explicit Driven(
       OpenHapticsDevice& driven, ForceLaw law = [](const DeviceState&) { return Eigen::Vector3d(1.0, 0.0, 0.0); })
@@ -159,7 +159,7 @@ TEST_CASE("capabilities come from the runtime where it provides them, otherwise 
   OpenHapticsDevice device(options);
   const Capabilities& expected = device_profile(row.profile);
   CHECK(device.capabilities().model == row.model);
-  CHECK(device.capabilities().workspace.isApprox(expected.workspace));  // the stand-in's box is not centred
+  CHECK(device.capabilities().workspace.isApprox(expected.workspace));  // the stub's box is not centred
   CHECK(device.capabilities().peak_force == expected.peak_force);
   CHECK(device.capabilities().continuous_force == expected.continuous_force);
   CHECK(device.capabilities().usable_stiffness == expected.usable_stiffness);
@@ -464,7 +464,7 @@ TEST_CASE("a force above the peak is limited, and one that is not finite counts 
     device.read();
     device.write(wanted);
   });
-  const auto commanded = [&] {  // what the runtime is told, before any limit of its own
+  const auto commanded = [&] {  // the force passed to the runtime, before its own limit
     Eigen::Vector3d result;
     lab.runtime->commanded_force(0, result.data());
     return result;

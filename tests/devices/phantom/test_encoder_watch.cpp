@@ -11,7 +11,7 @@ using namespace calligraphy::phantom;
 
 namespace {
 
-/// 1000 counts a radian, 16 bits, the third joint counting backwards; a report every millisecond.
+/// 1000 counts per radian, 16 bits, the third joint counting backwards; one report per millisecond.
 struct Watched {
   EncoderWatch watch{calligraphy_test::parsed(calligraphy_test::minimal_profile).encoders, {1000.0, 1000.0, -1000.0}};
   PerJoint<std::int64_t> counts{65000, 0, 30000};
@@ -52,7 +52,7 @@ TEST_CASE("a joint may turn at 59 rad/s but not at 61, whatever the clock of the
     CHECK(answer.fault == DeviceFault::leaping_encoder);
     CHECK_FALSE(answer.used);
     CHECK(held.watch.angles() == before);
-    // The next report within reason takes it up again, from the last that was used.
+    // The next plausible report is used again, relative to the last used one.
     CHECK(held.move(0, 40, 0, even).used);
     CHECK(held.watch.angles().y() == Approx(before.y() + 0.101));
     CHECK(held.watch.interval() == Approx(2e-3));
@@ -71,7 +71,7 @@ TEST_CASE("a speed may change by 20 rad/s plus rounding between reports, checked
   Watched late;
   late.move(0, 0, 0);
   late.move(1, 0, 0);
-  CHECK(late.move(200, 0, 0, true, 6e-3).used);  // 33 rad/s on the average of 6 ms: a hand may do that
+  CHECK(late.move(200, 0, 0, true, 6e-3).used);  // 33 rad/s on average over 6 ms is possible for a hand
 }
 
 TEST_CASE("after five jumps in a row the counts are considered lost", "[phantom][encoders]") {
@@ -91,7 +91,7 @@ TEST_CASE("after five jumps in a row the counts are considered lost", "[phantom]
 
 TEST_CASE("a joint is stuck once another has travelled 2.5 rad in either direction, and not before",
           "[phantom][encoders]") {
-  for (const int turn : {1'000'000, 300}) {  // reports until it turns round
+  for (const int turn : {1'000'000, 300}) {  // reports until it reverses
     Watched held;
     held.move(0, 0, 0);
     int travelled = 0;
@@ -103,7 +103,7 @@ TEST_CASE("a joint is stuck once another has travelled 2.5 rad in either directi
     CHECK(fault == DeviceFault::stuck_encoder);
     CHECK(travelled > 2500);
     CHECK(travelled < 2700);
-    CHECK(held.move(1, 0, 0).fault == DeviceFault::none);  // it moves: all is forgotten
+    CHECK(held.move(1, 0, 0).fault == DeviceFault::none);  // it moves, which resets the watch
     CHECK(held.move(0, 1, 0).fault == DeviceFault::none);
   }
 }
@@ -123,7 +123,7 @@ TEST_CASE("after an interruption any movement is accepted, after a restart it is
 TEST_CASE("a restarted watch behaves like a new one", "[phantom][encoders]") {
   Watched used, fresh;
   used.move(0, 0, 0);
-  for (int i = 0; i < 240; ++i) used.move(0, 10, 1);  // nearly long enough to call the first joint stuck
+  for (int i = 0; i < 240; ++i) used.move(0, 10, 1);  // almost long enough for the first joint to count as stuck
   used.move(0, 20, 0);
   for (int i = 0; i < 4; ++i) CHECK_FALSE(used.move(i == 0 ? 5000 : 0, 0, 0).used);
   used.watch.restart();
@@ -138,8 +138,8 @@ TEST_CASE("a restarted watch behaves like a new one", "[phantom][encoders]") {
            used.watch.angles() == fresh.watch.angles();
   };
   REQUIRE(same(0, 0, 0));
-  REQUIRE(same(0, 5000, 0));   // one leap
-  REQUIRE(same(0, -4940, 0));  // and back; the first speed may be any
+  REQUIRE(same(0, 5000, 0));   // one jump
+  REQUIRE(same(0, -4940, 0));  // and back; the first speed is arbitrary
   for (int i = 0; i < 400; ++i) REQUIRE(same(i % 2, 10, 0));
   CHECK(used.move(0, 10, 0).fault == DeviceFault::stuck_encoder);
 }

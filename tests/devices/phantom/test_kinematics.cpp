@@ -20,7 +20,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// Within the limits of the Omni, which the Premium bears too.
+/// Within the limits of the Omni, and of the Premium as well.
 Joints random_joints(Random& random) {
   const double shoulder = random.between(0.0, 1.75);
   return {random.between(-0.98, 0.98), shoulder, shoulder + random.between(-0.81, 1.25)};
@@ -45,9 +45,9 @@ TEST_CASE("the tip is at zero when all joints are, and moves according to the pu
   CHECK(tip_position(linkage("premium-1.5"), Joints::Zero()).norm() == 0.0);
   CHECK(&linkage("touch") == &omni);
   const double l = 0.13335;
-  // Waist turned by a right angle: the arm, which reached l to the user, now reaches l to the left.
+  // Waist turned by a right angle: the arm, which reached l towards the user, now reaches l to the left.
   CHECK((tip_position(omni, {pi / 2.0, 0.0, 0.0}) - Eigen::Vector3d(-l, 0.0, -l)).norm() < 1e-15);
-  // Upper arm upright, forearm hanging: above the waist.
+  // Upper arm vertical, forearm hanging down: above the waist.
   CHECK((tip_position(omni, {0.0, pi / 2.0, 0.0}) - Eigen::Vector3d(0.0, l, -l)).norm() < 1e-15);
   // Forearm level as well as the upper arm.
   CHECK((tip_position(omni, {0.0, 0.0, pi / 2.0}) - Eigen::Vector3d(0.0, l, l)).norm() < 1e-15);
@@ -88,7 +88,7 @@ TEST_CASE("inverse kinematics recovers the joint angles", "[phantom][kinematics]
       if (arm.upper_arm * std::cos(joints[1]) + arm.forearm * std::sin(joints[2]) < 0.01) continue;
       const InverseKinematics inverse = inverse_kinematics(arm, tip_position(arm, joints));
       REQUIRE(inverse.reachable);
-      // The reference found 3e-15 with the arms of the Omni; a rounding near the fold counts more than one elsewhere.
+      // The reference found 3e-15 with the arm of the Omni; rounding errors are amplified near the folded pose.
       REQUIRE((inverse.joints - joints).cwiseAbs().maxCoeff() < 1e-14);
     }
   }
@@ -108,7 +108,7 @@ TEST_CASE("an unreachable position is reported, with the nearest pose of the arm
     REQUIRE(inverse_kinematics(omni, shoulder + 0.2666 * ray).reachable);
   }
   const Linkage& premium = linkage("premium-1.5");
-  CHECK_FALSE(inverse_kinematics(premium, {0.0, 0.169545, -0.20955}).reachable);  // too near: the links differ
+  CHECK_FALSE(inverse_kinematics(premium, {0.0, 0.169545, -0.20955}).reachable);  // too close: unequal links
   const double nan = std::numeric_limits<double>::quiet_NaN();
   CHECK_FALSE(inverse_kinematics(omni, {0.0, nan, 0.0}).reachable);
   CHECK(inverse_kinematics(omni, {0.0, nan, 0.0}).joints == Joints::Zero());
@@ -142,7 +142,7 @@ TEST_CASE("torque does the work of the force and stays bounded in singular poses
   Random random(5);
   const auto any = [&] { return random.between(-4.0, 4.0); };
   for (int i = 0; i < 2000; ++i) {
-    // Anywhere, the singular set included at every fourth.
+    // Arbitrary poses, every fourth one singular.
     Joints joints{any(), any(), any()};
     if (i % 4 == 0) joints[2] = joints[1] + pi / 2.0;
     const Eigen::Vector3d force{any(), any(), any()};

@@ -1,4 +1,4 @@
-// What the tracker makes of reports one by one, without a link; through a device it is in test_phantom_device.cpp.
+// The tracker with single reports, without a link; test_phantom_device.cpp tests it through a device.
 #include <cmath>
 #include <cstdint>
 #include <initializer_list>
@@ -14,12 +14,12 @@ using namespace calligraphy::phantom;
 namespace {
 
 WireProfile profile_with(bool sequence) {
-  WireProfile profile = wire_profile("simulated");  // 2425 counts a radian, the second joint's the other way
+  WireProfile profile = wire_profile("simulated");  // 2425 counts per radian, the second joint counting backwards
   if (!sequence) profile.sequence.reset();
   return profile;
 }
 
-/// Reports a millisecond apart unless said otherwise, of an arm whose counts the test moves.
+/// Reports of an arm whose counts are set by the test, 1 ms apart by default.
 struct Tracked {
   explicit Tracked(bool sequence = true, double velocity_cutoff = 1000.0)
       : profile(profile_with(sequence)), tracker(profile, linkage("touch"), velocity_cutoff) {}
@@ -93,8 +93,8 @@ TEST_CASE("rest in the inkwell before lost counts or a lost link does not count"
   held.sample.docked = true;
   held.rest(15);
   SECTION("lost counts") {
-    held.report(1000);  // a leap
-    held.rest(4);       // and the counts do not come back: the fifth report begins anew, and is the first at rest
+    held.report(1000);  // a jump
+    held.rest(4);       // the counts do not return: the fifth report restarts the counts, and is the first at rest
   }
   SECTION("lost link") {
     held.tracker.restart(GENERATE(false, true));
@@ -182,7 +182,7 @@ TEST_CASE("after an interruption no earlier state is left, unless the encoders h
   const Joints before = held.tracker.motion().joints;
   held.sample.docked = true;
   held.rest(10);
-  held.sample.sequence = 7;  // the device counts from anew
+  held.sample.sequence = 7;  // the device restarts its count
   held.tracker.restart(keep);
   CHECK(held.calibrated() == keep);
   const MotionTracker::Judgement first = held.report(1000);
@@ -192,7 +192,7 @@ TEST_CASE("after an interruption no earlier state is left, unless the encoders h
                                                    : *held.profile.docked_angles));
   if (keep) return;
   CHECK(held.tracker.motion().velocity.isZero(0.0));
-  held.rest(18);  // with the ten of before they would be more than enough
+  held.rest(18);  // together with the previous ten they would be more than enough
   CHECK_FALSE(held.calibrated());
   held.rest(1);
   CHECK(held.calibrated());

@@ -27,7 +27,7 @@ std::vector<std::byte> bytes(std::initializer_list<int> values) {
   return result;
 }
 
-/// A report as the public description of the Omni has it, put together by hand from 16-bit little-endian words.
+/// A report according to the public description of the Omni, assembled by hand from 16-bit little-endian words.
 std::vector<std::byte> omni_report(std::array<int, 3> encoders, std::array<int, 3> gimbal, int word_9,
                                    std::uint32_t sequence) {
   std::vector<std::byte> frame(44);
@@ -185,7 +185,7 @@ TEST_CASE("the gimbal copies reveal corruption in the layout of the Omni", "[pha
     bad[byte] ^= std::byte{0x10};
     CHECK(codec.decode_report(bad).fault == DeviceFault::corrupted_frame);
   }
-  // A dead link shows one level on every line: a copy that is inverted cannot then be right.
+  // A dead link shows one level on every line, so an inverted copy cannot match.
   CHECK(codec.decode_report(std::vector<std::byte>(44)).fault == DeviceFault::corrupted_frame);
   CHECK(codec.decode_report(std::vector<std::byte>(44, std::byte{0xFF})).fault == DeviceFault::corrupted_frame);
 }
@@ -221,7 +221,7 @@ TEST_CASE("fields of any width, offset, byte order and sign round-trip", "[phant
     write_field(any, value, target);
     REQUIRE(read_field(any, target) == value);
     write_field(any, read_field(any, before), target);
-    REQUIRE(target == before);  // no other bit was touched
+    REQUIRE(target == before);  // no other bit has changed
   }
 }
 

@@ -35,7 +35,7 @@ std::string refusal(const PhantomOptions& options) {
 TEST_CASE("a phantom needs its inkwell before positions are valid, and then they are those of the tip",
           "[phantom][device]") {
   HeldPhantom held;
-  held.arm.count_offset = {60000, 7, 40000};  // encoders begin anywhere
+  held.arm.count_offset = {60000, 7, 40000};  // encoders start at arbitrary counts
   CHECK(held.device.read().status == DeviceStatus::needs_calibration);
   const DeviceState first = held.turn();
   CHECK(first.status == DeviceStatus::needs_calibration);
@@ -102,7 +102,7 @@ TEST_CASE("the velocity is that of the tip after the filter", "[phantom][device]
   for (int i = 0; i < 50; ++i) {
     const DeviceState state = held.turn();
     mean += state.velocity / 50.0;
-    // One count a millisecond is 0.055 m/s; a filter of 20 Hz passes an eighth of it.
+    // One count per millisecond is 0.055 m/s; a 20 Hz filter passes an eighth of it.
     REQUIRE((state.velocity - held.arm.tip.true_velocity()).norm() < 0.03);
   }
   CHECK((mean - held.arm.tip.true_velocity()).norm() < 0.005);
@@ -133,7 +133,7 @@ TEST_CASE("a force acts at the tip to within the resolution of the DACs", "[phan
       held.bring_up(place);
       const Eigen::Vector3d force{unit(), unit(), unit()};
       for (int i = 0; i < 400; ++i) held.turn([&](const DeviceState&) { return force; });
-      // Half a step of torque at each joint is J^-T of it at the tip; the angles are known to half a count.
+      // Half a torque step at each joint maps to the tip by J^-T; the angles are known to half a count.
       const Eigen::Matrix3d to_tip = tip_jacobian(held.arm.arm, held.arm.joints()).transpose().inverse();
       const double step = 0.5 * 4e-4 * to_tip.cwiseAbs().rowwise().sum().maxCoeff() + 2e-3 * force.norm();
       CAPTURE(model, place.transpose(), force.transpose(), held.arm.motor_force().transpose());
@@ -153,7 +153,7 @@ TEST_CASE("a force above the peak or the range of the DACs is limited, with its 
   CHECK(given.norm() == Approx(3.3).epsilon(0.01));
   CHECK(given.normalized().dot(wanted.normalized()) > 0.9999);
 
-  // Converters that give 0.2 N m at the most: less than 3.3 N anywhere.
+  // DACs that output at most 0.2 N m: less than 3.3 N at any pose.
   HeldPhantom weak("torque-per-count 4e-4 4e-4 -4e-4", "torque-per-count 1e-4 1e-4 -1e-4");
   weak.bring_up();
   for (int i = 0; i < 200; ++i) weak.turn([&](const DeviceState&) { return wanted; });
@@ -345,7 +345,7 @@ TEST_CASE("closing switches the motors off and sends the profile's stop commands
   CHECK(held.arm.wire->sent == sent);
   CHECK(held.device.read().status == DeviceStatus::disconnected);
   CHECK(held.device.read().position == position);
-  held.device.close();  // once more does nothing
+  held.device.close();  // a second call does nothing
 }
 
 TEST_CASE("a destroyed phantom leaves the motors off, even if the link fails", "[phantom][device]") {
@@ -575,7 +575,7 @@ TEST_CASE("start commands are sent whenever the link was down, and while the dev
   }
   wire.listener->changed(DeviceFault::none);
   CHECK(starts() == ++expected);
-  // A start that was refused is made up for at the next occasion.
+  // Refused start commands are sent again at the next opportunity.
   wire.listener->changed(DeviceFault::stalled);
   wire.fails_commands = true;
   wire.listener->changed(DeviceFault::none);

@@ -204,7 +204,7 @@ TEST_CASE("an error in one statement of a profile is reported with its line", "[
   std::string buttons;
   for (int i = 1; i <= 11; ++i) buttons += "button " + std::to_string(i) + " u16 at 6 bit " + std::to_string(i) + "\n";
   CHECK_THAT(with(buttons + "button 12 u16 at 6 bit 1"), StartsWith("lab.txt:18: button 12 overlaps button 1 in"));
-  // Of no line alone.
+  // Errors of no single line.
   CHECK_THAT(with("dac 1 u16 at 0 zero 0"), StartsWith("lab.txt: command size is 0"));
 }
 
@@ -234,5 +234,5 @@ TEST_CASE("a profile is read from a file, and a missing file is named", "[phanto
   CHECK_THROWS_AS(read_wire_profile(path + "x"), FileError);
   CHECK_THROWS_WITH(read_wire_profile(path + "x"), EndsWith(": cannot be opened: No such file or directory"));
   CHECK_THROWS_AS(read_wire_profile(directory.path().string()), FileError);
-  CHECK_THROWS_WITH(read_wire_profile("/dev/zero"), "/dev/zero: is not a regular file");  // it would not end
+  CHECK_THROWS_WITH(read_wire_profile("/dev/zero"), "/dev/zero: is not a regular file");  // it never ends
 }

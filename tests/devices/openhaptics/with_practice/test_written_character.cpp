@@ -1,4 +1,4 @@
-// A whole character through the vendor's runtime: the simulated writer holds the stand-in's pen.
+// A complete character through the vendor's runtime: the simulated writer holds the pen of the stub.
 #include <algorithm>
 #include <cmath>
 #include <vector>

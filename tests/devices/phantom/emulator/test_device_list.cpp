@@ -1,4 +1,4 @@
-// What is plugged in, read from an emulated bus, and which of several devices is opened.
+// The list of connected devices of an emulated bus, and which of several is opened.
 #include <sys/stat.h>
 
 #include <cerrno>

@@ -9,7 +9,7 @@ using namespace calligraphy_test;
 
 namespace {
 
-/// What hidapi-hidraw and hidapi-libusb pass on differs: the second swallows errors of reports.
+/// hidapi-hidraw and hidapi-libusb report different events: the latter ignores errors of reports.
 constexpr bool through_hidraw = CALLIGRAPHY_TEST_HIDRAW;
 
 }  // namespace
@@ -97,7 +97,7 @@ TEST_CASE("after a failed report from a HID reports resume, whether or not hidap
 TEST_CASE("a silent HID is reported as timed out until it answers", "[hid]") {
   PluggedTouch touch(hid_touch(), {0.02, 0.02, 0.005});
   touch.link->open(touch.listener);
-  REQUIRE(touch.listener.wait_for_changes(4));  // told again as long as it lasts
+  REQUIRE(touch.listener.wait_for_changes(4));  // repeated while it persists
   const Faults silent = touch.listener.changes();
   CHECK(Faults(silent.begin(), silent.begin() + 4) ==
         Faults{DeviceFault::none, DeviceFault::timed_out, DeviceFault::timed_out, DeviceFault::timed_out});

@@ -1,4 +1,4 @@
-// 250 times unplugged and plugged in again, without a leak of descriptors; memory is the address sanitizer's.
+// 250 replugs without leaking descriptors; memory is checked by the address sanitizer.
 #include <filesystem>
 #include <iterator>
 

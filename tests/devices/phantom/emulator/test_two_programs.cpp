@@ -1,4 +1,4 @@
-// One device and two who want it: hidraw would give its reports to both, and take forces from both.
+// One device and two users: hidraw would deliver its reports to both, and accept forces from both.
 #include <filesystem>
 #include <system_error>
 
@@ -30,7 +30,7 @@ int open_nodes() {
   return count;
 }
 
-/// Whether the device can be opened, and what is said if not.
+/// Whether the device can be opened, otherwise the error message.
 std::string opened_for_a_moment() {
   RecordingListener listener;
   const std::unique_ptr<Link> link = make_link("", patient);
@@ -61,7 +61,7 @@ TEST_CASE("a HID that this program has open cannot be opened again until it is c
   const std::unique_ptr<Link> link = make_link("", patient);
   CHECK_THROWS_WITH(link->open(second), in_use);
   CHECK(second.changes().empty());
-  touch.exchange(numbered(1, report_size));  // the first loses nothing by that
+  touch.exchange(numbered(1, report_size));  // the first user is not affected
   touch.link->command(as_packet(numbered(2, 16)));
   CHECK(touch.listener.changes() == Faults{DeviceFault::none});
   touch.link.reset();
@@ -96,7 +96,7 @@ TEST_CASE("a reconnected HID goes to the first program that opens it, and is fre
   CHECK(open_nodes() > before);
   touch.device.unplug(UnplugOrder::gone_first);
   REQUIRE(touch.listener.wait_for(DeviceFault::unplugged));
-  CHECK(open_nodes() <= before);  // a lock on what is no longer there is none
+  CHECK(open_nodes() <= before);  // no lock is left on a device that is gone
   touch.device.plug_in(2, "1.4");
   REQUIRE(touch.listener.wait_for_changes(3));
   CHECK_THAT(opened_for_a_moment(), Catch::Contains("on bus 2, port 1.4") && Catch::Contains("in use"));

@@ -146,7 +146,7 @@ TEST_CASE("a device that is silent or accepts nothing is reported as timed out u
   PluggedTouch touch(serial_touch(), {0.02, 0.02, 0.005});
   touch.link->open(touch.listener);
   SECTION("it sends nothing") {
-    REQUIRE(touch.listener.wait_for_changes(4));  // told again as long as it lasts
+    REQUIRE(touch.listener.wait_for_changes(4));  // repeated while it persists
     const Faults silent = touch.listener.changes();
     CHECK(Faults(silent.begin(), silent.begin() + 4) ==
           Faults{DeviceFault::none, DeviceFault::timed_out, DeviceFault::timed_out, DeviceFault::timed_out});
@@ -188,7 +188,7 @@ TEST_CASE("a device is found again at any port by its serial number, and reporte
   touch.exchange(numbered(1));
   touch.device.unplug(order);
   REQUIRE(touch.listener.wait_for_changes(2));
-  stranger.plug_in(1, "2");  // another one in its place is not taken for it
+  stranger.plug_in(1, "2");  // another one at its port is not mistaken for it
   touch.device.plug_in(2, "1.4");
   REQUIRE(touch.listener.wait_for_changes(3));
   REQUIRE(touch.device.wait(listens));

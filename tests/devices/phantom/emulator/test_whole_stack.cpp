@@ -1,5 +1,5 @@
 // PhantomDevice and the servo loop on an emulated Phantom, through libusb or hidapi: in virtual time, which stands
-// still until each report has come through the bus and each command has been taken.
+// still until each report has passed through the bus and each command has been accepted.
 #include <atomic>
 #include <cerrno>
 #include <chrono>
@@ -21,11 +21,11 @@ namespace {
 PhantomOptions options_of_touch() {
   PhantomOptions options;
   options.wire_profile = "simulated";
-  options.keep_calibration = true;  // the emulated encoders count on
+  options.keep_calibration = true;  // the emulated encoders keep counting
   return options;
 }
 
-/// What a person leans on while the faults come.
+/// The force during the faults.
 Eigen::Vector3d spring(const DeviceState& state) {
   return 150.0 * (Eigen::Vector3d(0.02, 0.02, 0.015) - state.position);
 }
@@ -54,11 +54,11 @@ struct Stack {
   EmulatedPhantom phantom;
   PhantomDevice device;
   Servo servo;
-  double max_step = 0.0;  ///< of the force from one millisecond to the next [N]
+  double max_step = 0.0;  ///< maximum force change per millisecond [N]
   Eigen::Vector3d last_force = Eigen::Vector3d::Zero();
   std::uint64_t expected_reports = 0;
 
-  /// For at most ten seconds of the machine.
+  /// Waits at most ten seconds of real time.
   static bool reached(const std::function<bool()>& condition) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
     while (!condition()) {
@@ -70,7 +70,7 @@ struct Stack {
 
   bool told(DeviceFault fault) const { return device.statistics().faults[static_cast<std::size_t>(fault)] > 0; }
 
-  /// A millisecond: physics, report, servo, command. While the bus is at fault nothing is waited for.
+  /// One millisecond: physics, report, servo, command. Does not wait while the bus has a fault.
   void turn(bool reports = true, bool commands = true) {
     now = now + 1e-3;
     const std::uint64_t before = phantom.pushed;
@@ -136,7 +136,7 @@ TEST_CASE("an unplugged device loses its force, and resumes elsewhere without a 
   stack.phantom.bus.plug_in(2, "1.4");
   REQUIRE(Stack::reached([&] { return stack.device.statistics().opened == 2; }));
   REQUIRE(stack.phantom.bus.wait(listens));
-  stack.max_step = 0.0;  // the motors of a device that is unplugged are off at once
+  stack.max_step = 0.0;  // the motors of an unplugged device are off immediately
   require_return_without_a_jump(stack);
 }
 
@@ -177,7 +177,7 @@ TEST_CASE("a device that resets itself and is silent until started is restarted"
     });
   };
   REQUIRE(reports_come());
-  phantom.bus.set_taking(Taking::never);  // what is sent while it restarts is lost on it
+  phantom.bus.set_taking(Taking::never);  // packets sent while it restarts are lost
   phantom.reset_itself();
   REQUIRE(
       Stack::reached([&] { return device.statistics().faults[static_cast<std::size_t>(DeviceFault::timed_out)] > 0; }));
@@ -205,7 +205,7 @@ TEST_CASE("short, empty, overlong, corrupted or missing frames bring the force t
                              return true;
                            }},
                           {"missing", DeviceFault::silent, [](Bytes&) { return false; }, false}};
-  if (identity.link == LinkKind::usb) {  // hidapi gives no empty report, and no more bytes than a report has
+  if (identity.link == LinkKind::usb) {  // hidapi returns neither empty nor overlong reports
     cases.push_back({"empty", DeviceFault::empty_frame, [](Bytes& frame) {
                        frame.clear();
                        return true;
@@ -254,7 +254,7 @@ TEST_CASE("a failing endpoint is named, and the force ramps down and returns", "
     stack.phantom.bus.fail_next(failure.error);
     REQUIRE(Stack::reached([&] { return stack.told(failure.fault); }));
     REQUIRE(stack.phantom.bus.wait(listens));
-    // The endpoint works again at once: the fault is told all the same, and the force gets to zero.
+    // The endpoint works again immediately; the fault is still reported, and the force reaches zero.
     bool named = false, zero = false;
     for (int i = 0; i < 20; ++i) {
       stack.turn();
@@ -272,7 +272,7 @@ TEST_CASE("a device that refuses commands is reported as stalled, and recovers",
   stack.phantom.bus.set_taking(Taking::stalls);
   stack.turn(true, false);
   REQUIRE(Stack::reached([&] { return stack.told(DeviceFault::stalled); }));
-  // No command reaches it: what takes its force is its own watchdog, 20 ms after the last one.
+  // No command reaches it: its own watchdog removes the force, 20 ms after the last one.
   for (int i = 0; i < 22; ++i) stack.turn(true, false);
   CHECK(stack.last_force.norm() == 0.0);
   CHECK(stack.servo.status().fault == DeviceFault::stalled);
