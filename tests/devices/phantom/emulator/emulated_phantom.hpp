@@ -12,8 +12,8 @@
 namespace calligraphy_test {
 
 /// Uses the wire profile `simulated`. The motors are off until the profile's start command has arrived, while the
-/// enable bit of the newest command is clear, when the dead-man bit has not changed for 20 ms, and as soon as the device
-/// is unplugged.
+/// enable bit of the newest command is clear, when the dead-man bit has not changed for 20 ms, and as soon as the
+/// device is unplugged.
 class EmulatedPhantom {
  public:
   EmulatedPhantom(TestBed& bed, const UsbIdentity& identity, const GripImpedance& grip,
