@@ -32,7 +32,7 @@ namespace {
 /// Number of characters written at every servo rate.
 constexpr std::size_t max_written = 2;
 
-struct TradeArguments {
+struct TradeoffArguments {
   std::string text = "永北京航空天大学和年书法";
   std::vector<std::string> characters;
   std::optional<std::string> out;
@@ -42,7 +42,7 @@ struct TradeArguments {
   bool json = false;
 };
 
-TradeoffReport asked_for(const TradeArguments& options) {
+TradeoffReport asked_for(const TradeoffArguments& options) {
   TradeoffReport report;
   for (const char32_t code : characters_of(options.text)) {
     if (report.text.find(code) == std::u32string::npos) report.text += code;
@@ -91,7 +91,7 @@ void draw(const TradeoffReport& report, const OutputDirectory& out, const Interr
   out.write("coordinate_width.svg", coordinate_width_tradeoff_plot(report.coordinate_width));
 }
 
-void run(const TradeArguments& options) {
+void run(const TradeoffArguments& options) {
   if (options.out && options.out->empty()) throw UsageError("--out: the name is empty");
   TradeoffReport report = asked_for(options);
   const CharacterSet set = open_characters(options.characters, report.text);
@@ -122,7 +122,7 @@ void add_tradeoff(CLI::App& program) {
                              "Measure cost against accuracy: nearest-point methods, servo rate and width of stored "
                              "coordinates. With --out DIR, "
                              "also write plots, tradeoff.json and the force fields of Figs. 25 to 28.");
-  const auto options = std::make_shared<TradeArguments>();
+  const auto options = std::make_shared<TradeoffArguments>();
   command->add_option("TEXT", options->text, "Characters to measure; the first two are written at every servo rate")
       ->capture_default_str();
   add_characters_option(*command, options->characters);

@@ -8,7 +8,7 @@
 namespace calligraphy {
 namespace {
 
-/// How messages begin.
+/// Prefix of error messages.
 std::string device_text(const Capabilities& capabilities) { return "device \"" + device_label(capabilities) + "\": "; }
 
 }  // namespace
@@ -51,13 +51,13 @@ void validate(const Capabilities& capabilities) {
   const DeviceAxes& sensed = capabilities.sensed;
   const DeviceAxes& driven = capabilities.driven;
   if (!(sensed.x || sensed.y || sensed.z || sensed.rotations)) {
-    throw ValueError(device_text(capabilities) + "sensed axes are none, must be at least one");
+    throw ValueError(device_text(capabilities) + "no axis is sensed, at least one must be");
   }
   const DeviceAxes blind{driven.x && !sensed.x, driven.y && !sensed.y, driven.z && !sensed.z,
                          driven.rotations && !sensed.rotations};
   if (blind.x || blind.y || blind.z || blind.rotations) {
-    throw ValueError(device_text(capabilities) + "driven axes are " + axes_text(driven) + ", sensed ones " +
-                     axes_text(sensed) + ": must be sensed too: " + axes_text(blind));
+    throw ValueError(device_text(capabilities) + "driven axes are " + axes_text(driven) + ", sensed axes are " +
+                     axes_text(sensed) + "; driven but not sensed: " + axes_text(blind));
   }
 }
 

@@ -56,7 +56,7 @@ const Eigen::Vector3d& ForceGuard::pass(const Eigen::Vector3d& wanted, double el
 const Eigen::Vector3d& ForceGuard::hold(double elapsed) noexcept {
   if (phase_ != ServoPhase::falling) return force_;
   gain_ = ramp_down_ > 0.0 ? gain_ - elapsed / ramp_down_ : 0.0;
-  // Sums of ticks that should end at zero end at some 1e-16 of it.
+  // Rounding leaves sums of ticks about 1e-16 off zero.
   if (gain_ > 1e-9) {
     force_ = gain_ * held_;
   } else {

@@ -27,12 +27,12 @@ const PointerOptions& checked(const PointerOptions& options) {
   const Eigen::Matrix3d rotation = options.paper.linear();
   if (!options.paper.matrix().allFinite() ||
       !(rotation.transpose() * rotation).isApprox(Eigen::Matrix3d::Identity(), 1e-9) || rotation.determinant() < 0.0) {
-    throw ValueError("pointer: the paper's place is not a rotation and a shift");
+    throw ValueError("pointer: the transform of the paper is not a rotation and a translation");
   }
   return options;
 }
 
-/// Copies of a place while it changes are thrown away; a writer is done in some nanoseconds.
+/// Reads that overlap a write are retried; a write takes a few nanoseconds.
 constexpr int max_attempts = 8;
 
 }  // namespace
@@ -49,7 +49,7 @@ PointerDevice::PointerDevice(const Capabilities& device, const GripImpedance& gr
 void PointerDevice::move(double x, double y, double pressure, std::uint32_t buttons) noexcept {
   if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(pressure)) return;
   const double height = pressure > 0.0 ? -std::min(pressure, 1.0) * options_.press_depth : options_.hover_height;
-  const Eigen::Vector3d& workspace = device_.capabilities().workspace;  // from which no hand reaches twice as far
+  const Eigen::Vector3d& workspace = device_.capabilities().workspace;  // positions are clamped to twice its size
   sequence_.fetch_add(1, std::memory_order_acquire);
   place_[0].store(std::clamp(x, -workspace.x(), workspace.x()), std::memory_order_release);
   place_[1].store(std::clamp(y, -workspace.y(), workspace.y()), std::memory_order_release);
@@ -82,8 +82,8 @@ void PointerDevice::take_target() noexcept {
   }
 }
 
-/// Two equal lags in a row: a staircase of places becomes a path of continuous speed. The second is limited in speed,
-/// so that a pointer which leaps, or is lifted, does not fling the pen.
+/// Two equal first-order lags in series turn stepwise positions into a path of continuous velocity. The second is
+/// limited in speed, so that a pointer that jumps or is lifted does not fling the pen.
 void PointerDevice::follow() noexcept {
   const double period = 1.0 / options_.rate;
   const double lag = 0.5 * options_.smoothing_time;

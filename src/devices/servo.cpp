@@ -13,8 +13,8 @@
 namespace calligraphy {
 namespace {
 
-constexpr std::uint64_t owner_bits = 2;  // below the count of changes
-constexpr int fault_shift = 8;           // within the packed status
+constexpr std::uint64_t owner_bits = 2;  // below the change count
+constexpr int fault_shift = 8;           // in the packed status
 
 std::uint64_t with_fault(std::uint64_t status, DeviceFault fault) noexcept {
   return (status & ~(std::uint64_t{0xff} << fault_shift)) | (static_cast<std::uint64_t>(fault) << fault_shift);
@@ -36,16 +36,16 @@ ServoOptions checked(ServoOptions options) {
   require(options.timeout >= 2.0 / options.rate && options.timeout <= 1.0, "timeout", options.timeout,
           "from two periods of the rate to 1 s");
   if (options.work_clock == nullptr) options.work_clock = monotonic_seconds;
-  options.timeout += 1e-3 / options.rate;  // sums of ticks that should come to it exactly are a little beside
+  options.timeout += 1e-3 / options.rate;  // tolerates rounding in sums of ticks
   return options;
 }
 
-/// Written by one thread alone.
+/// For counters with a single writing thread.
 void increment(std::atomic<std::uint64_t>& count, std::uint64_t by = 1) noexcept {
   count.store(count.load(std::memory_order_relaxed) + by, std::memory_order_relaxed);
 }
 
-/// A device that says no more than that it cannot go on.
+/// The fault to report for a device that names none.
 DeviceFault unnamed_fault(DeviceStatus status) noexcept {
   switch (status) {
     case DeviceStatus::disconnected:
@@ -59,7 +59,7 @@ DeviceFault unnamed_fault(DeviceStatus status) noexcept {
   }
 }
 
-/// The servo whose force law this thread is in.
+/// The servo whose force law this thread is executing.
 thread_local const Servo* asking = nullptr;
 
 }  // namespace
@@ -67,12 +67,12 @@ thread_local const Servo* asking = nullptr;
 Servo::Servo(HapticDevice& device, ForceLaw law, const ServoOptions& options)
     : device_(device), law_(std::move(law)), options_(checked(options)), guard_(options.ramp_down, options.ramp_up) {
   const double peak = device.capabilities().peak_force;
-  if (peak > 0.0) peak_force_ = peak;  // 0 is "not known"
+  if (peak > 0.0) peak_force_ = peak;  // 0 means unknown
   if (!law_) throw ValueError("servo loop: the force law is empty");
 }
 
 void Servo::step(double now) noexcept {
-  // Decaying filters of the force law end in denormal numbers, whatever thread this is.
+  // Decaying filters in the force law end in denormal numbers, whichever thread calls.
   const FlushDenormals flush;
   std::uint64_t owner = owner_.load(std::memory_order_acquire);
   if (owner_of(owner) != Owner::nobody || !hand_over(owner, Owner::tick)) {
@@ -93,7 +93,7 @@ void Servo::step(double now) noexcept {
     const double asked = options_.work_clock();
     const bool answered = ask(sample, force);
     const double answer_time = options_.work_clock() - asked;
-    if (!hand_over(owner, Owner::tick)) {  // the watchdog has taken the device meanwhile
+    if (!hand_over(owner, Owner::tick)) {  // the watchdog has taken over the device
       idle_ticks_.fetch_add(1, std::memory_order_relaxed);
       return;
     }
@@ -102,7 +102,7 @@ void Servo::step(double now) noexcept {
     } else if (answer_time > options_.timeout) {
       fault = DeviceFault::slow_force_law;
     } else {
-      guard_.pass(force, std::min(elapsed, period));  // what a late clock left out does not rise
+      guard_.pass(force, std::min(elapsed, period));  // a late tick ramps up by one period only
     }
   } else if (fault == DeviceFault::none && released) {
     guard_.fall(guard_.fault(), elapsed, period);
@@ -120,7 +120,7 @@ void Servo::step(double now) noexcept {
   hand_over(owner, Owner::nobody);
 }
 
-/// Also counts what the clock left out.
+/// Also counts missed and stalled ticks.
 double Servo::elapsed_since_last_tick(double now) noexcept {
   const double period = 1.0 / options_.rate;
   if (!std::isfinite(now)) {
@@ -140,7 +140,7 @@ double Servo::elapsed_since_last_tick(double now) noexcept {
 }
 
 DeviceFault Servo::judge(const DeviceState& sample, double elapsed) noexcept {
-  // Where the force is at zero a gap does no harm, and the fault that brought it there keeps its name.
+  // While the force is zero a gap is harmless, and the fault that caused the ramp-down stays reported.
   const bool gap = elapsed > options_.timeout && guard_.phase() != ServoPhase::zero;
   if (sample.status == DeviceStatus::stale) {
     increment(stale_);
@@ -152,7 +152,7 @@ DeviceFault Servo::judge(const DeviceState& sample, double elapsed) noexcept {
   switch (sample.status) {
     case DeviceStatus::ok:
     case DeviceStatus::warm_motors:
-      // A velocity that the device does not measure is not a number; one that is infinite is no velocity.
+      // NaN is valid: a velocity that the device does not measure. Infinity is not.
       if (!sample.position.allFinite() || sample.velocity.array().isInf().any()) return DeviceFault::corrupted_frame;
       break;
     case DeviceStatus::stale:
@@ -165,7 +165,7 @@ DeviceFault Servo::judge(const DeviceState& sample, double elapsed) noexcept {
 }
 
 bool Servo::ask(const DeviceState& sample, Eigen::Vector3d& force) noexcept {
-  const Servo* const outer = std::exchange(asking, this);  // a law may step another servo
+  const Servo* const outer = std::exchange(asking, this);  // a force law may step another servo
   bool answered = true;
   try {
     force = law_(sample);
@@ -205,15 +205,15 @@ void Servo::supervise(double now) noexcept {
   dealt_with_ = owner;
   const Owner who = owner_of(owner);
   if (who == Owner::tick) {
-    // Within read() or write(): out of reach.
+    // Inside read() or write(): nothing else may touch the device.
     count_fault(DeviceFault::timed_out);
     std::uint64_t told = status_.load(std::memory_order_relaxed);
     status_.compare_exchange_strong(told, with_fault(told, DeviceFault::timed_out), std::memory_order_relaxed);
     return;
   }
-  if (!hand_over(owner, Owner::watchdog)) return;  // it has just gone on
+  if (!hand_over(owner, Owner::watchdog)) return;  // the tick has just continued
   if (released_.load(std::memory_order_relaxed) && guard_.phase() == ServoPhase::zero) {
-    give_back(owner);  // a loop that ends may let its clock end first
+    give_back(owner);  // a stopping loop may stop its clock first
     return;
   }
   reason_ = who == Owner::law ? DeviceFault::slow_force_law : DeviceFault::late_clock;
@@ -222,7 +222,7 @@ void Servo::supervise(double now) noexcept {
   let_fall(owner, std::min(elapsed, period));
 }
 
-/// The watchdog's tick while it has the device: the same fall as that of the servo.
+/// The watchdog's tick while it owns the device: the same ramp-down as the servo's.
 void Servo::let_fall(std::uint64_t owner, double elapsed) noexcept {
   guard_.fall(reason_, elapsed, 1.0 / options_.rate);
   device_.write(guard_.force());
@@ -233,7 +233,7 @@ void Servo::let_fall(std::uint64_t owner, double elapsed) noexcept {
 
 void Servo::give_back(std::uint64_t owner) noexcept {
   hand_over(owner, Owner::nobody);
-  watched_owner_ = dealt_with_ = owner;  // not to be taken again until a tick has come
+  watched_owner_ = dealt_with_ = owner;  // no further takeover until a tick arrives
 }
 
 void Servo::reset() noexcept {
@@ -248,7 +248,7 @@ void Servo::reset() noexcept {
   watched_owner_ = dealt_with_ = 0;
 }
 
-/// From what the caller saw to another owner, unless somebody has changed it since; `owner` is then the new word.
+/// Changes the owner unless the word has changed since the caller read it. On success `owner` is the new word.
 bool Servo::hand_over(std::uint64_t& owner, Owner to) noexcept {
   const std::uint64_t next = (((owner >> owner_bits) + 1) << owner_bits) | static_cast<std::uint64_t>(to);
   std::uint64_t expected = owner;
@@ -262,7 +262,7 @@ void Servo::count_fault(DeviceFault fault) noexcept {
   faults_[static_cast<std::size_t>(fault)].fetch_add(1, std::memory_order_relaxed);
 }
 
-/// Phase, fault and device status in a byte each, the gain as a float: one word, so that they belong together.
+/// Packs phase, fault and device status (a byte each) and the gain (a float) into one word, for consistency.
 void Servo::publish() noexcept {
   const auto gain = std::bit_cast<std::uint32_t>(static_cast<float>(guard_.gain()));
   const std::uint64_t word = (std::uint64_t{gain} << 32) | (static_cast<std::uint64_t>(device_status_) << 16) |

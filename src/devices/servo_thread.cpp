@@ -20,7 +20,7 @@ ServoThreadOptions checked(const ServoThreadOptions& options) {
   if (!(options.rate >= 1.0 && options.rate <= 1e5)) {
     message << "rate is " << options.rate << ", must be from 1 to 100000 Hz";
   } else if (options.priority < 0 || options.priority > 99) {
-    message << "priority is " << options.priority << ", must be from 1 to 99, or 0 for an ordinary thread";
+    message << "priority is " << options.priority << ", must be from 1 to 99, or 0 for a normal thread";
   } else if (options.core < -1 || options.core > 1023) {
     message << "core is " << options.core << ", must be from 0 to 1023, or -1 for any";
   } else {
@@ -50,7 +50,7 @@ ServoThread::ServoThread(const ServoThreadOptions& options) : options_(checked(o
 ServoThread::~ServoThread() { stop(); }
 
 void ServoThread::start(std::function<void(double now)> tick) {
-  if (running()) throw ValueError("the servo thread runs already: stop it before it is started again");
+  if (running()) throw ValueError("the servo thread is already running: stop it before starting it again");
   if (!tick) throw ValueError("servo thread: the tick is empty");
   stopping_.store(false, std::memory_order_relaxed);
   std::promise<std::vector<std::string>> ready;

@@ -10,7 +10,7 @@
 namespace calligraphy {
 namespace {
 
-constexpr int max_delay = 100'000;  // 100 s at 1 kHz; more is a mistake and would only take memory
+constexpr int max_delay = 100'000;  // 100 s at 1 kHz; more is a mistake and would only use memory
 
 [[noreturn]] void refuse(const std::string& name, double value, const char* domain) {
   std::ostringstream message;
@@ -27,7 +27,7 @@ const Capabilities& checked(const Capabilities& device) {
   require_translations(device, "the simulation");
   const std::string of_device = "device \"" + device_label(device) + "\": ";
   if (!(device.apparent_mass > 0.0)) {
-    refuse(of_device + "apparent mass", device.apparent_mass, "above 0: a mass that is not known cannot be simulated");
+    refuse(of_device + "apparent mass", device.apparent_mass, "above 0: a device of unknown mass cannot be simulated");
   }
   if (device.sample_delay > max_delay) {
     refuse(of_device + "sample delay", device.sample_delay, "from 0 to 100000 ticks");
@@ -45,12 +45,12 @@ const GripImpedance& checked(const GripImpedance& grip) {
 
 const Eigen::Vector3d& checked(const Eigen::Vector3d& position) {
   for (const double coordinate : position) {
-    if (!std::isfinite(coordinate)) refuse("coordinate of the device's position", coordinate, "finite");
+    if (!std::isfinite(coordinate)) refuse("coordinate of the start position", coordinate, "finite");
   }
   return position;
 }
 
-/// Scaled by its largest component first, so that no square overflows.
+/// Limits the magnitude. Scales by the largest component first, so that no square overflows.
 Eigen::Vector3d shortened(const Eigen::Vector3d& force, double limit) noexcept {
   const double largest = force.cwiseAbs().maxCoeff();
   if (largest == 0.0) return force;
@@ -64,12 +64,12 @@ Eigen::Vector3d shortened(const Eigen::Vector3d& force, double limit) noexcept {
 
 SimulatedDevice::SimulatedDevice(const Capabilities& device, const GripImpedance& grip, const Eigen::Vector3d& position)
     : device_(checked(device)), grip_(checked(grip)), position_(checked(position)) {
-  intention_.position = position;  // a hand that is told nothing holds still
+  intention_.position = position;  // by default the hand holds still
   samples_.assign(static_cast<std::size_t>(device_.sample_delay) + 1, sample());
 }
 
 DeviceState SimulatedDevice::read() noexcept {
-  // The slot behind the newest is the oldest; at the start every slot holds the first sample.
+  // The slot after the newest is the oldest; initially every slot holds the first sample.
   DeviceState state = samples_[(newest_ + 1) % samples_.size()];
   if (!open_) state.status = DeviceStatus::disconnected;
   return state;
@@ -104,12 +104,12 @@ void SimulatedDevice::advance(double seconds) noexcept {
     load.target_velocity = intention_.velocity[axis];
     load.dry_friction = device_.coulomb_friction;
     const AxisState state = advance_axis(oscillator, whole_step, {position_[axis], velocity_[axis]}, load, seconds);
-    // Only figures near the largest double come here unrepresentable; the axis then stays where it was, at rest.
+    // Values near the largest double may overflow; the axis then stays where it was, at rest.
     const bool representable = std::isfinite(state.position) && std::isfinite(state.velocity);
     if (representable) position_[axis] = state.position;
     velocity_[axis] = representable ? state.velocity : 0.0;
   }
-  // Two advances without a new intention continue one line: the answer is that of a single longer one.
+  // Two advances without a new intention continue one line, so the result equals that of a single longer advance.
   intention_.position += intention_.velocity * seconds;
   time_ += seconds;
   newest_ = (newest_ + 1) % samples_.size();

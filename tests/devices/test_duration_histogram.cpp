@@ -21,14 +21,14 @@ double true_percentile(std::vector<double> values, double share) {
 
 }  // namespace
 
-TEST_CASE("an empty histogram has no figures", "[servo]") {
+TEST_CASE("an empty histogram has a zero summary", "[servo]") {
   const DurationSummary summary = DurationHistogram().summary();
   CHECK(summary.count == 0);
   CHECK(summary.p50 == 0.0);
   CHECK(summary.worst == 0.0);
 }
 
-TEST_CASE("percentiles are within a 256th of the true ones at every size of duration", "[servo]") {
+TEST_CASE("percentiles are within 1/256 of the true ones at every scale of duration", "[servo]") {
   const double middle = GENERATE(1e-8, 1e-6, 1e-3, 0.5, 60.0);
   Random random(7);
   DurationHistogram histogram;
@@ -50,7 +50,7 @@ TEST_CASE("percentiles are within a 256th of the true ones at every size of dura
   CHECK(summary.worst == Approx(*std::max_element(values.begin(), values.end())).epsilon(1e-12));
 }
 
-TEST_CASE("every single duration is told within a 256th", "[servo]") {
+TEST_CASE("every single duration is reported to within 1/256", "[servo]") {
   for (double value = 1e-9; value < 1000.0; value *= 1.013) {
     DurationHistogram histogram;
     histogram.add(value);
@@ -62,14 +62,14 @@ TEST_CASE("every single duration is told within a 256th", "[servo]") {
   }
 }
 
-TEST_CASE("a percentile is a duration that at least its share does not exceed", "[servo]") {
+TEST_CASE("a percentile is a duration that at least its fraction of durations does not exceed", "[servo]") {
   DurationHistogram histogram;
   for (const double value : {1e-3, 2e-3, 3e-3}) histogram.add(value);
   CHECK(histogram.summary().p50 == Approx(2e-3).epsilon(DurationHistogram::relative_error));
   CHECK(histogram.summary().p99 == Approx(3e-3).epsilon(DurationHistogram::relative_error));
 }
 
-TEST_CASE("durations that are none count as zero, and endless ones in the last bucket", "[servo]") {
+TEST_CASE("invalid durations count as zero, and infinite ones in the last bucket", "[servo]") {
   DurationHistogram histogram;
   for (const double value : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), -1e300}) histogram.add(value);
   CHECK(histogram.summary().count == 4);

@@ -1,4 +1,4 @@
-// Percentiles of durations, counted by one thread and read by any.
+// Histogram of durations, written by one thread and read by any.
 #pragma once
 
 #include <array>
@@ -8,30 +8,30 @@
 
 namespace calligraphy {
 
-/// What a histogram has counted [s].
+/// Percentiles of the recorded durations [s].
 struct DurationSummary {
   std::uint64_t count = 0;
   double p50 = 0.0;
   double p99 = 0.0;
   double p99_9 = 0.0;
-  double worst = 0.0;  ///< exact to a nanosecond
+  double worst = 0.0;  ///< exact to 1 ns
 };
 
-/// Fixed buckets, 128 to each doubling: a percentile is off by at most 1/256 of itself, or 1 ns. Durations beyond 18
-/// minutes count in the last bucket. add() is wait-free and takes no memory; summary() may run meanwhile and then
-/// misses at most what is added during the call.
+/// Fixed buckets, 128 per octave: the error of a percentile is at most 1/256 of its value, or 1 ns. Durations above 18
+/// minutes count in the last bucket. add() is wait-free and does not allocate; a concurrent summary() misses at most
+/// what is added during the call.
 class DurationHistogram {
  public:
   static constexpr double relative_error = 1.0 / 256.0;
 
-  /// One thread at a time. Below 0 or not a number counts as 0 [s].
+  /// Call from one thread at a time. A negative duration or NaN counts as 0 [s].
   void add(double seconds) noexcept;
 
   DurationSummary summary() const noexcept;
 
  private:
   static constexpr std::size_t per_octave = 128;
-  static constexpr std::size_t octaves = 34;  ///< the first holds 0 to 127 ns singly
+  static constexpr std::size_t octaves = 34;  ///< the first has one bucket per ns, 0 to 127
 
   std::array<std::atomic<std::uint64_t>, octaves* per_octave> buckets_ = {};
   std::atomic<std::uint64_t> worst_ = 0;  ///< [ns]

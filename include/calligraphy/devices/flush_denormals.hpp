@@ -1,13 +1,13 @@
-// Denormal numbers as zero, for the thread of a servo loop.
+// Flushes denormal numbers to zero in the calling thread.
 #pragma once
 
 #include <cstdint>
 
 namespace calligraphy {
 
-/// While it lives, this thread takes and gives denormal numbers (below 2.2e-308) as zero: processors are up to a
-/// hundred times slower on them, and decaying filters end there. Needs x86 with SSE2 or 64-bit ARM; elsewhere it does
-/// nothing.
+/// RAII guard: during its lifetime, denormal operands and results (below 2.2e-308) in this thread are treated as zero.
+/// Processors are up to a hundred times slower on denormals, and decaying filters end in them. Supports x86 with SSE2
+/// and 64-bit ARM; elsewhere it does nothing.
 class FlushDenormals {
  public:
   FlushDenormals() noexcept;
@@ -15,7 +15,7 @@ class FlushDenormals {
   FlushDenormals(const FlushDenormals&) = delete;
   FlushDenormals& operator=(const FlushDenormals&) = delete;
 
-  /// Whether this processor can do it.
+  /// Whether this processor is supported.
   static bool available() noexcept;
 
  private:

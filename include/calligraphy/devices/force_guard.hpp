@@ -1,4 +1,4 @@
-// What stands between a force law and a device: falls to zero at a fault, comes back without a jump.
+// Guard between a force law and a device: ramps the force down on a fault and up again on recovery.
 #pragma once
 
 #include <cstdint>
@@ -9,42 +9,43 @@
 
 namespace calligraphy {
 
-/// Where the force of a servo loop stands.
+/// Phase of the force output.
 enum class ServoPhase : std::uint8_t {
-  zero,     ///< no force: nothing has run yet, or a fault lasts
-  rising,   ///< the share of the wanted force that is sent grows from 0 to 1
-  running,  ///< the wanted force is sent
-  falling   ///< the last force goes down in a straight line, whatever is wanted
+  zero,     ///< no force: before the first tick, or while a fault persists
+  rising,   ///< ramp-up: the gain on the desired force increases from 0 to 1
+  running,  ///< the desired force is output
+  falling   ///< ramp-down: the last force decreases linearly, whatever force is desired
 };
 
 /// "zero", "rising", "running", "falling".
 const char* to_string(ServoPhase phase) noexcept;
 
-/// Turns wanted forces into forces that may be sent. After a fault the force last sent falls to zero in `ramp_down`,
-/// its direction kept; it always gets there, even when the fault is over sooner. Then the share of the wanted force
-/// grows from 0 to 1 in `ramp_up`. Each call is one tick and takes the time since the last one [s].
+/// Converts desired forces into forces that are safe to output. On a fault, the last output ramps down linearly to zero
+/// within `ramp_down`, its direction preserved; the ramp always completes, even if the fault clears sooner. Then the
+/// gain on the desired force ramps up from 0 to 1 within `ramp_up`. Each call is one tick; `elapsed` is the time since
+/// the previous one [s].
 class ForceGuard {
  public:
-  /// @throws ValueError naming the value unless ramp_down is from 0 to 0.1 s and ramp_up from 0 to 10 s
+  /// @throws ValueError naming the value unless ramp_down is 0 to 0.1 s and ramp_up is 0 to 10 s
   ForceGuard(double ramp_down, double ramp_up);
 
-  /// All is well: the force that may be sent for the one that is wanted, which must be finite [N].
+  /// Normal tick: returns the force to output for the desired force, which must be finite [N].
   const Eigen::Vector3d& pass(const Eigen::Vector3d& wanted, double elapsed) noexcept;
 
-  /// Nothing new is known: the last force again, or the next one of a fall.
+  /// No fresh sample: returns the last force again, or the next one of a ramp-down.
   const Eigen::Vector3d& hold(double elapsed) noexcept;
 
-  /// Something is wrong. The first tick of a fall counts as at most `max_first_step`, so that a clock that leapt does
-  /// not make the force leap too.
+  /// Fault: starts or continues the ramp-down. Its first tick counts as at most `max_first_step` [s], so that a clock
+  /// jump does not cause a force step.
   const Eigen::Vector3d& fall(DeviceFault fault, double elapsed, double max_first_step) noexcept;
 
-  /// Zero at once; the next force rises from there.
+  /// Sets the force to zero immediately; the next one ramps up from there.
   void reset() noexcept;
 
   ServoPhase phase() const noexcept { return phase_; }
-  /// Share of the wanted force that is sent, or of the held one that is left [1].
+  /// Factor on the desired force, or on the last good force during a ramp-down, 0 to 1.
   double gain() const noexcept { return gain_; }
-  /// Why the force fell, until it has risen again.
+  /// Cause of the ramp-down, until the force has ramped up again.
   DeviceFault fault() const noexcept { return fault_; }
   const Eigen::Vector3d& force() const noexcept { return force_; }
 
@@ -54,8 +55,8 @@ class ForceGuard {
   ServoPhase phase_ = ServoPhase::zero;
   DeviceFault fault_ = DeviceFault::none;
   double gain_ = 0.0;
-  Eigen::Vector3d held_ = Eigen::Vector3d::Zero();   ///< what falls
-  Eigen::Vector3d force_ = Eigen::Vector3d::Zero();  ///< last sent
+  Eigen::Vector3d held_ = Eigen::Vector3d::Zero();   ///< ramped down
+  Eigen::Vector3d force_ = Eigen::Vector3d::Zero();  ///< last output
 };
 
 }  // namespace calligraphy

@@ -1,4 +1,4 @@
-// The newest value of one thread for another: the writer overwrites what the reader did not take in time.
+// Hands the newest value from one thread to another; the writer overwrites values that the reader has not taken.
 #pragma once
 
 #include <array>
@@ -7,17 +7,18 @@
 
 namespace calligraphy::phantom {
 
-/// Three slots: one is written, one is read, one waits between them. Neither side ever waits for the other.
+/// A triple buffer: one slot is written, one is read, one holds the newest value. Wait-free on both sides.
 template <class Value>
 class LatestValue {
  public:
-  /// Writing thread.
+  /// Call from the writing thread only.
   void publish(const Value& value) noexcept {
     slots_[written_] = value;
     written_ = waiting_.exchange(written_ | is_new, std::memory_order_acq_rel) & slot;
   }
 
-  /// False, and `value` untouched, when nothing was published since the last call. Reading thread.
+  /// Returns false, leaving `value` unchanged, if nothing was published since the last call. Call from the reading
+  /// thread only.
   bool take(Value& value) noexcept {
     if ((waiting_.load(std::memory_order_relaxed) & is_new) == 0) return false;
     read_ = waiting_.exchange(read_, std::memory_order_acq_rel) & slot;

@@ -1,4 +1,4 @@
-// A listener that keeps everything: unlike a servo loop it may take memory while it listens.
+// A listener that stores every transfer; unlike a servo loop it may allocate while it listens.
 #include <calligraphy/devices/phantom/packet_capture.hpp>
 
 #include <algorithm>
@@ -55,7 +55,7 @@ class Recorder final : public phantom::LinkListener {
 }  // namespace
 
 PacketCapture capture_packets(const PluggedDevice& device, const CaptureOptions& options) {
-  if (options.transfers == 0) throw ValueError("a capture of 0 transfers: ask for one at least");
+  if (options.transfers == 0) throw ValueError("a capture of 0 transfers: must be at least 1");
   if (!(std::isfinite(options.seconds) && options.seconds > 0.0)) {
     throw ValueError("a capture of " + std::to_string(options.seconds) + " s: must be finite and above 0");
   }

@@ -11,7 +11,7 @@
 
 using namespace calligraphy_test;
 
-TEST_CASE("the newest value is whole, and never older than the one before", "[phantom][threads]") {
+TEST_CASE("the newest value is intact and never older than the previous one", "[phantom][threads]") {
   struct Value {
     std::array<std::uint64_t, 16> copies{};
   };
@@ -41,7 +41,8 @@ TEST_CASE("the newest value is whole, and never older than the one before", "[ph
   CHECK_FALSE(latest.take(value));
 }
 
-TEST_CASE("reports, faults, reads, writes and statistics come from their own threads at once", "[phantom][threads]") {
+TEST_CASE("reports, faults, reads, writes and statistics may come from different threads concurrently",
+          "[phantom][threads]") {
   const WireProfile& profile = wire_profile("simulated");
   const PhantomOptions options = simulated_options();
   std::atomic<double> now = 0.0;

@@ -1,4 +1,4 @@
-// What a device sends, as it came: the raw material of a wire profile.
+// Raw packets of a device, from which a wire profile can be written.
 #pragma once
 
 #include <cstddef>
@@ -11,12 +11,12 @@
 namespace calligraphy {
 
 struct CaptureOptions {
-  std::size_t transfers = 1000;          ///< ends after so many
-  double seconds = 10.0;                 ///< and after this time whatever has come [s]
-  std::function<bool()> stop = nullptr;  ///< and when this says so; asked ten times a second
+  std::size_t transfers = 1000;          ///< ends after this many transfers
+  double seconds = 10.0;                 ///< or after this time [s]
+  std::function<bool()> stop = nullptr;  ///< or when this returns true; polled ten times a second
 };
 
-/// One transfer from the device: for a serial device a packet of the bus, for a HID a report.
+/// One transfer from the device: a bus packet of a serial device, a report of a HID.
 struct CapturedTransfer {
   double time = 0.0;  ///< since the device was opened [s]
   std::vector<std::byte> bytes;
@@ -27,12 +27,12 @@ struct PacketCapture {
   std::vector<CapturedTransfer> transfers;
 };
 
-/// Opens the device, sends it nothing and listens. @throws DeviceError when it cannot be opened, ValueError when a
-/// limit is not above 0
+/// Opens the device and listens without sending packets. @throws DeviceError when it cannot be opened, ValueError when
+/// a limit is not above 0
 PacketCapture capture_packets(const PluggedDevice& device, const CaptureOptions& options = {});
 
-/// The capture as text: lines that begin with # tell of the device; then a line for each transfer, its time [s] with
-/// six decimals, a blank, and its bytes in hexadecimal with blanks between them; "-" is a transfer without a byte.
+/// Writes the capture as text: lines beginning with # describe the device; then one line per transfer with its time [s]
+/// to six decimals and its bytes in hexadecimal, separated by spaces; "-" stands for a transfer without any bytes.
 void write_packet_capture(std::ostream& out, const PacketCapture& capture);
 
 }  // namespace calligraphy

@@ -1,5 +1,5 @@
-// hidapi keeps an error text for each device without a lock. Reading and writing at once is sound all the same as long
-// as neither goes on after it has failed, so each stops then until the reader has opened the device anew.
+// hidapi stores an error text per device without a lock. Concurrent reading and writing is nevertheless safe as long as
+// neither continues after a failure, so both stop until the reader has reopened the device.
 #include "hid_link.hpp"
 
 #include <hidapi.h>
@@ -17,13 +17,13 @@
 namespace calligraphy::phantom {
 namespace {
 
-constexpr int max_read = 5;            // [ms]; after it the reader looks whether a write has failed
+constexpr int max_read = 5;            // then the reader checks whether a write has failed [ms]
 constexpr double writer_pause = 0.05;  // [s]
-// From one opening to the next: a device that opens and fails at once must not take the processor, at the priority that
-// this thread may have.
+// Minimum time between two openings: a device that opens and fails immediately must not occupy the processor, at the
+// real-time priority that this thread may have.
 constexpr std::chrono::milliseconds min_stay(10);
 
-/// hidapi's list of devices, its start and its opening are not for several threads at once.
+/// hidapi's initialisation, enumeration and opening are not thread-safe.
 std::mutex& hidapi_mutex() {
   static std::mutex mutex;
   return mutex;
@@ -80,7 +80,7 @@ HidLink::~HidLink() {
 }
 
 void HidLink::open(LinkListener& listener) {
-  if (reader_.joinable()) throw DeviceError(description() + ": this link is open already");
+  if (reader_.joinable()) throw DeviceError(description() + ": this link is already open");
   listener_ = &listener;
   std::promise<void> first;
   std::future<void> outcome = first.get_future();
@@ -102,26 +102,27 @@ bool HidLink::send(std::span<const std::byte> packet) noexcept {
 }
 
 void HidLink::command(std::span<const std::byte> packet) {
-  if (packet.size() > max_packet_bytes) refuse(wanted_, "a command of " + std::to_string(packet.size()) + " bytes");
+  if (packet.size() > max_packet_bytes)
+    refuse(wanted_, "a command of " + std::to_string(packet.size()) + " bytes is too long");
   const std::lock_guard<std::mutex> alone(device_mutex_);
   if (device_ == nullptr) refuse(wanted_, "the command was not sent: it is not plugged in");
-  if (write_failed_ || !write_report(packet)) refuse(wanted_, "the command was not taken: the transfer failed");
+  if (write_failed_ || !write_report(packet)) refuse(wanted_, "the command was not accepted: the transfer failed");
 }
 
 LinkCounts HidLink::counts() const noexcept { return {received_, sent_, replaced_, failed_, opened_}; }
 
 void HidLink::connect() {
-  bus_.wait(0.0);  // what came and went is dealt with
+  bus_.wait(0.0);  // processes pending hot-plug events
   const PluggedDevice place = found(bus_.context(), wanted_);
-  // Before it is opened: hidapi-libusb takes the device from the system, and its report descriptor with it.
+  // Before opening: hidapi-libusb detaches the system's driver, and with it the report descriptor.
   const bool numbered = has_numbered_reports(report_descriptor_at(usb_place(place.bus, place.port)));
-  // hidapi-hidraw 0.13.1 may crash when it lists a device that is being unplugged: it is asked once, when the device is
-  // opened for the first time, and afterwards the system is.
+  // hidapi-hidraw 0.13.1 may crash if it lists devices while one is being unplugged: it lists them only once, when the
+  // device is first opened; afterwards the node comes from the system.
   const std::string path = through_hidraw_ ? (place.nodes.size() > 1 ? place.nodes[1] : "") : hid_path(wanted_);
   if (!path.empty()) through_hidraw_ = path.rfind("/dev/", 0) == 0;
   const std::string node = through_hidraw_ ? path : place.nodes.front();
   if (!may_open(node)) refuse(place, permission_advice(node));
-  if (path.empty()) refuse(place, "hidapi does not see it: unplug it and plug it in again");
+  if (path.empty()) refuse(place, "hidapi does not find it: unplug it and plug it in again");
   lock_.take(place);
   hid_device* const device = opened(path);
   if (device == nullptr) {
@@ -165,10 +166,10 @@ void HidLink::tell(DeviceFault fault) noexcept {
   listener_->changed(fault);
 }
 
-// ---- the reader
+// ---- reader
 
 void HidLink::read_and_tell(std::promise<void> opened) noexcept {
-  warnings_ = set_real_time_priority(options_.priority);  // hidapi-libusb's own thread is started from this one
+  warnings_ = set_real_time_priority(options_.priority);  // inherited by hidapi-libusb's own thread
   try {
     connect();
   } catch (...) {
@@ -187,7 +188,7 @@ void HidLink::read_and_tell(std::promise<void> opened) noexcept {
   disconnect();
 }
 
-/// Until the device fails or the link is closed.
+/// Runs until the device fails or the link is closed.
 void HidLink::read_reports() noexcept {
   std::array<unsigned char, max_packet_bytes> report{};
   while (!stopping_) {
@@ -213,7 +214,7 @@ void HidLink::reopen() noexcept {
   std::this_thread::sleep_until(opened_at_ + min_stay);
   try {
     connect();
-    // hidapi does not say why a transfer failed: a device that opens again at once had an error, any other is gone.
+    // hidapi does not report why a transfer failed: a device that reopens immediately had an error, any other is gone.
     if (told_ != DeviceFault::unplugged) tell(DeviceFault::link_error);
     start();
   } catch (const std::exception&) {
@@ -225,10 +226,10 @@ void HidLink::reopen() noexcept {
   }
 }
 
-// ---- the writer
+// ---- writer
 
 void HidLink::write_packets() noexcept {
-  set_real_time_priority(options_.priority);  // what is not permitted, the reader has told
+  set_real_time_priority(options_.priority);  // the reader reports a refusal
   while (true) {
     const bool last = writer_stops_;
     if (const Packet* packet = newest_.take()) {
@@ -240,7 +241,7 @@ void HidLink::write_packets() noexcept {
   }
 }
 
-/// The device's mutex is held. hidapi wants the number of a report in front, and 0 when there is none.
+/// Requires device_mutex_. hidapi expects the report number first, 0 if there is none.
 bool HidLink::write_report(std::span<const std::byte> packet) noexcept {
   std::array<unsigned char, max_packet_bytes + 1> report{};
   const std::size_t start = numbered_ ? 0 : 1;

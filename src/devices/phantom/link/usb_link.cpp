@@ -1,4 +1,4 @@
-// A callback of libusb only notes; everything that may open, close, wait or tell happens between two rounds of events.
+// libusb callbacks only record events; opening, closing, waiting and notifying happen between two rounds of events.
 #include "usb_link.hpp"
 
 #include <algorithm>
@@ -12,8 +12,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto pause_after_error = 10ms;       // a device that is being unplugged fails at once, again and again
-constexpr auto oldest_repeated_packet = 20ms;  // a force from before that is no longer the one that is meant
+constexpr auto pause_after_error = 10ms;       // while a device is being unplugged, transfers fail immediately
+constexpr auto oldest_repeated_packet = 20ms;  // an older force is outdated
 constexpr double max_cancel = 1.0;             // [s]
 constexpr double max_flush = 0.1;              // [s]
 
@@ -22,11 +22,11 @@ unsigned milliseconds(double seconds) { return static_cast<unsigned>(std::max(1.
 const char* to_string(libusb_transfer_status status) {
   switch (status) {
     case LIBUSB_TRANSFER_TIMED_OUT:
-      return "it did not take it in time";
+      return "the device did not accept it in time";
     case LIBUSB_TRANSFER_STALL:
-      return "its endpoint is stalled";
+      return "the endpoint is stalled";
     case LIBUSB_TRANSFER_NO_DEVICE:
-      return "it was unplugged";
+      return "the device was unplugged";
     default:
       return "the transfer failed";
   }
@@ -47,7 +47,7 @@ UsbLink::~UsbLink() {
 }
 
 void UsbLink::open(LinkListener& listener) {
-  if (thread_.joinable()) throw DeviceError(description() + ": this link is open already");
+  if (thread_.joinable()) throw DeviceError(description() + ": this link is already open");
   listener_ = &listener;
   std::promise<void> opened;
   std::future<void> outcome = opened.get_future();
@@ -68,7 +68,8 @@ bool UsbLink::send(std::span<const std::byte> packet) noexcept {
 }
 
 void UsbLink::command(std::span<const std::byte> packet) {
-  if (packet.size() > max_packet_bytes) refuse(wanted_, "a command of " + std::to_string(packet.size()) + " bytes");
+  if (packet.size() > max_packet_bytes)
+    refuse(wanted_, "a command of " + std::to_string(packet.size()) + " bytes is too long");
   if (std::this_thread::get_id() == thread_id_) {
     transmit(packet);
     return;
@@ -119,7 +120,7 @@ void UsbLink::serve() noexcept {
     try {
       connect();
     } catch (const std::exception&) {
-      // Not there yet, or the system has not set its permissions yet: it is looked for again.
+      // Not connected, or the system has not set its permissions yet: search again later.
       disconnect();
     }
   }
@@ -146,7 +147,7 @@ void UsbLink::connect() {
   for (Inward& inward : inward_) {
     inward.transfer = libusb_alloc_transfer(0);
     if (inward.transfer == nullptr) throw std::bad_alloc();
-    // One packet a transfer: a longer one would wait until a short packet ends it.
+    // One packet per transfer: a longer transfer would not complete before a short packet ends it.
     libusb_fill_bulk_transfer(inward.transfer, device_.handle(), device_.in_endpoint(), inward.buffer.data(),
                               std::min(device_.packet_size(), static_cast<int>(inward.buffer.size())), inward_done,
                               &inward, milliseconds(options_.silence));
@@ -171,7 +172,7 @@ void UsbLink::disconnect() noexcept {
   if (outward_.flying) libusb_cancel_transfer(outward_.transfer);
   pump_until(&UsbLink::outward_idle, max_cancel);
   device_.close(!gone_);
-  // A transfer that has not come back by now was taken from libusb's list when the device was closed.
+  // Closing the device has removed any transfer that has not completed from libusb's list.
   for (Inward& inward : inward_) {
     libusb_free_transfer(inward.transfer);
     inward.transfer = nullptr;
@@ -185,7 +186,7 @@ void UsbLink::disconnect() noexcept {
 
 void UsbLink::recover() noexcept {
   if (in_stalled_) {
-    // The system wants no transfer in the queue of an endpoint whose halt is cleared.
+    // The system requires that no transfers are queued on an endpoint when its halt is cleared.
     cancel_inward();
     holding_ = false;
     clear_halt(device_.in_endpoint());
@@ -210,7 +211,7 @@ void UsbLink::clear_halt(unsigned char endpoint) noexcept {
   if (libusb_clear_halt(device_.handle(), endpoint) == LIBUSB_ERROR_NO_DEVICE) gone_ = true;
 }
 
-/// The listener hears of a fault even when packets flow again by now, and only afterwards gets those packets.
+/// Notifies the listener of a fault even if packets are arriving again, and delivers those packets only afterwards.
 void UsbLink::tell_where_it_stands() noexcept {
   if (gone_) return;
   tell(in_fault_ != DeviceFault::none ? in_fault_ : out_fault_);
@@ -294,7 +295,7 @@ void UsbLink::inward_done(libusb_transfer* transfer) noexcept {
       link.in_stalled_ = true;
       return;
     case LIBUSB_TRANSFER_TIMED_OUT:
-      // When packets are rare, each of the four waits longer than the time between two of them.
+      // If packets are rare, a transfer may time out although another one has received a packet.
       if (Clock::now() - link.last_received_ >= std::chrono::duration<double>(link.options_.silence)) {
         link.inward_failed(DeviceFault::timed_out);
       }
@@ -307,7 +308,7 @@ void UsbLink::inward_done(libusb_transfer* transfer) noexcept {
     default:
       break;
   }
-  // The first sign of an unplugged device is often such an error: the next transfer tells which of the two it is.
+  // Such an error is often the first sign of an unplugged device: the next transfer shows which of the two it is.
   const bool again = link.in_fault_ == DeviceFault::link_error;
   link.inward_failed(DeviceFault::link_error);
   link.retry_in_ = Clock::now() + pause_after_error;
@@ -396,19 +397,20 @@ void UsbLink::run_request() noexcept {
 void UsbLink::transmit(std::span<const std::byte> packet) {
   pump_until(&UsbLink::outward_idle, options_.answer);
   if (device_.handle() == nullptr || gone_) refuse(wanted_, "the command was not sent: it is not plugged in");
-  if (outward_.flying) refuse(device_.place(), "the command was not sent: it has not taken the packet before it");
+  if (outward_.flying)
+    refuse(device_.place(), "the command was not sent: the device has not accepted the previous packet");
   std::copy_n(reinterpret_cast<const unsigned char*>(packet.data()), packet.size(), outward_.buffer.data());
   outward_.size = packet.size();
   submit_outward();
   pump_until(&UsbLink::outward_idle, 2.0 * options_.answer);
-  outward_.refused = false;  // a command is the caller's to repeat
+  outward_.refused = false;  // repeating a command is up to the caller
   if (outward_.flying || outward_.ended != LIBUSB_TRANSFER_COMPLETED) {
-    refuse(device_.place(), std::string("the command was not taken: ") +
-                                (outward_.flying ? "it did not take it in time" : to_string(outward_.ended)));
+    refuse(device_.place(), std::string("the command was not accepted: ") +
+                                (outward_.flying ? "the device did not accept it in time" : to_string(outward_.ended)));
   }
 }
 
-/// The last packet of a servo loop is the one that sets the force to zero.
+/// Sends the last packet of a servo loop, which sets the force to zero.
 void UsbLink::flush() noexcept {
   const auto end = Clock::now() + std::chrono::duration<double>(max_flush);
   while ((newest_.waiting() || outward_.flying) && device_.handle() != nullptr && !gone_ && Clock::now() < end) {

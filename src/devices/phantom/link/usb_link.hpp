@@ -1,4 +1,4 @@
-// A serial device over libusb: asynchronous bulk transfers, the newest packet wins, and it comes back when replugged.
+// Link to a serial device over libusb: asynchronous bulk transfers, newest packet first, automatic reconnection.
 #pragma once
 
 #include <array>
@@ -17,13 +17,13 @@
 
 namespace calligraphy::phantom {
 
-/// Four transfers wait for the device at any time, so that none of its packets finds the host busy. All of libusb is
-/// called from the link's own thread, its callbacks note what happened, and the thread acts on it between callbacks.
+/// Four transfers are pending at any time, so the host never misses a packet of the device. libusb is called only from
+/// the link's own thread; its callbacks record what happened, and the thread acts on it between callbacks.
 class UsbLink final : public Link {
  public:
-  /// @throws DeviceError when libusb cannot start
+  /// @throws DeviceError when libusb cannot be initialised
   UsbLink(const PluggedDevice& device, const LinkOptions& options);
-  /// A packet that still waits is sent first, for at most a tenth of a second.
+  /// Sends a pending packet first, for at most 0.1 s.
   ~UsbLink() override;
 
   void open(LinkListener& listener) override;
@@ -42,7 +42,7 @@ class UsbLink final : public Link {
     UsbLink* link = nullptr;
     libusb_transfer* transfer = nullptr;
     bool flying = false;
-    bool kept = false;  ///< its packet waits until the listener has heard of a change
+    bool kept = false;  ///< its packet is held back until the listener has been notified of a change
     std::array<unsigned char, max_packet_bytes> buffer = {};
   };
   /// The transfer to the device.
@@ -51,8 +51,8 @@ class UsbLink final : public Link {
     bool flying = false;
     libusb_transfer_status ended = LIBUSB_TRANSFER_COMPLETED;
     std::size_t size = 0;
-    Clock::time_point filled = {};  ///< when its packet was taken
-    bool refused = false;           ///< its packet has not gone through yet
+    Clock::time_point filled = {};  ///< when its packet was taken from the queue
+    bool refused = false;           ///< its packet has not been transferred yet
     std::array<unsigned char, max_packet_bytes> buffer = {};
   };
   /// A packet of command() from another thread.
@@ -101,18 +101,18 @@ class UsbLink final : public Link {
 
   UsbDevice device_;
   std::array<Inward, 4> inward_;
-  std::array<Inward*, 4> kept_ = {};  ///< in the order that they came
+  std::array<Inward*, 4> kept_ = {};  ///< in order of arrival
   std::size_t kept_count_ = 0;
   Outward outward_;
   NewestPacket newest_;
 
-  // What the callbacks noted, and how the two directions stand.
+  // Recorded by the callbacks, and the state of both directions.
   bool gone_ = false;
-  bool holding_ = false;  ///< nothing is submitted again
-  bool telling_ = false;  ///< the listener hears of a change, perhaps sending a command
+  bool holding_ = false;  ///< nothing is resubmitted
+  bool telling_ = false;  ///< the listener is being notified, and may be sending a command
   bool in_stalled_ = false;
   bool out_stalled_ = false;
-  bool in_flows_ = false;  ///< a packet came since the fault
+  bool in_flows_ = false;  ///< a packet has arrived since the fault
   DeviceFault in_fault_ = DeviceFault::none;
   DeviceFault out_fault_ = DeviceFault::none;
   DeviceFault told_ = DeviceFault::none;
@@ -125,7 +125,7 @@ class UsbLink final : public Link {
   std::mutex command_mutex_;  ///< one command at a time
   std::atomic<Request*> request_{nullptr};
 
-  std::list<std::string> descriptions_;  ///< of every place it was found at, kept for those who hold one
+  std::list<std::string> descriptions_;  ///< one per port at which it was found, kept for holders of references
   std::atomic<const std::string*> description_{nullptr};
   std::atomic<std::uint64_t> received_{0}, sent_{0}, replaced_{0}, failed_{0}, opened_{0};
 };

@@ -1,4 +1,4 @@
-// What a transfer holds by the framing of the profile: reports taken out of it, commands put into it.
+// Unpacks reports from transfers and packs commands into packets, by the framing of the profile.
 #pragma once
 
 #include <algorithm>
@@ -24,8 +24,8 @@ class ReportFrames {
         serial_(SerialFrames::Expected{codec.profile().report_code,
                                        static_cast<std::uint8_t>(codec.profile().report_size)}) {}
 
-  /// Calls `take(const RawSample&)` for each report. A stream has no short or overlong frames, an empty transfer is
-  /// one in either framing.
+  /// Calls `take(const RawSample&)` for each report. A stream has no short or overlong frames; an empty transfer is an
+  /// empty frame with either framing.
   template <class Take>
   void feed(std::span<const std::byte> bytes, Take&& take) noexcept {
     if (!is_serial_ || bytes.empty()) {
@@ -47,7 +47,7 @@ class ReportFrames {
     return packet.first(write_serial_frame(codec_.profile().command_code, std::span(payload).first(size), packet));
   }
 
-  /// The packet of a start or stop command: in a stream its first byte is the frame's code.
+  /// The packet of a start or stop command; in a stream its first byte is the code of the frame.
   std::span<const std::byte> wrap(std::span<const std::byte> bytes,
                                   std::span<std::byte, max_framed_bytes> packet) const noexcept {
     if (is_serial_) {

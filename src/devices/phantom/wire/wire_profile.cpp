@@ -19,7 +19,7 @@ std::string numbered(const char* name, std::size_t index) {
   return std::string(name) + " " + std::to_string(index + 1);
 }
 
-/// The fields of one frame: each inside it, none on another.
+/// Checks that the fields of a frame lie inside it and do not overlap.
 class FrameCheck {
  public:
   FrameCheck(const char* frame, std::size_t size) : frame_(frame), size_(size), taken_(8 * size) {
@@ -40,7 +40,8 @@ class FrameCheck {
       number("highest bit", std::int64_t{field.low_bit} + field.bits - 1, "below " + std::to_string(8 * field.bytes));
     }
     if (field.offset < 0 || static_cast<std::size_t>(field.offset) + static_cast<std::size_t>(field.bytes) > size_) {
-      number("offset", field.offset, "such that its bytes lie in the " + std::to_string(size_) + " of the " + frame_);
+      number("offset", field.offset,
+             "such that the field fits into the " + std::to_string(size_) + " bytes of the " + frame_);
     }
   }
 
@@ -48,12 +49,12 @@ class FrameCheck {
     inside(field, name);
     for (int bit = field.low_bit; bit < field.low_bit + field.bits; ++bit) {
       std::string& owner = taken_[bit_of_frame(field, bit)];
-      if (!owner.empty()) refuse(name + " lies on " + owner + " in the " + frame_);
+      if (!owner.empty()) refuse(name + " overlaps " + owner + " in the " + frame_);
       owner = name;
     }
   }
 
-  /// Stands alone, and every value of it can be told from the next.
+  /// Overlaps no other field and has one bit.
   void flag(const Field& field, const std::string& name) {
     alone(field, name);
     if (field.bits != 1) refuse(name + ": number of bits is " + std::to_string(field.bits) + ", must be 1");
@@ -63,10 +64,10 @@ class FrameCheck {
     alone(checksum.field, name);
     if (checksum.first < 0 || checksum.last < checksum.first || static_cast<std::size_t>(checksum.last) >= size_) {
       refuse(name + ": bytes " + std::to_string(checksum.first) + ".." + std::to_string(checksum.last) +
-             " do not lie in the " + frame_);
+             " are outside the " + frame_);
     }
     const int first = checksum.field.offset, last = first + checksum.field.bytes - 1;
-    if (first <= checksum.last && last >= checksum.first) refuse(name + " counts its own bytes");
+    if (first <= checksum.last && last >= checksum.first) refuse(name + " covers its own bytes");
     if (checksum.kind == ChecksumKind::exclusive_or && checksum.field.bits != 8) {
       refuse(name + ": number of bits is " + std::to_string(checksum.field.bits) + ", must be 8 for xor");
     }
@@ -106,9 +107,9 @@ void validate_report(const WireProfile& profile) {
     const auto pair = [&](const std::optional<Field>& copy, const Field* of, const std::string& copy_name) {
       if (!copy) return;
       check.alone(*copy, copy_name);
-      if (of == nullptr) refuse(copy_name + " is a copy of nothing");
+      if (of == nullptr) refuse(copy_name + " copies a field that is not defined");
       if (copy->bits != of->bits || copy->is_signed != of->is_signed) {
-        refuse(copy_name + ": number of bits or sign is not that of what it copies");
+        refuse(copy_name + ": number of bits or signedness differs from that of the field it copies");
       }
     };
     pair(profile.encoder_copies[joint], &encoder, numbered("encoder-copy", joint));
@@ -116,7 +117,8 @@ void validate_report(const WireProfile& profile) {
     if (gimbal) check.alone(*gimbal, numbered("gimbal", joint));
     pair(profile.gimbal_copies[joint], gimbal ? &*gimbal : nullptr, numbered("gimbal-copy", joint));
   }
-  if (profile.buttons.size() > 32) refuse("buttons are " + std::to_string(profile.buttons.size()) + ", at most 32");
+  if (profile.buttons.size() > 32)
+    refuse("button count is " + std::to_string(profile.buttons.size()) + ", must be at most 32");
   for (std::size_t i = 0; i < profile.buttons.size(); ++i) check.flag(profile.buttons[i], numbered("button", i));
   if (profile.docked) check.flag(*profile.docked, "docked");
   if (profile.sequence) {
@@ -138,10 +140,10 @@ void validate_report(const WireProfile& profile) {
 
 void validate_command(const WireProfile& profile) {
   const bool has_dac = profile.dac[0] || profile.dac[1] || profile.dac[2];
-  if (profile.command_size == 0) {  // a device that is only listened to
+  if (profile.command_size == 0) {  // a read-only device
     if (has_dac || profile.motors_on || profile.toggle || profile.dock_light || !profile.constants.empty() ||
         profile.command_checksum) {
-      refuse("command size is 0, but there are fields of a command");
+      refuse("command size is 0, but command fields are defined");
     }
     return;
   }
@@ -152,7 +154,7 @@ void validate_command(const WireProfile& profile) {
     const std::string name = numbered("dac", joint);
     check.alone(dac.field, name);
     FrameCheck::in_range(dac.field, dac.zero, name + ": zero");
-    if (torque_range(dac) < 1) refuse(name + ": zero leaves no room for torque both ways");
+    if (torque_range(dac) < 1) refuse(name + ": zero leaves no range for torque in both directions");
   }
   for (std::size_t i = 0; i < profile.constants.size(); ++i) {
     check.constant(profile.constants[i], numbered("constant", i));
@@ -163,7 +165,7 @@ void validate_command(const WireProfile& profile) {
   if (profile.command_checksum) check.checksum(*profile.command_checksum, "command-checksum");
 }
 
-/// Each of the values, if there are any. What is not a number fails too.
+/// Checks each of the values, if there are any. NaN fails, too.
 template <class Values, class Judge>
 void validate_each(const std::optional<Values>& values, const char* name, const char* domain, Judge is_good) {
   if (!values) return;
@@ -203,13 +205,13 @@ void validate(const WireProfile& profile) {
              " bytes, must have 1 to " + std::to_string(most));
     }
   }
-  validate_each(profile.counts_per_radian, "counts-per-radian", "its size must be 1 to 1e+09", has_size(1.0, 1e9));
-  validate_each(profile.docked_angles, "docked-angles", "its size must be at most 6.3 rad", has_size(0.0, 6.3));
-  validate_each(profile.torque_per_count, "torque-per-count", "its size must be 1e-12 to 10 N m",
+  validate_each(profile.counts_per_radian, "counts-per-radian", "its magnitude must be 1 to 1e+09", has_size(1.0, 1e9));
+  validate_each(profile.docked_angles, "docked-angles", "its magnitude must be at most 6.3 rad", has_size(0.0, 6.3));
+  validate_each(profile.torque_per_count, "torque-per-count", "its magnitude must be 1e-12 to 10 N m",
                 has_size(1e-12, 10.0));
   validate_each(profile.continuous_torque, "continuous-torque", "must be 1e-06 to 100 N m",
                 [](double torque) { return torque >= 1e-6 && torque <= 100.0; });
-  validate_each(profile.gravity, "gravity", "its size must be at most 10 N m", has_size(0.0, 10.0));
+  validate_each(profile.gravity, "gravity", "its magnitude must be at most 10 N m", has_size(0.0, 10.0));
 }
 
 std::vector<std::string> missing_for_position(const WireProfile& profile) {
@@ -236,7 +238,7 @@ std::string_view wire_profile_text(std::string_view name) {
   if (name == "simulated") return built_in::wire_profile_simulated;
   std::string known;
   for (const std::string& other : wire_profile_names()) known += (known.empty() ? "" : ", ") + other;
-  throw ValueError("wire profile \"" + std::string(name) + "\" does not exist; there are " + known);
+  throw ValueError("wire profile \"" + std::string(name) + "\" does not exist; available: " + known);
 }
 
 const WireProfile& wire_profile(std::string_view name) {
@@ -246,7 +248,7 @@ const WireProfile& wire_profile(std::string_view name) {
   };
   static const WireProfile omni = parsed("omni");
   static const WireProfile simulated = parsed("simulated");
-  wire_profile_text(name);  // knows which names there are
+  wire_profile_text(name);  // throws for an unknown name
   return name == "omni" ? omni : simulated;
 }
 

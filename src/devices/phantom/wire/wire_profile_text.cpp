@@ -20,20 +20,20 @@ namespace calligraphy::phantom {
 namespace {
 
 constexpr std::string_view first_line = "calligraphy wire profile 1";
-constexpr std::size_t max_text = 1 << 20;  // a profile is a page; more is another file [bytes]
+constexpr std::size_t max_text = 1 << 20;  // a profile is about a page; anything longer is another kind of file [bytes]
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
-/// What was found, as a message shows it.
+/// Text for an error message, shortened.
 std::string in_quotes(std::string_view text) {
   if (text.empty()) return "the end of the line";
   constexpr std::size_t most = 60;
   return "'" + std::string(text.substr(0, most)) + (text.size() > most ? "..." : "") + "'";
 }
 
-/// Statements whose text goes to the end of the line, '#' and all.
+/// Statements whose text extends to the end of the line, including '#'.
 bool is_free_text(std::string_view key) { return key == "name" || key == "source" || key == "licence"; }
 
-/// "link-error" for DeviceFault::link_error; none: no such fault.
+/// "link-error" gives DeviceFault::link_error; none if there is no such fault.
 std::optional<DeviceFault> fault_of(std::string_view word) {
   for (auto fault = DeviceFault::unplugged; fault <= DeviceFault::late_clock;
        fault = static_cast<DeviceFault>(static_cast<int>(fault) + 1)) {
@@ -64,7 +64,7 @@ class Parser {
     }
     if (!button_numbers_.empty() && *button_numbers_.rbegin() != static_cast<int>(button_numbers_.size())) {
       throw FormatError(name_ + ": button " + std::to_string(*button_numbers_.rbegin()) + " of " +
-                        std::to_string(button_numbers_.size()) + ": buttons are numbered from 1 without a gap");
+                        std::to_string(button_numbers_.size()) + ": buttons must be numbered from 1 without gaps");
     }
     try {
       validate(profile_);
@@ -79,13 +79,13 @@ class Parser {
     throw FormatError(name_ + ":" + std::to_string(number_) + ": " + what);
   }
 
-  /// The next line that says something, without comment and trailing blanks.
+  /// Reads the next non-empty line, without comment and trailing whitespace.
   bool next_line() {
     while (std::getline(in_, line_)) {
       ++number_;
       read_ += line_.size() + 1;
-      if (read_ > max_text) fail("this is no wire profile: it is longer than 1 MB");
-      if (!utf8::is_valid(line_.begin(), line_.end())) fail("this is no wire profile: it is not UTF-8");
+      if (read_ > max_text) fail("not a wire profile: it is longer than 1 MB");
+      if (!utf8::is_valid(line_.begin(), line_.end())) fail("not a wire profile: it is not valid UTF-8");
       if (number_ == 1 && line_.starts_with(byte_order_mark)) line_.erase(0, byte_order_mark.size());
       left_ = line_;
       if (!is_free_text(word())) line_.erase(std::min(line_.find('#'), line_.size()));
@@ -114,7 +114,7 @@ class Parser {
     fail("unknown keyword " + in_quotes(key));
   }
 
-  /// ":7", where what the complaint begins with stands on line 7; empty: it is about no single line.
+  /// ":7" if the message begins with the name of a statement on line 7; empty if it concerns no single line.
   std::string line_of(std::string_view complaint) const {
     for (const auto& [key, line] : lines_) {
       const bool is_named = complaint.starts_with(key) && complaint.size() > key.size();
@@ -123,13 +123,13 @@ class Parser {
     return {};
   }
 
-  /// Most lines stand once.
+  /// For statements that may appear only once.
   void once(std::string key) {
     if (const auto [it, is_new] = lines_.emplace(std::move(key), number_); !is_new)
-      fail(in_quotes(it->first) + " stands here a second time");
+      fail(in_quotes(it->first) + " is already defined");
   }
 
-  /// Others are counted, as validate() counts them.
+  /// For repeatable statements, numbered as in validate().
   void counted(std::string_view key, std::size_t before) {
     lines_.emplace(std::string(key) + " " + std::to_string(before + 1), number_);
   }
@@ -197,7 +197,7 @@ class Parser {
     } else if (key == "fault") {
       const std::string_view name = word();
       const std::optional<DeviceFault> fault = fault_of(name);
-      if (!fault) fail(in_quotes(name) + " is not the name of a fault");
+      if (!fault) fail(in_quotes(name) + " is not a fault name");
       counted(key, profile_.faults.size());
       profile_.faults.push_back({*fault, field()});
     } else if (key == "expect") {
@@ -262,7 +262,7 @@ class Parser {
     const bool known = type.size() >= 2 && (type[0] == 'u' || type[0] == 's');
     const std::string_view width = known ? type.substr(1) : std::string_view();
     if (width != "8" && width != "16" && width != "24" && width != "32") {
-      fail(in_quotes(type) + " is not a type: u8, u16, u24, u32, s8, s16, s24, s32");
+      fail(in_quotes(type) + " is not a field type (u8, u16, u24, u32, s8, s16, s24, s32)");
     }
     field.is_signed = type[0] == 's';
     field.bits = width == "8" ? 8 : width == "16" ? 16 : width == "24" ? 24 : 32;
@@ -283,7 +283,7 @@ class Parser {
       } else if (option == "inverted") {
         field.inverted = true;
       } else {
-        left_ = rest;  // of the statement, not of the field
+        left_ = rest;  // belongs to the statement, not to the field
         break;
       }
     }
@@ -300,7 +300,7 @@ class Parser {
   Checksum checksum() {
     Checksum checksum;
     const std::string_view kind = word();
-    if (kind != "sum" && kind != "xor") fail(in_quotes(kind) + " is not a checksum: sum, xor");
+    if (kind != "sum" && kind != "xor") fail(in_quotes(kind) + " is not a checksum type (sum, xor)");
     checksum.kind = kind == "sum" ? ChecksumKind::sum : ChecksumKind::exclusive_or;
     std::tie(checksum.first, checksum.last) = span(4095, "bytes");
     checksum.field = field();
@@ -311,7 +311,7 @@ class Parser {
   std::pair<int, int> span(int most, const char* what) {
     const std::string_view text = word();
     const auto dots = text.find("..");
-    if (dots == std::string_view::npos) fail(in_quotes(text) + " are not " + what + ": FIRST..LAST");
+    if (dots == std::string_view::npos) fail(in_quotes(text) + " is not a range of " + what + ", FIRST..LAST");
     const auto low = to_integer(text.substr(0, dots), 0, most);
     return {static_cast<int>(low), static_cast<int>(to_integer(text.substr(dots + 2), low, most))};
   }
@@ -328,9 +328,9 @@ class Parser {
     const auto [end, error] =
         std::from_chars(digits.data(), digits.data() + digits.size(), value, hexadecimal ? 16 : 10);
     const bool whole = error == std::errc() && end == digits.data() + digits.size();
-    if (!whole || (hexadecimal && value < 0)) fail(in_quotes(text) + " is not a whole number");
+    if (!whole || (hexadecimal && value < 0)) fail(in_quotes(text) + " is not an integer");
     if (value < least || value > most) {
-      fail(std::string(text) + " must be " + std::to_string(least) + " to " + std::to_string(most));
+      fail(std::string(text) + " is out of range, must be " + std::to_string(least) + " to " + std::to_string(most));
     }
     return value;
   }
@@ -355,11 +355,11 @@ class Parser {
       int value = 0;
       const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, 16);
       if (text.size() != 2 || text[0] == '-' || error != std::errc() || end != text.data() + text.size()) {
-        fail(in_quotes(text) + " is not a byte of two hexadecimal digits");
+        fail(in_quotes(text) + " is not a byte (two hexadecimal digits)");
       }
       bytes.push_back(static_cast<std::byte>(value));
     }
-    if (bytes.empty()) fail("expected bytes of two hexadecimal digits each, found none");
+    if (bytes.empty()) fail("expected bytes (two hexadecimal digits each), found none");
     return bytes;
   }
 
@@ -370,7 +370,7 @@ class Parser {
   int number_ = 0;
   std::size_t read_ = 0;
   bool seen_first_line_ = false;
-  std::map<std::string, int> lines_;  ///< of what was said, by its name in validate()'s messages
+  std::map<std::string, int> lines_;  ///< line numbers of statements, by their names in validate()'s messages
   std::set<int> button_numbers_;
   WireProfile profile_;
 };
@@ -385,7 +385,7 @@ WireProfile read_wire_profile(const std::string& path) {
     throw FileError(path + ": is not a regular file");
   }
   const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (!error && size > max_text) throw FormatError(path + ": this is no wire profile: it is longer than 1 MB");
+  if (!error && size > max_text) throw FormatError(path + ": not a wire profile: it is longer than 1 MB");
   errno = 0;
   std::ifstream in(path, std::ios::binary);
   if (!in) throw FileError(path + ": cannot be opened: " + std::generic_category().message(errno));

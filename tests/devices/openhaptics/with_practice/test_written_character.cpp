@@ -1,4 +1,4 @@
-// A whole character through the vendor's runtime: the simulated writer holds the stand-in's pen.
+// A complete character through the vendor's runtime: the simulated writer holds the pen of the stub.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -24,7 +24,7 @@ double virtual_time() noexcept { return (*clock_of_stand_in)->time(); }
 
 }  // namespace
 
-TEST_CASE("a whole character is written through the vendor's runtime, faults on the way included", "[openhaptics]") {
+TEST_CASE("a complete character is written through the vendor's runtime despite faults", "[openhaptics]") {
   const bool with_faults = GENERATE(false, true);
   StandIn runtime(STAND_IN_LIBHD);
   clock_of_stand_in = &runtime;

@@ -26,7 +26,7 @@ struct Place {
   std::string name;  ///< 1-2
 };
 
-/// The root of the bus, the hubs on the way and the device itself: 1-1.4 hangs below 1-1.
+/// The root of the bus, the hubs on the path and the device itself: 1-1.4 is below 1-1.
 std::vector<Place> way_to(int bus, const std::string& port) {
   const std::string number = std::to_string(bus);
   std::vector<Place> way{{"/devices/pci0000:00/0000:00:14.0/usb" + number, "usb" + number}};
@@ -130,7 +130,7 @@ void EmulatedDevice::plug_in(int bus, const std::string& port) {
     hidraw_ = std::move(hidraw);
     system_paths_ = {paths.rbegin(), paths.rend()};
   }
-  bed_.add(text);  // umockdev announces it with that: everything else is in place by now
+  bed_.add(text);  // this makes umockdev announce it, so everything else must be in place
 }
 
 /// A node that a program has open, or is about to, still answers it: that the device is gone.

@@ -77,7 +77,7 @@ void say(const std::string& line) {
 
 void wait_for_the_end() {
   char letter = 0;
-  [[maybe_unused]] const ssize_t got = read(STDIN_FILENO, &letter, 1);  // 0 when the test has gone: an end as well
+  [[maybe_unused]] const ssize_t got = read(STDIN_FILENO, &letter, 1);  // 0 if the test has exited: ends as well
 }
 
 }  // namespace calligraphy_test

@@ -15,8 +15,8 @@ namespace calligraphy_test {
 calligraphy::PracticePage page_to_write(const std::string& text, const calligraphy::CharacterSet& set,
                                         const calligraphy::Capabilities& capabilities);
 
-/// Its eyes are a renderer of its own on the tip's true position: the display of the program under test is not seen
-/// from here, and both go by the same strokes.
+/// It sees its own renderer at the true position of the tip, since the display of the program under test is not visible
+/// here; both use the same strokes.
 class WritingHand final : public HandMotion {
  public:
   WritingHand(const calligraphy::PracticePage& page, const calligraphy::Capabilities& capabilities,
