@@ -267,12 +267,12 @@ TEST_CASE("a stiffness above what the device can hold is refused, the attraction
   RendererOptions options;
   options.guidance_stiffness = 600.0;
   CHECK(complaint(options, test_device(), 1.6).empty());
-  CHECK(contains(complaint(options, test_device(), 1.7), "largest attraction factor 1.7"));
+  CHECK(contains(complaint(options, test_device(), 1.7), "maximum attraction factor 1.7"));
   CHECK(
       contains(complaint([&] {
                  HapticRenderer({{calligraphy_test::typical_character(1, {1.0, 2.0}), {}}}, {}, test_device(), options);
                }),
-               "largest attraction factor 2"));
+               "maximum attraction factor 2"));
 }
 
 TEST_CASE("no stiffness that is a number makes a force that is none, for a device that states no limit", "[render]") {
@@ -296,7 +296,7 @@ TEST_CASE("no stiffness that is a number makes a force that is none, for a devic
   CHECK(contains(complaint([&] {
                    HapticRenderer({{calligraphy_test::typical_character(1, {1.0, 1e300}), {}}}, {}, device);
                  }),
-                 "largest attraction factor"));
+                 "maximum attraction factor"));
 }
 
 TEST_CASE("a page, a place or a mapping that is no use is refused by name", "[render]") {
