@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Fetches the peers, builds, and compares every nearest-point method with them. Unavailable peers are omitted and listed.
+# Fetches the peers, builds, and compares every nearest-point method with them. Missing peers are omitted and listed.
 # usage: run.sh [--instructions] [options of benchmark_nearest_point]
 #   --instructions   also count instructions per query with valgrind's callgrind
 set -euo pipefail

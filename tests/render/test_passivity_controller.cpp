@@ -238,7 +238,8 @@ TEST_CASE("with control a pen comes to rest on a wall 10 to 50 times stiffer tha
   // b = 0.1 N s/m and T = 1 ms: critical is 200 N/m.
   for (const double stiffness : {2001.0, 5000.0, 10'000.0}) {
     const Press with = press(stiffness, true, 7.9), without = press(stiffness, false, 7.9);
-    INFO(stiffness << " N/m: peak " << with.peak << " N, swing " << with.swing << " m, without " << without.swing);
+    INFO(stiffness << " N/m: peak " << with.peak << " N, peak-to-peak " << with.swing << " m, without "
+                   << without.swing);
     CHECK(with.swing < 1e-6);
     CHECK(with.peak < 7.9);
     CHECK(without.swing > 1e-4);
@@ -248,7 +249,7 @@ TEST_CASE("with control a pen comes to rest on a wall 10 to 50 times stiffer tha
 TEST_CASE("with control a pen comes to rest on a wall that a delayed sample makes unstable", "[render]") {
   for (const int delay : {1, 2}) {
     const Press with = press(1000.0, true, 7.9, delay), without = press(1000.0, false, 7.9, delay);
-    INFO("delay " << delay << ": swing " << with.swing << " m, without " << without.swing);
+    INFO("delay " << delay << ": peak-to-peak " << with.swing << " m, without " << without.swing);
     CHECK(with.swing < 1e-6);
     CHECK(with.peak < 7.9);
     CHECK(without.swing > 1e-4);
