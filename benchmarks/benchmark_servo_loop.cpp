@@ -1,4 +1,4 @@
-// How evenly the servo loop's own thread ticks on this machine, and how long a tick takes: percentiles.
+// Timing of the servo thread on this machine: percentiles of period and work time.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -11,7 +11,7 @@
 
 namespace {
 
-/// A wall at the paper: the least that a force law does.
+/// A wall at the paper: a minimal force law.
 Eigen::Vector3d wall(const calligraphy::DeviceState& state) {
   const double penetration = -state.position.z();
   return {0.0, 0.0, penetration > 0.0 ? 400.0 * penetration : 0.0};
@@ -57,7 +57,7 @@ int main(int argc, char** argv) {
   std::printf("%-8s %9s %9s %9s %9s  [us]\n", "", "p50", "p99", "p99.9", "worst");
   print("period", done.period);
   print("work", done.work);
-  std::printf("%llu ticks, %llu missed deadlines, %llu times taken over by the watchdog\n",
+  std::printf("%llu ticks, %llu missed deadlines, %llu watchdog interventions\n",
               static_cast<unsigned long long>(done.ticks), static_cast<unsigned long long>(done.missed_deadlines),
               static_cast<unsigned long long>(done.watchdog_takeovers));
   return 0;

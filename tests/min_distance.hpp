@@ -1,9 +1,9 @@
 // Proves how near a Bezier curve comes to the origin, in long double or quadruple precision.
 //
-// Independent of the code under test: it never looks for zeros of the slope. The Bernstein ordinates of |B(t)|^2
-// bound it from below on a part of the curve; parts are halved until their ordinates show that nothing there is nearer
-// than the answer, or that the square is convex there, where one point and its slope give the bound. Every rounding is
-// counted, so that `least` is a proof and not an estimate.
+// Independent of the code under test: it never looks for zeros of the slope. The Bernstein ordinates of |B(t)|^2 bound
+// it from below on a part of the curve; parts are bisected until their ordinates show that nothing there is nearer than
+// the result, or that the square is convex there, where one point and its slope give the bound. Every rounding error is
+// accounted for, so `least` is a proof and not an estimate.
 #pragma once
 
 #include <algorithm>
@@ -32,7 +32,7 @@ constexpr Real dot(const Vector<Real>& a, const Vector<Real>& b) {
   return a.x * b.x + a.y * b.y;
 }
 
-/// Distance from 1 to the next number above it.
+/// Distance from 1 to the next larger number.
 template <typename Real>
 constexpr Real epsilon() {
   Real value = 1;
@@ -40,7 +40,8 @@ constexpr Real epsilon() {
   return value;
 }
 
-/// To a few units in the last place; in quadruple precision by one step of Newton's method, which needs no library.
+/// Accurate to a few units in the last place; in quadruple precision by one step of Newton's method, which needs no
+/// library.
 template <typename Real>
 Real square_root(Real value) {
   const long double rough = value > 0 ? std::sqrt(static_cast<long double>(value)) : 0.0L;
@@ -50,7 +51,7 @@ Real square_root(Real value) {
 
 constexpr int binomial(int n, int k) { return k == 0 ? 1 : binomial(n - 1, k - 1) * n / k; }
 
-/// Share of D_i . D_j in the Bernstein ordinate i + j of the square of a curve of degree n.
+/// Coefficient of D_i . D_j in the Bernstein ordinate i + j of the square of a curve of degree n.
 template <typename Real, int n>
 constexpr auto square_weights() {
   std::array<std::array<Real, n + 1>, n + 1> weights = {};
@@ -64,19 +65,19 @@ constexpr auto square_weights() {
 }
 
 struct Bounds {
-  long double least = 0.0L;  ///< no point of the range is nearer than this: proven
-  long double found = 0.0L;  ///< distance of a point of the range, up to rounding
-  int parts = 0;             ///< into how many the curve was cut
+  long double least = 0.0L;  ///< proven: no point of the range is nearer than this
+  long double found = 0.0L;  ///< distance of some point of the range, up to rounding
+  int parts = 0;             ///< number of parts into which the curve was divided
 };
 
-/// The search for the least distance of the origin from one curve of degree n, whose control points are given.
+/// The search for the minimum distance of the origin from one curve of degree n, given by its control points.
 template <typename Real, int n>
 class MinDistance {
  public:
   using Polygon = std::array<Vector<Real>, n + 1>;
 
-  /// `upper` is the distance of some point of the curve and `hint` its parameter; `tight` is how close below the least
-  /// distance the bound should be, where the curve lets it; beyond `enough` the bound need not reach.
+  /// `upper` is the distance of some point of the curve and `hint` its parameter; `tight` is how close below the
+  /// minimum distance the bound should be, where the curve permits it; the bound need not exceed `enough`.
   Bounds run(const Polygon& polygon, Real upper, Real hint, Real tight, Real enough) {
     Real magnitude = 0;
     for (const auto& point : polygon) magnitude = std::max({magnitude, size_of(point.x), size_of(point.y)});
@@ -89,7 +90,7 @@ class MinDistance {
     depth_ = 1;
     while (depth_ > 0 && goal_ > 0) examine(stack_[--depth_]);
     if (!(goal_ > 0)) least_ = 0;
-    // Roundings before this search (differences, cutting to a range) and of each halving move the polygon.
+    // Rounding before this search (differences, restriction to a range) and in each bisection moves the polygon.
     const Real moved = 2 * static_cast<Real>(32 + n * deepest_) * unit * magnitude;
     const Real least = square_root(least_) * (1 - 4 * unit) - moved;
     return {static_cast<long double>(std::max(least, Real(0))), static_cast<long double>(square_root(found_)), parts_};
@@ -156,7 +157,7 @@ class MinDistance {
   }
 
   /// On a part where the second derivative of the square is at least `curvature`, a point with square f and slope g
-  /// bounds it from below by f - g^2 / (2 curvature). False when halving would give a better bound.
+  /// bounds it from below by f - g^2 / (2 curvature). False when bisection would give a better bound.
   bool bound_convex(const Part& part, std::size_t lowest, Real curvature, Real largest) {
     Real t = (hint_ - part.begin) / part.width;
     if (!(t > 0 && t < 1)) t = static_cast<Real>(static_cast<int>(lowest)) / degree;
@@ -184,7 +185,7 @@ class MinDistance {
         least_ = std::min(least_, floor);
         return true;
       }
-      if (slack <= 8 * unit * largest) return false;  // converged: only a shorter part lessens the noise
+      if (slack <= 8 * unit * largest) return false;  // converged: only a shorter part reduces the noise
       const Real second_derivative = 2 * (dot(slope, slope) + dot(row[0], second));
       t -= g / std::max(second_derivative, curvature);
       t = std::min(std::max(t, Real(0)), Real(1));
@@ -193,7 +194,7 @@ class MinDistance {
   }
 
   void halve(const Part& part) {
-    // The stack holds at most one part of each depth, and one more.
+    // The stack holds at most one part of each depth, plus one.
     Part& right = stack_[static_cast<std::size_t>(depth_)];
     Part& left = stack_[static_cast<std::size_t>(depth_) + 1];
     const Polygon polygon = part.polygon;

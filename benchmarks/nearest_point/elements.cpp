@@ -1,4 +1,4 @@
-// What preparing an element costs, and how much is kept.
+// Time to prepare an element, and its size.
 #include <calligraphy/collision/stroke_element.hpp>
 #include <calligraphy/experiments/nearest_point_workload.hpp>
 #include <calligraphy/experiments/stroke_queries.hpp>

@@ -1,4 +1,4 @@
-// The library's own methods.
+// The methods of this library.
 #include <calligraphy/collision/nearest_point.hpp>
 #include <calligraphy/collision/stroke_tracker.hpp>
 
@@ -14,7 +14,7 @@ using calligraphy::StrokeElement;
 
 Answer answer_of(const NearestPoint& closest) { return {closest.parameter, closest.point, closest.distance}; }
 
-/// One call a query.
+/// One call per query.
 struct LibraryKernel {
   using Element = StrokeElement;
   NearestPointOptions options;
@@ -26,7 +26,7 @@ struct LibraryKernel {
   }
 };
 
-/// Each query from the answer of the one before.
+/// Each query starts from the answer to the one before.
 struct TrackedKernel : LibraryKernel {
   double start = 0.5;
 

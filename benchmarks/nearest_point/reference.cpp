@@ -15,7 +15,7 @@ void Reference::add(std::span<const ControlPoints> elements, std::span<const Poi
       high = high.cwiseMax(point);
     }
   }
-  // A point has no size; its workload is drawn at the scale of 1.
+  // A point has no size; its workload is generated at a scale of 1.
   const double size = high != low ? (high - low).norm() : 1.0;
   for (std::size_t i = (stride - queries_ % stride) % stride; i < queries.size(); i += stride) {
     long double distance = std::numeric_limits<long double>::infinity();

@@ -6,7 +6,7 @@
 namespace calligraphy {
 namespace {
 
-/// A pen that feels less than this share of the guidance is not writing the stroke: it may be on a stroke close by.
+/// A pen with less than this fraction of the guidance is not writing the stroke: it may be on a nearby stroke.
 constexpr double min_weight = 0.5;
 
 }  // namespace
@@ -53,7 +53,7 @@ StrokeContact ActiveStroke::update(const Point& tip, const StrokeRules& rules) n
     contact.finished = active_ == element_count_;
   }
   parameter_ = contact.closest.parameter;
-  // A pen on the edge of the constraint space or outside makes no headway: a stroke cannot be finished without being
+  // A pen at the edge of the constraint space or outside makes no progress: a stroke cannot be finished without being
   // written.
   if (contact.weight >= min_weight) {
     arc_ = contact.arc - first_arc_[static_cast<std::size_t>(contact.element)];
@@ -93,12 +93,12 @@ bool ActiveStroke::passes(const Point& tip, const StrokeContact& contact, const 
   const double length = elements_[i].length();
   const double tolerance = std::min(rules.plane_tolerance, 0.3 * length);
   const double left = first_arc_[i + 1] - contact.arc;
-  // Near the feature point along the stroke too: a plane reaches across other limbs of the same stroke. On a curve the
-  // closest point may lag behind the plane by more than the tolerance, but not by more than twice of it unless the pen
-  // is far off.
+  // Near the feature point along the stroke too: a plane also crosses other parts of the same stroke. On a curve the
+  // closest point may lag behind the plane by more than the tolerance, but not by more than twice the tolerance unless
+  // the pen is far away.
   if (contact.weight < min_weight || left > 2.0 * tolerance + 1e-6 * length) return false;
   if (beyond >= -tolerance) return true;
-  // A pen that keeps to the inside of a corner never reaches the plane: it passes on the bisector, where both limbs
+  // A pen that stays on the inside of a corner never reaches the plane: it passes on the bisector, where both elements
   // attract it equally.
   if (contact.element + 1 == element_count_) return false;
   const StrokeElement& next = elements_[i + 1];

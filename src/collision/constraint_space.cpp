@@ -4,7 +4,7 @@ namespace calligraphy {
 namespace {
 
 /// Wang 2006, sec. 4.3.1 (a)-(d) for an LSE. Sec. 4.3.2 gives a CSE a "spherical neighboring area around the start
-/// point" without a radius; read here, as for an LSE, as the distance from its start to its end.
+/// point" without a radius; interpreted, as for an LSE, as the distance from its start to its end.
 double printed_share(const StrokeElement& element, const Point& query, const NearestPoint& closest) {
   if (!(element.size() > 0.0)) return 1.0;  // (d)
   const bool ahead =
@@ -20,7 +20,7 @@ double guidance_weight(const ConstraintSpace& space, const StrokeElement& elemen
                        const NearestPoint& closest) noexcept {
   if (space.rule == ConstraintSpaceRule::wang2006) return printed_share(element, query, closest);
   if (!(closest.distance < space.radius)) return 0.0;
-  const double depth = space.radius - closest.distance;  // > 0: below the tube's edge
+  const double depth = space.radius - closest.distance;  // > 0: inside the edge of the tube
   if (depth >= space.fade_width) return 1.0;
   const double x = depth / space.fade_width;
   return x * x * (3.0 - 2.0 * x);

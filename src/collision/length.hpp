@@ -1,4 +1,4 @@
-// The length of a vector, to the same bit everywhere.
+// The length of a vector, the same to the last bit everywhere.
 #pragma once
 
 #include <algorithm>
@@ -9,8 +9,8 @@
 
 namespace calligraphy {
 
-/// sqrt(x^2 + y^2) without overflow or underflow in between. std::hypot rounds as its libm does; a root is rounded
-/// correctly everywhere. Infinite or NaN where a coordinate is.
+/// sqrt(x^2 + y^2) without intermediate overflow or underflow. std::hypot rounds as its libm does; a square root is
+/// correctly rounded everywhere. Infinite or NaN where a coordinate is.
 inline double length(const Point& vector) noexcept {
   const double square = vector.squaredNorm();
   if (square > 0x1p-900 && square < std::numeric_limits<double>::infinity()) return std::sqrt(square);

@@ -18,8 +18,8 @@ namespace {
 /// Beyond this many lengths squares overflow.
 constexpr double furthest_query = 1e100;
 
-/// Wang 2006, sec. 4.3.1: the perpendicular foot, clamped to the range. Not inlined, so that all nearest_point does is
-/// jump.
+/// Wang 2006, sec. 4.3.1: the foot of the perpendicular, clamped to the range. Not inlined, so that nearest_point is
+/// only a dispatch.
 [[gnu::noinline]] NearestPoint on_line(const LineElement& line, const Point& query, const ParameterRange& range) {
   NearestPoint closest;
   closest.parameter = range.begin;

@@ -9,13 +9,13 @@
 namespace calligraphy {
 namespace {
 
-/// What is smaller cannot be divided by.
+/// A smaller curve counts as a point: division by its size could overflow [m].
 constexpr double min_curve = 1e-300;
 
-/// The squares of what is larger overflow.
+/// Squares of anything larger overflow [m].
 constexpr double max_element = 1e150;
 
-/// What has no place answers every query by not_finite.
+/// An element without a position: every query returns not_finite.
 LineElement unusable_element() {
   LineElement nowhere;
   nowhere.length = std::numeric_limits<double>::quiet_NaN();

@@ -7,7 +7,7 @@
 namespace calligraphy {
 namespace {
 
-/// Rounding of a distance, relative to it and to the size of the element.
+/// Rounding error of a distance, relative to it and to the size of the element.
 constexpr double rounding = 1e-14;
 constexpr double relative_rounding = std::numeric_limits<double>::epsilon();
 
@@ -44,7 +44,7 @@ StrokePoint StrokeTracker::update(const Point& query) noexcept {
   if (nearest.closest.status == NearestPointStatus::not_finite) return nearest;
   for (int i = 0; i < static_cast<int>(elements_.size()); ++i) {
     if (i == last_) continue;
-    // The distance to an element changes by no more than the pen travels.
+    // The distance to an element changes by at most the distance that the pen travels.
     const Sighting& sighting = sightings_[static_cast<std::size_t>(i)];
     const double lead = sighting.clearance - nearest.closest.distance;
     if (lead > 0.0 && (query - sighting.query).squaredNorm() < lead * lead) continue;

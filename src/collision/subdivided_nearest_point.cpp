@@ -10,9 +10,9 @@
 namespace calligraphy {
 namespace {
 
-/// Whether an interval of the curve may hold a point whose distance is less than `distance` by more than epsilon. The
-/// squared distance dips below the least of five even samples by at most its largest second derivative times the square
-/// of their spacing over 8; all in sizes.
+/// Whether an interval of the curve may contain a point nearer than `distance` by more than epsilon. The squared
+/// distance falls below the minimum of five equally spaced samples by at most its maximum second derivative times the
+/// square of their spacing over 8; all in sizes.
 bool may_hide_nearer(const CurveElement& curve, const ParameterRange& part, double least, double distance,
                      double epsilon) {
   double speed = 0.0, acceleration = 0.0;
@@ -71,7 +71,7 @@ NearestPoint subdivided(const CurveElement& curve, const Point& query, double to
   const Pair solution = (left.point + right.point) * 0.5;
   const double distance = distance_to(solution);
   const double least = std::min({begin.distance, left.distance, middle.distance, right.distance, end.distance});
-  // The bound settles most stops at little cost; where it does not, the interval is searched.
+  // The bound decides most stops at low cost; where it does not, the interval is searched.
   const bool unsafe = !stopped || (may_hide_nearer(curve, part, least, distance, epsilon) &&
                                    certified_nearest_point(curve, query, tolerance, part).distance * curve.per_size <
                                        distance - epsilon);
@@ -86,8 +86,8 @@ NearestPoint subdivided(const CurveElement& curve, const Point& query, double to
 
 }  // namespace
 
-/// Wang 2006, sec. 4.3.2, as printed. The printed text names no rule for a tie, which is generic: the point between the
-/// children belongs to both. Here it goes to the child with the nearer middle. Never certified.
+/// Wang 2006, sec. 4.3.2, as printed. The paper gives no rule for a tie, which is the generic case: the point between
+/// the children belongs to both. Here it goes to the child with the nearer midpoint. Never certified.
 NearestPoint subdivided_nearest_point(const CurveElement& curve, const Point& query, double tolerance,
                                       const ParameterRange& range) noexcept {
   if (!within_reach(in_sizes(curve, query))) return refused_query(curve, range);

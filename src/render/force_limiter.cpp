@@ -11,15 +11,15 @@ Eigen::Vector3d shortened(const Eigen::Vector3d& force, double max_length) noexc
   return size > max_length ? Eigen::Vector3d(force * (max_length / size)) : force;
 }
 
-/// The largest first step of a run that ends after `way`, each step smaller by `jerk` than the last. With k whole jerks
-/// in it that is way = (k + 1) (step - k jerk / 2).
+/// Maximum first step of a sequence that ends after `way`, each step smaller by `jerk` than the last. With k whole
+/// jerks in it, way = (k + 1) (step - k jerk / 2).
 double braking_step(double way, double jerk) noexcept {
   const double smooth = std::sqrt(0.25 * jerk * jerk + 2.0 * jerk * way) - 0.5 * jerk;
   const double whole = jerk > 0.0 ? std::floor(smooth / jerk) : 0.0;
   return way / (whole + 1.0) + 0.5 * whole * jerk;
 }
 
-/// One step towards a target `way` off, after the step `last`.
+/// One step towards a target at a distance of `way`, after the step `last`.
 template <typename Vector>
 Vector jerk_limited(const Vector& way, const Vector& last, double max_length, double jerk) noexcept {
   const double distance = way.norm();
@@ -64,9 +64,9 @@ Eigen::Vector3d ForceLimiter::next(const Eigen::Vector3d& previous, const Eigen:
     force.z() = previous.z() + std::clamp(normal_change, taken - normal_step, normal_step - taken);
   }
   force = shortened(force, most);
-  // Shortening takes some of the way on which a force with limited jerk comes to rest.
+  // Shortening removes part of the path over which a jerk-limited force slows down, so it could overshoot.
   if (previous.z() >= 0.0 && target.z() >= 0.0) force.z() = std::max(0.0, force.z());
-  // What was taken is no swing to be brought to rest.
+  // A shortening step is no rate from which the force would have to slow down.
   last_step = taken > 0.0 ? Eigen::Vector3d(0.0, 0.0, 0.0) : Eigen::Vector3d(force - previous);
   return force;
 }

@@ -13,13 +13,13 @@
 namespace calligraphy {
 namespace {
 
-/// A pen further from the page than this is a fault, whatever its speed [m].
+/// A pen farther from the page than this is a fault, whatever its speed [m].
 constexpr double furthest_point = 1e3;
 
-/// Smallest motion scale, and one over the largest; keeps every force a number.
+/// Minimum motion scale, and the inverse of the maximum; keeps every force finite.
 constexpr double min_scale = 1e-6;
 
-/// Longest time that eq. (3) integrates over in one tick [s].
+/// Maximum time over which eq. (3) integrates in one tick [s].
 constexpr double max_tick = 0.1;
 
 void require_valid(const PlacedCharacter& placed, std::size_t index) {
@@ -50,7 +50,8 @@ void require_valid(const MotionMapping& mapping) {
   }
 }
 
-/// In page axes, where masses and forces look `scale` times as the device has them (MotionMapping).
+/// In page axes, where forces are 1 / scale times those of the device, masses and damping 1 / scale^2 times
+/// (MotionMapping).
 PassivityController passivity_controller(const RendererOptions& options, const Capabilities& capabilities,
                                          double scale) {
   const double period = 1.0 / options.servo_rate;
@@ -167,8 +168,8 @@ TickStatus HapticRenderer::map_sample(const DeviceState& state) noexcept {
   return TickStatus::ok;
 }
 
-/// A pen cannot jump: a lone sample far away is refused. A second one near the first is believed, for then the device
-/// really is elsewhere.
+/// A pen cannot jump: a single sample far away is rejected. A second one near the first is accepted, because then the
+/// device really is elsewhere.
 bool HapticRenderer::plausible(const Eigen::Vector3d& position, double time) const noexcept {
   if (!has_sample_) return true;
   const double period = 1.0 / options_.servo_rate;
@@ -244,7 +245,8 @@ void HapticRenderer::finish_stroke() noexcept {
   tick_.events |= TickEvent::character_finished;
   if (tick_.character + 1 == static_cast<int>(page_.size())) tick_.events |= TickEvent::page_finished;
   if (options_.lift_between_strokes) {
-    // The box of the next character is elsewhere: the paper would give way under a pen that still rests on this one.
+    // The box of the next character is elsewhere, and outside a box the paper does not press back: it would give way
+    // under a pen that still rests on this character.
     tick_.stroke = next;
     character_done_ = true;
   } else {
@@ -315,7 +317,7 @@ Point HapticRenderer::guidance_force() noexcept {
 
 Point HapticRenderer::friction_force() noexcept {
   if (tick_.normal > 0.0) {
-    const double normal = std::max(0.0, tick_.page_force.z());  // what the hand really presses against
+    const double normal = std::max(0.0, tick_.page_force.z());  // the actual contact force of the hand
     tick_.friction =
         friction_.update(options_.friction, tick_.device_point.head<2>(), normal, 1.0 / options_.servo_rate);
   } else {
@@ -325,8 +327,8 @@ Point HapticRenderer::friction_force() noexcept {
   return tick_.friction;
 }
 
-/// Where the closest point leaps, at the start of a stroke and at a feature point, a spring that appears at once throws
-/// the pen: the force passes from what it was to what it is now to be over the fade-in.
+/// Where the closest point jumps, at the start of a stroke and at a feature point, a spring that appears at once would
+/// throw the pen: during the fade-in the force passes from its previous value to the new one.
 Point HapticRenderer::fade(const Point& force) noexcept {
   constexpr TickEvent leaps =
       TickEvent::stroke_started | TickEvent::feature_passed | TickEvent::contact | TickEvent::stroke_abandoned;
@@ -339,7 +341,8 @@ Point HapticRenderer::fade(const Point& force) noexcept {
   return fade_from_ + share * (force - fade_from_);
 }
 
-/// The last stages, in this order: passivity, direction-keeping saturation, rate and jerk, account of what is sent.
+/// The last stages, in this order: passivity, direction-preserving saturation, rate and jerk, energy and heat of the
+/// force sent.
 void HapticRenderer::send(const Eigen::Vector3d& wanted) noexcept {
   const Eigen::Vector3d force = observes_energy_ ? control_passivity(wanted) : wanted;
   double longest = observes_energy_ ? passivity_.max_force() : ForceLimiter::no_limit;

@@ -9,15 +9,15 @@
 namespace calligraphy {
 namespace {
 
-/// What a hand may add to its speed while a force is taken away [m/s].
+/// How much a pen may speed up while a force is being removed [m/s].
 constexpr double sudden_speed = 0.25;
 
-/// A sample that is further from the last one is not of a pen that went there [m/s].
+/// A sample that implies a faster pen is not a motion: the pen is elsewhere [m/s].
 constexpr double fastest_pen = 10.0;
 
 constexpr double empty_share = 1e-3;     ///< of the budget
-constexpr double strongest_brake = 0.1;  ///< with an empty budget [N]
-constexpr double slow_pen = 0.01;        ///< braked by half of it [m/s]
+constexpr double strongest_brake = 0.1;  ///< with an exhausted budget [N]
+constexpr double slow_pen = 0.01;        ///< speed at which half of the brake acts [m/s]
 
 void require(bool in_domain, const char* name, double value, const char* domain) {
   if (in_domain) return;
@@ -26,7 +26,7 @@ void require(bool in_domain, const char* name, double value, const char* domain)
   throw ValueError(message.str());
 }
 
-/// Damping that takes `surplus` [J] out of a motion of `step` [m] a period, the step by step [m^2] [N s/m].
+/// Damping [N s/m] that dissipates `surplus` [J] within one period; `square` is the squared step of that period [m^2].
 double damping_for(double surplus, double square, double period, double most) noexcept {
   if (!(surplus > 0.0) || !(square > 0.0)) return 0.0;
   return std::min(surplus * period / square, most);
@@ -71,7 +71,7 @@ Eigen::Vector3d PassivityController::next(const Eigen::Vector3d& position, const
   } else {
     Eigen::Vector3d step = has_position_ ? Eigen::Vector3d(position - position_) : Eigen::Vector3d(0.0, 0.0, 0.0);
     if (step.norm() > fastest_pen * period_) {
-      pay(force_at_work().norm() * (speed_ + sudden_speed) * period_);  // it is elsewhere; it did not go there
+      pay(force_at_work().norm() * (speed_ + sudden_speed) * period_);  // it is elsewhere, but did not move there
       step.setZero();
     } else if (has_position_) {
       observe(step, wanted);
@@ -90,8 +90,9 @@ Eigen::Vector3d PassivityController::next(const Eigen::Vector3d& position, const
   return std::isfinite(budget_) ? within_budget(force) : force;
 }
 
-/// With next to nothing left, or less, as when lost samples were paid for, a pen that moves is braked lightly: it pays
-/// back. Without that an empty budget would stay empty for ever, as no force does no work.
+/// When the budget is nearly exhausted, or overdrawn because lost samples were charged, a moving pen is braked lightly,
+/// so that it returns energy. Otherwise an exhausted budget would stay exhausted forever, because zero force does no
+/// work.
 Eigen::Vector3d PassivityController::within_budget(const Eigen::Vector3d& force) noexcept {
   max_force_ = max_payable_force(speed_ + sudden_speed);
   if (left_ < empty_share * budget_) {
@@ -102,7 +103,7 @@ Eigen::Vector3d PassivityController::within_budget(const Eigen::Vector3d& force)
   return size > max_force_ ? Eigen::Vector3d(force * (max_force_ / size)) : force;
 }
 
-/// Where the pen went is not known: pay for one that keeps its speed, and some more, along the force.
+/// The motion of the pen is unknown: charge for one that keeps its speed, and some more, along the force.
 void PassivityController::presume() noexcept {
   velocity_.setZero();
   const double way = (speed_ + sudden_speed) * period_;
@@ -113,8 +114,8 @@ void PassivityController::presume() noexcept {
   ++lost_;
 }
 
-/// The period that ends with this sample is not known either. A pen that went further than presumed is believed as far
-/// again: beyond that it was taken elsewhere, or the sample lies.
+/// The period that ends with this sample is unknown too. A pen that moved farther than presumed is charged for up to
+/// twice the presumed path: beyond that it was moved elsewhere, or the sample is wrong.
 void PassivityController::find_again(const Eigen::Vector3d& position) noexcept {
   presume();
   const double way = has_position_ ? (position - position_).norm() : 0.0;
@@ -139,7 +140,7 @@ void PassivityController::pay(double energy) noexcept {
   left_ = std::min(budget_, left_ - energy);
 }
 
-/// Largest F with F^2 v / (2 rate) + F v T <= E, where E is what remains after forces sent whose work no sample has
+/// Maximum F with F^2 v / (2 rate) + F v T <= E, where E is what remains after the forces sent whose work no sample has
 /// shown yet.
 double PassivityController::max_payable_force(double speed) const noexcept {
   const double way = speed * period_;

@@ -13,7 +13,7 @@
 namespace calligraphy {
 namespace {
 
-/// For a device that states no limit; keeps every force a number [N/m].
+/// For a device that states no limit; keeps every force finite [N/m].
 constexpr double stiffest = 1e6;
 
 enum class Bound { above_zero, from_zero, from_one };
@@ -28,10 +28,10 @@ void require(const char* name, double value, Bound bound, double most = std::num
   throw ValueError(message.str());
 }
 
-/// Keeps every step of a force a number [N/s].
+/// Keeps every force step finite [N/s].
 constexpr double fastest_force = 1e12;
 
-/// Of the critical stiffness, what is left for what a rigid mass does not show.
+/// Fraction of the critical stiffness, a margin for what a rigid mass does not model.
 constexpr double stable_share = 0.9;
 
 struct StiffnessLimit {
@@ -41,20 +41,20 @@ struct StiffnessLimit {
 
 StiffnessLimit usable_stiffness(const Capabilities& capabilities) {
   if (!(capabilities.usable_stiffness > 0.0 && capabilities.usable_stiffness < stiffest)) {
-    return {stiffest, "no stiffness above it is taken"};
+    return {stiffest, "at most 1e6 N/m are accepted"};
   }
   std::ostringstream reason;
   reason << "the device " << capabilities.model << " is usable up to " << capabilities.usable_stiffness << " N/m";
   return {capabilities.usable_stiffness, reason.str()};
 }
 
-/// In single precision: the last bits, in which one libm differs from another, reach no force.
+/// Rounded to single precision: the last bits, which differ between implementations of libm, reach no force.
 double without_last_bits(double stiffness) { return static_cast<float>(stiffness); }
 
-/// A pen that meets the paper calls for a change of force of K times its speed v; a limiter that gives less, or comes
-/// up to it too slowly for the swing of mass and spring, lags behind and throws the pen back, ever on. Found by
-/// simulation (docs/stability.md): no such swing where K v <= rate, and where K v / jerk, the time to come up to it, is
-/// at most two fifths of sqrt(m / K).
+/// A pen that hits the paper requires the force to change at K times its speed v. A limiter that is slower, or reaches
+/// this rate too slowly for the oscillation of mass and spring, lags behind and throws the pen back, again and again.
+/// An empirical result of simulation (docs/stability.md): this does not happen where K v <= rate and where K v / jerk,
+/// the time to reach that rate, is at most two fifths of sqrt(m / K).
 StiffnessLimit followed_stiffness(const RendererOptions& options, const Capabilities& capabilities) {
   constexpr double meeting_speed = 0.2;  // [m/s]
   if (!options.limit_force_rate || !(capabilities.apparent_mass > 0.0)) {
@@ -66,7 +66,7 @@ StiffnessLimit followed_stiffness(const RendererOptions& options, const Capabili
   const double followed = without_last_bits(std::min(by_rate, by_jerk));
   std::ostringstream reason;
   reason << ": with normal_force_rate = " << options.normal_force_rate << " N/s and force_jerk = " << options.force_jerk
-         << " N/s^2 the force follows a pen of " << meeting_speed << " m/s up to " << followed << " N/m";
+         << " N/s^2 the force can follow a pen at " << meeting_speed << " m/s up to " << followed << " N/m";
   return {followed, reason.str()};
 }
 
@@ -75,8 +75,8 @@ StiffnessLimit stable_stiffness(const RendererOptions& options, const Capabiliti
   const double critical =
       without_last_bits(critical_stiffness({capabilities, options.servo_rate, options.softest_grip}));
   std::ostringstream reason;
-  reason << "held in the softest grip at " << options.servo_rate << " Hz the device " << capabilities.model
-         << " is stable below " << critical << " N/m (critical_stiffness), nine tenths of which is "
+  reason << "in the softest grip at " << options.servo_rate << " Hz the device " << capabilities.model
+         << " is stable below " << critical << " N/m (critical_stiffness); the limit is nine tenths of that, "
          << stable_share * critical << " N/m";
   return {stable_share * critical, reason.str()};
 }
@@ -136,7 +136,7 @@ std::vector<std::string> clip_stiffness(RendererOptions& options, const Capabili
   const Capabilities& known = options.stiffness_check == StiffnessCheck::off ? unknown : capabilities;
   StiffnessLimit usable = usable_stiffness(known), stable = stable_stiffness(options, known);
   if (scale != 1.0) {
-    // Motion appears enlarged and so does force: the device feels K K_S^2.
+    // Motion is enlarged on the page, and so is force: the device renders K K_S^2.
     std::ostringstream enlarged;
     enlarged << " times the square of the motion scale " << scale << ": ";
     for (StiffnessLimit* limit : {&usable, &stable})
@@ -155,19 +155,19 @@ std::vector<std::string> clip_stiffness(RendererOptions& options, const Capabili
   };
   const StiffnessLimit& limit = usable.value < stable.value ? usable : stable;
   std::ostringstream attraction;
-  if (max_attraction != 1.0) attraction << " times the largest attraction factor " << max_attraction;
+  if (max_attraction != 1.0) attraction << " times the maximum attraction factor " << max_attraction;
   clip("paper_stiffness", options.paper_stiffness, limit.value, limit.reason);
   const StiffnessLimit followed = followed_stiffness(options, known);
   clip("paper_stiffness", options.paper_stiffness, followed.value / (scale * scale), followed.reason);
   clip("guidance_stiffness", options.guidance_stiffness, limit.value / max_attraction, attraction.str() + limit.reason);
   clip("wrong_way_stiffness", options.wrong_way_stiffness, limit.value, limit.reason);
   if (options.friction.coefficient > 0.0) {
-    // A device may be usable with both springs at once, one along the stroke and one across; stable it must be with
-    // both.
+    // `usable_stiffness` applies to each of the two springs, one along the stroke and one across; stability requires
+    // counting both.
     clip("friction.stiffness", options.friction.stiffness, limit.value, limit.reason);
     const double guidance = options.guidance_stiffness * max_attraction;
     std::ostringstream beside;
-    beside << " beside " << guidance << " N/m of guidance";
+    beside << " in addition to " << guidance << " N/m of guidance";
     clip("friction.stiffness", options.friction.stiffness, std::max(0.1 * stable.value, stable.value - guidance),
          beside.str() + stable.reason);
   }

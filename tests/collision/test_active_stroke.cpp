@@ -32,8 +32,8 @@ StrokeRules printed_rules() {
 struct Trace {
   int passed = 0;
   bool finished = false;
-  int falls = 0;          ///< updates in which the active element went back
-  double max_step = 0.0;  ///< of the closest point's arc length outside feature points [m]
+  int falls = 0;          ///< updates in which the index of the active element decreased
+  double max_step = 0.0;  ///< maximum change of the closest point's arc length, except at feature points [m]
 };
 
 Trace trace(ActiveStroke& active, const std::vector<Point>& path, const StrokeRules& rules = {}) {
@@ -68,7 +68,7 @@ TEST_CASE("a pen that traces a typical stroke passes each feature point once, in
   }
 }
 
-TEST_CASE("a pen 2 mm beside a typical stroke passes each feature point too", "[collision]") {
+TEST_CASE("a pen 2 mm off a typical stroke passes each feature point too", "[collision]") {
   for (const TypicalStroke& type : typical_strokes()) {
     const Character character = typical_character(type.id);
     const Stroke stroke = strokes(character)[0];
@@ -98,7 +98,7 @@ TEST_CASE("a typical stroke traced backwards never finishes", "[collision]") {
     const auto begin =
         std::find_if(path.begin(), path.end(), [&](const Point& tip) { return active.begins_at(tip, 0.008); });
     REQUIRE(begin != path.end());
-    CHECK_FALSE(trace(active, {begin, path.end()}).finished);  // what a pen that went on into the start would write
+    CHECK_FALSE(trace(active, {begin, path.end()}).finished);  // what a pen that slid on into the start would write
   }
 }
 
@@ -132,7 +132,7 @@ TEST_CASE("a pen far from a feature point passes its plane only as printed", "[c
   CHECK_FALSE(active.update(beyond, {}).passed_feature);
   CHECK(active.features_remaining() == 2);
   CHECK(active.update(beyond, printed_rules()).passed_feature);
-  // As printed, jumping back and forth across the planes writes a stroke that the pen never touched.
+  // As printed, a pen that jumps back and forth across the planes finishes a stroke that it never touched.
   active.reload();
   CHECK(active.update(beyond, printed_rules()).passed_feature);
   CHECK(active.update(place.to_page(stroke.control_points[2]) + Point(0.05, -0.03), printed_rules()).finished);
@@ -151,7 +151,7 @@ TEST_CASE("a finished stroke keeps its closest point where the pen is", "[collis
   CHECK((after.closest.point - path.back()).norm() < 1e-9);
 }
 
-TEST_CASE("crossing a plane back and forth passes one feature point", "[collision]") {
+TEST_CASE("crossing a feature plane back and forth passes one feature point", "[collision]") {
   const Character character = typical_character(16);
   const Stroke stroke = strokes(character)[0];
   ActiveStroke active;
@@ -168,7 +168,7 @@ TEST_CASE("crossing a plane back and forth passes one feature point", "[collisio
   CHECK(passed == 1);
 }
 
-TEST_CASE("a stroke begins near its start, and not where it already ends", "[collision]") {
+TEST_CASE("a stroke begins near its start, and not where it ends", "[collision]") {
   const Character character = typical_character(8);  // a dot, 0.28 em long: 11.3 mm
   const Stroke stroke = strokes(character)[0];
   ActiveStroke active;
@@ -183,7 +183,8 @@ TEST_CASE("a stroke begins near its start, and not where it already ends", "[col
   CHECK_FALSE(active.begins_at({std::nan(""), 0.0}, 0.008));
 }
 
-TEST_CASE("the attraction factor is linear in arc length, and as printed steps at each feature point", "[collision]") {
+TEST_CASE("the attraction factor is linear in arc length, and as printed it steps at each feature point",
+          "[collision]") {
   const Character character = typical_character(16, {1.0, 2.0, 0.5});
   const Stroke stroke = strokes(character)[0];
   const std::vector<Point> path = path_of(stroke, place, pen_step);
@@ -208,7 +209,7 @@ TEST_CASE("the attraction factor is linear in arc length, and as printed steps a
   CHECK(max_step < 2.0 * pen_step / first);
 }
 
-TEST_CASE("a pen that goes back is behind by as much", "[collision]") {
+TEST_CASE("a pen that moves back along the stroke is reported to be behind by that arc length", "[collision]") {
   const Character character = typical_character(1);
   const Stroke stroke = strokes(character)[0];
   const std::vector<Point> path = path_of(stroke, place, pen_step);
@@ -220,7 +221,7 @@ TEST_CASE("a pen that goes back is behind by as much", "[collision]") {
   CHECK(active.update(path[210], {}).backwards == 0.0);
 }
 
-TEST_CASE("a stroke being written takes nothing from the heap", "[collision]") {
+TEST_CASE("writing a stroke does not allocate", "[collision]") {
   const Character character = typical_character(27);
   const Stroke stroke = strokes(character)[0];
   const std::vector<Point> path = path_of(stroke, place, pen_step);
@@ -232,7 +233,7 @@ TEST_CASE("a stroke being written takes nothing from the heap", "[collision]") {
   CHECK(result.finished);
 }
 
-TEST_CASE("a stroke left at its start and met again at its end is not finished", "[collision]") {
+TEST_CASE("a pen that leaves a stroke at its start and returns at its end does not finish it", "[collision]") {
   const Character* one = built_in_characters().find(U'一');
   REQUIRE(one != nullptr);
   const Placement em_40_mm{Point::Zero(), 0.04};

@@ -1,4 +1,4 @@
-// The tracker against every element asked for itself (Wang 2006, sec. 4.3.3).
+// The tracker against every element queried individually (Wang 2006, sec. 4.3.3).
 #include "../catch.hpp"
 
 #include <cmath>
@@ -23,7 +23,7 @@ double min_distance(const std::vector<StrokeElement>& elements, const Point& que
   return least;
 }
 
-/// Along the stroke and aside by a wobble; every so often the pen jumps.
+/// Along the stroke with a lateral wobble; the pen jumps every so often.
 std::vector<Point> path_along(const std::vector<StrokeElement>& elements, Sequence& random) {
   std::vector<Point> path;
   for (const StrokeElement& element : elements) {
@@ -63,24 +63,24 @@ TEST_CASE("the tracker finds the nearest point of the whole stroke at every tick
   CHECK(elsewhere == 0);
 }
 
-TEST_CASE("the tracker gives equal distances to the earlier element, and does not allocate", "[collision]") {
+TEST_CASE("of equal distances the tracker returns the earlier element, and it does not allocate", "[collision]") {
   const std::vector<Point> across = {{0.0, 0.0}, {0.02, 0.0}}, down = {{0.02, 0.0}, {0.02, -0.02}};
   const std::vector<StrokeElement> corner = {prepare_element(across), prepare_element(down)};
   const std::size_t before = calligraphy_test::allocations();
   StrokeTracker tracker(corner);
   int later = 0;
-  // Outside the corner its point is the nearest of both limbs; on the bisector inside both are as far.
+  // Outside the corner its point is the nearest of both limbs; on the bisector inside both are equally far.
   for (int round = 0; round < 3; ++round) {
     for (const Point& tip : {Point(0.025, 0.005), Point(0.0225, 0.0025), Point(0.015, -0.005), Point(0.025, 0.005)}) {
       later += tracker.update(tip).element != 0;
-      tracker.update({0.021, -0.015});  // the later limb is the last one asked
+      tracker.update({0.021, -0.015});  // the later limb is the last one queried
     }
   }
   CHECK(later == 0);
   CHECK(calligraphy_test::allocations() == before);
 }
 
-TEST_CASE("a query that is not finite leaves the tracker as it was", "[collision]") {
+TEST_CASE("a query that is not finite leaves the tracker unchanged", "[collision]") {
   const std::vector<Point> across = {{0.0, 0.0}, {0.02, 0.0}},
                            bend = {{0.02, 0.0}, {0.03, 0.0}, {0.03, -0.02}, {0.02, -0.03}};
   const std::vector<StrokeElement> elements = {prepare_element(across), prepare_element(bend)};
@@ -99,7 +99,7 @@ TEST_CASE("a query that is not finite leaves the tracker as it was", "[collision
   CHECK(after.closest.distance == Approx(before.closest.distance).epsilon(1e-12));
 }
 
-TEST_CASE("a tracker of no element refuses every query, and one of too many keeps the first five", "[collision]") {
+TEST_CASE("a tracker without elements rejects every query, and one with too many keeps the first five", "[collision]") {
   StrokeTracker none{std::span<const StrokeElement>()};
   CHECK(none.update({0.0, 0.0}).closest.status == NearestPointStatus::not_finite);
   std::vector<StrokeElement> elements;

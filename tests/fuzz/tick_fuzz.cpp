@@ -18,7 +18,7 @@ using calligraphy::StrokeElement;
 using calligraphy::StrokePoint;
 using calligraphy::StrokeTracker;
 
-/// The truth about a stroke.
+/// The oracle for a stroke.
 class StrokeOracle {
  public:
   explicit StrokeOracle(const std::vector<std::vector<Point>>& elements) {
@@ -85,7 +85,7 @@ class PathRun {
       if (std::isinf(answer.closest.distance) && !answer.closest.certified()) return;
       if (elements_[static_cast<std::size_t>(answer.element)].length() == 0.0) return;
       ++tally_[family_].inconsistent;
-      return report(answer, tick, "a query that is lost");
+      return report(answer, tick, "a query that is not finite must be rejected");
     }
     const Verdict verdict = oracle_.judge(answer, query);
     if (!tally_.judge(family_, verdict, std::isfinite(answer.closest.distance), answer.closest.certified())) return;

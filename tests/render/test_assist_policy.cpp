@@ -23,7 +23,7 @@ RendererOptions with_assistance() {
   return options;
 }
 
-/// The assistance after each stroke of a character, written `offset` beside itself [m].
+/// Assistance after each stroke of a character, written with an `offset` [m].
 std::vector<double> assistance_after_strokes(HapticRenderer& renderer, double offset) {
   ScriptedPen pen(renderer);
   std::vector<double> assistance;
@@ -37,7 +37,7 @@ std::vector<double> assistance_after_strokes(HapticRenderer& renderer, double of
 
 }  // namespace
 
-TEST_CASE("with perfect writing assistance decays as retention^n, down to min_assistance", "[render]") {
+TEST_CASE("with perfect strokes assistance decays as retention^n, down to min_assistance", "[render]") {
   AssistPolicy policy;
   for (const double retention : {0.0, 0.5, 0.8, 1.0}) {
     policy.retention = retention;
@@ -49,7 +49,8 @@ TEST_CASE("with perfect writing assistance decays as retention^n, down to min_as
   }
 }
 
-TEST_CASE("with an error held at e assistance settles at e over full_assistance_error, from either side", "[render]") {
+TEST_CASE("with a constant error e assistance converges to e over full_assistance_error, from either side",
+          "[render]") {
   const AssistPolicy policy;
   for (const double error : {0.0004, 0.001, 0.0018}) {
     for (const double from : {policy.min_assistance, 1.0}) {
@@ -60,7 +61,7 @@ TEST_CASE("with an error held at e assistance settles at e over full_assistance_
   }
 }
 
-TEST_CASE("assistance returns to full when errors grow, and never leaves its bounds", "[render]") {
+TEST_CASE("assistance returns to full when errors grow, and stays within its bounds", "[render]") {
   const AssistPolicy policy;
   double assistance = policy.min_assistance;
   double last = assistance;
@@ -78,21 +79,21 @@ TEST_CASE("assistance returns to full when errors grow, and never leaves its bou
   }
 }
 
-TEST_CASE("over well-written strokes assistance falls, the n-th leaving about retention^n", "[render]") {
+TEST_CASE("over well-written strokes assistance decays, to about retention^n after the n-th", "[render]") {
   HapticRenderer renderer({placed(U'永')}, {}, test_device(), with_assistance());
   const std::vector<double> assistance = assistance_after_strokes(renderer, 0.0);
   REQUIRE(assistance.size() == 5);
   double before = 1.0;
   for (std::size_t n = 0; n < assistance.size(); ++n) {
     CHECK(assistance[n] < before);
-    // The path of the test cuts corners a little, and the closest point leaps ahead near them: an error, however small.
+    // The path of the test cuts corners slightly, and the closest point jumps ahead near them: an error, however small.
     CHECK(assistance[n] == Approx(std::pow(0.8, static_cast<double>(n + 1))).margin(0.05));
     before = assistance[n];
   }
 }
 
-TEST_CASE("a stroke written beside itself leaves the assistance that its error is worth", "[render]") {
-  // 三: straight strokes, so that the lateral error is the offset all along.
+TEST_CASE("a stroke written with an offset leaves the assistance that its error implies", "[render]") {
+  // 三: straight strokes, so the lateral error is the offset everywhere.
   for (const double offset : {0.001, -0.0015}) {
     HapticRenderer renderer({placed(U'三')}, {}, test_device(), with_assistance());
     const std::vector<double> assistance = assistance_after_strokes(renderer, offset);
@@ -105,7 +106,7 @@ TEST_CASE("a stroke written beside itself leaves the assistance that its error i
   }
 }
 
-TEST_CASE("bad and abandoned strokes bring assistance back", "[render]") {
+TEST_CASE("bad and abandoned strokes restore assistance", "[render]") {
   HapticRenderer renderer({placed(U'三')}, {}, test_device(), with_assistance());
   const auto all = strokes(renderer.page()[0].character);
   const Placement place = renderer.page()[0].placement;
@@ -125,7 +126,7 @@ TEST_CASE("bad and abandoned strokes bring assistance back", "[render]") {
   CHECK(renderer.last().assistance > more);
 }
 
-TEST_CASE("the guidance is scaled by the assistance, the other forces are not", "[render]") {
+TEST_CASE("assistance scales the guidance and no other force", "[render]") {
   HapticRenderer with({placed(U'三')}, {}, test_device(), with_assistance());
   HapticRenderer without({placed(U'三')}, {}, test_device());
   const auto all = strokes(with.page()[0].character);
@@ -156,7 +157,7 @@ TEST_CASE("without the policy assistance stays full, however the strokes are wri
   CHECK(renderer.last().assistance == 1.0);
 }
 
-TEST_CASE("restart gives full assistance again", "[render]") {
+TEST_CASE("restart restores full assistance", "[render]") {
   HapticRenderer renderer({placed(U'三')}, {}, test_device(), with_assistance());
   assistance_after_strokes(renderer, 0.0);
   CHECK(renderer.last().assistance < 0.6);

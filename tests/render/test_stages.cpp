@@ -1,4 +1,5 @@
-// The renderer's stages by choice: guidance for large deviations, friction, passivity, heat, and all of them at once.
+// The optional stages of the renderer: guidance for large deviations, friction, passivity, heat, and all of them
+// together.
 #include "../catch.hpp"
 
 #include <algorithm>
@@ -59,7 +60,7 @@ void rest(ScriptedPen& pen, const Vector3d& place, int ticks) {
   for (int i = 0; i < ticks; ++i) pen.at(place);
 }
 
-/// Starts the first stroke and goes 10 mm along it, pressed in by 2 mm.
+/// Starts the first stroke and moves 10 mm along it, pressed in by 2 mm.
 FirstStroke begin_writing(ScriptedPen& pen, const HapticRenderer& renderer) {
   const FirstStroke stroke(renderer);
   pen.go(at(stroke.start, 0.005));
@@ -68,7 +69,7 @@ FirstStroke begin_writing(ScriptedPen& pen, const HapticRenderer& renderer) {
   return stroke;
 }
 
-/// Changes of state, and what went on meanwhile.
+/// Changes of state, and what happened meanwhile.
 struct Watch {
   std::string states, events;
 
@@ -97,7 +98,7 @@ constexpr int random_strokes = 2;
 constexpr int random_strokes = 10;
 #endif
 
-/// Writing, leaps, wanderings in and above the paper, at speeds up to 1 m/s.
+/// Writing, jumps and random motion in and above the paper, at speeds up to 1 m/s.
 void wander(ScriptedPen& pen, const HapticRenderer& renderer, std::uint64_t seed) {
   Sequence random(seed);
   const auto all = strokes(renderer.page()[0].character);
@@ -112,7 +113,7 @@ void wander(ScriptedPen& pen, const HapticRenderer& renderer, std::uint64_t seed
 
 }  // namespace
 
-TEST_CASE("saturating guidance has the stiffness of eq. (8) near the stroke and its limit far off, at any distance",
+TEST_CASE("saturating guidance has the stiffness of eq. (8) near the stroke and stays below its limit at any distance",
           "[render]") {
   HapticRenderer renderer = renderer_of(U'三', saturating());
   ScriptedPen pen(renderer);
@@ -134,7 +135,7 @@ TEST_CASE("saturating guidance has the stiffness of eq. (8) near the stroke and 
   }
 }
 
-TEST_CASE("the linear law lets go where the saturating one still guides", "[render]") {
+TEST_CASE("the linear law ends where the saturating one still guides", "[render]") {
   for (const bool saturates : {false, true}) {
     RendererOptions options = saturating();
     if (!saturates) options.guidance = GuidanceLaw::linear;
@@ -148,7 +149,7 @@ TEST_CASE("the linear law lets go where the saturating one still guides", "[rend
   }
 }
 
-TEST_CASE("a pen led astray is drawn to the stroke's start, but on the paper only and before the stroke", "[render]") {
+TEST_CASE("a misplaced pen is pulled to the stroke's start, but only on the paper and before the stroke", "[render]") {
   for (const bool leads : {false, true}) {
     RendererOptions options = saturating();
     options.guide_to_start = leads;
@@ -160,7 +161,7 @@ TEST_CASE("a pen led astray is drawn to the stroke's start, but on the paper onl
     rest(pen, at(astray, 0.005), 50);
     CHECK(renderer.last().force == Vector3d(0, 0, 0));  // in the air
     pen.go(at(astray, -0.001));
-    CHECK(renderer.last().page_force.head<2>().norm() < 0.1);  // 10 ms on the paper: it has begun to come in
+    CHECK(renderer.last().page_force.head<2>().norm() < 0.1);  // 10 ms on the paper: it has begun to fade in
     rest(pen, at(astray, -0.001), 500);
     CHECK(renderer.last().state == InteractionState::calibration);
     const Point in_plane = renderer.last().page_force.head<2>();
@@ -174,7 +175,7 @@ TEST_CASE("a pen led astray is drawn to the stroke's start, but on the paper onl
     pen.go(at(astray, 0.005));
     rest(pen, at(astray, 0.005), 50);
     pen.go(at(astray, -0.001));
-    CHECK(renderer.last().page_force.head<2>().norm() < 0.1);  // and comes in anew with each contact
+    CHECK(renderer.last().page_force.head<2>().norm() < 0.1);  // and fades in again with each contact
     pen.go(at(stroke.start, -0.001));
     CHECK(renderer.last().state == InteractionState::writing);
     pen.go(at(stroke.end, -0.001));
@@ -189,7 +190,7 @@ TEST_CASE("a pen led astray is drawn to the stroke's start, but on the paper onl
   }
 }
 
-TEST_CASE("a pen comes back from anywhere without a step of the force, whatever the stages", "[render]") {
+TEST_CASE("a pen returns from anywhere without a force step, whatever the stages", "[render]") {
   for (const RendererOptions& options : {RendererOptions{}, saturating(), everything()}) {
     HapticRenderer renderer = renderer_of(U'三', options);
     ScriptedPen pen(renderer);
@@ -199,7 +200,7 @@ TEST_CASE("a pen comes back from anywhere without a step of the force, whatever 
     for (int i = 0; i < 20; ++i) {
       pen.speed = random.between(0.05, 0.5);
       begin_writing(pen, renderer);
-      // Out of the tube, out of the box, into the air, and back on a way of its own.
+      // Out of the tube, out of the box, into the air, and back on another path.
       pen.go(at(stroke.start + random.point(-0.1, 0.1), i % 3 == 0 ? 0.004 : -random.between(0.0, 0.005)));
       pen.go(at(stroke.start + random.point(-0.03, 0.05), -random.between(0.0, 0.005)));
       rest(pen, at(stroke.start + 0.015 * stroke.along + random.point(-0.01, 0.01), -0.004), 50);
@@ -210,7 +211,7 @@ TEST_CASE("a pen comes back from anywhere without a step of the force, whatever 
   }
 }
 
-TEST_CASE("friction opposes the motion of writing with mu N and is none in the air", "[render]") {
+TEST_CASE("friction opposes the writing motion with mu N, and there is none in the air", "[render]") {
   for (const FrictionModel model :
        {FrictionModel::breakaway, FrictionModel::hayward_armstrong, FrictionModel::karnopp}) {
     RendererOptions options;
@@ -224,7 +225,7 @@ TEST_CASE("friction opposes the motion of writing with mu N and is none in the a
     pen.on_tick = [&](const HapticTick& tick) {
       if (tick.state == InteractionState::separation) in_air = std::max(in_air, tick.friction.norm());
       if (tick.state != InteractionState::writing || tick.penetration < 0.0019) return;
-      // Against the force of the last tick, which this one's pressure follows.
+      // Computed from the force of the last tick, which the normal force of this one follows.
       CHECK((tick.friction + 0.2 * 0.002 * 600.0 * stroke.along).norm() < 1e-6);
       ++writing;
     };
@@ -238,7 +239,7 @@ TEST_CASE("friction opposes the motion of writing with mu N and is none in the a
   }
 }
 
-TEST_CASE("a pen held at rest on the paper feels no friction, and the next contact none at first", "[render]") {
+TEST_CASE("a pen at rest on the paper feels no friction, nor does the next contact at first", "[render]") {
   RendererOptions options;
   options.friction.coefficient = 0.3;
   HapticRenderer renderer = renderer_of(U'三', options);
@@ -255,7 +256,7 @@ TEST_CASE("a pen held at rest on the paper feels no friction, and the next conta
   CHECK(none);
 }
 
-TEST_CASE("a pen pressed for a minute: warm motors bring the force down to the continuous one, its direction kept",
+TEST_CASE("a pen pressed for a minute: warm motors reduce the force to the continuous one, in the same direction",
           "[render]") {
   RendererOptions plain;
   plain.thermal_time_constant = 10.0;
@@ -277,7 +278,7 @@ TEST_CASE("a pen pressed for a minute: warm motors bring the force down to the c
     for (int i = 0; i < 1000 * seconds; ++i) {
       pen.at(place);
       const double size = tick.force.norm();
-      // What friction is left from the way here falls with the pressure, and turns the force a little.
+      // The friction left from the approach falls with the normal force, and turns the force slightly.
       Vector3d wanted(0, 0, tick.normal);
       wanted.head<2>() = tick.attraction + tick.wrong_way + tick.friction;
       max_rise = std::max(max_rise, size - last);
@@ -324,7 +325,7 @@ TEST_CASE("with passivity control the paper still never pulls, however fast the 
   }
 }
 
-TEST_CASE("passivity control damps what sampling adds where the pen moves through the paper, and not at rest",
+TEST_CASE("passivity control dissipates what sampling adds where the pen moves in the paper, and nothing at rest",
           "[render]") {
   RendererOptions options;
   options.passivity_control = true;
@@ -346,7 +347,7 @@ TEST_CASE("passivity control damps what sampling adds where the pen moves throug
   CHECK(renderer.last().damping == Vector3d(0, 0, 0));
 }
 
-TEST_CASE("a stage that is off changes no bit, whatever its parameters", "[render]") {
+TEST_CASE("a disabled stage changes no bit, whatever its parameters", "[render]") {
   RendererOptions changed;
   changed.guidance_limit = 0.01;
   changed.assist.retention = 0.1;
@@ -374,7 +375,7 @@ TEST_CASE("a stage that is off changes no bit, whatever its parameters", "[rende
   }
 }
 
-TEST_CASE("with every stage off the force is that of the plain composition: terms, sum, limits", "[render]") {
+TEST_CASE("with every stage disabled the force is the plain composition: terms, sum, limits", "[render]") {
   RendererOptions options;
   options.guidance_fade_in = 0.0;
   HapticRenderer renderer = renderer_of(U'永', options);
@@ -406,7 +407,7 @@ TEST_CASE("with every stage off the force is that of the plain composition: term
   CHECK(max_force > 1.0);
 }
 
-TEST_CASE("with everything on each stroke of 永 is written, exactly and 3 mm beside itself", "[render]") {
+TEST_CASE("with every stage enabled each stroke of 永 is written, exactly and with an offset of 3 mm", "[render]") {
   for (const double offset : {0.0, 0.003}) {
     HapticRenderer renderer = renderer_of(U'永', everything());
     ScriptedPen pen(renderer);
@@ -420,7 +421,8 @@ TEST_CASE("with everything on each stroke of 永 is written, exactly and 3 mm be
   }
 }
 
-TEST_CASE("on the feature plane and in chatter across it one feature point is passed and the state stays", "[render]") {
+TEST_CASE("a pen on the feature plane or chattering across it passes one feature point and keeps its state",
+          "[render]") {
   for (const RendererOptions& options : {RendererOptions{}, everything()}) {
     const PlacedCharacter corner{calligraphy_test::typical_character(16), {{0.07, 0.07}, 0.04}};
     const Stroke stroke = strokes(corner.character)[0];
@@ -447,7 +449,7 @@ TEST_CASE("on the feature plane and in chatter across it one feature point is pa
   }
 }
 
-TEST_CASE("back onto a written stroke: it stays written, and the pen on it changes no state", "[render]") {
+TEST_CASE("a finished stroke stays finished, and a pen back on it changes no state", "[render]") {
   for (const RendererOptions& options : {RendererOptions{}, everything()}) {
     HapticRenderer renderer = renderer_of(U'三', options);
     ScriptedPen pen(renderer);
@@ -464,7 +466,7 @@ TEST_CASE("back onto a written stroke: it stays written, and the pen on it chang
   }
 }
 
-TEST_CASE("a pen lifted after one sample gives the stroke up, each time anew, and nothing steps", "[render]") {
+TEST_CASE("a pen lifted after one sample abandons the stroke, every time, without a force step", "[render]") {
   for (const RendererOptions& options : {RendererOptions{}, everything()}) {
     HapticRenderer renderer = renderer_of(U'三', options);
     ScriptedPen pen(renderer);
@@ -491,7 +493,7 @@ TEST_CASE("a pen lifted after one sample gives the stroke up, each time anew, an
   }
 }
 
-TEST_CASE("a stroke that crosses a written one is written as if it were alone", "[render]") {
+TEST_CASE("a stroke that crosses a finished one is written as if it were alone", "[render]") {
   for (const RendererOptions& options : {RendererOptions{}, everything()}) {
     HapticRenderer renderer = renderer_of(U'木', options);
     ScriptedPen pen(renderer);

@@ -30,8 +30,8 @@ SampledLoop loop_of(double rate, double damping, int delay = 0, double wall_damp
   return loop;
 }
 
-/// What the device's damping has to exceed for the wall to be passive, at one angle per sample: Colgate & Schenkel
-/// 1997, T / 2 / (1 - cos) Re((1 - 1/z) H(z)), with H(z) = (K + B (1 - 1/z) / T) z^-d.
+/// What the device's damping must exceed for the wall to be passive, at one angle per sample: Colgate & Schenkel 1997,
+/// T / 2 / (1 - cos) Re((1 - 1/z) H(z)), with H(z) = (K + B (1 - 1/z) / T) z^-d.
 double needed_damping(const SampledLoop& loop, double stiffness, double angle) {
   const std::complex<double> z = std::polar(1.0, angle);
   const std::complex<double> wall = (stiffness + loop.wall_damping * loop.rate * (1.0 - 1.0 / z)) *
@@ -59,7 +59,7 @@ std::string error_of(const SampledLoop& loop) {
 
 }  // namespace
 
-TEST_CASE("the linear loop turns unstable at the stiffnesses of the table", "[stiffness advice]") {
+TEST_CASE("the linear loop becomes unstable at the stiffnesses of the table", "[stiffness advice]") {
   struct Row {
     double period, damping;
     int delay;
@@ -67,7 +67,7 @@ TEST_CASE("the linear loop turns unstable at the stiffnesses of the table", "[st
     GripImpedance grip;
     double critical;
   };
-  // A simulation made for the project, with the exact zero-order hold of 45 g.
+  // A simulation made for the project, with the exact zero-order hold for 45 g.
   const Row row = GENERATE_COPY(Row{10e-3, 0.5, 0, 0.0, nobody, 101.9}, Row{1e-3, 0.05, 0, 0.0, nobody, 100.0},
                                 Row{1e-3, 0.1, 0, 0.0, nobody, 200.1}, Row{1e-3, 0.5, 0, 0.0, nobody, 1001.9},
                                 Row{1e-3, 1.0, 0, 0.0, nobody, 2007.0}, Row{1e-3, 2.0, 0, 0.0, nobody, 4030.0},
@@ -86,7 +86,7 @@ TEST_CASE("the linear loop turns unstable at the stiffnesses of the table", "[st
   CHECK(advise_stiffness(loop).stable.value == critical_stiffness(loop));
 }
 
-TEST_CASE("without damping no stiffness is stable, nor with a wall whose damping alone feeds the swing",
+TEST_CASE("without damping no stiffness is stable, nor with wall damping that drives the oscillation by itself",
           "[stiffness advice]") {
   CHECK(critical_stiffness(loop_of(1000.0, 0.0)) == 0.0);
   CHECK(critical_stiffness(loop_of(1000.0, 0.0, 3)) == 0.0);
@@ -111,7 +111,7 @@ TEST_CASE("at every rate and delay a small damping allows 2 b / (T (2 d + 1)), a
   }
 }
 
-TEST_CASE("loops at the edge of what is accepted have a finite answer", "[stiffness advice]") {
+TEST_CASE("loops at the limits of the accepted range have a finite result", "[stiffness advice]") {
   const double rate = GENERATE(1.0, 1e6);
   const double mass = GENERATE(1e-9, 1e9);
   const double damping = GENERATE(0.0, 1e-9, 1e9);
@@ -131,7 +131,7 @@ TEST_CASE("loops at the edge of what is accepted have a finite answer", "[stiffn
   }
 }
 
-TEST_CASE("the passive bound keeps the condition of Colgate and Schenkel, and no larger one does",
+TEST_CASE("the passive bound satisfies the condition of Colgate and Schenkel, and no larger one does",
           "[stiffness advice]") {
   const double damping = GENERATE(0.1, 2.0);
   const double rate = GENERATE(100.0, 1000.0, 20000.0);
@@ -148,7 +148,7 @@ TEST_CASE("the passive bound keeps the condition of Colgate and Schenkel, and no
   CHECK(max_needed_damping(loop_of(rate, damping, delay, 1.01 * damping), 1e-9) > damping);
 }
 
-TEST_CASE("what is passive is stable in every grip", "[stiffness advice]") {
+TEST_CASE("a passive loop is stable in every grip", "[stiffness advice]") {
   const double rate = GENERATE(1.0, 100.0, 1000.0, 20000.0, 1e6);
   const double damping = GENERATE(0.001, 0.1, 5.0, 1000.0);
   for (const int delay : {0, 1, 2, 5, 50}) {
@@ -166,7 +166,7 @@ TEST_CASE("what is passive is stable in every grip", "[stiffness advice]") {
   }
 }
 
-TEST_CASE("the passive bound does not count on a hand, the stable one does", "[stiffness advice]") {
+TEST_CASE("the passive bound does not count the grip, the stable one does", "[stiffness advice]") {
   const StiffnessAdvice free = advise_stiffness(loop_of(1000.0, 0.1));
   const StiffnessAdvice held = advise_stiffness(loop_of(1000.0, 0.1, 0, 0.0, {0.1, 3.0, 300.0}));
   CHECK(held.passive.value == free.passive.value);
@@ -174,7 +174,7 @@ TEST_CASE("the passive bound does not count on a hand, the stable one does", "[s
   CHECK(held.stable.value > 30.0 * free.stable.value);
 }
 
-TEST_CASE("dry friction has to hold the rounding of the encoder", "[stiffness advice]") {
+TEST_CASE("Coulomb friction must hold the quantisation of the encoder", "[stiffness advice]") {
   SampledLoop loop = loop_of(1000.0, 10.0);
   const auto quantised = [&](double friction, double step) {
     loop.device.coulomb_friction = friction;
@@ -186,12 +186,13 @@ TEST_CASE("dry friction has to hold the rounding of the encoder", "[stiffness ad
   CHECK(quantised(0.0, 55e-6) == 0.0);
   CHECK(quantised(0.0, 0.0) == Approx(20000.0));
   CHECK(quantised(0.26, 1e-9) == Approx(20000.0));
-  loop.wall_damping = 1.0;  // its rounded speed makes steps of B D / T
+  loop.wall_damping = 1.0;  // its quantised velocity makes force steps of B D / T
   CHECK(quantised(0.26, 55e-6) == Approx(2.0 * (0.26 / 55e-6 - 1000.0)));
   CHECK(quantised(0.05, 55e-6) == 0.0);
 }
 
-TEST_CASE("the rule of thumb is right for little wall damping and twice too high for much", "[stiffness advice]") {
+TEST_CASE("the rule of thumb is right for small wall damping and a factor of two too high for large",
+          "[stiffness advice]") {
   const auto ratio = [](double wall_damping) {
     const StiffnessAdvice advice = advise_stiffness(loop_of(1000.0, 0.1, 0, wall_damping));
     return advice.approximate.value / advice.stable.value;
@@ -202,7 +203,7 @@ TEST_CASE("the rule of thumb is right for little wall damping and twice too high
   CHECK(advise_stiffness(loop_of(1000.0, 0.5, 2)).approximate.value == Approx(0.5 / 0.0025));
 }
 
-TEST_CASE("every bound names its formula and in one line its validity", "[stiffness advice]") {
+TEST_CASE("every bound states its formula and, in one line, its validity", "[stiffness advice]") {
   const StiffnessAdvice advice = advise_stiffness(loop_of(1000.0, 0.5, 1, 0.1));
   for (const StiffnessBound& bound : {advice.passive, advice.quantised, advice.stable, advice.approximate}) {
     CHECK(bound.formula.find('K') != std::string::npos);
@@ -212,7 +213,7 @@ TEST_CASE("every bound names its formula and in one line its validity", "[stiffn
   CHECK(advice.passive.validity.find("sufficient") != std::string::npos);
 }
 
-TEST_CASE("the damping that a controller may inject is bounded by mass, wall and encoder", "[stiffness advice]") {
+TEST_CASE("injectable damping is bounded by mass, wall and encoder", "[stiffness advice]") {
   SampledLoop loop = loop_of(1000.0, 0.1);
   CHECK(injectable_damping(loop) == Approx(0.9 * 0.045 * 1000.0));
   loop.wall_damping = 10.0;
@@ -222,16 +223,16 @@ TEST_CASE("the damping that a controller may inject is bounded by mass, wall and
   loop = loop_of(1000.0, 0.1, 2);
   CHECK(injectable_damping(loop) == Approx(0.9 * 0.045 * 1000.0 / 5.0));
   loop.device.encoder_step = 55e-6;
-  CHECK(injectable_damping(loop) == Approx(0.04 / 55e-6 / 1000.0));  // presumed
+  CHECK(injectable_damping(loop) == Approx(0.04 / 55e-6 / 1000.0));  // assumed
   loop.device.coulomb_friction = 0.26;
   CHECK(injectable_damping(loop) == Approx(0.26 / 55e-6 / 1000.0));
   loop.device.apparent_mass = 0.0;
   CHECK_THROWS_AS(injectable_damping(loop), ValueError);
 }
 
-TEST_CASE("a loop that is not physical is refused by the field's name and value", "[stiffness advice]") {
+TEST_CASE("a loop that is not physical is rejected with the field's name and value", "[stiffness advice]") {
   CHECK(error_of(loop_of(1000.0, 0.1)).empty());
-  CHECK_THAT(error_of({}), Catch::Matchers::StartsWith("device.apparent_mass = 0 kg"));  // not known
+  CHECK_THAT(error_of({}), Catch::Matchers::StartsWith("device.apparent_mass = 0 kg"));  // unknown
   const auto refused = [](auto field, const char* name) {
     for (const double bad : {-1.0, not_a_number, infinity, 2e9}) {
       SampledLoop loop = loop_of(1000.0, 0.1);

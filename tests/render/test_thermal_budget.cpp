@@ -1,4 +1,4 @@
-// The motors' heat in closed form, and the force that it leaves.
+// The heat of the motors in closed form, and the force that it permits.
 #include "../catch.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ constexpr double time_constant = 10.0;
 
 ThermalBudget omni() { return {3.3, 0.88, time_constant, 0.0}; }
 
-/// The force of each tick at saturation, for a time.
+/// The force of each tick while saturated.
 std::vector<double> saturated(ThermalBudget& budget, double seconds, double period = 0.001) {
   std::vector<double> forces;
   for (int i = 0; i < static_cast<int>(std::lround(seconds / period)); ++i) {
@@ -39,14 +39,15 @@ TEST_CASE("heat under a held force is (F / continuous)^2 (1 - exp(-t / tau)), wh
   }
 }
 
-TEST_CASE("a force held for one long time heats as one held tick by tick", "[render]") {
+TEST_CASE("a force held for one long interval heats like one held tick by tick", "[render]") {
   ThermalBudget at_once = omni(), by_ticks = omni();
   at_once.held(2.0, 7.0);
   for (int i = 0; i < 7000; ++i) by_ticks.held(2.0, 0.001);
   CHECK(at_once.heat == Approx(by_ticks.heat));
 }
 
-TEST_CASE("the peak is there until four fifths of the heat, the continuous force from all of it on", "[render]") {
+TEST_CASE("the limit is the peak up to four fifths of the heat, and the continuous force from full heat on",
+          "[render]") {
   ThermalBudget budget = omni();
   for (const double heat : {0.0, 0.5, 0.8}) {
     budget.heat = heat;
@@ -60,7 +61,7 @@ TEST_CASE("the peak is there until four fifths of the heat, the continuous force
   }
 }
 
-TEST_CASE("saturated for a minute, the force falls from the peak to the continuous one, without a step", "[render]") {
+TEST_CASE("saturated for a minute, the force falls from the peak to the continuous one without a step", "[render]") {
   ThermalBudget budget = omni();
   const std::vector<double> forces = saturated(budget, 60.0);
   CHECK(forces.front() == Approx(3.3));
@@ -81,8 +82,7 @@ TEST_CASE("saturated for a minute, the force falls from the peak to the continuo
   CHECK(0.001 * static_cast<double>(first_below - forces.begin()) == Approx(warm).margin(0.002));
 }
 
-TEST_CASE("over any window the RMS of the force is at most the continuous one, but for what warms cold motors",
-          "[render]") {
+TEST_CASE("over any window the RMS force is at most the continuous one, plus what warms cold motors", "[render]") {
   // tau dh/dt = (F / continuous)^2 - h with h at most 1 gives mean(F^2) <= continuous^2 (1 + tau / window).
   ThermalBudget budget = omni();
   const std::vector<double> forces = saturated(budget, 150.0, 0.01);
@@ -102,7 +102,7 @@ TEST_CASE("over any window the RMS of the force is at most the continuous one, b
   }
 }
 
-TEST_CASE("motors at rest cool by exp(-t / tau), and the peak comes back", "[render]") {
+TEST_CASE("motors at rest cool by exp(-t / tau), and the peak returns", "[render]") {
   ThermalBudget budget = omni();
   saturated(budget, 60.0);
   const double hot = budget.heat;

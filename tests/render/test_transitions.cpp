@@ -1,4 +1,4 @@
-// The third kind of instability, Wang 2006, sec. 6: pens that chatter on a border, and what the force does there.
+// The third kind of instability, Wang 2006, sec. 6: pens that chatter at a border, and the force there.
 #include "../catch.hpp"
 
 #include <cmath>
@@ -22,7 +22,7 @@ struct Chatter {
   double max_step = 0.0;
 };
 
-/// The pen swings by 0.1 mm about a place, every tick and then more slowly, after whatever it did before.
+/// The pen oscillates by 0.1 mm about a position, every tick and then more slowly, after whatever it did before.
 Chatter chatter(ScriptedPen& pen, const Vector3d& about, const Vector3d& direction) {
   Chatter result;
   bool first = true;
@@ -48,7 +48,7 @@ using calligraphy_test::at;
 
 }  // namespace
 
-TEST_CASE("a pen that chatters on the paper's surface changes its state once", "[render]") {
+TEST_CASE("a pen that chatters at the paper surface changes its state once", "[render]") {
   HapticRenderer renderer({placed(U'三')}, {}, test_device());
   ScriptedPen pen(renderer);
   pen.go({0.04, 0.06, 0.005});
@@ -57,7 +57,7 @@ TEST_CASE("a pen that chatters on the paper's surface changes its state once", "
   CHECK(result.max_step <= renderer.max_force_step());
 }
 
-TEST_CASE("a pen that chatters on the box's border changes its state once", "[render]") {
+TEST_CASE("a pen that chatters at the border of the box changes its state once", "[render]") {
   HapticRenderer renderer({placed(U'三')}, {}, test_device());
   const RendererOptions& options = renderer.options();
   const Eigen::AlignedBox2d box = bounding_box(renderer.page()[0]);
@@ -75,7 +75,7 @@ TEST_CASE("a pen that chatters on the box's border changes its state once", "[re
   }
 }
 
-TEST_CASE("a pen that chatters on the start circle begins the stroke once", "[render]") {
+TEST_CASE("a pen that chatters at the start circle begins the stroke once", "[render]") {
   HapticRenderer renderer({placed(U'三')}, {}, test_device());
   ScriptedPen pen(renderer);
   const Stroke first = strokes(renderer.page()[0].character)[0];
@@ -96,7 +96,7 @@ TEST_CASE("a pen that chatters across a feature plane passes one feature point",
   const Stroke stroke = strokes(corner.character)[0];
   const Point turn = corner.placement.to_page(stroke.control_points[1]);
   const Point along = (turn - corner.placement.to_page(stroke.control_points[0])).normalized();
-  for (const double before : {0.0, 0.0015}) {  // the plane, and where it counts
+  for (const double before : {0.0, 0.0015}) {  // the plane, and where it counts as crossed
     HapticRenderer renderer({corner}, {}, test_device());
     ScriptedPen pen(renderer);
     pen.go(at(corner.placement.to_page(stroke.control_points[0]), 0.005));
@@ -128,8 +128,8 @@ TEST_CASE("a pen that chatters at the end of a stroke finishes it once and start
   CHECK(result.max_step <= renderer.max_force_step());
 }
 
-TEST_CASE("the force of every transition comes and goes within the rate limit", "[render]") {
-  // Pressed in by 5 mm and 6 mm beside the stroke throughout: all steps would be near 2 to 3 N.
+TEST_CASE("at every transition the force changes within the rate limit", "[render]") {
+  // Pressed in by 5 mm and 6 mm off the stroke throughout: without the limit all steps would be near 2 to 3 N.
   HapticRenderer renderer({placed(U'永')}, {}, test_device());
   ScriptedPen pen(renderer);
   const Placement place = renderer.page()[0].placement;

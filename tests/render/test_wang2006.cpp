@@ -1,4 +1,4 @@
-// Each rule as printed against the default reading, with the figure that theory gives for the difference.
+// Each rule as printed against the default, with the difference that theory predicts.
 #include "../catch.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr double stiffness = 400.0;
 
-/// The defaults, the force as it is: no limit of its rate, no fade-in.
+/// The defaults with the raw force: no rate limit, no fade-in.
 RendererOptions direct() {
   RendererOptions options;
   options.paper_stiffness = options.guidance_stiffness = stiffness;
@@ -30,7 +30,7 @@ RendererOptions direct() {
 
 const Character line = calligraphy_test::typical_character(1);
 
-/// Largest step of the in-plane force while the pen writes `path` on the first stroke of `character` [N].
+/// Maximum step of the in-plane force while the pen writes `path` on the first stroke of `character` [N].
 double max_in_plane_step(const Character& character, const std::vector<Point>& path, const RendererOptions& options) {
   HapticRenderer renderer({{character, {{0.02, 0.02}, 0.04}}}, {}, test_device(), options);
   ScriptedPen pen(renderer);
@@ -92,7 +92,7 @@ TEST_CASE("entering a stroke steps the force by K d as printed, within the rate 
   CHECK(entering(limited) <= 0.1);
 }
 
-TEST_CASE("a factor that changes at a feature point steps the force by K d times its change, as printed", "[render]") {
+TEST_CASE("as printed, a factor that changes at a feature point steps the force by K d times its change", "[render]") {
   const Character bend = calligraphy_test::typical_character(30, {1.0, 2.0, 2.0, 2.0});  // smooth joints
   RendererOptions printed = direct(), whole = direct();
   printed.stroke.attraction = AttractionRule::wang2006;
@@ -103,7 +103,7 @@ TEST_CASE("a factor that changes at a feature point steps the force by K d times
   CHECK(max_in_plane_step(bend, page_path(bend, deviation), whole) < 0.1 * stiffness * deviation);
 }
 
-TEST_CASE("crossing the box while pressed into the paper steps the normal force by K d as printed", "[render]") {
+TEST_CASE("as printed, crossing the edge of the box while pressing steps the normal force by K d", "[render]") {
   const auto crossing = [](const RendererOptions& options) {
     HapticRenderer renderer({placed(U'三')}, {}, test_device(), options);
     ScriptedPen pen(renderer);
@@ -122,7 +122,7 @@ TEST_CASE("crossing the box while pressed into the paper steps the normal force 
   CHECK(crossing(solid) < 1e-9);
 }
 
-TEST_CASE("the signs as the text has them push away from the stroke and into the paper", "[render]") {
+TEST_CASE("the signs as printed push away from the stroke and into the paper", "[render]") {
   RendererOptions printed = direct();
   printed.force_sign = ForceSign::wang2006;
   HapticRenderer renderer({{line, {{0.02, 0.02}, 0.04}}}, {}, test_device(), printed);
@@ -136,7 +136,7 @@ TEST_CASE("the signs as the text has them push away from the stroke and into the
   CHECK(tick.page_force.z() == Approx(-stiffness * 0.001));
 }
 
-TEST_CASE("eq. (5) takes the pen tip into the paper, Table 2 keeps it on it", "[render]") {
+TEST_CASE("eq. (5) moves the pen tip into the paper, Table 2 keeps it on the surface", "[render]") {
   for (const PenTipRule rule : {PenTipRule::wang2006, PenTipRule::projected}) {
     RendererOptions options;
     options.pen_tip = rule;
@@ -149,7 +149,7 @@ TEST_CASE("eq. (5) takes the pen tip into the paper, Table 2 keeps it on it", "[
   }
 }
 
-TEST_CASE("the same pen feels steps above the default's limit where every rule is as printed", "[render]") {
+TEST_CASE("with every rule as printed the same pen feels steps above the default's limit", "[render]") {
   HapticRenderer usual({placed(U'永')}, {}, test_device());
   HapticRenderer printed({placed(U'永')}, {}, test_device(), RendererOptions::wang2006());
   ScriptedPen pen(usual), other(printed);
@@ -161,7 +161,7 @@ TEST_CASE("the same pen feels steps above the default's limit where every rule i
   CHECK(std::isinf(printed.max_force_step()));
 }
 
-TEST_CASE("wang2006() sets every printed rule but the signs", "[render]") {
+TEST_CASE("wang2006() selects every printed rule except the signs", "[render]") {
   const RendererOptions options = RendererOptions::wang2006();
   CHECK(options.stroke.nearest.method == NearestPointMethod::wang2006);
   CHECK(options.stroke.space.rule == ConstraintSpaceRule::wang2006);

@@ -1,5 +1,5 @@
-// session_soak: days at the device in virtual time, with faults at random, and every promise of the loop watched.
-// Exit code 0 all kept, 1 one broken, 2 usage.
+// session_soak: days of writing in virtual time, with random faults, while every guarantee of the loop is checked.
+// Exit codes: 0 all kept, 1 one broken, 2 usage.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -37,7 +37,7 @@ struct Watched {
                 allocations = 0;
   std::uint64_t felt_late = 0;  ///< ticks of the last tenth with a force above 0.1 N
   double max_force = 0.0, max_step = 0.0;
-  double given = 0.0, max_given = 0.0, min_given = 0.0;  ///< net work of the force really applied [J]
+  double given = 0.0, max_given = 0.0, min_given = 0.0;  ///< net work of the force actually applied [J]
   bool page_was_too_short = false;
 };
 
@@ -49,7 +49,7 @@ RendererOptions renderer_options(const Options& options, const Capabilities& cap
 Watched run(const Options& options) {
   const Capabilities& profile = device_profile(options.device);
   const RendererOptions chosen = renderer_options(options, profile);
-  // More characters than the hand can write: restarting the page would be a new start-up budget.
+  // More characters than the hand can write: restarting the page would start a new energy budget.
   const auto characters = static_cast<int>(options.ticks / 1500 + 2);
   HapticRenderer renderer(soak_page(characters), upright_page(0.145, 0.08), profile, chosen);
   RestlessHand hand(renderer, options.seed);
@@ -108,31 +108,31 @@ int report(const Options& options, const Watched& watched) {
              static_cast<double>(options.ticks) / chosen.servo_rate / 3600.0, chosen.servo_rate, options.composition,
              options.device, options.seed);
   fmt::print("  {} strokes written, {} faults in {} ticks\n", watched.strokes, watched.faults, watched.bad_ticks);
-  fmt::print("  largest force {:.3f} N, largest step {:.3f} N\n", watched.max_force, watched.max_step);
-  fmt::print("  net energy given to the hand: {:.4f} J at the end, {:.4f} J at most\n", watched.given,
+  fmt::print("  maximum force {:.3f} N, maximum step {:.3f} N\n", watched.max_force, watched.max_step);
+  fmt::print("  net energy delivered to the hand: {:.4f} J at the end, {:.4f} J at most\n", watched.given,
              watched.max_given);
-  bool all = kept("no allocation", watched.allocations == 0);
-  all &= kept("no force that is not finite", watched.not_finite == 0);
+  bool all = kept("no allocations", watched.allocations == 0);
+  all &= kept("every force is finite", watched.not_finite == 0);
   all &= kept("no force above the peak", watched.above_peak == 0);
-  all &= kept("no step of the force above the limit", watched.steps_too_large == 0);
+  all &= kept("no force step above the limit", watched.steps_too_large == 0);
   if (std::isfinite(chosen.energy_budget)) {
-    all &= kept("net energy given never above the start-up budget", watched.max_given <= chosen.energy_budget);
+    all &= kept("net energy delivered never exceeds the budget", watched.max_given <= chosen.energy_budget);
   }
-  all &= kept("forces are still felt in the last tenth", watched.felt_late > options.ticks / 200);
+  all &= kept("forces are still rendered in the last tenth", watched.felt_late > options.ticks / 200);
   all &= kept("strokes are written", watched.strokes > options.ticks / 20'000 && !watched.page_was_too_short);
   return all ? 0 : 1;
 }
 
 int parse_and_run(int argc, char** argv) {
   Options options;
-  CLI::App program("Days at the device in virtual time, with faults at random.", "session_soak");
-  program.add_option("--ticks", options.ticks, "How many; 86400000 are 24 h at 1 kHz")
+  CLI::App program("Days of writing in virtual time, with random faults.", "session_soak");
+  program.add_option("--ticks", options.ticks, "Number of ticks; 86400000 are 24 h at 1 kHz")
       ->check(tools::integer(1, 10'000'000'000ull));
-  program.add_option("--seed", options.seed, "Of hand and faults");
-  program.add_option("--composition", options.composition, "default or everything")
+  program.add_option("--seed", options.seed, "Seed of the hand and of the faults");
+  program.add_option("--composition", options.composition, "Renderer options: default or everything")
       ->check(CLI::IsMember({"default", "everything"}));
   program.add_option("--device", options.device, "Profile of the simulated device");
-  program.add_flag("!--no-faults", options.faults, "Nothing goes wrong");
+  program.add_flag("!--no-faults", options.faults, "Inject no faults");
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -10,7 +10,7 @@ struct FeaturePlane {
   Point point = Point::Zero();
   Point normal = Point::Zero();  ///< the element's unit tangent at its end; zero for a point
 
-  /// How far `query` is beyond the plane: V_t . V_f of eq. (6), positive once the feature point is written.
+  /// Signed distance of `query` from the plane: V_t . V_f of eq. (6), positive once the feature point has been passed.
   double signed_distance(const Point& query) const noexcept { return normal.dot(query - point); }
 };
 

@@ -1,4 +1,4 @@
-// A line segment of a stroke, or a point: LSE (Wang 2006, sec. 3.3).
+// A line segment of a stroke, or a point: the LSE of the paper (Wang 2006, sec. 3.3).
 #pragma once
 
 #include <calligraphy/model/point.hpp>

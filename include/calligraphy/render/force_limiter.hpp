@@ -1,4 +1,4 @@
-// The last stage before the device: no force steps, none exceeds the peak.
+// The last stage before the device: limits the peak, the rate and the jerk of the force.
 #pragma once
 
 #include <limits>
@@ -7,35 +7,35 @@
 
 namespace calligraphy {
 
-/// Brings every change of force in at a limited rate, and at choice a limited jerk, and keeps it within the peak force.
+/// Limits the rate of the force, optionally its jerk, and keeps it within the peak force.
 ///
-/// The target is shortened to `peak`, its direction kept. Each tick the force moves towards it by at most
-/// `in_plane_step` within the paper and `normal_step` along z; what is then beyond `peak` is shortened again. That is a
-/// projection onto a ball that the last force lies in, so it never lengthens the step: no step exceeds max_step().
+/// The target is scaled down to `peak`, preserving its direction. In each tick the force moves towards it by at most
+/// `in_plane_step` in the paper plane and `normal_step` along z; a result above `peak` is scaled down again. This is a
+/// projection onto a ball that contains the last force, so it never lengthens the step: no step exceeds max_step().
 ///
-/// A stage before this one may ask for less than `peak` for one tick. A force that is longer still is first shortened
-/// by as much as the smaller of the two steps allows, and what is left of them leads to the target: so its length falls
-/// by that much a tick, wherever the target is.
+/// An earlier stage may request a limit below `peak` for one tick. A force above that limit is first shortened by as
+/// much as the smaller of the two steps allows; the rest of the steps leads towards the target. Its length thus
+/// decreases by that much per tick, wherever the target is.
 ///
-/// With `jerk` the step itself changes by at most that much per tick, and in time to stop at the target. Outranked by
-/// shortening, by release(), and along z by paper that does not pull: a force that presses, on the way to one that
-/// presses, stops at none.
+/// With `jerk` the step itself changes by at most that much per tick, early enough to stop at the target. Shortening
+/// and release() take precedence over the jerk limit. So does, along z, that paper does not pull: between two forces
+/// that press, the normal force never overshoots below zero.
 struct ForceLimiter {
   static constexpr double no_limit = std::numeric_limits<double>::infinity();
 
   double in_plane_step = 0.0;  ///< [N per tick]
   double normal_step = 0.0;    ///< [N per tick]
   double peak = 0.0;           ///< [N]
-  bool limit_rate = true;      ///< false: `wang2006`, forces come and go at once
-  double jerk = no_limit;      ///< largest change of the step, within the paper and along z each [N per tick^2]
-  Eigen::Vector3d last_step = Eigen::Vector3d::Zero();  ///< kept with `jerk` [N]
+  bool limit_rate = true;      ///< false: `wang2006`, forces change without a limit
+  double jerk = no_limit;      ///< maximum change of the step, in plane and along z separately [N per tick^2]
+  Eigen::Vector3d last_step = Eigen::Vector3d::Zero();  ///< state, used with `jerk` [N]
 
   double max_step() const noexcept;
-  /// The force after `previous` on the way to `target`, no longer than `max_length` if that can be [N, page axes].
-  /// `target` is finite, `previous` what the last call gave.
+  /// The next force from `previous` towards `target`, at most `max_length` long where the step limits permit it [N,
+  /// page axes]. `target` must be finite, and `previous` the result of the last call.
   Eigen::Vector3d next(const Eigen::Vector3d& previous, const Eigen::Vector3d& target,
                        double max_length = no_limit) noexcept;
-  /// The force after `previous` on the shortest way to none, by max_step() a tick: the device cannot be trusted.
+  /// The next force from `previous` straight to zero, by max_step() per tick: for when the device cannot be trusted.
   Eigen::Vector3d release(const Eigen::Vector3d& previous) noexcept;
 };
 
