@@ -1,19 +1,15 @@
 #include <calligraphy/devices/force_guard.hpp>
 
 #include <algorithm>
-#include <cmath>
-#include <sstream>
 
-#include <calligraphy/base/error.hpp>
+#include "base/require.hpp"
 
 namespace calligraphy {
 namespace {
 
 double checked(const char* name, double value, double largest) {
-  if (std::isfinite(value) && value >= 0.0 && value <= largest) return value;
-  std::ostringstream message;
-  message << name << " of the force is " << value << " s, must be from 0 to " << largest << " s";
-  throw ValueError(message.str());
+  require_within(name, value, "s", 0.0, largest);
+  return value;
 }
 
 }  // namespace
@@ -33,7 +29,8 @@ const char* to_string(ServoPhase phase) noexcept {
 }
 
 ForceGuard::ForceGuard(double ramp_down, double ramp_up)
-    : ramp_down_(checked("ramp-down time", ramp_down, 0.1)), ramp_up_(checked("ramp-up time", ramp_up, 10.0)) {}
+    : ramp_down_(checked("servo loop: ramp_down", ramp_down, 0.1)),
+      ramp_up_(checked("servo loop: ramp_up", ramp_up, 10.0)) {}
 
 const Eigen::Vector3d& ForceGuard::pass(const Eigen::Vector3d& wanted, double elapsed) noexcept {
   if (phase_ == ServoPhase::falling) return hold(elapsed);

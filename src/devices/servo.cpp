@@ -4,11 +4,12 @@
 #include <bit>
 #include <chrono>
 #include <cmath>
-#include <sstream>
 #include <utility>
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/flush_denormals.hpp>
+
+#include "base/require.hpp"
 
 namespace calligraphy {
 namespace {
@@ -24,17 +25,10 @@ double monotonic_seconds() noexcept {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-void require(bool valid, const char* name, double value, const char* domain) {
-  if (valid) return;
-  std::ostringstream message;
-  message << "servo loop: " << name << " is " << value << ", must be " << domain;
-  throw ValueError(message.str());
-}
-
 ServoOptions checked(ServoOptions options) {
-  require(options.rate >= 1.0 && options.rate <= 1e5, "rate", options.rate, "from 1 to 100000 Hz");
-  require(options.timeout >= 2.0 / options.rate && options.timeout <= 1.0, "timeout", options.timeout,
-          "from two periods of the rate to 1 s");
+  require_within("servo loop: rate", options.rate, "Hz", 1.0, 1e5);
+  require(options.timeout >= 2.0 / options.rate && options.timeout <= 1.0, "servo loop: timeout", options.timeout, "s",
+          "from two periods of the rate to 1");
   if (options.work_clock == nullptr) options.work_clock = monotonic_seconds;
   options.timeout += 1e-3 / options.rate;  // sums of ticks that should come to it exactly are a little beside
   return options;

@@ -4,10 +4,10 @@
 #include <cstdio>
 #include <utility>
 
-#include <calligraphy/base/error.hpp>
 #include <calligraphy/experiments/nearest_point_workload.hpp>
 #include <calligraphy/experiments/tradeoff.hpp>
 
+#include "base/require.hpp"
 #include "base/stopwatch.hpp"
 #include "tradeoff_pen.hpp"
 
@@ -161,10 +161,6 @@ std::string setting_name(const NearestPointOptions& options) {
   return to_string(options.method) + std::string(setting);
 }
 
-void require(bool holds, const char* what) {
-  if (!holds) throw ValueError(std::string("nearest point tradeoff: ") + what);
-}
-
 }  // namespace
 
 const char* to_string(NearestPointMethod method) noexcept {
@@ -198,8 +194,8 @@ std::vector<NearestPointSetting> nearest_point_settings() {
 
 std::vector<NearestPointTradeoff> nearest_point_tradeoff(std::span<const Character> characters,
                                                          const NearestPointTradeoffOptions& options) {
-  require(options.rounds > 0, "rounds are not above 0");
-  require(std::isfinite(options.stiffness) && options.stiffness > 0.0, "stiffness is not a number above 0");
+  require_above_zero("rounds", options.rounds, "");
+  require_above_zero("stiffness", options.stiffness, "N/m");
   std::vector<Workload> workloads;
   for (const NearestPointWorkload& each :
        nearest_point_workloads(curve_control_points(characters, em), options.queries, options.seed)) {

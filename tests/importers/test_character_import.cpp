@@ -245,7 +245,7 @@ TEST_CASE("options of an import out of their domain are refused by name", "[prac
   directory.write("一.json", hanzi_writer_heng);
   ImportOptions options;
   options.threads = -1;
-  CHECK(has(complaint(directory.path(), options), "ValueError threads -1"));
+  CHECK(has(complaint(directory.path(), options), "ValueError threads = -1"));
   options.threads = 257;
   CHECK(has(complaint(directory.path(), options), "ValueError threads 257"));
   options = {};

@@ -3,14 +3,12 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <condition_variable>
 #include <iomanip>
 #include <mutex>
 #include <ostream>
 
-#include <calligraphy/base/error.hpp>
-
+#include "base/require.hpp"
 #include "devices/phantom/link/make_link.hpp"
 #include "devices/phantom/wire/hexadecimal.hpp"
 
@@ -55,10 +53,8 @@ class Recorder final : public phantom::LinkListener {
 }  // namespace
 
 PacketCapture capture_packets(const PluggedDevice& device, const CaptureOptions& options) {
-  if (options.transfers == 0) throw ValueError("a capture of 0 transfers: ask for one at least");
-  if (!(std::isfinite(options.seconds) && options.seconds > 0.0)) {
-    throw ValueError("a capture of " + std::to_string(options.seconds) + " s: must be finite and above 0");
-  }
+  require(options.transfers > 0, "capture: transfers", 0, "", "at least 1");
+  require_above_zero("capture: seconds", options.seconds, "s");
   Recorder recorder(options.transfers);
   const std::unique_ptr<phantom::Link> link = phantom::make_link(device);
   link->open(recorder);

@@ -4,7 +4,6 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <sstream>
 #include <thread>
 #include <utility>
 
@@ -12,6 +11,7 @@
 #include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/devices/force_guard.hpp>
 
+#include "base/require.hpp"
 #include "devices/phantom/link/link.hpp"
 #include "devices/phantom/wire/packet_codec.hpp"
 #include "devices/phantom/wire/report_frames.hpp"
@@ -49,15 +49,9 @@ WireProfile profile_of(const PhantomOptions& options) {
 }
 
 const PhantomOptions& checked(const PhantomOptions& options) {
-  if (!(options.velocity_cutoff >= 1.0 && options.velocity_cutoff <= 1000.0)) {
-    std::ostringstream message;
-    message << "velocity cutoff is " << options.velocity_cutoff << ", must be 1 to 1000 Hz";
-    throw ValueError(message.str());
-  }
-  if (options.priority < 0 || options.priority > 99) {
-    throw ValueError("priority is " + std::to_string(options.priority) +
-                     ", must be from 1 to 99, or 0 for ordinary threads");
-  }
+  require_within("velocity_cutoff", options.velocity_cutoff, "Hz", 1.0, 1000.0);
+  require(options.priority >= 0 && options.priority <= 99, "priority", options.priority, "",
+          "from 1 to 99, or 0 for ordinary threads");
   return options;
 }
 
@@ -410,11 +404,7 @@ void PhantomDevice::write(const Eigen::Vector3d& force) noexcept { core_->write(
 void PhantomDevice::close() noexcept { core_->close(); }
 
 void PhantomDevice::calibrate(const Joints& joints) {
-  if (!joints.allFinite()) {
-    std::ostringstream message;
-    message << "joints are (" << joints.transpose() << ") rad, must be finite";
-    throw ValueError(message.str());
-  }
+  for (const double joint : joints) require(std::isfinite(joint), "joint", joint, "rad", "finite");
   core_->calibrate(joints);
 }
 

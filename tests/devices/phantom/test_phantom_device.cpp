@@ -495,7 +495,7 @@ TEST_CASE("a phantom that cannot be driven is refused, and the message says what
   CHECK_THAT(refusal<ValueError>(simulated_options("desktop")), Contains("desktop"));
   options = simulated_options();
   options.velocity_cutoff = 0.0;
-  CHECK_THAT(refusal<ValueError>(options), Contains("velocity cutoff is 0"));
+  CHECK_THAT(refusal<ValueError>(options), Contains("velocity_cutoff = 0 Hz"));
   for (const int priority : {-1, 100}) {
     options = simulated_options();
     options.priority = priority;
