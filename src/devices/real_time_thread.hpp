@@ -1,4 +1,4 @@
-// What a servo thread needs of the operating system: a clock, a sleep to a deadline, and the rights of real time.
+// What a servo thread needs of the operating system: a sleep to a deadline, and the rights of real time.
 #pragma once
 
 #include <string>
@@ -8,10 +8,7 @@
 
 namespace calligraphy::real_time {
 
-/// Of a clock that never runs back [s].
-double now() noexcept;
-
-/// Returns at once when the deadline [s] has passed.
+/// Returns at once when the deadline has passed, by monotonic_seconds() [s].
 void sleep_until(double deadline) noexcept;
 
 /// Gives the calling thread, as far as the system permits, what the options ask for. Returns what it does not permit,

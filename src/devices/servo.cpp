@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <bit>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/flush_denormals.hpp>
 
+#include "base/monotonic_clock.hpp"
 #include "base/require.hpp"
 
 namespace calligraphy {
@@ -19,10 +19,6 @@ constexpr int fault_shift = 8;           // within the packed status
 
 std::uint64_t with_fault(std::uint64_t status, DeviceFault fault) noexcept {
   return (status & ~(std::uint64_t{0xff} << fault_shift)) | (static_cast<std::uint64_t>(fault) << fault_shift);
-}
-
-double monotonic_seconds() noexcept {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
 ServoOptions checked(ServoOptions options) {

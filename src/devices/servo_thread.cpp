@@ -8,6 +8,7 @@
 
 #include <calligraphy/base/error.hpp>
 
+#include "base/monotonic_clock.hpp"
 #include "base/require.hpp"
 #include "real_time_thread.hpp"
 
@@ -78,10 +79,10 @@ void ServoThread::stop() noexcept {
 
 void ServoThread::run(const std::function<void(double now)>& tick) noexcept {
   const double period = 1.0 / options_.rate;
-  double deadline = real_time::now();
+  double deadline = monotonic_seconds();
   while (!stopping_.load(std::memory_order_relaxed)) {
-    tick(real_time::now());
-    deadline = next_deadline(deadline, period, real_time::now()).time;
+    tick(monotonic_seconds());
+    deadline = next_deadline(deadline, period, monotonic_seconds()).time;
     real_time::sleep_until(deadline);
   }
 }

@@ -7,8 +7,8 @@
 #include <calligraphy/experiments/nearest_point_workload.hpp>
 #include <calligraphy/experiments/tradeoff.hpp>
 
+#include "base/monotonic_clock.hpp"
 #include "base/require.hpp"
-#include "base/stopwatch.hpp"
 #include "tradeoff_pen.hpp"
 
 namespace calligraphy {

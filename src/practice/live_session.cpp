@@ -8,6 +8,7 @@
 
 #include <calligraphy/devices/sample_queue.hpp>
 
+#include "base/monotonic_clock.hpp"
 #include "base/require.hpp"
 #include "session_tick.hpp"
 
@@ -64,10 +65,9 @@ LiveResult write_with_device(const PracticePage& page, HapticDevice& device, con
     while (queue.pop(view.newest)) result.recording.samples.push_back(view.newest);
   };
   const int count = static_cast<int>(page.characters.size());
-  const auto begin = std::chrono::steady_clock::now();
-  const std::chrono::duration<double> timeout(options.timeout);
+  const double begin = monotonic_seconds();
   result.warnings = loop.start();
-  while (std::chrono::steady_clock::now() - begin < timeout) {
+  while (monotonic_seconds() - begin < options.timeout) {
     std::this_thread::sleep_for(glance);
     take_over();
     view.servo = loop.status();

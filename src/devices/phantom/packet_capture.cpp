@@ -8,6 +8,7 @@
 #include <mutex>
 #include <ostream>
 
+#include "base/monotonic_clock.hpp"
 #include "base/require.hpp"
 #include "devices/phantom/link/make_link.hpp"
 #include "devices/phantom/wire/hexadecimal.hpp"
@@ -15,9 +16,7 @@
 namespace calligraphy {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-constexpr std::chrono::milliseconds glance(100);
+constexpr double glance = 0.1;  // [s]
 
 class Recorder final : public phantom::LinkListener {
  public:
@@ -26,25 +25,23 @@ class Recorder final : public phantom::LinkListener {
   void received(std::span<const std::byte> bytes) noexcept override {
     const std::lock_guard<std::mutex> alone(mutex_);
     if (transfers_.size() >= limit_) return;
-    const double time = std::chrono::duration<double>(Clock::now() - start_).count();
-    transfers_.push_back({time, {bytes.begin(), bytes.end()}});
+    transfers_.push_back({monotonic_seconds() - start_, {bytes.begin(), bytes.end()}});
     if (transfers_.size() >= limit_) full_.notify_one();
   }
   void changed(DeviceFault) noexcept override {}
 
   std::vector<CapturedTransfer> wait(const CaptureOptions& options) {
-    const Clock::time_point end =
-        start_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.seconds));
     std::unique_lock<std::mutex> lock(mutex_);
-    while (transfers_.size() < limit_ && Clock::now() < end && !(options.stop && options.stop())) {
-      full_.wait_until(lock, std::min(end, Clock::now() + glance));
+    for (double left = options.seconds; transfers_.size() < limit_ && left > 0.0 && !(options.stop && options.stop());
+         left = start_ + options.seconds - monotonic_seconds()) {
+      full_.wait_for(lock, std::chrono::duration<double>(std::min(left, glance)));
     }
     return transfers_;
   }
 
  private:
   const std::size_t limit_;
-  const Clock::time_point start_ = Clock::now();
+  const double start_ = monotonic_seconds();
   std::mutex mutex_;
   std::condition_variable full_;
   std::vector<CapturedTransfer> transfers_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cmath>
 #include <thread>
 #include <utility>
@@ -11,6 +10,7 @@
 #include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/devices/force_guard.hpp>
 
+#include "base/monotonic_clock.hpp"
 #include "base/require.hpp"
 #include "devices/phantom/link/link.hpp"
 #include "devices/phantom/wire/packet_codec.hpp"
@@ -55,12 +55,8 @@ const PhantomOptions& checked(const PhantomOptions& options) {
   return options;
 }
 
-double seconds_of_steady_clock() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-std::function<double()> clock_or_steady(std::function<double()> clock) {
-  return clock ? std::move(clock) : std::function<double()>(seconds_of_steady_clock);
+std::function<double()> clock_or_monotonic(std::function<double()> clock) {
+  return clock ? std::move(clock) : std::function<double()>(monotonic_seconds);
 }
 
 }  // namespace
@@ -76,7 +72,7 @@ class PhantomDevice::Core final : public LinkListener {
  public:
   Core(std::unique_ptr<Link> link, const PhantomOptions& options, std::function<double()> clock)
       : options_(checked(options)),
-        clock_(clock_or_steady(std::move(clock))),
+        clock_(clock_or_monotonic(std::move(clock))),
         codec_(profile_of(options)),
         linkage_(linkage(options.model)),
         capabilities_(device_profile(options.model)),

@@ -159,7 +159,8 @@ TEST_CASE("an error in a profile names file, line and value", "[phantom][profile
   CHECK_THAT(format_error("no profile\n"), Contains("lab.txt:1: expected 'calligraphy wire profile 1'"));
   CHECK_THAT(format_error(""), Contains("lab.txt: empty"));
   CHECK_THAT(format_error("calligraphy wire profile 1\nname x\nreport 8\n"), Contains("'encoder 1' is missing"));
-  CHECK_THAT(format_error(minimal_profile + std::string(2'000'000, ' ') + "\n"), Contains("lab.txt:9: longer than the 1048576 bytes"));
+  CHECK_THAT(format_error(minimal_profile + std::string(2'000'000, ' ') + "\n"),
+             Contains("lab.txt:7: longer than the 1048576 bytes"));
 }
 
 TEST_CASE("fields outside their frame or on each other are refused with both names", "[phantom][profile]") {

@@ -6,10 +6,12 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/servo_thread.hpp>
 
+#include "base/monotonic_clock.hpp"
 #include "report_descriptor.hpp"
 #include "sysfs.hpp"
 #include "usb_device.hpp"
@@ -21,7 +23,7 @@ constexpr int max_read = 5;            // [ms]; after it the reader looks whethe
 constexpr double writer_pause = 0.05;  // [s]
 // From one opening to the next: a device that opens and fails at once must not take the processor, at the priority that
 // this thread may have.
-constexpr std::chrono::milliseconds min_stay(10);
+constexpr double min_stay = 0.01;  // [s]
 
 /// hidapi's list of devices, its start and its opening are not for several threads at once.
 std::mutex& hidapi_mutex() {
@@ -138,12 +140,12 @@ void HidLink::connect() {
   auto known = std::find(descriptions_.begin(), descriptions_.end(), text);
   if (known == descriptions_.end()) known = descriptions_.insert(known, text);
   description_ = &*known;
-  opened_at_ = Clock::now();
+  opened_at_ = monotonic_seconds();
   opened_.fetch_add(1, std::memory_order_relaxed);
 }
 
 void HidLink::start() noexcept {
-  last_received_ = Clock::now();
+  last_received_ = monotonic_seconds();
   told_ = DeviceFault::none;
   listener_->changed(DeviceFault::none);
 }
@@ -156,9 +158,8 @@ void HidLink::disconnect() noexcept {
 }
 
 void HidLink::tell(DeviceFault fault) noexcept {
-  const Clock::time_point now = Clock::now();
-  const bool again =
-      fault == DeviceFault::timed_out && now - told_at_ >= std::chrono::duration<double>(options_.silence);
+  const double now = monotonic_seconds();
+  const bool again = fault == DeviceFault::timed_out && now - told_at_ >= options_.silence;
   if (fault == told_ && !again) return;
   told_ = fault;
   told_at_ = now;
@@ -197,11 +198,11 @@ void HidLink::read_reports() noexcept {
       break;
     }
     if (size > 0) {
-      last_received_ = Clock::now();
+      last_received_ = monotonic_seconds();
       tell(DeviceFault::none);
       received_.fetch_add(1, std::memory_order_relaxed);
       listener_->received(std::as_bytes(std::span<const unsigned char>(report.data(), static_cast<std::size_t>(size))));
-    } else if (Clock::now() - last_received_ >= std::chrono::duration<double>(options_.silence)) {
+    } else if (monotonic_seconds() - last_received_ >= options_.silence) {
       tell(DeviceFault::timed_out);
     }
   }
@@ -210,7 +211,7 @@ void HidLink::read_reports() noexcept {
 }
 
 void HidLink::reopen() noexcept {
-  std::this_thread::sleep_until(opened_at_ + min_stay);
+  std::this_thread::sleep_for(std::chrono::duration<double>(opened_at_ + min_stay - monotonic_seconds()));
   try {
     connect();
     // hidapi does not say why a transfer failed: a device that opens again at once had an error, any other is gone.
@@ -218,8 +219,7 @@ void HidLink::reopen() noexcept {
     start();
   } catch (const std::exception&) {
     tell(DeviceFault::unplugged);
-    for (const auto end = Clock::now() + std::chrono::duration<double>(options_.search);
-         Clock::now() < end && !stopping_;) {
+    for (const double end = monotonic_seconds() + options_.search; monotonic_seconds() < end && !stopping_;) {
       std::this_thread::sleep_for(std::chrono::milliseconds(max_read));
     }
   }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <atomic>
-#include <chrono>
 #include <future>
 #include <list>
 #include <mutex>
@@ -43,8 +42,6 @@ class HidLink final : public Link {
   const std::string& serial() const noexcept override { return wanted_.serial; }
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   void read_and_tell(std::promise<void> opened) noexcept;
   void read_reports() noexcept;
   void reopen() noexcept;
@@ -76,9 +73,9 @@ class HidLink final : public Link {
   NewestPacket newest_;
   WakeUp bell_;
   DeviceFault told_ = DeviceFault::none;
-  Clock::time_point told_at_ = {};
-  Clock::time_point last_received_ = {};
-  Clock::time_point opened_at_ = {};
+  double told_at_ = 0.0;  ///< these by monotonic_seconds()
+  double last_received_ = 0.0;
+  double opened_at_ = 0.0;
 
   std::list<std::string> descriptions_;  ///< of every place it was found at, kept for those who hold one
   std::atomic<const std::string*> description_{nullptr};

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <atomic>
-#include <chrono>
 #include <future>
 #include <list>
 #include <mutex>
@@ -35,8 +34,6 @@ class UsbLink final : public Link {
   const std::string& serial() const noexcept override { return wanted_.serial; }
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   /// A transfer from the device.
   struct Inward {
     UsbLink* link = nullptr;
@@ -51,8 +48,8 @@ class UsbLink final : public Link {
     bool flying = false;
     libusb_transfer_status ended = LIBUSB_TRANSFER_COMPLETED;
     std::size_t size = 0;
-    Clock::time_point filled = {};  ///< when its packet was taken
-    bool refused = false;           ///< its packet has not gone through yet
+    double filled = 0.0;   ///< when its packet was taken [s]
+    bool refused = false;  ///< its packet has not gone through yet
     std::array<unsigned char, max_packet_bytes> buffer = {};
   };
   /// A packet of command() from another thread.
@@ -116,11 +113,11 @@ class UsbLink final : public Link {
   DeviceFault in_fault_ = DeviceFault::none;
   DeviceFault out_fault_ = DeviceFault::none;
   DeviceFault told_ = DeviceFault::none;
-  Clock::time_point told_at_ = {};
-  Clock::time_point last_received_ = {};
-  Clock::time_point retry_in_ = {};
-  Clock::time_point retry_out_ = {};
-  Clock::time_point look_again_ = {};
+  double told_at_ = 0.0;  ///< these by monotonic_seconds()
+  double last_received_ = 0.0;
+  double retry_in_ = 0.0;
+  double retry_out_ = 0.0;
+  double look_again_ = 0.0;
 
   std::mutex command_mutex_;  ///< one command at a time
   std::atomic<Request*> request_{nullptr};
