@@ -68,49 +68,26 @@ PluggedDevice found(libusb_context* context, const PluggedDevice& wanted) {
 
 }  // namespace
 
-HidLink::HidLink(const PluggedDevice& device, const LinkOptions& options) : wanted_(device), options_(options) {
-  descriptions_.push_back(describe_device(device));
-  description_ = &descriptions_.back();
-}
+HidLink::HidLink(const PluggedDevice& device, const LinkOptions& options) : ThreadedLink(device, options) {}
 
 HidLink::~HidLink() {
   writer_stops_ = true;
-  bell_.ring();
+  wake();
   if (writer_.joinable()) writer_.join();
-  stopping_ = true;
-  if (reader_.joinable()) reader_.join();
+  join();
 }
 
 void HidLink::open(LinkListener& listener) {
-  if (reader_.joinable()) throw DeviceError(description() + ": this link is open already");
-  listener_ = &listener;
-  std::promise<void> first;
-  std::future<void> outcome = first.get_future();
-  reader_ = std::thread(&HidLink::read_and_tell, this, std::move(first));
-  try {
-    outcome.get();
-  } catch (...) {
-    reader_.join();
-    throw;
-  }
+  ThreadedLink::open(listener);
   writer_ = std::thread(&HidLink::write_packets, this);
 }
 
-bool HidLink::send(std::span<const std::byte> packet) noexcept {
-  if (packet.size() > max_packet_bytes) return false;
-  if (newest_.put(packet)) replaced_.fetch_add(1, std::memory_order_relaxed);
-  bell_.ring();
-  return true;
-}
-
 void HidLink::command(std::span<const std::byte> packet) {
-  if (packet.size() > max_packet_bytes) refuse(wanted_, "a command of " + std::to_string(packet.size()) + " bytes");
+  check_command(packet);
   const std::lock_guard<std::mutex> alone(device_mutex_);
   if (device_ == nullptr) refuse(wanted_, "the command was not sent: it is not plugged in");
   if (write_failed_ || !write_report(packet)) refuse(wanted_, "the command was not taken: the transfer failed");
 }
-
-LinkCounts HidLink::counts() const noexcept { return {received_, sent_, replaced_, failed_, opened_}; }
 
 void HidLink::connect() {
   bus_.wait(0.0);  // what came and went is dealt with
@@ -136,12 +113,8 @@ void HidLink::connect() {
     numbered_ = numbered;
     write_failed_ = false;
   }
-  const std::string text = describe_device(place);
-  auto known = std::find(descriptions_.begin(), descriptions_.end(), text);
-  if (known == descriptions_.end()) known = descriptions_.insert(known, text);
-  description_ = &*known;
+  found_at(place);
   opened_at_ = monotonic_seconds();
-  opened_.fetch_add(1, std::memory_order_relaxed);
 }
 
 void HidLink::start() noexcept {
@@ -157,18 +130,9 @@ void HidLink::disconnect() noexcept {
   lock_.release();
 }
 
-void HidLink::tell(DeviceFault fault) noexcept {
-  const double now = monotonic_seconds();
-  const bool again = fault == DeviceFault::timed_out && now - told_at_ >= options_.silence;
-  if (fault == told_ && !again) return;
-  told_ = fault;
-  told_at_ = now;
-  listener_->changed(fault);
-}
-
 // ---- the reader
 
-void HidLink::read_and_tell(std::promise<void> opened) noexcept {
+void HidLink::run(std::promise<void> opened) noexcept {
   warnings_ = set_real_time_priority(options_.priority);  // hidapi-libusb's own thread is started from this one
   try {
     connect();

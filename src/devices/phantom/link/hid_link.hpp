@@ -3,16 +3,13 @@
 
 #include <atomic>
 #include <future>
-#include <list>
 #include <mutex>
 #include <thread>
 
 #include <calligraphy/devices/phantom/device_list.hpp>
 
 #include "device_lock.hpp"
-#include "link.hpp"
-#include "link_options.hpp"
-#include "newest_packet.hpp"
+#include "threaded_link.hpp"
 #include "usb_events.hpp"
 #include "wake_up.hpp"
 
@@ -26,7 +23,7 @@ namespace calligraphy::phantom {
 /// hidapi hides much: it swallows stalls of the device's reports, keeps about 30 of them and drops the oldest, and says
 /// of a failure only that it was one. So this link tells `unplugged` when the device cannot be opened again at once,
 /// and `link_error` otherwise; what was lost shows in the device's own sequence numbers.
-class HidLink final : public Link {
+class HidLink final : public ThreadedLink {
  public:
   /// @throws DeviceError when libusb, by which the device is found, cannot start
   HidLink(const PluggedDevice& device, const LinkOptions& options);
@@ -34,15 +31,11 @@ class HidLink final : public Link {
   ~HidLink() override;
 
   void open(LinkListener& listener) override;
-  bool send(std::span<const std::byte> packet) noexcept override;
   void command(std::span<const std::byte> packet) override;
-  LinkCounts counts() const noexcept override;
-  const std::vector<std::string>& warnings() const noexcept override { return warnings_; }
-  const std::string& description() const noexcept override { return *description_.load(); }
-  const std::string& serial() const noexcept override { return wanted_.serial; }
 
  private:
-  void read_and_tell(std::promise<void> opened) noexcept;
+  void run(std::promise<void> opened) noexcept override;
+  void wake() noexcept override { bell_.ring(); }
   void read_reports() noexcept;
   void reopen() noexcept;
   void write_packets() noexcept;
@@ -50,18 +43,11 @@ class HidLink final : public Link {
   void connect();
   void start() noexcept;
   void disconnect() noexcept;
-  void tell(DeviceFault fault) noexcept;
 
   /// Watches the bus as long as the link lives: to start and end that with every search costs a thread and a socket.
   UsbEvents bus_;
-  PluggedDevice wanted_;
-  LinkOptions options_;
-  LinkListener* listener_ = nullptr;
-  std::vector<std::string> warnings_;
-  std::thread reader_;
-  std::thread writer_;
+  std::thread writer_;  ///< beside the link's own thread, which reads
   std::atomic<bool> writer_stops_{false};
-  std::atomic<bool> stopping_{false};
 
   /// The reader opens and closes the device and reads without this; the writer holds it while it writes.
   std::mutex device_mutex_;
@@ -70,16 +56,8 @@ class HidLink final : public Link {
   bool through_hidraw_ = false;            ///< this program's hidapi is the one over hidraw
   bool numbered_ = false;                  ///< reports begin with their number
   std::atomic<bool> write_failed_{false};  ///< nothing more is written until the reader has dealt with it
-  NewestPacket newest_;
   WakeUp bell_;
-  DeviceFault told_ = DeviceFault::none;
-  double told_at_ = 0.0;  ///< these by monotonic_seconds()
-  double last_received_ = 0.0;
-  double opened_at_ = 0.0;
-
-  std::list<std::string> descriptions_;  ///< of every place it was found at, kept for those who hold one
-  std::atomic<const std::string*> description_{nullptr};
-  std::atomic<std::uint64_t> received_{0}, sent_{0}, replaced_{0}, failed_{0}, opened_{0};
+  double opened_at_ = 0.0;  ///< by monotonic_seconds()
 };
 
 /// The device's node as hidapi names it, which depends on the hidapi that the program links; empty when hidapi does not

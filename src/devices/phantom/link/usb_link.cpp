@@ -34,41 +34,14 @@ const char* to_string(libusb_transfer_status status) {
 
 }  // namespace
 
-UsbLink::UsbLink(const PluggedDevice& device, const LinkOptions& options) : wanted_(device), options_(options) {
-  descriptions_.push_back(describe_device(device));
-  description_ = &descriptions_.back();
+UsbLink::UsbLink(const PluggedDevice& device, const LinkOptions& options) : ThreadedLink(device, options) {
   for (Inward& inward : inward_) inward.link = this;
 }
 
-UsbLink::~UsbLink() {
-  stopping_ = true;
-  events_.ring();
-  if (thread_.joinable()) thread_.join();
-}
-
-void UsbLink::open(LinkListener& listener) {
-  if (thread_.joinable()) throw DeviceError(description() + ": this link is open already");
-  listener_ = &listener;
-  std::promise<void> opened;
-  std::future<void> outcome = opened.get_future();
-  thread_ = std::thread(&UsbLink::run, this, std::move(opened));
-  try {
-    outcome.get();
-  } catch (...) {
-    thread_.join();
-    throw;
-  }
-}
-
-bool UsbLink::send(std::span<const std::byte> packet) noexcept {
-  if (packet.size() > max_packet_bytes) return false;
-  if (newest_.put(packet)) replaced_.fetch_add(1, std::memory_order_relaxed);
-  events_.ring();
-  return true;
-}
+UsbLink::~UsbLink() { join(); }
 
 void UsbLink::command(std::span<const std::byte> packet) {
-  if (packet.size() > max_packet_bytes) refuse(wanted_, "a command of " + std::to_string(packet.size()) + " bytes");
+  check_command(packet);
   if (std::this_thread::get_id() == thread_id_) {
     transmit(packet);
     return;
@@ -82,8 +55,6 @@ void UsbLink::command(std::span<const std::byte> packet) {
   events_.ring();
   done.get();
 }
-
-LinkCounts UsbLink::counts() const noexcept { return {received_, sent_, replaced_, failed_, opened_}; }
 
 void UsbLink::run(std::promise<void> opened) noexcept {
   thread_id_ = std::this_thread::get_id();
@@ -111,7 +82,7 @@ void UsbLink::run(std::promise<void> opened) noexcept {
 void UsbLink::serve() noexcept {
   if (gone_) {
     disconnect();
-    tell(DeviceFault::unplugged);
+    tell_listener(DeviceFault::unplugged);
   }
   if (device_.handle() == nullptr && monotonic_seconds() >= look_again_) {
     look_again_ = monotonic_seconds() + options_.search;
@@ -152,11 +123,7 @@ void UsbLink::connect() {
   }
   outward_.transfer = libusb_alloc_transfer(0);
   if (outward_.transfer == nullptr) throw std::bad_alloc();
-  const std::string place = describe_device(device_.place());
-  auto known = std::find(descriptions_.begin(), descriptions_.end(), place);
-  if (known == descriptions_.end()) known = descriptions_.insert(known, place);
-  description_ = &*known;
-  opened_.fetch_add(1, std::memory_order_relaxed);
+  found_at(device_.place());
   telling_ = true;
   listener_->changed(DeviceFault::none);
   telling_ = false;
@@ -212,11 +179,11 @@ void UsbLink::clear_halt(unsigned char endpoint) noexcept {
 /// The listener hears of a fault even when packets flow again by now, and only afterwards gets those packets.
 void UsbLink::tell_where_it_stands() noexcept {
   if (gone_) return;
-  tell(in_fault_ != DeviceFault::none ? in_fault_ : out_fault_);
+  tell_listener(in_fault_ != DeviceFault::none ? in_fault_ : out_fault_);
   if (in_fault_ != DeviceFault::none && in_flows_) {
     in_fault_ = DeviceFault::none;
     in_flows_ = false;
-    tell(out_fault_);
+    tell_listener(out_fault_);
   }
   if (in_fault_ != DeviceFault::none) return;
   for (std::size_t i = 0; i < kept_count_; ++i) {
@@ -227,14 +194,9 @@ void UsbLink::tell_where_it_stands() noexcept {
   kept_count_ = 0;
 }
 
-void UsbLink::tell(DeviceFault fault) noexcept {
-  const double now = monotonic_seconds();
-  const bool again = fault == DeviceFault::timed_out && now - told_at_ >= options_.silence;
-  if (fault == told_ && !again) return;
-  told_ = fault;
-  told_at_ = now;
+void UsbLink::tell_listener(DeviceFault fault) noexcept {
   telling_ = true;
-  listener_->changed(fault);
+  tell(fault);
   telling_ = false;
 }
 

@@ -4,13 +4,10 @@
 #include <array>
 #include <atomic>
 #include <future>
-#include <list>
 #include <mutex>
 #include <thread>
 
-#include "link.hpp"
-#include "link_options.hpp"
-#include "newest_packet.hpp"
+#include "threaded_link.hpp"
 #include "usb_device.hpp"
 #include "usb_events.hpp"
 
@@ -18,20 +15,14 @@ namespace calligraphy::phantom {
 
 /// Four transfers wait for the device at any time, so that none of its packets finds the host busy. All of libusb is
 /// called from the link's own thread, its callbacks note what happened, and the thread acts on it between callbacks.
-class UsbLink final : public Link {
+class UsbLink final : public ThreadedLink {
  public:
   /// @throws DeviceError when libusb cannot start
   UsbLink(const PluggedDevice& device, const LinkOptions& options);
   /// A packet that still waits is sent first, for at most a tenth of a second.
   ~UsbLink() override;
 
-  void open(LinkListener& listener) override;
-  bool send(std::span<const std::byte> packet) noexcept override;
   void command(std::span<const std::byte> packet) override;
-  LinkCounts counts() const noexcept override;
-  const std::vector<std::string>& warnings() const noexcept override { return warnings_; }
-  const std::string& description() const noexcept override { return *description_.load(); }
-  const std::string& serial() const noexcept override { return wanted_.serial; }
 
  private:
   /// A transfer from the device.
@@ -58,7 +49,8 @@ class UsbLink final : public Link {
     std::promise<void> done;
   };
 
-  void run(std::promise<void> opened) noexcept;
+  void run(std::promise<void> opened) noexcept override;
+  void wake() noexcept override { events_.ring(); }
   void serve() noexcept;
   void connect();
   void disconnect() noexcept;
@@ -69,7 +61,7 @@ class UsbLink final : public Link {
   void transmit(std::span<const std::byte> packet);
   void flush() noexcept;
 
-  void tell(DeviceFault fault) noexcept;
+  void tell_listener(DeviceFault fault) noexcept;
   void tell_where_it_stands() noexcept;
   void hand_on(const Inward& inward) noexcept;
   void submit(Inward& inward) noexcept;
@@ -87,21 +79,14 @@ class UsbLink final : public Link {
   static int LIBUSB_CALL plugged(libusb_context*, libusb_device* device, libusb_hotplug_event event,
                                  void* self) noexcept;
 
-  PluggedDevice wanted_;
-  LinkOptions options_;
   UsbEvents events_;
-  LinkListener* listener_ = nullptr;
-  std::vector<std::string> warnings_;
-  std::thread thread_;
   std::thread::id thread_id_ = {};
-  std::atomic<bool> stopping_{false};
 
   UsbDevice device_;
   std::array<Inward, 4> inward_;
   std::array<Inward*, 4> kept_ = {};  ///< in the order that they came
   std::size_t kept_count_ = 0;
   Outward outward_;
-  NewestPacket newest_;
 
   // What the callbacks noted, and how the two directions stand.
   bool gone_ = false;
@@ -112,19 +97,12 @@ class UsbLink final : public Link {
   bool in_flows_ = false;  ///< a packet came since the fault
   DeviceFault in_fault_ = DeviceFault::none;
   DeviceFault out_fault_ = DeviceFault::none;
-  DeviceFault told_ = DeviceFault::none;
-  double told_at_ = 0.0;  ///< these by monotonic_seconds()
-  double last_received_ = 0.0;
-  double retry_in_ = 0.0;
+  double retry_in_ = 0.0;  ///< these by monotonic_seconds()
   double retry_out_ = 0.0;
   double look_again_ = 0.0;
 
   std::mutex command_mutex_;  ///< one command at a time
   std::atomic<Request*> request_{nullptr};
-
-  std::list<std::string> descriptions_;  ///< of every place it was found at, kept for those who hold one
-  std::atomic<const std::string*> description_{nullptr};
-  std::atomic<std::uint64_t> received_{0}, sent_{0}, replaced_{0}, failed_{0}, opened_{0};
 };
 
 }  // namespace calligraphy::phantom
