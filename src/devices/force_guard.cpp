@@ -1,6 +1,8 @@
-#include <calligraphy/devices/force_guard.hpp>
+#include <calligraphy/devices/detail/force_guard.hpp>
 
 #include <algorithm>
+
+#include <calligraphy/devices/servo.hpp>
 
 #include "base/require.hpp"
 
@@ -13,20 +15,6 @@ double checked(const char* name, double value, double largest) {
 }
 
 }  // namespace
-
-const char* to_string(ServoPhase phase) noexcept {
-  switch (phase) {
-    case ServoPhase::zero:
-      return "zero";
-    case ServoPhase::rising:
-      return "rising";
-    case ServoPhase::running:
-      return "running";
-    case ServoPhase::falling:
-      return "falling";
-  }
-  return "unknown";
-}
 
 ForceGuard::ForceGuard(double ramp_down, double ramp_up)
     : ramp_down_(checked("servo loop: ramp_down", ramp_down, 0.1)),

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/devices/flush_denormals.hpp>
+#include <calligraphy/devices/detail/flush_denormals.hpp>
 
 #include "base/monotonic_clock.hpp"
 #include "base/require.hpp"
@@ -53,6 +53,20 @@ DeviceFault unnamed_fault(DeviceStatus status) noexcept {
 thread_local const Servo* asking = nullptr;
 
 }  // namespace
+
+const char* to_string(ServoPhase phase) noexcept {
+  switch (phase) {
+    case ServoPhase::zero:
+      return "zero";
+    case ServoPhase::rising:
+      return "rising";
+    case ServoPhase::running:
+      return "running";
+    case ServoPhase::falling:
+      return "falling";
+  }
+  return "unknown";
+}
 
 Servo::Servo(HapticDevice& device, ForceLaw law, const ServoOptions& options)
     : device_(device), law_(std::move(law)), options_(checked(options)), guard_(options.ramp_down, options.ramp_up) {

@@ -1,4 +1,4 @@
-#include <calligraphy/experiments/nearest_point_workload.hpp>
+#include "nearest_point_workload.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include <calligraphy/experiments/stroke_queries.hpp>
+#include "stroke_queries.hpp"
 
 #include <algorithm>
 #include <cstddef>

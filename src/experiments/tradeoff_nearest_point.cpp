@@ -4,11 +4,11 @@
 #include <cstdio>
 #include <utility>
 
-#include <calligraphy/experiments/nearest_point_workload.hpp>
 #include <calligraphy/experiments/tradeoff.hpp>
 
 #include "base/monotonic_clock.hpp"
 #include "base/require.hpp"
+#include "nearest_point_workload.hpp"
 #include "tradeoff_pen.hpp"
 
 namespace calligraphy {

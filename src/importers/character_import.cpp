@@ -17,17 +17,17 @@
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/text.hpp>
-#include <calligraphy/importers/hanzi_writer.hpp>
-#include <calligraphy/importers/kanjivg.hpp>
 #include <calligraphy/importers/stroke_fit.hpp>
-#include <calligraphy/importers/stroke_letters.hpp>
 #include <calligraphy/importers/stroke_warnings.hpp>
 #include <calligraphy/model/character_set.hpp>
 
 #include "base/parallel.hpp"
 #include "base/require.hpp"
+#include "hanzi_writer.hpp"
 #include "imported_character.hpp"
+#include "kanjivg.hpp"
 #include "stroke_labels.hpp"
+#include "stroke_letters.hpp"
 
 namespace calligraphy {
 namespace {

@@ -1,11 +1,11 @@
 #include <calligraphy/practice/session.hpp>
 
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/devices/flush_denormals.hpp>
-#include <calligraphy/practice/trace_hand.hpp>
+#include <calligraphy/devices/detail/flush_denormals.hpp>
 
 #include "base/require.hpp"
 #include "session_tick.hpp"
+#include "trace_hand.hpp"
 
 namespace calligraphy {
 namespace {

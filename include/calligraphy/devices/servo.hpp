@@ -7,7 +7,7 @@
 #include <functional>
 #include <limits>
 
-#include <calligraphy/devices/force_guard.hpp>
+#include <calligraphy/devices/detail/force_guard.hpp>
 #include <calligraphy/devices/haptic_device.hpp>
 #include <calligraphy/devices/servo_statistics.hpp>
 
@@ -27,12 +27,23 @@ struct ServoOptions {
   double (*work_clock)() noexcept = nullptr;  ///< measures the force law [s]; null: the system's monotonic clock
 };
 
+/// Where the force of a servo loop stands.
+enum class ServoPhase : std::uint8_t {
+  zero,     ///< no force: nothing has run yet, or a fault lasts
+  rising,   ///< the share of the wanted force that is sent grows from 0 to 1
+  running,  ///< the wanted force is sent
+  falling   ///< the last force goes down in a straight line, whatever is wanted
+};
+
+/// "zero", "rising", "running", "falling".
+const char* to_string(ServoPhase phase) noexcept;
+
 /// Where a servo loop stands.
 struct ServoStatus {
   ServoPhase phase = ServoPhase::zero;
   DeviceFault fault = DeviceFault::none;   ///< why the force fell, until it has risen again
   DeviceStatus device = DeviceStatus::ok;  ///< of the last sample
-  double gain = 0.0;                       ///< see ForceGuard
+  double gain = 0.0;  ///< share of the wanted force that is sent, or of the held one that is left [1]
 };
 
 /// Reads the device, asks the force law, guards the force, writes it, counts.

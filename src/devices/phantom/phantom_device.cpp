@@ -7,8 +7,9 @@
 #include <utility>
 
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/devices/detail/force_guard.hpp>
+#include <calligraphy/devices/servo.hpp>
 #include <calligraphy/devices/device_profiles.hpp>
-#include <calligraphy/devices/force_guard.hpp>
 
 #include "base/monotonic_clock.hpp"
 #include "base/require.hpp"

@@ -9,16 +9,7 @@
 
 namespace calligraphy {
 
-/// Where the force of a servo loop stands.
-enum class ServoPhase : std::uint8_t {
-  zero,     ///< no force: nothing has run yet, or a fault lasts
-  rising,   ///< the share of the wanted force that is sent grows from 0 to 1
-  running,  ///< the wanted force is sent
-  falling   ///< the last force goes down in a straight line, whatever is wanted
-};
-
-/// "zero", "rising", "running", "falling".
-const char* to_string(ServoPhase phase) noexcept;
+enum class ServoPhase : std::uint8_t;  // servo.hpp
 
 /// Turns wanted forces into forces that may be sent. After a fault the force last sent falls to zero in `ramp_down`,
 /// its direction kept; it always gets there, even when the fault is over sooner. Then the share of the wanted force
@@ -51,7 +42,7 @@ class ForceGuard {
  private:
   double ramp_down_;
   double ramp_up_;
-  ServoPhase phase_ = ServoPhase::zero;
+  ServoPhase phase_ = {};
   DeviceFault fault_ = DeviceFault::none;
   double gain_ = 0.0;
   Eigen::Vector3d held_ = Eigen::Vector3d::Zero();   ///< what falls

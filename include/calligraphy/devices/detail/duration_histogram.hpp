@@ -6,16 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace calligraphy {
+#include <calligraphy/devices/servo_statistics.hpp>
 
-/// What a histogram has counted [s].
-struct DurationSummary {
-  std::uint64_t count = 0;
-  double p50 = 0.0;
-  double p99 = 0.0;
-  double p99_9 = 0.0;
-  double worst = 0.0;  ///< exact to a nanosecond
-};
+namespace calligraphy {
 
 /// Fixed buckets, 128 to each doubling: a percentile is off by at most 1/256 of itself, or 1 ns. Durations beyond 18
 /// minutes count in the last bucket. add() is wait-free and takes no memory; summary() may run meanwhile and then
