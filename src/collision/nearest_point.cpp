@@ -48,6 +48,20 @@ ParameterRange clamped(const ParameterRange& range) {
 
 }  // namespace
 
+const char* to_string(NearestPointMethod method) noexcept {
+  switch (method) {
+    case NearestPointMethod::exact:
+      return "exact";
+    case NearestPointMethod::tracked:
+      return "tracked";
+    case NearestPointMethod::sampled:
+      return "sampled";
+    case NearestPointMethod::wang2006:
+      return "wang2006";
+  }
+  return "";
+}
+
 void validate(const NearestPointOptions& options) {
   require(options.tolerance > 0.0 && options.tolerance <= 1.0, "tolerance", options.tolerance, "",
           "above 0 and at most 1");

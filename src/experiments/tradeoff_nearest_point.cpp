@@ -163,20 +163,6 @@ std::string setting_name(const NearestPointOptions& options) {
 
 }  // namespace
 
-const char* to_string(NearestPointMethod method) noexcept {
-  switch (method) {
-    case NearestPointMethod::exact:
-      return "exact";
-    case NearestPointMethod::tracked:
-      return "tracked";
-    case NearestPointMethod::sampled:
-      return "sampled";
-    case NearestPointMethod::wang2006:
-      return "wang2006";
-  }
-  return "";
-}
-
 std::vector<NearestPointSetting> nearest_point_settings() {
   using enum NearestPointMethod;
   std::vector<NearestPointSetting> settings;

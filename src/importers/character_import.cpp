@@ -26,6 +26,7 @@
 #include "hanzi_writer.hpp"
 #include "imported_character.hpp"
 #include "kanjivg.hpp"
+#include "source_files.hpp"
 #include "stroke_labels.hpp"
 #include "stroke_letters.hpp"
 

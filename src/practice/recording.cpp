@@ -30,18 +30,6 @@ constexpr std::array states = {InteractionState::separation, InteractionState::a
 constexpr std::array statuses = {TickStatus::ok, TickStatus::bad_sample, TickStatus::device_fault};
 constexpr int all_events = 2 * static_cast<int>(TickEvent::page_finished) - 1;
 
-const char* to_string(TickStatus status) noexcept {
-  switch (status) {
-    case TickStatus::ok:
-      return "ok";
-    case TickStatus::bad_sample:
-      return "bad_sample";
-    case TickStatus::device_fault:
-      return "device_fault";
-  }
-  return "";
-}
-
 std::string header() {
   std::string text;
   for (const std::string_view column : columns) text.append(text.empty() ? "" : ",").append(column);

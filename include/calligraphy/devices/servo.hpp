@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 
+#include <calligraphy/devices/detail/duration_histogram.hpp>
 #include <calligraphy/devices/detail/force_guard.hpp>
 #include <calligraphy/devices/haptic_device.hpp>
 #include <calligraphy/devices/servo_statistics.hpp>

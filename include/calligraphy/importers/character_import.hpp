@@ -69,6 +69,9 @@ enum class LabelResolution {
   overridden  ///< no stroke of the label's kind does: the shape decided
 };
 
+/// "unknown", "accepted", "overridden".
+const char* to_string(LabelResolution resolution) noexcept;
+
 struct LabelConflict {
   StrokeReference place;
   std::string label;
