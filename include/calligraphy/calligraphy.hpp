@@ -15,6 +15,7 @@
 #include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/devices/device_state.hpp>
 #include <calligraphy/devices/haptic_device.hpp>
+#include <calligraphy/devices/latest_value.hpp>
 #include <calligraphy/devices/pointer_device.hpp>
 #include <calligraphy/devices/replay_device.hpp>
 #include <calligraphy/devices/sample_queue.hpp>

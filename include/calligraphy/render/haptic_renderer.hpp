@@ -38,6 +38,8 @@ class HapticRenderer {
   /// The page as new: nothing written, force zero at once.
   void restart() noexcept;
 
+  /// What the last update() returned. For the thread that calls update() alone: for a display, publish it through a
+  /// LatestValue.
   const HapticTick& last() const noexcept { return tick_; }
   /// As they are at work: with StiffnessCheck::clip, stiffnesses may be smaller than asked for.
   const RendererOptions& options() const noexcept { return options_; }

@@ -10,6 +10,7 @@
 #include <calligraphy/devices/detail/force_guard.hpp>
 #include <calligraphy/devices/servo.hpp>
 #include <calligraphy/devices/device_profiles.hpp>
+#include <calligraphy/devices/latest_value.hpp>
 
 #include "base/monotonic_clock.hpp"
 #include "base/require.hpp"
@@ -17,7 +18,6 @@
 #include "devices/phantom/wire/packet_codec.hpp"
 #include "devices/phantom/wire/report_frames.hpp"
 #include "force_output.hpp"
-#include "latest_value.hpp"
 #include "motion_tracker.hpp"
 #include "motor_temperature.hpp"
 
