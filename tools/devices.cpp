@@ -29,6 +29,7 @@
 #include <calligraphy/devices/openhaptics/openhaptics_device.hpp>
 #endif
 
+#include "base/monotonic_clock.hpp"
 #include "commands.hpp"
 #include "device_choice.hpp"
 #include "interrupt.hpp"
@@ -239,12 +240,9 @@ void watch(const WatchOptions& options) {
       seen, [](const DeviceState&) { return Eigen::Vector3d(Eigen::Vector3d::Zero()); }, servo);
   const Interrupt interrupt;
   for (const std::string& warning : loop.start()) spdlog::warn("{}", warning);
-  const auto begin = std::chrono::steady_clock::now();
-  const auto seconds = [&begin] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  };
+  const double begin = monotonic_seconds();
   Sighting newest;
-  while (!interrupt.asked() && (options.seconds == 0.0 || seconds() < options.seconds)) {
+  while (!interrupt.asked() && (options.seconds == 0.0 || monotonic_seconds() - begin < options.seconds)) {
     std::this_thread::sleep_for(std::chrono::milliseconds(250));
     seen.look(newest);
     const ServoStatus status = loop.status();

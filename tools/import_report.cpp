@@ -186,18 +186,6 @@ Json skipped_json(const ImportReport& report) {
 
 }  // namespace
 
-const char* to_string(LabelResolution resolution) noexcept {
-  switch (resolution) {
-    case LabelResolution::accepted:
-      return "accepted";
-    case LabelResolution::overridden:
-      return "overridden";
-    case LabelResolution::unknown:
-      break;
-  }
-  return "unknown";
-}
-
 std::string character_label(char32_t code, const std::string& order) {
   return order.empty() ? character_label(code) : character_label(code) + " order " + order;
 }

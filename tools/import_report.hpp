@@ -18,9 +18,6 @@ std::string tables(const ImportResult& import, const ImportOutput& output);
 
 std::string json(const ImportResult& import, const ImportOutput& output);
 
-/// "accepted", "overridden", "unknown".
-const char* to_string(LabelResolution resolution) noexcept;
-
 /// "永 (U+6C38)", followed by the name of the stroke order unless it is the standard one.
 std::string character_label(char32_t code, const std::string& order);
 

@@ -51,20 +51,6 @@ std::string others(const MatchResult& match) {
   return text;
 }
 
-const char* course_name(WritingDirection direction) {
-  switch (direction) {
-    case WritingDirection::forwards:
-      return "forwards";
-    case WritingDirection::backwards:
-      return "backwards";
-    case WritingDirection::neither:
-      return "neither";
-    case WritingDirection::unknown:
-      break;
-  }
-  return "unknown";
-}
-
 Json json_of(const Replayed& trace) {
   Json drawn = Json::array();
   for (const DrawnStroke& each : trace.match.drawn) {

@@ -60,8 +60,6 @@ std::string reduction(const char* what, const char* unit, const std::vector<std:
 
 }  // namespace
 
-const char* to_string(FeedbackMode mode) noexcept { return mode == FeedbackMode::vision ? "vision" : "force"; }
-
 double percentile(std::vector<float>& values, double share) {
   if (values.empty()) return 0.0;
   const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size())));

@@ -21,9 +21,6 @@ struct Result {
   double tick_p999 = 0.0;  ///< [ns]
 };
 
-/// "vision" or "force".
-const char* to_string(FeedbackMode mode) noexcept;
-
 /// The smallest value that at least a fraction `share` of the values do not exceed; 0 if empty. Reorders `values`.
 double percentile(std::vector<float>& values, double share);
 

@@ -14,12 +14,12 @@
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/experiments/force_field.hpp>
-#include <calligraphy/experiments/nearest_point_workload.hpp>
 #include <calligraphy/experiments/tradeoff.hpp>
 #include <calligraphy/pictures/plot.hpp>
 
 #include "character_source.hpp"
 #include "commands.hpp"
+#include "experiments/nearest_point_workload.hpp"
 #include "interrupt.hpp"
 #include "options.hpp"
 #include "output_directory.hpp"

@@ -10,7 +10,7 @@
 
 #include <calligraphy/base/text.hpp>
 #include <calligraphy/importers/character_import.hpp>
-#include <calligraphy/importers/character_warnings.hpp>
+#include <calligraphy/importers/stroke_warnings.hpp>
 
 #include "commands.hpp"
 #include "import_report.hpp"

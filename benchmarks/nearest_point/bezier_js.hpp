@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <calligraphy/experiments/nearest_point_workload.hpp>
-
+#include "experiments/nearest_point_workload.hpp"
 #include "method.hpp"
 
 namespace nearest_point_benchmark {

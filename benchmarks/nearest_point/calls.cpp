@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <numeric>
 
-#include <calligraphy/experiments/nearest_point_workload.hpp>
 #include <calligraphy/model/character_list.hpp>
 
+#include "experiments/nearest_point_workload.hpp"
 #include "runs.hpp"
 
 namespace nearest_point_benchmark {

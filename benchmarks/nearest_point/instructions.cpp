@@ -3,9 +3,9 @@
 
 #include <CLI/CLI.hpp>
 
-#include <calligraphy/experiments/nearest_point_workload.hpp>
 #include <calligraphy/model/character_list.hpp>
 
+#include "experiments/nearest_point_workload.hpp"
 #include "method.hpp"
 
 using namespace nearest_point_benchmark;

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <iterator>
 
-#include <calligraphy/experiments/stroke_queries.hpp>
 #include <calligraphy/model/bezier.hpp>
 #include <calligraphy/model/character_list.hpp>
 
+#include "experiments/stroke_queries.hpp"
 #include "runs.hpp"
 
 namespace nearest_point_benchmark {

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include <calligraphy/collision/curve_element.hpp>
+#include <calligraphy/collision/detail/curve_element.hpp>
 
 #include "pair.hpp"
 

@@ -1,4 +1,4 @@
-#include <calligraphy/collision/curve_element.hpp>
+#include <calligraphy/collision/detail/curve_element.hpp>
 
 #include <algorithm>
 #include <cmath>

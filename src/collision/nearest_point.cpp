@@ -4,11 +4,9 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <sstream>
-
-#include <calligraphy/base/error.hpp>
 
 #include "approximate_nearest_point.hpp"
+#include "base/require.hpp"
 #include "certified_nearest_point.hpp"
 #include "length.hpp"
 
@@ -48,21 +46,27 @@ ParameterRange clamped(const ParameterRange& range) {
   return {begin, end};
 }
 
-void require(bool is_good, const char* name, double value, const char* domain) {
-  if (is_good) return;
-  std::ostringstream message;
-  message << name << " = " << value << ": expected " << domain;
-  throw ValueError(message.str());
-}
-
 }  // namespace
 
+const char* to_string(NearestPointMethod method) noexcept {
+  switch (method) {
+    case NearestPointMethod::exact:
+      return "exact";
+    case NearestPointMethod::tracked:
+      return "tracked";
+    case NearestPointMethod::sampled:
+      return "sampled";
+    case NearestPointMethod::wang2006:
+      return "wang2006";
+  }
+  return "";
+}
+
 void validate(const NearestPointOptions& options) {
-  require(options.tolerance > 0.0 && options.tolerance <= 1.0, "tolerance", options.tolerance,
-          "a number above 0, at most 1");
-  require(options.samples >= 2 && options.samples <= 64, "samples", options.samples, "a whole number from 2 to 64");
-  require(options.refinements >= 0 && options.refinements <= 8, "refinements", options.refinements,
-          "a whole number from 0 to 8");
+  require(options.tolerance > 0.0 && options.tolerance <= 1.0, "tolerance", options.tolerance, "",
+          "above 0 and at most 1");
+  require_within("samples", options.samples, "", 2, 64);
+  require_within("refinements", options.refinements, "", 0, 8);
 }
 
 NearestPoint nearest_point(const StrokeElement& element, const Point& query, const NearestPointOptions& options,

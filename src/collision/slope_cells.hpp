@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include <calligraphy/collision/curve_element.hpp>
+#include <calligraphy/collision/detail/curve_element.hpp>
 
 namespace calligraphy {
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include <calligraphy/collision/curve_element.hpp>
+#include <calligraphy/collision/detail/curve_element.hpp>
 
 #include "pair.hpp"
 #include "slope_cells.hpp"

@@ -1,4 +1,4 @@
-#include <calligraphy/devices/duration_histogram.hpp>
+#include <calligraphy/devices/detail/duration_histogram.hpp>
 
 #include <bit>
 #include <cmath>

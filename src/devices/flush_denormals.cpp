@@ -1,4 +1,4 @@
-#include <calligraphy/devices/flush_denormals.hpp>
+#include <calligraphy/devices/detail/flush_denormals.hpp>
 
 #if defined(__SSE2__) || defined(_M_X64)
 #include <xmmintrin.h>

@@ -1,39 +1,24 @@
-#include <calligraphy/devices/force_guard.hpp>
+#include <calligraphy/devices/detail/force_guard.hpp>
 
 #include <algorithm>
-#include <cmath>
-#include <sstream>
 
-#include <calligraphy/base/error.hpp>
+#include <calligraphy/devices/servo.hpp>
+
+#include "base/require.hpp"
 
 namespace calligraphy {
 namespace {
 
 double checked(const char* name, double value, double largest) {
-  if (std::isfinite(value) && value >= 0.0 && value <= largest) return value;
-  std::ostringstream message;
-  message << name << " of the force is " << value << " s, must be from 0 to " << largest << " s";
-  throw ValueError(message.str());
+  require_within(name, value, "s", 0.0, largest);
+  return value;
 }
 
 }  // namespace
 
-const char* to_string(ServoPhase phase) noexcept {
-  switch (phase) {
-    case ServoPhase::zero:
-      return "zero";
-    case ServoPhase::rising:
-      return "rising";
-    case ServoPhase::running:
-      return "running";
-    case ServoPhase::falling:
-      return "falling";
-  }
-  return "unknown";
-}
-
 ForceGuard::ForceGuard(double ramp_down, double ramp_up)
-    : ramp_down_(checked("ramp-down time", ramp_down, 0.1)), ramp_up_(checked("ramp-up time", ramp_up, 10.0)) {}
+    : ramp_down_(checked("servo loop: ramp_down", ramp_down, 0.1)),
+      ramp_up_(checked("servo loop: ramp_up", ramp_up, 10.0)) {}
 
 const Eigen::Vector3d& ForceGuard::pass(const Eigen::Vector3d& wanted, double elapsed) noexcept {
   if (phase_ == ServoPhase::falling) return hold(elapsed);

@@ -2,28 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include <calligraphy/base/error.hpp>
+
+#include "base/require.hpp"
 
 namespace calligraphy {
 namespace {
 
-void require(const char* name, double value, double smallest, double largest, const char* unit) {
-  if (std::isfinite(value) && value >= smallest && value <= largest) return;
-  std::ostringstream message;
-  message << "pointer: " << name << " is " << value << ", must be from " << smallest << " to " << largest << " "
-          << unit;
-  throw ValueError(message.str());
-}
-
 const PointerOptions& checked(const PointerOptions& options) {
-  require("rate", options.rate, 100.0, 1e5, "Hz");
-  require("smoothing time", options.smoothing_time, 0.0, 1.0, "s");
-  require("largest speed", options.max_speed, 1e-3, 10.0, "m/s");
-  require("lifting speed", options.lifting_speed, 1e-3, 10.0, "m/s");
-  require("hover height", options.hover_height, 0.0, 0.1, "m");
-  require("press depth", options.press_depth, 0.0, 0.1, "m");
+  require_within("pointer: rate", options.rate, "Hz", 100.0, 1e5);
+  require_within("pointer: smoothing_time", options.smoothing_time, "s", 0.0, 1.0);
+  require_within("pointer: max_speed", options.max_speed, "m/s", 1e-3, 10.0);
+  require_within("pointer: lifting_speed", options.lifting_speed, "m/s", 1e-3, 10.0);
+  require_within("pointer: hover_height", options.hover_height, "m", 0.0, 0.1);
+  require_within("pointer: press_depth", options.press_depth, "m", 0.0, 0.1);
   const Eigen::Matrix3d rotation = options.paper.linear();
   if (!options.paper.matrix().allFinite() ||
       !(rotation.transpose() * rotation).isApprox(Eigen::Matrix3d::Identity(), 1e-9) || rotation.determinant() < 0.0) {

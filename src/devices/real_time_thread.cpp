@@ -61,12 +61,6 @@ void pin(int core, std::vector<std::string>& warnings) {
 
 }  // namespace
 
-double now() noexcept {
-  timespec time = {};
-  clock_gettime(CLOCK_MONOTONIC, &time);
-  return static_cast<double>(time.tv_sec) + nanosecond * static_cast<double>(time.tv_nsec);
-}
-
 void sleep_until(double deadline) noexcept {
   timespec time = {};
   const double whole = std::floor(deadline);
@@ -87,10 +81,6 @@ std::vector<std::string> make_real_time(const ServoThreadOptions& options) {
 }
 
 #else
-
-double now() noexcept {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 void sleep_until(double deadline) noexcept {
   const auto since_epoch =

@@ -8,10 +8,7 @@
 
 namespace calligraphy::real_time {
 
-/// Time of a monotonic clock [s].
-double now() noexcept;
-
-/// Returns immediately if the deadline [s] has passed.
+/// Sleeps until `deadline` of monotonic_seconds() [s]; returns immediately if it has passed.
 void sleep_until(double deadline) noexcept;
 
 /// Applies the options to the calling thread as far as the system permits. Returns what it refused, with a remedy.

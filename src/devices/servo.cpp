@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <bit>
-#include <chrono>
 #include <cmath>
-#include <sstream>
 #include <utility>
 
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/devices/flush_denormals.hpp>
+#include <calligraphy/devices/detail/flush_denormals.hpp>
+
+#include "base/monotonic_clock.hpp"
+#include "base/require.hpp"
 
 namespace calligraphy {
 namespace {
@@ -20,21 +21,10 @@ std::uint64_t with_fault(std::uint64_t status, DeviceFault fault) noexcept {
   return (status & ~(std::uint64_t{0xff} << fault_shift)) | (static_cast<std::uint64_t>(fault) << fault_shift);
 }
 
-double monotonic_seconds() noexcept {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-void require(bool valid, const char* name, double value, const char* domain) {
-  if (valid) return;
-  std::ostringstream message;
-  message << "servo loop: " << name << " is " << value << ", must be " << domain;
-  throw ValueError(message.str());
-}
-
 ServoOptions checked(ServoOptions options) {
-  require(options.rate >= 1.0 && options.rate <= 1e5, "rate", options.rate, "from 1 to 100000 Hz");
-  require(options.timeout >= 2.0 / options.rate && options.timeout <= 1.0, "timeout", options.timeout,
-          "from two periods of the rate to 1 s");
+  require_within("servo loop: rate", options.rate, "Hz", 1.0, 1e5);
+  require(options.timeout >= 2.0 / options.rate && options.timeout <= 1.0, "servo loop: timeout", options.timeout, "s",
+          "from two periods of the rate to 1");
   if (options.work_clock == nullptr) options.work_clock = monotonic_seconds;
   options.timeout += 1e-3 / options.rate;  // tolerates rounding in sums of ticks
   return options;
@@ -63,6 +53,20 @@ DeviceFault unnamed_fault(DeviceStatus status) noexcept {
 thread_local const Servo* asking = nullptr;
 
 }  // namespace
+
+const char* to_string(ServoPhase phase) noexcept {
+  switch (phase) {
+    case ServoPhase::zero:
+      return "zero";
+    case ServoPhase::rising:
+      return "rising";
+    case ServoPhase::running:
+      return "running";
+    case ServoPhase::falling:
+      return "falling";
+  }
+  return "unknown";
+}
 
 Servo::Servo(HapticDevice& device, ForceLaw law, const ServoOptions& options)
     : device_(device), law_(std::move(law)), options_(checked(options)), guard_(options.ramp_down, options.ramp_up) {

@@ -1,51 +1,36 @@
 #include <cmath>
-#include <limits>
-#include <sstream>
 
-#include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
 
 #include "axis_motion.hpp"
+#include "base/require.hpp"
 
 namespace calligraphy {
 namespace {
 
 constexpr int max_delay = 100'000;  // 100 s at 1 kHz; more is a mistake and would only use memory
 
-[[noreturn]] void refuse(const std::string& name, double value, const char* domain) {
-  std::ostringstream message;
-  message << name << " is " << value << ", must be " << domain;
-  throw ValueError(message.str());
-}
-
-void require_not_negative(const std::string& name, double value) {
-  if (!(std::isfinite(value) && value >= 0.0)) refuse(name, value, "finite and at least 0");
-}
-
 const Capabilities& checked(const Capabilities& device) {
   validate(device);
   require_translations(device, "the simulation");
   const std::string of_device = "device \"" + device_label(device) + "\": ";
-  if (!(device.apparent_mass > 0.0)) {
-    refuse(of_device + "apparent mass", device.apparent_mass, "above 0: a device of unknown mass cannot be simulated");
-  }
-  if (device.sample_delay > max_delay) {
-    refuse(of_device + "sample delay", device.sample_delay, "from 0 to 100000 ticks");
-  }
-  if (!(device.peak_force > 0.0)) refuse(of_device + "peak force", device.peak_force, "above 0");
+  require(device.apparent_mass > 0.0, of_device + "apparent mass", device.apparent_mass, "kg",
+          "above 0: a device of unknown mass cannot be simulated");
+  require_within(of_device + "sample delay", device.sample_delay, "ticks", 0, max_delay);
+  require(device.peak_force > 0.0, of_device + "peak force", device.peak_force, "N", "above 0");
   return device;
 }
 
 const GripImpedance& checked(const GripImpedance& grip) {
-  require_not_negative("mass of the grip", grip.mass);
-  require_not_negative("damping of the grip", grip.damping);
-  require_not_negative("stiffness of the grip", grip.stiffness);
+  require_not_negative("mass of the grip", grip.mass, "kg");
+  require_not_negative("damping of the grip", grip.damping, "N s/m");
+  require_not_negative("stiffness of the grip", grip.stiffness, "N/m");
   return grip;
 }
 
 const Eigen::Vector3d& checked(const Eigen::Vector3d& position) {
   for (const double coordinate : position) {
-    if (!std::isfinite(coordinate)) refuse("coordinate of the start position", coordinate, "finite");
+    require(std::isfinite(coordinate), "coordinate of the device's position", coordinate, "m", "finite");
   }
   return position;
 }

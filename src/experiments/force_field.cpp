@@ -6,9 +6,11 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <string>
 
-#include <calligraphy/base/error.hpp>
 #include <calligraphy/render/force_terms.hpp>
+
+#include "base/require.hpp"
 
 namespace calligraphy {
 namespace {
@@ -200,10 +202,6 @@ double distance_to(const std::vector<StrokeElement>& elements, const Point& poin
   return distance;
 }
 
-void require(bool condition, const char* what) {
-  if (!condition) throw ValueError(std::string("force field: ") + what);
-}
-
 }  // namespace
 
 Point ForceField::place(int column, int row) const noexcept {
@@ -222,12 +220,16 @@ double ForceField::max_force() const noexcept {
 
 ForceField guidance_field(const PlacedCharacter& placed, int stroke, double progress, const Point& corner, double edge,
                           const ForceFieldOptions& options) {
-  require(stroke >= 0 && stroke < placed.character.stroke_count(), "no such stroke");
-  require(progress >= 0.0 && progress <= 1.0, "progress is not in [0, 1]");
-  require(corner.allFinite() && std::isfinite(edge) && edge > 0.0, "the square is not a finite one above 0");
-  require(options.columns >= 2 && options.columns <= 4096, "columns are not in [2, 4096]");
-  require(std::isfinite(options.stiffness) && options.stiffness >= 0.0, "stiffness is not finite and at least 0");
-  require(std::isfinite(options.min_jump) && options.min_jump > 0.0, "min_jump is not finite and above 0");
+  require(stroke >= 0 && stroke < placed.character.stroke_count(), "force field: stroke", stroke, "",
+          "the index of one of " + std::to_string(placed.character.stroke_count()) + " strokes");
+  require_within("force field: progress", progress, "", 0.0, 1.0);
+  for (const double coordinate : corner) {
+    require(std::isfinite(coordinate), "force field: corner", coordinate, "m", "finite");
+  }
+  require_above_zero("force field: edge", edge, "m");
+  require_within("force field: columns", options.columns, "", 2, 4096);
+  require_not_negative("force field: stiffness", options.stiffness, "N/m");
+  require_above_zero("force field: min_jump", options.min_jump, "N");
   const Stroke active = strokes(placed.character)[static_cast<std::size_t>(stroke)];
   const Field pulls = options.attractor == Attractor::nearest_stroke
                           ? nearest_stroke_field(placed, options)

@@ -1,4 +1,4 @@
-#include <calligraphy/experiments/nearest_point_workload.hpp>
+#include "nearest_point_workload.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,6 +9,7 @@
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/model/bezier.hpp>
 
+#include "base/require.hpp"
 #include "model/random_points.hpp"
 
 namespace calligraphy {
@@ -280,7 +281,7 @@ Curve as_cubic(const std::vector<Point>& points) {
 
 std::vector<NearestPointWorkload> nearest_point_workloads(std::span<const std::vector<Point>> real_curves, int queries,
                                                           std::uint64_t seed) {
-  if (queries < 1) throw ValueError("nearest_point_workloads: " + std::to_string(queries) + " queries");
+  require_above_zero("queries", queries, "");
   if (real_curves.empty()) throw ValueError("nearest_point_workloads: no real curves");
   std::vector<NearestPointWorkload> workloads;
   RandomPoints seeds(seed);

@@ -10,12 +10,12 @@
 #include <sstream>
 #include <utility>
 
-#include <calligraphy/base/error.hpp>
 #include <calligraphy/base/random.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
 #include <calligraphy/render/passivity_controller.hpp>
 
 #include "base/parallel.hpp"
+#include "base/require.hpp"
 
 namespace calligraphy {
 namespace {
@@ -28,21 +28,12 @@ constexpr int windows = 16;              ///< of the time, in each of which the 
 constexpr double precision = 1.02;       ///< of the largest stable stiffness
 constexpr Eigen::Index wall_normal = 2;  ///< the axis along which the pen meets the wall
 
-void require(bool in_domain, const char* name, double value, const char* domain) {
-  if (in_domain) return;
-  std::ostringstream message;
-  message << "stability: " << name << " = " << value << ": expected " << domain;
-  throw ValueError(message.str());
-}
-
 void validate(const WallContact& contact) {
-  const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
-  require(positive(contact.push), "push", contact.push, "a finite number above 0");
-  require(contact.height >= 0.0 && contact.height < out_of_reach, "height", contact.height, "from 0 to below 1 m");
-  require(positive(contact.seconds) && contact.seconds <= 1000.0, "seconds", contact.seconds, "above 0, at most 1000");
-  require(contact.lost >= 0.0 && contact.lost <= 0.9, "share of samples lost", contact.lost, "from 0 to 0.9");
-  require(contact.reordered >= 0.0 && contact.reordered <= 1.0, "share of samples out of order", contact.reordered,
-          "from 0 to 1");
+  require_above_zero("push", contact.push, "N");
+  require(contact.height >= 0.0 && contact.height < out_of_reach, "height", contact.height, "m", "from 0 to below 1");
+  require_above_zero("seconds", contact.seconds, "s", 1000.0);
+  require_within("lost", contact.lost, "", 0.0, 0.9);
+  require_within("reordered", contact.reordered, "", 0.0, 1.0);
 }
 
 Capabilities pushed(Capabilities device) {
@@ -111,8 +102,8 @@ PassivityController controller_for(const SampledLoop& loop, bool controlled) {
 WallContactResult simulate_wall_contact(const SampledLoop& loop, double stiffness, const WallContact& contact) {
   validate(loop);
   validate(contact);
-  require(loop.device.peak_force > 0.0, "peak force of the device", loop.device.peak_force, "above 0");
-  require(std::isfinite(stiffness) && stiffness >= 0.0, "stiffness", stiffness, "a finite number from 0 up");
+  require(loop.device.peak_force > 0.0, "peak force of the device", loop.device.peak_force, "N", "above 0");
+  require_not_negative("stiffness", stiffness, "N/m");
   const double period = 1.0 / loop.rate;
   SimulatedDevice device(pushed(loop.device), loop.grip, {0.0, 0.0, contact.height});
   device.set_intention({});
@@ -330,13 +321,11 @@ Capabilities StabilityMapOptions::point_mass() {
 
 StabilityMap stability_map(const StabilityMapOptions& options) {
   validate(options.contact);
-  require(options.per_decade >= 1 && options.per_decade <= 100, "stiffnesses per decade", options.per_decade,
-          "from 1 to 100");
-  require(std::isfinite(options.min_stiffness) && options.min_stiffness > 0.0, "min_stiffness", options.min_stiffness,
-          "a finite number above 0");
+  require_within("per_decade", options.per_decade, "", 1, 100);
+  require_above_zero("min_stiffness", options.min_stiffness, "N/m");
   require(std::isfinite(options.max_stiffness) && options.max_stiffness > options.min_stiffness, "max_stiffness",
-          options.max_stiffness, "a finite number above min_stiffness");
-  require(options.device.peak_force > 0.0, "peak force of the device", options.device.peak_force, "above 0");
+          options.max_stiffness, "N/m", "finite and above min_stiffness");
+  require(options.device.peak_force > 0.0, "peak force of the device", options.device.peak_force, "N", "above 0");
   StabilityMap map;
   map.contact = options.contact;
   map.device = options.device;

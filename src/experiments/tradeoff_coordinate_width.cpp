@@ -6,6 +6,8 @@
 #include <calligraphy/collision/placed_character.hpp>
 #include <calligraphy/experiments/tradeoff.hpp>
 
+#include "base/require.hpp"
+
 namespace calligraphy {
 namespace {
 
@@ -41,7 +43,7 @@ double stored_bytes(const Character& character, int bits) {
 }  // namespace
 
 Character with_coordinate_width(const Character& character, int bits) {
-  if (bits < 1 || bits > 32) throw ValueError("coordinate width: " + std::to_string(bits) + " bits, not 1 to 32");
+  require_within("coordinate width", bits, "bits", 1, 32);
   const double steps = std::exp2(bits) - 1.0;
   Character rounded = character;
   for (Point& point : rounded.structure.control_points) {

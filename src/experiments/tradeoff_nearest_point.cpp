@@ -4,11 +4,11 @@
 #include <cstdio>
 #include <utility>
 
-#include <calligraphy/base/error.hpp>
-#include <calligraphy/experiments/nearest_point_workload.hpp>
 #include <calligraphy/experiments/tradeoff.hpp>
 
-#include "base/stopwatch.hpp"
+#include "base/monotonic_clock.hpp"
+#include "base/require.hpp"
+#include "nearest_point_workload.hpp"
 #include "tradeoff_pen.hpp"
 
 namespace calligraphy {
@@ -161,25 +161,7 @@ std::string setting_name(const NearestPointOptions& options) {
   return to_string(options.method) + std::string(setting);
 }
 
-void require_setting(bool holds, const char* what) {
-  if (!holds) throw ValueError(std::string("nearest point tradeoff: ") + what);
-}
-
 }  // namespace
-
-const char* to_string(NearestPointMethod method) noexcept {
-  switch (method) {
-    case NearestPointMethod::exact:
-      return "exact";
-    case NearestPointMethod::tracked:
-      return "tracked";
-    case NearestPointMethod::sampled:
-      return "sampled";
-    case NearestPointMethod::wang2006:
-      return "wang2006";
-  }
-  return "";
-}
 
 std::vector<NearestPointSetting> nearest_point_settings() {
   using enum NearestPointMethod;
@@ -198,8 +180,8 @@ std::vector<NearestPointSetting> nearest_point_settings() {
 
 std::vector<NearestPointTradeoff> nearest_point_tradeoff(std::span<const Character> characters,
                                                          const NearestPointTradeoffOptions& options) {
-  require_setting(options.rounds > 0, "rounds are not above 0");
-  require_setting(std::isfinite(options.stiffness) && options.stiffness > 0.0, "stiffness is not a number above 0");
+  require_above_zero("rounds", options.rounds, "");
+  require_above_zero("stiffness", options.stiffness, "N/m");
   std::vector<Workload> workloads;
   for (const NearestPointWorkload& each :
        nearest_point_workloads(curve_control_points(characters, em), options.queries, options.seed)) {

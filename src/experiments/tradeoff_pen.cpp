@@ -9,7 +9,7 @@
 #include <calligraphy/collision/stroke_tracker.hpp>
 #include <calligraphy/render/force_terms.hpp>
 
-#include "base/stopwatch.hpp"
+#include "base/monotonic_clock.hpp"
 
 namespace calligraphy {
 namespace {

@@ -3,8 +3,9 @@
 
 #include <vector>
 
-#include <calligraphy/experiments/stroke_queries.hpp>
 #include <calligraphy/experiments/tradeoff.hpp>
+
+#include "stroke_queries.hpp"
 
 namespace calligraphy {
 

@@ -10,6 +10,8 @@
 #include <calligraphy/practice/session.hpp>
 #include <calligraphy/render/stiffness_advice.hpp>
 
+#include "base/require.hpp"
+
 namespace calligraphy {
 namespace {
 
@@ -121,7 +123,7 @@ Written write_all(std::span<const Character> characters, const Capabilities& dev
 std::vector<ServoRateTradeoff> servo_rate_tradeoff(std::span<const Character> characters,
                                                    const ServoRateTradeoffOptions& options) {
   if (characters.empty()) throw ValueError("servo rate: no characters");
-  if (options.seeds < 1) throw ValueError("servo rate: " + std::to_string(options.seeds) + " seeds");
+  require_above_zero("seeds", options.seeds, "");
   const Capabilities& device = device_profile(options.device);
   RendererOptions usual = RendererOptions::for_device(device);
   usual.stiffness_check = StiffnessCheck::off;  // stability is what is asked here

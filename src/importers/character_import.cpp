@@ -17,16 +17,18 @@
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/text.hpp>
-#include <calligraphy/importers/hanzi_writer.hpp>
-#include <calligraphy/importers/kanjivg.hpp>
 #include <calligraphy/importers/stroke_fit.hpp>
-#include <calligraphy/importers/stroke_letters.hpp>
 #include <calligraphy/importers/stroke_warnings.hpp>
 #include <calligraphy/model/character_set.hpp>
 
 #include "base/parallel.hpp"
+#include "base/require.hpp"
+#include "hanzi_writer.hpp"
 #include "imported_character.hpp"
+#include "kanjivg.hpp"
+#include "source_files.hpp"
 #include "stroke_labels.hpp"
+#include "stroke_letters.hpp"
 
 namespace calligraphy {
 namespace {
@@ -360,9 +362,7 @@ ImportResult import_own_format(const fs::path& source, const ImportOptions& opti
 
 void check(const ImportOptions& options) {
   constexpr int max_threads = 256;
-  if (options.threads < 0 || options.threads > max_threads) {
-    throw ValueError("threads " + std::to_string(options.threads) + ": expected 0 to " + std::to_string(max_threads));
-  }
+  require_within("threads", options.threads, "", 0, max_threads);
   if (options.date.size() > 40 || options.date.find_first_of("\r\n") != std::string::npos) {
     throw ValueError("date '" + options.date.substr(0, 40) + "': expected one line of at most 40 bytes");
   }

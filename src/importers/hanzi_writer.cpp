@@ -1,4 +1,4 @@
-#include <calligraphy/importers/hanzi_writer.hpp>
+#include "hanzi_writer.hpp"
 
 #include <cmath>
 #include <filesystem>

@@ -88,6 +88,18 @@ const char* to_string(SourceKind kind) noexcept {
   return "calligraphy";
 }
 
+const char* to_string(LabelResolution resolution) noexcept {
+  switch (resolution) {
+    case LabelResolution::accepted:
+      return "accepted";
+    case LabelResolution::overridden:
+      return "overridden";
+    case LabelResolution::unknown:
+      break;
+  }
+  return "unknown";
+}
+
 ImportReport report_of(SourceKind kind, const std::vector<ImportedCharacter>& characters) {
   Counter counter(kind);
   for (const ImportedCharacter& character : characters) counter.add(character);

@@ -1,4 +1,4 @@
-#include <calligraphy/importers/kanjivg.hpp>
+#include "kanjivg.hpp"
 
 #include <algorithm>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include <calligraphy/importers/source_files.hpp>
+#include "source_files.hpp"
 
 #include <algorithm>
 #include <system_error>

@@ -1,4 +1,4 @@
-#include <calligraphy/importers/stroke_letters.hpp>
+#include "stroke_letters.hpp"
 
 #include <vector>
 
@@ -7,7 +7,8 @@
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/file.hpp>
 #include <calligraphy/base/text.hpp>
-#include <calligraphy/importers/source_files.hpp>
+
+#include "source_files.hpp"
 
 namespace calligraphy {
 namespace {

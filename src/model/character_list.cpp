@@ -2,17 +2,18 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstdint>
-#include <filesystem>
-#include <fstream>
+#include <cstddef>
 #include <set>
 #include <sstream>
 #include <system_error>
 #include <utility>
 
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/base/file.hpp>
 #include <calligraphy/base/text.hpp>
 
+#include "base/from_chars.hpp"
+#include "base/line_reader.hpp"
 #include "built_in.hpp"
 #include "order_name.hpp"
 
@@ -20,40 +21,35 @@ namespace calligraphy {
 namespace {
 
 constexpr std::string_view first_line = "calligraphy characters 1";
-constexpr std::uintmax_t max_file_bytes = 64 << 20;  // twice all of Make Me a Hanzi [bytes]
+constexpr std::size_t max_file_bytes = 64 << 20;  // twice all of Make Me a Hanzi [bytes]
 constexpr std::string_view licence_text_key = "licence-text";
-constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
-/// Quotes text for a message, shortened: a file in another format may be one line of any length.
-std::string in_quotes(std::string_view text) {
-  constexpr std::size_t most = 60;
-  return "'" + std::string(text.substr(0, most)) + (text.size() > most ? "..." : "") + "'";
+LineKind kind_of(std::string_view key) {
+  if (key == licence_text_key) return LineKind::verbatim;
+  return key == "source" || key == "licence" || key == "attribution" ? LineKind::text : LineKind::words;
 }
-
-/// Statements whose text extends to the end of the line, '#' included.
-bool is_free_text(std::string_view key) { return key == "source" || key == "licence" || key == "attribution"; }
 
 std::string character_label(char32_t code, std::string_view order) {
   return "character " + encode_utf8(code) + (order.empty() ? "" : " order " + std::string(order));
 }
 
 /// Reads the text format line by line; docs/character-format.md describes it.
-class Parser {
+class Parser : private LineReader {
  public:
-  Parser(std::istream& in, std::string_view name) : in_(in), name_(name) {}
+  Parser(std::istream& in, std::string_view name) : LineReader(in, name, max_file_bytes) {}
 
   CharacterList parse() {
-    while (next_line()) {
+    while (next_statement(kind_of)) {
       const std::string_view key = word();
-      if (number_ == 1 || !seen_first_line_) {
-        if (line_ != first_line) fail("expected " + in_quotes(first_line) + ", found " + in_quotes(line_));
+      if (!seen_first_line_) {
+        if (line() != first_line) fail("expected " + in_quotes(first_line) + ", found " + in_quotes(line()));
         seen_first_line_ = true;
       } else if (key == "source") {
-        set_.provenance.source = rest();
+        set_.provenance.source = checked_rest();
       } else if (key == "licence") {
-        set_.provenance.licence = rest();
+        set_.provenance.licence = checked_rest();
       } else if (key == "attribution") {
-        set_.provenance.attribution = rest();
+        set_.provenance.attribution = checked_rest();
       } else if (key == licence_text_key) {
         add_licence_line();
       } else if (key == "character") {
@@ -64,60 +60,26 @@ class Parser {
         fail("unknown keyword " + in_quotes(key));
       }
     }
-    if (in_.bad()) throw FileError(name_ + ": cannot be read");
-    if (!seen_first_line_) throw FormatError(name_ + ": empty; expected '" + std::string(first_line) + "'");
+    if (!seen_first_line_) throw FormatError(name() + ": empty; expected '" + std::string(first_line) + "'");
     end_character();
     return std::move(set_);
   }
 
  private:
-  [[noreturn]] void fail(const std::string& what) const { fail_at(number_, what); }
-  [[noreturn]] void fail_at(int line, const std::string& what) const {
-    throw FormatError(name_ + ":" + std::to_string(line) + ": " + what);
-  }
-
-  /// The next line that is not empty, without comment and trailing white space.
-  bool next_line() {
-    while (std::getline(in_, line_)) {
-      ++number_;
-      if (number_ == 1 && line_.starts_with(byte_order_mark)) line_.erase(0, byte_order_mark.size());
-      left_ = line_;
-      const std::string_view key = word();
-      if (key == licence_text_key) {  // trailing white space is kept
-        if (line_.ends_with('\r')) line_.pop_back();
-        left_ = line_;
-        return true;
-      }
-      if (!is_free_text(key)) line_.erase(std::min(line_.find('#'), line_.size()));
-      line_.erase(line_.find_last_not_of(" \t\r") + 1);
-      left_ = line_;
-      if (!line_.empty()) return true;
-    }
-    return false;
-  }
-
-  std::string_view word() {
-    left_.remove_prefix(std::min(left_.find_first_not_of(" \t"), left_.size()));
-    const auto end = std::min(left_.find_first_of(" \t"), left_.size());
-    const std::string_view found = left_.substr(0, end);
-    left_.remove_prefix(end);
-    return found;
-  }
-
   /// The text after the keyword and one space.
   void add_licence_line() {
-    if (!left_.empty()) left_.remove_prefix(1);
-    decode(left_);
+    const std::string_view line = left().empty() ? left() : left().substr(1);
+    decode(line);
     std::string& text = set_.provenance.licence_text;
     if (has_licence_text_) text += '\n';
-    text += left_;
+    text += line;
     has_licence_text_ = true;
   }
 
-  std::string rest() {
-    left_.remove_prefix(std::min(left_.find_first_not_of(" \t"), left_.size()));
-    decode(left_);
-    return std::string(left_);
+  std::string checked_rest() {
+    const std::string_view text = rest();
+    decode(text);
+    return std::string(text);
   }
 
   std::u32string decode(std::string_view text) const {
@@ -131,7 +93,7 @@ class Parser {
   template <class Number>
   Number parse_number(std::string_view text, std::string_view what) const {
     Number value{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const auto [end, error] = from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size()) {
       fail(in_quotes(text) + " is not a " + std::string(what));
     }
@@ -143,7 +105,7 @@ class Parser {
     const std::u32string codes = decode(word());
     if (codes.size() != 1) fail("expected one character, found " + std::to_string(codes.size()));
     code_ = codes[0];
-    character_line_ = number_;
+    character_line_ = number();
     degree_ = 3;
     order_.clear();
     std::string_view key = word();
@@ -162,7 +124,7 @@ class Parser {
 
   /// A name that extends to the end of the line.
   void read_order() {
-    order_ = rest();
+    order_ = checked_rest();
     try {
       check_order_name(order_);
     } catch (const ValueError& error) {
@@ -208,11 +170,6 @@ class Parser {
     in_character_ = false;
   }
 
-  std::istream& in_;
-  std::string name_;
-  std::string line_;
-  std::string_view left_;
-  int number_ = 0;
   bool seen_first_line_ = false;
   bool has_licence_text_ = false;
   bool in_character_ = false;
@@ -268,17 +225,7 @@ const Character& paper_example() {
 CharacterList read_characters(std::istream& in, std::string_view name) { return Parser(in, name).parse(); }
 
 CharacterList read_characters(const std::string& path) {
-  std::error_code error;
-  if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error)) {
-    throw FileError(path + ": is not a regular file");
-  }
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (!error && size > max_file_bytes) {
-    throw FileError(path + ": " + std::to_string(size) + " bytes, larger than the limit of " +
-                    std::to_string(max_file_bytes) + " bytes");
-  }
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw FileError(path + ": cannot be opened");
+  std::ifstream in = open_file(path);
   return read_characters(in, path);
 }
 

@@ -9,6 +9,7 @@
 
 #include <calligraphy/base/error.hpp>
 
+#include "base/require.hpp"
 #include "svg.hpp"
 
 namespace calligraphy {
@@ -189,10 +190,8 @@ void draw_legend(pugi::xml_node root, double middle, double y, double unit) {
 }
 
 void require_valid(const PracticePage& page, int active) {
-  const bool finite = std::isfinite(page.width) && std::isfinite(page.height);
-  if (!(finite && page.width > 0.0 && page.height > 0.0)) {
-    throw ValueError("a page of " + std::to_string(page.width) + " m x " + std::to_string(page.height) + " m");
-  }
+  require_above_zero("width of the page", page.width, "m");
+  require_above_zero("height of the page", page.height, "m");
   const int count = static_cast<int>(page.characters.size());
   if (active < 0 || active >= count) {
     throw ValueError("active character " + std::to_string(active) + ": the page has " + std::to_string(count));

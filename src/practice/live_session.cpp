@@ -6,9 +6,10 @@
 #include <cmath>
 #include <thread>
 
-#include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/sample_queue.hpp>
 
+#include "base/monotonic_clock.hpp"
+#include "base/require.hpp"
 #include "session_tick.hpp"
 
 namespace calligraphy {
@@ -26,16 +27,14 @@ constexpr double min_patience = 3.0;
 }  // namespace
 
 Capabilities with_peak_force(Capabilities capabilities, double peak_force) {
-  if (!(peak_force > 0.0)) throw ValueError("peak_force = " + std::to_string(peak_force) + " N, must be above 0");
+  require(peak_force > 0.0, "peak_force", peak_force, "N", "above 0");
   capabilities.peak_force = std::min(capabilities.peak_force, peak_force);
   capabilities.continuous_force = std::min(capabilities.continuous_force, peak_force);
   return capabilities;
 }
 
 LiveResult write_with_device(const PracticePage& page, HapticDevice& device, const LiveOptions& options) {
-  if (!std::isfinite(options.timeout) || options.timeout <= 0.0) {
-    throw ValueError("timeout = " + std::to_string(options.timeout) + " s, must be finite and above 0");
-  }
+  require_above_zero("timeout", options.timeout, "s");
   validate(device.capabilities());
   const MotionMapping mapping = upright_page(page.width, page.height);
   HapticRenderer renderer(page.characters, mapping, with_peak_force(device.capabilities(), options.peak_force),
@@ -66,10 +65,9 @@ LiveResult write_with_device(const PracticePage& page, HapticDevice& device, con
     while (queue.pop(view.newest)) result.recording.samples.push_back(view.newest);
   };
   const int count = static_cast<int>(page.characters.size());
-  const auto begin = std::chrono::steady_clock::now();
-  const std::chrono::duration<double> timeout(options.timeout);
+  const double begin = monotonic_seconds();
   result.warnings = loop.start();
-  while (std::chrono::steady_clock::now() - begin < timeout) {
+  while (monotonic_seconds() - begin < options.timeout) {
     std::this_thread::sleep_for(glance);
     take_over();
     view.servo = loop.status();

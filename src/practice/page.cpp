@@ -6,22 +6,15 @@
 
 #include <calligraphy/base/error.hpp>
 
+#include "base/require.hpp"
+
 namespace calligraphy {
-namespace {
-
-void require_length(const char* name, double value, bool may_be_zero) {
-  if (std::isfinite(value) && (value > 0.0 || (may_be_zero && value == 0.0))) return;
-  throw ValueError(std::string("page layout: ") + name + " = " + std::to_string(value) + " m, must be finite and " +
-                   (may_be_zero ? "at least 0" : "above 0"));
-}
-
-}  // namespace
 
 std::vector<PracticePage> lay_out(std::span<const Character> characters, const PageLayout& layout) {
-  require_length("width", layout.width, false);
-  require_length("height", layout.height, false);
-  require_length("em", layout.em, false);
-  require_length("gap", layout.gap, true);
+  require_above_zero("page layout: width", layout.width, "m");
+  require_above_zero("page layout: height", layout.height, "m");
+  require_above_zero("page layout: em", layout.em, "m");
+  require_not_negative("page layout: gap", layout.gap, "m");
   const double pitch = layout.em + layout.gap;
   const double columns_that_fit = std::floor((layout.width - layout.gap) / pitch);
   const double rows_that_fit = std::floor((layout.height - layout.gap) / pitch);

@@ -15,6 +15,9 @@
 #include <calligraphy/base/file.hpp>
 #include <calligraphy/base/text.hpp>
 
+#include "base/from_chars.hpp"
+#include "base/line_reader.hpp"
+
 namespace calligraphy {
 namespace {
 
@@ -43,9 +46,9 @@ std::optional<Number> number_in(std::string_view word, int base = 10) {
   const char* const end = word.data() + word.size();
   std::from_chars_result result{};
   if constexpr (std::is_floating_point_v<Number>) {
-    result = std::from_chars(word.data(), end, value);
+    result = from_chars(word.data(), end, value);
   } else {
-    result = std::from_chars(word.data(), end, value, base);
+    result = from_chars(word.data(), end, value, base);
   }
   if (result.ec != std::errc() || result.ptr != end) return std::nullopt;
   return value;
@@ -55,9 +58,9 @@ bool is_character(char32_t code) {
   return code > 0x20 && code != 0x7F && code <= 0x10FFFF && !(code >= 0xD800 && code <= 0xDFFF);
 }
 
-class TraceParser {
+class TraceParser : private LineReader {
  public:
-  TraceParser(std::istream& in, std::string_view name) : in_(in), name_(name) {}
+  TraceParser(std::istream& in, std::string_view name) : LineReader(in, name) {}
 
   std::vector<PenTrace> parse() {
     std::vector<PenTrace> traces;
@@ -83,24 +86,13 @@ class TraceParser {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& what) const {
-    throw FormatError(name_ + ":" + std::to_string(line_number_) + ": " + what);
-  }
-
-  /// The next line that holds something. A last line without its end may hold a number that was cut in two.
+  /// The next line that holds something.
   bool next_line() {
-    for (;;) {
-      ++line_number_;
-      const bool found = static_cast<bool>(std::getline(in_, line_));
-      if (in_.bad()) throw FileError(name_ + ": cannot be read");
-      if (!found) return false;
-      if (in_.eof())
-        fail("the file is cut off after '" + line_.substr(line_.size() - std::min<std::size_t>(line_.size(), 40)) +
-             "'");
-      if (line_.ends_with('\r')) line_.pop_back();
-      rest_ = line_;
+    while (next_whole()) {
+      rest_ = line();
       if (!rest_.empty() && rest_.front() != '#') return true;
     }
+    return false;
   }
 
   std::string_view next_word(const char* expected) {
@@ -181,11 +173,7 @@ class TraceParser {
          std::to_string(announced_));
   }
 
-  std::istream& in_;
-  std::string name_;
-  std::string line_;
-  std::string_view rest_;  ///< of line_
-  int line_number_ = 0;
+  std::string_view rest_;      ///< of the line
   std::size_t announced_ = 0;  ///< strokes of the last character
   double last_time_ = 0.0;     ///< [ms]
 };

@@ -13,6 +13,9 @@
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/file.hpp>
 
+#include "base/from_chars.hpp"
+#include "base/line_reader.hpp"
+
 namespace calligraphy {
 namespace {
 
@@ -26,18 +29,6 @@ constexpr std::array states = {InteractionState::separation, InteractionState::a
                                InteractionState::writing};
 constexpr std::array statuses = {TickStatus::ok, TickStatus::bad_sample, TickStatus::device_fault};
 constexpr int all_events = 2 * static_cast<int>(TickEvent::page_finished) - 1;
-
-const char* to_string(TickStatus status) noexcept {
-  switch (status) {
-    case TickStatus::ok:
-      return "ok";
-    case TickStatus::bad_sample:
-      return "bad_sample";
-    case TickStatus::device_fault:
-      return "device_fault";
-  }
-  return "";
-}
 
 std::string header() {
   std::string text;
@@ -66,42 +57,27 @@ void append_row(std::string& text, const RecordedSample& sample) {
 }
 
 /// Reads what write_recording writes, and nothing else but line ends of either kind.
-class RecordingParser {
+class RecordingParser : private LineReader {
  public:
-  RecordingParser(std::istream& in, std::string_view name) : in_(in), name_(name) {}
+  RecordingParser(std::istream& in, std::string_view name) : LineReader(in, name) {}
 
   Recording parse() {
-    next_line();
-    if (line_ != header()) fail("expected '" + header() + "', found '" + line_ + "'");
-    next_line();
-    if (!line_.starts_with(rate_comment)) {
-      fail("expected '" + std::string(rate_comment) + "...', found '" + line_ + "'");
+    next_whole();
+    if (line() != header()) fail("expected '" + header() + "', found '" + line() + "'");
+    next_whole();
+    if (!line().starts_with(rate_comment)) {
+      fail("expected '" + std::string(rate_comment) + "...', found '" + line() + "'");
     }
     Recording recording;
-    recording.rate = number<double>("rate_Hz", std::string_view(line_).substr(rate_comment.size()));
+    recording.rate = number<double>("rate_Hz", std::string_view(line()).substr(rate_comment.size()));
     if (!(std::isfinite(recording.rate) && recording.rate > 0.0)) {
-      fail("rate_Hz is '" + line_.substr(rate_comment.size()) + "': expected a finite number above 0");
+      fail("rate_Hz is '" + line().substr(rate_comment.size()) + "': expected a finite number above 0");
     }
-    while (next_line()) recording.samples.push_back(sample());
+    while (next_whole()) recording.samples.push_back(sample());
     return recording;
   }
 
  private:
-  [[noreturn]] void fail(const std::string& what) const {
-    throw FormatError(name_ + ":" + std::to_string(line_number_) + ": " + what);
-  }
-
-  /// A last line without its end may hold a number that was cut in two.
-  bool next_line() {
-    ++line_number_;
-    const bool found = static_cast<bool>(std::getline(in_, line_));
-    if (in_.bad()) throw FileError(name_ + ": cannot be read");
-    if (!found) return false;
-    if (in_.eof()) fail("the file is cut off after '" + line_ + "'");
-    if (line_.ends_with('\r')) line_.pop_back();
-    return true;
-  }
-
   RecordedSample sample() {
     split();
     column_ = 0;
@@ -123,7 +99,7 @@ class RecordingParser {
 
   void split() {
     std::size_t count = 0;
-    std::string_view rest = line_;
+    std::string_view rest = line();
     for (bool more = true; more; ++count) {
       const std::size_t comma = rest.find(',');
       if (count < values_.size()) values_[count] = rest.substr(0, comma);
@@ -131,15 +107,15 @@ class RecordingParser {
       if (more) rest.remove_prefix(comma + 1);
     }
     if (count != column_names.size()) {
-      fail("expected " + std::to_string(column_names.size()) + " values, found " + std::to_string(count) + " in '" +
-           line_ + "'");
+      fail("expected " + std::to_string(column_names.size()) + " values, found " + std::to_string(count) + " in '" + line() +
+           "'");
     }
   }
 
   template <typename Number>
   Number number(std::string_view column, std::string_view text) const {
     Number value{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const auto [end, error] = from_chars(text.data(), text.data() + text.size(), value);
     if (error == std::errc::result_out_of_range) {
       fail(std::string(column) + " is '" + std::string(text) + "': out of range");
     }
@@ -173,12 +149,8 @@ class RecordingParser {
     fail(std::string(column_names[i]) + " is '" + std::string(values_[i]) + "': expected " + expected);
   }
 
-  std::istream& in_;
-  std::string name_;
-  std::string line_;
-  int line_number_ = 0;
-  std::array<std::string_view, column_names.size()> values_;  ///< of line_
-  std::size_t column_ = 0;                                    ///< the next one
+  std::array<std::string_view, column_names.size()> values_;  ///< of the line
+  std::size_t column_ = 0;                               ///< the next one
 };
 
 }  // namespace

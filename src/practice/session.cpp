@@ -1,12 +1,11 @@
 #include <calligraphy/practice/session.hpp>
 
-#include <cmath>
-
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/devices/flush_denormals.hpp>
-#include <calligraphy/practice/trace_hand.hpp>
+#include <calligraphy/devices/detail/flush_denormals.hpp>
 
+#include "base/require.hpp"
 #include "session_tick.hpp"
+#include "trace_hand.hpp"
 
 namespace calligraphy {
 namespace {
@@ -27,6 +26,8 @@ Eigen::Vector3d resting_point(const PracticePage& page) {
 
 }  // namespace
 
+const char* to_string(FeedbackMode mode) noexcept { return mode == FeedbackMode::vision ? "vision" : "force"; }
+
 double share_written(const PracticePage& page, int character, int stroke) noexcept {
   const auto count = static_cast<double>(page.characters.size());
   if (character >= static_cast<int>(page.characters.size())) return 1.0;
@@ -35,10 +36,7 @@ double share_written(const PracticePage& page, int character, int stroke) noexce
 }
 
 Recording run_session(const PracticePage& page, const SessionOptions& options, const PenMotion& motion) {
-  if (!std::isfinite(options.character_timeout) || options.character_timeout <= 0.0) {
-    throw ValueError("character_timeout = " + std::to_string(options.character_timeout) +
-                     " s, must be finite and above 0");
-  }
+  require_above_zero("character_timeout", options.character_timeout, "s");
   const MotionMapping mapping = upright_page(page.width, page.height);
   HapticRenderer renderer(page.characters, mapping, options.device, options.renderer);
   SimulatedDevice device(options.device, options.skill.grip, mapping.to_device(resting_point(page)));

@@ -1,11 +1,11 @@
 // One tick of a session, whoever holds the pen: the renderer's answer and the line that the recording keeps of it.
 #pragma once
 
-#include <chrono>
-
 #include <calligraphy/practice/recording.hpp>
 #include <calligraphy/practice/session.hpp>
 #include <calligraphy/render/haptic_renderer.hpp>
+
+#include "base/monotonic_clock.hpp"
 
 namespace calligraphy {
 
@@ -17,17 +17,16 @@ class SessionTick {
 
   /// The force for the device is force().
   const HapticTick& update(const DeviceState& state) noexcept {
-    using Clock = std::chrono::steady_clock;
-    const auto before = measure_ ? Clock::now() : Clock::time_point();
+    const double before = measure_ ? monotonic_seconds() : 0.0;
     const HapticTick& tick = renderer_.update(state);
-    const auto after = measure_ ? Clock::now() : Clock::time_point();
+    const double after = measure_ ? monotonic_seconds() : 0.0;
     const bool feels = mode_ == FeedbackMode::force;
     force_ = feels ? tick.force : Eigen::Vector3d(Eigen::Vector3d::Zero());
     sample_ = {tick.time,    tick.device_point,
                tick.pen_tip, feels ? tick.page_force : Eigen::Vector3d(Eigen::Vector3d::Zero()),
                tick.state,   tick.events,
                tick.status,  tick.character,
-               tick.stroke,  std::chrono::duration<float, std::nano>(after - before).count()};
+               tick.stroke,  static_cast<float>(1e9 * (after - before))};
     return tick;
   }
 

@@ -535,6 +535,20 @@ void require_valid(const Character& character, std::span<const PenPath> paths) {
 
 }  // namespace
 
+const char* to_string(WritingDirection direction) noexcept {
+  switch (direction) {
+    case WritingDirection::forwards:
+      return "forwards";
+    case WritingDirection::backwards:
+      return "backwards";
+    case WritingDirection::neither:
+      return "neither";
+    case WritingDirection::unknown:
+      break;
+  }
+  return "unknown";
+}
+
 const char* to_string(StrokeRemarkKind kind) noexcept {
   constexpr std::array names = {"order", "direction", "shape", "joined", "broken", "missing", "extra"};
   return names[static_cast<std::size_t>(kind)];

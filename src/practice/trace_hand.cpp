@@ -1,4 +1,4 @@
-#include <calligraphy/practice/trace_hand.hpp>
+#include "trace_hand.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <string>
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/collision/nearest_point.hpp>
 
+#include "base/require.hpp"
 #include "minimum_jerk.hpp"
 #include "pen_lift.hpp"
 
@@ -27,28 +27,22 @@ Point normal_point(Random& random) {
   return {x, random.normal()};
 }
 
-void require(const char* name, double value, double least, double most) {
-  if (std::isfinite(value) && value >= least && value <= most) return;
-  throw ValueError(std::string("writer: ") + name + " = " + std::to_string(value) + ": expected " +
-                   std::to_string(least) + " to " + std::to_string(most));
-}
-
 void validate(const WriterSkill& skill) {
-  require("offset", skill.offset, 0.0, 1.0);
-  require("bias", skill.bias, 0.0, 1.0);
-  require("scale", skill.scale, 0.0, 0.5);
-  require("tilt", skill.tilt, 0.0, 1.0);
-  require("shape", skill.shape, 0.0, 1.0);
-  require("drift", skill.drift, 0.0, 1.0);
-  require("tremor", skill.tremor, 0.0, 0.01);
-  require("aim", skill.aim, 0.0, 1.0);
-  require("wrong_order", skill.wrong_order, 0.0, 1.0);
-  require("wrong_direction", skill.wrong_direction, 0.0, 1.0);
-  require("speed", skill.speed, 0.01, 10.0);
-  require("pause", skill.pause, 0.0, 10.0);
-  require("visual_delay", skill.visual_delay, 0.0, 1.0);
-  require("correction", skill.correction, 0.0, 20.0);
-  require("caution", skill.caution, 1e-3, 10.0);
+  require_within("writer: offset", skill.offset, "em", 0.0, 1.0);
+  require_within("writer: bias", skill.bias, "em", 0.0, 1.0);
+  require_within("writer: scale", skill.scale, "", 0.0, 0.5);
+  require_within("writer: tilt", skill.tilt, "rad", 0.0, 1.0);
+  require_within("writer: shape", skill.shape, "em", 0.0, 1.0);
+  require_within("writer: drift", skill.drift, "em/s^0.5", 0.0, 1.0);
+  require_within("writer: tremor", skill.tremor, "m", 0.0, 0.01);
+  require_within("writer: aim", skill.aim, "em", 0.0, 1.0);
+  require_within("writer: wrong_order", skill.wrong_order, "", 0.0, 1.0);
+  require_within("writer: wrong_direction", skill.wrong_direction, "", 0.0, 1.0);
+  require_within("writer: speed", skill.speed, "em/s", 0.01, 10.0);
+  require_within("writer: pause", skill.pause, "s", 0.0, 10.0);
+  require_within("writer: visual_delay", skill.visual_delay, "s", 0.0, 1.0);
+  require_within("writer: correction", skill.correction, "1/s", 0.0, 20.0);
+  require_within("writer: caution", skill.caution, "em", 1e-3, 10.0);
 }
 
 }  // namespace

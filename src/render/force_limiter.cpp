@@ -1,4 +1,4 @@
-#include <calligraphy/render/force_limiter.hpp>
+#include <calligraphy/render/detail/force_limiter.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <string>
 #include <utility>
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/render/stiffness_advice.hpp>
+
+#include "base/require.hpp"
 
 namespace calligraphy {
 namespace {
@@ -29,7 +30,7 @@ void require_valid(const PlacedCharacter& placed, std::size_t index) {
     throw ValueError(place + "stroke " + std::to_string(problems[0].stroke) + ": " + problems[0].what);
   }
   const double em = placed.placement.em;
-  if (!std::isfinite(em) || em <= 0.0) throw ValueError(place + "em = " + std::to_string(em) + " m");
+  require_above_zero(place + "em", em, "m");
   if (!placed.placement.origin.allFinite()) throw ValueError(place + "its origin is not finite");
   const Eigen::AlignedBox2d box = bounding_box(placed);
   if (!(std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff()) <= furthest_point)) {
@@ -42,12 +43,7 @@ void require_valid(const MotionMapping& mapping) {
       mapping.rotation.allFinite() && mapping.rotation.isUnitary(1e-9) && mapping.rotation.determinant() > 0.0;
   if (!rigid) throw ValueError("motion mapping: rotation is not a rotation matrix");
   if (!mapping.offset.allFinite()) throw ValueError("motion mapping: offset is not finite");
-  if (!(mapping.scale >= min_scale && mapping.scale <= 1.0 / min_scale)) {
-    std::ostringstream message;
-    message << "motion mapping: scale = " << mapping.scale << ": expected from " << min_scale << " to "
-            << 1.0 / min_scale;
-    throw ValueError(message.str());
-  }
+  require_within("motion mapping: scale", mapping.scale, "", min_scale, 1.0 / min_scale);
 }
 
 /// In page axes, where forces are 1 / scale times those of the device, masses and damping 1 / scale^2 times
@@ -89,9 +85,7 @@ HapticRenderer::HapticRenderer(std::vector<PlacedCharacter> page, const MotionMa
   }
   validate(options_, capabilities, max_attraction, mapping.scale);
   require_translations(capabilities, "the renderer");
-  if (!(capabilities.peak_force > 0.0)) {
-    throw ValueError("peak force of the device = " + std::to_string(capabilities.peak_force) + " N");
-  }
+  require(capabilities.peak_force > 0.0, "peak force of the device", capabilities.peak_force, "N", "above 0");
   fade_step_ = options.guidance_fade_in > 0.0 ? 1.0 / (options.guidance_fade_in * options.servo_rate) : 1.0;
   limiter_.in_plane_step = options.in_plane_force_rate / options.servo_rate / mapping.scale;
   limiter_.normal_step = options.normal_force_rate / options.servo_rate / mapping.scale;

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
-#include <calligraphy/base/error.hpp>
+#include "base/require.hpp"
 
 namespace calligraphy {
 namespace {
@@ -18,13 +17,6 @@ constexpr double fastest_pen = 10.0;
 constexpr double empty_share = 1e-3;     ///< of the budget
 constexpr double strongest_brake = 0.1;  ///< with an exhausted budget [N]
 constexpr double slow_pen = 0.01;        ///< speed at which half of the brake acts [m/s]
-
-void require(bool in_domain, const char* name, double value, const char* domain) {
-  if (in_domain) return;
-  std::ostringstream message;
-  message << "passivity: " << name << " = " << value << ": expected " << domain;
-  throw ValueError(message.str());
-}
 
 /// Damping [N s/m] that dissipates `surplus` [J] within one period; `square` is the squared step of that period [m^2].
 double damping_for(double surplus, double square, double period, double most) noexcept {
@@ -44,11 +36,11 @@ PassivityController::PassivityController(const PassivityOptions& options, double
       force_rate_(options.force_rate),
       period_(period),
       delay_(static_cast<std::size_t>(std::max(0, options.delay))) {
-  require(std::isfinite(max_damping_) && max_damping_ >= 0.0, "max_damping", max_damping_, "a finite number from 0 up");
-  require(budget_ >= 0.0, "energy_budget", budget_, "a number from 0 up");
-  require(force_rate_ > 0.0, "force_rate", force_rate_, "a number above 0");
-  require(std::isfinite(period) && period > 0.0, "period", period, "a finite number above 0");
-  require(options.delay >= 0 && options.delay <= max_delay, "delay", options.delay, "0 to 15 ticks");
+  require_not_negative("passivity: max_damping", max_damping_, "N s/m");
+  require(budget_ >= 0.0, "passivity: energy_budget", budget_, "J", "at least 0");
+  require(force_rate_ > 0.0, "passivity: force_rate", force_rate_, "N/s", "above 0");
+  require_above_zero("passivity: period", period, "s");
+  require_within("passivity: delay", options.delay, "ticks", 0, max_delay);
   restart();
 }
 

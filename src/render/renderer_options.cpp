@@ -10,23 +10,13 @@
 #include <calligraphy/render/passivity_controller.hpp>
 #include <calligraphy/render/stiffness_advice.hpp>
 
+#include "base/require.hpp"
+
 namespace calligraphy {
 namespace {
 
 /// For a device that states no limit; keeps every force finite [N/m].
 constexpr double stiffest = 1e6;
-
-enum class Bound { above_zero, from_zero, from_one };
-
-void require(const char* name, double value, Bound bound, double most = std::numeric_limits<double>::max()) {
-  const bool in_domain = bound == Bound::above_zero ? value > 0.0 : value >= (bound == Bound::from_one ? 1.0 : 0.0);
-  if (std::isfinite(value) && in_domain && value <= most) return;
-  const char* domain = bound == Bound::above_zero ? "above 0" : bound == Bound::from_zero ? "from 0 up" : "from 1 up";
-  std::ostringstream message;
-  message << name << " = " << value << ": expected a finite number " << domain;
-  if (most < std::numeric_limits<double>::max()) message << ", at most " << most;
-  throw ValueError(message.str());
-}
 
 /// Keeps every force step finite [N/s].
 constexpr double fastest_force = 1e12;
@@ -129,9 +119,9 @@ RendererOptions RendererOptions::everything(const Capabilities& capabilities) {
 
 std::vector<std::string> clip_stiffness(RendererOptions& options, const Capabilities& capabilities,
                                         double max_attraction, double scale) {
-  require("servo_rate", options.servo_rate, Bound::above_zero, 1e6);
-  require("max_attraction", max_attraction, Bound::from_zero);
-  require("scale", scale, Bound::above_zero);
+  require_above_zero("servo_rate", options.servo_rate, "Hz", 1e6);
+  require_not_negative("max_attraction", max_attraction, "");
+  require_above_zero("scale", scale, "");
   const Capabilities unknown;  // states no limit
   const Capabilities& known = options.stiffness_check == StiffnessCheck::off ? unknown : capabilities;
   StiffnessLimit usable = usable_stiffness(known), stable = stable_stiffness(options, known);
@@ -146,7 +136,7 @@ std::vector<std::string> clip_stiffness(RendererOptions& options, const Capabili
   }
   std::vector<std::string> clipped;
   const auto clip = [&](const char* name, double& stiffness, double most, const std::string& reason) {
-    require(name, stiffness, Bound::from_zero);
+    require_not_negative(name, stiffness, "N/m");
     if (stiffness <= most) return;
     std::ostringstream message;
     message << name << " = " << stiffness << " N/m" << reason;
@@ -175,51 +165,50 @@ std::vector<std::string> clip_stiffness(RendererOptions& options, const Capabili
 }
 
 void validate(const RendererOptions& options, const Capabilities& capabilities, double max_attraction, double scale) {
-  require("servo_rate", options.servo_rate, Bound::above_zero, 1e6);
+  require_above_zero("servo_rate", options.servo_rate, "Hz", 1e6);
   RendererOptions stable = options;
   const std::vector<std::string> too_stiff = clip_stiffness(stable, capabilities, max_attraction, scale);
   if (!too_stiff.empty()) throw ValueError(too_stiff.front());
-  require("guidance_fade_in", options.guidance_fade_in, Bound::from_zero);
-  require("wrong_way_limit", options.wrong_way_limit, Bound::from_zero);
-  require("wrong_way_slack", options.wrong_way_slack, Bound::from_zero);
-  require("guidance_limit", options.guidance_limit, Bound::above_zero);
-  require("assist.retention", options.assist.retention, Bound::from_zero, 1.0);
-  require("assist.full_assistance_error", options.assist.full_assistance_error, Bound::above_zero);
-  require("min_assistance", options.assist.min_assistance, Bound::from_zero, 1.0);
-  require("friction.coefficient", options.friction.coefficient, Bound::from_zero, 10.0);
-  require("friction.stiffness", options.friction.stiffness, Bound::above_zero, stiffest);
-  require("friction.static_ratio", options.friction.static_ratio, Bound::from_one, 10.0);
-  require("friction.stick_speed", options.friction.stick_speed, Bound::from_zero);
+  require_not_negative("guidance_fade_in", options.guidance_fade_in, "s");
+  require_not_negative("wrong_way_limit", options.wrong_way_limit, "N");
+  require_not_negative("wrong_way_slack", options.wrong_way_slack, "m");
+  require_above_zero("guidance_limit", options.guidance_limit, "N");
+  require_within("assist.retention", options.assist.retention, "", 0.0, 1.0);
+  require_above_zero("assist.full_assistance_error", options.assist.full_assistance_error, "m");
+  require_within("min_assistance", options.assist.min_assistance, "", 0.0, 1.0);
+  require_within("friction.coefficient", options.friction.coefficient, "", 0.0, 10.0);
+  require_above_zero("friction.stiffness", options.friction.stiffness, "N/m", stiffest);
+  require_within("friction.static_ratio", options.friction.static_ratio, "", 1.0, 10.0);
+  require_not_negative("friction.stick_speed", options.friction.stick_speed, "m/s");
   try {
     validate(options.stroke.nearest);
   } catch (const ValueError& error) {
     throw ValueError(std::string("stroke.nearest.") + error.what());
   }
-  require("stroke.space.radius", options.stroke.space.radius, Bound::above_zero);
-  require("stroke.space.fade_width", options.stroke.space.fade_width, Bound::above_zero, options.stroke.space.radius);
-  require("stroke.plane_tolerance", options.stroke.plane_tolerance, Bound::from_zero);
-  require("stroke.window", options.stroke.window, Bound::from_zero);
-  require("start_radius", options.start_radius, Bound::above_zero);
-  require("box_margin", options.box_margin, Bound::from_zero);
-  require("lift_height", options.lift_height, Bound::from_zero);
-  require("box_hysteresis", options.box_hysteresis, Bound::from_zero);
-  require("in_plane_force_rate", options.in_plane_force_rate, Bound::above_zero, fastest_force);
-  require("normal_force_rate", options.normal_force_rate, Bound::above_zero, fastest_force);
+  require_above_zero("stroke.space.radius", options.stroke.space.radius, "m");
+  require_above_zero("stroke.space.fade_width", options.stroke.space.fade_width, "m", options.stroke.space.radius);
+  require_not_negative("stroke.plane_tolerance", options.stroke.plane_tolerance, "m");
+  require_not_negative("stroke.window", options.stroke.window, "m");
+  require_above_zero("start_radius", options.start_radius, "m");
+  require_not_negative("box_margin", options.box_margin, "m");
+  require_not_negative("lift_height", options.lift_height, "m");
+  require_not_negative("box_hysteresis", options.box_hysteresis, "m");
+  require_above_zero("in_plane_force_rate", options.in_plane_force_rate, "N/s", fastest_force);
+  require_above_zero("normal_force_rate", options.normal_force_rate, "N/s", fastest_force);
   if (!(options.force_jerk == std::numeric_limits<double>::infinity())) {
-    require("force_jerk", options.force_jerk, Bound::above_zero, 1e3 * fastest_force);
+    require_above_zero("force_jerk", options.force_jerk, "N/s^2", 1e3 * fastest_force);
   }
   if (!(options.energy_budget == std::numeric_limits<double>::infinity())) {
-    require("energy_budget", options.energy_budget, Bound::from_zero);
+    require_not_negative("energy_budget", options.energy_budget, "J");
   }
-  require("thermal_time_constant", options.thermal_time_constant, Bound::from_zero);
+  require_not_negative("thermal_time_constant", options.thermal_time_constant, "s");
   if (options.thermal_time_constant > 0.0) {
-    require("continuous_force of the device, for thermal_time_constant", capabilities.continuous_force,
-            Bound::above_zero);
+    require_above_zero("continuous_force of the device, for thermal_time_constant", capabilities.continuous_force, "N");
   }
   if (options.passivity_control) {
-    require("apparent_mass of the device, for passivity_control", capabilities.apparent_mass, Bound::above_zero);
+    require_above_zero("apparent_mass of the device, for passivity_control", capabilities.apparent_mass, "kg");
   }
-  require("max_speed", options.max_speed, Bound::above_zero);
+  require_above_zero("max_speed", options.max_speed, "m/s");
 }
 
 }  // namespace calligraphy

@@ -4,14 +4,13 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
-#include <iomanip>
 #include <limits>
 #include <numbers>
-#include <sstream>
 #include <vector>
 
-#include <calligraphy/base/error.hpp>
 #include <calligraphy/render/passivity_controller.hpp>
+
+#include "base/require.hpp"
 
 namespace calligraphy {
 namespace {
@@ -25,15 +24,7 @@ constexpr int max_delay = 1000;
 /// For a device that states none: the minimum of the shipped profiles [N].
 constexpr double presumed_friction = 0.04;
 
-void require(const char* name, double value, const char* unit, double least, double most = largest) {
-  if (value >= least && value <= most) return;
-  std::ostringstream message;
-  message << std::setprecision(10) << name << " = " << value << " " << unit << ": expected from " << least << " to "
-          << most;
-  throw ValueError(message.str());
-}
-
-/// Motion of the mass from sample to sample under a held force, in units of the period T and of the mass: the response
+/// Motion of the mass between samples under a held force, in units of the period T and of the mass: the response
 /// after one period to a unit impulse (`speed`) and to a unit force held (`force`).
 struct Motion {
   double damping, stiffness;  ///< b T / m, k T^2 / m
@@ -185,19 +176,16 @@ StiffnessBound approximate_bound(const SampledLoop& loop) {
 }  // namespace
 
 void validate(const SampledLoop& loop) {
-  require("rate", loop.rate, "Hz", 1.0, fastest_rate);
-  require("device.apparent_mass", loop.device.apparent_mass, "kg", 1e-9);
-  require("device.viscous_friction", loop.device.viscous_friction, "N s/m", 0.0);
-  require("device.coulomb_friction", loop.device.coulomb_friction, "N", 0.0);
-  require("device.encoder_step", loop.device.encoder_step, "m", 0.0);
-  require("wall_damping", loop.wall_damping, "N s/m", 0.0);
-  require("grip.mass", loop.grip.mass, "kg", 0.0);
-  require("grip.damping", loop.grip.damping, "N s/m", 0.0);
-  require("grip.stiffness", loop.grip.stiffness, "N/m", 0.0);
-  if (loop.device.sample_delay < 0 || loop.device.sample_delay > max_delay) {
-    throw ValueError("device.sample_delay = " + std::to_string(loop.device.sample_delay) +
-                     " ticks: expected from 0 to " + std::to_string(max_delay));
-  }
+  require_within("rate", loop.rate, "Hz", 1.0, fastest_rate);
+  require_within("device.apparent_mass", loop.device.apparent_mass, "kg", 1e-9, largest);
+  require_within("device.viscous_friction", loop.device.viscous_friction, "N s/m", 0.0, largest);
+  require_within("device.coulomb_friction", loop.device.coulomb_friction, "N", 0.0, largest);
+  require_within("device.encoder_step", loop.device.encoder_step, "m", 0.0, largest);
+  require_within("wall_damping", loop.wall_damping, "N s/m", 0.0, largest);
+  require_within("grip.mass", loop.grip.mass, "kg", 0.0, largest);
+  require_within("grip.damping", loop.grip.damping, "N s/m", 0.0, largest);
+  require_within("grip.stiffness", loop.grip.stiffness, "N/m", 0.0, largest);
+  require_within("device.sample_delay", loop.device.sample_delay, "ticks", 0, max_delay);
 }
 
 double critical_stiffness(const SampledLoop& sampled) {

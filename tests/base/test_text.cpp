@@ -52,4 +52,11 @@ TEST_CASE("the first invalid sequence is named by its byte offset", "[model]") {
   CHECK(complaint("a\x80").find("byte 1 ") != std::string::npos);              // stray continuation
 }
 
+TEST_CASE("text is UTF-8 only when all of it is", "[base]") {
+  CHECK(is_utf8(""));
+  CHECK(is_utf8("p\xC3\xA4per \xE6\xB0\xB8"));
+  CHECK_FALSE(is_utf8("p\xE4per"));
+  CHECK_FALSE(is_utf8("\xC3"));
+}
+
 }  // namespace text_tests

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include <calligraphy/collision/feature_plane.hpp>
+#include <calligraphy/collision/detail/feature_plane.hpp>
 
 using namespace calligraphy;
 

@@ -61,7 +61,7 @@ TEST_CASE("options out of range are rejected by name and value", "[collision]") 
     for (const auto& [value, is_good] : {std::pair{least, true}, {most, true}, {least - 1, false}, {most + 1, false}}) {
       option = value;
       CHECK(complaint(options) == (is_good ? ""
-                                           : name + " = " + std::to_string(value) + ": expected a whole number from " +
+                                           : name + " = " + std::to_string(value) + ", must be from " +
                                                  std::to_string(least) + " to " + std::to_string(most)));
     }
     option = usual;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include <calligraphy/base/random.hpp>
-#include <calligraphy/devices/duration_histogram.hpp>
+#include <calligraphy/devices/detail/duration_histogram.hpp>
 
 #include "../catch.hpp"
 

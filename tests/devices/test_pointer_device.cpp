@@ -200,12 +200,12 @@ TEST_CASE("pointer options out of range are rejected with name and value", "[poi
     return error_of(options);
   };
   CHECK(message([](PointerOptions&) {}).empty());
-  CHECK(message([](PointerOptions& o) { o.rate = 0.0; }) == "pointer: rate is 0, must be from 100 to 100000 Hz");
-  CHECK(message([](PointerOptions& o) { o.smoothing_time = -1.0; }).find("smoothing time is -1") != std::string::npos);
-  CHECK(message([](PointerOptions& o) { o.max_speed = 0.0; }).find("largest speed is 0") != std::string::npos);
-  CHECK(message([](PointerOptions& o) { o.lifting_speed = infinity; }).find("lifting speed") != std::string::npos);
-  CHECK(message([](PointerOptions& o) { o.hover_height = not_a_number; }).find("hover height") != std::string::npos);
-  CHECK(message([](PointerOptions& o) { o.press_depth = 1.0; }).find("press depth is 1") != std::string::npos);
+  CHECK(message([](PointerOptions& o) { o.rate = 0.0; }) == "pointer: rate = 0 Hz, must be from 100 to 100000");
+  CHECK(message([](PointerOptions& o) { o.smoothing_time = -1.0; }).find("smoothing_time = -1 s") != std::string::npos);
+  CHECK(message([](PointerOptions& o) { o.max_speed = 0.0; }).find("max_speed = 0") != std::string::npos);
+  CHECK(message([](PointerOptions& o) { o.lifting_speed = infinity; }).find("lifting_speed = ") != std::string::npos);
+  CHECK(message([](PointerOptions& o) { o.hover_height = not_a_number; }).find("hover_height = ") != std::string::npos);
+  CHECK(message([](PointerOptions& o) { o.press_depth = 1.0; }).find("press_depth = 1") != std::string::npos);
   CHECK(message([](PointerOptions& o) { o.paper.linear() *= 2.0; }).find("rotation") != std::string::npos);
   CHECK_THROWS_AS(PointerDevice(device_profile("ideal"), {-1.0, 0.0, 0.0}), ValueError);
 }

@@ -579,16 +579,16 @@ TEST_CASE("servo options out of range are rejected with name and value", "[servo
     return error_of(options);
   };
   for (const double bad : {0.0, 0.5, 2e5, not_a_number}) {
-    CHECK(message([&](ServoOptions& o) { o.rate = bad; }).find("rate is") != std::string::npos);
+    CHECK(message([&](ServoOptions& o) { o.rate = bad; }).find("rate = ") != std::string::npos);
   }
   CHECK(message([](ServoOptions& o) { o.timeout = 1e-3; }) ==
-        "servo loop: timeout is 0.001, must be from two periods of the rate to 1 s");
+        "servo loop: timeout = 0.001 s, must be from two periods of the rate to 1");
   CHECK(message([](ServoOptions& o) { o.timeout = infinity; }).find("timeout") != std::string::npos);
   for (const double bad : {-1e-3, 0.2, not_a_number}) {
-    CHECK(message([&](ServoOptions& o) { o.ramp_down = bad; }).find("ramp-down time") != std::string::npos);
+    CHECK(message([&](ServoOptions& o) { o.ramp_down = bad; }).find("ramp_down = ") != std::string::npos);
   }
   for (const double bad : {-1e-3, 11.0, not_a_number}) {
-    CHECK(message([&](ServoOptions& o) { o.ramp_up = bad; }).find("ramp-up time") != std::string::npos);
+    CHECK(message([&](ServoOptions& o) { o.ramp_up = bad; }).find("ramp_up = ") != std::string::npos);
   }
   CHECK(message([](ServoOptions&) {}).empty());
   WatchedDevice device;

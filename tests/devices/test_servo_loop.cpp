@@ -161,11 +161,11 @@ TEST_CASE("thread options out of range are rejected with name and value", "[serv
     }
     return {};
   };
-  CHECK(message([](auto& o) { o.rate = 0.0; }) == "servo thread: rate is 0, must be from 1 to 100000 Hz");
-  CHECK(message([](auto& o) { o.priority = 100; }).find("priority is 100") != std::string::npos);
-  CHECK(message([](auto& o) { o.priority = -1; }).find("priority is -1") != std::string::npos);
-  CHECK(message([](auto& o) { o.core = -2; }).find("core is -2") != std::string::npos);
-  CHECK(message([](auto& o) { o.core = 1024; }).find("core is 1024") != std::string::npos);
+  CHECK(message([](auto& o) { o.rate = 0.0; }) == "servo thread: rate = 0 Hz, must be from 1 to 100000");
+  CHECK(message([](auto& o) { o.priority = 100; }).find("priority = 100") != std::string::npos);
+  CHECK(message([](auto& o) { o.priority = -1; }).find("priority = -1") != std::string::npos);
+  CHECK(message([](auto& o) { o.core = -2; }).find("core = -2") != std::string::npos);
+  CHECK(message([](auto& o) { o.core = 1024; }).find("core = 1024") != std::string::npos);
   CHECK(message([](auto&) {}).empty());
   CHECK_THROWS_AS(ServoThread().start(nullptr), ValueError);
 }

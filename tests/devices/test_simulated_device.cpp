@@ -730,18 +730,18 @@ TEST_CASE("an unphysical profile or grip is rejected with name and value", "[dev
     CHECK(contains(profile_error([&](Capabilities& p) { p.peak_force = bad; }), "peak force"));
   }
   for (const double bad : {-1.0, not_a_number}) {
-    CHECK(contains(profile_error([&](Capabilities& p) { p.workspace.y() = bad; }), "workspace is"));
+    CHECK(contains(profile_error([&](Capabilities& p) { p.workspace.y() = bad; }), "workspace = "));
     CHECK(contains(profile_error([&](Capabilities& p) { p.continuous_force = bad; }), "continuous force"));
     CHECK(contains(profile_error([&](Capabilities& p) { p.usable_stiffness = bad; }), "usable stiffness"));
     CHECK(contains(profile_error([&](Capabilities& p) { p.update_rate = bad; }), "update rate"));
   }
-  CHECK(contains(profile_error([](Capabilities& p) { p.sample_delay = -1; }), "sample delay is -1"));
+  CHECK(contains(profile_error([](Capabilities& p) { p.sample_delay = -1; }), "sample delay = -1"));
   CHECK(profile_error([](Capabilities& p) { p.usable_stiffness = infinity; }).empty());
   for (const int bad : {-1, 100'001}) {
-    CHECK(contains(profile_error([&](Capabilities& p) { p.sample_delay = bad; }), "delay is " + std::to_string(bad)));
+    CHECK(contains(profile_error([&](Capabilities& p) { p.sample_delay = bad; }), "delay = " + std::to_string(bad)));
   }
   CHECK(contains(error_of(device_profile("omni"), {0.0, 0.0, 0.0}, {0.0, infinity, 0.0}), "position"));
-  CHECK(contains(profile_error([](Capabilities& p) { p.apparent_mass = -0.5; }), "\"omni\": apparent mass is -0.5"));
+  CHECK(contains(profile_error([](Capabilities& p) { p.apparent_mass = -0.5; }), "\"omni\": apparent mass = -0.5"));
 }
 
 TEST_CASE("the grip can be changed, and a rejected one leaves it unchanged", "[devices]") {
@@ -760,7 +760,7 @@ TEST_CASE("a device of unknown mass is valid but cannot be simulated", "[devices
   unknown.apparent_mass = 0.0;
   CHECK_NOTHROW(validate(unknown));
   CHECK(error_of(unknown) ==
-        "device \"omni\": apparent mass is 0, must be above 0: a device of unknown mass cannot be simulated");
+        "device \"omni\": apparent mass = 0 kg, must be above 0: a device of unknown mass cannot be simulated");
 }
 
 TEST_CASE("invalid combinations of axes are rejected by name", "[devices]") {

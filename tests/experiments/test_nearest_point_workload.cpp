@@ -3,11 +3,11 @@
 #include <limits>
 
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/experiments/nearest_point_workload.hpp>
 #include <calligraphy/model/bezier.hpp>
 #include <calligraphy/model/character_list.hpp>
 
 #include "../catch.hpp"
+#include "experiments/nearest_point_workload.hpp"
 #include "hard_cases.hpp"
 #include "reference_curve.hpp"
 

@@ -4,10 +4,10 @@
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/collision/nearest_point.hpp>
-#include <calligraphy/experiments/stroke_queries.hpp>
 
 #include "../catch.hpp"
 #include "../practice/pages.hpp"
+#include "experiments/stroke_queries.hpp"
 
 using namespace calligraphy;
 using calligraphy_test::characters;

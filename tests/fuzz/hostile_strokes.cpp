@@ -1,4 +1,5 @@
 #include "hostile_strokes.hpp"
+#include "experiments/stroke_queries.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +8,6 @@
 #include <iterator>
 #include <limits>
 
-#include <calligraphy/experiments/stroke_queries.hpp>
 #include <calligraphy/model/character_list.hpp>
 
 #include "hostile_queries.hpp"

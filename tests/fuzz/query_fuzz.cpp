@@ -1,4 +1,5 @@
 #include "query_fuzz.hpp"
+#include "experiments/nearest_point_workload.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +12,6 @@
 #include <fmt/format.h>
 
 #include <calligraphy/collision/nearest_point.hpp>
-#include <calligraphy/experiments/nearest_point_workload.hpp>
 #include <calligraphy/model/character_list.hpp>
 
 #include "../last_interval.hpp"

@@ -246,7 +246,7 @@ TEST_CASE("import options outside their domain are rejected by name", "[practice
   directory.write("一.json", hanzi_writer_heng);
   ImportOptions options;
   options.threads = -1;
-  CHECK(has(complaint(directory.path(), options), "ValueError threads -1"));
+  CHECK(has(complaint(directory.path(), options), "ValueError threads = -1"));
   options.threads = 257;
   CHECK(has(complaint(directory.path(), options), "ValueError threads 257"));
   options = {};

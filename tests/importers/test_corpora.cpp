@@ -5,10 +5,10 @@
 
 #include <calligraphy/base/text.hpp>
 #include <calligraphy/importers/character_import.hpp>
-#include <calligraphy/importers/stroke_letters.hpp>
 
 #include "../catch.hpp"
 #include "../package_data.hpp"
+#include "importers/stroke_letters.hpp"
 
 using namespace calligraphy;
 

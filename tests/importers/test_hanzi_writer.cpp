@@ -5,12 +5,12 @@
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/text.hpp>
-#include <calligraphy/importers/hanzi_writer.hpp>
 #include <calligraphy/model/character.hpp>
 
 #include "../catch.hpp"
 #include "../package_data.hpp"
 #include "../temporary_directory.hpp"
+#include "importers/hanzi_writer.hpp"
 
 namespace hanzi_writer_tests {
 

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/importers/kanjivg.hpp>
 #include <calligraphy/model/bezier.hpp>
 
 #include "../catch.hpp"
+#include "importers/kanjivg.hpp"
 #include "importers/path_data.hpp"
 
 namespace kanjivg_tests {

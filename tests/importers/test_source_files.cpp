@@ -4,10 +4,10 @@
 #include <string>
 
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/importers/source_files.hpp>
 
 #include "../catch.hpp"
 #include "../temporary_directory.hpp"
+#include "importers/source_files.hpp"
 
 namespace source_files_tests {
 

@@ -3,13 +3,13 @@
 #include <string>
 
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/importers/stroke_letters.hpp>
 #include <calligraphy/model/typical_stroke.hpp>
 
 #include "../catch.hpp"
 #include "../package_data.hpp"
 #include "../temporary_directory.hpp"
 #include "importers/stroke_labels.hpp"
+#include "importers/stroke_letters.hpp"
 
 namespace stroke_letters_tests {
 

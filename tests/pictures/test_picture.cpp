@@ -351,7 +351,7 @@ TEST_CASE("a picture without its page or its character is an error naming the va
   CHECK(error(page, 1) == "active character 1: the page has 1");
   CHECK(error(page, -1) == "active character -1: the page has 1");
   CHECK(error({0.1, 0.1, {}}, 0) == "active character 0: the page has 0");
-  CHECK(error({0.0, 0.1, page.characters}, 0).find("a page of 0.000000 m") == 0);
+  CHECK(error({0.0, 0.1, page.characters}, 0).find("width of the page = 0 m") == 0);
   CHECK(error({0.1, 0.1, {PlacedCharacter{}}}, 0) == "character 0 of the page: there is no stroke");
 }
 

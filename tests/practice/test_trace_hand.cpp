@@ -8,11 +8,11 @@
 #include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/session.hpp>
 #include <calligraphy/practice/stroke_matching.hpp>
-#include <calligraphy/practice/trace_hand.hpp>
 
 #include "../catch.hpp"
 #include "pages.hpp"
 #include "pen_traces.hpp"
+#include "practice/trace_hand.hpp"
 
 using namespace calligraphy;
 using calligraphy_test::copy_of;

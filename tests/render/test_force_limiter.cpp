@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include <calligraphy/render/force_limiter.hpp>
+#include <calligraphy/render/detail/force_limiter.hpp>
 
 #include "../hard_cases.hpp"
 

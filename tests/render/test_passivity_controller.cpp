@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/render/force_limiter.hpp>
+#include <calligraphy/render/detail/force_limiter.hpp>
 #include <calligraphy/render/passivity_controller.hpp>
 
 #include "../allocation_counter.hpp"

@@ -254,7 +254,7 @@ TEST_CASE("a loop that is not physical is rejected with the field's name and val
     loop.grip.*field = -1.0;
     CHECK(error_of(loop).find("grip.") == 0);
   }
-  CHECK(error_of(loop_of(0.0, 0.1)) == "rate = 0 Hz: expected from 1 to 1000000");
-  CHECK(error_of(loop_of(1000.0, 0.1, -1)) == "device.sample_delay = -1 ticks: expected from 0 to 1000");
-  CHECK(error_of(loop_of(1000.0, 0.1, 1001)) == "device.sample_delay = 1001 ticks: expected from 0 to 1000");
+  CHECK(error_of(loop_of(0.0, 0.1)) == "rate = 0 Hz, must be from 1 to 1000000");
+  CHECK(error_of(loop_of(1000.0, 0.1, -1)) == "device.sample_delay = -1 ticks, must be from 0 to 1000");
+  CHECK(error_of(loop_of(1000.0, 0.1, 1001)) == "device.sample_delay = 1001 ticks, must be from 0 to 1000");
 }

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include <calligraphy/render/thermal_budget.hpp>
+#include <calligraphy/render/detail/thermal_budget.hpp>
 
 using namespace calligraphy;
 

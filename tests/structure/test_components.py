@@ -48,7 +48,10 @@ def arrows(root):
             if own is None:
                 if len(parts) > 1:
                     found.append(f"{path}: no component has this folder")
-                continue  # calligraphy.hpp
+                for name in includes(path):  # calligraphy.hpp
+                    if "/detail/" in name:
+                        found.append(f"{path}: {name} is no header for users")
+                continue
             for name in includes(path):
                 public = name.startswith("calligraphy/")
                 target = component_of(pathlib.PurePosixPath(name.removeprefix("calligraphy/")).parts)

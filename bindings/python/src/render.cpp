@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/devices/flush_denormals.hpp>
+#include <calligraphy/devices/detail/flush_denormals.hpp>
 #include <calligraphy/render/haptic_renderer.hpp>
 #include <calligraphy/render/passivity_controller.hpp>
 #include <calligraphy/render/stiffness_advice.hpp>

@@ -3,7 +3,6 @@
 #include <pybind11/stl.h>
 
 #include <calligraphy/experiments/force_field.hpp>
-#include <calligraphy/experiments/nearest_point_workload.hpp>
 #include <calligraphy/experiments/stability_map.hpp>
 #include <calligraphy/experiments/tradeoff.hpp>
 

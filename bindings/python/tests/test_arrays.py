@@ -495,5 +495,5 @@ def test_an_iterator_keeps_its_set():
 ])  # fmt: skip
 def test_options_outside_their_domain_are_named(options):
     (name,) = options
-    with pytest.raises(cal.InvalidValue, match=f"{name} = .*: expected"):
+    with pytest.raises(cal.InvalidValue, match=f"{name} = .*, must be"):
         cal.nearest_point([[0, 0], [1, 2], [2, -1], [3, 0]], [[0.0, 0.0]], **options)

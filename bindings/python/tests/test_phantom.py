@@ -88,7 +88,7 @@ print(json.dumps({
 
 @pytest.mark.parametrize("priority", [-1, 100])
 def test_a_priority_that_is_none_is_named(priority):
-    with pytest.raises(cal.InvalidValue, match=f"priority is {priority}, must be from 1 to 99, or 0"):
+    with pytest.raises(cal.InvalidValue, match=f"priority = {priority}, must be from 1 to 99, or 0"):
         cal.PhantomDevice(cal.PhantomOptions(priority=priority))
 
 

@@ -254,7 +254,7 @@ def test_threads_that_start_and_stop_at_once_do_not_trip():
 def test_bad_options_and_a_second_start_are_refused():
     with pytest.raises(cal.InvalidValue, match="rate"):
         cal.ServoLoop(Bench(), wall, options(cal.ServoOptions(rate=0.0)))
-    with pytest.raises(cal.InvalidValue, match="priority is 100"):
+    with pytest.raises(cal.InvalidValue, match="priority = 100"):
         cal.ServoLoop(Bench(), wall, options(priority=100))
     with pytest.raises(TypeError):
         cal.ServoLoop(Bench(), 3.0)

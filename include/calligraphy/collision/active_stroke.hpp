@@ -5,7 +5,7 @@
 #include <array>
 
 #include <calligraphy/collision/constraint_space.hpp>
-#include <calligraphy/collision/feature_plane.hpp>
+#include <calligraphy/collision/detail/feature_plane.hpp>
 #include <calligraphy/collision/placed_character.hpp>
 
 namespace calligraphy {

@@ -15,6 +15,9 @@ enum class NearestPointMethod {
   wang2006  ///< subdivision as printed in sec. 4.3.2, ties to the nearer midpoint; misses branches: docs/wang2006.md
 };
 
+/// "exact", "tracked", "sampled", "wang2006".
+const char* to_string(NearestPointMethod method) noexcept;
+
 struct NearestPointOptions {
   NearestPointMethod method = NearestPointMethod::exact;
   /// exact, tracked: error of the point; wang2006: epsilon. Both relative to the size of the element, in (0, 1]. A

@@ -4,8 +4,8 @@
 #include <span>
 #include <variant>
 
-#include <calligraphy/collision/curve_element.hpp>
-#include <calligraphy/collision/line_element.hpp>
+#include <calligraphy/collision/detail/curve_element.hpp>
+#include <calligraphy/collision/detail/line_element.hpp>
 
 namespace calligraphy {
 

@@ -58,7 +58,7 @@ class SampleQueue {
  private:
   static std::size_t slots(std::size_t capacity) {
     if (capacity == 0 || capacity > (std::size_t{1} << 24)) {
-      throw ValueError("capacity of a queue is " + std::to_string(capacity) + ", must be from 1 to 16777216");
+      throw ValueError("capacity of a queue = " + std::to_string(capacity) + ", must be from 1 to 16777216");
     }
     std::size_t result = 1;
     while (result < capacity) result *= 2;

@@ -7,7 +7,8 @@
 #include <functional>
 #include <limits>
 
-#include <calligraphy/devices/force_guard.hpp>
+#include <calligraphy/devices/detail/duration_histogram.hpp>
+#include <calligraphy/devices/detail/force_guard.hpp>
 #include <calligraphy/devices/haptic_device.hpp>
 #include <calligraphy/devices/servo_statistics.hpp>
 
@@ -27,12 +28,23 @@ struct ServoOptions {
   double (*work_clock)() noexcept = nullptr;  ///< times force law and tick [s]; null: the system's monotonic clock
 };
 
+/// Phase of the force output.
+enum class ServoPhase : std::uint8_t {
+  zero,     ///< no force: before the first tick, or while a fault persists
+  rising,   ///< ramp-up: the gain on the desired force increases from 0 to 1
+  running,  ///< the desired force is output
+  falling   ///< ramp-down: the last force decreases linearly, whatever force is desired
+};
+
+/// "zero", "rising", "running", "falling".
+const char* to_string(ServoPhase phase) noexcept;
+
 /// Current state of a servo loop.
 struct ServoStatus {
   ServoPhase phase = ServoPhase::zero;
   DeviceFault fault = DeviceFault::none;   ///< cause of the ramp-down, until the force has ramped up again
   DeviceStatus device = DeviceStatus::ok;  ///< status of the last sample
-  double gain = 0.0;                       ///< see ForceGuard
+  double gain = 0.0;                       ///< on the desired force, or on the held one while it ramps down [1]
 };
 
 /// Reads the device, calls the force law, guards and writes the force, and keeps statistics.

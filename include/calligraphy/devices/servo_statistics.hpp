@@ -5,9 +5,17 @@
 #include <cstdint>
 
 #include <calligraphy/devices/device_state.hpp>
-#include <calligraphy/devices/duration_histogram.hpp>
 
 namespace calligraphy {
+
+/// Durations as a histogram has counted them [s].
+struct DurationSummary {
+  std::uint64_t count = 0;
+  double p50 = 0.0;
+  double p99 = 0.0;
+  double p99_9 = 0.0;
+  double worst = 0.0;  ///< exact to a nanosecond
+};
 
 struct ServoStatistics {
   DurationSummary period;                ///< from one tick to the next, as reported by the clock [s]

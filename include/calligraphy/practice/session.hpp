@@ -21,6 +21,9 @@ enum class FeedbackMode {
   force    ///< vision and force
 };
 
+/// "vision", "force".
+const char* to_string(FeedbackMode mode) noexcept;
+
 struct SessionOptions {
   FeedbackMode mode = FeedbackMode::force;
   Capabilities device;

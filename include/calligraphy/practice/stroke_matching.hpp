@@ -18,6 +18,9 @@ enum class WritingDirection {
   unknown   ///< a tap runs nowhere
 };
 
+/// "forwards", "backwards", "neither", "unknown".
+const char* to_string(WritingDirection direction) noexcept;
+
 /// One pen-down.
 struct DrawnStroke {
   int stroke = -1;         ///< that it wrote, or the first of those that it wrote, from 0; -1: none

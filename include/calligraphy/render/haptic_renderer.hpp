@@ -9,13 +9,13 @@
 
 #include <calligraphy/collision/active_stroke.hpp>
 #include <calligraphy/devices/device_state.hpp>
-#include <calligraphy/render/force_limiter.hpp>
+#include <calligraphy/render/detail/force_limiter.hpp>
+#include <calligraphy/render/detail/thermal_budget.hpp>
 #include <calligraphy/render/haptic_tick.hpp>
 #include <calligraphy/render/motion_mapping.hpp>
 #include <calligraphy/render/paper_friction.hpp>
 #include <calligraphy/render/passivity_controller.hpp>
 #include <calligraphy/render/renderer_options.hpp>
-#include <calligraphy/render/thermal_budget.hpp>
 
 namespace calligraphy {
 
@@ -38,6 +38,8 @@ class HapticRenderer {
   /// Starts the page again: nothing written, force zero immediately.
   void restart() noexcept;
 
+  /// What the last update() returned. For the thread that calls update() alone: for a display, publish it through a
+  /// LatestValue.
   const HapticTick& last() const noexcept { return tick_; }
   /// Effective options: with StiffnessCheck::clip, stiffnesses may be lower than requested.
   const RendererOptions& options() const noexcept { return options_; }

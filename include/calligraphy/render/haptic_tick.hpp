@@ -37,6 +37,9 @@ enum class TickStatus : std::uint8_t {
   device_fault  ///< reported by the device: the force ramps down to zero
 };
 
+/// "ok", "bad_sample", "device_fault".
+const char* to_string(TickStatus status) noexcept;
+
 struct HapticTick {
   double time = 0.0;  ///< sample time [s]
   TickStatus status = TickStatus::ok;

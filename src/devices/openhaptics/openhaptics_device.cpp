@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/device_profiles.hpp>
 
+#include "base/monotonic_clock.hpp"
 #include "errors.hpp"
 #include "scheduler_clock.hpp"
 
@@ -22,10 +22,6 @@ constexpr int max_errors = 16;       // fetched per tick
 
 /// Interval of calibration checks: short for a person, long enough to cost nothing [ticks].
 constexpr int calibration_interval = 50;
-
-double monotonic_seconds() noexcept {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 std::string text(const char* string) { return string != nullptr ? string : ""; }
 

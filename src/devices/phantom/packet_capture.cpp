@@ -3,23 +3,20 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <condition_variable>
 #include <iomanip>
 #include <mutex>
 #include <ostream>
 
-#include <calligraphy/base/error.hpp>
-
+#include "base/monotonic_clock.hpp"
+#include "base/require.hpp"
 #include "devices/phantom/link/make_link.hpp"
 #include "devices/phantom/wire/hexadecimal.hpp"
 
 namespace calligraphy {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-constexpr std::chrono::milliseconds glance(100);
+constexpr double glance = 0.1;  // [s]
 
 class Recorder final : public phantom::LinkListener {
  public:
@@ -28,25 +25,23 @@ class Recorder final : public phantom::LinkListener {
   void received(std::span<const std::byte> bytes) noexcept override {
     const std::lock_guard<std::mutex> alone(mutex_);
     if (transfers_.size() >= limit_) return;
-    const double time = std::chrono::duration<double>(Clock::now() - start_).count();
-    transfers_.push_back({time, {bytes.begin(), bytes.end()}});
+    transfers_.push_back({monotonic_seconds() - start_, {bytes.begin(), bytes.end()}});
     if (transfers_.size() >= limit_) full_.notify_one();
   }
   void changed(DeviceFault) noexcept override {}
 
   std::vector<CapturedTransfer> wait(const CaptureOptions& options) {
-    const Clock::time_point end =
-        start_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.seconds));
     std::unique_lock<std::mutex> lock(mutex_);
-    while (transfers_.size() < limit_ && Clock::now() < end && !(options.stop && options.stop())) {
-      full_.wait_until(lock, std::min(end, Clock::now() + glance));
+    for (double left = options.seconds; transfers_.size() < limit_ && left > 0.0 && !(options.stop && options.stop());
+         left = start_ + options.seconds - monotonic_seconds()) {
+      full_.wait_for(lock, std::chrono::duration<double>(std::min(left, glance)));
     }
     return transfers_;
   }
 
  private:
   const std::size_t limit_;
-  const Clock::time_point start_ = Clock::now();
+  const double start_ = monotonic_seconds();
   std::mutex mutex_;
   std::condition_variable full_;
   std::vector<CapturedTransfer> transfers_;
@@ -55,10 +50,8 @@ class Recorder final : public phantom::LinkListener {
 }  // namespace
 
 PacketCapture capture_packets(const PluggedDevice& device, const CaptureOptions& options) {
-  if (options.transfers == 0) throw ValueError("a capture of 0 transfers: must be at least 1");
-  if (!(std::isfinite(options.seconds) && options.seconds > 0.0)) {
-    throw ValueError("a capture of " + std::to_string(options.seconds) + " s: must be finite and above 0");
-  }
+  require(options.transfers > 0, "capture: transfers", 0, "", "at least 1");
+  require_above_zero("capture: seconds", options.seconds, "s");
   Recorder recorder(options.transfers);
   const std::unique_ptr<phantom::Link> link = phantom::make_link(device);
   link->open(recorder);

@@ -2,21 +2,22 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cmath>
-#include <sstream>
 #include <thread>
 #include <utility>
 
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/devices/detail/force_guard.hpp>
+#include <calligraphy/devices/servo.hpp>
 #include <calligraphy/devices/device_profiles.hpp>
-#include <calligraphy/devices/force_guard.hpp>
+#include <calligraphy/devices/latest_value.hpp>
 
+#include "base/monotonic_clock.hpp"
+#include "base/require.hpp"
 #include "devices/phantom/link/link.hpp"
 #include "devices/phantom/wire/packet_codec.hpp"
 #include "devices/phantom/wire/report_frames.hpp"
 #include "force_output.hpp"
-#include "latest_value.hpp"
 #include "motion_tracker.hpp"
 #include "motor_temperature.hpp"
 
@@ -49,24 +50,14 @@ WireProfile profile_of(const PhantomOptions& options) {
 }
 
 const PhantomOptions& checked(const PhantomOptions& options) {
-  if (!(options.velocity_cutoff >= 1.0 && options.velocity_cutoff <= 1000.0)) {
-    std::ostringstream message;
-    message << "velocity cutoff is " << options.velocity_cutoff << ", must be 1 to 1000 Hz";
-    throw ValueError(message.str());
-  }
-  if (options.priority < 0 || options.priority > 99) {
-    throw ValueError("priority is " + std::to_string(options.priority) +
-                     ", must be from 1 to 99, or 0 for normal threads");
-  }
+  require_within("velocity_cutoff", options.velocity_cutoff, "Hz", 1.0, 1000.0);
+  require(options.priority >= 0 && options.priority <= 99, "priority", options.priority, "",
+          "from 1 to 99, or 0 for normal threads");
   return options;
 }
 
-double seconds_of_steady_clock() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-std::function<double()> clock_or_steady(std::function<double()> clock) {
-  return clock ? std::move(clock) : std::function<double()>(seconds_of_steady_clock);
+std::function<double()> clock_or_monotonic(std::function<double()> clock) {
+  return clock ? std::move(clock) : std::function<double()>(monotonic_seconds);
 }
 
 }  // namespace
@@ -82,7 +73,7 @@ class PhantomDevice::Core final : public LinkListener {
  public:
   Core(std::unique_ptr<Link> link, const PhantomOptions& options, std::function<double()> clock)
       : options_(checked(options)),
-        clock_(clock_or_steady(std::move(clock))),
+        clock_(clock_or_monotonic(std::move(clock))),
         codec_(profile_of(options)),
         linkage_(linkage(options.model)),
         capabilities_(device_profile(options.model)),
@@ -409,11 +400,7 @@ void PhantomDevice::write(const Eigen::Vector3d& force) noexcept { core_->write(
 void PhantomDevice::close() noexcept { core_->close(); }
 
 void PhantomDevice::calibrate(const Joints& joints) {
-  if (!joints.allFinite()) {
-    std::ostringstream message;
-    message << "joint angles are (" << joints.transpose() << ") rad, must be finite";
-    throw ValueError(message.str());
-  }
+  for (const double joint : joints) require(std::isfinite(joint), "joint", joint, "rad", "finite");
   core_->calibrate(joints);
 }
 

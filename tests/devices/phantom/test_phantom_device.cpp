@@ -496,7 +496,7 @@ TEST_CASE("a phantom that cannot be driven is rejected, and the message says wha
   CHECK_THAT(refusal<ValueError>(simulated_options("desktop")), Contains("desktop"));
   options = simulated_options();
   options.velocity_cutoff = 0.0;
-  CHECK_THAT(refusal<ValueError>(options), Contains("velocity cutoff is 0"));
+  CHECK_THAT(refusal<ValueError>(options), Contains("velocity_cutoff = 0 Hz"));
   for (const int priority : {-1, 100}) {
     options = simulated_options();
     options.priority = priority;

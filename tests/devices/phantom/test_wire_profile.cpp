@@ -159,44 +159,45 @@ TEST_CASE("an error in a profile names file, line and value", "[phantom][profile
   CHECK_THAT(format_error("no profile\n"), Contains("lab.txt:1: expected 'calligraphy wire profile 1'"));
   CHECK_THAT(format_error(""), Contains("lab.txt: empty"));
   CHECK_THAT(format_error("calligraphy wire profile 1\nname x\nreport 8\n"), Contains("'encoder 1' is missing"));
-  CHECK_THAT(format_error(minimal_profile + std::string(2'000'000, ' ') + "\n"), Contains("longer than 1 MB"));
+  CHECK_THAT(format_error(minimal_profile + std::string(2'000'000, ' ') + "\n"),
+             Contains("lab.txt:7: longer than the 1048576 bytes"));
 }
 
 TEST_CASE("fields outside their frame or overlapping are rejected with both names", "[phantom][profile]") {
   const auto with = [](const std::string& line) { return format_error(minimal_profile + line + "\n"); };
-  CHECK_THAT(with("gimbal 1 u16 at 7"), Contains("gimbal 1: offset is 7") && Contains("8 bytes of the report"));
+  CHECK_THAT(with("gimbal 1 u16 at 7"), Contains("gimbal 1: offset = 7") && Contains("8 bytes of the report"));
   CHECK_THAT(with("gimbal 1 u16 at 5"), Contains("encoder 3 overlaps gimbal 1 in the report"));
   CHECK(with("gimbal 1 u16 at 5 bits 8..15").empty());
   CHECK_THAT(with("gimbal 1 u16 at 5 big bits 8..15"), Contains("encoder 3 overlaps gimbal 1"));
   CHECK_THAT(with("gimbal-copy 1 u16 at 6"), Contains("gimbal-copy 1 copies a field that is not defined"));
   CHECK_THAT(with("encoder-copy 1 u8 at 6"), Contains("encoder-copy 1: number of bits or sign"));
-  CHECK_THAT(with("docked u8 at 6"), Contains("docked: number of bits is 8, must be 1"));
-  CHECK_THAT(with("sequence u8 at 6 bits 0..2"), Contains("sequence: number of bits is 3, must be at least 4"));
+  CHECK_THAT(with("docked u8 at 6"), Contains("docked: number of bits = 8, must be 1"));
+  CHECK_THAT(with("sequence u8 at 6 bits 0..2"), Contains("sequence: number of bits = 3, must be at least 4"));
   CHECK_THAT(with("report-checksum sum 0..6 u16 at 6"), Contains("report-checksum covers its own bytes"));
   CHECK_THAT(with("report-checksum sum 0..8 u8 at 6"), Contains("bytes 0..8 are outside the report"));
-  CHECK_THAT(with("expect u8 at 6 is 256"), Contains("expect 1: value is 256, must be 0 to 255"));
+  CHECK_THAT(with("expect u8 at 6 is 256"), Contains("expect 1: value = 256, must be from 0 to 255"));
   CHECK_THAT(with("dac 1 u16 at 0 zero 0"), Contains("command size is 0"));
   CHECK_THAT(with("command 4\ndac 1 u16 at 0 zero 0"), Contains("dac 1: zero leaves no range"));
-  CHECK_THAT(with("command 4\ndac 1 u16 at 0 bits 0..11 zero 4096"), Contains("dac 1: zero is 4096"));
+  CHECK_THAT(with("command 4\ndac 1 u16 at 0 bits 0..11 zero 4096"), Contains("dac 1: zero = 4096"));
   CHECK_THAT(with("command 4\ndac 1 s16 at 0 zero 0\nmotors-on u8 at 1 bit 2"), Contains("motors-on overlaps dac 1"));
-  CHECK_THAT(with("command 600"), Contains("command size is 600, must be 1 to 512"));
-  CHECK_THAT(with("rate 0"), Contains("rate is 0, must be 1 to 100000 Hz"));
-  CHECK_THAT(with("counts-per-radian 5 0 5"), Contains("counts-per-radian is 0"));
-  CHECK_THAT(with("counts-per-radian 5 nan 5"), Contains("counts-per-radian is nan"));
-  CHECK_THAT(with("continuous-torque 1 -1 1"), Contains("continuous-torque is -1, must be 1e-06 to 100 N m"));
-  CHECK_THAT(with("gravity inf 0"), Contains("gravity is inf, its magnitude must be at most 10 N m"));
+  CHECK_THAT(with("command 600"), Contains("command size = 600 bytes, must be from 1 to 512"));
+  CHECK_THAT(with("rate 0"), Contains("rate = 0 Hz, must be from 1 to 100000"));
+  CHECK_THAT(with("counts-per-radian 5 0 5"), Contains("counts-per-radian = 0"));
+  CHECK_THAT(with("counts-per-radian 5 nan 5"), Contains("counts-per-radian = nan"));
+  CHECK_THAT(with("continuous-torque 1 -1 1"), Contains("continuous-torque = -1 N m, must be from 1e-06 to 100"));
+  CHECK_THAT(with("gravity inf 0"), Contains("gravity = inf N m, must be at most 10 in size"));
 }
 
 TEST_CASE("an error in one statement of a profile is reported with its line", "[phantom][profile]") {
   const auto with = [](const std::string& lines) { return format_error(minimal_profile + lines + "\n"); };
-  CHECK(with("source x\nrate 0") == "lab.txt:8: rate is 0, must be 1 to 100000 Hz");
+  CHECK(with("source x\nrate 0") == "lab.txt:8: rate = 0 Hz, must be from 1 to 100000");
   CHECK(with("gimbal 1 u16 at 5") == "lab.txt:6: encoder 3 overlaps gimbal 1 in the report");
   CHECK_THAT(with("encoder-copy 1 u8 at 6"), StartsWith("lab.txt:7: encoder-copy 1: number of bits"));
   CHECK_THAT(with("report-checksum sum 0..8 u8 at 6"), StartsWith("lab.txt:7: report-checksum: bytes 0..8"));
-  CHECK_THAT(with("expect u8 at 6 is 1\n\nexpect u8 at 7 is 256"), StartsWith("lab.txt:9: expect 2: value is 256"));
+  CHECK_THAT(with("expect u8 at 6 is 1\n\nexpect u8 at 7 is 256"), StartsWith("lab.txt:9: expect 2: value = 256"));
   CHECK_THAT(with("command 4\nconstant u8 at 0 is 1\nconstant u8 at 4 is 1"),
-             StartsWith("lab.txt:9: constant 2: offset is 4"));
-  CHECK_THAT(with("command 600\ncommand-checksum sum 0..1 u8 at 2"), StartsWith("lab.txt:7: command size is 600"));
+             StartsWith("lab.txt:9: constant 2: offset = 4"));
+  CHECK_THAT(with("command 600\ncommand-checksum sum 0..1 u8 at 2"), StartsWith("lab.txt:7: command size = 600"));
   CHECK_THAT(with("fault overheated u8 at 6 bit 0\nfault overheated u8 at 6 bit 0"),
              StartsWith("lab.txt:8: fault 2 (overheated) overlaps fault 1 (overheated)"));
   CHECK_THAT(with("framing serial 1 2\nstart 07\nstop" + repeated(" 07", 257)),
@@ -212,11 +213,11 @@ TEST_CASE("a profile created by a program is validated like one from a file", "[
   WireProfile profile = parsed(minimal_profile);
   CHECK(value_error(profile).empty());
   profile.encoders[1].bytes = 5;
-  CHECK_THAT(value_error(profile), Contains("encoder 2: width is 5"));
+  CHECK_THAT(value_error(profile), Contains("encoder 2: width = 5"));
   profile.encoders[1] = {std::numeric_limits<int>::max(), 1, 0, 8, false, false, false};
-  CHECK_THAT(value_error(profile), Contains("encoder 2: offset is 2147483647"));
+  CHECK_THAT(value_error(profile), Contains("encoder 2: offset = 2147483647"));
   profile.encoders[1] = {0, 1, std::numeric_limits<int>::max(), 8, false, false, false};
-  CHECK_THAT(value_error(profile), Contains("encoder 2: highest bit is 2147483654"));
+  CHECK_THAT(value_error(profile), Contains("encoder 2: highest bit = 2147483654"));
   profile = parsed(minimal_profile);
   profile.start.emplace_back();
   CHECK_THAT(value_error(profile), Contains("start 1 has 0 bytes"));

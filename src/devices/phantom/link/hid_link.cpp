@@ -6,10 +6,12 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/servo_thread.hpp>
 
+#include "base/monotonic_clock.hpp"
 #include "report_descriptor.hpp"
 #include "sysfs.hpp"
 #include "usb_device.hpp"
@@ -21,7 +23,7 @@ constexpr int max_read = 5;            // then the reader checks whether a write
 constexpr double writer_pause = 0.05;  // [s]
 // Minimum time between two openings: a device that opens and fails immediately must not occupy the processor, at the
 // real-time priority that this thread may have.
-constexpr std::chrono::milliseconds min_stay(10);
+constexpr double min_stay = 0.01;  // [s]
 
 /// hidapi's initialisation, enumeration and opening are not thread-safe.
 std::mutex& hidapi_mutex() {
@@ -66,50 +68,26 @@ PluggedDevice found(libusb_context* context, const PluggedDevice& wanted) {
 
 }  // namespace
 
-HidLink::HidLink(const PluggedDevice& device, const LinkOptions& options) : wanted_(device), options_(options) {
-  descriptions_.push_back(describe_device(device));
-  description_ = &descriptions_.back();
-}
+HidLink::HidLink(const PluggedDevice& device, const LinkOptions& options) : ThreadedLink(device, options) {}
 
 HidLink::~HidLink() {
   writer_stops_ = true;
-  bell_.ring();
+  wake();
   if (writer_.joinable()) writer_.join();
-  stopping_ = true;
-  if (reader_.joinable()) reader_.join();
+  join();
 }
 
 void HidLink::open(LinkListener& listener) {
-  if (reader_.joinable()) throw DeviceError(description() + ": this link is already open");
-  listener_ = &listener;
-  std::promise<void> first;
-  std::future<void> outcome = first.get_future();
-  reader_ = std::thread(&HidLink::read_and_tell, this, std::move(first));
-  try {
-    outcome.get();
-  } catch (...) {
-    reader_.join();
-    throw;
-  }
+  ThreadedLink::open(listener);
   writer_ = std::thread(&HidLink::write_packets, this);
 }
 
-bool HidLink::send(std::span<const std::byte> packet) noexcept {
-  if (packet.size() > max_packet_bytes) return false;
-  if (newest_.put(packet)) replaced_.fetch_add(1, std::memory_order_relaxed);
-  bell_.ring();
-  return true;
-}
-
 void HidLink::command(std::span<const std::byte> packet) {
-  if (packet.size() > max_packet_bytes)
-    refuse(wanted_, "a command of " + std::to_string(packet.size()) + " bytes is too long");
+  check_command(packet);
   const std::lock_guard<std::mutex> alone(device_mutex_);
   if (device_ == nullptr) refuse(wanted_, "the command was not sent: it is not plugged in");
   if (write_failed_ || !write_report(packet)) refuse(wanted_, "the command was not accepted: the transfer failed");
 }
-
-LinkCounts HidLink::counts() const noexcept { return {received_, sent_, replaced_, failed_, opened_}; }
 
 void HidLink::connect() {
   bus_.wait(0.0);  // processes pending hot-plug events
@@ -135,16 +113,12 @@ void HidLink::connect() {
     numbered_ = numbered;
     write_failed_ = false;
   }
-  const std::string text = describe_device(place);
-  auto known = std::find(descriptions_.begin(), descriptions_.end(), text);
-  if (known == descriptions_.end()) known = descriptions_.insert(known, text);
-  description_ = &*known;
-  opened_at_ = Clock::now();
-  opened_.fetch_add(1, std::memory_order_relaxed);
+  found_at(place);
+  opened_at_ = monotonic_seconds();
 }
 
 void HidLink::start() noexcept {
-  last_received_ = Clock::now();
+  last_received_ = monotonic_seconds();
   told_ = DeviceFault::none;
   listener_->changed(DeviceFault::none);
 }
@@ -156,19 +130,9 @@ void HidLink::disconnect() noexcept {
   lock_.release();
 }
 
-void HidLink::tell(DeviceFault fault) noexcept {
-  const Clock::time_point now = Clock::now();
-  const bool again =
-      fault == DeviceFault::timed_out && now - told_at_ >= std::chrono::duration<double>(options_.silence);
-  if (fault == told_ && !again) return;
-  told_ = fault;
-  told_at_ = now;
-  listener_->changed(fault);
-}
+// ---- the reader
 
-// ---- reader
-
-void HidLink::read_and_tell(std::promise<void> opened) noexcept {
+void HidLink::run(std::promise<void> opened) noexcept {
   warnings_ = set_real_time_priority(options_.priority);  // inherited by hidapi-libusb's own thread
   try {
     connect();
@@ -198,11 +162,11 @@ void HidLink::read_reports() noexcept {
       break;
     }
     if (size > 0) {
-      last_received_ = Clock::now();
+      last_received_ = monotonic_seconds();
       tell(DeviceFault::none);
       received_.fetch_add(1, std::memory_order_relaxed);
       listener_->received(std::as_bytes(std::span<const unsigned char>(report.data(), static_cast<std::size_t>(size))));
-    } else if (Clock::now() - last_received_ >= std::chrono::duration<double>(options_.silence)) {
+    } else if (monotonic_seconds() - last_received_ >= options_.silence) {
       tell(DeviceFault::timed_out);
     }
   }
@@ -211,7 +175,7 @@ void HidLink::read_reports() noexcept {
 }
 
 void HidLink::reopen() noexcept {
-  std::this_thread::sleep_until(opened_at_ + min_stay);
+  std::this_thread::sleep_for(std::chrono::duration<double>(opened_at_ + min_stay - monotonic_seconds()));
   try {
     connect();
     // hidapi does not report why a transfer failed: a device that reopens immediately had an error, any other is gone.
@@ -219,8 +183,7 @@ void HidLink::reopen() noexcept {
     start();
   } catch (const std::exception&) {
     tell(DeviceFault::unplugged);
-    for (const auto end = Clock::now() + std::chrono::duration<double>(options_.search);
-         Clock::now() < end && !stopping_;) {
+    for (const double end = monotonic_seconds() + options_.search; monotonic_seconds() < end && !stopping_;) {
       std::this_thread::sleep_for(std::chrono::milliseconds(max_read));
     }
   }

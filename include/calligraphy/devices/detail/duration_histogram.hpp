@@ -6,16 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace calligraphy {
+#include <calligraphy/devices/servo_statistics.hpp>
 
-/// Percentiles of the recorded durations [s].
-struct DurationSummary {
-  std::uint64_t count = 0;
-  double p50 = 0.0;
-  double p99 = 0.0;
-  double p99_9 = 0.0;
-  double worst = 0.0;  ///< exact to 1 ns
-};
+namespace calligraphy {
 
 /// Fixed buckets, 128 per octave: the error of a percentile is at most 1/256 of its value, or 1 ns. Durations above 18
 /// minutes count in the last bucket. add() is wait-free and does not allocate; a concurrent summary() misses at most
