@@ -13,6 +13,7 @@
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/text.hpp>
 
+#include "base/from_chars.hpp"
 #include "built_in.hpp"
 #include "order_name.hpp"
 
@@ -131,7 +132,7 @@ class Parser {
   template <class Number>
   Number parse_number(std::string_view text, std::string_view what) const {
     Number value{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const auto [end, error] = from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size()) {
       fail(in_quotes(text) + " is not a " + std::string(what));
     }

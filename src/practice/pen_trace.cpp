@@ -15,6 +15,8 @@
 #include <calligraphy/base/file.hpp>
 #include <calligraphy/base/text.hpp>
 
+#include "base/from_chars.hpp"
+
 namespace calligraphy {
 namespace {
 
@@ -43,9 +45,9 @@ std::optional<Number> number_in(std::string_view word, int base = 10) {
   const char* const end = word.data() + word.size();
   std::from_chars_result result{};
   if constexpr (std::is_floating_point_v<Number>) {
-    result = std::from_chars(word.data(), end, value);
+    result = from_chars(word.data(), end, value);
   } else {
-    result = std::from_chars(word.data(), end, value, base);
+    result = from_chars(word.data(), end, value, base);
   }
   if (result.ec != std::errc() || result.ptr != end) return std::nullopt;
   return value;

@@ -13,6 +13,8 @@
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/file.hpp>
 
+#include "base/from_chars.hpp"
+
 namespace calligraphy {
 namespace {
 
@@ -137,7 +139,7 @@ class Parser {
   template <typename Number>
   Number number(std::string_view column, std::string_view text) const {
     Number value{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const auto [end, error] = from_chars(text.data(), text.data() + text.size(), value);
     if (error == std::errc::result_out_of_range) {
       fail(std::string(column) + " is '" + std::string(text) + "': out of range");
     }

@@ -656,9 +656,10 @@ TEST_CASE("whatever goes wrong, the force stays finite, never leaps up and is ze
     }
     return {wanted, 0.0, 0.0};
   };
+  std::vector<double> written;  // when [s]
+  bench.device.while_writing = [&] { written.push_back(virtual_time); };
   int bad_device = 0;
   double unusable_since = infinity;
-  const double before = 0.0;
   for (int tick = 0; tick < 20'000; ++tick) {
     if (chance(0.004)) bad_device = 1 + static_cast<int>(random.index(40));
     if (chance(0.002)) bad_law = 1 + static_cast<int>(random.index(20));
@@ -676,14 +677,17 @@ TEST_CASE("whatever goes wrong, the force stays finite, never leaps up and is ze
     unusable_since = unusable ? std::min(unusable_since, virtual_time) : infinity;
     if (virtual_time - unusable_since > 0.0165) REQUIRE(bench.device.last() == 0.0);
   }
-  double last = before;
-  for (const Eigen::Vector3d& force : bench.device.forces) {
+  REQUIRE(written.size() == bench.device.forces.size());
+  double last = 0.0;
+  for (std::size_t i = 0; i < written.size(); ++i) {
+    const Eigen::Vector3d& force = bench.device.forces[i];
     REQUIRE(force.allFinite());
     REQUIRE(force.x() >= 0.0);
     REQUIRE(force.x() <= wanted);
-    // Up by one tick of the rise, down by at most a fall through ticks that come late.
+    // Up by one tick of the rise; down by no more than a fall since the last tick began, after the write before last.
     REQUIRE(force.x() - last <= wanted * 1.001 / 200.0);
-    REQUIRE(last - force.x() <= wanted * 0.47);
+    const double since = written[i] - (i < 2 ? 0.0 : written[i - 2]) + period;
+    REQUIRE(last - force.x() <= wanted * since / ServoOptions().fall_time * (1.0 + 1e-9));
     last = force.x();
   }
   CHECK_FALSE(bench.device.touched_by_two);
@@ -718,6 +722,7 @@ TEST_CASE("at whatever moment of a tick the watchdog looks, the device has one o
                     [](const Eigen::Vector3d& force) { return force.x() >= 0.0 && force.x() <= wanted; }));
   bench.device.while_reading = bench.device.while_writing = nullptr;
   bench.law = [](const DeviceState&) { return Eigen::Vector3d(wanted, 0.0, 0.0); };
+  bench.wait(30);  // whatever was left of the force has fallen
   bench.ticks(30);
   check_return(bench);
 }

@@ -8,7 +8,7 @@
 
 #include <calligraphy/base/random.hpp>
 #include <calligraphy/collision/nearest_point.hpp>
-#include <calligraphy/devices/simulated_device.hpp>
+#include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/model/character_list.hpp>
 #include <calligraphy/render/haptic_renderer.hpp>
 
@@ -96,7 +96,7 @@ void print_forces(const PlacedCharacter& placed, const Capabilities& device, con
 int main() {
   print_nearest_points();
   for (const char* name : {"desktop", "omni"}) {
-    const Capabilities device = device_profile(name).capabilities;
+    const Capabilities device = device_profile(name);
     RendererOptions printed = RendererOptions::wang2006();
     printed.paper_stiffness = printed.guidance_stiffness = 200.0;
     printed.wrong_way_stiffness = 100.0;

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <vector>
 
-#include <calligraphy/devices/simulated_device.hpp>
+#include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/model/character_list.hpp>
 #include <calligraphy/practice/page.hpp>
 #include <calligraphy/practice/score.hpp>
@@ -17,7 +17,7 @@ int main() {
     for (const Mode mode : {Mode::vision, Mode::force}) {
       SessionOptions options;
       options.device = device_profile("desktop");
-      options.renderer = RendererOptions::for_device(options.device.capabilities);
+      options.renderer = RendererOptions::for_device(options.device);
       options.skill = skill;
       options.mode = mode;
       const Recording recording = write_page(page, options);
