@@ -6,7 +6,6 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 export NODE_PATH=${NODE_PATH:-/usr/share/nodejs}  # of Debian's em++, where node is not Debian's
-export EM_CACHE=${EM_CACHE:-$PWD/build-full/emscripten}
 
 if [[ ${1:-} == one ]]; then
   exec em++ -std=c++20 -fwasm-exceptions -fsyntax-only -Iinclude -isystem /usr/include/eigen3 \
@@ -20,7 +19,8 @@ emcmake cmake -S tests/portability -B "$build/wasm" -G Ninja -DCMAKE_BUILD_TYPE=
   -DUTF8CPP_INCLUDE_DIR="$(found UTF8CPP_INCLUDE_DIR)" > /dev/null
 cmake --build "$build/wasm" --target print_bits print_page
 ls -l "$build"/wasm/*.wasm
-node "$build/wasm/print_bits.js" > "$build/wasm.bits"
+node=(node --no-experimental-fetch)  # by which Emscripten 3.1.6 would load files as from a server
+"${node[@]}" "$build/wasm/print_bits.js" > "$build/wasm.bits"
 cmp "$build/native.bits" "$build/wasm.bits"
-node "$build/wasm/print_page.js" > "$build/wasm.page"
+"${node[@]}" "$build/wasm/print_page.js" > "$build/wasm.page"
 scripts/full/compare_numbers.py "$build/native.page" "$build/wasm.page"

@@ -9,6 +9,8 @@
 
 namespace calligraphy {
 
+bool is_utf8(std::string_view text) noexcept { return utf8::is_valid(text.begin(), text.end()); }
+
 std::u32string decode_utf8(std::string_view text) {
   const auto invalid = utf8::find_invalid(text.begin(), text.end());
   if (invalid != text.end()) {

@@ -1,7 +1,6 @@
 #include <calligraphy/devices/servo.hpp>
 
 #include <algorithm>
-#include <bit>
 #include <chrono>
 #include <cmath>
 #include <sstream>
@@ -9,6 +8,8 @@
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/flush_denormals.hpp>
+
+#include "base/bit_cast.hpp"
 
 namespace calligraphy {
 namespace {
@@ -264,7 +265,7 @@ void Servo::count_fault(DeviceFault fault) noexcept {
 
 /// Phase, fault and device status in a byte each, the gain as a float: one word, so that they belong together.
 void Servo::publish() noexcept {
-  const auto gain = std::bit_cast<std::uint32_t>(static_cast<float>(guard_.gain()));
+  const auto gain = bit_cast<std::uint32_t>(static_cast<float>(guard_.gain()));
   const std::uint64_t word = (std::uint64_t{gain} << 32) | (static_cast<std::uint64_t>(device_status_) << 16) |
                              (static_cast<std::uint64_t>(guard_.fault()) << fault_shift) |
                              static_cast<std::uint64_t>(guard_.phase());
@@ -277,7 +278,7 @@ ServoStatus Servo::status() const noexcept {
   status.phase = static_cast<ServoPhase>(word & 0xff);
   status.fault = static_cast<DeviceFault>((word >> fault_shift) & 0xff);
   status.device = static_cast<DeviceStatus>((word >> 16) & 0xff);
-  status.gain = std::bit_cast<float>(static_cast<std::uint32_t>(word >> 32));
+  status.gain = bit_cast<float>(static_cast<std::uint32_t>(word >> 32));
   return status;
 }
 

@@ -9,7 +9,7 @@
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/model/bezier.hpp>
 
-#include "base/from_chars.hpp"
+#include "base/charconv.hpp"
 
 namespace calligraphy {
 namespace {

@@ -50,7 +50,9 @@ Choice divide(const CompoundRule& rule, std::string_view kinds, const PieceTable
   return choice;
 }
 
-bool allowed(std::span<const int> ids, int id) { return ids.empty() || std::find(ids.begin(), ids.end(), id) != ids.end(); }
+bool allowed(std::span<const int> ids, int id) {
+  return ids.empty() || std::find(ids.begin(), ids.end(), id) != ids.end();
+}
 
 /// The allowed stroke of one element that the path is: the one that the rules find, else the cheapest; 0 when none is
 /// allowed.
@@ -103,8 +105,7 @@ std::vector<Recognition> recognise(const Path& path, std::span<const std::size_t
   if (found.empty()) return found;
   const int sibling = sibling_of(found[0].id, path, found[0].splits, brush);
   if (sibling != found[0].id && allowed(ids, sibling)) {
-    const auto at =
-        std::find_if(found.begin(), found.end(), [&](const Recognition& one) { return one.id == sibling; });
+    const auto at = std::find_if(found.begin(), found.end(), [&](const Recognition& one) { return one.id == sibling; });
     if (at != found.end()) std::rotate(found.begin(), at, at + 1);
   }
   return found;

@@ -27,8 +27,8 @@ void print(double value) {
 }
 
 void print(const NearestPoint& found) {
-  for (const double value : {found.parameter, found.distance, found.point.x(), found.point.y(), found.tangent.x(),
-                             found.tangent.y()}) {
+  for (const double value :
+       {found.parameter, found.distance, found.point.x(), found.point.y(), found.tangent.x(), found.tangent.y()}) {
     print(value);
   }
 }
@@ -65,7 +65,9 @@ void print_nearest_points() {
 
 /// Every stroke of a character by a pen that wanders about it, pressed into the paper.
 void print_forces(const PlacedCharacter& placed, const Capabilities& device, const RendererOptions& options) {
-  HapticRenderer renderer({placed}, {}, device, options);
+  MotionMapping tilted;
+  tilted.rotation << 0.48, 0.64, -0.6, -0.8, 0.6, 0.0, 0.36, 0.48, 0.8;
+  HapticRenderer renderer({placed}, tilted, device, options);
   Random random(2);
   double time = 0.0;
   const auto go = [&](const Point& point, double z) {

@@ -1,5 +1,5 @@
-// print_page: 永 and 北 in closed loop by a novice and a skilled writer, with vision and with force: scores and the whole
-// trace, one number a line, which agree to 1e-9 wherever they are computed.
+// print_page: two characters in closed loop by a novice and a skilled writer, with vision and with force: scores and
+// the whole trace, one number a line, which agree to 1e-9 wherever they are computed.
 #include <cstdio>
 #include <vector>
 
@@ -23,8 +23,9 @@ int main() {
       const Recording recording = write_page(page, options);
       for (const CharacterScore& score : score(page, recording)) {
         std::printf("%.17g\n%.17g\n%.17g\n", score.rms_error, score.fidelity, score.time);
-        std::fprintf(stderr, "%s: %.9f mm RMS, fidelity %.9f, %.3f s, %zu samples\n", mode == Mode::force ? "force" : "vision",
-                     1e3 * score.rms_error, score.fidelity, score.time, recording.samples.size());
+        std::fprintf(stderr, "%s: %.9f mm RMS, fidelity %.9f, %.3f s, %zu samples\n",
+                     mode == Mode::force ? "force" : "vision", 1e3 * score.rms_error, score.fidelity, score.time,
+                     recording.samples.size());
       }
       for (const Sample& sample : recording.samples) {
         for (const double value : sample.pen_tip) std::printf("%.17g\n", value);

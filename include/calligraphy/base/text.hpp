@@ -6,6 +6,8 @@
 
 namespace calligraphy {
 
+bool is_utf8(std::string_view text) noexcept;
+
 /// Code points of a UTF-8 text. @throws FormatError naming the byte offset of the first invalid sequence
 std::u32string decode_utf8(std::string_view text);
 

@@ -11,9 +11,8 @@
 #include <tuple>
 #include <utility>
 
-#include <utf8.h>
-
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/base/text.hpp>
 #include <calligraphy/devices/phantom/wire_profile.hpp>
 
 namespace calligraphy::phantom {
@@ -85,7 +84,7 @@ class Parser {
       ++number_;
       read_ += line_.size() + 1;
       if (read_ > longest_text) fail("this is no wire profile: it is longer than 1 MB");
-      if (!utf8::is_valid(line_.begin(), line_.end())) fail("this is no wire profile: it is not UTF-8");
+      if (!is_utf8(line_)) fail("this is no wire profile: it is not UTF-8");
       if (number_ == 1 && line_.starts_with(byte_order_mark)) line_.erase(0, byte_order_mark.size());
       left_ = line_;
       if (!is_free_text(word())) line_.erase(std::min(line_.find('#'), line_.size()));
