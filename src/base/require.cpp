@@ -1,10 +1,11 @@
 #include "require.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <string>
 
 #include <calligraphy/base/error.hpp>
+
+#include "charconv.hpp"
 
 namespace calligraphy {
 namespace {
@@ -14,9 +15,7 @@ std::string number_text(double value) {
   char buffer[40];
   char* const end = buffer + sizeof buffer;
   const bool is_round = std::abs(value) < 1e7 && value == std::floor(value);  // 100000, not 1e+05
-  return {
-      buffer,
-      (is_round ? std::to_chars(buffer, end, value, std::chars_format::fixed) : std::to_chars(buffer, end, value)).ptr};
+  return {buffer, (is_round ? to_chars_fixed(buffer, end, value, 0) : to_chars(buffer, end, value)).ptr};
 }
 
 }  // namespace

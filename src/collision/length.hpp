@@ -1,4 +1,5 @@
-// The length of a vector, the same to the last bit everywhere.
+// Lengths and products of vectors, the same to the last bit everywhere: Eigen adds three products in an order that
+// depends on the width of the processor's registers.
 #pragma once
 
 #include <algorithm>
@@ -17,5 +18,12 @@ inline double length(const Point& vector) noexcept {
   const double scale = vector.cwiseAbs().maxCoeff() < 1.0 ? 0x1p600 : 0x1p-600;
   return (scale * vector).norm() / scale;
 }
+
+inline double dot(const Eigen::Vector3d& a, const Eigen::Vector3d& b) noexcept {
+  return a.x() * b.x() + a.y() * b.y() + a.z() * b.z();
+}
+
+/// Norm of a force or displacement in space, whose squares are finite.
+inline double norm(const Eigen::Vector3d& vector) noexcept { return std::sqrt(dot(vector, vector)); }
 
 }  // namespace calligraphy

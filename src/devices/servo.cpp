@@ -11,6 +11,8 @@
 #include "base/monotonic_clock.hpp"
 #include "base/require.hpp"
 
+#include "base/bit_cast.hpp"
+
 namespace calligraphy {
 namespace {
 
@@ -268,7 +270,7 @@ void Servo::count_fault(DeviceFault fault) noexcept {
 
 /// Packs phase, fault and device status (a byte each) and the gain (a float) into one word, for consistency.
 void Servo::publish() noexcept {
-  const auto gain = std::bit_cast<std::uint32_t>(static_cast<float>(guard_.gain()));
+  const auto gain = bit_cast<std::uint32_t>(static_cast<float>(guard_.gain()));
   const std::uint64_t word = (std::uint64_t{gain} << 32) | (static_cast<std::uint64_t>(device_status_) << 16) |
                              (static_cast<std::uint64_t>(guard_.fault()) << fault_shift) |
                              static_cast<std::uint64_t>(guard_.phase());
@@ -281,7 +283,7 @@ ServoStatus Servo::status() const noexcept {
   status.phase = static_cast<ServoPhase>(word & 0xff);
   status.fault = static_cast<DeviceFault>((word >> fault_shift) & 0xff);
   status.device = static_cast<DeviceStatus>((word >> 16) & 0xff);
-  status.gain = std::bit_cast<float>(static_cast<std::uint32_t>(word >> 32));
+  status.gain = bit_cast<float>(static_cast<std::uint32_t>(word >> 32));
   return status;
 }
 

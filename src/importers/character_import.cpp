@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <charconv>
 #include <cstdio>
 #include <fstream>
 #include <numbers>
@@ -21,6 +20,7 @@
 #include <calligraphy/importers/stroke_warnings.hpp>
 #include <calligraphy/model/character_set.hpp>
 
+#include "base/charconv.hpp"
 #include "base/parallel.hpp"
 #include "base/require.hpp"
 #include "hanzi_writer.hpp"
@@ -66,7 +66,7 @@ std::optional<FileName> kanjivg_name(std::string_view stem) {
   unsigned code = 0;
   if (stem.size() < digits) return std::nullopt;
   const char* const end = stem.data() + digits;
-  const auto [rest, error] = std::from_chars(stem.data(), end, code, 16);
+  const auto [rest, error] = from_chars(stem.data(), end, code, 16);
   if (error != std::errc() || rest != end || code == 0) return std::nullopt;
   if (stem.size() == digits) return FileName{SourceKind::kanjivg, code, {}};
   if (stem[digits] != '-' || !is_word(stem.substr(digits + 1))) return std::nullopt;

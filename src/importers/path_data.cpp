@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <string>
 #include <system_error>
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/model/bezier.hpp>
+
+#include "base/charconv.hpp"
 
 namespace calligraphy {
 namespace {
@@ -74,7 +75,7 @@ class PathReader {
     const std::size_t begin = at_;
     if (at_ < data_.size() && data_[at_] == '+' && at_ + 1 < data_.size() && data_[at_ + 1] != '-') ++at_;
     double value = 0.0;
-    const auto [end, error] = std::from_chars(data_.data() + at_, data_.data() + data_.size(), value);
+    const auto [end, error] = from_chars(data_.data() + at_, data_.data() + data_.size(), value);
     at_ = begin;
     if (error != std::errc() || !std::isfinite(value)) fail("expected a number, found " + rest());
     at_ = static_cast<std::size_t>(end - data_.data());

@@ -187,8 +187,8 @@ class Fit {
     }
     for (const Rounder& rounder : rounder_strokes) {
       if (rounder.id != best.stroke.id || best.error <= rounder.from_error) continue;
-      const bool allowed =
-          options_.ids.empty() || std::ranges::find(options_.ids, rounder.instead) != options_.ids.end();
+      const bool allowed = options_.ids.empty() ||
+                           std::find(options_.ids.begin(), options_.ids.end(), rounder.instead) != options_.ids.end();
       const std::vector<Recognition> other = recognised({&rounder.instead, 1});
       if (allowed && !other.empty()) keep_better(best, as(other[0]));
       break;

@@ -50,7 +50,9 @@ Choice divide(const CompoundRule& rule, std::string_view kinds, const PieceTable
   return choice;
 }
 
-bool allowed(std::span<const int> ids, int id) { return ids.empty() || std::ranges::find(ids, id) != ids.end(); }
+bool allowed(std::span<const int> ids, int id) {
+  return ids.empty() || std::find(ids.begin(), ids.end(), id) != ids.end();
+}
 
 /// The allowed one-element stroke that the path is: the one that the rules find, otherwise the one of minimum cost; 0
 /// if none is allowed.
@@ -98,11 +100,12 @@ std::vector<Recognition> recognise(const Path& path, std::span<const std::size_t
     Recognition compound = as_compound(rule, table, corners, shape.length);
     if (compound.cost < unreachable) found.push_back(std::move(compound));
   }
-  std::ranges::stable_sort(found, {}, &Recognition::cost);
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Recognition& a, const Recognition& b) { return a.cost < b.cost; });
   if (found.empty()) return found;
   const int sibling = sibling_of(found[0].id, path, found[0].splits, brush);
   if (sibling != found[0].id && allowed(ids, sibling)) {
-    const auto at = std::ranges::find(found, sibling, &Recognition::id);
+    const auto at = std::find_if(found.begin(), found.end(), [&](const Recognition& one) { return one.id == sibling; });
     if (at != found.end()) std::rotate(found.begin(), at, at + 1);
   }
   return found;

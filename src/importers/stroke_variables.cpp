@@ -26,8 +26,12 @@ StrokeVariables::StrokeVariables(const TypicalStroke& type) : points_(type.contr
   variables_ = 0;
   for (int point = 0; point < points_; ++point) {
     first_variable_.push_back(variables_);
-    variables_ += std::ranges::find(handles_, point, &Handle::at) == handles_.end() ? 2 : 1;
+    variables_ += is_handle(point) ? 1 : 2;
   }
+}
+
+bool StrokeVariables::is_handle(int point) const {
+  return std::any_of(handles_.begin(), handles_.end(), [&](const Handle& handle) { return handle.at == point; });
 }
 
 Eigen::VectorXd StrokeVariables::values_of(std::span<const Point> control_points) const {
@@ -63,7 +67,7 @@ Eigen::MatrixXd StrokeVariables::slopes_at(std::span<const Point> control_points
   Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(2 * points_, variables_);
   for (int point = 0; point < points_; ++point) {
     const int first = first_variable_[point];
-    if (std::ranges::find(handles_, point, &Handle::at) == handles_.end()) {
+    if (!is_handle(point)) {
       slopes.block<2, 2>(2 * point, first).setIdentity();
     }
   }

@@ -29,6 +29,8 @@ class StrokeVariables {
   struct Handle {
     int at, joint, fixed;  ///< indices of control points
   };
+  bool is_handle(int point) const;
+
   std::vector<Handle> handles_;
   std::vector<int> first_variable_;  ///< of each control point
   int points_;

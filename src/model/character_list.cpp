@@ -1,7 +1,6 @@
 #include <calligraphy/model/character_list.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <cstddef>
 #include <set>
 #include <sstream>
@@ -12,7 +11,7 @@
 #include <calligraphy/base/file.hpp>
 #include <calligraphy/base/text.hpp>
 
-#include "base/from_chars.hpp"
+#include "base/charconv.hpp"
 #include "base/line_reader.hpp"
 #include "built_in.hpp"
 #include "order_name.hpp"
@@ -189,7 +188,7 @@ CharacterList parse_embedded(const char* text, std::string_view name) {
 
 std::string format_number(double value) {
   char buffer[32];
-  const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value);
+  const auto [end, error] = to_chars(buffer, buffer + sizeof buffer, value);
   return error == std::errc() ? std::string(buffer, end) : std::string("0");
 }
 

@@ -14,6 +14,7 @@
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/text.hpp>
 
+#include "base/bit_cast.hpp"
 #include "checksum.hpp"
 #include "code_point_name.hpp"
 #include "little_endian.hpp"
@@ -136,7 +137,7 @@ Form choose_coding(const Character& character, const CoordinateEncoding& common,
 }
 
 void write_double(BitWriter& bits, double value) {
-  const auto whole = std::bit_cast<std::uint64_t>(value);
+  const auto whole = bit_cast<std::uint64_t>(value);
   bits.write(whole & 0xFFFFFFFF, 32);
   bits.write(whole >> 32, 32);
 }
@@ -333,7 +334,7 @@ Bytes assemble(const Header& header, const Provenance& provenance, const GroupWr
   append(index, static_cast<std::uint32_t>(size));
   append(index, static_cast<std::uint32_t>(first_group));
   append(index, static_cast<std::uint32_t>(writer.blocks.size()));
-  append(index, std::bit_cast<std::uint64_t>(header.coordinate_error));
+  append(index, bit_cast<std::uint64_t>(header.coordinate_error));
   append_coding(index, header.coding);
   for (const std::uint8_t id : header.ids) append(index, id);
   for (const std::string* text : texts) {

@@ -7,6 +7,7 @@
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/text.hpp>
 
+#include "base/bit_cast.hpp"
 #include "checksum.hpp"
 #include "little_endian.hpp"
 #include "order_name.hpp"
@@ -89,7 +90,7 @@ void SetFile::read_header() {
     fail("is damaged: the checksum of its index does not match");
   }
   group_count_ = load<std::uint32_t>(bytes_.data() + group_count_at);
-  coordinate_error_ = std::bit_cast<double>(load<std::uint64_t>(bytes_.data() + error_at));
+  coordinate_error_ = bit_cast<double>(load<std::uint64_t>(bytes_.data() + error_at));
   if (!(coordinate_error_ >= 0.0) || std::isinf(coordinate_error_)) fail("its coordinate error is not a distance");
   coding_ = load_coding(bytes_.data() + coding_at);
   if (!is_sound(coding_)) fail("its coordinate encoding has invalid numbers");

@@ -5,6 +5,7 @@
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/model/character_set.hpp>
 
+#include "base/bit_cast.hpp"
 #include "code_point_name.hpp"
 #include "little_endian.hpp"
 #include "set_file.hpp"
@@ -17,7 +18,7 @@ using namespace set_format;
 
 double load_double(std::span<const std::byte> bytes, std::uint64_t at) noexcept {
   const std::uint64_t low = load_bits(bytes, at, 32);
-  return std::bit_cast<double>(low | std::uint64_t{load_bits(bytes, at + 32, 32)} << 32);
+  return bit_cast<double>(low | std::uint64_t{load_bits(bytes, at + 32, 32)} << 32);
 }
 
 /// Reads a sequence of coordinates.

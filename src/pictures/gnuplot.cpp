@@ -1,16 +1,15 @@
 #include "gnuplot.hpp"
 
-#include <charconv>
-
 #include <calligraphy/base/error.hpp>
 
+#include "base/charconv.hpp"
 #include "process.hpp"
 
 namespace calligraphy::gnuplot {
 
 std::string numeral(double value) {
   char buffer[32];
-  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
+  return {buffer, to_chars(buffer, buffer + sizeof buffer, value).ptr};
 }
 
 std::string svg_terminal(int width, int height) {

@@ -1,7 +1,6 @@
 #include <calligraphy/practice/pen_trace.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +14,7 @@
 #include <calligraphy/base/file.hpp>
 #include <calligraphy/base/text.hpp>
 
-#include "base/from_chars.hpp"
+#include "base/charconv.hpp"
 #include "base/line_reader.hpp"
 
 namespace calligraphy {
@@ -34,7 +33,7 @@ constexpr double milliseconds = 1e3;
 
 std::string code_in_hex(char32_t code) {
   char buffer[16];
-  char* const end = std::to_chars(buffer, buffer + sizeof buffer, static_cast<std::uint32_t>(code), 16).ptr;
+  char* const end = to_chars(buffer, buffer + sizeof buffer, static_cast<std::uint32_t>(code), 16).ptr;
   std::transform(buffer, end, buffer, [](char c) { return c >= 'a' ? static_cast<char>(c - 'a' + 'A') : c; });
   const std::string digits(buffer, end);
   return std::string(digits.size() < 4 ? 4 - digits.size() : 0, '0') + digits;
@@ -120,7 +119,7 @@ class TraceParser : private LineReader {
 
   static std::string shown(double value) {
     char buffer[32];
-    return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
+    return {buffer, to_chars(buffer, buffer + sizeof buffer, value).ptr};
   }
 
   PenTrace trace() {
@@ -181,7 +180,7 @@ class TraceParser : private LineReader {
 void append_rounded(std::string& text, double value) {
   char buffer[64];
   const double rounded = std::round(value / finest) * finest;
-  char* end = std::to_chars(buffer, buffer + sizeof buffer, rounded, std::chars_format::fixed, 6).ptr;
+  char* end = to_chars_fixed(buffer, buffer + sizeof buffer, rounded, 6).ptr;
   while (end[-1] == '0') --end;
   if (end[-1] == '.') --end;
   const std::string_view digits(buffer, static_cast<std::size_t>(end - buffer));

@@ -1,7 +1,6 @@
 #include <calligraphy/practice/recording.hpp>
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <istream>
@@ -13,7 +12,7 @@
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/file.hpp>
 
-#include "base/from_chars.hpp"
+#include "base/charconv.hpp"
 #include "base/line_reader.hpp"
 
 namespace calligraphy {
@@ -39,7 +38,7 @@ std::string header() {
 template <typename Number>
 void append(std::string& text, Number value) {
   char buffer[32];
-  text.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
+  text.append(buffer, to_chars(buffer, buffer + sizeof buffer, value).ptr);
 }
 
 void append_row(std::string& text, const RecordedSample& sample) {

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision/length.hpp"
+
 namespace calligraphy {
 namespace {
 
 Eigen::Vector3d shortened(const Eigen::Vector3d& force, double max_length) noexcept {
-  const double size = force.norm();
+  const double size = norm(force);
   return size > max_length ? Eigen::Vector3d(force * (max_length / size)) : force;
 }
 
@@ -46,7 +48,7 @@ Eigen::Vector3d ForceLimiter::next(const Eigen::Vector3d& previous, const Eigen:
   if (!limit_rate) return force;
   double taken = 0.0;
   if (max_length < peak) {
-    const double size = previous.norm();
+    const double size = norm(previous);
     taken = std::clamp(size - most, 0.0, std::min(in_plane_step, normal_step));
     most = std::max(most, size - taken);
   }
@@ -73,7 +75,7 @@ Eigen::Vector3d ForceLimiter::next(const Eigen::Vector3d& previous, const Eigen:
 
 Eigen::Vector3d ForceLimiter::release(const Eigen::Vector3d& previous) noexcept {
   last_step.setZero();
-  const double size = previous.norm();
+  const double size = norm(previous);
   const double step = max_step();
   return size <= step ? Eigen::Vector3d(0.0, 0.0, 0.0) : Eigen::Vector3d(previous * (1.0 - step / size));
 }

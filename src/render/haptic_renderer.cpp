@@ -150,7 +150,7 @@ TickStatus HapticRenderer::map_sample(const DeviceState& state) noexcept {
   if (options_.motion == MotionMappingRule::wang2006 && has_sample_) {
     const double elapsed = std::clamp(state.time - last_time_, 0.0, max_tick);
     const Eigen::Vector3d velocity = mapping_.velocity_to_page(state.velocity);
-    const bool measured = velocity.norm() <= options_.max_speed;  // false for NaN too
+    const bool measured = norm(velocity) <= options_.max_speed;  // false for NaN too
     tick_.device_point += measured ? Eigen::Vector3d(velocity * elapsed) : Eigen::Vector3d(mapped - last_position_);
   } else {
     tick_.device_point = mapped;
@@ -168,8 +168,8 @@ bool HapticRenderer::plausible(const Eigen::Vector3d& position, double time) con
   if (!has_sample_) return true;
   const double period = 1.0 / options_.servo_rate;
   const double reach = options_.max_speed * std::max(time - last_time_, period);
-  if ((position - last_position_).norm() <= reach) return true;
-  return has_rejected_ && (position - rejected_position_).norm() <= options_.max_speed * period;
+  if (norm(position - last_position_) <= reach) return true;
+  return has_rejected_ && norm(position - rejected_position_) <= options_.max_speed * period;
 }
 
 TransitionInput HapticRenderer::sense() noexcept {
@@ -345,7 +345,7 @@ void HapticRenderer::send(const Eigen::Vector3d& wanted) noexcept {
   tick_.page_force = trusted ? limiter_.next(tick_.page_force, force, longest) : limiter_.release(tick_.page_force);
   if (observes_energy_) passivity_.sent(tick_.page_force);
   if (thermal_.peak > 0.0) {
-    thermal_.held(tick_.page_force.norm(), 1.0 / options_.servo_rate);
+    thermal_.held(norm(tick_.page_force), 1.0 / options_.servo_rate);
     tick_.heat = thermal_.heat;
   }
   tick_.force = mapping_.force_to_device(tick_.page_force);

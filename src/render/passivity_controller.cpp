@@ -5,6 +5,8 @@
 
 #include "base/require.hpp"
 
+#include "collision/length.hpp"
+
 namespace calligraphy {
 namespace {
 
@@ -62,8 +64,8 @@ Eigen::Vector3d PassivityController::next(const Eigen::Vector3d& position, const
     find_again(position);
   } else {
     Eigen::Vector3d step = has_position_ ? Eigen::Vector3d(position - position_) : Eigen::Vector3d(0.0, 0.0, 0.0);
-    if (step.norm() > fastest_pen * period_) {
-      pay(force_at_work().norm() * (speed_ + sudden_speed) * period_);  // it is elsewhere, but did not move there
+    if (norm(step) > fastest_pen * period_) {
+      pay(norm(force_at_work()) * (speed_ + sudden_speed) * period_);  // it is elsewhere, but did not move there
       step.setZero();
     } else if (has_position_) {
       observe(step, wanted);
@@ -71,7 +73,7 @@ Eigen::Vector3d PassivityController::next(const Eigen::Vector3d& position, const
     has_position_ = true;
     position_ = position;
     velocity_ = step / period_;
-    speed_ = velocity_.norm();
+    speed_ = norm(velocity_);
     const double in_plane = damping_for(surplus_in_plane_, step.head<2>().squaredNorm(), period_, max_damping_);
     const double normal = damping_for(surplus_normal_, step.z() * step.z(), period_, max_damping_);
     damping_.head<2>() = -in_plane / period_ * step.head<2>();
@@ -91,7 +93,7 @@ Eigen::Vector3d PassivityController::within_budget(const Eigen::Vector3d& force)
     max_force_ = left_ > 0.0 ? std::min(max_force_, strongest_brake) : strongest_brake;
     return -max_force_ / (speed_ + slow_pen) * velocity_;
   }
-  const double size = force.norm();
+  const double size = norm(force);
   return size > max_force_ ? Eigen::Vector3d(force * (max_force_ / size)) : force;
 }
 
@@ -99,7 +101,7 @@ Eigen::Vector3d PassivityController::within_budget(const Eigen::Vector3d& force)
 void PassivityController::presume() noexcept {
   velocity_.setZero();
   const double way = (speed_ + sudden_speed) * period_;
-  const double force = force_at_work().norm();
+  const double force = norm(force_at_work());
   pay(force * way);
   presumed_way_ += way;
   force_while_lost_ = std::max(force_while_lost_, force);
@@ -110,7 +112,7 @@ void PassivityController::presume() noexcept {
 /// twice the presumed path: beyond that it was moved elsewhere, or the sample is wrong.
 void PassivityController::find_again(const Eigen::Vector3d& position) noexcept {
   presume();
-  const double way = has_position_ ? (position - position_).norm() : 0.0;
+  const double way = has_position_ ? norm(position - position_) : 0.0;
   pay(force_while_lost_ * std::clamp(way - presumed_way_, 0.0, presumed_way_));
   speed_ = std::min(way / (static_cast<double>(lost_) * period_), fastest_pen);
   has_position_ = true;
@@ -121,7 +123,7 @@ void PassivityController::find_again(const Eigen::Vector3d& position) noexcept {
 
 void PassivityController::observe(const Eigen::Vector3d& step, const Eigen::Vector3d& wanted) noexcept {
   const Eigen::Vector3d& at_work = force_at_work();
-  pay(at_work.dot(step));
+  pay(dot(at_work, step));
   const Eigen::Vector3d beyond = at_work - 0.5 * (wanted_ + wanted);
   surplus_in_plane_ = std::max(0.0, surplus_in_plane_ + beyond.head<2>().dot(step.head<2>()));
   surplus_normal_ = std::max(0.0, surplus_normal_ + beyond.z() * step.z());
@@ -138,7 +140,7 @@ double PassivityController::max_payable_force(double speed) const noexcept {
   const double way = speed * period_;
   double remaining = left_;
   for (std::size_t age = 0; age < delay_; ++age) {
-    remaining -= sent_[(newest_ + sent_.size() - age) % sent_.size()].norm() * way;
+    remaining -= norm(sent_[(newest_ + sent_.size() - age) % sent_.size()]) * way;
   }
   if (!(remaining > 0.0)) return 0.0;
   const double braking = 0.5 * speed / force_rate_;

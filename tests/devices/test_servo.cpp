@@ -658,9 +658,10 @@ TEST_CASE("whatever fault occurs, the force stays finite, never steps up and is 
     }
     return {wanted, 0.0, 0.0};
   };
+  std::vector<double> written;  // when [s]
+  bench.device.while_writing = [&] { written.push_back(virtual_time); };
   int bad_device = 0;
   double unusable_since = infinity;
-  const double before = 0.0;
   for (int tick = 0; tick < 20'000; ++tick) {
     if (chance(0.004)) bad_device = 1 + static_cast<int>(random.index(40));
     if (chance(0.002)) bad_law = 1 + static_cast<int>(random.index(20));
@@ -678,14 +679,17 @@ TEST_CASE("whatever fault occurs, the force stays finite, never steps up and is 
     unusable_since = unusable ? std::min(unusable_since, virtual_time) : infinity;
     if (virtual_time - unusable_since > 0.0165) REQUIRE(bench.device.last() == 0.0);
   }
-  double last = before;
-  for (const Eigen::Vector3d& force : bench.device.forces) {
+  REQUIRE(written.size() == bench.device.forces.size());
+  double last = 0.0;
+  for (std::size_t i = 0; i < written.size(); ++i) {
+    const Eigen::Vector3d& force = bench.device.forces[i];
     REQUIRE(force.allFinite());
     REQUIRE(force.x() >= 0.0);
     REQUIRE(force.x() <= wanted);
-    // Up by at most one tick of the ramp-up, down by at most a ramp-down with late ticks.
+    // Up by at most one tick of the ramp-up, down by at most a ramp-down since the write before last.
     REQUIRE(force.x() - last <= wanted * 1.001 / 200.0);
-    REQUIRE(last - force.x() <= wanted * 0.47);
+    const double since = written[i] - (i < 2 ? 0.0 : written[i - 2]) + period;
+    REQUIRE(last - force.x() <= wanted * since / ServoOptions().ramp_down * (1.0 + 1e-9));
     last = force.x();
   }
   CHECK_FALSE(bench.device.touched_by_two);
@@ -720,6 +724,7 @@ TEST_CASE("at any point of a tick the device has exactly one owner", "[servo]") 
                     [](const Eigen::Vector3d& force) { return force.x() >= 0.0 && force.x() <= wanted; }));
   bench.device.while_reading = bench.device.while_writing = nullptr;
   bench.law = [](const DeviceState&) { return Eigen::Vector3d(wanted, 0.0, 0.0); };
+  bench.wait(30);  // the force has ramped down
   bench.ticks(30);
   check_return(bench);
 }

@@ -1,9 +1,9 @@
-// print_page: 永 and 北 in closed loop by a novice and a skilled writer, with vision and with force: scores and the
+// print_page: two characters in closed loop by a novice and a skilled writer, with vision and with force: scores and the
 // whole trace, one number a line, which agree to 1e-9 wherever they are computed.
 #include <cstdio>
 #include <vector>
 
-#include <calligraphy/devices/simulated_device.hpp>
+#include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/model/character_list.hpp>
 #include <calligraphy/practice/page.hpp>
 #include <calligraphy/practice/score.hpp>
@@ -18,7 +18,7 @@ int main() {
     for (const FeedbackMode mode : {FeedbackMode::vision, FeedbackMode::force}) {
       SessionOptions options;
       options.device = device_profile("desktop");
-      options.renderer = RendererOptions::for_device(options.device.capabilities);
+      options.renderer = RendererOptions::for_device(options.device);
       options.skill = skill;
       options.mode = mode;
       const Recording recording = write_page(page, options);

@@ -1,6 +1,5 @@
 // The text format of wire profiles; docs/wire-profile.md describes it.
 #include <algorithm>
-#include <charconv>
 #include <limits>
 #include <map>
 #include <set>
@@ -13,7 +12,7 @@
 #include <calligraphy/base/text.hpp>
 #include <calligraphy/devices/phantom/wire_profile.hpp>
 
-#include "base/from_chars.hpp"
+#include "base/charconv.hpp"
 #include "base/line_reader.hpp"
 
 namespace calligraphy::phantom {
