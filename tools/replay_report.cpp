@@ -58,7 +58,7 @@ Json json_of(const Replayed& trace) {
     for (int i = 0; i < each.stroke_count; ++i) strokes.push_back(each.stroke + i + 1);
     drawn.push_back({{"strokes", strokes},
                      {"in_turn", each.in_turn},
-                     {"course", course_name(each.direction)},
+                     {"course", to_string(each.direction)},
                      {"continues", each.continues},
                      {"tap", each.tap},
                      {"distance_em", each.stroke_count > 0 ? Json(each.distance) : Json()}});
