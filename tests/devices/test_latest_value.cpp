@@ -1,7 +1,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <thread>
+#include <utility>
 
 #include <calligraphy/devices/latest_value.hpp>
 
@@ -9,6 +11,27 @@
 #include "../catch.hpp"
 
 using namespace calligraphy;
+
+namespace {
+
+/// Two halves that belong together. While one is copied and the other is not yet, `meanwhile` is what the other thread
+/// does.
+struct Halves {
+  int first = 0, second = 0;
+  static inline std::function<void()> meanwhile;
+
+  Halves() = default;
+  explicit Halves(int number) : first(number), second(number) {}
+  Halves(const Halves&) = default;
+  Halves& operator=(const Halves& other) {
+    first = other.first;
+    if (const auto act = std::exchange(meanwhile, nullptr)) act();
+    second = other.second;
+    return *this;
+  }
+};
+
+}  // namespace
 
 TEST_CASE("the newest value is given once, and what was not taken in time is overwritten", "[servo]") {
   LatestValue<int> latest;
@@ -22,6 +45,34 @@ TEST_CASE("the newest value is given once, and what was not taken in time is ove
     CHECK_FALSE(latest.take(value));
     CHECK(value == 10 * round + 3);
   }
+}
+
+TEST_CASE("a value is whole, whatever the other thread does while it is copied", "[servo]") {
+  LatestValue<Halves> latest;
+  Halves value;
+  latest.publish(Halves(1));
+  Halves::meanwhile = [&] {
+    for (int i = 2; i < 6; ++i) latest.publish(Halves(i));
+  };
+  REQUIRE(latest.take(value));
+  CHECK(value.first == 1);
+  CHECK(value.second == 1);
+  REQUIRE(latest.take(value));
+  CHECK(value.first == 5);
+  CHECK(value.second == 5);
+
+  Halves::meanwhile = [&] { CHECK_FALSE(latest.take(value)); };
+  latest.publish(Halves(6));
+  CHECK(value.second == 5);
+  latest.publish(Halves(7));
+  Halves::meanwhile = [&] {
+    REQUIRE(latest.take(value));
+    CHECK(value.first == 7);
+    CHECK(value.second == 7);
+  };
+  latest.publish(Halves(8));
+  REQUIRE(latest.take(value));
+  CHECK(value.second == 8);
 }
 
 TEST_CASE("publishing and taking a value take no memory", "[servo]") {
