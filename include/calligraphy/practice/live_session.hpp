@@ -25,11 +25,10 @@ struct LiveView {
 
 struct LiveOptions {
   FeedbackMode mode = FeedbackMode::force;
-  RendererOptions renderer;  ///< its servo rate applies to the loop as well
-  ServoLoopOptions servo;    ///< its rate is ignored
-  double peak_force =
-      std::numeric_limits<double>::infinity();  ///< upper bound of the force, in addition to the device's own [N]
-  double timeout = 600.0;                       ///< the session ends after this time [s]
+  RendererOptions renderer;                                     ///< its servo rate applies to the loop as well
+  ServoLoopOptions servo;                                       ///< its rate is ignored
+  double peak_force = std::numeric_limits<double>::infinity();  ///< upper bound, besides the device's own [N]
+  double timeout = 600.0;                                       ///< the session ends after this time [s]
   std::function<bool(const LiveView&)> watch = nullptr;  ///< called on the calling thread; false ends the session
 };
 
