@@ -16,7 +16,7 @@ namespace calligraphy {
 /// "exact", "tracked", "sampled", "wang2006".
 const char* to_string(NearestPointMethod method) noexcept;
 
-/// A nearest-point method with its settings.
+/// A method of the nearest point with its settings.
 struct NearestPointSetting {
   std::string name;  ///< "exact 1e-09", "sampled 16 x 2"
   NearestPointOptions options;
