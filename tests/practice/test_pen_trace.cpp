@@ -100,7 +100,7 @@ TEST_CASE("what is no pen trace is refused at its line with its value", "[practi
   };
   const Case cases[] = {
       {"X\n", "pens.txt:1:", "'X'"},
-      {" C 一 4E00 made-up 1000 1\n", "pens.txt:1:", "blank"},
+      {" C 一 4E00 made-up 1000 1\n", "pens.txt:1:", "extra space"},
       {"S 1 0 0 0\n", "pens.txt:1:", "before the first character"},
       {"C 一 4E01 made-up 1000 1\n", "pens.txt:1:", "4E01"},
       {"C \xff 4E00 made-up 1000 1\n", "pens.txt:1:", "UTF-8"},
@@ -115,7 +115,7 @@ TEST_CASE("what is no pen trace is refused at its line with its value", "[practi
       {"C 一 4E00 made-up 1000 1000000000\n", "pens.txt:1:", "1000000000"},
       {"C 一 4E00 made-up 1000 1 more\n", "pens.txt:1:", "more"},
       {"C 一 4E00 made-up 1000\n", "pens.txt:1:", "number of strokes"},
-      {line("S 2 0 0 0"), "pens.txt:2:", "should have x"},
+      {line("S 2 0 0 0"), "pens.txt:2:", "expected x"},
       {line("S 999999 0 0 0"), "pens.txt:2:", "too short for 999999"},
       {line("S 18446744073709551616 0 0 0"), "pens.txt:2:", "18446744073709551616"},
       {line("S 0"), "pens.txt:2:", "'0'"},
@@ -128,9 +128,9 @@ TEST_CASE("what is no pen trace is refused at its line with its value", "[practi
       {line("S 1 0 0 1e12"), "pens.txt:2:", "'1e12'"},
       {line("S 2 0 0 9 10 0 8.5"), "pens.txt:2:", "9 to 8.5"},
       {line("S 1 0 0 0\nS 1 0 0 0"), "pens.txt:3:", "too many"},
-      {"C 一 4E00 made-up 1000 2\nS 1 0 0 5\nC 一 4E00 made-up 1000 1\nS 1 0 0 0\n", "pens.txt:3:", "1 strokes of 2"},
+      {"C 一 4E00 made-up 1000 2\nS 1 0 0 5\nC 一 4E00 made-up 1000 1\nS 1 0 0 0\n", "pens.txt:3:", "1 of 2 strokes"},
       {"C 一 4E00 made-up 1000 2\nS 1 0 0 5\nS 1 0 0 4\n", "pens.txt:3:", "5 to 4"},
-      {"C 一 4E00 made-up 1000 2\nS 1 0 0 5\n", "pens.txt:3:", "1 strokes of 2"},
+      {"C 一 4E00 made-up 1000 2\nS 1 0 0 5\n", "pens.txt:3:", "1 of 2 strokes"},
   };
   for (const Case& each : cases) {
     CAPTURE(each.text);
