@@ -349,7 +349,7 @@ TEST_CASE("the map is drawn as a picture that parses, with the bounds named", "[
   const std::string picture = stability_map_plot(map);
   pugi::xml_document document;
   REQUIRE(document.load_string(picture.c_str()));
-  for (const char* word : {"passive", "stable, exact", "Gil et al. 2009", "settles with control alone", "grip",
+  for (const char* word : {"passive", "stable, exact", "Gil et al. 2009", "settles only with control", "grip",
                            "servo rate [kHz]", "stiffness K [N/m]"}) {
     CHECK(picture.find(word) != std::string::npos);
   }

@@ -124,8 +124,8 @@ TEST_CASE("a force plot is valid SVG with axes, units, stroke numbers and title"
     for (const auto& part : found.node().select_nodes(".//text()")) text += part.node().value();
     texts += "[" + text + "]";
   }
-  for (const char* expected : {"[北 & <force>]", "[force in the plane [N]]", "[normal force [N]]", "[time [s]]",
-                               "[|F|]", "[Fx]", "[Fy]", "[1]", "[2]", "grey: given up"}) {
+  for (const char* expected : {"[北 & <force>]", "[in-plane force [N]]", "[normal force [N]]", "[time [s]]", "[|F|]",
+                               "[Fx]", "[Fy]", "[1]", "[2]", "grey: abandoned"}) {
     CAPTURE(texts, expected);
     CHECK(contains(texts, expected));
   }
@@ -221,8 +221,8 @@ TEST_CASE("a recording with few forces that are numbers, or none, is plotted", "
 }
 
 TEST_CASE("a plot of a character without samples is an error naming it", "[practice]") {
-  CHECK(error_of(recording(), 2) == "character 2 is active in no sample of the recording");
-  CHECK(error_of({}, 0) == "character 0 is active in no sample of the recording");
+  CHECK(error_of(recording(), 2) == "character 2 is not active in any sample of the recording");
+  CHECK(error_of({}, 0) == "character 0 is not active in any sample of the recording");
   CHECK_THROWS_AS(force_plot(recording(), 0, "\xff"), FormatError);
 }
 
@@ -243,10 +243,10 @@ TEST_CASE("a gnuplot that fails is an error with its message", "[practice]") {
 TEST_CASE("a gnuplot that gives no SVG, reads nothing or is killed is an error, not the end", "[practice]") {
   const Directory directory;
   directory.provide_gnuplot("echo 'a warning' >&2");
-  CHECK(contains(error_of(recording(), 0), "gnuplot gave no SVG: "));
+  CHECK(contains(error_of(recording(), 0), "gnuplot returned no SVG: "));
   CHECK(contains(error_of(recording(), 0), "a warning"));
   directory.provide_gnuplot("exec <&-; echo '<svg'");
-  CHECK(contains(error_of(recording(), 0), "gnuplot gave no SVG: "));
+  CHECK(contains(error_of(recording(), 0), "gnuplot returned no SVG: "));
   directory.provide_gnuplot("kill -9 $$");
   CHECK(contains(error_of(recording(), 0), "exit code 137"));
 }
