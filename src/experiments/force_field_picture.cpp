@@ -136,7 +136,7 @@ std::string note_on_jumps(const ForceFieldFigure::Panel& panel) {
     largest = std::max(largest, jump.size);
     nearest = std::min(nearest, jump.from_stroke);
   }
-  if (!(largest > 0.0)) return passes ? "no jump but the passage of the feature point" : "no jump";
+  if (!(largest > 0.0)) return passes ? "no jump except where the feature point is passed" : "no jump";
   char note[96];
   std::snprintf(note, sizeof note, "jumps up to %.1f N, from %.1f mm off the stroke", largest, millimetres * nearest);
   return note;
@@ -255,7 +255,7 @@ void draw_key(pugi::xml_node root, const ForceFieldFigure& figure, double y) {
 }  // namespace
 
 std::string force_field_picture(const ForceFieldFigure& figure) {
-  if (figure.panels.empty()) throw ValueError("force field picture: no panel");
+  if (figure.panels.empty()) throw ValueError("force field picture: the figure has no panel");
   const auto count = static_cast<double>(figure.panels.size());
   const double width = 2.0 * map_margin + count * map_square + (count - 1.0) * map_gap;
   pugi::xml_document document;

@@ -271,8 +271,8 @@ constexpr Recipe recipes[] = {
 
 Curve as_cubic(const std::vector<Point>& points) {
   if (points.size() != 4) {
-    throw ValueError("nearest_point_workloads: a real curve of " + std::to_string(points.size()) +
-                     " control points; a cubic has 4");
+    throw ValueError("nearest_point_workloads: a real curve has " + std::to_string(points.size()) +
+                     " control points, expected the 4 of a cubic");
   }
   return {{points[0], points[1], points[2], points[3]}};
 }

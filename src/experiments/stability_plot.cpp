@@ -28,9 +28,9 @@ struct Kind {
   const char* colour;
   const char* title;
 };
-constexpr std::array kinds = {Kind{true, true, "#9ecae1", "settles without control and with it"},
-                              Kind{false, true, "#c7e9c0", "settles with control alone"},
-                              Kind{true, false, "#fdae6b", "settles without control alone"},
+constexpr std::array kinds = {Kind{true, true, "#9ecae1", "settles with and without control"},
+                              Kind{false, true, "#c7e9c0", "settles only with control"},
+                              Kind{true, false, "#fdae6b", "settles only without control"},
                               Kind{false, false, "#efefef", "does not settle"}};
 
 struct Bound {

@@ -102,7 +102,7 @@ std::string series(std::span<const Entry> tradeoff,
 }
 
 void require_some(std::size_t count) {
-  if (count == 0) throw ValueError("plot of a tradeoff: no entries");
+  if (count == 0) throw ValueError("tradeoff plot: there are no entries");
 }
 
 }  // namespace
@@ -122,7 +122,7 @@ std::string nearest_point_tradeoff_plot(std::span<const NearestPointTradeoff> tr
       "]\nset yrange [1e-19:1e4]\nset format y '%.0e'\nset xlabel 'median cost [ns]'\n"
       "set ytics 1e-17,1000,10\nset mytics 1\nset mxtics 1\nset xtics (10,20,50,100,200,500,1000,2000,5000,10000)\n"
       "set tmargin at screen 0.84\nset bmargin at screen 0.13\n"
-      "set label 1 'above: a wrong branch' at graph 0.01, first 2.5e-3 left textcolor rgb '#888888' "
+      "set label 1 'above: wrong branch' at graph 0.01, first 2.5e-3 left textcolor rgb '#888888' "
       "font ',10'\nset label 2 '1e-17: no difference from the reference, exact 1e-12' at graph 0.99, first 3e-19 right "
       "textcolor rgb '#888888' font ',10'\n"
       "set arrow from graph 0, first 1e-3 to graph 1, first 1e-3 nohead linecolor rgb '#888888' dashtype 2\n";
@@ -144,8 +144,8 @@ std::string nearest_point_tradeoff_plot(std::span<const NearestPointTradeoff> tr
             heading + "'\n" + (key ? "set key horizontal at screen 0.98, 0.995 right top samplen 1\n" : "unset key\n") +
             "plot " + plots + "\n";
   };
-  text += "set ylabel 'error of the distance [sizes of the curve]: largest, and down to p99'\n";
-  panel("queries round real strokes", 0.075, 0.36, &NearestPointTradeoff::real, true);
+  text += "set ylabel 'distance error [curve sizes]: maximum, bar down to p99'\n";
+  panel("queries around real strokes", 0.075, 0.36, &NearestPointTradeoff::real, true);
   text += "unset ylabel\nset format y ''\n";
   panel("hard workloads", 0.385, 0.67, &NearestPointTradeoff::hard, false);
   panel("a pen along whole strokes, per tick", 0.695, 0.98, &NearestPointTradeoff::ticks, false);
@@ -173,18 +173,18 @@ std::string servo_rate_tradeoff_plot(std::span<const ServoRateTradeoff> tradeoff
   };
   constexpr const char *blue = "#0072b2", *orange = "#d55e00", *green = "#009e73", *grey = "#888888";
   text +=
-      "set title 'largest penetration [mm]'\nset yrange [0:*]\nset key default samplen 2 at graph 0.98, 0.75 "
+      "set title 'maximum penetration [mm]'\nset yrange [0:*]\nset key default samplen 2 at graph 0.98, 0.75 "
       "right\nplot " +
       line(2, blue, "default paper") + ", " + line(3, orange, "hardest paper") +
       "\nset title 'path error [mm RMS]'\nset key default samplen 2 bottom right\nplot " +
       line(4, blue, "default paper") +
       "\nset logscale y\nset yrange [*:*]\n"
-      "set title 'largest force step [N per tick]'\nset yrange [0.01:10]\nset key default samplen 2 top right\nplot " +
+      "set title 'maximum force step [N per tick]'\nset yrange [0.01:10]\nset key default samplen 2 top right\nplot " +
       line(5, blue, "default paper") + ", " + line(6, orange, "hardest paper") +
-      "\nset title 'largest stable stiffness [N/m]'\nset yrange [10:1e7]\nset format y '%.0e'\nset key default samplen "
+      "\nset title 'maximum stable stiffness [N/m]'\nset yrange [10:1e7]\nset format y '%.0e'\nset key default samplen "
       "2 top left Left reverse\nplot " +
       line(8, orange, "no limit on the rate of the normal force") + ", " + line(9, green, "theory: linear, held") +
-      ", " + line(7, blue, "default paper") + ", " + line(10, grey, "theory: linear, let go") + "\n";
+      ", " + line(7, blue, "default paper") + ", " + line(10, grey, "theory: linear, free") + "\n";
   return finish(text + "unset multiplot\n", "Servo rate");
 }
 
@@ -199,7 +199,7 @@ std::string coordinate_width_tradeoff_plot(std::span<const CoordinateWidthTradeo
                      "set border 11\nset logscale y\nset xlabel 'bits per coordinate'\nset xtics 2\n"
                      "set ylabel 'shape error [% of the em]'\nset y2label 'bytes per character'\nset y2tics\n"
                      "set y2range [0:*]\nset style data linespoints\nset key top center samplen 2\n"
-                     "plot $widths using 1:2 linewidth 1.6 pointtype 7 linecolor rgb '#d55e00' title 'largest', "
+                     "plot $widths using 1:2 linewidth 1.6 pointtype 7 linecolor rgb '#d55e00' title 'maximum', "
                      "$widths using 1:3 linewidth 1.6 pointtype 7 linecolor rgb '#0072b2' title 'RMS', "
                      "$widths using 1:4 axes x1y2 linewidth 1.6 pointtype 5 linecolor rgb '#888888' title 'bytes'\n";
   return finish(text, "Width of stored coordinates");

@@ -24,7 +24,7 @@ void draw(const std::string& script, pugi::xml_document& picture) {
   }
   const auto parsed = picture.load_string(result.output.c_str(), pugi::parse_default | pugi::parse_declaration);
   if (!parsed || !picture.child("svg")) {
-    throw Error(std::string("gnuplot gave no SVG: ") + parsed.description() + " " + result.errors);
+    throw Error(std::string("gnuplot returned no SVG: ") + parsed.description() + " " + result.errors);
   }
 }
 

@@ -142,7 +142,7 @@ std::string script(const Signals& signals) {
   text +=
       "set multiplot\n"
       "set tmargin at screen 0.865\nset bmargin at screen 0.515\n"
-      "set format x ''\nset label 'force in the plane [N]' at screen 0.022, graph 0.5 center rotate\n"
+      "set format x ''\nset label 'in-plane force [N]' at screen 0.022, graph 0.5 center rotate\n"
       "set key horizontal at screen 0.975, 0.942 right top samplen 2\n" +
       band_labels(signals.bands, begin, end) + y_range(std::span(signals.curves).first(3)) +
       "plot $size with lines linewidth 1.6 linecolor rgb '#555555' title '|F|', "
@@ -160,7 +160,7 @@ std::string script(const Signals& signals) {
 std::string band_caption(const std::vector<Band>& bands) {
   if (bands.empty()) return "";
   const bool any = std::any_of(bands.begin(), bands.end(), [](const Band& band) { return band.abandoned; });
-  return std::string("shaded: writing state, with the stroke's number") + (any ? "; grey: given up" : "");
+  return std::string("shaded: writing state, with the stroke number") + (any ? "; grey: abandoned" : "");
 }
 
 }  // namespace
@@ -177,7 +177,7 @@ std::string force_plot(const Recording& recording, int character, const std::str
   const std::string heading = svg::clean(title);
   const Signals signals = signals_of(recording, character);
   if (signals.time.empty()) {
-    throw ValueError("character " + std::to_string(character) + " is active in no sample of the recording");
+    throw ValueError("character " + std::to_string(character) + " is not active in any sample of the recording");
   }
   pugi::xml_document document;
   gnuplot::draw(script(signals), document);

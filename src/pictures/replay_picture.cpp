@@ -237,11 +237,11 @@ std::vector<std::string> lines_of(const MatchResult& match) {
   std::vector<std::string> lines;
   for (const StrokeRemark& remark : match.remarks)
     lines.push_back(std::string(to_string(remark.kind)) + ": " + remark.reason);
-  if (lines.empty()) lines.emplace_back("every stroke in its turn and direction");
+  if (lines.empty()) lines.emplace_back("all strokes in the correct order and direction");
   if (lines.size() > max_lines) {
     const std::size_t more = lines.size() - max_lines + 1;
     lines.resize(max_lines - 1);
-    lines.push_back("and " + std::to_string(more) + " remarks more");
+    lines.push_back("and " + std::to_string(more) + " more remarks");
   }
   return lines;
 }
@@ -251,8 +251,8 @@ std::vector<std::string> lines_of(const MatchResult& match) {
 std::string replay_picture(const Character& character, std::span<const PenPath> paths, const MatchResult& match,
                            std::span<const PenPath> guided, const std::string& title) {
   if (match.drawn.size() != paths.size()) {
-    throw ValueError("a match on " + std::to_string(match.drawn.size()) + " pen-downs, of which there are " +
-                     std::to_string(paths.size()));
+    throw ValueError("replay picture: the match has " + std::to_string(match.drawn.size()) +
+                     " pen-downs, expected the same number as paths, " + std::to_string(paths.size()));
   }
   const std::vector<std::string> lines = lines_of(match);
   const double width = 3.0 * sheet_margin + 2.0 * square_side;

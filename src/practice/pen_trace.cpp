@@ -20,7 +20,7 @@
 namespace calligraphy {
 namespace {
 
-// What no person's pen exceeds: a file beyond is not what it should be.
+// Limits that no person's pen exceeds: a file beyond them is rejected.
 constexpr std::size_t max_traces = 1000000;
 constexpr std::size_t max_trace_strokes = 1000;
 constexpr std::size_t max_stroke_points = 1000000;  // of a stroke: a quarter of an hour at 1 kHz
@@ -72,13 +72,13 @@ class TraceParser : private LineReader {
       } else if (kind == "S") {
         if (traces.empty()) fail("a stroke before the first character");
         if (traces.back().strokes.size() >= announced_) {
-          fail("a stroke too many: its character was to have " + std::to_string(announced_));
+          fail("one stroke too many: the number of strokes given for the character is " + std::to_string(announced_));
         }
         traces.back().strokes.push_back(stroke(traces.back()));
       } else {
         fail("the line begins with '" + std::string(kind) + "': expected C, S or #");
       }
-      if (!rest_.empty()) fail("'" + std::string(rest_.substr(0, 40)) + "' stands after what the line should hold");
+      if (!rest_.empty()) fail("unexpected '" + std::string(rest_.substr(0, 40)) + "' at the end of the line");
     }
     require_complete(traces);
     return traces;
@@ -98,7 +98,7 @@ class TraceParser : private LineReader {
     const std::size_t blank = rest_.find(' ');
     const std::string_view word = rest_.substr(0, blank);
     rest_.remove_prefix(blank == std::string_view::npos ? rest_.size() : blank + 1);
-    if (word.empty()) fail(std::string("the line ends or has two blanks where it should have ") + expected);
+    if (word.empty()) fail(std::string("expected ") + expected + ", found the end of the line or an extra space");
     return word;
   }
 
@@ -127,10 +127,10 @@ class TraceParser : private LineReader {
     const std::string_view text = next_word("a character");
     const std::string_view hex = next_word("its code");
     const auto code = number_in<std::uint32_t>(hex, 16);
-    if (!code || !is_character(*code)) fail("the code is '" + std::string(hex) + "': expected that of a character");
+    if (!code || !is_character(*code)) fail("the code is '" + std::string(hex) + "': expected a Unicode character");
     trace.character = *code;
     if (encode_utf8(trace.character) != text) {
-      fail("the character is not that of the code " + std::string(hex) + ", or it is not UTF-8");
+      fail("the character does not match the code " + std::string(hex) + ", or is not UTF-8");
     }
     trace.set = utf8(next_word("the name of a set"));
     trace.em = next_number("the em", finest, max_em);
@@ -159,7 +159,7 @@ class TraceParser : private LineReader {
       const double x = next_number("x", -bound, bound);
       const double y = next_number("y", -bound, bound);
       const double time = next_number("the time", 0.0, max_time * milliseconds);
-      if (time < last_time_) fail("the time falls from " + shown(last_time_) + " to " + shown(time) + " ms");
+      if (time < last_time_) fail("the time decreases from " + shown(last_time_) + " to " + shown(time) + " ms");
       last_time_ = time;
       stroke.push_back({{x / trace.em, 1.0 - y / trace.em}, time / milliseconds});
     }
@@ -168,8 +168,8 @@ class TraceParser : private LineReader {
 
   void require_complete(const std::vector<PenTrace>& traces) const {
     if (traces.empty() || traces.back().strokes.size() == announced_) return;
-    fail("the character before has " + std::to_string(traces.back().strokes.size()) + " strokes of " +
-         std::to_string(announced_));
+    fail("the previous character has " + std::to_string(traces.back().strokes.size()) + " of " +
+         std::to_string(announced_) + " strokes");
   }
 
   std::string_view rest_;      ///< of the line

@@ -152,8 +152,8 @@ class CharacterScorer {
     const double back = backwards(placed_, stroke, path);
     if (back > backward_tolerance * placed_.placement.em) {
       add(WritingMistakeKind::direction, stroke, path.front().time,
-          stroke_label(strokes_, stroke) + " was written with a stretch of " + std::to_string(std::lround(back * 1e3)) +
-              " mm backwards");
+          stroke_label(strokes_, stroke) + " was written backwards over " + std::to_string(std::lround(back * 1e3)) +
+              " mm");
     }
   }
 

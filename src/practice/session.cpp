@@ -75,7 +75,8 @@ Recording write_page(const PracticePage& page, const SessionOptions& options) {
 
 Recording follow_trace(const PracticePage& page, const PenTrace& trace, const SessionOptions& options) {
   if (page.characters.size() != 1) {
-    throw ValueError("a trace is followed on a page of 1 character, not of " + std::to_string(page.characters.size()));
+    throw ValueError("follow_trace: the page has " + std::to_string(page.characters.size()) +
+                     " characters, expected 1");
   }
   const TraceHand hand(trace, page.characters.front(), resting_point(page));
   double time = 0.0;

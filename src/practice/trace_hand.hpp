@@ -1,4 +1,4 @@
-// A hand that moves as a person's pen did.
+// A hand that follows a person's recorded pen.
 #pragma once
 
 #include <vector>
@@ -9,19 +9,19 @@
 
 namespace calligraphy {
 
-/// Where a person means the pen to be: on the paper as in the trace, with its own speed, pressed a little below it; in
-/// the air raised, over a way of least jerk, in the person's own time, or longer where that is too short for a pen of
-/// mass to be raised, moved and lowered. The box of the person's writing is brought onto that of the character by
-/// fit_box. The hand does not look: what guides the pen is felt, not followed.
+/// The intended position of a person's pen. On the paper it follows the trace at the person's own speed, pressed
+/// slightly below the surface; in the air it is raised and moves with minimum jerk, in the person's own time, or longer
+/// where that is too short to raise, move and lower a pen with mass. fit_box maps the bounding box of the writing onto
+/// that of the character. The hand has no visual feedback: it feels the guidance but does not adapt to it.
 class TraceHand {
  public:
-  /// `start`: where the pen is at time 0 [page, m].
-  /// @throws ValueError when the trace has no point or one that is not finite, or its times fall
+  /// `start`: position of the pen at time 0 [m, page].
+  /// @throws ValueError when the trace has no point or one that is not finite, or its times decrease
   TraceHand(const PenTrace& trace, const PlacedCharacter& placed, const Eigen::Vector3d& start);
 
-  /// Until the pen rests above the end of the last stroke [s].
+  /// Time until the pen rests above the end of the last stroke [s].
   double duration() const noexcept { return knots_.back().time; }
-  /// At a time since the start [s]; the page's axes [m].
+  /// The intended position [m, page] at a time since the start [s].
   Eigen::Vector3d at(double time) const noexcept;
 
  private:

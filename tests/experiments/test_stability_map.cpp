@@ -34,7 +34,7 @@ SampledLoop loop_of(double rate, double damping, int delay = 0, double wall_damp
   return loop;
 }
 
-/// Whether a bilateral wall feeds the swing of a simulated device, by comparing early and late swings.
+/// Whether the oscillation of a simulated device on a bilateral wall grows, from early and late amplitudes.
 bool grows(const SampledLoop& loop, double stiffness) {
   Capabilities endless = loop.device;
   endless.peak_force = std::numeric_limits<double>::infinity();
@@ -77,7 +77,7 @@ WallContact controlled() {
 
 }  // namespace
 
-TEST_CASE("a simulated device swings up just above the critical stiffness and down just below", "[stability map]") {
+TEST_CASE("oscillations grow just above the critical stiffness and decay just below it", "[stability map]") {
   const double rate = GENERATE(200.0, 1000.0, 10000.0);
   const double damping = GENERATE(0.3, 3.0);
   const int delay = GENERATE(0, 1, 5);
@@ -87,7 +87,7 @@ TEST_CASE("a simulated device swings up just above the critical stiffness and do
       const double critical = critical_stiffness(loop);
       CAPTURE(rate, damping, delay, wall_damping, grip.stiffness, critical);
       if (critical == 0.0) {
-        CHECK(grows(loop, 1e-3));  // the wall's damping alone is too much for this rate and delay
+        CHECK(grows(loop, 1e-3));  // the damping of the wall alone is too high for this rate and delay
         continue;
       }
       CHECK(grows(loop, 1.05 * critical));
@@ -96,7 +96,7 @@ TEST_CASE("a simulated device swings up just above the critical stiffness and do
   }
 }
 
-TEST_CASE("a pen that falls on a wall settles up to the critical stiffness of the linear loop", "[stability map]") {
+TEST_CASE("a pen that falls onto a wall settles up to the critical stiffness of the linear loop", "[stability map]") {
   const double damping = GENERATE(0.05, 0.1, 0.5, 2.0);
   const int delay = GENERATE(0, 1, 2, 5);
   for (const GripImpedance& grip : {nobody, GripImpedance{0.1, 3.0, 300.0}}) {
@@ -108,7 +108,7 @@ TEST_CASE("a pen that falls on a wall settles up to the critical stiffness of th
   }
 }
 
-TEST_CASE("a swing that shrinks onto a smaller one, and stays there, has not settled", "[stability map]") {
+TEST_CASE("an oscillation that decays to a limit cycle has not settled", "[stability map]") {
   const double seconds = GENERATE(4.0, 12.0, 60.0);
   WallContact contact;
   contact.seconds = seconds;
@@ -119,7 +119,7 @@ TEST_CASE("a swing that shrinks onto a smaller one, and stays there, has not set
   rounded.device.encoder_step = 23e-6;
   rounded.device.coulomb_friction = 0.06;
   CHECK_FALSE(simulate_wall_contact(rounded, std::pow(10.0, 4.75), contact).stable);
-  // One that shrinks slowly all the way, by 2.6 % in the last quarter of the first 4 s, settles.
+  // One that decays slowly all the time, by 2.6 % in the last quarter of the first 4 s, settles.
   CHECK(simulate_wall_contact(loop_of(4000.0, 0.2, 2), std::pow(10.0, 2.5), contact).stable);
 }
 
@@ -129,7 +129,7 @@ TEST_CASE("with the passivity controller a wall ten times as stiff settles below
   CHECK(critical == Approx(200.1).epsilon(0.001));
   CHECK_FALSE(simulate_wall_contact(loop, 1.04 * critical).stable);
   for (double stiffness = 20.0; stiffness <= 20.0 * critical; stiffness *= 1.25) {
-    // Within the peak force of an Omni, and from higher up, at 0.2 m/s, of a Desktop.
+    // Within the peak force of an Omni, and, from a greater height, at 0.2 m/s, of a Desktop.
     for (const auto& [height, peak] : {std::pair(0.0, 3.3), std::pair(0.00025, 3.3), std::pair(0.001, 7.9)}) {
       WallContact contact = controlled();
       contact.height = height;
@@ -142,22 +142,21 @@ TEST_CASE("with the passivity controller a wall ten times as stiff settles below
   }
 }
 
-TEST_CASE("a wall that is damped as well gains nothing and loses nothing by a controller at its limit",
-          "[stability map]") {
+TEST_CASE("on a wall with damping, the controller at its limit neither gains nor loses stability", "[stability map]") {
   const SampledLoop loop = loop_of(1000.0, 0.1, 0, 20.0);
   CHECK(simulate_wall_contact(loop, 0.95 * critical_stiffness(loop)).stable);
   CHECK(simulate_wall_contact(loop, 0.95 * critical_stiffness(loop), controlled()).stable);
 }
 
-TEST_CASE("no encoder step keeps up a swing at the advised stiffness", "[stability map]") {
+TEST_CASE("at the advised stiffness no encoder step sustains an oscillation", "[stability map]") {
   const double step = GENERATE(1e-6, 23e-6, 55e-6, 200e-6);
   const double friction = GENERATE(0.06, 0.26);
-  const double damping = GENERATE(0.1, 1.0, 5.0);  // at 5 N s/m friction is the tighter bound for a coarse encoder
+  const double damping = GENERATE(0.1, 1.0, 5.0);  // at 5 N s/m dry friction is the tighter bound for a coarse encoder
   SampledLoop loop = loop_of(1000.0, damping);
   loop.device.encoder_step = step;
   loop.device.coulomb_friction = friction;
   const double passive = advise_stiffness(loop).passive.value;
-  const double held = 2.0 * friction / step;  // of the rounding, by dry friction
+  const double held = 2.0 * friction / step;  // quantisation held by dry friction
   CHECK(advise_stiffness(loop).quantised.value == Approx(std::min(passive, held)));
   for (const bool with_control : {false, true}) {
     WallContact contact;
@@ -170,7 +169,7 @@ TEST_CASE("no encoder step keeps up a swing at the advised stiffness", "[stabili
   }
 }
 
-TEST_CASE("rounding that dry friction does not hold keeps up a swing on a passive wall", "[stability map]") {
+TEST_CASE("quantisation that dry friction does not hold sustains an oscillation on a passive wall", "[stability map]") {
   SampledLoop loop = loop_of(1000.0, 5.0);
   const double step = GENERATE(23e-6, 55e-6, 200e-6);
   CHECK(simulate_wall_contact(loop, 5000.0).stable);  // half of what is passive
@@ -185,7 +184,7 @@ TEST_CASE("rounding that dry friction does not hold keeps up a swing on a passiv
   CHECK_FALSE(simulate_wall_contact(loop, 9000.0).stable);
 }
 
-TEST_CASE("where positions are rounded, what settles without control settles with it", "[stability map]") {
+TEST_CASE("with quantised positions, what settles without control also settles with it", "[stability map]") {
   const double rate = GENERATE(1000.0, 4000.0);
   const double step = GENERATE(23e-6, 55e-6);
   for (const double wall_damping : {0.0, 1.0}) {
@@ -200,7 +199,7 @@ TEST_CASE("where positions are rounded, what settles without control settles wit
   }
 }
 
-TEST_CASE("from 100 Hz to 20 kHz a passive wall settles, with control and without", "[stability map]") {
+TEST_CASE("from 100 Hz to 20 kHz a passive wall settles, with and without control", "[stability map]") {
   const double rate = GENERATE(100.0, 500.0, 1000.0, 4000.0, 10000.0, 20000.0);
   const SampledLoop loop = loop_of(rate, 0.5);
   const double passive = advise_stiffness(loop).passive.value;
@@ -212,7 +211,7 @@ TEST_CASE("from 100 Hz to 20 kHz a passive wall settles, with control and withou
   CHECK(simulate_wall_contact(loop, 0.95 * passive, contact).stable);
 }
 
-TEST_CASE("samples late by 0 to 5 ticks, lost or out of order leave a wall stable that bears one tick more",
+TEST_CASE("with samples 0 to 5 ticks late, lost or reordered, a wall that tolerates one more tick of delay is stable",
           "[stability map]") {
   const int delay = GENERATE(0, 1, 2, 3, 4, 5);
   const SampledLoop loop = loop_of(1000.0, 0.5, delay);
@@ -230,7 +229,7 @@ TEST_CASE("samples late by 0 to 5 ticks, lost or out of order leave a wall stabl
   }
 }
 
-TEST_CASE("samples that are lost or out of order cost stiffness", "[stability map]") {
+TEST_CASE("lost or reordered samples reduce the stable stiffness", "[stability map]") {
   const SampledLoop loop = loop_of(1000.0, 0.5);
   const double stiffness = 0.95 * critical_stiffness(loop);
   WallContact contact;
@@ -242,7 +241,7 @@ TEST_CASE("samples that are lost or out of order cost stiffness", "[stability ma
   CHECK_FALSE(simulate_wall_contact(loop, stiffness, contact).stable);
 }
 
-TEST_CASE("the force of the wall is cut off at the device's peak", "[stability map]") {
+TEST_CASE("the wall force is clipped at the peak force of the device", "[stability map]") {
   WallContact contact;
   contact.height = 0.01;
   SampledLoop loop = loop_of(1000.0, 5.0);
@@ -252,13 +251,13 @@ TEST_CASE("the force of the wall is cut off at the device's peak", "[stability m
   CHECK(simulate_wall_contact(loop, 5000.0, contact).max_force > 2.0);
 }
 
-TEST_CASE("a wall that gives way is not one that settles", "[stability map]") {
+TEST_CASE("on a wall without stiffness the pen does not settle", "[stability map]") {
   const WallContactResult outcome = simulate_wall_contact(loop_of(1000.0, 0.1), 0.0);
   CHECK_FALSE(outcome.stable);
   CHECK(outcome.max_force == 0.0);
 }
 
-TEST_CASE("the map has every combination, its bounds and the stiffnesses that settle", "[stability map]") {
+TEST_CASE("the map has every combination with its bounds and stable stiffnesses", "[stability map]") {
   const StabilityMap map = stability_map(small_map());
   REQUIRE(map.stiffnesses.size() == 5);
   CHECK(map.stiffnesses.back() == Approx(3000.0));
@@ -288,7 +287,7 @@ TEST_CASE("the map has every combination, its bounds and the stiffnesses that se
   }
 }
 
-TEST_CASE("the largest stiffness that settles is found to 2 %", "[stability map]") {
+TEST_CASE("the maximum stable stiffness is found to 2 %", "[stability map]") {
   StabilityMapOptions options = small_map();
   options.with_sweeps = false;
   options.contact.seconds = 12.0;
@@ -301,7 +300,7 @@ TEST_CASE("the largest stiffness that settles is found to 2 %", "[stability map]
   }
 }
 
-TEST_CASE("an encounter or a map out of its domain is refused", "[stability map]") {
+TEST_CASE("a contact or a map out of its domain is rejected", "[stability map]") {
   const auto refused = [](auto change) {
     WallContact contact;
     change(contact);
@@ -333,7 +332,7 @@ TEST_CASE("an encounter or a map out of its domain is refused", "[stability map]
   CHECK_THROWS_AS(stability_map(options), ValueError);
 }
 
-TEST_CASE("the map is drawn as a picture that parses, with the bounds named", "[stability map]") {
+TEST_CASE("the plot of the map is valid XML and names the bounds", "[stability map]") {
   CHECK_THROWS_AS(stability_map_plot({}), ValueError);
   if (!gnuplot_available()) {
     if (std::getenv("CALLIGRAPHY_REQUIRE_DATA") != nullptr) FAIL("gnuplot cannot be started");
@@ -349,7 +348,7 @@ TEST_CASE("the map is drawn as a picture that parses, with the bounds named", "[
   const std::string picture = stability_map_plot(map);
   pugi::xml_document document;
   REQUIRE(document.load_string(picture.c_str()));
-  for (const char* word : {"passive", "stable, exact", "Gil et al. 2009", "settles with control alone", "grip",
+  for (const char* word : {"passive", "stable, exact", "Gil et al. 2009", "settles only with control", "grip",
                            "servo rate [kHz]", "stiffness K [N/m]"}) {
     CHECK(picture.find(word) != std::string::npos);
   }

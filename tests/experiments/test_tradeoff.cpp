@@ -1,4 +1,4 @@
-// The parts of the tradeoff that are the same in every run: errors, force steps, stability, shapes.
+// The reproducible parts of the trade-offs: errors, force steps, stability, shapes.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -74,14 +74,14 @@ TEST_CASE("subdivision as printed takes wrong branches at every epsilon", "[trad
   }
 }
 
-TEST_CASE("samples without refinement are off by their distance, refined ones are not", "[tradeoff]") {
+TEST_CASE("samples without refinement are off by their spacing, refined ones are not", "[tradeoff]") {
   CHECK(setting("sampled 16 x 0").real.wrong > 0.1);
   CHECK(setting("sampled 16 x 1").real.wrong < 0.01);
   CHECK(setting("sampled 16 x 2").real.error < 1e-12);
   CHECK(setting("sampled 16 x 2").hard.error_worst > 1e-3);
 }
 
-TEST_CASE("errors are put in order: median, p99, largest", "[tradeoff]") {
+TEST_CASE("errors are in ascending order: median, p99, maximum", "[tradeoff]") {
   for (const NearestPointTradeoff& entry : nearest_point_of_all()) {
     for (const NearestPointCost* cost : {&entry.real, &entry.hard, &entry.ticks}) {
       CHECK(cost->error >= 0.0);
@@ -93,7 +93,7 @@ TEST_CASE("errors are put in order: median, p99, largest", "[tradeoff]") {
   }
 }
 
-TEST_CASE("the 19 workloads are told apart, and the two on real strokes are one group, all others the other",
+TEST_CASE("the 19 workloads are listed separately, the two on real strokes form one group, all others the other",
           "[tradeoff]") {
   for (const NearestPointTradeoff& entry : nearest_point_of_all()) {
     REQUIRE(entry.workloads.size() == 19);
@@ -111,8 +111,8 @@ TEST_CASE("the 19 workloads are told apart, and the two on real strokes are one 
   }
 }
 
-TEST_CASE("along an arc a perfect closest point steps the force by the turning of its direction alone", "[tradeoff]") {
-  // K d with d = 4 mm turns by 50 um over the pen's radius of 11 mm each tick: the sharpest of the arcs.
+TEST_CASE("along an arc a perfect closest point changes the force only in direction", "[tradeoff]") {
+  // K d with d = 4 mm turns in each tick by 50 um over the pen's radius of 11 mm, that of the sharpest arc.
   const double turning = 1000.0 * 0.004 * 50e-6 / 0.011;
   for (const NearestPointTradeoff& entry : nearest_point_of_all()) {
     CAPTURE(entry.setting.name);
@@ -124,15 +124,15 @@ TEST_CASE("along an arc a perfect closest point steps the force by the turning o
 }
 
 TEST_CASE(
-    "along real strokes a certified closest point steps the force no more than the pen moves, the printed one does",
+    "along real strokes a certified closest point steps the force no more than the pen's motion, the printed one more",
     "[tradeoff]") {
-  const double moved = 1000.0 * 50e-6;  // K times the way of a tick, if the pen strays straight away from the stroke
+  const double moved = 1000.0 * 50e-6;  // K times the motion in a tick, if the pen moves straight away from the stroke
   CHECK(setting("exact 1e-09").strokes.max_step < 2.0 * moved);
   CHECK(setting("tracked 1e-09").strokes.max_step == Approx(setting("exact 1e-09").strokes.max_step));
   CHECK(setting("wang2006 1e-03").strokes.max_step > 4.0 * moved);
 }
 
-TEST_CASE("all but the times is the same in every run", "[tradeoff]") {
+TEST_CASE("everything except the times is the same in every run", "[tradeoff]") {
   const auto again = nearest_point_tradeoff(characters("永北京航"), small_tradeoff());
   const auto& first = nearest_point_of_all();
   REQUIRE(again.size() == first.size());
@@ -150,7 +150,7 @@ TEST_CASE("all but the times is the same in every run", "[tradeoff]") {
   CHECK(nearest_point_tradeoff(characters("永北京航"), other).back().hard.error != first.back().hard.error);
 }
 
-TEST_CASE("a tradeoff of nothing is refused", "[tradeoff]") {
+TEST_CASE("options of a trade-off out of their domain are rejected", "[tradeoff]") {
   CHECK_THROWS_AS(nearest_point_tradeoff({}), ValueError);
   CHECK_THROWS_AS(nearest_point_tradeoff(characters("一")), ValueError);  // no curve
   const auto refused = [](auto change) {
@@ -182,7 +182,7 @@ TEST_CASE("a tradeoff of nothing is refused", "[tradeoff]") {
 
 // ---- servo rate
 
-TEST_CASE("a faster loop stands harder paper, and steps its force less on the same paper", "[tradeoff]") {
+TEST_CASE("a faster loop tolerates stiffer paper, and has smaller force steps on the same paper", "[tradeoff]") {
   ServoRateTradeoffOptions options;
   options.rates = {250.0, 1000.0, 4000.0};
   options.seeds = 1;
@@ -199,7 +199,7 @@ TEST_CASE("a faster loop stands harder paper, and steps its force less on the sa
     CHECK(entry.unlimited_stiffness > entry.held_stiffness);  // dry friction helps
     CHECK(entry.hard_stiffness == 0.5 * entry.unlimited_stiffness);
     CHECK(entry.hard_penetration < entry.penetration);
-    CHECK(entry.force_step <= (100.0 + 400.0) / entry.rate);  // what the limiter lets through
+    CHECK(entry.force_step <= (100.0 + 400.0) / entry.rate);  // the limit of the force limiter
     CHECK(entry.path_error > 0.0);
     if (i == 0) continue;
     CHECK(entry.hard_penetration < tradeoff[i - 1].hard_penetration);
@@ -212,8 +212,8 @@ TEST_CASE("a faster loop stands harder paper, and steps its force less on the sa
   }
 }
 
-TEST_CASE("paper that is too stiff for the loop is told from paper that is not", "[tradeoff]") {
-  // Paper of 600 N/m at 60 Hz: above what the linear loop in a hand bears, about 2 (b + B) / T = 372 N/m.
+TEST_CASE("paper too stiff for the loop is detected as unstable", "[tradeoff]") {
+  // 600 N/m at 60 Hz is above the critical stiffness of the linear loop in a hand, about 2 (b + B) / T = 372 N/m.
   ServoRateTradeoffOptions options;
   options.rates = {60.0};
   options.seeds = 1;
@@ -242,7 +242,7 @@ TEST_CASE("a stored control point is off by at most half a step along each axis"
   }
 }
 
-TEST_CASE("points outside the em square are stored on its edge", "[tradeoff]") {
+TEST_CASE("points outside the em square are clamped to its edge", "[tradeoff]") {
   const StrokeInput line{1, {{-0.2, 0.5}, {1.3, 1.1}}};
   const Character stored = with_coordinate_width(make_character(U'\u4E00', std::span(&line, 1)), 8);
   CHECK(stored.structure.control_points[0].x() == 0.0);
@@ -266,16 +266,15 @@ TEST_CASE("no stroke moves further than its control points, and each bit halves 
   }
 }
 
-TEST_CASE("a stroke that is stored shorter and one that is stored longer are both off by the difference",
-          "[tradeoff]") {
-  // The grid of 4 bits has places at 6/15 = 0.4 and 7/15.
+TEST_CASE("the error of a stroke stored shorter or longer is the difference in length", "[tradeoff]") {
+  // The grid of 4 bits has positions at 6/15 = 0.4 and 7/15.
   const auto [end, off] = GENERATE(std::pair(0.42, 0.02), std::pair(0.434, 7.0 / 15.0 - 0.434));
   const StrokeInput line{1, {{0.4, 0.4}, {end, 0.4}}};
   const Character character = make_character(U'\u4E00', std::span(&line, 1));
   CHECK(coordinate_width_tradeoff(std::span(&character, 1)).front().max_error == Approx(off));
 }
 
-TEST_CASE("coordinates are counted packed, and each stroke's id as a byte", "[tradeoff]") {
+TEST_CASE("coordinates are counted packed, and the ID of each stroke as one byte", "[tradeoff]") {
   const auto bytes = [](std::string_view text, int bits) {
     return coordinate_width_tradeoff(characters(text))[static_cast<std::size_t>(bits - 4)].bytes;
   };
@@ -287,7 +286,7 @@ TEST_CASE("coordinates are counted packed, and each stroke's id as a byte", "[tr
 
 // ---- plots
 
-TEST_CASE("each tradeoff is drawn as a picture that parses", "[tradeoff]") {
+TEST_CASE("the plot of each trade-off is valid XML", "[tradeoff]") {
   CHECK_THROWS_AS(nearest_point_tradeoff_plot({}), ValueError);
   CHECK_THROWS_AS(servo_rate_tradeoff_plot({}), ValueError);
   CHECK_THROWS_AS(coordinate_width_tradeoff_plot({}), ValueError);

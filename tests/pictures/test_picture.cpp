@@ -44,7 +44,7 @@ std::size_t paths(const pugi::xml_node& node) {
   return static_cast<std::size_t>(std::distance(children.begin(), children.end()));
 }
 
-/// Every number of path data, two by two.
+/// The numbers of path data, in pairs.
 std::vector<Point> points(const pugi::xml_node& path) {
   const std::string text = path.attribute("d").value();
   std::vector<double> numbers;
@@ -100,7 +100,7 @@ constexpr auto ws = InteractionState::writing;
 constexpr auto cs = InteractionState::calibration;
 constexpr auto ss = InteractionState::separation;
 
-/// A polyline written in the writing state but for its last point, which leaves it.
+/// A polyline in the writing state, except for its last point, which leaves it.
 void append_run(Recording& recording, int character, int stroke, const std::vector<Point>& tips, TickEvent end) {
   for (std::size_t i = 0; i + 1 < tips.size(); ++i) {
     recording.samples.push_back(sample(ws, character, stroke, tips[i]));
@@ -137,7 +137,7 @@ TEST_CASE("only the active character is yellow, the others are blue", "[practice
   }
 }
 
-TEST_CASE("template paths are the strokes' control points at their place, in millimetres and upright", "[practice]") {
+TEST_CASE("template paths are the strokes' control points on the page, in millimetres and upright", "[practice]") {
   const PracticePage page = page_of("永北");
   const auto document = xml(page_picture(page, {}, 0, "title"));
   const auto groups = templates(document);
@@ -161,7 +161,7 @@ TEST_CASE("template paths are the strokes' control points at their place, in mil
                                                  std::to_string(root.attribute("height").as_int()));
 }
 
-TEST_CASE("quartic curves are drawn where the same cubic ones are", "[practice]") {
+TEST_CASE("quartic curves are drawn like the equal cubic curves", "[practice]") {
   for (const Character& character : built_in_characters().characters) {
     PracticePage page = lay_out({&character, 1}).front();
     const auto cubic = xml(page_picture(page, {}, 0, "title"));
@@ -191,7 +191,7 @@ TEST_CASE("quartic curves are drawn where the same cubic ones are", "[practice]"
   }
 }
 
-TEST_CASE("the red ellipse is at the start of the stroke that was active last", "[practice]") {
+TEST_CASE("the red ellipse is at the start of the last active stroke", "[practice]") {
   const PracticePage page = page_of("永北");
   const auto at = [&](const Recording& recording, int active, std::size_t stroke) {
     const auto document = xml(page_picture(page, recording, active, "title"));
@@ -205,7 +205,7 @@ TEST_CASE("the red ellipse is at the start of the stroke that was active last", 
   append_run(recording, 0, 1, corner, TickEvent::stroke_finished);
   CHECK(at(recording, 0, 2));
   CHECK(at(recording, 1, 0));
-  recording.samples.push_back(sample(cs, 0, 5, corner[0]));  // complete, the pen still down
+  recording.samples.push_back(sample(cs, 0, 5, corner[0]));  // complete, with the pen still down
   CHECK(at(recording, 0, 4));
   recording.samples.push_back(sample(ss, 1, 0, corner[0]));
   CHECK(at(recording, 0, 4));
@@ -215,7 +215,7 @@ TEST_CASE("the red ellipse is at the start of the stroke that was active last", 
   CHECK(at(recording, 1, 3));
 }
 
-TEST_CASE("traces are the pen's path in light green, in page coordinates", "[practice]") {
+TEST_CASE("traces show the path of the pen in light green, in page coordinates", "[practice]") {
   const PracticePage page = page_of("永北");
   Recording recording;
   recording.samples.push_back(sample(ss, 0, 0, {0.01, 0.01}));
@@ -230,7 +230,7 @@ TEST_CASE("traces are the pen's path in light green, in page coordinates", "[pra
   for (std::size_t i = 0; i < 3; ++i) CHECK((drawn[i] - in_picture(document, corner[i])).norm() < 0.001);
 }
 
-TEST_CASE("traces of abandoned attempts are absent, an unfinished one is there", "[practice]") {
+TEST_CASE("traces of abandoned attempts are omitted, an unfinished one is shown", "[practice]") {
   const PracticePage page = page_of("永北");
   const auto count = [&page](const Recording& recording) {
     const auto document = xml(page_picture(page, recording, 0, "title"));
@@ -248,7 +248,7 @@ TEST_CASE("traces of abandoned attempts are absent, an unfinished one is there",
   CHECK(count(recording) == 2);
 }
 
-TEST_CASE("a stroke that ends as the next character begins belongs to the one it was written for", "[practice]") {
+TEST_CASE("a stroke that ends as the next character begins belongs to its own character", "[practice]") {
   const PracticePage page = page_of("永北");
   Recording recording;
   append_run(recording, 0, 4, corner, TickEvent::stroke_finished);
@@ -261,7 +261,7 @@ TEST_CASE("a stroke that ends as the next character begins belongs to the one it
   CHECK(count(1) == 2);
 }
 
-TEST_CASE("samples that were refused leave no mark", "[practice]") {
+TEST_CASE("rejected samples leave no mark", "[practice]") {
   const PracticePage page = page_of("永");
   Recording recording;
   append_run(recording, 0, 0, corner, TickEvent::stroke_finished);
@@ -314,7 +314,7 @@ TEST_CASE("the picture of a long scribble stays under 300 kB", "[practice]") {
   CHECK(all(xml(svg), "//g[@class='trace']/path").size() == 24);
 }
 
-TEST_CASE("a real session's picture shows as many traces as strokes were finished", "[practice]") {
+TEST_CASE("the picture of a real session shows one trace per finished stroke", "[practice]") {
   const PracticePage page = page_of("永北");
   const Recording recording = write_page(page, calligraphy_test::session(WriterSkill::novice(), FeedbackMode::force));
   std::size_t finished = 0;
@@ -325,7 +325,7 @@ TEST_CASE("a real session's picture shows as many traces as strokes were finishe
   CHECK(page_picture(page, recording, 1, "title") == svg);
 }
 
-TEST_CASE("a title may hold anything but broken UTF-8", "[practice]") {
+TEST_CASE("a title may contain anything but invalid UTF-8", "[practice]") {
   const PracticePage page = page_of("永");
   for (const std::string title : {"<&>\"'", "北京 ]]> <!--", "bell \x07 and tab\t", "",
                                   "a very long title, much longer than the page is wide, which must be set smaller"}) {
@@ -338,7 +338,7 @@ TEST_CASE("a title may hold anything but broken UTF-8", "[practice]") {
   CHECK_THROWS_AS(page_picture(page, {}, 0, "\xff"), FormatError);
 }
 
-TEST_CASE("a picture without its page or its character is an error naming the value", "[practice]") {
+TEST_CASE("an invalid page or active character is an error naming the value", "[practice]") {
   const PracticePage page = page_of("永");
   const auto error = [](const PracticePage& some, int active) -> std::string {
     try {

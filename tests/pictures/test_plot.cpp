@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// True when gnuplot is there; without it a test is skipped, or fails where all must run.
+/// Whether gnuplot is available; without it a test is skipped, or fails where all tests must run.
 bool gnuplot_is_there() {
   if (gnuplot_available()) return true;
   if (std::getenv("CALLIGRAPHY_REQUIRE_DATA") != nullptr) {
@@ -48,7 +48,7 @@ class ShimDirectory {
     fs::remove_all(path_);
   }
 
-  /// A gnuplot of the test's own, as a shell script.
+  /// Provides the test's own gnuplot, a shell script.
   void provide_gnuplot(const std::string& body) const {
     write_file(path_ / "gnuplot", "#!/bin/sh\nPATH=" + search_path_ + "\n" + body + "\n");
     fs::permissions(path_ / "gnuplot", fs::perms::owner_all);
@@ -99,7 +99,7 @@ const std::string hostile = "a'; system(\"touch x\"); #{1} `touch y` $(touch z) 
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-/// Lines of a block of data in a gnuplot script.
+/// Number of lines of a data block in a gnuplot script.
 std::ptrdiff_t lines_of_block(const std::string& script, const std::string& name) {
   const auto begin = script.find("$" + name + " << END\n");
   REQUIRE(begin != std::string::npos);
@@ -124,8 +124,8 @@ TEST_CASE("a force plot is valid SVG with axes, units, stroke numbers and title"
     for (const auto& part : found.node().select_nodes(".//text()")) text += part.node().value();
     texts += "[" + text + "]";
   }
-  for (const char* expected : {"[北 & <force>]", "[force in the plane [N]]", "[normal force [N]]", "[time [s]]",
-                               "[|F|]", "[Fx]", "[Fy]", "[1]", "[2]", "grey: given up"}) {
+  for (const char* expected : {"[北 & <force>]", "[in-plane force [N]]", "[normal force [N]]", "[time [s]]", "[|F|]",
+                               "[Fx]", "[Fy]", "[1]", "[2]", "grey: abandoned"}) {
     CAPTURE(texts, expected);
     CHECK(contains(texts, expected));
   }
@@ -206,7 +206,7 @@ TEST_CASE("forces that are not numbers do not reach gnuplot", "[practice]") {
   CHECK_FALSE(contains(script, "inf"));
 }
 
-TEST_CASE("a recording with few forces that are numbers, or none, is plotted", "[practice]") {
+TEST_CASE("a recording with few finite forces, or none, is plotted", "[practice]") {
   if (!gnuplot_is_there()) return;
   Recording some = recording();
   for (std::size_t i = 0; i < some.samples.size(); ++i) {
@@ -221,8 +221,8 @@ TEST_CASE("a recording with few forces that are numbers, or none, is plotted", "
 }
 
 TEST_CASE("a plot of a character without samples is an error naming it", "[practice]") {
-  CHECK(error_of(recording(), 2) == "character 2 is active in no sample of the recording");
-  CHECK(error_of({}, 0) == "character 0 is active in no sample of the recording");
+  CHECK(error_of(recording(), 2) == "character 2 is not active in any sample of the recording");
+  CHECK(error_of({}, 0) == "character 0 is not active in any sample of the recording");
   CHECK_THROWS_AS(force_plot(recording(), 0, "\xff"), FormatError);
 }
 
@@ -243,10 +243,10 @@ TEST_CASE("a gnuplot that fails is an error with its message", "[practice]") {
 TEST_CASE("a gnuplot that gives no SVG, reads nothing or is killed is an error, not the end", "[practice]") {
   const ShimDirectory directory;
   directory.provide_gnuplot("echo 'a warning' >&2");
-  CHECK(contains(error_of(recording(), 0), "gnuplot gave no SVG: "));
+  CHECK(contains(error_of(recording(), 0), "gnuplot returned no SVG: "));
   CHECK(contains(error_of(recording(), 0), "a warning"));
   directory.provide_gnuplot("exec <&-; echo '<svg'");
-  CHECK(contains(error_of(recording(), 0), "gnuplot gave no SVG: "));
+  CHECK(contains(error_of(recording(), 0), "gnuplot returned no SVG: "));
   directory.provide_gnuplot("kill -9 $$");
   CHECK(contains(error_of(recording(), 0), "exit code 137"));
 }

@@ -25,7 +25,7 @@ std::size_t count(const pugi::xml_document& document, const char* query) { retur
 
 }  // namespace
 
-TEST_CASE("the picture of a replay numbers pen-downs and strokes and draws what the device drew", "[practice]") {
+TEST_CASE("a replay picture numbers pen-downs and strokes and shows the path of the device", "[practice]") {
   for (const Character& character : built_in_characters().characters) {
     const auto paths = copy_of(character);
     const auto document = replay_xml(replay_picture(character, paths, match_strokes(character, paths), paths, "title"));
@@ -38,7 +38,7 @@ TEST_CASE("the picture of a replay numbers pen-downs and strokes and draws what 
   }
 }
 
-TEST_CASE("the picture of a replay shows mistakes in red, tells them, and leaves bounces out", "[practice]") {
+TEST_CASE("a replay picture shows mistakes in red, lists them, and omits bounces", "[practice]") {
   const Character ten = calligraphy_test::characters("十").front();
   std::vector<PenPath> paths = copy_of(ten);
   std::swap(paths[0], paths[1]);
@@ -51,7 +51,7 @@ TEST_CASE("the picture of a replay shows mistakes in red, tells them, and leaves
   CHECK(text.find(match.remarks.at(0).reason) != std::string::npos);
 }
 
-TEST_CASE("a match on other pen-downs is refused by the picture of a replay", "[practice]") {
+TEST_CASE("a replay picture rejects a match of other pen-downs", "[practice]") {
   const Character ten = calligraphy_test::characters("十").front();
   const auto paths = copy_of(ten);
   CHECK_THROWS_AS(replay_picture(ten, paths, match_strokes(ten, {}), {}, "title"), ValueError);

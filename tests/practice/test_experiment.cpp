@@ -1,4 +1,4 @@
-// The paper's result (Wang 2006, Table 5, Figs. 37 and 38), unforced: the writer does not know the mode.
+// Reproduces the paper's result (Wang 2006, Table 5, Figs. 37 and 38) with a writer that does not know the mode.
 #include <cmath>
 #include <cstdio>
 
@@ -13,7 +13,7 @@ using calligraphy_test::session;
 namespace {
 
 #if defined(__SANITIZE_ADDRESS__)
-constexpr int seeds = 2;  // the claim is made with 20; here only memory is watched
+constexpr int seeds = 2;  // sanitizer builds check memory only; the claim is tested with 20
 constexpr const char* text = "北永书";
 #else
 constexpr int seeds = 20;
@@ -25,13 +25,13 @@ struct Sums {
   double sum = 0.0, square = 0.0;
   void add(double value) { ++count, sum += value, square += value * value; }
   double mean() const { return sum / count; }
-  /// Half width of the 95 % interval of the mean; the normal quantile, for hundreds of pairs.
+  /// Half width of the 95 % confidence interval of the mean, by the normal quantile: there are hundreds of pairs.
   double half_width() const { return 1.96 * std::sqrt((square - sum * sum / count) / (count - 1.0) / count); }
 };
 
 }  // namespace
 
-TEST_CASE("force makes an unskilled writer's error and time smaller on every character's mean", "[practice]") {
+TEST_CASE("force reduces an unskilled writer's mean error and time on every character", "[practice]") {
   Sums error_reduction, time_reduction;
   for (const Character& character : calligraphy_test::characters(text)) {
     const PracticePage page = lay_out(std::span(&character, 1)).front();

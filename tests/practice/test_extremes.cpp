@@ -1,5 +1,5 @@
-// The extremes of a device, a loop and a page, each with its outcome, over the default composition and over everything
-// switched on. Samples that no pen gives, faults and days of work: tests/render and tests/soak.
+// Extremes of a device, a loop and a page, with the default options and with every stage enabled. For impossible
+// samples, faults and long runs see tests/render and tests/soak.
 #include "../catch.hpp"
 
 #include <cmath>
@@ -33,12 +33,12 @@ const std::vector<Composition> compositions = {{"default", RendererOptions::for_
 
 PlacedCharacter one_stroke() { return {calligraphy_test::typical_character(1), {{0.02, 0.02}, 0.04}}; }
 
-/// A hand that writes a heng beside its place, in closed loop, however fast the servo.
+/// A hand that writes a heng beside its template, in closed loop at any servo rate.
 struct Writing {
   std::vector<Vector3d> forces, places;  ///< every 10 ms, page
   double max_force = 0.0, max_step = 0.0, step_limit = 0.0;
   bool finite = true, finished = false;
-  double late_swing = 0.0;  ///< of the pen along z, in the last 0.3 s of a rest on the paper [m]
+  double late_swing = 0.0;  ///< peak-to-peak motion along z in the last 0.3 s of a rest on the paper [m]
   RendererOptions options;
 };
 
@@ -48,7 +48,7 @@ Writing write_beside(const Capabilities& profile, RendererOptions options, doubl
   HapticRenderer renderer({one_stroke()}, mapping, profile, options);
   const auto path = path_of(strokes(renderer.page()[0].character)[0], renderer.page()[0].placement, 0.0001);
   const Point begin = path.front() + Point(0.0, offset), end = path.back() + Point(0.0, offset);
-  // Down in 0.2 s, along the stroke in 1 s, a rest of 0.8 s on the way at its middle.
+  // Down in 0.2 s, along the stroke in 1 s, with a rest of 0.8 s at its middle.
   const auto meant = [&](double t) -> Vector3d {
     const auto smooth = [](double s) {
       s = std::clamp(s, 0.0, 1.0);
@@ -93,7 +93,7 @@ Writing write_beside(const Capabilities& profile, RendererOptions options, doubl
   return writing;
 }
 
-/// Root mean square of the difference of two histories, and of the first.
+/// RMS of the difference of two histories, and of one.
 double rms_difference(const std::vector<Vector3d>& a, const std::vector<Vector3d>& b) {
   double sum = 0.0;
   const std::size_t count = std::min(a.size(), b.size());
@@ -113,8 +113,8 @@ void check_kept(const Writing& writing, const Capabilities& profile) {
 
 }  // namespace
 
-TEST_CASE("the same hand is led the same way at every rate, to what a person can tell", "[practice][extremes]") {
-  // The stiffness is one that every rate is stable with, so that the rate alone differs.
+TEST_CASE("at every rate a hand is guided the same, to within what a person can tell", "[practice][extremes]") {
+  // The stiffness is stable at every rate, so that only the rate differs.
   const Capabilities& profile = device_profile("desktop");
   for (const Composition& composition : compositions) {
     RendererOptions options = composition.options(profile);
@@ -128,7 +128,7 @@ TEST_CASE("the same hand is led the same way at every rate, to what a person can
       const Writing writing = write_beside(profile, options, 0.003);
       CAPTURE(composition.name, rate, writing.late_swing);
       check_kept(writing, profile);
-      // At 100 Hz a held force is 5 ms old on the way down and up; JNDs go from 6 to 10 %.
+      // At 100 Hz a held force is 5 ms old on average; force JNDs are 6 to 10 %.
       const double just_noticeable = rate < 500.0 ? 0.1 : 0.05;
       CHECK(rms_difference(writing.forces, reference.forces) <= just_noticeable * rms(reference.forces));
       CHECK(rms_difference(writing.places, reference.places) <= 0.05 * 0.003);
@@ -152,7 +152,7 @@ TEST_CASE("with delays of 0 to 5 samples the stiffness is clipped and a pen pres
   }
 }
 
-TEST_CASE("at the stiffness that is let through no encoder step keeps up a swing", "[practice][extremes]") {
+TEST_CASE("at the accepted stiffness no encoder step sustains an oscillation", "[practice][extremes]") {
   for (const Composition& composition : compositions) {
     for (const double step : {1e-6, 23e-6, 55e-6, 200e-6}) {
       Capabilities profile = device_profile("omni");
@@ -165,7 +165,7 @@ TEST_CASE("at the stiffness that is let through no encoder step keeps up a swing
   }
 }
 
-TEST_CASE("every stiffness has a defined outcome: taken, clipped with its reason, or refused by name",
+TEST_CASE("every stiffness has a defined outcome: accepted, clipped with a reason, or rejected by name",
           "[practice][extremes]") {
   const Capabilities& capabilities = device_profile("omni");
   for (const Composition& composition : compositions) {
@@ -202,7 +202,7 @@ TEST_CASE("every stiffness has a defined outcome: taken, clipped with its reason
 }
 
 TEST_CASE(
-    "at a rate too low for the stiffness, it is clipped to nine tenths of the critical one, and the reason says so",
+    "at a rate too low for it, the stiffness is clipped to nine tenths of the critical stiffness with that reason",
     "[practice][extremes]") {
   const Capabilities& capabilities = device_profile("omni");
   RendererOptions options;
@@ -218,7 +218,7 @@ TEST_CASE(
 
 namespace {
 
-/// Swing along z of a pen that was tapped onto the paper beside the stroke and is held pressed [m].
+/// Peak-to-peak motion along z of a pen tapped onto the paper beside the stroke and held pressed [m].
 double swing_after_a_tap(const Capabilities& profile, const RendererOptions& options, const GripImpedance& grip,
                          double speed) {
   HapticRenderer renderer({one_stroke()}, {}, profile, options);
@@ -241,7 +241,7 @@ double swing_after_a_tap(const Capabilities& profile, const RendererOptions& opt
 
 }  // namespace
 
-TEST_CASE("paper stiffer than the limits of the force's rate and jerk can follow is clipped, and a tap on it dies away",
+TEST_CASE("paper too stiff for the force rate and jerk limits is clipped, and the oscillation of a tap decays",
           "[practice][extremes]") {
   Capabilities profile = device_profile("desktop");
   profile.usable_stiffness = 0.0;
@@ -267,13 +267,13 @@ TEST_CASE("paper stiffer than the limits of the force's rate and jerk can follow
   }
 }
 
-TEST_CASE("hard curves as strokes are refused by name or written with finite forces", "[practice][extremes]") {
+TEST_CASE("adversarial curves as strokes are rejected by name or written with finite forces", "[practice][extremes]") {
   const Capabilities& profile = device_profile("desktop");
   int written = 0;
   for (const Composition& composition : compositions) {
     for (const calligraphy_test::HardCurve& hard : calligraphy_test::hard_curves()) {
       if (hard.control_points.size() != 4) continue;
-      // As the pie, one cubic, brought into the unit square.
+      // As a pie, one cubic, mapped into the unit square.
       Point low = hard.control_points[0], high = low;
       for (const Point& point : hard.control_points) {
         low = low.cwiseMin(point);
@@ -290,7 +290,7 @@ TEST_CASE("hard curves as strokes are refused by name or written with finite for
         bool finite = true, stepped = false;
         calligraphy_test::Sequence random(5);
         for (int i = 0; i < 4000; ++i) {
-          // From the start over the curve, and across it.
+          // Along the curve from its start, then scattered around it.
           const double t = 0.001 * (i % 1000);
           Point tip = renderer.page()[0].placement.to_page(Bezier<3>{
               {input.control_points[0], input.control_points[1], input.control_points[2],
@@ -316,7 +316,7 @@ TEST_CASE("hard curves as strokes are refused by name or written with finite for
   CHECK(written > 0);
 }
 
-TEST_CASE("denormal places, depths and stiffnesses give finite forces, with and without flushing",
+TEST_CASE("denormal positions, depths and stiffnesses give finite forces, with and without flushing",
           "[practice][extremes]") {
   const Capabilities& capabilities = device_profile("desktop");
   for (const Composition& composition : compositions) {
@@ -336,17 +336,18 @@ TEST_CASE("denormal places, depths and stiffnesses give finite forces, with and 
   }
 }
 
-TEST_CASE("a servo thread takes denormal numbers as zero, and only while it is told to", "[practice][extremes]") {
+TEST_CASE("FlushDenormals treats denormal inputs and results as zero, only during its lifetime",
+          "[practice][extremes]") {
   if (!FlushDenormals::available()) {
-    WARN("this processor has no such mode");
+    WARN("skipped: this processor cannot flush denormals");
     return;
   }
   volatile double small = 1e-310, half = 0.5, least = 2.3e-308;
   CHECK(small * half != 0.0);
   {
     const FlushDenormals as_a_servo_thread;
-    CHECK(small * half == 0.0);  // in
-    CHECK(least * half == 0.0);  // out
+    CHECK(small * half == 0.0);  // input
+    CHECK(least * half == 0.0);  // result
   }
   CHECK(small * half != 0.0);
   CHECK(least * half != 0.0);

@@ -1,5 +1,5 @@
-// A novice who believes the character to be somewhere else: what guidance for large deviations makes of it, against the
-// linear law (Wang 2006, sec. 7.3, the limit that the authors admit).
+// Guidance for large deviations compared with the linear law, for a novice who believes the character to be elsewhere
+// (Wang 2006, sec. 7.3, a limitation that the authors state).
 #include "../catch.hpp"
 
 #include <cmath>
@@ -25,10 +25,10 @@ constexpr int deviating_seeds = 8;
 const char* const deviating_text = "永北京木国大";
 #endif
 
-/// What the pages of one law and one bias add up to.
+/// Totals over the pages of one law and one bias.
 struct Outcome {
   int strokes = 0, completed = 0, at_once = 0, faults = 0;
-  double square = 0.0, way = 0.0;  ///< distance from the stroke that is due, over all that was drawn on the paper
+  double square = 0.0, way = 0.0;  ///< distance from the expected stroke, integrated along the path on the paper
   double peak = 0.0, step = 0.0;
 
   double share_at_once() const { return at_once / static_cast<double>(strokes); }
@@ -103,7 +103,7 @@ Outcome write(const std::string& device, Law law, double bias) {
 
 }  // namespace
 
-TEST_CASE("guidance for large deviations completes more strokes at once and keeps nearer to them than the linear law",
+TEST_CASE("guidance for large deviations completes more strokes at once and closer to them than the linear law",
           "[practice]") {
   for (const std::string device : {"desktop", "omni"}) {
     const Capabilities& capabilities = device_profile(device);

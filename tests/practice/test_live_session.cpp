@@ -25,8 +25,8 @@ namespace {
 
 constexpr double period = 1e-3;  // [s]
 
-/// A device with a scheduler of its own, as a vendor's has, and a person who holds it: in virtual time, but in step
-/// with whoever watches, so that nothing is lost however slow the machine is.
+/// A device with its own scheduler, like that of a vendor, held by a simulated writer. It runs in virtual time but in
+/// step with the watching thread, so that no tick is lost on a slow machine.
 class HeldDevice final : public HapticDevice, public ServoClock {
  public:
   explicit HeldDevice(const PracticePage& page, const WriterSkill& skill = WriterSkill::skilled(), double rate = 1000.0)
@@ -72,7 +72,7 @@ class HeldDevice final : public HapticDevice, public ServoClock {
   }
   bool running() const noexcept override { return thread_.joinable(); }
 
-  /// Of the watching thread: the next ticks may come.
+  /// Called by the watching thread: permits the next ticks.
   void seen() { ++glances_; }
   std::uint64_t ticks() const { return ticks_; }
 
@@ -108,7 +108,7 @@ class HeldDevice final : public HapticDevice, public ServoClock {
 LiveOptions watched(HeldDevice& device, std::vector<LiveView>* views = nullptr) {
   LiveOptions options;
   options.renderer = RendererOptions::for_device(device.capabilities());
-  options.servo.servo.timeout = 1.0;  // of a watchdog by the wall clock, which virtual time does not keep
+  options.servo.servo.timeout = 1.0;  // the watchdog uses the wall clock, which virtual time does not follow
   options.watch = [&device, views](const LiveView& view) {
     if (views) views->push_back(view);
     device.seen();
@@ -119,13 +119,13 @@ LiveOptions watched(HeldDevice& device, std::vector<LiveView>* views = nullptr) 
 
 }  // namespace
 
-TEST_CASE("a page is written with a device that has its own clock, and every tick is recorded") {
+TEST_CASE("a page is written on a device with its own clock, and every tick is recorded") {
   const PracticePage page = page_of("十");
   HeldDevice device(page);
   std::vector<LiveView> views;
   const LiveResult result = write_with_device(page, device, watched(device, &views));
   CHECK(result.dropped == 0);
-  CHECK(result.recording.samples.size() <= result.statistics.ticks);  // while the force falls in the end none is asked
+  CHECK(result.recording.samples.size() <= result.statistics.ticks);  // none during the final ramp-down of the force
   const CharacterScore written = score_page(page, result.recording).front();
   CHECK(written.strokes_completed == 2);
   CHECK(written.mistakes.empty());
@@ -146,7 +146,7 @@ TEST_CASE("after a session the force is zero and the device still open") {
   int glances = 0;
   options.watch = [&](const LiveView&) {
     device.seen();
-    return ++glances < 8;  // in the midst of a stroke
+    return ++glances < 8;  // in the middle of a stroke
   };
   const LiveResult result = write_with_device(page, device, options);
   CHECK(score_page(page, result.recording).front().strokes_completed < 2);
@@ -156,11 +156,11 @@ TEST_CASE("after a session the force is zero and the device still open") {
   CHECK(device.read().status == DeviceStatus::ok);
 }
 
-TEST_CASE("what the device did since the last glance is recorded too") {
+TEST_CASE("ticks since the last call of watch are recorded too") {
   const PracticePage page = page_of("十");
   HeldDevice device(page);
   LiveOptions options = watched(device);
-  options.watch = [&](const LiveView&) {  // the first glance saw 200 ticks at most
+  options.watch = [&](const LiveView&) {  // the first call sees at most 200 ticks
     device.seen();
     while (device.ticks() < 400) std::this_thread::yield();
     return false;
@@ -168,11 +168,11 @@ TEST_CASE("what the device did since the last glance is recorded too") {
   CHECK(write_with_device(page, device, options).recording.samples.size() > 200);
 }
 
-TEST_CASE("ticks that the recording lacks are counted") {
+TEST_CASE("ticks missing from the recording are counted") {
   const PracticePage page = page_of("十");
   HeldDevice device(page);
   LiveOptions options = watched(device);
-  constexpr std::uint64_t away = 4000;  // twice as long as ticks are kept for
+  constexpr std::uint64_t away = 4000;  // twice the capacity of the queue
   options.watch = [&](const LiveView&) {
     while (device.ticks() < away) device.seen();
     return false;
@@ -182,7 +182,7 @@ TEST_CASE("ticks that the recording lacks are counted") {
   CHECK(result.recording.samples.size() + result.dropped > away / 2);
 }
 
-TEST_CASE("no force goes beyond the peak that was asked for") {
+TEST_CASE("no force exceeds the requested peak") {
   const PracticePage page = page_of("十");
   HeldDevice device(page);
   LiveOptions options = watched(device);
@@ -193,7 +193,7 @@ TEST_CASE("no force goes beyond the peak that was asked for") {
   CHECK(device.max_force <= 0.3 + 1e-12);
 }
 
-TEST_CASE("a pen that comes from an inkwell behind the paper has written nothing on its way") {
+TEST_CASE("a pen that comes out of an inkwell behind the paper writes nothing on its way") {
   const PracticePage page = page_of("十");
   HeldDevice device(page);
   device.behind_until = 0.2;
@@ -210,7 +210,7 @@ TEST_CASE("a pen that comes from an inkwell behind the paper has written nothing
   CHECK(result.recording.samples.front().device_point.z() > 0.0);
 }
 
-TEST_CASE("with vision alone the hand feels nothing") {
+TEST_CASE("with vision alone no force is sent") {
   const PracticePage page = page_of("一");
   HeldDevice device(page);
   LiveOptions options = watched(device);
@@ -221,7 +221,7 @@ TEST_CASE("with vision alone the hand feels nothing") {
   for (const RecordedSample& sample : result.recording.samples) REQUIRE(sample.force.isZero(0.0));
 }
 
-TEST_CASE("a device that is unplugged for a while is named, and the page is written all the same") {
+TEST_CASE("a device unplugged for a moment is reported, and the page is completed") {
   const PracticePage page = page_of("十");
   HeldDevice device(page);
   device.unplugged_after = 1.5;
@@ -233,7 +233,7 @@ TEST_CASE("a device that is unplugged for a while is named, and the page is writ
   CHECK(score_page(page, result.recording).front().strokes_completed == 2);
 }
 
-TEST_CASE("a session goes by the rate of the renderer, however low") {
+TEST_CASE("a session runs at the rate of the renderer, however low") {
   constexpr double rate = 400.0;
   const PracticePage page = page_of("十");
   HeldDevice device(page, WriterSkill::skilled(), rate);
@@ -244,19 +244,19 @@ TEST_CASE("a session goes by the rate of the renderer, however low") {
     device.seen();
     return ++glances < 3;
   };
-  SECTION("of the loop and of the recording") {
+  SECTION("the loop and the recording") {
     const LiveResult result = write_with_device(page, device, options);
     CHECK(result.recording.rate == rate);
     CHECK(result.statistics.ticks > 0);
     CHECK(result.statistics.missed_deadlines == 0);
   }
-  SECTION("with a timeout of ticks enough") {
+  SECTION("with a timeout of enough ticks") {
     options.servo = {};  // 4 ms
     CHECK_NOTHROW(write_with_device(page, device, options));
   }
 }
 
-TEST_CASE("a session tells what the system did not permit, and measures its ticks") {
+TEST_CASE("a session reports what the system did not permit, and measures its ticks") {
   const PracticePage page = page_of("一");
   HeldDevice device(page);
   LiveOptions options = watched(device);
@@ -268,15 +268,15 @@ TEST_CASE("a session tells what the system did not permit, and measures its tick
                     [](const RecordedSample& sample) { return sample.tick_ns > 0; }));
 }
 
-TEST_CASE("a session that takes too long is given up") {
+TEST_CASE("a session ends at its timeout") {
   const PracticePage page = page_of("十");
   HeldDevice device(page);
   LiveOptions options = watched(device);
-  options.timeout = 0.05;  // three glances of 200 ticks at most, and a stroke takes more
+  options.timeout = 0.05;  // at most three calls of 200 ticks each; a stroke takes longer
   CHECK(score_page(page, write_with_device(page, device, options).recording).front().strokes_completed < 2);
 }
 
-TEST_CASE("forces are lowered to a peak and never raised") {
+TEST_CASE("forces are limited to a peak and never raised") {
   Capabilities device;
   device.peak_force = 3.3;
   device.continuous_force = 0.88;
@@ -292,7 +292,7 @@ TEST_CASE("forces are lowered to a peak and never raised") {
   for (const double peak : {0.0, -1.0, std::nan("")}) CHECK_THROWS_AS(with_peak_force(device, peak), ValueError);
 }
 
-TEST_CASE("a session without end is not begun") {
+TEST_CASE("a session without a finite timeout is rejected") {
   const PracticePage page = page_of("十");
   HeldDevice device(page);
   LiveOptions options = watched(device);
@@ -303,7 +303,7 @@ TEST_CASE("a session without end is not begun") {
   CHECK(!device.running());
 }
 
-TEST_CASE("a recording that is replayed gives the same ticks again") {
+TEST_CASE("replaying a recording reproduces its ticks") {
   const PracticePage page = page_of("十");
   SessionOptions options;
   options.device = device_profile("desktop");

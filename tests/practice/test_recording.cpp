@@ -38,7 +38,7 @@ const std::vector<double> hard_numbers = {0.0,
                                           -infinity,
                                           not_a_number};
 
-/// Every hard number in every place, every state, event and status.
+/// Every hard number in every column, every state, event and status.
 Recording hard_recording() {
   Recording recording;
   recording.rate = 1000.0 / 3.0;
@@ -119,16 +119,16 @@ struct GermanNumbers : std::numpunct<char> {
 
 }  // namespace
 
-TEST_CASE("a recording is read from a regular file alone, and others are named", "[practice]") {
+TEST_CASE("a recording is read only from a regular file, and the error names any other", "[practice]") {
   CHECK_THROWS_WITH(read_recording("/dev/zero"), "/dev/zero: is not a regular file");
   CHECK_THROWS_WITH(read_recording("none.csv"), "none.csv: cannot be opened: No such file or directory");
 }
 
-TEST_CASE("a recording read back is the same to the last bit", "[practice]") {
+TEST_CASE("a recording read back is identical to the last bit", "[practice]") {
   check_same(parsed(csv(hard_recording())), hard_recording());
   check_same(parsed(csv({})), {});
 
-  Recording longer{500.0, {}};  // more than is given to the stream at a time
+  Recording longer{500.0, {}};  // more than one chunk of output
   for (int i = 0; i < 2000; ++i) {
     RecordedSample sample;
     sample.time = i / 500.0;
@@ -138,7 +138,7 @@ TEST_CASE("a recording read back is the same to the last bit", "[practice]") {
   check_same(parsed(csv(longer)), longer);
 }
 
-TEST_CASE("the first line names columns and units, and a row is what it says", "[practice]") {
+TEST_CASE("the first line names columns and units, and a row has these values", "[practice]") {
   RecordedSample sample;
   sample.time = 0.5;
   sample.device_point = {1, 2, 3};
@@ -152,7 +152,7 @@ TEST_CASE("the first line names columns and units, and a row is what it says", "
   CHECK(same(parsed(head + row).samples.at(0), sample));
 }
 
-TEST_CASE("line ends of either kind are read", "[practice]") {
+TEST_CASE("both kinds of line endings are read", "[practice]") {
   std::string text;
   for (const char c : head + row + row) text += c == '\n' ? std::string("\r\n") : std::string(1, c);
   check_same(parsed(text), parsed(head + row + row));
@@ -179,7 +179,7 @@ TEST_CASE("malformed CSV is an error naming the line and the value", "[practice]
   CHECK(second(row, "\n").starts_with("trace.csv:4: expected 16 values, found 1 in ''"));
 }
 
-TEST_CASE("CSV that is not a recording is refused at the line that shows it", "[practice]") {
+TEST_CASE("CSV that is not a recording is rejected naming the line", "[practice]") {
   CHECK(error_of("").starts_with("trace.csv:1: expected 'time_s,"));
   CHECK(error_of("time,x\n1,2\n").ends_with("found 'time,x'"));
   CHECK(error_of(header) == "trace.csv:2: expected '# rate_Hz=...', found ''");
@@ -191,7 +191,7 @@ TEST_CASE("CSV that is not a recording is refused at the line that shows it", "[
   CHECK(error_of(header + "# rate_Hz=1k\n") == "trace.csv:2: rate_Hz is '1k': expected a number");
 }
 
-TEST_CASE("a file cut off anywhere within a line is refused", "[practice]") {
+TEST_CASE("a file truncated anywhere within a line is rejected", "[practice]") {
   const std::string text = head + row + row;
   for (std::size_t size = 0; size < text.size(); ++size) {
     CAPTURE(size);
@@ -200,7 +200,7 @@ TEST_CASE("a file cut off anywhere within a line is refused", "[practice]") {
   }
 }
 
-TEST_CASE("a stream that fails is not taken for the end of the file", "[practice]") {
+TEST_CASE("a failing stream is not mistaken for the end of the file", "[practice]") {
   struct Failing : std::stringbuf {
     using std::stringbuf::stringbuf;
     int_type underflow() override { throw 1; }
@@ -234,7 +234,7 @@ TEST_CASE("CSV does not depend on the locale of the C library", "[practice]") {
   const std::string expected = csv(hard_recording());
   const std::string before = std::setlocale(LC_ALL, nullptr);
   if (std::setlocale(LC_ALL, "de_DE.UTF-8") == nullptr && std::setlocale(LC_ALL, "de_DE.utf8") == nullptr) {
-    WARN("skipped: there is no locale de_DE.UTF-8 on this machine");
+    WARN("skipped: this machine has no locale de_DE.UTF-8");
     return;
   }
   const std::string text = csv(hard_recording());

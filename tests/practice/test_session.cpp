@@ -20,7 +20,7 @@ using calligraphy_test::session;
 
 namespace {
 
-/// Equal to the last digit in everything but the clock.
+/// Identical to the last digit, except for measured times.
 bool same(const Recording& a, const Recording& b) {
   return std::equal(a.samples.begin(), a.samples.end(), b.samples.begin(), b.samples.end(),
                     [](const RecordedSample& x, const RecordedSample& y) {
@@ -40,7 +40,7 @@ double max_step(const Recording& recording) {
 
 }  // namespace
 
-TEST_CASE("with all stiffness at zero the force mode is the vision mode to the last digit", "[practice]") {
+TEST_CASE("with all stiffness at zero, force mode equals vision mode to the last digit", "[practice]") {
   const PracticePage page = page_of("永北");
   SessionOptions with = session(WriterSkill::novice(), FeedbackMode::force, 7);
   with.renderer.paper_stiffness = with.renderer.guidance_stiffness = with.renderer.wrong_way_stiffness = 0.0;
@@ -53,21 +53,20 @@ TEST_CASE("with all stiffness at zero the force mode is the vision mode to the l
   CHECK(scores[0].peak_force == 0.0);
 }
 
-TEST_CASE("in vision mode the hand feels nothing", "[practice]") {
+TEST_CASE("in vision mode no force is applied to the hand", "[practice]") {
   const Recording recording = write_page(page_of("永"), session(WriterSkill::novice(), FeedbackMode::vision));
   CHECK(std::all_of(recording.samples.begin(), recording.samples.end(),
                     [](const RecordedSample& sample) { return sample.force.isZero(0.0); }));
 }
 
-TEST_CASE("the same seed gives the same recording and another seed another one", "[practice]") {
+TEST_CASE("the same seed gives the same recording, another seed a different one", "[practice]") {
   const PracticePage page = page_of("书");
   const Recording first = write_page(page, session(WriterSkill::novice(), FeedbackMode::force, 3));
   CHECK(same(first, write_page(page, session(WriterSkill::novice(), FeedbackMode::force, 3))));
   CHECK_FALSE(same(first, write_page(page, session(WriterSkill::novice(), FeedbackMode::force, 4))));
 }
 
-TEST_CASE("what one struct says of a device's delay, the device does and the stiffness advice counts with",
-          "[practice]") {
+TEST_CASE("the simulated device and the stiffness advice use the same sample delay", "[practice]") {
   Capabilities late = device_profile("desktop");
   late.sample_delay = 15;
   const RendererOptions advised = RendererOptions::for_device(late);
@@ -81,7 +80,7 @@ TEST_CASE("what one struct says of a device's delay, the device does and the sti
     return score_page(page, write_page(page, options)).front().strokes_completed;
   };
   CHECK(strokes_written(late, advised) == 5);
-  // With a stiffness that does not count with the delay the loop swings and nothing is written, and it is refused.
+  // A stiffness that ignores the delay is rejected: the loop oscillates and nothing is written.
   RendererOptions careless = RendererOptions::for_device(device_profile("desktop"));
   CHECK(careless.paper_stiffness == 600.0);
   CHECK_THROWS_AS(strokes_written(late, careless), ValueError);
@@ -89,7 +88,7 @@ TEST_CASE("what one struct says of a device's delay, the device does and the sti
   CHECK(strokes_written(late, careless) == 0);
 }
 
-TEST_CASE("a device that does not drive or sense what writing needs is refused by name", "[practice]") {
+TEST_CASE("a device that lacks an axis needed for writing is rejected by name", "[practice]") {
   SessionOptions options = session(WriterSkill::novice(), FeedbackMode::force);
   options.device.driven.z = false;
   CHECK_THROWS_WITH(write_page(page_of("永"), options),
@@ -114,7 +113,7 @@ TEST_CASE("both writers complete every stroke of a page on every device profile"
 
 namespace {
 
-/// Every stroke completed in both modes, no fault, no force step above the limit.
+/// Checks that every stroke is completed in both modes, without a fault or a force step above the limit.
 void check_written(const Character& character, std::uint64_t seed) {
   const PracticePage page = lay_out(std::span(&character, 1)).front();
   for (const FeedbackMode mode : {FeedbackMode::vision, FeedbackMode::force}) {
@@ -132,7 +131,7 @@ void check_written(const Character& character, std::uint64_t seed) {
 }
 
 #if defined(__SANITIZE_ADDRESS__)
-constexpr int drawn_characters = 10;  // memory is watched; that all are completed is the other build's claim
+constexpr int drawn_characters = 10;  // sanitizer builds check memory; the other build tests the claim
 #else
 constexpr int drawn_characters = 200;
 #endif
@@ -143,11 +142,11 @@ TEST_CASE("every built-in character is completed in both modes, and force steps 
   for (const Character& character : built_in_characters().characters) check_written(character, 11);
 }
 
-TEST_CASE("characters drawn at random from a whole set, as a set file keeps them, are completed in both modes",
+TEST_CASE("characters drawn at random from a whole set, as stored in a set file, are completed in both modes",
           "[practice][corpus]") {
   const char* const path = std::getenv("CALLIGRAPHY_CHARACTER_FILE");
   if (path == nullptr) {
-    WARN("skipped: CALLIGRAPHY_CHARACTER_FILE does not name a file of characters as calligraphy import makes it");
+    WARN("skipped: CALLIGRAPHY_CHARACTER_FILE does not name a character set made by calligraphy import");
     CHECK(std::getenv("CALLIGRAPHY_REQUIRE_DATA") == nullptr);
     return;
   }
@@ -164,20 +163,20 @@ TEST_CASE("characters drawn at random from a whole set, as a set file keeps them
   for (const StoredCharacter& character : kept) check_written(character.character(), character.code());
 }
 
-TEST_CASE("the printed rules step the force by newtons where the default stays within its limit", "[practice]") {
+TEST_CASE("the printed rules step the force by newtons where the default keeps its limit", "[practice]") {
   const PracticePage page = page_of("永北");
   const SessionOptions standard = session(WriterSkill::novice(), FeedbackMode::force, 1);
   SessionOptions printed = standard;
   printed.renderer = RendererOptions::wang2006();
   const double with_default = max_step(write_page(page, standard));
   const double as_printed = max_step(write_page(page, printed));
-  WARN("largest force step per tick: default " << with_default << " N, wang2006 " << as_printed << " N");
+  WARN("maximum force step per tick: default " << with_default << " N, wang2006 " << as_printed << " N");
   CHECK(with_default <= std::hypot(0.1, 0.4) * (1.0 + 1e-12));
   CHECK(as_printed > 1.0);
 }
 
-TEST_CASE("the path is the same within a force JND's worth of error at other servo rates", "[practice]") {
-  // 6 to 10 % is what people tell apart; the figures of the experiment may not depend on the rate by more than that.
+TEST_CASE("the path error at other servo rates is the same within one force JND", "[practice]") {
+  // The force JND is 6 to 10 %; the results of the experiment must not depend on the rate by more than that.
   const PracticePage page = page_of("永");
   double reference = 0.0;
   for (const double rate : {1000.0, 500.0, 4000.0}) {
@@ -190,7 +189,7 @@ TEST_CASE("the path is the same within a force JND's worth of error at other ser
   }
 }
 
-TEST_CASE("a writer or a session out of its domain is refused by name", "[practice]") {
+TEST_CASE("a parameter of the writer or the session out of its domain is rejected by name", "[practice]") {
   const PracticePage page = page_of("一");
   SessionOptions options = session(WriterSkill::novice(), FeedbackMode::force);
   std::string named;

@@ -31,7 +31,7 @@ constexpr std::size_t trace_stride = 1;
 
 Character character_of(std::string_view text) { return calligraphy_test::characters(text).front(); }
 
-/// A straight way in steps of 1 % of the em.
+/// A straight line in steps of 1 % of the em.
 PenPath line(const Point& from, const Point& to) {
   const int steps = std::max(1, static_cast<int>((to - from).norm() / 0.01));
   PenPath path;
@@ -54,7 +54,7 @@ std::vector<std::size_t> shuffled(std::size_t count, Sequence& random) {
   return order;
 }
 
-/// How many strokes must be taken out for the others to rise.
+/// Minimum number of strokes to remove so that the others ascend.
 int out_of_turn(const std::vector<std::size_t>& order) {
   std::vector<std::size_t> tails;
   for (const std::size_t stroke : order) {
@@ -75,7 +75,7 @@ std::string told(const MatchResult& match) {
   return text;
 }
 
-/// Draws strokes in another order, some of them backwards, and asks what was drawn.
+/// Draws strokes in another order, some of them backwards, and checks that each is identified.
 void check_told(const Character& character, const std::vector<PenPath>& paths, Sequence& random) {
   const auto order = shuffled(paths.size(), random);
   std::vector<PenPath> drawn;
@@ -101,7 +101,7 @@ void check_told(const Character& character, const std::vector<PenPath>& paths, S
 
 }  // namespace
 
-TEST_CASE("a copy of any built-in character is in order and forwards", "[practice]") {
+TEST_CASE("a copy of any built-in character is in order and forwards throughout", "[practice]") {
   for (const Character& character : built_in_characters().characters) {
     const MatchResult match = match_strokes(character, copy_of(character));
     CAPTURE(encode_utf8(character.code), told(match));
@@ -115,14 +115,14 @@ TEST_CASE("a copy of any built-in character is in order and forwards", "[practic
   }
 }
 
-TEST_CASE("any order and any direction is told stroke by stroke", "[practice]") {
+TEST_CASE("any order and any direction is identified stroke by stroke", "[practice]") {
   Sequence random(17);
   for (const Character& character : built_in_characters().characters) {
     for (int i = 0; i < rounds; ++i) check_told(character, copy_of(character), random);
   }
 }
 
-TEST_CASE("a character written elsewhere, larger, narrower and with a shaking hand is told as in its place",
+TEST_CASE("a character written elsewhere, larger, narrower and with a shaking hand is matched as if in its place",
           "[practice]") {
   Sequence random(18);
   for (const Character& character : built_in_characters().characters) {
@@ -142,7 +142,7 @@ TEST_CASE("a character written elsewhere, larger, narrower and with a shaking ha
   }
 }
 
-TEST_CASE("the order of three parallel lines is told by where they are", "[practice]") {
+TEST_CASE("three parallel lines are identified by their positions", "[practice]") {
   const Character three = character_of("三");
   const std::vector<PenPath> lines = copy_of(three);
   SECTION("the second last") {
@@ -158,7 +158,7 @@ TEST_CASE("the order of three parallel lines is told by where they are", "[pract
     REQUIRE(match.remarks.size() == 1);
     CHECK(match.remarks[0].reason == "stroke 1 (héng) was written only after stroke 3 (héng)");
   }
-  SECTION("from below") {
+  SECTION("from the bottom up") {
     const MatchResult match = match_strokes(three, std::vector<PenPath>{lines[2], lines[1], lines[0]});
     CHECK(match.count(StrokeRemarkKind::order) == 2);
     CHECK(match.remarks.size() == 2);
@@ -182,7 +182,7 @@ TEST_CASE("the order of three parallel lines is told by where they are", "[pract
   }
 }
 
-TEST_CASE("crossing strokes are told by how they lie", "[practice]") {
+TEST_CASE("crossing strokes are identified by their orientation", "[practice]") {
   const Character ten = character_of("十");
   std::vector<PenPath> drawn = copy_of(ten);
   std::swap(drawn[0], drawn[1]);
@@ -191,7 +191,7 @@ TEST_CASE("crossing strokes are told by how they lie", "[practice]") {
   CHECK(match.remarks[0].reason == "stroke 2 (shù) was written where stroke 1 (héng) was due");
 }
 
-TEST_CASE("strokes written without lifting the pen are joined and no mistake of order", "[practice]") {
+TEST_CASE("strokes written without lifting the pen are joined, not an order mistake", "[practice]") {
   int told_so = 0;
   for (const Character& character : built_in_characters().characters) {
     const std::vector<PenPath> paths = copy_of(character);
@@ -212,7 +212,7 @@ TEST_CASE("strokes written without lifting the pen are joined and no mistake of 
   CHECK(told_so > 40);
 }
 
-TEST_CASE("a stroke that was left out is missing and no mistake of order", "[practice]") {
+TEST_CASE("an omitted stroke is missing, not an order mistake", "[practice]") {
   for (const Character& character : built_in_characters().characters) {
     const std::vector<PenPath> paths = copy_of(character);
     for (std::size_t left_out = 0; left_out < paths.size() && paths.size() > 1; ++left_out) {
@@ -228,7 +228,7 @@ TEST_CASE("a stroke that was left out is missing and no mistake of order", "[pra
   }
 }
 
-TEST_CASE("a pen-down too many is extra and a bounce is nothing", "[practice]") {
+TEST_CASE("an additional pen-down is extra, and a bounce is ignored", "[practice]") {
   const Character ten = character_of("十");
   std::vector<PenPath> drawn = copy_of(ten);
   SECTION("a line far from any stroke") {
@@ -255,7 +255,7 @@ TEST_CASE("a pen-down too many is extra and a bounce is nothing", "[practice]") 
   }
 }
 
-TEST_CASE("a dot that is no more than a tap is a dot without a direction", "[practice]") {
+TEST_CASE("a dot written as a tap is a dot without a direction", "[practice]") {
   const Character eternal = character_of("永");
   std::vector<PenPath> drawn = copy_of(eternal);
   const Point middle = 0.5 * (drawn[0].front() + drawn[0].back());
@@ -267,7 +267,7 @@ TEST_CASE("a dot that is no more than a tap is a dot without a direction", "[pra
   CHECK(match.drawn[0].direction == WritingDirection::unknown);
 }
 
-TEST_CASE("a stroke in two pen-downs is broken and neither missing nor extra", "[practice]") {
+TEST_CASE("a stroke written in two pen-downs is broken, neither missing nor extra", "[practice]") {
   const Character ten = character_of("十");
   std::vector<PenPath> drawn = copy_of(ten);
   const PenPath whole = drawn[1];
@@ -281,7 +281,7 @@ TEST_CASE("a stroke in two pen-downs is broken and neither missing nor extra", "
   CHECK(match.drawn[2].continues);
 }
 
-TEST_CASE("a stroke drawn across its direction has another shape and is not called backwards", "[practice]") {
+TEST_CASE("a stroke drawn across its direction has another shape and is not reported as backwards", "[practice]") {
   const Character eternal = character_of("永");  // its first stroke is a dot
   std::vector<PenPath> drawn = copy_of(eternal);
   const Point middle = 0.5 * (drawn[0].front() + drawn[0].back());
@@ -303,14 +303,14 @@ TEST_CASE("a stroke drawn across its direction has another shape and is not call
   }
 }
 
-TEST_CASE("no pen-down at all leaves every stroke missing", "[practice]") {
+TEST_CASE("without pen-downs every stroke is missing", "[practice]") {
   const Character ten = character_of("十");
   const MatchResult match = match_strokes(ten, {});
   CHECK(match.drawn.empty());
   CHECK(match.count(StrokeRemarkKind::missing) == 2);
 }
 
-TEST_CASE("paths that cannot be judged are refused by number", "[practice]") {
+TEST_CASE("invalid paths are rejected by number", "[practice]") {
   const Character ten = character_of("十");
   std::vector<PenPath> drawn = copy_of(ten);
   const auto refusal = [&]() -> std::string {
@@ -329,7 +329,7 @@ TEST_CASE("paths that cannot be judged are refused by number", "[practice]") {
   CHECK(refusal().find("1001 pen-downs") == 0);
 }
 
-TEST_CASE("scribbles, points and far-off paths get a verdict of some kind", "[practice]") {
+TEST_CASE("scribbles, points and distant paths give a consistent result", "[practice]") {
   Sequence random(23);
   for (const Character& character : built_in_characters().characters) {
     std::vector<PenPath> drawn;
@@ -354,7 +354,7 @@ TEST_CASE("scribbles, points and far-off paths get a verdict of some kind", "[pr
   }
 }
 
-TEST_CASE("of a real pen every order and direction of its own strokes is told", "[practice][corpus]") {
+TEST_CASE("every order and direction of a real pen's own strokes is identified", "[practice][corpus]") {
   Sequence random(29);
   const auto traces = calligraphy_test::traces_of_people();
   for (std::size_t at = 0; at < traces.size(); at += trace_stride) {
@@ -366,18 +366,18 @@ TEST_CASE("of a real pen every order and direction of its own strokes is told", 
   }
 }
 
-TEST_CASE("the verdicts on a corpus of people are those of who looks at the pictures", "[practice][corpus]") {
+TEST_CASE("on a corpus of people's writing the result agrees with visual inspection", "[practice][corpus]") {
   const auto set = calligraphy_test::imported_characters();
   if (!set) return;
-  // Judged by eye, each in its own picture; of 21 of the 39 characters there is no standard.
+  // By visual inspection of each picture; 21 of the 39 characters have no template.
   const std::map<std::string, std::vector<std::string>> seen = {
       {"冘", {}}, {"夌", {}},
       {"犮", {}}, {"疌", {}},
       {"肙", {}}, {"辯", {}},
-      {"雚", {}}, {"禸", {"joined 3"}},            // its third and fourth stroke in one go
+      {"雚", {}}, {"禸", {"joined 3"}},            // its third and fourth stroke in one pen-down
       {"卄", {}}, {"卌", {"missing 5"}},           // three verticals instead of four
       {"卬", {}}, {"甪", {"missing 6"}},           // without the vertical in the middle
-      {"內", {}}, {"戶", {"shape 1", "order 4"}},  // a pie for the dot, and the long pie before the box
+      {"內", {}}, {"戶", {"shape 1", "order 4"}},  // a pie in place of the dot, and the long pie before the box
       {"匭", {}}, {"匽", {}},
       {"囪", {}}, {"圇", {}},
   };
@@ -395,10 +395,10 @@ TEST_CASE("the verdicts on a corpus of people are those of who looks at the pict
     CHECK(remarks == expected->second);
     ++compared;
   }
-  WARN(compared << " characters compared with the eye's verdict");
+  WARN(compared << " characters compared with visual inspection");
 }
 
-TEST_CASE("against the standard every order and direction of real pens is told where they wrote every stroke",
+TEST_CASE("every order and direction of real pens that wrote every stroke of the standard is identified",
           "[practice][corpus]") {
   const auto set = calligraphy_test::imported_characters();
   if (!set) return;
@@ -421,5 +421,5 @@ TEST_CASE("against the standard every order and direction of real pens is told w
       check_told(character, elsewhere, random);
     }
   }
-  WARN(compared << " characters written by people as the standard has them");
+  WARN(compared << " characters that people wrote according to the standard");
 }

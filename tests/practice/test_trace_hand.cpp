@@ -32,7 +32,7 @@ double max_traced_step(const Recording& recording) {
   return largest;
 }
 
-/// No fault, force and force step within their limits, and the hand came to its end.
+/// Checks that there is no fault, force and force step are within their limits, and the hand reaches its end.
 void check_bounded(const Character& character, const PenTrace& trace, const SessionOptions& options) {
   const PracticePage page = lay_out(std::span(&character, 1)).front();
   const Recording recording = follow_trace(page, trace, options);
@@ -52,7 +52,7 @@ void check_bounded(const Character& character, const PenTrace& trace, const Sess
 
 }  // namespace
 
-TEST_CASE("a hand on a trace is where the pen was, when it was there", "[practice]") {
+TEST_CASE("a hand on a trace is at the pen's recorded position at the recorded time", "[practice]") {
   const PracticePage page = page_of("十");
   const PlacedCharacter& placed = page.characters.front();
   const PenTrace trace = trace_of(U'十', copy_of(placed.character));
@@ -65,7 +65,7 @@ TEST_CASE("a hand on a trace is where the pen was, when it was there", "[practic
   double time = 0.0;
   for (const PenStroke& stroke : trace.strokes) {
     while (time < hand.duration() && !pressed(time)) time += step;
-    const double shift = time - stroke.front().time;  // right to a step, in which the pen moves 0.002 mm
+    const double shift = time - stroke.front().time;  // accurate to a step, in which the pen moves 0.002 mm
     for (const TimedPoint& timed : stroke) {
       const Point expected = placed.placement.to_page(map(timed.point));
       CHECK((hand.at(timed.time + shift).head<2>() - expected).norm() < 5e-6);
@@ -85,7 +85,7 @@ TEST_CASE("a hand on a trace never jumps", "[practice]") {
   }
 }
 
-TEST_CASE("the pen-downs of a recording are its contacts, bounces and refused samples left out", "[practice]") {
+TEST_CASE("the pen-downs of a recording are its contacts, without bounces and rejected samples", "[practice]") {
   const Placement placement{{0.05, 0.04}, 0.04};
   Recording recording;
   const auto add = [&](double seconds, InteractionState state, TickStatus status = TickStatus::ok) {
@@ -114,7 +114,7 @@ TEST_CASE("the pen-downs of a recording are its contacts, bounces and refused sa
   CHECK(paths[0].front().isApprox(Point(0.25, 0.25)));
 }
 
-TEST_CASE("the box of what was written comes onto the box of the character", "[practice]") {
+TEST_CASE("the bounding box of the writing is mapped onto that of the character", "[practice]") {
   const Character ten = page_of("十").characters.front().character;
   std::vector<PenPath> paths = copy_of(ten);
   const auto box_after = [&] {
@@ -137,27 +137,27 @@ TEST_CASE("the box of what was written comes onto the box of the character", "[p
     CHECK(fit_box(paths, ten).offset.isApprox(before.offset));
     CHECK(fit_box(paths, ten).scale.isApprox(before.scale));
   }
-  SECTION("a heng is not blown up to a band") {
+  SECTION("a heng is not stretched into a band") {
     const Character one = page_of("一").characters.front().character;
     const PenPath heng = {{0.2, 0.5}, {0.5, 0.51}, {0.6, 0.5}};
     const BoxMap map = fit_box(std::vector<PenPath>{heng}, one);
     CHECK(map.scale.x() == map.scale.y());
   }
-  SECTION("one axis is stretched at most 1.5 times the other") {
+  SECTION("the two scales differ by a factor of at most 1.5") {
     for (PenPath& path : paths) {
       for (Point& point : path) point.x() *= 10.0;
     }
     const BoxMap map = fit_box(paths, ten);
     CHECK(map.scale.y() / map.scale.x() == Approx(1.5));
   }
-  SECTION("nothing stays where it is") {
+  SECTION("without paths the map is the identity") {
     const BoxMap map = fit_box({}, ten);
     CHECK(map.scale == Point(1.0, 1.0));
     CHECK(map.offset == Point(0.0, 0.0));
   }
 }
 
-TEST_CASE("a trace drawn right on the template is completed under guidance, and the device draws what was written",
+TEST_CASE("a trace drawn exactly on the template is completed under guidance, and the device draws the same strokes",
           "[practice]") {
   for (const char* const text : {"十", "永", "北", "书"}) {
     const PracticePage page = page_of(text);
@@ -172,7 +172,7 @@ TEST_CASE("a trace drawn right on the template is completed under guidance, and 
   }
 }
 
-TEST_CASE("what the device drew is told as what the pen drew, whether the renderer took it or not", "[practice]") {
+TEST_CASE("the device's path matches the same strokes as the pen's, accepted by the renderer or not", "[practice]") {
   const PracticePage page = page_of("北");
   const PlacedCharacter& placed = page.characters.front();
   std::vector<PenPath> paths = copy_of(placed.character);
@@ -188,7 +188,7 @@ TEST_CASE("what the device drew is told as what the pen drew, whether the render
   }
 }
 
-TEST_CASE("pens of people hold the device without a fault, and no force or force step is above its limit",
+TEST_CASE("people's pens hold the device without a fault, and no force or force step exceeds its limit",
           "[practice][corpus]") {
   const bool everything = GENERATE(false, true);
   CAPTURE(everything);
@@ -208,7 +208,7 @@ TEST_CASE("pens of people hold the device without a fault, and no force or force
   }
 }
 
-TEST_CASE("a person who writes another character than is due meets no fault and no force step above the limit",
+TEST_CASE("a person who writes the wrong character causes no fault and no force step above the limit",
           "[practice][corpus]") {
   const bool everything = GENERATE(false, true);
   SessionOptions options = session({}, FeedbackMode::force);
@@ -219,7 +219,7 @@ TEST_CASE("a person who writes another character than is due meets no fault and 
   }
 }
 
-TEST_CASE("hands that were made up meet no fault and no force step above the limit on any device", "[practice]") {
+TEST_CASE("synthetic hands cause no fault and no force step above the limit on any device", "[practice]") {
   const std::string name = GENERATE("omni", "touch", "desktop", "premium-1.5", "ideal");
   const bool everything = GENERATE(false, true);
   CAPTURE(name, everything);
@@ -234,7 +234,7 @@ TEST_CASE("hands that were made up meet no fault and no force step above the lim
   check_bounded(eternal, trace_of(U'永', paths), options);
 }
 
-TEST_CASE("a trace that no hand can follow is refused", "[practice]") {
+TEST_CASE("a trace that no hand can follow is rejected", "[practice]") {
   const PracticePage page = page_of("十");
   const auto refused = [&](const PenTrace& trace) {
     CHECK_THROWS_AS(follow_trace(page, trace, session({}, FeedbackMode::force)), ValueError);

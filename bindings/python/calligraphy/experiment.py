@@ -1,6 +1,6 @@
 """Closed-loop trials over a grid of conditions: a simulated writer, a simulated device and the renderer.
 
-A trial is deterministic: its row depends on its condition alone, not on the order, the process or the machine's load.
+A trial is deterministic: its row depends only on its condition, not on the order, the process or the machine's load.
 """
 
 from __future__ import annotations
@@ -32,27 +32,28 @@ class TrialsLost(RuntimeError):
 
 
 class Condition(NamedTuple):
-    """What one trial is done under."""
+    """The condition of one trial."""
 
     character: str
     writer: str  #: name of the writer
     mode: str  #: "vision" or "force"
-    stiffness: float  #: of the guidance and the paper [N/m]
-    rate: float  #: of the servo loop [Hz]
-    method: str  #: of the nearest point: "exact", "tracked", "sampled", "wang2006"
-    tolerance: float  #: of the nearest point, relative to the element's size
+    stiffness: float  #: guidance and paper stiffness [N/m]
+    rate: float  #: servo rate [Hz]
+    method: str  #: nearest-point method: "exact", "tracked", "sampled", "wang2006"
+    tolerance: float  #: nearest-point tolerance, relative to the element's size
     seed: int
 
 
 class Grid:
-    """The conditions of an experiment: every combination of the lists, in this order, the last one fastest.
+    """The conditions of an experiment: every combination of the lists, in this order, the last one varying fastest.
 
-    No list has a value twice, as that would be the same trial again: a trial is repeated with another seed.
+    A value may occur only once per list, because a second one would be the same trial. To repeat a trial, use another
+    seed.
 
+    characters: looked up in `source`, a CharacterSet or CharacterList; by default the built-in characters.
     writers: names ("novice", "skilled") or a dict from name to WriterSkill.
-    stiffness: of the guidance and the paper [N/m]; clipped to nine tenths of what is stable, as RendererOptions does:
-    the columns guidance_stiffness and paper_stiffness have what was at work.
-    characters come from `characters`, a CharacterSet or CharacterList; the built-in ones by default.
+    stiffness: guidance and paper stiffness [N/m], clipped to nine tenths of the stable maximum as RendererOptions does;
+    the columns guidance_stiffness and paper_stiffness contain the effective values.
     """
 
     def __init__(
@@ -114,7 +115,7 @@ class Grid:
         )
 
 
-#: The columns of a table, of which the first ones are those of Condition, and their types.
+#: The columns of a table and their types; the first ones are those of Condition.
 _COLUMNS: dict[str, type] = {
     "character": str,
     "writer": str,
@@ -144,7 +145,7 @@ _COLUMNS: dict[str, type] = {
 
 
 def conditions(grid: Grid) -> list[Condition]:
-    """Every condition of the grid, in the order of the table's rows."""
+    """Every condition of the grid, in the order of the rows of the table."""
     return list(grid)
 
 
@@ -154,7 +155,7 @@ def novice_and_skilled() -> dict[str, cal.WriterSkill]:
 
 
 def trial(grid: Grid, condition: Condition) -> Row:
-    """One trial in this process: the condition and what came of it, a number each."""
+    """Runs one trial in this process and returns its row: the condition and the results."""
     character = grid.characters[condition.character]
     options = cal.SessionOptions(
         mode=getattr(cal.FeedbackMode, condition.mode),
@@ -205,14 +206,15 @@ def run(
     chunk: int = 8,
     retries: int = 3,
 ) -> Any:
-    """Runs every trial of the grid and gives the table: a pandas.DataFrame, or a structured array without pandas.
+    """Runs every trial of the grid and returns the table: a pandas.DataFrame, or a structured array without pandas.
 
-    executor: any concurrent.futures.Executor; a process pool on one machine, `dask.distributed.Client.get_executor()`
-    on several; None: this process. Trials go out `chunk` at a time. A chunk whose worker died is sent again, up to
-    `retries` times each, so that nothing is lost; with a pool that breaks as a whole (concurrent.futures' own does), its
-    chunks are done in this process. Rows are in the order of conditions(grid), whatever came back first, and the same
-    for the same condition and seed. With tqdm and a terminal a bar shows the progress.
-    Raises TrialsLost naming the first condition when a chunk fails for good.
+    executor: any concurrent.futures.Executor, for example a process pool on one machine or
+    `dask.distributed.Client.get_executor()` on several; None: run in this process. Trials are submitted in chunks of
+    `chunk`. A chunk whose worker died is submitted again, up to `retries` times, so that no trial is lost; if the whole
+    pool breaks (as that of concurrent.futures does), its chunks run in this process. Rows are in the order of
+    conditions(grid), whichever finishes first, and identical for the same condition and seed. With tqdm installed, a
+    progress bar is shown on a terminal.
+    Raises TrialsLost naming the first condition of a chunk that failed too often.
     """
     every = conditions(grid)
     chunk, retries = _whole("chunk", chunk, least=1), _whole("retries", retries)
@@ -239,7 +241,7 @@ def to_table(rows: Sequence[Row]) -> Any:
 
 
 def write(table: Any, path: str | os.PathLike[str]) -> None:
-    """Writes a table of run() as .csv or .parquet (needs pyarrow); a whole file or none.
+    """Writes a table of run() as .csv or .parquet (requires pyarrow), atomically: the whole file or none.
 
     Raises FileError naming the file and the reason.
     """
@@ -333,7 +335,7 @@ def _run_on(
 
 
 class _Bar:
-    """tqdm's progress bar where it is installed, on a terminal; else nothing."""
+    """The progress bar of tqdm on a terminal, if installed; otherwise nothing."""
 
     def __init__(self, total: int, wanted: bool) -> None:
         self._bar: Any = None
@@ -377,7 +379,7 @@ def _writers(writers: Union[Sequence[str], Mapping[str, cal.WriterSkill]]) -> di
 
 
 def _axis(what: str, values: Iterable[Any], checked: Callable[[str, Any], _Value]) -> list[_Value]:
-    """The values of one axis, none of them twice."""
+    """The checked values of one axis; none may occur twice."""
     if not isinstance(values, Iterable):
         raise cal.InvalidValue(f"{what}: a list is expected, not {values!r}")
     result: dict[_Value, None] = {}
@@ -390,7 +392,7 @@ def _axis(what: str, values: Iterable[Any], checked: Callable[[str, Any], _Value
 
 
 def _list(what: str, values: Any) -> Any:
-    """Names are in a list: a name alone would be taken for one of its letters."""
+    """Rejects a single name in place of a list: it would be taken as a list of its letters."""
     if isinstance(values, str):
         raise cal.InvalidValue(f"{what}: a list is expected, not {values!r}")
     return values

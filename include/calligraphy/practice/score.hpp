@@ -1,4 +1,4 @@
-// How well a page was written: a score per perceptible element, and every mistake with its reason (Wang 2006,
+// Scores of a written page: one criterion per perceptible element, and every mistake with its reason (Wang 2006,
 // sec. 2.2).
 #pragma once
 
@@ -11,22 +11,22 @@
 namespace calligraphy {
 
 enum class WritingMistakeKind {
-  order,     ///< external sequence: a stroke was written out of turn
+  order,     ///< external sequence: a stroke was written out of order
   direction  ///< internal sequence: a stroke was written backwards
 };
 
 struct WritingMistake {
   WritingMistakeKind kind;
-  int stroke;          ///< the stroke that was due, from 0
-  double time;         ///< when the pen was put down [s]
-  std::string reason;  ///< one line for a person
+  int stroke;          ///< the expected stroke, from 0
+  double time;         ///< of the pen-down [s]
+  std::string reason;  ///< one line of explanation for people
 };
 
 struct CharacterScore {
   char32_t character = 0;
   double time =
-      0.0;  ///< from the first pen-down (or the end of the character before) to the end of the last stroke [s]
-  double rms_error = 0.0;  ///< lateral, over the arc length of the strokes completed [m]
+      0.0;  ///< from the first pen-down (or the end of the previous character) to the end of the last stroke [s]
+  double rms_error = 0.0;  ///< lateral, over the arc length of the completed strokes [m]
   double max_error = 0.0;  ///< lateral [m]
   int stroke_count = 0;
   int strokes_completed = 0;
@@ -36,8 +36,8 @@ struct CharacterScore {
 
   /// The perceptible elements of Fig. 2, each in [0, 1].
   double contour = 0.0;            ///< exp(-rms error / 5 % of the em), 0 for strokes not completed
-  double external_sequence = 0.0;  ///< share of pen-downs that wrote the stroke that was due
-  double internal_sequence = 0.0;  ///< share of strokes written without going backwards
+  double external_sequence = 0.0;  ///< completed strokes / (completed + order mistakes)
+  double internal_sequence = 0.0;  ///< completed strokes / (completed + direction mistakes)
   double fidelity = 0.0;           ///< geometric mean of the three
 
   int order_mistakes() const noexcept;
