@@ -8,6 +8,8 @@
 
 #include "../catch.hpp"
 
+namespace doubtful_strokes_tests {
+
 using namespace calligraphy;
 
 namespace {
@@ -66,3 +68,5 @@ TEST_CASE("a stroke outside the em square is found by its curve, not by its hand
 TEST_CASE("a dot that is a point causes no warning", "[model]") {
   CHECK(warnings_of({{8, {{0.5, 0.5}, {0.5, 0.5}}}, heng}).find("direction") == std::string::npos);
 }
+
+}  // namespace doubtful_strokes_tests
