@@ -23,14 +23,14 @@ Watch = Callable[[cal.LiveView], object]
 def open_device(wire_profile: str) -> cal.HapticDevice:
     """What is there; a simulated device that follows a pointer when nothing is."""
     try:
-        plugged = cal.plugged_devices()
-    except cal.DeviceError:  # no bus, or a module without Phantoms
+        plugged = cal.plugged_devices() if "phantom" in cal.backends else []
+    except cal.DeviceError:  # no bus
         plugged = []
     for device in plugged:
-        print(cal.describe_device(device), device.advice)
+        print(device, device.advice)
     if plugged and wire_profile:
         return cal.PhantomDevice(cal.PhantomOptions(wire_profile=wire_profile))
-    if cal.openhaptics_runtime().found:
+    if "openhaptics" in cal.backends and cal.openhaptics_runtime()["found"]:
         return cal.OpenHapticsDevice()
     print("no device: a simulated one, whose hand follows a pointer that is led along the strokes")
     return cal.PointerDevice(cal.device_profile("desktop"))
@@ -50,7 +50,8 @@ class LedPointer:
 
     def __call__(self, view: cal.LiveView) -> None:
         place, pressure = self.places[0]
-        self.device.move(*(place - self.centre), pressure)
+        x, y = place - self.centre
+        self.device.move(x, y, pressure)
         pen = view.newest["device_point"]
         is_down = pen[2] < 0.0
         if np.hypot(*(pen[:2] - place)) < 3e-3 and is_down == (pressure > 0) and len(self.places) > 1:
@@ -83,7 +84,7 @@ def main() -> None:
         print(warning)
     score, timing = cal.score_page(page, result.recording)[0], result.statistics
     print(f"{score.strokes_completed} of {score.stroke_count} strokes, RMS {1e3 * score.rms_error:.2f} mm, "
-          f"period p99 {1e3 * timing.period.p99:.2f} ms, {timing.missed_deadlines} deadlines missed")  # fmt: skip
+          f"period p99 {1e3 * timing['period']['p99']:.2f} ms, {timing['missed_deadlines']} deadlines missed")  # fmt: skip
     samples = result.recording.samples
     figure, (left, right) = plt.subplots(1, 2, figsize=(10, 4.5), layout="constrained")
     draw_template(left, page.characters[0])

@@ -14,10 +14,9 @@ colors = {"exact": "#4477aa", "tracked": "#228833", "sampled": "#ee6677", "wang2
 figure, columns = plt.subplots(1, 2, figsize=(11, 4.4), sharey=True, layout="constrained")
 for axes, kind, title in zip(columns, ("real", "hard"), ("on real strokes", "on hostile curves")):
     for method, color in colors.items():
-        costs = [getattr(entry, kind) for entry in tradeoff if entry.options.method.name == method]
-        costs.sort(key=lambda cost: cost.ns)
-        worst = np.maximum([cost.error_worst for cost in costs], 1e-17)  # none at all is drawn there
-        axes.loglog([cost.ns for cost in costs], worst, "o-", color=color, label=method, markersize=4)
+        costs = np.sort(tradeoff[kind][tradeoff["method"] == method], order="ns")
+        worst = np.maximum(costs["error_worst"], 1e-17)  # none at all is drawn there
+        axes.loglog(costs["ns"], worst, "o-", color=color, label=method, markersize=4)
     axes.axhline(1e-3, color="black", linewidth=0.8, linestyle="--", label="above: another branch")
     axes.set(xlabel="time per query [ns]", title=title)
     axes.set_xticks([50, 100, 200, 400], ["50", "100", "200", "400"])
@@ -27,4 +26,5 @@ figure.legend(*columns[1].get_legend_handles_labels(), loc="outside right center
 figure.suptitle("Nearest point: speed against accuracy")
 save(figure, out / "speed-accuracy-tradeoff.png")
 for entry in tradeoff:
-    print(f"{entry.name:22} {entry.real.ns:7.0f} ns, worst {entry.real.error_worst:8.1e}; hostile: wrong {entry.hard.wrong:7.2%}")
+    real, hard = entry["real"], entry["hard"]
+    print(f"{entry['name']:22} {real['ns']:7.0f} ns, worst {real['error_worst']:8.1e}; hostile: wrong {hard['wrong']:7.2%}")

@@ -362,7 +362,7 @@ def _character(source: cal.CharacterSet | cal.CharacterList | None, code: str) -
     found = (cal.built_in_characters() if source is None else source).find(code)
     if found is None:
         raise cal.InvalidValue(f"characters: there is no {code!r} in the set")
-    return found.character() if isinstance(found, cal.StoredCharacter) else found
+    return found
 
 
 def _writers(writers: Union[Sequence[str], Mapping[str, cal.WriterSkill]]) -> dict[str, cal.WriterSkill]:
