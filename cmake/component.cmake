@@ -38,8 +38,12 @@ function(calligraphy_component name)
   set_property(GLOBAL PROPERTY CALLIGRAPHY_${name}_DEPENDS "${components}")
   set_property(GLOBAL PROPERTY CALLIGRAPHY_${name}_NEEDS "${COMPONENT_NEEDS}")
   install(TARGETS ${target} EXPORT ${COMPONENT_EXPORT})
-  install(DIRECTORY include/calligraphy/${COMPONENT_FOLDER}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/calligraphy/${COMPONENT_FOLDER}
-          PATTERN phantom EXCLUDE PATTERN openhaptics EXCLUDE)  # which install their own
+  set(without "")
+  if(name STREQUAL "devices")  # its backends install their own; a pattern would match these folders themselves
+    set(without PATTERN phantom EXCLUDE PATTERN openhaptics EXCLUDE)
+  endif()
+  set(include_directory ${CMAKE_INSTALL_INCLUDEDIR}/calligraphy/${COMPONENT_FOLDER})
+  install(DIRECTORY include/calligraphy/${COMPONENT_FOLDER}/ DESTINATION ${include_directory} ${without})
 endfunction()
 
 function(calligraphy_warnings target)

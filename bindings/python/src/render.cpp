@@ -83,8 +83,8 @@ void add_render(py::module_& module) {
   add_enum(module, "PenTipRule", "Where the virtual pen tip is.", PenTipRule::wang2006, "projected wang2006");
   add_enum(module, "GuidanceLaw", "How guidance grows with the distance.", GuidanceLaw::saturating,
            "linear saturating");
-  add_enum(module, "StiffnessCheck", "What becomes of an unstable stiffness.", StiffnessCheck::none,
-           "refuse clip none");
+  add_enum(module, "StiffnessCheck", "What becomes of an unstable stiffness.", StiffnessCheck::off,
+           "reject clip off");
   add_enum(module, "ForceSign", "The signs of eq. (8) and (9).", ForceSign::wang2006, "attracting wang2006");
   add_enum(module, "MotionMappingRule", "How device axes map to the page.", MotionMappingRule::wang2006,
            "affine wang2006");
@@ -108,7 +108,7 @@ void add_render(py::module_& module) {
                 &O::guidance_stiffness, "guidance_stiffness: K_et of eq. (8) [N/m]", &O::guidance_fade_in,
                 "guidance_fade_in [s]", &O::wrong_way_stiffness, "wrong_way_stiffness: 0: none [N/m]",
                 &O::wrong_way_limit, "wrong_way_limit [N]", &O::wrong_way_slack, "wrong_way_slack [m]",
-                &O::stiffness_check, "stiffness_check: StiffnessCheck: refuse or clip what is not stable",
+                &O::stiffness_check, "stiffness_check: StiffnessCheck: reject or clip what is not stable, or off",
                 &O::softest_grip, "softest_grip: Hand in which the loop is to be stable", &O::guidance,
                 "guidance: GuidanceLaw", &O::guidance_limit,
                 "guidance_limit: saturating: the largest guidance force [N]", &O::guide_to_start,
