@@ -14,14 +14,24 @@ struct MotionMapping {
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();        ///< position of the device origin on the page [m]
   double scale = 1.0;                                      ///< K_S
 
-  Eigen::Vector3d to_page(const Eigen::Vector3d& device) const noexcept { return offset + scale * (rotation * device); }
-  Eigen::Vector3d velocity_to_page(const Eigen::Vector3d& device) const noexcept { return scale * (rotation * device); }
+  Eigen::Vector3d to_page(const Eigen::Vector3d& device) const noexcept {
+    return offset + scale * turned(rotation, device);
+  }
+  Eigen::Vector3d velocity_to_page(const Eigen::Vector3d& device) const noexcept {
+    return scale * turned(rotation, device);
+  }
   Eigen::Vector3d to_device(const Eigen::Vector3d& page) const noexcept {
-    return rotation.transpose() * (page - offset) / scale;
+    return turned(rotation.transpose(), page - offset) / scale;
   }
   /// Preserves power: force times velocity is the same on both sides.
   Eigen::Vector3d force_to_device(const Eigen::Vector3d& page) const noexcept {
-    return scale * (rotation.transpose() * page);
+    return scale * turned(rotation.transpose(), page);
+  }
+
+ private:
+  /// Column by column: Eigen's own product adds in an order that depends on the processor, and fuses on some.
+  static Eigen::Vector3d turned(const Eigen::Matrix3d& by, const Eigen::Vector3d& vector) noexcept {
+    return by.col(0) * vector.x() + by.col(1) * vector.y() + by.col(2) * vector.z();
   }
 };
 
