@@ -25,6 +25,8 @@ std::string complaint(std::string_view text) {
 
 TEST_CASE("code points of one to four bytes are decoded", "[model]") {
   CHECK(decode_utf8("").empty());
+  CHECK(is_utf8("A\xC3\xA9"));
+  CHECK_FALSE(is_utf8("\xC3"));
   CHECK(decode_utf8("A\xC3\xA9\xE6\xB0\xB8\xF0\xA0\x80\x80") == U"A\u00E9\u6C38\U00020000");
 }
 

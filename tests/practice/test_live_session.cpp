@@ -131,8 +131,8 @@ TEST_CASE("a page is written on a device with its own clock, and every tick is r
   CHECK(written.mistakes.empty());
   CHECK(device.max_force > 0.1);
   REQUIRE(!views.empty());
-  CHECK(views.back().share == 1.0);
-  for (std::size_t i = 1; i < views.size(); ++i) CHECK(views[i].share >= views[i - 1].share);
+  CHECK(views.back().progress == 1.0);
+  for (std::size_t i = 1; i < views.size(); ++i) CHECK(views[i].progress >= views[i - 1].progress);
   const std::vector<RecordedSample>& samples = result.recording.samples;
   for (std::size_t i = 1; i < samples.size(); ++i) {
     REQUIRE(samples[i].time - samples[i - 1].time == Approx(period).margin(1e-9));
@@ -200,8 +200,8 @@ TEST_CASE("a pen that comes out of an inkwell behind the paper writes nothing on
   std::vector<LiveView> views;
   const LiveResult result = write_with_device(page, device, watched(device, &views));
   REQUIRE(views.size() > 2);
-  CHECK_FALSE(views.front().begun);
-  CHECK(views.back().begun);
+  CHECK_FALSE(views.front().started);
+  CHECK(views.back().started);
   CHECK(std::is_partitioned(views.begin(), views.end(), [](const LiveView& view) { return !view.started; }));
   const CharacterScore written = score_page(page, result.recording).front();
   CHECK(written.strokes_completed == 2);
