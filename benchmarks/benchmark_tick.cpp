@@ -8,6 +8,7 @@
 #include <benchmark/benchmark.h>
 
 #include <calligraphy/calligraphy.hpp>
+#include <calligraphy/devices/detail/flush_denormals.hpp>
 
 namespace {
 

@@ -43,7 +43,7 @@ bool LineReader::next_whole() {
   const bool found = next();
   if (found && in_.eof()) {
     constexpr std::size_t most = 40;
-    fail("the file is cut off after '" + line_.substr(line_.size() - std::min(line_.size(), most)) + "'");
+    fail("the file is truncated after '" + line_.substr(line_.size() - std::min(line_.size(), most)) + "'");
   }
   return found;
 }

@@ -129,7 +129,7 @@ std::string panel(const StabilitySweep& sweep, std::size_t index, const std::vec
 }  // namespace
 
 std::string stability_map_plot(const StabilityMap& map) {
-  if (map.sweeps.empty() || map.stiffnesses.size() < 2) throw ValueError("plot of a stability map: no sweep");
+  if (map.sweeps.empty() || map.stiffnesses.size() < 2) throw ValueError("stability map plot: the map has no sweep");
   const std::size_t rows = (map.sweeps.size() + panel_columns - 1) / panel_columns;
   const double half = std::sqrt(map.stiffnesses[1] / map.stiffnesses[0]);
   std::string script = gnuplot::svg_terminal(1180, 120 + 340 * static_cast<int>(rows)) +

@@ -31,7 +31,7 @@ constexpr const char* device_colour = "#2f9e44";
 constexpr double sheet_margin = 6.0;
 constexpr double square_side = 86.0;           ///< of a square
 constexpr double sheet_top = 19.0;             ///< title and headings
-constexpr double border = 0.09 * square_side;  ///< within the square, round what is drawn: room for numbers
+constexpr double border = 0.09 * square_side;  ///< within the square, around the drawing: space for numbers
 constexpr double text_size = 3.4;
 constexpr double line_height = 4.6;
 constexpr double label_size = 3.4;
@@ -270,7 +270,7 @@ std::string replay_picture(const Character& character, std::span<const PenPath> 
   const svg::View left = view_of(box, sheet_margin), right = view_of(box, 2.0 * sheet_margin + square_side);
   draw_square(root, character, sheet_margin, "as written", left);
   draw_written(root, character, laid, match, left);
-  draw_square(root, character, 2.0 * sheet_margin + square_side, "the device under guidance", right);
+  draw_square(root, character, 2.0 * sheet_margin + square_side, "device, under guidance", right);
   draw_guided(root, guided, right);
 
   double y = sheet_top + square_side + 5.5;

@@ -77,7 +77,7 @@ TEST_CASE("a last line that was cut off is refused where a line must have its en
   std::istringstream in("a\n1.2");
   LineReader reader(in, "a.csv");
   CHECK(reader.next_whole());
-  CHECK(message([&] { reader.next_whole(); }) == "a.csv:2: the file is cut off after '1.2'");
+  CHECK(message([&] { reader.next_whole(); }) == "a.csv:2: the file is truncated after '1.2'");
 }
 
 TEST_CASE("a statement is what is left without comments and blanks, as its first word has it", "[base]") {

@@ -18,7 +18,7 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 /// The message of the ValueError that `check` throws; "" if it throws none.
 template <typename Check>
-std::string message(const Check& check) {
+std::string error_of_require(const Check& check) {
   try {
     check();
   } catch (const ValueError& error) {
@@ -30,14 +30,14 @@ std::string message(const Check& check) {
 }  // namespace
 
 TEST_CASE("a number out of its domain is named with value, unit and domain", "[base]") {
-  CHECK(message([] { require(true, "rate", 0.0, "Hz", "above 0"); }).empty());
-  CHECK(message([] { require(false, "rate", 0.0, "Hz", "above 0"); }) == "rate = 0 Hz, must be above 0");
-  CHECK(message([] { require(false, "scale", -2, "", "above 0"); }) == "scale = -2, must be above 0");
+  CHECK(error_of_require([] { require(true, "rate", 0.0, "Hz", "above 0"); }).empty());
+  CHECK(error_of_require([] { require(false, "rate", 0.0, "Hz", "above 0"); }) == "rate = 0 Hz, must be above 0");
+  CHECK(error_of_require([] { require(false, "scale", -2, "", "above 0"); }) == "scale = -2, must be above 0");
 }
 
 TEST_CASE("the value of a message reads back as the number that was refused", "[base]") {
   const auto text = [](double value) {
-    const std::string found = message([=] { require(false, "x", value, "", "y"); });
+    const std::string found = error_of_require([=] { require(false, "x", value, "", "y"); });
     return found.substr(4, found.find(',') - 4);
   };
   CHECK(text(100000.0) == "100000");
@@ -55,10 +55,10 @@ TEST_CASE("the value of a message reads back as the number that was refused", "[
 
 TEST_CASE("each domain has its bounds, holds no infinity and takes no NaN for a number", "[base]") {
   const auto above = [](double value, double most) {
-    return message([=] { require_above_zero("x", value, "m", most); });
+    return error_of_require([=] { require_above_zero("x", value, "m", most); });
   };
-  const auto not_negative = [](double value) { return message([=] { require_not_negative("x", value, "m"); }); };
-  const auto within = [](double value) { return message([=] { require_within("x", value, "m", -0.5, 2.0); }); };
+  const auto not_negative = [](double value) { return error_of_require([=] { require_not_negative("x", value, "m"); }); };
+  const auto within = [](double value) { return error_of_require([=] { require_within("x", value, "m", -0.5, 2.0); }); };
   for (const double good : {5e-324, 1.0, 1.7976931348623157e308}) {
     CHECK(above(good, unlimited).empty());
     CHECK(not_negative(good).empty());

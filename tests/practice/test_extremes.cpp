@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <calligraphy/calligraphy.hpp>
+#include <calligraphy/devices/detail/flush_denormals.hpp>
 
 #include "../special_values.hpp"
 #include "hard_cases.hpp"

@@ -118,7 +118,7 @@ TEST_CASE("bad and abandoned strokes restore assistance", "[render]") {
   std::vector<Point> half = path_of(all[2], place, 1e-4);
   half.resize(half.size() / 2);
   pen.write(half);
-  CHECK(has(renderer.last().events, TickEvent::stroke_abandoned) == false);  // it was, some ticks ago
+  CHECK(has_event(renderer.last().events, TickEvent::stroke_abandoned) == false);  // it was, some ticks ago
   CHECK(renderer.last().stroke == 2);
   const double more = renderer.last().assistance;
   CHECK(more == Approx(0.8 * little + 0.2));  // as with full_assistance_error

@@ -11,6 +11,7 @@
 #include <CLI/CLI.hpp>
 
 #include <calligraphy/calligraphy.hpp>
+#include <calligraphy/devices/detail/flush_denormals.hpp>
 
 #include "allocation_counter.hpp"
 #include "faults.hpp"

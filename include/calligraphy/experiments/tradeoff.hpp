@@ -13,7 +13,7 @@
 
 namespace calligraphy {
 
-/// A method of the nearest point with its settings.
+/// A nearest-point method with its settings.
 struct NearestPointSetting {
   std::string name;  ///< "exact 1e-09", "sampled 16 x 2"
   NearestPointOptions options;

@@ -19,19 +19,19 @@ using calligraphy_test::StandIn;
 
 namespace {
 
-const StandIn* clock_of_stand_in = nullptr;
-double virtual_time() noexcept { return (*clock_of_stand_in)->time(); }
+const StandIn* stand_in_of_page = nullptr;
+double time_of_page() noexcept { return (*stand_in_of_page)->time(); }
 
 }  // namespace
 
 TEST_CASE("a complete character is written through the vendor's runtime despite faults", "[openhaptics]") {
   const bool with_faults = GENERATE(false, true);
   StandIn runtime(STAND_IN_LIBHD);
-  clock_of_stand_in = &runtime;
+  stand_in_of_page = &runtime;
   runtime->plug_in("Default Device", "PHANTOM Desktop", "desktop");
   OpenHapticsOptions options;
   options.library = STAND_IN_LIBHD;
-  options.time = virtual_time;
+  options.time = time_of_page;
   OpenHapticsDevice device(options);
 
   const PracticePage page = lay_out(std::vector{*built_in_characters().find(U'永')}).front();
@@ -40,7 +40,7 @@ TEST_CASE("a complete character is written through the vendor's runtime despite 
                           RendererOptions::for_device(device.capabilities()));
   SimulatedWriter writer(page, WriterSkill::skilled(), 1);
   ServoOptions servo_options;
-  servo_options.work_clock = virtual_time;
+  servo_options.work_clock = time_of_page;
   double largest = 0.0;
   double last = 0.0;
   double max_step = 0.0;
