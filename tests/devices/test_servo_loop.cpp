@@ -130,7 +130,7 @@ TEST_CASE("a refused privilege is a warning with a remedy, not an error", "[serv
   thread.stop();
   REQUIRE(thread.warnings().size() == 1);
   CHECK(thread.warnings()[0].find("1023") != std::string::npos);
-  CHECK(thread.warnings()[0].find("choose one") != std::string::npos);
+  CHECK(thread.warnings()[0].find("choose a core") != std::string::npos);
 }
 
 TEST_CASE("requesting real-time priority never prevents a loop from running", "[servo]") {

@@ -248,7 +248,7 @@ TEST_CASE("import options outside their domain are rejected by name", "[practice
   options.threads = -1;
   CHECK(has(complaint(directory.path(), options), "ValueError threads = -1"));
   options.threads = 257;
-  CHECK(has(complaint(directory.path(), options), "ValueError threads 257"));
+  CHECK(has(complaint(directory.path(), options), "ValueError threads = 257"));
   options = {};
   options.date = "2026\n11";
   CHECK(has(complaint(directory.path(), options), "ValueError date"));

@@ -500,7 +500,7 @@ TEST_CASE("a phantom that cannot be driven is rejected, and the message says wha
   for (const int priority : {-1, 100}) {
     options = simulated_options();
     options.priority = priority;
-    CHECK_THAT(refusal<ValueError>(options), Contains("priority is " + std::to_string(priority)));
+    CHECK_THAT(refusal<ValueError>(options), Contains("priority = " + std::to_string(priority)));
   }
   CHECK_THROWS_AS(PhantomDevice(nullptr, simulated_options()), ValueError);
   auto wire = std::make_shared<Wire>();

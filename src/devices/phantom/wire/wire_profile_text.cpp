@@ -68,7 +68,7 @@ class Parser : private LineReader {
  private:
   /// Comments must be UTF-8, too.
   LineKind checked_kind_of(std::string_view key) const {
-    if (!is_utf8(line())) fail("not a wire profile: it is not UTF-8");
+    if (!is_utf8(line())) fail("not a wire profile: it is not valid UTF-8");
     return kind_of(key);
   }
 
