@@ -82,8 +82,15 @@ def test_an_example_runs_and_leaves_its_pictures(name, ended):
 
 
 def test_every_example_is_tried():
-    scripts = {path.stem for path in (ROOT / "examples" / "python").glob("*.py")} - {"plotting"}
+    scripts = {path.stem for path in (ROOT / "examples" / "python").glob("*.py")} - {"plotting", "test_force_law"}
     assert scripts == set(EXAMPLES)
+
+
+def test_the_unit_tests_of_a_force_law_pass():
+    program = ROOT / "examples" / "python" / "test_force_law.py"
+    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", str(program)]
+    done = subprocess.run(command, capture_output=True, text=True, cwd=program.parent)
+    assert done.returncode == 0 and "2 passed" in done.stdout, done.stdout + done.stderr
 
 
 @pytest.mark.parametrize("page", PAGES)
