@@ -1,4 +1,4 @@
-// Your own force law on a simulated device: how deep does a hand press into a virtual wall?
+// Your own force law on a simulated device: how far does the hand press into a virtual wall?
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -32,5 +32,5 @@ int main() {
   const double rest = -device.true_position().z();
   std::printf("deepest %.2f mm, at rest %.2f mm\n", 1e3 * deepest, 1e3 * rest);
   const double expected = 0.005 * 500.0 / (500.0 + 800.0);  // hand and wall as two springs
-  return std::abs(rest - expected) < 2e-4 ? 0 : 1;          // dry friction may hold it nearby
+  return std::abs(rest - expected) < 2e-4 ? 0 : 1;          // dry friction may stop it slightly short of it
 }

@@ -39,7 +39,7 @@ int main() {
   const PracticePage page = lay_out(std::vector{*built_in_characters().find(U'十')}).front();
   const MotionMapping mapping = upright_page(page.width, page.height);
 
-  // A simulated device that a mouse or tablet moves. With a real one: OpenHapticsDevice device; or PhantomDevice device;
+  // A simulated device that a mouse or tablet moves. With a real one: OpenHapticsDevice device;
   PointerOptions pointer;
   pointer.paper.translation() = mapping.to_device(Eigen::Vector3d::Zero());
   PointerDevice device(device_profile("desktop"), {}, pointer);
@@ -47,11 +47,14 @@ int main() {
   HapticRenderer renderer(page.characters, mapping, device.capabilities(),
                           RendererOptions::for_device(device.capabilities()));
   LatestValue<HapticTick> newest;  // from the servo thread to the display, neither of which waits for the other
-  ServoLoop loop(device, [&](const DeviceState& state) noexcept {
+  ServoLoopOptions options;
+  options.servo.rate = renderer.options().servo_rate;  // that of the device
+  const ForceLaw law = [&](const DeviceState& state) noexcept {
     const HapticTick& tick = renderer.update(state);
     newest.publish(tick);
     return tick.force;
-  });
+  };
+  ServoLoop loop(device, law, options);
 
   const User user(page.characters.front());
   for (const std::string& warning : loop.start()) std::printf("%s\n", warning.c_str());

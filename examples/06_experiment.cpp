@@ -1,4 +1,4 @@
-// An experiment: what does guidance bring to a novice? Every seed writes the same page twice, with and without force.
+// An experiment: how much does guidance help a novice? Every seed writes the same page twice, with and without force.
 #include <cmath>
 #include <cstdint>
 #include <cstdio>

@@ -29,7 +29,7 @@ for _kind in list(vars(_calligraphy).values()):
 #: What a backend that was left out would have brought, and what to do about it.
 _BACKENDS = {
     "phantom": (
-        "LinkKind PhantomDevice PhantomOptions PluggedDevice capture dump_descriptors plugged_devices read_wire_profile",
+        "LinkKind PhantomDevice PhantomOptions PluggedDevice capture_packets dump_descriptors plugged_devices read_wire_profile",
         "install libusb-1.0 and hidapi with their headers (Debian: libusb-1.0-0-dev libhidapi-dev pkg-config), then "
         "calligraphy again with CALLIGRAPHY_PHANTOM=ON, which says what is missing",
     ),

@@ -1,4 +1,4 @@
-// The newest value of one thread for another, wait-free: what is not taken in time is overwritten.
+// The newest value of one thread for another, wait-free: values not read in time are overwritten.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ namespace calligraphy {
 template <class Value>
 class LatestValue {
   static_assert(std::is_copy_assignable_v<Value> && std::is_trivially_destructible_v<Value>,
-                "values are copied within the servo loop: plain structs, which own nothing");
+                "values are copied within the servo loop: use plain structs that own no resources");
 
  public:
   /// Writing thread.

@@ -12,7 +12,7 @@
 
 namespace calligraphy {
 
-/// One thread pushes (a servo loop), one pops (a display, a recorder). Neither waits for the other. When the queue is
+/// One thread pushes (a servo loop), one pops (a recorder). Neither waits for the other. When the queue is
 /// full, the new value is dropped, so queued values stay intact and in order.
 template <class Sample>
 class SampleQueue {
