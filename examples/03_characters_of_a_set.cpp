@@ -17,8 +17,9 @@ int main(int argc, char** argv) {
   if (!found) return 1;
   std::printf("%s has %d strokes:\n", encode_utf8(found->code()).c_str(), found->stroke_count());
   for (int i = 0; i < found->stroke_count(); ++i) {
-    const std::optional<StoredStroke> stored = found->stroke(i);  // fit for the servo loop: no allocation, lock or throw
-    if (!stored) return 1;                                        // damaged
+    const std::optional<StoredStroke> stored =
+        found->stroke(i);   // fit for the servo loop: no allocation, lock or throw
+    if (!stored) return 1;  // damaged
     const Stroke stroke = stored->stroke();
     const Point start = stroke.control_points.front(), end = stroke.control_points.back();
     const std::string pinyin(stroke.type->pinyin);

@@ -9,7 +9,8 @@
 
 namespace {
 
-/// Stands in for a vendor's library: a knob of 50 g on a spring of 100 N/m, in real time. Replace it with your own calls.
+/// Stands in for a vendor's library: a knob of 50 g on a spring of 100 N/m, in real time. Replace it with your own
+/// calls.
 struct Knob {
   bool plugged_in() const { return true; }
   double position() {  // [mm], as many libraries have it

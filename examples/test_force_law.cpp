@@ -18,9 +18,7 @@ using namespace calligraphy;
 namespace {
 
 /// The law under test: a wall below z = 0 [N].
-Eigen::Vector3d wall(const DeviceState& state) {
-  return {0.0, 0.0, std::max(0.0, -800.0 * state.position.z())};
-}
+Eigen::Vector3d wall(const DeviceState& state) { return {0.0, 0.0, std::max(0.0, -800.0 * state.position.z())}; }
 
 /// Position of the pen after two seconds at 1 kHz, held by a hand that aims at `target` [m], and the maximum force [N].
 Eigen::Vector3d pen_at_rest(const GripImpedance& hand, const Eigen::Vector3d& target, double& max_force) {
@@ -41,7 +39,8 @@ TEST_CASE("a pressed pen comes to rest where hand and wall balance") {
   const GripImpedance firm{0.15, 5.0, 500.0};
   double max_force = 0.0;
   const Eigen::Vector3d pen = pen_at_rest(firm, {0.0, 0.0, -0.005}, max_force);
-  CHECK(std::abs(pen.z() + 0.005 * 500.0 / (500.0 + 800.0)) < 2e-4);  // two springs; dry friction may stop it slightly short
+  CHECK(std::abs(pen.z() + 0.005 * 500.0 / (500.0 + 800.0)) <
+        2e-4);  // two springs; dry friction may stop it slightly short
   CHECK(max_force < device_profile("desktop").peak_force);
 }
 
