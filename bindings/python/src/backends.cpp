@@ -87,16 +87,15 @@ void add_kinematics(py::module_& module) {
       "linkage"_a, "position"_a,
       "Joint angles (3,) or (n, 3) [rad] that put the tip at p (same shape) [m], with the elbow up and the tip in "
       "front of the waist, and whether each p is reachable: () or (n,), bool. If not, the joints give the nearest pose "
-      "along the ray from the shoulder. Joint limits are not checked. A position that is not finite is unreachable, "
-      "with all angles zero.");
+      "on the ray from the shoulder. Limits are not checked. A position that is not finite is unreachable, all angles "
+      "zero.");
   module.def(
       "within_limits",
       [](const Linkage& arm, const ArrayLike& joints, double margin) {
         return per_row(joints, "joints", [&](const auto& row, py::ssize_t) { return within_limits(arm, row, margin); });
       },
       "linkage"_a, "joints"_a, "margin"_a = 0.0,
-      "Whether every joint of (3,) or (n, 3) [rad] is within its limits, extended by `margin` [rad]: bool, () or "
-      "(n,).");
+      "Whether every joint of (3,) or (n, 3) [rad] is within its limits plus `margin` [rad]: bool.");
   module.def(
       "joint_torque",
       [](const Linkage& arm, const ArrayLike& joints, const ArrayLike& force) {
@@ -175,20 +174,18 @@ void add_phantom(py::module_& module) {
                 "port: path from the root of the bus, 2 or 1.4", &P::nodes, "nodes: list of device node paths, copied",
                 &P::serial, "serial: serial number; empty: none, or not readable", &P::may_open,
                 "may_open: this user may read and write the node that would be opened", &P::advice,
-                "advice: what to do if it may not be opened; otherwise empty")
+                "advice: what to do if it may not be opened")
       .def("__str__", &describe_device);
   module.def("plugged_devices", released(&plugged_devices),
-             "All connected Phantoms, sorted by bus and port, without opening them. Raises DeviceError when the bus "
-             "cannot be read.");
+             "All connected Phantoms, by bus and port, unopened. Raises DeviceError when the bus cannot be read.");
   module.def("dump_descriptors", released(&dump_descriptors), "device"_a,
              "The descriptors of a PluggedDevice, as hexadecimal bytes and decoded. Does not open the device.");
   module.def("capture_packets", &captured, "device"_a, "transfers"_a = CaptureOptions{}.transfers,
              "seconds"_a = CaptureOptions{}.seconds, "stop"_a = py::none(), "path"_a = py::none(),
              "Opens a PluggedDevice and listens without sending packets. Ends after `transfers` transfers, after "
              "`seconds` [s], or when stop(), polled ten times a second, returns True. Returns a structured array of "
-             "the transfers: time since the device was opened [s], and bytes. path: text file to write as well: lines "
-             "with # describe the device, then one line per transfer with its time and hexadecimal bytes. Raises "
-             "DeviceError when the device cannot be opened.");
+             "the transfers: time since the device was opened [s], and bytes. path: text file to write as well: the "
+             "device after #, then a line per transfer with time and hexadecimal bytes. Raises DeviceError.");
 
   module.def(
       "read_wire_profile",
@@ -211,16 +208,16 @@ void add_phantom(py::module_& module) {
       "missing_for_position and missing_for_force. Raises FileError, or FormatError naming the line and the value.");
 
   using O = PhantomOptions;
-  add_struct<O>(
-      module, "PhantomOptions", "Selects a Phantom and how it is driven.", &O::serial,
-      "serial: serial number; empty: the only connected device", &O::wire_profile,
-      "wire_profile: name of a built-in profile, or a file", &O::model,
-      "model: omni, touch or premium-1.5: selects linkage and capabilities", &O::drive,
-      "drive: False: positions only, the motors stay off", &O::gravity, "gravity: motors carry the weight of the arm",
-      &O::velocity_cutoff, "velocity_cutoff: cut-off frequency of the velocity filter, 1 to 1000 [Hz]", &O::limit_heat,
-      "limit_heat: reduce the torque of warm motors; False: cut it off when they are too warm", &O::keep_calibration,
-      "keep_calibration: the encoders keep counting while the device is unplugged", &O::priority,
-      "priority: real-time priority of the threads that carry reports and commands, 1 to 99; 0: normal threads");
+  add_struct<O>(module, "PhantomOptions", "Selects a Phantom and how it is driven.", &O::serial,
+                "serial: serial number; empty: the only connected device", &O::wire_profile,
+                "wire_profile: name of a built-in profile, or a file", &O::model,
+                "model: omni, touch or premium-1.5: selects linkage and capabilities", &O::drive,
+                "drive: False: positions only, the motors stay off", &O::gravity,
+                "gravity: motors carry the weight of the arm", &O::velocity_cutoff,
+                "velocity_cutoff: cut-off frequency of the velocity filter, 1 to 1000 [Hz]", &O::limit_heat,
+                "limit_heat: reduce the torque of warm motors; False: cut it off when they are too warm",
+                &O::keep_calibration, "keep_calibration: the encoders keep counting while unplugged", &O::priority,
+                "priority: real-time priority of the device's threads, 1 to 99; 0: normal threads");
   py::class_<PhantomDevice, HapticDevice>(
       module, "PhantomDevice", py::is_final(),
       "An open Phantom or Touch on USB. A C++ thread receives and checks reports; after 20 ms without a write() it "
@@ -251,7 +248,7 @@ void add_openhaptics(py::module_& module) {
            CalibrationStyle::inkwell, "encoder_reset automatic inkwell");
   using O = OpenHapticsOptions;
   add_struct<O>(module, "OpenHapticsOptions", "Selects a device of the vendor's runtime.", &O::library,
-                "library: file name of the runtime; empty: CALLIGRAPHY_LIBHD, otherwise libHD.so", &O::device,
+                "library: of the runtime; empty: CALLIGRAPHY_LIBHD, otherwise libHD.so", &O::device,
                 "device: name given in the vendor's setup program; empty: the default device", &O::calibration,
                 "calibration: CalibrationStyle");
   module.def(
@@ -269,8 +266,7 @@ void add_openhaptics(py::module_& module) {
       module, "OpenHapticsDevice", py::is_final(),
       "A Touch, Phantom or Omni through the vendor's runtime, which is loaded while a device is open. The runtime's "
       "scheduler clocks ServoLoop and write_with_device; while no loop runs, read() returns the last sample as stale. "
-      "Never run on hardware. Raises DeviceError when the runtime or the device is missing; the message says what to "
-      "do.")
+      "Never run on hardware. Raises DeviceError with a remedy.")
       .def(py::init(released(+[](const O& options) { return std::make_unique<OpenHapticsDevice>(options); })),
            "options"_a = O{})
       .def_property_readonly("serial", &OpenHapticsDevice::serial, "serial number")

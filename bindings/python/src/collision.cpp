@@ -105,8 +105,8 @@ void add_collision(py::module_& module) {
   add_enum(module, "NearestPointStatus", "Validity of a nearest point.", NearestPointStatus::not_finite,
            "certified approximate unsafe_stop not_finite");
   add_struct<NearestPointOptions>(
-      module, "NearestPointOptions", "Method of finding the nearest point, with its settings.",
-      &NearestPointOptions::method, "method: NearestPointMethod", &NearestPointOptions::tolerance,
+      module, "NearestPointOptions", "Method and settings of a nearest point.", &NearestPointOptions::method,
+      "method: NearestPointMethod", &NearestPointOptions::tolerance,
       "tolerance: error of the point relative to the element's size (0, 1]", &NearestPointOptions::samples,
       "samples: sampled: points at equal parameter spacing, 2 to 64", &NearestPointOptions::refinements,
       "refinements: sampled: steps of Halley's method, 0 to 8");
@@ -164,16 +164,16 @@ void add_collision(py::module_& module) {
            "bounded wang2006");
   add_enum(module, "AttractionRule", "Which attraction factor applies between two feature points.",
            AttractionRule::wang2006, "interpolated wang2006");
-  add_struct<ConstraintSpace>(module, "ConstraintSpace", "Region in which a stroke element attracts the pen.",
-                              &ConstraintSpace::rule, "rule: ConstraintSpaceRule", &ConstraintSpace::radius,
-                              "radius [m]", &ConstraintSpace::fade_width,
-                              "fade_width: outer part of the radius where attraction fades out [m]");
-  add_struct<StrokeRules>(
-      module, "StrokeRules", "How the pen is tracked along the active stroke.", &StrokeRules::nearest,
-      "nearest: NearestPointOptions", &StrokeRules::space, "space: ConstraintSpace", &StrokeRules::plane,
-      "plane: FeaturePlaneRule", &StrokeRules::attraction, "attraction: AttractionRule", &StrokeRules::plane_tolerance,
-      "plane_tolerance: a bounded plane counts as crossed this far ahead of it [m]", &StrokeRules::window,
-      "window: arc length within which the closest point is searched; 0: the whole element [m]");
+  add_struct<ConstraintSpace>(module, "ConstraintSpace", "Region of attraction of an element.", &ConstraintSpace::rule,
+                              "rule: ConstraintSpaceRule", &ConstraintSpace::radius, "radius [m]",
+                              &ConstraintSpace::fade_width,
+                              "fade_width: outermost part, where attraction fades out [m]");
+  add_struct<StrokeRules>(module, "StrokeRules", "How the pen is tracked along the active stroke.",
+                          &StrokeRules::nearest, "nearest: NearestPointOptions", &StrokeRules::space,
+                          "space: ConstraintSpace", &StrokeRules::plane, "plane: FeaturePlaneRule",
+                          &StrokeRules::attraction, "attraction: AttractionRule", &StrokeRules::plane_tolerance,
+                          "plane_tolerance: a plane counts as crossed this far before it [m]", &StrokeRules::window,
+                          "window: arc length to search for the closest point; 0: the whole element [m]");
   add_struct<Placement>(module, "Placement", "em coordinates to metres: page point = origin + em * point.",
                         &Placement::origin, "origin: lower left corner of the em square, (2,) [m]", &Placement::em,
                         "em: edge of the em square [m]")

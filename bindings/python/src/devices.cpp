@@ -99,8 +99,7 @@ void add_devices(py::module_& module) {
   }
   add_enum(module, "DeviceFault", "Cause of a fault in a device, its link or its servo loop.",
            DeviceFault::device_error, faults);
-  add_struct<PenOrientation>(module, "PenOrientation",
-                             "Orientation of the pen in device axes; NaN if the device does not measure it.",
+  add_struct<PenOrientation>(module, "PenOrientation", "Orientation of the pen in device axes; NaN if not measured.",
                              &PenOrientation::tilt, "tilt: from the z axis, 0 to pi [rad]", &PenOrientation::azimuth,
                              "azimuth: from the x axis towards the y axis, -pi to pi [rad]");
   add_struct<DeviceState>(module, "DeviceState", "One sample of a device.", &DeviceState::time,
@@ -115,19 +114,18 @@ void add_devices(py::module_& module) {
       &DeviceAxes::y, "y: translation along this device axis", &DeviceAxes::z, "z: translation along this device axis",
       &DeviceAxes::rotations, "rotations: pen orientation, sensed as DeviceState.orientation");
   add_struct<Capabilities>(
-      module, "Capabilities", "Limits of a device, and its properties as a point mass.", &Capabilities::name,
+      module, "Capabilities", "Limits and physics of a device.", &Capabilities::name,
       "name: name of the built-in profile; may be empty", &Capabilities::model,
       "model: display name, such as Phantom Omni", &Capabilities::sensed,
       "sensed: DeviceAxes: axes that read() measures", &Capabilities::driven,
-      "driven: DeviceAxes: axes along which write() exerts a force", &Capabilities::workspace,
+      "driven: DeviceAxes: axes that write() drives", &Capabilities::workspace,
       "workspace: extent along each device axis, centred on zero, (3,) [m]", &Capabilities::peak_force,
       "peak_force [N]", &Capabilities::continuous_force, "continuous_force [N]", &Capabilities::usable_stiffness,
       "usable_stiffness: maximum stiffness reported by users [N/m]", &Capabilities::encoder_step,
-      "encoder_step: positions are multiples of it; 0: unknown, or not quantised [m]", &Capabilities::update_rate,
-      "update_rate [Hz]", &Capabilities::apparent_mass, "apparent_mass: at the tip; 0: unknown [kg]",
-      &Capabilities::viscous_friction, "viscous_friction [N s/m]", &Capabilities::coulomb_friction,
-      "coulomb_friction: back-drive friction [N]", &Capabilities::sample_delay,
-      "sample_delay: age of a sample when it is read [ticks]");
+      "encoder_step: 0: unknown, or not quantised [m]", &Capabilities::update_rate, "update_rate [Hz]",
+      &Capabilities::apparent_mass, "apparent_mass: at the tip; 0: unknown [kg]", &Capabilities::viscous_friction,
+      "viscous_friction [N s/m]", &Capabilities::coulomb_friction, "coulomb_friction: back-drive friction [N]",
+      &Capabilities::sample_delay, "sample_delay: age of a sample when it is read [ticks]");
   add_struct<GripImpedance>(module, "GripImpedance",
                             "Impedance of the grip. Soft (0.05, 1, 100), normal (0.1, 3, 300), firm (0.15, 5, 500).",
                             &GripImpedance::mass, "mass [kg]", &GripImpedance::damping, "damping [N s/m]",
@@ -146,10 +144,9 @@ void add_devices(py::module_& module) {
 
   py::class_<HapticDevice, PythonDevice>(
       module, "HapticDevice",
-      "A force-feedback device. A subclass defines capabilities(), read(), write(force) and close(). An exception that "
-      "one of them raises is passed to sys.unraisablehook, once until the method works again, and the status of the "
-      "sample is `fault`. A `with` block closes the device. While a loop runs on a C++ device, only its force law may "
-      "use the device; any other use raises Error.")
+      "A force-feedback device. A subclass defines capabilities(), read(), write(force) and close(). Their exceptions "
+      "are passed to sys.unraisablehook, once until the method works again, and the sample has status `fault`. A "
+      "`with` block closes the device. While a loop runs on a C++ device, any use outside its force law raises Error.")
       .def(py::init<>())
       .def(
           "capabilities", [](const HapticDevice& self) { return self.capabilities(); }, "Capabilities of the device.")
@@ -170,13 +167,11 @@ void add_devices(py::module_& module) {
            }),
            "profile"_a, "grip"_a = GripImpedance{0.0, 0.0, 0.0}, "position"_a = py::make_tuple(0.0, 0.0, 0.0))
       .def("set_intention", when_idle(&SimulatedDevice::set_intention), "intention"_a,
-           "Sets the intended motion of the hand, which continues at its velocity with every advance().")
+           "Sets the intended motion of the hand, which advance() continues at its velocity.")
       .def("set_grip", when_idle(&SimulatedDevice::set_grip), "grip"_a,
            "Sets the grip of the hand that holds the device.")
-      .def("set_buttons", when_idle(&SimulatedDevice::set_buttons), "buttons"_a,
-           "Sets the buttons, one bit per pressed button.")
-      .def("advance", when_idle(&SimulatedDevice::advance), "seconds"_a,
-           "Advances virtual time [s] and takes a sample.")
+      .def("set_buttons", when_idle(&SimulatedDevice::set_buttons), "buttons"_a, "One bit per pressed button.")
+      .def("advance", when_idle(&SimulatedDevice::advance), "seconds"_a, "Advances virtual time, takes a sample.")
       .def_property_readonly("true_position", when_idle(&SimulatedDevice::true_position), "(3,), not quantised [m]")
       .def_property_readonly("true_velocity", when_idle(&SimulatedDevice::true_velocity), "(3,) [m/s]")
       .def_property_readonly("applied_force", when_idle(&SimulatedDevice::applied_force), "(3,) [N]")
@@ -190,13 +185,11 @@ void add_devices(py::module_& module) {
 
   add_struct<PointerOptions>(
       module, "PointerOptions", "How the simulated hand follows a pointer.", &PointerOptions::rate,
-      "rate: rate at which read() is called [Hz]", &PointerOptions::smoothing_time,
-      "smoothing_time: lag of the intended position behind the pointer [s]", &PointerOptions::max_speed,
-      "max_speed: speed limit of the intended position along the paper [m/s]", &PointerOptions::lifting_speed,
-      "lifting_speed: speed of the intended position towards and away from the paper [m/s]",
-      &PointerOptions::hover_height, "hover_height: height above the paper while the pointer is not pressed [m]",
-      &PointerOptions::press_depth, "press_depth: depth of the intended position at full pressure [m]",
-      &PointerOptions::paper,
+      "rate: of read() [Hz]", &PointerOptions::smoothing_time, "smoothing_time: lag behind the pointer [s]",
+      &PointerOptions::max_speed, "max_speed: speed limit along the paper [m/s]", &PointerOptions::lifting_speed,
+      "lifting_speed: speed limit perpendicular to the paper [m/s]", &PointerOptions::hover_height,
+      "hover_height: height while the pointer is not pressed [m]", &PointerOptions::press_depth,
+      "press_depth: depth of the intended position at full pressure [m]", &PointerOptions::paper,
       "paper: (4, 4), from the paper (x, y on it, z out of it) to device axes; translation [m]");
   py::class_<PointerDevice, HapticDevice>(
       module, "PointerDevice", py::is_final(),
@@ -213,9 +206,9 @@ void add_devices(py::module_& module) {
   add_struct<ServoOptions>(
       module, "ServoOptions", "Rate and safety limits of a servo loop.", &ServoOptions::rate, "rate [Hz]",
       &ServoOptions::timeout,
-      "timeout: time without a fresh sample, a tick or a result of the force law before the force ramps down [s]",
-      &ServoOptions::ramp_down, "ramp_down: duration of the linear ramp from the last force to zero [s]",
-      &ServoOptions::ramp_up, "ramp_up: duration of the ramp of the gain on the desired force from 0 to 1 [s]");
+      "timeout: without a fresh sample, a tick or a result of the law before the force ramps down [s]",
+      &ServoOptions::ramp_down, "ramp_down: from the last force to zero [s]", &ServoOptions::ramp_up,
+      "ramp_up: of the gain on the force from 0 to 1 [s]");
   add_struct<T>(module, "ServoThreadOptions", "The thread of a servo loop.", &T::rate,
                 "rate: a ServoLoop uses that of its servo [Hz]", &T::priority,
                 "priority: real-time priority, 1 to 99; 0: a normal thread", &T::lock_memory,
@@ -229,12 +222,12 @@ void add_devices(py::module_& module) {
                           "phase: ServoPhase", &ServoStatus::fault,
                           "fault: cause of the ramp-down, until the force has ramped up again", &ServoStatus::device,
                           "device: DeviceStatus of the last sample", &ServoStatus::gain,
-                          "gain: on the desired force, or on the held one while it ramps down [1]");
+                          "gain: on the desired or, while it ramps down, the held force [1]");
   py::class_<VirtualServo>(module, "Servo",
                            "A servo loop in virtual time: step(now) reads the device, calls the force law, which maps "
                            "a DeviceState to a force (3,) [N] in device axes, guards the force and writes it. If the "
-                           "law raises, the force ramps down to zero, as in C++, and the exception is in `error`; the "
-                           "first is also passed to sys.unraisablehook. About 400 times as fast as real time at 1 kHz.")
+                           "law raises, the force ramps down to zero and the exception is in `error`; the first is "
+                           "also passed to sys.unraisablehook. About 400 times as fast as real time at 1 kHz.")
       .def(py::init(&make_servo), py::keep_alive<1, 2>(), "device"_a, "law"_a, py::kw_only(), "rate"_a = 1000.0,
            "timeout"_a = 4e-3, "ramp_down"_a = 10e-3, "ramp_up"_a = 0.2)
       .def("step", &VirtualServo::step, "now"_a, "Runs one tick at the time `now` [s].")
@@ -249,9 +242,8 @@ void add_devices(py::module_& module) {
           "statistics", &VirtualServo::statistics,
           "A dict: `period` from tick to tick and `work` per tick (0 in virtual time), each with count, p50, p99, "
           "p99_9 and worst [s]; ticks that reached the device; missed_deadlines; stale_samples, ticks without a fresh "
-          "sample; stalled_clock, ticks whose time was not later than that of the previous tick; watchdog_takeovers, "
-          "times that the watchdog took over the device; idle_ticks, which wrote nothing; faults, occurrences of each "
-          "DeviceFault.");
+          "sample; stalled_clock, ticks whose time was not later than that of the previous tick; watchdog_takeovers of "
+          "the device; idle_ticks, which wrote nothing; faults, by DeviceFault.");
 }
 
 }  // namespace calligraphy::python

@@ -23,7 +23,7 @@ py::array as_table(const std::vector<StabilityLine>& lines, std::size_t stiffnes
   const std::string each = "(" + std::to_string(stiffnesses) + ",)?";
   return table(
       rows, dtype_of("rate:f8 apparent_mass:f8 viscous_friction:f8 coulomb_friction:f8 encoder_step:f8 sample_delay:i4 "
-                     "wall_damping:f8 grip:3f8 passive:f8 quantised:f8 stable:f8 approximate:f8 settles:" +
+                     "wall_damping:f8 grip:3f8 passive:f8 quantised:f8 stable:f8 approximate:f8 stable_at:" +
                      each + " controlled_stable_at:" + each +
                      " max_stable:f8 controlled_max_stable:f8 controlled_max_stable_below_peak:f8"));
 }
@@ -91,9 +91,9 @@ void add_experiments(py::module_& module) {
                         "max_force"_a = outcome.max_force, "last_force"_a = outcome.last_force);
       },
       "loop"_a, "stiffness"_a, "contact"_a = WallContact{},
-      "Simulates a pen on a wall of this stiffness [N/m], in virtual time. Returns a dict: `stable`, whether the pen "
-      "comes to rest; its `peak_to_peak` amplitude at the end [m]; the maximum force sent, `max_force`, and at the "
-      "end, `last_force` [N].");
+      "Simulates a pen on a wall of this stiffness [N/m], in virtual time. Returns a dict: `stable`, the pen comes to "
+      "rest; its `peak_to_peak` amplitude at the end [m]; `max_force` sent, and `last_force`, the maximum at the end "
+      "[N].");
   using O = StabilityMapOptions;
   add_struct<O>(
       module, "StabilityMapOptions", "Options of a stability map; the grid has every combination of the lists.",
@@ -122,16 +122,16 @@ void add_experiments(py::module_& module) {
       "options"_a = O{}, "progress"_a = py::none(),
       "Maps where a virtual wall is stable, on all cores; progress(share) is called from time to time. Takes minutes "
       "with the defaults. Returns a dict: `stiffnesses` (n,) [N/m]; `grid`, a structured array with one row per loop: "
-      "its properties, the bounds passive, quantised, stable and approximate [N/m], one result (n,) per stiffness, and "
-      "max_stable, below which every stiffness is stable [N/m]; controlled_: the same with a passivity controller, and "
-      "with the force below the peak; `sweeps`, by name: label with its unit, values, and lines as in the grid.");
+      "its properties, the bounds passive, quantised, stable and approximate [N/m], stable_at (n,), per stiffness, and "
+      "max_stable, below which all are stable [N/m]; controlled_: with a passivity controller; below_peak: and the "
+      "force below the peak; `sweeps`, by name: label, values, and lines as in the grid.");
 
   module.def("nearest_point_tradeoff", &nearest_points_cost, "characters"_a, "queries"_a = 4000, "rounds"_a = 21,
              "seed"_a = 1, "progress"_a = py::none(),
              "Cost and accuracy of each nearest-point method at each setting, as a structured array: name, method, "
-             "tolerance, samples and refinements; on `real` strokes, on `hard` curves and tracking a pen in `ticks`: "
-             "ns per query (median), ns_p90 and batch_ns; error (median), error_p99 and error_worst, relative to the "
-             "size of the curve; wrong, the share of wrong branches.");
+             "tolerance, samples and refinements; on `real` strokes, `hard` curves and tracking a pen in `ticks`: ns "
+             "per query (median), ns_p90 and batch_ns; error (median), error_p99 and error_worst, relative to the size "
+             "of the curve; wrong, the share of wrong branches.");
   module.def("servo_rate_tradeoff", &servo_rates_cost, "characters"_a, "rates"_a = ServoRateTradeoffOptions{}.rates,
              "seeds"_a = 3, "seed"_a = 1, "device"_a = "desktop", "progress"_a = py::none(),
              "A simulated novice writes in closed loop at each rate [Hz]. Returns a structured array: stiffness of the "
@@ -166,8 +166,7 @@ void add_experiments(py::module_& module) {
       "Attraction of eq. (8) on a pen that has written a share `progress` of a stroke, at each cell of a square with "
       "lower left `corner` (2,) and this edge [m]. Returns a dict: `forces` (rows, columns, 2), bottom row first [N]; "
       "`jumps`, a structured array of the segments across which the force jumps: begin, end (2,) [m], size [N], "
-      "from_stroke, the distance from the active stroke [m], passes_feature, crossed only once, in order. Raises "
-      "InvalidValue naming the value.");
+      "from_stroke, the distance from the active stroke [m], passes_feature, crossed only once, in order.");
 }
 
 }  // namespace calligraphy::python

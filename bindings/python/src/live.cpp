@@ -198,11 +198,11 @@ LiveResult write_live(const PracticePage& page, HapticDevice& device, LiveOption
 }  // namespace
 
 void add_live(py::module_& module) {
-  py::class_<Loop>(module, "ServoLoop",
-                   "A servo loop in real time, in its own thread or on the device's own clock, with a watchdog. The "
-                   "law is a HapticRenderer, which runs without Python, or a callable that maps a DeviceState to a "
-                   "force (3,) [N], which needs the GIL in every tick (docs/python.md). A `with` block starts the loop "
-                   "and stops it at its end, also after an exception.")
+  py::class_<Loop>(
+      module, "ServoLoop",
+      "A servo loop in real time, in its own thread or on the device's own clock, with a watchdog. The law is a "
+      "HapticRenderer, which runs without Python, or a callable that maps a DeviceState to a force (3,) [N], which "
+      "needs the GIL in every tick (docs/python.md). A `with` block starts and stops the loop.")
       .def(py::init<HapticDevice&, HapticRenderer&, const ServoLoopOptions&>(), "device"_a, "law"_a,
            "options"_a = ServoLoopOptions{})
       .def(py::init<HapticDevice&, const Law&, const ServoLoopOptions&>(), "device"_a, "law"_a,
@@ -211,15 +211,14 @@ void add_live(py::module_& module) {
           "start", &Loop::start,
           "Starts with zero force and ramps it up. Returns the privileges that the system refused, each with a remedy.")
       .def("stop", &Loop::stop,
-           "Ramps the force down to zero, then ends the thread. From within the law it begins the ramp-down and "
-           "returns.")
+           "Ramps the force down to zero, then ends the thread. From within the law it only begins the ramp-down.")
       .def_property_readonly("running", &Loop::is_running, "whether the loop has been started and not stopped")
       .def_property_readonly("status", &Loop::status, "ServoStatus, while the loop runs and afterwards")
       .def_property_readonly("statistics", &Loop::statistics, "as Servo.statistics, while the loop runs and afterwards")
       .def_property_readonly("warnings", &Loop::warnings, "what the last start() returned")
       .def_property_readonly(
           "error", &Loop::error,
-          "the last exception of a Python law since start(), or None; the first is also passed to sys.unraisablehook")
+          "the last exception of a Python law since start(), or None; sys.unraisablehook gets the first")
       .def_property_readonly("errors", &Loop::errors, "number of exceptions of a Python law since start()")
       .def("__enter__",
            [](const py::object& self) {
@@ -240,19 +239,17 @@ void add_live(py::module_& module) {
           "servo", [](const LiveView& self) { return self.servo; }, "ServoStatus")
       .def_readonly("progress", &LiveView::progress, "share of the page that is written, in [0, 1]")
       .def_readonly("started", &LiveView::started,
-                    "the pen has been in front of the paper; until then no force is sent and nothing recorded");
-  add_struct<LiveOptions>(module, "LiveOptions", "Options of a person writing on a device.", &LiveOptions::mode,
-                          "mode: FeedbackMode", &LiveOptions::renderer,
-                          "renderer: RendererOptions; its servo rate applies to the loop as well", &LiveOptions::servo,
-                          "servo: ServoLoopOptions; its rate is ignored", &LiveOptions::peak_force,
-                          "peak_force: upper bound, besides the device's own [N]", &LiveOptions::timeout,
-                          "timeout: the session ends after this time [s]");
+                    "the pen has been in front of the paper; until then, no force and no recording");
+  add_struct<LiveOptions>(
+      module, "LiveOptions", "Options of a person writing on a device.", &LiveOptions::mode, "mode: FeedbackMode",
+      &LiveOptions::renderer, "renderer: RendererOptions; its servo rate applies to the loop as well",
+      &LiveOptions::servo, "servo: ServoLoopOptions; its rate is ignored", &LiveOptions::peak_force,
+      "peak_force: upper bound, besides the device's own [N]", &LiveOptions::timeout, "timeout: of the session [s]");
   py::class_<LiveResult>(module, "LiveResult", "Result of write_with_device.")
       .def_readonly("recording", &LiveResult::recording, "Recording")
       .def_property_readonly(
           "statistics", [](const LiveResult& self) { return servo_statistics(self.statistics); }, "as Servo.statistics")
-      .def_readonly("dropped", &LiveResult::dropped,
-                    "ticks missing from the recording because `watch` took 2 s or more")
+      .def_readonly("dropped", &LiveResult::dropped, "ticks not recorded because `watch` took 2 s or more")
       .def_readonly("warnings", &LiveResult::warnings,
                     "what the servo loop could not obtain: priority, locked memory, a core");
   module.def("with_peak_force", &with_peak_force, "capabilities"_a, "peak_force"_a,
@@ -261,8 +258,8 @@ void add_live(py::module_& module) {
              "watch"_a = py::none(),
              "A person writes the page in real time, in C++ without the GIL. Ends when the page is written and the pen "
              "lifted, when `watch`, called with a LiveView about 50 times per second, returns False, or when the "
-             "timeout expires; the force is then zero and the device still open. Ctrl-C or an exception of `watch` "
-             "ends it likewise; the exception has the LiveResult as its attribute `result`.");
+             "timeout expires; the force is then zero and the device still open. Likewise on Ctrl-C or an exception of "
+             "`watch`, which has the LiveResult as its attribute `result`.");
   // At exit no force may remain, nor threads that would call into a finalised interpreter.
   py::module_::import("atexit").attr("register")(py::cpp_function(&end_all));
 }

@@ -110,7 +110,7 @@ void add_model(py::module_& module) {
 
   py::class_<Character>(module, "Character",
                         "A character: shape, stroke order and feel. Immutable. Made by make_character, or read from a "
-                        "set or a file. Frame: em square, y up.")
+                        "file. Frame: em square, y up.")
       .def(py::init(&character_of), "code"_a, "order"_a, "curve_degree"_a, "control_points"_a, "stroke_ids"_a,
            "feature_points"_a, "attraction_factors"_a, "From the fields below; make_character() is simpler.")
       .def_readonly("code", &Character::code, "the character, a str of length 1")
@@ -218,8 +218,8 @@ void add_model(py::module_& module) {
           "layered", [](const std::vector<CharacterSet>& sets) { return CharacterSet::layered(sets); }, "sets"_a,
           "Several sets as one. If several have a character, that of the first set is found.")
       .def("find", &find<CharacterSet>, "code"_a, "order"_a = "",
-           "The Character, decoded, in the stroke order of this name (empty: the standard one), or None. Raises "
-           "FormatError if it is damaged.")
+           "The Character, decoded, in the stroke order of this name (empty: the standard or else the first), or None. "
+           "Raises FormatError.")
       .def("__getitem__", &at<CharacterSet>, "code"_a)
       .def(
           "__contains__", [](const CharacterSet& self, char32_t code) { return self.find(code).has_value(); }, "code"_a)

@@ -114,7 +114,7 @@ void add_practice(py::module_& module) {
   add_struct<PageLayout>(module, "PageLayout", "Characters in rows.", &PageLayout::width, "width [m]",
                          &PageLayout::height, "height [m]", &PageLayout::em,
                          "em: edge length of a character's square [m]", &PageLayout::gap,
-                         "gap: between and around the squares [m]");
+                         "gap: between and around squares [m]");
   add_struct<PracticePage>(module, "PracticePage", "A page of placed characters.", &PracticePage::width, "width [m]",
                            &PracticePage::height, "height [m]", &PracticePage::characters,
                            "characters: list of PlacedCharacter, copied");
@@ -122,7 +122,7 @@ void add_practice(py::module_& module) {
       "lay_out",
       [](const std::vector<Character>& characters, const PageLayout& layout) { return lay_out(characters, layout); },
       "characters"_a, "layout"_a = PageLayout{},
-      "Lays the characters out on as many pages as needed. Raises InvalidValue when a length is not positive or no "
+      "Lays the characters out on as many pages as needed. Raises InvalidValue unless lengths are positive and a "
       "square fits.");
 
   py::class_<PenTrace>(module, "PenTrace", "A person's recorded pen while writing a character. Immutable.")
@@ -149,14 +149,13 @@ void add_practice(py::module_& module) {
   using W = WriterSkill;
   add_struct<W>(module, "WriterSkill", "Skill of a simulated writer (docs/practice.md).", &W::grip,
                 "grip: GripImpedance: impedance between the plan and the device", &W::offset,
-                "offset: spread of the position of the believed character [em]", &W::bias,
-                "bias: length of an additional offset, its direction drawn for each character [em]", &W::scale,
-                "scale: spread of the scale of the believed character [1]", &W::tilt,
-                "tilt: spread of the tilt of the believed character [rad]", &W::shape,
-                "shape: spread of the believed position of each stroke [em]", &W::drift,
+                "offset: spread of the believed position [em]", &W::bias,
+                "bias: length of an additional offset in a random direction [em]", &W::scale,
+                "scale: spread of the believed scale [1]", &W::tilt, "tilt: spread of the believed tilt [rad]",
+                &W::shape, "shape: spread of the believed place of each stroke [em]", &W::drift,
                 "drift: random walk off the plan [em/s^0.5]", &W::tremor, "tremor: amplitude, at 8 to 12 Hz [m]",
-                &W::aim, "aim: spread of the initial placement of a stroke [em]", &W::wrong_order,
-                "wrong_order: share of strokes for which another one is begun [1]", &W::wrong_direction,
+                &W::aim, "aim: spread of where a stroke is begun [em]", &W::wrong_order,
+                "wrong_order: share of strokes begun with another one [1]", &W::wrong_direction,
                 "wrong_direction: share of strokes begun at their end [1]", &W::speed,
                 "speed: mean speed along a stroke [em/s]", &W::pause, "pause: before the pen moves to a stroke [s]",
                 &W::visual_delay, "visual_delay [s]", &W::correction,
@@ -172,7 +171,7 @@ void add_practice(py::module_& module) {
       "renderer: RendererOptions", &SessionOptions::skill, "skill: WriterSkill", &SessionOptions::seed,
       "seed: seed of the writer", &SessionOptions::measure_ticks,
       "measure_ticks: measure the execution time of every tick", &SessionOptions::character_timeout,
-      "character_timeout: virtual time after which a character is aborted [s]");
+      "character_timeout: virtual time until a character is aborted [s]");
   const auto with = [](SessionOptions options, const Progress& progress) {
     options.progress = interruptible(progress);
     return options;
@@ -191,8 +190,7 @@ void add_practice(py::module_& module) {
         return released(&follow_trace)(page, trace, with(options, progress));
       },
       "page"_a, "trace"_a, "options"_a, "progress"_a = py::none(),
-      "A session in which the hand follows a recorded pen, on a page of one character. progress(share) is called from "
-      "time to time.");
+      "A session in which the hand follows a recorded pen, on a page of one character. See write_page for progress.");
   module.def(
       "replay_page",
       [with](const PracticePage& page, ReplayDevice& device, const SessionOptions& options, const Progress& progress) {
@@ -202,20 +200,20 @@ void add_practice(py::module_& module) {
         })(page, &device, with(options, progress));
       },
       "page"_a, "device"_a, "options"_a, "progress"_a = py::none(),
-      "Runs the renderer on recorded samples. progress(share) is called from time to time.");
+      "Runs the renderer on recorded samples. See write_page for progress.");
   module.def(
       "run_session",
       [with](const PracticePage& page, const SessionOptions& options, const PenMotion& motion,
              const Progress& progress) { return released(&run_session)(page, with(options, progress), motion); },
       "page"_a, "options"_a, "motion"_a, "progress"_a = py::none(),
       "Runs the closed loop with your own motion: motion(tick, seconds) returns an Intention on the page, or None to "
-      "end. Takes about 3 us per tick. progress(share) is called from time to time.");
+      "end. Takes about 3 us per tick. See write_page for progress.");
 
   add_enum(module, "WritingMistakeKind", "Kind of mistake.", WritingMistakeKind::direction, "order direction");
   add_struct<WritingMistake>(module, "WritingMistake", "A mistake of the writer.", &WritingMistake::kind,
                              "kind: WritingMistakeKind", &WritingMistake::stroke, "stroke: the expected stroke, from 0",
                              &WritingMistake::time, "time: of the pen-down [s]", &WritingMistake::reason,
-                             "reason: one line of explanation for people");
+                             "reason: one line for people");
   using S = CharacterScore;
   add_struct<S>(
       module, "CharacterScore", "Score of a written character.", &S::character, "character: a str of length 1",
@@ -224,8 +222,8 @@ void add_practice(py::module_& module) {
       "strokes_completed: by the writer", &S::peak_force, "peak_force [N]", &S::max_force_step,
       "max_force_step: maximum change of the force per tick [N]", &S::mistakes,
       "mistakes: list of WritingMistake, copied", &S::contour, "contour: exp(-rms error / 5 % of the em), [0, 1]",
-      &S::external_sequence, "external_sequence: completed strokes / (completed + order mistakes)",
-      &S::internal_sequence, "internal_sequence: completed strokes / (completed + direction mistakes)", &S::fidelity,
+      &S::external_sequence, "external_sequence: completed / (completed + order mistakes)", &S::internal_sequence,
+      "internal_sequence: completed / (completed + direction mistakes)", &S::fidelity,
       "fidelity: geometric mean of the three")
       .def("order_mistakes", &S::order_mistakes, "Number of order mistakes.")
       .def("direction_mistakes", &S::direction_mistakes, "Number of direction mistakes.");
@@ -247,8 +245,8 @@ void add_practice(py::module_& module) {
       "ideographs_only"_a = true, "date"_a = "", "threads"_a = 0, "progress"_a = py::none(),
       "Imports hanzi-writer-data or KanjiVG (a directory or a tarball), a set file or the text format. Returns a "
       "CharacterList and a report (docs/import.md): kind, characters, strokes, labelled, agreed, ids_used by id, "
-      "letters_unused, notes; within, a structured array of strokes and characters within an error [em]; worst, one of "
-      "code, order, stroke (from 1), id and error [em]; skipped files with reasons. Raises FileError, FormatError or "
+      "letters_unused, notes; within, a structured array of strokes and characters within an error [em]; worst, of "
+      "code, order, stroke (from 1), id and error [em]; skipped files with reasons. Raises FileError, FormatError, "
       "InvalidValue.");
 }
 

@@ -84,20 +84,18 @@ void add_render(py::module_& module) {
            PenTipRule::wang2006, "projected wang2006");
   add_enum(module, "GuidanceLaw", "How guidance depends on the distance from the stroke.", GuidanceLaw::saturating,
            "linear saturating");
-  add_enum(module, "StiffnessCheck", "What to do with a stiffness that is not stable.", StiffnessCheck::off,
-           "reject clip off");
+  add_enum(module, "StiffnessCheck", "What to do with an unstable stiffness.", StiffnessCheck::off, "reject clip off");
   add_enum(module, "ForceSign", "The signs of eq. (8) and (9).", ForceSign::wang2006, "attracting wang2006");
   add_enum(module, "MotionMappingRule", "How device axes map to the page.", MotionMappingRule::wang2006,
            "affine wang2006");
   add_enum(module, "FrictionModel", "Friction between pen and paper.", FrictionModel::karnopp,
            "breakaway hayward_armstrong karnopp");
 
-  add_struct<AssistPolicy>(module, "AssistPolicy", "Assistance as needed: it decreases as the writer improves.",
-                           &AssistPolicy::enabled, "enabled: False: full assistance always", &AssistPolicy::retention,
-                           "retention: share of the previous assistance that is retained [1]",
-                           &AssistPolicy::full_assistance_error,
-                           "full_assistance_error: RMS lateral error that keeps the assistance at 1 [m]",
-                           &AssistPolicy::least, "min_assistance: lower bound of the assistance [1]");
+  add_struct<AssistPolicy>(module, "AssistPolicy", "Assistance as needed.", &AssistPolicy::enabled,
+                           "enabled: False: full assistance always", &AssistPolicy::retention,
+                           "retention: of the previous assistance [1]", &AssistPolicy::full_assistance_error,
+                           "full_assistance_error: RMS lateral error of full assistance [m]",
+                           &AssistPolicy::min_assistance, "min_assistance: lower bound of the assistance [1]");
   add_struct<FrictionOptions>(module, "FrictionOptions", "Friction between pen and paper.", &FrictionOptions::model,
                               "model: FrictionModel", &FrictionOptions::coefficient,
                               "coefficient: mu; 0: no friction [1]", &FrictionOptions::stiffness,
@@ -107,36 +105,33 @@ void add_render(py::module_& module) {
   using O = RendererOptions;
   add_struct<O>(module, "RendererOptions", "Options of the haptic renderer.", &O::servo_rate, "servo_rate [Hz]",
                 &O::paper_stiffness, "paper_stiffness: K_en of eq. (9) [N/m]", &O::guidance_stiffness,
-                "guidance_stiffness: K_et of eq. (8) [N/m]", &O::guidance_fade_in,
-                "guidance_fade_in: fade-in time of guidance [s]", &O::wrong_way_stiffness,
-                "wrong_way_stiffness: resistance to writing backwards; 0: none [N/m]", &O::wrong_way_limit,
-                "wrong_way_limit: maximum force of that resistance [N]", &O::wrong_way_slack,
-                "wrong_way_slack: dead band [m]", &O::stiffness_check,
-                "stiffness_check: StiffnessCheck: reject or clip what is not stable, or off", &O::softest_grip,
-                "softest_grip: GripImpedance in which the loop must be stable", &O::guidance, "guidance: GuidanceLaw",
-                &O::guidance_limit, "guidance_limit: saturating: maximum guidance force [N]", &O::guide_to_start,
-                "guide_to_start: before a stroke, pull a pen on the paper to the stroke's start", &O::assist,
+                "guidance_stiffness: K_et of eq. (8) [N/m]", &O::guidance_fade_in, "guidance_fade_in: time [s]",
+                &O::wrong_way_stiffness, "wrong_way_stiffness: against writing backwards; 0: none [N/m]",
+                &O::wrong_way_limit, "wrong_way_limit: maximum force [N]", &O::wrong_way_slack,
+                "wrong_way_slack: dead band [m]", &O::stiffness_check, "stiffness_check: StiffnessCheck",
+                &O::softest_grip, "softest_grip: GripImpedance in which the loop must be stable", &O::guidance,
+                "guidance: GuidanceLaw", &O::guidance_limit, "guidance_limit: saturating: maximum guidance force [N]",
+                &O::guide_to_start, "guide_to_start: before a stroke, pull the pen to its start", &O::assist,
                 "assist: AssistPolicy", &O::friction, "friction: FrictionOptions", &O::stroke, "stroke: StrokeRules",
-                &O::start_radius, "start_radius: a stroke begins within this distance of its start [m]", &O::box_margin,
-                "box_margin [m]", &O::lift_height, "lift_height: hysteresis of the contact with the paper [m]",
-                &O::box_hysteresis, "box_hysteresis [m]", &O::lift_between_strokes,
+                &O::start_radius, "start_radius: a stroke begins this near its start [m]", &O::box_margin,
+                "box_margin [m]", &O::lift_height, "lift_height: hysteresis of the contact [m]", &O::box_hysteresis,
+                "box_hysteresis [m]", &O::lift_between_strokes,
                 "lift_between_strokes: the next stroke begins with a new contact", &O::solid_paper,
                 "solid_paper: normal force in the adjusting state too", &O::in_plane_force_rate,
                 "in_plane_force_rate: maximum [N/s]", &O::normal_force_rate, "normal_force_rate: maximum [N/s]",
                 &O::limit_force_rate, "limit_force_rate: False: forces step at every transition", &O::force_jerk,
                 "force_jerk: maximum; infinite: no limit [N/s^2]", &O::passivity_control,
-                "passivity_control: dissipates the energy that sampling, delay and limits generate", &O::energy_budget,
-                "energy_budget: maximum net energy delivered to the hand; infinite: no limit [J]",
-                &O::thermal_time_constant, "thermal_time_constant: of the motors; 0: no limit [s]", &O::max_speed,
-                "max_speed: a sample that implies a faster pen is a fault [m/s]", &O::force_sign,
-                "force_sign: ForceSign", &O::pen_tip, "pen_tip: PenTipRule", &O::motion, "motion: MotionMappingRule")
+                "passivity_control: dissipate energy generated by sampling, delay and limits", &O::energy_budget,
+                "energy_budget: maximum to the hand; infinite: no limit [J]", &O::thermal_time_constant,
+                "thermal_time_constant: of the motors; 0: no limit [s]", &O::max_speed,
+                "max_speed: a faster sample is a fault [m/s]", &O::force_sign, "force_sign: ForceSign", &O::pen_tip,
+                "pen_tip: PenTipRule", &O::motion, "motion: MotionMappingRule")
       .def_static("wang2006", &O::wang2006, "Every rule as printed, except the signs of eq. (8) and (9).")
       .def_static("for_device", &O::for_device, "capabilities"_a,
-                  "The defaults at the device's rate, with stiffnesses clipped to what is usable and stable on it.")
+                  "The defaults at the device's rate, stiffnesses clipped to what is usable and stable.")
       .def_static("everything", &O::everything, "capabilities"_a, "for_device() with all optional stages enabled.");
   module.def("clip_stiffness", &clip_stiffness, "options"_a, "capabilities"_a, "max_attraction"_a = 1.0,
-             "scale"_a = 1.0,
-             "Clips the stiffnesses of `options` in place. Returns what was clipped, each with its reason.");
+             "scale"_a = 1.0, "Clips the stiffnesses in place. Returns what was clipped, each with its reason.");
   module.def("validate", py::overload_cast<const O&, const Capabilities&, double, double>(&validate), "options"_a,
              "capabilities"_a, "max_attraction"_a = 1.0, "scale"_a = 1.0,
              "Raises InvalidValue naming an option out of range, or a stiffness that would be clipped.");
@@ -158,13 +153,13 @@ void add_render(py::module_& module) {
       module, "TickEvent", "What happened in a tick; bit flags.", TickEvent::page_finished,
       "contact lift stroke_started feature_passed stroke_finished stroke_abandoned character_finished page_finished",
       true);
-  add_enum(module, "TickStatus", "Whether the sample of a tick was usable.", TickStatus::device_fault,
+  add_enum(module, "TickStatus", "Whether a sample was usable.", TickStatus::device_fault,
            "ok bad_sample device_fault");
   TickColumns columns(module);
   const HapticTick& t = columns.tick;
   columns.add(t.time, "time: sample time [s]", t.status, "status: TickStatus", t.state, "state: InteractionState",
               t.events, "events: TickEvent flags", t.character,
-              "character: index of the active character; their number once all are written", t.stroke,
+              "character: index of the active one; their number once all are written", t.stroke,
               "stroke: index of the active stroke in the character", t.device_point,
               "device_point: (3,), page frame [m]", t.pen_tip, "pen_tip: (3,), page frame [m]", t.penetration,
               "penetration: of the device point into the paper [m]", t.contact.element,
@@ -173,7 +168,7 @@ void add_render(py::module_& module) {
               "closest: writing: closest point on the active element, (2,) [m]", t.contact.closest.distance,
               "distance: writing: from the pen tip to the closest point [m]", t.contact.weight,
               "weight: writing: of the guidance force, 0 outside the constraint space", t.contact.arc,
-              "arc: writing: arc length of the closest point from the start of the stroke [m]", t.attraction,
+              "arc: writing: of the closest point from the start of the stroke [m]", t.attraction,
               "attraction: force term (2,) [N]", t.wrong_way, "wrong_way: force term (2,) [N]", t.friction,
               "friction: force term (2,) [N]", t.normal, "normal: force term, out of the page [N]", t.damping,
               "damping: by the passivity controller (3,) [N]", t.assistance,
@@ -185,10 +180,10 @@ void add_render(py::module_& module) {
 
   py::class_<HapticRenderer>(
       module, "HapticRenderer", py::is_final(),
-      "Guides a pen through the characters of a page, stroke by stroke in the correct order and direction. Use one "
-      "renderer per device and thread: using one that is the law of a running ServoLoop, or in use by another thread, "
-      "raises Error. update() takes about 0.5 us from Python, 0.1 us of it for the tick itself; trace() takes one tick "
-      "per sample. Raises InvalidValue naming the option, the character or its placement.")
+      "Guides a pen through the characters of a page, stroke by stroke in the correct order and direction. Use one per "
+      "device and thread: one that a running ServoLoop or another thread uses raises Error. update() takes about 0.5 "
+      "us, 0.1 us of it for the tick itself, which is all that trace() takes per sample. Raises InvalidValue naming "
+      "the option, the character or its placement.")
       .def(py::init<std::vector<PlacedCharacter>, const MotionMapping&, const Capabilities&, const RendererOptions&>(),
            "page"_a, "mapping"_a, "capabilities"_a, "options"_a = RendererOptions{})
       .def(
@@ -196,15 +191,15 @@ void add_render(py::module_& module) {
           "Processes one sample; write `force` of the result to the device.")
       .def("trace", &trace, "positions"_a, "times"_a = py::none(),
            "Processes positions (N, 3) in device axes [m], one per tick, at increasing times (N,) [s] or, by default, "
-           "at the servo rate from the last tick on. Returns a structured array of N ticks (tick_dtype). Releases the "
-           "GIL. Ctrl-C leaves the renderer where it was interrupted: call restart().")
+           "at the servo rate from the last tick on. Returns N ticks (tick_dtype). Releases the GIL. After Ctrl-C, "
+           "call restart().")
       .def(
           "restart", [](HapticRenderer& self) { idle(self).restart(); },
           "Starts the page again: nothing written, force zero immediately.")
       .def_property_readonly(
           "last", [](const HapticRenderer& self) { return idle(self).last(); }, "the last HapticTick, copied")
       .def_property_readonly("options", &HapticRenderer::options, py::return_value_policy::copy,
-                             "effective options: with StiffnessCheck.clip, stiffnesses may be lower than requested")
+                             "effective options: clipped stiffnesses may be lower than requested")
       .def_property_readonly("clipped", &HapticRenderer::clipped, "what was clipped, each with its reason")
       .def_property_readonly("mapping", &HapticRenderer::mapping, py::return_value_policy::copy,
                              "MotionMapping, copied")
