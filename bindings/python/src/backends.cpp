@@ -85,10 +85,9 @@ void add_kinematics(py::module_& module) {
         return std::tuple(per_row(position, "position", joints), per_row(position, "position", reachable));
       },
       "linkage"_a, "position"_a,
-      "Joint angles (3,) or (n, 3) [rad] that put the tip at p (same shape) [m], with the elbow up and the tip in "
-      "front of the waist, and whether each p is reachable: () or (n,), bool. If not, the joints give the nearest pose "
-      "on the ray from the shoulder. Limits are not checked. A position that is not finite is unreachable, all angles "
-      "zero.");
+      "Joint angles (3,) or (n, 3) [rad] that put the tip at p [m], elbow up and tip in front of the waist, and "
+      "whether p is reachable: () or (n,), bool. If not, the joints give the nearest pose on the ray from the "
+      "shoulder. Limits are not checked. A position that is not finite is unreachable, all angles zero.");
   module.def(
       "within_limits",
       [](const Linkage& arm, const ArrayLike& joints, double margin) {
@@ -119,7 +118,7 @@ void add_kinematics(py::module_& module) {
       },
       "gravity"_a, "joints"_a,
       "Joint torques that compensate the weight of the arm, for joints (3,) or (n, 3) [rad]; same shape [N m]. "
-      "gravity: (2,), torques that hold the level upper arm (q2 = 0) and the level forearm (q3 = pi/2) [N m].");
+      "gravity: (2,), torques that hold the upper arm level (q2 = 0) and the forearm (q3 = pi/2) [N m].");
 }
 
 #ifdef CALLIGRAPHY_HAS_PHANTOM
@@ -182,10 +181,10 @@ void add_phantom(py::module_& module) {
              "The descriptors of a PluggedDevice, as hexadecimal bytes and decoded. Does not open the device.");
   module.def("capture_packets", &captured, "device"_a, "transfers"_a = CaptureOptions{}.transfers,
              "seconds"_a = CaptureOptions{}.seconds, "stop"_a = py::none(), "path"_a = py::none(),
-             "Opens a PluggedDevice and listens without sending packets. Ends after `transfers` transfers, after "
-             "`seconds` [s], or when stop(), polled ten times a second, returns True. Returns a structured array of "
-             "the transfers: time since the device was opened [s], and bytes. path: text file to write as well: the "
-             "device after #, then a line per transfer with time and hexadecimal bytes. Raises DeviceError.");
+             "Opens a PluggedDevice and listens without sending packets. Ends after `transfers`, after `seconds` [s], "
+             "or when stop(), polled ten times a second, returns True. Returns a structured array: time since the "
+             "device was opened [s], and bytes. path: text file to write as well: the device after #, then a line per "
+             "transfer with time and hexadecimal bytes. Raises DeviceError.");
 
   module.def(
       "read_wire_profile",
@@ -258,8 +257,8 @@ void add_openhaptics(py::module_& module) {
         return py::dict("found"_a = runtime.found, "library"_a = runtime.library, "advice"_a = runtime.advice);
       },
       "library"_a = "",
-      "Looks for the runtime without opening a device. Returns a dict: `found`, whether it is installed and complete; "
-      "`library`, its file name; `advice`, what to do if it was not found.");
+      "Looks for the runtime without opening a device. Returns a dict: `found`, installed and complete; `library`, its "
+      "file name; `advice`, a remedy.");
   module.def("openhaptics_error_name", &openhaptics_error_name, "code"_a,
              "Display text of an error code: 'warm motors' for 0x0200.");
   py::class_<OpenHapticsDevice, HapticDevice>(

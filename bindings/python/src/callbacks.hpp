@@ -155,8 +155,7 @@ class PythonLaw {
             }};
   }
 
-  /// Acquires the GIL on every call, from any thread. `own_thread`: called only from Python threads or a
-  /// ServoThread.
+  /// Acquires the GIL on every call. `own_thread`: called only from Python threads or a ServoThread.
   static ForceLaw force_law(std::shared_ptr<PythonLaw> law, bool own_thread) {
     return [law = std::move(law), own_thread](const DeviceState& state) {
       if (own_thread) keep_thread_state();

@@ -119,8 +119,7 @@ void add_collision(py::module_& module) {
            "parameter"_a, "point"_a, "distance"_a, "tangent"_a, "status"_a)
       .def_readonly("parameter", &NearestPoints::parameter, "(N,) in [0, 1]")
       .def_readonly("point", &NearestPoints::point, "(N, 2), on the element, in the unit of the control points")
-      .def_readonly("distance", &NearestPoints::distance,
-                    "(N,), from query to point; infinite if the query is not finite")
+      .def_readonly("distance", &NearestPoints::distance, "(N,), from query to point; infinite if not finite")
       .def_readonly("tangent", &NearestPoints::tangent, "(N, 2), unit vectors in writing direction")
       .def_readonly("status", &NearestPoints::status, "(N,), values of NearestPointStatus, uint8")
       .def_property_readonly(

@@ -207,9 +207,8 @@ void add_live(py::module_& module) {
            "options"_a = ServoLoopOptions{})
       .def(py::init<HapticDevice&, const Law&, const ServoLoopOptions&>(), "device"_a, "law"_a,
            "options"_a = ServoLoopOptions{})
-      .def(
-          "start", &Loop::start,
-          "Starts with zero force and ramps it up. Returns the privileges that the system refused, each with a remedy.")
+      .def("start", &Loop::start,
+           "Starts with zero force and ramps it up. Returns refused privileges, each with a remedy.")
       .def("stop", &Loop::stop,
            "Ramps the force down to zero, then ends the thread. From within the law it only begins the ramp-down.")
       .def_property_readonly("running", &Loop::is_running, "whether the loop has been started and not stopped")
@@ -250,8 +249,7 @@ void add_live(py::module_& module) {
       .def_property_readonly(
           "statistics", [](const LiveResult& self) { return servo_statistics(self.statistics); }, "as Servo.statistics")
       .def_readonly("dropped", &LiveResult::dropped, "ticks not recorded because `watch` took 2 s or more")
-      .def_readonly("warnings", &LiveResult::warnings,
-                    "what the servo loop could not obtain: priority, locked memory, a core");
+      .def_readonly("warnings", &LiveResult::warnings, "privileges that the servo loop was refused");
   module.def("with_peak_force", &with_peak_force, "capabilities"_a, "peak_force"_a,
              "The capabilities with their forces limited to a peak [N].");
   module.def("write_with_device", &write_live, "page"_a, "device"_a, "options"_a = LiveOptions{},

@@ -112,9 +112,8 @@ void add_practice(py::module_& module) {
              "The samples in device axes, for a ReplayDevice.");
 
   add_struct<PageLayout>(module, "PageLayout", "Characters in rows.", &PageLayout::width, "width [m]",
-                         &PageLayout::height, "height [m]", &PageLayout::em,
-                         "em: edge length of a character's square [m]", &PageLayout::gap,
-                         "gap: between and around squares [m]");
+                         &PageLayout::height, "height [m]", &PageLayout::em, "em: edge of a character's square [m]",
+                         &PageLayout::gap, "gap: between and around squares [m]");
   add_struct<PracticePage>(module, "PracticePage", "A page of placed characters.", &PracticePage::width, "width [m]",
                            &PracticePage::height, "height [m]", &PracticePage::characters,
                            "characters: list of PlacedCharacter, copied");
@@ -122,8 +121,7 @@ void add_practice(py::module_& module) {
       "lay_out",
       [](const std::vector<Character>& characters, const PageLayout& layout) { return lay_out(characters, layout); },
       "characters"_a, "layout"_a = PageLayout{},
-      "Lays the characters out on as many pages as needed. Raises InvalidValue unless lengths are positive and a "
-      "square fits.");
+      "As many pages as needed. Raises InvalidValue unless lengths are positive and a square fits.");
 
   py::class_<PenTrace>(module, "PenTrace", "A person's recorded pen while writing a character. Immutable.")
       .def(py::init(&trace_of), "character"_a, "strokes"_a, "set"_a = "unnamed", "em"_a = 1000.0)
@@ -147,20 +145,19 @@ void add_practice(py::module_& module) {
       "InvalidValue naming a trace that cannot be written.");
 
   using W = WriterSkill;
-  add_struct<W>(module, "WriterSkill", "Skill of a simulated writer (docs/practice.md).", &W::grip,
-                "grip: GripImpedance: impedance between the plan and the device", &W::offset,
-                "offset: spread of the believed position [em]", &W::bias,
-                "bias: length of an additional offset in a random direction [em]", &W::scale,
-                "scale: spread of the believed scale [1]", &W::tilt, "tilt: spread of the believed tilt [rad]",
-                &W::shape, "shape: spread of the believed place of each stroke [em]", &W::drift,
-                "drift: random walk off the plan [em/s^0.5]", &W::tremor, "tremor: amplitude, at 8 to 12 Hz [m]",
-                &W::aim, "aim: spread of where a stroke is begun [em]", &W::wrong_order,
-                "wrong_order: share of strokes begun with another one [1]", &W::wrong_direction,
-                "wrong_direction: share of strokes begun at their end [1]", &W::speed,
-                "speed: mean speed along a stroke [em/s]", &W::pause, "pause: before the pen moves to a stroke [s]",
-                &W::visual_delay, "visual_delay [s]", &W::correction,
-                "correction: share of the perceived error corrected per second [1/s]", &W::caution,
-                "caution: perceived error at which the speed is halved [em]")
+  add_struct<W>(
+      module, "WriterSkill", "Skill of a simulated writer (docs/practice.md).", &W::grip,
+      "grip: GripImpedance: impedance between the plan and the device", &W::offset,
+      "offset: spread of the believed position [em]", &W::bias, "bias: an additional offset in a random direction [em]",
+      &W::scale, "scale: spread of the believed scale [1]", &W::tilt, "tilt: spread of the believed tilt [rad]",
+      &W::shape, "shape: spread of the believed place of each stroke [em]", &W::drift,
+      "drift: random walk off the plan [em/s^0.5]", &W::tremor, "tremor: amplitude, at 8 to 12 Hz [m]", &W::aim,
+      "aim: spread of where a stroke is begun [em]", &W::wrong_order,
+      "wrong_order: share of strokes replaced by another one [1]", &W::wrong_direction,
+      "wrong_direction: share of strokes begun at their end [1]", &W::speed, "speed: mean speed along a stroke [em/s]",
+      &W::pause, "pause: before the pen moves to a stroke [s]", &W::visual_delay, "visual_delay [s]", &W::correction,
+      "correction: share of the perceived error corrected per second [1/s]", &W::caution,
+      "caution: perceived error at which the speed is halved [em]")
       .def_static("novice", &W::novice, "The novice of the experiments.")
       .def_static("skilled", &W::skilled, "The skilled writer of the experiments.");
 
@@ -169,9 +166,8 @@ void add_practice(py::module_& module) {
       module, "SessionOptions", "Options of a writer, a device and a renderer in closed loop.", &SessionOptions::mode,
       "mode: FeedbackMode", &SessionOptions::device, "device: Capabilities", &SessionOptions::renderer,
       "renderer: RendererOptions", &SessionOptions::skill, "skill: WriterSkill", &SessionOptions::seed,
-      "seed: seed of the writer", &SessionOptions::measure_ticks,
-      "measure_ticks: measure the execution time of every tick", &SessionOptions::character_timeout,
-      "character_timeout: virtual time until a character is aborted [s]");
+      "seed: seed of the writer", &SessionOptions::measure_ticks, "measure_ticks: measure execution times",
+      &SessionOptions::character_timeout, "character_timeout: virtual time until a character is aborted [s]");
   const auto with = [](SessionOptions options, const Progress& progress) {
     options.progress = interruptible(progress);
     return options;
@@ -215,16 +211,16 @@ void add_practice(py::module_& module) {
                              &WritingMistake::time, "time: of the pen-down [s]", &WritingMistake::reason,
                              "reason: one line for people");
   using S = CharacterScore;
-  add_struct<S>(
-      module, "CharacterScore", "Score of a written character.", &S::character, "character: a str of length 1",
-      &S::time, "time [s]", &S::rms_error, "rms_error: lateral, over the completed strokes [m]", &S::max_error,
-      "max_error: lateral [m]", &S::stroke_count, "stroke_count: strokes of the character", &S::strokes_completed,
-      "strokes_completed: by the writer", &S::peak_force, "peak_force [N]", &S::max_force_step,
-      "max_force_step: maximum change of the force per tick [N]", &S::mistakes,
-      "mistakes: list of WritingMistake, copied", &S::contour, "contour: exp(-rms error / 5 % of the em), [0, 1]",
-      &S::external_sequence, "external_sequence: completed / (completed + order mistakes)", &S::internal_sequence,
-      "internal_sequence: completed / (completed + direction mistakes)", &S::fidelity,
-      "fidelity: geometric mean of the three")
+  add_struct<S>(module, "CharacterScore", "Score of a written character.", &S::character,
+                "character: a str of length 1", &S::time, "time [s]", &S::rms_error,
+                "rms_error: lateral, over the completed strokes [m]", &S::max_error, "max_error: lateral [m]",
+                &S::stroke_count, "stroke_count: strokes of the character", &S::strokes_completed,
+                "strokes_completed: by the writer", &S::peak_force, "peak_force [N]", &S::max_force_step,
+                "max_force_step: per tick [N]", &S::mistakes, "mistakes: list of WritingMistake, copied", &S::contour,
+                "contour: exp(-rms error / 5 % of the em), [0, 1]", &S::external_sequence,
+                "external_sequence: completed / (completed + order mistakes)", &S::internal_sequence,
+                "internal_sequence: completed / (completed + direction mistakes)", &S::fidelity,
+                "fidelity: geometric mean of the three")
       .def("order_mistakes", &S::order_mistakes, "Number of order mistakes.")
       .def("direction_mistakes", &S::direction_mistakes, "Number of direction mistakes.");
   module.def("score_page", released(&score_page), "page"_a, "recording"_a, "One score per character of the page.");
@@ -245,9 +241,8 @@ void add_practice(py::module_& module) {
       "ideographs_only"_a = true, "date"_a = "", "threads"_a = 0, "progress"_a = py::none(),
       "Imports hanzi-writer-data or KanjiVG (a directory or a tarball), a set file or the text format. Returns a "
       "CharacterList and a report (docs/import.md): kind, characters, strokes, labelled, agreed, ids_used by id, "
-      "letters_unused, notes; within, a structured array of strokes and characters within an error [em]; worst, of "
-      "code, order, stroke (from 1), id and error [em]; skipped files with reasons. Raises FileError, FormatError, "
-      "InvalidValue.");
+      "letters_unused, notes; within: strokes and characters within an error [em]; worst: code, order, stroke (from "
+      "1), id, error [em]; skipped files with reasons. Raises FileError, FormatError, InvalidValue.");
 }
 
 }  // namespace calligraphy::python

@@ -80,10 +80,8 @@ py::dict as_dict(const StiffnessBound& bound) {
 }  // namespace
 
 void add_render(py::module_& module) {
-  add_enum(module, "PenTipRule", "Where the virtual pen tip is while the device is below the paper.",
-           PenTipRule::wang2006, "projected wang2006");
-  add_enum(module, "GuidanceLaw", "How guidance depends on the distance from the stroke.", GuidanceLaw::saturating,
-           "linear saturating");
+  add_enum(module, "PenTipRule", "Where the virtual pen tip is.", PenTipRule::wang2006, "projected wang2006");
+  add_enum(module, "GuidanceLaw", "Guidance force over the distance.", GuidanceLaw::saturating, "linear saturating");
   add_enum(module, "StiffnessCheck", "What to do with an unstable stiffness.", StiffnessCheck::off, "reject clip off");
   add_enum(module, "ForceSign", "The signs of eq. (8) and (9).", ForceSign::wang2006, "attracting wang2006");
   add_enum(module, "MotionMappingRule", "How device axes map to the page.", MotionMappingRule::wang2006,
@@ -91,11 +89,11 @@ void add_render(py::module_& module) {
   add_enum(module, "FrictionModel", "Friction between pen and paper.", FrictionModel::karnopp,
            "breakaway hayward_armstrong karnopp");
 
-  add_struct<AssistPolicy>(module, "AssistPolicy", "Assistance as needed.", &AssistPolicy::enabled,
-                           "enabled: False: full assistance always", &AssistPolicy::retention,
-                           "retention: of the previous assistance [1]", &AssistPolicy::full_assistance_error,
-                           "full_assistance_error: RMS lateral error of full assistance [m]",
-                           &AssistPolicy::min_assistance, "min_assistance: lower bound of the assistance [1]");
+  add_struct<AssistPolicy>(
+      module, "AssistPolicy", "Assistance as needed.", &AssistPolicy::enabled, "enabled: False: full assistance always",
+      &AssistPolicy::retention, "retention: share of the previous assistance retained [1]",
+      &AssistPolicy::full_assistance_error, "full_assistance_error: RMS lateral error that keeps assistance at 1 [m]",
+      &AssistPolicy::min_assistance, "min_assistance: lower bound of the assistance [1]");
   add_struct<FrictionOptions>(module, "FrictionOptions", "Friction between pen and paper.", &FrictionOptions::model,
                               "model: FrictionModel", &FrictionOptions::coefficient,
                               "coefficient: mu; 0: no friction [1]", &FrictionOptions::stiffness,
@@ -182,17 +180,15 @@ void add_render(py::module_& module) {
       module, "HapticRenderer", py::is_final(),
       "Guides a pen through the characters of a page, stroke by stroke in the correct order and direction. Use one per "
       "device and thread: one that a running ServoLoop or another thread uses raises Error. update() takes about 0.5 "
-      "us, 0.1 us of it for the tick itself, which is all that trace() takes per sample. Raises InvalidValue naming "
-      "the option, the character or its placement.")
+      "us, trace() 0.1 us per sample. Raises InvalidValue naming the option, the character or its placement.")
       .def(py::init<std::vector<PlacedCharacter>, const MotionMapping&, const Capabilities&, const RendererOptions&>(),
            "page"_a, "mapping"_a, "capabilities"_a, "options"_a = RendererOptions{})
       .def(
           "update", [](HapticRenderer& self, const DeviceState& state) { return idle(self).update(state); }, "state"_a,
           "Processes one sample; write `force` of the result to the device.")
       .def("trace", &trace, "positions"_a, "times"_a = py::none(),
-           "Processes positions (N, 3) in device axes [m], one per tick, at increasing times (N,) [s] or, by default, "
-           "at the servo rate from the last tick on. Returns N ticks (tick_dtype). Releases the GIL. After Ctrl-C, "
-           "call restart().")
+           "Processes positions (N, 3) in device axes [m], one per tick, at increasing times (N,) [s], by default at "
+           "the servo rate. Returns N ticks (tick_dtype). Releases the GIL. After Ctrl-C, call restart().")
       .def(
           "restart", [](HapticRenderer& self) { idle(self).restart(); },
           "Starts the page again: nothing written, force zero immediately.")
@@ -206,8 +202,7 @@ void add_render(py::module_& module) {
       .def_property_readonly(
           "page", [](const HapticRenderer& self) { return std::vector<PlacedCharacter>(self.page()); },
           "list of PlacedCharacter, copied")
-      .def("max_force_step", &HapticRenderer::max_force_step,
-           "Maximum change of the force per tick; infinite: no limit [N].")
+      .def("max_force_step", &HapticRenderer::max_force_step, "Maximum per tick; infinite: no limit [N].")
       .def("__repr__", [](const HapticRenderer& self) {
         return told("HapticRenderer(page of {} at {:g} Hz)", self.page().size(), self.options().servo_rate);
       });
