@@ -115,7 +115,7 @@ class Grid:
         )
 
 
-#: The columns of a table and their types; the first ones are those of Condition.
+#: The columns of a table and their types, those of Condition first.
 _COLUMNS: dict[str, type] = {
     "character": str,
     "writer": str,
@@ -171,7 +171,7 @@ def trial(grid: Grid, condition: Condition) -> Row:
     renderer.stiffness_check = cal.StiffnessCheck.clip
     renderer.stroke.nearest.method = getattr(cal.NearestPointMethod, condition.method)
     renderer.stroke.nearest.tolerance = condition.tolerance
-    # As the session's renderer would, which says to nobody what it made of them.
+    # Clipped here as the session's renderer would, which does not report the effective values.
     cal.clip_stiffness(renderer, grid.device, max(1.0, *character.attraction_factors))
     workspace = grid.device.workspace
     page = cal.lay_out([character], cal.PageLayout(width=workspace[0], height=workspace[1]))[0]
@@ -237,7 +237,7 @@ def to_table(rows: Sequence[Row]) -> Any:
     except ImportError:
         return _structured(rows)
     table = pandas.DataFrame(list(rows), columns=_columns(rows))
-    return table if rows else table.astype(_COLUMNS)  # from no values pandas cannot tell
+    return table if rows else table.astype(_COLUMNS)  # pandas cannot infer the types of empty columns
 
 
 def write(table: Any, path: str | os.PathLike[str]) -> None:
@@ -247,7 +247,7 @@ def write(table: Any, path: str | os.PathLike[str]) -> None:
     """
     path = pathlib.Path(path)
     if path.suffix not in (".csv", ".parquet"):
-        raise cal.InvalidValue(f"{path}: .csv or .parquet is expected, not {path.suffix!r}")
+        raise cal.InvalidValue(f"{path}: expected .csv or .parquet, got {path.suffix!r}")
     columns = _columns_of(table)
     temporary = path.with_name(path.name + f".{os.getpid()}.part")
     try:
@@ -265,7 +265,7 @@ def write(table: Any, path: str | os.PathLike[str]) -> None:
             )
         os.replace(temporary, path)
     except OSError as error:
-        reason = os.strerror(error.errno) if error.errno else str(error)  # pyarrow's own words name the temporary file
+        reason = os.strerror(error.errno) if error.errno else str(error)  # pyarrow's own message names the temporary file
         raise cal.FileError(f"{path}: cannot be written: {reason}") from error
     finally:
         with contextlib.suppress(OSError):
@@ -286,7 +286,7 @@ def _run_on(
 ) -> None:
     failures = [0] * len(chunks)
     pending: dict[concurrent.futures.Future[list[Row]], int] = {}
-    # Told by each future itself: concurrent.futures.wait does not hear of one that was cancelled before it ran.
+    # Filled by each future's callback: concurrent.futures.wait misses a future cancelled before it ran.
     ended: queue.SimpleQueue[concurrent.futures.Future[list[Row]]] = queue.SimpleQueue()
 
     def send(index: int) -> None:
@@ -302,7 +302,7 @@ def _run_on(
 
     def failed(index: int, error: BaseException) -> None:
         if isinstance(error, (cal.Error, TypeError, AttributeError)):
-            raise error  # would fail anywhere
+            raise error  # a retry would fail in the same way
         failures[index] += 1
         if failures[index] > retries:
             raise TrialsLost(f"{chunks[index][0]} and {len(chunks[index]) - 1} more: {error!r}") from error
@@ -361,7 +361,7 @@ class _Bar:
 def _character(source: cal.CharacterSet | cal.CharacterList | None, code: str) -> cal.Character:
     found = (cal.built_in_characters() if source is None else source).find(code)
     if found is None:
-        raise cal.InvalidValue(f"characters: there is no {code!r} in the set")
+        raise cal.InvalidValue(f"characters: {code!r} is not in the set")
     return found
 
 
@@ -372,7 +372,7 @@ def _writers(writers: Union[Sequence[str], Mapping[str, cal.WriterSkill]]) -> di
 
     def named(what: str, name: Any) -> str:
         if not isinstance(name, str) or name not in known:
-            raise cal.InvalidValue(f"{what}: one of {', '.join(known)} or a dict is expected, not {name!r}")
+            raise cal.InvalidValue(f"{what}: expected one of {', '.join(known)} or a dict, got {name!r}")
         return name
 
     return {name: known[name] for name in _axis("writers", _list("writers", writers), named)}
@@ -381,32 +381,32 @@ def _writers(writers: Union[Sequence[str], Mapping[str, cal.WriterSkill]]) -> di
 def _axis(what: str, values: Iterable[Any], checked: Callable[[str, Any], _Value]) -> list[_Value]:
     """The checked values of one axis; none may occur twice."""
     if not isinstance(values, Iterable):
-        raise cal.InvalidValue(f"{what}: a list is expected, not {values!r}")
+        raise cal.InvalidValue(f"{what}: expected a list, got {values!r}")
     result: dict[_Value, None] = {}
     for value in values:
         right = checked(what, value)
         if right in result:
-            raise cal.InvalidValue(f"{what}: {right!r} stands there twice")
+            raise cal.InvalidValue(f"{what}: {right!r} occurs twice")
         result[right] = None
     return list(result)
 
 
 def _list(what: str, values: Any) -> Any:
-    """Rejects a single name in place of a list: it would be taken as a list of its letters."""
+    """Rejects a string, which would otherwise be read as a list of its characters."""
     if isinstance(values, str):
-        raise cal.InvalidValue(f"{what}: a list is expected, not {values!r}")
+        raise cal.InvalidValue(f"{what}: expected a list, got {values!r}")
     return values
 
 
 def _one(what: str, value: Any, kind: type[_Value]) -> _Value:
     if not isinstance(value, kind):
-        raise cal.InvalidValue(f"{what}: a {kind.__name__} is expected, not {value!r}")
+        raise cal.InvalidValue(f"{what}: expected a {kind.__name__}, got {value!r}")
     return value
 
 
 def _text(what: str, value: Any) -> str:
     if not isinstance(value, str):
-        raise cal.InvalidValue(f"{what}: a str is expected, not {value!r}")
+        raise cal.InvalidValue(f"{what}: expected a str, got {value!r}")
     return value
 
 
@@ -414,7 +414,7 @@ def _name_of(kind: Any) -> Callable[[str, Any], str]:
     def name_of(what: str, value: Any) -> str:
         name = value.name if isinstance(value, kind) else value
         if not isinstance(name, str) or name not in kind.__members__:
-            raise cal.InvalidValue(f"{what}: one of {', '.join(kind.__members__)} is expected, not {value!r}")
+            raise cal.InvalidValue(f"{what}: expected one of {', '.join(kind.__members__)}, got {value!r}")
         return name
 
     return name_of
@@ -424,7 +424,7 @@ def _whole(what: str, value: Any, least: int = 0, most: float = np.inf) -> int:
     try:
         number = operator.index(value)
     except TypeError:
-        raise cal.InvalidValue(f"{what}: a whole number is expected, not {value!r}") from None
+        raise cal.InvalidValue(f"{what}: expected an integer, got {value!r}") from None
     if not least <= number <= most:
         raise cal.InvalidValue(f"{what}: {value!r} is not in [{least}, {most}]")
     return number
@@ -436,7 +436,7 @@ def _positive(what: str, value: Any) -> float:
     except TypeError:
         number = float("nan")
     if not 0.0 < number < np.inf:
-        raise cal.InvalidValue(f"{what}: a positive number is expected, not {value!r}")
+        raise cal.InvalidValue(f"{what}: expected a positive number, got {value!r}")
     return number
 
 
@@ -463,6 +463,6 @@ def _structured(rows: Sequence[Row]) -> npt.NDArray[np.void]:
 
 def _columns_of(table: Any) -> dict[str, Any]:
     if not hasattr(table, "columns") and getattr(getattr(table, "dtype", None), "names", None) is None:
-        raise cal.InvalidValue(f"a table of run() is expected, not a {type(table).__name__}")
+        raise cal.InvalidValue(f"expected a table of run(), got a {type(table).__name__}")
     names = table.dtype.names if isinstance(table, np.ndarray) else list(table.columns)
     return {name: table[name] for name in names}

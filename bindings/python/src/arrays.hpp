@@ -1,4 +1,4 @@
-// NumPy arrays in and out: checked against the shape that is expected, shared where the memory allows.
+// Conversion of NumPy arrays: shapes are checked, memory is shared where possible.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ namespace calligraphy::python {
 namespace py = pybind11;
 using namespace py::literals;
 
-/// Whatever NumPy can make an array of; what it may hold is checked by the functions below.
+/// Anything that NumPy can convert to an array; the functions below check its contents.
 class ArrayLike : public py::object {
   PYBIND11_OBJECT_DEFAULT(ArrayLike, py::object, any_object)
 
@@ -32,7 +32,7 @@ using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
 /// "(3, 2)"
 inline std::string shape_of(const py::array& array) { return py::str(array.attr("shape")).cast<std::string>(); }
 
-/// What NumPy says, with the argument's name. Ctrl-C and a lack of memory stay what they are.
+/// NumPy's message with the argument's name. MemoryError and Ctrl-C keep their types.
 [[noreturn]] inline void refuse(py::error_already_set& error, const char* name, const std::string& what) {
   const std::string message = std::string(name) + ": " + what + ": " + py::str(error.value()).cast<std::string>();
   if (error.matches(PyExc_MemoryError)) {
@@ -44,38 +44,37 @@ inline std::string shape_of(const py::array& array) { return py::str(array.attr(
 }
 
 [[noreturn]] inline void refuse_shape(const char* name, const std::string& expected, const py::array& given) {
-  throw ValueError(std::string(name) + ": shape " + expected + " is expected, not " + shape_of(given));
+  throw ValueError(std::string(name) + ": expected shape " + expected + ", got " + shape_of(given));
 }
 
-/// Whether something of it is masked: asked of subclasses alone, as each tick of a force law passes through here.
+/// Whether any element is masked. Checks subclasses only, because every tick of a force law calls this.
 inline bool is_masked(const py::array& array) {
   if (Py_TYPE(array.ptr()) == py::detail::npy_api::get().PyArray_Type_) return false;
   return py::module_::import("numpy.ma").attr("is_masked")(array).cast<bool>();
 }
 
-/// An array of real numbers that doubles hold without loss, or an error that names the argument.
+/// An array of real numbers that doubles represent without loss. @throws ValueError naming the argument
 inline py::array real_numbers(py::handle value, const char* name) {
   py::array array;
   try {
     array = py::isinstance<py::array>(value) ? py::reinterpret_borrow<py::array>(value)
                                              : py::array(py::module_::import("numpy").attr("asarray")(value));
   } catch (py::error_already_set& error) {
-    refuse(error, name, "an array of numbers is expected");
+    refuse(error, name, "expected an array of numbers");
   }
   if (is_masked(array)) {
-    throw ValueError(std::string(name) +
-                     ": a masked array is given, whose masked numbers C++ would take as they are: fill them first");
+    throw ValueError(std::string(name) + ": got a masked array, and C++ ignores masks: fill the masked elements first");
   }
   const char kind = array.dtype().kind();
   if ((kind != 'f' && kind != 'i' && kind != 'u') || array.itemsize() > 8) {
-    throw ValueError(std::string(name) + ": real numbers are expected (dtype float64 or what converts to it), not " +
+    throw ValueError(std::string(name) + ": expected real numbers (dtype float64 or convertible to it), got " +
                      py::str(array.dtype()).cast<std::string>());
   }
   return array;
 }
 
-/// As contiguous doubles, the array itself where it is that already; aligned as points are, so that rows of two may be
-/// read as such. Not by Doubles::ensure(), which forgets why NumPy could not.
+/// The array as contiguous doubles, without a copy if it already is; aligned like points, so that rows of two can be
+/// read as such. Doubles::ensure() would discard NumPy's error message.
 inline Doubles contiguous(const py::array& array, const char* name) {
   Doubles result;
   if (Doubles::check_(array) && (array.flags() & py::array::c_style) != 0) {
@@ -91,9 +90,9 @@ inline Doubles contiguous(const py::array& array, const char* name) {
   return Doubles(std::vector<py::ssize_t>(result.shape(), result.shape() + result.ndim()), result.data());
 }
 
-/// Real numbers (n, columns), with 0 columns (n,), as contiguous doubles: the array itself where it is that already,
-/// else a copy. An empty list is taken for an array without rows.
-/// @throws ValueError naming the argument, the shape or type expected and the one given
+/// Real numbers (n, columns), or (n,) for 0 columns, as contiguous doubles, copied only if necessary. An empty list
+/// counts as an array without rows.
+/// @throws ValueError naming the argument, the expected shape or type and the given one
 inline Doubles doubles(py::handle value, const char* name, py::ssize_t columns = 0) {
   const py::array array = real_numbers(value, name);
   if (columns == 0) {
@@ -105,7 +104,7 @@ inline Doubles doubles(py::handle value, const char* name, py::ssize_t columns =
   return contiguous(array, name);
 }
 
-/// One row or many: (columns,) or (n, columns), with 0 columns () or (n,); `one` says which.
+/// One row or many: (columns,) or (n, columns); for 0 columns, () or (n,). `one` tells which.
 inline Doubles one_or_many(py::handle value, const char* name, py::ssize_t columns, bool& one) {
   const py::array array = real_numbers(value, name);
   one = columns == 0 ? array.ndim() == 0 : array.ndim() == 1 && array.size() == columns;
@@ -120,7 +119,7 @@ inline Doubles fixed_doubles(py::handle value, const char* name, py::ssize_t len
   return contiguous(array, name);
 }
 
-/// A vector, a point or a matrix of Eigen.
+/// An Eigen vector, point or matrix.
 template <class Matrix>
 Matrix matrix_of(py::handle value, const char* name) {
   constexpr py::ssize_t rows = Matrix::RowsAtCompileTime, columns = Matrix::ColsAtCompileTime;
@@ -137,19 +136,19 @@ Matrix matrix_of(py::handle value, const char* name) {
 inline Point point(py::handle value, const char* name) { return matrix_of<Point>(value, name); }
 inline Eigen::Vector3d vector(py::handle value, const char* name) { return matrix_of<Eigen::Vector3d>(value, name); }
 
-/// Row of an (n, 3) array of doubles where it is.
+/// View of a row of an (n, 3) array of doubles.
 inline Eigen::Map<const Eigen::Vector3d> vector_at(const double* data, py::ssize_t row) {
   return Eigen::Map<const Eigen::Vector3d>(data + 3 * row);
 }
 
-/// (n, 2), copied.
+/// Points (n, 2), copied.
 inline std::vector<Point> points(py::handle value, const char* name) {
   const Doubles array = doubles(value, name, 2);
   const auto* const first = reinterpret_cast<const Point*>(array.data());
   return {first, first + array.shape(0)};
 }
 
-/// A read-only view of C++ memory, which `owner` keeps alive and must not move: (n,) of numbers, (n, 2) of points.
+/// A read-only view of C++ memory that `owner` keeps alive and never moves: (n,) for numbers, (n, 2) for points.
 template <class Values>
 auto view_of(const Values& values, py::handle owner) {
   using Value = std::remove_cvref_t<decltype(*values.data())>;
@@ -166,7 +165,7 @@ template <class Matrix>
 Doubles array_of(const Matrix& value) {
   return Doubles(value.size(), value.eval().data());
 }
-/// Of C++ as Python has it: vectors as copies.
+/// A C++ value for Python; vectors are copied.
 template <class Value>
 auto as_python(const Value& value) {
   if constexpr (std::is_base_of_v<Eigen::EigenBase<Value>, Value>) {
@@ -183,7 +182,7 @@ Doubles array_of_points(const Points& values) {
   return result;
 }
 
-/// The columns of a structured array whose rows are structs in memory: each member with its name, type and place.
+/// The columns of a structured array whose rows are C++ structs: name, type and offset of each member.
 template <class Row>
 class Columns {
  public:
@@ -212,7 +211,7 @@ class Columns {
   py::list names_, formats_, offsets_;
 };
 
-/// The type of rows like this one, from the names and the members of its columns.
+/// The dtype of rows like `row`, from names and members of its columns.
 template <class Row, class... Rest>
 py::dtype columns_of(const Row& row, const Rest&... rest) {
   Columns<Row> columns;
@@ -224,7 +223,7 @@ py::dtype columns_of(const Row& row, const Rest&... rest) {
   return columns.dtype();
 }
 
-/// A structured array over the rows, which it owns from now on.
+/// A structured array that takes ownership of the rows.
 template <class Row>
 py::array structured(const py::dtype& dtype, std::vector<Row>&& rows) {
   auto* const owned = new std::vector<Row>(std::move(rows));
@@ -232,14 +231,14 @@ py::array structured(const py::dtype& dtype, std::vector<Row>&& rows) {
   return py::array(dtype, owned->size(), owned->data(), owner);
 }
 
-/// The columns of a table from words "name:format", formats as numpy.dtype takes them.
+/// The columns of a table from words "name:format", with formats of numpy.dtype.
 inline py::list dtype_of(const std::string& columns) {
   py::list result;
   for (const py::handle column : py::str(columns).attr("split")()) result.append(py::tuple(column.attr("split")(":")));
   return result;
 }
 
-/// A structured array of a list of tuples.
+/// A structured array from a list of tuples.
 inline py::array table(const py::list& rows, const py::list& dtype) {
   return py::module_::import("numpy").attr("array")(rows, "dtype"_a = dtype);
 }

@@ -1,4 +1,4 @@
-// The arm of a Phantom, one set of joints at a time or many, and real devices: on USB, and by the vendor's runtime.
+// Kinematics of a Phantom, for one pose or many, and real devices: on USB, and through the vendor's runtime.
 #include <calligraphy/devices/phantom/kinematics.hpp>
 #ifdef CALLIGRAPHY_HAS_PHANTOM
 #include <calligraphy/base/file.hpp>
@@ -19,7 +19,7 @@ namespace {
 using phantom::JointLimits;
 using phantom::Linkage;
 
-/// `function` of every row of (3,) or (n, 3), and of its index: an array in the shape of the rows, and of each answer.
+/// Applies `function` to each row of (3,) or (n, 3) and its index; the result has one entry per row.
 template <class Function>
 auto per_row(const ArrayLike& value, const char* name, Function&& function) {
   using Answer = std::invoke_result_t<Function, Eigen::Vector3d, py::ssize_t>;
@@ -54,27 +54,27 @@ auto of_joints(Answer (*function)(const Linkage&, const phantom::Joints&) noexce
 }  // namespace
 
 void add_kinematics(py::module_& module) {
-  add_struct<JointLimits>(module, "JointLimits", "How far the joints of an arm turn.", &JointLimits::waist,
-                          "waist: to either side [rad]", &JointLimits::shoulder_min, "shoulder_min [rad]",
+  add_struct<JointLimits>(module, "JointLimits", "Joint limits of an arm.", &JointLimits::waist,
+                          "waist: in both directions [rad]", &JointLimits::shoulder_min, "shoulder_min [rad]",
                           &JointLimits::shoulder_max, "shoulder_max [rad]", &JointLimits::elbow_min,
-                          "elbow_min: elbow less shoulder [rad]", &JointLimits::elbow_max,
-                          "elbow_max: elbow less shoulder [rad]");
+                          "elbow_min: elbow minus shoulder [rad]", &JointLimits::elbow_max,
+                          "elbow_max: elbow minus shoulder [rad]");
   add_struct<Linkage>(module, "Linkage",
-                      "An arm of two links on a waist, x right, y up, z to the user: with r = l1 cos q2 + l2 sin q3 "
-                      "the tip is at p = (s r sin q1, l1 sin q2 - l2 cos q3 + l2, r cos q1 - l1). Joints are the "
-                      "angles of waist, shoulder and elbow, the last two both measured against the base.",
+                      "An arm of two links on a waist joint; x right, y up, z towards the user. With r = l1 cos q2 + "
+                      "l2 sin q3 the tip is at p = (s r sin q1, l1 sin q2 - l2 cos q3 + l2, r cos q1 - l1). Joints are "
+                      "the angles of waist, shoulder and elbow, the last two both measured relative to the base.",
                       &Linkage::upper_arm, "upper_arm: l1 [m]", &Linkage::forearm, "forearm: l2 [m]",
                       &Linkage::waist_sense, "waist_sense: s: 1 or -1", &Linkage::limits, "limits: JointLimits",
-                      &Linkage::centre, "centre: p of the origin of the device's axes (3,) [m]");
+                      &Linkage::centre, "centre: p of the origin of the device axes (3,) [m]");
   module.def("linkage", &phantom::linkage, py::return_value_policy::copy, "model"_a,
-             "Of omni, touch or premium-1.5. Raises InvalidValue naming those that exist.");
+             "The linkage of omni, touch or premium-1.5. Raises InvalidValue naming the available models.");
   module.def("tip_position", of_joints(&phantom::tip_position), "linkage"_a, "joints"_a,
-             "p of joints (3,) or (n, 3) [rad]: as many [m].");
+             "Forward kinematics p for joints (3,) or (n, 3) [rad]; same shape [m].");
   module.def("tip_jacobian", of_joints(&phantom::tip_jacobian), "linkage"_a, "joints"_a,
-             "dp/dq at joints (3,) or (n, 3) [rad]: (3, 3) or (n, 3, 3) [m/rad].");
-  module.def("manipulability", of_joints(&phantom::manipulability), "linkage"_a, "joints"_a,
-             "r cos(q2 - q3) / (l1 + l2) at joints (3,) or (n, 3) [rad], up to 1 and 0 where the arm is singular: () "
-             "or (n,).");
+             "Jacobian dp/dq for joints (3,) or (n, 3) [rad]: (3, 3) or (n, 3, 3) [m/rad].");
+  module.def(
+      "manipulability", of_joints(&phantom::manipulability), "linkage"_a, "joints"_a,
+      "r cos(q2 - q3) / (l1 + l2) for joints (3,) or (n, 3) [rad]: at most 1, and 0 in singular poses; () or (n,).");
   module.def(
       "inverse_kinematics",
       [](const Linkage& arm, const ArrayLike& position) {
@@ -85,16 +85,16 @@ void add_kinematics(py::module_& module) {
         return std::tuple(per_row(position, "position", joints), per_row(position, "position", reachable));
       },
       "linkage"_a, "position"_a,
-      "The joints (3,) or (n, 3) [rad] that put the tip at as many p [m], with the elbow up and the waist in front, "
-      "and whether each p is reachable, () or (n,), bool: where not, the joints lead as near as the arm can reach from "
-      "the shoulder. Limits are not asked. A place that is not finite is not reachable, the joints then zero.");
+      "Joint angles (3,) or (n, 3) [rad] that put the tip at p [m], elbow up and tip in front of the waist, and "
+      "whether p is reachable: () or (n,), bool. If not, the joints give the nearest pose on the ray from the "
+      "shoulder. Limits are not checked. A position that is not finite is unreachable, all angles zero.");
   module.def(
       "within_limits",
       [](const Linkage& arm, const ArrayLike& joints, double margin) {
         return per_row(joints, "joints", [&](const auto& row, py::ssize_t) { return within_limits(arm, row, margin); });
       },
       "linkage"_a, "joints"_a, "margin"_a = 0.0,
-      "Whether every joint of (3,) or (n, 3) [rad] keeps its limits to within `margin` [rad]: bool, () or (n,).");
+      "Whether every joint of (3,) or (n, 3) [rad] is within its limits plus `margin` [rad]: bool.");
   module.def(
       "joint_torque",
       [](const Linkage& arm, const ArrayLike& joints, const ArrayLike& force) {
@@ -107,7 +107,7 @@ void add_kinematics(py::module_& module) {
         });
       },
       "linkage"_a, "joints"_a, "force"_a,
-      "Torques J^T F of forces at the tip [N], both (3,) or (n, 3): as many [N m].");
+      "Joint torques J^T F [N m] for forces at the tip [N]; joints and forces both (3,) or (n, 3).");
   module.def(
       "gravity_torque",
       [](const ArrayLike& gravity, const ArrayLike& joints) {
@@ -117,8 +117,8 @@ void add_kinematics(py::module_& module) {
         });
       },
       "gravity"_a, "joints"_a,
-      "Torques that hold the arm against its weight, for joints (3,) or (n, 3) [rad]: as many [N m]. gravity: (2,), "
-      "what holds the upper arm when it is level (q2 = 0), and the forearm when it is level (q3 = pi/2) [N m].");
+      "Joint torques that compensate the weight of the arm, for joints (3,) or (n, 3) [rad]; same shape [N m]. "
+      "gravity: (2,), torques that hold the upper arm level (q2 = 0) and the forearm (q3 = pi/2) [N m].");
 }
 
 #ifdef CALLIGRAPHY_HAS_PHANTOM
@@ -126,7 +126,7 @@ namespace {
 
 using Stop = std::optional<std::function<bool()>>;
 
-/// What was captured, as an array; in the file too, if there is one.
+/// The capture as an array; also written to the file, if one is given.
 py::array captured(const PluggedDevice& device, std::size_t transfers, double seconds, const Stop& stop,
                    const std::optional<std::filesystem::path>& path) {
   const auto capture_all =
@@ -165,26 +165,26 @@ py::dict as_dict(const PhantomStatistics& s) {
 }  // namespace
 
 void add_phantom(py::module_& module) {
-  add_enum(module, "LinkKind", "How a Phantom speaks on the bus.", LinkKind::hid, "usb hid");
+  add_enum(module, "LinkKind", "How a Phantom communicates on the bus.", LinkKind::hid, "usb hid");
   using P = PluggedDevice;
-  add_struct<P>(module, "PluggedDevice", "A device on the bus, open or not. str() names it, its bus and its port.",
-                &P::vendor_id, "vendor_id: of USB", &P::product_id, "product_id: of USB", &P::model,
-                "model: what these ids stand for, in words", &P::link, "link: LinkKind", &P::bus, "bus: its number",
-                &P::port, "port: from the root of the bus, 2 or 1.4", &P::nodes, "nodes: list of paths, copied",
-                &P::serial, "serial: empty: it has none, or it cannot be read", &P::may_open,
+  add_struct<P>(module, "PluggedDevice", "A device on the bus, open or not. str() gives its ids, bus and port.",
+                &P::vendor_id, "vendor_id: USB vendor id", &P::product_id, "product_id: USB product id", &P::model,
+                "model: display name for these ids", &P::link, "link: LinkKind", &P::bus, "bus: bus number", &P::port,
+                "port: path from the root of the bus, 2 or 1.4", &P::nodes, "nodes: list of device node paths, copied",
+                &P::serial, "serial: serial number; empty: none, or not readable", &P::may_open,
                 "may_open: this user may read and write the node that would be opened", &P::advice,
-                "advice: what to do when it may not be opened")
+                "advice: what to do if it may not be opened")
       .def("__str__", &describe_device);
   module.def("plugged_devices", released(&plugged_devices),
-             "Every Phantom, by bus and port. Opens none of them. Raises DeviceError when the bus cannot be read.");
+             "All connected Phantoms, by bus and port, unopened. Raises DeviceError when the bus cannot be read.");
   module.def("dump_descriptors", released(&dump_descriptors), "device"_a,
-             "What a PluggedDevice says of itself: its descriptors, as hexadecimal bytes and in words. Opens nothing.");
+             "The descriptors of a PluggedDevice, as hexadecimal bytes and decoded. Does not open the device.");
   module.def("capture_packets", &captured, "device"_a, "transfers"_a = CaptureOptions{}.transfers,
              "seconds"_a = CaptureOptions{}.seconds, "stop"_a = py::none(), "path"_a = py::none(),
-             "Opens a PluggedDevice, sends it nothing and listens, until so many transfers, for so long [s], or until "
-             "stop(), asked ten times a second, says True. A structured array of the transfers: time since the device "
-             "was opened [s], and bytes. path: a text file that is written too: the device after #, then time and "
-             "hexadecimal bytes, a line each. Raises DeviceError when it cannot be opened.");
+             "Opens a PluggedDevice and listens without sending packets. Ends after `transfers`, after `seconds` [s], "
+             "or when stop(), polled ten times a second, returns True. Returns a structured array: time since the "
+             "device was opened [s], and bytes. path: text file to write as well: the device after #, then a line per "
+             "transfer with time and hexadecimal bytes. Raises DeviceError.");
 
   module.def(
       "read_wire_profile",
@@ -202,54 +202,53 @@ void add_phantom(py::module_& module) {
                         "missing_for_force"_a = missing_for_force(profile));
       },
       "path"_a,
-      "Reads and validates a shipped profile, by its name, or the format of docs/wire-profile.md: its name, source and "
-      "licence, rate of reports [Hz], report_size and command_size [bytes], and the lines that are "
-      "missing_for_position and missing_for_force. Raises FileError; FormatError names line and value.");
+      "Reads and validates a built-in profile, by name, or a file as described in docs/wire-profile.md. Returns a "
+      "dict: name, source, licence, rate of reports [Hz], report_size and command_size [bytes], and the lines "
+      "missing_for_position and missing_for_force. Raises FileError, or FormatError naming the line and the value.");
 
   using O = PhantomOptions;
-  add_struct<O>(module, "PhantomOptions", "Which Phantom, and how it is driven.", &O::serial,
-                "serial: empty: the only one that is plugged in", &O::wire_profile,
-                "wire_profile: name of a shipped one, or a file", &O::model,
-                "model: omni, touch or premium-1.5: arm and capabilities", &O::drive,
-                "drive: False: positions alone, the motors stay off", &O::gravity,
-                "gravity: motors bear the weight of the arm", &O::velocity_cutoff,
-                "velocity_cutoff: of the filter of the velocity, 1 to 1000 [Hz]", &O::limit_heat,
-                "limit_heat: lowers the torque of warm motors; False: cuts it when they are too warm",
-                &O::keep_calibration, "keep_calibration: the encoders go on counting while the device is unplugged",
-                &O::priority, "priority: of the threads that carry reports and commands, 1 to 99; 0: ordinary threads");
+  add_struct<O>(module, "PhantomOptions", "Selects a Phantom and how it is driven.", &O::serial,
+                "serial: serial number; empty: the only connected device", &O::wire_profile,
+                "wire_profile: name of a built-in profile, or a file", &O::model,
+                "model: omni, touch or premium-1.5: selects linkage and capabilities", &O::drive,
+                "drive: False: positions only, the motors stay off", &O::gravity,
+                "gravity: motors carry the weight of the arm", &O::velocity_cutoff,
+                "velocity_cutoff: cut-off frequency of the velocity filter, 1 to 1000 [Hz]", &O::limit_heat,
+                "limit_heat: reduce the torque of warm motors; False: cut it off when they are too warm",
+                &O::keep_calibration, "keep_calibration: the encoders keep counting while unplugged", &O::priority,
+                "priority: real-time priority of the device's threads, 1 to 99; 0: normal threads");
   py::class_<PhantomDevice, HapticDevice>(
       module, "PhantomDevice", py::is_final(),
-      "A Phantom or Touch on USB, opened. Reports are judged in a thread of C++; without a write() for 20 ms it "
-      "switches the motors off. Nothing of this has been run on hardware. Raises DeviceError naming device, reason and "
-      "what can be done.")
+      "An open Phantom or Touch on USB. A C++ thread receives and checks reports; after 20 ms without a write() it "
+      "switches the motors off. Never run on hardware. Raises DeviceError naming device, cause and remedy.")
       .def(py::init(released(+[](const O& options) { return std::make_unique<PhantomDevice>(options); })), "options"_a)
       .def(
           "calibrate", [](PhantomDevice& self, const ArrayLike& joints) { self.calibrate(vector(joints, "joints")); },
-          "joints"_a, "The joints are at these angles now (3,) [rad], instead of the inkwell.")
+          "joints"_a, "Calibrates without the inkwell: the joints are at these angles (3,) [rad] at the next report.")
       .def_property_readonly("joints", when_idle(&PhantomDevice::joints),
-                             "(3,), of the sample that read() gave last [rad]")
-      .def_property_readonly("docked", when_idle(&PhantomDevice::docked), "the pen is in the inkwell")
+                             "(3,), joint angles of the sample last returned by read() [rad]")
+      .def_property_readonly("docked", when_idle(&PhantomDevice::docked), "whether the pen is in the inkwell")
       .def_property_readonly(
           "statistics", [](const PhantomDevice& self) { return as_dict(self.statistics()); },
-          "Counts since the device was opened, at any time: reports, good and bad; used_reports, that gave a position; "
-          "lost_reports and repeated_reports, by the sequence number; skipped_bytes of a stream; commands handed to "
+          "A dict of counts since the device was opened: reports, good and bad; used_reports, which gave a position; "
+          "lost_reports and repeated_reports, by the sequence number; skipped_bytes of a stream; commands passed to "
           "the link, refused_commands, commands_replaced by a newer one; released, times that the motors were switched "
-          "off because no command came; faults by DeviceFault; transfers_failed; opened, times that the device was "
-          "found; warmest_motor, 0 cold, 1 what it bears for ever.")
+          "off for lack of a command; faults by DeviceFault; transfers_failed; opened, times that the device was "
+          "found; warmest_motor, 0 cold, 1 the limit that it sustains indefinitely.")
       .def_property_readonly("description", &PhantomDevice::description, "ids, bus, port and serial number")
       .def_property_readonly("warnings", &PhantomDevice::warnings,
-                             "what the system did not permit to the device's threads, each with what to do");
+                             "privileges that the system refused to the device's threads, each with a remedy");
 }
 #endif
 
 #ifdef CALLIGRAPHY_HAS_OPENHAPTICS
 void add_openhaptics(py::module_& module) {
-  add_enum(module, "CalibrationStyle", "How the runtime brings joint encoders to absolute angles.",
+  add_enum(module, "CalibrationStyle", "How the runtime calibrates the joint encoders to absolute angles.",
            CalibrationStyle::inkwell, "encoder_reset automatic inkwell");
   using O = OpenHapticsOptions;
-  add_struct<O>(module, "OpenHapticsOptions", "Which device of the vendor's runtime.", &O::library,
-                "library: file of the runtime; empty: CALLIGRAPHY_LIBHD, else libHD.so", &O::device,
-                "device: as the vendor's setup program calls it; empty: the default device", &O::calibration,
+  add_struct<O>(module, "OpenHapticsOptions", "Selects a device of the vendor's runtime.", &O::library,
+                "library: of the runtime; empty: CALLIGRAPHY_LIBHD, otherwise libHD.so", &O::device,
+                "device: name given in the vendor's setup program; empty: the default device", &O::calibration,
                 "calibration: CalibrationStyle");
   module.def(
       "openhaptics_runtime",
@@ -258,20 +257,21 @@ void add_openhaptics(py::module_& module) {
         return py::dict("found"_a = runtime.found, "library"_a = runtime.library, "advice"_a = runtime.advice);
       },
       "library"_a = "",
-      "Looks for the runtime without opening a device: whether it is found and complete, its file in `library`, and "
-      "`advice`, what to do when it is not found.");
-  module.def("openhaptics_error_name", &openhaptics_error_name, "code"_a, "'warm motors' for 0x0200.");
+      "Looks for the runtime without opening a device. Returns a dict: `found`, installed and complete; `library`, its "
+      "file name; `advice`, a remedy.");
+  module.def("openhaptics_error_name", &openhaptics_error_name, "code"_a,
+             "Display text of an error code: 'warm motors' for 0x0200.");
   py::class_<OpenHapticsDevice, HapticDevice>(
       module, "OpenHapticsDevice", py::is_final(),
-      "A Touch, Phantom or Omni by way of the vendor's runtime, loaded while a device is open. Its scheduler is the "
-      "clock of a ServoLoop and of write_with_device; outside of one, read() gives the last sample as stale. Never run "
-      "on hardware. Raises DeviceError when the runtime or the device is not there; the message says what to do.")
+      "A Touch, Phantom or Omni through the vendor's runtime, which is loaded while a device is open. The runtime's "
+      "scheduler clocks ServoLoop and write_with_device; while no loop runs, read() returns the last sample as stale. "
+      "Never run on hardware. Raises DeviceError with a remedy.")
       .def(py::init(released(+[](const O& options) { return std::make_unique<OpenHapticsDevice>(options); })),
            "options"_a = O{})
       .def_property_readonly("serial", &OpenHapticsDevice::serial, "serial number")
-      .def_property_readonly("library", &OpenHapticsDevice::library, "the file of the runtime")
-      .def_property_readonly("last_error", &OpenHapticsDevice::last_error, "newest error code; 0: none so far")
-      .def("advice", &OpenHapticsDevice::advice, "What a person has to do, or empty.");
+      .def_property_readonly("library", &OpenHapticsDevice::library, "file name of the runtime")
+      .def_property_readonly("last_error", &OpenHapticsDevice::last_error, "most recent error code; 0: none so far")
+      .def("advice", &OpenHapticsDevice::advice, "What the user has to do; otherwise empty.");
 }
 #endif
 

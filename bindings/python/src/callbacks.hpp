@@ -1,4 +1,4 @@
-// Devices and force laws that are written in Python.
+// Devices and force laws written in Python.
 #pragma once
 
 #include <memory>
@@ -14,8 +14,8 @@
 
 namespace calligraphy::python {
 
-/// While it lives, what a device in Python raises to end the program (Ctrl-C, SystemExit) is kept for whoever steps a
-/// Servo in this thread. Under the GIL.
+/// During its lifetime, an exception of a Python device that ends the program (Ctrl-C, SystemExit) is stored for the
+/// caller that steps a Servo in this thread. Requires the GIL.
 class InStep {
  public:
   InStep() noexcept : outer_(std::exchange(innermost, this)) {}
@@ -23,13 +23,13 @@ class InStep {
   InStep(const InStep&) = delete;
   InStep& operator=(const InStep&) = delete;
 
-  /// False: nobody steps here.
+  /// False if no Servo is being stepped in this thread.
   static bool keep(const py::error_already_set& error) noexcept {
     if (innermost == nullptr) return false;
     innermost->kept_ = with_traceback(error);
     return true;
   }
-  /// @throws error_already_set what was kept
+  /// @throws error_already_set the stored exception, if any
   void raise() const {
     if (kept_) raise(kept_);
   }
@@ -50,9 +50,9 @@ class InStep {
   InStep* outer_;
 };
 
-/// Calls the methods of a Python subclass. What they raise cannot pass through the servo loop: it goes to
-/// sys.unraisablehook, once until the method works again, and the sample says `fault`, also when it is write() that
-/// raised. A call costs about a microsecond and the GIL.
+/// Calls the methods of a Python subclass. Their exceptions cannot propagate through the servo loop: they are passed to
+/// sys.unraisablehook, once until the method works again, and the status of the sample is `fault`, also after write()
+/// raised. A call takes about a microsecond and needs the GIL.
 class PythonDevice final : public HapticDevice {
  public:
   const Capabilities& capabilities() const noexcept override {
@@ -86,7 +86,7 @@ class PythonDevice final : public HapticDevice {
     call("close", failed, [](const py::object&) {});
   }
 
-  /// A device in Python is asked before a loop relies on it. @throws what it raises, or TypeError
+  /// Reads the capabilities of a Python device before a loop relies on them. @throws its exception, or TypeError
   static void refuse_without_capabilities(const HapticDevice& device) {
     if (const auto* const self = dynamic_cast<const PythonDevice*>(&device)) {
       self->capabilities_ = checked<Capabilities>(self->method("capabilities")(), "capabilities");
@@ -98,8 +98,8 @@ class PythonDevice final : public HapticDevice {
   static Answer checked(const py::object& answer, const char* method) {
     if (py::isinstance<Answer>(answer)) return answer.cast<Answer>();
     throw py::type_error(std::string(method) + "() returned " + py::repr(answer).cast<std::string>() +
-                         ", a calligraphy." + py::type::of<Answer>().attr("__name__").template cast<std::string>() +
-                         " is expected");
+                         ", expected a calligraphy." +
+                         py::type::of<Answer>().attr("__name__").template cast<std::string>());
   }
 
   py::function method(const char* name) const {
@@ -108,8 +108,8 @@ class PythonDevice final : public HapticDevice {
     return found;
   }
 
-  /// Calls a method of the subclass and hands what it returns to `take`; false when that is missing or raises, which is
-  /// told unless it `failed` before: a device that is broken is so a thousand times a second.
+  /// Calls a method of the subclass and passes its result to `take`. Returns false if the method is missing or raises;
+  /// this is reported only the first time, because a broken device fails a thousand times a second.
   template <class Take, class... Arguments>
   bool call(const char* name, bool& failed, Take&& take, Arguments&&... arguments) const noexcept {
     keep_thread_state();
@@ -135,8 +135,8 @@ class PythonDevice final : public HapticDevice {
     return false;
   }
 
-  mutable Capabilities capabilities_;  ///< as last told
-  // Whether the last call failed; under the GIL.
+  mutable Capabilities capabilities_;  ///< as last returned
+  // Whether the last call failed; protected by the GIL.
   mutable bool no_capabilities_ = false;
   bool no_read_ = false;
   bool no_write_ = false;
@@ -144,7 +144,8 @@ class PythonDevice final : public HapticDevice {
 
 using Law = py::typing::Callable<ArrayLike(const DeviceState&)>;
 
-/// A callable from DeviceState to a force (3,) [N], and what it raised. Under the GIL, which its end takes.
+/// A callable that maps a DeviceState to a force (3,) [N], and its exceptions. Requires the GIL; its deleter acquires
+/// it.
 class PythonLaw {
  public:
   static std::shared_ptr<PythonLaw> make(py::function law) {
@@ -154,8 +155,7 @@ class PythonLaw {
             }};
   }
 
-  /// Takes the GIL whenever it is called, from any thread. `own_thread`: only from threads of Python or of a
-  /// ServoThread.
+  /// Acquires the GIL on every call. `own_thread`: called only from Python threads or a ServoThread.
   static ForceLaw force_law(std::shared_ptr<PythonLaw> law, bool own_thread) {
     return [law = std::move(law), own_thread](const DeviceState& state) {
       if (own_thread) keep_thread_state();
@@ -164,17 +164,17 @@ class PythonLaw {
     };
   }
 
-  /// As if it had raised nothing.
+  /// Clears the stored exceptions.
   void forget_errors() { errors = 0, error = py::none(); }
 
-  std::size_t errors = 0;         ///< how often it raised
-  py::object error = py::none();  ///< what it raised last, or None
+  std::size_t errors = 0;         ///< number of exceptions
+  py::object error = py::none();  ///< the last exception, or None
 
  private:
   explicit PythonLaw(py::function law) : law_(std::move(law)) {}
 
-  /// @throws Error when it raised, so that the force falls. The first time that is told to sys.unraisablehook as well:
-  /// a law that fails does so a thousand times a second. Ctrl-C is raised by Servo.step().
+  /// @throws Error when the law raised, so that the force ramps down. Only the first exception is passed to
+  /// sys.unraisablehook: a broken law raises a thousand times a second. Servo.step() raises Ctrl-C.
   Eigen::Vector3d ask(const DeviceState& state) {
     const InLaw here(this);
     try {

@@ -1,4 +1,4 @@
-// Nearest points, many at a time, and where a stroke attracts the pen.
+// Nearest points in batches, and the rules of the active stroke.
 #include <calligraphy/collision/active_stroke.hpp>
 #include <calligraphy/collision/nearest_point.hpp>
 #include <calligraphy/collision/placed_character.hpp>
@@ -8,14 +8,14 @@
 namespace calligraphy::python {
 namespace {
 
-/// Fewer queries than this are answered without letting other Python threads run: that alone costs some 0.1 us.
+/// Fewer queries than this are answered with the GIL held: releasing it alone costs about 0.1 us.
 constexpr py::ssize_t few = 64;
 
 StrokeElement element_of(const ArrayLike& control_points) {
   const Doubles array = doubles(control_points, "control_points", 2);
   const py::ssize_t count = array.shape(0);
   if (count < 2 || count > max_curve_degree + 1) {
-    throw ValueError("control_points: shape (2, 2) to (5, 2) is expected, not (" + std::to_string(count) + ", 2)");
+    throw ValueError("control_points: expected shape (2, 2) to (5, 2), got (" + std::to_string(count) + ", 2)");
   }
   return prepare_element({reinterpret_cast<const Point*>(array.data()), static_cast<std::size_t>(count)});
 }
@@ -27,11 +27,11 @@ NearestPointMethod method_of(const Method& method) {
   const py::dict members = py::type::of(py::cast(NearestPointMethod::exact)).attr("__members__");
   const py::str name(std::get<std::string>(method));
   if (members.contains(name)) return members[name].cast<NearestPointMethod>();
-  throw ValueError("method: one of " + py::str(", ").attr("join")(members).cast<std::string>() + " is expected, not " +
+  throw ValueError("method: expected one of " + py::str(", ").attr("join")(members).cast<std::string>() + ", got " +
                    py::repr(name).cast<std::string>());
 }
 
-/// Answers to many queries, an array each: parts of one, as large ones are slow to get and to give back.
+/// Results of many queries, as parts of one array, because large arrays are slow to allocate and free.
 struct NearestPoints {
   Doubles parameter, point, distance, tangent;
   py::array_t<std::uint8_t> status;
@@ -81,7 +81,7 @@ NearestPoints ask(const std::variant<const StrokeElement*, ArrayLike>& control_p
   return result;
 }
 
-/// A function of the parameter at one value or at many.
+/// A function of the parameter, for one value or many.
 template <class Function>
 auto at_parameters(Function function) {
   return [function](const StrokeElement& self, const ArrayLike& t) {
@@ -100,18 +100,18 @@ auto at_parameters(Function function) {
 }  // namespace
 
 void add_collision(py::module_& module) {
-  add_enum(module, "NearestPointMethod", "How a nearest point is found.", NearestPointMethod::wang2006,
+  add_enum(module, "NearestPointMethod", "Method of finding the nearest point.", NearestPointMethod::wang2006,
            "exact tracked sampled wang2006");
-  add_enum(module, "NearestPointStatus", "What a nearest point is worth.", NearestPointStatus::not_finite,
+  add_enum(module, "NearestPointStatus", "Validity of a nearest point.", NearestPointStatus::not_finite,
            "certified approximate unsafe_stop not_finite");
   add_struct<NearestPointOptions>(
-      module, "NearestPointOptions", "How a nearest point is found.", &NearestPointOptions::method,
+      module, "NearestPointOptions", "Method and settings of a nearest point.", &NearestPointOptions::method,
       "method: NearestPointMethod", &NearestPointOptions::tolerance,
       "tolerance: error of the point relative to the element's size (0, 1]", &NearestPointOptions::samples,
-      "samples: sampled: points at even distances of the parameter, 2 to 64", &NearestPointOptions::refinements,
+      "samples: sampled: points at equal parameter spacing, 2 to 64", &NearestPointOptions::refinements,
       "refinements: sampled: steps of Halley's method, 0 to 8");
 
-  py::class_<NearestPoints>(module, "NearestPoints", "Answers to N queries, an array each.")
+  py::class_<NearestPoints>(module, "NearestPoints", "Results of N queries, one array per property.")
       .def(py::init([](Doubles parameter, Doubles point, Doubles distance, Doubles tangent,
                        py::array_t<std::uint8_t> status) {
              return NearestPoints{parameter, point, distance, tangent, status};
@@ -119,7 +119,7 @@ void add_collision(py::module_& module) {
            "parameter"_a, "point"_a, "distance"_a, "tangent"_a, "status"_a)
       .def_readonly("parameter", &NearestPoints::parameter, "(N,) in [0, 1]")
       .def_readonly("point", &NearestPoints::point, "(N, 2), on the element, in the unit of the control points")
-      .def_readonly("distance", &NearestPoints::distance, "(N,), from query to point; infinite where not finite")
+      .def_readonly("distance", &NearestPoints::distance, "(N,), from query to point; infinite if not finite")
       .def_readonly("tangent", &NearestPoints::tangent, "(N, 2), unit vectors in writing direction")
       .def_readonly("status", &NearestPoints::status, "(N,), values of NearestPointStatus, uint8")
       .def_property_readonly(
@@ -127,22 +127,23 @@ void add_collision(py::module_& module) {
           [](const NearestPoints& self) -> py::array_t<bool> {
             return self.status.attr("__eq__")(static_cast<int>(NearestPointStatus::certified));
           },
-          "(N,), bool: no other point of the element is nearer, up to the tolerance and rounding")
+          "(N,), bool: no other point of the element is nearer, within the tolerance and rounding")
       .def("__len__", [](const NearestPoints& self) { return self.parameter.size(); })
       .attr("__match_args__") = py::make_tuple("parameter", "point", "distance", "tangent", "status");
 
   py::class_<StrokeElement>(module, "StrokeElement",
                             "A Bezier curve of degree 1 to 4, prepared for queries. Control points (2, 2) to (5, 2), "
-                            "in any unit; other lengths are in the same.")
+                            "in any unit; all other lengths are in the same unit.")
       .def(py::init(&element_of), "control_points"_a)
       .def_property_readonly("degree", &StrokeElement::degree, "1 to 4")
-      .def_property_readonly("size", &StrokeElement::size, "diagonal of the control points' box; 0 for a point")
+      .def_property_readonly("size", &StrokeElement::size,
+                             "diagonal of the bounding box of the control points; 0 for a point")
       .def_property_readonly("length", &StrokeElement::length, "arc length")
       .def("point", at_parameters(&StrokeElement::point), "t"_a, "(2,) at one parameter, (N, 2) at N.")
       .def("derivative", at_parameters(&StrokeElement::derivative), "t"_a, "dB/dt: (2,) at one parameter, (N, 2) at N.")
       .def("tangent", at_parameters(&StrokeElement::tangent), "t"_a,
            "Unit tangent in writing direction: (2,) at one parameter, (N, 2) at N.")
-      .def("arc_length", &StrokeElement::arc_length, "t"_a, "From 0 to t, to 3e-3 of the size.")
+      .def("arc_length", &StrokeElement::arc_length, "t"_a, "Arc length from 0 to t, to 3e-3 of the size.")
       .def("parameter_at", &StrokeElement::parameter_at, "arc_length"_a, "The parameter at an arc length.")
       .def("__repr__", [](const StrokeElement& self) {
         return told("StrokeElement(degree {}, length {:.6g})", self.degree(), self.length());
@@ -150,28 +151,28 @@ void add_collision(py::module_& module) {
 
   module.def("nearest_point", &ask, "control_points"_a, "queries"_a, "method"_a = "exact", "tolerance"_a = 1e-9,
              "samples"_a = 16, "refinements"_a = 2,
-             "Nearest points of N queries on one element, GIL released.\n\ncontrol_points: (2, 2) to (5, 2), a Bezier "
-             "curve of degree 1 to 4, or a StrokeElement prepared before; queries: (N, 2), taken without a copy where "
-             "they are contiguous float64; both in the same unit. method: 'exact', 'tracked', 'sampled', 'wang2006' or "
-             "a NearestPointMethod; tolerance: relative to the element's size. A query that is not finite has an "
+             "Nearest points of N queries on one element. Releases the GIL.\n\ncontrol_points: (2, 2) to (5, 2), a "
+             "Bezier curve of degree 1 to 4, or a prepared StrokeElement; queries: (N, 2), not copied if they are "
+             "contiguous float64; both in the same unit. method: 'exact', 'tracked', 'sampled', 'wang2006' or a "
+             "NearestPointMethod; tolerance: relative to the element's size. A query that is not finite has an "
              "infinite distance and is not certified. Raises InvalidValue naming the argument.");
 
   add_enum(module, "ConstraintSpaceRule", "Shape of a constraint space.", ConstraintSpaceRule::wang2006,
            "tube wang2006");
-  add_enum(module, "FeaturePlaneRule", "When a feature point is passed.", FeaturePlaneRule::wang2006,
+  add_enum(module, "FeaturePlaneRule", "When a feature point counts as passed.", FeaturePlaneRule::wang2006,
            "bounded wang2006");
-  add_enum(module, "AttractionRule", "Attraction between two feature points.", AttractionRule::wang2006,
-           "interpolated wang2006");
-  add_struct<ConstraintSpace>(module, "ConstraintSpace", "Where a stroke element attracts the pen.",
-                              &ConstraintSpace::rule, "rule: ConstraintSpaceRule", &ConstraintSpace::radius,
-                              "radius [m]", &ConstraintSpace::fade_width,
-                              "fade_width: over which the attraction fades out, at most the radius [m]");
-  add_struct<StrokeRules>(module, "StrokeRules", "How a pen is followed along the active stroke.",
+  add_enum(module, "AttractionRule", "Which attraction factor applies between two feature points.",
+           AttractionRule::wang2006, "interpolated wang2006");
+  add_struct<ConstraintSpace>(module, "ConstraintSpace", "Region of attraction of an element.", &ConstraintSpace::rule,
+                              "rule: ConstraintSpaceRule", &ConstraintSpace::radius, "radius [m]",
+                              &ConstraintSpace::fade_width,
+                              "fade_width: outermost part, where attraction fades out [m]");
+  add_struct<StrokeRules>(module, "StrokeRules", "How the pen is tracked along the active stroke.",
                           &StrokeRules::nearest, "nearest: NearestPointOptions", &StrokeRules::space,
                           "space: ConstraintSpace", &StrokeRules::plane, "plane: FeaturePlaneRule",
                           &StrokeRules::attraction, "attraction: AttractionRule", &StrokeRules::plane_tolerance,
-                          "plane_tolerance: how far before a feature point it is passed [m]", &StrokeRules::window,
-                          "window: arc length within which the closest point is sought; 0: everywhere [m]");
+                          "plane_tolerance: a plane counts as crossed this far before it [m]", &StrokeRules::window,
+                          "window: arc length to search for the closest point; 0: the whole element [m]");
   add_struct<Placement>(module, "Placement", "em coordinates to metres: page point = origin + em * point.",
                         &Placement::origin, "origin: lower left corner of the em square, (2,) [m]", &Placement::em,
                         "em: edge of the em square [m]")
@@ -183,7 +184,7 @@ void add_collision(py::module_& module) {
             return array_of_points(result);
           },
           "points"_a, "(n, 2) [em] to (n, 2) [m].");
-  py::class_<PlacedCharacter>(module, "PlacedCharacter", "A character at its place on the page.")
+  py::class_<PlacedCharacter>(module, "PlacedCharacter", "A character placed on the page.")
       .def(py::init([](const Character& character, const Placement& placement) {
              return PlacedCharacter{character, placement};
            }),
@@ -192,7 +193,7 @@ void add_collision(py::module_& module) {
       .def_readonly("placement", &PlacedCharacter::placement, "Placement")
       .attr("__match_args__") = py::make_tuple("character", "placement");
   module.def("place_elements", &place_elements, "stroke"_a, "placement"_a,
-             "The elements of a stroke at its place, in writing order, prepared for queries [m].");
+             "The elements of a placed stroke, in writing order, prepared for queries [m].");
 }
 
 }  // namespace calligraphy::python

@@ -1,5 +1,5 @@
-// What all sources of the extension module include, and its components, in the order in which their types depend on
-// each other. They are compiled as one unit, since the headers cost more than the sources.
+// Common includes of the extension module, and its components in the order in which their types depend on each other.
+// All sources are compiled as one unit, because the headers take longer to compile than the sources.
 #pragma once
 
 #include <algorithm>
@@ -34,7 +34,7 @@ void add_practice(py::module_& module);
 void add_live(py::module_& module);
 void add_experiments(py::module_& module);
 
-/// How often each fault began, by DeviceFault.
+/// Occurrences of each fault, by DeviceFault.
 py::dict fault_counts(const std::array<std::uint64_t, device_fault_count>& faults);
 py::dict servo_statistics(const ServoStatistics& statistics);
 

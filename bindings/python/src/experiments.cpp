@@ -1,4 +1,4 @@
-// What accuracy costs and what is stable: trade-offs, walls and force fields, each one function.
+// Trade-offs, stability maps and force fields.
 #include <calligraphy/experiments/force_field.hpp>
 #include <calligraphy/experiments/stability_map.hpp>
 #include <calligraphy/experiments/tradeoff.hpp>
@@ -8,7 +8,7 @@
 namespace calligraphy::python {
 namespace {
 
-/// One row per loop; the outcomes are an array of as many as there are stiffnesses.
+/// One row per loop, with one result per stiffness.
 py::array as_table(const std::vector<StabilityLine>& lines, std::size_t stiffnesses) {
   py::list rows;
   for (const StabilityLine& line : lines) {
@@ -23,7 +23,7 @@ py::array as_table(const std::vector<StabilityLine>& lines, std::size_t stiffnes
   const std::string each = "(" + std::to_string(stiffnesses) + ",)?";
   return table(
       rows, dtype_of("rate:f8 apparent_mass:f8 viscous_friction:f8 coulomb_friction:f8 encoder_step:f8 sample_delay:i4 "
-                     "wall_damping:f8 grip:3f8 passive:f8 quantised:f8 stable:f8 approximate:f8 settles:" +
+                     "wall_damping:f8 grip:3f8 passive:f8 quantised:f8 stable:f8 approximate:f8 stable_at:" +
                      each + " controlled_stable_at:" + each +
                      " max_stable:f8 controlled_max_stable:f8 controlled_max_stable_below_peak:f8"));
 }
@@ -76,12 +76,13 @@ py::array coordinate_widths_cost(const std::vector<Character>& characters, const
 }  // namespace
 
 void add_experiments(py::module_& module) {
-  add_struct<WallContact>(module, "WallContact", "How the pen meets the wall in a simulation.", &WallContact::push,
-                          "push: steady force towards the wall [N]", &WallContact::height,
-                          "height: from which the pen falls [m]", &WallContact::seconds, "seconds: of virtual time",
-                          &WallContact::controlled, "controlled: a passivity controller follows the wall",
-                          &WallContact::lost, "lost: share of the samples that do not arrive", &WallContact::reordered,
-                          "reordered: share that change places with the next one");
+  add_struct<WallContact>(module, "WallContact", "Contact of the pen with the wall in a simulation.",
+                          &WallContact::push, "push: constant force towards the wall [N]", &WallContact::height,
+                          "height: initial height of the pen [m]", &WallContact::seconds,
+                          "seconds: duration, in virtual time [s]", &WallContact::controlled,
+                          "controlled: a passivity controller follows the wall", &WallContact::lost,
+                          "lost: share of the samples that are lost [1]", &WallContact::reordered,
+                          "reordered: share of the samples that are swapped with the next one [1]");
   module.def(
       "simulate_wall_contact",
       [](const SampledLoop& loop, double stiffness, const WallContact& contact) {
@@ -90,21 +91,20 @@ void add_experiments(py::module_& module) {
                         "max_force"_a = outcome.max_force, "last_force"_a = outcome.last_force);
       },
       "loop"_a, "stiffness"_a, "contact"_a = WallContact{},
-      "One pen on one wall of this stiffness [N/m], in virtual time: whether it `settles`, that is comes to rest; its "
-      "`swing` from peak to peak at the end [m]; the `max_force` sent, and the largest at the end, `last_force` "
+      "Simulates a pen on a wall of this stiffness [N/m], in virtual time. Returns a dict: `stable`, the pen comes to "
+      "rest; its `peak_to_peak` amplitude at the end [m]; `max_force` sent, and `last_force`, the maximum at the end "
       "[N].");
   using O = StabilityMapOptions;
-  add_struct<O>(module, "StabilityMapOptions", "What a stability map tries: every combination of the lists is a loop.",
-                &O::device, "device: Capabilities, of which one property after the other is replaced", &O::contact,
-                "contact: WallContact", &O::per_decade, "per_decade: stiffnesses that are tried", &O::min_stiffness,
-                "min_stiffness: stiffness that is tried [N/m]", &O::max_stiffness,
-                "max_stiffness: stiffness that is tried [N/m]", &O::coulomb_friction,
-                "coulomb_friction: of the loops whose positions are rounded [N]", &O::dampings,
-                "dampings: of the device, copied [N s/m]", &O::rates, "rates: copied [Hz]", &O::delays,
-                "delays: copied [ticks]", &O::encoder_steps, "encoder_steps: copied [m]", &O::wall_dampings,
-                "wall_dampings: copied [N s/m]", &O::grips, "grips: list of GripImpedance, copied", &O::with_sweeps,
-                "with_sweeps: whether to vary one property after the other", &O::with_grid,
-                "with_grid: whether to try the combinations");
+  add_struct<O>(
+      module, "StabilityMapOptions", "Options of a stability map; the grid has every combination of the lists.",
+      &O::device, "device: Capabilities, of which one property at a time is varied", &O::contact,
+      "contact: WallContact", &O::per_decade, "per_decade: number of stiffnesses per decade", &O::min_stiffness,
+      "min_stiffness [N/m]", &O::max_stiffness, "max_stiffness [N/m]", &O::coulomb_friction,
+      "coulomb_friction: of loops with quantised positions [N]", &O::dampings,
+      "dampings: viscous, of the device, copied [N s/m]", &O::rates, "rates: copied [Hz]", &O::delays,
+      "delays: copied [ticks]", &O::encoder_steps, "encoder_steps: copied [m]", &O::wall_dampings,
+      "wall_dampings: copied [N s/m]", &O::grips, "grips: list of GripImpedance, copied", &O::with_sweeps,
+      "with_sweeps: whether to vary one property at a time", &O::with_grid, "with_grid: whether to simulate the grid");
   module.def(
       "stability_map",
       [](StabilityMapOptions options, const Progress& progress) {
@@ -120,28 +120,28 @@ void add_experiments(py::module_& module) {
                         "grid"_a = as_table(map.grid, count));
       },
       "options"_a = O{}, "progress"_a = py::none(),
-      "Where a virtual wall is stable, on every core; progress(share) is called now and then. With all defaults this "
-      "takes minutes. `stiffnesses` (n,) [N/m] that were tried; `grid`, a structured array with a row per loop: what "
-      "it varies, the bounds passive, quantised, stable and approximate [N/m], settles (n,), for each stiffness, and "
-      "largest, below which no stiffness is unstable [N/m]; controlled_: the same with a passivity controller, and "
-      "within the peak force; `sweeps`, by name: label with its unit, values and lines, as in the grid.");
+      "Maps where a virtual wall is stable, on all cores; progress(share) is called from time to time. Takes minutes "
+      "with the defaults. Returns a dict: `stiffnesses` (n,) [N/m]; `grid`, a structured array with one row per loop: "
+      "its properties, the bounds passive, quantised, stable and approximate [N/m], stable_at (n,), per stiffness, and "
+      "max_stable, below which all are stable [N/m]; controlled_: with a passivity controller; below_peak: and the "
+      "force below the peak; `sweeps`, by name: label, values, and lines as in the grid.");
 
   module.def("nearest_point_tradeoff", &nearest_points_cost, "characters"_a, "queries"_a = 4000, "rounds"_a = 21,
              "seed"_a = 1, "progress"_a = py::none(),
-             "What each method of the nearest point costs at each setting, and how right it is: a structured array. "
-             "name, method, tolerance, samples and refinements; on `real` strokes, on `hard` curves and following a "
-             "pen in `ticks`: ns per query, the median, ns_p90 and batch_ns; error, the median, error_p99 and "
-             "error_worst in sizes of the curve; wrong, the share of wrong branches.");
+             "Cost and accuracy of each nearest-point method at each setting, as a structured array: name, method, "
+             "tolerance, samples and refinements; on `real` strokes, `hard` curves and tracking a pen in `ticks`: ns "
+             "per query (median), ns_p90 and batch_ns; error (median), error_p99 and error_worst, relative to the size "
+             "of the curve; wrong, the share of wrong branches.");
   module.def("servo_rate_tradeoff", &servo_rates_cost, "characters"_a, "rates"_a = ServoRateTradeoffOptions{}.rates,
              "seeds"_a = 3, "seed"_a = 1, "device"_a = "desktop", "progress"_a = py::none(),
-             "A simulated novice writes in closed loop at each rate [Hz]: a structured array of stiffness of the paper "
-             "[N/m], stable, penetration [m], path_error, RMS [m], force_step [N], written, the share of strokes "
-             "completed, and the largest stable stiffnesses [N/m]: loop_, unlimited_ without a limit on the rate of "
-             "the normal force, held_ in the writer's hand, free_ of the device let go; hard_: half of "
-             "unlimited_stiffness, and what comes of it. Minutes with all defaults.");
+             "A simulated novice writes in closed loop at each rate [Hz]. Returns a structured array: stiffness of the "
+             "paper [N/m], stable, penetration [m], RMS path_error [m], force_step [N], written, the share of strokes "
+             "completed, and maximum stable stiffnesses [N/m]: loop_, unlimited_ without a limit on the rate of the "
+             "normal force, held_ in the writer's hand, free_ with the device released; hard_: half of "
+             "unlimited_stiffness, and its results. Takes minutes with the defaults.");
   module.def("coordinate_width_tradeoff", &coordinate_widths_cost, "characters"_a, "progress"_a = py::none(),
-             "Control points rounded to 2^bits places along each edge, bits from 4 to 16: a structured array. step of "
-             "the grid, max_error and rms_error of the strokes, both ways [em]; bytes per character.");
+             "Control points rounded to 2^bits positions along each edge, bits from 4 to 16, as a structured array: "
+             "step of the grid, max_error and rms_error of the strokes, in both directions [em]; bytes per character.");
 
   add_enum(module, "Attractor", "What attracts the pen.", Attractor::nearest_stroke, "active_stroke nearest_stroke");
   module.def(
@@ -163,10 +163,10 @@ void add_experiments(py::module_& module) {
       },
       "placed"_a, "stroke"_a, "progress"_a, "corner"_a, "edge"_a, "columns"_a = 96, "stiffness"_a = 600.0,
       "attractor"_a = Attractor::active_stroke, "rules"_a = StrokeRules{},
-      "The attraction of eq. (8) on a resting pen that has written a share `progress` of a stroke, at each place of a "
-      "square from `corner` (2,) with this edge [m]: `forces` (rows, columns, 2), rows from below [N]; `jumps`, a "
-      "structured array (m,) of where the force jumps: begin, end (2,) [m], size [N], from_stroke, the distance from "
-      "the active stroke [m], passes_feature, which is crossed once, in order. Raises InvalidValue naming a value.");
+      "Attraction of eq. (8) on a pen that has written a share `progress` of a stroke, at each cell of a square with "
+      "lower left `corner` (2,) and this edge [m]. Returns a dict: `forces` (rows, columns, 2), bottom row first [N]; "
+      "`jumps`, a structured array of the segments across which the force jumps: begin, end (2,) [m], size [N], "
+      "from_stroke, the distance from the active stroke [m], passes_feature, crossed only once, in order.");
 }
 
 }  // namespace calligraphy::python

@@ -1,5 +1,5 @@
-// Plain structs and enumerations as Python classes. What all structs share (keyword arguments, comparison,
-// representation, copies, pickling) is Python's business: calligraphy/_struct.py.
+// Plain structs and enumerations as Python classes. Common features of all structs (keyword arguments, comparison,
+// representation, copies, pickling) are implemented in calligraphy/_struct.py.
 #pragma once
 
 #include <initializer_list>
@@ -17,14 +17,14 @@
 
 namespace calligraphy::python {
 
-/// What a class that is no struct says of itself in a line, by Python's str.format.
+/// Formats a one-line description by Python's str.format.
 template <class... Values>
 std::string told(const char* format, Values&&... values) {
   return py::str(format).format(std::forward<Values>(values)...).template cast<std::string>();
 }
 
-/// An enumeration of C++ from its last member and the names of all, in the order of C++, which counts from 0; those of
-/// flags from bit 0.
+/// A C++ enumeration from its last member and the names of all members, in C++ order. Values count from 0, flags from
+/// bit 0.
 template <class Enum>
 void add_enum(py::module_& module, const char* name, const char* documentation, Enum last, const std::string& names,
               bool flags = false) {
@@ -37,7 +37,7 @@ void add_enum(py::module_& module, const char* name, const char* documentation, 
   }
   type.finalize();
   if (static_cast<Enum>(flags ? 1 << index : index) != last) {
-    throw py::import_error(std::string(name) + ": the module names other members than C++ has");
+    throw py::import_error(std::string(name) + ": the members listed in the module differ from those in C++");
   }
 }
 
@@ -52,8 +52,8 @@ inline constexpr bool is_vector = false;
 template <class Element>
 inline constexpr bool is_vector<std::vector<Element>> = true;
 
-/// Where a field lies within the objects of a class. It knows the class at run time only, so that what pybind11 makes
-/// of a field is compiled once per type of field and not once per class as well.
+/// Offset of a field within the objects of a class. The class is known only at run time, so that pybind11's templates
+/// are instantiated once per field type instead of once per class and type.
 class Place {
  public:
   template <class Struct, class Member>
@@ -66,7 +66,7 @@ class Place {
   template <class Member>
   Member& of(const py::object& self) const {
     py::detail::type_caster_generic caster(py::detail::get_type_info(*type_));
-    if (!caster.load(self, false)) throw py::type_error("a field of another class is asked for");
+    if (!caster.load(self, false)) throw py::type_error("the field belongs to another class");
     return *reinterpret_cast<Member*>(static_cast<char*>(caster.value) + offset_);
   }
 
@@ -75,7 +75,7 @@ class Place {
   std::ptrdiff_t offset_ = 0;
 };
 
-/// "name: what it is [unit]" or "name [unit]"
+/// "name: description [unit]" or "name [unit]"
 struct NamedText {
   explicit NamedText(const std::string& text)
       : name(text.substr(0, text.find_first_of(": "))), documentation(text.substr(text.find_first_of(' ') + 1)) {}
@@ -83,8 +83,8 @@ struct NamedText {
   std::string name, documentation;
 };
 
-/// A field that may be assigned to. Vectors are views into the struct, which they keep alive, so that
-/// `state.position[2] = 0.1` does what it says; so are structs. Lists are copies, as theirs may move.
+/// A writable field. Vectors and structs are views into the struct, which they keep alive, so that
+/// `state.position[2] = 0.1` changes it. Lists are copies, because their elements may move.
 template <class Struct, class Member>
 void add_field(py::class_<Struct>& type, py::list& names, Member Struct::*member, const char* text) {
   const NamedText named(text);
@@ -93,7 +93,7 @@ void add_field(py::class_<Struct>& type, py::list& names, Member Struct::*member
   if constexpr (is_matrix<Member>) {
     get = [place](const py::object& self) {
       auto& value = place.of<Member>(self).matrix().derived();
-      constexpr py::ssize_t step = sizeof(double);  // columns first in memory
+      constexpr py::ssize_t step = sizeof(double);  // column-major
       if (value.cols() == 1) return py::array_t<double>(value.rows(), value.data(), self);
       return py::array_t<double>({value.rows(), value.cols()}, {step, value.rows() * step}, value.data(), self);
     };
@@ -114,7 +114,7 @@ void add_field(py::class_<Struct>& type, py::list& names, Member Struct::*member
   names.append(named.name);
 }
 
-/// The class of a struct, from its fields: each a member and what add_field() takes.
+/// The class of a struct, from pairs of a member and the text for add_field().
 template <class Struct, class... Fields>
 py::class_<Struct> add_struct(py::module_& module, const char* name, const char* documentation, Fields... fields) {
   py::class_<Struct> type(module, name, documentation);

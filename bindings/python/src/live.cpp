@@ -1,4 +1,4 @@
-// Real time: the servo loop in a thread of its own, and a person who writes a page with a device.
+// Real time: the servo loop in its own thread, and a person writing a page on a device.
 #include <unistd.h>
 
 #include <calligraphy/practice/live_session.hpp>
@@ -10,26 +10,26 @@ namespace {
 
 bool program_ends = false;  ///< under the GIL
 
-/// Threads that the program does not wait for would begin again what has been ended for them.
+/// At exit all loops and sessions are stopped; daemon threads must not start new ones.
 void refuse_at_the_end() {
-  if (program_ends) throw Error("the program ends: nothing may begin that moves a hand");
+  if (program_ends) throw Error("the program is exiting: no servo loop or session can be started");
 }
 
-/// A ServoLoop that keeps device and law alive, waits without the GIL, which its law may need to end, and stops with
-/// the program.
+/// A ServoLoop that keeps device and law alive, stops when the program exits, and releases the GIL while it waits,
+/// because its law may need the GIL to return.
 class Loop {
  public:
   Loop(HapticDevice& device, HapticRenderer& renderer, const ServoLoopOptions& options)
       : Loop(
             device, py::cast(&renderer), &renderer, nullptr,
             [&renderer](const DeviceState& state) { return renderer.update(state).force; }, options) {}
-  // A clock of a vendor may end its thread when the device is closed, with the GIL held.
+  // A vendor's clock may end its thread only when the device is closed, with the GIL held.
   Loop(HapticDevice& device, const Law& law, const ServoLoopOptions& options)
       : Loop(device, PythonLaw::make(law), options) {}
   ~Loop() {
     stop();
     if (!loop_->running()) return;
-    // This thread cannot join itself, nor threads that fork() left behind: the force is let go, the rest is for later.
+    // A thread can join neither itself nor threads left behind by fork(): the force is released, the rest is deferred.
     running.erase(this);
     orphans.push_back(
         {std::move(device_), std::move(renderer_of_python_), std::move(loop_), std::move(at_work_), process_});
@@ -40,7 +40,7 @@ class Loop {
   std::vector<std::string> start() {
     refuse_at_the_end();
     if (changing_ || loop_->running())
-      throw ValueError("the servo loop runs already: stop it before it is started again");
+      throw ValueError("the servo loop is already running: stop it before starting it again");
     if (!InLaw::here()) stop_orphans();
     PythonDevice::refuse_without_capabilities(device_.cast<HapticDevice&>());
     at_work_ = std::make_unique<AtWork>(AtWork::User::loop, &device_.cast<HapticDevice&>(), renderer_);
@@ -99,7 +99,7 @@ class Loop {
 
   bool is_of_a_parent() const { return process_ != 0 && process_ != getpid(); }
 
-  /// What is left of loops that ended within their own law.
+  /// Remains of loops that were destroyed inside their own law.
   struct Orphan {
     py::object device, renderer;
     std::unique_ptr<ServoLoop> loop;
@@ -117,31 +117,31 @@ class Loop {
     }
   }
 
-  // Under the GIL, as all that is not in the loop. Those of a parent are never let go.
+  // Protected by the GIL, as is everything outside the loop. Those of a parent process are never released.
   static std::set<Loop*> running;
   static std::vector<Orphan>& orphans;
 
   py::object device_, renderer_of_python_;  ///< kept alive
   const HapticRenderer* renderer_;
-  std::shared_ptr<PythonLaw> python_law_;  ///< none where the law is a renderer
+  std::shared_ptr<PythonLaw> python_law_;  ///< null if the law is a renderer
   std::unique_ptr<ServoLoop> loop_;
   std::unique_ptr<AtWork> at_work_;
   std::vector<std::string> warnings_;
-  pid_t process_ = 0;      ///< that started it
-  bool changing_ = false;  ///< another thread waits in start() or stop()
+  pid_t process_ = 0;      ///< process that started the loop
+  bool changing_ = false;  ///< a thread is in start() or stop()
 };
 
 std::set<Loop*> Loop::running;
 std::vector<Loop::Orphan>& Loop::orphans = *new std::vector<Orphan>;
 
-// Sessions of threads that the program does not wait for end with it; under the GIL.
+// Sessions in daemon threads end with the program; protected by the GIL.
 int live_sessions = 0;
 pid_t process_of_sessions = 0;
 
 struct LiveSession {
   LiveSession() {
     refuse_at_the_end();
-    if (process_of_sessions != getpid()) live_sessions = 0;  // those of a parent
+    if (process_of_sessions != getpid()) live_sessions = 0;  // those of a parent process
     process_of_sessions = getpid();
     ++live_sessions;
   }
@@ -189,7 +189,7 @@ LiveResult write_live(const PracticePage& page, HapticDevice& device, LiveOption
   try {
     std::rethrow_exception(raised);
   } catch (py::error_already_set& error) {
-    // What was written until then is not lost.
+    // Keep what was written until then.
     if (PyObject_SetAttrString(error.value().ptr(), "result", py::cast(std::move(result)).ptr()) != 0) PyErr_Clear();
     throw;
   }
@@ -200,25 +200,25 @@ LiveResult write_live(const PracticePage& page, HapticDevice& device, LiveOption
 void add_live(py::module_& module) {
   py::class_<Loop>(
       module, "ServoLoop",
-      "A servo loop in real time, in a thread of its own or on the device's own clock, with a watchdog. The law is a "
-      "HapticRenderer, which needs no Python, or a callable from DeviceState to a force (3,) [N], which needs the GIL "
-      "in every tick (docs/python.md). A `with` block starts it and stops it at its end, whatever ends it.")
+      "A servo loop in real time, in its own thread or on the device's own clock, with a watchdog. The law is a "
+      "HapticRenderer, which runs without Python, or a callable that maps a DeviceState to a force (3,) [N], which "
+      "needs the GIL in every tick (docs/python.md). A `with` block starts and stops the loop.")
       .def(py::init<HapticDevice&, HapticRenderer&, const ServoLoopOptions&>(), "device"_a, "law"_a,
            "options"_a = ServoLoopOptions{})
       .def(py::init<HapticDevice&, const Law&, const ServoLoopOptions&>(), "device"_a, "law"_a,
            "options"_a = ServoLoopOptions{})
       .def("start", &Loop::start,
-           "Begins with no force, which rises. What the system did not permit, each with what to do.")
+           "Starts with zero force and ramps it up. Returns refused privileges, each with a remedy.")
       .def("stop", &Loop::stop,
-           "Lets the force fall to zero, then ends the thread. From within the law it lets the force fall and returns.")
-      .def_property_readonly("running", &Loop::is_running, "the loop has been started and not stopped")
-      .def_property_readonly("status", &Loop::status, "ServoStatus, while it runs and afterwards")
-      .def_property_readonly("statistics", &Loop::statistics, "as of a Servo, while it runs and afterwards")
+           "Ramps the force down to zero, then ends the thread. From within the law it only begins the ramp-down.")
+      .def_property_readonly("running", &Loop::is_running, "whether the loop has been started and not stopped")
+      .def_property_readonly("status", &Loop::status, "ServoStatus, while the loop runs and afterwards")
+      .def_property_readonly("statistics", &Loop::statistics, "as Servo.statistics, while the loop runs and afterwards")
       .def_property_readonly("warnings", &Loop::warnings, "what the last start() returned")
       .def_property_readonly(
           "error", &Loop::error,
-          "the last exception of a law in Python since start(), or None; the first one goes to sys.unraisablehook too")
-      .def_property_readonly("errors", &Loop::errors, "how often a law in Python raised since start()")
+          "the last exception of a Python law since start(), or None; sys.unraisablehook gets the first")
+      .def_property_readonly("errors", &Loop::errors, "number of exceptions of a Python law since start()")
       .def("__enter__",
            [](const py::object& self) {
              self.cast<Loop&>().start();
@@ -226,39 +226,39 @@ void add_live(py::module_& module) {
            })
       .def("__exit__", [](Loop& self, const py::args&) { self.stop(); });
 
-  py::class_<LiveView>(module, "LiveView", "What a display shows, some 50 times a second.")
+  py::class_<LiveView>(module, "LiveView", "What a display shows, updated about 50 times per second.")
       .def_property_readonly(
           "newest",
           [](const LiveView& self) {
             const py::object type = py::module_::import("calligraphy._calligraphy").attr("sample_dtype");
             return py::array(type.cast<py::dtype>(), py::array::ShapeContainer{}, &self.newest);
           },
-          "the newest tick, all zero before the first one: a structured array () of sample_dtype, copied.")
+          "the latest tick, all zero before the first one: a structured array () of sample_dtype, copied")
       .def_property_readonly(
           "servo", [](const LiveView& self) { return self.servo; }, "ServoStatus")
-      .def_readonly("progress", &LiveView::progress, "of the page that is written, in [0, 1]")
+      .def_readonly("progress", &LiveView::progress, "share of the page that is written, in [0, 1]")
       .def_readonly("started", &LiveView::started,
-                    "the pen has been in front of the paper; before, nothing is felt and nothing recorded");
-  add_struct<LiveOptions>(module, "LiveOptions", "A person who writes with a device.", &LiveOptions::mode, "mode: Mode",
-                          &LiveOptions::renderer, "renderer: RendererOptions; its servo rate is that of the loop too",
-                          &LiveOptions::servo, "servo: ServoLoopOptions; its rate is not read",
-                          &LiveOptions::peak_force, "peak_force: at most this, whatever the device can do [N]",
-                          &LiveOptions::timeout, "timeout: given up after so long [s]");
-  py::class_<LiveResult>(module, "LiveResult", "What came of it.")
+                    "the pen has been in front of the paper; until then, no force and no recording");
+  add_struct<LiveOptions>(
+      module, "LiveOptions", "Options of a person writing on a device.", &LiveOptions::mode, "mode: FeedbackMode",
+      &LiveOptions::renderer, "renderer: RendererOptions; its servo rate applies to the loop as well",
+      &LiveOptions::servo, "servo: ServoLoopOptions; its rate is ignored", &LiveOptions::peak_force,
+      "peak_force: upper bound, besides the device's own [N]", &LiveOptions::timeout, "timeout: of the session [s]");
+  py::class_<LiveResult>(module, "LiveResult", "Result of write_with_device.")
       .def_readonly("recording", &LiveResult::recording, "Recording")
       .def_property_readonly(
-          "statistics", [](const LiveResult& self) { return servo_statistics(self.statistics); }, "as of a Servo")
-      .def_readonly("dropped", &LiveResult::dropped, "ticks that the recording lacks, because `watch` took 2 s or more")
-      .def_readonly("warnings", &LiveResult::warnings, "what the servo loop could not have");
+          "statistics", [](const LiveResult& self) { return servo_statistics(self.statistics); }, "as Servo.statistics")
+      .def_readonly("dropped", &LiveResult::dropped, "ticks not recorded because `watch` took 2 s or more")
+      .def_readonly("warnings", &LiveResult::warnings, "privileges that the servo loop was refused");
   module.def("with_peak_force", &with_peak_force, "capabilities"_a, "peak_force"_a,
-             "The device with its forces lowered to a peak [N].");
+             "The capabilities with their forces limited to a peak [N].");
   module.def("write_with_device", &write_live, "page"_a, "device"_a, "options"_a = LiveOptions{},
              "watch"_a = py::none(),
              "A person writes the page in real time, in C++ without the GIL. Ends when the page is written and the pen "
-             "lifted, `watch`, called with a LiveView some 50 times a second, returns False, or time is up; then the "
-             "force is zero and the device still open. So do Ctrl-C and what `watch` raises: the exception has the "
-             "LiveResult as its attribute `result`.");
-  // A program that ends must not leave a force behind, nor threads that ask for a Python that is gone.
+             "lifted, when `watch`, called with a LiveView about 50 times per second, returns False, or when the "
+             "timeout expires; the force is then zero and the device still open. Likewise on Ctrl-C or an exception of "
+             "`watch`, which has the LiveResult as its attribute `result`.");
+  // At exit no force may remain, nor threads that would call into a finalised interpreter.
   py::module_::import("atexit").attr("register")(py::cpp_function(&end_all));
 }
 

@@ -10,13 +10,13 @@
 namespace calligraphy::python {
 namespace {
 
-/// The getter of a read-only array: the members that lead to it.
+/// Getter of a read-only array, from the path of members that leads to it.
 template <class Class, class... Path>
 auto array_within(Path... path) {
   return [path...](const py::object& self) { return view_of((self.cast<const Class&>().*....*path), self); };
 }
 
-/// Views, each of which keeps the character alive.
+/// Views that keep the character alive.
 py::typing::List<Stroke> strokes_of(const py::object& character) {
   py::typing::List<Stroke> result;
   for (const Stroke& stroke : strokes(character.cast<const Character&>())) {
@@ -88,13 +88,13 @@ void add_model(py::module_& module) {
              return StrokeInput{id, points(control_points, "control_points"), factors};
            }),
            "id"_a, "control_points"_a, "attraction_factors"_a = std::vector<double>{})
-      .def_readwrite("id", &StrokeInput::id, "of the typical stroke, 1 to 39")
+      .def_readwrite("id", &StrokeInput::id, "id of the typical stroke, 1 to 39")
       .def_property(
           "control_points", [](const StrokeInput& self) { return array_of_points(self.control_points); },
           [](StrokeInput& self, const ArrayLike& value) { self.control_points = points(value, "control_points"); },
           "(n, 2), copied [em]")
       .def_readwrite("attraction_factors", &StrokeInput::attraction_factors,
-                     "one per feature point; none: all 1; copied [1]")
+                     "one per feature point; empty: all 1; copied [1]")
       .attr("__match_args__") = py::make_tuple("id", "control_points", "attraction_factors");
 
   py::class_<Stroke>(module, "Stroke", "One stroke of a character: a view that keeps the character alive.")
@@ -109,17 +109,17 @@ void add_model(py::module_& module) {
       });
 
   py::class_<Character>(module, "Character",
-                        "A character: shape, order and feel. Made by make_character, or read from a set or a file; it "
-                        "does not change. Frame: em square, y up.")
+                        "A character: shape, stroke order and feel. Immutable. Made by make_character, or read from a "
+                        "file. Frame: em square, y up.")
       .def(py::init(&character_of), "code"_a, "order"_a, "curve_degree"_a, "control_points"_a, "stroke_ids"_a,
-           "feature_points"_a, "attraction_factors"_a, "As its parts are below; make_character() is simpler.")
+           "feature_points"_a, "attraction_factors"_a, "From the fields below; make_character() is simpler.")
       .def_readonly("code", &Character::code, "the character, a str of length 1")
       .def_readonly("order", &Character::order, "name of an alternate stroke order; empty for the standard one")
       .def_readonly("curve_degree", &Character::curve_degree, "3, or 4 as eq. (1) prints")
       .def_property_readonly("stroke_count", &Character::stroke_count, "number of strokes")
       .def_property_readonly("control_points",
                              array_within<Character>(&Character::structure, &StructuralData::control_points),
-                             "of all strokes, one after the other, (n, 2), read only [em]")
+                             "of all strokes, concatenated, (n, 2), read only [em]")
       .def_property_readonly("stroke_ids", array_within<Character>(&Character::sequence, &SequenceData::stroke_ids),
                              "typical stroke ids in writing order, read only")
       .def_property_readonly("feature_points",
@@ -147,13 +147,13 @@ void add_model(py::module_& module) {
              "The same shape with quartic curves, as eq. (1) prints.");
   module.def("paper_example", &paper_example, py::return_value_policy::copy, "The character of Table 3.");
 
-  add_struct<Provenance>(module, "Provenance", "Where characters come from, and how they may be used.",
-                         &Provenance::source, "source: who drew them, one line", &Provenance::licence,
-                         "licence: under which terms they may be used, one line", &Provenance::attribution,
-                         "attribution: whom to name, one line", &Provenance::licence_text,
-                         "licence_text: the licence itself, where it must go along");
+  add_struct<Provenance>(module, "Provenance", "Origin of characters, and the terms of their use.", &Provenance::source,
+                         "source: author of the characters, one line", &Provenance::licence,
+                         "licence: terms of use, one line", &Provenance::attribution,
+                         "attribution: required attribution, one line", &Provenance::licence_text,
+                         "licence_text: full text, if it must accompany the characters");
 
-  py::class_<CharacterList>(module, "CharacterList", "Characters in memory, with where they come from.")
+  py::class_<CharacterList>(module, "CharacterList", "Characters and their provenance.")
       .def(py::init([](std::vector<Character> characters, Provenance provenance) {
              return CharacterList{std::move(provenance), std::move(characters)};
            }),
@@ -164,29 +164,29 @@ void add_model(py::module_& module) {
           "list of Character, copied")
       .def_readwrite("provenance", &CharacterList::provenance, "Provenance")
       .def("find", &find<CharacterList>, "code"_a, "order"_a = "",
-           "The Character in the standard order or the one of this name, or None.")
+           "The Character in the stroke order of this name (empty: the standard one), or None.")
       .def("__getitem__", &at<CharacterList>, "code"_a)
       .def(
           "__contains__", [](const CharacterList& self, char32_t code) { return self.find(code) != nullptr; }, "code"_a)
       .def("__len__", [](const CharacterList& self) { return self.characters.size(); })
-      .def("__iter__",  // over a copy, as a list may be changed
+      .def("__iter__",  // over a copy, because the list may change
            [](const CharacterList& self) {
              return py::typing::Iterator<Character>(py::iter(py::cast(std::vector<Character>(self.characters))));
            })
       .attr("__match_args__") = py::make_tuple("characters", "provenance");
   module.def("built_in_characters", &built_in_characters, py::return_value_policy::copy,
-             "The characters drawn for this library, at least one for every typical stroke.");
+             "The characters drawn for this library; every typical stroke occurs in at least one.");
   module.def("read_characters",
              released(+[](const std::filesystem::path& path) { return read_characters(path.string()); }), "path"_a,
-             "Reads the text format of docs/character-format.md. Raises FileError, FormatError naming the line.");
+             "Reads the text format of docs/character-format.md. Raises FileError, or FormatError naming the line.");
   module.def("write_characters", released(+[](const std::filesystem::path& path, const CharacterList& characters) {
                std::ostringstream out;
                write_characters(out, characters);
                write_file(path, out.str());
              }),
-             "path"_a, "characters"_a, "Writes the text format; a whole file or none. Raises FileError.");
+             "path"_a, "characters"_a, "Writes the text format, atomically. Raises FileError.");
 
-  add_enum(module, "CoordinatePrecision", "How finely a set file keeps control points.", CoordinatePrecision::exact,
+  add_enum(module, "CoordinatePrecision", "Precision of the control points in a set file.", CoordinatePrecision::exact,
            "coarse standard fine exact");
   module.def(
       "encode_character_set",
@@ -194,19 +194,18 @@ void add_model(py::module_& module) {
         const std::vector<std::byte> bytes = released(&encode_character_set)(list, precision);
         return py::bytes(reinterpret_cast<const char*>(bytes.data()), bytes.size());
       },
-      "characters"_a, "precision"_a = CoordinatePrecision::standard, "The set as the bytes of a set file.");
+      "characters"_a, "precision"_a = CoordinatePrecision::standard, "The characters as the bytes of a set file.");
 
   py::class_<CharacterSet>(module, "CharacterSet",
-                           "A set of characters: a mapped file, characters in memory, or several sets layered. It "
-                           "never changes; any number of threads may use it.")
+                           "An immutable set of characters: a memory-mapped set file, characters in memory, or several "
+                           "layered sets. Any number of threads may use it.")
       .def(py::init<>())
       .def(py::init(released(+[](const CharacterList& characters) { return CharacterSet(characters); })),
            "characters"_a)
-      .def_static("open",
-                  released(+[](const std::filesystem::path& path) { return CharacterSet::open(path.string()); }),
-                  "path"_a,
-                  "A set file, of which only the index is read now, or a file in the text format. Raises FileError, "
-                  "FormatError.")
+      .def_static(
+          "open", released(+[](const std::filesystem::path& path) { return CharacterSet::open(path.string()); }),
+          "path"_a,
+          "Opens a set file, reading only its index, or a file in the text format. Raises FileError or FormatError.")
       .def_static(
           "from_bytes",
           [](const py::bytes& bytes, const std::string& name) {
@@ -214,13 +213,13 @@ void add_model(py::module_& module) {
             const auto* const first = reinterpret_cast<const std::byte*>(view.data());
             return CharacterSet::from_bytes({first, first + view.size()}, name);
           },
-          "bytes"_a, "name"_a = "bytes", "The bytes of a set file; `name` is used in messages.")
+          "bytes"_a, "name"_a = "bytes", "A set from the bytes of a set file; `name` is used in messages.")
       .def_static(
           "layered", [](const std::vector<CharacterSet>& sets) { return CharacterSet::layered(sets); }, "sets"_a,
-          "One set over the other: of what several have, the first one's is found.")
+          "Several sets as one. If several have a character, that of the first set is found.")
       .def("find", &find<CharacterSet>, "code"_a, "order"_a = "",
-           "The Character, decoded, in the standard order or the one of this name, or None. Raises FormatError when it "
-           "is damaged.")
+           "The Character, decoded, in the stroke order of this name (empty: the standard or else the first), or None. "
+           "Raises FormatError.")
       .def("__getitem__", &at<CharacterSet>, "code"_a)
       .def(
           "__contains__", [](const CharacterSet& self, char32_t code) { return self.find(code).has_value(); }, "code"_a)
@@ -232,14 +231,15 @@ void add_model(py::module_& module) {
             for (const StoredCharacter& stored : self) codes.append(stored.code());
             return py::typing::Iterator<py::str>(py::iter(codes));
           },
-          "Every character once, as a str, by rising code point.")
+          "Every character once, as a str, in ascending code point order.")
       .def("orders", &CharacterSet::orders, "code"_a, "Names of the stroke orders of a character; '' is the standard.")
-      .def("provenances", &CharacterSet::provenances, "Where its characters come from, a Provenance each.")
-      .def("coordinate_error", &CharacterSet::coordinate_error, "Largest rounding of a coordinate [em].")
+      .def("provenances", &CharacterSet::provenances, "Provenance of each layer.")
+      .def("coordinate_error", &CharacterSet::coordinate_error,
+           "Maximum distance between a stored control point and the original [em].")
       .def("list", released(+[](const CharacterSet& self) { return self.list(); }),
            "Every character in every order, decoded, as a CharacterList.")
       .def("check", released(+[](const CharacterSet& self) { self.check(); }),
-           "Decodes everything; raises FormatError naming what is damaged.")
+           "Decodes every character in every order. Raises FormatError naming the damage.")
       .def("__repr__", [](const CharacterSet& self) { return told("CharacterSet({} characters)", self.size()); });
 }
 

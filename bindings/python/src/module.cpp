@@ -1,15 +1,15 @@
-// The extension module calligraphy._calligraphy: its components from the ground up, and the errors.
+// The extension module calligraphy._calligraphy: errors and components, bottom up.
 #include "components.hpp"
 
 namespace calligraphy::python {
 namespace {
 
-/// The class of an error of this library. Lives as long as the process.
+/// The Python class of a library error. Lives as long as the process.
 template <class Exception>
 py::handle type_of_error;
 
-/// An error of this library that is also the built-in one that Python programs expect. What it quotes from a file or a
-/// path may be any bytes: those that are no UTF-8 are escaped.
+/// A library error that also derives from the built-in exception that Python programs expect. Messages may quote
+/// arbitrary bytes of a file or path: those that are not UTF-8 are escaped.
 template <class Exception>
 void add_error(py::module_& module, const char* name, PyObject* built_in, const char* documentation) {
   py::list bases;
@@ -33,11 +33,11 @@ void add_error(py::module_& module, const char* name, PyObject* built_in, const 
 }
 
 [[noreturn]] void* refuse_unfinished(std::size_t) {
-  throw py::type_error("this object is not finished: its __init__() has not been called");
+  throw py::type_error("this object is not initialised: its __init__() has not been called");
 }
 
-/// Objects that __new__ alone made, or that a subclass uses before it calls super().__init__(), hold nothing: pybind11
-/// would find room for them and let C++ read what is there. It makes that room by this function alone.
+/// Objects created by __new__ alone, or used by a subclass before super().__init__(), are empty: pybind11 would
+/// allocate memory for them on use and let C++ read it uninitialised. It allocates through operator_new only.
 void guard_classes(const py::module_& module) {
   for (const auto& item : module.attr("__dict__").cast<py::dict>()) {
     if (PyType_Check(item.second.ptr()) == 0) continue;
@@ -55,12 +55,12 @@ PYBIND11_MODULE(_calligraphy, module) {
   module.doc() = "Haptic guidance for writing Chinese characters: the C++ library. SI units; character shapes in em.";
   using namespace calligraphy;
   using namespace calligraphy::python;
-  add_error<Error>(module, "Error", PyExc_RuntimeError, "Base of everything that this library raises.");
+  add_error<Error>(module, "Error", PyExc_RuntimeError, "Base of all errors that this library raises.");
   add_error<ValueError>(module, "InvalidValue", PyExc_ValueError,
-                        "An argument or option outside its domain (calligraphy::ValueError in C++).");
+                        "An argument or option out of range (calligraphy::ValueError in C++).");
   add_error<FileError>(module, "FileError", PyExc_OSError, "A file that cannot be opened, read, written or renamed.");
   add_error<FormatError>(module, "FormatError", PyExc_ValueError, "Malformed text or data.");
-  add_error<DeviceError>(module, "DeviceError", PyExc_OSError, "A device that cannot be opened or failed.");
+  add_error<DeviceError>(module, "DeviceError", PyExc_OSError, "A device that cannot be opened or has failed.");
   add_model(module);
   add_collision(module);
   add_devices(module);

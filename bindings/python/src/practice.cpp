@@ -1,4 +1,4 @@
-// Pages, writers, recordings, scores, imports.
+// Pages, writers, recordings, scores and imports.
 #include <calligraphy/base/file.hpp>
 #include <calligraphy/base/text.hpp>
 #include <calligraphy/devices/replay_device.hpp>
@@ -11,7 +11,7 @@
 namespace calligraphy::python {
 namespace {
 
-/// The columns of a recording; the rows are RecordedSample as it is in memory.
+/// The columns of a recording, whose rows are RecordedSample as in memory.
 py::dtype sample_type() {
   const RecordedSample s;
   return columns_of(s, "time", s.time, "device_point", s.device_point, "pen_tip", s.pen_tip, "force", s.force, "state",
@@ -19,12 +19,12 @@ py::dtype sample_type() {
                     "tick_ns", s.tick_ns);
 }
 
-/// A recording of the rows of a structured array with these columns.
+/// A recording from a structured array with these columns.
 Recording recording_of(double rate, const ArrayLike& samples) {
   const py::array rows = py::module_::import("numpy").attr("asarray")(samples, sample_type());
-  if (rows.ndim() != 1) throw ValueError("samples: shape (n,) is expected, not " + shape_of(rows));
+  if (rows.ndim() != 1) throw ValueError("samples: expected shape (n,), got " + shape_of(rows));
   if (!(std::isfinite(rate) && rate > 0.0))
-    throw ValueError("rate: a finite number above 0 is expected, not " + std::to_string(rate));
+    throw ValueError("rate: expected a finite number above 0, got " + std::to_string(rate));
   Recording result{rate, std::vector<RecordedSample>(static_cast<std::size_t>(rows.size()))};
   for (std::size_t i = 0; i < result.samples.size(); ++i) {
     RecordedSample& sample = result.samples[i];
@@ -90,14 +90,13 @@ py::dict as_dict(const ImportReport& report) {
 
 void add_practice(py::module_& module) {
   module.attr("sample_dtype") = sample_type();
-  py::class_<Recording>(module, "Recording",
-                        "What happened while a page was written, tick by tick. It does not change.")
+  py::class_<Recording>(module, "Recording", "Recording of a session, tick by tick. Immutable.")
       .def(py::init(&recording_of), "rate"_a, "samples"_a)
       .def_readonly("rate", &Recording::rate, "[Hz]")
       .def_property_readonly(
           "samples", &samples_of,
-          "A structured array (n,) over the recording's own memory, read only (sample_dtype): time [s], device_point, "
-          "pen_tip [m] and force [N] in page axes, state, events, status, character, stroke, tick_ns [ns].")
+          "A structured array (n,), a read-only view of the recording (sample_dtype): time [s], device_point, pen_tip "
+          "[m] and force [N] in page axes, state, events, status, character, stroke, tick_ns [ns].")
       .def("__len__", [](const Recording& self) { return self.samples.size(); })
       .attr("__match_args__") = py::make_tuple("rate", "samples");
   module.def("write_recording", released(+[](const std::filesystem::path& path, const Recording& recording) {
@@ -105,35 +104,35 @@ void add_practice(py::module_& module) {
                write_recording(out, recording);
                write_file(path, out.str());
              }),
-             "path"_a, "recording"_a, "Writes a whole file or none. Raises FileError.");
-  module.def("read_recording", released(+[](const std::filesystem::path& path) { return read_recording(path); }),
-             "path"_a,
-             "What write_recording wrote, exactly. Raises FileError; FormatError naming the line and the value.");
+             "path"_a, "recording"_a, "Writes a recording, atomically. Raises FileError.");
+  module.def(
+      "read_recording", released(+[](const std::filesystem::path& path) { return read_recording(path); }), "path"_a,
+      "Reads exactly what write_recording wrote. Raises FileError, or FormatError naming the line and the value.");
   module.def("device_states", released(&device_states), "recording"_a, "mapping"_a,
              "The samples in device axes, for a ReplayDevice.");
 
   add_struct<PageLayout>(module, "PageLayout", "Characters in rows.", &PageLayout::width, "width [m]",
                          &PageLayout::height, "height [m]", &PageLayout::em, "em: edge of a character's square [m]",
-                         &PageLayout::gap, "gap: between squares, and round them [m]");
-  add_struct<PracticePage>(module, "PracticePage", "Characters at their places.", &PracticePage::width, "width [m]",
+                         &PageLayout::gap, "gap: between and around squares [m]");
+  add_struct<PracticePage>(module, "PracticePage", "A page of placed characters.", &PracticePage::width, "width [m]",
                            &PracticePage::height, "height [m]", &PracticePage::characters,
                            "characters: list of PlacedCharacter, copied");
   module.def(
       "lay_out",
       [](const std::vector<Character>& characters, const PageLayout& layout) { return lay_out(characters, layout); },
       "characters"_a, "layout"_a = PageLayout{},
-      "As many pages as it takes. Raises InvalidValue when a length is not positive or not one square fits.");
+      "As many pages as needed. Raises InvalidValue unless lengths are positive and a square fits.");
 
-  py::class_<PenTrace>(module, "PenTrace", "What a person's pen did while it wrote a character. It does not change.")
+  py::class_<PenTrace>(module, "PenTrace", "A person's recorded pen while writing a character. Immutable.")
       .def(py::init(&trace_of), "character"_a, "strokes"_a, "set"_a = "unnamed", "em"_a = 1000.0)
-      .def_readonly("character", &PenTrace::character, "what was to be written")
+      .def_readonly("character", &PenTrace::character, "the character to be written")
       .def_property_readonly("strokes", &pen_downs, "one array (n, 3) per pen-down, copied: x, y [em], time [s]")
-      .def_readonly("set", &PenTrace::set, "where it comes from, a word: write_pen_traces() takes no other")
-      .def_readonly("em", &PenTrace::em, "edge of the square in the file's units")
+      .def_readonly("set", &PenTrace::set, "one word for the source: a writer, a session, a corpus")
+      .def_readonly("em", &PenTrace::em, "edge length of the square in the file's units [1]")
       .attr("__match_args__") = py::make_tuple("character", "strokes", "set", "em");
   module.def("read_pen_traces",
              released(+[](const std::filesystem::path& path) { return read_pen_traces(path.string()); }), "path"_a,
-             "Reads the format of docs/pen-traces.md. Raises FileError; FormatError naming the line and the value.");
+             "Reads the format of docs/pen-traces.md. Raises FileError, or FormatError naming the line and the value.");
   module.def(
       "write_pen_traces",
       released(+[](const std::filesystem::path& path, const std::vector<PenTrace>& traces, const std::string& notice) {
@@ -146,29 +145,29 @@ void add_practice(py::module_& module) {
       "InvalidValue naming a trace that cannot be written.");
 
   using W = WriterSkill;
-  add_struct<W>(module, "WriterSkill", "How well a person writes; docs/practice.md.", &W::grip,
-                "grip: GripImpedance: impedance between the plan and the device", &W::offset,
-                "offset: of the believed character [em]", &W::bias,
-                "bias: length of one more offset, in a direction drawn for each character [em]", &W::scale,
-                "scale: of the believed character [1]", &W::tilt, "tilt [rad]", &W::shape,
-                "shape: of each stroke's believed place [em]", &W::drift, "drift [em/s^0.5]", &W::tremor,
-                "tremor: 8 to 12 Hz [m]", &W::aim, "aim: of where a stroke is begun [em]", &W::wrong_order,
-                "wrong_order: share of strokes begun with another one", &W::wrong_direction,
-                "wrong_direction: share of strokes begun at their end", &W::speed,
-                "speed: mean speed along a stroke [em/s]", &W::pause, "pause: before the pen moves to a stroke [s]",
-                &W::visual_delay, "visual_delay [s]", &W::correction,
-                "correction: share of the error seen that is corrected per second [1/s]", &W::caution,
-                "caution: error seen at which the pace is halved [em]")
-      .def_static("novice", &W::novice, "Of the experiments.")
-      .def_static("skilled", &W::skilled, "Of the experiments.");
+  add_struct<W>(
+      module, "WriterSkill", "Skill of a simulated writer (docs/practice.md).", &W::grip,
+      "grip: GripImpedance: impedance between the plan and the device", &W::offset,
+      "offset: spread of the believed position [em]", &W::bias, "bias: an additional offset in a random direction [em]",
+      &W::scale, "scale: spread of the believed scale [1]", &W::tilt, "tilt: spread of the believed tilt [rad]",
+      &W::shape, "shape: spread of the believed place of each stroke [em]", &W::drift,
+      "drift: random walk off the plan [em/s^0.5]", &W::tremor, "tremor: amplitude, at 8 to 12 Hz [m]", &W::aim,
+      "aim: spread of where a stroke is begun [em]", &W::wrong_order,
+      "wrong_order: share of strokes replaced by another one [1]", &W::wrong_direction,
+      "wrong_direction: share of strokes begun at their end [1]", &W::speed, "speed: mean speed along a stroke [em/s]",
+      &W::pause, "pause: before the pen moves to a stroke [s]", &W::visual_delay, "visual_delay [s]", &W::correction,
+      "correction: share of the perceived error corrected per second [1/s]", &W::caution,
+      "caution: perceived error at which the speed is halved [em]")
+      .def_static("novice", &W::novice, "The novice of the experiments.")
+      .def_static("skilled", &W::skilled, "The skilled writer of the experiments.");
 
   add_enum(module, "FeedbackMode", "The two modes of the paper's experiment.", FeedbackMode::force, "vision force");
   add_struct<SessionOptions>(
-      module, "SessionOptions", "A writer, a device and a renderer in closed loop.", &SessionOptions::mode,
-      "mode: Mode", &SessionOptions::device, "device: Capabilities", &SessionOptions::renderer,
+      module, "SessionOptions", "Options of a writer, a device and a renderer in closed loop.", &SessionOptions::mode,
+      "mode: FeedbackMode", &SessionOptions::device, "device: Capabilities", &SessionOptions::renderer,
       "renderer: RendererOptions", &SessionOptions::skill, "skill: WriterSkill", &SessionOptions::seed,
-      "seed: of the writer", &SessionOptions::measure_ticks, "measure_ticks: reads the clock round every tick",
-      &SessionOptions::character_timeout, "character_timeout: after which a character is given up [s]");
+      "seed: seed of the writer", &SessionOptions::measure_ticks, "measure_ticks: measure execution times",
+      &SessionOptions::character_timeout, "character_timeout: virtual time until a character is aborted [s]");
   const auto with = [](SessionOptions options, const Progress& progress) {
     options.progress = interruptible(progress);
     return options;
@@ -179,15 +178,15 @@ void add_practice(py::module_& module) {
         return released(&write_page)(page, with(options, progress));
       },
       "page"_a, "options"_a, "progress"_a = py::none(),
-      "Writes the page once, in virtual time. Deterministic per seed. progress(share) is called now and then. Raises "
-      "InvalidValue when an option is out of its domain.");
+      "Writes the page once, in virtual time. Deterministic per seed. progress(share) is called from time to time. "
+      "Raises InvalidValue when an option is out of range.");
   module.def(
       "follow_trace",
       [with](const PracticePage& page, const PenTrace& trace, const SessionOptions& options, const Progress& progress) {
         return released(&follow_trace)(page, trace, with(options, progress));
       },
       "page"_a, "trace"_a, "options"_a, "progress"_a = py::none(),
-      "A hand that moves as a person's pen did, on a page of one character. progress(share) is called now and then.");
+      "A session in which the hand follows a recorded pen, on a page of one character. See write_page for progress.");
   module.def(
       "replay_page",
       [with](const PracticePage& page, ReplayDevice& device, const SessionOptions& options, const Progress& progress) {
@@ -197,33 +196,33 @@ void add_practice(py::module_& module) {
         })(page, &device, with(options, progress));
       },
       "page"_a, "device"_a, "options"_a, "progress"_a = py::none(),
-      "The renderer on recorded samples: what it would have done. progress(share) is called now and then.");
+      "Runs the renderer on recorded samples. See write_page for progress.");
   module.def(
       "run_session",
       [with](const PracticePage& page, const SessionOptions& options, const PenMotion& motion,
              const Progress& progress) { return released(&run_session)(page, with(options, progress), motion); },
       "page"_a, "options"_a, "motion"_a, "progress"_a = py::none(),
-      "The closed loop with a motion of one's own: motion(tick, seconds) gives an Intention on the page, or None to "
-      "end. Costs about 3 us per tick. progress(share) is called now and then.");
+      "Runs the closed loop with your own motion: motion(tick, seconds) returns an Intention on the page, or None to "
+      "end. Takes about 3 us per tick. See write_page for progress.");
 
-  add_enum(module, "WritingMistakeKind", "What a writer did wrong.", WritingMistakeKind::direction, "order direction");
+  add_enum(module, "WritingMistakeKind", "Kind of mistake.", WritingMistakeKind::direction, "order direction");
   add_struct<WritingMistake>(module, "WritingMistake", "A mistake of the writer.", &WritingMistake::kind,
-                             "kind: WritingMistakeKind", &WritingMistake::stroke, "stroke: that was due, from 0",
-                             &WritingMistake::time, "time: when the pen was put down [s]", &WritingMistake::reason,
-                             "reason: one line for a person");
+                             "kind: WritingMistakeKind", &WritingMistake::stroke, "stroke: the expected stroke, from 0",
+                             &WritingMistake::time, "time: of the pen-down [s]", &WritingMistake::reason,
+                             "reason: one line for people");
   using S = CharacterScore;
-  add_struct<S>(
-      module, "CharacterScore", "How well a character was written.", &S::character, "character: a str of length 1",
-      &S::time, "time [s]", &S::rms_error, "rms_error: lateral, over the strokes completed [m]", &S::max_error,
-      "max_error: lateral [m]", &S::stroke_count, "stroke_count: of the character", &S::strokes_completed,
-      "strokes_completed: by the writer", &S::peak_force, "peak_force [N]", &S::max_force_step,
-      "max_force_step: from one tick to the next [N]", &S::mistakes, "mistakes: list of WritingMistake, copied",
-      &S::contour, "contour: exp(-rms error / 5 % of the em), [0, 1]", &S::external_sequence,
-      "external_sequence: share of pen-downs that wrote the stroke due", &S::internal_sequence,
-      "internal_sequence: share of strokes not written backwards", &S::fidelity,
-      "fidelity: geometric mean of the three")
-      .def("order_mistakes", &S::order_mistakes, "How many there are of this kind.")
-      .def("direction_mistakes", &S::direction_mistakes, "How many there are of this kind.");
+  add_struct<S>(module, "CharacterScore", "Score of a written character.", &S::character,
+                "character: a str of length 1", &S::time, "time [s]", &S::rms_error,
+                "rms_error: lateral, over the completed strokes [m]", &S::max_error, "max_error: lateral [m]",
+                &S::stroke_count, "stroke_count: strokes of the character", &S::strokes_completed,
+                "strokes_completed: by the writer", &S::peak_force, "peak_force [N]", &S::max_force_step,
+                "max_force_step: per tick [N]", &S::mistakes, "mistakes: list of WritingMistake, copied", &S::contour,
+                "contour: exp(-rms error / 5 % of the em), [0, 1]", &S::external_sequence,
+                "external_sequence: completed / (completed + order mistakes)", &S::internal_sequence,
+                "internal_sequence: completed / (completed + direction mistakes)", &S::fidelity,
+                "fidelity: geometric mean of the three")
+      .def("order_mistakes", &S::order_mistakes, "Number of order mistakes.")
+      .def("direction_mistakes", &S::direction_mistakes, "Number of direction mistakes.");
   module.def("score_page", released(&score_page), "page"_a, "recording"_a, "One score per character of the page.");
 
   module.def(
@@ -231,7 +230,7 @@ void add_practice(py::module_& module) {
       [](const std::filesystem::path& source, const std::optional<std::filesystem::path>& letters,
          const std::u32string& only, bool alternates, bool ideographs_only, const std::string& date, int threads,
          const Progress& progress) {
-        // An empty path of C++ is "." in Python, and back.
+        // Optional, because an empty C++ path would become "." in Python.
         const ImportOptions options = {letters.value_or(""),   alternates, ideographs_only, only, date, threads, {},
                                        interruptible(progress)};
         ImportResult imported = released(&import_characters)(source, options);
@@ -240,10 +239,10 @@ void add_practice(py::module_& module) {
       },
       "source"_a, "letters"_a = py::none(), "only"_a = std::u32string(), "alternates"_a = false,
       "ideographs_only"_a = true, "date"_a = "", "threads"_a = 0, "progress"_a = py::none(),
-      "hanzi-writer-data or KanjiVG (a directory or a tarball), a set file or the text format: a CharacterList, and a "
-      "report (docs/import.md): kind, characters, strokes, labelled, agreed, ids_used by id, letters_unused, notes; "
-      "within, a structured array of strokes and characters within an error [em]; worst, one of code, order, stroke "
-      "from 1, id and error [em]; skipped files, each with the reason. Raises FileError, FormatError, InvalidValue.");
+      "Imports hanzi-writer-data or KanjiVG (a directory or a tarball), a set file or the text format. Returns a "
+      "CharacterList and a report (docs/import.md): kind, characters, strokes, labelled, agreed, ids_used by id, "
+      "letters_unused, notes; within: strokes and characters within an error [em]; worst: code, order, stroke (from "
+      "1), id, error [em]; skipped files with reasons. Raises FileError, FormatError, InvalidValue.");
 }
 
 }  // namespace calligraphy::python

@@ -1,4 +1,4 @@
-// What the hand feels, tick by tick or over a whole trace.
+// The haptic renderer, tick by tick or over a whole trace, and the stiffness bounds.
 #include <calligraphy/devices/detail/flush_denormals.hpp>
 #include <calligraphy/render/haptic_renderer.hpp>
 #include <calligraphy/render/stiffness_advice.hpp>
@@ -18,7 +18,7 @@ auto mapped(Eigen::Vector3d (MotionMapping::*function)(const Eigen::Vector3d&) c
 class TickColumns {
  public:
   explicit TickColumns(py::module_& module)
-      : type_(module, "HapticTick", "All that one servo tick found and did: the columns of tick_dtype. A copy.") {}
+      : type_(module, "HapticTick", "Result of one servo tick: the columns of tick_dtype. A copy.") {}
 
   /// Each a member of `tick` and "name: what it is [unit]".
   template <class Member, class... Rest>
@@ -35,16 +35,16 @@ class TickColumns {
 
   py::dtype dtype() const { return columns_.dtype(); }
 
-  const HapticTick tick;  ///< whose members are where all others' are
+  const HapticTick tick;  ///< gives the offsets of the members
 
  private:
   py::class_<HapticTick> type_;
   Columns<HapticTick> columns_;
 };
 
-/// Positions of a device at the renderer's rate, or at the times given, through the renderer.
+/// Passes device positions, at the renderer's rate or at the given times, through the renderer.
 py::array trace(HapticRenderer& renderer, const ArrayLike& positions, const std::optional<ArrayLike>& times) {
-  Interrupt interrupt;  // from here, as the rows take their time too
+  Interrupt interrupt;  // started here, because the conversion takes time as well
   const AtWork at_work(AtWork::User::call, nullptr, &renderer);
   const Doubles points = doubles(positions, "positions", 3);
   const py::ssize_t count = points.shape(0);
@@ -60,7 +60,7 @@ py::array trace(HapticRenderer& renderer, const ArrayLike& positions, const std:
     DeviceState state;
     constexpr py::ssize_t block = 1024;
     for (py::ssize_t first = 0; first < count; first += block) {
-      interrupt.check();  // where a handler in Python has its denormals
+      interrupt.check();  // outside the scope that flushes denormals: a Python handler may need them
       const FlushDenormals as_a_servo_thread;
       for (py::ssize_t i = first; i < std::min(first + block, count); ++i) {
         state.time = time ? time[i] : start + static_cast<double>(i + 1) * period;
@@ -81,139 +81,138 @@ py::dict as_dict(const StiffnessBound& bound) {
 
 void add_render(py::module_& module) {
   add_enum(module, "PenTipRule", "Where the virtual pen tip is.", PenTipRule::wang2006, "projected wang2006");
-  add_enum(module, "GuidanceLaw", "How guidance grows with the distance.", GuidanceLaw::saturating,
-           "linear saturating");
-  add_enum(module, "StiffnessCheck", "What becomes of an unstable stiffness.", StiffnessCheck::off,
-           "reject clip off");
+  add_enum(module, "GuidanceLaw", "Guidance force over the distance.", GuidanceLaw::saturating, "linear saturating");
+  add_enum(module, "StiffnessCheck", "What to do with an unstable stiffness.", StiffnessCheck::off, "reject clip off");
   add_enum(module, "ForceSign", "The signs of eq. (8) and (9).", ForceSign::wang2006, "attracting wang2006");
   add_enum(module, "MotionMappingRule", "How device axes map to the page.", MotionMappingRule::wang2006,
            "affine wang2006");
   add_enum(module, "FrictionModel", "Friction between pen and paper.", FrictionModel::karnopp,
            "breakaway hayward_armstrong karnopp");
 
-  add_struct<AssistPolicy>(module, "AssistPolicy", "Assistance as needed: it fades as the writer improves.",
-                           &AssistPolicy::enabled, "enabled: False: full assistance always", &AssistPolicy::retention,
-                           "retention: of the last stroke's assistance [1]", &AssistPolicy::full_assistance_error,
-                           "full_assistance_error: RMS lateral error that keeps assistance at full [m]",
-                           &AssistPolicy::least, "min_assistance: assistance never falls below [1]");
+  add_struct<AssistPolicy>(
+      module, "AssistPolicy", "Assistance as needed.", &AssistPolicy::enabled, "enabled: False: full assistance always",
+      &AssistPolicy::retention, "retention: share of the previous assistance retained [1]",
+      &AssistPolicy::full_assistance_error, "full_assistance_error: RMS lateral error that keeps assistance at 1 [m]",
+      &AssistPolicy::min_assistance, "min_assistance: lower bound of the assistance [1]");
   add_struct<FrictionOptions>(module, "FrictionOptions", "Friction between pen and paper.", &FrictionOptions::model,
-                              "model: FrictionModel", &FrictionOptions::coefficient, "coefficient: 0: no friction [1]",
-                              &FrictionOptions::stiffness, "stiffness: of the pen's hold on the paper [N/m]",
-                              &FrictionOptions::static_ratio,
+                              "model: FrictionModel", &FrictionOptions::coefficient,
+                              "coefficient: mu; 0: no friction [1]", &FrictionOptions::stiffness,
+                              "stiffness: of the spring between pen and anchor [N/m]", &FrictionOptions::static_ratio,
                               "static_ratio: karnopp: break-away over sliding friction [1]",
                               &FrictionOptions::stick_speed, "stick_speed: karnopp [m/s]");
   using O = RendererOptions;
-  add_struct<O>(module, "RendererOptions", "Everything that a user of the renderer may choose.", &O::servo_rate,
-                "servo_rate [Hz]", &O::paper_stiffness, "paper_stiffness: K_en of eq. (9) [N/m]",
-                &O::guidance_stiffness, "guidance_stiffness: K_et of eq. (8) [N/m]", &O::guidance_fade_in,
-                "guidance_fade_in [s]", &O::wrong_way_stiffness, "wrong_way_stiffness: 0: none [N/m]",
-                &O::wrong_way_limit, "wrong_way_limit [N]", &O::wrong_way_slack, "wrong_way_slack [m]",
-                &O::stiffness_check, "stiffness_check: StiffnessCheck: reject or clip what is not stable, or off",
-                &O::softest_grip, "softest_grip: Hand in which the loop is to be stable", &O::guidance,
-                "guidance: GuidanceLaw", &O::guidance_limit,
-                "guidance_limit: saturating: the largest guidance force [N]", &O::guide_to_start,
-                "guide_to_start: on the paper before a stroke, pull to its start", &O::assist, "assist: AssistPolicy",
-                &O::friction, "friction: FrictionOptions", &O::stroke, "stroke: StrokeRules", &O::start_radius,
-                "start_radius: neighbourhood of a stroke's start that begins it [m]", &O::box_margin, "box_margin [m]",
-                &O::lift_height, "lift_height: hysteresis of the contact [m]", &O::box_hysteresis, "box_hysteresis [m]",
-                &O::lift_between_strokes, "lift_between_strokes: the next stroke begins with a new contact",
-                &O::solid_paper, "solid_paper: normal force in the adjusting state too", &O::in_plane_force_rate,
-                "in_plane_force_rate [N/s]", &O::normal_force_rate, "normal_force_rate [N/s]", &O::limit_force_rate,
-                "limit_force_rate: False: forces step at every transition", &O::force_jerk,
-                "force_jerk: infinite: any [N/s^2]", &O::passivity_control,
-                "passivity_control: damps out what sampling, delay and limits add to the energy", &O::energy_budget,
-                "energy_budget: infinite: any [J]", &O::thermal_time_constant, "thermal_time_constant: 0: no limit [s]",
-                &O::max_speed, "max_speed: a faster sample is a fault [m/s]", &O::force_sign, "force_sign: ForceSign",
-                &O::pen_tip, "pen_tip: PenTipRule", &O::motion, "motion: MotionMappingRule")
-      .def_static("wang2006", &O::wang2006, "Every rule as printed, but for the signs of eq. (8) and (9).")
+  add_struct<O>(module, "RendererOptions", "Options of the haptic renderer.", &O::servo_rate, "servo_rate [Hz]",
+                &O::paper_stiffness, "paper_stiffness: K_en of eq. (9) [N/m]", &O::guidance_stiffness,
+                "guidance_stiffness: K_et of eq. (8) [N/m]", &O::guidance_fade_in, "guidance_fade_in: time [s]",
+                &O::wrong_way_stiffness, "wrong_way_stiffness: against writing backwards; 0: none [N/m]",
+                &O::wrong_way_limit, "wrong_way_limit: maximum force [N]", &O::wrong_way_slack,
+                "wrong_way_slack: dead band [m]", &O::stiffness_check, "stiffness_check: StiffnessCheck",
+                &O::softest_grip, "softest_grip: GripImpedance in which the loop must be stable", &O::guidance,
+                "guidance: GuidanceLaw", &O::guidance_limit, "guidance_limit: saturating: maximum guidance force [N]",
+                &O::guide_to_start, "guide_to_start: before a stroke, pull the pen to its start", &O::assist,
+                "assist: AssistPolicy", &O::friction, "friction: FrictionOptions", &O::stroke, "stroke: StrokeRules",
+                &O::start_radius, "start_radius: a stroke begins this near its start [m]", &O::box_margin,
+                "box_margin [m]", &O::lift_height, "lift_height: hysteresis of the contact [m]", &O::box_hysteresis,
+                "box_hysteresis [m]", &O::lift_between_strokes,
+                "lift_between_strokes: the next stroke begins with a new contact", &O::solid_paper,
+                "solid_paper: normal force in the adjusting state too", &O::in_plane_force_rate,
+                "in_plane_force_rate: maximum [N/s]", &O::normal_force_rate, "normal_force_rate: maximum [N/s]",
+                &O::limit_force_rate, "limit_force_rate: False: forces step at every transition", &O::force_jerk,
+                "force_jerk: maximum; infinite: no limit [N/s^2]", &O::passivity_control,
+                "passivity_control: dissipate energy generated by sampling, delay and limits", &O::energy_budget,
+                "energy_budget: maximum to the hand; infinite: no limit [J]", &O::thermal_time_constant,
+                "thermal_time_constant: of the motors; 0: no limit [s]", &O::max_speed,
+                "max_speed: a faster sample is a fault [m/s]", &O::force_sign, "force_sign: ForceSign", &O::pen_tip,
+                "pen_tip: PenTipRule", &O::motion, "motion: MotionMappingRule")
+      .def_static("wang2006", &O::wang2006, "Every rule as printed, except the signs of eq. (8) and (9).")
       .def_static("for_device", &O::for_device, "capabilities"_a,
-                  "The defaults at the device's rate, stiffnesses clipped to what it is stable with.")
-      .def_static("everything", &O::everything, "capabilities"_a, "for_device() with every stage switched on.");
+                  "The defaults at the device's rate, stiffnesses clipped to what is usable and stable.")
+      .def_static("everything", &O::everything, "capabilities"_a, "for_device() with all optional stages enabled.");
   module.def("clip_stiffness", &clip_stiffness, "options"_a, "capabilities"_a, "max_attraction"_a = 1.0,
-             "scale"_a = 1.0, "Clips the stiffnesses of `options` in place; what was clipped, each with its reason.");
+             "scale"_a = 1.0, "Clips the stiffnesses in place. Returns what was clipped, each with its reason.");
   module.def("validate", py::overload_cast<const O&, const Capabilities&, double, double>(&validate), "options"_a,
              "capabilities"_a, "max_attraction"_a = 1.0, "scale"_a = 1.0,
-             "Raises InvalidValue naming an option out of its domain, or a stiffness that would be clipped.");
+             "Raises InvalidValue naming an option out of range, or a stiffness that would be clipped.");
 
   add_struct<MotionMapping>(
-      module, "MotionMapping", "Rigid transform from device axes to the page, with the scale K_S.",
+      module, "MotionMapping", "Rigid transform from device axes to page axes, with the motion scale K_S.",
       &MotionMapping::rotation, "rotation: (3, 3), device axes to page axes", &MotionMapping::offset,
-      "offset: where the device's zero is on the page, (3,) [m]", &MotionMapping::scale, "scale: K_S [1]")
+      "offset: position of the device origin on the page, (3,) [m]", &MotionMapping::scale, "scale: K_S [1]")
       .def("to_page", mapped(&MotionMapping::to_page, "device"), "device"_a, "(3,) [m] to (3,) [m].")
       .def("to_device", mapped(&MotionMapping::to_device, "page"), "page"_a, "(3,) [m] to (3,) [m].")
       .def("force_to_device", mapped(&MotionMapping::force_to_device, "page"), "page"_a, "(3,) [N] to (3,) [N].");
   module.def("upright_page", &upright_page, "width"_a, "height"_a,
-             "Page upright in the device's x-y plane, centred on its zero [m].");
+             "Upright page in the x-y plane of the device, centred on its origin [m].");
   module.def("desk_page", &desk_page, "width"_a, "height"_a, "Page flat on the desk [m].");
 
   add_enum(module, "InteractionState", "SS, AS, CS, WS of Fig. 6.", InteractionState::writing,
            "separation adjusting calibration writing");
   add_enum(
-      module, "TickEvent", "What happened in a tick; a set of flags.", TickEvent::page_finished,
+      module, "TickEvent", "What happened in a tick; bit flags.", TickEvent::page_finished,
       "contact lift stroke_started feature_passed stroke_finished stroke_abandoned character_finished page_finished",
       true);
-  add_enum(module, "TickStatus", "Whether the sample of a tick could be used.", TickStatus::device_fault,
+  add_enum(module, "TickStatus", "Whether a sample was usable.", TickStatus::device_fault,
            "ok bad_sample device_fault");
   TickColumns columns(module);
   const HapticTick& t = columns.tick;
-  columns.add(
-      t.time, "time: of the sample [s]", t.status, "status: TickStatus", t.state, "state: InteractionState", t.events,
-      "events: TickEvent flags", t.character, "character: index of the active one; their number once all are written",
-      t.stroke, "stroke: index of the active one within it", t.device_point, "device_point: (3,), page frame [m]",
-      t.pen_tip, "pen_tip: (3,), page frame [m]", t.penetration, "penetration: of the device point into the paper [m]",
-      t.contact.element, "element: writing: index of the active element of the stroke", t.contact.closest.parameter,
-      "parameter: writing: of the closest point, the nearest point, on that element, in [0, 1]",
-      t.contact.closest.point, "closest: writing: nearest point on the active element, (2,) [m]",
-      t.contact.closest.distance, "distance: writing: from the pen tip to the closest point [m]", t.contact.weight,
-      "weight: writing: of the guidance force, 0 outside the constraint space", t.contact.arc,
-      "arc: writing: of the closest point from the start of the stroke [m]", t.attraction,
-      "attraction: force term (2,) [N]", t.wrong_way, "wrong_way: force term (2,) [N]", t.friction,
-      "friction: force term (2,) [N]", t.normal, "normal: force term, out of the page [N]", t.damping,
-      "damping: of the passivity controller (3,) [N]", t.assistance,
-      "assistance: share of the guidance that the assist policy gives", t.energy_given,
-      "energy_given: net, to the hand [J]", t.heat, "heat: of the motors; 1: that of the continuous force",
-      t.page_force, "page_force: sent, page axes (3,) [N]", t.force, "force: sent, device axes (3,) [N]");
+  columns.add(t.time, "time: sample time [s]", t.status, "status: TickStatus", t.state, "state: InteractionState",
+              t.events, "events: TickEvent flags", t.character,
+              "character: index of the active one; their number once all are written", t.stroke,
+              "stroke: index of the active stroke in the character", t.device_point,
+              "device_point: (3,), page frame [m]", t.pen_tip, "pen_tip: (3,), page frame [m]", t.penetration,
+              "penetration: of the device point into the paper [m]", t.contact.element,
+              "element: writing: index of the active element", t.contact.closest.parameter,
+              "parameter: writing: of the closest point on that element, in [0, 1]", t.contact.closest.point,
+              "closest: writing: closest point on the active element, (2,) [m]", t.contact.closest.distance,
+              "distance: writing: from the pen tip to the closest point [m]", t.contact.weight,
+              "weight: writing: of the guidance force, 0 outside the constraint space", t.contact.arc,
+              "arc: writing: of the closest point from the start of the stroke [m]", t.attraction,
+              "attraction: force term (2,) [N]", t.wrong_way, "wrong_way: force term (2,) [N]", t.friction,
+              "friction: force term (2,) [N]", t.normal, "normal: force term, out of the page [N]", t.damping,
+              "damping: by the passivity controller (3,) [N]", t.assistance,
+              "assistance: factor on the guidance, from the assist policy [1]", t.energy_given,
+              "energy_given: net energy delivered to the hand [J]", t.heat,
+              "heat: of the motors; 1: in equilibrium at the continuous force [1]", t.page_force,
+              "page_force: as sent, page axes (3,) [N]", t.force, "force: as sent, device axes (3,) [N]");
   module.attr("tick_dtype") = columns.dtype();
 
   py::class_<HapticRenderer>(
       module, "HapticRenderer", py::is_final(),
-      "Guides a pen through the characters of a page, stroke by stroke in the right order and direction. One renderer "
-      "per device and thread: one that a ServoLoop has for its law, or that another thread traces with, is refused "
-      "with an Error. update() costs about 0.5 us from Python, of which 0.1 us is the tick itself; trace() costs a "
-      "tick per sample. Raises InvalidValue naming an option, a character or its place.")
+      "Guides a pen through the characters of a page, stroke by stroke in the correct order and direction. Use one per "
+      "device and thread: one that a running ServoLoop or another thread uses raises Error. update() takes about 0.5 "
+      "us, trace() 0.1 us per sample. Raises InvalidValue naming the option, the character or its placement.")
       .def(py::init<std::vector<PlacedCharacter>, const MotionMapping&, const Capabilities&, const RendererOptions&>(),
            "page"_a, "mapping"_a, "capabilities"_a, "options"_a = RendererOptions{})
       .def(
           "update", [](HapticRenderer& self, const DeviceState& state) { return idle(self).update(state); }, "state"_a,
-          "Sample in, force out: `force` of the tick is for the device.")
+          "Processes one sample; write `force` of the result to the device.")
       .def("trace", &trace, "positions"_a, "times"_a = py::none(),
-           "Positions (N, 3) in device axes [m], one per tick, at increasing times (N,) [s] or else at the servo rate "
-           "from the last tick on; a structured array of N ticks (tick_dtype). The GIL is released. After a Ctrl-C the "
-           "renderer stands where it was interrupted: restart() it.")
+           "Processes positions (N, 3) in device axes [m], one per tick, at increasing times (N,) [s], by default at "
+           "the servo rate. Returns N ticks (tick_dtype). Releases the GIL. After Ctrl-C, call restart().")
       .def(
           "restart", [](HapticRenderer& self) { idle(self).restart(); },
-          "The page as new: nothing written, force zero at once.")
+          "Starts the page again: nothing written, force zero immediately.")
       .def_property_readonly(
           "last", [](const HapticRenderer& self) { return idle(self).last(); }, "the last HapticTick, copied")
       .def_property_readonly("options", &HapticRenderer::options, py::return_value_policy::copy,
-                             "as they are at work: clipped stiffnesses may be smaller than asked for")
-      .def_property_readonly("clipped", &HapticRenderer::clipped, "what was clipped, each with the reason")
+                             "effective options: clipped stiffnesses may be lower than requested")
+      .def_property_readonly("clipped", &HapticRenderer::clipped, "what was clipped, each with its reason")
       .def_property_readonly("mapping", &HapticRenderer::mapping, py::return_value_policy::copy,
                              "MotionMapping, copied")
       .def_property_readonly(
           "page", [](const HapticRenderer& self) { return std::vector<PlacedCharacter>(self.page()); },
           "list of PlacedCharacter, copied")
-      .def("max_force_step", &HapticRenderer::max_force_step, "From one tick to the next; infinite: not limited [N].")
+      .def("max_force_step", &HapticRenderer::max_force_step, "Maximum per tick; infinite: no limit [N].")
       .def("__repr__", [](const HapticRenderer& self) {
         return told("HapticRenderer(page of {} at {:g} Hz)", self.page().size(), self.options().servo_rate);
       });
 
-  add_struct<SampledLoop>(module, "SampledLoop", "A point mass held against a wall that is computed once a tick.",
+  add_struct<SampledLoop>(module, "SampledLoop", "A point mass held against a sampled virtual wall.",
                           &SampledLoop::device, "device: Capabilities", &SampledLoop::rate, "rate [Hz]",
                           &SampledLoop::wall_damping, "wall_damping [N s/m]", &SampledLoop::grip,
-                          "grip: Hand; by default nobody holds it");
+                          "grip: GripImpedance; by default nobody holds it");
   module.def("critical_stiffness", released(&critical_stiffness), "loop"_a,
-             "Smallest stiffness at which the linear motion no longer dies away [N/m].");
+             "Minimum stiffness at which the linear motion no longer decays [N/m].");
   module.def(
       "advise_stiffness",
       [](const SampledLoop& loop) {
@@ -222,11 +221,11 @@ void add_render(py::module_& module) {
                         "stable"_a = as_dict(advice.stable), "approximate"_a = as_dict(advice.approximate));
       },
       "loop"_a,
-      "How stiff a wall may be in this loop, by four bounds: `passive`, the wall never gives out energy; `quantised`, "
-      "nor can rounding sustain an oscillation; `stable`, the linear motion in this grip dies away below it; "
-      "`approximate`, a rule of thumb for `stable`. Of each the value [N/m], its formula and its validity, in words.");
+      "Bounds on the wall stiffness in this loop: `passive`, the wall generates no energy; `quantised`, the "
+      "quantisation of positions cannot sustain an oscillation either; `stable`, below it the linear motion in this "
+      "grip decays; `approximate`, a rule of thumb for `stable`. Each is a dict: value [N/m], formula and validity.");
   module.def("injectable_damping", released(&injectable_damping), "loop"_a,
-             "Largest damping that a passivity controller may inject [N s/m].");
+             "Maximum damping that a passivity controller may inject [N s/m].");
 }
 
 }  // namespace calligraphy::python

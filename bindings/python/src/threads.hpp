@@ -1,4 +1,4 @@
-// The GIL: functions of C++ that run without it, Ctrl-C meanwhile, and what another thread must not touch.
+// The GIL: C++ functions that run without it, Ctrl-C while they run, and protection from use by other threads.
 #pragma once
 
 #include <chrono>
@@ -22,7 +22,7 @@
 
 namespace calligraphy::python {
 
-/// Types whose objects Python cannot change once they are made; the arguments hold them for as long as a call lasts.
+/// Types whose objects are immutable in Python; the arguments keep them alive during a call.
 template <class Type>
 inline constexpr bool is_immutable = std::is_same_v<Type, Character> || std::is_same_v<Type, CharacterSet> ||
                                      std::is_same_v<Type, PenTrace> || std::is_same_v<Type, Recording>;
@@ -30,9 +30,9 @@ inline constexpr bool is_immutable = std::is_same_v<Type, Character> || std::is_
 template <class Argument, class Type = std::remove_cvref_t<Argument>>
 using Kept = std::conditional_t<is_immutable<Type>, const Type&, Type>;
 
-/// The function without the GIL. Its arguments are copied before the GIL is given away, as another thread may assign to
-/// what they are made of: a page's list of characters would be freed under the function's feet. py::call_guard would
-/// come too early: it gives the GIL away before even an argument by value is copied.
+/// Runs the function without the GIL. The arguments are copied before the GIL is released, because another thread may
+/// assign to their fields and so free, for example, a page's list of characters while the function reads it.
+/// py::call_guard would release the GIL too early, before arguments by value are copied.
 template <class Result, class... Arguments>
 auto released(Result (*function)(Arguments...)) {
   return [function](const std::remove_cvref_t<Arguments>&... given) -> Result {
@@ -42,11 +42,11 @@ auto released(Result (*function)(Arguments...)) {
   };
 }
 
-/// Lets Python see its signals now and then while C++ works without the GIL: Ctrl-C then raises KeyboardInterrupt from
-/// within the call. Python handles signals in its main thread alone; in any other one nothing happens.
+/// Lets Python handle signals from time to time while C++ runs without the GIL: Ctrl-C then raises KeyboardInterrupt
+/// from within the call. Python handles signals only in its main thread; in any other, this has no effect.
 class Interrupt {
  public:
-  /// Costs a look at the clock; the GIL, which is not held, every 50 ms. @throws error_already_set of the handler
+  /// Reads the clock, and acquires the GIL every 50 ms; call without the GIL. @throws error_already_set of the handler
   void check() {
     const auto now = std::chrono::steady_clock::now();
     if (now < next_) return;
@@ -60,9 +60,9 @@ class Interrupt {
   std::chrono::steady_clock::time_point next_ = std::chrono::steady_clock::now() + interval;
 };
 
-using Progress = std::optional<std::function<void(double)>>;  ///< called now and then with the share that is done
+using Progress = std::optional<std::function<void(double)>>;  ///< called from time to time with the share completed
 
-/// A progress function that also looks for Ctrl-C.
+/// A progress function that also checks for Ctrl-C.
 inline std::function<void(double)> interruptible(const Progress& progress) {
   return [interrupt = Interrupt(), progress](double share) mutable {
     interrupt.check();
@@ -70,7 +70,7 @@ inline std::function<void(double)> interruptible(const Progress& progress) {
   };
 }
 
-/// Within a force law, which runs in the loop's own thread, everything that loops use may be used.
+/// Marks that this thread is inside a force law, where whatever running loops use may be used.
 class InLaw {
  public:
   explicit InLaw(const void* law) noexcept : law_(law), outer_(std::exchange(innermost, this)) {}
@@ -79,7 +79,7 @@ class InLaw {
   InLaw& operator=(const InLaw&) = delete;
 
   static bool here() noexcept { return innermost != nullptr; }
-  /// Within this one, also where it has called another.
+  /// Whether this thread is inside this law, also if the law has called another.
   static bool here(const void* law) noexcept {
     const InLaw* each = innermost;
     while (each != nullptr && each->law_ != law) each = each->outer_;
@@ -87,23 +87,23 @@ class InLaw {
   }
 
  private:
-  static inline thread_local const InLaw* innermost = nullptr;  ///< law that this thread is within
+  static inline thread_local const InLaw* innermost = nullptr;  ///< law that this thread is inside
 
   const void* law_;
   const InLaw* outer_;
 };
 
-/// While it lives the device and the renderer, either of which may be none, belong to a loop or to one call that has
-/// given the GIL away. Whoever else asks is refused by idle(), where C++ would race. Under the GIL.
+/// During its lifetime the device and the renderer, either of which may be null, belong to a loop or to one call that
+/// has released the GIL. idle() refuses any other use, which would be a data race. Requires the GIL.
 class AtWork {
  public:
   enum class User { loop, call };
 
-  /// @throws Error when one of them is in use already
+  /// @throws Error when one of them is already in use
   explicit AtWork(User user, const HapticDevice* device, const HapticRenderer* renderer = nullptr) {
     refuse(device, "device");
     refuse(renderer, "renderer");
-    // What the loop of the calling force law has already stays the loop's.
+    // What the calling force law's loop already owns remains the loop's.
     device_ = device != nullptr && busy.emplace(device, user).second ? device : nullptr;
     renderer_ = renderer != nullptr && busy.emplace(renderer, user).second ? renderer : nullptr;
   }
@@ -114,18 +114,18 @@ class AtWork {
   AtWork(const AtWork&) = delete;
   AtWork& operator=(const AtWork&) = delete;
 
-  /// @throws Error when it is in use, and not by the loop whose force law calls
+  /// @throws Error when it is in use, except by a loop if called from a force law
   static void refuse(const void* thing, const char* what) {
     const auto found = busy.empty() ? busy.end() : busy.find(thing);
     if (found == busy.end() || (found->second == User::loop && InLaw::here())) return;
     throw Error(std::string("the ") + what +
                 (found->second == User::loop
-                     ? " is at work in a running loop: use it from the force law, or stop the loop"
+                     ? " is in use by a running loop: use it from the force law, or stop the loop first"
                      : " is in use by another thread: use one per thread, or take turns"));
   }
 
  private:
-  static inline std::map<const void*, User> busy;  ///< under the GIL
+  static inline std::map<const void*, User> busy;  ///< protected by the GIL
 
   const HapticDevice* device_;
   const HapticRenderer* renderer_;
@@ -142,7 +142,7 @@ Thing& idle(Thing& thing) {
   return thing;
 }
 
-/// A member function of a device or renderer that is not in use by others, vectors as arrays.
+/// A member function of a device or renderer that is not in use by others; returns vectors as arrays.
 template <class Class, class Result, class... Arguments>
 auto when_idle(Result (Class::*function)(Arguments...) const) {
   return
@@ -153,12 +153,12 @@ auto when_idle(void (Class::*function)(Arguments...)) {
   return [function](Class& self, Arguments... arguments) { (idle(self).*function)(arguments...); };
 }
 
-/// In a thread of C++, before it takes the GIL: what Python keeps of the thread is kept until the thread ends. Made
-/// anew in every tick it costs some 30 us. Whoever joins such a thread must not hold the GIL.
+/// Call in a C++ thread before it acquires the GIL: keeps Python's state of the thread until the thread ends, because
+/// creating it anew takes about 30 us per tick. Do not join such a thread while holding the GIL.
 inline void keep_thread_state() {
   struct KeptState {
     KeptState() {
-      if (PyGILState_GetThisThreadState() != nullptr) return;  // a thread of Python
+      if (PyGILState_GetThisThreadState() != nullptr) return;  // a Python thread
       lock = PyGILState_Ensure();
       state = PyEval_SaveThread();
     }

@@ -28,7 +28,7 @@ def test_members_are_found_kept_and_copied(kind):
 
 def test_what_is_no_member_is_refused():
     for given in (7, -1, 1000, 2**80, None, "force", 0.5):
-        with pytest.raises(ValueError, match="is not a valid Mode"):
+        with pytest.raises(ValueError, match="is not a valid FeedbackMode"):
             cal.FeedbackMode(given)
     with pytest.raises(KeyError):
         cal.FeedbackMode["blind"]

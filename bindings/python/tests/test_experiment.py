@@ -232,31 +232,31 @@ def test_a_writer_of_ones_own():
         ({"writers": ["master"]}, "writers"),
         ({"rate": [0.0]}, "rate"),
         ({"tolerance": [float("nan")]}, "tolerance"),
-        ({"stiffness": ["600"]}, "stiffness: a positive number is expected, not '600'"),
-        ({"seeds": [1, 1.7]}, "seeds: a whole number is expected, not 1.7"),
-        ({"seeds": 2.0}, "seeds: a whole number is expected, not 2.0"),
-        ({"seeds": "12"}, "seeds: a whole number is expected, not '1'"),
+        ({"stiffness": ["600"]}, "stiffness: expected a positive number, got '600'"),
+        ({"seeds": [1, 1.7]}, "seeds: expected an integer, got 1.7"),
+        ({"seeds": 2.0}, "seeds: expected an integer, got 2.0"),
+        ({"seeds": "12"}, "seeds: expected an integer, got '1'"),
         ({"seeds": -2}, "seeds: -2 is not in"),
         ({"seeds": [-1]}, "seeds: -1 is not in"),
         ({"seeds": [2**64]}, "seeds: 18446744073709551616 is not in"),
-        ({"seeds": [3, 1, 3]}, "seeds: 3 stands there twice"),
-        ({"seeds": None}, "seeds: a whole number is expected, not None"),
-        ({"stiffness": 600.0}, "stiffness: a list is expected, not 600.0"),
-        ({"stiffness": [None]}, "stiffness: a positive number is expected, not None"),
-        ({"stiffness": [[600.0]]}, "stiffness: a positive number is expected, not .*600"),
-        ({"stiffness": [600, 300.0, 600.0]}, "stiffness: 600.0 stands there twice"),
-        ({"rate": [1000 + 0j]}, "rate: a positive number is expected"),
-        ({"rate": None}, "rate: a list is expected, not None"),
-        ({"modes": "force"}, "modes: a list is expected, not 'force'"),
-        ({"modes": [["force"]]}, "modes: one of vision, force is expected"),
-        ({"modes": ["force", cal.FeedbackMode.force]}, "modes: 'force' stands there twice"),
-        ({"modes": [cal.NearestPointMethod.exact]}, "modes: one of"),
-        ({"writers": "novice"}, "writers: a list is expected, not 'novice'"),
-        ({"writers": {"mine": "novice"}}, "writers: a WriterSkill is expected, not 'novice'"),
-        ({"writers": {1: cal.WriterSkill.novice()}}, "writers: a str is expected, not 1"),
-        ({"device": 7}, "device: a Capabilities is expected, not 7"),
-        ({"options": "default"}, "options: a RendererOptions is expected, not 'default'"),
-        ({"character_timeout": -1.0}, "character_timeout: a positive number is expected, not -1.0"),
+        ({"seeds": [3, 1, 3]}, "seeds: 3 occurs twice"),
+        ({"seeds": None}, "seeds: expected an integer, got None"),
+        ({"stiffness": 600.0}, "stiffness: expected a list, got 600.0"),
+        ({"stiffness": [None]}, "stiffness: expected a positive number, got None"),
+        ({"stiffness": [[600.0]]}, "stiffness: expected a positive number, got .*600"),
+        ({"stiffness": [600, 300.0, 600.0]}, "stiffness: 600.0 occurs twice"),
+        ({"rate": [1000 + 0j]}, "rate: expected a positive number"),
+        ({"rate": None}, "rate: expected a list, got None"),
+        ({"modes": "force"}, "modes: expected a list, got 'force'"),
+        ({"modes": [["force"]]}, "modes: expected one of vision, force"),
+        ({"modes": ["force", cal.FeedbackMode.force]}, "modes: 'force' occurs twice"),
+        ({"modes": [cal.NearestPointMethod.exact]}, "modes: expected one of"),
+        ({"writers": "novice"}, "writers: expected a list, got 'novice'"),
+        ({"writers": {"mine": "novice"}}, "writers: expected a WriterSkill, got 'novice'"),
+        ({"writers": {1: cal.WriterSkill.novice()}}, "writers: expected a str, got 1"),
+        ({"device": 7}, "device: expected a Capabilities, got 7"),
+        ({"options": "default"}, "options: expected a RendererOptions, got 'default'"),
+        ({"character_timeout": -1.0}, "character_timeout: expected a positive number, got -1.0"),
     ],
 )
 def test_what_a_grid_cannot_be_is_refused_by_name(axes, name):
@@ -267,10 +267,10 @@ def test_what_a_grid_cannot_be_is_refused_by_name(axes, name):
 @pytest.mark.parametrize(
     "characters, what",
     [
-        ("龘", "there is no '龘'"),
-        ("永永", "'永' stands there twice"),
-        ([7], "a str is expected, not 7"),
-        (7, "a list is expected, not 7"),
+        ("龘", "'龘' is not in the set"),
+        ("永永", "'永' occurs twice"),
+        ([7], "expected a str, got 7"),
+        (7, "expected a list, got 7"),
     ],
 )
 def test_what_the_characters_of_a_grid_cannot_be_is_told(characters, what):
@@ -450,14 +450,14 @@ def test_characters_come_from_the_source_given():
     mine = cal.CharacterList([cal.with_quartic_curves(cal.built_in_characters()["人"])])
     for source in (mine, cal.CharacterSet(mine)):
         assert experiment.Grid("人", source=source).characters["人"].curve_degree == 4
-        with pytest.raises(cal.InvalidValue, match="there is no '一'"):
+        with pytest.raises(cal.InvalidValue, match="'一' is not in the set"):
             experiment.Grid("一", source=source)
 
 
 @pytest.mark.parametrize("name", ["stiffness", "rate", "tolerance"])
 @pytest.mark.parametrize("value", [0.0, -1.0, float("nan"), float("inf")])
 def test_numbers_that_are_none_are_refused_by_name(name, value):
-    with pytest.raises(cal.InvalidValue, match=f"{name}: a positive number is expected"):
+    with pytest.raises(cal.InvalidValue, match=f"{name}: expected a positive number"):
         grid(**{name: [1.0, value]})
 
 

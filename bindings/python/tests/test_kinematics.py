@@ -113,11 +113,11 @@ def test_one_set_of_joints_is_answered_as_many_are(name):
         assert np.array_equal(call(arm, row.tolist()), answer)
     assert np.array_equal(call(arm, np.repeat(rows, 2, axis=0)[::2]), many)
     for wrong in (np.zeros(4), np.zeros((2, 2)), np.zeros((1, 1, 3)), 1.0):
-        with pytest.raises(cal.InvalidValue, match=r"shape \(n, 3\) is expected"):
+        with pytest.raises(cal.InvalidValue, match=r"expected shape \(n, 3\), got"):
             call(arm, wrong)
 
 
 def test_forces_that_do_not_fit_the_joints_are_refused():
     for joints, force in ((JOINTS, np.zeros(3)), (JOINTS[0], np.zeros((1, 3))), (JOINTS, np.zeros((7, 3)))):
-        with pytest.raises(cal.InvalidValue, match=r"force: shape \(.*\) of the joints is expected, not \("):
+        with pytest.raises(cal.InvalidValue, match=r"force: expected shape \(.*\) of the joints, got \("):
             cal.joint_torque(cal.linkage("omni"), joints, force)

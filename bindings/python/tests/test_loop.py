@@ -120,7 +120,7 @@ def test_an_answer_that_is_no_force_is_an_error_of_the_law(monkeypatch):
     for tick in range(3):
         servo.step(tick * 1e-3)
     assert len(told) == 1 and servo.errors == 3
-    assert isinstance(servo.error, ValueError) and str(servo.error) == "force: shape (3,) is expected, not (2,)"
+    assert isinstance(servo.error, ValueError) and str(servo.error) == "force: expected shape (3,), got (2,)"
 
 
 @pytest.mark.parametrize("kind", [KeyboardInterrupt, SystemExit])
@@ -207,7 +207,7 @@ def test_a_device_of_ones_own_that_fails_is_a_fault_not_a_crash(kind, monkeypatc
         servo.step(tick * 1e-3)
     assert servo.status.fault == cal.DeviceFault.device_error
     if kind == "wrong type":
-        assert words == ["read() returned 'nothing', a calligraphy.DeviceState is expected"]
+        assert words == ["read() returned 'nothing', expected a calligraphy.DeviceState"]
     assert len(told) == (2 if kind == "missing" else 1)  # once each method, until it works again
 
 
@@ -325,7 +325,7 @@ def test_a_servo_is_stepped_by_one_at_a_time():
     servo = cal.Servo(cal.SimulatedDevice(PROFILE), law)
     servo.step(0.0)
     servo.step(1e-3)
-    assert len(refused) == 2 and "within a tick" in refused[0] and servo.statistics["ticks"] == 2
+    assert len(refused) == 2 and "already inside a tick" in refused[0] and servo.statistics["ticks"] == 2
 
 
 def test_methods_that_c_plus_plus_would_not_call_cannot_be_overridden():

@@ -295,7 +295,7 @@ def test_a_recording_keeps_its_rate_and_takes_rows_of_rows_alone():
     rows = np.zeros(3, dtype=cal.sample_dtype)
     assert cal.Recording(250.0, rows).rate == 250.0 and len(cal.Recording(250.0, rows[::2])) == 2
     assert len(cal.Recording(250.0, rows[:0])) == 0
-    with pytest.raises(cal.InvalidValue, match=r"samples: shape \(n,\) is expected, not \(3, 1\)"):
+    with pytest.raises(cal.InvalidValue, match=r"samples: expected shape \(n,\), got \(3, 1\)"):
         cal.Recording(250.0, rows[:, None])
     rows["status"][1] = 77
     with pytest.raises(cal.InvalidValue, match=r"samples\[1\].*status 77"):

@@ -187,7 +187,7 @@ def test_what_a_running_loop_uses_is_refused_to_others():
             lambda: cal.ServoLoop(cal.PointerDevice(PROFILE), renderer, options()).start(),
             lambda: cal.write_with_device(one_page(), device),
         ):
-            with pytest.raises(cal.Error, match="at work in a running loop"):
+            with pytest.raises(cal.Error, match="in use by a running loop"):
                 forbidden()
         device.move(0.01, 0.0, 0.5)  # from any thread
         assert device.capabilities().model == PROFILE.model
@@ -259,9 +259,9 @@ def test_bad_options_and_a_second_start_are_refused():
     with pytest.raises(TypeError):
         cal.ServoLoop(Bench(), 3.0)
     with cal.ServoLoop(Bench(), wall, options()) as loop:
-        with pytest.raises(cal.InvalidValue, match="runs already"):
+        with pytest.raises(cal.InvalidValue, match="already running: stop it"):
             loop.start()
-    with pytest.raises(cal.InvalidValue, match=r"paper: shape \(4, 4\) is expected, not \(3, 3\)"):
+    with pytest.raises(cal.InvalidValue, match=r"paper: expected shape \(4, 4\), got \(3, 3\)"):
         cal.PointerOptions(paper=np.zeros((3, 3)))
     with pytest.raises(cal.InvalidValue, match="rotation"):
         cal.PointerDevice(PROFILE, options=cal.PointerOptions(paper=np.diag([2.0, 1.0, 1.0, 1.0])))
@@ -362,7 +362,7 @@ def test_a_servo_is_not_stepped_on_the_device_of_a_running_loop():
     device = cal.PointerDevice(cal.device_profile("desktop"))
     servo = cal.Servo(device, lambda state: (0, 0, 0))
     with cal.ServoLoop(device, lambda state: (0, 0, 0)):
-        with pytest.raises(cal.Error, match="at work"):
+        with pytest.raises(cal.Error, match="in use by a running loop"):
             servo.step(0.0)
     servo.step(0.0)
 
