@@ -131,7 +131,7 @@ py::array captured(const PluggedDevice& device, std::size_t transfers, double se
                    const std::optional<std::filesystem::path>& path) {
   const auto capture_all =
       +[](const PluggedDevice& from, const CaptureOptions& options, const std::optional<std::filesystem::path>& file) {
-        PacketCapture result = capture(from, options);
+        PacketCapture result = capture_packets(from, options);
         if (file) {
           std::ostringstream out;
           write_packet_capture(out, result);
