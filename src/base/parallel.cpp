@@ -24,7 +24,7 @@ class Queue {
       try {
         work_(i);
         const std::size_t done = ++done_;
-        if (progress) progress(static_cast<double>(done) / static_cast<double>(count_));
+        if (progress && done < count_) progress(static_cast<double>(done) / static_cast<double>(count_));
       } catch (...) {
         record(i, std::current_exception());
       }
@@ -93,6 +93,7 @@ void parallel_for(std::size_t count, int threads, const std::function<void(doubl
   queue.run(progress);
   others.join();
   queue.rethrow();
+  if (progress && count > 0) progress(1.0);  // by whichever thread the last index was
 }
 
 }  // namespace calligraphy

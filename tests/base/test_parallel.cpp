@@ -1,4 +1,5 @@
 // parallel_for: every index, errors and progress.
+#include <algorithm>
 #include <atomic>
 #include <stdexcept>
 #include <string>
@@ -51,10 +52,26 @@ TEST_CASE("an exception from progress is rethrown and stops every thread", "[pra
   CHECK(calls < 1'000'000);
 }
 
-TEST_CASE("progress increases, comes only from the calling thread, and reaches the end with one thread", "[practice]") {
+TEST_CASE("progress increases, comes only from the calling thread, and reaches the end", "[practice]") {
   std::vector<double> shares;
   parallel_for(
       10, 1, [&](double share) { shares.push_back(share); }, [](std::size_t) {});
   REQUIRE(shares.size() == 10);
   for (std::size_t i = 0; i < shares.size(); ++i) CHECK(shares[i] == Approx(static_cast<double>(i + 1) / 10.0));
+
+  for (int repeat = 0; repeat < 200; ++repeat) {
+    shares.clear();
+    bool is_caller = true;
+    const std::thread::id caller = std::this_thread::get_id();
+    parallel_for(
+        8, 4,
+        [&](double share) {
+          shares.push_back(share);
+          is_caller = is_caller && std::this_thread::get_id() == caller;
+        },
+        [](std::size_t) { std::this_thread::yield(); });
+    REQUIRE(is_caller);
+    REQUIRE(std::is_sorted(shares.begin(), shares.end()));
+    REQUIRE(shares.back() == 1.0);  // whichever thread was the last
+  }
 }

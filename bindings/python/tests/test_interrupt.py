@@ -68,7 +68,7 @@ def long_trace():
 def long_replay():
     state = cal.DeviceState
     down = np.array([0.0, 0.0, -1e-3])
-    return cal.ReplayDevice([state(time=i * 1e-3, position=down) for i in range(200_000)], PROFILE)
+    return cal.ReplayDevice([state(time=i * 1e-3, position=down) for i in range(600_000)], PROFILE)
 
 
 def drawings(tmp_path, count=1000):
@@ -112,7 +112,7 @@ def test_ctrl_c_ends_a_long_call_before_its_work_is_done(name, ctrl_c, tmp_path)
 def test_a_call_with_no_progress_to_tell_looks_for_signals_while_it_works():
     seen = []
     before = signal.signal(signal.SIGALRM, lambda *_: seen.append(1))
-    points = np.random.default_rng(1).normal(size=(1_000_000, 2))
+    points = np.random.default_rng(1).normal(size=(4_000_000, 2))
     try:
         signal.setitimer(signal.ITIMER_REAL, 0.01, 0.01)
         result = cal.nearest_point([[0, 0], [1, 2], [2, -1], [3, 0], [4, 4]], points, tolerance=1e-12)

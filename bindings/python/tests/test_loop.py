@@ -390,7 +390,7 @@ def test_a_whole_trace_is_what_single_ticks_are():
     assert events & cal.TickEvent.page_finished and not events & cal.TickEvent.stroke_abandoned
     at_the_rate = renderer().trace([s.position for s in states])
     assert np.allclose(np.diff(at_the_rate["time"]), 1e-3)
-    with pytest.raises(cal.InvalidValue, match="times: shape"):
+    with pytest.raises(cal.InvalidValue, match="times: expected shape"):
         whole.trace(np.zeros((3, 3)), np.zeros(2))
     assert len(whole.trace(np.zeros((0, 3)))) == 0
 

@@ -127,7 +127,7 @@ with cal.ServoLoop(device, law, options.servo) as loop:
 print(json.dumps([len(asked), loop.statistics["ticks"], refused, device.joints.tolist()]))
 """)
     asked, ticks, refused, joints = told
-    assert 300 <= asked <= ticks and "at work" in refused and len(joints) == 3
+    assert 300 <= asked <= ticks and "in use" in refused and len(joints) == 3
 
 
 def test_a_phantom_is_opened_as_asked(tmp_path):
@@ -197,7 +197,7 @@ print(json.dumps([
     assert f"idVendor 0x{ids[:4]}" in descriptors or ids[:4] in descriptors
     assert len(times) == len(packets) == 50
     assert times == sorted(times) and times[0] >= 0.0 and asked == 3 and pressed
-    assert len(refused) == 2 and all("a capture of 0" in each for each in refused)
+    assert len(refused) == 2 and all("capture: " in each and " = 0" in each for each in refused)
     written = (tmp_path / "capture.txt").read_text().splitlines()
     assert written[1] == f"# {ids} on bus 1, port 2, serial 540-12345"
     lines = [line.split(" ", 1) for line in written if not line.startswith("#")]
