@@ -14,7 +14,7 @@ def wall(state: cal.DeviceState) -> tuple[float, float, float]:
 
 
 def simulate(grip: cal.GripImpedance, target: tuple[float, float, float]) -> tuple[np.ndarray, float]:
-    """Position after two seconds at 1 kHz, in a hand that aims at `target` [m], and the maximum force [N]."""
+    """Position after two seconds at 1 kHz, held by a hand with the intended position `target` [m], and the maximum force [N]."""
     device = cal.SimulatedDevice(DESKTOP, grip, (0.0, 0.0, 0.01))
     device.set_intention(cal.Intention(position=target))
     servo = cal.Servo(device, wall)
@@ -28,11 +28,11 @@ def simulate(grip: cal.GripImpedance, target: tuple[float, float, float]) -> tup
 
 def test_a_pressed_pen_comes_to_rest_where_hand_and_wall_balance() -> None:
     position, max_force = simulate(cal.GripImpedance(mass=0.15, damping=5.0, stiffness=500.0), (0.0, 0.0, -0.005))
-    # Two springs; dry friction holds the pen nearby.
+    # Equilibrium of two springs; dry friction holds the pen nearby.
     assert position[2] == pytest.approx(-0.005 * 500.0 / (500.0 + 800.0), abs=2e-4)
     assert max_force < DESKTOP.peak_force
 
 
-def test_above_the_wall_nothing_is_felt() -> None:
+def test_there_is_no_force_above_the_wall() -> None:
     _, max_force = simulate(cal.GripImpedance(mass=0.1, damping=3.0, stiffness=300.0), (0.02, 0.0, 0.01))
     assert max_force == 0.0

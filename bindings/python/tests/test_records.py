@@ -265,7 +265,7 @@ def test_a_record_of_much_says_how_much():
     assert "attraction_factors=[0.0, 1.0, 2.0, ... 50 in all]" in repr(strokes)
     assert "attraction_factors=[0.0, 1.0])" in repr(cal.StrokeInput(1, [[0, 0], [1, 1]], [0.0, 1.0]))
     licence = repr(cal.Provenance(licence_text="word " * 1000))
-    assert "licence_text='word word" in licence and "... 5000 letters in all" in licence and len(licence) < 200
+    assert "licence_text='word word" in licence and "... 5000 characters in all" in licence and len(licence) < 200
     score = repr(cal.CharacterScore(character="永", mistakes=[cal.WritingMistake(reason="x")]))
     assert score.startswith("CharacterScore(character='永', time=0.0") and "mistakes=[WritingMistake(kind=" in score
 
