@@ -1,5 +1,5 @@
 # calligraphy_component(name [EXPORT set] [FOLDER folder] [SUBFOLDERS ...] [SOURCES ...] [WITHOUT ...] DEPENDS ...
-# [NEEDS package ...]): defines a component as the target calligraphy::name, from all source files in src/folder (default
+# [NEEDS package ...]): a component as the target calligraphy::name, from the source files in src/folder (default
 # src/name) and its SUBFOLDERS except WITHOUT, plus the generated SOURCES. DEPENDS: components, and libraries that all
 # components need. NEEDS: packages that a user of an installed copy must have to link the target.
 function(calligraphy_component name)
