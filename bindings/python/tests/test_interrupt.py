@@ -109,7 +109,7 @@ def test_ctrl_c_ends_a_long_call_before_its_work_is_done(name, ctrl_c, tmp_path)
     assert sorted(shares) == shares
 
 
-def test_a_call_with_no_progress_to_tell_looks_for_signals_while_it_works():
+def test_a_call_without_progress_checks_for_signals_while_it_runs():
     seen = []
     before = signal.signal(signal.SIGALRM, lambda *_: seen.append(1))
     points = np.random.default_rng(1).normal(size=(1_000_000, 2))
@@ -128,7 +128,7 @@ def a_renderer():
     return cal.HapticRenderer(long_page(1).characters, cal.MotionMapping(), PROFILE)
 
 
-def test_ctrl_c_ends_a_field_of_many_places():
+def test_ctrl_c_ends_a_large_force_field():
     class Pressed(Exception):
         pass
 
@@ -149,7 +149,7 @@ def test_ctrl_c_ends_a_field_of_many_places():
         signal.signal(signal.SIGALRM, before)
 
 
-def test_ctrl_c_ends_a_long_trace_after_which_the_renderer_begins_anew():
+def test_after_ctrl_c_in_a_long_trace_the_renderer_can_be_restarted():
     positions = np.tile([0.0, 0.0, -1e-3], (600_000, 1))
     renderer = a_renderer()
     expected = renderer.trace(positions[:100])
@@ -171,7 +171,7 @@ def test_ctrl_c_ends_a_long_trace_after_which_the_renderer_begins_anew():
     assert (renderer.trace(positions[:100]) == expected).all()
 
 
-def test_what_a_signal_s_handler_raises_is_raised():
+def test_an_exception_of_a_signal_handler_is_raised():
     class Enough(Exception):
         pass
 
@@ -188,7 +188,7 @@ def test_what_a_signal_s_handler_raises_is_raised():
         signal.signal(signal.SIGALRM, before)
 
 
-def test_what_progress_raises_ends_the_call():
+def test_an_exception_of_the_progress_callback_ends_the_call():
     def progress(share):
         if share > 0.1:
             raise LookupError("enough")
@@ -202,7 +202,7 @@ def test_what_progress_raises_ends_the_call():
             call()
 
 
-def test_progress_goes_to_the_end_and_changes_nothing():
+def test_progress_reaches_one_and_does_not_change_the_result():
     page = long_page(1)
     shares = []
     told = cal.write_page(page, session(seed=4), shares.append)
@@ -213,7 +213,7 @@ def test_progress_goes_to_the_end_and_changes_nothing():
     assert shares[-1] == pytest.approx(1.0) and rows["bits"].tolist() == list(range(4, 17))
 
 
-def test_in_another_thread_a_long_call_goes_on_whatever_is_pressed():
+def test_ctrl_c_does_not_interrupt_a_long_call_in_another_thread():
     done = []
     page = long_page(2)
     thread = threading.Thread(target=lambda: done.append(cal.write_page(page, session())))
@@ -232,7 +232,7 @@ def test_ctrl_c_ends_an_experiment():
         experiment.run(grid, progress=False)
 
 
-def test_ctrl_c_while_a_person_writes_lets_the_force_fall_and_keeps_what_was_written(ctrl_c):
+def test_ctrl_c_during_a_live_session_removes_the_force_and_keeps_the_recording(ctrl_c):
     page = cal.lay_out(characters())[0]
     device = cal.PointerDevice(PROFILE)
     views = []
@@ -248,7 +248,7 @@ def test_ctrl_c_while_a_person_writes_lets_the_force_fall_and_keeps_what_was_wri
     assert device.read().status == cal.DeviceStatus.ok  # no loop has it any more, and it is open
 
 
-def test_ctrl_c_ends_a_loop_by_its_with_block(ctrl_c):
+def test_ctrl_c_in_a_with_block_stops_the_loop(ctrl_c):
     seen = []
     ctrl_c(seen)
     loop = cal.ServoLoop(cal.PointerDevice(PROFILE), lambda state: (seen.append(1), (0.0, 0.0, 0.0))[1])

@@ -87,12 +87,12 @@ print(json.dumps({
 
 
 @pytest.mark.parametrize("priority", [-1, 100])
-def test_a_priority_that_is_none_is_named(priority):
+def test_an_invalid_priority_is_named(priority):
     with pytest.raises(cal.InvalidValue, match=f"priority = {priority}, must be from 1 to 99, or 0"):
         cal.PhantomDevice(cal.PhantomOptions(priority=priority))
 
 
-def test_ctrl_c_lets_go_of_a_phantom_and_keeps_what_was_written():
+def test_ctrl_c_releases_a_phantom_and_keeps_the_recording():
     told = on_a_phantom("""
 views = []
 def press():
@@ -130,7 +130,7 @@ print(json.dumps([len(asked), loop.statistics["ticks"], refused, device.joints.t
     assert 300 <= asked <= ticks and "at work" in refused and len(joints) == 3
 
 
-def test_a_phantom_is_opened_as_asked(tmp_path):
+def test_a_phantom_is_opened_with_the_given_options(tmp_path):
     shipped = pathlib.Path(__file__).parents[3] / "data" / "profiles" / "simulated.txt"
     lines = shipped.read_text().splitlines(keepends=True)
     (tmp_path / "no-torque").write_text("".join(line for line in lines if not line.startswith("torque-per-count")))
@@ -157,7 +157,7 @@ print(json.dumps(told))
 
 
 @pytest.mark.parametrize(("kind", "ids"), [("usb", "2988:0302"), ("hid", "2988:0304")])
-def test_what_a_phantom_says_of_itself_and_sends_is_captured(kind, ids, tmp_path):
+def test_descriptors_and_packets_of_a_phantom_are_captured(kind, ids, tmp_path):
     told = on_a_phantom(
         f"""
 device.close()

@@ -61,7 +61,7 @@ def forked(call):
 
 @forks
 @quiet
-def test_a_fork_does_what_its_parent_does():
+def test_a_fork_gives_the_same_results_as_its_parent():
     expected = work(1)  # also: whatever is made once is made before the fork
     assert forked(lambda: work(1)) == expected
     assert work(1) == expected
@@ -69,7 +69,7 @@ def test_a_fork_does_what_its_parent_does():
 
 @forks
 @quiet
-def test_a_fork_within_a_session_goes_on_by_itself():
+def test_a_fork_inside_a_session_continues_on_its_own():
     """Both processes have the renderer, the device and the open callback; both end the session."""
     options = cal.SessionOptions(device=PROFILE)
 
@@ -107,7 +107,7 @@ def test_a_fork_within_a_session_goes_on_by_itself():
 
 @forks
 @quiet
-def test_a_fork_while_another_thread_is_at_work():
+def test_a_fork_works_while_another_thread_is_busy():
     """The child has the forking thread alone; nothing of C++ waits for the other one."""
     stop = threading.Event()
 
@@ -126,13 +126,13 @@ def test_a_fork_while_another_thread_is_at_work():
 
 @pytest.mark.parametrize("method", multiprocessing.get_all_start_methods())
 @quiet
-def test_processes_of_every_kind_do_the_same(method):
+def test_every_start_method_of_processes_gives_the_same_results(method):
     context = multiprocessing.get_context(method)
     with concurrent.futures.ProcessPoolExecutor(1, mp_context=context) as pool:
         assert list(pool.map(work, [1, 2])) == [work(1), work(2)]
 
 
-def test_a_second_interpreter_of_the_same_process_is_refused():
+def test_a_second_interpreter_in_the_same_process_is_rejected():
     """Were it loaded there, it would wait forever for itself, or its errors would be of the wrong class."""
     code = """
 try:

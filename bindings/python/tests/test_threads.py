@@ -108,17 +108,17 @@ def released(tmp_path):
     }
 
 
-def test_the_gil_is_released_wherever_cpp_works_for_long(tmp_path):
+def test_the_gil_is_released_during_long_cpp_calls(tmp_path):
     kept = [name for name, call in released(tmp_path).items() if not others_run_while(call)]
     assert kept == []
 
 
-def test_the_gil_is_kept_where_giving_it_away_would_cost_more_than_the_call():
+def test_the_gil_is_kept_if_releasing_it_would_cost_more_than_the_call():
     element, few = cal.StrokeElement(CUBIC), np.zeros((8, 2))
     assert not others_run_while(lambda: cal.nearest_point(element, few))
 
 
-def test_several_renderers_in_several_threads_do_what_one_does():
+def test_renderers_in_several_threads_give_the_same_results_as_one():
     recording = cal.write_page(PAGE, OPTIONS)
     positions = [s.position for s in cal.device_states(recording, MAPPING)]
     expected = renderer().trace(positions)["force"]
@@ -134,7 +134,7 @@ def test_several_renderers_in_several_threads_do_what_one_does():
             assert np.array_equal(result, expected)
 
 
-def test_several_sessions_are_under_way_at_the_same_time():
+def test_several_sessions_run_concurrently():
     expected = cal.run_session(SHORT, OPTIONS, straight_down(lambda: None)).samples
     together = threading.Barrier(3)  # broken unless every session is in its middle
 
@@ -162,7 +162,7 @@ def straight_down(in_the_middle):
     return motion
 
 
-def test_a_renderer_is_used_by_one_thread_at_a_time():
+def test_a_renderer_can_be_used_by_only_one_thread_at_a_time():
     positions = np.tile([s.position for s in cal.device_states(RECORDING, MAPPING)], (150, 1))
     expected, shared, traced, refused = renderer().trace(positions), renderer(), [], []
     thread = threading.Thread(target=lambda: traced.append(shared.trace(positions)))
@@ -218,7 +218,7 @@ for name, (call, owner, full) in calls.items():
 """
 
 
-def test_what_a_call_works_on_may_be_assigned_to_by_another_thread(tmp_path):
+def test_another_thread_may_assign_to_the_arguments_of_a_running_call(tmp_path):
     """In a process of its own, as one that reads freed memory may end by a signal."""
     done = subprocess.run(
         [sys.executable, "-c", ASSIGNING, str(tmp_path / "written")], capture_output=True, text=True, env=FILLED, timeout=300
@@ -238,7 +238,7 @@ def test_one_set_of_characters_serves_several_threads():
 
 
 @pytest.mark.parametrize("where", ["session", "map", "tradeoff"])
-def test_what_a_callback_raises_comes_back_from_another_thread(where):
+def test_an_exception_of_a_callback_propagates_from_another_thread(where):
     def broken(*_):
         raise ZeroDivisionError(where)
 
