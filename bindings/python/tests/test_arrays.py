@@ -183,7 +183,7 @@ def test_arrays_outlive_their_owner():
     expected = [array.copy() for array in shape_and_factors()]
     kept = shape_and_factors()
     gc.collect()
-    for _ in range(100):  # whoever takes freed memory writes to it
+    for _ in range(100):  # reuse freed memory, to expose dangling views
         cal.built_in_characters()
     for array, copy in zip(kept, expected):
         assert np.array_equal(array, copy)
@@ -218,7 +218,7 @@ def character():
     ],
 )
 def test_a_view_keeps_its_owner_alive_and_then_releases_it(make, part):
-    """Memory that was freed mostly holds what it held: whether the owner lives is asked of Python itself."""
+    """Freed memory often keeps its contents, so this asks Python whether the owner is alive."""
     whole = make()
     owner, kept = weakref.ref(whole), part(whole)
     del whole
@@ -268,7 +268,7 @@ def felt(force):
     return device.last_force
 
 
-#: Whatever takes an array: the argument's name, an array that fits, and what comes of it. A length of None is any.
+#: All functions with array arguments: the argument's name, a valid array, and a call. A length of None is arbitrary.
 TAKERS = {
     "nearest_point": ("queries", (None, 2), lambda a: cal.nearest_point(CUBIC, a).point),
     "StrokeElement.point": ("t", (None,), lambda a: cal.StrokeElement(CUBIC).point(a)),
@@ -301,16 +301,16 @@ def expected_shape(shape):
 @given(st.data())
 def test_a_wrong_shape_is_rejected_naming_the_expected_and_the_given_one(name, data):
     argument, fits, call = TAKERS[name]
-    # Often one length too many, or one axis, as well as anything.
+    # Shapes off by one in length or number of axes, and arbitrary ones.
     near = [tuple(5 if n is None else n for n in fits)]
     near += [s[:i] + (s[i] + d,) + s[i + 1 :] for s in near for i in range(len(s)) if fits[i] for d in (-1, 1)]
     near = [*near[1:], near[0] + (1,), near[0][1:]]
     shape = data.draw(st.sampled_from(near) | hnp.array_shapes(min_dims=0, min_side=0))
     fitting = len(shape) == len(fits) and all(want in (None, got) for want, got in zip(fits, shape))
-    if fitting or (shape == (0,) and fits[0] is None):  # an empty list has no second length
+    if fitting or (shape == (0,) and fits[0] is None):  # an empty list has no second dimension
         return
     if name.startswith("StrokeElement") and shape == ():
-        return  # one parameter
+        return  # a single parameter is valid
     with pytest.raises(cal.InvalidValue) as refused:
         call(np.zeros(shape))
     told = str(refused.value)
@@ -321,7 +321,7 @@ def test_a_wrong_shape_is_rejected_naming_the_expected_and_the_given_one(name, d
 @settings(deadline=None, max_examples=6, derandomize=True, database=None)
 @given(st.data())
 def test_results_do_not_depend_on_how_an_argument_is_stored(name, data):
-    """Any strides, negative and zero ones, any alignment, byte order or type that holds the numbers."""
+    """Any strides, including negative and zero ones, alignment, byte order and dtype that represents the numbers."""
     _, fits, call = TAKERS[name]
     least = 0 if len(fits) > 1 else 1
     shape = tuple(data.draw(st.integers(least, 6)) if n is None else n for n in fits)
@@ -418,7 +418,7 @@ def test_a_scalar_of_any_type_is_one_parameter(t):
 @settings(deadline=None, max_examples=15, derandomize=True, database=None)
 @given(hnp.arrays(float, st.tuples(st.integers(0, 20), st.just(3)), elements=st.floats() | st.floats(-0.1, 0.1)))
 def test_the_force_is_finite_for_any_position(positions):
-    """NaN, infinite, huge and tiny ones."""
+    """Includes NaN, infinite, huge and tiny positions."""
     renderer = cal.HapticRenderer(PAGE.characters, UPRIGHT, CAPABILITIES)
     ticks = renderer.trace(positions)
     assert np.isfinite(ticks["force"]).all() and np.linalg.norm(ticks["force"], axis=1).max(initial=0) <= 7.9 + 1e-9
@@ -441,7 +441,7 @@ def test_huge_values_and_arrays_are_passed_unchanged():
     rows = np.zeros(200_000, dtype=cal.sample_dtype)
     rows["stroke"] = np.arange(200_000)
     assert cal.Recording(1000.0, rows).samples["stroke"][-1] == 199_999
-    for size in (1e20, 1e150):  # of a size whose square overflows nothing is promised, and nothing said
+    for size in (1e20, 1e150):  # nothing is specified for sizes whose square overflows
         found = cal.nearest_point([[-size, 0], [0, size], [size, 0]], [[0, size], [0, -size]])
         assert np.array_equal(found.certified, np.isfinite(found.distance)) and found.certified.all() == (size == 1e20)
 
@@ -467,7 +467,7 @@ def test_a_view_outlives_the_objects_it_came_from(view):
     kept = view()
     copy = kept.copy()
     gc.collect()
-    for _ in range(30):  # whoever takes freed memory writes to it
+    for _ in range(30):  # reuse freed memory, to expose dangling views
         view()
     np.full(100_000, 7.0)
     assert np.array_equal(kept, copy)

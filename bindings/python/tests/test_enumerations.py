@@ -1,4 +1,4 @@
-"""Enumerations are those of Python's enum: members and nothing else, by value and by name."""
+"""Enumerations are Python enums: members by value and by name, and no other values."""
 
 import copy
 import enum
@@ -32,7 +32,7 @@ def test_values_that_are_not_members_are_rejected():
             cal.FeedbackMode(given)
     with pytest.raises(KeyError):
         cal.FeedbackMode["blind"]
-    for other in (cal.WritingMistakeKind.order, 1, "force", None):  # a number is no member either
+    for other in (cal.WritingMistakeKind.order, 1, "force", None):  # numbers are rejected too
         with pytest.raises(TypeError):
             cal.SessionOptions(mode=other)
 

@@ -1,4 +1,4 @@
-"""The examples and the lines of README.md and docs/python.md do what they say."""
+"""The examples and the code blocks of README.md and docs/python.md run."""
 
 import json
 import os
@@ -22,7 +22,7 @@ EXAMPLES = {
 }
 PAGES = ["README.md", "docs/python.md"]
 
-#: Each program in a process of its own, forked from one that has imported what takes long; prints the exit codes.
+#: Runs each program in its own process, forked from one with the slow imports done; prints the exit codes.
 RUN_ALL = """
 import json, os, runpy, sys
 import calligraphy, matplotlib.pyplot, numpy, pandas
@@ -46,7 +46,7 @@ print(json.dumps(codes))
 
 @pytest.fixture(scope="module")
 def ended(tmp_path_factory):
-    """What all programs of examples and pages left: exit code, output and directory of each."""
+    """Results of all programs of examples and pages: exit code, output and directory of each."""
     for module in ("matplotlib", "pandas"):
         pytest.importorskip(module)
     programs = {name: str(ROOT / "examples" / "python" / f"{name}.py") for name in EXAMPLES}

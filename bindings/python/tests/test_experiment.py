@@ -1,4 +1,4 @@
-"""Experiments: the same table whatever runs the trials, in whatever order, and nothing lost."""
+"""Experiments: the table does not depend on the executor or the order of trials, and no trial is lost."""
 
 import concurrent.futures
 import concurrent.futures.process
@@ -33,7 +33,7 @@ def expected():
 
 
 class Shuffling(concurrent.futures.Executor):
-    """Does what it is given last first, once everything is there."""
+    """Runs all work in reverse order, once everything has been submitted."""
 
     def __init__(self):
         self.waiting = []
@@ -49,7 +49,7 @@ class Shuffling(concurrent.futures.Executor):
 
 
 class Failing(concurrent.futures.Executor):
-    """Every chunk's first attempts fail, as if its worker had died."""
+    """Fails the first attempts of every chunk, as if its worker had died."""
 
     def __init__(self, attempts):
         self.attempts = attempts
@@ -110,14 +110,14 @@ def test_an_invalid_option_is_not_retried():
 
 
 class _Cancelling(concurrent.futures.Executor):
-    """Takes work, and cancels what it has not begun: as a pool that somebody shuts down does."""
+    """Accepts work and cancels what has not started, like a pool that is shut down."""
 
     def __init__(self, shut):
         self.shut, self.count = shut, 0
 
     def submit(self, function, *arguments):
         self.count += 1
-        if self.shut and self.count > 4:  # all four chunks are on their way
+        if self.shut and self.count > 4:  # all four chunks have been submitted
             raise RuntimeError("cannot schedule new futures after shutdown")
         future = concurrent.futures.Future()
         if self.shut and self.count == 2:
@@ -156,7 +156,7 @@ def _die_once(path, real, *arguments):
 
 
 class _Deadly:
-    """An executor whose first worker is killed in the middle of its work."""
+    """An executor whose first worker is killed while it works."""
 
     def __init__(self, executor, path):
         self.executor, self.path = executor, path
@@ -165,7 +165,7 @@ class _Deadly:
         return self.executor.submit(_die_once, self.path, function, *arguments)
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="there is no SIGKILL here")
+@pytest.mark.skipif(sys.platform == "win32", reason="this system has no SIGKILL")
 def test_a_broken_process_pool_loses_nothing(expected, tmp_path):
     context = multiprocessing.get_context("spawn")
     with concurrent.futures.ProcessPoolExecutor(2, mp_context=context) as pool:
@@ -178,7 +178,7 @@ def test_dask_distributed_with_a_worker_killed_midway_loses_nothing(tmp_path):
     distributed = pytest.importorskip("distributed")
     import dask
 
-    # A worker that dies while it hands a result over keeps the others waiting for no longer.
+    # Limits how long the others wait for a worker that dies while transferring a result.
     dask.config.set({"distributed.comm.timeouts.connect": "10s"})
     large = grid(seeds=5, stiffness=[300.0, 600.0])
     expected = columns(experiment.run(large, progress=False))
@@ -190,7 +190,7 @@ def test_dask_distributed_with_a_worker_killed_midway_loses_nothing(tmp_path):
         done = []
 
         class Watching:
-            """Kills a worker, once, after the first chunks have come back."""
+            """Kills a worker, once, after the first chunks have completed."""
 
             def submit(self, function, *arguments):
                 future = executor.submit(function, *arguments)
@@ -295,7 +295,7 @@ def test_integers_of_any_type_are_accepted_as_seeds():
 
 
 def dtypes(table):
-    """Of columns; of text only that it is."""
+    """The dtypes of the columns; all text dtypes count as equal."""
     names = table.dtype.names if isinstance(table, np.ndarray) else table.columns
     kinds = {name: table[name].dtype for name in names}
     return {name: "text" if getattr(kind, "kind", "O") in "OUT" else kind for name, kind in kinds.items()}
@@ -379,7 +379,7 @@ def test_a_grid_survives_pickling():
 
 
 def by_hand(condition, device, renderer):
-    """The trial of a condition, written out."""
+    """The trial of a condition, computed step by step."""
     renderer = copy.deepcopy(renderer)
     renderer.servo_rate = condition.rate
     renderer.paper_stiffness = renderer.guidance_stiffness = condition.stiffness
@@ -406,7 +406,7 @@ def by_hand(condition, device, renderer):
 
 
 def test_a_trial_is_the_session_of_its_condition():
-    """One axis after the other leaves what is usual; each makes another trial, and the one that it should be."""
+    """Varies one axis at a time; each variation changes the trial as expected."""
     usual = {"writers": ["novice"], "modes": ["force"], "seeds": [1], "method": ["wang2006"], "rate": [1000.0]}
     others = [
         {}, {"seeds": [2]}, {"modes": ["vision"]}, {"writers": ["skilled"]}, {"stiffness": [200.0]},
@@ -478,7 +478,7 @@ def test_the_number_of_retries_is_as_requested(expected):
 
 
 class Cancelling(concurrent.futures.Executor):
-    """Cancels the first of every chunk, and never does what comes after a failure."""
+    """Cancels the first attempt of every chunk, and never runs what comes after a failure."""
 
     def __init__(self):
         self.seen, self.given = set(), []
@@ -500,7 +500,7 @@ def test_a_cancelled_chunk_is_submitted_again(expected):
 
 
 class Broken(concurrent.futures.Executor):
-    """A pool that breaks: at once, or when something is sent again."""
+    """A pool that breaks immediately or on resubmission."""
 
     def __init__(self, good, error):
         self.good, self.error = good, error
@@ -571,7 +571,7 @@ def test_rows_lost_by_an_executor_are_detected():
 
 @pytest.mark.parametrize("factor", [1.0, 1.7])
 def test_the_table_has_the_effective_stiffness(factor):
-    """What a renderer of the same page says of itself, to the last bit; it costs the trial no second one."""
+    """Bit-identical to the options of a renderer of the same page, without constructing a second one in the trial."""
     drawn = cal.built_in_characters()["人"]
     inputs = [
         cal.StrokeInput(stroke.type.id, stroke.control_points, [factor] * len(stroke.attraction_factors))

@@ -1,4 +1,4 @@
-"""Ctrl-C within the calls that take long, and their progress."""
+"""Ctrl-C during long calls, and their progress callbacks."""
 
 import os
 import signal
@@ -15,7 +15,7 @@ PROFILE = cal.device_profile("desktop")
 
 @pytest.fixture(autouse=True)
 def python_s_own_handler():
-    """A shell that runs the tests in the background has Ctrl-C ignored, and so would they."""
+    """Restores the default handler, because a shell ignores Ctrl-C for tests in the background."""
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     yield
     signal.signal(signal.SIGINT, before)
@@ -23,7 +23,7 @@ def python_s_own_handler():
 
 @pytest.fixture
 def ctrl_c():
-    """Presses it once something is in the list. Lists and their append() never look for signals themselves."""
+    """Sends Ctrl-C once the list has an element. Lists and append() never check for signals themselves."""
     threads, given_up = [], threading.Event()
 
     def press_when(seen):
@@ -120,7 +120,7 @@ def test_a_call_without_progress_checks_for_signals_while_it_runs():
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0)
         signal.signal(signal.SIGALRM, before)
-    assert during >= 3  # signals that come while nobody looks are one
+    assert during >= 3  # signals between two checks count as one
     assert result.certified.all()
 
 
@@ -134,7 +134,7 @@ def test_ctrl_c_ends_a_large_force_field():
 
     def press(*_):
         seen.append(1)
-        if len(seen) == 3:  # of the signals that come while nobody looks one is left when the call returns
+        if len(seen) == 3:  # after the call returns, one of the signals between two checks is still pending
             raise Pressed
 
     seen = []
@@ -245,7 +245,7 @@ def test_ctrl_c_during_a_live_session_removes_the_force_and_keeps_the_recording(
         cal.write_with_device(page, device, options, views.append)
     result = pressed.value.result
     assert len(result.recording) > 0 and result.statistics["ticks"] > 0
-    assert device.read().status == cal.DeviceStatus.ok  # no loop has it any more, and it is open
+    assert device.read().status == cal.DeviceStatus.ok  # no loop uses it, and it is still open
 
 
 def test_ctrl_c_in_a_with_block_stops_the_loop(ctrl_c):

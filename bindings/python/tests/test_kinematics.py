@@ -1,4 +1,4 @@
-"""The arm of a Phantom against its formulas, written out with NumPy."""
+"""Kinematics of a Phantom, compared with the formulas in NumPy."""
 
 import numpy as np
 import pytest
@@ -40,7 +40,7 @@ def test_linkages_have_the_published_dimensions():
     )
     with pytest.raises(cal.InvalidValue, match='"falcon".*omni'):
         cal.linkage("falcon")
-    omni.forearm = 1.0  # a copy: the library's own stays as it is
+    omni.forearm = 1.0  # a copy: does not change the library's linkage
     assert cal.linkage("omni").forearm == 0.13335
 
 
@@ -59,7 +59,7 @@ def test_tip_and_jacobian_agree_with_the_formulas(model):
 @pytest.mark.parametrize("model", MODELS)
 def test_inverse_kinematics_recovers_the_joints_and_reports_unreachable_positions(model):
     arm = cal.linkage(model)
-    before = JOINTS[reach(arm, JOINTS) > 0.01]  # behind the waist there is another solution
+    before = JOINTS[reach(arm, JOINTS) > 0.01]  # behind the waist there is a second solution
     joints, reachable = cal.inverse_kinematics(arm, cal.tip_position(arm, before))
     assert reachable.all() and reachable.dtype == bool and len(before) > 150
     assert np.allclose(joints, before, rtol=0, atol=1e-9)

@@ -34,7 +34,7 @@ def session(**fields):
 
 
 def wall(state):
-    """A wall below z = 0: spring and damper, and it never pulls [N]."""
+    """A wall below z = 0: spring and damper, without adhesion [N]."""
     depth = -state.position[2]
     return [0.0, 0.0, max(0.0, 800.0 * depth - 2.0 * state.velocity[2]) if depth > 0 else 0.0]
 
@@ -140,12 +140,12 @@ def test_an_exception_that_ends_the_program_is_raised_by_the_step_of_its_law(kin
             steps.append(tick)
     assert steps == [0, 1] and servo.status.fault == cal.DeviceFault.bad_force
     steps.append(None)
-    servo.step(0.01)  # the next tick is one like any other
+    servo.step(0.01)  # the next tick is a normal one
     assert servo.errors == 1
 
 
 class Recorder(cal.HapticDevice):
-    """A device written in Python: a mass that nobody holds, and what it was told."""
+    """A device written in Python: a free mass that records its commands."""
 
     def __init__(self):
         super().__init__()
@@ -208,7 +208,7 @@ def test_failure_of_your_own_device_is_a_fault_not_a_crash(kind, monkeypatch):
     assert servo.status.fault == cal.DeviceFault.device_error
     if kind == "wrong type":
         assert words == ["read() returned 'nothing', expected a calligraphy.DeviceState"]
-    assert len(told) == (2 if kind == "missing" else 1)  # once each method, until it works again
+    assert len(told) == (2 if kind == "missing" else 1)  # once per method, until it works again
 
 
 @pytest.mark.parametrize("method", ["read", "write"])
@@ -265,7 +265,7 @@ def test_a_failing_write_is_a_fault_until_a_write_succeeds(monkeypatch):
     assert servo.statistics["faults"][cal.DeviceFault.device_error] == 1 and told == ["bus gone"]
     device.broken = False
     steps(1)
-    assert device.forces[-1][2] == 0.0  # the first that it takes again
+    assert device.forces[-1][2] == 0.0  # the first accepted one
     steps(10)
     assert servo.status.phase == cal.ServoPhase.running and device.forces[-1][2] == 1.0
 
@@ -351,7 +351,7 @@ def test_samples_are_a_structured_array_over_the_memory_of_the_recording():
     assert set(np.unique(samples["state"])) <= set(cal.InteractionState)
     with pytest.raises(ValueError, match="read-only"):
         samples["time"][0] = 1.0
-    time = cal.write_page(one_page("一"), session()).samples["time"]  # its owner is gone
+    time = cal.write_page(one_page("一"), session()).samples["time"]  # its owner has been destroyed
     assert np.allclose(np.diff(time), 1e-3)
 
 
@@ -441,7 +441,7 @@ def _write_in_child(seed):
     return cal.score_page(one_page("一"), cal.write_page(one_page("一"), session(seed=seed)))[0]
 
 
-@pytest.mark.skipif(not hasattr(os, "fork"), reason="there is no fork here")
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="this system has no fork")
 @pytest.mark.filterwarnings("ignore:.*fork.*:DeprecationWarning")
 def test_a_forked_process_writes_identically():
     context = multiprocessing.get_context("fork")

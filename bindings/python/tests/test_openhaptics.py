@@ -1,4 +1,4 @@
-"""The vendor's runtime from Python, on the stand-in of the tests: its scheduler is the clock, in a thread of its own.
+"""The vendor's runtime from Python, using the stub of the tests: its scheduler is the clock, in its own thread.
 
 CALLIGRAPHY_STAND_IN_LIBHD names the library stand_in_libhd of a build with tests.
 """
@@ -21,7 +21,7 @@ pytestmark = [
 
 @pytest.fixture
 def runtime():
-    """A device that is plugged in, held by nobody, and a scheduler in real time."""
+    """A connected device that nobody holds, and a real-time scheduler."""
     library = ctypes.CDLL(LIBRARY)
     control = (ctypes.c_void_p * 32)()  # stand_in.hpp: reset, plug_in, run_in_real_time, ...
     library.stand_in_control(control)

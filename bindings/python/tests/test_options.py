@@ -1,4 +1,4 @@
-"""What is asked for reaches C++: every option of a call changes what it should change, and nothing is swapped."""
+"""Arguments reach C++: every option of a call has its effect, and none are swapped."""
 
 import numpy as np
 import pytest
@@ -13,7 +13,7 @@ AROUND = np.random.default_rng(1).uniform(-1, 4, size=(400, 2))
 
 
 def stepped(seconds=0.3, law=lambda state: (0, 0, 1.0), device=None, **options):
-    """The force that a device was sent at every tick, and the servo."""
+    """The force sent to the device in every tick, and the servo."""
     device = cal.SimulatedDevice(PROFILE) if device is None else device
     servo = cal.Servo(device, law, **options)
     sent = []
@@ -137,7 +137,7 @@ def test_a_servo_applies_the_given_timeout():
 
 
 def test_a_slow_law_takes_no_virtual_time():
-    """A second of work a tick would be a fault by the clock."""
+    """By a real clock, a law this slow would be a fault."""
 
     def slow(state):
         sum(range(400_000))  # some 5 ms, more than the timeout of 4 ms
@@ -185,7 +185,7 @@ def test_a_replayed_device_keeps_the_last_force():
 
 
 class Weak(cal.HapticDevice):
-    """A device that can give half a newton, and has nothing new from some tick on."""
+    """A device with a peak force of 0.5 N and no fresh samples from some tick on."""
 
     def __init__(self):
         super().__init__()
@@ -318,7 +318,7 @@ def test_a_tradeoff_uses_the_given_queries_and_seed():
     cal.nearest_point_tradeoff([CHARACTERS["永"]], queries=16, rounds=3, progress=told.append)
     work = told[: told.index(1.0) + 1]
     assert len(work) % 3 == 0 and work == pytest.approx(np.linspace(0, 1, len(work) + 1)[1:])
-    assert set(told[len(work) :]) == {1.0}  # while errors are looked for
+    assert set(told[len(work) :]) == {1.0}  # while errors are computed
 
 
 def test_a_force_field_uses_the_given_stroke_progress_and_options():

@@ -1,4 +1,4 @@
-"""Phantoms from Python, on an emulated one behind the real libusb and hidapi (docs/emulated-phantom.md).
+"""Phantoms from Python, using an emulated one behind the real libusb and hidapi (docs/emulated-phantom.md).
 
 CALLIGRAPHY_EMULATED_PHANTOM names the program emulated_phantom of a build with tests.
 """
@@ -32,7 +32,7 @@ OPENED = """
 import json, os, signal, threading
 import calligraphy as cal
 
-signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored where the tests run in the background
+signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored if the tests run in the background
 found = cal.plugged_devices()
 device = cal.PhantomDevice(cal.PhantomOptions(wire_profile="simulated"))
 able = device.capabilities()
@@ -40,13 +40,13 @@ page = cal.lay_out(
     [cal.built_in_characters()["一"]], cal.PageLayout(width=able.workspace[0], height=able.workspace[1])
 )[0]
 options = cal.LiveOptions(renderer=cal.RendererOptions.for_device(able), timeout=20.0)
-# A machine that is busy with other things keeps neither the emulated bus nor the loop at 1 kHz.
+# A busy machine keeps neither the emulated bus nor the loop at 1 kHz.
 options.servo = cal.ServoLoopOptions(servo=cal.ServoOptions(timeout=0.5))
 """
 
 
 def on_a_phantom(program, kind="usb"):
-    """What the program prints as JSON in its last line."""
+    """The JSON printed by the program in its last line."""
     environment = {**os.environ, "PYTHONPATH": str(pathlib.Path(cal.__file__).parents[1])}
     done = subprocess.run(
         [EMULATOR, "--kind", kind, "--serial", "540-12345", "--write", "一", "--skill", "skilled", "--",
@@ -78,11 +78,11 @@ print(json.dumps({
     )
     assert told["found"] == [told["name"]] == [f"{ids} on bus 1, port 2, serial 540-12345"]
     assert told["link"] == kind and told["may_open"] and told["model"] == "Touch"
-    # Where the machine kept the bus waiting for too long the force fell, as it should, and the stroke may be lost.
-    faults = told["faults"].keys() - {"not_calibrated"}  # which it is until it was in the inkwell
+    # If the machine delayed the bus for too long, the force ramped down, correctly, and the stroke may be lost.
+    faults = told["faults"].keys() - {"not_calibrated"}  # reported until the pen has been in the inkwell
     assert faults or (told["written"] == 1 and told["peak"] > 0.05)
     assert told["status"] != "disconnected" and told["closed"] == "disconnected"
-    assert all("priority" in warning for warning in told["warnings"])  # permitted or not, as the machine has it
+    assert all("priority" in warning for warning in told["warnings"])  # depends on the privileges on this machine
     assert told["views"] > 0 and told["reports"] > 500 and 500 < told["samples"] <= told["ticks"]
 
 
@@ -169,7 +169,7 @@ class Pressed(Exception):
 seen = []
 def press(*_):
     seen.append(1)
-    if len(seen) == 3:  # one is left when a call returns that did not look
+    if len(seen) == 3:  # one is still pending when a call without checks returns
         raise Pressed
 signal.signal(signal.SIGALRM, press)
 try:

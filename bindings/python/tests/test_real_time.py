@@ -1,4 +1,4 @@
-"""Loops in real time. The machine may be slow: nothing here is judged by a clock."""
+"""Real-time loops. The machine may be slow: no test depends on wall-clock time."""
 
 import gc
 import os
@@ -14,7 +14,7 @@ import pytest
 import calligraphy as cal
 
 PROFILE = cal.device_profile("desktop")
-#: Of the watchdog: by the machine's clock, which a busy machine does not keep.
+#: Faults detected by the watchdog's clock, which may occur on a busy machine.
 PATIENT = cal.ServoOptions(timeout=1.0, ramp_up=0.05)
 PRESSED = (0.0, 0.0, -1e-3)
 
@@ -26,7 +26,7 @@ def options(servo=PATIENT, **thread):
 
 
 def until(condition):
-    """For at most a minute of the machine."""
+    """Waits for at most a minute."""
     end = time.monotonic() + 60
     while not condition():
         assert time.monotonic() < end, "nothing happens"
@@ -34,7 +34,7 @@ def until(condition):
 
 
 class Bench(cal.HapticDevice):
-    """A pen that rests 1 mm below the paper, and what it was told."""
+    """A pen at rest 1 mm below the paper, which records its commands."""
 
     def __init__(self):
         super().__init__()
@@ -111,10 +111,10 @@ def test_a_stopped_loop_can_be_started_again():
 
 def test_a_with_block_ramps_the_force_down_also_after_an_exception():
     device = Bench()
-    with pytest.raises(LookupError, match="of one's own"):
+    with pytest.raises(LookupError, match="of your own"):
         with cal.ServoLoop(device, wall, options()) as loop:
             until(lambda: device.forces and device.forces[-1] > 0)
-            raise LookupError("of one's own")
+            raise LookupError("of your own")
     assert not loop.running and device.forces[-1] == 0.0
 
 
@@ -157,7 +157,7 @@ def test_a_renderer_as_the_law_runs_without_python():
     loop = cal.ServoLoop(device, renderer_of(one_page()), options())
     interval = sys.getswitchinterval()
     with loop:
-        sys.setswitchinterval(1000.0)  # from here on this thread lets no other have the GIL
+        sys.setswitchinterval(1000.0)  # from here on, this thread does not yield the GIL
         try:
             end = time.monotonic() + 30
             reached = loop.statistics["ticks"] + 100
@@ -189,7 +189,7 @@ def test_what_a_running_loop_uses_cannot_be_used_elsewhere():
         ):
             with pytest.raises(cal.Error, match="in use by a running loop"):
                 forbidden()
-        device.move(0.01, 0.0, 0.5)  # from any thread
+        device.move(0.01, 0.0, 0.5)  # allowed from any thread
         assert device.capabilities().model == PROFILE.model
         assert renderer.options.servo_rate == 1000.0
     device.read()
@@ -202,7 +202,7 @@ def test_a_law_may_use_the_device_of_its_loop():
     device.set_intention(cal.Intention(position=(0, 0, -0.005)))
 
     def law(state):
-        device.advance(1e-3)  # virtual time goes on as the loop does
+        device.advance(1e-3)  # advance virtual time with the loop
         return wall(state)
 
     with cal.ServoLoop(device, law, options()) as loop:
@@ -284,7 +284,7 @@ def python(program, **arguments):
 BENCH = """
 import atexit, os, sys, threading, time
 forces = []
-atexit.register(lambda: print("last force", forces[-1]))  # after what the module does at the end
+atexit.register(lambda: print("last force", forces[-1]))  # runs after the module's own exit handler
 import calligraphy as cal
 
 class Bench(cal.HapticDevice):
@@ -392,12 +392,12 @@ def test_a_forked_child_exits_and_the_loop_of_the_parent_continues():
 
 
 class Writer:
-    """Moves the pointer along the strokes of a page: on when the pen has come where it should be."""
+    """Moves the pointer along the strokes of a page as the pen follows."""
 
     def __init__(self, device, page):
         self.device, self.page, self.views = device, page, []
         placed = page.characters[0]
-        shift = np.array([page.width / 2, page.height / 2])  # the page is centred on the device's zero
+        shift = np.array([page.width / 2, page.height / 2])  # the page is centred on the device origin
         self.places = []
         for stroke in placed.character.strokes():
             way = np.concatenate([e.point(np.linspace(0, 1, 12)) for e in cal.place_elements(stroke, placed.placement)])
@@ -519,7 +519,7 @@ def test_errors_of_a_missing_backend_tell_what_to_do():
     assert other == "module 'calligraphy' has no attribute 'PhantomDevise'"
 
 
-#: As if the module had been built so: its names are taken away.
+#: Simulates a module built without backends by removing their names.
 WITHOUT_BACKENDS = """
 import calligraphy as cal
 for names, _ in cal._BACKENDS.values():

@@ -1,4 +1,4 @@
-"""Options and results: every record there is, whatever it holds, kept, copied, compared and sent to another process."""
+"""Options and results: every struct is stored, copied, compared and pickled, with arbitrary values."""
 
 import copy
 import gc
@@ -24,7 +24,7 @@ def records(kind):
 
 
 def values(kind, name):
-    """What a field may hold: anything that its type takes, as records check nothing else."""
+    """Values of a field: anything that its type accepts, because structs do not validate."""
     default = getattr(kind(), name)
     if type(default) in RECORDS:
         return records(type(default))
@@ -93,7 +93,7 @@ def test_every_struct_survives_pickling_and_copying_and_differs_if_one_field_dif
 
 @pytest.mark.parametrize("kind", RECORDS)
 def test_a_pickle_of_another_version_keeps_the_common_fields(kind):
-    """A field that the other version did not have is the default; one that this version does not have is told."""
+    """A field unknown to the other version has its default; one unknown to this version is reported."""
     state = kind().__reduce__()[0].keywords
     assert tuple(state) == kind.fields
     for name in kind.fields:
@@ -150,7 +150,7 @@ def test_a_list_field_is_a_copy_that_outlives_its_owner(owner, name, make):
     kept = getattr(owner, name)
     setattr(owner, name, [])
     gc.collect()
-    setattr(owner, name, [make() for _ in range(50)])  # whoever takes freed memory writes to it
+    setattr(owner, name, [make() for _ in range(50)])  # reuse freed memory, to expose dangling references
     setattr(owner, name, [])
     assert kept == [make() for _ in range(3)] and getattr(owner, name) == []
 
@@ -191,7 +191,7 @@ def test_pages_are_equal_if_their_characters_are():
     assert moved != cal.PlacedCharacter(characters["永"]) and moved == pickle.loads(pickle.dumps(moved))
 
 
-#: What is not a record and yet worth keeping.
+#: Objects other than structs that support pickling and copying.
 RESULTS = {
     "NearestPoints": lambda: cal.nearest_point([[0, 0], [1, 2], [3, 0]], [[0, 1], [2, 2], [np.nan, 0]]),
     "Recording": lambda: cal.Recording(500.0, np.ones(3, dtype=cal.sample_dtype)),
@@ -292,11 +292,11 @@ CLASSES = [
 
 @pytest.mark.parametrize("kind", CLASSES)
 def test_an_object_whose_init_was_not_called_is_rejected(kind):
-    """By whatever it is used: it holds nothing."""
+    """Whatever uses it, because the object is empty."""
     unfinished = kind.__new__(kind)
     names = [name for name in dir(kind) if isinstance(getattr(kind, name, None), property)]
     for use in [repr, copy.copy, hash, lambda it: it == kind.__new__(kind), *map(operator.attrgetter, names)]:
         try:
             use(unfinished)
-        except (TypeError, ValueError) as error:  # what it never had is refused with words of its own
+        except (TypeError, ValueError) as error:  # missing attributes are rejected with other messages
             assert str(error)

@@ -1,4 +1,4 @@
-"""Type stubs: complete, true to the module, and enough for mypy and pyright to check programs."""
+"""Type stubs: complete, consistent with the module, and sufficient for mypy and pyright to check programs."""
 
 import ast
 import enum
@@ -54,13 +54,13 @@ cal.FeedbackMode.blind
 
 def checked(words, directory):
     environment = dict(os.environ)
-    if PACKAGE.parent.name != "site-packages":  # where type checkers look anyway
+    if PACKAGE.parent.name != "site-packages":  # where type checkers search by default
         environment.update(MYPYPATH=str(PACKAGE.parent), PYTHONPATH=str(PACKAGE.parent))
     return subprocess.run(words, capture_output=True, text=True, env=environment, cwd=directory)
 
 
 def programs(directory):
-    """Every program of examples and pages, and two of users, in one directory; `wrong.py` has a mistake a line."""
+    """All programs of examples and pages, and two user programs, in one directory; `wrong.py` has one mistake per line."""
     for path in PROGRAMS:
         text = path.read_text(encoding="utf-8")
         if path.suffix == ".md":
@@ -92,7 +92,7 @@ def test_pyright_finds_exactly_the_mistakes_in_programs(tmp_path):
 
 
 def test_the_stubs_cover_the_module_with_docstrings_and_units():
-    """In names and signatures they are the module's own, as they are made of it; here is what was added."""
+    """Names and signatures are generated from the module; this checks what make_stubs.py adds."""
     tree = ast.parse((PACKAGE / "_calligraphy.pyi").read_text(encoding="utf-8"))
     told = {item.name: item for item in tree.body if isinstance(item, (ast.ClassDef, ast.FunctionDef))}
     module = vars(cal._calligraphy)

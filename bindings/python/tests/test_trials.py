@@ -1,4 +1,4 @@
-"""Trade-offs and imports from Python: what crosses the boundary is what C++ has."""
+"""Trade-offs and imports from Python: results agree with those of C++."""
 
 import pickle
 
