@@ -14,7 +14,7 @@ def wall(state: cal.DeviceState) -> tuple[float, float, float]:
 
 
 def simulate(grip: cal.GripImpedance, target: tuple[float, float, float]) -> tuple[np.ndarray, float]:
-    """Position after two seconds at 1 kHz, held by a hand with the intended position `target` [m], and the maximum force [N]."""
+    """Position after two seconds at 1 kHz, held by a hand that aims at `target` [m], and the maximum force [N]."""
     device = cal.SimulatedDevice(DESKTOP, grip, (0.0, 0.0, 0.01))
     device.set_intention(cal.Intention(position=target))
     servo = cal.Servo(device, wall)
@@ -28,7 +28,7 @@ def simulate(grip: cal.GripImpedance, target: tuple[float, float, float]) -> tup
 
 def test_a_pressed_pen_comes_to_rest_where_hand_and_wall_balance() -> None:
     position, max_force = simulate(cal.GripImpedance(mass=0.15, damping=5.0, stiffness=500.0), (0.0, 0.0, -0.005))
-    # Equilibrium of two springs; dry friction holds the pen nearby.
+    # Two springs; dry friction may stop the pen slightly short of it.
     assert position[2] == pytest.approx(-0.005 * 500.0 / (500.0 + 800.0), abs=2e-4)
     assert max_force < DESKTOP.peak_force
 
