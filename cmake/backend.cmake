@@ -1,5 +1,5 @@
-# calligraphy_backend(NAME needs condition ...): sets CALLIGRAPHY_WITH_NAME from the option CALLIGRAPHY_NAME, which is ON,
-# OFF or AUTO, and from the conditions, names of variables that must all be true; `needs` says them in words.
+# calligraphy_backend(NAME needs condition ...): sets CALLIGRAPHY_WITH_NAME from the option CALLIGRAPHY_NAME (ON, OFF or
+# AUTO) and from the conditions, names of variables that must all be true; `needs` describes them in messages.
 function(calligraphy_backend name needs)
   set(wish ${CALLIGRAPHY_${name}})
   if(NOT wish MATCHES "^(ON|OFF|AUTO|TRUE|FALSE|1|0)$")
@@ -14,10 +14,10 @@ function(calligraphy_backend name needs)
   if(wish STREQUAL "AUTO")
     set(result ${found})
     if(NOT found)
-      message(STATUS "CALLIGRAPHY_${name}: skipped, it needs ${needs}")
+      message(STATUS "CALLIGRAPHY_${name}: skipped, requires ${needs}")
     endif()
   elseif(wish AND NOT found)
-    message(FATAL_ERROR "CALLIGRAPHY_${name}=${wish} needs ${needs}")
+    message(FATAL_ERROR "CALLIGRAPHY_${name}=${wish} requires ${needs}")
   elseif(wish)
     set(result ON)
   else()

@@ -1,4 +1,4 @@
-# ccache, where there is one, unless a launcher was named already.
+# Uses ccache if it is installed and no other launcher is set.
 option(CALLIGRAPHY_CCACHE "Compile through ccache when it is installed" ${PROJECT_IS_TOP_LEVEL})
 if(CALLIGRAPHY_CCACHE AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER AND NOT DEFINED ENV{CMAKE_CXX_COMPILER_LAUNCHER})
   find_program(CALLIGRAPHY_CCACHE_PROGRAM ccache)

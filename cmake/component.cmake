@@ -1,7 +1,7 @@
 # calligraphy_component(name [EXPORT set] [FOLDER folder] [SUBFOLDERS ...] [SOURCES ...] [WITHOUT ...] DEPENDS ...
-# [NEEDS package ...]): a component as the target calligraphy::name: every source file of src/folder (by default
-# src/name) and of its subfolders except those of WITHOUT, and the generated ones, SOURCES. NEEDS: what find_package()
-# must find beside an installed copy before the target can be linked; DEPENDS are components, or needed by all of them.
+# [NEEDS package ...]): a component as the target calligraphy::name, from the source files in src/folder (default
+# src/name) and its SUBFOLDERS except WITHOUT, plus the generated SOURCES. DEPENDS: components, and libraries that all
+# components need. NEEDS: packages that a user of an installed copy must have to link the target.
 function(calligraphy_component name)
   cmake_parse_arguments(COMPONENT "" "EXPORT;FOLDER" "SUBFOLDERS;SOURCES;WITHOUT;DEPENDS;NEEDS" ${ARGN})
   if(NOT COMPONENT_EXPORT)
@@ -27,7 +27,7 @@ function(calligraphy_component name)
                                               $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
                                        PRIVATE ${PROJECT_SOURCE_DIR}/src)
   target_link_libraries(${target} PUBLIC ${COMPONENT_DEPENDS})
-  # The same bits on every processor: no contraction into fused operations.
+  # Bit-identical results on every processor: no contraction into fused operations.
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-ffp-contract=off>)
   calligraphy_warnings(${target})
   calligraphy_unity(${target} 8)
@@ -39,7 +39,7 @@ function(calligraphy_component name)
   set_property(GLOBAL PROPERTY CALLIGRAPHY_${name}_NEEDS "${COMPONENT_NEEDS}")
   install(TARGETS ${target} EXPORT ${COMPONENT_EXPORT})
   set(without "")
-  if(name STREQUAL "devices")  # its backends install their own; a pattern would match these folders themselves
+  if(name STREQUAL "devices")  # backends install their own headers; PATTERN also excludes the folders themselves
     set(without PATTERN phantom EXCLUDE PATTERN openhaptics EXCLUDE)
   endif()
   set(include_directory ${CMAKE_INSTALL_INCLUDEDIR}/calligraphy/${COMPONENT_FOLDER})
@@ -49,22 +49,22 @@ endfunction()
 function(calligraphy_warnings target)
   target_compile_options(${target} PRIVATE
     $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Wall -Wextra -Wpedantic -Wconversion -Wshadow>
-    # g++ leaves these out of -Wconversion; indices into Eigen and the standard library mix signs everywhere.
+    # Not part of g++'s -Wconversion; indices into Eigen and the standard library mix signs everywhere.
     $<$<CXX_COMPILER_ID:Clang,AppleClang>:-Wno-sign-conversion>
-    # g++ 12 warns of std::string's own operator+ (GCC bug 105651).
+    # g++ 12 warns about operator+ of std::string (GCC bug 105651).
     $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict>)
 endfunction()
 
-# calligraphy_call_foreign_code(target): it calls functions of a library that it loads, whose types clang's sanitizer
-# cannot know to be the same.
+# calligraphy_call_foreign_code(target): for targets that call functions of a library loaded at run time, whose types
+# clang's function sanitizer cannot verify.
 function(calligraphy_call_foreign_code target)
   if(CALLIGRAPHY_SANITIZE MATCHES "undefined" AND CMAKE_CXX_COMPILER_ID MATCHES "Clang")
     target_compile_options(${target} PRIVATE -fno-sanitize=function)
   endif()
 endfunction()
 
-# calligraphy_embed(variable folder name file ...): a source file that holds each text file as
-# calligraphy::built_in::name, which src/folder/built_in.hpp declares.
+# calligraphy_embed(variable folder name file ...): generates a source file that defines each text file as
+# calligraphy::built_in::name, declared in src/folder/built_in.hpp.
 function(calligraphy_embed variable folder)
   string(REPLACE "/" "_" name ${folder})
   set(source ${PROJECT_BINARY_DIR}/built_in_${name}.cpp)

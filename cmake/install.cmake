@@ -1,4 +1,4 @@
-# What find_package(calligraphy) needs of an installed copy.
+# Installs what find_package(calligraphy) needs.
 include(CMakePackageConfigHelpers)
 
 install(FILES include/calligraphy/calligraphy.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/calligraphy)
@@ -7,7 +7,7 @@ if(CALLIGRAPHY_WITH_PHANTOM)
   install(EXPORT calligraphyPhantomTargets NAMESPACE calligraphy::
     DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/calligraphy)
 endif()
-# What each component depends on and needs, as calligraphyConfig.cmake reads it.
+# Dependencies and packages of each component, for calligraphyConfig.cmake.
 get_property(components GLOBAL PROPERTY CALLIGRAPHY_COMPONENTS)
 set(calligraphy_component_table "set(calligraphy_components ${components})\n")
 foreach(component ${components})

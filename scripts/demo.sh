@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and writes four characters, unguided and guided.
-# Arguments go on to `calligraphy write`.
+# Installs missing packages, builds, and writes four characters without and with guidance.
+# Arguments are passed to `calligraphy write`.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -13,7 +13,7 @@ cat << END
 
 In $PWD/out:
   NN-CHARACTER-MODE.svg        the page: template blue, active character yellow, trace green
-  NN-CHARACTER-MODE-force.svg  the force over time
+  NN-CHARACTER-MODE-force.svg  force over time
   NN-CHARACTER-MODE.csv        the trace, tick by tick
   summary.json                 the table above
 END

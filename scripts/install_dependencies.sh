@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
-# Installs what the build needs on Debian 12 or 13 or Ubuntu 24.04; does nothing when all of it is there.
+# Installs the build dependencies on Debian 12 or 13 or Ubuntu 24.04, unless they are already installed.
 # usage: install_dependencies.sh [tests|full|peers]
-#   tests   also what only the tests need
-#   full    also what only test.sh --full needs
-#   peers   also what benchmarks/nearest_point/run.sh compares with, and its valgrind
+#   tests   also those of the tests
+#   full    also those of test.sh --full
+#   peers   also the libraries that benchmarks/nearest_point/run.sh compares with, and valgrind
 set -euo pipefail
 
 packages=(cmake g++ gnuplot-nox libarchive-dev libboost-dev libcli11-dev libeigen3-dev libfmt-dev libhidapi-dev
           libpugixml-dev libspdlog-dev libusb-1.0-0-dev libutfcpp-dev ninja-build nlohmann-json3-dev pkg-config zlib1g-dev)
 if [[ ${1:-} == tests || ${1:-} == full ]]; then
-  # clang, its run-time libraries and libc++ by the names without a version, which every one of these systems has.
+  # clang, its run-time libraries and libc++ by unversioned names, which all of these systems have.
   packages+=(ca-certificates catch2 clang emscripten libbenchmark-dev libc++-dev libc++abi-dev libclang-rt-dev
              libumockdev-dev python3 python3-dev python3-venv udev umockdev)
   command -v npm > /dev/null || packages+=(npm)
@@ -27,7 +27,7 @@ elif [[ $# -gt 0 ]]; then
 fi
 
 if ! command -v apt-get > /dev/null || ! command -v dpkg-query > /dev/null; then
-  echo "This system has no apt-get. Install the counterparts of: ${packages[*]}" >&2
+  echo "This system has no apt-get. Install the equivalents of: ${packages[*]}" >&2
   exit 1
 fi
 
@@ -50,7 +50,7 @@ echo "installing: ${missing[*]}"
 apt() { "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -o Acquire::Retries=3 "$@"; }
 for attempt in 1 2 3; do
   if apt update; then break; fi
-  [[ $attempt -lt 3 ]] || echo "apt-get update failed three times; trying with the lists there are" >&2
+  [[ $attempt -lt 3 ]] || echo "apt-get update failed three times; continuing with the existing package lists" >&2
   sleep $((attempt * 5))
 done
 apt install -y --no-install-recommends "${missing[@]}"

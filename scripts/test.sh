@@ -1,16 +1,16 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds and runs every test, then all of them again under the sanitizers.
-# The last line is "N passed, N failed"; before it, the tests that took more than 5 s.
+# Installs missing packages, builds and runs every test, then again under the sanitizers.
+# The last line is "N passed, N failed", preceded by the tests that took more than 5 s.
 # usage: test.sh [--full]
-#   --full   also what is too long for each run: the library by clang with libc++, as WebAssembly and on an emulated
-#            arm64, and each source file on its own; the plain run compiles one file with libc++ and one to WebAssembly
+#   --full   also the slow checks: the library with clang and libc++, as WebAssembly and on an emulated arm64, and each
+#            source file on its own; the plain run compiles one file with libc++ and one to WebAssembly
 #
-# CALLIGRAPHY_REQUIRE_DATA=1 (and any CI): the npm packages that tests read, and the Python packages that the tests of
-# the Python module need, must be had; else those tests are skipped.
-# CALLIGRAPHY_PEN_TRACES=DIRECTORY: pen traces of people (docs/pen-traces.md), which no package has; without them the
-# tests on them are skipped.
-# CALLIGRAPHY_SANITIZE_PYTHON=1: the Python module under the sanitizers as well, and of its tests those in which memory
-# changes hands: four minutes more on two cores, with which the whole takes more than half an hour.
+# CALLIGRAPHY_REQUIRE_DATA=1 (set in any CI): fail if the npm packages that tests read, or the Python packages that the
+# tests of the Python module need, are not available; otherwise those tests are skipped.
+# CALLIGRAPHY_PEN_TRACES=DIRECTORY: pen traces of people (docs/pen-traces.md), which no package provides; without them
+# their tests are skipped.
+# CALLIGRAPHY_SANITIZE_PYTHON=1: also the Python module under the sanitizers, with its tests of memory ownership: four
+# more minutes on two cores, more than half an hour in total.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -23,10 +23,10 @@ esac
 if [[ -n ${CI:-} && ${CI:-} != false ]]; then export CALLIGRAPHY_REQUIRE_DATA=1; fi
 build=$PWD/build-tests
 results=()  # JUnit files of CTest and pytest
-checked=0   # checks that passed: scripts that are a test each
-broken=0    # steps and checks that failed and left no such file
+checked=0   # passed checks: scripts that count as one test each
+broken=0    # failed steps and checks that left no such file
 
-# step COMMAND...: runs it; a failure is counted and told.
+# step COMMAND...: runs the command; counts and reports a failure.
 step() {
   echo "== $*"
   "$@" && return 0
@@ -38,7 +38,7 @@ step() {
 # check COMMAND...: a step that counts as a test.
 check() { if step "$@"; then checked=$((checked + 1)); fi; }
 
-# fetch PACKAGE VERSION: the package of npm, packed as data/PACKAGE-VERSION.tgz and unpacked beside it.
+# fetch PACKAGE VERSION: downloads an npm package as data/PACKAGE-VERSION.tgz and unpacks it alongside.
 fetch() {
   local data=$build/data name=$1-$2
   [[ -f $data/$name/package.json && -f $data/$name.tgz ]] && return 0
@@ -51,17 +51,17 @@ fetch() {
   rm -rf "$data/unpacking"
 }
 
-# fetch_data VARIABLE PACKAGE VERSION: exports VARIABLE_TARBALL and VARIABLE, where the package is packed and unpacked.
+# fetch_data VARIABLE PACKAGE VERSION: exports the paths of the tarball, VARIABLE_TARBALL, and its contents, VARIABLE.
 fetch_data() {
   if fetch "$2" "$3"; then
     export "$1=$build/data/$2-$3" "$1_TARBALL=$build/data/$2-$3.tgz"
     return 0
   fi
-  echo "== $2@$3 could not be had by npm pack: the tests on it are skipped" >&2
+  echo "== $2@$3 cannot be downloaded by npm pack: its tests are skipped" >&2
   if [[ -n ${CALLIGRAPHY_REQUIRE_DATA:-} ]]; then broken=$((broken + 1)); fi
 }
 
-# All of hanzi-writer-data as `calligraphy import` makes it, which other tests read; made once, by the first build.
+# Imports all of hanzi-writer-data for other tests; done once, by the first build.
 import_characters() {
   local file=$build/data/hanzi-writer-data.set
   if [[ -n ${CALLIGRAPHY_CHARACTER_FILE:-} || -z ${CALLIGRAPHY_HANZI_WRITER_DATA_TARBALL:-} ]]; then return 0; fi
@@ -86,8 +86,8 @@ test_build() {
   fi
 }
 
-# What the tests of the Python module need, as an environment that is made once: while other things are compiled, as it
-# is the network that takes its time.
+# Creates the Python environment of the tests, once. Runs in the background during compilation, because it mostly waits
+# for the network.
 begin_python_environment() {
   export PYTHON=$build/python-environment/bin/python
   mkdir -p "$build"
@@ -98,19 +98,19 @@ begin_python_environment() {
 
 end_python_environment() {
   wait "$python_environment" && return 0
-  echo "== what bindings/python/requirements-test.txt lists could not be had by pip: the Python tests are skipped" >&2
+  echo "== pip cannot install bindings/python/requirements-test.txt: the Python tests are skipped" >&2
   if [[ -n ${CALLIGRAPHY_REQUIRE_DATA:-} ]]; then broken=$((broken + 1)); fi
   return 1
 }
 
-# python_module RELEASE_BUILD: a wheel of the Python module, against the library as that build installs it (compiled
-# once).
+# python_module RELEASE_BUILD: builds a wheel of the Python module against the library installed from that build, which
+# is not compiled again.
 python_module() {
   local release=$1 work=$build/python
   rm -rf "$work/wheel" "$work/installed"
   end_python_environment || return 0
   step cmake --install "$release" --prefix "$work/installed" > /dev/null || return 0
-  # In full, as the pip of Debian 12 does not know -C.
+  # Long options, because pip of Debian 12 does not support -C.
   step "$PYTHON" -m pip wheel -q --disable-pip-version-check --no-build-isolation --no-deps . -w "$work/wheel" \
     --config-settings=build-dir="$work/build" --config-settings=cmake.source-dir=bindings/python \
     --config-settings=cmake.define.CMAKE_PREFIX_PATH="$work/installed" || return 0
@@ -119,7 +119,7 @@ python_module() {
   python_module_is_there=1
 }
 
-# begin_python_tests RELEASE_BUILD, end_python_tests: pytest on that module, which takes one core, beside what compiles.
+# begin_python_tests RELEASE_BUILD, end_python_tests: runs pytest on that module on one core during compilation.
 begin_python_tests() {
   rm -f "$build/python.xml"
   [[ -n ${python_module_is_there:-} ]] || return 0
@@ -142,12 +142,12 @@ end_python_tests() {
   fi
 }
 
-# sanitized_python_tests SANITIZED_BUILD COMPILER: the module under the sanitizers, against the library that is under
-# them already, and the tests in which memory changes hands.
+# sanitized_python_tests SANITIZED_BUILD COMPILER: builds the module with the sanitizers against the sanitized library
+# and runs the tests of memory ownership.
 sanitized_python_tests() {
   local library=$1 compiler=$2 junit=$build/python-sanitized.xml work=$build/python-sanitized
   rm -rf "$junit" "$work/installed" "$work/site"
-  [[ -s $build/python.xml ]] || return 0  # told already
+  [[ -s $build/python.xml ]] || return 0  # already reported
   local runtime
   runtime=$("$compiler" -print-file-name="libclang_rt.asan-$(uname -m).so")
   if [[ ! -f $runtime ]]; then
@@ -156,7 +156,7 @@ sanitized_python_tests() {
     return 0
   fi
   step cmake --install "$library" --prefix "$work/installed" > /dev/null || return 0
-  # With the runtime as a library of its own, which Python is started with: it is not of this compiler.
+  # With a shared run-time library, preloaded into Python, which is not built with sanitizers.
   local flags="-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer"
   step cmake -S bindings/python -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_COMPILER="$compiler" \
     -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" -DCMAKE_CXX_FLAGS="$flags" -DCMAKE_MODULE_LINKER_FLAGS=-shared-libsan \
@@ -165,9 +165,9 @@ sanitized_python_tests() {
   mkdir -p "$work/site/calligraphy"
   cp bindings/python/calligraphy/*.py "$work"/build/_calligraphy*.so "$work/site/calligraphy"
   echo "== pytest, sanitized"
-  # libstdc++ too, as Python alone does not load it and the runtime looks for what throws when it starts. Python itself
-  # and NumPy leave memory behind when they end, hence no leaks. Freed memory is filled, for NumPy's own reading of it
-  # is not watched. Memory that cannot be had is what some tests ask for.
+  # Preload libstdc++ too: Python does not load it, but the sanitizer looks up __cxa_throw at start-up. No leak check,
+  # because Python and NumPy do not free all memory at exit. Freed memory is filled, because reads inside NumPy are not
+  # instrumented. Some tests request more memory than is available.
   LD_PRELOAD="$runtime $("$compiler" -print-file-name=libstdc++.so.6)" PYTHONPATH="$work/site" PYTHONMALLOC=malloc \
     ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1:max_free_fill_size=65536:free_fill_byte=255 \
     UBSAN_OPTIONS=print_stacktrace=1 \
@@ -180,7 +180,7 @@ sanitized_python_tests() {
   fi
 }
 
-# Counts, says what did not pass, and ends the script.
+# Prints the counts and what did not pass, and ends the script.
 finish() {
   local status=0
   python3 - "$checked" "$broken" "${results[@]}" << 'END' || status=$?
@@ -196,9 +196,9 @@ for path in sys.argv[3:]:
             slow.append((float(case.get("time")), os.path.basename(path)[:-4], case.get("name")))
         skipped = case.find("skipped")
         reason = "" if skipped is None else skipped.get("message", "")
-        if case.get("status") == "run":  # CTest's word
+        if case.get("status") == "run":  # CTest
             passed += 1
-        elif case.get("status") is None:  # pytest: no word but what is wrong
+        elif case.get("status") is None:  # pytest, which records only failures and skips
             if skipped is not None:
                 print("skipped:", case.get("name"))
             elif case.find("failure") is None and case.find("error") is None:
@@ -206,7 +206,7 @@ for path in sys.argv[3:]:
             else:
                 failed += 1
                 print("failed:", case.get("name"), "in", path)
-        elif reason.startswith("SKIP_"):  # the test said so; anything else that did not run should have
+        elif reason.startswith("SKIP_"):  # skipped by the test itself; any other test that did not run is a failure
             print("skipped:", case.get("name"))
         else:
             failed += 1
@@ -220,7 +220,7 @@ END
   exit $((status == 0 ? 0 : 1))
 }
 
-# Whatever ends this script early, the last line is there.
+# Print the last line even if the script ends early.
 trap 'echo "0 passed, 1 failed"; exit 1' EXIT
 scripts/install_dependencies.sh "$(if [[ -n $full ]]; then echo full; else echo tests; fi)"
 fetch_data CALLIGRAPHY_HANZI_WRITER_DATA hanzi-writer-data 2.0.1
@@ -238,7 +238,7 @@ everything=(-DCALLIGRAPHY_TESTS=ON -DCALLIGRAPHY_EXAMPLES=ON -DCALLIGRAPHY_TOOLS
 test_build release -DCMAKE_BUILD_TYPE=Release -DCALLIGRAPHY_BENCHMARKS=ON "${everything[@]}"
 python_module "$build/release"
 begin_python_tests "$build/release"
-# By the other compiler: it finds other things, and is done sooner.
+# With the other compiler, which finds different problems and is faster.
 sanitizing=${clang:-c++}
 test_build sanitized -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" -DCALLIGRAPHY_BENCHMARKS=OFF \
   -DCMAKE_CXX_COMPILER="$sanitizing" \

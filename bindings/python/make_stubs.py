@@ -11,15 +11,15 @@ import subprocess
 import sys
 import tempfile
 
-#: What signatures in docstrings cannot say, and how a person would write it.
+#: Replacements for types that signatures in docstrings cannot express.
 TYPES = {
     r"typing\.SupportsFloat \| typing\.SupportsIndex": "float",
     r"typing\.SupportsInt \| typing\.SupportsIndex": "int",
     r"os\.PathLike(?!\[)": "os.PathLike[str]",
     r"\btuple(?=\]|:| =)": "tuple[typing.Any, ...]",
-    r"\blist\[": "builtins.list[",  # which a method hides
+    r"\blist\[": "builtins.list[",  # a method named list hides the built-in
     r"\*args\)": "*args: object)",
-    r"def write\(self, force: [\w.]+": "def write(self, force: typing.Any",  # given anything, called with an array
+    r"def write\(self, force: [\w.]+": "def write(self, force: typing.Any",  # subclasses override it with other types; called with an array
     r"numpy\.ndarray(?!\[)": "numpy.typing.NDArray[typing.Any]",
     r"\bdict\b(?=[\]:|])": "dict[str, typing.Any]",
     r"numpy\.bool\b": "numpy.bool_",
@@ -34,7 +34,7 @@ print({kind.__name__: {member.name: member.value for member in kind} for kind in
 
 
 class Finish(ast.NodeTransformer):
-    """Members of enumerations have values, and constructors of structs keywords."""
+    """Adds values to the members of enumerations and keywords to the constructors of structs."""
 
     def __init__(self, enumerations: dict[str, dict[str, int]]) -> None:
         self.enumerations = enumerations
@@ -55,7 +55,7 @@ class Finish(ast.NodeTransformer):
 
 def main(module: pathlib.Path, stub: pathlib.Path) -> None:
     with tempfile.TemporaryDirectory() as directory:
-        package = pathlib.Path(directory) / "calligraphy"  # of the module alone: with what Python adds, less is told
+        package = pathlib.Path(directory) / "calligraphy"  # without the Python package, whose additions hide the signatures
         package.mkdir()
         (package / "__init__.py").touch()
         shutil.copy(module, package)

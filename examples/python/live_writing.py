@@ -1,7 +1,7 @@
-"""A character written in real time: with the device that is plugged in, else with a pointer that is led along it.
+"""Writes a character in real time with a connected device, or else with a pointer moved by the program.
 
 usage: live_writing.py [--wire-profile NAME|FILE] [--character 永] [--peak-force N] [--out DIRECTORY]
-A Phantom needs a wire profile (docs/wire-profile.md). Without one the vendor's runtime is tried, then the pointer.
+A Phantom needs a wire profile (docs/wire-profile.md). Otherwise the vendor's runtime is tried, then the pointer.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ Watch = Callable[[cal.LiveView], object]
 
 
 def open_device(wire_profile: str) -> cal.HapticDevice:
-    """What is there; a simulated device that follows a pointer when nothing is."""
+    """The connected device, or a simulated one that follows a pointer."""
     try:
         plugged = cal.plugged_devices() if "phantom" in cal.backends else []
     except cal.DeviceError:  # no bus
@@ -32,12 +32,12 @@ def open_device(wire_profile: str) -> cal.HapticDevice:
         return cal.PhantomDevice(cal.PhantomOptions(wire_profile=wire_profile))
     if "openhaptics" in cal.backends and cal.openhaptics_runtime()["found"]:
         return cal.OpenHapticsDevice()
-    print("no device: a simulated one, whose hand follows a pointer that is led along the strokes")
+    print("no device found: simulating one whose hand follows a pointer along the strokes")
     return cal.PointerDevice(cal.device_profile("desktop"))
 
 
 class LedPointer:
-    """Moves a pointer along the strokes of a page, on when the pen has come near: in place of a person's mouse."""
+    """Moves a pointer along the strokes of a page as the pen follows, in place of a mouse."""
 
     def __init__(self, device: cal.PointerDevice, page: cal.PracticePage) -> None:
         self.device, self.centre = device, np.array([page.width / 2, page.height / 2])
@@ -62,8 +62,8 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--wire-profile", default=os.environ.get("CALLIGRAPHY_WIRE_PROFILE", ""))
     parser.add_argument("--character", default="永")
-    parser.add_argument("--peak-force", type=float, default=1.0, help="at most this [1 N]")
-    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out"), help="where the picture goes [out]")
+    parser.add_argument("--peak-force", type=float, default=1.0, help="maximum force [1 N]")
+    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out"), help="output directory [out]")
     arguments = parser.parse_args()
     arguments.out.mkdir(parents=True, exist_ok=True)
 
@@ -74,7 +74,7 @@ def main() -> None:
         options = cal.LiveOptions(renderer=cal.RendererOptions.for_device(able), peak_force=arguments.peak_force)
         watch: Optional[Watch] = LedPointer(device, page) if isinstance(device, cal.PointerDevice) else None
         name = ("simulated " if isinstance(device, cal.PointerDevice) else "") + able.model
-        print(f"{name}: write {name_of(page.characters[0].character)}; Ctrl-C ends it")
+        print(f"{name}: write {name_of(page.characters[0].character)}; press Ctrl-C to stop")
         try:
             result = cal.write_with_device(page, device, options, watch)
         except KeyboardInterrupt as pressed:
@@ -90,9 +90,9 @@ def main() -> None:
     draw_template(left, page.characters[0])
     draw_trace(left, samples)
     square(left, page.characters[0])
-    left.set(xlabel="x [mm]", ylabel="y [mm]", title="what the pen left")
+    left.set(xlabel="x [mm]", ylabel="y [mm]", title="trace of the pen")
     right.plot(samples["time"], np.linalg.norm(samples["force"], axis=1), linewidth=0.8)
-    right.set(xlabel="time [s]", ylabel="force [N]", title="what the hand felt")
+    right.set(xlabel="time [s]", ylabel="force [N]", title="force on the hand")
     figure.suptitle(name)
     save(figure, arguments.out / "live-writing.png")
 

@@ -1,4 +1,4 @@
-"""A force law of one's own, unit-tested against the simulated device: a groove that a pen falls into."""
+"""Your own force law, unit-tested on the simulated device: a groove that attracts the pen."""
 
 import unittest
 from typing import Callable
@@ -13,7 +13,7 @@ PROFILE = cal.device_profile("desktop")
 
 
 class Groove:
-    """Pulls the pen into the plane y = 0: a spring with a reach, and a damper [N, m]."""
+    """Pulls the pen into the plane y = 0: a spring of limited range and a damper [N, m]."""
 
     def __init__(self, stiffness: float = 400.0, damping: float = 1.0, reach: float = 0.01) -> None:
         self.stiffness, self.damping, self.reach = stiffness, damping, reach
@@ -22,12 +22,12 @@ class Groove:
         y, speed = state.position[1], state.velocity[1]
         if abs(y) > self.reach:
             return np.zeros(3)
-        fade = (1.0 - (y / self.reach) ** 2) ** 2  # no step where it ends
+        fade = (1.0 - (y / self.reach) ** 2) ** 2  # continuous at the end of the range
         return np.array([0.0, -self.stiffness * y * fade - self.damping * speed * fade, 0.0])
 
 
 def simulate(law: Callable[[cal.DeviceState], np.ndarray], start: float, meant: float, seconds: float = 1.0) -> tuple[np.ndarray, np.ndarray]:
-    """A hand at `start` means to be at y = `meant` from then on; the pen's y and the force, tick by tick."""
+    """A hand at `start` moves to the intended position y = `meant`; returns the pen's y and the force, tick by tick."""
     device = cal.SimulatedDevice(PROFILE, cal.GripImpedance(mass=0.1, damping=3.0, stiffness=300.0), (0.0, start, 0.0))
     device.set_intention(cal.Intention(position=(0.0, meant, 0.0)))
     servo = cal.Servo(device, law, ramp_up=0.05)
@@ -43,21 +43,21 @@ def simulate(law: Callable[[cal.DeviceState], np.ndarray], start: float, meant: 
 class GrooveTest(unittest.TestCase):
     def test_the_pen_rests_where_hand_and_groove_balance(self) -> None:
         path, _ = simulate(Groove(), 0.004, 0.004)
-        # 300 (0.004 - y) = 400 y (1 - (y / 0.01)^2)^2 has one root in (0, 4 mm): 1.86 mm; dry friction holds it nearby.
+        # 300 (0.004 - y) = 400 y (1 - (y / 0.01)^2)^2 has one root in (0, 4 mm): 1.86 mm, give or take dry friction.
         y = np.linspace(0, 0.004, 100_001)
         balance = y[np.argmin(np.abs(300 * (0.004 - y) - 400 * y * (1 - (y / 0.01) ** 2) ** 2))]
         self.assertAlmostEqual(path[-1], balance, delta=2e-4)
 
-    def test_beyond_its_reach_nothing_pulls(self) -> None:
+    def test_there_is_no_force_out_of_range(self) -> None:
         _, force = simulate(Groove(), 0.03, 0.03)
         self.assertEqual(np.abs(force).max(), 0.0)
 
-    def test_the_force_never_steps(self) -> None:
+    def test_the_force_is_continuous(self) -> None:
         path, force = simulate(Groove(), 0.02, -0.02)
-        travel = np.abs(np.diff(path)).max()  # in a tick [m]
+        travel = np.abs(np.diff(path)).max()  # per tick [m]
         speed, rounding = 1e3 * travel, 2 * PROFILE.encoder_step
-        push = np.abs(1e3 * np.diff(path, 2)).max()  # change of speed in a tick [m/s]
-        steepest = 1.54 / 0.01  # of the fade, per metre
+        push = np.abs(1e3 * np.diff(path, 2)).max()  # change of speed per tick [m/s]
+        steepest = 1.54 / 0.01  # slope of the fade, per metre
         self.assertLess(np.abs(np.diff(force)).max(), 400 * (travel + rounding) + push + speed * steepest * (travel + rounding))
 
 
@@ -68,7 +68,7 @@ if __name__ == "__main__":
         path, force = simulate(Groove(stiffness), 0.008, 0.002)
         above.plot(1e3 * path, label=f"{stiffness:.0f} N/m")
         below.plot(force)
-    above.set(ylabel="y of the pen [mm]", title="A groove at y = 0 with a damper of 1 N s/m; the hand means to be at 2 mm")
+    above.set(ylabel="y of the pen [mm]", title="A groove at y = 0 with a damper of 1 N s/m; intended position 2 mm")
     above.legend()
     below.set(xlabel="time [ms]", ylabel="force [N]")
     save(figure, out / "own-force-law.png")

@@ -1,4 +1,4 @@
-"""What the pictures of these examples have in common."""
+"""Plotting functions shared by the examples."""
 
 from __future__ import annotations
 
@@ -19,16 +19,16 @@ plt.rcParams.update({"figure.dpi": 110, "axes.grid": True, "grid.alpha": 0.3, "a
 
 
 def output_directory(description: str | None) -> pathlib.Path:
-    """The directory of --out, made if it is not there."""
+    """The directory given by --out, created if necessary."""
     parser = argparse.ArgumentParser(description=description)
-    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out"), help="where pictures go [out]")
+    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out"), help="output directory [out]")
     directory: pathlib.Path = parser.parse_args().out
     directory.mkdir(parents=True, exist_ok=True)
     return directory
 
 
 def name_of(character: cal.Character) -> str:
-    """Latin, as the fonts of matplotlib have no Chinese."""
+    """The code point, because matplotlib's fonts have no Chinese characters."""
     return f"U+{ord(character.code):04X}"
 
 
@@ -38,21 +38,21 @@ def curve(element: cal.StrokeElement) -> np.ndarray:
 
 
 def draw_template(axes: Axes, placed: cal.PlacedCharacter, color: str = "#4477aa", width: float = 6.0) -> None:
-    """The strokes of a character as they should be [mm]."""
+    """Draws the strokes of the template [mm]."""
     for stroke in placed.character.strokes():
         points = np.concatenate([curve(e) for e in cal.place_elements(stroke, placed.placement)])
         axes.plot(*(1e3 * points.T), color=color, linewidth=width, alpha=0.35, solid_capstyle="round", zorder=1)
 
 
 def draw_trace(axes: Axes, samples: np.ndarray, color: str = "#228833", label: str | None = None) -> None:
-    """What the pen left on the paper while it wrote [mm]."""
+    """Draws the trace of the pen while writing [mm]."""
     writing = samples["state"] == int(cal.InteractionState.writing)
     tip = np.where(writing[:, None], 1e3 * samples["pen_tip"][:, :2], np.nan)
     axes.plot(tip[:, 0], tip[:, 1], color=color, linewidth=1.2, label=label, zorder=2)
 
 
 def square(axes: Axes, placed: cal.PlacedCharacter) -> None:
-    """The em square with a margin, no distortion [mm]."""
+    """Sets the limits to the em square with a margin, at equal scales [mm]."""
     left, bottom = 1e3 * placed.placement.origin
     em = 1e3 * placed.placement.em
     axes.set(xlim=(left - 4, left + em + 4), ylim=(bottom - 4, bottom + em + 4), aspect="equal")

@@ -1,4 +1,4 @@
-"""How stiff virtual paper may be: a pen is let fall on walls of many stiffnesses, beside the bounds of theory."""
+"""Maximum stiffness of virtual paper: a pen dropped on walls of many stiffnesses, compared with theoretical bounds."""
 
 from typing import Any
 
@@ -19,7 +19,7 @@ bounds: dict[str, list[float]] = {"passive": [], "stable": [], "approximate": []
 for rate in rates:
     loop = cal.SampledLoop(device=device, rate=rate, grip=cal.GripImpedance())
     outcomes = [cal.simulate_wall_contact(loop, k, contact) for k in stiffnesses]
-    # A swing that dies down to a smaller one, as large as the device's peak force keeps it, is no rest.
+    # An oscillation that the device's peak force merely limits does not count as stable.
     stable = np.array([outcome["stable"] and outcome["last_force"] < device.peak_force for outcome in outcomes])
     at = np.full(len(stiffnesses), rate)
     axes.plot(at[stable], stiffnesses[stable], "o", color="#228833", markersize=5)
@@ -28,9 +28,9 @@ for rate in rates:
     for name, values in bounds.items():
         values.append(advice[name]["value"])
     last = max(int(np.argmin(stable)) - 1, 0)
-    print(f"{rate:6.0f} Hz: settles up to {stiffnesses[last]:7.0f} N/m, no more at {stiffnesses[last + 1]:7.0f}; "
+    print(f"{rate:6.0f} Hz: stable up to {stiffnesses[last]:7.0f} N/m, unstable at {stiffnesses[last + 1]:7.0f}; "
           f"theory {advice['stable']['value']:7.0f} N/m")  # fmt: skip
-styles: dict[str, dict[str, Any]] = {  # the last two all but coincide
+styles: dict[str, dict[str, Any]] = {  # the last two almost coincide
     "passive": {"color": "black", "linestyle": "--"},
     "stable": {"color": "#ddaa33", "linewidth": 4.0, "zorder": 1},
     "approximate": {"color": "black", "linestyle": ":"},
@@ -38,9 +38,9 @@ styles: dict[str, dict[str, Any]] = {  # the last two all but coincide
 for name, values in bounds.items():
     axes.plot(rates, values, label=f"bound: {name}", **{"linewidth": 1.4, **styles[name]})
 axes.plot([], [], "o", color="#228833", label="the pen comes to rest")
-axes.plot([], [], "x", color="#ee6677", label="it keeps swinging")
+axes.plot([], [], "x", color="#ee6677", label="the pen keeps oscillating")
 axes.set(
-    xscale="log", yscale="log", xlabel="servo rate [Hz]", ylabel="stiffness of the wall [N/m]",
+    xscale="log", yscale="log", xlabel="servo rate [Hz]", ylabel="wall stiffness [N/m]",
     title="45 g with b = 0.1 N s/m in a normal grip, on a virtual wall",
 )  # fmt: skip
 axes.set_xticks(rates, [f"{rate:.0f}" for rate in rates])

@@ -1,7 +1,7 @@
 """Table 5 and Figs. 31 to 38 (Wang 2006, sec. 7): one text, vision alone and vision with force.
 
-The paper's writers are people; here one simulated novice writes on a simulated device, so the figures show the same
-things, not the same numbers.
+The paper's writers are people; here a simulated novice writes on a simulated device, so the figures show the same
+quantities with different values.
 """
 
 import matplotlib.pyplot as plt
@@ -18,7 +18,7 @@ out = output_directory(__doc__)
 # Table 5: time and error of each character in both modes.
 table = experiment.run(experiment.Grid(TEXT, seeds=SEEDS))
 print("Table 5, means over", SEEDS, "simulated writers")
-print(f"{'character':10} {'mode':7} {'time [s]':>9} {'RMS error [mm]':>15} {'largest [mm]':>13}")
+print(f"{'character':10} {'mode':7} {'time [s]':>9} {'RMS error [mm]':>15} {'maximum [mm]':>13}")
 means = {}
 for code in TEXT:
     for mode in ("vision", "force"):
@@ -26,7 +26,7 @@ for code in TEXT:
         time, rms, largest = (np.asarray(table[n])[rows].mean() for n in ("time", "rms_error", "max_error"))
         means[code, mode] = time, rms
         print(f"{code:9} {mode:7} {time:9.2f} {1e3 * rms:15.3f} {1e3 * largest:13.3f}")
-print("time with force in the paper: 17.1 % less (26, 12, 12, 18 %), people writing four characters")
+print("in the paper, force feedback reduced the time by 17.1 % (26, 12, 12, 18 %), for people writing four characters")
 for index, what in enumerate(("time", "RMS error")):
     less = [1 - means[c, "force"][index] / means[c, "vision"][index] for c in TEXT]
     print(f"{what} with force: {100 * np.mean(less):.1f} % less")
@@ -67,7 +67,7 @@ for axes, value, label in zip(rows, (force[:, :2], in_plane, force[:, 2]), ("x a
     axes.fill_between(time, 0, 1, where=writing, transform=axes.get_xaxis_transform(), color="#ccbb44", alpha=0.18)
     if value.ndim == 2:
         axes.legend(lines, ("x", "y"), loc="upper right", ncols=2)
-rows[0].set_title(f"Figs. 32 to 36: force on the hand, {name_of(page.characters[0].character)}; shaded: a stroke is being written")
+rows[0].set_title(f"Figs. 32 to 36: force on the hand, {name_of(page.characters[0].character)}; shaded: writing")
 rows[-1].set_xlabel("time [s]")
 save(figure, out / "figures-32-36.png")
 

@@ -33,6 +33,6 @@ def test_a_pressed_pen_comes_to_rest_where_hand_and_wall_balance() -> None:
     assert max_force < DESKTOP.peak_force
 
 
-def test_above_the_wall_nothing_is_felt() -> None:
+def test_there_is_no_force_above_the_wall() -> None:
     _, max_force = simulate(cal.GripImpedance(mass=0.1, damping=3.0, stiffness=300.0), (0.02, 0.0, 0.01))
     assert max_force == 0.0

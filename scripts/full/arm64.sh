@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Nearest points and forces of this processor and of an emulated arm64, bit by bit; a written page to 1e-9.
-# Needs g++-aarch64-linux-gnu and qemu-user.
+# Compares results of this processor and an emulated arm64: nearest points and forces bit by bit, a written page to 1e-9.
+# Requires g++-aarch64-linux-gnu and qemu-user.
 # usage: arm64.sh [BUILD_DIRECTORY]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."

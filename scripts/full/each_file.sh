@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Every source file compiled on its own, which shows an #include that its neighbours in a unit have and it lacks.
+# Compiles every source file on its own, which detects missing includes that unity builds hide.
 # usage: each_file.sh [BUILD_DIRECTORY]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The library with clang and libc++, phantom and openhaptics aside, and a page written with it, which agrees with that
-# of this system's compiler to 1e-9. Needs clang-14 and libc++-14-dev, or newer ones by CXX.
+# Builds the library without phantom and openhaptics with clang and libc++, and checks that a page written with it agrees
+# to 1e-9 with that of this system's compiler. Requires clang-14 and libc++-14-dev, or newer ones set by CXX.
 # usage: libcxx.sh [one | BUILD_DIRECTORY]
 #   one   checks one translation unit that includes most of the headers, in seconds
 set -euo pipefail

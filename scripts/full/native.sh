@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What the other scripts here compare with: tests/portability by this system's compiler, and what its programs print as
-# BUILD_DIRECTORY/native.bits and native.page.
+# Builds the reference for the other scripts here: tests/portability with this system's compiler. The output of its
+# programs is written to BUILD_DIRECTORY/native.bits and native.page.
 # usage: native.sh BUILD_DIRECTORY
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."

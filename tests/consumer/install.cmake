@@ -1,4 +1,4 @@
-# Installs the build and looks at what is there.
+# Installs the build and checks the installed files.
 file(REMOVE_RECURSE ${PREFIX})
 execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD} --prefix ${PREFIX} --config ${TYPE}
                 COMMAND_ERROR_IS_FATAL ANY)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Components include only what lies below them, and every list of them says the same.
+"""Components include only those below them, and all lists of components agree.
 
 usage: test_components.py SOURCE_DIRECTORY
 """
@@ -7,7 +7,7 @@ import pathlib
 import re
 import sys
 
-# Every component with those whose headers it may include, ground floor first (README.md).
+# Every component with those whose headers it may include, bottom up (README.md).
 BELOW = {
     "base": [],
     "model": ["base"],
@@ -23,7 +23,7 @@ BELOW = {
 }
 BACKENDS = ["phantom", "openhaptics"]  # folders beneath devices
 
-# Of devices, render sees plain structs alone: no device, no loop.
+# From devices, render may include only plain structs: no device, no loop.
 PLAIN_DEVICE_HEADERS = {"capabilities", "device_state"}
 
 
@@ -39,7 +39,7 @@ def includes(path):
 
 
 def arrows(root):
-    """What is wrong with the includes below root, each with its place."""
+    """The invalid includes below root, each with its place."""
     found = []
     for folder in ("include/calligraphy", "src"):
         for path in sorted((root / folder).rglob("*.[ch]pp")):
@@ -47,10 +47,10 @@ def arrows(root):
             own = component_of(parts)
             if own is None:
                 if len(parts) > 1:
-                    found.append(f"{path}: no component has this folder")
+                    found.append(f"{path}: this folder belongs to no component")
                 for name in includes(path):  # calligraphy.hpp
                     if "/detail/" in name:
-                        found.append(f"{path}: {name} is no header for users")
+                        found.append(f"{path}: {name} is not a public header")
                 continue
             for name in includes(path):
                 public = name.startswith("calligraphy/")
@@ -60,7 +60,7 @@ def arrows(root):
                 if target not in BELOW[own] + [own]:
                     found.append(f"{path}: {own} includes {name}, and {target} is not below it")
                 if own == "render" and target == "devices" and pathlib.PurePosixPath(name).stem not in PLAIN_DEVICE_HEADERS:
-                    found.append(f"{path}: render includes {name}, which is more than a plain struct of a device")
+                    found.append(f"{path}: render includes {name}, which is not a plain struct of devices")
                 if folder.startswith("include") and not public:
                     found.append(f"{path}: a public header includes the private {name}")
     return found
@@ -73,7 +73,7 @@ def order_in(text, pattern):
 
 
 def lists(root):
-    """Every list of the components that differs from this file's."""
+    """The lists of components that differ from the one in this file."""
     expected = list(BELOW)
     found = []
     for place, pattern in {

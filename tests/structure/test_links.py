@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every relative link of README.md, CHANGELOG.md and docs/ leads to a file, and every anchor to a heading.
+"""Every relative link in README.md, CHANGELOG.md and docs/ resolves to a file, and every anchor to a heading.
 
 usage: test_links.py SOURCE_DIRECTORY
 """
@@ -9,7 +9,7 @@ import sys
 
 
 def anchors(page):
-    """The anchors that a forge makes of the headings of a page."""
+    """The anchors that Git hosting services generate from the headings of a page."""
     headings = re.findall(r"^#+ (.+)$", page.read_text(encoding="utf-8"), re.MULTILINE)
     return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
 
@@ -27,7 +27,7 @@ def main():
             if not target.exists():
                 broken.append(f"{page.relative_to(root)}: {link} does not exist")
             elif anchor and anchor not in anchors(target):
-                broken.append(f"{page.relative_to(root)}: {link} has no such heading")
+                broken.append(f"{page.relative_to(root)}: {link} matches no heading")
     print("\n".join(broken))
     return 1 if broken else 0
 

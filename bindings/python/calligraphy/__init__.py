@@ -1,8 +1,7 @@
-"""Haptic guidance for writing Chinese characters: the C++ library from Python.
+"""Haptic guidance for writing Chinese characters: Python bindings of the C++ library.
 
-Names are those of the C++ library. SI units; the shapes of characters are in em (unit square, y up).
-Arrays are NumPy's, taken and given without a copy where the memory allows. docs/python.md leads from
-the first line to the first plot.
+Names are those of the C++ library. SI units; character shapes are in em (unit square, y up).
+Arrays are NumPy arrays, passed without a copy where possible. docs/python.md is an introduction.
 """
 
 import importlib as _importlib
@@ -13,9 +12,9 @@ for _name in ("_interpreters", "_xxsubinterpreters"):  # from Python 3.13 on, an
         _interpreters = _importlib.import_module(_name)
     except ImportError:
         continue
-    # The extension has one set of types for the process; within a second interpreter it would wait for itself.
+    # The extension has one set of types per process; loading it in a second interpreter would deadlock.
     if _interpreters.get_current() != _interpreters.get_main():
-        raise ImportError("calligraphy runs in the main interpreter of a process alone")
+        raise ImportError("calligraphy can only be imported in the main interpreter of a process")
     break
 
 from calligraphy import _calligraphy, _struct
@@ -26,7 +25,7 @@ for _kind in list(vars(_calligraphy).values()):
     if type(_kind).__name__ == "pybind11_type":
         _struct.finish(_kind)
 
-#: What a backend that was left out would have brought, and what to do about it.
+#: The names of each optional backend, and how to install it.
 _BACKENDS = {
     "phantom": (
         "LinkKind PhantomDevice PhantomOptions PluggedDevice capture_packets dump_descriptors plugged_devices read_wire_profile",
@@ -39,7 +38,7 @@ _BACKENDS = {
     ),
 }
 
-if not TYPE_CHECKING:  # a checker would take any name for one
+if not TYPE_CHECKING:  # with __getattr__, a type checker would accept any name
 
     def __getattr__(name: str) -> object:
         for backend, (names, advice) in _BACKENDS.items():

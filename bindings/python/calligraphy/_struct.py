@@ -1,4 +1,4 @@
-"""What the structs of the extension share: keyword arguments, comparison, representation, copies and pickling."""
+"""Common features of the extension's structs: keyword arguments, comparison, representation, copies and pickling."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 
 
 def equal(one: Any, other: Any) -> bool:
-    """NaN equals NaN, and arrays and lists are compared as a whole."""
+    """Equality in which NaN equals NaN, and arrays and lists are compared as a whole."""
     if isinstance(one, np.ndarray):
         return np.array_equal(one, other, equal_nan=one.dtype.kind == "f")
     if isinstance(one, list) and isinstance(other, list):
@@ -18,19 +18,19 @@ def equal(one: Any, other: Any) -> bool:
 
 
 def shown(value: Any) -> str:
-    """As it would be written; of much the beginning, and how much there is."""
+    """The value as a literal; long ones are abbreviated, with their length."""
     if isinstance(value, np.ndarray):
         return repr(value.tolist()) if value.size <= 16 else f"array{value.shape}"
     if isinstance(value, list):
         more = f", ... {len(value)} in all" if len(value) > 8 else ""
         return f"[{', '.join(map(shown, value[:3] if more else value))}{more}]"
     if isinstance(value, str) and len(value) > 80:
-        return f"{value[:40]!r}... {len(value)} letters in all"
+        return f"{value[:40]!r}... {len(value)} characters in all"
     return repr(value)
 
 
 class Struct:
-    """Mixed into every class that names its parts."""
+    """Methods copied into every class that has `__match_args__`."""
 
     __match_args__: tuple[str, ...]
 
@@ -47,13 +47,13 @@ class Struct:
         return partial(type(self), **{k: v.copy() if isinstance(v, np.ndarray) else v for k, v in values.items()}), ()
 
     def __copy__(self, memo: object = None) -> Any:
-        return self.__reduce__()[0]()  # C++ copies whatever it is given
+        return self.__reduce__()[0]()  # the C++ constructor copies its arguments
 
     __deepcopy__ = __copy__
 
 
 def finish(kind: Any) -> None:
-    """Gives a class of the extension what it lacks."""
+    """Completes a class of the extension."""
     own, made = dict(vars(kind)), kind.__init__
 
     def with_keywords(self: Any, **values: Any) -> None:
@@ -70,5 +70,5 @@ def finish(kind: Any) -> None:
         for name in {"__eq__", "__repr__", "__reduce__", "__copy__", "__deepcopy__"} - ({"__repr__"} & set(own)):
             setattr(kind, name, vars(Struct)[name])
         kind.__hash__ = None
-    # The two oldest protocols of pickle bypass __new__, which pybind11 answers by abort().
+    # Pickle protocols 0 and 1 bypass __new__, on which pybind11 aborts.
     kind.__reduce_ex__ = lambda self, protocol: object.__reduce_ex__(self, max(protocol, 2))

@@ -94,7 +94,7 @@ void add_kinematics(py::module_& module) {
         return per_row(joints, "joints", [&](const auto& row, py::ssize_t) { return within_limits(arm, row, margin); });
       },
       "linkage"_a, "joints"_a, "margin"_a = 0.0,
-      "Whether every joint of (3,) or (n, 3) [rad] is within its limits plus `margin` [rad]: bool.");
+      "Whether every joint of (3,) or (n, 3) [rad] is within its limits plus `margin` [rad]: bool, () or (n,).");
   module.def(
       "joint_torque",
       [](const Linkage& arm, const ArrayLike& joints, const ArrayLike& force) {

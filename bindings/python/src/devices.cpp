@@ -171,7 +171,7 @@ void add_devices(py::module_& module) {
       .def("set_grip", when_idle(&SimulatedDevice::set_grip), "grip"_a,
            "Sets the grip of the hand that holds the device.")
       .def("set_buttons", when_idle(&SimulatedDevice::set_buttons), "buttons"_a, "One bit per pressed button.")
-      .def("advance", when_idle(&SimulatedDevice::advance), "seconds"_a, "Advances virtual time, takes a sample.")
+      .def("advance", when_idle(&SimulatedDevice::advance), "seconds"_a, "Advances virtual time [s]; takes a sample.")
       .def_property_readonly("true_position", when_idle(&SimulatedDevice::true_position), "(3,), not quantised [m]")
       .def_property_readonly("true_velocity", when_idle(&SimulatedDevice::true_velocity), "(3,) [m/s]")
       .def_property_readonly("applied_force", when_idle(&SimulatedDevice::applied_force), "(3,) [N]")
@@ -242,8 +242,8 @@ void add_devices(py::module_& module) {
           "statistics", &VirtualServo::statistics,
           "A dict: `period` from tick to tick and `work` per tick (0 in virtual time), each with count, p50, p99, "
           "p99_9 and worst [s]; ticks that reached the device; missed_deadlines; stale_samples, ticks without a fresh "
-          "sample; stalled_clock, ticks whose time was not later than that of the previous tick; watchdog_takeovers of "
-          "the device; idle_ticks, which wrote nothing; faults, by DeviceFault.");
+          "sample; stalled_clock, ticks no later than the previous one; watchdog_takeovers of the device; idle_ticks, "
+          "which wrote nothing; faults, by DeviceFault.");
 }
 
 }  // namespace calligraphy::python

@@ -44,7 +44,7 @@ def test_no_sample_of_the_curve_is_nearer_than_the_certified_point(control_point
         assert np.isclose(np.linalg.norm(query - result.point[i]), result.distance[i], atol=1e-9 * (1 + reach))
 
 
-def test_the_answer_has_the_documented_shapes_and_types():
+def test_the_result_has_the_documented_shapes_and_types():
     result = cal.nearest_point(CUBIC, np.zeros((7, 2)))
     assert (result.parameter.shape, result.point.shape, result.distance.shape) == ((7,), (7, 2), (7,))
     assert (result.tangent.shape, result.certified.shape, result.certified.dtype) == ((7, 2), (7,), np.dtype(bool))
@@ -52,7 +52,7 @@ def test_the_answer_has_the_documented_shapes_and_types():
     assert len(result) == 7
 
 
-def test_one_by_one_and_in_a_batch_are_the_same_to_the_last_bit():
+def test_single_queries_and_a_batch_give_identical_results():
     queries = np.random.default_rng(1).normal(size=(100, 2))
     for method in ("exact", "tracked", "sampled", "wang2006"):
         batch = cal.nearest_point(CUBIC, queries, method=method)
@@ -61,7 +61,7 @@ def test_one_by_one_and_in_a_batch_are_the_same_to_the_last_bit():
         assert np.array_equal(batch.distance, np.concatenate([a.distance for a in alone]))
 
 
-def test_a_prepared_element_answers_as_its_control_points_do():
+def test_a_prepared_element_gives_the_same_results_as_its_control_points():
     queries = np.random.default_rng(2).normal(size=(64, 2))
     element = cal.StrokeElement(CUBIC)
     assert np.array_equal(cal.nearest_point(element, queries).point, cal.nearest_point(CUBIC, queries).point)
@@ -84,7 +84,7 @@ def test_a_prepared_element_answers_as_its_control_points_do():
     ],
     ids=["fortran", "strided", "reversed twice", "list", "odd alignment", "column slice", "big endian"],
 )
-def test_any_layout_of_the_same_numbers_gives_the_same_answer(layout):
+def test_the_result_does_not_depend_on_the_memory_layout(layout):
     queries = np.random.default_rng(3).normal(size=(100, 2))
     expected = cal.nearest_point(CUBIC, queries)
     given_so = cal.nearest_point(CUBIC, layout(queries))
@@ -93,7 +93,7 @@ def test_any_layout_of_the_same_numbers_gives_the_same_answer(layout):
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float16, np.int64, np.uint8])
-def test_numbers_that_doubles_hold_are_taken(dtype):
+def test_dtypes_convertible_to_double_are_accepted(dtype):
     queries = np.arange(20).reshape(10, 2).astype(dtype)
     assert np.array_equal(
         cal.nearest_point(CUBIC, queries).distance, cal.nearest_point(CUBIC, queries.astype(float)).distance
@@ -101,7 +101,7 @@ def test_numbers_that_doubles_hold_are_taken(dtype):
 
 
 @pytest.mark.parametrize("dtype", [complex, np.complex64, bool, object, "U4", "datetime64[s]", np.longdouble])
-def test_other_types_are_refused_by_name(dtype):
+def test_other_dtypes_are_rejected_naming_the_argument(dtype):
     if dtype is np.longdouble and np.dtype(np.longdouble).itemsize == 8:
         pytest.skip("long double is double here")
     with pytest.raises(cal.InvalidValue, match="queries: expected real numbers"):
@@ -109,7 +109,7 @@ def test_other_types_are_refused_by_name(dtype):
 
 
 @pytest.mark.parametrize("shape", [(3,), (2,), (3, 3), (3, 2, 1), (), (0, 3), (2, 1)])
-def test_a_wrong_shape_is_refused_with_the_one_expected_and_the_one_given(shape):
+def test_a_wrong_shape_of_queries_is_rejected_naming_the_expected_and_the_given_one(shape):
     with pytest.raises(cal.InvalidValue) as refused:
         cal.nearest_point(CUBIC, np.zeros(shape))
     assert "queries" in str(refused.value) and "(n, 2)" in str(refused.value) and str(shape) in str(refused.value)
@@ -117,31 +117,31 @@ def test_a_wrong_shape_is_refused_with_the_one_expected_and_the_one_given(shape)
 
 
 @pytest.mark.parametrize("count", [0, 1, 6])
-def test_a_curve_of_a_degree_that_is_none_is_refused(count):
+def test_a_curve_of_invalid_degree_is_rejected(count):
     with pytest.raises(cal.InvalidValue, match=r"control_points: expected shape \(2, 2\) to \(5, 2\), got"):
         cal.nearest_point(np.zeros((count, 2)), CUBIC)
 
 
-def test_ragged_lists_are_refused_by_name():
+def test_ragged_lists_are_rejected_naming_the_argument():
     with pytest.raises(cal.InvalidValue, match="queries"):
         cal.nearest_point(CUBIC, [[0.0, 1.0], [2.0]])
 
 
-def test_an_unknown_method_is_refused_with_those_that_exist():
+def test_an_unknown_method_is_rejected_naming_the_available_ones():
     with pytest.raises(cal.InvalidValue, match="exact.*wang2006.*'newton'"):
         cal.nearest_point(CUBIC, CUBIC, method="newton")
     with pytest.raises(TypeError):
         cal.nearest_point(CUBIC, CUBIC, method=None)
 
 
-def test_no_queries_give_no_answers():
+def test_no_queries_give_empty_results():
     for empty in ([], np.zeros((0, 2))):
         result = cal.nearest_point(CUBIC, empty)
         assert result.point.shape == (0, 2) and result.certified.shape == (0,)
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
-def test_a_query_that_is_not_finite_is_told_and_spoils_no_other(value):
+def test_a_non_finite_query_is_reported_and_affects_no_other(value):
     queries = np.random.default_rng(4).normal(size=(200, 2))
     spoilt = queries.copy()
     spoilt[77, 1] = value
@@ -152,13 +152,13 @@ def test_a_query_that_is_not_finite_is_told_and_spoils_no_other(value):
     assert np.array_equal(good.point[others], bad.point[others])
 
 
-def test_control_points_that_are_not_finite_certify_nothing():
+def test_non_finite_control_points_certify_nothing():
     curve = CUBIC.copy()
     curve[2, 0] = np.nan
     assert not cal.nearest_point(curve, CUBIC).certified.any()
 
 
-def test_a_million_queries():
+def test_a_million_queries_are_answered():
     queries = np.random.default_rng(5).normal(size=(1_000_000, 2))
     result = cal.nearest_point(CUBIC, queries)
     assert result.certified.all()
@@ -183,7 +183,7 @@ def test_arrays_outlive_their_owner():
     expected = [array.copy() for array in shape_and_factors()]
     kept = shape_and_factors()
     gc.collect()
-    for _ in range(100):  # whoever takes freed memory writes to it
+    for _ in range(100):  # reuse freed memory, to expose dangling views
         cal.built_in_characters()
     for array, copy in zip(kept, expected):
         assert np.array_equal(array, copy)
@@ -217,8 +217,8 @@ def character():
         (lambda: cal.PlacedCharacter(character()), lambda it: it.character.control_points),
     ],
 )
-def test_a_part_keeps_its_owner_and_lets_it_go(make, part):
-    """Memory that was freed mostly holds what it held: whether the owner lives is asked of Python itself."""
+def test_a_view_keeps_its_owner_alive_and_then_releases_it(make, part):
+    """Freed memory often keeps its contents, so this asks Python whether the owner is alive."""
     whole = make()
     owner, kept = weakref.ref(whole), part(whole)
     del whole
@@ -229,7 +229,7 @@ def test_a_part_keeps_its_owner_and_lets_it_go(make, part):
     assert owner() is None
 
 
-def test_views_of_what_must_not_change_are_read_only():
+def test_views_of_immutable_data_are_read_only():
     character = cal.built_in_characters()["永"]
     for array in (character.control_points, character.stroke_ids, character.attraction_factors):
         with pytest.raises(ValueError, match="read-only"):
@@ -268,7 +268,7 @@ def felt(force):
     return device.last_force
 
 
-#: Whatever takes an array: the argument's name, an array that fits, and what comes of it. A length of None is any.
+#: All functions with array arguments: the argument's name, a valid array, and a call. A length of None is arbitrary.
 TAKERS = {
     "nearest_point": ("queries", (None, 2), lambda a: cal.nearest_point(CUBIC, a).point),
     "StrokeElement.point": ("t", (None,), lambda a: cal.StrokeElement(CUBIC).point(a)),
@@ -299,18 +299,18 @@ def expected_shape(shape):
 @pytest.mark.parametrize("name", TAKERS)
 @settings(deadline=None, max_examples=10, derandomize=True, database=None)
 @given(st.data())
-def test_an_array_of_another_shape_is_refused_with_the_one_expected_and_the_one_given(name, data):
+def test_a_wrong_shape_is_rejected_naming_the_expected_and_the_given_one(name, data):
     argument, fits, call = TAKERS[name]
-    # Often one length too many, or one axis, as well as anything.
+    # Shapes off by one in length or number of axes, and arbitrary ones.
     near = [tuple(5 if n is None else n for n in fits)]
     near += [s[:i] + (s[i] + d,) + s[i + 1 :] for s in near for i in range(len(s)) if fits[i] for d in (-1, 1)]
     near = [*near[1:], near[0] + (1,), near[0][1:]]
     shape = data.draw(st.sampled_from(near) | hnp.array_shapes(min_dims=0, min_side=0))
     fitting = len(shape) == len(fits) and all(want in (None, got) for want, got in zip(fits, shape))
-    if fitting or (shape == (0,) and fits[0] is None):  # an empty list has no second length
+    if fitting or (shape == (0,) and fits[0] is None):  # an empty list has no second dimension
         return
     if name.startswith("StrokeElement") and shape == ():
-        return  # one parameter
+        return  # a single parameter is valid
     with pytest.raises(cal.InvalidValue) as refused:
         call(np.zeros(shape))
     told = str(refused.value)
@@ -320,8 +320,8 @@ def test_an_array_of_another_shape_is_refused_with_the_one_expected_and_the_one_
 @pytest.mark.parametrize("name", TAKERS)
 @settings(deadline=None, max_examples=6, derandomize=True, database=None)
 @given(st.data())
-def test_what_is_taken_does_not_depend_on_how_it_lies_in_memory(name, data):
-    """Any strides, negative and zero ones, any alignment, byte order or type that holds the numbers."""
+def test_results_do_not_depend_on_how_an_argument_is_stored(name, data):
+    """Any strides, including negative and zero ones, alignment, byte order and dtype that represents the numbers."""
     _, fits, call = TAKERS[name]
     least = 0 if len(fits) > 1 else 1
     shape = tuple(data.draw(st.integers(least, 6)) if n is None else n for n in fits)
@@ -351,7 +351,7 @@ def test_what_is_taken_does_not_depend_on_how_it_lies_in_memory(name, data):
 
 @pytest.mark.parametrize("name", TAKERS)
 @pytest.mark.parametrize("dtype", [complex, bool, object, "U4", "S4", "datetime64[s]", [("x", float)]], ids=str)
-def test_what_are_no_real_numbers_are_refused_by_the_arguments_name(name, dtype):
+def test_values_other_than_real_numbers_are_rejected_naming_the_argument(name, dtype):
     argument, fits, call = TAKERS[name]
     with pytest.raises(cal.InvalidValue, match=f"^{argument}: expected real numbers"):
         call(np.zeros([2 if n is None else n for n in fits], dtype=dtype))
@@ -360,7 +360,7 @@ def test_what_are_no_real_numbers_are_refused_by_the_arguments_name(name, dtype)
 
 
 @pytest.mark.parametrize("name", TAKERS)
-def test_what_numpy_cannot_make_an_array_of_is_refused_by_the_arguments_name(name):
+def test_values_that_numpy_cannot_convert_are_rejected_naming_the_argument(name):
     argument, fits, call = TAKERS[name]
     if not name.startswith("StrokeElement"):
         for ragged in ([[1.0, 2.0], [3.0]], [0.0, [1.0, 2.0]]):
@@ -381,14 +381,14 @@ def test_what_numpy_cannot_make_an_array_of_is_refused_by_the_arguments_name(nam
 
 
 @pytest.mark.parametrize("name", [name for name, (_, fits, _) in TAKERS.items() if fits[0] is None])
-def test_an_array_that_is_too_large_to_be_copied_is_named(name):
+def test_an_array_too_large_to_copy_raises_memory_error_naming_the_argument(name):
     argument, fits, call = TAKERS[name]
     endless = np.broadcast_to(np.float32(0.0), (10**16, *fits[1:]))
     with pytest.raises(MemoryError, match=rf"^{argument}: shape \(10000000000000000,.*\) cannot be copied: Unable"):
         call(endless)
 
 
-def test_a_subclass_that_cannot_be_copied_as_such_is_taken_for_its_numbers():
+def test_of_a_subclass_that_cannot_be_copied_only_the_numbers_are_used():
     class Stubborn(np.ndarray):
         def __array_finalize__(self, origin):
             if type(origin) is Stubborn:
@@ -398,7 +398,7 @@ def test_a_subclass_that_cannot_be_copied_as_such_is_taken_for_its_numbers():
 
 
 @pytest.mark.parametrize("name", TAKERS)
-def test_numbers_that_are_masked_are_refused_and_arrays_where_none_is_are_taken(name):
+def test_masked_numbers_are_rejected_and_masked_arrays_without_any_are_accepted(name):
     argument, fits, call = TAKERS[name]
     numbers = np.ma.array(np.ones(tuple(2 if n is None else n for n in fits)))
     if name == "trace at times":
@@ -410,15 +410,15 @@ def test_numbers_that_are_masked_are_refused_and_arrays_where_none_is_are_taken(
 
 
 @pytest.mark.parametrize("t", [np.float32(0.5), np.int64(1), np.float64(0.25), 1, 0.5, np.array(0.5)], ids=repr)
-def test_a_scalar_of_any_kind_is_one_parameter(t):
+def test_a_scalar_of_any_type_is_one_parameter(t):
     element = cal.StrokeElement(CUBIC)
     assert np.allclose(element.point(t), bezier(CUBIC, np.array([float(t)]))[0]) and element.point(t).shape == (2,)
 
 
 @settings(deadline=None, max_examples=15, derandomize=True, database=None)
 @given(hnp.arrays(float, st.tuples(st.integers(0, 20), st.just(3)), elements=st.floats() | st.floats(-0.1, 0.1)))
-def test_no_position_whatever_makes_a_force_that_is_not_finite(positions):
-    """NaN, infinite, huge and tiny ones."""
+def test_the_force_is_finite_for_any_position(positions):
+    """Includes NaN, infinite, huge and tiny positions."""
     renderer = cal.HapticRenderer(PAGE.characters, UPRIGHT, CAPABILITIES)
     ticks = renderer.trace(positions)
     assert np.isfinite(ticks["force"]).all() and np.linalg.norm(ticks["force"], axis=1).max(initial=0) <= 7.9 + 1e-9
@@ -428,12 +428,12 @@ def test_no_position_whatever_makes_a_force_that_is_not_finite(positions):
 
 @settings(deadline=None, max_examples=30, derandomize=True, database=None)
 @given(hnp.arrays(float, 6, elements=st.floats()))
-def test_no_times_whatever_make_a_force_that_is_not_finite(times):
+def test_the_force_is_finite_for_any_times(times):
     renderer = cal.HapticRenderer(PAGE.characters, UPRIGHT, CAPABILITIES)
     assert np.isfinite(renderer.trace(np.full((6, 3), -1e-3), times)["force"]).all()
 
 
-def test_what_is_huge_is_taken_and_given_whole():
+def test_huge_values_and_arrays_are_passed_unchanged():
     positions = np.zeros((300_000, 3))
     positions[-1] = 1e-3
     ticks = cal.HapticRenderer(PAGE.characters, UPRIGHT, CAPABILITIES).trace(positions)
@@ -441,7 +441,7 @@ def test_what_is_huge_is_taken_and_given_whole():
     rows = np.zeros(200_000, dtype=cal.sample_dtype)
     rows["stroke"] = np.arange(200_000)
     assert cal.Recording(1000.0, rows).samples["stroke"][-1] == 199_999
-    for size in (1e20, 1e150):  # of a size whose square overflows nothing is promised, and nothing said
+    for size in (1e20, 1e150):  # nothing is specified for sizes whose square overflows
         found = cal.nearest_point([[-size, 0], [0, size], [size, 0]], [[0, size], [0, -size]])
         assert np.array_equal(found.certified, np.isfinite(found.distance)) and found.certified.all() == (size == 1e20)
 
@@ -463,11 +463,11 @@ def test_what_is_huge_is_taken_and_given_whole():
         lambda: cal.CharacterSet(cal.built_in_characters()).find("永").control_points,
     ],
 )
-def test_a_view_outlives_all_that_it_came_from(view):
+def test_a_view_outlives_the_objects_it_came_from(view):
     kept = view()
     copy = kept.copy()
     gc.collect()
-    for _ in range(30):  # whoever takes freed memory writes to it
+    for _ in range(30):  # reuse freed memory, to expose dangling views
         view()
     np.full(100_000, 7.0)
     assert np.array_equal(kept, copy)
@@ -477,7 +477,7 @@ def test_a_view_outlives_all_that_it_came_from(view):
     {"tolerance": float("nan")}, {"tolerance": 0.0}, {"tolerance": -1.0}, {"tolerance": 2.0}, {"samples": 1},
     {"samples": 65}, {"refinements": -1}, {"refinements": 9},
 ])  # fmt: skip
-def test_options_outside_their_domain_are_named(options):
+def test_options_out_of_range_are_named(options):
     (name,) = options
     with pytest.raises(cal.InvalidValue, match=f"{name} = .*, must be"):
         cal.nearest_point([[0, 0], [1, 2], [2, -1], [3, 0]], [[0.0, 0.0]], **options)

@@ -1,4 +1,4 @@
-"""The examples and the lines of README.md and docs/python.md do what they say."""
+"""The examples and the code blocks of README.md and docs/python.md run."""
 
 import json
 import os
@@ -22,7 +22,7 @@ EXAMPLES = {
 }
 PAGES = ["README.md", "docs/python.md"]
 
-#: Each program in a process of its own, forked from one that has imported what takes long; prints the exit codes.
+#: Runs each program in its own process, forked from one with the slow imports done; prints the exit codes.
 RUN_ALL = """
 import json, os, runpy, sys
 import calligraphy, matplotlib.pyplot, numpy, pandas
@@ -46,7 +46,7 @@ print(json.dumps(codes))
 
 @pytest.fixture(scope="module")
 def ended(tmp_path_factory):
-    """What all programs of examples and pages left: exit code, output and directory of each."""
+    """Results of all programs of examples and pages: exit code, output and directory of each."""
     for module in ("matplotlib", "pandas"):
         pytest.importorskip(module)
     programs = {name: str(ROOT / "examples" / "python" / f"{name}.py") for name in EXAMPLES}
@@ -70,7 +70,7 @@ def blocks(page):
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
-def test_an_example_runs_and_leaves_its_pictures(name, ended):
+def test_an_example_runs_and_writes_its_pictures(name, ended):
     code, told, directory = ended[name]
     assert code == 0, told
     import matplotlib.image
@@ -81,7 +81,7 @@ def test_an_example_runs_and_leaves_its_pictures(name, ended):
         assert pixels.shape[0] > 300 and pixels.shape[1] > 300 and pixels[..., :3].std() > 0.02
 
 
-def test_every_example_is_tried():
+def test_every_example_is_tested():
     scripts = {path.stem for path in (ROOT / "examples" / "python").glob("*.py")} - {"plotting", "test_force_law"}
     assert scripts == set(EXAMPLES)
 
@@ -94,11 +94,11 @@ def test_the_unit_tests_of_a_force_law_pass():
 
 
 @pytest.mark.parametrize("page", PAGES)
-def test_the_lines_of_a_page_work_when_pasted(page, ended):
+def test_the_code_blocks_of_a_page_run(page, ended):
     code, told, _ = ended[page]
     assert blocks(page) and code == 0, told
 
 
-def test_the_readme_has_ten_lines():
+def test_the_readme_example_has_at_most_twelve_lines():
     (block,) = blocks("README.md")
     assert len(block.splitlines()) <= 12

@@ -1,4 +1,4 @@
-"""Experiments: the same table whatever runs the trials, in whatever order, and nothing lost."""
+"""Experiments: the table does not depend on the executor or the order of trials, and no trial is lost."""
 
 import concurrent.futures
 import concurrent.futures.process
@@ -33,7 +33,7 @@ def expected():
 
 
 class Shuffling(concurrent.futures.Executor):
-    """Does what it is given last first, once everything is there."""
+    """Runs all work in reverse order, once everything has been submitted."""
 
     def __init__(self):
         self.waiting = []
@@ -49,7 +49,7 @@ class Shuffling(concurrent.futures.Executor):
 
 
 class Failing(concurrent.futures.Executor):
-    """Every chunk's first attempts fail, as if its worker had died."""
+    """Fails the first attempts of every chunk, as if its worker had died."""
 
     def __init__(self, attempts):
         self.attempts = attempts
@@ -65,20 +65,20 @@ class Failing(concurrent.futures.Executor):
         return future
 
 
-def test_a_row_per_condition_in_the_order_of_the_grid(expected):
+def test_the_table_has_one_row_per_condition_in_grid_order(expected):
     rows = list(zip(*(expected[name] for name in experiment.Condition._fields)))
     assert rows == [tuple(c) for c in experiment.conditions(grid())]
     assert len(rows) == len(grid()) == 2 * 2 * 2
     assert all(error > 0 for error in expected["rms_error"])
 
 
-def test_a_row_is_that_of_the_trial_by_hand(expected):
+def test_a_row_equals_that_of_a_single_trial(expected):
     condition = experiment.conditions(grid())[3]
     row = experiment.trial(grid(), condition)
     assert {name: values[3] for name, values in expected.items()} == row
 
 
-def test_the_order_in_which_trials_are_done_does_not_matter(expected):
+def test_the_order_of_execution_does_not_matter(expected):
     assert columns(experiment.run(grid(), Shuffling(), chunk=1, progress=False)) == expected
 
 
@@ -93,31 +93,31 @@ def test_processes_give_the_same_table(expected):
         assert columns(experiment.run(grid(), pool, chunk=2, progress=False)) == expected
 
 
-def test_a_chunk_whose_worker_dies_is_sent_again(expected):
+def test_a_chunk_whose_worker_dies_is_submitted_again(expected):
     executor = Failing(attempts=3)
     assert columns(experiment.run(grid(), executor, chunk=2, retries=3, progress=False)) == expected
     assert set(executor.seen.values()) == {4}
 
 
-def test_a_chunk_that_always_fails_is_named():
+def test_a_chunk_that_fails_too_often_is_named():
     with pytest.raises(experiment.TrialsLost, match="character='一'.*seed=1.*and 1 more.*the worker is gone"):
         experiment.run(grid(), Failing(attempts=99), chunk=2, retries=2, progress=False)
 
 
-def test_an_option_that_is_refused_is_not_tried_again():
+def test_an_invalid_option_is_not_retried():
     with pytest.raises(cal.InvalidValue, match="rate"):
         experiment.run(grid(rate=[1e-3]), _Here(), progress=False)
 
 
 class _Cancelling(concurrent.futures.Executor):
-    """Takes work, and cancels what it has not begun: as a pool that somebody shuts down does."""
+    """Accepts work and cancels what has not started, like a pool that is shut down."""
 
     def __init__(self, shut):
         self.shut, self.count = shut, 0
 
     def submit(self, function, *arguments):
         self.count += 1
-        if self.shut and self.count > 4:  # all four chunks are on their way
+        if self.shut and self.count > 4:  # all four chunks have been submitted
             raise RuntimeError("cannot schedule new futures after shutdown")
         future = concurrent.futures.Future()
         if self.shut and self.count == 2:
@@ -127,7 +127,7 @@ class _Cancelling(concurrent.futures.Executor):
         return future
 
 
-def test_work_that_its_executor_cancels_is_done_or_named(expected):
+def test_work_cancelled_by_the_executor_is_completed_or_named(expected):
     assert columns(experiment.run(grid(), _Cancelling(shut=True), chunk=2, progress=False)) == expected
     with pytest.raises(experiment.TrialsLost, match="CancelledError"):
         experiment.run(grid(), _Cancelling(shut=False), chunk=2, retries=2, progress=False)
@@ -156,7 +156,7 @@ def _die_once(path, real, *arguments):
 
 
 class _Deadly:
-    """An executor whose first worker is killed in the middle of its work."""
+    """An executor whose first worker is killed while it works."""
 
     def __init__(self, executor, path):
         self.executor, self.path = executor, path
@@ -165,7 +165,7 @@ class _Deadly:
         return self.executor.submit(_die_once, self.path, function, *arguments)
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="there is no SIGKILL here")
+@pytest.mark.skipif(sys.platform == "win32", reason="this system has no SIGKILL")
 def test_a_broken_process_pool_loses_nothing(expected, tmp_path):
     context = multiprocessing.get_context("spawn")
     with concurrent.futures.ProcessPoolExecutor(2, mp_context=context) as pool:
@@ -178,7 +178,7 @@ def test_dask_distributed_with_a_worker_killed_midway_loses_nothing(tmp_path):
     distributed = pytest.importorskip("distributed")
     import dask
 
-    # A worker that dies while it hands a result over keeps the others waiting for no longer.
+    # Limits how long the others wait for a worker that dies while transferring a result.
     dask.config.set({"distributed.comm.timeouts.connect": "10s"})
     large = grid(seeds=5, stiffness=[300.0, 600.0])
     expected = columns(experiment.run(large, progress=False))
@@ -190,7 +190,7 @@ def test_dask_distributed_with_a_worker_killed_midway_loses_nothing(tmp_path):
         done = []
 
         class Watching:
-            """Kills a worker, once, after the first chunks have come back."""
+            """Kills a worker, once, after the first chunks have completed."""
 
             def submit(self, function, *arguments):
                 future = executor.submit(function, *arguments)
@@ -210,14 +210,14 @@ def test_dask_distributed_with_a_worker_killed_midway_loses_nothing(tmp_path):
     assert len(expected["seed"]) == len(large) == 40
 
 
-def test_methods_and_rates_are_what_is_asked_for():
+def test_methods_and_rates_are_applied():
     table = columns(experiment.run(grid(seeds=1, rate=[500.0, 1000.0], method=["exact", "sampled"]), progress=False))
     assert set(table["rate"]) == {500.0, 1000.0} and set(table["method"]) == {"exact", "sampled"}
     times = {rate: [t for t, r in zip(table["simulated_time"], table["rate"]) if r == rate] for rate in (500.0, 1000.0)}
     assert all(abs(t * 500.0 - round(t * 500.0)) < 1e-6 for t in times[500.0])
 
 
-def test_a_writer_of_ones_own():
+def test_a_grid_accepts_your_own_writer():
     still = cal.WriterSkill.novice()
     still.tremor = 0.0
     table = columns(experiment.run(grid(writers={"still": still, "novice": cal.WriterSkill.novice()}), progress=False))
@@ -259,7 +259,7 @@ def test_a_writer_of_ones_own():
         ({"character_timeout": -1.0}, "character_timeout: expected a positive number, got -1.0"),
     ],
 )
-def test_what_a_grid_cannot_be_is_refused_by_name(axes, name):
+def test_invalid_axes_of_a_grid_are_rejected_naming_the_axis(axes, name):
     with pytest.raises(cal.InvalidValue, match=name):
         grid(**axes)
 
@@ -273,18 +273,18 @@ def test_what_a_grid_cannot_be_is_refused_by_name(axes, name):
         (7, "expected a list, got 7"),
     ],
 )
-def test_what_the_characters_of_a_grid_cannot_be_is_told(characters, what):
+def test_invalid_characters_of_a_grid_are_rejected(characters, what):
     with pytest.raises(cal.InvalidValue, match="characters: " + what):
         experiment.Grid(characters)
 
 
-def test_members_of_an_enumeration_are_names():
+def test_enumeration_members_are_accepted_as_names():
     members = grid(modes=[cal.FeedbackMode.force], method=[cal.NearestPointMethod.exact])
     names = grid(modes=["force"], method=["exact"])
     assert experiment.conditions(members) == experiment.conditions(names)
 
 
-def test_whole_numbers_of_any_kind_are_seeds():
+def test_integers_of_any_type_are_accepted_as_seeds():
     assert experiment.Grid("一", seeds=np.int64(3)).seeds == [1, 2, 3] and experiment.Grid("一", seeds=0).seeds == []
     assert experiment.Grid("一", seeds=np.arange(4, 6, dtype=np.uint8)).seeds == [4, 5]
     assert experiment.Grid("一", seeds=(seed for seed in (0, 2**64 - 1))).seeds == [0, 2**64 - 1]
@@ -295,14 +295,14 @@ def test_whole_numbers_of_any_kind_are_seeds():
 
 
 def dtypes(table):
-    """Of columns; of text only that it is."""
+    """The dtypes of the columns; all text dtypes count as equal."""
     names = table.dtype.names if isinstance(table, np.ndarray) else table.columns
     kinds = {name: table[name].dtype for name in names}
     return {name: "text" if getattr(kind, "kind", "O") in "OUT" else kind for name, kind in kinds.items()}
 
 
 @pytest.mark.parametrize("with_pandas", [True, False])
-def test_an_empty_grid_gives_an_empty_table_of_the_same_columns(with_pandas, monkeypatch, tmp_path):
+def test_an_empty_grid_gives_an_empty_table_with_the_same_columns(with_pandas, monkeypatch, tmp_path):
     if with_pandas:
         pytest.importorskip("pandas")
     else:
@@ -325,7 +325,7 @@ def test_an_empty_grid_gives_an_empty_table_of_the_same_columns(with_pandas, mon
     assert schemas[0].equals(schemas[1])
 
 
-def test_a_grid_says_how_large_it_is():
+def test_the_repr_of_a_grid_gives_its_size():
     assert repr(grid(stiffness=[300.0, 600.0])) == (
         "Grid(16 trials: 2 characters x 1 writers x 2 modes x 2 stiffness x 1 rate x 1 method x 1 tolerance x 2 seeds)"
     )
@@ -340,7 +340,7 @@ def test_without_pandas_the_table_is_a_structured_array(expected, monkeypatch, t
     assert len((tmp_path / "table.csv").read_text(encoding="utf-8").splitlines()) == 9
 
 
-def test_tables_are_written_whole(expected, tmp_path):
+def test_tables_are_written_completely(expected, tmp_path):
     pandas = pytest.importorskip("pandas")
     table = experiment.run(grid(), progress=False)
     experiment.write(table, tmp_path / "table.csv")
@@ -379,7 +379,7 @@ def test_a_grid_survives_pickling():
 
 
 def by_hand(condition, device, renderer):
-    """The trial of a condition, written out."""
+    """The trial of a condition, computed step by step."""
     renderer = copy.deepcopy(renderer)
     renderer.servo_rate = condition.rate
     renderer.paper_stiffness = renderer.guidance_stiffness = condition.stiffness
@@ -405,8 +405,8 @@ def by_hand(condition, device, renderer):
     }  # fmt: skip
 
 
-def test_a_trial_is_the_session_that_its_condition_says():
-    """One axis after the other leaves what is usual; each makes another trial, and the one that it should be."""
+def test_a_trial_is_the_session_of_its_condition():
+    """Varies one axis at a time; each variation changes the trial as expected."""
     usual = {"writers": ["novice"], "modes": ["force"], "seeds": [1], "method": ["wang2006"], "rate": [1000.0]}
     others = [
         {}, {"seeds": [2]}, {"modes": ["vision"]}, {"writers": ["skilled"]}, {"stiffness": [200.0]},
@@ -427,14 +427,14 @@ def test_a_trial_is_the_session_that_its_condition_says():
     assert all(row["simulated_time"] < 60 for row in seen)
 
 
-def test_a_trial_leaves_the_grid_as_it_was():
+def test_a_trial_does_not_modify_the_grid():
     one = grid(stiffness=[200.0], rate=[500.0])
     before = copy.deepcopy(one.options)
     experiment.run(one, progress=False)
     assert one.options == before
 
 
-def test_the_conditions_are_every_combination_the_last_axis_fastest():
+def test_conditions_are_all_combinations_with_the_last_axis_fastest():
     large = experiment.Grid(
         "人一", writers=["skilled", "novice"], modes=["force", "vision"], stiffness=[2.0, 1.0], rate=[30.0, 40.0, 50.0],
         method=["exact", "sampled"], tolerance=[0.1, 0.2], seeds=[9, 4],
@@ -446,7 +446,7 @@ def test_the_conditions_are_every_combination_the_last_axis_fastest():
     assert [c.seed for c in experiment.Grid("人", seeds=3, modes=["force"])] == [1, 2, 3]
 
 
-def test_characters_come_from_the_source_given():
+def test_characters_come_from_the_given_source():
     mine = cal.CharacterList([cal.with_quartic_curves(cal.built_in_characters()["人"])])
     for source in (mine, cal.CharacterSet(mine)):
         assert experiment.Grid("人", source=source).characters["人"].curve_degree == 4
@@ -456,12 +456,12 @@ def test_characters_come_from_the_source_given():
 
 @pytest.mark.parametrize("name", ["stiffness", "rate", "tolerance"])
 @pytest.mark.parametrize("value", [0.0, -1.0, float("nan"), float("inf")])
-def test_numbers_that_are_none_are_refused_by_name(name, value):
+def test_invalid_numbers_are_rejected_by_name(name, value):
     with pytest.raises(cal.InvalidValue, match=f"{name}: expected a positive number"):
         grid(**{name: [1.0, value]})
 
 
-def test_chunks_of_any_size_hold_every_trial(expected):
+def test_chunks_of_any_size_contain_every_trial(expected):
     for chunk in (1, 3, 8, 1000):
         assert columns(experiment.run(grid(), chunk=chunk, progress=False)) == expected
     for chunk in (0, -1):
@@ -469,7 +469,7 @@ def test_chunks_of_any_size_hold_every_trial(expected):
             experiment.run(grid(), chunk=chunk, progress=False)
 
 
-def test_retries_are_as_many_as_were_asked_for(expected):
+def test_the_number_of_retries_is_as_requested(expected):
     assert columns(experiment.run(grid(), Failing(attempts=2), chunk=4, retries=2, progress=False)) == expected
     executor = Failing(attempts=99)
     with pytest.raises(experiment.TrialsLost, match="seed=1.*ConnectionError") as lost:
@@ -478,7 +478,7 @@ def test_retries_are_as_many_as_were_asked_for(expected):
 
 
 class Cancelling(concurrent.futures.Executor):
-    """Cancels the first of every chunk, and never does what comes after a failure."""
+    """Cancels the first attempt of every chunk, and never runs what comes after a failure."""
 
     def __init__(self):
         self.seen, self.given = set(), []
@@ -495,12 +495,12 @@ class Cancelling(concurrent.futures.Executor):
         return future
 
 
-def test_a_chunk_that_was_cancelled_is_sent_again(expected):
+def test_a_cancelled_chunk_is_submitted_again(expected):
     assert columns(experiment.run(grid(), Cancelling(), chunk=2, progress=False)) == expected
 
 
 class Broken(concurrent.futures.Executor):
-    """A pool that breaks: at once, or when something is sent again."""
+    """A pool that breaks immediately or on resubmission."""
 
     def __init__(self, good, error):
         self.good, self.error = good, error
@@ -515,12 +515,12 @@ class Broken(concurrent.futures.Executor):
 
 
 @pytest.mark.parametrize("good", [0, 1, 4])
-def test_a_pool_that_takes_nothing_more_loses_nothing(expected, good):
+def test_no_trial_is_lost_when_the_pool_accepts_no_more_work(expected, good):
     broken = Broken(good, concurrent.futures.process.BrokenProcessPool("broken"))
     assert columns(experiment.run(grid(), broken, chunk=2, progress=False)) == expected
 
 
-def test_when_all_ends_early_what_waits_is_cancelled():
+def test_pending_work_is_cancelled_when_a_run_ends_early():
     class Half(concurrent.futures.Executor):
         def __init__(self):
             self.given = []
@@ -538,7 +538,7 @@ def test_when_all_ends_early_what_waits_is_cancelled():
     assert len(half.given) == 4 and all(future.cancelled() for future in half.given[1:])
 
 
-def test_a_file_that_cannot_be_written_leaves_nothing_behind(tmp_path, monkeypatch):
+def test_a_failed_write_leaves_no_file_behind(tmp_path, monkeypatch):
     table = experiment.run(grid(seeds=1, modes=["force"]), progress=False)
     (tmp_path / "table.csv").write_text("before", encoding="utf-8")
 
@@ -552,13 +552,13 @@ def test_a_file_that_cannot_be_written_leaves_nothing_behind(tmp_path, monkeypat
     assert (tmp_path / "table.csv").read_text(encoding="utf-8") == "before"
 
 
-def test_no_progress_bar_where_none_is_wanted(monkeypatch):
+def test_there_is_no_progress_bar_if_disabled(monkeypatch):
     tqdm = pytest.importorskip("tqdm")
     monkeypatch.setattr(tqdm, "tqdm", None)
     experiment.run(grid(seeds=1, modes=["force"]), progress=False)
 
 
-def test_rows_that_an_executor_lost_are_missed():
+def test_rows_lost_by_an_executor_are_detected():
     class Losing(concurrent.futures.Executor):
         def submit(self, function, *arguments):
             future = concurrent.futures.Future()
@@ -570,8 +570,8 @@ def test_rows_that_an_executor_lost_are_missed():
 
 
 @pytest.mark.parametrize("factor", [1.0, 1.7])
-def test_the_table_has_the_stiffness_that_was_at_work(factor):
-    """What a renderer of the same page says of itself, to the last bit; it costs the trial no second one."""
+def test_the_table_has_the_effective_stiffness(factor):
+    """Bit-identical to the options of a renderer of the same page, without constructing a second one in the trial."""
     drawn = cal.built_in_characters()["人"]
     inputs = [
         cal.StrokeInput(stroke.type.id, stroke.control_points, [factor] * len(stroke.attraction_factors))

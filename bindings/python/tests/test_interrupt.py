@@ -1,4 +1,4 @@
-"""Ctrl-C within the calls that take long, and their progress."""
+"""Ctrl-C during long calls, and their progress callbacks."""
 
 import os
 import signal
@@ -15,7 +15,7 @@ PROFILE = cal.device_profile("desktop")
 
 @pytest.fixture(autouse=True)
 def python_s_own_handler():
-    """A shell that runs the tests in the background has Ctrl-C ignored, and so would they."""
+    """Restores the default handler, because a shell ignores Ctrl-C for tests in the background."""
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     yield
     signal.signal(signal.SIGINT, before)
@@ -23,7 +23,7 @@ def python_s_own_handler():
 
 @pytest.fixture
 def ctrl_c():
-    """Presses it once something is in the list. Lists and their append() never look for signals themselves."""
+    """Sends Ctrl-C once the list has an element. Lists and append() never check for signals themselves."""
     threads, given_up = [], threading.Event()
 
     def press_when(seen):
@@ -109,7 +109,7 @@ def test_ctrl_c_ends_a_long_call_before_its_work_is_done(name, ctrl_c, tmp_path)
     assert sorted(shares) == shares
 
 
-def test_a_call_with_no_progress_to_tell_looks_for_signals_while_it_works():
+def test_a_call_without_progress_checks_for_signals_while_it_runs():
     seen = []
     before = signal.signal(signal.SIGALRM, lambda *_: seen.append(1))
     points = np.random.default_rng(1).normal(size=(4_000_000, 2))
@@ -120,7 +120,7 @@ def test_a_call_with_no_progress_to_tell_looks_for_signals_while_it_works():
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0)
         signal.signal(signal.SIGALRM, before)
-    assert during >= 3  # signals that come while nobody looks are one
+    assert during >= 3  # signals between two checks count as one
     assert result.certified.all()
 
 
@@ -128,13 +128,13 @@ def a_renderer():
     return cal.HapticRenderer(long_page(1).characters, cal.MotionMapping(), PROFILE)
 
 
-def test_ctrl_c_ends_a_field_of_many_places():
+def test_ctrl_c_ends_a_large_force_field():
     class Pressed(Exception):
         pass
 
     def press(*_):
         seen.append(1)
-        if len(seen) == 3:  # of the signals that come while nobody looks one is left when the call returns
+        if len(seen) == 3:  # after the call returns, one of the signals between two checks is still pending
             raise Pressed
 
     seen = []
@@ -149,7 +149,7 @@ def test_ctrl_c_ends_a_field_of_many_places():
         signal.signal(signal.SIGALRM, before)
 
 
-def test_ctrl_c_ends_a_long_trace_after_which_the_renderer_begins_anew():
+def test_after_ctrl_c_in_a_long_trace_the_renderer_can_be_restarted():
     positions = np.tile([0.0, 0.0, -1e-3], (600_000, 1))
     renderer = a_renderer()
     expected = renderer.trace(positions[:100])
@@ -171,7 +171,7 @@ def test_ctrl_c_ends_a_long_trace_after_which_the_renderer_begins_anew():
     assert (renderer.trace(positions[:100]) == expected).all()
 
 
-def test_what_a_signal_s_handler_raises_is_raised():
+def test_an_exception_of_a_signal_handler_is_raised():
     class Enough(Exception):
         pass
 
@@ -188,7 +188,7 @@ def test_what_a_signal_s_handler_raises_is_raised():
         signal.signal(signal.SIGALRM, before)
 
 
-def test_what_progress_raises_ends_the_call():
+def test_an_exception_of_the_progress_callback_ends_the_call():
     def progress(share):
         if share > 0.1:
             raise LookupError("enough")
@@ -202,7 +202,7 @@ def test_what_progress_raises_ends_the_call():
             call()
 
 
-def test_progress_goes_to_the_end_and_changes_nothing():
+def test_progress_reaches_one_and_does_not_change_the_result():
     page = long_page(1)
     shares = []
     told = cal.write_page(page, session(seed=4), shares.append)
@@ -213,7 +213,7 @@ def test_progress_goes_to_the_end_and_changes_nothing():
     assert shares[-1] == pytest.approx(1.0) and rows["bits"].tolist() == list(range(4, 17))
 
 
-def test_in_another_thread_a_long_call_goes_on_whatever_is_pressed():
+def test_ctrl_c_does_not_interrupt_a_long_call_in_another_thread():
     done = []
     page = long_page(2)
     thread = threading.Thread(target=lambda: done.append(cal.write_page(page, session())))
@@ -232,7 +232,7 @@ def test_ctrl_c_ends_an_experiment():
         experiment.run(grid, progress=False)
 
 
-def test_ctrl_c_while_a_person_writes_lets_the_force_fall_and_keeps_what_was_written(ctrl_c):
+def test_ctrl_c_during_a_live_session_removes_the_force_and_keeps_the_recording(ctrl_c):
     page = cal.lay_out(characters())[0]
     device = cal.PointerDevice(PROFILE)
     views = []
@@ -245,10 +245,10 @@ def test_ctrl_c_while_a_person_writes_lets_the_force_fall_and_keeps_what_was_wri
         cal.write_with_device(page, device, options, views.append)
     result = pressed.value.result
     assert len(result.recording) > 0 and result.statistics["ticks"] > 0
-    assert device.read().status == cal.DeviceStatus.ok  # no loop has it any more, and it is open
+    assert device.read().status == cal.DeviceStatus.ok  # no loop uses it, and it is still open
 
 
-def test_ctrl_c_ends_a_loop_by_its_with_block(ctrl_c):
+def test_ctrl_c_in_a_with_block_stops_the_loop(ctrl_c):
     seen = []
     ctrl_c(seen)
     loop = cal.ServoLoop(cal.PointerDevice(PROFILE), lambda state: (seen.append(1), (0.0, 0.0, 0.0))[1])

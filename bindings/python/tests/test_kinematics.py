@@ -1,4 +1,4 @@
-"""The arm of a Phantom against its formulas, written out with NumPy."""
+"""Kinematics of a Phantom, compared with the formulas in NumPy."""
 
 import numpy as np
 import pytest
@@ -30,7 +30,7 @@ def jacobian(arm, q):
     return np.stack(columns, axis=-1)
 
 
-def test_arms_have_the_measures_that_are_published():
+def test_linkages_have_the_published_dimensions():
     omni, premium = cal.linkage("omni"), cal.linkage("premium-1.5")
     assert omni == cal.linkage("touch") and omni.waist_sense == -1.0 and premium.waist_sense == 1.0
     assert (omni.upper_arm, omni.forearm) == (0.13335, 0.13335)
@@ -40,12 +40,12 @@ def test_arms_have_the_measures_that_are_published():
     )
     with pytest.raises(cal.InvalidValue, match='"falcon".*omni'):
         cal.linkage("falcon")
-    omni.forearm = 1.0  # a copy: the library's own stays as it is
+    omni.forearm = 1.0  # a copy: does not change the library's linkage
     assert cal.linkage("omni").forearm == 0.13335
 
 
 @pytest.mark.parametrize("model", MODELS)
-def test_tip_and_jacobian_are_those_of_the_formulas(model):
+def test_tip_and_jacobian_agree_with_the_formulas(model):
     arm = cal.linkage(model)
     assert np.allclose(cal.tip_position(arm, JOINTS), tip(arm, JOINTS), rtol=0, atol=1e-15)
     assert cal.tip_position(arm, (0, 0, 0)).tolist() == [0.0, 0.0, 0.0]
@@ -57,9 +57,9 @@ def test_tip_and_jacobian_are_those_of_the_formulas(model):
 
 
 @pytest.mark.parametrize("model", MODELS)
-def test_the_inverse_leads_back_to_the_joints_and_says_what_is_out_of_reach(model):
+def test_inverse_kinematics_recovers_the_joints_and_reports_unreachable_positions(model):
     arm = cal.linkage(model)
-    before = JOINTS[reach(arm, JOINTS) > 0.01]  # behind the waist there is another solution
+    before = JOINTS[reach(arm, JOINTS) > 0.01]  # behind the waist there is a second solution
     joints, reachable = cal.inverse_kinematics(arm, cal.tip_position(arm, before))
     assert reachable.all() and reachable.dtype == bool and len(before) > 150
     assert np.allclose(joints, before, rtol=0, atol=1e-9)
@@ -70,7 +70,7 @@ def test_the_inverse_leads_back_to_the_joints_and_says_what_is_out_of_reach(mode
     assert np.allclose(cal.tip_position(arm, joints), (0.01, 0.05, 0.05))
 
 
-def test_torques_are_those_of_virtual_work_and_of_the_weight():
+def test_torques_agree_with_virtual_work_and_the_weight():
     arm = cal.linkage("omni")
     forces = RANDOM.normal(size=JOINTS.shape)
     expected = np.einsum("nij,ni->nj", jacobian(arm, JOINTS), forces)
@@ -79,7 +79,7 @@ def test_torques_are_those_of_virtual_work_and_of_the_weight():
     assert np.allclose(held, np.stack([np.zeros(200), 0.3 * np.cos(JOINTS[:, 1]), 0.2 * np.sin(JOINTS[:, 2])], axis=1))
 
 
-def test_limits_are_kept_to_within_the_margin():
+def test_limits_are_extended_by_the_margin():
     arm = cal.linkage("omni")
     assert cal.within_limits(arm, JOINTS).all()
     joints = [[0.0, 0.5, 0.5], [1.0, 0.5, 0.5], [0.0, -0.015, 0.0], [0.0, 0.5, 1.8]]
@@ -102,7 +102,7 @@ CALLS = {
 
 
 @pytest.mark.parametrize("name", CALLS)
-def test_one_set_of_joints_is_answered_as_many_are(name):
+def test_one_pose_gives_the_same_result_as_in_a_batch(name):
     call, each = CALLS[name]
     arm = cal.linkage("premium-1.5")
     rows = JOINTS[:5] * 0.1
@@ -117,7 +117,7 @@ def test_one_set_of_joints_is_answered_as_many_are(name):
             call(arm, wrong)
 
 
-def test_forces_that_do_not_fit_the_joints_are_refused():
+def test_forces_whose_shape_differs_from_the_joints_are_rejected():
     for joints, force in ((JOINTS, np.zeros(3)), (JOINTS[0], np.zeros((1, 3))), (JOINTS, np.zeros((7, 3)))):
         with pytest.raises(cal.InvalidValue, match=r"force: expected shape \(.*\) of the joints, got \("):
             cal.joint_torque(cal.linkage("omni"), joints, force)

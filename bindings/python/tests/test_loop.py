@@ -34,7 +34,7 @@ def session(**fields):
 
 
 def wall(state):
-    """A wall below z = 0: spring and damper, and it never pulls [N]."""
+    """A wall below z = 0: spring and damper, without adhesion [N]."""
     depth = -state.position[2]
     return [0.0, 0.0, max(0.0, 800.0 * depth - 2.0 * state.velocity[2]) if depth > 0 else 0.0]
 
@@ -45,7 +45,7 @@ def held_device():
     return device
 
 
-def test_a_wall_of_ones_own_rests_where_two_springs_do():
+def test_on_your_own_wall_the_pen_rests_where_two_springs_balance():
     device = held_device()
     for _ in range(1000):
         device.write(wall(device.read()))
@@ -74,7 +74,7 @@ def test_a_servo_runs_a_force_law_in_virtual_time():
     ],
     ids=["raises", "text", "two numbers", "not a number"],
 )
-def test_a_force_law_that_fails_lets_the_force_fall(answer, raises, monkeypatch):
+def test_the_force_ramps_down_when_the_force_law_fails(answer, raises, monkeypatch):
     told = []
     monkeypatch.setattr(sys, "unraisablehook", lambda unraisable: told.append(unraisable.exc_type))
     device = held_device()
@@ -91,7 +91,7 @@ def test_a_force_law_that_fails_lets_the_force_fall(answer, raises, monkeypatch)
     assert bool(told) == raises
 
 
-def test_what_a_law_raises_is_told_once_and_kept(monkeypatch):
+def test_an_exception_of_a_law_is_reported_once_and_stored(monkeypatch):
     told = []
     monkeypatch.setattr(sys, "unraisablehook", told.append)
 
@@ -113,7 +113,7 @@ def test_what_a_law_raises_is_told_once_and_kept(monkeypatch):
     assert len(told) == 2 and servo.errors == 1
 
 
-def test_an_answer_that_is_no_force_is_an_error_of_the_law(monkeypatch):
+def test_a_result_that_is_not_a_force_is_an_error_of_the_law(monkeypatch):
     told = []
     monkeypatch.setattr(sys, "unraisablehook", told.append)
     servo = cal.Servo(held_device(), lambda state: [0, 0])
@@ -124,7 +124,7 @@ def test_an_answer_that_is_no_force_is_an_error_of_the_law(monkeypatch):
 
 
 @pytest.mark.parametrize("kind", [KeyboardInterrupt, SystemExit])
-def test_what_is_to_end_the_program_is_raised_by_the_step_whose_law_it_came_from(kind, monkeypatch):
+def test_an_exception_that_ends_the_program_is_raised_by_the_step_of_its_law(kind, monkeypatch):
     told = []
     monkeypatch.setattr(sys, "unraisablehook", told.append)
 
@@ -140,12 +140,12 @@ def test_what_is_to_end_the_program_is_raised_by_the_step_whose_law_it_came_from
             steps.append(tick)
     assert steps == [0, 1] and servo.status.fault == cal.DeviceFault.bad_force
     steps.append(None)
-    servo.step(0.01)  # the next tick is one like any other
+    servo.step(0.01)  # the next tick is a normal one
     assert servo.errors == 1
 
 
 class Recorder(cal.HapticDevice):
-    """A device written in Python: a mass that nobody holds, and what it was told."""
+    """A device written in Python: a free mass that records its commands."""
 
     def __init__(self):
         super().__init__()
@@ -167,7 +167,7 @@ class Recorder(cal.HapticDevice):
         self.closed = True
 
 
-def test_a_device_of_ones_own_works_in_the_loop():
+def test_your_own_device_works_in_the_loop():
     device = Recorder()
     servo = cal.Servo(device, lambda state: [0, 0, -1000 * state.position[2]], ramp_up=0.0)
     for tick in range(100):
@@ -176,7 +176,7 @@ def test_a_device_of_ones_own_works_in_the_loop():
     assert device.forces[-1] == pytest.approx([0, 0, 1.0])
 
 
-def test_the_servo_keeps_a_device_alive_that_python_has_let_go():
+def test_the_servo_keeps_its_device_alive():
     servo = cal.Servo(Recorder(), lambda state: [0, 0, 1])
     for tick in range(10):
         servo.step(tick * 1e-3)
@@ -184,7 +184,7 @@ def test_the_servo_keeps_a_device_alive_that_python_has_let_go():
 
 
 @pytest.mark.parametrize("kind", ["raises", "wrong type", "missing"])
-def test_a_device_of_ones_own_that_fails_is_a_fault_not_a_crash(kind, monkeypatch):
+def test_failure_of_your_own_device_is_a_fault_not_a_crash(kind, monkeypatch):
     told, words = [], []
     monkeypatch.setattr(
         sys, "unraisablehook",
@@ -208,12 +208,12 @@ def test_a_device_of_ones_own_that_fails_is_a_fault_not_a_crash(kind, monkeypatc
     assert servo.status.fault == cal.DeviceFault.device_error
     if kind == "wrong type":
         assert words == ["read() returned 'nothing', expected a calligraphy.DeviceState"]
-    assert len(told) == (2 if kind == "missing" else 1)  # once each method, until it works again
+    assert len(told) == (2 if kind == "missing" else 1)  # once per method, until it works again
 
 
 @pytest.mark.parametrize("method", ["read", "write"])
 @pytest.mark.parametrize("kind", [KeyboardInterrupt, SystemExit])
-def test_what_ends_the_program_passes_from_a_device_to_whoever_steps(method, kind):
+def test_an_exception_of_a_device_that_ends_the_program_is_raised_by_step(method, kind):
     class Pressed(Recorder):
         def read(self):
             if method == "read" and len(self.forces) == 3:
@@ -235,7 +235,7 @@ def test_what_ends_the_program_passes_from_a_device_to_whoever_steps(method, kin
     servo.step(4e-3)
 
 
-def test_a_force_that_a_device_does_not_take_is_a_fault_until_it_takes_one(monkeypatch):
+def test_a_failing_write_is_a_fault_until_a_write_succeeds(monkeypatch):
     told = []
     monkeypatch.setattr(sys, "unraisablehook", lambda unraisable: told.append(str(unraisable.exc_value)))
 
@@ -265,12 +265,12 @@ def test_a_force_that_a_device_does_not_take_is_a_fault_until_it_takes_one(monke
     assert servo.statistics["faults"][cal.DeviceFault.device_error] == 1 and told == ["bus gone"]
     device.broken = False
     steps(1)
-    assert device.forces[-1][2] == 0.0  # the first that it takes again
+    assert device.forces[-1][2] == 0.0  # the first accepted one
     steps(10)
     assert servo.status.phase == cal.ServoPhase.running and device.forces[-1][2] == 1.0
 
 
-def test_a_device_that_fails_again_is_told_again(monkeypatch):
+def test_a_device_that_fails_again_is_reported_again(monkeypatch):
     told = []
     monkeypatch.setattr(sys, "unraisablehook", lambda unraisable: told.append(str(unraisable.exc_value)))
 
@@ -292,7 +292,7 @@ def test_a_device_that_fails_again_is_told_again(monkeypatch):
 
 @pytest.mark.parametrize("answer", [None, 5, KeyError("none")])
 @pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
-def test_a_device_that_cannot_tell_its_capabilities_is_refused_at_once(answer):
+def test_a_device_without_valid_capabilities_is_rejected_immediately(answer):
     class Silent(Recorder):
         def capabilities(self):
             if isinstance(answer, Exception):
@@ -312,7 +312,7 @@ def test_a_device_that_cannot_tell_its_capabilities_is_refused_at_once(answer):
         cal.Servo(cal.HapticDevice(), wall)
 
 
-def test_a_servo_is_stepped_by_one_at_a_time():
+def test_concurrent_and_nested_steps_are_rejected():
     refused = []
 
     def law(state):
@@ -328,20 +328,20 @@ def test_a_servo_is_stepped_by_one_at_a_time():
     assert len(refused) == 2 and "already inside a tick" in refused[0] and servo.statistics["ticks"] == 2
 
 
-def test_methods_that_c_plus_plus_would_not_call_cannot_be_overridden():
+def test_devices_whose_overrides_would_be_ignored_are_final():
     for kind in (cal.SimulatedDevice, cal.ReplayDevice, cal.PointerDevice, cal.HapticRenderer):
         with pytest.raises(TypeError, match="not an acceptable base type"):
             type("Mine", (kind,), {})
 
 
-def test_writing_is_the_same_again_and_differs_between_seeds():
+def test_writing_is_deterministic_per_seed_and_differs_between_seeds():
     page, options = one_page(), session()
     first, again = cal.write_page(page, options), cal.write_page(page, options)
     assert np.array_equal(first.samples, again.samples)
     assert not np.array_equal(cal.write_page(page, session(seed=2)).samples, first.samples)
 
 
-def test_a_recording_is_a_structured_array_over_its_own_memory():
+def test_samples_are_a_structured_array_over_the_memory_of_the_recording():
     recording = cal.write_page(one_page(), session())
     samples = recording.samples
     assert samples.dtype == cal.sample_dtype and len(samples) == len(recording)
@@ -351,11 +351,11 @@ def test_a_recording_is_a_structured_array_over_its_own_memory():
     assert set(np.unique(samples["state"])) <= set(cal.InteractionState)
     with pytest.raises(ValueError, match="read-only"):
         samples["time"][0] = 1.0
-    time = cal.write_page(one_page("一"), session()).samples["time"]  # its owner is gone
+    time = cal.write_page(one_page("一"), session()).samples["time"]  # its owner has been destroyed
     assert np.allclose(np.diff(time), 1e-3)
 
 
-def test_recordings_survive_csv_pickling_and_arrays(tmp_path):
+def test_recordings_round_trip_through_csv_pickle_and_arrays(tmp_path):
     recording = cal.write_page(one_page("一"), session())
     cal.write_recording(tmp_path / "one.csv", recording)
     for again in (
@@ -371,7 +371,7 @@ def test_recordings_survive_csv_pickling_and_arrays(tmp_path):
         cal.Recording(1000.0, wrong)
 
 
-def test_a_whole_trace_is_what_single_ticks_are():
+def test_a_trace_equals_single_updates():
     recording = cal.write_page(one_page("一"), session())
     page = one_page("一")
     mapping = cal.upright_page(page.width, page.height)
@@ -395,7 +395,7 @@ def test_a_whole_trace_is_what_single_ticks_are():
     assert len(whole.trace(np.zeros((0, 3)))) == 0
 
 
-def test_a_position_that_is_not_finite_is_a_bad_sample():
+def test_a_non_finite_position_is_a_bad_sample():
     page = one_page()
     renderer = cal.HapticRenderer(page.characters, cal.upright_page(page.width, page.height), PROFILE)
     ticks = renderer.trace([[0, 0, 0.02], [math.nan, 0, 0], [0, 0, 0.02]])
@@ -403,7 +403,7 @@ def test_a_position_that_is_not_finite_is_a_bad_sample():
     assert np.isfinite(ticks["force"]).all()
 
 
-def test_a_motion_of_ones_own_is_asked_at_every_tick():
+def test_your_own_motion_is_called_at_every_tick():
     page, asked = one_page("一"), []
 
     def motion(tick, seconds):
@@ -420,7 +420,7 @@ def test_a_motion_of_ones_own_is_asked_at_every_tick():
         cal.run_session(page, session(), lambda tick, seconds: 1 / 0)
 
 
-def test_a_replay_gives_the_forces_that_were_given():
+def test_a_replay_reproduces_the_recorded_forces():
     page, options = one_page("一"), session()
     recording = cal.write_page(page, options)
     states = cal.device_states(recording, cal.upright_page(page.width, page.height))
@@ -428,7 +428,7 @@ def test_a_replay_gives_the_forces_that_were_given():
     assert np.allclose(replay.samples["force"][: len(recording)], recording.samples["force"], atol=1e-6)
 
 
-def test_a_score_tells_force_from_vision():
+def test_scores_differ_between_force_and_vision():
     page = one_page("永")
     errors = {
         mode: np.mean([cal.score_page(page, cal.write_page(page, session(mode=mode, seed=s)))[0].rms_error for s in range(8)])
@@ -441,27 +441,27 @@ def _write_in_child(seed):
     return cal.score_page(one_page("一"), cal.write_page(one_page("一"), session(seed=seed)))[0]
 
 
-@pytest.mark.skipif(not hasattr(os, "fork"), reason="there is no fork here")
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="this system has no fork")
 @pytest.mark.filterwarnings("ignore:.*fork.*:DeprecationWarning")
-def test_a_forked_process_writes_as_this_one_does():
+def test_a_forked_process_writes_identically():
     context = multiprocessing.get_context("fork")
     with concurrent.futures.ProcessPoolExecutor(2, mp_context=context) as pool:
         assert list(pool.map(_write_in_child, [1, 2, 3])) == [_write_in_child(s) for s in (1, 2, 3)]
 
 
-def test_records_differ_when_a_field_does():
+def test_structs_differ_if_a_field_differs():
     one, other = session(), session()
     assert one == other
     other.renderer.stroke.space.radius = 0.01
     assert one != other and one != 3
 
 
-def test_a_simulated_device_refuses_what_is_not_physical():
+def test_a_simulated_device_rejects_unphysical_properties():
     with pytest.raises(cal.InvalidValue, match="mass"):
         cal.SimulatedDevice(cal.Capabilities(apparent_mass=-1.0))
 
 
-def test_stiffness_beyond_what_is_stable_is_refused_or_clipped():
+def test_unstable_stiffness_is_rejected_or_clipped():
     page = one_page()
     mapping = cal.upright_page(page.width, page.height)
     options = cal.RendererOptions(paper_stiffness=1e6)
@@ -472,7 +472,7 @@ def test_stiffness_beyond_what_is_stable_is_refused_or_clipped():
     cal.validate(options, PROFILE)
 
 
-def test_the_advisor_and_a_wall_agree():
+def test_stiffness_advice_agrees_with_a_simulated_wall():
     loop = cal.SampledLoop(device=cal.Capabilities(apparent_mass=0.045, viscous_friction=0.1, peak_force=7.9), rate=1000.0)
     critical = cal.critical_stiffness(loop)
     advice = cal.advise_stiffness(loop)
@@ -499,7 +499,7 @@ def test_a_force_field_is_an_array_of_forces():
     assert field["jumps"].dtype.names == ("begin", "end", "size", "from_stroke", "passes_feature")
 
 
-def test_a_trace_of_a_person_is_followed(tmp_path):
+def test_a_recorded_pen_trace_is_followed(tmp_path):
     t = np.linspace(0, 1, 50)
     trace = cal.PenTrace("一", [np.column_stack([0.1 + 0.8 * t, np.full(50, 0.5), t])], set="made")
     cal.write_pen_traces(tmp_path / "traces.txt", [trace])

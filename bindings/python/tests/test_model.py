@@ -10,7 +10,7 @@ import pytest
 import calligraphy as cal
 
 
-def test_the_example_of_table_3_has_its_counts():
+def test_the_example_of_table_3_has_the_published_counts():
     character = cal.paper_example()
     assert character.stroke_ids.tolist() == [2, 1, 10, 31, 4]
     assert character.control_points.shape == (15, 2)
@@ -28,7 +28,7 @@ def test_there_are_39_typical_strokes():
         cal.typical_stroke(40)
 
 
-def test_a_character_is_made_of_its_strokes_again():
+def test_a_character_can_be_rebuilt_from_its_strokes():
     original = cal.built_in_characters()["永"]
     inputs = [
         cal.StrokeInput(stroke.type.id, stroke.control_points, list(stroke.attraction_factors))
@@ -52,14 +52,14 @@ def test_a_character_survives_pickling_and_copying(again):
         assert np.array_equal(getattr(result, name), getattr(original, name))
 
 
-def test_a_damaged_pickle_of_a_character_is_refused():
+def test_a_damaged_pickle_of_a_character_is_rejected():
     character = cal.built_in_characters()["永"]
     state = character.__reduce__()[0].keywords
     with pytest.raises(cal.InvalidValue, match="stroke 1: .*99"):
         cal.Character(**{**state, "stroke_ids": [99] * character.stroke_count})
 
 
-def test_a_list_and_a_set_hold_the_same_characters(tmp_path):
+def test_a_list_and_a_set_contain_the_same_characters(tmp_path):
     characters = cal.built_in_characters()
     cal.write_characters(str(tmp_path / "list.txt"), characters)
     assert len(cal.read_characters(str(tmp_path / "list.txt"))) == len(characters)
@@ -76,7 +76,7 @@ def test_a_list_and_a_set_hold_the_same_characters(tmp_path):
         stored["龘"]
 
 
-def test_errors_are_of_one_family_and_of_the_built_in_ones(tmp_path):
+def test_errors_derive_from_one_base_and_from_built_in_exceptions(tmp_path):
     with pytest.raises(cal.FileError) as missing:
         cal.CharacterSet.open(str(tmp_path / "nowhere.set"))
     assert isinstance(missing.value, (cal.Error, OSError)) and "nowhere.set" in str(missing.value)
@@ -97,7 +97,7 @@ if "phantom" in cal.backends:
 
 
 @pytest.mark.parametrize("name", READERS)
-def test_a_file_of_any_bytes_is_refused_by_its_name(name, tmp_path):
+def test_a_file_of_arbitrary_bytes_is_rejected_by_name(name, tmp_path):
     path = tmp_path / "wrong"
     path.write_bytes(bytes(range(1, 256)) * 20)
     for how in (path, str(path), os.fsencode(path)):
@@ -112,13 +112,13 @@ def test_a_file_of_any_bytes_is_refused_by_its_name(name, tmp_path):
         READERS[name](odd)
 
 
-def test_a_list_of_characters_is_gone_through_in_its_order():
+def test_a_character_list_iterates_in_its_own_order():
     built_in = cal.built_in_characters()
     assert [character.code for character in built_in] == [character.code for character in built_in.characters]
     assert len(cal.lay_out(list(built_in)[:3])[0].characters) == 3
 
 
 @pytest.mark.parametrize("method", [cal.NearestPointOptions(), {}, None, 3])
-def test_what_is_no_method_is_refused(method):
+def test_an_invalid_method_is_rejected(method):
     with pytest.raises(TypeError, match="method: "):
         cal.nearest_point([[0, 0], [1, 0]], [[0, 1]], method)

@@ -1,4 +1,4 @@
-"""The vendor's runtime from Python, on the stand-in of the tests: its scheduler is the clock, in a thread of its own.
+"""The vendor's runtime from Python, using the stub of the tests: its scheduler is the clock, in its own thread.
 
 CALLIGRAPHY_STAND_IN_LIBHD names the library stand_in_libhd of a build with tests.
 """
@@ -21,7 +21,7 @@ pytestmark = [
 
 @pytest.fixture
 def runtime():
-    """A device that is plugged in, held by nobody, and a scheduler in real time."""
+    """A connected device that nobody holds, and a real-time scheduler."""
     library = ctypes.CDLL(LIBRARY)
     control = (ctypes.c_void_p * 32)()  # stand_in.hpp: reset, plug_in, run_in_real_time, ...
     library.stand_in_control(control)
@@ -34,7 +34,7 @@ def runtime():
     ctypes.CFUNCTYPE(None)(control[0])()
 
 
-def test_a_force_law_in_python_runs_on_the_vendor_s_clock_again_and_again(runtime):
+def test_a_python_force_law_runs_repeatedly_on_the_vendor_s_clock(runtime):
     assert cal.openhaptics_runtime(LIBRARY)["found"]
     for _ in range(3):
         asked = []
@@ -57,7 +57,7 @@ def test_a_force_law_in_python_runs_on_the_vendor_s_clock_again_and_again(runtim
         assert device.read().status == cal.DeviceStatus.disconnected
 
 
-def test_a_device_that_the_runtime_has_not_is_named(runtime):
+def test_a_device_unknown_to_the_runtime_is_named(runtime):
     with pytest.raises(cal.DeviceError, match="Nobody's"):
         cal.OpenHapticsDevice(cal.OpenHapticsOptions(library=LIBRARY, device="Nobody's"))
     assert cal.openhaptics_error_name(0x0200) == "warm motors"

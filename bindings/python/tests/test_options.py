@@ -1,4 +1,4 @@
-"""What is asked for reaches C++: every option of a call changes what it should change, and nothing is swapped."""
+"""Arguments reach C++: every option of a call has its effect, and none are swapped."""
 
 import numpy as np
 import pytest
@@ -13,7 +13,7 @@ AROUND = np.random.default_rng(1).uniform(-1, 4, size=(400, 2))
 
 
 def stepped(seconds=0.3, law=lambda state: (0, 0, 1.0), device=None, **options):
-    """The force that a device was sent at every tick, and the servo."""
+    """The force sent to the device in every tick, and the servo."""
     device = cal.SimulatedDevice(PROFILE) if device is None else device
     servo = cal.Servo(device, law, **options)
     sent = []
@@ -24,7 +24,7 @@ def stepped(seconds=0.3, law=lambda state: (0, 0, 1.0), device=None, **options):
     return np.array(sent), servo
 
 
-def test_the_tolerance_is_what_a_search_stops_at():
+def test_the_tolerance_limits_the_error_of_a_search():
     coarse, fine = (cal.nearest_point(LOOPED, AROUND, "wang2006", tolerance=t) for t in (0.1, 1e-9))
     assert not np.array_equal(coarse.parameter, fine.parameter)
     assert int(cal.NearestPointStatus.approximate) in fine.status and not fine.certified.any()
@@ -32,7 +32,7 @@ def test_the_tolerance_is_what_a_search_stops_at():
     assert np.mean(coarse.distance - best) > np.mean(fine.distance - best)
 
 
-def test_samples_and_refinements_are_what_a_sampled_search_takes():
+def test_samples_and_refinements_are_used_by_the_sampled_method():
     best = cal.nearest_point(LOOPED, AROUND).distance
     errors = {
         (samples, refinements): np.mean(
@@ -67,21 +67,21 @@ def test_an_alternate_order_is_found_by_its_name(tmp_path):
     assert [p.licence for p in cal.CharacterSet(both).provenances()] == ["MIT"]
 
 
-def test_characters_that_differ_in_feel_alone_differ():
+def test_characters_that_differ_only_in_feel_are_unequal():
     usual = CHARACTERS["人"]
     inputs = [cal.StrokeInput(s.type.id, s.control_points, list(2 * s.attraction_factors)) for s in usual.strokes()]
     firmer = cal.make_character("人", inputs)
     assert np.array_equal(firmer.attraction_factors, 2 * usual.attraction_factors) and firmer != usual
 
 
-def test_of_several_sets_the_first_ones_character_is_found():
+def test_the_first_of_several_layered_sets_takes_precedence():
     one, other = CHARACTERS["人"], cal.with_quartic_curves(CHARACTERS["人"])
     sets = [cal.CharacterSet(cal.CharacterList([c])) for c in (one, other)]
     assert cal.CharacterSet.layered(sets)["人"] == one
     assert cal.CharacterSet.layered(sets[::-1])["人"] == other
 
 
-def test_a_set_keeps_places_as_finely_as_it_is_told():
+def test_a_set_has_the_requested_coordinate_precision():
     errors = [
         cal.CharacterSet.from_bytes(cal.encode_character_set(CHARACTERS, precision)).coordinate_error()
         for precision in cal.CoordinatePrecision
@@ -89,7 +89,7 @@ def test_a_set_keeps_places_as_finely_as_it_is_told():
     assert errors == sorted(errors, reverse=True) and errors[0] > errors[1] > errors[2] > errors[3] == 0.0
 
 
-def test_a_character_has_the_degree_it_is_made_with():
+def test_a_character_has_the_requested_curve_degree():
     quartic = cal.with_quartic_curves(CHARACTERS["人"])
     inputs = [cal.StrokeInput(s.type.id, s.control_points, list(s.attraction_factors)) for s in quartic.strokes()]
     assert cal.make_character("人", inputs, 4) == quartic
@@ -97,7 +97,7 @@ def test_a_character_has_the_degree_it_is_made_with():
         cal.make_character("人", inputs)
 
 
-def test_a_servo_runs_as_it_is_told():
+def test_a_servo_runs_at_the_given_rate():
     quick, _ = stepped(ramp_up=0.05)
     slow, _ = stepped(ramp_up=0.2)
     assert np.argmax(quick >= 0.999) < 60 < 150 < np.argmax(slow >= 0.999) < 210
@@ -107,7 +107,7 @@ def test_a_servo_runs_as_it_is_told():
         stepped(rate=-1.0)
 
 
-def test_a_servo_falls_as_it_is_told():
+def test_a_servo_ramps_down_in_the_given_time():
     def fall(ramp_down):
         device = cal.SimulatedDevice(PROFILE)
         servo = cal.Servo(device, lambda state: (0, 0, 1.0), ramp_up=0.0, ramp_down=ramp_down)
@@ -124,7 +124,7 @@ def test_a_servo_falls_as_it_is_told():
     assert fall(5e-3) <= 6 < 20 <= fall(30e-3) <= 31
 
 
-def test_a_servo_is_as_patient_as_it_is_told():
+def test_a_servo_applies_the_given_timeout():
     def ticks_with_force(timeout):
         device = Weak()
         device.stale_from = 30
@@ -136,8 +136,8 @@ def test_a_servo_is_as_patient_as_it_is_told():
     assert ticks_with_force(4e-3) < 8 and 35 < ticks_with_force(40e-3) < 45
 
 
-def test_a_law_takes_no_virtual_time_however_slow_it_is():
-    """A second of work a tick would be a fault by the clock."""
+def test_a_slow_law_takes_no_virtual_time():
+    """By a real clock, a law this slow would be a fault."""
 
     def slow(state):
         sum(range(400_000))  # some 5 ms, more than the timeout of 4 ms
@@ -147,19 +147,19 @@ def test_a_law_takes_no_virtual_time_however_slow_it_is():
     assert servo.statistics["work"]["worst"] == 0.0 and servo.status.fault == cal.DeviceFault.none and sent[-1] == 1.0
 
 
-def test_a_servo_begins_anew_when_it_is_reset():
+def test_a_reset_servo_starts_again():
     _, servo = stepped(ramp_up=0.05)
     assert servo.status.phase == cal.ServoPhase.running
     servo.reset()
     assert servo.status.phase == cal.ServoPhase.zero and servo.status.gain == 0.0
 
 
-def test_faults_are_named_as_python_can_write_them():
+def test_fault_names_are_valid_python_identifiers():
     assert cal.DeviceFault.timed_out.name == "timed_out"
     assert all(name.isidentifier() for name in cal.DeviceFault.__members__)
 
 
-def test_a_simulated_device_has_the_place_the_hand_and_the_buttons_it_is_given():
+def test_a_simulated_device_has_the_given_position_grip_and_buttons():
     device = cal.SimulatedDevice(PROFILE, cal.GripImpedance(mass=0.1, damping=3.0, stiffness=300.0), (0.01, 0.02, 0.03))
     assert np.allclose(device.true_position, (0.01, 0.02, 0.03)) and not device.true_velocity.any()
     device.set_intention(cal.Intention(position=(0.05, 0.02, 0.03)))
@@ -185,7 +185,7 @@ def test_a_replayed_device_keeps_the_last_force():
 
 
 class Weak(cal.HapticDevice):
-    """A device that can give half a newton, and has nothing new from some tick on."""
+    """A device with a peak force of 0.5 N and no fresh samples from some tick on."""
 
     def __init__(self):
         super().__init__()
@@ -206,7 +206,7 @@ class Weak(cal.HapticDevice):
         self.forces.append("closed")
 
 
-def test_no_more_is_asked_of_a_device_of_ones_own_than_it_says_it_can():
+def test_the_force_is_limited_to_the_peak_of_your_own_device():
     device = Weak()
     servo = cal.Servo(device, lambda state: (0, 0, 3.0), ramp_up=0.0)
     for tick in range(10):
@@ -214,7 +214,7 @@ def test_no_more_is_asked_of_a_device_of_ones_own_than_it_says_it_can():
     assert device.forces[-1] == pytest.approx([0, 0, 0.5])
 
 
-def test_a_renderer_says_what_it_clipped_and_begins_anew():
+def test_a_renderer_reports_what_it_clipped_and_can_be_restarted():
     page = cal.lay_out([CHARACTERS["一"]])[0]
     mapping = cal.upright_page(page.width, page.height)
     options = cal.RendererOptions(paper_stiffness=1e6, stiffness_check=cal.StiffnessCheck.clip)
@@ -235,7 +235,7 @@ def test_a_renderer_says_what_it_clipped_and_begins_anew():
         cal.validate(cal.RendererOptions(), PROFILE, scale=1e3)
 
 
-def test_a_tick_of_a_trace_is_the_tick_of_an_update_column_by_column():
+def test_a_tick_of_a_trace_equals_that_of_update_in_every_column():
     page = cal.lay_out([CHARACTERS["十"] if "十" in CHARACTERS else CHARACTERS["人"]])[0]
     mapping = cal.MotionMapping(rotation=[[0, 1, 0], [0, 0, 1], [1, 0, 0]], offset=(0.01, 0.02, 0.0), scale=0.8)
     options = cal.RendererOptions.everything(PROFILE)
@@ -257,7 +257,7 @@ def test_a_tick_of_a_trace_is_the_tick_of_an_update_column_by_column():
     assert ticks[0].events == cal.TickEvent(0) and (rows["events"] & cal.TickEvent.contact).any()
 
 
-def test_a_trace_file_has_the_notice_and_the_unit_given(tmp_path):
+def test_a_trace_file_has_the_given_notice_and_unit(tmp_path):
     trace = cal.PenTrace("一", [[[0.1, 0.5, 0.0], [0.9, 0.5, 1.0]]], set="mine", em=250.0)
     cal.write_pen_traces(tmp_path / "traces.txt", [trace], notice="made by a test\nfor nobody")
     text = (tmp_path / "traces.txt").read_text(encoding="utf-8")
@@ -266,7 +266,7 @@ def test_a_trace_file_has_the_notice_and_the_unit_given(tmp_path):
     assert (again.em, again.set, trace.em) == (250.0, "mine", 250.0)
 
 
-def test_a_trace_as_it_is_made_can_be_written(tmp_path):
+def test_a_default_trace_can_be_written(tmp_path):
     path = tmp_path / "traces.txt"
     cal.write_pen_traces(path, [cal.PenTrace("一", [[[0.1, 0.5, 0.0], [0.9, 0.5, 0.4]]])])
     (read,) = cal.read_pen_traces(path)
@@ -275,7 +275,7 @@ def test_a_trace_as_it_is_made_can_be_written(tmp_path):
         cal.write_pen_traces(path, [cal.PenTrace("一", [[[0.1, 0.5, 0.0]]], set="two words")])
 
 
-def test_characters_are_imported_as_asked(tmp_path):
+def test_import_options_are_applied(tmp_path):
     source = tmp_path / "characters.txt"
     cal.write_characters(str(source), CHARACTERS)
     assert len(cal.import_characters(source)[0]) == len(CHARACTERS)
@@ -284,14 +284,14 @@ def test_characters_are_imported_as_asked(tmp_path):
         cal.import_characters(source, letters=tmp_path / "letters.tgz")
 
 
-def test_a_page_has_the_measures_of_its_layout():
+def test_a_page_has_the_dimensions_of_its_layout():
     page = cal.lay_out([CHARACTERS["永"]], cal.PageLayout(width=0.2, height=0.1, em=0.05))[0]
     assert (page.width, page.height, page.characters[0].placement.em) == (0.2, 0.1, 0.05)
     placement = cal.Placement(origin=(1.0, 2.0), em=0.5)
     assert placement.to_page([[0, 0], [1, 0], [0, 1]]).tolist() == [[1, 2], [1.5, 2], [1, 2.5]]
 
 
-def test_a_recording_keeps_its_rate_and_takes_rows_of_rows_alone():
+def test_a_recording_keeps_its_rate_and_accepts_only_a_list_of_samples():
     rows = np.zeros(3, dtype=cal.sample_dtype)
     assert cal.Recording(250.0, rows).rate == 250.0 and len(cal.Recording(250.0, rows[::2])) == 2
     assert len(cal.Recording(250.0, rows[:0])) == 0
@@ -307,7 +307,7 @@ def test_a_recording_keeps_its_rate_and_takes_rows_of_rows_alone():
         cal.read_recording("nowhere.csv")
 
 
-def test_a_tradeoff_is_of_the_queries_and_the_seed_given():
+def test_a_tradeoff_uses_the_given_queries_and_seed():
     def errors(**options):
         tradeoff = cal.nearest_point_tradeoff([CHARACTERS["永"]], rounds=1, **options)
         return [tradeoff["name"].tolist(), *(tradeoff[k][f].tolist() for k in ("real", "hard", "ticks") for f in ("error_worst", "error"))]
@@ -318,10 +318,10 @@ def test_a_tradeoff_is_of_the_queries_and_the_seed_given():
     cal.nearest_point_tradeoff([CHARACTERS["永"]], queries=16, rounds=3, progress=told.append)
     work = told[: told.index(1.0) + 1]
     assert len(work) % 3 == 0 and work == pytest.approx(np.linspace(0, 1, len(work) + 1)[1:])
-    assert set(told[len(work) :]) == {1.0}  # while errors are looked for
+    assert set(told[len(work) :]) == {1.0}  # while errors are computed
 
 
-def test_a_field_is_of_the_stroke_the_progress_and_the_options_given():
+def test_a_force_field_uses_the_given_stroke_progress_and_options():
     def forces(stroke=1, progress=0.3, corner=PLACED.placement.origin, edge=PLACED.placement.em, **options):
         return cal.guidance_field(PLACED, stroke, progress, corner, edge, **{"columns": 16, **options})["forces"]
 
@@ -336,7 +336,7 @@ def test_a_field_is_of_the_stroke_the_progress_and_the_options_given():
         assert not np.allclose(other, usual)
 
 
-def test_the_jumps_of_a_field_are_where_its_force_jumps():
+def test_the_jumps_of_a_force_field_are_where_its_force_jumps():
     placement, attractor = PLACED.placement, cal.Attractor.nearest_stroke
     field = cal.guidance_field(PLACED, 1, 0.3, placement.origin, placement.em, columns=48, attractor=attractor)
     jumps = field["jumps"]
@@ -351,7 +351,7 @@ def test_the_jumps_of_a_field_are_where_its_force_jumps():
     assert (np.linalg.norm(jumps["end"] - jumps["begin"], axis=1) <= 1.5 * cell).all()
 
 
-def test_a_stability_map_is_of_what_was_asked():
+def test_a_stability_map_has_the_requested_loops():
     result = cal.stability_map(cal.StabilityMapOptions(
         device=cal.Capabilities(apparent_mass=0.1, peak_force=5.0), per_decade=1, min_stiffness=100.0, max_stiffness=1e4,
         dampings=[0.5, 1.0], rates=[1000.0], delays=[2], encoder_steps=[0.0], wall_dampings=[0.0],

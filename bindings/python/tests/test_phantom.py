@@ -1,4 +1,4 @@
-"""Phantoms from Python, on an emulated one behind the real libusb and hidapi (docs/emulated-phantom.md).
+"""Phantoms from Python, using an emulated one behind the real libusb and hidapi (docs/emulated-phantom.md).
 
 CALLIGRAPHY_EMULATED_PHANTOM names the program emulated_phantom of a build with tests.
 """
@@ -32,7 +32,7 @@ OPENED = """
 import json, os, signal, threading
 import calligraphy as cal
 
-signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored where the tests run in the background
+signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored if the tests run in the background
 found = cal.plugged_devices()
 device = cal.PhantomDevice(cal.PhantomOptions(wire_profile="simulated"))
 able = device.capabilities()
@@ -40,13 +40,13 @@ page = cal.lay_out(
     [cal.built_in_characters()["一"]], cal.PageLayout(width=able.workspace[0], height=able.workspace[1])
 )[0]
 options = cal.LiveOptions(renderer=cal.RendererOptions.for_device(able), timeout=20.0)
-# A machine that is busy with other things keeps neither the emulated bus nor the loop at 1 kHz.
+# A busy machine keeps neither the emulated bus nor the loop at 1 kHz.
 options.servo = cal.ServoLoopOptions(servo=cal.ServoOptions(timeout=0.5))
 """
 
 
 def on_a_phantom(program, kind="usb"):
-    """What the program prints as JSON in its last line."""
+    """The JSON printed by the program in its last line."""
     environment = {**os.environ, "PYTHONPATH": str(pathlib.Path(cal.__file__).parents[1])}
     done = subprocess.run(
         [EMULATOR, "--kind", kind, "--serial", "540-12345", "--write", "一", "--skill", "skilled", "--",
@@ -78,21 +78,21 @@ print(json.dumps({
     )
     assert told["found"] == [told["name"]] == [f"{ids} on bus 1, port 2, serial 540-12345"]
     assert told["link"] == kind and told["may_open"] and told["model"] == "Touch"
-    # Where the machine kept the bus waiting for too long the force fell, as it should, and the stroke may be lost.
-    faults = told["faults"].keys() - {"not_calibrated"}  # which it is until it was in the inkwell
+    # If the machine delayed the bus for too long, the force ramped down, correctly, and the stroke may be lost.
+    faults = told["faults"].keys() - {"not_calibrated"}  # reported until the pen has been in the inkwell
     assert faults or (told["written"] == 1 and told["peak"] > 0.05)
     assert told["status"] != "disconnected" and told["closed"] == "disconnected"
-    assert all("priority" in warning for warning in told["warnings"])  # permitted or not, as the machine has it
+    assert all("priority" in warning for warning in told["warnings"])  # depends on the privileges on this machine
     assert told["views"] > 0 and told["reports"] > 500 and 500 < told["samples"] <= told["ticks"]
 
 
 @pytest.mark.parametrize("priority", [-1, 100])
-def test_a_priority_that_is_none_is_named(priority):
+def test_an_invalid_priority_is_named(priority):
     with pytest.raises(cal.InvalidValue, match=f"priority = {priority}, must be from 1 to 99, or 0"):
         cal.PhantomDevice(cal.PhantomOptions(priority=priority))
 
 
-def test_ctrl_c_lets_go_of_a_phantom_and_keeps_what_was_written():
+def test_ctrl_c_releases_a_phantom_and_keeps_the_recording():
     told = on_a_phantom("""
 views = []
 def press():
@@ -130,7 +130,7 @@ print(json.dumps([len(asked), loop.statistics["ticks"], refused, device.joints.t
     assert 300 <= asked <= ticks and "in use" in refused and len(joints) == 3
 
 
-def test_a_phantom_is_opened_as_asked(tmp_path):
+def test_a_phantom_is_opened_with_the_given_options(tmp_path):
     shipped = pathlib.Path(__file__).parents[3] / "data" / "profiles" / "simulated.txt"
     lines = shipped.read_text().splitlines(keepends=True)
     (tmp_path / "no-torque").write_text("".join(line for line in lines if not line.startswith("torque-per-count")))
@@ -157,7 +157,7 @@ print(json.dumps(told))
 
 
 @pytest.mark.parametrize(("kind", "ids"), [("usb", "2988:0302"), ("hid", "2988:0304")])
-def test_what_a_phantom_says_of_itself_and_sends_is_captured(kind, ids, tmp_path):
+def test_descriptors_and_packets_of_a_phantom_are_captured(kind, ids, tmp_path):
     told = on_a_phantom(
         f"""
 device.close()
@@ -169,7 +169,7 @@ class Pressed(Exception):
 seen = []
 def press(*_):
     seen.append(1)
-    if len(seen) == 3:  # one is left when a call returns that did not look
+    if len(seen) == 3:  # one is still pending when a call without checks returns
         raise Pressed
 signal.signal(signal.SIGALRM, press)
 try:

@@ -1,4 +1,4 @@
-"""Processes: forks, fresh ones, and interpreters within one."""
+"""Processes: forked and spawned ones, and subinterpreters."""
 
 import concurrent.futures
 import multiprocessing
@@ -15,18 +15,18 @@ import calligraphy as cal
 
 PROFILE = cal.device_profile("desktop")
 PAGE = cal.lay_out([cal.built_in_characters()["一"]])[0]
-forks = pytest.mark.skipif(not hasattr(os, "fork"), reason="there is no fork here")
-# Python 3.12 on warns of any fork of a process with threads; whether that goes well is what is tested here.
+forks = pytest.mark.skipif(not hasattr(os, "fork"), reason="this system has no fork")
+# Python 3.12 and later warn about forks of processes with threads, which is what these tests exercise.
 quiet = pytest.mark.filterwarnings("ignore:.*fork.*:DeprecationWarning")
 
 
 def whole(rows):
-    """The bytes of a structured array, but for those between its columns."""
+    """The bytes of a structured array without padding."""
     return b"".join(rows[name].tobytes() for name in rows.dtype.names)
 
 
 def work(seed):
-    """Something of every component, as bytes."""
+    """A result of every component, as bytes."""
     renderer = cal.RendererOptions.for_device(PROFILE)
     options = cal.SessionOptions(device=PROFILE, renderer=renderer, seed=seed)
     recording = cal.write_page(PAGE, options)
@@ -40,7 +40,7 @@ def work(seed):
 
 
 def forked(call):
-    """What call() gives in a fork of this process."""
+    """The result of call() in a fork of this process."""
     reader, writer = os.pipe()
     child = os.fork()
     if child == 0:
@@ -61,16 +61,16 @@ def forked(call):
 
 @forks
 @quiet
-def test_a_fork_does_what_its_parent_does():
-    expected = work(1)  # also: whatever is made once is made before the fork
+def test_a_fork_gives_the_same_results_as_its_parent():
+    expected = work(1)  # also initialises all singletons before the fork
     assert forked(lambda: work(1)) == expected
     assert work(1) == expected
 
 
 @forks
 @quiet
-def test_a_fork_within_a_session_goes_on_by_itself():
-    """Both processes have the renderer, the device and the open callback; both end the session."""
+def test_a_fork_inside_a_session_continues_on_its_own():
+    """Both processes have the renderer, the device and the active callback; both complete the session."""
     options = cal.SessionOptions(device=PROFILE)
 
     def session(in_the_middle):
@@ -107,8 +107,8 @@ def test_a_fork_within_a_session_goes_on_by_itself():
 
 @forks
 @quiet
-def test_a_fork_while_another_thread_is_at_work():
-    """The child has the forking thread alone; nothing of C++ waits for the other one."""
+def test_a_fork_works_while_another_thread_is_busy():
+    """The child has only the forking thread; no C++ code waits for the other one."""
     stop = threading.Event()
 
     def busy():
@@ -126,14 +126,14 @@ def test_a_fork_while_another_thread_is_at_work():
 
 @pytest.mark.parametrize("method", multiprocessing.get_all_start_methods())
 @quiet
-def test_processes_of_every_kind_do_the_same(method):
+def test_every_start_method_of_processes_gives_the_same_results(method):
     context = multiprocessing.get_context(method)
     with concurrent.futures.ProcessPoolExecutor(1, mp_context=context) as pool:
         assert list(pool.map(work, [1, 2])) == [work(1), work(2)]
 
 
-def test_a_second_interpreter_of_the_same_process_is_refused():
-    """Were it loaded there, it would wait forever for itself, or its errors would be of the wrong class."""
+def test_a_second_interpreter_in_the_same_process_is_rejected():
+    """Loading it there would deadlock, or its errors would be of the wrong class."""
     code = """
 try:
     import _interpreters as interpreters
@@ -159,5 +159,5 @@ except cal.InvalidValue:
 """
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
     if "No module named '_xxsubinterpreters'" in done.stderr:
-        pytest.skip("this Python makes no interpreters")
+        pytest.skip("this Python does not support subinterpreters")
     assert (done.returncode, done.stdout) == (0, "as before\n"), done.stderr

@@ -1,4 +1,4 @@
-"""Loops in real time. The machine may be slow: nothing here is judged by a clock."""
+"""Real-time loops. The machine may be slow: no test depends on wall-clock time."""
 
 import gc
 import os
@@ -14,7 +14,7 @@ import pytest
 import calligraphy as cal
 
 PROFILE = cal.device_profile("desktop")
-#: Of the watchdog: by the machine's clock, which a busy machine does not keep.
+#: Faults detected by the watchdog's clock, which may occur on a busy machine.
 PATIENT = cal.ServoOptions(timeout=1.0, ramp_up=0.05)
 PRESSED = (0.0, 0.0, -1e-3)
 
@@ -26,7 +26,7 @@ def options(servo=PATIENT, **thread):
 
 
 def until(condition):
-    """For at most a minute of the machine."""
+    """Waits for at most a minute."""
     end = time.monotonic() + 60
     while not condition():
         assert time.monotonic() < end, "nothing happens"
@@ -34,7 +34,7 @@ def until(condition):
 
 
 class Bench(cal.HapticDevice):
-    """A pen that rests 1 mm below the paper, and what it was told."""
+    """A pen at rest 1 mm below the paper, which records its commands."""
 
     def __init__(self):
         super().__init__()
@@ -71,7 +71,7 @@ def renderer_of(page):
     )  # fmt: skip
 
 
-def test_the_force_rises_to_that_of_the_law_and_falls_to_zero_when_the_loop_stops():
+def test_the_force_ramps_up_to_that_of_the_law_and_down_to_zero_when_the_loop_stops():
     device = Bench()
     loop = cal.ServoLoop(device, wall, options())
     loop.start()
@@ -88,7 +88,7 @@ def test_the_force_rises_to_that_of_the_law_and_falls_to_zero_when_the_loop_stop
     assert len(device.forces) == told
 
 
-def test_what_the_loop_has_done_is_told_while_it_runs_and_afterwards():
+def test_statistics_are_available_while_the_loop_runs_and_afterwards():
     with cal.ServoLoop(Bench(), wall, options()) as loop:
         assert loop.running
         until(lambda: loop.statistics["ticks"] > 20)
@@ -97,7 +97,7 @@ def test_what_the_loop_has_done_is_told_while_it_runs_and_afterwards():
     assert loop.statistics["faults"][cal.DeviceFault.bad_force] == 0
 
 
-def test_a_loop_is_started_again_after_it_was_stopped():
+def test_a_stopped_loop_can_be_started_again():
     device = Bench()
     loop = cal.ServoLoop(device, wall, options())
     for _ in range(2):
@@ -109,16 +109,16 @@ def test_a_loop_is_started_again_after_it_was_stopped():
         assert device.forces[-1] == 0.0
 
 
-def test_a_with_block_lets_the_force_fall_whatever_ends_it():
+def test_a_with_block_ramps_the_force_down_also_after_an_exception():
     device = Bench()
-    with pytest.raises(LookupError, match="of one's own"):
+    with pytest.raises(LookupError, match="of your own"):
         with cal.ServoLoop(device, wall, options()) as loop:
             until(lambda: device.forces and device.forces[-1] > 0)
-            raise LookupError("of one's own")
+            raise LookupError("of your own")
     assert not loop.running and device.forces[-1] == 0.0
 
 
-def test_a_loop_that_nobody_holds_any_more_stops():
+def test_an_unreferenced_loop_stops():
     device = Bench()
     loop = cal.ServoLoop(device, wall, options())
     loop.start()
@@ -152,12 +152,12 @@ def test_a_law_may_start_and_stop_and_drop_other_loops():
     assert not other.running
 
 
-def test_a_renderer_for_a_law_needs_no_python():
+def test_a_renderer_as_the_law_runs_without_python():
     device = cal.PointerDevice(PROFILE)
     loop = cal.ServoLoop(device, renderer_of(one_page()), options())
     interval = sys.getswitchinterval()
     with loop:
-        sys.setswitchinterval(1000.0)  # from here on this thread lets no other have the GIL
+        sys.setswitchinterval(1000.0)  # from here on, this thread does not yield the GIL
         try:
             end = time.monotonic() + 30
             reached = loop.statistics["ticks"] + 100
@@ -169,7 +169,7 @@ def test_a_renderer_for_a_law_needs_no_python():
     assert ticks >= reached
 
 
-def test_what_a_running_loop_uses_is_refused_to_others():
+def test_what_a_running_loop_uses_cannot_be_used_elsewhere():
     device, renderer = cal.PointerDevice(PROFILE), renderer_of(one_page())
     state = cal.DeviceState(position=(0, 0, 0.01))
     with cal.ServoLoop(device, renderer, options()) as loop:
@@ -189,7 +189,7 @@ def test_what_a_running_loop_uses_is_refused_to_others():
         ):
             with pytest.raises(cal.Error, match="in use by a running loop"):
                 forbidden()
-        device.move(0.01, 0.0, 0.5)  # from any thread
+        device.move(0.01, 0.0, 0.5)  # allowed from any thread
         assert device.capabilities().model == PROFILE.model
         assert renderer.options.servo_rate == 1000.0
     device.read()
@@ -197,12 +197,12 @@ def test_what_a_running_loop_uses_is_refused_to_others():
     renderer.restart()
 
 
-def test_a_law_may_use_the_device_that_it_is_asked_for():
+def test_a_law_may_use_the_device_of_its_loop():
     device = cal.SimulatedDevice(PROFILE, cal.GripImpedance(), (0, 0, 0.01))
     device.set_intention(cal.Intention(position=(0, 0, -0.005)))
 
     def law(state):
-        device.advance(1e-3)  # virtual time goes on as the loop does
+        device.advance(1e-3)  # advance virtual time with the loop
         return wall(state)
 
     with cal.ServoLoop(device, law, options()) as loop:
@@ -211,7 +211,7 @@ def test_a_law_may_use_the_device_that_it_is_asked_for():
     assert -5e-3 < device.true_position[2] < 0.0
 
 
-def test_what_a_law_raises_is_told_and_lets_the_force_fall():
+def test_an_exception_of_a_law_is_reported_and_ramps_the_force_down():
     told = []
     before, sys.unraisablehook = sys.unraisablehook, lambda unraisable: told.append(unraisable.exc_value)
     try:
@@ -240,7 +240,7 @@ def test_a_law_may_stop_its_loop():
     assert not loop.running
 
 
-def test_threads_that_start_and_stop_at_once_do_not_trip():
+def test_concurrent_starts_and_stops_are_safe():
     loop = cal.ServoLoop(Bench(), wall, options())
     loop.start()
     threads = [threading.Thread(target=loop.stop) for _ in range(4)]
@@ -251,7 +251,7 @@ def test_threads_that_start_and_stop_at_once_do_not_trip():
     assert not loop.running
 
 
-def test_bad_options_and_a_second_start_are_refused():
+def test_invalid_options_and_a_second_start_are_rejected():
     with pytest.raises(cal.InvalidValue, match="rate"):
         cal.ServoLoop(Bench(), wall, options(cal.ServoOptions(rate=0.0)))
     with pytest.raises(cal.InvalidValue, match="priority = 100"):
@@ -267,7 +267,7 @@ def test_bad_options_and_a_second_start_are_refused():
         cal.PointerDevice(PROFILE, options=cal.PointerOptions(paper=np.diag([2.0, 1.0, 1.0, 1.0])))
 
 
-def test_what_the_system_does_not_permit_is_told():
+def test_privileges_refused_by_the_system_are_reported():
     loop = cal.ServoLoop(Bench(), wall, options(core=1023))
     told = loop.start()
     loop.stop()
@@ -284,7 +284,7 @@ def python(program, **arguments):
 BENCH = """
 import atexit, os, sys, threading, time
 forces = []
-atexit.register(lambda: print("last force", forces[-1]))  # after what the module does at the end
+atexit.register(lambda: print("last force", forces[-1]))  # runs after the module's own exit handler
 import calligraphy as cal
 
 class Bench(cal.HapticDevice):
@@ -314,14 +314,14 @@ def wait(condition):
 """
 
 
-def test_a_program_that_ends_leaves_no_force():
+def test_no_force_remains_when_the_program_exits():
     ended = python(
         BENCH + "loop = cal.ServoLoop(device, lambda state: (0, 0, 1.0), options)\nloop.start()\nwait(pressed)\n"
     )
     assert (ended.returncode, ended.stdout, ended.stderr) == (0, "last force 0.0\n", "")
 
 
-def test_a_law_may_drop_the_last_hold_on_its_loop():
+def test_a_law_may_drop_the_last_reference_to_its_loop():
     ended = python(
         BENCH
         + "held = []\n"
@@ -332,7 +332,7 @@ def test_a_law_may_drop_the_last_hold_on_its_loop():
     assert (ended.returncode, ended.stdout, ended.stderr) == (0, "last force 0.0\n", "")
 
 
-def test_a_session_in_a_thread_that_nobody_waits_for_ends_with_the_program():
+def test_a_session_in_a_daemon_thread_ends_with_the_program():
     ended = python(
         BENCH
         + "page = cal.lay_out([cal.built_in_characters()['一']])[0]\n"
@@ -344,7 +344,7 @@ def test_a_session_in_a_thread_that_nobody_waits_for_ends_with_the_program():
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")
-def test_a_thread_that_begins_again_and_again_ends_with_the_program():
+def test_a_daemon_thread_that_keeps_restarting_ends_with_the_program():
     ended = python(
         BENCH
         + "page = cal.lay_out([cal.built_in_characters()['一']])[0]\n"
@@ -358,7 +358,7 @@ def test_a_thread_that_begins_again_and_again_ends_with_the_program():
     assert (ended.returncode, ended.stdout, ended.stderr) == (0, "last force 0.0\n", "")
 
 
-def test_a_servo_is_not_stepped_on_the_device_of_a_running_loop():
+def test_a_servo_cannot_step_on_the_device_of_a_running_loop():
     device = cal.PointerDevice(cal.device_profile("desktop"))
     servo = cal.Servo(device, lambda state: (0, 0, 0))
     with cal.ServoLoop(device, lambda state: (0, 0, 0)):
@@ -368,7 +368,7 @@ def test_a_servo_is_not_stepped_on_the_device_of_a_running_loop():
 
 
 @pytest.mark.parametrize("peak", [float("nan"), 0.0, -1.0])
-def test_a_peak_that_is_none_is_refused(peak):
+def test_an_invalid_peak_force_is_rejected(peak):
     device = cal.PointerDevice(cal.device_profile("desktop"))
     page = cal.lay_out([cal.built_in_characters()["一"]])[0]
     with pytest.raises(cal.InvalidValue, match="peak_force"):
@@ -377,7 +377,7 @@ def test_a_peak_that_is_none_is_refused(peak):
         cal.with_peak_force(device.capabilities(), peak)
 
 
-def test_a_forked_child_ends_and_the_loop_of_the_parent_goes_on():
+def test_a_forked_child_exits_and_the_loop_of_the_parent_continues():
     ended = python(
         BENCH
         + "loop = cal.ServoLoop(device, lambda state: (0, 0, 1.0), options)\nloop.start()\nwait(pressed)\n"
@@ -392,12 +392,12 @@ def test_a_forked_child_ends_and_the_loop_of_the_parent_goes_on():
 
 
 class Writer:
-    """Moves the pointer along the strokes of a page: on when the pen has come where it should be."""
+    """Moves the pointer along the strokes of a page as the pen follows."""
 
     def __init__(self, device, page):
         self.device, self.page, self.views = device, page, []
         placed = page.characters[0]
-        shift = np.array([page.width / 2, page.height / 2])  # the page is centred on the device's zero
+        shift = np.array([page.width / 2, page.height / 2])  # the page is centred on the device origin
         self.places = []
         for stroke in placed.character.strokes():
             way = np.concatenate([e.point(np.linspace(0, 1, 12)) for e in cal.place_elements(stroke, placed.placement)])
@@ -437,7 +437,7 @@ def test_a_page_is_written_in_real_time_and_scored():
 
 
 @pytest.mark.parametrize("answer", [False, 0])
-def test_a_session_ends_when_watch_says_so_and_the_force_is_zero(answer):
+def test_a_session_ends_when_watch_returns_false_and_the_force_is_zero(answer):
     device, seen = Bench(), []
 
     def watch(view):
@@ -450,7 +450,7 @@ def test_a_session_ends_when_watch_says_so_and_the_force_is_zero(answer):
     assert result.statistics["ticks"] > 0
 
 
-def test_what_watch_raises_is_raised_once_the_force_is_zero_with_what_was_written():
+def test_an_exception_of_watch_is_raised_with_the_result_after_the_force_is_zero():
     device = cal.PointerDevice(PROFILE)
 
     def watch(view):
@@ -464,7 +464,7 @@ def test_what_watch_raises_is_raised_once_the_force_is_zero_with_what_was_writte
     device.read()
 
 
-def test_no_force_goes_beyond_the_peak_that_was_asked_for():
+def test_the_force_never_exceeds_the_requested_peak():
     assert cal.with_peak_force(PROFILE, 0.3).peak_force == 0.3
     page = one_page()
     device = cal.PointerDevice(PROFILE)
@@ -474,7 +474,7 @@ def test_no_force_goes_beyond_the_peak_that_was_asked_for():
 
 
 @pytest.mark.parametrize("timeout", [0.0, -1.0, np.nan, np.inf])
-def test_a_session_without_end_is_not_begun(timeout):
+def test_a_session_with_an_invalid_timeout_is_rejected(timeout):
     with pytest.raises(cal.InvalidValue, match="timeout"):
         cal.write_with_device(one_page(), Bench(), live_options(timeout=timeout))
 
@@ -488,7 +488,7 @@ def test_a_with_block_closes_a_device():
     assert pointer.read().status == cal.DeviceStatus.disconnected
 
 
-def test_a_pointer_is_followed_on_a_paper_anywhere():
+def test_a_pointer_is_followed_on_any_paper_pose():
     turn = np.eye(4)
     turn[:3, :3] = [[0, 0, 1], [1, 0, 0], [0, 1, 0]]  # x of the paper is y of the device
     turn[:3, 3] = [0.01, 0.0, 0.0]
@@ -501,7 +501,7 @@ def test_a_pointer_is_followed_on_a_paper_anywhere():
     assert device.intention.position == pytest.approx([0.01 + 8e-3, 0.02, 0.0], abs=1e-6)
 
 
-def test_what_a_backend_lacks_is_said_in_words():
+def test_errors_of_a_missing_backend_tell_what_to_do():
     if "phantom" in cal.backends:
         with pytest.raises(cal.InvalidValue, match="nothing"):
             cal.PhantomDevice(cal.PhantomOptions(wire_profile="simulated", model="nothing"))
@@ -519,7 +519,7 @@ def test_what_a_backend_lacks_is_said_in_words():
     assert other == "module 'calligraphy' has no attribute 'PhantomDevise'"
 
 
-#: As if the module had been built so: its names are taken away.
+#: Simulates a module built without backends by removing their names.
 WITHOUT_BACKENDS = """
 import calligraphy as cal
 for names, _ in cal._BACKENDS.values():
@@ -534,14 +534,14 @@ for name in ("PhantomDevice", "openhaptics_runtime", "PhantomDevise"):
 """
 
 
-def test_the_names_of_a_backend_are_those_that_it_brings():
+def test_the_names_listed_for_a_backend_are_those_it_provides():
     for backend, (names, _) in cal._BACKENDS.items():
         if backend in cal.backends:
             assert all(hasattr(cal, name) for name in names.split())
 
 
 @pytest.mark.skipif("phantom" not in cal.backends, reason="this module was built without Phantoms")
-def test_a_wire_profile_says_what_it_lacks(tmp_path):
+def test_a_wire_profile_lists_its_missing_lines(tmp_path):
     omni, simulated = map(cal.read_wire_profile, ("omni", "simulated"))
     position, force = set(omni["missing_for_position"]), set(omni["missing_for_force"])
     assert omni["name"] == "omni" and omni["report_size"] > 0 and omni["rate"] > 0

@@ -1,4 +1,4 @@
-"""Options and results: every record there is, whatever it holds, kept, copied, compared and sent to another process."""
+"""Options and results: every struct is stored, copied, compared and pickled, with arbitrary values."""
 
 import copy
 import gc
@@ -24,7 +24,7 @@ def records(kind):
 
 
 def values(kind, name):
-    """What a field may hold: anything that its type takes, as records check nothing else."""
+    """Values of a field: anything that its type accepts, because structs do not validate."""
     default = getattr(kind(), name)
     if type(default) in RECORDS:
         return records(type(default))
@@ -68,14 +68,14 @@ if "phantom" in cal.backends:
     LISTS[cal.PluggedDevice, "nodes"] = lambda: st.text(max_size=5)
 
 
-def test_there_are_records():
+def test_structs_are_found():
     assert len(RECORDS) > 30 and cal.SessionOptions in RECORDS and cal.CharacterScore in RECORDS
 
 
 @pytest.mark.parametrize("kind", RECORDS)
 @TINY
 @given(st.data())
-def test_every_record_survives_pickling_and_copying_and_differs_as_soon_as_one_field_does(kind, data):
+def test_every_struct_survives_pickling_and_copying_and_differs_if_one_field_differs(kind, data):
     one = data.draw(records(kind))
     for protocol in range(pickle.HIGHEST_PROTOCOL + 1):
         assert pickle.loads(pickle.dumps(one, protocol)) == one
@@ -92,8 +92,8 @@ def test_every_record_survives_pickling_and_copying_and_differs_as_soon_as_one_f
 
 
 @pytest.mark.parametrize("kind", RECORDS)
-def test_a_pickle_of_another_version_keeps_what_both_know(kind):
-    """A field that the other version did not have is the default; one that this version does not have is told."""
+def test_a_pickle_of_another_version_keeps_the_common_fields(kind):
+    """A field unknown to the other version has its default; one unknown to this version is reported."""
     state = kind().__reduce__()[0].keywords
     assert tuple(state) == kind.fields
     for name in kind.fields:
@@ -102,7 +102,7 @@ def test_a_pickle_of_another_version_keeps_what_both_know(kind):
         kind(**{**state, "later": 1})
 
 
-def test_nan_equals_nan_whatever_holds_it():
+def test_nan_equals_nan_in_every_field_type():
     nan = float("nan")
     assert cal.DeviceState() == cal.DeviceState() and cal.GripImpedance(mass=nan) == cal.GripImpedance(mass=nan) != cal.GripImpedance()
     assert cal.WritingMistake(time=nan) in [cal.WritingMistake(time=nan)]
@@ -145,12 +145,12 @@ def _number(value):
     ],
     ids=lambda value: value if isinstance(value, str) else type(value).__name__,
 )
-def test_a_list_of_a_record_is_a_copy_that_outlives_what_it_came_from(owner, name, make):
+def test_a_list_field_is_a_copy_that_outlives_its_owner(owner, name, make):
     setattr(owner, name, [make() for _ in range(3)])
     kept = getattr(owner, name)
     setattr(owner, name, [])
     gc.collect()
-    setattr(owner, name, [make() for _ in range(50)])  # whoever takes freed memory writes to it
+    setattr(owner, name, [make() for _ in range(50)])  # reuse freed memory, to expose dangling references
     setattr(owner, name, [])
     assert kept == [make() for _ in range(3)] and getattr(owner, name) == []
 
@@ -162,7 +162,7 @@ def test_a_change_to_an_element_of_a_list_does_not_reach_its_owner():
     assert score.mistakes == [cal.WritingMistake(stroke=1)]
 
 
-def test_what_is_not_a_field_or_not_of_its_type_is_refused():
+def test_unknown_fields_and_wrong_types_are_rejected():
     for kind in RECORDS:
         with pytest.raises(TypeError, match=f"{kind.__name__} has no field 'no_field'; it has {kind.fields[0]}"):
             kind(no_field=1)
@@ -175,13 +175,13 @@ def test_what_is_not_a_field_or_not_of_its_type_is_refused():
                 kind(**{name: object()})
 
 
-def test_a_record_says_what_it_holds_as_it_would_be_written():
+def test_the_repr_of_a_struct_is_a_constructor_call():
     assert repr(cal.GripImpedance(mass=0.5)) == "GripImpedance(mass=0.5, damping=3.0, stiffness=300.0)"
     state = repr(cal.DeviceState(position=(1, 2, 3)))
     assert state.startswith("DeviceState(time=0.0, position=[1.0, 2.0, 3.0], velocity=")
 
 
-def test_two_pages_are_equal_where_their_characters_are():
+def test_pages_are_equal_if_their_characters_are():
     characters = cal.built_in_characters()
     one, again, other = (cal.lay_out([characters[code]])[0] for code in "永永一")
     assert one == again == pickle.loads(pickle.dumps(one)) and one != other
@@ -191,7 +191,7 @@ def test_two_pages_are_equal_where_their_characters_are():
     assert moved != cal.PlacedCharacter(characters["永"]) and moved == pickle.loads(pickle.dumps(moved))
 
 
-#: What is not a record and yet worth keeping.
+#: Objects other than structs that support pickling and copying.
 RESULTS = {
     "NearestPoints": lambda: cal.nearest_point([[0, 0], [1, 2], [3, 0]], [[0, 1], [2, 2], [np.nan, 0]]),
     "Recording": lambda: cal.Recording(500.0, np.ones(3, dtype=cal.sample_dtype)),
@@ -238,7 +238,7 @@ def written():
     return page, cal.write_page(page, options)
 
 
-def test_what_is_no_record_says_in_a_line_what_it_is(written):
+def test_other_classes_have_a_one_line_repr(written):
     page, recording = written
     characters = cal.built_in_characters()
     stroke = characters["永"].strokes()[0]
@@ -260,17 +260,17 @@ def test_what_is_no_record_says_in_a_line_what_it_is(written):
     assert repr(characters).startswith("CharacterList(characters=[Character(") and f"... {len(characters)} in all]" in repr(characters)
 
 
-def test_a_record_of_much_says_how_much():
+def test_the_repr_of_long_values_is_abbreviated_with_their_length():
     strokes = cal.StrokeInput(1, [[0, 0], [1, 1]], np.arange(50.0))
     assert "attraction_factors=[0.0, 1.0, 2.0, ... 50 in all]" in repr(strokes)
     assert "attraction_factors=[0.0, 1.0])" in repr(cal.StrokeInput(1, [[0, 0], [1, 1]], [0.0, 1.0]))
     licence = repr(cal.Provenance(licence_text="word " * 1000))
-    assert "licence_text='word word" in licence and "... 5000 letters in all" in licence and len(licence) < 200
+    assert "licence_text='word word" in licence and "... 5000 characters in all" in licence and len(licence) < 200
     score = repr(cal.CharacterScore(character="永", mistakes=[cal.WritingMistake(reason="x")]))
     assert score.startswith("CharacterScore(character='永', time=0.0") and "mistakes=[WritingMistake(kind=" in score
 
 
-def test_what_holds_a_device_or_a_file_does_not_pickle():
+def test_objects_that_own_a_device_or_a_file_cannot_be_pickled():
     page = cal.lay_out([cal.built_in_characters()["一"]])[0]
     profile = cal.device_profile("ideal")
     for protocol, value in itertools.product(range(pickle.HIGHEST_PROTOCOL + 1), (
@@ -291,12 +291,12 @@ CLASSES = [
 
 
 @pytest.mark.parametrize("kind", CLASSES)
-def test_an_object_whose_init_was_not_called_is_refused(kind):
-    """By whatever it is used: it holds nothing."""
+def test_an_object_whose_init_was_not_called_is_rejected(kind):
+    """Whatever uses it, because the object is empty."""
     unfinished = kind.__new__(kind)
     names = [name for name in dir(kind) if isinstance(getattr(kind, name, None), property)]
     for use in [repr, copy.copy, hash, lambda it: it == kind.__new__(kind), *map(operator.attrgetter, names)]:
         try:
             use(unfinished)
-        except (TypeError, ValueError) as error:  # what it never had is refused with words of its own
+        except (TypeError, ValueError) as error:  # missing attributes are rejected with other messages
             assert str(error)

@@ -1,4 +1,4 @@
-"""Type stubs: complete, true to the module, and enough for mypy and pyright to check programs."""
+"""Type stubs: complete, consistent with the module, and sufficient for mypy and pyright to check programs."""
 
 import ast
 import enum
@@ -54,13 +54,13 @@ cal.FeedbackMode.blind
 
 def checked(words, directory):
     environment = dict(os.environ)
-    if PACKAGE.parent.name != "site-packages":  # where type checkers look anyway
+    if PACKAGE.parent.name != "site-packages":  # where type checkers search by default
         environment.update(MYPYPATH=str(PACKAGE.parent), PYTHONPATH=str(PACKAGE.parent))
     return subprocess.run(words, capture_output=True, text=True, env=environment, cwd=directory)
 
 
 def programs(directory):
-    """Every program of examples and pages, and two of users, in one directory; `wrong.py` has a mistake a line."""
+    """All programs of examples and pages, and two user programs, in one directory; `wrong.py` has one mistake per line."""
     for path in PROGRAMS:
         text = path.read_text(encoding="utf-8")
         if path.suffix == ".md":
@@ -71,7 +71,7 @@ def programs(directory):
 
 
 @pytest.mark.skipif(importlib.util.find_spec("mypy") is None, reason="mypy is not installed")
-def test_mypy_finds_nothing_in_programs_but_what_is_wrong(tmp_path):
+def test_mypy_finds_exactly_the_mistakes_in_programs(tmp_path):
     programs(tmp_path)
     words = [sys.executable, "-m", "mypy", "--config-file", str(ROOT / "pyproject.toml"), "--cache-dir", "cache"]
     found = checked([*words, "."], tmp_path)
@@ -83,7 +83,7 @@ def test_mypy_finds_nothing_in_programs_but_what_is_wrong(tmp_path):
 
 
 @pytest.mark.skipif(shutil.which("pyright") is None, reason="pyright is not installed")
-def test_pyright_finds_nothing_in_programs_but_what_is_wrong(tmp_path):
+def test_pyright_finds_exactly_the_mistakes_in_programs(tmp_path):
     programs(tmp_path)
     words = ["pyright", "--outputjson", "--pythonpath", sys.executable, "."]
     found = json.loads(checked(words, tmp_path).stdout)["generalDiagnostics"]
@@ -91,8 +91,8 @@ def test_pyright_finds_nothing_in_programs_but_what_is_wrong(tmp_path):
     assert sorted(set(errors)) == [("wrong.py", line) for line in (3, 4, 5, 6)], found
 
 
-def test_the_stubs_say_all_that_the_module_has_with_docstrings_and_units():
-    """In names and signatures they are the module's own, as they are made of it; here is what was added."""
+def test_the_stubs_cover_the_module_with_docstrings_and_units():
+    """Names and signatures are generated from the module; this checks what make_stubs.py adds."""
     tree = ast.parse((PACKAGE / "_calligraphy.pyi").read_text(encoding="utf-8"))
     told = {item.name: item for item in tree.body if isinstance(item, (ast.ClassDef, ast.FunctionDef))}
     module = vars(cal._calligraphy)

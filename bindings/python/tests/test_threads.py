@@ -1,4 +1,4 @@
-"""Threads: the GIL is released wherever C++ works for long, and what runs at the same time is not mixed up."""
+"""Threads: the GIL is released during long C++ calls, and concurrent calls do not interfere."""
 
 import concurrent.futures
 import os
@@ -34,7 +34,7 @@ def renderer():
 
 
 def others_run_while(call):
-    """Whether another thread of Python gets its turn within the call.
+    """Whether another Python thread runs during the call.
 
     Threads of Python take turns by the clock; here they never do, so that another one runs only when this one lets it:
     by giving the GIL away, or at its end. The other one waits for its turn; that the system wakes it in time is no
@@ -70,13 +70,13 @@ def others_run_while(call):
 
 
 def released(tmp_path):
-    """Calls that must let other threads run."""
+    """Calls that must release the GIL."""
     file, characters = tmp_path / "one.csv", tmp_path / "characters.txt"
     traces = tmp_path / "traces.txt"
     cal.write_recording(file, RECORDING)
     cal.write_characters(str(characters), CHARACTERS)
     cal.write_pen_traces(traces, [TRACE])
-    whole, states, many = renderer(), np.zeros((2000, 3)), np.zeros((1000, 2))  # NumPy's zeros release it, too
+    whole, states, many = renderer(), np.zeros((2000, 3)), np.zeros((1000, 2))  # NumPy's zeros also release the GIL
     stored = cal.CharacterSet(CHARACTERS)
     placed = PAGE.characters[0]
     replayed = cal.device_states(RECORDING, cal.upright_page(SHORT.width, SHORT.height))
@@ -108,17 +108,17 @@ def released(tmp_path):
     }
 
 
-def test_the_gil_is_released_wherever_cpp_works_for_long(tmp_path):
+def test_the_gil_is_released_during_long_cpp_calls(tmp_path):
     kept = [name for name, call in released(tmp_path).items() if not others_run_while(call)]
     assert kept == []
 
 
-def test_the_gil_is_kept_where_giving_it_away_would_cost_more_than_the_call():
+def test_the_gil_is_kept_if_releasing_it_would_cost_more_than_the_call():
     element, few = cal.StrokeElement(CUBIC), np.zeros((8, 2))
     assert not others_run_while(lambda: cal.nearest_point(element, few))
 
 
-def test_several_renderers_in_several_threads_do_what_one_does():
+def test_renderers_in_several_threads_give_the_same_results_as_one():
     recording = cal.write_page(PAGE, OPTIONS)
     positions = [s.position for s in cal.device_states(recording, MAPPING)]
     expected = renderer().trace(positions)["force"]
@@ -134,9 +134,9 @@ def test_several_renderers_in_several_threads_do_what_one_does():
             assert np.array_equal(result, expected)
 
 
-def test_several_sessions_are_under_way_at_the_same_time():
+def test_several_sessions_run_concurrently():
     expected = cal.run_session(SHORT, OPTIONS, straight_down(lambda: None)).samples
-    together = threading.Barrier(3)  # broken unless every session is in its middle
+    together = threading.Barrier(3)  # breaks unless all sessions are under way
 
     def write(_):
         return cal.run_session(SHORT, OPTIONS, straight_down(lambda: together.wait(60))).samples
@@ -147,7 +147,7 @@ def test_several_sessions_are_under_way_at_the_same_time():
 
 
 def straight_down(in_the_middle):
-    """A motion of 100 ticks; half way it does what it is told to."""
+    """A motion of 100 ticks, which calls the given function half-way."""
     ticks = 0
 
     def motion(tick, seconds):
@@ -162,7 +162,7 @@ def straight_down(in_the_middle):
     return motion
 
 
-def test_a_renderer_is_used_by_one_thread_at_a_time():
+def test_a_renderer_can_be_used_by_only_one_thread_at_a_time():
     positions = np.tile([s.position for s in cal.device_states(RECORDING, MAPPING)], (150, 1))
     expected, shared, traced, refused = renderer().trace(positions), renderer(), [], []
     thread = threading.Thread(target=lambda: traced.append(shared.trace(positions)))
@@ -171,7 +171,7 @@ def test_a_renderer_is_used_by_one_thread_at_a_time():
     uses = [lambda: shared.update(state), lambda: shared.trace(positions[:3]), shared.restart, lambda: shared.last]
     while thread.is_alive() and len(refused) < len(uses):
         try:
-            shared.last  # changes nothing where it is not refused
+            shared.last  # no effect if it is not rejected
         except cal.Error:
             for use in uses:
                 with pytest.raises(cal.Error, match="the renderer is in use by another thread"):
@@ -183,7 +183,7 @@ def test_a_renderer_is_used_by_one_thread_at_a_time():
     assert np.array_equal(shared.trace(positions[:100]), expected[:100])
 
 
-#: Freed memory is filled with a pattern, so that whoever still reads it does not find what was there.
+#: Freed memory is filled with a pattern, so that a read after free does not find the old values.
 FILLED = {**os.environ, "MALLOC_PERTURB_": "165", "PYTHONPATH": str(pathlib.Path(cal.__file__).parents[1])}
 ASSIGNING = """
 import sys, threading
@@ -218,8 +218,8 @@ for name, (call, owner, full) in calls.items():
 """
 
 
-def test_what_a_call_works_on_may_be_assigned_to_by_another_thread(tmp_path):
-    """In a process of its own, as one that reads freed memory may end by a signal."""
+def test_another_thread_may_assign_to_the_arguments_of_a_running_call(tmp_path):
+    """In a separate process, because reading freed memory may kill it by a signal."""
     done = subprocess.run(
         [sys.executable, "-c", ASSIGNING, str(tmp_path / "written")], capture_output=True, text=True, env=FILLED, timeout=300
     )
@@ -238,7 +238,7 @@ def test_one_set_of_characters_serves_several_threads():
 
 
 @pytest.mark.parametrize("where", ["session", "map", "tradeoff"])
-def test_what_a_callback_raises_comes_back_from_another_thread(where):
+def test_an_exception_of_a_callback_propagates_from_another_thread(where):
     def broken(*_):
         raise ZeroDivisionError(where)
 

@@ -1,4 +1,4 @@
-"""Trade-offs and imports from Python: what crosses the boundary is what C++ has."""
+"""Trade-offs and imports from Python: results agree with those of C++."""
 
 import pickle
 
@@ -18,7 +18,7 @@ def test_a_wider_grid_costs_bytes_and_halves_the_error():
     assert (pickle.loads(pickle.dumps(rows)) == rows).all()
 
 
-def test_a_faster_servo_bears_a_stiffer_paper():
+def test_a_faster_servo_permits_stiffer_paper():
     table = slow, fast = cal.servo_rate_tradeoff([cal.built_in_characters()["一"]], [500.0, 1000.0], seeds=1)
     assert table["rate"].tolist() == [500.0, 1000.0] and table["stable"].dtype == bool
     assert fast["held_stiffness"] > slow["held_stiffness"] > 0
@@ -27,7 +27,7 @@ def test_a_faster_servo_bears_a_stiffer_paper():
         cal.servo_rate_tradeoff([YONG], seeds=0)
 
 
-def test_an_import_tells_what_became_of_the_source(tmp_path):
+def test_the_import_report_accounts_for_the_source(tmp_path):
     (tmp_path / "十.json").write_text('{"medians":[[[100,400],[900,400]],[[512,800],[512,0]]]}', encoding="utf-8")
     (tmp_path / "一.json").write_text('{"medians":[[[100,400],[900,400]]]}', encoding="utf-8")
     (tmp_path / "notes.txt").write_text("none", encoding="utf-8")

@@ -1,4 +1,4 @@
-// Catches an error with nothing but the base.
+// Catches an error, using only the base component.
 #include <cstdio>
 
 #include <calligraphy/base/error.hpp>

@@ -1,4 +1,4 @@
-// Writes one character with everything.
+// Writes one character, using the whole library.
 #include <cstdio>
 #include <vector>
 

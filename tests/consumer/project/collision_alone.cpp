@@ -1,4 +1,4 @@
-// Finds the nearest point on a stroke with nothing but the collision component.
+// Finds the nearest point on a stroke, using only the collision component.
 #include <cstdio>
 
 #include <calligraphy/collision/active_stroke.hpp>

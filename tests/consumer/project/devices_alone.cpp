@@ -1,4 +1,4 @@
-// Moves a simulated device with nothing but the devices.
+// Reads a simulated device, using only the devices component.
 #include <cstdio>
 
 #include <calligraphy/devices/device_profiles.hpp>

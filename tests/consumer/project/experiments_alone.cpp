@@ -1,4 +1,4 @@
-// Samples the guidance about ambiguous places with nothing above the experiments.
+// Samples the guidance in ambiguous places, using only the experiments and the components below them.
 #include <cstdio>
 
 #include <calligraphy/experiments/force_field.hpp>

@@ -1,4 +1,4 @@
-// Fits a stroke to a path with only the importers and the components below them.
+// Fits a stroke to a path, using only the importers and the components below them.
 #include <cstdio>
 #include <vector>
 

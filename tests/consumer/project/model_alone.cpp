@@ -1,4 +1,4 @@
-// Looks up a character with nothing but the model.
+// Looks up a character, using only the model component.
 #include <cstdio>
 
 #include <calligraphy/model/character_list.hpp>

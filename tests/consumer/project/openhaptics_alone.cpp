@@ -1,4 +1,4 @@
-// Asks for a device of the vendor's runtime, which need not be there.
+// Opens a device of the vendor's runtime, which need not be installed.
 #include <cstdio>
 
 #include <calligraphy/base/error.hpp>

@@ -1,4 +1,4 @@
-// Lists what is plugged in, with the Phantom backend of an installed copy.
+// Lists the connected devices, using the Phantom backend of an installed copy.
 #include <cstdio>
 #include <string>
 
@@ -12,7 +12,7 @@ int main() {
       std::printf("%s\n", calligraphy::describe_device(device).c_str());
     }
   } catch (const calligraphy::DeviceError& error) {
-    std::printf("%s\n", error.what());  // a machine without USB
+    std::printf("%s\n", error.what());  // no USB on this machine
   }
   return std::string(calligraphy::to_string(calligraphy::DeviceFault::unplugged)) == "unplugged" ? 0 : 1;
 }

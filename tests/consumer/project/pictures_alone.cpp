@@ -1,4 +1,4 @@
-// Draws the typical strokes with nothing above the pictures.
+// Draws the typical strokes, using only the pictures and the components below them.
 #include <cstdio>
 #include <string>
 

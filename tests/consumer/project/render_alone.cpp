@@ -1,4 +1,4 @@
-// Renders a tick with nothing but the renderer and what it is made of, and names a fault of a device.
+// Renders one tick and names a device fault, using only the renderer and the components below it.
 #include <cstdio>
 #include <string>
 
