@@ -77,7 +77,7 @@ def lists(root):
     expected = list(BELOW)
     found = []
     for place, pattern in {
-        "CMakeLists.txt": r"^\s*calligraphy_(?:room|component)\((\w+)",
+        "CMakeLists.txt": r"^\s*calligraphy_component\((\w+)",
         "README.md": r"\[`(\w+)`\]\(include/calligraphy/[\w/]+\)",
     }.items():
         text = (root / place).read_text(encoding="utf-8")
