@@ -1,6 +1,8 @@
-# calligraphy_room(name [EXPORT set] SOURCES ... DEPENDS ...): one room of the house as the target calligraphy::name.
+# calligraphy_room(name [EXPORT set] SOURCES ... DEPENDS ... [NEEDS package ...]): one room of the house as the target
+# calligraphy::name. NEEDS: what find_package() must find beside an installed copy before that target can be linked;
+# DEPENDS are found already, where they are rooms, or needed by every room.
 function(calligraphy_room name)
-  cmake_parse_arguments(ROOM "" "EXPORT" "SOURCES;DEPENDS" ${ARGN})
+  cmake_parse_arguments(ROOM "" "EXPORT" "SOURCES;DEPENDS;NEEDS" ${ARGN})
   if(NOT ROOM_EXPORT)
     set(ROOM_EXPORT calligraphyTargets)
   endif()
@@ -13,17 +15,13 @@ function(calligraphy_room name)
                                               $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(${target} PUBLIC ${ROOM_DEPENDS})
   calligraphy_warnings(${target})
-  if(CALLIGRAPHY_SANITIZE)  # a build for tests: several files as one compile in a third of the time
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON)
-    target_compile_options(${target} PRIVATE -Wno-shadow)  # of names that stand in a neighbour
-    set_source_files_properties(
-      src/collision/certified_nearest_point.cpp src/collision/sampled_nearest_point.cpp src/devices/oscillator.cpp
-      src/model/stroke_recognition.cpp src/practice/hanzi_writer.cpp src/practice/pen_trace.cpp
-      src/practice/recording.cpp src/practice/replay_picture.cpp src/practice/stability_plot.cpp
-      src/practice/typical_strokes_picture.cpp
-      src/render/paper_friction.cpp
-      PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)  # these have names that a neighbour has too
-  endif()
+  calligraphy_unity(${target} 8)
+  set(rooms ${ROOM_DEPENDS})
+  list(FILTER rooms INCLUDE REGEX "^calligraphy_")
+  list(TRANSFORM rooms REPLACE "^calligraphy_" "")
+  set_property(GLOBAL APPEND PROPERTY CALLIGRAPHY_COMPONENTS ${name})
+  set_property(GLOBAL PROPERTY CALLIGRAPHY_${name}_DEPENDS "${rooms}")
+  set_property(GLOBAL PROPERTY CALLIGRAPHY_${name}_NEEDS "${ROOM_NEEDS}")
   install(TARGETS ${target} EXPORT ${ROOM_EXPORT})
   install(DIRECTORY include/calligraphy/${name} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/calligraphy)
 endfunction()

@@ -15,8 +15,13 @@
 namespace calligraphy_test {
 
 using calligraphy::NearestPoint;
+using calligraphy::NearestPointMethod;
 using calligraphy::ParameterRange;
 using calligraphy::Point;
+
+inline constexpr NearestPointMethod certified_methods[] = {NearestPointMethod::exact, NearestPointMethod::tracked};
+inline constexpr NearestPointMethod all_methods[] = {NearestPointMethod::exact, NearestPointMethod::tracked,
+                                                     NearestPointMethod::sampled, NearestPointMethod::wang2006};
 
 /// What an answer is worth. Errors are relative to the size of the curve (of a point: to the distance).
 struct Verdict {

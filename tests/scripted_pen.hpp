@@ -27,6 +27,9 @@ inline calligraphy::PlacedCharacter placed(char32_t code, const Point& origin = 
   return {*calligraphy::built_in_characters().find(code), {origin, em}};
 }
 
+/// On the page or above it [m].
+inline Eigen::Vector3d at(const Point& point, double z) { return {point.x(), point.y(), z}; }
+
 class ScriptedPen {
  public:
   explicit ScriptedPen(calligraphy::HapticRenderer& renderer, double rate = 1000.0)

@@ -24,7 +24,7 @@
 namespace calligraphy::tools {
 namespace {
 
-struct Options {
+struct ImportArguments {
   std::string source;
   std::string out;
   std::string format = "set";
@@ -43,7 +43,7 @@ const std::map<std::string, CoordinatePrecision> precisions = {{"coarse", Coordi
                                                                {"fine", CoordinatePrecision::fine},
                                                                {"exact", CoordinatePrecision::exact}};
 
-std::string encoded(const CharacterList& list, const Options& options) {
+std::string encoded(const CharacterList& list, const ImportArguments& options) {
   if (options.format == "set") {
     const std::vector<std::byte> bytes =
         encode_character_set(list, precisions.at(options.precision.value_or("standard")));
@@ -54,7 +54,7 @@ std::string encoded(const CharacterList& list, const Options& options) {
   return text.str();
 }
 
-Import imported(const Options& options, const Interrupt& interrupt) {
+Import imported(const ImportArguments& options, const Interrupt& interrupt) {
   ImportOptions asked;
   asked.letters = options.letters;
   asked.alternates = options.alternates;
@@ -71,7 +71,7 @@ Import imported(const Options& options, const Interrupt& interrupt) {
 }
 
 /// Is `out` the source, or a file of it?
-bool is_in_source(const Options& options) {
+bool is_in_source(const ImportArguments& options) {
   namespace fs = std::filesystem;
   std::error_code failure;
   const fs::path source = fs::canonical(options.source, failure);
@@ -81,7 +81,7 @@ bool is_in_source(const Options& options) {
   return !failure && rest == source.end() && fs::exists(out, failure);
 }
 
-void run(const Options& options) {
+void run(const ImportArguments& options) {
   if (options.source.empty()) throw UsageError("SOURCE: an empty name");
   if (options.out.empty()) throw UsageError("--out: an empty name");
   if (is_in_source(options)) throw UsageError("--out: " + options.out + " is the source, or a file of it");
@@ -103,7 +103,7 @@ void add_import(CLI::App& program) {
       "import",
       "Characters of other collections as typical strokes: hanzi-writer-data or KanjiVG (directory or npm tarball), or "
       "the text format. Which one SOURCE is, its content says.");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ImportArguments>();
   command->add_option("SOURCE", options->source, "Directory, npm tarball or text file")->required();
   command->add_option("-o,--out", options->out, "File to write")->required()->type_name("FILE");
   command->add_option("--format", options->format, "A set file, or the text format that a person can edit")

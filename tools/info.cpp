@@ -24,7 +24,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct InfoArguments {
   std::optional<std::string> first;   ///< FILE, or TEXT where no file has this name
   std::optional<std::string> second;  ///< TEXT
   std::vector<std::string> characters;
@@ -165,7 +165,7 @@ std::u32string each_once(const std::string& text) {
 }
 
 /// The first word is a file if there is such a file, and a text if not.
-Request request_of(const Options& options) {
+Request request_of(const InfoArguments& options) {
   Request request{options.characters, {}};
   std::error_code failure;
   const bool has_file = options.second || (options.first && std::filesystem::exists(*options.first, failure));
@@ -176,7 +176,7 @@ Request request_of(const Options& options) {
   return request;
 }
 
-void run_paper_example(const Options& options) {
+void run_paper_example(const InfoArguments& options) {
   if (!options.characters.empty()) throw UsageError("--paper-example: comes with the program, not with --characters");
   if (options.second) throw UsageError("--paper-example: comes with the program, not with FILE");
   const Character& example = paper_example();
@@ -193,7 +193,7 @@ void run_paper_example(const Options& options) {
   print(provenance);
 }
 
-void run(const Options& options) {
+void run(const InfoArguments& options) {
   if (options.paper_example) return run_paper_example(options);
   const Request request = request_of(options);
   const CharacterSet set = open_characters(request.paths, request.text, options.order);
@@ -224,7 +224,7 @@ void add_info(CLI::App& program) {
       "structure "
       "of its characters (Table 3). FILE: a set file or a file in the text format; a first word that names no file is "
       "TEXT.");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<InfoArguments>();
   command->add_option("FILE", options->first, "Set file, or file in the text format")->type_name("");
   command->add_option("TEXT", options->second, "Characters, each shown once")->type_name("");
   add_characters_option(*command, options->characters);

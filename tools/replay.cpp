@@ -27,7 +27,7 @@
 namespace calligraphy::tools {
 namespace {
 
-struct Options {
+struct ReplayArguments {
   std::string traces;
   std::vector<std::string> characters;
   std::optional<std::string> out;
@@ -43,7 +43,7 @@ struct Chosen {
   PenTrace trace;
 };
 
-std::vector<Chosen> chosen_traces(const Options& options) {
+std::vector<Chosen> chosen_traces(const ReplayArguments& options) {
   std::u32string only;
   if (options.only) only = characters_of(*options.only);
   std::vector<Chosen> chosen;
@@ -72,9 +72,9 @@ std::u32string text_of(const std::vector<Chosen>& traces) {
   return text;
 }
 
-class Run {
+class ReplayRun {
  public:
-  explicit Run(const Options& options) : options_(options) {
+  explicit ReplayRun(const ReplayArguments& options) : options_(options) {
     if (options.out && options.out->empty()) throw UsageError("--out: an empty name");
     session_.device = chosen_device(options.device);
     session_.renderer = options.renderer == "everything" ? RendererOptions::everything(session_.device.capabilities)
@@ -143,7 +143,7 @@ class Run {
     report_.traces.push_back(std::move(result));
   }
 
-  const Options& options_;
+  const ReplayArguments& options_;
   SessionOptions session_;
   ReplayReport report_;
 };
@@ -155,7 +155,7 @@ void add_replay(CLI::App& program) {
       "replay",
       "Pens of people, as recorded, hold the simulated device: what order and direction they wrote in, and what they "
       "felt. With --out DIR also a picture of each and replay.json.");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ReplayArguments>();
   command->add_option("TRACES", options->traces, "Pen traces in the format of docs/pen-traces.md")
       ->required()
       ->type_name("FILE");
@@ -167,7 +167,7 @@ void add_replay(CLI::App& program) {
       ->check(CLI::IsMember({"default", "everything"}))
       ->capture_default_str();
   command->add_flag("--json", options->json, "Print JSON instead of the table")->disable_flag_override();
-  command->callback([options] { Run(*options).replay(); });
+  command->callback([options] { ReplayRun(*options).replay(); });
 }
 
 }  // namespace calligraphy::tools

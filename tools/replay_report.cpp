@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr RemarkKind kinds[] = {RemarkKind::order,  RemarkKind::direction, RemarkKind::shape, RemarkKind::joined,
+constexpr RemarkKind remark_kinds[] = {RemarkKind::order,  RemarkKind::direction, RemarkKind::shape, RemarkKind::joined,
                                 RemarkKind::broken, RemarkKind::missing,   RemarkKind::extra};
 
 /// Pen-downs that were not a mere bounce.
@@ -42,7 +42,7 @@ std::string direction_of(const StrokeVerdict& verdict) {
 /// "1 joined, 2 missing"
 std::string others(const StrokeVerdict& verdict) {
   std::string text;
-  for (const RemarkKind kind : kinds) {
+  for (const RemarkKind kind : remark_kinds) {
     const int count = verdict.count(kind);
     if (count == 0 || kind == RemarkKind::order || kind == RemarkKind::direction) continue;
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, name_of(kind));
@@ -50,7 +50,7 @@ std::string others(const StrokeVerdict& verdict) {
   return text;
 }
 
-const char* name_of(Course course) {
+const char* course_name(Course course) {
   switch (course) {
     case Course::forwards:
       return "forwards";
@@ -71,7 +71,7 @@ Json json_of(const Replayed& trace) {
     for (int i = 0; i < each.stroke_count; ++i) strokes.push_back(each.stroke + i + 1);
     drawn.push_back({{"strokes", strokes},
                      {"in_turn", each.in_turn},
-                     {"course", name_of(each.course)},
+                     {"course", course_name(each.course)},
                      {"continues", each.continues},
                      {"tap", each.tap},
                      {"distance_em", each.stroke_count > 0 ? Json(each.distance) : Json()}});

@@ -29,7 +29,7 @@ namespace {
 
 constexpr double largest = 1e9;  ///< of any number that is typed; the library says what is physical
 
-struct Options {
+struct StabilityArguments {
   std::optional<std::string> device, grip, out;
   std::optional<double> mass, damping, rate, wall_damping, friction, encoder_step;
   std::optional<int> delay;
@@ -58,7 +58,7 @@ Hand grip_of(const std::string& word) {
 }
 
 /// @throws UsageError naming the option or the value that is missing or not physical
-SampledLoop loop_of(const Options& options) {
+SampledLoop loop_of(const StabilityArguments& options) {
   try {
     SampledLoop loop;
     if (options.device) {
@@ -82,12 +82,12 @@ SampledLoop loop_of(const Options& options) {
   }
 }
 
-bool asks_for_a_point(const Options& options) {
+bool asks_for_a_point(const StabilityArguments& options) {
   return options.device || options.grip || options.mass || options.damping || options.rate || options.wall_damping ||
          options.friction || options.encoder_step || options.delay;
 }
 
-void advise(const Options& options) {
+void advise(const StabilityArguments& options) {
   if (options.out || options.quick) {
     throw UsageError(std::string(options.out ? "--out" : "--quick") + " is for the map, not for one loop");
   }
@@ -96,7 +96,7 @@ void advise(const Options& options) {
   fmt::print("{}", options.json ? json(loop, advice) : table(loop, advice));
 }
 
-void map(const Options& options) {
+void map(const StabilityArguments& options) {
   if (options.out && options.out->empty()) throw UsageError("--out: an empty name");
   const Interrupt interrupt;
   std::optional<OutputDirectory> out;
@@ -132,7 +132,7 @@ void add_stability(CLI::App& program) {
                                                    "How stiff a wall a device can render. With --mass and --damping, "
                                                    "or --device: the bounds of that loop, with their "
                                                    "formulas. Without: the map, by simulation.");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<StabilityArguments>();
   const auto add = [&](const char* name, auto& value, const char* help, const char* unit) {
     return command->add_option(name, value, help)->type_name(unit);
   };

@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double millimetres = 1e3, micrometres = 1e6;
+constexpr double per_millimetre = 1e3, per_micrometre = 1e6;
 
 std::string row(const char* name, const StiffnessBound& bound) {
   return fmt::format("{:<12}{:>12.1f}  {}\n{:<26}{}\n", name, bound.value, bound.formula, "", bound.validity);
@@ -20,7 +20,7 @@ std::string row(const char* name, const StiffnessBound& bound) {
 std::string description(const SampledLoop& loop) {
   std::string text =
       fmt::format("{:g} Hz, {:g} kg, b = {:g} N s/m, f_c = {:g} N, encoder step D = {:g} um, delay d = {}", loop.rate,
-                  loop.mass, loop.damping, loop.coulomb_friction, loop.encoder_step * micrometres, loop.delay);
+                  loop.mass, loop.damping, loop.coulomb_friction, loop.encoder_step * per_micrometre, loop.delay);
   text += fmt::format("{}, wall damping B = {:g} N s/m", loop.delay == 1 ? " tick" : " ticks", loop.wall_damping);
   const Hand& grip = loop.grip;
   if (grip.mass == 0.0 && grip.damping == 0.0 && grip.stiffness == 0.0) return text + ", held by nobody";
@@ -130,7 +130,7 @@ std::string tables(const StabilityMap& map) {
       "{:g} "
       "N\nsettles: up to here it comes to rest; controlled: with the passivity controller; in peak: and never reaches "
       "the peak force\n\n",
-      encounter.height * millimetres, encounter.push, encounter.seconds, encounter.peak_force);
+      encounter.height * per_millimetre, encounter.push, encounter.seconds, encounter.peak_force);
   for (const StabilitySweep& sweep : map.sweeps) text += sweep_table(sweep);
   return text + summary(map);
 }

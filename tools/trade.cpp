@@ -32,7 +32,7 @@ namespace {
 /// Characters that are written at every servo rate.
 constexpr std::size_t most_written = 2;
 
-struct Options {
+struct TradeArguments {
   std::string text = "永北京航空天大学和年书法";
   std::vector<std::string> characters;
   std::optional<std::string> out;
@@ -42,7 +42,7 @@ struct Options {
   bool json = false;
 };
 
-TradeReport asked_for(const Options& options) {
+TradeReport asked_for(const TradeArguments& options) {
   TradeReport report;
   for (const char32_t code : characters_of(options.text)) {
     if (report.text.find(code) == std::u32string::npos) report.text += code;
@@ -91,7 +91,7 @@ void draw(const TradeReport& report, const OutputDirectory& out, const Interrupt
   out.write("coordinate_width.svg", coordinate_width_trade_plot(report.coordinate_width));
 }
 
-void run(const Options& options) {
+void run(const TradeArguments& options) {
   if (options.out && options.out->empty()) throw UsageError("--out: an empty name");
   TradeReport report = asked_for(options);
   const CharacterSet set = open_characters(options.characters, report.text);
@@ -121,7 +121,7 @@ void add_trade(CLI::App& program) {
       "trade",
       "What accuracy costs: every method of the nearest point, the servo rate, the width of stored coordinates. With "
       "--out DIR also as plots and trade.json, and the force fields of Figs. 25 to 28.");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<TradeArguments>();
   command->add_option("TEXT", options->text, "Characters to measure on; the first two are written at every servo rate")
       ->capture_default_str();
   add_characters_option(*command, options->characters);

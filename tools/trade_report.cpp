@@ -10,8 +10,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double millimetres = 1e3;
-constexpr double percent = 100.0;
+constexpr double in_millimetres = 1e3;
+constexpr double in_percent = 100.0;
 
 std::string utf8(const std::u32string& text) {
   std::string result;
@@ -30,7 +30,7 @@ std::string cost_table(const TradeReport& report, const std::string& heading, Co
     const NearestPointCost& own = entry.*cost;
     text +=
         fmt::format("{:<18}{:>9.1f}{:>9.1f}{:>10.1f}{:>11.1e}{:>11.1e}{:>11.1e}{:>10.3f}\n", entry.setting.name, own.ns,
-                    own.ns_p90, own.batch_ns, own.error, own.error_p99, own.error_worst, own.wrong * percent);
+                    own.ns_p90, own.batch_ns, own.error, own.error_p99, own.error_worst, own.wrong * in_percent);
   }
   return text + "\n";
 }
@@ -40,14 +40,14 @@ std::string hand_table(const TradeReport& report) {
   constexpr const char* head = "{:<18}{:>9}{:>9}{:>9}{:>13}{:>9}{:>13}{:>9}\n";
   std::string text =
       fmt::format("Nearest point from tick to tick, and what the hand feels of it: K = {:g} N/m, {:g} mm/s, {:g} Hz\n",
-                  options.stiffness, options.speed * millimetres, options.rate);
+                  options.stiffness, options.speed * in_millimetres, options.rate);
   text += fmt::format("{:<18}{:>27}{:>22}{:>22}\n", "", "pen along whole strokes", "curves of strokes", "gentle arcs");
   text += fmt::format(fmt::runtime(head), "", "tick", "p90", "wrong", "force step", "wrong", "force step", "wrong");
   text += fmt::format(fmt::runtime(head), "method", "[ns]", "[ns]", "[%]", "[N/tick]", "[%]", "[N/tick]", "[%]");
   for (const NearestPointTrade& entry : report.nearest_point) {
     text += fmt::format("{:<18}{:>9.1f}{:>9.1f}{:>9.3f}{:>13.4f}{:>9.3f}{:>13.4f}{:>9.3f}\n", entry.setting.name,
-                        entry.ticks.ns, entry.ticks.ns_p90, entry.ticks.wrong * percent, entry.strokes.largest_step,
-                        entry.strokes.wrong * percent, entry.arcs.largest_step, entry.arcs.wrong * percent);
+                        entry.ticks.ns, entry.ticks.ns_p90, entry.ticks.wrong * in_percent, entry.strokes.largest_step,
+                        entry.strokes.wrong * in_percent, entry.arcs.largest_step, entry.arcs.wrong * in_percent);
   }
   return text + "a perfect foot steps the force too, since the pen moves: the rows of exact\n\n";
 }
@@ -68,9 +68,9 @@ std::string rate_table(const TradeReport& report) {
   for (const ServoRateTrade& entry : rows) {
     text += fmt::format(
         "{:>7g}{:>8}{:>9.3f}{:>9.3f}{:>9.3f}{:>9.0f}{:>11.0f}{:>9.0f}{:>9.0f}{:>9.0f}{:>11.0f}{:>9.3f}{:>9.3f}\n",
-        entry.rate, entry.stable ? "yes" : "no", entry.penetration * millimetres, entry.path_error * millimetres,
-        entry.force_step, entry.written * percent, entry.loop_stiffness, entry.unlimited_stiffness,
-        entry.held_stiffness, entry.free_stiffness, entry.hard_stiffness, entry.hard_penetration * millimetres,
+        entry.rate, entry.stable ? "yes" : "no", entry.penetration * in_millimetres, entry.path_error * in_millimetres,
+        entry.force_step, entry.written * in_percent, entry.loop_stiffness, entry.unlimited_stiffness,
+        entry.held_stiffness, entry.free_stiffness, entry.hard_stiffness, entry.hard_penetration * in_millimetres,
         entry.hard_force_step);
   }
   return text +
@@ -84,8 +84,8 @@ std::string width_table(const TradeReport& report) {
   text += fmt::format(fmt::runtime(head), "", "grid step", "largest error", "RMS error", "bytes per");
   text += fmt::format(fmt::runtime(head), "bits", "[% em]", "[% em]", "[% em]", "character");
   for (const CoordinateWidthTrade& entry : report.coordinate_width) {
-    text += fmt::format("{:>6}{:>12.4f}{:>16.4f}{:>12.4f}{:>14.1f}\n", entry.bits, entry.step * percent,
-                        entry.largest_error * percent, entry.rms_error * percent, entry.bytes);
+    text += fmt::format("{:>6}{:>12.4f}{:>16.4f}{:>12.4f}{:>14.1f}\n", entry.bits, entry.step * in_percent,
+                        entry.largest_error * in_percent, entry.rms_error * in_percent, entry.bytes);
   }
   return text;
 }
@@ -122,8 +122,8 @@ Json json_of(const ServoRateTrade& entry) {
   return {{"rate_Hz", entry.rate},
           {"paper_stiffness_N_m", entry.stiffness},
           {"stable", entry.stable},
-          {"max_penetration_mm", entry.penetration * millimetres},
-          {"path_error_rms_mm", entry.path_error * millimetres},
+          {"max_penetration_mm", entry.penetration * in_millimetres},
+          {"path_error_rms_mm", entry.path_error * in_millimetres},
           {"max_force_step_N", entry.force_step},
           {"strokes_written", entry.written},
           {"largest_stable_stiffness_N_m", entry.loop_stiffness},
@@ -132,7 +132,7 @@ Json json_of(const ServoRateTrade& entry) {
           {"critical_stiffness_free_N_m", entry.free_stiffness},
           {"hard_paper",
            {{"stiffness_N_m", entry.hard_stiffness},
-            {"max_penetration_mm", entry.hard_penetration * millimetres},
+            {"max_penetration_mm", entry.hard_penetration * in_millimetres},
             {"max_force_step_N", entry.hard_force_step}}}};
 }
 

@@ -22,7 +22,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct ValidateArguments {
   std::string file;
   std::string letters;
   std::optional<std::string> only;
@@ -50,7 +50,7 @@ std::string words_for(const LabelDoubt& doubt) {
   return fmt::format("is labelled {} and has the shape of {}", doubt.label, recognised);
 }
 
-Findings findings(const Options& options) {
+Findings findings(const ValidateArguments& options) {
   Progress progress;
   ImportOptions asked;
   asked.letters = options.letters;
@@ -72,7 +72,7 @@ Findings findings(const Options& options) {
   return found;
 }
 
-std::string json(const Findings& findings) {
+std::string listed_as_json(const Findings& findings) {
   Json doubts = Json::array();
   for (const Finding& finding : findings.list) {
     doubts.push_back({{"character", encode_utf8(finding.place.code)},
@@ -85,7 +85,7 @@ std::string json(const Findings& findings) {
   return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string lines(const Findings& findings) {
+std::string listed(const Findings& findings) {
   std::string text;
   for (const Finding& finding : findings.list) {
     text += fmt::format("{} stroke {}: {}: {}\n", name_of(finding.place.code, finding.place.order),
@@ -95,10 +95,10 @@ std::string lines(const Findings& findings) {
                             findings.strokes);
 }
 
-void run(const Options& options) {
+void run(const ValidateArguments& options) {
   if (options.file.empty()) throw UsageError("FILE: an empty name");
   const Findings found = findings(options);
-  fmt::print("{}", options.json ? json(found) : lines(found));
+  fmt::print("{}", options.json ? listed_as_json(found) : listed(found));
 }
 
 }  // namespace
@@ -108,7 +108,7 @@ void add_validate(CLI::App& program) {
       "validate",
       "List doubtful strokes: type against shape, start against direction, overlaps, out of the em square. Of what "
       "`import` reads, labels against shapes, too. Exit code 0 unless FILE cannot be read whole.");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ValidateArguments>();
   command->add_option("FILE", options->file, "File of characters, or what `import` takes")->required();
   command->add_option("--letters", options->letters, "Stroke letters for hanzi-writer-data: cnchar-order")
       ->type_name("PATH");

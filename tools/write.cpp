@@ -35,7 +35,7 @@
 namespace calligraphy::tools {
 namespace {
 
-struct Options {
+struct WriteArguments {
   std::string text;
   std::string out;
   std::vector<std::string> characters;
@@ -64,7 +64,7 @@ struct Sheet {
   int first_position;  ///< from 1
 };
 
-RendererOptions chosen_renderer(const Options& options, const Capabilities& capabilities) {
+RendererOptions chosen_renderer(const WriteArguments& options, const Capabilities& capabilities) {
   RendererOptions renderer = options.renderer == "everything" ? RendererOptions::everything(capabilities)
                                                               : RendererOptions::for_device(capabilities);
   const RendererOptions printed = RendererOptions::wang2006();
@@ -84,7 +84,7 @@ RendererOptions chosen_renderer(const Options& options, const Capabilities& capa
   return renderer;
 }
 
-PenOptions chosen_pen(const Options& options) {
+PenOptions chosen_pen(const WriteArguments& options) {
   PenOptions pen;
   pen.device = device_choice(options.device);
   const DeviceKind kind = pen.device.kind;
@@ -108,7 +108,7 @@ PenOptions chosen_pen(const Options& options) {
   return pen;
 }
 
-SessionOptions chosen_session(const Options& options, const DeviceProfile& device) {
+SessionOptions chosen_session(const WriteArguments& options, const DeviceProfile& device) {
   SessionOptions session;
   session.device = device;
   session.renderer = chosen_renderer(options, device.capabilities);
@@ -161,9 +161,9 @@ std::string file_stem(int position, char32_t code, Mode mode) {
   return fmt::format("{:02}-{}-{}", position, name_in_file(code), mode_name(mode));
 }
 
-class Run {
+class WriteRun {
  public:
-  explicit Run(const Options& options)
+  explicit WriteRun(const WriteArguments& options)
       : options_(options),
         text_(characters_of(options.text)),
         pen_(chosen_pen(options)),
@@ -282,7 +282,7 @@ class Run {
     if (unfinished > 0) spdlog::warn("{} of {} characters were given up before their end", unfinished, results_.size());
   }
 
-  const Options& options_;
+  const WriteArguments& options_;
   std::u32string text_;
   Pen pen_;
   SessionOptions session_;
@@ -300,7 +300,7 @@ void add_write(CLI::App& program) {
                              "A text is written in closed loop: by a simulated writer on a simulated device, or by a "
                              "person on a real one. DIR receives, per character and mode, a "
                              "picture, a plot of the force and a trace (of the first repetition), and summary.json.");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<WriteArguments>();
   command->add_option("TEXT", options->text, "Characters to write; white space is skipped")->required();
   command->add_option("--out", options->out, "Directory for the results, created when missing")
       ->required()
@@ -358,7 +358,7 @@ void add_write(CLI::App& program) {
   command->add_flag("--json", options->json, "Print summary.json instead of the table")->disable_flag_override();
   command->callback([options] {
     if (options->out.empty()) throw UsageError("--out: an empty name");
-    Run(*options).write();
+    WriteRun(*options).write();
   });
 }
 

@@ -97,7 +97,7 @@ template <int Degree>
 }
 
 /// `query` in metres, in all that follow.
-using Method = NearestPoint (*)(const CurveElement&, const Point&, double, const ParameterRange&);
+using CertifiedMethod = NearestPoint (*)(const CurveElement&, const Point&, double, const ParameterRange&);
 
 template <int Degree>
 NearestPoint certified_baseline(const CurveElement& curve, const Point& query, double tolerance,
@@ -116,11 +116,12 @@ template <int Degree>
 #endif
 
 /// By degree less 2. The baseline until the processor has been asked, when the program starts.
-constinit std::array<Method, 3> methods = {certified_baseline<2>, certified_baseline<3>, certified_baseline<4>};
+constinit std::array<CertifiedMethod, 3> certified_methods = {certified_baseline<2>, certified_baseline<3>,
+                                                              certified_baseline<4>};
 
 #if defined(__SSE2__)
-[[maybe_unused]] const bool chosen = [] {
-  if (__builtin_cpu_supports("avx2")) methods = {certified_avx2<2>, certified_avx2<3>, certified_avx2<4>};
+[[maybe_unused]] const bool certified_chosen = [] {
+  if (__builtin_cpu_supports("avx2")) certified_methods = {certified_avx2<2>, certified_avx2<3>, certified_avx2<4>};
   return true;
 }();
 #endif
@@ -144,7 +145,7 @@ NearestPoint tracked(const CurveElement& curve, const Point& query, double toler
 
 NearestPoint certified_nearest_point(const CurveElement& curve, const Point& query, double tolerance,
                                      const ParameterRange& range) noexcept {
-  return methods[static_cast<std::size_t>(curve.degree - 2)](curve, query, tolerance, range);
+  return certified_methods[static_cast<std::size_t>(curve.degree - 2)](curve, query, tolerance, range);
 }
 
 NearestPoint tracked_nearest_point(const CurveElement& curve, const Point& query, double tolerance,

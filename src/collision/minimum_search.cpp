@@ -16,7 +16,7 @@
 namespace calligraphy {
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double unit_rounding = std::numeric_limits<double>::epsilon();
 
 double larger_coordinate(Pair vector) { return std::max(std::abs(vector[0]), std::abs(vector[1])); }
 
@@ -171,11 +171,11 @@ class MinimumSearch {
     const auto [lowest, highest] = std::minmax_element(g.begin(), g.end());
     if (*lowest >= 0.0 || *highest <= 0.0) return false;  // monotone: nothing nearer inside than at the ends
     // What would be nearer by a thousandth of the tolerance, or by what rounds away, is not worth halving.
-    const double slack = 2e-3 * tolerance_ * larger_coordinate(best_.offset) + 2.0 * epsilon * best_square_;
+    const double slack = 2e-3 * tolerance_ * larger_coordinate(best_.offset) + 2.0 * unit_rounding * best_square_;
     if (least_square(interval, *lowest, *highest) >= best_square_ - slack) return false;
     // Signs within rounding of zero: one between different ones leaves one change whatever it is; at an end they can
     // only hide a minimum as near as the end itself.
-    const double noise = 16.0 * epsilon * largest_product(interval);
+    const double noise = 16.0 * unit_rounding * largest_product(interval);
     int changes = 0, change = 0, last = -1;
     bool doubtful = false;
     for (int i = 0; i <= slope_degree; ++i) {
@@ -242,7 +242,7 @@ class MinimumSearch {
       const double moved = std::abs(next - t);
       t = next;
       // Newton's method doubles the digits, so a step of the root of the tolerance would do; halving does not.
-      if (moved <= tolerance_ * 1e-3 || high - low <= 4.0 * epsilon) break;
+      if (moved <= tolerance_ * 1e-3 || high - low <= 4.0 * unit_rounding) break;
     }
     offer(t);
   }
@@ -272,7 +272,7 @@ class MinimumSearch {
     for (std::size_t k = 0; k < Degree; ++k) {
       speed += static_cast<double>(k + 1) * larger_coordinate(pair(curve_.coefficients[k]));
     }
-    return 4.0 * epsilon * (larger_coordinate(at.offset) * speed + larger_coordinate(at.velocity));
+    return 4.0 * unit_rounding * (larger_coordinate(at.offset) * speed + larger_coordinate(at.velocity));
   }
 
   const CurveElement& curve_;

@@ -77,7 +77,7 @@ template <int Degree>
   return curve_answer(curve, best, NearestPointStatus::approximate);
 }
 
-using Method = NearestPoint (*)(const CurveElement&, Pair, const NearestPointOptions&, const ParameterRange&);
+using RefinedMethod = NearestPoint (*)(const CurveElement&, Pair, const NearestPointOptions&, const ParameterRange&);
 
 template <int Degree>
 NearestPoint refined_baseline(const CurveElement& curve, Pair query, const NearestPointOptions& options,
@@ -94,11 +94,12 @@ template <int Degree>
 #endif
 
 /// By degree less 2. The baseline until the processor has been asked, when the program starts.
-constinit std::array<Method, 3> methods = {refined_baseline<2>, refined_baseline<3>, refined_baseline<4>};
+constinit std::array<RefinedMethod, 3> refined_methods = {refined_baseline<2>, refined_baseline<3>,
+                                                          refined_baseline<4>};
 
 #if defined(__SSE2__)
-[[maybe_unused]] const bool chosen = [] {
-  if (__builtin_cpu_supports("avx2")) methods = {refined_avx2<2>, refined_avx2<3>, refined_avx2<4>};
+[[maybe_unused]] const bool refined_chosen = [] {
+  if (__builtin_cpu_supports("avx2")) refined_methods = {refined_avx2<2>, refined_avx2<3>, refined_avx2<4>};
   return true;
 }();
 #endif
@@ -109,7 +110,7 @@ NearestPoint sampled_nearest_point(const CurveElement& curve, const Point& query
                                    const ParameterRange& range) noexcept {
   const Pair relative = in_sizes(curve, query);
   if (!within_reach(relative)) return refused_query(curve, range);
-  return methods[static_cast<std::size_t>(curve.degree - 2)](curve, relative, options, range);
+  return refined_methods[static_cast<std::size_t>(curve.degree - 2)](curve, relative, options, range);
 }
 
 }  // namespace calligraphy

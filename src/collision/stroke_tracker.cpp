@@ -9,7 +9,7 @@ namespace {
 
 /// Rounding of a distance, relative to it and to the size of the element.
 constexpr double rounding = 1e-14;
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double relative_rounding = std::numeric_limits<double>::epsilon();
 
 NearestPoint unanswered() {
   NearestPoint nowhere;
@@ -50,7 +50,8 @@ StrokePoint StrokeTracker::update(const Point& query) noexcept {
     if (lead > 0.0 && (query - sighting.query).squaredNorm() < lead * lead) continue;
     const NearestPoint foot = look(i, query);
     const double gain = nearest.foot.distance - foot.distance;
-    const double tie = rounding * elements_[static_cast<std::size_t>(i)].size() + 2.0 * epsilon * foot.distance;
+    const double tie =
+        rounding * elements_[static_cast<std::size_t>(i)].size() + 2.0 * relative_rounding * foot.distance;
     if (gain > tie || (gain >= -tie && i < nearest.element)) nearest = {i, foot};
   }
   last_ = nearest.element;

@@ -10,7 +10,7 @@ constexpr int leading_bits = 7;
 constexpr std::uint64_t per_octave = 1u << leading_bits;
 
 /// Relaxed: nothing but the count itself is told by it, and one thread alone writes.
-void increment(std::atomic<std::uint64_t>& count) noexcept {
+void count_one(std::atomic<std::uint64_t>& count) noexcept {
   count.store(count.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
 }
 
@@ -42,7 +42,7 @@ void DurationHistogram::add(double seconds) noexcept {
   } else if (nanoseconds > 0.0) {
     whole = static_cast<std::uint64_t>(nanoseconds);
   }
-  increment(buckets_[bucket_of(whole, buckets_.size() - 1)]);
+  count_one(buckets_[bucket_of(whole, buckets_.size() - 1)]);
   if (whole > worst_.load(std::memory_order_relaxed)) worst_.store(whole, std::memory_order_relaxed);
 }
 

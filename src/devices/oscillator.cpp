@@ -7,7 +7,7 @@
 namespace calligraphy {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double never = std::numeric_limits<double>::infinity();
 
 /// (1 - exp(-z)) / z, the mean of exp(-s) over 0..z.
 double mean_decay(double z) noexcept { return z == 0.0 ? 1.0 : -std::expm1(-z) / z; }
@@ -104,12 +104,12 @@ double Oscillator::first_zero(double start, double slope) const noexcept {
     return (angle > 0.0 ? angle : angle + std::numbers::pi) / ringing_;
   }
   const double ratio = start / (start * fast_rate_ - slope);  // mean_decay(spread t) t at the zero
-  if (!(ratio > 0.0)) return infinity;
+  if (!(ratio > 0.0)) return never;
   const double spread = fast_rate_ - slow_rate_;
   if (spread == 0.0) return ratio;
-  return spread * ratio < 1.0 ? -std::log1p(-spread * ratio) / spread : infinity;
+  return spread * ratio < 1.0 ? -std::log1p(-spread * ratio) / spread : never;
 }
 
-double Oscillator::half_period() const noexcept { return oscillates_ ? std::numbers::pi / ringing_ : infinity; }
+double Oscillator::half_period() const noexcept { return oscillates_ ? std::numbers::pi / ringing_ : never; }
 
 }  // namespace calligraphy

@@ -26,10 +26,10 @@ namespace {
 
 using namespace recognition;
 
-constexpr double largest_coordinate = 15.0;  // [em]; validate() allows 16, and a handle may lie outside its path
+constexpr double largest_fitted_coordinate = 15.0;  // [em]; validate() allows 16, and a handle may lie outside its path
 constexpr double shortest_path = 0.01;       // [em]; what is shorter is a dot
 constexpr double dot_length = 0.02;          // [em]
-constexpr double shortest_element = 1e-4;    // [em]
+constexpr double shortest_fitted_element = 1e-4;    // [em]
 
 /// Where each element of a stroke begins among the control points.
 std::vector<std::size_t> element_starts(std::string_view elements) {
@@ -41,7 +41,7 @@ std::vector<std::size_t> element_starts(std::string_view elements) {
 void check(std::span<const Point> median) {
   if (median.empty()) throw ValueError("a stroke needs at least one point");
   for (std::size_t i = 0; i < median.size(); ++i) {
-    if (median[i].allFinite() && median[i].cwiseAbs().maxCoeff() <= largest_coordinate) continue;
+    if (median[i].allFinite() && median[i].cwiseAbs().maxCoeff() <= largest_fitted_coordinate) continue;
     throw ValueError("point " + std::to_string(i + 1) + " of a stroke is (" + std::to_string(median[i].x()) + ", " +
                      std::to_string(median[i].y()) + "): expected finite numbers within 15 em of the origin");
   }
@@ -98,11 +98,11 @@ std::vector<Point> initial_points(const TypicalStroke& type, const Path& path, s
 /// Can make_character take it? Elements without length and far handles come from inputs that nobody wrote.
 bool usable(const TypicalStroke& type, std::span<const Point> points) {
   for (const Point& point : points) {
-    if (!point.allFinite() || point.cwiseAbs().maxCoeff() > largest_coordinate) return false;
+    if (!point.allFinite() || point.cwiseAbs().maxCoeff() > largest_fitted_coordinate) return false;
   }
   const std::vector<std::size_t> starts = element_starts(type.elements);
   for (std::size_t element = 0; element + 1 < starts.size(); ++element) {
-    if ((points[starts[element + 1]] - points[starts[element]]).norm() < shortest_element) return false;
+    if ((points[starts[element + 1]] - points[starts[element]]).norm() < shortest_fitted_element) return false;
   }
   return true;
 }

@@ -35,7 +35,7 @@ Foot foot_on(std::span<const Point> from, std::span<const Point> along, std::spa
 }
 
 /// Segments of a polyline, ready for many feet.
-struct Segments {
+struct OutlineSegments {
   std::vector<Point> from, along;
   std::vector<double> inverse;  ///< one over the squared length, 0 for a segment without length
 
@@ -158,7 +158,7 @@ class Polish {
 
   std::vector<Offset> offsets_of(std::span<const Point> points) const {
     std::vector<Offset> offsets;
-    Segments stroke;
+    OutlineSegments stroke;
     for (const StrokeChord& chord : chords_)
       stroke.add(mixed(chord, chord.from, points), mixed(chord, chord.to, points));
     for (const Point& point : path_) {
@@ -177,7 +177,7 @@ class Polish {
   }
 
   /// The offset of a place on the stroke from a place on the path.
-  void add(std::vector<Offset>& offsets, std::size_t segment, double share, const Segments& stroke,
+  void add(std::vector<Offset>& offsets, std::size_t segment, double share, const OutlineSegments& stroke,
            const Point& target) const {
     const StrokeChord& chord = chords_[segment];
     const Point away = stroke.from[segment] + share * stroke.along[segment] - target;
@@ -196,7 +196,7 @@ class Polish {
   StrokeVariables variables_;
   const Path& path_;
   std::vector<StrokeChord> chords_;
-  Segments outline_;
+  OutlineSegments outline_;
 };
 
 }  // namespace

@@ -13,10 +13,10 @@
 namespace calligraphy::recognition {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unreachable = std::numeric_limits<double>::infinity();
 
 struct Choice {
-  double cost = infinity;
+  double cost = unreachable;
   std::vector<std::size_t> corners;
 };
 
@@ -25,13 +25,13 @@ Choice divide(const CompoundRule& rule, std::string_view kinds, const PieceTable
   const std::size_t corners = table.count();
   const std::size_t elements = rule.elements.size();
   if (corners <= elements) return {};
-  std::vector<double> cost((elements + 1) * corners, infinity);
+  std::vector<double> cost((elements + 1) * corners, unreachable);
   std::vector<std::size_t> previous((elements + 1) * corners, 0);
   cost[0] = 0.0;
   for (std::size_t element = 0; element < elements; ++element) {
     for (std::size_t from = element; from + 1 < corners; ++from) {
       const double before = cost[element * corners + from];
-      if (before == infinity) continue;
+      if (before == unreachable) continue;
       const std::size_t first_end = element + 1 == elements ? corners - 1 : from + 1;
       for (std::size_t to = first_end; to < corners; ++to) {
         const double total = before + cost_of(rule.elements[element], kinds[element], table.between(from, to), length);
@@ -58,7 +58,7 @@ int simple_stroke(const SimpleShape& shape, const Piece& whole, bool brush, std:
   const int found = brush ? brush_stroke(shape) : pen_stroke(shape);
   if (allowed(ids, found)) return found;
   int best = 0;
-  double best_cost = infinity;
+  double best_cost = unreachable;
   for (const int id : ids) {
     if (typical_stroke(id).elements.size() != 1) continue;
     const double cost = simple_cost(whole, typical_stroke(id).elements[0], shape.length);
@@ -96,7 +96,7 @@ std::vector<Recognition> recognise(const Path& path, std::span<const std::size_t
   for (const CompoundRule& rule : compound_rules()) {
     if (!allowed(ids, rule.id)) continue;
     Recognition compound = as_compound(rule, table, corners, shape.length);
-    if (compound.cost < infinity) found.push_back(std::move(compound));
+    if (compound.cost < unreachable) found.push_back(std::move(compound));
   }
   std::ranges::stable_sort(found, {}, &Recognition::cost);
   if (found.empty()) return found;

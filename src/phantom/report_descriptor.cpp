@@ -53,7 +53,7 @@ struct ItemName {
   bool is_signed = false;
 };
 
-constexpr std::array<ItemName, 22> names{{
+constexpr std::array<ItemName, 22> item_names{{
     {0x80, "input"},
     {0x90, "output"},
     {0xb0, "feature"},
@@ -87,7 +87,7 @@ std::string kind(std::uint32_t bits) {
 }
 
 std::string words(const Item& item) {
-  for (const ItemName& name : names) {
+  for (const ItemName& name : item_names) {
     if (name.tag != item.tag) continue;
     if (item.tag == 0x80 || item.tag == 0x90 || item.tag == 0xb0) return name.name + (" (" + kind(item.value) + ")");
     if (item.bytes.size() == 1) return name.name;

@@ -37,7 +37,7 @@ constexpr std::string_view licence_file = "ARPHICPL.TXT";
 constexpr std::string_view package_file = "package.json";
 constexpr double label_turn = std::numbers::pi / 3.0;  // [rad]; nor one whose stroke starts in another direction
 constexpr double label_error = 0.01;       // [em]; a label whose stroke leaves the drawing farther is no help
-constexpr int most_strokes = 1'000'000;    // of an import; the largest source known has 148 thousand
+constexpr int most_imported_strokes = 1'000'000;    // of an import; the largest source known has 148 thousand
 constexpr std::size_t longest_order = 64;  // [byte]
 
 /// Which character a file of a source holds, as its name says.
@@ -139,7 +139,7 @@ struct Drawing {
 };
 
 /// A path that a stroke was drawn along, and what its source calls the stroke.
-struct DrawnStroke {
+struct StrokeOfDrawing {
   std::vector<Point> path;
   std::string label;
   std::span<const int> label_ids;
@@ -159,7 +159,7 @@ bool is_plausible(const FittedStroke& labelled, const FittedStroke& recognised) 
 }
 
 /// Fits a stroke. A label is heard only where it contradicts the shape: most strokes are fitted once.
-FittedStroke fit(const DrawnStroke& drawn, StrokeFitOptions options, ImportedStroke& result) {
+FittedStroke fit(const StrokeOfDrawing& drawn, StrokeFitOptions options, ImportedStroke& result) {
   FittedStroke fitted = fit_stroke(drawn.path, options);
   const auto& ids = drawn.label_ids;
   result.recognised = fitted.stroke.id;
@@ -243,12 +243,12 @@ class Importer {
 
   ImportedCharacter imported(const Drawing& drawing) {
     ImportedCharacter result;
-    const std::vector<DrawnStroke> drawn = drawn_strokes(drawing, result);
-    if ((strokes_ += static_cast<int>(drawn.size())) > most_strokes) {
-      throw FormatError(source_.string() + ": more than " + std::to_string(most_strokes) + " strokes");
+    const std::vector<StrokeOfDrawing> drawn = drawn_strokes(drawing, result);
+    if ((strokes_ += static_cast<int>(drawn.size())) > most_imported_strokes) {
+      throw FormatError(source_.string() + ": more than " + std::to_string(most_imported_strokes) + " strokes");
     }
     std::vector<StrokeInput> strokes;
-    for (const DrawnStroke& stroke : drawn) {
+    for (const StrokeOfDrawing& stroke : drawn) {
       result.strokes.emplace_back();
       try {
         strokes.push_back(fit(stroke, drawing_of(kind_), result.strokes.back()).stroke);
@@ -265,8 +265,8 @@ class Importer {
     return result;
   }
 
-  std::vector<DrawnStroke> drawn_strokes(const Drawing& drawing, ImportedCharacter& result) const {
-    std::vector<DrawnStroke> drawn;
+  std::vector<StrokeOfDrawing> drawn_strokes(const Drawing& drawing, ImportedCharacter& result) const {
+    std::vector<StrokeOfDrawing> drawn;
     if (kind_ == SourceKind::kanjivg) {
       KanjivgDrawing parsed = parse_kanjivg(drawing.text, drawing.place);
       result.notice = with_plain_line_ends(parsed.notice, drawing.place);

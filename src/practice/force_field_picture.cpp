@@ -20,13 +20,14 @@ using svg::add_text;
 using svg::number;
 
 // [px]
-constexpr double square = 318.0, margin = 16.0, gap = 14.0, top = 66.0, note_height = 22.0, key_height = 46.0;
+constexpr double map_square = 318.0, map_margin = 16.0, map_gap = 14.0, map_top = 66.0, note_height = 22.0,
+                 key_height = 46.0;
 constexpr double longest_arrow = 15.0, arrow_spacing = 16.6;
 constexpr double millimetres = 1e3;
 constexpr double fullest = 5.0;  ///< force that has the last colour and the longest arrow [N]
 
-constexpr const char* ink = "#222222";
-constexpr const char* faint = "#cccccc";
+constexpr const char* field_ink = "#222222";
+constexpr const char* field_faint = "#cccccc";
 constexpr const char* active_blue = "#1f5fd0";
 constexpr const char* other_grey = "#8a8a8a";
 constexpr const char* jump_red = "#e00000";
@@ -52,10 +53,10 @@ std::size_t level(double force) {
 
 /// Runs of equal colour as one path per colour; the first is the paper's white.
 void draw_sizes(pugi::xml_node parent, const ForceField& field, const Point& corner) {
-  const double cell = square / field.columns;
+  const double cell = map_square / field.columns;
   std::array<std::string, colours.size()> paths;
   for (int row = 0; row < field.columns; ++row) {
-    const double y = corner.y() + square - (row + 0.5) * cell;
+    const double y = corner.y() + map_square - (row + 0.5) * cell;
     for (int begin = 0; begin < field.columns;) {
       const std::size_t own = level(field.force(begin, row).norm());
       int end = begin + 1;
@@ -84,7 +85,7 @@ std::string arrow(const Point& middle, const Point& along, double length) {
 
 void draw_arrows(pugi::xml_node parent, const ForceField& field, const svg::View& view) {
   std::string data;
-  const double cell = square / field.columns;
+  const double cell = map_square / field.columns;
   const int stride = std::max(1, static_cast<int>(std::lround(arrow_spacing / cell)));
   for (int row = stride / 2; row < field.columns; row += stride) {
     for (int column = stride / 2; column < field.columns; column += stride) {
@@ -95,7 +96,8 @@ void draw_arrows(pugi::xml_node parent, const ForceField& field, const svg::View
     }
   }
   if (data.empty()) return;
-  add(parent, "path", {{"class", "arrows"}, {"d", data}, {"stroke", ink}, {"stroke-width", "0.75"}, {"fill", "none"}});
+  add(parent, "path",
+      {{"class", "arrows"}, {"d", data}, {"stroke", field_ink}, {"stroke-width", "0.75"}, {"fill", "none"}});
 }
 
 /// Whether the hand feels the jump as one: where a feature point is passed, guidance may fade in.
@@ -164,21 +166,23 @@ void draw_pen(pugi::xml_node parent, const Point& at) {
        {"cy", number(at.y())},
        {"r", "5"},
        {"fill", pen_yellow},
-       {"stroke", ink},
+       {"stroke", field_ink},
        {"stroke-width", "1.2"}});
 }
 
 void draw_panel(pugi::xml_node root, const ForceFieldFigure& figure, std::size_t index) {
   const ForceFieldFigure::Panel& panel = figure.panels[index];
-  const Point corner(margin + static_cast<double>(index) * (square + gap), top);
+  const Point corner(map_margin + static_cast<double>(index) * (map_square + map_gap), map_top);
   const ForceField& field = panel.field;
-  const double scale = square / field.edge;
-  const svg::View view{corner + Point(0.0, square) - scale * Point(field.corner.x(), -field.corner.y()), scale};
+  const double scale = map_square / field.edge;
+  const svg::View view{corner + Point(0.0, map_square) - scale * Point(field.corner.x(), -field.corner.y()), scale};
 
-  add_text(root, corner.x(), corner.y() - 8.0, 13.5, panel.name, {{"fill", ink}, {"font-weight", "bold"}});
+  add_text(root, corner.x(), corner.y() - 8.0, 13.5, panel.name, {{"fill", field_ink}, {"font-weight", "bold"}});
   const std::string clip = "panel-" + std::to_string(index);
-  const svg::Attributes frame = {
-      {"x", number(corner.x())}, {"y", number(corner.y())}, {"width", number(square)}, {"height", number(square)}};
+  const svg::Attributes frame = {{"x", number(corner.x())},
+                                 {"y", number(corner.y())},
+                                 {"width", number(map_square)},
+                                 {"height", number(map_square)}};
   add(add(root, "clipPath", {{"id", clip}}), "rect", frame);
   pugi::xml_node group = add(root, "g", {{"class", "field"}, {"clip-path", "url(#" + clip + ")"}});
   draw_sizes(group, field, corner);
@@ -188,15 +192,15 @@ void draw_panel(pugi::xml_node root, const ForceFieldFigure& figure, std::size_t
   draw_pen(group, view(figure.pen));
   pugi::xml_node border = add(root, "rect", frame);
   border.append_attribute("fill") = "none";
-  border.append_attribute("stroke") = faint;
+  border.append_attribute("stroke") = field_faint;
 
-  add_text(root, corner.x(), corner.y() + square + 15.0, 12.0, note_on_jumps(panel), {{"fill", ink}});
+  add_text(root, corner.x(), corner.y() + map_square + 15.0, 12.0, note_on_jumps(panel), {{"fill", field_ink}});
 }
 
 double draw_line_key(pugi::xml_node root, double x, double y, const char* colour, double width, const char* text) {
   add(root, "path",
       {{"d", "M" + number(x) + "," + number(y) + "h22"}, {"stroke", colour}, {"stroke-width", number(width)}});
-  add_text(root, x + 28.0, y + 4.0, 12.0, text, {{"fill", ink}});
+  add_text(root, x + 28.0, y + 4.0, 12.0, text, {{"fill", field_ink}});
   return x + 28.0 + svg::text_width(text, 12.0) + 14.0;
 }
 
@@ -208,9 +212,9 @@ bool any_passage(const ForceFieldFigure& figure) {
 }
 
 void draw_key(pugi::xml_node root, const ForceFieldFigure& figure, double y) {
-  double x = margin;
+  double x = map_margin;
   constexpr double swatch = 15.0;
-  add_text(root, x, y + 4.0, 12.0, "force [N]", {{"fill", ink}});
+  add_text(root, x, y + 4.0, 12.0, "force [N]", {{"fill", field_ink}});
   x += 62.0;
   const double step = fullest / static_cast<double>(colours.size());
   for (std::size_t i = 0; i < colours.size(); ++i) {
@@ -221,31 +225,31 @@ void draw_key(pugi::xml_node root, const ForceFieldFigure& figure, double y) {
          {"width", number(swatch)},
          {"height", "12"},
          {"fill", colours[i]},
-         {"stroke", faint},
+         {"stroke", field_faint},
          {"stroke-width", "0.6"}});
     if (i % 2 == 0) {
       add_text(root, left, y + 17.0, 10.0, number(static_cast<double>(i) * step),
-               {{"text-anchor", "middle"}, {"fill", ink}});
+               {{"text-anchor", "middle"}, {"fill", field_ink}});
     }
   }
   x += swatch * static_cast<double>(colours.size());
-  add_text(root, x - 3.0, y + 17.0, 10.0, number(fullest) + " and more", {{"fill", ink}});
+  add_text(root, x - 3.0, y + 17.0, 10.0, number(fullest) + " and more", {{"fill", field_ink}});
   x += 22.0;
   x = draw_line_key(root, x, y, active_blue, 3.2, "stroke being written");
   if (figure.placed.character.stroke_count() > 1) x = draw_line_key(root, x, y, other_grey, 2.4, "other");
   draw_pen(root, {x + 8.0, y});
-  add_text(root, x + 19.0, y + 4.0, 12.0, "written up to here", {{"fill", ink}});
+  add_text(root, x + 19.0, y + 4.0, 12.0, "written up to here", {{"fill", field_ink}});
   x += 19.0 + svg::text_width("written up to here", 12.0) + 10.0;
   x = draw_line_key(root, x, y, jump_red, 2.0, "the force jumps");
   if (any_passage(figure)) draw_line_key(root, x, y, passage_orange, 2.0, "feature point passed, fades in");
   const ForceField& field = figure.panels.front().field;
-  const double bar = 5.0 / millimetres * square / field.edge;
-  const double right = margin + static_cast<double>(figure.panels.size()) * (square + gap) - gap;
+  const double bar = 5.0 / millimetres * map_square / field.edge;
+  const double right = map_margin + static_cast<double>(figure.panels.size()) * (map_square + map_gap) - map_gap;
   add(root, "path",
       {{"d", "M" + number(right - bar) + "," + number(y - 4.0) + "v8m0,-4h" + number(bar) + "m0,-4v8"},
-       {"stroke", ink},
+       {"stroke", field_ink},
        {"fill", "none"}});
-  add_text(root, right - 0.5 * bar, y + 17.0, 11.0, "5 mm", {{"text-anchor", "middle"}, {"fill", ink}});
+  add_text(root, right - 0.5 * bar, y + 17.0, 11.0, "5 mm", {{"text-anchor", "middle"}, {"fill", field_ink}});
 }
 
 }  // namespace
@@ -253,13 +257,13 @@ void draw_key(pugi::xml_node root, const ForceFieldFigure& figure, double y) {
 std::string force_field_picture(const ForceFieldFigure& figure) {
   if (figure.panels.empty()) throw ValueError("force field picture: no panel");
   const auto count = static_cast<double>(figure.panels.size());
-  const double width = 2.0 * margin + count * square + (count - 1.0) * gap;
+  const double width = 2.0 * map_margin + count * map_square + (count - 1.0) * map_gap;
   pugi::xml_document document;
   const std::string title = svg::clean(figure.title);
-  pugi::xml_node root = svg::begin(document, width, top + square + note_height + key_height, "px", title);
-  add_text(root, margin, 29.0, 18.0, title, {{"fill", ink}});
+  pugi::xml_node root = svg::begin(document, width, map_top + map_square + note_height + key_height, "px", title);
+  add_text(root, map_margin, 29.0, 18.0, title, {{"fill", field_ink}});
   for (std::size_t i = 0; i < figure.panels.size(); ++i) draw_panel(root, figure, i);
-  draw_key(root, figure, top + square + note_height + 16.0);
+  draw_key(root, figure, map_top + map_square + note_height + 16.0);
   return svg::to_string(document);
 }
 

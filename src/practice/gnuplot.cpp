@@ -8,7 +8,7 @@
 
 namespace calligraphy::gnuplot {
 
-std::string number(double value) {
+std::string numeral(double value) {
   char buffer[32];
   return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
 }

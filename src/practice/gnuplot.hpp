@@ -8,7 +8,7 @@
 namespace calligraphy::gnuplot {
 
 /// In the shortest form that reads back the same, whatever the locale.
-std::string number(double value);
+std::string numeral(double value);
 
 /// The beginning of a script: SVG of this size [px], on white.
 std::string svg_terminal(int width, int height);

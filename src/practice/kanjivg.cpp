@@ -14,11 +14,11 @@
 namespace calligraphy {
 namespace {
 
-constexpr std::size_t largest_file = 1 << 20;  // [byte]; the largest of the package has 8 thousand
-constexpr std::size_t most_strokes = 256;
+constexpr std::size_t largest_svg = 1 << 20;  // [byte]; the largest of the package has 8 thousand
+constexpr std::size_t most_svg_strokes = 256;
 constexpr std::size_t longest_label = 64;  // [byte]
-constexpr double units_per_em = 109.0;
-constexpr double tolerance = 5e-5;  // [em]
+constexpr double svg_units_per_em = 109.0;
+constexpr double svg_tolerance = 5e-5;  // [em]
 
 [[noreturn]] void fail(const std::string& name, const std::string& what) { throw FormatError(name + ": " + what); }
 
@@ -38,8 +38,8 @@ void check_view_box(pugi::xml_node root, const std::string& name) {
   const std::string box = root.attribute("viewBox").value();
   std::istringstream in(box);
   double left = 0, top = 0, width = 0, height = 0;
-  if (in >> left >> top >> width >> height && left == 0 && top == 0 && width == units_per_em &&
-      height == units_per_em) {
+  if (in >> left >> top >> width >> height && left == 0 && top == 0 && width == svg_units_per_em &&
+      height == svg_units_per_em) {
     return;
   }
   fail(name, "viewBox '" + box.substr(0, 40) + "': expected '0 0 109 109'");
@@ -50,18 +50,18 @@ KanjivgStroke stroke_of(pugi::xml_node path, const std::string& place) {
   if (stroke.label.size() > longest_label) fail(place, "kvg:type of more than 64 bytes");
   try {
     decode_utf8(stroke.label);
-    stroke.path = flattened_path(path.attribute("d").value(), tolerance * units_per_em);
+    stroke.path = flattened_path(path.attribute("d").value(), svg_tolerance * svg_units_per_em);
   } catch (const FormatError& error) {
     fail(place, std::string("path data ") + error.what());
   }
-  for (Point& point : stroke.path) point = Point(point.x(), units_per_em - point.y()) / units_per_em;
+  for (Point& point : stroke.path) point = Point(point.x(), svg_units_per_em - point.y()) / svg_units_per_em;
   return stroke;
 }
 
 }  // namespace
 
 KanjivgDrawing parse_kanjivg(std::string_view svg, const std::string& name) {
-  if (svg.size() > largest_file) fail(name, "larger than 1 MB");
+  if (svg.size() > largest_svg) fail(name, "larger than 1 MB");
   pugi::xml_document document;
   const auto result =
       document.load_buffer(svg.data(), svg.size(), pugi::parse_default | pugi::parse_comments, pugi::encoding_utf8);
@@ -82,7 +82,7 @@ KanjivgDrawing parse_kanjivg(std::string_view svg, const std::string& name) {
     const bool is_drawn = is_path || std::strcmp(node.name(), "g") == 0 || std::strcmp(node.name(), "svg") == 0;
     if (is_drawn && node.attribute("transform")) fail(place, "a transform, which is not supported");
     if (!is_path) continue;
-    if (drawing.strokes.size() == most_strokes) fail(name, "more than 256 strokes");
+    if (drawing.strokes.size() == most_svg_strokes) fail(name, "more than 256 strokes");
     drawing.strokes.push_back(stroke_of(node, place));
   }
   if (drawing.strokes.empty()) fail(name, "no <path> element: there is no stroke");

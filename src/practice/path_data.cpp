@@ -13,13 +13,13 @@
 namespace calligraphy {
 namespace {
 
-constexpr double largest_coordinate = 1e4;  // [unit]; a drawing has 109
-constexpr std::size_t most_points = 20000;
+constexpr double largest_path_coordinate = 1e4;  // [unit]; a drawing has 109
+constexpr std::size_t most_path_points = 20000;
 constexpr int most_pieces = 1000;  // of one curve
 
-class Reader {
+class PathReader {
  public:
-  Reader(std::string_view data, double tolerance) : data_(data), tolerance_(tolerance) {}
+  PathReader(std::string_view data, double tolerance) : data_(data), tolerance_(tolerance) {}
 
   std::vector<Point> read() {
     const char start = command();
@@ -58,14 +58,14 @@ class Reader {
     const int pieces = static_cast<int>(std::clamp(needed, 1.0, static_cast<double>(most_pieces)));
     for (int i = 1; i < pieces; ++i) points_.push_back(curve.point(static_cast<double>(i) / pieces));
     points_.push_back(p[3]);
-    if (points_.size() > most_points) fail("more than " + std::to_string(most_points) + " points");
+    if (points_.size() > most_path_points) fail("more than " + std::to_string(most_path_points) + " points");
   }
 
   Point pair(const Point& origin) {
     const double x = number();
     const double y = number();
     const Point point = origin + Point(x, y);
-    if (point.cwiseAbs().maxCoeff() > largest_coordinate) fail("a coordinate beyond 10000");
+    if (point.cwiseAbs().maxCoeff() > largest_path_coordinate) fail("a coordinate beyond 10000");
     return point;
   }
 
@@ -126,6 +126,8 @@ class Reader {
 
 }  // namespace
 
-std::vector<Point> flattened_path(std::string_view data, double tolerance) { return Reader(data, tolerance).read(); }
+std::vector<Point> flattened_path(std::string_view data, double tolerance) {
+  return PathReader(data, tolerance).read();
+}
 
 }  // namespace calligraphy

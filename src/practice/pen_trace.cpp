@@ -20,8 +20,8 @@ namespace {
 
 // What no person's pen exceeds: a file beyond is not what it should be.
 constexpr std::size_t most_traces = 1000000;
-constexpr std::size_t most_strokes = 1000;
-constexpr std::size_t most_points = 1000000;  // of a stroke: a quarter of an hour at 1 kHz
+constexpr std::size_t most_trace_strokes = 1000;
+constexpr std::size_t most_stroke_points = 1000000;  // of a stroke: a quarter of an hour at 1 kHz
 constexpr double farthest = 10.0;             // coordinate [em]
 constexpr double largest_em = 1e9;            // [file's units]
 constexpr double longest_time = 86400.0;      // [s]
@@ -55,9 +55,9 @@ bool is_character(char32_t code) {
   return code > 0x20 && code != 0x7F && code <= 0x10FFFF && !(code >= 0xD800 && code <= 0xDFFF);
 }
 
-class Parser {
+class TraceParser {
  public:
-  Parser(std::istream& in, std::string_view name) : in_(in), name_(name) {}
+  TraceParser(std::istream& in, std::string_view name) : in_(in), name_(name) {}
 
   std::vector<PenTrace> parse() {
     std::vector<PenTrace> traces;
@@ -143,7 +143,7 @@ class Parser {
     }
     trace.set = utf8(next_word("the name of a set"));
     trace.em = next_number("the em", finest, largest_em);
-    announced_ = next_count("the number of strokes", most_strokes);
+    announced_ = next_count("the number of strokes", most_trace_strokes);
     last_time_ = 0.0;
     return trace;
   }
@@ -158,7 +158,7 @@ class Parser {
   }
 
   PenStroke stroke(const PenTrace& trace) {
-    const std::size_t count = next_count("the number of points", most_points);
+    const std::size_t count = next_count("the number of points", most_stroke_points);
     // Each point is a word of three numbers: a count beyond them must not be believed.
     if (count > rest_.size() / 5 + 1) fail("the line is too short for " + std::to_string(count) + " points");
     PenStroke stroke;
@@ -190,7 +190,7 @@ class Parser {
   double last_time_ = 0.0;     ///< [ms]
 };
 
-void append(std::string& text, double value) {
+void append_rounded(std::string& text, double value) {
   char buffer[64];
   const double rounded = std::round(value / finest) * finest;
   char* end = std::to_chars(buffer, buffer + sizeof buffer, rounded, std::chars_format::fixed, 6).ptr;
@@ -210,13 +210,13 @@ void require_writable(const PenTrace& trace, std::size_t index) {
           "its set is '" + trace.set + "': expected a word");
   decode_utf8(trace.set);
   require(trace.em >= finest && trace.em <= largest_em, "its em is " + std::to_string(trace.em));
-  require(!trace.strokes.empty() && trace.strokes.size() <= most_strokes,
+  require(!trace.strokes.empty() && trace.strokes.size() <= most_trace_strokes,
           "it has " + std::to_string(trace.strokes.size()) + " strokes");
   double last = 0.0;
   for (std::size_t i = 0; i < trace.strokes.size(); ++i) {
     const std::string place = "stroke " + std::to_string(i + 1);
     const PenStroke& stroke = trace.strokes[i];
-    require(!stroke.empty() && stroke.size() <= most_points,
+    require(!stroke.empty() && stroke.size() <= most_stroke_points,
             place + " has " + std::to_string(stroke.size()) + " points");
     for (const TimedPoint& point : stroke) {
       require(std::abs(point.point.x()) <= farthest && std::abs(1.0 - point.point.y()) <= farthest,
@@ -238,7 +238,7 @@ void append_notice(std::string& text, std::string_view notice) {
 
 }  // namespace
 
-std::vector<PenTrace> read_pen_traces(std::istream& in, std::string_view name) { return Parser(in, name).parse(); }
+std::vector<PenTrace> read_pen_traces(std::istream& in, std::string_view name) { return TraceParser(in, name).parse(); }
 
 std::vector<PenTrace> read_pen_traces(const std::string& path) {
   std::ifstream in = open_file(path);
@@ -253,14 +253,14 @@ void write_pen_traces(std::ostream& out, const std::vector<PenTrace>& traces, st
     require_writable(trace, i);
     text.append("C ").append(encode_utf8(trace.character)).append(" ").append(code_in_hex(trace.character));
     text.append(" ").append(trace.set);
-    append(text, trace.em);
+    append_rounded(text, trace.em);
     text.append(" ").append(std::to_string(trace.strokes.size())).append("\n");
     for (const PenStroke& stroke : trace.strokes) {
       text.append("S ").append(std::to_string(stroke.size()));
       for (const TimedPoint& point : stroke) {
-        append(text, point.point.x() * trace.em);
-        append(text, (1.0 - point.point.y()) * trace.em);
-        append(text, point.time * milliseconds);
+        append_rounded(text, point.point.x() * trace.em);
+        append_rounded(text, (1.0 - point.point.y()) * trace.em);
+        append_rounded(text, point.time * milliseconds);
       }
       text += '\n';
     }

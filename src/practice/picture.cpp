@@ -16,6 +16,8 @@ namespace {
 
 using svg::add;
 using svg::add_text;
+using svg::faint;
+using svg::ink;
 using svg::number;
 
 // Blue, yellow, light green and red are the paper's (sec. 7.2), in shades that differ on white and on each other.
@@ -23,8 +25,6 @@ constexpr const char* template_blue = "#5b8ff0";
 constexpr const char* active_yellow = "#f2b705";
 constexpr const char* trace_green = "#5fce5f";
 constexpr const char* start_red = "#e02020";
-constexpr const char* faint = "#dddddd";
-constexpr const char* ink = "#333333";
 
 // Relative to the em square.
 constexpr double stroke_width = 0.07;

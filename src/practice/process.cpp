@@ -20,14 +20,14 @@ namespace {
   throw Error(program + " cannot be run: " + std::generic_category().message(error));
 }
 
-struct CloseFile {
+struct CloseTemporary {
   void operator()(std::FILE* file) const noexcept { std::fclose(file); }
 };
-using File = std::unique_ptr<std::FILE, CloseFile>;
+using UnnamedFile = std::unique_ptr<std::FILE, CloseTemporary>;
 
 /// Without a name: gone once both sides have closed it.
-File temporary_file(const std::string& program) {
-  File file(std::tmpfile());
+UnnamedFile temporary_file(const std::string& program) {
+  UnnamedFile file(std::tmpfile());
   if (!file) fail(program, errno);
   return file;
 }
@@ -54,7 +54,7 @@ struct FileActions {
 
 ProcessResult run_process(const std::vector<std::string>& command, std::string_view input) {
   const std::string& program = command.front();
-  const File in = temporary_file(program), out = temporary_file(program), err = temporary_file(program);
+  const UnnamedFile in = temporary_file(program), out = temporary_file(program), err = temporary_file(program);
   const bool written = std::fwrite(input.data(), 1, input.size(), in.get()) == input.size();
   if (!written || std::fflush(in.get()) != 0) fail(program, errno);
   std::rewind(in.get());

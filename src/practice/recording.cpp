@@ -16,7 +16,7 @@
 namespace calligraphy {
 namespace {
 
-constexpr std::array<std::string_view, 16> columns = {
+constexpr std::array<std::string_view, 16> column_names = {
     "time_s",    "device_x_m", "device_y_m", "device_z_m", "tip_x_m", "tip_y_m",   "tip_z_m", "force_x_N",
     "force_y_N", "force_z_N",  "state",      "events",     "status",  "character", "stroke",  "tick_ns"};
 constexpr std::string_view rate_comment = "# rate_Hz=";
@@ -41,7 +41,7 @@ const char* name_of(TickStatus status) noexcept {
 
 std::string header() {
   std::string text;
-  for (const std::string_view column : columns) text.append(text.empty() ? "" : ",").append(column);
+  for (const std::string_view column : column_names) text.append(text.empty() ? "" : ",").append(column);
   return text;
 }
 
@@ -66,9 +66,9 @@ void append_row(std::string& text, const Sample& sample) {
 }
 
 /// Reads what write_csv writes, and nothing else but line ends of either kind.
-class Parser {
+class RecordingParser {
  public:
-  Parser(std::istream& in, std::string_view name) : in_(in), name_(name) {}
+  RecordingParser(std::istream& in, std::string_view name) : in_(in), name_(name) {}
 
   Recording parse() {
     next_line();
@@ -128,9 +128,9 @@ class Parser {
       more = comma != std::string_view::npos;
       if (more) rest.remove_prefix(comma + 1);
     }
-    if (count != columns.size()) {
-      fail("expected " + std::to_string(columns.size()) + " values, found " + std::to_string(count) + " in '" + line_ +
-           "'");
+    if (count != column_names.size()) {
+      fail("expected " + std::to_string(column_names.size()) + " values, found " + std::to_string(count) + " in '" +
+           line_ + "'");
     }
   }
 
@@ -150,13 +150,13 @@ class Parser {
   template <typename Number>
   Number next_number() {
     const std::size_t i = column_++;
-    return number<Number>(columns[i], values_[i]);
+    return number<Number>(column_names[i], values_[i]);
   }
 
   int next_integer(int largest) {
     const int value = next_number<int>();
     if (value < 0 || value > largest) {
-      fail(std::string(columns[column_ - 1]) + " is '" + std::to_string(value) + "': expected 0 to " +
+      fail(std::string(column_names[column_ - 1]) + " is '" + std::to_string(value) + "': expected 0 to " +
            std::to_string(largest));
     }
     return value;
@@ -168,14 +168,14 @@ class Parser {
     for (const auto value : values) {
       if (values_[i] == name(value)) return value;
     }
-    fail(std::string(columns[i]) + " is '" + std::string(values_[i]) + "': expected " + expected);
+    fail(std::string(column_names[i]) + " is '" + std::string(values_[i]) + "': expected " + expected);
   }
 
   std::istream& in_;
   std::string name_;
   std::string line_;
   int line_number_ = 0;
-  std::array<std::string_view, columns.size()> values_;  ///< of line_
+  std::array<std::string_view, column_names.size()> values_;  ///< of line_
   std::size_t column_ = 0;                               ///< the next one
 };
 
@@ -194,7 +194,7 @@ void write_csv(std::ostream& out, const Recording& recording) {
   out.write(text.data(), static_cast<std::streamsize>(text.size()));
 }
 
-Recording read_csv(std::istream& in, std::string_view name) { return Parser(in, name).parse(); }
+Recording read_csv(std::istream& in, std::string_view name) { return RecordingParser(in, name).parse(); }
 
 Recording read_csv(const std::filesystem::path& path) {
   std::ifstream in = open_file(path);

@@ -17,21 +17,21 @@ namespace {
 
 using svg::add;
 using svg::add_text;
+using svg::faint;
+using svg::ink;
 using svg::number;
 
 constexpr const char* template_colour = "#c5d6f7";
 constexpr const char* number_colour = "#2f62c9";
-constexpr const char* ink = "#333333";
 constexpr const char* wrong = "#e02020";
 constexpr const char* told = "#e08a00";
 constexpr const char* device_colour = "#2f9e44";
-constexpr const char* faint = "#dddddd";
 
 // [mm]
-constexpr double margin = 6.0;
-constexpr double side = 86.0;           ///< of a square
-constexpr double top = 19.0;            ///< title and headings
-constexpr double border = 0.09 * side;  ///< within the square, round what is drawn: room for numbers
+constexpr double sheet_margin = 6.0;
+constexpr double square_side = 86.0;           ///< of a square
+constexpr double sheet_top = 19.0;            ///< title and headings
+constexpr double border = 0.09 * square_side;  ///< within the square, round what is drawn: room for numbers
 constexpr double text_size = 3.4;
 constexpr double line_height = 4.6;
 constexpr double label_size = 3.4;
@@ -166,20 +166,21 @@ Eigen::AlignedBox2d box_of(const Character& character, std::span<const PenPath> 
 
 /// Shows a box of the em [em] as large as it can be in the square at `x`.
 svg::View view_of(const Eigen::AlignedBox2d& box, double x) {
-  const double scale = (side - 2.0 * border) / std::max(box.sizes().maxCoeff(), 0.1);
-  const Point middle(x + 0.5 * side, top + 0.5 * side);
+  const double scale = (square_side - 2.0 * border) / std::max(box.sizes().maxCoeff(), 0.1);
+  const Point middle(x + 0.5 * square_side, sheet_top + 0.5 * square_side);
   return {middle - scale * Point(box.center().x(), -box.center().y()), scale};
 }
 
 /// The square at `x`, its heading and the template.
 void draw_square(pugi::xml_node root, const Character& character, double x, const char* heading,
                  const svg::View& view) {
-  add_text(root, x + 0.5 * side, top - 2.5, text_size, heading, {{"text-anchor", "middle"}, {"fill", ink}});
+  add_text(root, x + 0.5 * square_side, sheet_top - 2.5, text_size, heading,
+           {{"text-anchor", "middle"}, {"fill", ink}});
   add(root, "rect",
       {{"x", number(x)},
-       {"y", number(top)},
-       {"width", number(side)},
-       {"height", number(side)},
+       {"y", number(sheet_top)},
+       {"width", number(square_side)},
+       {"height", number(square_side)},
        {"fill", "none"},
        {"stroke", faint},
        {"stroke-width", "0.3"}});
@@ -187,7 +188,7 @@ void draw_square(pugi::xml_node root, const Character& character, double x, cons
                              {{"class", "template"},
                               {"fill", "none"},
                               {"stroke", template_colour},
-                              {"stroke-width", number(0.035 * side)},
+                              {"stroke-width", number(0.035 * square_side)},
                               {"stroke-linecap", "round"},
                               {"stroke-linejoin", "round"}});
   for (const Stroke& stroke : strokes(character)) add(group, "path", {{"d", svg::stroke_path(stroke, view)}});
@@ -253,8 +254,8 @@ std::string replay_picture(const Character& character, std::span<const PenPath> 
                      std::to_string(paths.size()));
   }
   const std::vector<std::string> lines = lines_of(verdict);
-  const double width = 3.0 * margin + 2.0 * side;
-  const double height = top + side + 4.0 + line_height * static_cast<double>(lines.size() + 1) + 3.0;
+  const double width = 3.0 * sheet_margin + 2.0 * square_side;
+  const double height = sheet_top + square_side + 4.0 + line_height * static_cast<double>(lines.size() + 1) + 3.0;
   pugi::xml_document document;
   const std::string heading = svg::clean(title);
   pugi::xml_node root = svg::begin(document, width, height, "mm", heading);
@@ -265,21 +266,21 @@ std::string replay_picture(const Character& character, std::span<const PenPath> 
     for (const Point& point : path) moved.push_back(verdict.fit(point));
   }
   const Eigen::AlignedBox2d box = box_of(character, laid, verdict, guided);
-  const svg::View left = view_of(box, margin), right = view_of(box, 2.0 * margin + side);
-  draw_square(root, character, margin, "as written", left);
+  const svg::View left = view_of(box, sheet_margin), right = view_of(box, 2.0 * sheet_margin + square_side);
+  draw_square(root, character, sheet_margin, "as written", left);
   draw_written(root, character, laid, verdict, left);
-  draw_square(root, character, 2.0 * margin + side, "the device under guidance", right);
+  draw_square(root, character, 2.0 * sheet_margin + square_side, "the device under guidance", right);
   draw_guided(root, guided, right);
 
-  double y = top + side + 5.5;
-  add_text(root, margin, y, 0.9 * text_size,
+  double y = sheet_top + square_side + 5.5;
+  add_text(root, sheet_margin, y, 0.9 * text_size,
            "numbers: as drawn (black, red: wrong, orange: joined or of another shape), as they should be (blue, red: "
            "missing)",
            {{"fill", "#777777"}});
   for (const std::string& line : lines) {
     y += line_height;
-    const double size = text_size * std::min(1.0, 2.0 * side / svg::text_width(line, text_size));
-    add_text(root, margin, y, size, line, {{"fill", ink}});
+    const double size = text_size * std::min(1.0, 2.0 * square_side / svg::text_width(line, text_size));
+    add_text(root, sheet_margin, y, size, line, {{"fill", ink}});
   }
   return svg::to_string(document);
 }

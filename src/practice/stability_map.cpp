@@ -26,7 +26,7 @@ constexpr double still = 0.99;        ///< in the last quarter: an approach to a
 constexpr double out_of_reach = 1.0;  ///< no pen is there [m]
 constexpr int windows = 16;           ///< of the time, in each of which the swing is measured
 constexpr double precision = 1.02;    ///< of the largest stable stiffness
-constexpr Eigen::Index normal = 2;    ///< the axis along which the pen meets the wall
+constexpr Eigen::Index wall_normal = 2;    ///< the axis along which the pen meets the wall
 
 void require(bool in_domain, const char* name, double value, const char* domain) {
   if (in_domain) return;
@@ -135,16 +135,16 @@ WallOutcome meet_wall(const SampledLoop& loop, double stiffness, const WallEncou
     double low = out_of_reach, high = -out_of_reach;
     outcome.last_force = 0.0;
     for (int tick = 0; tick < ticks; ++tick) {
-      const double position = line.receive(device.read().position[normal]);
+      const double position = line.receive(device.read().position[wall_normal]);
       Eigen::Vector3d wanted(0.0, 0.0, wall.force(position));
       if (encounter.controlled) wanted = controller.next({0.0, 0.0, position}, wanted);
-      const double sent = std::clamp(wanted[normal], -encounter.peak_force, encounter.peak_force);
+      const double sent = std::clamp(wanted[wall_normal], -encounter.peak_force, encounter.peak_force);
       controller.sent({0.0, 0.0, sent});
       device.write({0.0, 0.0, sent - encounter.push});
       device.advance(period);
       outcome.last_force = std::max(outcome.last_force, std::abs(sent));
-      low = std::min(low, device.true_position()[normal]);
-      high = std::max(high, device.true_position()[normal]);
+      low = std::min(low, device.true_position()[wall_normal]);
+      high = std::max(high, device.true_position()[wall_normal]);
     }
     outcome.largest_force = std::max(outcome.largest_force, outcome.last_force);
     outcome.swing = swing = high - low;

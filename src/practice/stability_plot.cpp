@@ -16,11 +16,11 @@
 namespace calligraphy {
 namespace {
 
-using gnuplot::number;
+using gnuplot::numeral;
 
-constexpr std::size_t columns = 3;                         // of panels
-constexpr double left = 0.078, right = 0.99, gap = 0.025;  // of the panels, shares of the picture
-constexpr double top = 0.88, bottom = 0.085, between = 0.115;
+constexpr std::size_t panel_columns = 3;                         // of panels
+constexpr double panels_left = 0.078, panels_right = 0.99, panel_gap = 0.025;  // of the panels, shares of the picture
+constexpr double panels_top = 0.88, bottom = 0.085, between = 0.115;
 
 /// What a cell of the map may be.
 struct Kind {
@@ -63,8 +63,8 @@ std::string rectangles(const StabilitySweep& sweep, const Kind& kind, const std:
       if (!is_kind(k)) continue;
       const std::size_t first = k;
       while (k + 1 < stiffnesses.size() && is_kind(k + 1)) ++k;
-      lines += number(x) + " " + number(stiffnesses[first]) + " " + number(x - 0.5) + " " + number(x + 0.5) + " " +
-               number(stiffnesses[first] / half) + " " + number(stiffnesses[k] * half) + "\n";
+      lines += numeral(x) + " " + numeral(stiffnesses[first]) + " " + numeral(x - 0.5) + " " + numeral(x + 0.5) + " " +
+               numeral(stiffnesses[first] / half) + " " + numeral(stiffnesses[k] * half) + "\n";
     }
   }
   return lines;
@@ -76,7 +76,7 @@ std::string steps(const StabilitySweep& sweep, double StabilityLine::*bound) {
   for (std::size_t i = 0; i < sweep.lines.size(); ++i) {
     const double value = sweep.lines[i].*bound, x = static_cast<double>(i);
     if (value > 0.0) {
-      lines += number(x - 0.5) + " " + number(value) + "\n" + number(x + 0.5) + " " + number(value) + "\n";
+      lines += numeral(x - 0.5) + " " + numeral(value) + "\n" + numeral(x + 0.5) + " " + numeral(value) + "\n";
     } else {
       lines += "\n";
     }
@@ -89,16 +89,16 @@ std::string ticks(const StabilitySweep& sweep) {
   for (std::size_t i = 0; i < sweep.values.size(); ++i) {
     text += (i == 0 ? "" : ", ") + quoted(sweep.values[i]) + " " + std::to_string(i);
   }
-  return "set xtics (" + text + ")\nset xrange [-0.5:" + number(static_cast<double>(sweep.lines.size()) - 0.5) + "]\n";
+  return "set xtics (" + text + ")\nset xrange [-0.5:" + numeral(static_cast<double>(sweep.lines.size()) - 0.5) + "]\n";
 }
 
 std::string place(std::size_t panel, std::size_t rows) {
-  const auto column = static_cast<double>(panel % columns), row = static_cast<double>(panel / columns);
-  const double width = (right - left - gap * (columns - 1)) / columns;
-  const double height = (top - bottom - between * static_cast<double>(rows - 1)) / static_cast<double>(rows);
-  const double begin = left + column * (width + gap), end = top - row * (height + between);
-  return "set lmargin at screen " + number(begin) + "\nset rmargin at screen " + number(begin + width) +
-         "\nset tmargin at screen " + number(end) + "\nset bmargin at screen " + number(end - height) + "\n";
+  const auto column = static_cast<double>(panel % panel_columns), row = static_cast<double>(panel / panel_columns);
+  const double width = (panels_right - panels_left - panel_gap * (panel_columns - 1)) / panel_columns;
+  const double height = (panels_top - bottom - between * static_cast<double>(rows - 1)) / static_cast<double>(rows);
+  const double begin = panels_left + column * (width + panel_gap), end = panels_top - row * (height + between);
+  return "set lmargin at screen " + numeral(begin) + "\nset rmargin at screen " + numeral(begin + width) +
+         "\nset tmargin at screen " + numeral(end) + "\nset bmargin at screen " + numeral(end - height) + "\n";
 }
 
 /// Data blocks and the plot of one panel. The first names all that may be seen in any.
@@ -121,7 +121,7 @@ std::string panel(const StabilitySweep& sweep, std::size_t index, const std::vec
   }
   return text + ticks(sweep) + "set xlabel " + quoted(sweep.label) + "\n" +
          (index == 0 ? "set key at screen 0.5, 0.99 center top maxrows 3 samplen 2 Left reverse\n" : "unset key\n") +
-         (index % columns == 0 ? "set format y '%.0s%c'\nset ylabel 'stiffness K [N/m]'\n"
+         (index % panel_columns == 0 ? "set format y '%.0s%c'\nset ylabel 'stiffness K [N/m]'\n"
                                : "set format y ''\nunset ylabel\n") +
          "plot " + plots + "\n";
 }
@@ -130,12 +130,12 @@ std::string panel(const StabilitySweep& sweep, std::size_t index, const std::vec
 
 std::string stability_map_plot(const StabilityMap& map) {
   if (map.sweeps.empty() || map.stiffnesses.size() < 2) throw ValueError("plot of a stability map: no sweep");
-  const std::size_t rows = (map.sweeps.size() + columns - 1) / columns;
+  const std::size_t rows = (map.sweeps.size() + panel_columns - 1) / panel_columns;
   const double half = std::sqrt(map.stiffnesses[1] / map.stiffnesses[0]);
   std::string script = gnuplot::svg_terminal(1180, 120 + 340 * static_cast<int>(rows)) +
                        "set border 3 linecolor rgb '#666666'\nset tics nomirror out\nset logscale y\nset mytics 1\n"
                        "set multiplot\nset yrange [" +
-                       number(map.stiffnesses.front() / half) + ":" + number(map.stiffnesses.back() * half) + "]\n";
+                       numeral(map.stiffnesses.front() / half) + ":" + numeral(map.stiffnesses.back() * half) + "]\n";
   for (std::size_t i = 0; i < map.sweeps.size(); ++i) {
     script += place(i, rows) + panel(map.sweeps[i], i, map.stiffnesses);
   }

@@ -45,7 +45,7 @@ struct LetterIds {
 };
 
 /// a to z; the names are those of cnchar-order's own table.
-constexpr std::array<LetterIds, 26> letters = {{
+constexpr std::array<LetterIds, 26> letter_ids = {{
     {{26}, 1},            // a heng zhe zhe pie
     {{30, 32}, 2},        // b shu wan, and shu zhe
     {{16}, 1},            // c heng zhe
@@ -84,7 +84,7 @@ std::span<const int> ids_of_kanjivg_label(std::string_view label) {
 
 std::span<const int> ids_of_stroke_letter(char letter) noexcept {
   if (letter < 'a' || letter > 'z') return {};
-  const LetterIds& entry = letters[static_cast<std::size_t>(letter - 'a')];
+  const LetterIds& entry = letter_ids[static_cast<std::size_t>(letter - 'a')];
   return std::span(entry.ids).first(entry.count);
 }
 

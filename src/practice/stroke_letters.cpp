@@ -16,8 +16,8 @@ using Json = nlohmann::json;
 
 constexpr std::string_view file_name = "cnchar.order.min.js";
 constexpr std::string_view before_literal = "JSON.parse('";
-constexpr std::size_t largest_file = 4 << 20;  // [byte]; the package's has 125 thousand
-constexpr std::size_t most_strokes = 256;
+constexpr std::size_t largest_script = 4 << 20;  // [byte]; the package's has 125 thousand
+constexpr std::size_t most_lettered_strokes = 256;
 
 /// The text of a JavaScript string in single quotes that begins at `at`; `at` goes past its end.
 std::string unquoted(std::string_view text, std::size_t& at, const std::string& name) {
@@ -39,7 +39,7 @@ std::string unquoted(std::string_view text, std::size_t& at, const std::string& 
 bool is_letters(const Json& value) {
   if (!value.is_string()) return false;
   const auto& text = value.get_ref<const std::string&>();
-  return !text.empty() && text.size() <= most_strokes &&
+  return !text.empty() && text.size() <= most_lettered_strokes &&
          text.find_first_not_of("abcdefghijklmnopqrstuvwxyz") == text.npos;
 }
 
@@ -75,7 +75,7 @@ StrokeLetters parse_stroke_letters(std::string_view javascript, const std::strin
 StrokeLetters read_stroke_letters(const std::filesystem::path& source) {
   std::error_code failure;
   if (std::filesystem::is_regular_file(source, failure) && source.extension() == ".js") {
-    return parse_stroke_letters(read_file(source, largest_file), source.string());
+    return parse_stroke_letters(read_file(source, largest_script), source.string());
   }
   const auto reason = [](std::string_view path) {
     return std::filesystem::path(path).filename() == file_name ? std::string() : std::string("not the letters");

@@ -20,7 +20,7 @@ constexpr std::size_t most_paths = 1000;
 constexpr double left_over = 0.15;        // what a stroke or a pen-down without a partner costs [em]
 constexpr double backwards_cost = 0.02;   // by which a stroke must fit better backwards [em]
 constexpr double turned_cost = 0.05;      // of a quarter turn; twice as much of a half turn [em]
-constexpr double doubt = 0.05;            // by which another order must fit better than the right one [em]
+constexpr double order_doubt = 0.05;            // by which another order must fit better than the right one [em]
 constexpr double certainty = 2.0;         // or as many times better, which tells small strokes apart
 constexpr double impossible = 1e3;        // [em]
 constexpr double longest_dot = 0.3;       // a tap may be a stroke up to this length [em]
@@ -32,7 +32,7 @@ constexpr double broken_gap = 0.25;       // between the parts of a broken strok
 constexpr double same_way = 0.5;          // accord from which a stroke runs forwards: 60 degrees for a straight one
 constexpr double opposite_way = 0.7;      // against the reversed stroke, from which it runs backwards: 45 degrees
 constexpr int most_refits = 6;
-constexpr double stiffness = 0.1;  // spread of a shape [em] below which it says little of how it is stretched
+constexpr double shape_stiffness = 0.1;  // spread of a shape [em] below which it says little of how it is stretched
 constexpr double least_stretch = 0.6, most_stretch = 1.0 / least_stretch;
 constexpr double better = 1e-6;  // by which a refit must be [em]
 
@@ -81,7 +81,7 @@ class Judge {
   Reading read(Rule rule) {
     const Reading here = refine(rule, BoxMap());
     const Reading boxed = refine(rule, fit_box(paths_, character_));
-    return boxed.cost < here.cost - doubt ? boxed : here;
+    return boxed.cost < here.cost - order_doubt ? boxed : here;
   }
 
   /// From a first guess of how the paths lie, better and better.
@@ -152,7 +152,7 @@ class Judge {
   }
 
   static bool is_clearly_more(double cost, double other) {
-    return cost >= other + doubt || (cost > other && cost >= certainty * other);
+    return cost >= other + order_doubt || (cost > other && cost >= certainty * other);
   }
 
   /// An outline against `count` strokes one after the other, with the ways between them.
@@ -365,7 +365,7 @@ class Judge {
       square += (from - from_mean).cwiseAbs2();
       product += (from - from_mean).cwiseProduct(to - to_mean);
     }
-    const double firm = count * stiffness * stiffness;
+    const double firm = count * shape_stiffness * shape_stiffness;
     BoxMap map;
     for (int axis = 0; axis < 2; ++axis) {
       const double stretch = (product[axis] + firm * guess.scale[axis]) / (square[axis] + firm);

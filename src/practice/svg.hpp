@@ -13,6 +13,9 @@
 
 namespace calligraphy::svg {
 
+inline constexpr const char* ink = "#333333";
+inline constexpr const char* faint = "#dddddd";
+
 using Attributes = std::initializer_list<std::pair<const char*, std::string>>;
 
 /// To three decimals at most, without trailing zeros.

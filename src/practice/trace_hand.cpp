@@ -12,7 +12,7 @@
 namespace calligraphy {
 namespace {
 
-constexpr double shortest_approach = 0.15;  // [s]
+constexpr double shortest_traced_approach = 0.15;  // [s]
 constexpr double first_approach = 0.5;      // time to the first stroke [s]
 constexpr double longest_rest = 3.0;        // in the air, beyond which nothing is waited for [s]
 constexpr double air_step = 0.004;          // between knots in the air [s]
@@ -48,7 +48,7 @@ TraceHand::TraceHand(const PenTrace& trace, const PlacedCharacter& placed, const
     above << placed.placement.to_page(map(stroke.front().point)), raised_height;
     const double rest = std::min(stroke.front().time - last_time, longest_rest) - lowering_time - raising_time;
     const double way = (above - knots_.back().point).norm();
-    move(above, std::max({first ? first_approach : rest, way / approach_speed, shortest_approach}));
+    move(above, std::max({first ? first_approach : rest, way / approach_speed, shortest_traced_approach}));
     move({above.x(), above.y(), -pressed_depth}, lowering_time);
     write(stroke, map, placed.placement);
     const Eigen::Vector3d end = knots_.back().point;

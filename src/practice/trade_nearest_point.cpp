@@ -161,7 +161,7 @@ std::string setting_name(const NearestPointOptions& options) {
   return method_name(options.method) + std::string(setting);
 }
 
-void require(bool holds, const char* what) {
+void require_setting(bool holds, const char* what) {
   if (!holds) throw ValueError(std::string("nearest point trade: ") + what);
 }
 
@@ -198,8 +198,8 @@ std::vector<NearestPointSetting> nearest_point_settings() {
 
 std::vector<NearestPointTrade> nearest_point_trade(std::span<const Character> characters,
                                                    const NearestPointTradeOptions& options) {
-  require(options.rounds > 0, "rounds are not above 0");
-  require(std::isfinite(options.stiffness) && options.stiffness > 0.0, "stiffness is not a number above 0");
+  require_setting(options.rounds > 0, "rounds are not above 0");
+  require_setting(std::isfinite(options.stiffness) && options.stiffness > 0.0, "stiffness is not a number above 0");
   std::vector<Workload> workloads;
   for (const NearestPointWorkload& each :
        nearest_point_workloads(curve_control_points(characters, em), options.queries, options.seed)) {

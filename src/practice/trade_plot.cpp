@@ -14,9 +14,9 @@
 namespace calligraphy {
 namespace {
 
-using gnuplot::number;
+using gnuplot::numeral;
 
-constexpr double millimetres = 1e3;
+constexpr double to_millimetres = 1e3;
 constexpr double percent = 100.0;
 constexpr double least_error = 1e-17;  ///< what is drawn for no error at all
 
@@ -85,7 +85,7 @@ std::string points_of(std::span<const NearestPointTrade> trade, const MethodStyl
   }
   std::string lines;
   for (const Mark& mark : marks) {
-    lines += number(mark.ns) + " " + number(mark.largest) + " " + number(mark.p99) + " \"" + label_of(mark) + "\"\n";
+    lines += numeral(mark.ns) + " " + numeral(mark.largest) + " " + numeral(mark.p99) + " \"" + label_of(mark) + "\"\n";
   }
   return lines;
 }
@@ -94,7 +94,7 @@ template <typename Entry>
 std::string series(std::span<const Entry> trade, std::initializer_list<std::function<double(const Entry&)>> columns) {
   std::string lines;
   for (const Entry& entry : trade) {
-    for (const auto& column : columns) lines += number(column(entry)) + " ";
+    for (const auto& column : columns) lines += numeral(column(entry)) + " ";
     lines += "\n";
   }
   return lines;
@@ -117,7 +117,7 @@ std::string nearest_point_trade_plot(std::span<const NearestPointTrade> trade) {
     }
   }
   text +=
-      "set multiplot\nset logscale xy\nset xrange [" + number(0.3 * cheapest) + ":" + number(2.0 * dearest) +
+      "set multiplot\nset logscale xy\nset xrange [" + numeral(0.3 * cheapest) + ":" + numeral(2.0 * dearest) +
       "]\nset yrange [1e-19:1e4]\nset format y '%.0e'\nset xlabel 'median cost [ns]'\n"
       "set ytics 1e-17,1000,10\nset mytics 1\nset mxtics 1\nset xtics (10,20,50,100,200,500,1000,2000,5000,10000)\n"
       "set tmargin at screen 0.84\nset bmargin at screen 0.13\n"
@@ -139,7 +139,7 @@ std::string nearest_point_trade_plot(std::span<const NearestPointTrade> trade) {
                "title '" + name + "', $" + name + " using 1:2:4 with labels " + method.label +
                " font ',10' textcolor rgb '" + method.colour + "' notitle";
     }
-    text += "set lmargin at screen " + number(left) + "\nset rmargin at screen " + number(right) + "\nset title '" +
+    text += "set lmargin at screen " + numeral(left) + "\nset rmargin at screen " + numeral(right) + "\nset title '" +
             heading + "'\n" + (key ? "set key horizontal at screen 0.98, 0.995 right top samplen 1\n" : "unset key\n") +
             "plot " + plots + "\n";
   };
@@ -155,9 +155,9 @@ std::string servo_rate_trade_plot(std::span<const ServoRateTrade> trade) {
   require_some(trade.size());
   using Entry = ServoRateTrade;
   const std::string rows = series<Entry>(
-      trade, {[](const Entry& e) { return e.rate; }, [](const Entry& e) { return e.penetration * millimetres; },
-              [](const Entry& e) { return e.hard_penetration * millimetres; },
-              [](const Entry& e) { return e.path_error * millimetres; }, [](const Entry& e) { return e.force_step; },
+      trade, {[](const Entry& e) { return e.rate; }, [](const Entry& e) { return e.penetration * to_millimetres; },
+              [](const Entry& e) { return e.hard_penetration * to_millimetres; },
+              [](const Entry& e) { return e.path_error * to_millimetres; }, [](const Entry& e) { return e.force_step; },
               [](const Entry& e) { return e.hard_force_step; }, [](const Entry& e) { return e.loop_stiffness; },
               [](const Entry& e) { return e.unlimited_stiffness; }, [](const Entry& e) { return e.held_stiffness; },
               [](const Entry& e) { return e.free_stiffness; }});

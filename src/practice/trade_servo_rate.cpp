@@ -19,7 +19,7 @@ constexpr double no_rate_limit = 1e9;
 constexpr double lowered_from = 0.005, pressed_to = 0.003;  // [m]
 constexpr double lowering_speed = 0.1;                      // [m/s]
 constexpr double pressed_for = 2.0, watched_for = 0.4;      // [s]
-constexpr double at_rest = 5e-6;                            ///< peak to peak, a fraction of an encoder step [m]
+constexpr double resting_swing = 5e-6;                            ///< peak to peak, a fraction of an encoder step [m]
 
 constexpr double softest = 50.0, hardest = 1e6;  ///< stiffnesses that are tried [N/m]
 
@@ -57,7 +57,7 @@ bool comes_to_rest(const Page& page, const DeviceProfile& profile, const Hand& h
     low = std::min(low, z);
     high = std::max(high, z);
   }
-  return high - low < at_rest;
+  return high - low < resting_swing;
 }
 
 /// The largest below which no stiffness that was tried is unstable, to 2 % [N/m].

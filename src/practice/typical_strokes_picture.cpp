@@ -16,13 +16,13 @@ namespace {
 
 using svg::add;
 using svg::add_text;
+using svg::faint;
+using svg::ink;
 using svg::number;
 
 // [px]
 constexpr int sheet_columns = 8;
-constexpr double cell_width = 150.0, cell_height = 196.0, square = 128.0, sheet_margin = 24.0, sheet_top = 64.0;
-constexpr const char* ink = "#333333";
-constexpr const char* faint = "#dddddd";
+constexpr double cell_width = 150.0, cell_height = 196.0, cell_em = 128.0, table_margin = 24.0, table_top = 64.0;
 constexpr const char* point_red = "#d62020";
 constexpr const char* stroke_blue = "#a9c4f5";
 constexpr const char* polygon_grey = "#777777";
@@ -72,8 +72,8 @@ void draw_frame(pugi::xml_node parent, double x, double y) {
   add(parent, "rect",
       {{"x", number(x)},
        {"y", number(y)},
-       {"width", number(square)},
-       {"height", number(square)},
+       {"width", number(cell_em)},
+       {"height", number(cell_em)},
        {"fill", "none"},
        {"stroke", faint}});
 }
@@ -82,7 +82,7 @@ void draw_typical_stroke(pugi::xml_node parent, const TypicalStroke& type, doubl
   draw_frame(parent, x, y);
   std::vector<Point> em_points;
   for (const auto& point : type.shape) em_points.emplace_back(point[0], point[1]);
-  const svg::View view{{x, y + square}, square};
+  const svg::View view{{x, y + cell_em}, cell_em};
   add(parent, "path",
       {{"d", svg::stroke_path({&type, 3, em_points, {}}, view)},
        {"fill", "none"},
@@ -104,8 +104,8 @@ void draw_typical_stroke(pugi::xml_node parent, const TypicalStroke& type, doubl
   draw_start(parent, points[0], points[1]);
   for (const int feature : features) draw_feature_point(parent, points[static_cast<std::size_t>(feature)]);
 
-  const double middle = x + 0.5 * square;
-  const double below = y + square;
+  const double middle = x + 0.5 * cell_em;
+  const double below = y + cell_em;
   add_text(parent, middle, below + 18.0, 15.0, std::to_string(type.id) + "  " + std::string(type.name),
            {{"font-weight", "bold"}, {"xml:lang", "zh-Hans"}});
   add_text(parent, middle, below + 34.0, 12.5, std::string(type.pinyin));
@@ -134,15 +134,15 @@ void draw_key(pugi::xml_node parent, double x, double y) {
 
 std::string typical_strokes_picture() {
   constexpr int rows = (typical_stroke_count + sheet_columns) / sheet_columns;  // one cell more, for the key
-  const double width = sheet_columns * cell_width + 2.0 * sheet_margin;
+  const double width = sheet_columns * cell_width + 2.0 * table_margin;
   const std::string title = "The " + std::to_string(typical_stroke_count) + " typical strokes";
   pugi::xml_document document;
-  pugi::xml_node root = svg::begin(document, width, sheet_top + rows * cell_height, "px", title);
+  pugi::xml_node root = svg::begin(document, width, table_top + rows * cell_height, "px", title);
   add_text(root, 0.5 * width, 38.0, 22.0, title, {{"text-anchor", "middle"}, {"fill", ink}});
 
   const auto cell = [](int index) {
-    return Point(sheet_margin + (index % sheet_columns) * cell_width + 0.5 * (cell_width - square),
-                 sheet_top + (index / sheet_columns) * cell_height);
+    return Point(table_margin + (index % sheet_columns) * cell_width + 0.5 * (cell_width - cell_em),
+                 table_top + (index / sheet_columns) * cell_height);
   };
   for (const TypicalStroke& type : typical_strokes()) {
     pugi::xml_node group = add(root, "g", {{"class", "stroke"}, {"text-anchor", "middle"}, {"fill", ink}});

@@ -17,7 +17,7 @@ double creep(double share) noexcept {
   return eighth / (1.0 + eighth);
 }
 
-Point shortened(const Point& vector, double longest) noexcept {
+Point no_longer_than(const Point& vector, double longest) noexcept {
   const double length = vector.norm();
   return length > longest ? Point(vector * (longest / length)) : vector;
 }
@@ -49,7 +49,7 @@ Point PaperFriction::stretch(const FrictionOptions& options, const Point& tip, d
       anchor_ += std::min(1.0, followed) * (tip - anchor_);
     }
   }
-  const Point held = shortened(tip - anchor_, longest);
+  const Point held = no_longer_than(tip - anchor_, longest);
   if (held != tip - anchor_) anchor_ = tip - held;
   return held;
 }
@@ -61,14 +61,14 @@ Point PaperFriction::karnopp(const FrictionOptions& options, const Point& tip, d
   if (slow && !sticks_) {
     // Holds with the force that it slid with: no step.
     sticks_ = true;
-    anchor_ = tip + shortened(anchor_ - tip, most / options.stiffness);
+    anchor_ = tip + no_longer_than(anchor_ - tip, most / options.stiffness);
   }
   if (sticks_) {
     const Point pull = options.stiffness * (anchor_ - tip);
     if (pull.norm() <= options.static_ratio * most) return pull;
     // It slips the way that it was pulled, whatever it did in this tick: a pen at rest slips as the pressure falls.
     sticks_ = false;
-    anchor_ = tip + shortened(anchor_ - tip, most / options.stiffness);
+    anchor_ = tip + no_longer_than(anchor_ - tip, most / options.stiffness);
     return options.stiffness * (anchor_ - tip);
   }
   const Point direction = motion / way;  // faster than stick_speed, so not nothing

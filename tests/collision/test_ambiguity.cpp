@@ -16,8 +16,8 @@ using calligraphy_test::path_of;
 
 namespace {
 
-const Placement place{{0.0, 0.0}, 0.04};
-constexpr double pen_step = 0.0001;
+const Placement at_origin{{0.0, 0.0}, 0.04};
+constexpr double drawn_step = 0.0001;
 
 Character stroke_of(int id, std::vector<Point> points) {
   const StrokeInput input{id, std::move(points)};
@@ -32,7 +32,7 @@ struct Run {
 
 Run follow(const Character& character, const std::vector<Point>& path, const StrokeRules& rules = {}) {
   ActiveStroke active;
-  active.load(strokes(character)[0], place);
+  active.load(strokes(character)[0], at_origin);
   Run run;
   StrokeContact last;
   for (std::size_t i = 0; i < path.size() && !run.finished; ++i) {
@@ -50,25 +50,25 @@ Run follow(const Character& character, const std::vector<Point>& path, const Str
 TEST_CASE("Fig. 25, strong bend: the foot stays on its own limb of a hairpin", "[collision]") {
   // Limbs 3.5 mm apart, the pen 2.5 mm towards the other limb: the whole element has its nearest point there.
   const Character hairpin = stroke_of(4, {{0.1, 0.5}, {1.3, 0.5}, {1.3, 0.6}, {0.1, 0.59}});
-  const std::vector<Point> path = beside(path_of(strokes(hairpin)[0], place, pen_step), 0.0025);
+  const std::vector<Point> path = beside(path_of(strokes(hairpin)[0], at_origin, drawn_step), 0.0025);
   std::vector<Point> first_limb(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(path.size() / 3));
   const Run windowed = follow(hairpin, first_limb);
   CHECK(windowed.furthest_back == Approx(0.0).margin(1e-6));
-  CHECK(windowed.largest_jump < 3.0 * pen_step);
+  CHECK(windowed.largest_jump < 3.0 * drawn_step);
   StrokeRules whole;
   whole.window = 0.0;
   CHECK_FALSE(windowed.finished);
   CHECK(follow(hairpin, first_limb, whole)
             .finished);  // sought on the whole element, the foot is on the other limb at once
-  CHECK(follow(hairpin, path_of(strokes(hairpin)[0], place, pen_step)).finished);
+  CHECK(follow(hairpin, path_of(strokes(hairpin)[0], at_origin, drawn_step)).finished);
 }
 
 TEST_CASE("Fig. 25, strong bend: a pen on the other limb writes nothing of this one", "[collision]") {
   const Character hairpin = stroke_of(4, {{0.1, 0.5}, {1.3, 0.5}, {1.3, 0.6}, {0.1, 0.59}});
   ActiveStroke active;
-  active.load(strokes(hairpin)[0], place);
+  active.load(strokes(hairpin)[0], at_origin);
   active.update(active.start(), {});
-  const StrokeContact jumped = active.update(place.to_page({0.1, 0.59}), {});
+  const StrokeContact jumped = active.update(at_origin.to_page({0.1, 0.59}), {});
   CHECK_FALSE(jumped.finished);
   CHECK(jumped.arc < 0.008 + 1e-4);
 }
@@ -76,22 +76,22 @@ TEST_CASE("Fig. 25, strong bend: a pen on the other limb writes nothing of this 
 TEST_CASE("Fig. 26, corner: cutting it and overshooting it both go on to the second limb", "[collision]") {
   const Character corner = calligraphy_test::typical_character(16);
   const Stroke stroke = strokes(corner)[0];
-  const Point start = place.to_page(stroke.control_points[0]), turn = place.to_page(stroke.control_points[1]),
-              end = place.to_page(stroke.control_points[2]);
+  const Point start = at_origin.to_page(stroke.control_points[0]), turn = at_origin.to_page(stroke.control_points[1]),
+              end = at_origin.to_page(stroke.control_points[2]);
   const Point along = (turn - start).normalized(), down = (end - turn).normalized();
   for (const double cut : {0.001, 0.003, 0.005}) {
     std::vector<Point> path = {start};
-    draw_line(path, turn - cut * along, pen_step);
-    draw_line(path, turn + cut * down, pen_step);
-    draw_line(path, end, pen_step);
+    draw_line(path, turn - cut * along, drawn_step);
+    draw_line(path, turn + cut * down, drawn_step);
+    draw_line(path, end, drawn_step);
     INFO("cut by " << cut << " m");
     CHECK(follow(corner, path).finished);
   }
   for (const double overshoot : {0.001, 0.003, 0.006}) {
     std::vector<Point> path = {start};
-    draw_line(path, turn + overshoot * along, pen_step);
-    draw_line(path, turn + overshoot * (along + down), pen_step);
-    draw_line(path, end, pen_step);
+    draw_line(path, turn + overshoot * along, drawn_step);
+    draw_line(path, turn + overshoot * (along + down), drawn_step);
+    draw_line(path, end, drawn_step);
     INFO("overshot by " << overshoot << " m");
     CHECK(follow(corner, path).finished);
   }
@@ -100,15 +100,15 @@ TEST_CASE("Fig. 26, corner: cutting it and overshooting it both go on to the sec
 TEST_CASE("Fig. 26, corner: a pen that keeps inside it goes on where both limbs attract it equally", "[collision]") {
   const Character corner = calligraphy_test::typical_character(16);
   const Stroke stroke = strokes(corner)[0];
-  const Point start = place.to_page(stroke.control_points[0]), turn = place.to_page(stroke.control_points[1]),
-              end = place.to_page(stroke.control_points[2]);
+  const Point start = at_origin.to_page(stroke.control_points[0]), turn = at_origin.to_page(stroke.control_points[1]),
+              end = at_origin.to_page(stroke.control_points[2]);
   const Point below(0.0, -1.0), left(-1.0, 0.0);
   for (const double inside : {0.0016, 0.002, 0.0025}) {  // the plane itself is passed up to 1.5 mm before it
     std::vector<Point> path = {start + inside * below};
-    draw_line(path, turn + inside * (below + left), pen_step);
-    draw_line(path, end + inside * left, pen_step);
+    draw_line(path, turn + inside * (below + left), drawn_step);
+    draw_line(path, end + inside * left, drawn_step);
     ActiveStroke active;
-    active.load(stroke, place);
+    active.load(stroke, at_origin);
     double last = inside, largest_change = 0.0;
     bool finished = false;
     for (std::size_t i = 0; i < path.size() && !finished; ++i) {
@@ -119,7 +119,7 @@ TEST_CASE("Fig. 26, corner: a pen that keeps inside it goes on where both limbs 
     }
     INFO("inside by " << inside << " m");
     CHECK(finished);
-    CHECK(largest_change < 2.0 * pen_step);  // so the size of the force does not step where its direction turns
+    CHECK(largest_change < 2.0 * drawn_step);  // so the size of the force does not step where its direction turns
   }
 }
 
@@ -127,10 +127,10 @@ TEST_CASE("Fig. 26, corner: on its bisector the foot belongs to one limb, not to
   const Character corner = calligraphy_test::typical_character(16);
   ActiveStroke active;
   const Stroke stroke = strokes(corner)[0];
-  active.load(stroke, place);
+  active.load(stroke, at_origin);
   std::vector<Point> path = {active.start()};
-  const Point turn = place.to_page(stroke.control_points[1]);
-  draw_line(path, turn, pen_step);
+  const Point turn = at_origin.to_page(stroke.control_points[1]);
+  draw_line(path, turn, drawn_step);
   for (const Point& tip : path) active.update(tip, {});
   int changes = 0, element = active.update(turn, {}).element;
   for (int i = 0; i < 200; ++i) {
@@ -147,8 +147,8 @@ TEST_CASE("Fig. 27, parallel strokes: the active one alone attracts", "[collisio
   REQUIRE(three != nullptr);
   const std::vector<Stroke> all = strokes(*three);
   ActiveStroke active;
-  active.load(all[1], place);
-  for (const Point& tip : path_of(all[0], place, pen_step)) {  // the pen runs along the stroke above
+  active.load(all[1], at_origin);
+  for (const Point& tip : path_of(all[0], at_origin, drawn_step)) {  // the pen runs along the stroke above
     const StrokeContact contact = active.update(tip, {});
     const double to_active = nearest_point(active.element(0), tip).distance;
     REQUIRE(contact.foot.distance >= to_active - 1e-12);
@@ -161,11 +161,11 @@ TEST_CASE("Fig. 28, crossed strokes: crossing the other stroke changes nothing",
   REQUIRE(ten != nullptr);
   const std::vector<Stroke> all = strokes(*ten);
   ActiveStroke active;
-  active.load(all[1], place);  // the vertical, across the written horizontal
+  active.load(all[1], at_origin);  // the vertical, across the written horizontal
   double largest_force_arm = 0.0, last_arc = 0.0;
   int falls = 0;
   bool finished = false;
-  for (const Point& tip : path_of(all[1], place, pen_step)) {
+  for (const Point& tip : path_of(all[1], at_origin, drawn_step)) {
     const StrokeContact contact = active.update(tip, {});
     largest_force_arm = std::max(largest_force_arm, contact.foot.distance);
     falls += contact.arc < last_arc;

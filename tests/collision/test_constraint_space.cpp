@@ -6,6 +6,8 @@
 
 #include <calligraphy/collision/constraint_space.hpp>
 
+namespace constraint_space_tests {
+
 using namespace calligraphy;
 
 namespace {
@@ -107,3 +109,5 @@ TEST_CASE("the tube's edge may be the whole tube, and a lost query is outside", 
   CHECK(share_at(tube, horizontal, {std::nan(""), 0.02}) == 0.0);
   CHECK(share_at(printed, horizontal, {std::nan(""), 0.02}) == 0.0);
 }
+
+}  // namespace constraint_space_tests

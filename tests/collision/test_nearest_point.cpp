@@ -11,6 +11,7 @@
 #include "../allocation_counter.hpp"
 #include "../hard_cases.hpp"
 #include "../reference_curve.hpp"
+#include "../special_values.hpp"
 
 using namespace calligraphy;
 using calligraphy_test::hard_curves;
@@ -21,8 +22,8 @@ using calligraphy_test::Sequence;
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+using calligraphy_test::infinity;
+using calligraphy_test::not_a_number;
 #ifdef __SANITIZE_ADDRESS__
 constexpr int fuzz_queries = 20'000;
 #else

@@ -13,6 +13,7 @@
 #include "../allocation_counter.hpp"
 #include "../hard_cases.hpp"
 #include "../nearest_point_oracle.hpp"
+#include "../special_values.hpp"
 
 using namespace calligraphy;
 using calligraphy_test::hard_curves;
@@ -23,10 +24,9 @@ using calligraphy_test::Sequence;
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr NearestPointMethod certified_methods[] = {NearestPointMethod::exact, NearestPointMethod::tracked};
-constexpr NearestPointMethod all_methods[] = {NearestPointMethod::exact, NearestPointMethod::tracked,
-                                              NearestPointMethod::sampled, NearestPointMethod::wang2006};
+using calligraphy_test::infinity;
+using calligraphy_test::all_methods;
+using calligraphy_test::certified_methods;
 
 /// No point of the curve moves faster than this with its parameter.
 double fastest(const std::vector<Point>& points) {

@@ -23,9 +23,8 @@ using calligraphy_test::Sequence;
 
 namespace {
 
-constexpr NearestPointMethod certified_methods[] = {NearestPointMethod::exact, NearestPointMethod::tracked};
-constexpr NearestPointMethod all_methods[] = {NearestPointMethod::exact, NearestPointMethod::tracked,
-                                              NearestPointMethod::sampled, NearestPointMethod::wang2006};
+using calligraphy_test::all_methods;
+using calligraphy_test::certified_methods;
 
 std::vector<Point> mapped(const std::vector<Point>& points, const auto& map) {
   std::vector<Point> images;

@@ -18,7 +18,7 @@ using calligraphy_test::ReferenceCurve;
 
 namespace {
 
-StrokeElement element_of(std::vector<Point> points) { return prepare_element(points); }
+StrokeElement element_through(std::vector<Point> points) { return prepare_element(points); }
 
 bool same_direction(const Point& a, const Point& b) { return (a - b.normalized()).norm() < 1e-6; }
 
@@ -57,14 +57,14 @@ TEST_CASE("tangents are unit vectors along the derivative", "[collision]") {
 }
 
 TEST_CASE("where the derivative vanishes the tangent is the limit of the writing direction", "[collision]") {
-  CHECK(same_direction(element_of({{0, 0}, {0, 0}, {1, 1}, {1, 0}}).tangent(0.0), {1, 1}));
-  CHECK(same_direction(element_of({{0, 0}, {0.2, 1}, {1, 0}, {1, 0}}).tangent(1.0), {0.8, -1}));
-  CHECK(same_direction(element_of({{0, 0}, {0, 0}, {0, 0}, {1, 0.5}}).tangent(0.0), {1, 0.5}));
-  CHECK(same_direction(element_of({{0, 0}, {1, 0.5}, {1, 0.5}, {1, 0.5}}).tangent(1.0), {1, 0.5}));
-  CHECK(same_direction(element_of({{0, 0}, {0, 0}, {0.5, 1}, {1, 0}, {1, 0}}).tangent(0.0), {0.5, 1}));
-  CHECK(same_direction(element_of({{0, 0}, {0, 0}, {0.5, 1}, {1, 0}, {1, 0}}).tangent(1.0), {0.5, -1}));
-  CHECK(element_of({{0.3, 0.7}, {0.3, 0.7}, {0.3, 0.7}, {0.3, 0.7}}).tangent(0.5) == Point(0, 0));
-  CHECK(element_of({{0.3, 0.7}, {0.3, 0.7}}).tangent(0.0) == Point(0, 0));
+  CHECK(same_direction(element_through({{0, 0}, {0, 0}, {1, 1}, {1, 0}}).tangent(0.0), {1, 1}));
+  CHECK(same_direction(element_through({{0, 0}, {0.2, 1}, {1, 0}, {1, 0}}).tangent(1.0), {0.8, -1}));
+  CHECK(same_direction(element_through({{0, 0}, {0, 0}, {0, 0}, {1, 0.5}}).tangent(0.0), {1, 0.5}));
+  CHECK(same_direction(element_through({{0, 0}, {1, 0.5}, {1, 0.5}, {1, 0.5}}).tangent(1.0), {1, 0.5}));
+  CHECK(same_direction(element_through({{0, 0}, {0, 0}, {0.5, 1}, {1, 0}, {1, 0}}).tangent(0.0), {0.5, 1}));
+  CHECK(same_direction(element_through({{0, 0}, {0, 0}, {0.5, 1}, {1, 0}, {1, 0}}).tangent(1.0), {0.5, -1}));
+  CHECK(element_through({{0.3, 0.7}, {0.3, 0.7}, {0.3, 0.7}, {0.3, 0.7}}).tangent(0.5) == Point(0, 0));
+  CHECK(element_through({{0.3, 0.7}, {0.3, 0.7}}).tangent(0.0) == Point(0, 0));
 }
 
 TEST_CASE("the tangent does not flip next to a vanishing derivative", "[collision]") {

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <string>
 #include <thread>
@@ -11,14 +10,15 @@
 
 #include "../allocation_counter.hpp"
 #include "../catch.hpp"
+#include "../special_values.hpp"
 
 using namespace calligraphy;
 
 namespace {
 
-constexpr double period = 1e-3;  // [s]
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double pointer_period = 1e-3;  // [s]
+using calligraphy_test::not_a_number;
+using calligraphy_test::infinity;
 
 std::string error_of(const PointerOptions& options) {
   try {
@@ -72,7 +72,7 @@ TEST_CASE("coarse and irregular events become a path of bounded, continuous spee
   Eigen::Vector3d position = device.intention().position;
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
   for (int tick = 0; tick < 4000; ++tick) {
-    const double time = tick * period;
+    const double time = tick * pointer_period;
     if (time >= next_event) {
       const double angle = speed * time / radius;
       device.move(radius * std::sin(angle), radius * (1.0 - std::cos(angle)), 0.0);
@@ -81,7 +81,7 @@ TEST_CASE("coarse and irregular events become a path of bounded, continuous spee
     device.read();
     const Intention& meant = device.intention();
     // The next line begins where the last one ended.
-    REQUIRE((meant.position - (position + velocity * period)).norm() < 1e-12);
+    REQUIRE((meant.position - (position + velocity * pointer_period)).norm() < 1e-12);
     if (tick > 500) {
       largest_change = std::max(largest_change, (meant.velocity - velocity).norm());
       largest_speed_error = std::max(largest_speed_error, std::abs(meant.velocity.norm() - speed));
@@ -101,10 +101,10 @@ TEST_CASE("the intention is as late as the smoothing time says", "[pointer]") {
   PointerDevice device(device_profile("ideal"), {}, options);
   const double speed = 0.05;  // [m/s]
   for (int tick = 0; tick < 2000; ++tick) {
-    device.move(speed * tick * period, 0.0, 0.0);
+    device.move(speed * tick * pointer_period, 0.0, 0.0);
     device.read();
   }
-  const double late = (1999 * period * speed - device.intention().position.x()) / speed;
+  const double late = (1999 * pointer_period * speed - device.intention().position.x()) / speed;
   CHECK(late == Approx(options.smoothing_time).margin(1.1e-3));
 }
 
@@ -135,7 +135,7 @@ TEST_CASE("the paper lies in the device as it is told", "[pointer]") {
   CHECK(device.read().position.isApprox(Eigen::Vector3d(0.01, 0.028, 0.03)));
   device.move(0.005, 0.006, 0.5);
   for (int i = 0; i < 3000; ++i) {
-    const Eigen::Vector3d next = device.intention().position + period * device.intention().velocity;
+    const Eigen::Vector3d next = device.intention().position + pointer_period * device.intention().velocity;
     device.read();
     REQUIRE((device.intention().position - next).norm() < 1e-12);
   }

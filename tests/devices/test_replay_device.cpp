@@ -26,7 +26,7 @@ std::vector<DeviceState> trace(const std::vector<double>& times) {
   return samples;
 }
 
-std::string error_of(const std::vector<DeviceState>& samples) {
+std::string replay_error(const std::vector<DeviceState>& samples) {
   try {
     ReplayDevice device(samples, {});
   } catch (const ValueError& error) {
@@ -101,14 +101,14 @@ TEST_CASE("a recorded fault is replayed as it was", "[devices]") {
 
 TEST_CASE("a trace without samples or with time that does not increase is refused", "[devices]") {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  CHECK(error_of({}).find("no sample") != std::string::npos);
-  CHECK(error_of(trace({0.0, 0.25, 0.25})) ==
+  CHECK(replay_error({}).find("no sample") != std::string::npos);
+  CHECK(replay_error(trace({0.0, 0.25, 0.25})) ==
         "replay sample 2: time is 0.25 s after 0.25 s, must be finite and increase");
-  CHECK(error_of(trace({0.0, 0.5, 0.25, 0.75})).find("sample 2") != std::string::npos);
-  CHECK(error_of(trace({std::numeric_limits<double>::quiet_NaN()})).find("sample 0") != std::string::npos);
-  CHECK(error_of(trace({0.0, infinity})).find("sample 1") != std::string::npos);
-  CHECK(error_of(trace({-infinity, 0.0})).find("sample 0") != std::string::npos);
-  CHECK(error_of(trace({0.0})).empty());
+  CHECK(replay_error(trace({0.0, 0.5, 0.25, 0.75})).find("sample 2") != std::string::npos);
+  CHECK(replay_error(trace({std::numeric_limits<double>::quiet_NaN()})).find("sample 0") != std::string::npos);
+  CHECK(replay_error(trace({0.0, infinity})).find("sample 1") != std::string::npos);
+  CHECK(replay_error(trace({-infinity, 0.0})).find("sample 0") != std::string::npos);
+  CHECK(replay_error(trace({0.0})).empty());
 }
 
 TEST_CASE("a replay reads and writes without the heap", "[devices]") {

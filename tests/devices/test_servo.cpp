@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -14,6 +13,7 @@
 
 #include "../allocation_counter.hpp"
 #include "../catch.hpp"
+#include "../special_values.hpp"
 #include "watched_device.hpp"
 
 using namespace calligraphy;
@@ -23,8 +23,8 @@ namespace {
 
 constexpr double period = 1e-3;  // [s]
 constexpr double wanted = 2.0;   // [N]
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using calligraphy_test::not_a_number;
+using calligraphy_test::infinity;
 
 double virtual_time = 0.0;  // [s]
 double virtual_clock() noexcept { return virtual_time; }

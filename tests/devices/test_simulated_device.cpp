@@ -2,7 +2,6 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -11,13 +10,14 @@
 
 #include "../allocation_counter.hpp"
 #include "../catch.hpp"
+#include "../special_values.hpp"
 
 using namespace calligraphy;
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+using calligraphy_test::infinity;
+using calligraphy_test::not_a_number;
 
 DeviceProfile point_mass(double mass, double viscous_friction = 0.0, double coulomb_friction = 0.0) {
   DeviceProfile profile = device_profile("ideal");

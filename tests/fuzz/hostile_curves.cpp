@@ -215,7 +215,7 @@ Polygon crowded(NumberSequence& random, int degree) {
   return polygon;
 }
 
-constexpr CurveFamily families[] = {
+constexpr CurveFamily hostile_families[] = {
     {"line", line},
     {"anywhere", anywhere},
     {"gentle", gentle},
@@ -237,7 +237,7 @@ constexpr CurveFamily families[] = {
 
 }  // namespace
 
-std::span<const CurveFamily> curve_families() { return families; }
+std::span<const CurveFamily> curve_families() { return hostile_families; }
 
 double magnitude(NumberSequence& random, double low, double high) { return std::pow(10.0, random.between(low, high)); }
 

@@ -12,7 +12,7 @@ namespace {
 
 using Points = std::span<const Point>;
 
-Point perpendicular(const Point& vector) { return {-vector.y(), vector.x()}; }
+Point turned_left(const Point& vector) { return {-vector.y(), vector.x()}; }
 
 /// The curve and its first two derivatives at t.
 struct Jet {
@@ -88,7 +88,7 @@ Point on_end_normal(NumberSequence& random, Points points) {
   const Point handle = (at_start ? points[which] : points[points.size() - 1 - which]) - end;
   const double sizes =
       one_in(random, 2) ? static_cast<double>(random.index(17)) / 8.0 - 1.0 : random.between(-2.0, 2.0);
-  return end + sizes * perpendicular(handle) + slight(random) * random.in_disc();
+  return end + sizes * turned_left(handle) + slight(random) * random.in_disc();
 }
 
 /// On the straight line on which a handle lies.
@@ -105,7 +105,7 @@ Point at_centre_of_curvature(NumberSequence& random, Points points) {
   for (int attempt = 0; attempt < 8; ++attempt) {
     const Jet at = jet(points, parameter(random));
     const double turn = at.slope.x() * at.bend.y() - at.slope.y() * at.bend.x();
-    const Point radius = perpendicular(at.slope) * at.slope.squaredNorm();
+    const Point radius = turned_left(at.slope) * at.slope.squaredNorm();
     if (!(radius.norm() < 100.0 * size * std::abs(turn))) continue;
     // Beside it the feet part, by so little that signs in single precision hardly tell them apart.
     const double beside = one_in(random, 2) ? slight(random) : magnitude(random, -7.0, -1.0);

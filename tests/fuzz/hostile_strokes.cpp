@@ -179,14 +179,14 @@ PenPath jumping(NumberSequence& random) {
   return placed(random, elements, ticks);
 }
 
-constexpr PathFamily families[] = {
+constexpr PathFamily hostile_paths[] = {
     {"real stroke", real_stroke}, {"along", along},   {"wandering", wandering}, {"across", across},
     {"approaching", approaching}, {"tremor", tremor}, {"jumping", jumping},
 };
 
 }  // namespace
 
-std::span<const PathFamily> path_families() { return families; }
+std::span<const PathFamily> path_families() { return hostile_paths; }
 
 Point draw_lost_query(NumberSequence& random) {
   constexpr double infinity = std::numeric_limits<double>::infinity();

@@ -48,7 +48,7 @@ class StrokeOracle {
   double size_ = 0.0;
 };
 
-bool is_finite(const NearestPoint& answer) {
+bool is_usable(const NearestPoint& answer) {
   return std::isfinite(answer.parameter) && answer.point.allFinite() && answer.tangent.allFinite();
 }
 
@@ -75,7 +75,7 @@ class PathRun {
  private:
   void judge(const StrokePoint& answer, std::size_t tick) {
     const Point& query = path_.ticks[tick];
-    if (answer.element < 0 || answer.element >= oracle_.count() || !is_finite(answer.foot)) {
+    if (answer.element < 0 || answer.element >= oracle_.count() || !is_usable(answer.foot)) {
       ++tally_[family_].answers;
       ++tally_[family_].not_finite;
       return report(answer, tick, "not finite, or no element");

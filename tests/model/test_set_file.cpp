@@ -20,6 +20,8 @@
 
 #include "character_lists.hpp"
 
+namespace set_file_tests {
+
 using namespace calligraphy;
 using calligraphy_test::one_stroke;
 using calligraphy_test::rich_list;
@@ -464,3 +466,5 @@ TEST_CASE("all characters of an imported set take no more room, and err no more,
     CHECK(largest <= most_error);
   }
 }
+
+}  // namespace set_file_tests

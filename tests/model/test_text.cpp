@@ -6,6 +6,8 @@
 #include <calligraphy/error.hpp>
 #include <calligraphy/model/text.hpp>
 
+namespace text_tests {
+
 using namespace calligraphy;
 
 namespace {
@@ -49,3 +51,5 @@ TEST_CASE("the first invalid sequence is named by its byte offset", "[model]") {
   CHECK(complaint("a\xF4\x90\x80\x80").find("byte 1 ") != std::string::npos);  // above U+10FFFF
   CHECK(complaint("a\x80").find("byte 1 ") != std::string::npos);              // stray continuation
 }
+
+}  // namespace text_tests

@@ -3,17 +3,20 @@
 
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <string>
 
 #include <calligraphy/error.hpp>
 #include <calligraphy/model/character_list.hpp>
 
+#include "../special_values.hpp"
+
+namespace validator_tests {
+
 using namespace calligraphy;
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using calligraphy_test::infinity;
 
 /// The problems of 北 as in Table 3 after a change, one a line as "stroke: what".
 std::string problems_after(const std::function<void(Character&)>& change) {
@@ -126,3 +129,5 @@ TEST_CASE("building a character names the stroke and what it takes", "[model]") 
   CHECK(contains(complaint({{4, curve}}, 5), "curve degree 5"));
   CHECK(contains(complaint({}), "no stroke"));
 }
+
+}  // namespace validator_tests

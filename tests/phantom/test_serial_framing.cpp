@@ -15,7 +15,7 @@ namespace {
 
 using Bytes = std::vector<std::byte>;
 
-Bytes bytes(std::initializer_list<int> values) {
+Bytes frame_bytes(std::initializer_list<int> values) {
   Bytes result;
   for (const int value : values) result.push_back(static_cast<std::byte>(value));
   return result;
@@ -47,11 +47,11 @@ std::vector<Seen> seen_in(const Bytes& stream, std::size_t part = 1'000'000) {
   return feed(frames, stream, part);
 }
 
-const Bytes frame_a = bytes({0xA5, 0x5A, 0x04, 0x03, 1, 2, 3});
-const Bytes frame_b = bytes({0xA5, 0x5A, 0x0C, 0x01, 9});
-const Bytes frame_empty = bytes({0xA5, 0x5A, 0x0F, 0x00});
-const Seen seen_a{0x04, bytes({1, 2, 3})};
-const Seen seen_b{0x0C, bytes({9})};
+const Bytes frame_a = frame_bytes({0xA5, 0x5A, 0x04, 0x03, 1, 2, 3});
+const Bytes frame_b = frame_bytes({0xA5, 0x5A, 0x0C, 0x01, 9});
+const Bytes frame_empty = frame_bytes({0xA5, 0x5A, 0x0F, 0x00});
+const Seen seen_a{0x04, frame_bytes({1, 2, 3})};
+const Seen seen_b{0x0C, frame_bytes({9})};
 const Seen seen_empty{0x0F, {}};
 
 }  // namespace
@@ -66,19 +66,20 @@ TEST_CASE("frames are found however the transfers cut them", "[phantom][framing]
 
 TEST_CASE("garbage between frames is passed over and counted", "[phantom][framing]") {
   SerialFrames frames;
-  CHECK(feed(frames, bytes({0, 0xFF, 0x5A}) + frame_a + bytes({7, 7}) + frame_b) == std::vector<Seen>{seen_a, seen_b});
+  CHECK(feed(frames, frame_bytes({0, 0xFF, 0x5A}) + frame_a + frame_bytes({7, 7}) + frame_b) ==
+        std::vector<Seen>{seen_a, seen_b});
   CHECK(frames.skipped() == 5);
   CHECK(frames.frames() == 2);
 }
 
 TEST_CASE("the first mark before a frame is not taken for the frame's own", "[phantom][framing]") {
-  CHECK(seen_in(bytes({0xA5}) + frame_a) == std::vector<Seen>{seen_a});
-  CHECK(seen_in(bytes({0xA5, 0xA5, 0xA5}) + frame_a) == std::vector<Seen>{seen_a});
-  CHECK(seen_in(bytes({0xA5, 0x00}) + frame_a) == std::vector<Seen>{seen_a});
+  CHECK(seen_in(frame_bytes({0xA5}) + frame_a) == std::vector<Seen>{seen_a});
+  CHECK(seen_in(frame_bytes({0xA5, 0xA5, 0xA5}) + frame_a) == std::vector<Seen>{seen_a});
+  CHECK(seen_in(frame_bytes({0xA5, 0x00}) + frame_a) == std::vector<Seen>{seen_a});
 }
 
 TEST_CASE("marks inside a payload begin no frame", "[phantom][framing]") {
-  const Bytes payload = bytes({0xA5, 0x5A, 0x01, 0x00, 0xA5});
+  const Bytes payload = frame_bytes({0xA5, 0x5A, 0x01, 0x00, 0xA5});
   std::array<std::byte, 16> frame{};
   const std::size_t size = write_serial_frame(0x30, payload, frame);
   const Bytes stream(frame.begin(), frame.begin() + static_cast<std::ptrdiff_t>(size));
@@ -101,10 +102,10 @@ TEST_CASE("a truncated frame costs no more than the frame that it runs into", "[
 TEST_CASE("who waits for one kind of frame is not held up by what looks like a header of another",
           "[phantom][framing]") {
   SerialFrames frames(SerialFrames::Expected{0x04, 3});
-  CHECK(feed(frames, bytes({0xA5, 0x5A, 0x77, 0xFF}) + frame_a) == std::vector<Seen>{seen_a});
-  CHECK(feed(frames, bytes({0xA5, 0x5A, 0x04, 0x04}) + frame_a) == std::vector<Seen>{seen_a});
-  CHECK(feed(frames, bytes({0xA5, 0x5A, 0xA5, 0x5A}) + frame_a) == std::vector<Seen>{seen_a});
-  CHECK(feed(frames, bytes({0xA5, 0x5A, 0x04, 0xA5}) + Bytes(frame_a.begin() + 1, frame_a.end())) ==
+  CHECK(feed(frames, frame_bytes({0xA5, 0x5A, 0x77, 0xFF}) + frame_a) == std::vector<Seen>{seen_a});
+  CHECK(feed(frames, frame_bytes({0xA5, 0x5A, 0x04, 0x04}) + frame_a) == std::vector<Seen>{seen_a});
+  CHECK(feed(frames, frame_bytes({0xA5, 0x5A, 0xA5, 0x5A}) + frame_a) == std::vector<Seen>{seen_a});
+  CHECK(feed(frames, frame_bytes({0xA5, 0x5A, 0x04, 0xA5}) + Bytes(frame_a.begin() + 1, frame_a.end())) ==
         std::vector<Seen>{seen_a});
   CHECK(feed(frames, frame_b + frame_empty).empty());
 }
@@ -134,7 +135,7 @@ TEST_CASE("the longest frame fits and every byte of a stream is a frame's or cou
 
 TEST_CASE("an interrupted stream begins anew", "[phantom][framing]") {
   SerialFrames frames;
-  feed(frames, bytes({0xA5, 0x5A, 0x04, 0x03, 1}));
+  feed(frames, frame_bytes({0xA5, 0x5A, 0x04, 0x03, 1}));
   frames.reset();
   CHECK(frames.skipped() == 5);
   CHECK(feed(frames, frame_b) == std::vector<Seen>{seen_b});
@@ -143,7 +144,7 @@ TEST_CASE("an interrupted stream begins anew", "[phantom][framing]") {
 TEST_CASE("finding frames takes nothing from the heap", "[phantom][framing]") {
   SerialFrames frames;
   std::size_t found = 0;
-  const Bytes stream = bytes({3, 0xA5}) + frame_a + frame_b;
+  const Bytes stream = frame_bytes({3, 0xA5}) + frame_a + frame_b;
   const std::size_t before = calligraphy_test::allocations();
   for (int i = 0; i < 100; ++i) frames.feed(stream, [&](const SerialFrame&) { ++found; });
   CHECK(calligraphy_test::allocations() == before);

@@ -10,6 +10,7 @@
 
 #include <calligraphy/calligraphy.hpp>
 
+#include "../special_values.hpp"
 #include "hard_cases.hpp"
 #include "pen_path.hpp"
 
@@ -19,8 +20,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+using calligraphy_test::infinity;
+using calligraphy_test::not_a_number;
 constexpr Hand normal_grip = {0.1, 3.0, 300.0};
 
 struct Composition {

@@ -12,12 +12,13 @@
 #include <calligraphy/render/renderer_options.hpp>
 
 #include "../catch.hpp"
+#include "../special_values.hpp"
 
 using namespace calligraphy;
 
 namespace {
 
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+using calligraphy_test::not_a_number;
 
 PlacedCharacter placed(char32_t code) { return {*built_in_characters().find(code), {}}; }
 

@@ -12,6 +12,8 @@
 #include "../package_data.hpp"
 #include "../temporary_directory.hpp"
 
+namespace hanzi_writer_tests {
+
 using namespace calligraphy;
 
 namespace {
@@ -194,3 +196,5 @@ TEST_CASE("well-known characters of the package have the strokes that schools te
     CHECK(without_twins(found) == without_twins(character.ids));
   }
 }
+
+}  // namespace hanzi_writer_tests

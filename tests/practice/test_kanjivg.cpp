@@ -11,6 +11,8 @@
 #include "../catch.hpp"
 #include "practice/path_data.hpp"
 
+namespace kanjivg_tests {
+
 using namespace calligraphy;
 
 namespace {
@@ -153,3 +155,5 @@ TEST_CASE("entities of a document's own are not expanded, and deep nesting is no
   CHECK(parse_kanjivg(svg(repeated("<g>", depth) + path + repeated("</g>", depth)), "x.svg").strokes.size() == 1);
   CHECK(has(complaint(svg(repeated("<g>", depth))), "not XML"));
 }
+
+}  // namespace kanjivg_tests

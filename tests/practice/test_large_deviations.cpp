@@ -17,11 +17,11 @@ using namespace calligraphy;
 namespace {
 
 #if defined(__SANITIZE_ADDRESS__)
-constexpr int seeds = 1;
-const char* const text = "永";
+constexpr int deviating_seeds = 1;
+const char* const deviating_text = "永";
 #else
-constexpr int seeds = 8;
-const char* const text = "永北京木国大";
+constexpr int deviating_seeds = 8;
+const char* const deviating_text = "永北京木国大";
 #endif
 
 /// What the pages of one law and one bias add up to.
@@ -90,9 +90,9 @@ Outcome write(const std::string& device, Law law, double bias) {
   session.skill = WriterSkill::novice();
   session.skill.bias = bias;
   Outcome outcome;
-  for (const Character& character : calligraphy_test::characters(text)) {
+  for (const Character& character : calligraphy_test::characters(deviating_text)) {
     const Page page = lay_out(std::span(&character, 1)).front();
-    for (int seed = 1; seed <= seeds; ++seed) {
+    for (int seed = 1; seed <= deviating_seeds; ++seed) {
       session.seed = static_cast<std::uint64_t>(seed);
       outcome.add(page, write_page(page, session));
     }

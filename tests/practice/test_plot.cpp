@@ -33,16 +33,16 @@ bool gnuplot_is_there() {
 }
 
 /// A directory that is the current one and, if asked for, alone on the search path while it lives.
-class Directory {
+class ShimDirectory {
  public:
-  Directory() : before_(fs::current_path()), search_path_(std::getenv("PATH")) {
+  ShimDirectory() : before_(fs::current_path()), search_path_(std::getenv("PATH")) {
     std::string name = (fs::temp_directory_path() / "calligraphy-XXXXXX").string();
     path_ = mkdtemp(name.data());
     fs::current_path(path_);
   }
-  Directory(const Directory&) = delete;
-  Directory& operator=(const Directory&) = delete;
-  ~Directory() {
+  ShimDirectory(const ShimDirectory&) = delete;
+  ShimDirectory& operator=(const ShimDirectory&) = delete;
+  ~ShimDirectory() {
     setenv("PATH", search_path_.c_str(), 1);
     fs::current_path(before_);
     fs::remove_all(path_);
@@ -133,7 +133,7 @@ TEST_CASE("a force plot is valid SVG with axes, units, stroke numbers and title"
 
 TEST_CASE("a hostile title is drawn, not run", "[practice]") {
   if (!gnuplot_is_there()) return;
-  const Directory directory;
+  const ShimDirectory directory;
   const std::string svg = force_plot(recording(), 0, hostile);
   CHECK(directory.entries() == 0);
   pugi::xml_document document;
@@ -144,7 +144,7 @@ TEST_CASE("a hostile title is drawn, not run", "[practice]") {
 }
 
 TEST_CASE("no part of the title reaches gnuplot", "[practice]") {
-  const Directory directory;
+  const ShimDirectory directory;
   directory.provide_gnuplot("cat > script; echo '<svg><title/></svg>'");
   force_plot(recording(), 0, hostile);
   const std::string script = directory.content("script");
@@ -154,7 +154,7 @@ TEST_CASE("no part of the title reaches gnuplot", "[practice]") {
 }
 
 TEST_CASE("a plot shows bands for the writing state of the character that was asked for", "[practice]") {
-  const Directory directory;
+  const ShimDirectory directory;
   directory.provide_gnuplot("cat > script; echo '<svg><title/></svg>'");
   force_plot(recording(), 0, "title");
   std::string script = directory.content("script");
@@ -177,7 +177,7 @@ TEST_CASE("a plot shows bands for the writing state of the character that was as
 }
 
 TEST_CASE("a long recording is drawn with few points and every peak", "[practice]") {
-  const Directory directory;
+  const ShimDirectory directory;
   directory.provide_gnuplot("cat > script; echo '<svg><title/></svg>'");
   Recording long_one = recording();
   for (int i = 0; i < 200000; ++i) {
@@ -194,7 +194,7 @@ TEST_CASE("a long recording is drawn with few points and every peak", "[practice
 }
 
 TEST_CASE("forces that are not numbers do not reach gnuplot", "[practice]") {
-  const Directory directory;
+  const ShimDirectory directory;
   directory.provide_gnuplot("cat > script; echo '<svg><title/></svg>'");
   Recording some = recording();
   some.samples[500].force.setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -227,21 +227,21 @@ TEST_CASE("a plot of a character without samples is an error naming it", "[pract
 }
 
 TEST_CASE("without gnuplot there is no plot, and the error says so", "[practice]") {
-  const Directory directory;
+  const ShimDirectory directory;
   directory.hide_others();
   CHECK_FALSE(can_plot());
   CHECK(error_of(recording(), 0) == "gnuplot cannot be run: No such file or directory");
 }
 
 TEST_CASE("a gnuplot that fails is an error with its message", "[practice]") {
-  const Directory directory;
+  const ShimDirectory directory;
   directory.provide_gnuplot("echo 'line 7: no such terminal' >&2; exit 3");
   CHECK_FALSE(can_plot());
   CHECK(contains(error_of(recording(), 0), "gnuplot failed with exit code 3: line 7: no such terminal"));
 }
 
 TEST_CASE("a gnuplot that gives no SVG, reads nothing or is killed is an error, not the end", "[practice]") {
-  const Directory directory;
+  const ShimDirectory directory;
   directory.provide_gnuplot("echo 'a warning' >&2");
   CHECK(contains(error_of(recording(), 0), "gnuplot gave no SVG: "));
   CHECK(contains(error_of(recording(), 0), "a warning"));

@@ -13,13 +13,14 @@
 #include <calligraphy/practice/recording.hpp>
 
 #include "../catch.hpp"
+#include "../special_values.hpp"
 
 using namespace calligraphy;
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+using calligraphy_test::infinity;
+using calligraphy_test::not_a_number;
 
 const std::vector<double> hard_numbers = {0.0,
                                           -0.0,
@@ -35,7 +36,7 @@ const std::vector<double> hard_numbers = {0.0,
                                           std::nextafter(1.0, 2.0),
                                           infinity,
                                           -infinity,
-                                          nan};
+                                          not_a_number};
 
 /// Every hard number in every place, every state, event and status.
 Recording hard_recording() {

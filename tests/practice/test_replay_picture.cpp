@@ -15,7 +15,7 @@ using calligraphy_test::copy_of;
 
 namespace {
 
-pugi::xml_document xml(const std::string& text) {
+pugi::xml_document replay_xml(const std::string& text) {
   pugi::xml_document document;
   REQUIRE(document.load_string(text.c_str()));
   return document;
@@ -28,7 +28,7 @@ std::size_t count(const pugi::xml_document& document, const char* query) { retur
 TEST_CASE("the picture of a replay numbers pen-downs and strokes and draws what the device drew", "[practice]") {
   for (const Character& character : built_in_characters().characters) {
     const auto paths = copy_of(character);
-    const auto document = xml(replay_picture(character, paths, judge_strokes(character, paths), paths, "title"));
+    const auto document = replay_xml(replay_picture(character, paths, judge_strokes(character, paths), paths, "title"));
     CAPTURE(encode_utf8(character.code));
     CHECK(count(document, "//g[@class='drawn-number']/text") == paths.size());
     CHECK(count(document, "//g[@class='standard-number']/text") == paths.size());
@@ -45,7 +45,7 @@ TEST_CASE("the picture of a replay shows mistakes in red, tells them, and leaves
   paths.push_back({{2.0, 2.0}});
   const StrokeVerdict verdict = judge_strokes(ten, paths);
   const std::string text = replay_picture(ten, paths, verdict, {}, "<十>");
-  const auto document = xml(text);
+  const auto document = replay_xml(text);
   CHECK(count(document, "//g[@class='drawn-number']/text") == 2);
   CHECK(count(document, "//g[@class='written']/path[@stroke='#e02020']") == 1);
   CHECK(text.find(verdict.remarks.at(0).reason) != std::string::npos);

@@ -9,6 +9,8 @@
 #include "../catch.hpp"
 #include "../temporary_directory.hpp"
 
+namespace source_files_tests {
+
 using namespace calligraphy;
 namespace fs = std::filesystem;
 
@@ -93,3 +95,5 @@ TEST_CASE("a source that is not there, or a device, is named", "[practice]") {
   CHECK(complaint(none) == "FileError " + none.string() + ": no such file or directory");
   CHECK(has(complaint("/dev/zero"), "FileError /dev/zero: neither a directory nor a regular file"));
 }
+
+}  // namespace source_files_tests

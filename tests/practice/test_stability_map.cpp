@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,12 +13,13 @@
 #include <calligraphy/practice/stability_map.hpp>
 
 #include "../catch.hpp"
+#include "../special_values.hpp"
 
 using namespace calligraphy;
 
 namespace {
 
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+using calligraphy_test::not_a_number;
 const Hand nobody{0.0, 0.0, 0.0};
 
 SampledLoop loop_of(double rate, double damping, int delay = 0, double wall_damping = 0.0, const Hand& grip = nobody) {

@@ -11,6 +11,8 @@
 #include "../temporary_directory.hpp"
 #include "practice/stroke_labels.hpp"
 
+namespace stroke_letters_tests {
+
 using namespace calligraphy;
 
 namespace {
@@ -92,3 +94,5 @@ TEST_CASE("a source without letters is named", "[practice]") {
   directory.write("big.js", std::string(5 << 20, ' '));
   CHECK_THROWS_AS(read_stroke_letters(directory.path() / "big.js"), FormatError);
 }
+
+}  // namespace stroke_letters_tests

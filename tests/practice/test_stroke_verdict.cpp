@@ -23,10 +23,10 @@ namespace {
 
 #if defined(__SANITIZE_ADDRESS__)
 constexpr int rounds = 1;
-constexpr std::size_t stride = 4;  // over people's traces
+constexpr std::size_t trace_stride = 4;  // over people's traces
 #else
 constexpr int rounds = 5;
-constexpr std::size_t stride = 1;
+constexpr std::size_t trace_stride = 1;
 #endif
 
 Character character_of(std::string_view text) { return calligraphy_test::characters(text).front(); }
@@ -356,7 +356,7 @@ TEST_CASE("scribbles, points and far-off paths get a verdict of some kind", "[pr
 TEST_CASE("of a real pen every order and direction of its own strokes is told", "[practice][corpus]") {
   Sequence random(29);
   const auto traces = calligraphy_test::traces_of_people();
-  for (std::size_t at = 0; at < traces.size(); at += stride) {
+  for (std::size_t at = 0; at < traces.size(); at += trace_stride) {
     const Character character = calligraphy_test::own_character(traces[at]);
     std::vector<PenPath> paths = pen_paths(traces[at]);
     std::erase_if(paths, [](const PenPath& path) { return path_length(path) < tap_length; });

@@ -23,7 +23,7 @@ namespace {
 
 const Eigen::Vector3d start(0.08, 0.06, 0.02);
 
-double largest_step(const Recording& recording) {
+double largest_traced_step(const Recording& recording) {
   double largest = 0.0;
   for (std::size_t i = 1; i < recording.samples.size(); ++i) {
     largest = std::max(largest, (recording.samples[i].force - recording.samples[i - 1].force).norm());
@@ -41,7 +41,7 @@ void check_bounded(const Character& character, const PenTrace& trace, const Sess
   REQUIRE(recording.samples.size() > 100);
   CHECK(std::all_of(recording.samples.begin(), recording.samples.end(),
                     [](const Sample& sample) { return sample.status == TickStatus::ok && sample.force.allFinite(); }));
-  CHECK(largest_step(recording) <= renderer.max_force_step() * (1.0 + 1e-12));
+  CHECK(largest_traced_step(recording) <= renderer.max_force_step() * (1.0 + 1e-12));
   CHECK(score(page, recording).front().peak_force <= options.device.capabilities.peak_force);
   const double written = trace.strokes.back().back().time - trace.strokes.front().front().time;
   CHECK(recording.samples.back().time > std::min(written, 1.0));

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +13,7 @@
 #include <calligraphy/practice/trade.hpp>
 
 #include "../catch.hpp"
+#include "../special_values.hpp"
 #include "pages.hpp"
 
 using namespace calligraphy;
@@ -21,7 +21,7 @@ using calligraphy_test::characters;
 
 namespace {
 
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+using calligraphy_test::not_a_number;
 
 NearestPointTradeOptions small_trade() {
   NearestPointTradeOptions options;

@@ -44,7 +44,7 @@ struct Log {
   }
 };
 
-Vector3d at(const Point& point, double z) { return {point.x(), point.y(), z}; }
+using calligraphy_test::at;
 
 }  // namespace
 

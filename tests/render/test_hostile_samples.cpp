@@ -2,10 +2,10 @@
 #include "../catch.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include "../hard_cases.hpp"
 #include "../scripted_pen.hpp"
+#include "../special_values.hpp"
 
 using namespace calligraphy;
 using calligraphy_test::path_of;
@@ -17,8 +17,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+using calligraphy_test::infinity;
+using calligraphy_test::not_a_number;
 constexpr double extremes[] = {0.0,   -0.0,   5e-324,  1e-310,   -1.0,     1.0,       1e3,
                                1e154, -1e200, 1.7e308, -1.7e308, infinity, -infinity, not_a_number};
 

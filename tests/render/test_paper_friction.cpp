@@ -22,7 +22,7 @@ constexpr FrictionModel models[] = {FrictionModel::breakaway, FrictionModel::hay
 constexpr int rates[] = {100, 500, 1000, 4000, 10'000, 20'000};
 
 constexpr double coefficient = 0.3;
-constexpr double normal = 1.0;                // [N]
+constexpr double pressed = 1.0;               // [N]
 constexpr double sliding_force = 0.3;         // mu N [N]
 constexpr double longest_stretch = 0.3e-3;    // mu N / stiffness [m]
 constexpr double vibration_frequency = 20.0;  // a whole number of samples a period at each rate [Hz]
@@ -62,7 +62,7 @@ double drift_of_mass(FrictionModel model, int rate, double amplitude) {
   PaperFriction friction;
   HeldMass mass(0.2, 6.0, period);
   return drift(rate, [&](double time) {
-    const double force = friction.update(options, {mass.place, 0.0}, normal, period).x();
+    const double force = friction.update(options, {mass.place, 0.0}, pressed, period).x();
     mass.advance(force + biased_vibration(0.5 * sliding_force, amplitude * sliding_force, time));
     return mass.place;
   });
@@ -74,7 +74,7 @@ double drift_of_hold(FrictionModel model, int rate, double amplitude) {
   PaperFriction friction;
   return drift(rate, [&](double time) {
     const double tip = biased_vibration(0.5 * longest_stretch, amplitude, time);
-    return tip + friction.update(options, {tip, 0.0}, normal, 1.0 / rate).x() / options.stiffness;
+    return tip + friction.update(options, {tip, 0.0}, pressed, 1.0 / rate).x() / options.stiffness;
   });
 }
 
@@ -104,7 +104,7 @@ double most_given(const FrictionOptions& options, const std::vector<Point>& path
   double given = 0.0, most = 0.0;
   Point last_force(0.0, 0.0), last_tip = path.front();
   for (const Point& tip : path) {
-    const Point force = friction.update(options, tip, normal, 0.001);
+    const Point force = friction.update(options, tip, pressed, 0.001);
     given += 0.5 * (last_force + force).dot(tip - last_tip);
     most = std::max(most, given);
     last_force = force;
@@ -157,7 +157,7 @@ TEST_CASE("break-away friction depends on the path alone: the rate changes nothi
   for (const int rate : rates) {
     Sequence random(31);
     PaperFriction friction;
-    friction.update(options, {0.0, 0.0}, normal, 1.0 / rate);
+    friction.update(options, {0.0, 0.0}, pressed, 1.0 / rate);
     double from = 0.0;
     std::vector<double> found;
     for (int leg = 0; leg < 200; ++leg) {
@@ -165,7 +165,7 @@ TEST_CASE("break-away friction depends on the path alone: the rate changes nothi
       const int samples = rate / 100;
       double force = 0.0;
       for (int i = 1; i <= samples; ++i) {
-        force = friction.update(options, {from + (to - from) * i / samples, 0.0}, normal, 1.0 / rate).x();
+        force = friction.update(options, {from + (to - from) * i / samples, 0.0}, pressed, 1.0 / rate).x();
       }
       found.push_back(force);
       from = to;
@@ -186,7 +186,7 @@ TEST_CASE("on a curved path the rates agree the better the finer they are, far w
     for (int i = 0; i <= rate; ++i) {
       const double angle = 2.0 * std::numbers::pi * i / rate;
       const Point force =
-          friction.update(options, {0.005 * std::sin(angle), 0.005 * std::sin(2.0 * angle)}, normal, 1.0 / rate);
+          friction.update(options, {0.005 * std::sin(angle), 0.005 * std::sin(2.0 * angle)}, pressed, 1.0 / rate);
       if (i > 0 && i % (rate / 20) == 0) forces.push_back(force);
     }
     return forces;
@@ -246,7 +246,7 @@ TEST_CASE("Karnopp's pen holds up to its break-away, then slides at mu N", "[ren
   double most = 0.0;
   Point force(0.0, 0.0);
   for (int i = 0; i <= 1000; ++i) {
-    force = friction.update(options, {1e-6 * i, 0.0}, normal, 0.0001);  // 0.01 m/s
+    force = friction.update(options, {1e-6 * i, 0.0}, pressed, 0.0001);  // 0.01 m/s
     most = std::max(most, force.norm());
   }
   CHECK(most == Approx(1.5 * sliding_force).epsilon(0.01));
@@ -257,8 +257,8 @@ TEST_CASE("a new hold begins without force", "[render]") {
   for (const FrictionModel model : models) {
     PaperFriction friction;
     for (const Point& place : {Point(0.0, 0.0), Point(0.1, -0.2)}) {
-      CHECK(friction.update(options_of(model), place, normal, 0.001) == Point(0.0, 0.0));
-      CHECK(friction.update(options_of(model), place + Point(0.001, 0.0), normal, 0.001).norm() > 0.2);
+      CHECK(friction.update(options_of(model), place, pressed, 0.001) == Point(0.0, 0.0));
+      CHECK(friction.update(options_of(model), place + Point(0.001, 0.0), pressed, 0.001).norm() > 0.2);
       friction.release();
     }
   }
@@ -268,9 +268,9 @@ TEST_CASE("when the pressure falls and rises on a resting pen its friction follo
   for (const FrictionModel model : models) {
     const FrictionOptions options = options_of(model);
     PaperFriction friction;
-    friction.update(options, {0.0, 0.0}, normal, 0.001);
+    friction.update(options, {0.0, 0.0}, pressed, 0.001);
     Point last(0.0, 0.0);
-    for (int i = 1; i <= 28; ++i) last = friction.update(options, {1e-5 * i, 0.0}, normal, 0.001);  // 0.01 m/s
+    for (int i = 1; i <= 28; ++i) last = friction.update(options, {1e-5 * i, 0.0}, pressed, 0.001);  // 0.01 m/s
     const Point held = last;
     REQUIRE(held.norm() > 0.05);
     double largest_step = 0.0;
@@ -347,7 +347,7 @@ TEST_CASE("without pressure there is no friction, and a pen that does not move f
     }
     friction.release();
     for (int i = 0; i < 100; ++i) {
-      CHECK(friction.update(options_of(model), {0.01, 0.02}, normal, 0.001) == Point(0.0, 0.0));
+      CHECK(friction.update(options_of(model), {0.01, 0.02}, pressed, 0.001) == Point(0.0, 0.0));
     }
   }
 }

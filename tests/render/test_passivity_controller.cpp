@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -16,6 +15,7 @@
 #include "../allocation_counter.hpp"
 #include "../hard_cases.hpp"
 #include "../held_mass.hpp"
+#include "../special_values.hpp"
 
 using namespace calligraphy;
 using calligraphy_test::HeldMass;
@@ -24,8 +24,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+using calligraphy_test::infinity;
+using calligraphy_test::not_a_number;
 const Vector3d lost(not_a_number, not_a_number, not_a_number);
 
 Vector3d random_vector(Sequence& random, double largest) {

@@ -9,6 +9,7 @@
 #include <calligraphy/error.hpp>
 
 #include "../scripted_pen.hpp"
+#include "../special_values.hpp"
 
 using namespace calligraphy;
 using calligraphy_test::placed;
@@ -16,8 +17,8 @@ using calligraphy_test::test_device;
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+using calligraphy_test::infinity;
+using calligraphy_test::not_a_number;
 
 /// What a ValueError says, or "" when there is none.
 std::string complaint(const std::function<void()>& act) {
@@ -111,7 +112,6 @@ TEST_CASE("stiffness is not clipped by factors that are none", "[render]") {
     CHECK(options.guidance_stiffness >= 0.0);
     return {};
   };
-  const double infinity = std::numeric_limits<double>::infinity();
   for (const double bad : {-1.0, -infinity, infinity, std::numeric_limits<double>::quiet_NaN()}) {
     CHECK(contains(complaint_of(bad, 1.0), "largest_attraction"));
     CHECK(contains(complaint_of(1.0, bad), "scale"));

@@ -40,7 +40,7 @@ HapticRenderer renderer_of(char32_t code, const RendererOptions& options) {
   return {{placed(code, {0.07, 0.07})}, {}, warm_device(), options};
 }
 
-Vector3d at(const Point& point, double z) { return {point.x(), point.y(), z}; }
+using calligraphy_test::at;
 
 /// The first, straight stroke of 三.
 struct FirstStroke {

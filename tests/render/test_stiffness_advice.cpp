@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <numbers>
 #include <string>
 
@@ -9,13 +8,14 @@
 #include <calligraphy/render/stiffness_advice.hpp>
 
 #include "../catch.hpp"
+#include "../special_values.hpp"
 
 using namespace calligraphy;
 
 namespace {
 
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using calligraphy_test::not_a_number;
+using calligraphy_test::infinity;
 const Hand nobody{0.0, 0.0, 0.0};
 
 SampledLoop loop_of(double rate, double damping, int delay = 0, double wall_damping = 0.0, const Hand& grip = nobody) {

@@ -44,7 +44,7 @@ Chatter chatter(ScriptedPen& pen, const Vector3d& about, const Vector3d& directi
   return result;
 }
 
-Vector3d at(const Point& point, double z) { return {point.x(), point.y(), z}; }
+using calligraphy_test::at;
 
 }  // namespace
 

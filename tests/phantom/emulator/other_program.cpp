@@ -13,7 +13,7 @@
 namespace calligraphy_test {
 namespace {
 
-constexpr int longest_wait = 60'000;  // [ms]
+constexpr int longest_answer = 60'000;  // [ms]
 
 }  // namespace
 
@@ -47,7 +47,7 @@ std::string OtherProgram::heard() {
   while (true) {
     pollfd waiting{from_, POLLIN, 0};
     char letter = 0;
-    if (poll(&waiting, 1, longest_wait) != 1 || read(from_, &letter, 1) != 1) return line + " (and no more)";
+    if (poll(&waiting, 1, longest_answer) != 1 || read(from_, &letter, 1) != 1) return line + " (and no more)";
     if (letter == '\n') return line;
     line += letter;
   }

@@ -106,14 +106,14 @@ void require_return_without_a_jump(Stack& stack) {
   CHECK(stack.largest_step < 0.15);
 }
 
-UsbIdentity touch_of_this_program() {
+UsbIdentity touch_of_the_stack() {
   return CALLIGRAPHY_TEST_HIDRAW && GENERATE(true, false) ? serial_touch() : hid_touch();
 }
 
 }  // namespace
 
 TEST_CASE("the tip is where the hand holds it and the force is the one asked for, through the whole stack", "[stack]") {
-  Stack stack(touch_of_this_program());
+  Stack stack(touch_of_the_stack());
   CHECK(stack.servo.status().fault == DeviceFault::none);
   // 0.055 mm a count and the friction of the joints' rounding.
   const DeviceState state = stack.device.read();
@@ -125,7 +125,7 @@ TEST_CASE("the tip is where the hand holds it and the force is the one asked for
 }
 
 TEST_CASE("a device that is unplugged lets go, and resumes elsewhere without a jump", "[stack]") {
-  Stack stack(touch_of_this_program());
+  Stack stack(touch_of_the_stack());
   stack.largest_step = 0.0;
   stack.phantom.unplug(GENERATE(UnplugOrder::error_first, UnplugOrder::gone_first));
   REQUIRE(Stack::reached([&] { return stack.told(DeviceFault::unplugged); }));
@@ -141,7 +141,7 @@ TEST_CASE("a device that is unplugged lets go, and resumes elsewhere without a j
 }
 
 TEST_CASE("a device that has reset itself without leaving the bus is started again, and its force returns", "[stack]") {
-  Stack stack(touch_of_this_program());
+  Stack stack(touch_of_the_stack());
   CHECK(stack.phantom.times_started() == 1);
   stack.phantom.reset_itself();
   if (stack.phantom.bus.identity().link == LinkKind::usb) {
@@ -165,7 +165,7 @@ TEST_CASE("a device that has reset itself without leaving the bus is started aga
 
 TEST_CASE("a device that has reset itself and is silent until it is started is started", "[stack]") {
   FreshBed bed;
-  EmulatedPhantom phantom(bed, touch_of_this_program(), {0.1, 3.0, 300.0});
+  EmulatedPhantom phantom(bed, touch_of_the_stack(), {0.1, 3.0, 300.0});
   phantom.silent_until_started = true;
   phantom.bus.plug_in(1, "2");
   PhantomDevice device(phantom::make_link("", {0.02, 60.0, 0.005}), options_of_touch());
@@ -193,7 +193,7 @@ TEST_CASE("frames that are short, empty, overlong, spoilt or missing take the fo
     std::function<bool(Bytes&)> tamper;
     bool reports = true;
   };
-  const UsbIdentity identity = touch_of_this_program();
+  const UsbIdentity identity = touch_of_the_stack();
   std::vector<Case> cases{{"short", DeviceFault::short_frame,
                            [](Bytes& frame) {
                              frame.resize(20);
@@ -230,7 +230,7 @@ TEST_CASE("frames that are short, empty, overlong, spoilt or missing take the fo
 }
 
 TEST_CASE("a device that answers 15 ms late loses its force and gets it back", "[stack]") {
-  Stack stack(touch_of_this_program());
+  Stack stack(touch_of_the_stack());
   stack.largest_step = 0.0;
   int tick = 0;
   stack.phantom.arm.tamper = [&tick](Bytes&) { return ++tick % 15 == 0; };

@@ -1,0 +1,9 @@
+# ccache, where there is one, unless a launcher was named already.
+option(CALLIGRAPHY_CCACHE "Compile through ccache when it is installed" ${PROJECT_IS_TOP_LEVEL})
+if(CALLIGRAPHY_CCACHE AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER AND NOT DEFINED ENV{CMAKE_CXX_COMPILER_LAUNCHER})
+  find_program(CALLIGRAPHY_CCACHE_PROGRAM ccache)
+  mark_as_advanced(CALLIGRAPHY_CCACHE_PROGRAM)
+  if(CALLIGRAPHY_CCACHE_PROGRAM)
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${CALLIGRAPHY_CCACHE_PROGRAM})
+  endif()
+endif()
