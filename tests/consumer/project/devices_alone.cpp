@@ -1,0 +1,13 @@
+// Moves a simulated device with nothing but the devices.
+#include <cstdio>
+
+#include <calligraphy/devices/simulated_device.hpp>
+
+int main() {
+  calligraphy::DeviceProfile profile = calligraphy::device_profile("desktop");
+  calligraphy::SimulatedDevice device(profile, {});
+  const calligraphy::DeviceState state = device.read();
+  std::printf("%s: %s\n", device.capabilities().model.c_str(), calligraphy::status_name(state.status));
+  device.close();
+  return state.status == calligraphy::DeviceStatus::ok ? 0 : 1;
+}
