@@ -5,6 +5,7 @@
 #include <string>
 #include <thread>
 
+#include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/devices/pointer_device.hpp>
 #include <calligraphy/devices/servo_loop.hpp>
 

@@ -3,7 +3,6 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
-#include <random>
 #include <vector>
 
 #include <benchmark/benchmark.h>
@@ -37,9 +36,9 @@ struct WrittenPage {
     mapping = upright_page(page.width, page.height);
     SessionOptions session;
     session.device = device_profile("desktop");
-    session.renderer = RendererOptions::for_device(session.device.capabilities);
+    session.renderer = RendererOptions::for_device(session.device);
     session.skill = WriterSkill::novice();
-    capabilities = session.device.capabilities;
+    capabilities = session.device;
     states = device_states(write_page(page, session), mapping);
   }
 };
@@ -59,10 +58,12 @@ struct CurveQueries {
     std::vector<Point> points;
     for (const Point& point : curve.control_points) points.push_back(Placement().to_page(point));
     element = prepare_element(points);
-    std::mt19937_64 random(1);
-    std::uniform_real_distribution<double> along(0.0, 1.0);
-    std::uniform_real_distribution<double> aside(-0.012, 0.012);
-    for (int i = 0; i < 4096; ++i) tips.push_back(element.point(along(random)) + Point(aside(random), aside(random)));
+    Random random(1);
+    for (int i = 0; i < 4096; ++i) {
+      const double along = random.next();
+      const double x = random.between(-0.012, 0.012);
+      tips.push_back(element.point(along) + Point(x, random.between(-0.012, 0.012)));
+    }
   }
 };
 

@@ -46,7 +46,7 @@ def main() -> None:
     profile = cal.device_profile("desktop")
     page = cal.lay_out([cal.built_in_characters()["永"]])[0]
     mapping = cal.upright_page(page.width, page.height)
-    renderer = cal.HapticRenderer(page.characters, mapping, profile.capabilities)
+    renderer = cal.HapticRenderer(page.characters, mapping, profile)
     state = cal.DeviceState(position=(0, 0, 0.01))
     print(f"one nearest point   {1e6 * per_call(lambda: cal.nearest_point(CUBIC, CUBIC[:1]), 5000):6.2f} us")
     print(f"renderer.update     {1e6 * per_call(lambda: renderer.update(state), 20000):6.2f} us")
@@ -55,7 +55,7 @@ def main() -> None:
 
     class Mine(cal.HapticDevice):
         def capabilities(self):
-            return profile.capabilities
+            return profile
 
         def read(self):
             return state

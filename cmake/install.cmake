@@ -1,10 +1,7 @@
 # What find_package(calligraphy) needs of an installed copy.
 include(CMakePackageConfigHelpers)
 
-install(FILES include/calligraphy/error.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/calligraphy)
-if(CALLIGRAPHY_PRACTICE)
-  install(FILES include/calligraphy/calligraphy.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/calligraphy)
-endif()
+install(FILES include/calligraphy/calligraphy.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/calligraphy)
 install(EXPORT calligraphyTargets NAMESPACE calligraphy:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/calligraphy)
 if(CALLIGRAPHY_WITH_PHANTOM)
   install(EXPORT calligraphyPhantomTargets NAMESPACE calligraphy::

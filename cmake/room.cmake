@@ -1,19 +1,34 @@
-# calligraphy_room(name [EXPORT set] SOURCES ... DEPENDS ... [NEEDS package ...]): one room of the house as the target
-# calligraphy::name. NEEDS: what find_package() must find beside an installed copy before that target can be linked;
-# DEPENDS are found already, where they are rooms, or needed by every room.
+# calligraphy_room(name [EXPORT set] [FOLDER folder] [SUBFOLDERS ...] [SOURCES ...] [WITHOUT ...] DEPENDS ...
+# [NEEDS package ...]): a component as the target calligraphy::name: every source file of src/folder (by default src/name)
+# and its subfolders, but for those of WITHOUT, and what is generated, SOURCES. NEEDS: the packages that find_package() must
+# find beside an installed copy before the component can be linked; Eigen and threads it finds for all.
 function(calligraphy_room name)
-  cmake_parse_arguments(ROOM "" "EXPORT" "SOURCES;DEPENDS;NEEDS" ${ARGN})
+  cmake_parse_arguments(ROOM "" "EXPORT;FOLDER" "SUBFOLDERS;SOURCES;WITHOUT;DEPENDS;NEEDS" ${ARGN})
   if(NOT ROOM_EXPORT)
     set(ROOM_EXPORT calligraphyTargets)
   endif()
+  if(NOT ROOM_FOLDER)
+    set(ROOM_FOLDER ${name})
+  endif()
+  set(patterns src/${ROOM_FOLDER}/*.cpp)
+  foreach(subfolder ${ROOM_SUBFOLDERS})
+    list(APPEND patterns src/${ROOM_FOLDER}/${subfolder}/*.cpp)
+  endforeach()
+  file(GLOB sources CONFIGURE_DEPENDS ${patterns})
+  foreach(file ${ROOM_WITHOUT})
+    list(REMOVE_ITEM sources ${PROJECT_SOURCE_DIR}/src/${ROOM_FOLDER}/${file})
+  endforeach()
   set(target calligraphy_${name})
-  add_library(${target} ${ROOM_SOURCES})
+  add_library(${target} ${sources} ${ROOM_SOURCES})
   add_library(calligraphy::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
-                                              $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+                                              $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
+                                       PRIVATE ${PROJECT_SOURCE_DIR}/src)
   target_link_libraries(${target} PUBLIC ${ROOM_DEPENDS})
+  # The same bits on every processor: no contraction into fused operations.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-ffp-contract=off>)
   calligraphy_warnings(${target})
   calligraphy_unity(${target} 8)
   set(rooms ${ROOM_DEPENDS})
@@ -23,7 +38,8 @@ function(calligraphy_room name)
   set_property(GLOBAL PROPERTY CALLIGRAPHY_${name}_DEPENDS "${rooms}")
   set_property(GLOBAL PROPERTY CALLIGRAPHY_${name}_NEEDS "${ROOM_NEEDS}")
   install(TARGETS ${target} EXPORT ${ROOM_EXPORT})
-  install(DIRECTORY include/calligraphy/${name} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/calligraphy)
+  install(DIRECTORY include/calligraphy/${ROOM_FOLDER}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/calligraphy/${ROOM_FOLDER}
+          PATTERN phantom EXCLUDE PATTERN openhaptics EXCLUDE)  # which install their own
 endfunction()
 
 function(calligraphy_warnings target)
@@ -43,11 +59,12 @@ function(calligraphy_call_foreign_code target)
   endif()
 endfunction()
 
-# calligraphy_embed(variable room name file ...): a source file that holds each text file as
-# calligraphy::built_in::name, which src/room/built_in.hpp declares.
-function(calligraphy_embed variable room)
-  set(source ${PROJECT_BINARY_DIR}/built_in_${room}.cpp)
-  set(content "#include <${PROJECT_SOURCE_DIR}/src/${room}/built_in.hpp>\n\nnamespace calligraphy::built_in {\n")
+# calligraphy_embed(variable folder name file ...): a source file that holds each text file as
+# calligraphy::built_in::name, which src/folder/built_in.hpp declares.
+function(calligraphy_embed variable folder)
+  string(REPLACE "/" "_" name ${folder})
+  set(source ${PROJECT_BINARY_DIR}/built_in_${name}.cpp)
+  set(content "#include <${PROJECT_SOURCE_DIR}/src/${folder}/built_in.hpp>\n\nnamespace calligraphy::built_in {\n")
   set(pairs ${ARGN})
   while(pairs)
     list(POP_FRONT pairs name file)

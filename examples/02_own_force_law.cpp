@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
 
 namespace {

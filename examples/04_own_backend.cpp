@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <thread>
 
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/servo_loop.hpp>
-#include <calligraphy/error.hpp>
 
 namespace {
 
@@ -29,6 +29,7 @@ class KnobDevice final : public calligraphy::HapticDevice {
   KnobDevice() {
     if (!knob_.plugged_in()) throw calligraphy::DeviceError("no knob found: plug it in, then start again");
     capabilities_.model = "Knob";
+    capabilities_.sensed = capabilities_.driven = {.x = true, .y = false, .z = false};
     capabilities_.workspace = {0.1, 0.0, 0.0};  // [m]
     capabilities_.peak_force = 2.0;             // [N]
     capabilities_.usable_stiffness = 300.0;     // [N/m]

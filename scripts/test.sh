@@ -104,8 +104,8 @@ python_tests() {
   step "$PYTHON" -m pip install -q --disable-pip-version-check --no-deps --force-reinstall \
     "$work"/wheel/calligraphy-*.whl || return 0
   echo "== pytest"
-  CALLIGRAPHY_EMULATED_PHANTOM=$release/tests/phantom/emulator/emulated_phantom \
-    CALLIGRAPHY_STAND_IN_LIBHD=$release/tests/openhaptics/libstand_in_libhd.so \
+  CALLIGRAPHY_EMULATED_PHANTOM=$release/tests/devices/phantom/emulator/emulated_phantom \
+    CALLIGRAPHY_STAND_IN_LIBHD=$release/tests/devices/openhaptics/libstand_in_libhd.so \
     "$PYTHON" -m pytest -q -p no:cacheprovider --junitxml="$junit" bindings/python/tests || true
   if [[ -s $junit ]]; then
     results+=("$junit")

@@ -2,40 +2,22 @@
 #pragma once
 
 #include <cmath>
-#include <cstdint>
 #include <string>
 #include <vector>
 
 #include <calligraphy/model/point.hpp>
 
+#include "model/random_points.hpp"
+
 namespace calligraphy_test {
 
 using calligraphy::Point;
+using Sequence = calligraphy::RandomPoints;
 
 struct HardCurve {
   std::string name;
   std::vector<Point> control_points;
   double tolerance = 1e-9;  ///< allowed error of a distance, relative to the size
-};
-
-/// A fixed sequence of numbers in [0, 1), the same everywhere (splitmix64).
-class Sequence {
- public:
-  explicit Sequence(std::uint64_t seed) : state_(seed) {}
-  double next() {
-    std::uint64_t z = (state_ += 0x9E3779B97F4A7C15u);
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-    return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1.0p-53;
-  }
-  double between(double low, double high) { return low + (high - low) * next(); }
-  Point point(double low, double high) {
-    const double x = between(low, high);
-    return {x, between(low, high)};
-  }
-
- private:
-  std::uint64_t state_;
 };
 
 inline double size_of(const std::vector<Point>& points) {

@@ -4,9 +4,9 @@
 
 #include <CLI/CLI.hpp>
 
-#include <calligraphy/error.hpp>
-#include <calligraphy/model/text.hpp>
-#include <calligraphy/practice/character_import.hpp>
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/base/text.hpp>
+#include <calligraphy/importers/character_import.hpp>
 
 #include "commands.hpp"
 #include "options.hpp"

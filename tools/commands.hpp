@@ -1,7 +1,7 @@
 // The commands of the program: each registers itself with its options and does its work when it was asked for.
 #pragma once
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 
 namespace CLI {
 class App;

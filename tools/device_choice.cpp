@@ -7,12 +7,12 @@
 
 #include <fmt/format.h>
 
-#include <calligraphy/devices/simulated_device.hpp>
+#include <calligraphy/devices/device_profiles.hpp>
 #ifdef CALLIGRAPHY_WITH_PHANTOM
-#include <calligraphy/phantom/phantom_device.hpp>
+#include <calligraphy/devices/phantom/phantom_device.hpp>
 #endif
 #ifdef CALLIGRAPHY_WITH_OPENHAPTICS
-#include <calligraphy/openhaptics/openhaptics_device.hpp>
+#include <calligraphy/devices/openhaptics/openhaptics_device.hpp>
 #endif
 
 #include "commands.hpp"

@@ -15,19 +15,19 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/base/file.hpp>
+#include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/devices/sample_queue.hpp>
 #include <calligraphy/devices/servo_loop.hpp>
-#include <calligraphy/devices/simulated_device.hpp>
-#include <calligraphy/error.hpp>
-#include <calligraphy/practice/file.hpp>
 #ifdef CALLIGRAPHY_WITH_PHANTOM
-#include <calligraphy/phantom/capture.hpp>
-#include <calligraphy/phantom/device_list.hpp>
-#include <calligraphy/phantom/phantom_device.hpp>
-#include <calligraphy/phantom/wire_profile.hpp>
+#include <calligraphy/devices/phantom/capture.hpp>
+#include <calligraphy/devices/phantom/device_list.hpp>
+#include <calligraphy/devices/phantom/phantom_device.hpp>
+#include <calligraphy/devices/phantom/wire_profile.hpp>
 #endif
 #ifdef CALLIGRAPHY_WITH_OPENHAPTICS
-#include <calligraphy/openhaptics/openhaptics_device.hpp>
+#include <calligraphy/devices/openhaptics/openhaptics_device.hpp>
 #endif
 
 #include "commands.hpp"
@@ -94,7 +94,7 @@ Section vendor_runtime() {
 
 Section simulated() {
   Section section{fmt::format("simulated: {}\n", device_names()), Json::array()};
-  for (const DeviceProfile& profile : device_profiles()) section.json.push_back("simulated:" + profile.name);
+  for (const Capabilities& profile : device_profiles()) section.json.push_back("simulated:" + profile.name);
   return section;
 }
 

@@ -11,9 +11,9 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <calligraphy/base/file.hpp>
+#include <calligraphy/importers/character_import.hpp>
 #include <calligraphy/model/set_encoding.hpp>
-#include <calligraphy/practice/character_import.hpp>
-#include <calligraphy/practice/file.hpp>
 
 #include "commands.hpp"
 #include "import_report.hpp"

@@ -9,7 +9,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include <calligraphy/model/text.hpp>
+#include <calligraphy/base/text.hpp>
 
 #include "options.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include <calligraphy/practice/character_import.hpp>
+#include <calligraphy/importers/character_import.hpp>
 
 namespace calligraphy::tools {
 

@@ -12,8 +12,8 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include <calligraphy/base/text.hpp>
 #include <calligraphy/model/character_set.hpp>
-#include <calligraphy/model/text.hpp>
 
 #include "character_source.hpp"
 #include "commands.hpp"

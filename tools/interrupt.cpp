@@ -2,7 +2,7 @@
 
 #include <csignal>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 
 namespace calligraphy::tools {
 namespace {

@@ -5,8 +5,9 @@
 
 #include <fmt/format.h>
 
-#include <calligraphy/error.hpp>
-#include <calligraphy/model/text.hpp>
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/base/text.hpp>
+#include <calligraphy/devices/device_profiles.hpp>
 
 #include "commands.hpp"
 
@@ -71,7 +72,7 @@ std::string name_in_file(char32_t code) {
 
 std::string device_names() {
   std::string names;
-  for (const DeviceProfile& profile : device_profiles()) names += (names.empty() ? "" : ", ") + profile.name;
+  for (const Capabilities& profile : device_profiles()) names += (names.empty() ? "" : ", ") + profile.name;
   return names;
 }
 
@@ -81,10 +82,10 @@ CLI::Option* add_device_option(CLI::App& command, std::string& device) {
       ->type_name("DEVICE");
 }
 
-DeviceProfile chosen_device(const std::string& device, const char* option) {
+Capabilities chosen_device(const std::string& device, const char* option) {
   const std::string kind = "simulated:";
   const std::string name = device.rfind(kind, 0) == 0 ? device.substr(kind.size()) : device;
-  for (const DeviceProfile& profile : device_profiles()) {
+  for (const Capabilities& profile : device_profiles()) {
     if (profile.name == name) return profile;
   }
   throw UsageError(fmt::format("{}: {}: expected [simulated:]NAME with one of {}", option, device, device_names()));

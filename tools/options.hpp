@@ -5,7 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include <calligraphy/devices/simulated_device.hpp>
+#include <calligraphy/devices/capabilities.hpp>
 
 namespace calligraphy::tools {
 
@@ -31,6 +31,6 @@ CLI::Option* add_device_option(CLI::App& command, std::string& device);
 std::string device_names();
 
 /// The profile that --device names. @throws UsageError naming those that there are
-DeviceProfile chosen_device(const std::string& device, const char* option = "--device");
+Capabilities chosen_device(const std::string& device, const char* option = "--device");
 
 }  // namespace calligraphy::tools

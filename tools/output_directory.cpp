@@ -2,8 +2,8 @@
 
 #include <system_error>
 
-#include <calligraphy/error.hpp>
-#include <calligraphy/practice/file.hpp>
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/base/file.hpp>
 
 namespace calligraphy::tools {
 namespace fs = std::filesystem;

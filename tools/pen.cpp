@@ -5,7 +5,7 @@
 
 #include <spdlog/spdlog.h>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/practice/live_session.hpp>
 #include <calligraphy/practice/recording.hpp>
 #include <calligraphy/render/motion_mapping.hpp>
@@ -18,18 +18,18 @@ namespace calligraphy::tools {
 Pen::Pen(const PenOptions& options) : options_(options) {
   switch (options.device.kind) {
     case DeviceKind::simulated:
-      profile_ = chosen_device(options.device.which);
+      capabilities_ = chosen_device(options.device.which);
       break;
     case DeviceKind::replay:
-      profile_ = chosen_device(options.like, "--like");
+      capabilities_ = chosen_device(options.like, "--like");
       break;
     case DeviceKind::phantom:
     case DeviceKind::openhaptics:
       device_ = open_device(options.device);
-      profile_.capabilities = device_->capabilities();
+      capabilities_ = device_->capabilities();
       break;
   }
-  profile_.capabilities = limited(profile_.capabilities, options.peak_force);
+  capabilities_ = limited(capabilities_, options.peak_force);
   interrupt_.emplace();
 }
 
@@ -47,7 +47,7 @@ Recording Pen::replay(const Page& page, const SessionOptions& session) const {
   const Recording trace = read_csv(options_.device.which);
   auto device = [&] {
     try {
-      return ReplayDevice(device_states(trace, upright_page(page.width, page.height)), profile_.capabilities);
+      return ReplayDevice(device_states(trace, upright_page(page.width, page.height)), capabilities_);
     } catch (const ValueError& error) {
       throw FormatError(options_.device.which + ": " + error.what());
     }

@@ -29,7 +29,7 @@ class Pen {
   explicit Pen(const PenOptions& options);
 
   /// Of the device, its forces lowered to the peak asked for.
-  const DeviceProfile& profile() const noexcept { return profile_; }
+  const Capabilities& capabilities() const noexcept { return capabilities_; }
 
   /// A person holds the device and takes their time.
   bool is_person() const noexcept { return device_ != nullptr; }
@@ -50,7 +50,7 @@ class Pen {
   Recording live(const Page& page, const SessionOptions& session);
 
   PenOptions options_;
-  DeviceProfile profile_;
+  Capabilities capabilities_;
   std::unique_ptr<HapticDevice> device_;  ///< a person's
   std::optional<Interrupt> interrupt_;    ///< from when the device is open until what was written is in its files
   std::vector<std::string> warnings_;     ///< that were told

@@ -10,10 +10,10 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include <calligraphy/error.hpp>
-#include <calligraphy/model/text.hpp>
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/base/text.hpp>
+#include <calligraphy/pictures/replay_picture.hpp>
 #include <calligraphy/practice/pen_trace.hpp>
-#include <calligraphy/practice/replay_picture.hpp>
 #include <calligraphy/practice/session.hpp>
 
 #include "character_source.hpp"
@@ -77,11 +77,11 @@ class ReplayRun {
   explicit ReplayRun(const ReplayArguments& options) : options_(options) {
     if (options.out && options.out->empty()) throw UsageError("--out: an empty name");
     session_.device = chosen_device(options.device);
-    session_.renderer = options.renderer == "everything" ? RendererOptions::everything(session_.device.capabilities)
-                                                         : RendererOptions::for_device(session_.device.capabilities);
+    session_.renderer = options.renderer == "everything" ? RendererOptions::everything(session_.device)
+                                                         : RendererOptions::for_device(session_.device);
     report_.renderer = options.renderer;
-    report_.device = session_.device.capabilities.model;
-    report_.peak_force = session_.device.capabilities.peak_force;
+    report_.device = session_.device.model;
+    report_.peak_force = session_.device.peak_force;
   }
 
   void replay() {
@@ -116,10 +116,10 @@ class ReplayRun {
  private:
   void replay_one(const Chosen& chosen, const Character& character, const std::optional<OutputDirectory>& out) {
     PageLayout layout;
-    layout.width = session_.device.capabilities.workspace.x();
-    layout.height = session_.device.capabilities.workspace.y();
+    layout.width = session_.device.workspace.x();
+    layout.height = session_.device.workspace.y();
     const Page page = lay_out({&character, 1}, layout).front();
-    const HapticRenderer renderer(page.characters, upright_page(page.width, page.height), session_.device.capabilities,
+    const HapticRenderer renderer(page.characters, upright_page(page.width, page.height), session_.device,
                                   session_.renderer);
     report_.max_force_step = renderer.max_force_step();
 

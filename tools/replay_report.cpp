@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <calligraphy/model/text.hpp>
+#include <calligraphy/base/text.hpp>
 
 namespace calligraphy::tools {
 namespace {

@@ -12,10 +12,9 @@
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
-#include <calligraphy/devices/simulated_device.hpp>
-#include <calligraphy/error.hpp>
-#include <calligraphy/practice/plot.hpp>
-#include <calligraphy/practice/stability_map.hpp>
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/experiments/stability_map.hpp>
+#include <calligraphy/pictures/plot.hpp>
 
 #include "commands.hpp"
 #include "interrupt.hpp"
@@ -62,18 +61,18 @@ SampledLoop loop_of(const StabilityArguments& options) {
   try {
     SampledLoop loop;
     if (options.device) {
-      const Capabilities capabilities = chosen_device(*options.device).capabilities;
-      loop = sampled_loop(capabilities, capabilities.update_rate);
+      loop.device = chosen_device(*options.device);
+      loop.rate = loop.device.update_rate;
     } else if (!options.mass || !options.damping) {
       throw UsageError(std::string(options.mass ? "--damping" : "--mass") + " is missing, or --device");
     }
-    if (options.mass) loop.mass = *options.mass;
-    if (options.damping) loop.damping = *options.damping;
+    if (options.mass) loop.device.apparent_mass = *options.mass;
+    if (options.damping) loop.device.viscous_friction = *options.damping;
     if (options.rate) loop.rate = *options.rate;
-    if (options.delay) loop.delay = *options.delay;
+    if (options.delay) loop.device.sample_delay = *options.delay;
     if (options.wall_damping) loop.wall_damping = *options.wall_damping;
-    if (options.friction) loop.coulomb_friction = *options.friction;
-    if (options.encoder_step) loop.encoder_step = *options.encoder_step;
+    if (options.friction) loop.device.coulomb_friction = *options.friction;
+    if (options.encoder_step) loop.device.encoder_step = *options.encoder_step;
     if (options.grip) loop.grip = grip_of(*options.grip);
     validate(loop);
     return loop;

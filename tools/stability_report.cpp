@@ -20,8 +20,10 @@ std::string row(const char* name, const StiffnessBound& bound) {
 std::string description(const SampledLoop& loop) {
   std::string text =
       fmt::format("{:g} Hz, {:g} kg, b = {:g} N s/m, f_c = {:g} N, encoder step D = {:g} um, delay d = {}", loop.rate,
-                  loop.mass, loop.damping, loop.coulomb_friction, loop.encoder_step * per_micrometre, loop.delay);
-  text += fmt::format("{}, wall damping B = {:g} N s/m", loop.delay == 1 ? " tick" : " ticks", loop.wall_damping);
+                  loop.device.apparent_mass, loop.device.viscous_friction, loop.device.coulomb_friction,
+                  loop.device.encoder_step * per_micrometre, loop.device.sample_delay);
+  text += fmt::format("{}, wall damping B = {:g} N s/m", loop.device.sample_delay == 1 ? " tick" : " ticks",
+                      loop.wall_damping);
   const Hand& grip = loop.grip;
   if (grip.mass == 0.0 && grip.damping == 0.0 && grip.stiffness == 0.0) return text + ", held by nobody";
   return text + fmt::format(", grip {:g} kg, {:g} N s/m, {:g} N/m", grip.mass, grip.damping, grip.stiffness);
@@ -29,11 +31,11 @@ std::string description(const SampledLoop& loop) {
 
 Json json_of(const SampledLoop& loop) {
   return {{"rate_Hz", loop.rate},
-          {"mass_kg", loop.mass},
-          {"damping_N_s_per_m", loop.damping},
-          {"coulomb_friction_N", loop.coulomb_friction},
-          {"encoder_step_m", loop.encoder_step},
-          {"delay_ticks", loop.delay},
+          {"mass_kg", loop.device.apparent_mass},
+          {"damping_N_s_per_m", loop.device.viscous_friction},
+          {"coulomb_friction_N", loop.device.coulomb_friction},
+          {"encoder_step_m", loop.device.encoder_step},
+          {"delay_ticks", loop.device.sample_delay},
           {"wall_damping_N_s_per_m", loop.wall_damping},
           {"grip",
            {{"mass_kg", loop.grip.mass},
@@ -92,7 +94,7 @@ std::string summary(const StabilityMap& map) {
     if (line.quantised > map.stiffnesses[1]) {  // else it lies below what was tried
       least_passive = std::min(least_passive, line.largest / line.quantised);
     }
-    if (line.loop.coulomb_friction > 0.0 || line.stable <= map.stiffnesses[1]) continue;
+    if (line.loop.device.coulomb_friction > 0.0 || line.stable <= map.stiffnesses[1]) continue;
     least = std::min(least, line.largest / line.stable);
     most = std::max(most, line.largest / line.stable);
   }
@@ -130,7 +132,7 @@ std::string tables(const StabilityMap& map) {
       "{:g} "
       "N\nsettles: up to here it comes to rest; controlled: with the passivity controller; in peak: and never reaches "
       "the peak force\n\n",
-      encounter.height * per_millimetre, encounter.push, encounter.seconds, encounter.peak_force);
+      encounter.height * per_millimetre, encounter.push, encounter.seconds, map.device.peak_force);
   for (const StabilitySweep& sweep : map.sweeps) text += sweep_table(sweep);
   return text + summary(map);
 }
@@ -143,7 +145,7 @@ std::string json(const StabilityMap& map) {
                         {{"push_N", map.encounter.push},
                          {"height_m", map.encounter.height},
                          {"seconds", map.encounter.seconds},
-                         {"peak_force_N", map.encounter.peak_force}}},
+                         {"peak_force_N", map.device.peak_force}}},
                        {"stiffnesses_N_per_m", map.stiffnesses},
                        {"sweeps", std::move(sweeps)},
                        {"grid", std::move(grid)}};

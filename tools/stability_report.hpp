@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include <calligraphy/practice/stability_map.hpp>
+#include <calligraphy/experiments/stability_map.hpp>
 
 namespace calligraphy::tools {
 

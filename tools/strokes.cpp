@@ -4,8 +4,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include <calligraphy/practice/file.hpp>
-#include <calligraphy/practice/picture.hpp>
+#include <calligraphy/base/file.hpp>
+#include <calligraphy/pictures/picture.hpp>
 
 #include "commands.hpp"
 

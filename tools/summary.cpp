@@ -10,7 +10,7 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <nlohmann/json.hpp>
 
-#include <calligraphy/model/text.hpp>
+#include <calligraphy/base/text.hpp>
 
 namespace calligraphy::tools {
 namespace {

@@ -12,11 +12,11 @@
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
-#include <calligraphy/error.hpp>
-#include <calligraphy/practice/force_field.hpp>
-#include <calligraphy/practice/nearest_point_workload.hpp>
-#include <calligraphy/practice/plot.hpp>
-#include <calligraphy/practice/trade.hpp>
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/experiments/force_field.hpp>
+#include <calligraphy/experiments/nearest_point_workload.hpp>
+#include <calligraphy/experiments/trade.hpp>
+#include <calligraphy/pictures/plot.hpp>
 
 #include "character_source.hpp"
 #include "commands.hpp"

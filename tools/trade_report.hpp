@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <calligraphy/practice/trade.hpp>
+#include <calligraphy/experiments/trade.hpp>
 
 namespace calligraphy::tools {
 

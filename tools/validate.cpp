@@ -8,9 +8,9 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include <calligraphy/model/text.hpp>
-#include <calligraphy/practice/character_import.hpp>
-#include <calligraphy/practice/validation.hpp>
+#include <calligraphy/base/text.hpp>
+#include <calligraphy/importers/character_import.hpp>
+#include <calligraphy/importers/validation.hpp>
 
 #include "commands.hpp"
 #include "import_report.hpp"

@@ -14,11 +14,10 @@
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
-#include <calligraphy/devices/simulated_device.hpp>
-#include <calligraphy/model/text.hpp>
+#include <calligraphy/base/text.hpp>
+#include <calligraphy/pictures/picture.hpp>
+#include <calligraphy/pictures/plot.hpp>
 #include <calligraphy/practice/page.hpp>
-#include <calligraphy/practice/picture.hpp>
-#include <calligraphy/practice/plot.hpp>
 #include <calligraphy/practice/recording.hpp>
 #include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/session.hpp>
@@ -108,10 +107,10 @@ PenOptions chosen_pen(const WriteArguments& options) {
   return pen;
 }
 
-SessionOptions chosen_session(const WriteArguments& options, const DeviceProfile& device) {
+SessionOptions chosen_session(const WriteArguments& options, const Capabilities& device) {
   SessionOptions session;
   session.device = device;
-  session.renderer = chosen_renderer(options, device.capabilities);
+  session.renderer = chosen_renderer(options, device);
   session.skill = options.writer == "skilled" ? WriterSkill::skilled() : WriterSkill::novice();
   session.measure_ticks = true;
   return session;
@@ -167,14 +166,14 @@ class WriteRun {
       : options_(options),
         text_(characters_of(options.text)),
         pen_(chosen_pen(options)),
-        session_(chosen_session(options, pen_.profile())),
+        session_(chosen_session(options, pen_.capabilities())),
         modes_(chosen_modes(options.mode, !pen_.is_person() && !pen_.is_replay())) {
     try {
       // At a low rate less is stable than at the device's own.
-      for (const std::string& reason : clip_stiffness(session_.renderer, session_.device.capabilities)) {
+      for (const std::string& reason : clip_stiffness(session_.renderer, session_.device)) {
         spdlog::warn("clipped: {}", reason);
       }
-      validate(session_.renderer, session_.device.capabilities);
+      validate(session_.renderer, session_.device);
     } catch (const ValueError& error) {
       throw UsageError(error.what());
     }
@@ -182,7 +181,7 @@ class WriteRun {
 
   void write() {
     const CharacterSet set = open_characters(options_.characters, text_, options_.order);
-    sheets_ = sheets(characters_of(set, text_, options_.order), session_.device.capabilities);
+    sheets_ = sheets(characters_of(set, text_, options_.order), session_.device);
     if (pen_.is_replay() && sheets_.size() > 1) throw UsageError("TEXT: a replay is of one page");
     const OutputDirectory out(options_.out);
     plots_ = can_plot();
@@ -260,7 +259,7 @@ class WriteRun {
     const std::string stem = file_stem(result.position, code, result.mode);
     const std::string title =
         fmt::format("{}, {}, {}", encode_utf8(code), result.mode == Mode::vision ? "vision only" : "vision and force",
-                    session_.device.capabilities.model);
+                    session_.device.model);
     out.write(stem + ".svg", page_picture(page, recording, index, title));
     const bool reached = !own.samples.empty();  // the writer may have given up before
     if (plots_ && reached) out.write(stem + "-force.svg", force_plot(recording, index, title));

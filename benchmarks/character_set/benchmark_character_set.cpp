@@ -74,13 +74,13 @@ class Corpus {
       const std::vector<std::byte> bytes = encode_character_set(list_, precision);
       write_file(directory_ / name, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     }
-    std::mt19937_64 random(1);
+    Random random(1);
     for (const Character& character : list_.characters) {
       map[character.code] = character;
       json[character.code] = json_of(character).dump();
       codes.push_back(character.code);
     }
-    std::shuffle(codes.begin(), codes.end(), random);
+    shuffle(codes, random);
   }
   Corpus(const Corpus&) = delete;
   Corpus& operator=(const Corpus&) = delete;

@@ -5,7 +5,7 @@
 #include <benchmark/benchmark.h>
 #include <CLI/CLI.hpp>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 
 #include "table.hpp"
 

@@ -7,9 +7,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 
-#include "practice/process.hpp"
+#include "pictures/process.hpp"
 
 namespace nearest_point_benchmark {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <calligraphy/practice/nearest_point_workload.hpp>
+#include <calligraphy/experiments/nearest_point_workload.hpp>
 
 #include "method.hpp"
 

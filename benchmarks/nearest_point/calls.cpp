@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include <calligraphy/experiments/nearest_point_workload.hpp>
 #include <calligraphy/model/character_list.hpp>
-#include <calligraphy/practice/nearest_point_workload.hpp>
 
 #include "runs.hpp"
 

@@ -1,8 +1,8 @@
 // What preparing an element costs, and how much is kept.
 #include <calligraphy/collision/stroke_element.hpp>
+#include <calligraphy/experiments/nearest_point_workload.hpp>
+#include <calligraphy/experiments/stroke_queries.hpp>
 #include <calligraphy/model/character_list.hpp>
-#include <calligraphy/practice/nearest_point_workload.hpp>
-#include <calligraphy/practice/stroke_queries.hpp>
 
 #include "runs.hpp"
 

@@ -3,8 +3,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <calligraphy/experiments/nearest_point_workload.hpp>
 #include <calligraphy/model/character_list.hpp>
-#include <calligraphy/practice/nearest_point_workload.hpp>
 
 #include "method.hpp"
 

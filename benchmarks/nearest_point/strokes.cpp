@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <iterator>
 
+#include <calligraphy/experiments/stroke_queries.hpp>
 #include <calligraphy/model/bezier.hpp>
 #include <calligraphy/model/character_list.hpp>
-#include <calligraphy/practice/stroke_queries.hpp>
 
 #include "runs.hpp"
 

@@ -3,8 +3,8 @@
 
 #include <benchmark/benchmark.h>
 
+#include <calligraphy/experiments/nearest_point_workload.hpp>
 #include <calligraphy/model/character_list.hpp>
-#include <calligraphy/practice/nearest_point_workload.hpp>
 
 #include "bezier_js.hpp"
 #include "runs.hpp"

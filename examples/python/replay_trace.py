@@ -61,7 +61,7 @@ for axes, mode in zip(columns[1:], (cal.Mode.vision, cal.Mode.force)):
     options = cal.SessionOptions(
         mode=mode,
         device=profile,
-        renderer=cal.RendererOptions.for_device(profile.capabilities),
+        renderer=cal.RendererOptions.for_device(profile),
         skill=cal.WriterSkill.skilled(),
     )
     recording = cal.follow_trace(page, trace, options)

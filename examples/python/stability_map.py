@@ -9,15 +9,16 @@ import calligraphy as cal
 out = output_directory(__doc__)
 stiffnesses = np.geomspace(100.0, 1e5, 37)
 encounter = cal.WallEncounter(seconds=4.0)
+device = cal.Capabilities(apparent_mass=0.045, viscous_friction=0.1, peak_force=7.9)
 rates = [250.0, 500.0, 1000.0, 2000.0, 4000.0]
 
 figure, axes = plt.subplots(figsize=(8.5, 5), layout="constrained")
 bounds: dict[str, list[float]] = {"passive": [], "stable": [], "approximate": []}
 for rate in rates:
-    loop = cal.SampledLoop(rate=rate, mass=0.045, damping=0.1, grip=cal.Hand())
+    loop = cal.SampledLoop(device=device, rate=rate, grip=cal.Hand())
     outcomes = [cal.meet_wall(loop, k, encounter) for k in stiffnesses]
     # A swing that dies down to a smaller one, as large as the device's peak force keeps it, is no rest.
-    settles = np.array([outcome.settles and outcome.last_force < encounter.peak_force for outcome in outcomes])
+    settles = np.array([outcome.settles and outcome.last_force < device.peak_force for outcome in outcomes])
     at = np.full(len(stiffnesses), rate)
     axes.plot(at[settles], stiffnesses[settles], "o", color="#228833", markersize=5)
     axes.plot(at[~settles], stiffnesses[~settles], "x", color="#ee6677", markersize=5)

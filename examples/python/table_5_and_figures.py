@@ -37,7 +37,7 @@ characters = cal.built_in_characters()
 page = cal.lay_out([characters[code] for code in TEXT], cal.PageLayout(width=0.22, height=0.06))[0]
 options = cal.SessionOptions(
     device=profile,
-    renderer=cal.RendererOptions.for_device(profile.capabilities),
+    renderer=cal.RendererOptions.for_device(profile),
     skill=cal.WriterSkill.novice(),
     seed=3,
 )

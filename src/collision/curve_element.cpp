@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "binomial.hpp"
+#include "length.hpp"
 #include "slope_cells.hpp"
 
 namespace calligraphy {
@@ -197,7 +198,7 @@ CurveElement prepare_curve(std::span<const Point> control_points) noexcept {
     low = low.cwiseMin(point);
     high = high.cwiseMax(point);
   }
-  curve.size = std::hypot(high.x() - low.x(), high.y() - low.y());
+  curve.size = length(high - low);
   curve.per_size = 1.0 / curve.size;
 
   const auto n = static_cast<std::size_t>(curve.degree);

@@ -6,10 +6,11 @@
 #include <limits>
 #include <sstream>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 
 #include "approximate_nearest_point.hpp"
 #include "certified_nearest_point.hpp"
+#include "length.hpp"
 
 namespace calligraphy {
 namespace {
@@ -34,8 +35,7 @@ constexpr double furthest_query = 1e100;
   }
   if (!is_point) foot.parameter = std::clamp(line.direction.dot(from_start) / line.length, range.begin, range.end);
   foot.point = line.point(foot.parameter);
-  const Point offset = query - foot.point;
-  foot.distance = std::hypot(offset.x(), offset.y());
+  foot.distance = length(query - foot.point);
   foot.status = NearestPointStatus::certified;
   return foot;
 }

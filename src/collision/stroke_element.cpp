@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "length.hpp"
+
 namespace calligraphy {
 namespace {
 
@@ -26,7 +28,7 @@ LineElement prepare_line(const Point& start, const Point& end) noexcept {
   LineElement line;
   line.origin = start;
   line.edge = end - start;
-  line.length = std::hypot(line.edge.x(), line.edge.y());
+  line.length = length(line.edge);
   if (line.length > 0.0) line.direction = line.edge / line.length;
   return line;
 }

@@ -1,10 +1,5 @@
 #include <calligraphy/devices/device_state.hpp>
 
-#include <cmath>
-#include <sstream>
-
-#include <calligraphy/error.hpp>
-
 namespace calligraphy {
 
 const char* status_name(DeviceStatus status) noexcept {
@@ -73,26 +68,6 @@ const char* fault_name(DeviceFault fault) noexcept {
       return "device error";
   }
   return "unknown";
-}
-
-void validate(const Capabilities& capabilities) {
-  const auto check = [&capabilities](const char* name, double value, bool may_be_infinite = false) {
-    if (value >= 0.0 && (may_be_infinite || std::isfinite(value))) return;
-    std::ostringstream message;
-    message << "capabilities of \"" << capabilities.model << "\": " << name << " is " << value << ", must be at least 0"
-            << (may_be_infinite ? "" : " and finite");
-    throw ValueError(message.str());
-  };
-  for (const double extent : capabilities.workspace) check("workspace", extent);
-  check("peak force", capabilities.peak_force, true);
-  check("continuous force", capabilities.continuous_force, true);
-  check("usable stiffness", capabilities.usable_stiffness, true);
-  check("resolution", capabilities.resolution);
-  check("update rate", capabilities.update_rate);
-  check("apparent mass", capabilities.apparent_mass);
-  check("viscous friction", capabilities.viscous_friction);
-  check("Coulomb friction", capabilities.coulomb_friction);
-  check("sample delay", capabilities.sample_delay);
 }
 
 }  // namespace calligraphy

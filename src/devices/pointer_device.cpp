@@ -4,7 +4,7 @@
 #include <cmath>
 #include <sstream>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 
 namespace calligraphy {
 namespace {
@@ -37,9 +37,9 @@ constexpr int most_attempts = 8;
 
 }  // namespace
 
-PointerDevice::PointerDevice(const DeviceProfile& profile, const Hand& hand, const PointerOptions& options)
+PointerDevice::PointerDevice(const Capabilities& device, const Hand& hand, const PointerOptions& options)
     : options_(checked(options)),
-      device_(profile, hand, options.paper * Eigen::Vector3d(0.0, 0.0, options.hover_height)),
+      device_(device, hand, options.paper * Eigen::Vector3d(0.0, 0.0, options.hover_height)),
       target_(0.0, 0.0, options.hover_height),
       between_(target_),
       meant_(target_) {

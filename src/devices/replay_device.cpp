@@ -3,8 +3,8 @@
 #include <sstream>
 #include <utility>
 
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/replay_device.hpp>
-#include <calligraphy/error.hpp>
 
 namespace calligraphy {
 namespace {

@@ -7,8 +7,8 @@
 #include <sstream>
 #include <utility>
 
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/flush_denormals.hpp>
-#include <calligraphy/error.hpp>
 
 namespace calligraphy {
 namespace {

@@ -5,7 +5,7 @@
 #include <thread>
 #include <utility>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 
 namespace calligraphy {
 namespace {
@@ -41,13 +41,14 @@ std::vector<std::string> ServoLoop::start() {
   clock_ = device_.clock();
   const bool own = clock_ == nullptr;
   if (own) clock_ = &thread_;
+  running_ = true;  // before the first tick, whose law may ask
   try {
     clock_->start([this](double now) { servo_.step(now); });
   } catch (...) {
+    running_ = false;
     watchdog_.stop();
     throw;
   }
-  running_ = true;
   std::vector<std::string> warnings = watchdog_.warnings();
   const auto add = [&warnings](const std::vector<std::string>& more) {  // each but once, whoever says it
     for (const std::string& warning : more) {
@@ -60,9 +61,13 @@ std::vector<std::string> ServoLoop::start() {
 }
 
 void ServoLoop::stop() noexcept {
+  if (servo_.in_law()) {
+    // This thread cannot wait for itself. Whether start() has returned does not matter: the release is kept.
+    servo_.release();
+    return;
+  }
   if (!running_) return;
   servo_.release();
-  if (servo_.in_law()) return;  // this thread cannot wait for itself
   // A clock that stands still would never let the force fall: the watchdog does, and the wait is bounded.
   constexpr int longest_wait = 500;  // [ms]
   for (int i = 0; i < longest_wait && servo_.status().phase != ServoPhase::zero; ++i) {

@@ -7,7 +7,7 @@
 #include <system_error>
 #include <utility>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 
 #include "real_time_thread.hpp"
 

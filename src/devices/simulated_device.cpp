@@ -2,8 +2,8 @@
 #include <limits>
 #include <sstream>
 
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
-#include <calligraphy/error.hpp>
 
 #include "axis_motion.hpp"
 
@@ -22,22 +22,18 @@ void require_not_negative(const std::string& name, double value) {
   if (!(std::isfinite(value) && value >= 0.0)) refuse(name, value, "finite and at least 0");
 }
 
-const DeviceProfile& checked(const DeviceProfile& profile) {
-  const std::string of_profile = "device profile \"" + profile.name + "\": ";
-  if (!(std::isfinite(profile.mass) && profile.mass > 0.0)) {
-    refuse(of_profile + "mass", profile.mass, "finite and above 0");
+const Capabilities& checked(const Capabilities& device) {
+  validate(device);
+  require_translations(device, "the simulation");
+  const std::string of_device = "device \"" + device_label(device) + "\": ";
+  if (!(device.apparent_mass > 0.0)) {
+    refuse(of_device + "apparent mass", device.apparent_mass, "above 0: a mass that is not known cannot be simulated");
   }
-  require_not_negative(of_profile + "viscous friction", profile.viscous_friction);
-  require_not_negative(of_profile + "Coulomb friction", profile.coulomb_friction);
-  require_not_negative(of_profile + "encoder step", profile.encoder_step);
-  if (profile.delay < 0 || profile.delay > longest_delay) {
-    refuse(of_profile + "delay", profile.delay, "from 0 to 100000 ticks");
+  if (device.sample_delay > longest_delay) {
+    refuse(of_device + "sample delay", device.sample_delay, "from 0 to 100000 ticks");
   }
-  if (!(profile.capabilities.peak_force > 0.0)) {
-    refuse(of_profile + "peak force", profile.capabilities.peak_force, "above 0");
-  }
-  validate(profile.capabilities);
-  return profile;
+  if (!(device.peak_force > 0.0)) refuse(of_device + "peak force", device.peak_force, "above 0");
+  return device;
 }
 
 const Hand& checked(const Hand& hand) {
@@ -66,10 +62,10 @@ Eigen::Vector3d shortened(const Eigen::Vector3d& force, double limit) noexcept {
 
 }  // namespace
 
-SimulatedDevice::SimulatedDevice(const DeviceProfile& profile, const Hand& hand, const Eigen::Vector3d& position)
-    : profile_(checked(profile)), hand_(checked(hand)), position_(checked(position)) {
+SimulatedDevice::SimulatedDevice(const Capabilities& device, const Hand& hand, const Eigen::Vector3d& position)
+    : device_(checked(device)), hand_(checked(hand)), position_(checked(position)) {
   intention_.position = position;  // a hand that is told nothing holds still
-  samples_.assign(static_cast<std::size_t>(profile_.delay) + 1, sample());
+  samples_.assign(static_cast<std::size_t>(device_.sample_delay) + 1, sample());
 }
 
 DeviceState SimulatedDevice::read() noexcept {
@@ -82,7 +78,7 @@ DeviceState SimulatedDevice::read() noexcept {
 void SimulatedDevice::write(const Eigen::Vector3d& force) noexcept {
   if (!open_) return;
   force_.setZero();
-  if (force.allFinite()) force_ = shortened(force, profile_.capabilities.peak_force);
+  if (force.allFinite()) force_ = shortened(force, device_.peak_force);
 }
 
 void SimulatedDevice::close() noexcept {
@@ -98,14 +94,15 @@ void SimulatedDevice::set_intention(const Intention& intention) noexcept {
 
 void SimulatedDevice::advance(double seconds) noexcept {
   if (!(std::isfinite(seconds) && seconds > 0.0)) return;
-  const Oscillator oscillator(profile_.mass + hand_.mass, profile_.viscous_friction + hand_.damping, hand_.stiffness);
+  const Oscillator oscillator(device_.apparent_mass + hand_.mass, device_.viscous_friction + hand_.damping,
+                              hand_.stiffness);
   const ImpulseResponse whole_step = oscillator.impulse_response(seconds);
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     AxisLoad load;
     load.force = force_[axis] + hand_.damping * intention_.velocity[axis];
     load.target = intention_.position[axis];
     load.target_velocity = intention_.velocity[axis];
-    load.dry_friction = profile_.coulomb_friction;
+    load.dry_friction = device_.coulomb_friction;
     const AxisState state = move_axis(oscillator, whole_step, {position_[axis], velocity_[axis]}, load, seconds);
     // Only figures near the largest double come here unrepresentable; the axis then stays where it was, at rest.
     const bool representable = std::isfinite(state.position) && std::isfinite(state.velocity);
@@ -123,9 +120,9 @@ DeviceState SimulatedDevice::sample() const noexcept {
   DeviceState state;
   state.time = time_;
   state.position = position_;
-  if (profile_.encoder_step > 0.0) {
+  if (device_.encoder_step > 0.0) {
     for (double& coordinate : state.position) {
-      coordinate = std::round(coordinate / profile_.encoder_step) * profile_.encoder_step;
+      coordinate = std::round(coordinate / device_.encoder_step) * device_.encoder_step;
     }
   }
   state.velocity = velocity_;

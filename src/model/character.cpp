@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <numbers>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/model/bezier.hpp>
 
 namespace calligraphy {

@@ -10,8 +10,8 @@
 #include <system_error>
 #include <utility>
 
-#include <calligraphy/error.hpp>
-#include <calligraphy/model/text.hpp>
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/base/text.hpp>
 
 #include "built_in.hpp"
 #include "order_name.hpp"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/model/set_encoding.hpp>
 
 #include "set_file.hpp"

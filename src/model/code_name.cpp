@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include <calligraphy/model/text.hpp>
+#include <calligraphy/base/text.hpp>
 
 namespace calligraphy {
 

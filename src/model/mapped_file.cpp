@@ -5,7 +5,7 @@
 #include <limits>
 #include <system_error>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 
 #if __has_include(<sys/mman.h>)
 

@@ -5,7 +5,7 @@
 
 #include <utf8.h>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 
 namespace calligraphy {
 namespace {

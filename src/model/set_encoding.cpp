@@ -11,8 +11,8 @@
 #include <span>
 #include <string>
 
-#include <calligraphy/error.hpp>
-#include <calligraphy/model/text.hpp>
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/base/text.hpp>
 
 #include "checksum.hpp"
 #include "code_name.hpp"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include <calligraphy/error.hpp>
-#include <calligraphy/model/text.hpp>
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/base/text.hpp>
 
 #include "checksum.hpp"
 #include "little_endian.hpp"

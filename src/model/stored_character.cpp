@@ -2,7 +2,7 @@
 #include <bit>
 #include <cmath>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/model/character_set.hpp>
 
 #include "code_name.hpp"

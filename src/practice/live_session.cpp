@@ -6,8 +6,8 @@
 #include <cmath>
 #include <thread>
 
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/sample_queue.hpp>
-#include <calligraphy/error.hpp>
 
 #include "session_tick.hpp"
 

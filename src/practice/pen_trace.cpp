@@ -11,9 +11,9 @@
 #include <system_error>
 #include <type_traits>
 
-#include <calligraphy/error.hpp>
-#include <calligraphy/model/text.hpp>
-#include <calligraphy/practice/file.hpp>
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/base/file.hpp>
+#include <calligraphy/base/text.hpp>
 
 namespace calligraphy {
 namespace {

@@ -10,8 +10,8 @@
 #include <string>
 #include <system_error>
 
-#include <calligraphy/error.hpp>
-#include <calligraphy/practice/file.hpp>
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/base/file.hpp>
 
 namespace calligraphy {
 namespace {

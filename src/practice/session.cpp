@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/flush_denormals.hpp>
-#include <calligraphy/error.hpp>
 #include <calligraphy/practice/trace_hand.hpp>
 
 #include "session_tick.hpp"
@@ -38,7 +38,7 @@ Recording run_session(const Page& page, const SessionOptions& options, const Pen
                      " s, must be finite and above 0");
   }
   const MotionMapping mapping = upright_page(page.width, page.height);
-  HapticRenderer renderer(page.characters, mapping, options.device.capabilities, options.renderer);
+  HapticRenderer renderer(page.characters, mapping, options.device, options.renderer);
   SimulatedDevice device(options.device, options.skill.hand, mapping.to_device(resting_point(page)));
 
   const FlushDenormals as_a_servo_thread;

@@ -7,7 +7,7 @@
 #include <limits>
 #include <optional>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 
 #include "assignment.hpp"
 #include "resemblance.hpp"

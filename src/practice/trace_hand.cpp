@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 
 #include "minimum_jerk.hpp"
 #include "pen_lift.hpp"

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <string>
 
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/collision/nearest_point.hpp>
-#include <calligraphy/error.hpp>
 
 #include "minimum_jerk.hpp"
 #include "pen_lift.hpp"
@@ -22,19 +22,9 @@ constexpr double notice_time = 0.5;        // on the paper without a green trace
 constexpr double wandering_time = 1.0;     // after which drift is forgotten [s]
 constexpr int most_attempts = 10;
 
-/// A generator of its own for each question, so that no answer depends on how many were asked before.
-std::mt19937_64 generator(std::uint64_t seed, int character, int stroke, int attempt) {
-  std::seed_seq sequence{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32),
-                         static_cast<std::uint32_t>(character), static_cast<std::uint32_t>(stroke),
-                         static_cast<std::uint32_t>(attempt)};
-  return std::mt19937_64(sequence);
-}
-
-double normal(std::mt19937_64& random) { return std::normal_distribution<double>()(random); }
-double uniform(std::mt19937_64& random) { return std::uniform_real_distribution<double>()(random); }
-Point normal_point(std::mt19937_64& random) {
-  const double x = normal(random);
-  return {x, normal(random)};
+Point normal_point(Random& random) {
+  const double x = random.normal();
+  return {x, random.normal()};
 }
 
 void require(const char* name, double value, double least, double most) {
@@ -250,22 +240,23 @@ void SimulatedWriter::plan_attempt() {
   const double em = placed.placement.em;
   const double misbelief = std::pow(0.5, attempt_);
 
-  std::mt19937_64 of_character = generator(seed_, character_, -1, -1);
+  // A sequence of its own for each question, so that no answer depends on how many were asked before.
+  Random of_character(seed_, {character_});
   const Point offset = skill_.offset * em * normal_point(of_character);
-  const double scale = skill_.scale * normal(of_character);
-  const double tilt = misbelief * skill_.tilt * normal(of_character);
-  const double direction = 2.0 * std::numbers::pi * uniform(of_character);
+  const double scale = skill_.scale * of_character.normal();
+  const double tilt = misbelief * skill_.tilt * of_character.normal();
+  const double direction = 2.0 * std::numbers::pi * of_character.next();
   const Point bias = skill_.bias * em * Point(std::cos(direction), std::sin(direction));
-  std::mt19937_64 of_stroke = generator(seed_, character_, stroke_, -1);
+  Random of_stroke(seed_, {character_, stroke_});
   const Point shape = skill_.shape * em * normal_point(of_stroke);
   belief_ = {placed.placement.to_page(Point(0.5, 0.5)), misbelief * (offset + bias + shape), 1.0 + misbelief * scale,
              std::cos(tilt), std::sin(tilt)};
 
-  random_ = generator(seed_, character_, stroke_, attempt_);
+  random_ = Random(seed_, {character_, stroke_, attempt_});
   aim_error_ = misbelief * skill_.aim * em * normal_point(random_);
-  for (double& phase : tremor_phases_) phase = 2.0 * std::numbers::pi * uniform(random_);
+  for (double& phase : tremor_phases_) phase = 2.0 * std::numbers::pi * random_.next();
   const int later = placed.character.stroke_count() - stroke_ - 1;
-  const double order_draw = uniform(random_), direction_draw = uniform(random_), which = uniform(random_);
+  const double order_draw = random_.next(), direction_draw = random_.next(), which = random_.next();
   const bool out_of_order = attempt_ == 0 && later > 0 && order_draw < skill_.wrong_order;
   const bool backwards = attempt_ == 0 && !out_of_order && direction_draw < skill_.wrong_direction;
   plan_elements(out_of_order ? stroke_ + 1 + static_cast<int>(which * later) : stroke_, backwards);

@@ -36,7 +36,7 @@ Vector jerk_limited(const Vector& way, const Vector& last, double longest, doubl
 }  // namespace
 
 double ForceLimiter::max_step() const noexcept {
-  return limit_rate ? std::hypot(in_plane_step, normal_step) : no_limit;
+  return limit_rate ? Eigen::Vector2d(in_plane_step, normal_step).norm() : no_limit;
 }
 
 Eigen::Vector3d ForceLimiter::next(const Eigen::Vector3d& previous, const Eigen::Vector3d& target,

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/render/stiffness_advice.hpp>
 
 namespace calligraphy {
@@ -57,7 +57,7 @@ PassivityController passivity_controller(const RendererOptions& options, const C
   PassivityOptions passivity;
   passivity.delay = capabilities.sample_delay;
   if (options.passivity_control) {
-    passivity.max_damping = injectable_damping(sampled_loop(capabilities, options.servo_rate)) / (scale * scale);
+    passivity.max_damping = injectable_damping({capabilities, options.servo_rate}) / (scale * scale);
   }
   passivity.energy_budget = options.energy_budget;
   if (options.limit_force_rate) {
@@ -87,6 +87,7 @@ HapticRenderer::HapticRenderer(std::vector<PlacedCharacter> page, const MotionMa
     clipped_ = clip_stiffness(options_, capabilities, largest_attraction, mapping.scale);
   }
   validate(options_, capabilities, largest_attraction, mapping.scale);
+  require_translations(capabilities, "the renderer");
   if (!(capabilities.peak_force > 0.0)) {
     throw ValueError("peak force of the device = " + std::to_string(capabilities.peak_force) + " N");
   }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <sstream>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 
 namespace calligraphy {
 namespace {

@@ -6,7 +6,7 @@
 #include <sstream>
 #include <string>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/render/passivity_controller.hpp>
 #include <calligraphy/render/stiffness_advice.hpp>
 
@@ -48,6 +48,9 @@ StiffnessLimit usable_stiffness(const Capabilities& capabilities) {
   return {capabilities.usable_stiffness, reason.str()};
 }
 
+/// In single precision: the last bits, in which one libm differs from another, reach no force.
+double without_last_bits(double stiffness) { return static_cast<float>(stiffness); }
+
 /// A pen that meets the paper calls for a change of force of K times its speed v; a limiter that gives less, or comes
 /// up to it too slowly for the swing of mass and spring, lags behind and throws the pen back, ever on. Found by
 /// simulation (docs/stability.md): no such swing where K v <= rate, and where K v / jerk, the time to come up to it, is
@@ -60,7 +63,7 @@ StiffnessLimit followed_stiffness(const RendererOptions& options, const Capabili
   const double mass = capabilities.apparent_mass + options.softest_grip.mass;
   const double by_rate = options.normal_force_rate / meeting_speed;
   const double by_jerk = std::pow(0.4 * options.force_jerk * std::sqrt(mass) / meeting_speed, 2.0 / 3.0);
-  const double followed = std::min(by_rate, by_jerk);
+  const double followed = without_last_bits(std::min(by_rate, by_jerk));
   std::ostringstream reason;
   reason << ": with normal_force_rate = " << options.normal_force_rate << " N/s and force_jerk = " << options.force_jerk
          << " N/s^2 the force follows a pen of " << meeting_speed << " m/s up to " << followed << " N/m";
@@ -69,7 +72,8 @@ StiffnessLimit followed_stiffness(const RendererOptions& options, const Capabili
 
 StiffnessLimit stable_stiffness(const RendererOptions& options, const Capabilities& capabilities) {
   if (!(capabilities.apparent_mass > 0.0)) return {std::numeric_limits<double>::infinity(), ""};
-  const double critical = critical_stiffness(sampled_loop(capabilities, options.servo_rate, options.softest_grip));
+  const double critical =
+      without_last_bits(critical_stiffness({capabilities, options.servo_rate, options.softest_grip}));
   std::ostringstream reason;
   reason << "held in the softest grip at " << options.servo_rate << " Hz the device " << capabilities.model
          << " is stable below " << critical << " N/m (critical_stiffness), nine tenths of which is "
@@ -128,7 +132,9 @@ std::vector<std::string> clip_stiffness(RendererOptions& options, const Capabili
   require("servo_rate", options.servo_rate, Bound::above_zero, 1e6);
   require("largest_attraction", largest_attraction, Bound::from_zero);
   require("scale", scale, Bound::above_zero);
-  StiffnessLimit usable = usable_stiffness(capabilities), stable = stable_stiffness(options, capabilities);
+  const Capabilities unknown;  // states no limit
+  const Capabilities& known = options.stiffness_check == StiffnessCheck::none ? unknown : capabilities;
+  StiffnessLimit usable = usable_stiffness(known), stable = stable_stiffness(options, known);
   if (scale != 1.0) {
     // Motion appears enlarged and so does force: the device feels K K_S^2.
     std::ostringstream enlarged;
@@ -151,7 +157,7 @@ std::vector<std::string> clip_stiffness(RendererOptions& options, const Capabili
   std::ostringstream attraction;
   if (largest_attraction != 1.0) attraction << " times the largest attraction factor " << largest_attraction;
   clip("paper_stiffness", options.paper_stiffness, limit.value, limit.reason);
-  const StiffnessLimit followed = followed_stiffness(options, capabilities);
+  const StiffnessLimit followed = followed_stiffness(options, known);
   clip("paper_stiffness", options.paper_stiffness, followed.value / (scale * scale), followed.reason);
   clip("guidance_stiffness", options.guidance_stiffness, limit.value / largest_attraction,
        attraction.str() + limit.reason);

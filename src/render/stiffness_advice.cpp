@@ -10,7 +10,7 @@
 #include <sstream>
 #include <vector>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/render/passivity_controller.hpp>
 
 namespace calligraphy {
@@ -68,13 +68,13 @@ Motion motion_over_a_period(double damping, double stiffness) {
 /// The loop in units of T and of the whole mass: stiffness counts in m / T^2, damping in m / T.
 class Loop {
  public:
-  explicit Loop(const SampledLoop& loop) : delay_(loop.delay) {
-    const double mass = loop.mass + loop.grip.mass;
+  explicit Loop(const SampledLoop& loop) : delay_(loop.device.sample_delay) {
+    const double mass = loop.device.apparent_mass + loop.grip.mass;
     const double period = 1.0 / loop.rate;
     unit_ = mass / (period * period);
     wall_damping_ = loop.wall_damping * period / mass;
-    const Motion motion =
-        motion_over_a_period((loop.damping + loop.grip.damping) * period / mass, loop.grip.stiffness / unit_);
+    const Motion motion = motion_over_a_period((loop.device.viscous_friction + loop.grip.damping) * period / mass,
+                                               loop.grip.stiffness / unit_);
     // G = (force w + rest) / (w^2 + drag w + spring) with w = z - 1, which keeps its figures where z is near 1.
     const double slowing = motion.damping * motion.speed + motion.stiffness * motion.force;
     force_ = motion.force;
@@ -151,12 +151,12 @@ double first_crossing(int delay, Gain gain) {
 }
 
 StiffnessBound passive_bound(const SampledLoop& loop) {
-  const double spare = std::max(0.0, loop.damping - loop.wall_damping);
-  const char* of_delay = loop.delay == 0 ? "exact (Colgate & Brown 1994)"
+  const double spare = std::max(0.0, loop.device.viscous_friction - loop.wall_damping);
+  const char* of_delay = loop.device.sample_delay == 0 ? "exact (Colgate & Brown 1994)"
                          : loop.wall_damping == 0.0
                              ? "exact for B = 0 (derived from the condition of Colgate & Schenkel 1997)"
                              : "sufficient with both delay and B, not necessary";
-  return {2.0 * spare * loop.rate / (2.0 * loop.delay + 1.0), "b > K T (2 d + 1) / 2 + |B|",
+  return {2.0 * spare * loop.rate / (2.0 * loop.device.sample_delay + 1.0), "b > K T (2 d + 1) / 2 + |B|",
           std::string(of_delay) +
               ", for a rigid device in any passive hand: the grip's damping is not counted; does not see the encoder's "
               "steps, flexible links or saturation"};
@@ -164,8 +164,8 @@ StiffnessBound passive_bound(const SampledLoop& loop) {
 
 StiffnessBound quantised_bound(const SampledLoop& loop, double passive) {
   double value = passive;
-  if (loop.encoder_step > 0.0) {
-    const double left = loop.coulomb_friction / loop.encoder_step - loop.wall_damping * loop.rate;
+  if (loop.device.encoder_step > 0.0) {
+    const double left = loop.device.coulomb_friction / loop.device.encoder_step - loop.wall_damping * loop.rate;
     value = std::min(value, std::max(0.0, 2.0 * left));
   }
   return {
@@ -175,54 +175,43 @@ StiffnessBound quantised_bound(const SampledLoop& loop, double passive) {
 }
 
 StiffnessBound approximate_bound(const SampledLoop& loop) {
-  const double damping = loop.damping + loop.grip.damping + loop.wall_damping;
+  const double damping = loop.device.viscous_friction + loop.grip.damping + loop.wall_damping;
   return {
-      damping * loop.rate / (0.5 + loop.delay), "K < (b + b_grip + B) / (T / 2 + d T)",
+      damping * loop.rate / (0.5 + loop.device.sample_delay), "K < (b + b_grip + B) / (T / 2 + d T)",
       "Gil et al. 2009: good only for small B, where the loop is much faster than the motion; twice too high at B = "
       "30 N s/m and 1 kHz"};
 }
 
 }  // namespace
 
-SampledLoop sampled_loop(const Capabilities& capabilities, double rate, const Hand& grip) {
-  SampledLoop loop;
-  loop.rate = rate;
-  loop.mass = capabilities.apparent_mass;
-  loop.damping = capabilities.viscous_friction;
-  loop.coulomb_friction = capabilities.coulomb_friction;
-  loop.encoder_step = capabilities.resolution;
-  loop.delay = capabilities.sample_delay;
-  loop.grip = grip;
-  validate(loop);
-  return loop;
-}
-
 void validate(const SampledLoop& loop) {
   require("rate", loop.rate, "Hz", 1.0, fastest_rate);
-  require("mass", loop.mass, "kg", 1e-9);
-  require("damping", loop.damping, "N s/m", 0.0);
-  require("coulomb_friction", loop.coulomb_friction, "N", 0.0);
-  require("encoder_step", loop.encoder_step, "m", 0.0);
+  require("device.apparent_mass", loop.device.apparent_mass, "kg", 1e-9);
+  require("device.viscous_friction", loop.device.viscous_friction, "N s/m", 0.0);
+  require("device.coulomb_friction", loop.device.coulomb_friction, "N", 0.0);
+  require("device.encoder_step", loop.device.encoder_step, "m", 0.0);
   require("wall_damping", loop.wall_damping, "N s/m", 0.0);
   require("grip.mass", loop.grip.mass, "kg", 0.0);
   require("grip.damping", loop.grip.damping, "N s/m", 0.0);
   require("grip.stiffness", loop.grip.stiffness, "N/m", 0.0);
-  if (loop.delay < 0 || loop.delay > longest_delay) {
-    throw ValueError("delay = " + std::to_string(loop.delay) + " ticks: expected from 0 to " +
-                     std::to_string(longest_delay));
+  if (loop.device.sample_delay < 0 || loop.device.sample_delay > longest_delay) {
+    throw ValueError("device.sample_delay = " + std::to_string(loop.device.sample_delay) +
+                     " ticks: expected from 0 to " + std::to_string(longest_delay));
   }
 }
 
 double critical_stiffness(const SampledLoop& sampled) {
   validate(sampled);
-  const bool damped = sampled.damping + sampled.grip.damping > 0.0;
+  const bool damped = sampled.device.viscous_friction + sampled.grip.damping > 0.0;
   if (!damped && (sampled.wall_damping == 0.0 || sampled.grip.stiffness > 0.0)) return 0.0;
   // Under a soft wall a damped motion stays damped, unless the wall's own damping is too much for the rate. From there
   // on it stays so until a root comes to the circle.
   const Loop loop(sampled);
   const auto damping_at = [&](double angle) { return loop.wall_damping_at(angle); };
-  if (loop.wall_damping() > 0.0 && loop.wall_damping() >= first_crossing(sampled.delay, damping_at)) return 0.0;
-  const double first = first_crossing(sampled.delay, [&](double angle) { return loop.stiffness_at(angle); });
+  if (loop.wall_damping() > 0.0 && loop.wall_damping() >= first_crossing(sampled.device.sample_delay, damping_at))
+    return 0.0;
+  const double first =
+      first_crossing(sampled.device.sample_delay, [&](double angle) { return loop.stiffness_at(angle); });
   // The stiffest wall is never stable. That none is found says that the damping is lost among the rounding errors.
   return std::isfinite(first) ? first * loop.unit() : 0.0;
 }
@@ -243,10 +232,12 @@ StiffnessAdvice advise_stiffness(const SampledLoop& loop) {
 
 double injectable_damping(const SampledLoop& loop) {
   validate(loop);
-  double damping = PassivityController::usable_damping(loop.mass, 1.0 / loop.rate, loop.delay) - loop.wall_damping;
-  if (loop.encoder_step > 0.0) {
-    const double held = loop.coulomb_friction > 0.0 ? loop.coulomb_friction : presumed_friction;
-    damping = std::min(damping, held / (loop.encoder_step * loop.rate));
+  double damping =
+      PassivityController::usable_damping(loop.device.apparent_mass, 1.0 / loop.rate, loop.device.sample_delay) -
+      loop.wall_damping;
+  if (loop.device.encoder_step > 0.0) {
+    const double held = loop.device.coulomb_friction > 0.0 ? loop.device.coulomb_friction : presumed_friction;
+    damping = std::min(damping, held / (loop.device.encoder_step * loop.rate));
   }
   return std::max(0.0, damping);
 }

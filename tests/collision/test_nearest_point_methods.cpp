@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/collision/stroke_tracker.hpp>
-#include <calligraphy/error.hpp>
 
 #include "../allocation_counter.hpp"
 #include "../hard_cases.hpp"

@@ -1,10 +1,11 @@
 // The closed forms below the simulated device, from any state: the device itself starts at rest.
 #include <algorithm>
 #include <cmath>
-#include <random>
 
-#include "../../src/devices/axis_motion.hpp"
+#include <calligraphy/base/random.hpp>
+
 #include "../catch.hpp"
+#include "devices/axis_motion.hpp"
 
 using namespace calligraphy;
 
@@ -74,10 +75,8 @@ TEST_CASE("a mass thrown at the point where spring and friction balance slows do
 }
 
 TEST_CASE("from any state one step is a thousand small ones", "[devices]") {
-  std::mt19937_64 random(20060704);
-  const auto between = [&](double low, double high) {
-    return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
-  };
+  Random random(20060704);
+  const auto between = [&](double low, double high) { return random.between(low, high); };
   int stops = 0;
   for (int run = 0; run < 3000; ++run) {
     const double mass = std::exp(between(-4.0, 1.0));

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <random>
 #include <vector>
 
+#include <calligraphy/base/random.hpp>
 #include <calligraphy/devices/duration_histogram.hpp>
 
 #include "../catch.hpp"
@@ -30,12 +30,11 @@ TEST_CASE("an empty histogram has no figures", "[servo]") {
 
 TEST_CASE("percentiles are within a 256th of the true ones at every size of duration", "[servo]") {
   const double middle = GENERATE(1e-8, 1e-6, 1e-3, 0.5, 60.0);
-  std::mt19937 random(7);
-  std::lognormal_distribution<> spread(std::log(middle), 0.7);
+  Random random(7);
   DurationHistogram histogram;
   std::vector<double> values;
   for (int i = 0; i < 20'000; ++i) {
-    const double value = std::round(std::min(spread(random), 900.0) * 1e9) * 1e-9;
+    const double value = std::round(std::min(middle * std::exp(0.7 * random.normal()), 900.0) * 1e9) * 1e-9;
     values.push_back(value);
     histogram.add(value);
   }

@@ -5,8 +5,9 @@
 #include <string>
 #include <thread>
 
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/devices/pointer_device.hpp>
-#include <calligraphy/error.hpp>
 
 #include "../allocation_counter.hpp"
 #include "../catch.hpp"

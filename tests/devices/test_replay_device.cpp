@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/replay_device.hpp>
-#include <calligraphy/error.hpp>
 
 #include "../allocation_counter.hpp"
 #include "../catch.hpp"

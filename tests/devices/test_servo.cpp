@@ -1,15 +1,16 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <random>
 #include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/base/random.hpp>
+#include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/devices/servo.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
-#include <calligraphy/error.hpp>
 
 #include "../allocation_counter.hpp"
 #include "../catch.hpp"
@@ -635,19 +636,19 @@ TEST_CASE("a servo takes nothing from the heap, whatever goes wrong", "[servo]")
 TEST_CASE("whatever goes wrong, the force stays finite, never leaps up and is zero in time", "[servo]") {
   const unsigned seed = GENERATE(range(1u, 9u));
   Bench bench;
-  std::mt19937 random(seed);
-  const auto chance = [&](double share) { return std::uniform_real_distribution<>(0.0, 1.0)(random) < share; };
+  Random random(seed);
+  const auto chance = [&](double share) { return random.next() < share; };
   int bad_law = 0;  // ticks left
   bench.law = [&](const DeviceState& state) -> Eigen::Vector3d {
     CHECK(state.position.allFinite());
     if (bad_law > 0) {
-      switch (random() % 4) {
+      switch (random.index(4)) {
         case 0:
           throw std::runtime_error("bad");
         case 1:
           return Eigen::Vector3d::Constant(not_a_number);
         case 2:
-          bench.wait(static_cast<int>(random() % 40));
+          bench.wait(static_cast<int>(random.index(40)));
           break;
         default:
           break;
@@ -659,14 +660,14 @@ TEST_CASE("whatever goes wrong, the force stays finite, never leaps up and is ze
   double unusable_since = infinity;
   const double before = 0.0;
   for (int tick = 0; tick < 20'000; ++tick) {
-    if (chance(0.004)) bad_device = 1 + static_cast<int>(random() % 40);
-    if (chance(0.002)) bad_law = 1 + static_cast<int>(random() % 20);
+    if (chance(0.004)) bad_device = 1 + static_cast<int>(random.index(40));
+    if (chance(0.002)) bad_law = 1 + static_cast<int>(random.index(20));
     bench.device.state = {};
     if (bad_device-- > 0) {
-      bench.device.state.status = static_cast<DeviceStatus>(random() % 6);
+      bench.device.state.status = static_cast<DeviceStatus>(random.index(6));
       if (chance(0.1)) bench.device.state.position.x() = not_a_number;
     }
-    if (chance(0.002)) bench.wait(static_cast<int>(random() % 40));
+    if (chance(0.002)) bench.wait(static_cast<int>(random.index(40)));
     bench.tick();
     --bad_law;
     const DeviceStatus status = bench.device.state.status;
@@ -691,12 +692,12 @@ TEST_CASE("whatever goes wrong, the force stays finite, never leaps up and is ze
 TEST_CASE("at whatever moment of a tick the watchdog looks, the device has one owner", "[servo]") {
   const unsigned seed = GENERATE(range(1u, 5u));
   Bench bench;
-  std::mt19937 random(seed);
+  Random random(seed);
   bool looking = false;
   const auto look_in = [&] {
     if (looking) return;  // the watchdog's own writes come here too
     looking = true;
-    const int milliseconds = random() % 4 == 0 ? static_cast<int>(random() % 30) : 0;
+    const int milliseconds = random.index(4) == 0 ? static_cast<int>(random.index(30)) : 0;
     bench.wait(milliseconds);
     looking = false;
   };

@@ -6,8 +6,8 @@
 #include <thread>
 #include <vector>
 
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/servo_loop.hpp>
-#include <calligraphy/error.hpp>
 
 #include "../catch.hpp"
 #include "watched_device.hpp"
@@ -49,11 +49,13 @@ class SteppedClock final : public ServoClock {
   void start(std::function<void(double)> tick) override {
     if (refuses) throw DeviceError("no clock today");
     tick_ = std::move(tick);
+    for (int i = 0; i < ticks_at_start; ++i) tick_(1e-3 * i);
   }
   void stop() noexcept override { tick_ = nullptr; }
   bool running() const noexcept override { return tick_ != nullptr; }
   void tick(double now) { tick_(now); }
   bool refuses = false;
+  int ticks_at_start = 0;  ///< before start() returns
 
  private:
   std::function<void(double)> tick_;
@@ -253,6 +255,59 @@ TEST_CASE("a loop that is stopped from within its own law lets the force fall, a
   CHECK(!loop.running());
   CHECK(asked == 20);
   CHECK(device.last() == 0.0);
+}
+
+TEST_CASE("a law that stops its loop before start() has returned is heard", "[servo]") {
+  DeviceWithClock device;
+  device.own_clock.ticks_at_start = 3;
+  ServoLoop* itself = nullptr;
+  int asked = 0;
+  bool was_running = false;
+  ServoLoop loop(
+      device,
+      [&](const DeviceState& state) {
+        ++asked;
+        was_running = itself->running();
+        itself->stop();
+        return push(state);
+      },
+      patient());
+  itself = &loop;
+  loop.start();
+  CHECK(asked == 1);
+  CHECK(was_running);
+  CHECK(loop.running());  // until it is stopped from outside
+  for (int i = 3; i < 20; ++i) device.own_clock.tick(1e-3 * i);
+  CHECK(asked == 1);
+  CHECK(loop.status().phase == ServoPhase::zero);
+  CHECK(device.inner.last() == 0.0);
+  loop.stop();
+  CHECK_FALSE(loop.running());
+}
+
+TEST_CASE("a law that stops its loop in its first call is heard however the threads run", "[servo]") {
+  for (int run = 0; run < 50; ++run) {
+    WatchedDevice device;
+    std::atomic<ServoLoop*> itself = nullptr;
+    std::atomic<int> asked = 0;
+    ServoLoopOptions options = patient();
+    options.servo.rate = 10'000.0;
+    ServoLoop loop(
+        device,
+        [&](const DeviceState& state) {
+          ++asked;
+          itself.load()->stop();
+          return push(state);
+        },
+        options);
+    itself = &loop;
+    loop.start();
+    REQUIRE(comes([&] { return loop.statistics().ticks >= 5; }));
+    REQUIRE(asked == 1);
+    REQUIRE(comes([&] { return loop.status().phase == ServoPhase::zero; }));
+    loop.stop();
+    REQUIRE(device.last() == 0.0);
+  }
 }
 
 TEST_CASE("two loops run two devices at once", "[servo]") {

@@ -5,8 +5,9 @@
 #include <string>
 #include <vector>
 
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
-#include <calligraphy/error.hpp>
 
 #include "../allocation_counter.hpp"
 #include "../catch.hpp"
@@ -19,9 +20,9 @@ namespace {
 using calligraphy_test::infinity;
 using calligraphy_test::not_a_number;
 
-DeviceProfile point_mass(double mass, double viscous_friction = 0.0, double coulomb_friction = 0.0) {
-  DeviceProfile profile = device_profile("ideal");
-  profile.mass = mass;
+Capabilities point_mass(double mass, double viscous_friction = 0.0, double coulomb_friction = 0.0) {
+  Capabilities profile = device_profile("ideal");
+  profile.apparent_mass = mass;
   profile.viscous_friction = viscous_friction;
   profile.coulomb_friction = coulomb_friction;
   return profile;
@@ -29,7 +30,7 @@ DeviceProfile point_mass(double mass, double viscous_friction = 0.0, double coul
 
 Hand spring(double stiffness, double damping = 0.0) { return {0.0, damping, stiffness}; }
 
-SimulatedDevice at_x(const DeviceProfile& profile, const Hand& hand, double x) {
+SimulatedDevice at_x(const Capabilities& profile, const Hand& hand, double x) {
   SimulatedDevice device(profile, hand, {x, 0.0, 0.0});
   device.set_intention({});
   return device;
@@ -77,7 +78,7 @@ Motion textbook(double mass, double damping, double stiffness, Motion start, dou
   return {static_cast<double>(x), static_cast<double>(v)};
 }
 
-std::string error_of(const DeviceProfile& profile, const Hand& hand = {0.0, 0.0, 0.0},
+std::string error_of(const Capabilities& profile, const Hand& hand = {0.0, 0.0, 0.0},
                      const Eigen::Vector3d& position = Eigen::Vector3d::Zero()) {
   try {
     SimulatedDevice device(profile, hand, position);
@@ -391,8 +392,8 @@ struct Wall {
 
 /// Whether a bilateral wall of this stiffness feeds an oscillation, by comparing early and late swings of 20 s.
 bool grows(const Wall& wall, double stiffness) {
-  DeviceProfile profile = point_mass(0.045, wall.friction);
-  profile.delay = wall.delay;
+  Capabilities profile = point_mass(0.045, wall.friction);
+  profile.sample_delay = wall.delay;
   SimulatedDevice device = at_x(profile, wall.hand, 1e-3);
   const int ticks = static_cast<int>(20.0 / wall.period);
   double previous = 1e-3;
@@ -443,14 +444,14 @@ TEST_CASE("a sampled wall turns unstable at the stiffness that theory gives", "[
 // ---- what the encoder and the amplifier do
 
 TEST_CASE("a delayed device tells what was true that many ticks ago", "[devices]") {
-  DeviceProfile profile = point_mass(0.045);
-  profile.delay = GENERATE(0, 1, 2, 5);
+  Capabilities profile = point_mass(0.045);
+  profile.sample_delay = GENERATE(0, 1, 2, 5);
   SimulatedDevice device(profile);
   device.write({0.3, 0.0, 0.0});
   std::vector<Eigen::Vector3d> positions{device.true_position()};
   std::vector<Eigen::Vector3d> velocities{device.true_velocity()};
   for (int tick = 0; tick < 20; ++tick) {
-    const int expected = std::max(0, tick - profile.delay);
+    const int expected = std::max(0, tick - profile.sample_delay);
     const DeviceState state = device.read();
     REQUIRE(same_bits(state.position, positions[static_cast<std::size_t>(expected)]));
     REQUIRE(same_bits(state.velocity, velocities[static_cast<std::size_t>(expected)]));
@@ -465,7 +466,7 @@ TEST_CASE("a delayed device tells what was true that many ticks ago", "[devices]
 }
 
 TEST_CASE("the encoder rounds what is read to its nearest step and leaves the motion alone", "[devices]") {
-  DeviceProfile rough = point_mass(0.045);
+  Capabilities rough = point_mass(0.045);
   rough.encoder_step = 55e-6;
   SimulatedDevice device(rough, {0.0, 0.0, 0.0}, {26e-6, 28e-6, -28e-6});
   SimulatedDevice exact(point_mass(0.045), {0.0, 0.0, 0.0}, {26e-6, 28e-6, -28e-6});
@@ -629,8 +630,8 @@ TEST_CASE("two devices at once do not touch each other", "[devices]") {
 }
 
 TEST_CASE("reading, writing and advancing take nothing from the heap", "[devices]") {
-  DeviceProfile profile = device_profile("omni");
-  profile.delay = 3;
+  Capabilities profile = device_profile("omni");
+  profile.sample_delay = 3;
   SimulatedDevice device(profile, {0.1, 3.0, 300.0});
   const std::size_t control = calligraphy_test::allocations();
   ::operator delete(::operator new(1));  // the counter counts; a new expression could be optimised away
@@ -659,40 +660,39 @@ TEST_CASE("the shipped profiles carry the figures of their sources", "[devices]"
                            Row{"touch", 3.3, 400.0, 0.88, 0.055, {160.0, 120.0, 70.0}, 0.26, 0.045},
                            Row{"desktop", 7.9, 1000.0, 1.75, 0.023, {160.0, 120.0, 120.0}, 0.06, 0.045},
                            Row{"premium-1.5", 8.5, 800.0, 1.4, 0.03, {381.0, 267.0, 191.0}, 0.04, 0.075});
-  const DeviceProfile& profile = device_profile(row.name);
+  const Capabilities& profile = device_profile(row.name);
   CAPTURE(row.name);
-  CHECK(profile.capabilities.peak_force == row.peak);
-  CHECK(profile.capabilities.usable_stiffness == row.stiffness);
-  CHECK(profile.capabilities.continuous_force == row.continuous);
-  CHECK(profile.capabilities.resolution == Approx(row.resolution_mm * 1e-3));
-  CHECK(profile.capabilities.workspace.isApprox(row.workspace_mm * 1e-3));
-  CHECK(profile.capabilities.update_rate == 1000.0);
-  CHECK(profile.encoder_step == profile.capabilities.resolution);
+  CHECK(profile.peak_force == row.peak);
+  CHECK(profile.usable_stiffness == row.stiffness);
+  CHECK(profile.continuous_force == row.continuous);
+  CHECK(profile.encoder_step == Approx(row.resolution_mm * 1e-3));
+  CHECK(profile.workspace.isApprox(row.workspace_mm * 1e-3));
+  CHECK(profile.update_rate == 1000.0);
   CHECK(profile.coulomb_friction == row.coulomb);
-  CHECK(profile.mass == row.mass);
+  CHECK(profile.apparent_mass == row.mass);
   CHECK(profile.viscous_friction >= 0.05);
   CHECK(profile.viscous_friction <= 0.5);
-  CHECK(profile.delay == 0);
+  CHECK(profile.sample_delay == 0);
 }
 
 TEST_CASE("the ideal profile adds nothing to a point mass", "[devices]") {
-  const DeviceProfile& profile = device_profile("ideal");
+  const Capabilities& profile = device_profile("ideal");
   CHECK(profile.viscous_friction == 0.0);
   CHECK(profile.coulomb_friction == 0.0);
   CHECK(profile.encoder_step == 0.0);
-  CHECK(profile.delay == 0);
-  CHECK(profile.capabilities.peak_force == infinity);
+  CHECK(profile.sample_delay == 0);
+  CHECK(profile.peak_force == infinity);
 }
 
 TEST_CASE("every shipped profile opens a device under its own name", "[devices]") {
   std::vector<std::string> names;
-  for (const DeviceProfile& profile : device_profiles()) {
+  for (const Capabilities& profile : device_profiles()) {
     CAPTURE(profile.name);
     CHECK(std::count(names.begin(), names.end(), profile.name) == 0);
     names.push_back(profile.name);
     SimulatedDevice device(device_profile(profile.name), {0.1, 3.0, 300.0});
-    CHECK(device.capabilities().model == profile.capabilities.model);
-    CHECK(!profile.capabilities.model.empty());
+    CHECK(device.capabilities().model == profile.model);
+    CHECK(!profile.model.empty());
     CHECK(device.read().status == DeviceStatus::ok);
   }
   CHECK(names == std::vector<std::string>{"omni", "touch", "desktop", "premium-1.5", "ideal"});
@@ -711,45 +711,37 @@ TEST_CASE("an unknown profile is refused with the names there are", "[devices]")
 
 TEST_CASE("a profile or hand that is not physical is refused with the name and the value", "[devices]") {
   const auto profile_error = [](auto&& change) {
-    DeviceProfile profile = device_profile("omni");
+    Capabilities profile = device_profile("omni");
     change(profile);
     return error_of(profile);
   };
   for (const double bad : {0.0, -0.5, infinity, not_a_number}) {
-    CHECK(contains(profile_error([&](DeviceProfile& p) { p.mass = bad; }), "mass"));
+    CHECK(contains(profile_error([&](Capabilities& p) { p.apparent_mass = bad; }), "apparent mass"));
   }
   for (const double bad : {-0.5, infinity, not_a_number}) {
-    CHECK(contains(profile_error([&](DeviceProfile& p) { p.viscous_friction = bad; }), "viscous friction"));
-    CHECK(contains(profile_error([&](DeviceProfile& p) { p.coulomb_friction = bad; }), "Coulomb friction"));
-    CHECK(contains(profile_error([&](DeviceProfile& p) { p.encoder_step = bad; }), "encoder step"));
+    CHECK(contains(profile_error([&](Capabilities& p) { p.viscous_friction = bad; }), "viscous friction"));
+    CHECK(contains(profile_error([&](Capabilities& p) { p.coulomb_friction = bad; }), "Coulomb friction"));
+    CHECK(contains(profile_error([&](Capabilities& p) { p.encoder_step = bad; }), "encoder step"));
     CHECK(contains(error_of(device_profile("omni"), {bad, 1.0, 1.0}), "mass of the hand"));
     CHECK(contains(error_of(device_profile("omni"), {1.0, bad, 1.0}), "damping of the hand"));
     CHECK(contains(error_of(device_profile("omni"), {1.0, 1.0, bad}), "stiffness of the hand"));
   }
   for (const double bad : {0.0, -1.0, not_a_number}) {
-    CHECK(contains(profile_error([&](DeviceProfile& p) { p.capabilities.peak_force = bad; }), "peak force"));
+    CHECK(contains(profile_error([&](Capabilities& p) { p.peak_force = bad; }), "peak force"));
   }
   for (const double bad : {-1.0, not_a_number}) {
-    CHECK(contains(profile_error([&](DeviceProfile& p) { p.capabilities.workspace.y() = bad; }), "workspace is"));
-    CHECK(
-        contains(profile_error([&](DeviceProfile& p) { p.capabilities.continuous_force = bad; }), "continuous force"));
-    CHECK(
-        contains(profile_error([&](DeviceProfile& p) { p.capabilities.usable_stiffness = bad; }), "usable stiffness"));
-    CHECK(contains(profile_error([&](DeviceProfile& p) { p.capabilities.resolution = bad; }), "resolution"));
-    CHECK(contains(profile_error([&](DeviceProfile& p) { p.capabilities.update_rate = bad; }), "update rate"));
-    CHECK(contains(profile_error([&](DeviceProfile& p) { p.capabilities.apparent_mass = bad; }), "apparent mass"));
-    CHECK(
-        contains(profile_error([&](DeviceProfile& p) { p.capabilities.viscous_friction = bad; }), "viscous friction"));
-    CHECK(
-        contains(profile_error([&](DeviceProfile& p) { p.capabilities.coulomb_friction = bad; }), "Coulomb friction"));
+    CHECK(contains(profile_error([&](Capabilities& p) { p.workspace.y() = bad; }), "workspace is"));
+    CHECK(contains(profile_error([&](Capabilities& p) { p.continuous_force = bad; }), "continuous force"));
+    CHECK(contains(profile_error([&](Capabilities& p) { p.usable_stiffness = bad; }), "usable stiffness"));
+    CHECK(contains(profile_error([&](Capabilities& p) { p.update_rate = bad; }), "update rate"));
   }
-  CHECK(contains(profile_error([](DeviceProfile& p) { p.capabilities.sample_delay = -1; }), "sample delay is -1"));
-  CHECK(profile_error([](DeviceProfile& p) { p.capabilities.usable_stiffness = infinity; }).empty());
+  CHECK(contains(profile_error([](Capabilities& p) { p.sample_delay = -1; }), "sample delay is -1"));
+  CHECK(profile_error([](Capabilities& p) { p.usable_stiffness = infinity; }).empty());
   for (const int bad : {-1, 100'001}) {
-    CHECK(contains(profile_error([&](DeviceProfile& p) { p.delay = bad; }), "delay is " + std::to_string(bad)));
+    CHECK(contains(profile_error([&](Capabilities& p) { p.sample_delay = bad; }), "delay is " + std::to_string(bad)));
   }
   CHECK(contains(error_of(device_profile("omni"), {0.0, 0.0, 0.0}, {0.0, infinity, 0.0}), "position"));
-  CHECK(contains(profile_error([](DeviceProfile& p) { p.mass = -0.5; }), "\"omni\": mass is -0.5"));
+  CHECK(contains(profile_error([](Capabilities& p) { p.apparent_mass = -0.5; }), "\"omni\": apparent mass is -0.5"));
 }
 
 TEST_CASE("a hand can be changed, and a refused one leaves the old", "[devices]") {
@@ -761,4 +753,48 @@ TEST_CASE("a hand can be changed, and a refused one leaves the old", "[devices]"
   CHECK_THROWS_AS(device.set_hand({0.1, 3.0, -1.0}), ValueError);
   device.advance(100.0);
   CHECK(x_of(device) == Approx(0.01));
+}
+
+TEST_CASE("a device whose mass is not known is described, but cannot be simulated", "[devices]") {
+  Capabilities unknown = device_profile("omni");
+  unknown.apparent_mass = 0.0;
+  CHECK_NOTHROW(validate(unknown));
+  CHECK(error_of(unknown) ==
+        "device \"omni\": apparent mass is 0, must be above 0: a mass that is not known cannot be simulated");
+}
+
+TEST_CASE("axes that cannot be are named", "[devices]") {
+  const auto axes_error = [](const DeviceAxes& sensed, const DeviceAxes& driven) -> std::string {
+    Capabilities device = device_profile("omni");
+    device.sensed = sensed;
+    device.driven = driven;
+    try {
+      validate(device);
+    } catch (const ValueError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const DeviceAxes none{false, false, false, false}, translations, x{true, false, false, false},
+      all{true, true, true, true};
+  CHECK(axes_error(translations, translations).empty());
+  CHECK(axes_error(all, translations).empty());
+  CHECK(axes_error(translations, none).empty());  // a tablet
+  CHECK(axes_error(x, x).empty());
+  CHECK(axes_error(none, none) == "device \"omni\": sensed axes are none, must be at least one");
+  CHECK(axes_error(translations, all) ==
+        "device \"omni\": driven axes are x, y, z, rotations, sensed ones x, y, z: must be sensed too: rotations");
+  CHECK(axes_error(x, translations) ==
+        "device \"omni\": driven axes are x, y, z, sensed ones x: must be sensed too: y, z");
+}
+
+TEST_CASE("the simulation is of three translations that are sensed and driven, without an orientation", "[devices]") {
+  Capabilities knob = device_profile("omni");
+  knob.sensed = knob.driven = {true, false, false, false};
+  CHECK(error_of(knob) ==
+        "device \"omni\": sensed axes are x, driven axes are x; the simulation needs x, y and z to be sensed and "
+        "driven");
+  const DeviceState state = SimulatedDevice(device_profile("omni")).read();
+  CHECK(std::isnan(state.orientation.tilt));
+  CHECK(std::isnan(state.orientation.azimuth));
 }

@@ -14,27 +14,27 @@ std::size_t count_of(int degree) { return static_cast<std::size_t>(degree) + 1; 
 
 Point perpendicular(const Point& vector) { return {-vector.y(), vector.x()}; }
 
-double sign(NumberSequence& random) { return one_in(random, 2) ? 1.0 : -1.0; }
+double sign(RandomPoints& random) { return one_in(random, 2) ? 1.0 : -1.0; }
 
-Point on_grid(NumberSequence& random, int steps) {
+Point on_grid(RandomPoints& random, int steps) {
   const double x = static_cast<double>(random.index(static_cast<std::uint64_t>(steps) + 1)) / steps;
   return {x, static_cast<double>(random.index(static_cast<std::uint64_t>(steps) + 1)) / steps};
 }
 
-Polygon line(NumberSequence& random, int) {
+Polygon line(RandomPoints& random, int) {
   if (one_in(random, 3)) return {on_grid(random, 8), on_grid(random, 8)};
   const Point start = random.point(0.0, 1.0);
   return {start, start + magnitude(random, -3.0, 0.0) * random.direction()};
 }
 
-Polygon anywhere(NumberSequence& random, int degree) {
+Polygon anywhere(RandomPoints& random, int degree) {
   Polygon polygon(count_of(degree));
   for (Point& point : polygon) point = random.point(0.0, 1.0);
   return polygon;
 }
 
 /// As strokes are: handles of similar length, each turned a little from the last.
-Polygon gentle(NumberSequence& random, int degree) {
+Polygon gentle(RandomPoints& random, int degree) {
   Polygon polygon = {random.point(0.0, 1.0)};
   double heading = random.between(0.0, 2.0 * std::numbers::pi);
   const double turn = random.between(0.0, 1.5);
@@ -46,7 +46,7 @@ Polygon gentle(NumberSequence& random, int degree) {
 }
 
 /// Collinear, symmetric, closed, folded and equal control points are frequent, and exact.
-Polygon snapped(NumberSequence& random, int degree) {
+Polygon snapped(RandomPoints& random, int degree) {
   constexpr int grids[] = {2, 4, 8};
   const int steps = grids[random.index(3)];
   Polygon polygon(count_of(degree));
@@ -54,7 +54,7 @@ Polygon snapped(NumberSequence& random, int degree) {
   return polygon;
 }
 
-Polygon equal_control_points(NumberSequence& random, int degree) {
+Polygon equal_control_points(RandomPoints& random, int degree) {
   Polygon polygon = one_in(random, 3) ? snapped(random, degree) : anywhere(random, degree);
   const double apart = slight(random);
   for (std::size_t i = 1; i < polygon.size(); ++i) {
@@ -64,7 +64,7 @@ Polygon equal_control_points(NumberSequence& random, int degree) {
 }
 
 /// End handles of length 0 or 1e-16 to 1e-1: the slope is noise at the ends.
-Polygon short_handles(NumberSequence& random, int degree) {
+Polygon short_handles(RandomPoints& random, int degree) {
   Polygon polygon = anywhere(random, degree);
   const bool exact = one_in(random, 3);
   const double length = exact ? 0.0 : magnitude(random, -16.0, -1.0);
@@ -73,7 +73,7 @@ Polygon short_handles(NumberSequence& random, int degree) {
   return polygon;
 }
 
-Polygon long_handles(NumberSequence& random, int degree) {
+Polygon long_handles(RandomPoints& random, int degree) {
   Polygon polygon = anywhere(random, degree);
   const double length = magnitude(random, 0.0, 5.0);
   polygon[1] = polygon[0] + length * random.direction();
@@ -81,7 +81,7 @@ Polygon long_handles(NumberSequence& random, int degree) {
   return polygon;
 }
 
-Polygon collinear(NumberSequence& random, int degree) {
+Polygon collinear(RandomPoints& random, int degree) {
   const Point start = random.point(-1.0, 1.0);
   const Point along = one_in(random, 3) ? Point(1.0, 0.0) : one_in(random, 2) ? Point(1.0, 0.5) : random.direction();
   const double bow = slight(random);
@@ -96,7 +96,7 @@ Polygon collinear(NumberSequence& random, int degree) {
   return polygon;
 }
 
-Polygon evenly_spaced(NumberSequence& random, int degree) {
+Polygon evenly_spaced(RandomPoints& random, int degree) {
   const double bow = one_in(random, 4) ? 0.0 : magnitude(random, -17.0, -1.0);
   Polygon polygon;
   for (int i = 0; i <= degree; ++i) {
@@ -106,7 +106,7 @@ Polygon evenly_spaced(NumberSequence& random, int degree) {
 }
 
 /// Its own image in the axis x = 0 or, when turned by half a turn, in the origin; or nearly.
-Polygon symmetric(NumberSequence& random, int degree) {
+Polygon symmetric(RandomPoints& random, int degree) {
   const bool grid = one_in(random, 2), turned = one_in(random, 3);
   const double broken = one_in(random, 3) ? slight(random) : 0.0;
   Polygon polygon(count_of(degree));
@@ -121,7 +121,7 @@ Polygon symmetric(NumberSequence& random, int degree) {
   return polygon;
 }
 
-Polygon closed(NumberSequence& random, int degree) {
+Polygon closed(RandomPoints& random, int degree) {
   Polygon polygon = one_in(random, 2) ? anywhere(random, degree) : snapped(random, degree);
   polygon.back() = polygon.front() + slight(random) * random.in_disc();
   if (one_in(random, 4)) {  // there and back over the same points
@@ -131,7 +131,7 @@ Polygon closed(NumberSequence& random, int degree) {
 }
 
 /// B' = (t - t0) V(t): the speed vanishes within, or nearly.
-Polygon cusp(NumberSequence& random, int degree) {
+Polygon cusp(RandomPoints& random, int degree) {
   const double t0 = one_in(random, 3) ? 0.5 : random.between(0.05, 0.95);
   std::vector<Point> v(static_cast<std::size_t>(degree) - 1);  // Bernstein ordinates of V, of degree n - 2
   for (Point& point : v) point = random.direction();
@@ -149,7 +149,7 @@ Polygon cusp(NumberSequence& random, int degree) {
 }
 
 /// A loop: the handles cross.
-Polygon loop(NumberSequence& random, int degree) {
+Polygon loop(RandomPoints& random, int degree) {
   Polygon polygon = {{0.0, 0.0}};
   for (int i = 1; i < degree; ++i) {
     const double share = static_cast<double>(i - 1) / std::max(1, degree - 2);
@@ -162,7 +162,7 @@ Polygon loop(NumberSequence& random, int degree) {
 }
 
 /// There and back, a narrow way apart.
-Polygon hairpin(NumberSequence& random, int degree) {
+Polygon hairpin(RandomPoints& random, int degree) {
   const double width = magnitude(random, -16.0, -1.0);
   Polygon polygon;
   for (int i = 0; i <= degree; ++i) {
@@ -173,7 +173,7 @@ Polygon hairpin(NumberSequence& random, int degree) {
 }
 
 /// The usual Bezier curves of circular arcs round the origin.
-Polygon arc(NumberSequence& random, int degree) {
+Polygon arc(RandomPoints& random, int degree) {
   const double angle = one_in(random, 2) ? random.between(0.05, 3.0) : magnitude(random, -3.0, 0.0);
   const double first = one_in(random, 3) ? 0.0 : random.between(0.0, 6.3);
   const auto at = [&](double a) { return Point(std::cos(first + a), std::sin(first + a)); };
@@ -187,7 +187,7 @@ Polygon arc(NumberSequence& random, int degree) {
 }
 
 /// A curve of a lower degree written with this one, so that the leading coefficient is rounding noise.
-Polygon raised(NumberSequence& random, int degree) {
+Polygon raised(RandomPoints& random, int degree) {
   const int lower = 1 + static_cast<int>(random.index(static_cast<std::uint64_t>(degree) - 1));
   Polygon polygon = one_in(random, 2) ? snapped(random, lower) : anywhere(random, lower);
   for (int n = lower; n < degree; ++n) {
@@ -206,7 +206,7 @@ Polygon raised(NumberSequence& random, int degree) {
 }
 
 /// Flat where it begins or ends: all but the last control points lie within 1e-8 to 1e-1.
-Polygon crowded(NumberSequence& random, int degree) {
+Polygon crowded(RandomPoints& random, int degree) {
   const double within = magnitude(random, -8.0, -1.0);
   Polygon polygon(count_of(degree));
   for (Point& point : polygon) point = within * random.in_disc();
@@ -239,13 +239,13 @@ constexpr CurveFamily hostile_families[] = {
 
 std::span<const CurveFamily> curve_families() { return hostile_families; }
 
-double magnitude(NumberSequence& random, double low, double high) { return std::pow(10.0, random.between(low, high)); }
+double magnitude(RandomPoints& random, double low, double high) { return std::pow(10.0, random.between(low, high)); }
 
-double slight(NumberSequence& random) { return one_in(random, 2) ? 0.0 : magnitude(random, -16.0, -4.0); }
+double slight(RandomPoints& random) { return one_in(random, 2) ? 0.0 : magnitude(random, -16.0, -4.0); }
 
-bool one_in(NumberSequence& random, int count) { return random.index(static_cast<std::uint64_t>(count)) == 0; }
+bool one_in(RandomPoints& random, int count) { return random.index(static_cast<std::uint64_t>(count)) == 0; }
 
-Place::Place(NumberSequence& random) {
+Place::Place(RandomPoints& random) {
   if (!one_in(random, 3)) return;
   const bool exact = one_in(random, 2);
   if (!one_in(random, 3)) {

@@ -7,33 +7,33 @@
 
 #include <calligraphy/model/point.hpp>
 
-#include "practice/number_sequence.hpp"
+#include "model/random_points.hpp"
 
 namespace calligraphy_test {
 
-using calligraphy::NumberSequence;
+using calligraphy::RandomPoints;
 using calligraphy::Point;
 
 struct CurveFamily {
   const char* name;
   /// Control points of a curve of the degree (2 to 4; a family may take another), about as large as the unit square.
-  std::vector<Point> (*draw)(NumberSequence&, int degree);
+  std::vector<Point> (*draw)(RandomPoints&, int degree);
 };
 
 std::span<const CurveFamily> curve_families();
 
 /// 10^x with x between `low` and `high`.
-double magnitude(NumberSequence& random, double low, double high);
+double magnitude(RandomPoints& random, double low, double high);
 /// Nothing in one case of two, else 1e-16 to 1e-4.
-double slight(NumberSequence& random);
+double slight(RandomPoints& random);
 /// True in one case of `count`.
-bool one_in(NumberSequence& random, int count);
+bool one_in(RandomPoints& random, int count);
 
 /// Where a curve stands: mostly as it is; else scaled by 1e-12 to 1e8, turned, moved by up to 1e8 sizes; by powers of
 /// two and by representable numbers in one case of two, so that exact ties stay ties.
 class Place {
  public:
-  explicit Place(NumberSequence& random);
+  explicit Place(RandomPoints& random);
   Point operator()(const Point& point) const;
 
  private:

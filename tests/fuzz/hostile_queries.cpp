@@ -44,7 +44,7 @@ double size_of_box(Points points) {
   return size > 0.0 ? size : 1.0;
 }
 
-Point in_box(NumberSequence& random, Points points) {
+Point in_box(RandomPoints& random, Points points) {
   Point low = points[0], high = points[0];
   for (const Point& point : points) {
     low = low.cwiseMin(point);
@@ -55,7 +55,7 @@ Point in_box(NumberSequence& random, Points points) {
   return (low - Point(margin, margin)) + share.cwiseProduct(high - low + 2.0 * Point(margin, margin));
 }
 
-double parameter(NumberSequence& random) {
+double parameter(RandomPoints& random) {
   switch (random.index(6)) {
     case 0:
       return 0.0;
@@ -68,20 +68,20 @@ double parameter(NumberSequence& random) {
   }
 }
 
-Point near(NumberSequence& random, Points points) {
+Point near(RandomPoints& random, Points points) {
   return jet(points, random.next()).point + magnitude(random, -15.0, 0.0) * size_of_box(points) * random.direction();
 }
 
-Point on_curve(NumberSequence& random, Points points) { return jet(points, parameter(random)).point; }
+Point on_curve(RandomPoints& random, Points points) { return jet(points, parameter(random)).point; }
 
-Point at_control_points(NumberSequence& random, Points points) {
+Point at_control_points(RandomPoints& random, Points points) {
   const Point& a = points[random.index(points.size())];
   const Point& b = points[random.index(points.size())];
   return one_in(random, 2) ? a : Point(0.5 * (a + b));
 }
 
 /// Where the slope of the squared distance vanishes at an end, or is noise there.
-Point on_end_normal(NumberSequence& random, Points points) {
+Point on_end_normal(RandomPoints& random, Points points) {
   const bool at_start = one_in(random, 2);
   const Point end = at_start ? points.front() : points.back();
   const std::size_t which = 1 + random.index(points.size() - 1);
@@ -92,7 +92,7 @@ Point on_end_normal(NumberSequence& random, Points points) {
 }
 
 /// On the straight line on which a handle lies.
-Point on_handle(NumberSequence& random, Points points) {
+Point on_handle(RandomPoints& random, Points points) {
   const std::size_t i = random.index(points.size() - 1);
   const double share =
       one_in(random, 2) ? static_cast<double>(random.index(17)) / 8.0 - 0.5 : random.between(-2.0, 3.0);
@@ -100,7 +100,7 @@ Point on_handle(NumberSequence& random, Points points) {
 }
 
 /// Two or three feet are one there.
-Point at_centre_of_curvature(NumberSequence& random, Points points) {
+Point at_centre_of_curvature(RandomPoints& random, Points points) {
   const double size = size_of_box(points);
   for (int attempt = 0; attempt < 8; ++attempt) {
     const Jet at = jet(points, parameter(random));
@@ -115,7 +115,7 @@ Point at_centre_of_curvature(NumberSequence& random, Points points) {
 }
 
 /// On the grid that snapped control points lie on, or on the axis of those that are symmetric.
-Point on_grid(NumberSequence& random, Points) {
+Point on_grid(RandomPoints& random, Points) {
   const auto step = [&] { return static_cast<double>(random.index(65)) / 16.0 - 2.0; };
   if (one_in(random, 3)) return {slight(random), one_in(random, 2) ? step() : random.between(-2.0, 2.0)};
   const double x = step();
@@ -123,27 +123,27 @@ Point on_grid(NumberSequence& random, Points) {
 }
 
 /// The centre of arcs, and of curves that are their own image when turned.
-Point at_origin(NumberSequence& random, Points) { return slight(random) * random.in_disc(); }
+Point at_origin(RandomPoints& random, Points) { return slight(random) * random.in_disc(); }
 
-Point far(NumberSequence& random, Points points) {
+Point far(RandomPoints& random, Points points) {
   const Point direction = one_in(random, 4) ? Point(0.0, 1.0) : random.direction();
   const double sizes = one_in(random, 8) ? magnitude(random, 8.0, 60.0) : magnitude(random, 0.0, 8.0);
   return points[0] + sizes * size_of_box(points) * direction;
 }
 
-constexpr Point (*kinds[])(NumberSequence&, Points) = {
+constexpr Point (*kinds[])(RandomPoints&, Points) = {
     in_box,  near,      on_curve, at_control_points, on_end_normal, on_handle, at_centre_of_curvature,
     on_grid, at_origin, far};
 
 }  // namespace
 
-Point draw_query(NumberSequence& random, Points control_points) {
+Point draw_query(RandomPoints& random, Points control_points) {
   // Most pens are near or in the box.
   if (one_in(random, 3)) return one_in(random, 2) ? in_box(random, control_points) : near(random, control_points);
   return kinds[random.index(std::size(kinds))](random, control_points);
 }
 
-Point draw_tie(NumberSequence& random, Points control_points) {
+Point draw_tie(RandomPoints& random, Points control_points) {
   const calligraphy::StrokeElement element = calligraphy::prepare_element(control_points);
   const auto foot = [&](const Point& query) { return calligraphy::nearest_point(element, query).parameter; };
   Point one = in_box(random, control_points), other = in_box(random, control_points);

@@ -7,8 +7,8 @@
 #include <iterator>
 #include <limits>
 
+#include <calligraphy/experiments/stroke_queries.hpp>
 #include <calligraphy/model/character_list.hpp>
-#include <calligraphy/practice/stroke_queries.hpp>
 
 #include "hostile_queries.hpp"
 
@@ -17,10 +17,10 @@ namespace {
 
 using Elements = std::vector<std::vector<Point>>;
 
-int draw_count(NumberSequence& random) { return 50 + static_cast<int>(random.index(700)); }
+int draw_count(RandomPoints& random) { return 50 + static_cast<int>(random.index(700)); }
 
 /// Elements of any family end to end; some apart, some over one another.
-Elements draw_elements(NumberSequence& random) {
+Elements draw_elements(RandomPoints& random) {
   Elements elements;
   const std::size_t count = 1 + random.index(5);
   const bool joined = !one_in(random, 4);
@@ -53,7 +53,7 @@ Point on(const std::vector<Point>& points, double t) {
 /// A wave of two sines.
 class Wave {
  public:
-  Wave(NumberSequence& random, double amplitude, double slowest, double fastest) {
+  Wave(RandomPoints& random, double amplitude, double slowest, double fastest) {
     for (Sine& sine : sines_) {
       sine = {amplitude * random.next(), magnitude(random, slowest, fastest), random.between(0.0, 6.3)};
     }
@@ -72,7 +72,7 @@ class Wave {
 };
 
 /// Some pens jump, or are lost for a tick.
-PenPath placed(NumberSequence& random, const Elements& elements, std::vector<Point> ticks) {
+PenPath placed(RandomPoints& random, const Elements& elements, std::vector<Point> ticks) {
   const Place place(random);
   const bool jumps = one_in(random, 3);
   PenPath path;
@@ -89,7 +89,7 @@ PenPath placed(NumberSequence& random, const Elements& elements, std::vector<Poi
 }
 
 /// Written as a person writes: the strokes of a character of the built-in set.
-PenPath real_stroke(NumberSequence& random) {
+PenPath real_stroke(RandomPoints& random) {
   const auto& characters = calligraphy::built_in_characters().characters;
   const auto& character = characters[random.index(characters.size())];
   calligraphy::StrokeQueryOptions options;
@@ -102,7 +102,7 @@ PenPath real_stroke(NumberSequence& random) {
   return {std::move(stroke.elements), std::move(stroke.path)};
 }
 
-PenPath along(NumberSequence& random) {
+PenPath along(RandomPoints& random) {
   const Elements elements = draw_elements(random);
   const int count = draw_count(random);
   const double amplitude = magnitude(random, -8.0, 0.0);
@@ -117,7 +117,7 @@ PenPath along(NumberSequence& random) {
   return placed(random, elements, ticks);
 }
 
-PenPath wandering(NumberSequence& random) {
+PenPath wandering(RandomPoints& random) {
   const Elements elements = draw_elements(random);
   const Point centre = draw_query(random, elements[random.index(elements.size())]);
   const double reach = magnitude(random, -2.0, 1.0);
@@ -128,7 +128,7 @@ PenPath wandering(NumberSequence& random) {
 }
 
 /// Straight from one hard place to another, at a steady speed.
-PenPath across(NumberSequence& random) {
+PenPath across(RandomPoints& random) {
   const Elements elements = draw_elements(random);
   const Point from = draw_query(random, elements[random.index(elements.size())]);
   const Point to = draw_query(random, elements[random.index(elements.size())]);
@@ -139,7 +139,7 @@ PenPath across(NumberSequence& random) {
 }
 
 /// A hand that holds the pen still, at a place where the nearest point is hard to tell.
-PenPath tremor(NumberSequence& random) {
+PenPath tremor(RandomPoints& random) {
   const Elements elements = draw_elements(random);
   const auto& element = elements[random.index(elements.size())];
   Point pen = one_in(random, 4) ? draw_tie(random, element) : draw_query(random, element);
@@ -153,7 +153,7 @@ PenPath tremor(NumberSequence& random) {
 }
 
 /// Ever slower towards a place where the nearest point is hard to tell, and beyond it.
-PenPath approaching(NumberSequence& random) {
+PenPath approaching(RandomPoints& random) {
   const Elements elements = draw_elements(random);
   const auto& element = elements[random.index(elements.size())];
   const Point at = one_in(random, 4) ? draw_tie(random, element) : draw_query(random, element);
@@ -170,7 +170,7 @@ PenPath approaching(NumberSequence& random) {
   return placed(random, elements, ticks);
 }
 
-PenPath jumping(NumberSequence& random) {
+PenPath jumping(RandomPoints& random) {
   const Elements elements = draw_elements(random);
   std::vector<Point> ticks;
   for (int i = draw_count(random) / 4; i > 0; --i) {
@@ -188,7 +188,7 @@ constexpr PathFamily hostile_paths[] = {
 
 std::span<const PathFamily> path_families() { return hostile_paths; }
 
-Point draw_lost_query(NumberSequence& random) {
+Point draw_lost_query(RandomPoints& random) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   constexpr double lost[] = {infinity, -infinity, std::numeric_limits<double>::quiet_NaN(), 1e200, -1e300};
   Point query = random.point(-1.0, 1.0);

@@ -16,12 +16,12 @@ struct PenPath {
 
 struct PathFamily {
   const char* name;
-  PenPath (*draw)(NumberSequence&);
+  PenPath (*draw)(RandomPoints&);
 };
 
 std::span<const PathFamily> path_families();
 
 /// Infinite, no number, or so far that squares overflow.
-Point draw_lost_query(NumberSequence& random);
+Point draw_lost_query(RandomPoints& random);
 
 }  // namespace calligraphy_test

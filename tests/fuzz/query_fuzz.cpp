@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 
 #include <calligraphy/collision/nearest_point.hpp>
+#include <calligraphy/experiments/nearest_point_workload.hpp>
 #include <calligraphy/model/character_list.hpp>
-#include <calligraphy/practice/nearest_point_workload.hpp>
 
 #include "../last_interval.hpp"
 #include "hostile_curves.hpp"
@@ -44,7 +44,7 @@ bool same_bits(const NearestPoint& a, const NearestPoint& b) {
 }
 
 /// Mostly the whole curve; else a part of it, which may be tiny or a point.
-ParameterRange draw_range(NumberSequence& random) {
+ParameterRange draw_range(RandomPoints& random) {
   if (!one_in(random, 4)) return {};
   double begin = random.next(), end = random.next();
   switch (random.index(6)) {
@@ -79,7 +79,7 @@ struct Case {
 
 class CaseRun {
  public:
-  CaseRun(const Case& asked, NumberSequence& random, std::size_t first_method_family, Tally& tally)
+  CaseRun(const Case& asked, RandomPoints& random, std::size_t first_method_family, Tally& tally)
       : case_(asked),
         random_(random),
         other_methods_(first_method_family),
@@ -207,7 +207,7 @@ class CaseRun {
   }
 
   const Case& case_;
-  NumberSequence& random_;
+  RandomPoints& random_;
   const std::size_t other_methods_;
   Tally& tally_;
   const StrokeElement element_;
@@ -216,7 +216,7 @@ class CaseRun {
   double last_start_ = 0.5;
 };
 
-Case draw_case(NumberSequence& random, std::size_t family, std::size_t first_family) {
+Case draw_case(RandomPoints& random, std::size_t family, std::size_t first_family) {
   constexpr int degrees[] = {2, 3, 3, 4};
   const int degree = degrees[random.index(std::size(degrees))];
   std::vector<Point> shape = curve_families()[family - first_family].draw(random, degree);
@@ -242,7 +242,7 @@ QueryFuzz::QueryFuzz()
 
 void QueryFuzz::run(std::uint64_t seed, std::uint64_t block, std::uint64_t limit, Tally& tally) const {
   tally.begin_block(block);
-  NumberSequence random(NumberSequence(seed).bits() ^ NumberSequence(~block).bits());
+  RandomPoints random(RandomPoints(seed).bits() ^ RandomPoints(~block).bits());
   const std::size_t methods = families_.size() - 3;
   std::uint64_t asked = 0;
   const auto ask = [&](Case next) {

@@ -120,7 +120,7 @@ TickFuzz::TickFuzz() {
 
 void TickFuzz::run(std::uint64_t seed, std::uint64_t block, std::uint64_t limit, Tally& tally) const {
   tally.begin_block(block);
-  NumberSequence random(NumberSequence(seed ^ 0x7469636B73u).bits() ^ NumberSequence(~block).bits());
+  RandomPoints random(RandomPoints(seed ^ 0x7469636B73u).bits() ^ RandomPoints(~block).bits());
   std::uint64_t asked = 0;
   for (std::uint64_t i = 0; asked < limit; ++i) {
     const std::size_t family = i % path_families().size();

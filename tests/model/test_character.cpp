@@ -6,7 +6,7 @@
 #include <numbers>
 #include <set>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/model/bezier.hpp>
 #include <calligraphy/model/character_list.hpp>
 

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <string>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/model/character_list.hpp>
 
 #include "../hard_cases.hpp"

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/model/character_set.hpp>
 #include <calligraphy/model/set_encoding.hpp>
 #include <model/checksum.hpp>

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/model/typical_stroke.hpp>
 
 using namespace calligraphy;

@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/model/character_list.hpp>
 
 #include "../special_values.hpp"

@@ -4,8 +4,9 @@
 #include <string_view>
 #include <vector>
 
+#include <calligraphy/base/text.hpp>
+#include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/model/character_list.hpp>
-#include <calligraphy/model/text.hpp>
 #include <calligraphy/practice/page.hpp>
 #include <calligraphy/practice/session.hpp>
 
@@ -25,7 +26,7 @@ inline calligraphy::SessionOptions session(const calligraphy::WriterSkill& skill
                                            std::uint64_t seed = 1) {
   calligraphy::SessionOptions options;
   options.device = calligraphy::device_profile("desktop");
-  options.renderer = calligraphy::RendererOptions::for_device(options.device.capabilities);
+  options.renderer = calligraphy::RendererOptions::for_device(options.device);
   options.skill = skill;
   options.mode = mode;
   options.seed = seed;

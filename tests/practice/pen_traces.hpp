@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <calligraphy/importers/stroke_fit.hpp>
 #include <calligraphy/model/character_set.hpp>
-#include <calligraphy/model/stroke_fit.hpp>
 #include <calligraphy/practice/pen_path.hpp>
 #include <calligraphy/practice/pen_trace.hpp>
 

@@ -42,10 +42,10 @@ struct Writing {
   RendererOptions options;
 };
 
-Writing write_beside(const DeviceProfile& profile, RendererOptions options, double offset) {
+Writing write_beside(const Capabilities& profile, RendererOptions options, double offset) {
   options.stiffness_check = StiffnessCheck::clip;
   const MotionMapping mapping = upright_page(0.08, 0.08);
-  HapticRenderer renderer({one_stroke()}, mapping, profile.capabilities, options);
+  HapticRenderer renderer({one_stroke()}, mapping, profile, options);
   const auto path = path_of(strokes(renderer.page()[0].character)[0], renderer.page()[0].placement, 0.0001);
   const Point begin = path.front() + Point(0.0, offset), end = path.back() + Point(0.0, offset);
   // Down in 0.2 s, along the stroke in 1 s, a rest of 0.8 s on the way at its middle.
@@ -104,10 +104,10 @@ double rms(const std::vector<Vector3d>& a) {
   return rms_difference(a, std::vector<Vector3d>(a.size(), Vector3d(0.0, 0.0, 0.0)));
 }
 
-void check_kept(const Writing& writing, const DeviceProfile& profile) {
+void check_kept(const Writing& writing, const Capabilities& profile) {
   CHECK(writing.finite);
   CHECK(writing.finished);
-  CHECK(writing.largest_force <= profile.capabilities.peak_force * (1.0 + 1e-12));
+  CHECK(writing.largest_force <= profile.peak_force * (1.0 + 1e-12));
   CHECK(writing.largest_step <= writing.step_limit * (1.0 + 1e-9));
 }
 
@@ -115,12 +115,12 @@ void check_kept(const Writing& writing, const DeviceProfile& profile) {
 
 TEST_CASE("the same hand is led the same way at every rate, to what a person can tell", "[practice][extremes]") {
   // The stiffness is one that every rate is stable with, so that the rate alone differs.
-  const DeviceProfile& profile = device_profile("desktop");
+  const Capabilities& profile = device_profile("desktop");
   for (const Composition& composition : compositions) {
-    RendererOptions options = composition.options(profile.capabilities);
+    RendererOptions options = composition.options(profile);
     options.servo_rate = 100.0;
     options.stiffness_check = StiffnessCheck::clip;
-    options = HapticRenderer({one_stroke()}, {}, profile.capabilities, options).options();
+    options = HapticRenderer({one_stroke()}, {}, profile, options).options();
     options.servo_rate = 20'000.0;
     const Writing reference = write_beside(profile, options, 0.003);
     for (const double rate : {100.0, 500.0, 1000.0, 4000.0, 10'000.0}) {
@@ -141,9 +141,9 @@ TEST_CASE("with delays of 0 to 5 samples the stiffness is clipped and a pen pres
   for (const std::string name : {"omni", "desktop"}) {
     for (const Composition& composition : compositions) {
       for (const int delay : {0, 1, 2, 3, 5}) {
-        DeviceProfile profile = device_profile(name);
-        profile.delay = profile.capabilities.sample_delay = delay;
-        const Writing writing = write_beside(profile, composition.options(profile.capabilities), 0.002);
+        Capabilities profile = device_profile(name);
+        profile.sample_delay = delay;
+        const Writing writing = write_beside(profile, composition.options(profile), 0.002);
         CAPTURE(name, composition.name, delay, writing.options.paper_stiffness);
         check_kept(writing, profile);
         CHECK(writing.late_swing < 2e-5);
@@ -155,9 +155,9 @@ TEST_CASE("with delays of 0 to 5 samples the stiffness is clipped and a pen pres
 TEST_CASE("at the stiffness that is let through no encoder step keeps up a swing", "[practice][extremes]") {
   for (const Composition& composition : compositions) {
     for (const double step : {1e-6, 23e-6, 55e-6, 200e-6}) {
-      DeviceProfile profile = device_profile("omni");
-      profile.encoder_step = profile.capabilities.resolution = step;
-      const Writing writing = write_beside(profile, composition.options(profile.capabilities), 0.002);
+      Capabilities profile = device_profile("omni");
+      profile.encoder_step = step;
+      const Writing writing = write_beside(profile, composition.options(profile), 0.002);
       CAPTURE(composition.name, step);
       check_kept(writing, profile);
       CHECK(writing.late_swing < std::max(5e-6, 0.1 * step));
@@ -167,7 +167,7 @@ TEST_CASE("at the stiffness that is let through no encoder step keeps up a swing
 
 TEST_CASE("every stiffness has a defined outcome: taken, clipped with its reason, or refused by name",
           "[practice][extremes]") {
-  const Capabilities& capabilities = device_profile("omni").capabilities;
+  const Capabilities& capabilities = device_profile("omni");
   for (const Composition& composition : compositions) {
     const RendererOptions base = composition.options(capabilities);
     for (double RendererOptions::*stiffness : {&RendererOptions::paper_stiffness, &RendererOptions::guidance_stiffness,
@@ -204,14 +204,14 @@ TEST_CASE("every stiffness has a defined outcome: taken, clipped with its reason
 TEST_CASE(
     "at a rate too low for the stiffness, it is clipped to nine tenths of the critical one, and the reason says so",
     "[practice][extremes]") {
-  const Capabilities& capabilities = device_profile("omni").capabilities;
+  const Capabilities& capabilities = device_profile("omni");
   RendererOptions options;
   options.servo_rate = 100.0;
   CHECK_THROWS_WITH(HapticRenderer({one_stroke()}, {}, capabilities, options),
                     Catch::Matchers::Contains("paper_stiffness = 600") && Catch::Matchers::Contains("100 Hz"));
   options.stiffness_check = StiffnessCheck::clip;
   HapticRenderer renderer({one_stroke()}, {}, capabilities, options);
-  const double critical = critical_stiffness(sampled_loop(capabilities, 100.0, options.softest_grip));
+  const double critical = critical_stiffness({capabilities, 100.0, options.softest_grip});
   CHECK(renderer.options().paper_stiffness == Approx(0.9 * critical));
   CHECK_THAT(renderer.clipped().front(), Catch::Matchers::Contains("critical_stiffness"));
 }
@@ -219,8 +219,8 @@ TEST_CASE(
 namespace {
 
 /// Swing along z of a pen that was tapped onto the paper beside the stroke and is held pressed [m].
-double swing_after_a_tap(const DeviceProfile& profile, const RendererOptions& options, const Hand& grip, double speed) {
-  HapticRenderer renderer({one_stroke()}, {}, profile.capabilities, options);
+double swing_after_a_tap(const Capabilities& profile, const RendererOptions& options, const Hand& grip, double speed) {
+  HapticRenderer renderer({one_stroke()}, {}, profile, options);
   const Eigen::AlignedBox2d box = bounding_box(renderer.page()[0]);
   const Vector3d above(box.center().x(), box.max().y() + 0.003, 0.01);
   SimulatedDevice device(profile, grip, above);
@@ -242,8 +242,8 @@ double swing_after_a_tap(const DeviceProfile& profile, const RendererOptions& op
 
 TEST_CASE("paper stiffer than the limits of the force's rate and jerk can follow is clipped, and a tap on it dies away",
           "[practice][extremes]") {
-  DeviceProfile profile = device_profile("desktop");
-  profile.capabilities.usable_stiffness = 0.0;
+  Capabilities profile = device_profile("desktop");
+  profile.usable_stiffness = 0.0;
   for (const double rate : {1000.0, 10'000.0}) {
     for (const double jerk : {1e4, 1e5, infinity}) {
       RendererOptions options;
@@ -251,7 +251,7 @@ TEST_CASE("paper stiffer than the limits of the force's rate and jerk can follow
       options.force_jerk = jerk;
       options.stiffness_check = StiffnessCheck::clip;
       options.paper_stiffness = 1e6;
-      HapticRenderer renderer({one_stroke()}, {}, profile.capabilities, options);
+      HapticRenderer renderer({one_stroke()}, {}, profile, options);
       CHECK(renderer.options().paper_stiffness <= options.normal_force_rate / 0.2);
       CHECK_THAT(renderer.clipped().back(), Catch::Matchers::Contains("normal_force_rate = 400") ||
                                                 Catch::Matchers::Contains("critical_stiffness"));
@@ -266,7 +266,7 @@ TEST_CASE("paper stiffer than the limits of the force's rate and jerk can follow
 }
 
 TEST_CASE("hard curves as strokes are refused by name or written with finite forces", "[practice][extremes]") {
-  const DeviceProfile& profile = device_profile("desktop");
+  const Capabilities& profile = device_profile("desktop");
   int written = 0;
   for (const Composition& composition : compositions) {
     for (const calligraphy_test::HardCurve& hard : calligraphy_test::hard_curves()) {
@@ -282,8 +282,8 @@ TEST_CASE("hard curves as strokes are refused by name or written with finite for
       for (const Point& point : hard.control_points) input.control_points.push_back((point - low) / size);
       CAPTURE(composition.name, hard.name);
       try {
-        HapticRenderer renderer({{make_character(U'丿', std::span(&input, 1)), {{0.02, 0.02}, 0.04}}}, {},
-                                profile.capabilities, composition.options(profile.capabilities));
+        HapticRenderer renderer({{make_character(U'丿', std::span(&input, 1)), {{0.02, 0.02}, 0.04}}}, {}, profile,
+                                composition.options(profile));
         Eigen::Vector3d last = Vector3d::Zero();
         bool finite = true, stepped = false;
         calligraphy_test::Sequence random(5);
@@ -316,7 +316,7 @@ TEST_CASE("hard curves as strokes are refused by name or written with finite for
 
 TEST_CASE("denormal places, depths and stiffnesses give finite forces, with and without flushing",
           "[practice][extremes]") {
-  const Capabilities& capabilities = device_profile("desktop").capabilities;
+  const Capabilities& capabilities = device_profile("desktop");
   for (const Composition& composition : compositions) {
     for (const bool flush : {false, true}) {
       std::unique_ptr<FlushDenormals> as_a_servo_thread;

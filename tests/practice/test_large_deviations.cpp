@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/session.hpp>
 
@@ -86,7 +87,7 @@ RendererOptions options_of(Law law, const Capabilities& capabilities) {
 Outcome write(const std::string& device, Law law, double bias) {
   SessionOptions session;
   session.device = device_profile(device);
-  session.renderer = options_of(law, session.device.capabilities);
+  session.renderer = options_of(law, session.device);
   session.skill = WriterSkill::novice();
   session.skill.bias = bias;
   Outcome outcome;
@@ -105,7 +106,7 @@ Outcome write(const std::string& device, Law law, double bias) {
 TEST_CASE("guidance for large deviations completes more strokes at once and keeps nearer to them than the linear law",
           "[practice]") {
   for (const std::string device : {"desktop", "omni"}) {
-    const Capabilities& capabilities = device_profile(device).capabilities;
+    const Capabilities& capabilities = device_profile(device);
     std::printf("%s, a novice who is off by   | strokes completed at once | RMS distance [mm]    | peak force [N]\n",
                 device.c_str());
     for (const double bias : {0.0, 0.1, 0.2, 0.3}) {

@@ -8,8 +8,9 @@
 #include <thread>
 #include <vector>
 
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
-#include <calligraphy/error.hpp>
 #include <calligraphy/practice/live_session.hpp>
 #include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/writer.hpp>
@@ -306,10 +307,10 @@ TEST_CASE("a recording that is replayed gives the same ticks again") {
   const Page page = page_of("十");
   SessionOptions options;
   options.device = device_profile("desktop");
-  options.renderer = RendererOptions::for_device(options.device.capabilities);
+  options.renderer = RendererOptions::for_device(options.device);
   options.skill = WriterSkill::novice();
   const Recording first = write_page(page, options);
-  ReplayDevice device(device_states(first, upright_page(page.width, page.height)), options.device.capabilities);
+  ReplayDevice device(device_states(first, upright_page(page.width, page.height)), options.device);
   const Recording again = replay_page(page, device, options);
   REQUIRE(again.samples.size() == first.samples.size());
   for (std::size_t i = 0; i < first.samples.size(); ++i) {

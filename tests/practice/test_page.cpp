@@ -1,6 +1,6 @@
 #include <limits>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 
 #include "../catch.hpp"
 #include "pages.hpp"

@@ -3,7 +3,7 @@
 #include <sstream>
 #include <string>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/practice/pen_trace.hpp>
 
 #include "../catch.hpp"

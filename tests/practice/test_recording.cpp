@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/replay_device.hpp>
-#include <calligraphy/error.hpp>
 #include <calligraphy/practice/recording.hpp>
 
 #include "../catch.hpp"

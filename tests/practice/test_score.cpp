@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include <calligraphy/collision/stroke_element.hpp>
+#include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/practice/score.hpp>
 
 #include "../catch.hpp"
@@ -17,7 +18,7 @@ class Pen {
   explicit Pen(const Page& page)
       : page_(page),
         mapping_(upright_page(page.width, page.height)),
-        renderer_(page.characters, mapping_, device_profile("ideal").capabilities) {
+        renderer_(page.characters, mapping_, device_profile("ideal")) {
     rest();
   }
 

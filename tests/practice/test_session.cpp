@@ -4,7 +4,8 @@
 #include <cstdlib>
 #include <vector>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/model/character_set.hpp>
 #include <calligraphy/model/set_encoding.hpp>
 #include <calligraphy/practice/score.hpp>
@@ -65,6 +66,37 @@ TEST_CASE("the same seed gives the same recording and another seed another one",
   CHECK_FALSE(same(first, write_page(page, session(WriterSkill::novice(), Mode::force, 4))));
 }
 
+TEST_CASE("what one struct says of a device's delay, the device does and the stiffness advice counts with",
+          "[practice]") {
+  Capabilities late = device_profile("desktop");
+  late.sample_delay = 15;
+  const RendererOptions advised = RendererOptions::for_device(late);
+  CHECK(std::round(advised.paper_stiffness) == 68.0);
+
+  const Page page = page_of("永");
+  const auto strokes_written = [&page](const Capabilities& device, const RendererOptions& renderer) {
+    SessionOptions options = session(WriterSkill::novice(), Mode::force);
+    options.device = device;
+    options.renderer = renderer;
+    return score(page, write_page(page, options)).front().strokes_completed;
+  };
+  CHECK(strokes_written(late, advised) == 5);
+  // With a stiffness that does not count with the delay the loop swings and nothing is written, and it is refused.
+  RendererOptions careless = RendererOptions::for_device(device_profile("desktop"));
+  CHECK(careless.paper_stiffness == 600.0);
+  CHECK_THROWS_AS(strokes_written(late, careless), ValueError);
+  careless.stiffness_check = StiffnessCheck::none;
+  CHECK(strokes_written(late, careless) == 0);
+}
+
+TEST_CASE("a device that does not drive or sense what writing needs is refused by name", "[practice]") {
+  SessionOptions options = session(WriterSkill::novice(), Mode::force);
+  options.device.driven.z = false;
+  CHECK_THROWS_WITH(write_page(page_of("永"), options),
+                    "device \"desktop\": sensed axes are x, y, z, driven axes are x, y; the renderer needs x, y and z "
+                    "to be sensed and driven");
+}
+
 TEST_CASE("both writers complete every stroke of a page on every device profile", "[practice]") {
   const bool novice = GENERATE(true, false);
   const std::string name = GENERATE("omni", "touch", "desktop", "premium-1.5", "ideal");
@@ -72,11 +104,11 @@ TEST_CASE("both writers complete every stroke of a page on every device profile"
   const Page page = page_of("马〇");
   SessionOptions options = session(novice ? WriterSkill::novice() : WriterSkill::skilled(), Mode::force);
   options.device = device_profile(name);
-  options.renderer = RendererOptions::for_device(options.device.capabilities);
+  options.renderer = RendererOptions::for_device(options.device);
   const Recording recording = write_page(page, options);
   for (const CharacterScore& character : score(page, recording)) {
     CHECK(character.strokes_completed == character.stroke_count);
-    CHECK(character.peak_force <= options.device.capabilities.peak_force);
+    CHECK(character.peak_force <= options.device.peak_force);
   }
 }
 
@@ -89,7 +121,7 @@ void check_written(const Character& character, std::uint64_t seed) {
     CAPTURE(encode_utf8(character.code), mode == Mode::force);
     const SessionOptions options = session(WriterSkill::novice(), mode, seed);
     const Recording recording = write_page(page, options);
-    const HapticRenderer renderer(page.characters, upright_page(page.width, page.height), options.device.capabilities,
+    const HapticRenderer renderer(page.characters, upright_page(page.width, page.height), options.device,
                                   options.renderer);
     const CharacterScore result = score(page, recording).front();
     CHECK(result.strokes_completed == result.stroke_count);

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/practice/stroke_verdict.hpp>
 
 #include "../catch.hpp"

@@ -3,7 +3,8 @@
 #include <string>
 #include <vector>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/session.hpp>
 #include <calligraphy/practice/stroke_verdict.hpp>
@@ -35,14 +36,14 @@ double largest_traced_step(const Recording& recording) {
 void check_bounded(const Character& character, const PenTrace& trace, const SessionOptions& options) {
   const Page page = lay_out(std::span(&character, 1)).front();
   const Recording recording = follow_trace(page, trace, options);
-  const HapticRenderer renderer(page.characters, upright_page(page.width, page.height), options.device.capabilities,
+  const HapticRenderer renderer(page.characters, upright_page(page.width, page.height), options.device,
                                 options.renderer);
   CAPTURE(encode_utf8(trace.character), trace.strokes.size());
   REQUIRE(recording.samples.size() > 100);
   CHECK(std::all_of(recording.samples.begin(), recording.samples.end(),
                     [](const Sample& sample) { return sample.status == TickStatus::ok && sample.force.allFinite(); }));
   CHECK(largest_traced_step(recording) <= renderer.max_force_step() * (1.0 + 1e-12));
-  CHECK(score(page, recording).front().peak_force <= options.device.capabilities.peak_force);
+  CHECK(score(page, recording).front().peak_force <= options.device.peak_force);
   const double written = trace.strokes.back().back().time - trace.strokes.front().front().time;
   CHECK(recording.samples.back().time > std::min(written, 1.0));
   CHECK(recording.samples.back().device_point.z() > 0.004);
@@ -191,7 +192,7 @@ TEST_CASE("pens of people hold the device without a fault, and no force or force
   const bool everything = GENERATE(false, true);
   CAPTURE(everything);
   SessionOptions options = session({}, Mode::force);
-  if (everything) options.renderer = RendererOptions::everything(options.device.capabilities);
+  if (everything) options.renderer = RendererOptions::everything(options.device);
   const auto traces = calligraphy_test::traces_of_people();
   const auto set = calligraphy_test::imported_characters();
 #if defined(__SANITIZE_ADDRESS__)
@@ -210,7 +211,7 @@ TEST_CASE("a person who writes another character than is due meets no fault and 
           "[practice][corpus]") {
   const bool everything = GENERATE(false, true);
   SessionOptions options = session({}, Mode::force);
-  if (everything) options.renderer = RendererOptions::everything(options.device.capabilities);
+  if (everything) options.renderer = RendererOptions::everything(options.device);
   const auto traces = calligraphy_test::traces_of_people();
   for (std::size_t i = 0; i < traces.size(); i += 8) {
     check_bounded(page_of("永").characters.front().character, traces[i], options);
@@ -223,7 +224,7 @@ TEST_CASE("hands that were made up meet no fault and no force step above the lim
   CAPTURE(name, everything);
   SessionOptions options = session({}, Mode::force);
   options.device = device_profile(name);
-  const Capabilities& capabilities = options.device.capabilities;
+  const Capabilities& capabilities = options.device;
   options.renderer = everything ? RendererOptions::everything(capabilities) : RendererOptions::for_device(capabilities);
   const Character eternal = page_of("永").characters.front().character;
   std::vector<PenPath> paths = copy_of(eternal);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 
 #include "../allocation_counter.hpp"
 #include "../scripted_pen.hpp"

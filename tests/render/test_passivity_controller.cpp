@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/render/force_limiter.hpp>
 #include <calligraphy/render/passivity_controller.hpp>
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 
 #include "../scripted_pen.hpp"
 #include "../special_values.hpp"
@@ -185,6 +185,37 @@ TEST_CASE("a stage that needs to know the device says what it misses", "[render]
   options = {};
   options.energy_budget = 0.1;
   CHECK(contains(complaint([&] { HapticRenderer({placed(U'永')}, {}, late, options); }), "delay = 16"));
+}
+
+TEST_CASE("a stiffness is taken as it is where no check is asked for, but for one that is no stiffness", "[render]") {
+  Capabilities device = test_device();
+  device.usable_stiffness = 100.0;
+  device.apparent_mass = 0.045;
+  RendererOptions options;
+  options.paper_stiffness = 5000.0;
+  CHECK(contains(complaint(options, device), "paper_stiffness = 5000"));
+  options.stiffness_check = StiffnessCheck::none;
+  CHECK(complaint(options, device).empty());
+  CHECK(HapticRenderer({placed(U'永')}, {}, device, options).options().paper_stiffness == 5000.0);
+  options.paper_stiffness = 2e6;
+  CHECK(contains(complaint(options, device), "paper_stiffness = 2e+06"));
+  options.paper_stiffness = -1.0;
+  CHECK(contains(complaint(options, device), "paper_stiffness = -1"));
+}
+
+TEST_CASE("a renderer needs a device that senses and drives three translations", "[render]") {
+  const auto complaint_of = [](const DeviceAxes& sensed, const DeviceAxes& driven) {
+    Capabilities device = test_device();
+    device.sensed = sensed;
+    device.driven = driven;
+    return complaint([&] { HapticRenderer({placed(U'永')}, {}, device); });
+  };
+  const DeviceAxes translations, plane{true, true, false, false}, all{true, true, true, true};
+  CHECK(complaint_of(translations, translations).empty());
+  CHECK(complaint_of(all, translations).empty());
+  CHECK(complaint_of(all, all).empty());
+  CHECK(contains(complaint_of(translations, plane), "driven axes are x, y; the renderer needs x, y and z"));
+  CHECK(contains(complaint_of(plane, plane), "sensed axes are x, y, driven axes are x, y; the renderer"));
 }
 
 TEST_CASE("everything() is valid for devices as they are shipped, and every stage is on", "[render]") {

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <string>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/render/stiffness_advice.hpp>
 
 #include "../catch.hpp"
@@ -21,8 +21,9 @@ const Hand nobody{0.0, 0.0, 0.0};
 SampledLoop loop_of(double rate, double damping, int delay = 0, double wall_damping = 0.0, const Hand& grip = nobody) {
   SampledLoop loop;
   loop.rate = rate;
-  loop.damping = damping;
-  loop.delay = delay;
+  loop.device.apparent_mass = 0.045;
+  loop.device.viscous_friction = damping;
+  loop.device.sample_delay = delay;
   loop.wall_damping = wall_damping;
   loop.grip = grip;
   return loop;
@@ -32,8 +33,8 @@ SampledLoop loop_of(double rate, double damping, int delay = 0, double wall_damp
 /// 1997, T / 2 / (1 - cos) Re((1 - 1/z) H(z)), with H(z) = (K + B (1 - 1/z) / T) z^-d.
 double needed_damping(const SampledLoop& loop, double stiffness, double angle) {
   const std::complex<double> z = std::polar(1.0, angle);
-  const std::complex<double> wall =
-      (stiffness + loop.wall_damping * loop.rate * (1.0 - 1.0 / z)) * std::polar(1.0, -angle * loop.delay);
+  const std::complex<double> wall = (stiffness + loop.wall_damping * loop.rate * (1.0 - 1.0 / z)) *
+                                    std::polar(1.0, -angle * loop.device.sample_delay);
   return ((1.0 - 1.0 / z) * wall).real() / (2.0 * loop.rate * (1.0 - std::cos(angle)));
 }
 
@@ -117,8 +118,8 @@ TEST_CASE("loops at the edge of what is accepted have a finite answer", "[stiffn
   const double wall_damping = GENERATE(0.0, 1e9);
   for (const Hand& grip : {nobody, Hand{1e9, 0.0, 0.0}, Hand{0.0, 1e9, 0.0}, Hand{0.0, 0.0, 1e9}}) {
     SampledLoop loop = loop_of(rate, damping, delay, wall_damping, grip);
-    loop.mass = mass;
-    loop.encoder_step = 1e-6;
+    loop.device.apparent_mass = mass;
+    loop.device.encoder_step = 1e-6;
     CAPTURE(rate, mass, damping, delay, wall_damping, grip.mass, grip.damping, grip.stiffness);
     const StiffnessAdvice advice = advise_stiffness(loop);
     for (const StiffnessBound& bound : {advice.passive, advice.quantised, advice.stable, advice.approximate}) {
@@ -173,8 +174,8 @@ TEST_CASE("the passive bound does not count on a hand, the stable one does", "[s
 TEST_CASE("dry friction has to hold the rounding of the encoder", "[stiffness advice]") {
   SampledLoop loop = loop_of(1000.0, 10.0);
   const auto quantised = [&](double friction, double step) {
-    loop.coulomb_friction = friction;
-    loop.encoder_step = step;
+    loop.device.coulomb_friction = friction;
+    loop.device.encoder_step = step;
     return advise_stiffness(loop).quantised.value;
   };
   CHECK(quantised(0.26, 55e-6) == Approx(9455.0).epsilon(1e-4));  // Omni
@@ -217,58 +218,39 @@ TEST_CASE("the damping that a controller may inject is bounded by mass, wall and
   CHECK(injectable_damping(loop) == 0.0);
   loop = loop_of(1000.0, 0.1, 2);
   CHECK(injectable_damping(loop) == Approx(0.9 * 0.045 * 1000.0 / 5.0));
-  loop.encoder_step = 55e-6;
+  loop.device.encoder_step = 55e-6;
   CHECK(injectable_damping(loop) == Approx(0.04 / 55e-6 / 1000.0));  // presumed
-  loop.coulomb_friction = 0.26;
+  loop.device.coulomb_friction = 0.26;
   CHECK(injectable_damping(loop) == Approx(0.26 / 55e-6 / 1000.0));
-  loop.mass = 0.0;
+  loop.device.apparent_mass = 0.0;
   CHECK_THROWS_AS(injectable_damping(loop), ValueError);
 }
 
-TEST_CASE("the loop of a device is made of what it tells", "[stiffness advice]") {
-  Capabilities capabilities;
-  capabilities.apparent_mass = 0.045;
-  capabilities.viscous_friction = 0.1;
-  capabilities.coulomb_friction = 0.26;
-  capabilities.resolution = 55e-6;
-  capabilities.sample_delay = 2;
-  const SampledLoop loop = sampled_loop(capabilities, 500.0, {0.1, 3.0, 300.0});
-  CHECK(loop.rate == 500.0);
-  CHECK(loop.mass == 0.045);
-  CHECK(loop.damping == 0.1);
-  CHECK(loop.coulomb_friction == 0.26);
-  CHECK(loop.encoder_step == 55e-6);
-  CHECK(loop.delay == 2);
-  CHECK(loop.wall_damping == 0.0);
-  CHECK(loop.grip.stiffness == 300.0);
-  capabilities.apparent_mass = 0.0;
-  CHECK_THROWS_AS(sampled_loop(capabilities, 500.0), ValueError);
-}
-
 TEST_CASE("a loop that is not physical is refused by the field's name and value", "[stiffness advice]") {
-  CHECK(error_of({}).empty());
-  const auto refused = [](double SampledLoop::*field, const char* name) {
+  CHECK(error_of(loop_of(1000.0, 0.1)).empty());
+  CHECK_THAT(error_of({}), Catch::Matchers::StartsWith("device.apparent_mass = 0 kg"));  // not known
+  const auto refused = [](auto field, const char* name) {
     for (const double bad : {-1.0, not_a_number, infinity, 2e9}) {
-      SampledLoop loop;
-      loop.*field = bad;
+      SampledLoop loop = loop_of(1000.0, 0.1);
+      field(loop) = bad;
       CAPTURE(name, bad);
       CHECK(error_of(loop).find(name) == 0);
       CHECK_THROWS_AS(critical_stiffness(loop), ValueError);
       CHECK_THROWS_AS(advise_stiffness(loop), ValueError);
     }
   };
-  refused(&SampledLoop::rate, "rate = ");
-  refused(&SampledLoop::mass, "mass = ");
-  refused(&SampledLoop::damping, "damping = ");
-  refused(&SampledLoop::coulomb_friction, "coulomb_friction = ");
-  refused(&SampledLoop::encoder_step, "encoder_step = ");
-  refused(&SampledLoop::wall_damping, "wall_damping = ");
+  refused([](SampledLoop& loop) -> double& { return loop.rate; }, "rate = ");
+  refused([](SampledLoop& loop) -> double& { return loop.device.apparent_mass; }, "device.apparent_mass = ");
+  refused([](SampledLoop& loop) -> double& { return loop.device.viscous_friction; }, "device.viscous_friction = ");
+  refused([](SampledLoop& loop) -> double& { return loop.device.coulomb_friction; }, "device.coulomb_friction = ");
+  refused([](SampledLoop& loop) -> double& { return loop.device.encoder_step; }, "device.encoder_step = ");
+  refused([](SampledLoop& loop) -> double& { return loop.wall_damping; }, "wall_damping = ");
   for (double Hand::*field : {&Hand::mass, &Hand::damping, &Hand::stiffness}) {
-    SampledLoop loop;
+    SampledLoop loop = loop_of(1000.0, 0.1);
     loop.grip.*field = -1.0;
     CHECK(error_of(loop).find("grip.") == 0);
   }
   CHECK(error_of(loop_of(0.0, 0.1)) == "rate = 0 Hz: expected from 1 to 1000000");
-  CHECK(error_of(loop_of(1000.0, 0.1, -1)) == "delay = -1 ticks: expected from 0 to 1000");
-  CHECK(error_of(loop_of(1000.0, 0.1, 1001)) == "delay = 1001 ticks: expected from 0 to 1000");
+  CHECK(error_of(loop_of(1000.0, 0.1, -1)) == "device.sample_delay = -1 ticks: expected from 0 to 1000");
+  CHECK(error_of(loop_of(1000.0, 0.1, 1001)) == "device.sample_delay = 1001 ticks: expected from 0 to 1000");
 }

@@ -47,16 +47,16 @@ RendererOptions renderer_options(const Options& options, const Capabilities& cap
 }
 
 Watched run(const Options& options) {
-  const DeviceProfile& profile = device_profile(options.device);
-  const RendererOptions chosen = renderer_options(options, profile.capabilities);
+  const Capabilities& profile = device_profile(options.device);
+  const RendererOptions chosen = renderer_options(options, profile);
   // More characters than the hand can write: restarting the page would be a new start-up budget.
   const auto characters = static_cast<int>(options.ticks / 1500 + 2);
-  HapticRenderer renderer(soak_page(characters), upright_page(0.145, 0.08), profile.capabilities, chosen);
+  HapticRenderer renderer(soak_page(characters), upright_page(0.145, 0.08), profile, chosen);
   RestlessHand hand(renderer, options.seed);
   Faults faults(options.seed + 1);
   SimulatedDevice device(profile, {0.1, 3.0, 300.0}, renderer.mapping().to_device(hand.place()));
   const double period = 1.0 / chosen.servo_rate;
-  const double peak = profile.capabilities.peak_force * (1.0 + 1e-12);
+  const double peak = profile.peak_force * (1.0 + 1e-12);
   const double step_limit = renderer.max_force_step() * (1.0 + 1e-9);
 
   tools::Progress progress;
@@ -102,7 +102,7 @@ bool kept(const char* promise, bool is_kept) {
 }
 
 int report(const Options& options, const Watched& watched) {
-  const Capabilities& capabilities = device_profile(options.device).capabilities;
+  const Capabilities& capabilities = device_profile(options.device);
   const RendererOptions chosen = renderer_options(options, capabilities);
   fmt::print("{} ticks ({:.1f} h at {} Hz), composition {}, device {}, seed {}\n", options.ticks,
              static_cast<double>(options.ticks) / chosen.servo_rate / 3600.0, chosen.servo_rate, options.composition,

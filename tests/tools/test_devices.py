@@ -7,7 +7,7 @@ from program import ProgramTest
 
 
 class Devices(ProgramTest):
-    """The list, the probe and the watch; tests/phantom/emulator has what a device may do wrong."""
+    """The list, the probe and the watch; tests/devices/phantom/emulator has what a device may do wrong."""
 
     def test_every_kind_of_device_is_told_of(self):
         text = self.run_program("devices").stdout

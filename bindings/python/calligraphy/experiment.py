@@ -66,7 +66,7 @@ class Grid:
         method: Sequence[Union[str, cal.NearestPointMethod]] = ("tracked",),
         tolerance: Sequence[float] = (1e-9,),
         seeds: Union[int, Iterable[int]] = 1,
-        device: Union[str, cal.DeviceProfile] = "desktop",
+        device: Union[str, cal.Capabilities] = "desktop",
         options: cal.RendererOptions | None = None,
         source: cal.CharacterSet | cal.CharacterList | None = None,
         longest_character: float = 120.0,
@@ -83,8 +83,8 @@ class Grid:
             self.seeds = _axis("seeds", seeds, lambda what, seed: _whole(what, seed, most=2**64 - 1))
         else:
             self.seeds = list(range(1, _whole("seeds", seeds) + 1))
-        self.device = _one("device", cal.device_profile(device) if isinstance(device, str) else device, cal.DeviceProfile)
-        usual = cal.RendererOptions.for_device(self.device.capabilities)
+        self.device = _one("device", cal.device_profile(device) if isinstance(device, str) else device, cal.Capabilities)
+        usual = cal.RendererOptions.for_device(self.device)
         self.options = usual if options is None else _one("options", options, cal.RendererOptions)
         self.longest_character = _positive("longest_character", longest_character)
 
@@ -171,8 +171,8 @@ def trial(grid: Grid, condition: Condition) -> Row:
     renderer.stroke.nearest.method = getattr(cal.NearestPointMethod, condition.method)
     renderer.stroke.nearest.tolerance = condition.tolerance
     # As the session's renderer would, which says to nobody what it made of them.
-    cal.clip_stiffness(renderer, grid.device.capabilities, max(1.0, *character.attraction_factors))
-    workspace = grid.device.capabilities.workspace
+    cal.clip_stiffness(renderer, grid.device, max(1.0, *character.attraction_factors))
+    workspace = grid.device.workspace
     page = cal.lay_out([character], cal.PageLayout(width=workspace[0], height=workspace[1]))[0]
     recording = cal.write_page(page, options)
     score = cal.score(page, recording)[0]

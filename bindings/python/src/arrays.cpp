@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 
 namespace calligraphy::python {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 
 namespace calligraphy::python {
 namespace {

@@ -7,11 +7,11 @@
 
 #include <pybind11/stl.h>
 
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/collision/active_stroke.hpp>
 #include <calligraphy/collision/nearest_point.hpp>
 #include <calligraphy/collision/placed_character.hpp>
 #include <calligraphy/collision/stroke_tracker.hpp>
-#include <calligraphy/error.hpp>
 
 #include "enumeration.hpp"
 #include "interrupt.hpp"

@@ -5,11 +5,12 @@
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/devices/pointer_device.hpp>
 #include <calligraphy/devices/replay_device.hpp>
 #include <calligraphy/devices/servo_loop.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
-#include <calligraphy/error.hpp>
 
 #include "at_work.hpp"
 #include "enumeration.hpp"
@@ -45,12 +46,13 @@ void add_states(py::module_& module) {
       .field("status", &DeviceState::status, "DeviceStatus")
       .field("fault", &DeviceState::fault, "DeviceFault: the reason, where one is known");
   Record<Capabilities>(module, "Capabilities", "What a device can do.")
+      .field("name", &Capabilities::name, "of the shipped profile that it came from")
       .field("model", &Capabilities::model, "who made it, and what")
       .field("workspace", &Capabilities::workspace, "extent along each device axis, centred on zero, (3,) [m]")
       .field("peak_force", &Capabilities::peak_force, "[N]")
       .field("continuous_force", &Capabilities::continuous_force, "[N]")
       .field("usable_stiffness", &Capabilities::usable_stiffness, "largest that users report [N/m]")
-      .field("resolution", &Capabilities::resolution, "position step; 0: not known [m]")
+      .field("encoder_step", &Capabilities::encoder_step, "of positions; 0: not known, or not rounded [m]")
       .field("update_rate", &Capabilities::update_rate, "[Hz]")
       .field("apparent_mass", &Capabilities::apparent_mass, "at the tip; 0: not known [kg]")
       .field("viscous_friction", &Capabilities::viscous_friction, "[N s/m]")
@@ -60,14 +62,6 @@ void add_states(py::module_& module) {
       .field("mass", &Hand::mass, "[kg]")
       .field("damping", &Hand::damping, "[N s/m]")
       .field("stiffness", &Hand::stiffness, "[N/m]");
-  Record<DeviceProfile>(module, "DeviceProfile", "Physics of a simulated device as a point mass.")
-      .field("name", &DeviceProfile::name, "for example desktop")
-      .field("capabilities", &DeviceProfile::capabilities, "Capabilities")
-      .field("mass", &DeviceProfile::mass, "apparent mass at the tip [kg]")
-      .field("viscous_friction", &DeviceProfile::viscous_friction, "[N s/m]")
-      .field("coulomb_friction", &DeviceProfile::coulomb_friction, "along each axis [N]")
-      .field("encoder_step", &DeviceProfile::encoder_step, "0: not rounded [m]")
-      .field("delay", &DeviceProfile::delay, "age of a sample when it is read [ticks]");
   Record<Intention>(module, "Intention", "Where the person means the pen to be.")
       .field("position", &Intention::position, "(3,) [m]")
       .field("velocity", &Intention::velocity, "(3,) [m/s]");
@@ -75,7 +69,7 @@ void add_states(py::module_& module) {
       "device_profiles",
       [] {
         const auto profiles = device_profiles();
-        return std::vector<DeviceProfile>(profiles.begin(), profiles.end());
+        return std::vector<Capabilities>(profiles.begin(), profiles.end());
       },
       "The shipped profiles: omni, touch, desktop, premium-1.5, ideal. Apparent masses are estimates.");
   module.def("device_profile", &device_profile, py::return_value_policy::copy, py::arg("name"),
@@ -109,7 +103,7 @@ void add_devices_of_all_kinds(py::module_& module) {
       module, "SimulatedDevice", py::is_final(),
       "A simulated device and the hand that holds it, in virtual time: the motion between samples is solved exactly.\n"
       "Without a hand nobody holds it.")
-      .def(py::init([](const DeviceProfile& profile, const Hand& hand, const ArrayLike& position) {
+      .def(py::init([](const Capabilities& profile, const Hand& hand, const ArrayLike& position) {
              return SimulatedDevice(profile, hand, vector(position, "position"));
            }),
            py::arg("profile"), py::arg("hand") = Hand{0.0, 0.0, 0.0},
@@ -178,7 +172,7 @@ void add_pointer(py::module_& module) {
       module, "PointerDevice", py::is_final(),
       "A mouse, tablet or finger as the intention of a simulated hand, for people who have no haptic device. Each\n"
       "read() lets one period of virtual time pass; move() says where the pointer is, from any thread.")
-      .def(py::init<const DeviceProfile&, const Hand&, const PointerOptions&>(), py::arg("profile"),
+      .def(py::init<const Capabilities&, const Hand&, const PointerOptions&>(), py::arg("profile"),
            py::arg("hand") = Hand{}, py::arg("options") = PointerOptions{})
       .def("move", &PointerDevice::move, py::arg("x"), py::arg("y"), py::arg("pressure"), py::arg("buttons") = 0,
            "Where the pointer is from now on: a place on the paper [m], a pressure from 0, not pressed, to 1.")

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 
 #include "arrays.hpp"
 #include "at_work.hpp"

@@ -1,6 +1,6 @@
 // The arm of a Phantom, one set of joints at a time or many.
-#include <calligraphy/error.hpp>
-#include <calligraphy/phantom/kinematics.hpp>
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/devices/phantom/kinematics.hpp>
 
 #include "record.hpp"
 #include "rooms.hpp"

@@ -11,7 +11,7 @@
 
 #include <pybind11/stl.h>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/practice/live_session.hpp>
 
 #include "at_work.hpp"

@@ -5,14 +5,14 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/base/file.hpp>
+#include <calligraphy/base/text.hpp>
+#include <calligraphy/importers/doubtful_strokes.hpp>
+#include <calligraphy/importers/stroke_fit.hpp>
 #include <calligraphy/model/character_list.hpp>
 #include <calligraphy/model/character_set.hpp>
-#include <calligraphy/model/doubtful_strokes.hpp>
 #include <calligraphy/model/set_encoding.hpp>
-#include <calligraphy/model/stroke_fit.hpp>
-#include <calligraphy/model/text.hpp>
-#include <calligraphy/practice/file.hpp>
 
 #include "enumeration.hpp"
 #include "record.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 
 namespace py = pybind11;
 

@@ -1,8 +1,8 @@
 // Where the OpenHaptics backend was left out: its names are there, and say what to do.
 #include <cstdlib>
 
-#include <calligraphy/error.hpp>
-#include <calligraphy/openhaptics/openhaptics_device.hpp>
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/devices/openhaptics/openhaptics_device.hpp>
 
 namespace calligraphy {
 namespace {

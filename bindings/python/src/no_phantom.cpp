@@ -1,11 +1,11 @@
 // Where the Phantom backend was left out: its names are there, and say what to install.
 #include <cstdlib>
 
-#include <calligraphy/error.hpp>
-#include <calligraphy/phantom/capture.hpp>
-#include <calligraphy/phantom/device_list.hpp>
-#include <calligraphy/phantom/phantom_device.hpp>
-#include <calligraphy/phantom/wire_profile.hpp>
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/devices/phantom/capture.hpp>
+#include <calligraphy/devices/phantom/device_list.hpp>
+#include <calligraphy/devices/phantom/phantom_device.hpp>
+#include <calligraphy/devices/phantom/wire_profile.hpp>
 
 namespace calligraphy {
 namespace {

@@ -1,7 +1,7 @@
 // Devices by way of the vendor's runtime.
 #include <pybind11/stl.h>
 
-#include <calligraphy/openhaptics/openhaptics_device.hpp>
+#include <calligraphy/devices/openhaptics/openhaptics_device.hpp>
 
 #include "enumeration.hpp"
 #include "record.hpp"

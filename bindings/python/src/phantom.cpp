@@ -8,11 +8,11 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include <calligraphy/phantom/capture.hpp>
-#include <calligraphy/phantom/device_list.hpp>
-#include <calligraphy/phantom/phantom_device.hpp>
-#include <calligraphy/phantom/wire_profile.hpp>
-#include <calligraphy/practice/file.hpp>
+#include <calligraphy/base/file.hpp>
+#include <calligraphy/devices/phantom/capture.hpp>
+#include <calligraphy/devices/phantom/device_list.hpp>
+#include <calligraphy/devices/phantom/phantom_device.hpp>
+#include <calligraphy/devices/phantom/wire_profile.hpp>
 
 #include "at_work.hpp"
 #include "enumeration.hpp"

@@ -9,14 +9,14 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/base/file.hpp>
+#include <calligraphy/base/text.hpp>
 #include <calligraphy/devices/replay_device.hpp>
-#include <calligraphy/error.hpp>
-#include <calligraphy/model/text.hpp>
-#include <calligraphy/practice/character_import.hpp>
-#include <calligraphy/practice/file.hpp>
-#include <calligraphy/practice/picture.hpp>
-#include <calligraphy/practice/plot.hpp>
-#include <calligraphy/practice/replay_picture.hpp>
+#include <calligraphy/importers/character_import.hpp>
+#include <calligraphy/pictures/picture.hpp>
+#include <calligraphy/pictures/plot.hpp>
+#include <calligraphy/pictures/replay_picture.hpp>
 #include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/session.hpp>
 
@@ -241,7 +241,7 @@ void add_sessions(py::module_& module) {
       .value("force", Mode::force, "vision and force");
   Record<SessionOptions>(module, "SessionOptions", "A writer, a device and a renderer in closed loop.")
       .field("mode", &SessionOptions::mode, "Mode")
-      .field("device", &SessionOptions::device, "DeviceProfile")
+      .field("device", &SessionOptions::device, "Capabilities")
       .field("renderer", &SessionOptions::renderer, "RendererOptions")
       .field("skill", &SessionOptions::skill, "WriterSkill")
       .field("seed", &SessionOptions::seed, "of the writer")

@@ -1,8 +1,8 @@
 // The render room: what the hand feels, tick by tick or over a whole trace.
 #include <algorithm>
 
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/flush_denormals.hpp>
-#include <calligraphy/error.hpp>
 #include <calligraphy/render/haptic_renderer.hpp>
 #include <calligraphy/render/passivity_controller.hpp>
 #include <calligraphy/render/stiffness_advice.hpp>
@@ -27,7 +27,8 @@ void add_options(py::module_& module) {
       .value("saturating", GuidanceLaw::saturating);
   Enumeration<StiffnessCheck>(module, "StiffnessCheck")
       .value("refuse", StiffnessCheck::refuse)
-      .value("clip", StiffnessCheck::clip);
+      .value("clip", StiffnessCheck::clip)
+      .value("none", StiffnessCheck::none);
   Enumeration<ForceSign>(module, "ForceSign")
       .value("attracting", ForceSign::attracting)
       .value("wang2006", ForceSign::wang2006);
@@ -311,12 +312,8 @@ void add_passivity(py::module_& module) {
 
 void add_advice(py::module_& module) {
   Record<SampledLoop>(module, "SampledLoop", "A point mass held against a wall that is computed once a tick.")
+      .field("device", &SampledLoop::device, "Capabilities")
       .field("rate", &SampledLoop::rate, "[Hz]")
-      .field("mass", &SampledLoop::mass, "apparent, of the device [kg]")
-      .field("damping", &SampledLoop::damping, "of the device [N s/m]")
-      .field("coulomb_friction", &SampledLoop::coulomb_friction, "[N]")
-      .field("encoder_step", &SampledLoop::encoder_step, "0: not rounded [m]")
-      .field("delay", &SampledLoop::delay, "[ticks]")
       .field("wall_damping", &SampledLoop::wall_damping, "[N s/m]")
       .field("grip", &SampledLoop::grip, "Hand; by default nobody holds it");
   Record<StiffnessBound>(module, "StiffnessBound", "A bound of the wall's stiffness, and what it is worth.")
@@ -328,8 +325,6 @@ void add_advice(py::module_& module) {
       .field("quantised", &StiffnessAdvice::quantised, "passive, and no rounding can keep up a swing")
       .field("stable", &StiffnessAdvice::stable, "the linear motion in this grip dies away below it")
       .field("approximate", &StiffnessAdvice::approximate, "a rule of thumb for `stable`");
-  module.def("sampled_loop", &sampled_loop, py::arg("capabilities"), py::arg("rate"),
-             py::arg("grip") = Hand{0.0, 0.0, 0.0}, "The loop of a device.");
   module.def("critical_stiffness", &critical_stiffness, py::arg("loop"), Release(),
              "Smallest stiffness at which the linear motion no longer dies away [N/m].");
   module.def("advise_stiffness", &advise_stiffness, py::arg("loop"), Release(),

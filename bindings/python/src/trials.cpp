@@ -2,10 +2,10 @@
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
-#include <calligraphy/practice/force_field.hpp>
-#include <calligraphy/practice/nearest_point_workload.hpp>
-#include <calligraphy/practice/stability_map.hpp>
-#include <calligraphy/practice/trade.hpp>
+#include <calligraphy/experiments/force_field.hpp>
+#include <calligraphy/experiments/nearest_point_workload.hpp>
+#include <calligraphy/experiments/stability_map.hpp>
+#include <calligraphy/experiments/trade.hpp>
 
 #include "enumeration.hpp"
 #include "interrupt.hpp"
@@ -22,7 +22,6 @@ void add_walls(py::module_& module) {
       .field("push", &WallEncounter::push, "steady force towards the wall [N]")
       .field("height", &WallEncounter::height, "from which the pen falls [m]")
       .field("seconds", &WallEncounter::seconds, "of virtual time")
-      .field("peak_force", &WallEncounter::peak_force, "of the device [N]")
       .field("controlled", &WallEncounter::controlled, "a passivity controller follows the wall")
       .field("lost", &WallEncounter::lost, "share of the samples that do not arrive")
       .field("reordered", &WallEncounter::reordered, "share that change places with the next one");
@@ -51,12 +50,14 @@ void add_walls(py::module_& module) {
       .field("values", &StabilitySweep::values, "one per line, copied")
       .field("lines", &StabilitySweep::lines, "list of StabilityLine, copied");
   Record<StabilityMap>(module, "StabilityMap", "Where a virtual wall is stable.")
+      .field("device", &StabilityMap::device, "Capabilities")
       .field("encounter", &StabilityMap::encounter, "WallEncounter")
       .field("stiffnesses", &StabilityMap::stiffnesses, "that every line was tried at [N/m]")
       .field("sweeps", &StabilityMap::sweeps, "list of StabilitySweep, copied")
       .field("grid", &StabilityMap::grid, "list of StabilityLine, copied");
   using O = StabilityMapOptions;
   Record<O>(module, "StabilityMapOptions", "What a stability map tries.")
+      .field("device", &O::device, "Capabilities")
       .field("encounter", &O::encounter, "WallEncounter")
       .field("per_decade", &O::per_decade, "stiffnesses that are tried")
       .field("softest", &O::softest, "[N/m]")

@@ -1,10 +1,9 @@
-// What a haptic device says of itself and of the hand: plain structs, in the device's own axes.
+// What a haptic device says: plain structs, in the device's own axes.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <string>
 
 #include <Eigen/Core>
 
@@ -55,6 +54,16 @@ inline constexpr std::size_t device_fault_count = static_cast<std::size_t>(Devic
 /// "unplugged", "short frame": the name in words.
 const char* fault_name(DeviceFault fault) noexcept;
 
+/// Where the pen points, in device axes: the direction from its tip to its other end is
+/// (sin tilt cos azimuth, sin tilt sin azimuth, cos tilt). NaN when the device does not measure it.
+///
+/// Of W3C Pointer Events (Level 3) where a screen lies in the x-y plane and faces z: tilt = pi / 2 - altitudeAngle,
+/// azimuth = -azimuthAngle, since the y axis of a screen points down.
+struct PenOrientation {
+  double tilt = std::numeric_limits<double>::quiet_NaN();     ///< from the z axis, 0 to pi [rad]
+  double azimuth = std::numeric_limits<double>::quiet_NaN();  ///< from the x axis towards the y axis, -pi to pi [rad]
+};
+
 /// One sample of the device.
 struct DeviceState {
   double time = 0.0;                                   ///< since the device was opened [s]
@@ -64,25 +73,8 @@ struct DeviceState {
   std::uint32_t buttons = 0;  ///< one bit per button
   DeviceStatus status = DeviceStatus::ok;
   DeviceFault fault = DeviceFault::none;  ///< the reason when the status is not ok, where one is known
+  PenOrientation orientation;
 };
-
-/// What a device can do.
-struct Capabilities {
-  std::string model;
-  Eigen::Vector3d workspace = Eigen::Vector3d::Zero();  ///< extent along each device axis, centred on zero [m]
-  double peak_force = 0.0;                              ///< [N]
-  double continuous_force = 0.0;                        ///< [N]
-  double usable_stiffness = 0.0;                        ///< largest stiffness that users of the device report [N/m]
-  double resolution = 0.0;                              ///< position step; 0: not known [m]
-  double update_rate = 1000.0;                          ///< [Hz]
-  double apparent_mass = 0.0;                           ///< at the tip; 0: not known [kg]
-  double viscous_friction = 0.0;                        ///< [N s/m]
-  double coulomb_friction = 0.0;                        ///< back-drive friction along each axis [N]
-  int sample_delay = 0;                                 ///< age of a sample when it is read [ticks]
-};
-
-/// @throws ValueError naming what is negative or no number; 0 may be "not known", and forces may have no limit
-void validate(const Capabilities& capabilities);
 
 /// Impedance of the grip, relative to where the person means to be, the same along each axis. Typical grips: soft
 /// (0.05, 1, 100), normal (0.1, 3, 300), firm (0.15, 5, 500).

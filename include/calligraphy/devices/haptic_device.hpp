@@ -4,13 +4,14 @@
 #include <string>
 #include <vector>
 
+#include <calligraphy/devices/capabilities.hpp>
 #include <calligraphy/devices/device_state.hpp>
 
 namespace calligraphy {
 
 class ServoClock;
 
-/// A force-feedback device with three sensed and three driven translations. Several may be open at once.
+/// A force-feedback device; its capabilities say which axes it senses and drives. Several may be open at once.
 ///
 /// Opening is what a constructor does; it throws DeviceError. read() and write() belong to the servo loop: they neither
 /// allocate, lock, throw nor log, and report by DeviceState::status.

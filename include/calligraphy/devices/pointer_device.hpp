@@ -29,8 +29,8 @@ struct PointerOptions {
 /// draws the pen there, not at the pointer. How a window's pixels lie on the paper is the caller's business.
 class PointerDevice final : public HapticDevice {
  public:
-  /// @throws ValueError naming the value when the profile, the hand or an option is out of its domain
-  explicit PointerDevice(const DeviceProfile& profile, const Hand& hand = {}, const PointerOptions& options = {});
+  /// @throws ValueError naming the value when the device, the hand or an option is out of its domain
+  explicit PointerDevice(const Capabilities& device, const Hand& hand = {}, const PointerOptions& options = {});
 
   /// Where the pointer is from now on: a place on the paper [m] and its pressure, from 0, which is not pressed, to 1; a
   /// mouse presses with 0.5. Never waits; from one thread at a time, any thread. A place or pressure that is not finite

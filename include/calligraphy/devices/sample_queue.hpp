@@ -8,7 +8,7 @@
 #include <string>
 #include <type_traits>
 
-#include <calligraphy/error.hpp>
+#include <calligraphy/base/error.hpp>
 
 namespace calligraphy {
 

@@ -1,6 +1,7 @@
 // Runs a device against a force law, in real time, with a watchdog.
 #pragma once
 
+#include <atomic>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,8 @@ struct ServoLoopOptions {
 };
 
 /// A servo, its clock and its watchdog. The clock is the device's own where it has one (`HapticDevice::clock()`), else
-/// a ServoThread. Several loops may run at once, each with its own device. Use start() and stop() from one thread.
+/// a ServoThread. Several loops may run at once, each with its own device. Use start() and stop() from one thread,
+/// stop() also from within the force law.
 class ServoLoop {
  public:
   /// The device must outlive the loop. @throws ValueError naming the value when an option is out of its domain
@@ -28,14 +30,13 @@ class ServoLoop {
   /// @throws DeviceError when the clock cannot be started, ValueError when the loop runs already
   std::vector<std::string> start();
 
-  /// From within the force law it lets the force fall and returns; the loop ends when stop() is called from outside.
-  /// Otherwise: lets the force fall, stops the clock and leaves the force at zero. Waits for a force law that has not
-  /// returned; the force does not wait for it.
+  /// From within the force law, even before start() has returned, it lets the force fall and returns; the loop ends
+  /// when stop() is called from outside. Otherwise: lets the force fall, stops the clock and leaves the force at zero.
+  /// Waits for a force law that has not returned; the force does not wait for it.
   void stop() noexcept;
 
+  /// These from any thread, at any time; running() is true from the first tick until stop() from outside.
   bool running() const noexcept { return running_; }
-
-  /// Any thread, while it runs and afterwards.
   ServoStatus status() const noexcept { return servo_.status(); }
   ServoStatistics statistics() const noexcept { return servo_.statistics(); }
 
@@ -45,7 +46,7 @@ class ServoLoop {
   ServoThread thread_;
   ServoThread watchdog_;
   ServoClock* clock_ = nullptr;  ///< while it runs
-  bool running_ = false;
+  std::atomic<bool> running_ = false;
 };
 
 }  // namespace calligraphy

@@ -1,32 +1,11 @@
 // A simulated Phantom and the hand that holds it, integrated exactly between samples.
 #pragma once
 
-#include <span>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include <calligraphy/devices/haptic_device.hpp>
 
 namespace calligraphy {
-
-/// Physics of a device as a point mass, the same along each axis.
-struct DeviceProfile {
-  std::string name;
-  Capabilities capabilities;
-  double mass = 0.0;              ///< apparent mass at the tip [kg]
-  double viscous_friction = 0.0;  ///< [N s/m]
-  double coulomb_friction = 0.0;  ///< back-drive friction along each axis [N]
-  double encoder_step = 0.0;      ///< positions are rounded to multiples of this; 0: not rounded [m]
-  int delay = 0;                  ///< age of a sample when it is read [ticks]
-};
-
-/// The shipped profiles: omni, touch, desktop, premium-1.5, ideal (no friction, encoder step or delay).
-/// Apparent masses and some frictions are estimates, not the vendor's figures: docs/devices.md names each source.
-std::span<const DeviceProfile> device_profiles();
-
-/// @throws ValueError naming the name and those that exist
-const DeviceProfile& device_profile(std::string_view name);
 
 /// Where the person means the pen to be, in device axes.
 struct Intention {
@@ -39,12 +18,13 @@ struct Intention {
 /// starts included: the answer does not depend on the size of the step.
 class SimulatedDevice final : public HapticDevice {
  public:
-  /// @throws ValueError naming the value when the profile or the hand is not physical
-  explicit SimulatedDevice(const DeviceProfile& profile, const Hand& hand = {0.0, 0.0, 0.0},
+  /// @throws ValueError naming the value when the device or the hand is not physical, when the apparent mass is not
+  /// known, and when a translation is not sensed or not driven
+  explicit SimulatedDevice(const Capabilities& device, const Hand& hand = {0.0, 0.0, 0.0},
                            const Eigen::Vector3d& position = Eigen::Vector3d::Zero());
 
-  const Capabilities& capabilities() const noexcept override { return profile_.capabilities; }
-  /// The sample of `delay` ticks ago; its velocity is the true one of that moment.
+  const Capabilities& capabilities() const noexcept override { return device_; }
+  /// The sample of `sample_delay` ticks ago; its velocity is the true one of that moment.
   DeviceState read() noexcept override;
   /// Force beyond the peak is shortened to it, its direction kept.
   void write(const Eigen::Vector3d& force) noexcept override;
@@ -71,7 +51,7 @@ class SimulatedDevice final : public HapticDevice {
  private:
   DeviceState sample() const noexcept;
 
-  DeviceProfile profile_;
+  Capabilities device_;
   Hand hand_;
   Intention intention_;
   Eigen::Vector3d position_;
@@ -80,7 +60,7 @@ class SimulatedDevice final : public HapticDevice {
   double time_ = 0.0;
   std::uint32_t buttons_ = 0;
   bool open_ = true;
-  std::vector<DeviceState> samples_;  ///< ring of the last delay + 1 samples
+  std::vector<DeviceState> samples_;  ///< ring of the last sample_delay + 1 samples
   std::size_t newest_ = 0;
 };
 

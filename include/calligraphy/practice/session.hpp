@@ -23,7 +23,7 @@ enum class Mode {
 
 struct SessionOptions {
   Mode mode = Mode::force;
-  DeviceProfile device;
+  Capabilities device;
   RendererOptions renderer;
   WriterSkill skill;
   std::uint64_t seed = 1;

@@ -5,9 +5,9 @@
 #include <array>
 #include <cstdint>
 #include <deque>
-#include <random>
 #include <vector>
 
+#include <calligraphy/base/random.hpp>
 #include <calligraphy/collision/stroke_element.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
 #include <calligraphy/practice/page.hpp>
@@ -105,7 +105,7 @@ class SimulatedWriter {
   std::vector<PlacedCharacter> page_;
   WriterSkill skill_;
   std::uint64_t seed_;
-  std::mt19937_64 random_;
+  Random random_{0};  ///< of the attempt
 
   Phase phase_ = Phase::pause;
   double time_ = 0.0;        ///< [s]

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <calligraphy/collision/active_stroke.hpp>
+#include <calligraphy/devices/capabilities.hpp>
 #include <calligraphy/devices/device_state.hpp>
 #include <calligraphy/render/assist_policy.hpp>
 #include <calligraphy/render/force_terms.hpp>
@@ -26,10 +27,11 @@ enum class GuidanceLaw {
   saturating  ///< eq. (8) near the stroke, never above `guidance_limit`, anywhere in the character's box
 };
 
-/// What becomes of a stiffness that the device is not usable or not stable with.
+/// What happens to a stiffness that the device is not usable or not stable with.
 enum class StiffnessCheck {
   refuse,  ///< the renderer is not made: ValueError
-  clip     ///< the largest that is; HapticRenderer::clipped() has the reasons
+  clip,    ///< the largest that is; HapticRenderer::clipped() has the reasons
+  none     ///< it is taken, up to 1e6 N/m: for an experiment that looks for the limit itself
 };
 
 struct RendererOptions {

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include <calligraphy/devices/capabilities.hpp>
 #include <calligraphy/devices/device_state.hpp>
 
 namespace calligraphy {
@@ -10,21 +11,14 @@ namespace calligraphy {
 /// A point mass held against a wall that is computed once a tick: the force -K x - B (x - x_before) / T from the
 /// newest sample, held until the next. One axis; all that a stiffness has to be judged by.
 struct SampledLoop {
-  double rate = 1000.0;           ///< 1 / T [Hz]
-  double mass = 0.045;            ///< apparent, of the device [kg]
-  double damping = 0.0;           ///< b: viscous friction of the device [N s/m]
-  double coulomb_friction = 0.0;  ///< f_c [N]
-  double encoder_step = 0.0;      ///< D; 0: positions are not rounded [m]
-  int delay = 0;                  ///< d: age of a sample when it is read [ticks]
-  double wall_damping = 0.0;      ///< B: of the wall, by the backward difference of the samples [N s/m]
-  Hand grip = {0.0, 0.0, 0.0};    ///< moves with the device; by default nobody holds it
+  Capabilities device;          ///< m, b, f_c, D and d: mass, frictions, encoder step and sample delay
+  double rate = 1000.0;         ///< 1 / T: of the servo loop, which need not be the device's own [Hz]
+  Hand grip = {0.0, 0.0, 0.0};  ///< moves with the device; by default nobody holds it
+  double wall_damping = 0.0;    ///< B: of the wall, by the backward difference of the samples [N s/m]
 };
 
-/// The loop of a device. @throws ValueError as validate(), for one when the device does not tell its mass
-SampledLoop sampled_loop(const Capabilities& capabilities, double rate, const Hand& grip = {0.0, 0.0, 0.0});
-
 /// @throws ValueError naming the field and its value: one that is not finite, negative or above 1e9; a rate that is not
-/// in [1, 1e6] Hz, a mass below 1e-9 kg, a delay that is not in [0, 1000] ticks
+/// in [1, 1e6] Hz, an apparent mass below 1e-9 kg (0 is "not known"), a sample delay that is not in [0, 1000] ticks
 void validate(const SampledLoop& loop);
 
 /// Smallest stiffness of a bilateral wall at which a linear motion of device and grip no longer dies away, without dry

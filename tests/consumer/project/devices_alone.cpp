@@ -1,11 +1,11 @@
 // Moves a simulated device with nothing but the devices.
 #include <cstdio>
 
+#include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
 
 int main() {
-  calligraphy::DeviceProfile profile = calligraphy::device_profile("desktop");
-  calligraphy::SimulatedDevice device(profile, {});
+  calligraphy::SimulatedDevice device(calligraphy::device_profile("desktop"));
   const calligraphy::DeviceState state = device.read();
   std::printf("%s: %s\n", device.capabilities().model.c_str(), calligraphy::status_name(state.status));
   device.close();

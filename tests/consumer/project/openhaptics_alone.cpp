@@ -1,8 +1,8 @@
 // Asks for a device of the vendor's runtime, which need not be there.
 #include <cstdio>
 
-#include <calligraphy/error.hpp>
-#include <calligraphy/openhaptics/openhaptics_device.hpp>
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/devices/openhaptics/openhaptics_device.hpp>
 
 int main() {
   try {

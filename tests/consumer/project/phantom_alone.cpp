@@ -2,9 +2,9 @@
 #include <cstdio>
 #include <string>
 
-#include <calligraphy/error.hpp>
-#include <calligraphy/phantom/device_list.hpp>
-#include <calligraphy/phantom/phantom_device.hpp>
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/devices/phantom/device_list.hpp>
+#include <calligraphy/devices/phantom/phantom_device.hpp>
 
 int main() {
   try {

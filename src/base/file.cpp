@@ -1,0 +1,132 @@
+#include <calligraphy/base/file.hpp>
+
+#include <cerrno>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <random>
+#include <string>
+#include <system_error>
+
+#include <calligraphy/base/error.hpp>
+
+namespace calligraphy {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const fs::path& path, const std::string& reason) {
+  throw FileError(path.string() + ": cannot be written: " + reason);
+}
+
+std::string reason_of(int error) { return std::generic_category().message(error); }
+
+struct CloseFile {
+  void operator()(std::FILE* file) const noexcept { std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, CloseFile>;
+
+/// A new, empty file beside the target; removed unless it was renamed.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const fs::path& target) : target_(target) {
+    std::random_device random;
+    constexpr int attempts = 16;
+    for (int i = 0; i < attempts && !file_; ++i) {
+      const std::uint64_t number = (std::uint64_t{random()} << 32) | random();
+      path_ = target;
+      path_ += "." + std::to_string(number) + ".tmp";
+      errno = 0;
+      file_.reset(std::fopen(path_.string().c_str(), "wbx"));
+      if (!file_ && errno != EEXIST) break;
+    }
+    if (!file_) fail(target_, reason_of(errno));
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  ~TemporaryFile() {
+    file_.reset();
+    std::error_code ignored;
+    if (!renamed_) fs::remove(path_, ignored);
+  }
+
+  void write(std::string_view content) {
+    errno = 0;
+    const bool written = std::fwrite(content.data(), 1, content.size(), file_.get()) == content.size();
+    if (!written || std::fflush(file_.get()) != 0) fail(target_, reason_of(errno));
+    if (std::fclose(file_.release()) != 0) fail(target_, reason_of(errno));
+  }
+
+  void take_permissions(fs::perms permissions) {
+    std::error_code error;
+    fs::permissions(path_, permissions, error);
+    if (error) fail(target_, error.message());
+  }
+
+  void rename() {
+    std::error_code error;
+    fs::rename(path_, target_, error);
+    if (error) fail(target_, error.message());
+    renamed_ = true;
+  }
+
+ private:
+  fs::path target_;
+  fs::path path_;
+  File file_;
+  bool renamed_ = false;
+};
+
+/// The file that is written for this path; a link stays a link: renaming onto it would put the file in its place.
+fs::path target_of(const fs::path& path) {
+  std::error_code error;
+  const fs::path target = fs::is_symlink(path, error) ? fs::canonical(path, error) : path;
+  if (target.empty()) fail(path, "the link leads nowhere");
+  const fs::file_status before = fs::status(target, error);
+  if (fs::exists(before) && !fs::is_regular_file(before)) fail(path, "it exists and is not a regular file");
+  return target;
+}
+
+}  // namespace
+
+void write_file(const fs::path& path, std::string_view content) {
+  const fs::path target = target_of(path);
+  std::error_code error;
+  const fs::file_status before = fs::status(target, error);
+  TemporaryFile file(target);
+  file.write(content);
+  if (fs::exists(before)) file.take_permissions(before.permissions());
+  file.rename();
+}
+
+void check_can_write(const fs::path& path) { TemporaryFile(target_of(path)).write(""); }
+
+std::ifstream open_file(const fs::path& path) {
+  std::error_code failure;
+  if (fs::exists(path, failure) && !fs::is_regular_file(path, failure)) {
+    throw FileError(path.string() + ": is not a regular file");
+  }
+  errno = 0;
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw FileError(path.string() + ": cannot be opened: " + reason_of(errno));
+  return in;
+}
+
+std::string read_file(const fs::path& path, std::size_t most) {
+  std::ifstream in = open_file(path);
+  std::string text;
+  constexpr std::size_t chunk = 1 << 16;  // most files are small: what is not read is not asked for
+  while (in && text.size() <= most) {
+    const std::size_t before = text.size();
+    text.resize(before + chunk);
+    in.read(text.data() + before, chunk);
+    text.resize(before + static_cast<std::size_t>(in.gcount()));
+  }
+  if (in.bad()) throw FileError(path.string() + ": cannot be read");
+  if (text.size() > most) {
+    throw FormatError(path.string() + ": more than the " + std::to_string(most) + " bytes that are read of a file");
+  }
+  return text;
+}
+
+}  // namespace calligraphy

@@ -1,0 +1,32 @@
+#include <calligraphy/base/text.hpp>
+
+#include <cstdint>
+#include <iterator>
+
+#include <utf8.h>
+
+#include <calligraphy/base/error.hpp>
+
+namespace calligraphy {
+
+std::u32string decode_utf8(std::string_view text) {
+  const auto invalid = utf8::find_invalid(text.begin(), text.end());
+  if (invalid != text.end()) {
+    throw FormatError("text is not UTF-8: byte " + std::to_string(std::distance(text.begin(), invalid)) +
+                      " is invalid");
+  }
+  std::u32string codes;
+  utf8::utf8to32(text.begin(), text.end(), std::back_inserter(codes));
+  return codes;
+}
+
+std::string encode_utf8(char32_t code) {
+  if (code > U'\U0010FFFF' || (code >= 0xD800 && code <= 0xDFFF)) {
+    throw ValueError("code point " + std::to_string(static_cast<std::uint32_t>(code)) + " is no character");
+  }
+  std::string text;
+  utf8::append(code, std::back_inserter(text));
+  return text;
+}
+
+}  // namespace calligraphy

@@ -1,0 +1,73 @@
+#include "errors.hpp"
+
+#include <cstdio>
+
+#include <calligraphy/devices/openhaptics/openhaptics_device.hpp>
+
+namespace calligraphy::hdapi {
+namespace {
+
+struct KnownError {
+  ErrorCode code;
+  const char* name;
+  Judgement judgement;
+};
+
+constexpr KnownError known_errors[] = {
+    {no_error, "no error", {DeviceStatus::ok, DeviceFault::none}},
+    {warm_motors, "warm motors", {DeviceStatus::warm_motors, DeviceFault::none}},
+    {exceeded_max_force, "maximum force exceeded", {DeviceStatus::fault, DeviceFault::runtime_error}},
+    {exceeded_impulse, "force impulse limit exceeded", {DeviceStatus::fault, DeviceFault::runtime_error}},
+    {exceeded_velocity, "velocity limit exceeded", {DeviceStatus::fault, DeviceFault::runtime_error}},
+    {force_error, "force error", {DeviceStatus::fault, DeviceFault::runtime_error}},
+    {device_fault, "device fault", {DeviceStatus::fault, DeviceFault::device_error}},
+    {comm_error, "communication error", {DeviceStatus::disconnected, DeviceFault::link_error}},
+    {comm_config_error, "communication configuration error", {DeviceStatus::disconnected, DeviceFault::link_error}},
+    {timer_error, "timer error", {DeviceStatus::fault, DeviceFault::timed_out}},
+    {frame_error, "frame error", {DeviceStatus::fault, DeviceFault::runtime_error}},
+};
+
+const KnownError* find(ErrorCode code) noexcept {
+  for (const KnownError& known : known_errors) {
+    if (known.code == code) return &known;
+  }
+  return nullptr;
+}
+
+int gravity(DeviceStatus status) noexcept {
+  switch (status) {
+    case DeviceStatus::ok:
+      return 0;
+    case DeviceStatus::warm_motors:
+      return 1;
+    case DeviceStatus::stale:
+      return 2;
+    case DeviceStatus::needs_calibration:
+      return 3;
+    case DeviceStatus::fault:
+      return 4;
+    case DeviceStatus::disconnected:
+      return 5;
+  }
+  return 4;
+}
+
+}  // namespace
+
+Judgement judge(ErrorCode code) noexcept {
+  const KnownError* known = find(code);
+  return known != nullptr ? known->judgement : Judgement{DeviceStatus::fault, DeviceFault::runtime_error};
+}
+
+Judgement graver(const Judgement& a, const Judgement& b) noexcept {
+  return gravity(b.status) > gravity(a.status) ? b : a;
+}
+
+}  // namespace calligraphy::hdapi
+
+std::string calligraphy::openhaptics_error_name(std::uint32_t code) {
+  if (const auto* known = hdapi::find(code)) return known->name;
+  char name[24];
+  std::snprintf(name, sizeof name, "error 0x%04x", code);
+  return name;
+}

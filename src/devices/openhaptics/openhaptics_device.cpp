@@ -1,0 +1,269 @@
+#include <calligraphy/devices/openhaptics/openhaptics_device.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/devices/device_profiles.hpp>
+
+#include "errors.hpp"
+#include "scheduler_clock.hpp"
+
+namespace calligraphy {
+namespace {
+
+using namespace hdapi;
+
+constexpr double millimetre = 1e-3;  // [m]
+constexpr int most_errors = 16;      // taken in one tick
+
+/// How often calibration is looked at: often enough for a person, seldom enough to cost nothing [ticks].
+constexpr int calibration_interval = 50;
+
+double monotonic_seconds() noexcept {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+std::string text(const char* string) { return string != nullptr ? string : ""; }
+
+bool holds(const std::string& name, const char* part) { return name.find(part) != std::string::npos; }
+
+/// For what the runtime does not say: the shipped profile that is closest, the weakest one where none is.
+const Capabilities& closest_profile(const std::string& model) {
+  if (holds(model, "Premium")) return device_profile("premium-1.5");
+  if (holds(model, "Desktop") || holds(model, "Touch X")) return device_profile("desktop");
+  if (holds(model, "Omni")) return device_profile("omni");
+  return device_profile("touch");
+}
+
+Enum style_of(CalibrationStyle style) noexcept {
+  switch (style) {
+    case CalibrationStyle::encoder_reset:
+      return calibration_encoder_reset;
+    case CalibrationStyle::automatic:
+      return calibration_automatic;
+    case CalibrationStyle::inkwell:
+      return calibration_inkwell;
+  }
+  return calibration_inkwell;
+}
+
+bool within(double value, double smallest, double largest) noexcept {
+  return std::isfinite(value) && value >= smallest && value <= largest;
+}
+
+/// Scaled by its largest component first, so that no square overflows.
+Eigen::Vector3d shortened(const Eigen::Vector3d& force, double limit) noexcept {
+  const double largest = force.cwiseAbs().maxCoeff();
+  if (largest == 0.0) return force;
+  const Eigen::Vector3d scaled = force / largest;
+  const double length = scaled.norm();
+  return largest * length <= limit ? force : Eigen::Vector3d(scaled * (limit / length));
+}
+
+}  // namespace
+
+class OpenHapticsDevice::Implementation {
+ public:
+  explicit Implementation(const OpenHapticsOptions& options);
+  ~Implementation() { close(); }
+
+  DeviceState read() noexcept;
+  void write(const Eigen::Vector3d& force) noexcept;
+  void close() noexcept;
+  std::string advice() const;
+
+  std::shared_ptr<Runtime> runtime;
+  Capabilities capabilities;
+  std::string serial;
+  std::atomic<ErrorCode> last_error = no_error;
+  std::unique_ptr<SchedulerClock> clock;
+
+ private:
+  const Functions& hd() const noexcept { return runtime->functions(); }
+  Handle open_device(const OpenHapticsOptions& options);
+  Capabilities ask_capabilities();
+  void look_at_calibration() noexcept;
+  Judgement take_errors() noexcept;
+
+  double (*time_)() noexcept;
+  Enum calibration_style_;
+  Handle device_ = invalid_handle;
+  std::atomic<bool> open_ = false;
+  double opened_ = 0.0;  ///< [s]
+  DeviceState state_;
+  int until_calibration_ = 0;                       ///< [ticks]
+  std::atomic<Enum> calibration_ = calibration_ok;  ///< as last seen
+};
+
+OpenHapticsDevice::Implementation::Implementation(const OpenHapticsOptions& options)
+    : runtime(Runtime::load(options.library)),
+      time_(options.time != nullptr ? options.time : monotonic_seconds),
+      calibration_style_(style_of(options.calibration)) {
+  if (runtime->scheduler_runs()) {
+    throw DeviceError("a servo loop runs on another device of " + runtime->library() +
+                      ": open all devices before the first loop starts");
+  }
+  device_ = open_device(options);
+  open_ = true;
+  capabilities = ask_capabilities();
+  calibration_ = hd().hdCheckCalibration();
+  runtime->take_errors();  // of questions that a model does not answer
+  clock = std::make_unique<SchedulerClock>(runtime, device_, time_);
+  opened_ = time_();
+  state_.status = DeviceStatus::stale;
+}
+
+Handle OpenHapticsDevice::Implementation::open_device(const OpenHapticsOptions& options) {
+  runtime->take_errors();
+  const Handle device = hd().hdInitDevice(options.device.empty() ? nullptr : options.device.c_str());
+  const std::string errors = runtime->take_errors();
+  // Warm motors and the like come with a device that is there.
+  if (device != invalid_handle) {
+    hd().hdMakeCurrentDevice(device);
+    return device;
+  }
+  const std::string name = options.device.empty() ? "its default device" : "the device \"" + options.device + "\"";
+  throw DeviceError(runtime->library() + " does not open " + name + (errors.empty() ? "" : " (" + errors + ")") +
+                    ": plug it in and switch it on, add it with the vendor's setup program, and close other programs "
+                    "that use it");
+}
+
+Capabilities OpenHapticsDevice::Implementation::ask_capabilities() {
+  const std::string model = text(hd().hdGetString(device_model));
+  serial = text(hd().hdGetString(device_serial));
+  Capabilities result = closest_profile(model);
+  if (!model.empty()) result.model = model;
+
+  // Larger than what is asked for, should a model say more.
+  double box[16] = {};
+  hd().hdGetDoublev(usable_workspace, box);
+  Eigen::Vector3d extent;
+  bool has_extent = true;
+  for (int axis = 0; axis < 3; ++axis) {
+    // The largest box round the origin: the runtime's need not be centred there.
+    extent[axis] = 2.0 * std::min(-box[axis], box[axis + 3]) * millimetre;
+    has_extent = has_extent && within(extent[axis], 0.01, 3.0);
+  }
+  if (has_extent) result.workspace = extent;
+
+  double number[16] = {};
+  hd().hdGetDoublev(max_force, number);
+  if (within(number[0], 0.1, 100.0)) result.peak_force = number[0];
+  number[0] = 0.0;
+  hd().hdGetDoublev(continuous_force, number);
+  if (within(number[0], 0.01, result.peak_force)) result.continuous_force = number[0];
+  int rate[16] = {};
+  hd().hdGetIntegerv(update_rate, rate);
+  if (within(rate[0], 100.0, 10'000.0)) result.update_rate = rate[0];
+  return result;
+}
+
+DeviceState OpenHapticsDevice::Implementation::read() noexcept {
+  if (!open_ || !clock->within_tick()) {
+    DeviceState last = state_;
+    last.status = open_ ? DeviceStatus::stale : DeviceStatus::disconnected;
+    return last;
+  }
+  double position[3] = {};
+  double velocity[3] = {};
+  int buttons = 0;
+  hd().hdGetDoublev(current_position, position);
+  hd().hdGetDoublev(current_velocity, velocity);
+  hd().hdGetIntegerv(current_buttons, &buttons);
+  look_at_calibration();
+  Judgement judgement = take_errors();
+  if (calibration_.load(std::memory_order_relaxed) != calibration_ok) {
+    judgement = graver(judgement, {DeviceStatus::needs_calibration, DeviceFault::uncalibrated});
+  }
+  state_.time = time_() - opened_;
+  state_.position = millimetre * Eigen::Vector3d(position[0], position[1], position[2]);
+  state_.velocity = millimetre * Eigen::Vector3d(velocity[0], velocity[1], velocity[2]);
+  state_.buttons = static_cast<std::uint32_t>(buttons) & 0xF;
+  state_.status = judgement.status;
+  state_.fault = judgement.fault;
+  return state_;
+}
+
+void OpenHapticsDevice::Implementation::look_at_calibration() noexcept {
+  if (--until_calibration_ > 0) return;
+  until_calibration_ = calibration_interval;
+  Enum calibration = hd().hdCheckCalibration();
+  if (calibration == calibration_needs_update) {
+    hd().hdUpdateCalibration(calibration_style_);
+    calibration = hd().hdCheckCalibration();
+  }
+  calibration_.store(calibration, std::memory_order_relaxed);
+}
+
+Judgement OpenHapticsDevice::Implementation::take_errors() noexcept {
+  Judgement result;
+  for (int i = 0; i < most_errors; ++i) {
+    const ErrorInfo error = hd().hdGetError();
+    if (error.code == no_error) break;
+    last_error.store(error.code, std::memory_order_relaxed);
+    result = graver(result, judge(error.code));
+  }
+  return result;
+}
+
+void OpenHapticsDevice::Implementation::write(const Eigen::Vector3d& force) noexcept {
+  if (!open_) return;
+  if (!clock->within_tick()) {
+    if (force.isZero(0.0)) clock->cut_force();
+    return;
+  }
+  const Eigen::Vector3d sent =
+      force.allFinite() ? shortened(force, capabilities.peak_force) : Eigen::Vector3d(Eigen::Vector3d::Zero());
+  clock->set_force({sent.x(), sent.y(), sent.z()});
+}
+
+void OpenHapticsDevice::Implementation::close() noexcept {
+  if (!open_) return;
+  if (clock != nullptr) clock->stop();
+  hd().hdDisableDevice(device_);
+  open_ = false;
+}
+
+std::string OpenHapticsDevice::Implementation::advice() const {
+  const Enum calibration = calibration_.load(std::memory_order_relaxed);
+  if (calibration == calibration_ok) return {};
+  if (calibration_style_ == calibration_inkwell) return "needs calibration: put the pen into the inkwell";
+  if (calibration_style_ == calibration_encoder_reset) {
+    return "needs calibration: hold the pen as the vendor's manual says for a reset of the encoders";
+  }
+  return "needs calibration: move the pen slowly through the whole workspace";
+}
+
+OpenHapticsDevice::OpenHapticsDevice(const OpenHapticsOptions& options)
+    : implementation_(std::make_unique<Implementation>(options)) {}
+
+OpenHapticsDevice::~OpenHapticsDevice() = default;
+
+const Capabilities& OpenHapticsDevice::capabilities() const noexcept { return implementation_->capabilities; }
+DeviceState OpenHapticsDevice::read() noexcept { return implementation_->read(); }
+void OpenHapticsDevice::write(const Eigen::Vector3d& force) noexcept { implementation_->write(force); }
+void OpenHapticsDevice::close() noexcept { implementation_->close(); }
+ServoClock* OpenHapticsDevice::clock() noexcept { return implementation_->clock.get(); }
+const std::string& OpenHapticsDevice::serial() const noexcept { return implementation_->serial; }
+const std::string& OpenHapticsDevice::library() const noexcept { return implementation_->runtime->library(); }
+std::uint32_t OpenHapticsDevice::last_error() const noexcept {
+  return implementation_->last_error.load(std::memory_order_relaxed);
+}
+std::string OpenHapticsDevice::advice() const { return implementation_->advice(); }
+
+OpenHapticsRuntime openhaptics_runtime(const std::string& library) {
+  OpenHapticsRuntime result;
+  try {
+    result.library = hdapi::Runtime::load(library)->library();
+    result.found = true;
+  } catch (const DeviceError& error) {
+    result.advice = error.what();
+  }
+  return result;
+}
+
+}  // namespace calligraphy

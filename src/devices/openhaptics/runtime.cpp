@@ -1,0 +1,141 @@
+#include "runtime.hpp"
+
+#include <dlfcn.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include <calligraphy/base/error.hpp>
+
+namespace calligraphy::hdapi {
+namespace {
+
+constexpr int most_errors = 64;  // held by a runtime at once: a bound, should it never say that there are no more
+
+/// The runtime is one for the whole process by its own nature: devices opened in several places must share the
+/// scheduler that it has.
+std::mutex registry_mutex;
+std::vector<std::pair<void*, std::weak_ptr<Runtime>>> registry;
+
+/// The scheduler's users, of any runtime.
+std::mutex scheduler_mutex;
+
+std::vector<std::string> names_to_try(const std::string& name) {
+  if (!name.empty()) return {name};
+  const char* from_environment = std::getenv("CALLIGRAPHY_LIBHD");
+  if (from_environment != nullptr && *from_environment != '\0') return {from_environment};
+  return {"libHD.so", "libHD.so.3"};
+}
+
+template <class Function>
+void find(void* file, const char* name, Function& function, std::string& missing) {
+  function = reinterpret_cast<Function>(dlsym(file, name));
+  if (function == nullptr) missing += (missing.empty() ? "" : ", ") + std::string(name);
+}
+
+std::string find_all(void* file, Functions& f) {
+  std::string missing;
+  find(file, "hdInitDevice", f.hdInitDevice, missing);
+  find(file, "hdMakeCurrentDevice", f.hdMakeCurrentDevice, missing);
+  find(file, "hdDisableDevice", f.hdDisableDevice, missing);
+  find(file, "hdBeginFrame", f.hdBeginFrame, missing);
+  find(file, "hdEndFrame", f.hdEndFrame, missing);
+  find(file, "hdGetError", f.hdGetError, missing);
+  find(file, "hdGetErrorString", f.hdGetErrorString, missing);
+  find(file, "hdEnable", f.hdEnable, missing);
+  find(file, "hdDisable", f.hdDisable, missing);
+  find(file, "hdGetDoublev", f.hdGetDoublev, missing);
+  find(file, "hdSetDoublev", f.hdSetDoublev, missing);
+  find(file, "hdGetIntegerv", f.hdGetIntegerv, missing);
+  find(file, "hdGetString", f.hdGetString, missing);
+  find(file, "hdCheckCalibration", f.hdCheckCalibration, missing);
+  find(file, "hdUpdateCalibration", f.hdUpdateCalibration, missing);
+  find(file, "hdStartScheduler", f.hdStartScheduler, missing);
+  find(file, "hdStopScheduler", f.hdStopScheduler, missing);
+  find(file, "hdScheduleAsynchronous", f.hdScheduleAsynchronous, missing);
+  find(file, "hdUnschedule", f.hdUnschedule, missing);
+  return missing;
+}
+
+}  // namespace
+
+std::shared_ptr<Runtime> Runtime::load(const std::string& name) {
+  std::string tried;
+  for (const std::string& candidate : names_to_try(name)) {
+    void* file = dlopen(candidate.c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (file == nullptr) {
+      const char* reason = dlerror();
+      tried += (tried.empty() ? "" : "; ") + candidate + ": " + (reason != nullptr ? reason : "no reason given");
+      continue;
+    }
+    const std::lock_guard lock(registry_mutex);
+    std::erase_if(registry, [](const auto& entry) { return entry.second.expired(); });
+    for (const auto& [known, runtime] : registry) {
+      if (known != file) continue;
+      if (std::shared_ptr<Runtime> shared = runtime.lock()) {
+        dlclose(file);  // the loader counts; one is enough
+        return shared;
+      }
+    }
+    const auto runtime = std::make_shared<Runtime>(file, candidate);
+    registry.emplace_back(file, runtime);
+    return runtime;
+  }
+  throw DeviceError("the vendor's runtime libHD cannot be loaded (" + tried +
+                    "): install OpenHaptics and the device's driver from the vendor, or name the file in the "
+                    "environment variable CALLIGRAPHY_LIBHD");
+}
+
+Runtime::Runtime(void* file, std::string library) : file_(file), library_(std::move(library)) {
+  const std::string missing = find_all(file_, functions_);
+  if (missing.empty()) return;
+  dlclose(file_);
+  throw DeviceError(library_ + " lacks " + missing +
+                    ": it is not the vendor's HDAPI, or too old. Install OpenHaptics from the vendor, or name another "
+                    "file in the environment variable CALLIGRAPHY_LIBHD");
+}
+
+Runtime::~Runtime() { dlclose(file_); }
+
+void Runtime::use_scheduler() {
+  const std::lock_guard lock(scheduler_mutex);
+  if (users_ == 0) {
+    functions_.hdStartScheduler();
+    const std::string errors = take_errors();
+    if (!errors.empty()) {
+      functions_.hdStopScheduler();
+      take_errors();
+      throw DeviceError("the scheduler of " + library_ + " does not start: " + errors);
+    }
+  }
+  ++users_;
+}
+
+void Runtime::leave_scheduler() noexcept {
+  const std::lock_guard lock(scheduler_mutex);
+  if (--users_ == 0) functions_.hdStopScheduler();
+}
+
+bool Runtime::scheduler_runs() const {
+  const std::lock_guard lock(scheduler_mutex);
+  return users_ > 0;
+}
+
+std::string Runtime::take_errors() const {
+  std::string result;
+  for (int i = 0; i < most_errors; ++i) {
+    const ErrorInfo error = functions_.hdGetError();
+    if (error.code == no_error) break;
+    char code[32];
+    std::snprintf(code, sizeof code, "HD error 0x%04x", error.code);
+    const char* text = functions_.hdGetErrorString(error.code);
+    result += (result.empty() ? "" : "; ") + std::string(code);
+    if (text != nullptr && *text != '\0') result += std::string(": ") + text;
+  }
+  return result;
+}
+
+}  // namespace calligraphy::hdapi

@@ -1,0 +1,435 @@
+// A callback of libusb only notes; everything that may open, close, wait or tell happens between two rounds of events.
+#include "usb_link.hpp"
+
+#include <algorithm>
+#include <memory>
+
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/devices/servo_thread.hpp>
+
+namespace calligraphy::phantom {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto pause_after_error = 10ms;       // a device that is being unplugged fails at once, again and again
+constexpr auto oldest_repeated_packet = 20ms;  // a force from before that is no longer the one that is meant
+constexpr double longest_cancel = 1.0;         // [s]
+constexpr double longest_flush = 0.1;          // [s]
+
+unsigned milliseconds(double seconds) { return static_cast<unsigned>(std::max(1.0, seconds * 1e3)); }
+
+const char* name_of(libusb_transfer_status status) {
+  switch (status) {
+    case LIBUSB_TRANSFER_TIMED_OUT:
+      return "it did not take it in time";
+    case LIBUSB_TRANSFER_STALL:
+      return "its endpoint is stalled";
+    case LIBUSB_TRANSFER_NO_DEVICE:
+      return "it was unplugged";
+    default:
+      return "the transfer failed";
+  }
+}
+
+}  // namespace
+
+UsbLink::UsbLink(const PluggedDevice& device, const LinkOptions& options) : wanted_(device), options_(options) {
+  descriptions_.push_back(describe(device));
+  description_ = &descriptions_.back();
+  for (Inward& inward : inward_) inward.link = this;
+}
+
+UsbLink::~UsbLink() {
+  stopping_ = true;
+  events_.ring();
+  if (thread_.joinable()) thread_.join();
+}
+
+void UsbLink::open(LinkListener& listener) {
+  if (thread_.joinable()) throw DeviceError(description() + ": this link is open already");
+  listener_ = &listener;
+  std::promise<void> opened;
+  std::future<void> outcome = opened.get_future();
+  thread_ = std::thread(&UsbLink::run, this, std::move(opened));
+  try {
+    outcome.get();
+  } catch (...) {
+    thread_.join();
+    throw;
+  }
+}
+
+bool UsbLink::send(std::span<const std::byte> packet) noexcept {
+  if (packet.size() > longest_packet) return false;
+  if (newest_.put(packet)) replaced_.fetch_add(1, std::memory_order_relaxed);
+  events_.ring();
+  return true;
+}
+
+void UsbLink::command(std::span<const std::byte> packet) {
+  if (packet.size() > longest_packet) refuse(wanted_, "a command of " + std::to_string(packet.size()) + " bytes");
+  if (std::this_thread::get_id() == thread_id_) {
+    transmit(packet);
+    return;
+  }
+  const std::lock_guard<std::mutex> alone(command_mutex_);
+  if (!thread_.joinable()) refuse(wanted_, "the command was not sent: the link is not open");
+  Request request;
+  request.packet.assign(packet);
+  std::future<void> done = request.done.get_future();
+  request_.store(&request, std::memory_order_release);
+  events_.ring();
+  done.get();
+}
+
+LinkCounts UsbLink::counts() const noexcept { return {received_, sent_, replaced_, failed_, opened_}; }
+
+void UsbLink::run(std::promise<void> opened) noexcept {
+  thread_id_ = std::this_thread::get_id();
+  warnings_ = set_real_time_priority(options_.priority);
+  libusb_hotplug_callback_handle hotplug = 0;
+  const bool told_of_plugging =
+      libusb_hotplug_register_callback(
+          events_.context(), LIBUSB_HOTPLUG_EVENT_DEVICE_ARRIVED | LIBUSB_HOTPLUG_EVENT_DEVICE_LEFT, 0,
+          wanted_.vendor_id, wanted_.product_id, LIBUSB_HOTPLUG_MATCH_ANY, plugged, this, &hotplug) == LIBUSB_SUCCESS;
+  try {
+    connect();
+    opened.set_value();
+    while (!stopping_) {
+      serve();
+      events_.wait(longest_wait());
+    }
+    flush();
+  } catch (...) {
+    opened.set_exception(std::current_exception());
+  }
+  disconnect();
+  if (told_of_plugging) libusb_hotplug_deregister_callback(events_.context(), hotplug);
+}
+
+void UsbLink::serve() noexcept {
+  if (gone_) {
+    disconnect();
+    tell(DeviceFault::unplugged);
+  }
+  if (device_.handle() == nullptr && Clock::now() >= look_again_) {
+    look_again_ =
+        Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options_.search));
+    try {
+      connect();
+    } catch (const std::exception&) {
+      // Not there yet, or the system has not set its permissions yet: it is looked for again.
+      disconnect();
+    }
+  }
+  if (device_.handle() != nullptr && !gone_) {
+    recover();
+    tell_where_it_stands();
+  }
+  run_request();
+  send_newest();
+}
+
+double UsbLink::longest_wait() const noexcept {
+  if (gone_ || in_stalled_ || out_stalled_) return 0.0;
+  if (device_.handle() == nullptr) return 0.05;
+  return in_fault_ != DeviceFault::none || out_fault_ != DeviceFault::none ? 0.005 : 0.1;
+}
+
+void UsbLink::connect() {
+  device_.open(events_.context(), wanted_);
+  gone_ = holding_ = in_stalled_ = out_stalled_ = in_flows_ = false;
+  in_fault_ = out_fault_ = told_ = DeviceFault::none;
+  retry_in_ = retry_out_ = {};
+  kept_count_ = 0;
+  for (Inward& inward : inward_) {
+    inward.transfer = libusb_alloc_transfer(0);
+    if (inward.transfer == nullptr) throw std::bad_alloc();
+    // One packet a transfer: a longer one would wait until a short packet ends it.
+    libusb_fill_bulk_transfer(inward.transfer, device_.handle(), device_.in_endpoint(), inward.buffer.data(),
+                              std::min(device_.packet_size(), static_cast<int>(inward.buffer.size())), inward_done,
+                              &inward, milliseconds(options_.silence));
+  }
+  outward_.transfer = libusb_alloc_transfer(0);
+  if (outward_.transfer == nullptr) throw std::bad_alloc();
+  const std::string place = describe(device_.place());
+  auto known = std::find(descriptions_.begin(), descriptions_.end(), place);
+  if (known == descriptions_.end()) known = descriptions_.insert(known, place);
+  description_ = &*known;
+  opened_.fetch_add(1, std::memory_order_relaxed);
+  telling_ = true;
+  listener_->changed(DeviceFault::none);
+  telling_ = false;
+  last_received_ = Clock::now();
+  for (Inward& inward : inward_) submit(inward);
+}
+
+void UsbLink::disconnect() noexcept {
+  if (device_.handle() == nullptr) return;
+  cancel_inward();
+  if (outward_.flying) libusb_cancel_transfer(outward_.transfer);
+  pump_until(&UsbLink::outward_idle, longest_cancel);
+  device_.close(!gone_);
+  // A transfer that has not come back by now was taken from libusb's list when the device was closed.
+  for (Inward& inward : inward_) {
+    libusb_free_transfer(inward.transfer);
+    inward.transfer = nullptr;
+    inward.flying = inward.kept = false;
+  }
+  libusb_free_transfer(outward_.transfer);
+  outward_ = {};
+  gone_ = false;
+  look_again_ = {};
+}
+
+void UsbLink::recover() noexcept {
+  if (in_stalled_) {
+    // The system wants no transfer in the queue of an endpoint whose halt is cleared.
+    cancel_inward();
+    holding_ = false;
+    clear_halt(device_.in_endpoint());
+    if (in_fault_ == DeviceFault::stalled) retry_in_ = Clock::now() + pause_after_error;
+    in_stalled_ = false;
+    in_fault_ = DeviceFault::stalled;
+    in_flows_ = false;
+  }
+  if (out_stalled_) {
+    clear_halt(device_.out_endpoint());
+    if (out_fault_ == DeviceFault::stalled) retry_out_ = Clock::now() + pause_after_error;
+    out_stalled_ = false;
+    out_fault_ = DeviceFault::stalled;
+  }
+  if (gone_ || Clock::now() < retry_in_) return;
+  for (Inward& inward : inward_) {
+    if (!inward.flying && !inward.kept) submit(inward);
+  }
+}
+
+void UsbLink::clear_halt(unsigned char endpoint) noexcept {
+  if (libusb_clear_halt(device_.handle(), endpoint) == LIBUSB_ERROR_NO_DEVICE) gone_ = true;
+}
+
+/// The listener hears of a fault even when packets flow again by now, and only afterwards gets those packets.
+void UsbLink::tell_where_it_stands() noexcept {
+  if (gone_) return;
+  tell(in_fault_ != DeviceFault::none ? in_fault_ : out_fault_);
+  if (in_fault_ != DeviceFault::none && in_flows_) {
+    in_fault_ = DeviceFault::none;
+    in_flows_ = false;
+    tell(out_fault_);
+  }
+  if (in_fault_ != DeviceFault::none) return;
+  for (std::size_t i = 0; i < kept_count_; ++i) {
+    kept_[i]->kept = false;
+    hand_on(*kept_[i]);
+    submit(*kept_[i]);
+  }
+  kept_count_ = 0;
+}
+
+void UsbLink::tell(DeviceFault fault) noexcept {
+  const Clock::time_point now = Clock::now();
+  const bool again =
+      fault == DeviceFault::timed_out && now - told_at_ >= std::chrono::duration<double>(options_.silence);
+  if (fault == told_ && !again) return;
+  told_ = fault;
+  told_at_ = now;
+  telling_ = true;
+  listener_->changed(fault);
+  telling_ = false;
+}
+
+// ---- from the device
+
+void UsbLink::hand_on(const Inward& inward) noexcept {
+  received_.fetch_add(1, std::memory_order_relaxed);
+  listener_->received(std::as_bytes(
+      std::span<const unsigned char>(inward.buffer.data(), static_cast<std::size_t>(inward.transfer->actual_length))));
+}
+
+void UsbLink::submit(Inward& inward) noexcept {
+  if (holding_ || gone_) return;
+  const int result = libusb_submit_transfer(inward.transfer);
+  inward.flying = result == LIBUSB_SUCCESS;
+  if (result == LIBUSB_ERROR_NO_DEVICE) {
+    gone_ = true;
+  } else if (result != LIBUSB_SUCCESS) {
+    failed_.fetch_add(1, std::memory_order_relaxed);
+    inward_failed(DeviceFault::link_error);
+    retry_in_ = Clock::now() + pause_after_error;
+  }
+}
+
+void UsbLink::inward_failed(DeviceFault fault) noexcept {
+  in_fault_ = fault;
+  in_flows_ = false;
+}
+
+void UsbLink::inward_done(libusb_transfer* transfer) noexcept {
+  Inward& inward = *static_cast<Inward*>(transfer->user_data);
+  UsbLink& link = *inward.link;
+  inward.flying = false;
+  if (transfer->status != LIBUSB_TRANSFER_COMPLETED && transfer->status != LIBUSB_TRANSFER_CANCELLED) {
+    link.failed_.fetch_add(1, std::memory_order_relaxed);
+  }
+  switch (transfer->status) {
+    case LIBUSB_TRANSFER_COMPLETED:
+      link.last_received_ = Clock::now();
+      link.in_flows_ = link.in_fault_ != DeviceFault::none;
+      if (link.telling_ || link.in_fault_ != DeviceFault::none || link.in_stalled_ || link.kept_count_ > 0) {
+        inward.kept = true;
+        link.kept_[link.kept_count_++] = &inward;
+        return;
+      }
+      link.hand_on(inward);
+      link.submit(inward);
+      return;
+    case LIBUSB_TRANSFER_CANCELLED:
+      return;
+    case LIBUSB_TRANSFER_NO_DEVICE:
+      link.gone_ = true;
+      return;
+    case LIBUSB_TRANSFER_STALL:
+      link.in_stalled_ = true;
+      return;
+    case LIBUSB_TRANSFER_TIMED_OUT:
+      // When packets are rare, each of the four waits longer than the time between two of them.
+      if (Clock::now() - link.last_received_ >= std::chrono::duration<double>(link.options_.silence)) {
+        link.inward_failed(DeviceFault::timed_out);
+      }
+      link.submit(inward);
+      return;
+    case LIBUSB_TRANSFER_OVERFLOW:
+      link.inward_failed(DeviceFault::overlong_frame);
+      link.submit(inward);
+      return;
+    default:
+      break;
+  }
+  // The first sign of an unplugged device is often such an error: the next transfer tells which of the two it is.
+  const bool again = link.in_fault_ == DeviceFault::link_error;
+  link.inward_failed(DeviceFault::link_error);
+  link.retry_in_ = Clock::now() + pause_after_error;
+  if (!again) link.submit(inward);
+}
+
+void UsbLink::cancel_inward() noexcept {
+  holding_ = true;
+  for (Inward& inward : inward_) {
+    if (inward.flying) libusb_cancel_transfer(inward.transfer);
+  }
+  pump_until(&UsbLink::inward_idle, longest_cancel);
+}
+
+bool UsbLink::inward_idle() const noexcept {
+  return std::none_of(inward_.begin(), inward_.end(), [](const Inward& inward) { return inward.flying; });
+}
+
+// ---- to the device
+
+void UsbLink::send_newest() noexcept {
+  if (device_.handle() == nullptr || gone_ || outward_.flying || out_stalled_ || Clock::now() < retry_out_) return;
+  if (const Packet* packet = newest_.take()) {
+    std::copy_n(reinterpret_cast<const unsigned char*>(packet->bytes.data()), packet->size, outward_.buffer.data());
+    outward_.size = packet->size;
+    outward_.filled = Clock::now();
+    submit_outward();
+  } else if (outward_.refused && Clock::now() - outward_.filled < oldest_repeated_packet) {
+    submit_outward();
+  } else {
+    outward_.refused = false;
+  }
+}
+
+void UsbLink::submit_outward() noexcept {
+  libusb_fill_bulk_transfer(outward_.transfer, device_.handle(), device_.out_endpoint(), outward_.buffer.data(),
+                            static_cast<int>(outward_.size), outward_done, this, milliseconds(options_.answer));
+  const int result = libusb_submit_transfer(outward_.transfer);
+  outward_.flying = result == LIBUSB_SUCCESS;
+  outward_.refused = true;
+  if (result == LIBUSB_ERROR_NO_DEVICE) {
+    outward_.ended = LIBUSB_TRANSFER_NO_DEVICE;
+    gone_ = true;
+  } else if (result != LIBUSB_SUCCESS) {
+    failed_.fetch_add(1, std::memory_order_relaxed);
+    outward_.ended = LIBUSB_TRANSFER_ERROR;
+    out_fault_ = DeviceFault::link_error;
+    retry_out_ = Clock::now() + pause_after_error;
+  }
+}
+
+void UsbLink::outward_done(libusb_transfer* transfer) noexcept {
+  UsbLink& link = *static_cast<UsbLink*>(transfer->user_data);
+  link.outward_.flying = false;
+  link.outward_.ended = transfer->status;
+  if (transfer->status == LIBUSB_TRANSFER_COMPLETED) {
+    link.sent_.fetch_add(1, std::memory_order_relaxed);
+    link.outward_.refused = false;
+    link.out_fault_ = DeviceFault::none;
+    return;
+  }
+  if (transfer->status == LIBUSB_TRANSFER_CANCELLED) return;
+  link.failed_.fetch_add(1, std::memory_order_relaxed);
+  if (transfer->status == LIBUSB_TRANSFER_NO_DEVICE) {
+    link.gone_ = true;
+  } else if (transfer->status == LIBUSB_TRANSFER_STALL) {
+    link.out_stalled_ = true;
+  } else {
+    const bool late = transfer->status == LIBUSB_TRANSFER_TIMED_OUT;
+    link.out_fault_ = late ? DeviceFault::timed_out : DeviceFault::link_error;
+    link.retry_out_ = Clock::now() + pause_after_error;
+  }
+}
+
+void UsbLink::run_request() noexcept {
+  Request* const request = request_.exchange(nullptr, std::memory_order_acquire);
+  if (request == nullptr) return;
+  try {
+    transmit(request->packet.content());
+    request->done.set_value();
+  } catch (...) {
+    request->done.set_exception(std::current_exception());
+  }
+}
+
+void UsbLink::transmit(std::span<const std::byte> packet) {
+  pump_until(&UsbLink::outward_idle, options_.answer);
+  if (device_.handle() == nullptr || gone_) refuse(wanted_, "the command was not sent: it is not plugged in");
+  if (outward_.flying) refuse(device_.place(), "the command was not sent: it has not taken the packet before it");
+  std::copy_n(reinterpret_cast<const unsigned char*>(packet.data()), packet.size(), outward_.buffer.data());
+  outward_.size = packet.size();
+  submit_outward();
+  pump_until(&UsbLink::outward_idle, 2.0 * options_.answer);
+  outward_.refused = false;  // a command is the caller's to repeat
+  if (outward_.flying || outward_.ended != LIBUSB_TRANSFER_COMPLETED) {
+    refuse(device_.place(), std::string("the command was not taken: ") +
+                                (outward_.flying ? "it did not take it in time" : name_of(outward_.ended)));
+  }
+}
+
+/// The last packet of a servo loop is the one that sets the force to zero.
+void UsbLink::flush() noexcept {
+  const auto end = Clock::now() + std::chrono::duration<double>(longest_flush);
+  while ((newest_.waiting() || outward_.flying) && device_.handle() != nullptr && !gone_ && Clock::now() < end) {
+    send_newest();
+    events_.wait(0.005);
+  }
+}
+
+void UsbLink::pump_until(bool (UsbLink::*reached)() const noexcept, double seconds) noexcept {
+  const auto end = Clock::now() + std::chrono::duration<double>(seconds);
+  while (!(this->*reached)() && Clock::now() < end) events_.wait(0.005);
+}
+
+int UsbLink::plugged(libusb_context*, libusb_device* device, libusb_hotplug_event event, void* self) noexcept {
+  UsbLink& link = *static_cast<UsbLink*>(self);
+  if (event == LIBUSB_HOTPLUG_EVENT_DEVICE_ARRIVED) {
+    link.look_again_ = {};
+  } else if (link.device_.handle() != nullptr && libusb_get_device(link.device_.handle()) == device) {
+    link.gone_ = true;
+  }
+  return 0;
+}
+
+}  // namespace calligraphy::phantom

@@ -1,0 +1,427 @@
+#include <calligraphy/devices/phantom/phantom_device.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <sstream>
+#include <thread>
+#include <utility>
+
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/devices/device_profiles.hpp>
+#include <calligraphy/devices/force_guard.hpp>
+
+#include "devices/phantom/link/link.hpp"
+#include "devices/phantom/wire/packet_codec.hpp"
+#include "devices/phantom/wire/report_frames.hpp"
+#include "force_output.hpp"
+#include "latest_value.hpp"
+#include "motion_tracker.hpp"
+#include "motor_temperature.hpp"
+
+namespace calligraphy {
+namespace {
+
+using namespace phantom;
+
+constexpr double fault_time = 20e-3;      // for which a fault is told: longer than any fall of the force [s]
+constexpr double silence = 8e-3;          // without a report: three times the longest pause of a real device [s]
+constexpr double write_patience = 20e-3;  // without a command [s]
+constexpr double fall_time = 10e-3;       // [s]
+constexpr double rise_time = 0.1;         // [s]
+
+WireProfile profile_of(const PhantomOptions& options) {
+  if (options.wire_profile.empty()) {
+    throw ValueError(
+        "no wire profile is given. How a Touch reports its motion is not public: describe it in a file as "
+        "docs/wire-profile.md tells (\"calligraphy devices probe\" captures what is needed), and name that file");
+  }
+  const std::vector<std::string> shipped = wire_profile_names();
+  const bool is_shipped = std::ranges::find(shipped, options.wire_profile) != shipped.end();
+  const WireProfile profile = is_shipped ? wire_profile(options.wire_profile) : read_wire_profile(options.wire_profile);
+  const std::vector<std::string> missing = options.drive ? missing_for_force(profile) : missing_for_position(profile);
+  if (missing.empty()) return profile;
+  std::string lines;
+  for (const std::string& line : missing) lines += (lines.empty() ? "" : ", ") + line;
+  throw ValueError("wire profile \"" + profile.name + "\" gives no " + (options.drive ? "force" : "position") +
+                   ": it lacks " + lines + ". Calibrate them on your device and add the lines to a copy of it");
+}
+
+const PhantomOptions& checked(const PhantomOptions& options) {
+  if (!(options.velocity_cutoff >= 1.0 && options.velocity_cutoff <= 1000.0)) {
+    std::ostringstream message;
+    message << "velocity cutoff is " << options.velocity_cutoff << ", must be 1 to 1000 Hz";
+    throw ValueError(message.str());
+  }
+  if (options.priority < 0 || options.priority > 99) {
+    throw ValueError("priority is " + std::to_string(options.priority) +
+                     ", must be from 1 to 99, or 0 for ordinary threads");
+  }
+  return options;
+}
+
+double seconds_of_steady_clock() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+std::function<double()> clock_or_steady(std::function<double()> clock) {
+  return clock ? std::move(clock) : std::function<double()>(seconds_of_steady_clock);
+}
+
+}  // namespace
+
+void validate(const PhantomOptions& options) {
+  checked(options);
+  profile_of(options);
+  linkage(options.model);
+}
+
+/// What the two threads share, and what belongs to each of them.
+class PhantomDevice::Core final : public LinkListener {
+ public:
+  Core(std::unique_ptr<Link> link, const PhantomOptions& options, std::function<double()> clock)
+      : options_(checked(options)),
+        clock_(clock_or_steady(std::move(clock))),
+        codec_(profile_of(options)),
+        linkage_(linkage(options.model)),
+        capabilities_(device_profile(options.model)),
+        frames_(codec_),
+        tracker_(codec_.profile(), linkage_, options.velocity_cutoff),
+        guard_(fall_time, rise_time),
+        output_(codec_, linkage_, capabilities_, options),
+        bus_(link.get()),
+        link_(std::move(link)) {
+    capabilities_.update_rate = codec_.profile().rate;
+    opened_at_ = clock_();
+    last_report_ = opened_at_;
+    silent_until_ = opened_at_;
+    last_write_.store(opened_at_, std::memory_order_relaxed);
+    description_ = link_->description();
+    link_->open(*this);
+    description_ = link_->description();
+    warnings_ = link_->warnings();
+  }
+
+  // The link's thread.
+
+  void received(std::span<const std::byte> bytes) noexcept override {
+    const double now = clock_();
+    take_calibration();
+    frames_.feed(bytes, [&](const RawSample& sample) { judge(sample, now); });
+    counts_.skipped_bytes.store(frames_.skipped_bytes(), std::memory_order_relaxed);
+    release_if_forgotten(now);
+  }
+
+  void changed(DeviceFault fault) noexcept override {
+    const DeviceFault before = link_fault_.load(std::memory_order_relaxed);
+    if (fault != DeviceFault::none) {
+      tell(fault, clock_());
+      start_due_ = start_due_ || fault != DeviceFault::overlong_frame;  // whose link was never down
+    } else if (!started_ || before == DeviceFault::unplugged) {
+      frames_.reset();
+      tracker_.restart(started_ && options_.keep_calibration);
+      started_ = true;
+    }
+    // A device that has reset itself without leaving the bus waits for its start commands, and may be silent until it
+    // gets them.
+    if (start_due_ && !closing_.load(std::memory_order_acquire) &&
+        (fault == DeviceFault::none || fault == DeviceFault::timed_out)) {
+      const bool taken = send_all(codec_.profile().start);
+      if (fault == DeviceFault::none) {
+        start_due_ = !taken;
+        if (!taken) {
+          fault = DeviceFault::link_error;
+          tell(fault, clock_());
+        }
+      }
+    }
+    link_fault_.store(fault, std::memory_order_release);
+  }
+
+  // The servo loop.
+
+  DeviceState read() noexcept {
+    const bool fresh = latest_.take(motion_);
+    const double now = clock_();
+    if (fresh) last_report_ = motion_.time;
+    DeviceState state;
+    state.time = last_report_ - opened_at_;
+    state.position = motion_.position;
+    state.velocity = motion_.velocity;
+    state.buttons = motion_.buttons;
+    state.fault = fault_now(now);
+    const std::uint64_t told = told_.load(std::memory_order_acquire);
+    if (state.fault == DeviceFault::none && told != told_seen_)
+      state.fault = told_fault_.load(std::memory_order_relaxed);
+    told_seen_ = told;
+    if (!open_ || state.fault == DeviceFault::unplugged) {
+      state.status = DeviceStatus::disconnected;
+    } else if (state.fault != DeviceFault::none) {
+      state.status = DeviceStatus::fault;
+    } else if (!motion_.calibrated) {
+      state.status = DeviceStatus::needs_calibration;
+      state.fault = DeviceFault::uncalibrated;
+    } else if (!fresh) {
+      state.status = DeviceStatus::stale;
+    } else if (output_.warmest() >= MotorTemperature::warm) {
+      state.status = DeviceStatus::warm_motors;
+    }
+    return state;
+  }
+
+  void write(const Eigen::Vector3d& force) noexcept {
+    if (!open_) return;
+    const double now = clock_();
+    double elapsed = std::max(now - last_write_.load(std::memory_order_relaxed), 0.0);
+    last_write_.store(now, std::memory_order_release);
+    output_.pass_time(elapsed);
+    if (elapsed > write_patience) {  // the motors have been switched off meanwhile
+      guard_.reset();
+      elapsed = 0.0;
+    }
+    DeviceFault fault = fault_now(now);
+    if (fault == DeviceFault::none && !motion_.calibrated) fault = DeviceFault::uncalibrated;
+    const bool good = options_.drive && fault == DeviceFault::none && !motion_.docked;
+    const Eigen::Vector3d wanted = output_.shortened(force);
+    Eigen::Vector3d allowed;
+    if (good) {
+      allowed = guard_.pass(wanted, elapsed);
+      good_joints_ = motion_.joints;
+    } else {
+      allowed = guard_.fall(fault, elapsed, 2.0 / capabilities_.update_rate);
+      // A servo loop that lets its force fall faster may.
+      if (wanted.norm() < allowed.norm()) allowed *= wanted.norm() / allowed.norm();
+    }
+    const double gain = guard_.phase() == ServoPhase::zero ? 0.0 : guard_.gain();
+    send(output_.command(good_joints_, allowed, gain), Sender::servo_loop);
+  }
+
+  void close() noexcept {
+    if (!open_) return;
+    open_ = false;
+    closing_.store(true, std::memory_order_release);  // who is about to be stopped is not started again
+    switch_off();
+    send_all(codec_.profile().stop);
+    closed_counts_ = link_->counts();
+    link_.reset();
+  }
+
+  // Set-up and any thread.
+
+  void calibrate(const Joints& joints) noexcept {
+    for (std::size_t i = 0; i < 3; ++i) {
+      asked_joints_[i].store(joints[static_cast<Eigen::Index>(i)], std::memory_order_relaxed);
+    }
+    calibration_asked_.store(true, std::memory_order_release);
+  }
+
+  PhantomStatistics statistics() const noexcept;
+  const Capabilities& capabilities() const noexcept { return capabilities_; }
+  const Motion& motion() const noexcept { return motion_; }
+  const std::string& description() const noexcept { return description_; }
+  const std::vector<std::string>& warnings() const noexcept { return warnings_; }
+
+ private:
+  struct Counts {
+    std::atomic<std::uint64_t> reports = 0, used = 0, lost = 0, repeated = 0, skipped_bytes = 0;
+    std::atomic<std::uint64_t> commands = 0, refused = 0, released = 0;
+    std::array<std::atomic<std::uint64_t>, device_fault_count> faults{};
+  };
+
+  static void count(std::atomic<std::uint64_t>& counter, std::uint64_t more = 1) noexcept {
+    counter.fetch_add(more, std::memory_order_relaxed);
+  }
+
+  void judge(const RawSample& sample, double now) noexcept {
+    count(counts_.reports);
+    const MotionTracker::Judgement judgement = tracker_.take(sample, now);
+    count(counts_.lost, judgement.lost);
+    if (judgement.repeated) count(counts_.repeated);
+    if (judgement.fault != DeviceFault::none) tell(judgement.fault, now);
+    if (!judgement.fresh) return;
+    count(counts_.used);
+    latest_.publish(tracker_.motion());
+  }
+
+  /// A fault of this moment, for both threads.
+  void tell(DeviceFault fault, double now) noexcept {
+    count(counts_.faults[static_cast<std::size_t>(fault)]);
+    told_fault_.store(fault, std::memory_order_relaxed);
+    told_until_.store(now + fault_time, std::memory_order_relaxed);
+    told_.fetch_add(1, std::memory_order_release);
+  }
+
+  /// What stands in the way of a force now, for the thread of the servo loop.
+  DeviceFault fault_now(double now) noexcept {
+    const DeviceFault link_fault = link_fault_.load(std::memory_order_acquire);
+    if (link_fault != DeviceFault::none) return link_fault;
+    if (told_.load(std::memory_order_acquire) > 0 && now < told_until_.load(std::memory_order_relaxed)) {
+      return told_fault_.load(std::memory_order_relaxed);
+    }
+    if (output_.overheated()) return DeviceFault::overheated;
+    if (now - last_report_ > silence) {
+      if (now >= silent_until_) count(counts_.faults[static_cast<std::size_t>(DeviceFault::silent)]);
+      silent_until_ = now + fault_time;
+    }
+    return now < silent_until_ ? DeviceFault::silent : DeviceFault::none;
+  }
+
+  void take_calibration() noexcept {
+    if (!calibration_asked_.load(std::memory_order_acquire)) return;
+    calibration_asked_.store(false, std::memory_order_relaxed);
+    Joints joints;
+    for (std::size_t i = 0; i < 3; ++i) {
+      joints[static_cast<Eigen::Index>(i)] = asked_joints_[i].load(std::memory_order_relaxed);
+    }
+    tracker_.calibrate(joints);
+  }
+
+  /// The servo loop no longer calls write(), and the motors would keep what it asked for last.
+  void release_if_forgotten(double now) noexcept {
+    if (!motors_on_.load(std::memory_order_relaxed)) return;
+    if (now - last_write_.load(std::memory_order_acquire) <= write_patience) return;
+    if (send({}, Sender::link_thread)) count(counts_.released);
+  }
+
+  enum class Sender : std::uint8_t { servo_loop, link_thread };
+
+  /// From both threads: the one that finds the other at it lets it be. Only the servo loop's commands move the dead
+  /// man's bit, and the other thread sends nothing that the servo loop has overtaken.
+  bool send(RawCommand command, Sender sender) noexcept {
+    if (codec_.profile().command_size == 0 || sending_.test_and_set(std::memory_order_acquire)) return false;
+    bool sent = false;
+    const bool of_servo = sender == Sender::servo_loop;
+    if (of_servo || clock_() - last_write_.load(std::memory_order_acquire) > write_patience) {
+      if (of_servo) toggle_ = !toggle_;
+      command.toggle = toggle_;
+      sent = bus_->send(frames_.wrap(command, packet_));
+      count(sent ? counts_.commands : counts_.refused);
+      if (sent) motors_on_.store(command.motors_on, std::memory_order_relaxed);
+    }
+    sending_.clear(std::memory_order_release);
+    return sent;
+  }
+
+  /// The last packet of all: replaces one that waits, then goes out where nothing may overtake it.
+  void switch_off() noexcept {
+    if (codec_.profile().command_size == 0) return;
+    while (sending_.test_and_set(std::memory_order_acquire)) std::this_thread::yield();  // and never cleared
+    RawCommand off;
+    off.toggle = toggle_;
+    const std::span<const std::byte> packet = frames_.wrap(off, packet_);
+    bus_->send(packet);
+    try {
+      bus_->command(packet);
+    } catch (...) {  // a device that is gone has no motors to switch off
+    }
+  }
+
+  bool send_all(const std::vector<std::vector<std::byte>>& commands) noexcept {
+    try {
+      std::array<std::byte, largest_packet> packet;
+      for (const std::vector<std::byte>& bytes : commands) bus_->command(frames_.wrap(bytes, packet));
+      return true;
+    } catch (...) {
+      return false;
+    }
+  }
+
+  PhantomOptions options_;
+  std::function<double()> clock_;
+  PacketCodec codec_;
+  const Linkage& linkage_;
+  Capabilities capabilities_;
+  double opened_at_ = 0.0;
+  std::string description_;
+  std::vector<std::string> warnings_;
+
+  // Of the link's thread.
+  ReportFrames frames_;
+  MotionTracker tracker_;
+  bool started_ = false;
+  bool start_due_ = true;
+
+  // From the link's thread to the servo loop.
+  LatestValue<Motion> latest_;
+  std::atomic<DeviceFault> link_fault_ = DeviceFault::none;  ///< as long as it lasts
+  std::atomic<DeviceFault> told_fault_ = DeviceFault::none;  ///< of a moment
+  std::atomic<double> told_until_ = 0.0;
+  std::atomic<std::uint64_t> told_ = 0;  ///< how often
+
+  // From the servo loop to the link's thread.
+  std::atomic<double> last_write_ = 0.0;
+  std::atomic<bool> motors_on_ = false;
+  std::array<std::atomic<double>, 3> asked_joints_{};
+  std::atomic<bool> calibration_asked_ = false;
+
+  // Of whoever holds `sending_`.
+  std::atomic_flag sending_;
+  bool toggle_ = false;
+  std::array<std::byte, largest_packet> packet_{};
+
+  // Of the servo loop.
+  bool open_ = true;
+  Motion motion_;
+  double last_report_ = 0.0;
+  double silent_until_ = 0.0;
+  std::uint64_t told_seen_ = 0;
+  Joints good_joints_ = Joints::Zero();  ///< where a force was given last; with a fault the newest may be wrong
+  ForceGuard guard_;
+  ForceOutput output_;
+
+  Counts counts_;
+  LinkCounts closed_counts_;
+  std::atomic<bool> closing_ = false;
+  Link* const bus_;             ///< the link, for its own thread too, which runs until the link has ended
+  std::unique_ptr<Link> link_;  ///< last: gone before anything that its thread uses
+};
+
+PhantomStatistics PhantomDevice::Core::statistics() const noexcept {
+  const auto value = [](const std::atomic<std::uint64_t>& counter) { return counter.load(std::memory_order_relaxed); };
+  PhantomStatistics result;
+  result.reports = value(counts_.reports);
+  result.used_reports = value(counts_.used);
+  result.lost_reports = value(counts_.lost);
+  result.repeated_reports = value(counts_.repeated);
+  result.skipped_bytes = value(counts_.skipped_bytes);
+  result.commands = value(counts_.commands);
+  result.refused_commands = value(counts_.refused);
+  result.released = value(counts_.released);
+  for (std::size_t i = 0; i < device_fault_count; ++i) result.faults[i] = value(counts_.faults[i]);
+  const LinkCounts link = link_ ? link_->counts() : closed_counts_;
+  result.transfers_failed = link.failed;
+  result.commands_replaced = link.replaced;
+  result.opened = link.opened;
+  result.warmest_motor = output_.published_warmest();
+  return result;
+}
+
+PhantomDevice::PhantomDevice(std::unique_ptr<Link> link, const PhantomOptions& options, std::function<double()> clock) {
+  if (!link) throw ValueError("a phantom without a link");
+  core_ = std::make_unique<Core>(std::move(link), options, std::move(clock));
+}
+
+PhantomDevice::~PhantomDevice() { core_->close(); }
+
+const Capabilities& PhantomDevice::capabilities() const noexcept { return core_->capabilities(); }
+DeviceState PhantomDevice::read() noexcept { return core_->read(); }
+void PhantomDevice::write(const Eigen::Vector3d& force) noexcept { core_->write(force); }
+void PhantomDevice::close() noexcept { core_->close(); }
+
+void PhantomDevice::calibrate(const Joints& joints) {
+  if (!joints.allFinite()) {
+    std::ostringstream message;
+    message << "joints are (" << joints.transpose() << ") rad, must be finite";
+    throw ValueError(message.str());
+  }
+  core_->calibrate(joints);
+}
+
+const Joints& PhantomDevice::joints() const noexcept { return core_->motion().joints; }
+bool PhantomDevice::docked() const noexcept { return core_->motion().docked; }
+PhantomStatistics PhantomDevice::statistics() const noexcept { return core_->statistics(); }
+const std::string& PhantomDevice::description() const noexcept { return core_->description(); }
+std::vector<std::string> PhantomDevice::warnings() const { return core_->warnings(); }
+
+}  // namespace calligraphy

@@ -1,0 +1,358 @@
+#include <calligraphy/experiments/stability_map.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <span>
+#include <sstream>
+#include <utility>
+
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/base/random.hpp>
+#include <calligraphy/devices/simulated_device.hpp>
+#include <calligraphy/render/passivity_controller.hpp>
+
+#include "base/parallel.hpp"
+
+namespace calligraphy {
+namespace {
+
+constexpr double at_rest = 1e-7;      ///< from peak to peak, a hundredth of a coarse encoder's step [m]
+constexpr double shrunk = 0.95;       ///< in half of the time
+constexpr double still = 0.99;        ///< in the last quarter: an approach to a smaller swing stands still by then
+constexpr double out_of_reach = 1.0;  ///< no pen is there [m]
+constexpr int windows = 16;           ///< of the time, in each of which the swing is measured
+constexpr double precision = 1.02;    ///< of the largest stable stiffness
+constexpr Eigen::Index wall_normal = 2;    ///< the axis along which the pen meets the wall
+
+void require(bool in_domain, const char* name, double value, const char* domain) {
+  if (in_domain) return;
+  std::ostringstream message;
+  message << "stability: " << name << " = " << value << ": expected " << domain;
+  throw ValueError(message.str());
+}
+
+void validate(const WallEncounter& encounter) {
+  const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
+  require(positive(encounter.push), "push", encounter.push, "a finite number above 0");
+  require(encounter.height >= 0.0 && encounter.height < out_of_reach, "height", encounter.height,
+          "from 0 to below 1 m");
+  require(positive(encounter.seconds) && encounter.seconds <= 1000.0, "seconds", encounter.seconds,
+          "above 0, at most 1000");
+  require(encounter.lost >= 0.0 && encounter.lost <= 0.9, "share of samples lost", encounter.lost, "from 0 to 0.9");
+  require(encounter.reordered >= 0.0 && encounter.reordered <= 1.0, "share of samples out of order",
+          encounter.reordered, "from 0 to 1");
+}
+
+Capabilities pushed(Capabilities device) {
+  device.peak_force = std::numeric_limits<double>::infinity();  // the push is the hand's, not its own
+  return device;
+}
+
+/// Samples as they come over a bad line.
+class Line {
+ public:
+  Line(const WallEncounter& encounter, double position)
+      : lost_(encounter.lost), reordered_(encounter.reordered), last_(position), waiting_(position) {}
+
+  double receive(double position) {
+    if (lost_ > 0.0 && random_.next() < lost_) return last_;
+    if (std::exchange(is_waiting_, false)) return last_ = waiting_;  // the older of the two, one tick late
+    if (reordered_ > 0.0 && has_last_ && random_.next() < reordered_) {
+      // This one comes after the next: until then there is the last again.
+      is_waiting_ = true;
+      waiting_ = position;
+      return last_;
+    }
+    has_last_ = true;
+    return last_ = position;
+  }
+
+ private:
+  double lost_, reordered_;
+  double last_, waiting_;
+  bool is_waiting_ = false, has_last_ = false;
+  Random random_{1};
+};
+
+/// The force of the wall, which may push and not pull.
+class Wall {
+ public:
+  Wall(const SampledLoop& loop, double stiffness, double position)
+      : stiffness_(stiffness), damping_(loop.wall_damping * loop.rate), before_(position) {}
+
+  double force(double position) {
+    const double step = position - std::exchange(before_, position);
+    return position < 0.0 ? std::max(0.0, -stiffness_ * position - damping_ * step) : 0.0;
+  }
+
+ private:
+  double stiffness_, damping_, before_;
+};
+
+/// From window to window, so that a swing which merely varies does not pass, by enough in all, and to the end.
+bool shrinks(std::span<const double> swings) {
+  const bool falls = std::is_sorted(swings.rbegin(), swings.rend(), std::less_equal<>());
+  return falls && swings.back() < shrunk * swings.front() && swings.back() < still * swings[swings.size() / 2];
+}
+
+PassivityController controller_for(const SampledLoop& loop, bool controlled) {
+  PassivityOptions options;
+  if (controlled) {
+    options.delay = std::min(loop.device.sample_delay, PassivityController::longest_delay);
+    options.max_damping = injectable_damping(loop);
+  }
+  return {options, 1.0 / loop.rate};
+}
+
+}  // namespace
+
+WallOutcome meet_wall(const SampledLoop& loop, double stiffness, const WallEncounter& encounter) {
+  validate(loop);
+  validate(encounter);
+  require(loop.device.peak_force > 0.0, "peak force of the device", loop.device.peak_force, "above 0");
+  require(std::isfinite(stiffness) && stiffness >= 0.0, "stiffness", stiffness, "a finite number from 0 up");
+  const double period = 1.0 / loop.rate;
+  SimulatedDevice device(pushed(loop.device), loop.grip, {0.0, 0.0, encounter.height});
+  device.set_intention({});
+  Line line(encounter, encounter.height);
+  Wall wall(loop, stiffness, encounter.height);
+  PassivityController controller = controller_for(loop, encounter.controlled);
+  const int ticks = std::max(1, static_cast<int>(encounter.seconds * loop.rate / windows));
+  std::array<double, windows> swings{};
+  WallOutcome outcome;
+  for (double& swing : swings) {
+    double low = out_of_reach, high = -out_of_reach;
+    outcome.last_force = 0.0;
+    for (int tick = 0; tick < ticks; ++tick) {
+      const double position = line.receive(device.read().position[wall_normal]);
+      Eigen::Vector3d wanted(0.0, 0.0, wall.force(position));
+      if (encounter.controlled) wanted = controller.next({0.0, 0.0, position}, wanted);
+      const double sent = std::clamp(wanted[wall_normal], -loop.device.peak_force, loop.device.peak_force);
+      controller.sent({0.0, 0.0, sent});
+      device.write({0.0, 0.0, sent - encounter.push});
+      device.advance(period);
+      outcome.last_force = std::max(outcome.last_force, std::abs(sent));
+      low = std::min(low, device.true_position()[wall_normal]);
+      high = std::max(high, device.true_position()[wall_normal]);
+    }
+    outcome.largest_force = std::max(outcome.largest_force, outcome.last_force);
+    outcome.swing = swing = high - low;
+    if (swing < at_rest) {
+      outcome.settles = true;
+      return outcome;
+    }
+    if (!(low > -out_of_reach && high < out_of_reach)) return outcome;
+  }
+  outcome.settles = shrinks(std::span(swings).subspan(windows / 2 - 1));
+  return outcome;
+}
+
+namespace {
+
+std::vector<double> stiffnesses_of(const StabilityMapOptions& options) {
+  std::vector<double> stiffnesses;
+  const double steps = options.per_decade * std::log10(options.stiffest / options.softest);
+  for (int i = 0; i <= static_cast<int>(std::lround(steps)); ++i) {
+    stiffnesses.push_back(options.softest * std::pow(10.0, static_cast<double>(i) / options.per_decade));
+  }
+  return stiffnesses;
+}
+
+using Test = std::function<bool(const WallOutcome&)>;
+
+/// Between the last that passes and the first that does not, by halves of the logarithm.
+double largest(const StabilityLine& line, const std::vector<WallOutcome>& outcomes, const StabilityMap& map,
+               const WallEncounter& encounter, const Test& passes) {
+  const auto first = std::find_if_not(outcomes.begin(), outcomes.end(), passes) - outcomes.begin();
+  if (first == 0) return 0.0;
+  double good = map.stiffnesses[static_cast<std::size_t>(first) - 1];
+  if (static_cast<std::size_t>(first) == outcomes.size()) return good;
+  double bad = map.stiffnesses[static_cast<std::size_t>(first)];
+  while (bad > precision * good) {
+    const double middle = std::sqrt(good * bad);
+    (passes(meet_wall(line.loop, middle, encounter)) ? good : bad) = middle;
+  }
+  return good;
+}
+
+/// What became of a pen on each stiffness of a line, without and with passivity control.
+using Trials = std::array<std::vector<WallOutcome>, 2>;
+
+/// Many short pieces of work, so that whoever waits for them can give up soon.
+void try_all(const std::vector<StabilityLine*>& lines, const StabilityMap& map,
+             const std::function<void(double)>& progress, std::vector<Trials>& trials) {
+  const std::size_t stiffnesses = map.stiffnesses.size();
+  for (Trials& each : trials) each.fill(std::vector<WallOutcome>(stiffnesses));
+  parallel_for(2 * stiffnesses * lines.size(), 0, progress, [&](std::size_t i) {
+    const std::size_t line = i / (2 * stiffnesses), controlled = i / stiffnesses % 2, stiffness = i % stiffnesses;
+    WallEncounter encounter = map.encounter;
+    encounter.controlled = controlled == 1;
+    trials[line][controlled][stiffness] = meet_wall(lines[line]->loop, map.stiffnesses[stiffness], encounter);
+  });
+}
+
+void find_largest(const std::vector<StabilityLine*>& lines, const StabilityMap& map,
+                  const std::function<void(double)>& progress, const std::vector<Trials>& trials) {
+  const Test comes_to_rest = [](const WallOutcome& outcome) { return outcome.settles; };
+  const Test within_peak = [&map](const WallOutcome& outcome) {
+    return outcome.settles && outcome.largest_force < map.device.peak_force;
+  };
+  WallEncounter free = map.encounter, controlled = map.encounter;
+  free.controlled = false;
+  controlled.controlled = true;
+  parallel_for(3 * lines.size(), 0, progress, [&](std::size_t i) {
+    StabilityLine& line = *lines[i / 3];
+    const auto& [without, with] = trials[i / 3];
+    if (i % 3 == 0) line.largest = largest(line, without, map, free, comes_to_rest);
+    if (i % 3 == 1) line.controlled_largest = largest(line, with, map, controlled, comes_to_rest);
+    if (i % 3 == 2) line.controlled_within_peak = largest(line, with, map, controlled, within_peak);
+  });
+}
+
+void fill(const std::vector<StabilityLine*>& lines, const StabilityMap& map,
+          const std::function<void(double)>& progress) {
+  constexpr double share_of_trials = 0.8;  // of the time, about
+  const auto part = [&progress](double from, double share) -> std::function<void(double)> {
+    if (!progress) return nullptr;
+    return [&progress, from, share](double done) { progress(from + share * done); };
+  };
+  std::vector<Trials> trials(lines.size());
+  try_all(lines, map, part(0.0, share_of_trials), trials);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    StabilityLine& line = *lines[i];
+    const StiffnessAdvice advice = advise_stiffness(line.loop);
+    line.passive = advice.passive.value;
+    line.quantised = advice.quantised.value;
+    line.stable = advice.stable.value;
+    line.approximate = advice.approximate.value;
+    for (const WallOutcome& outcome : trials[i][0]) line.settles.push_back(outcome.settles);
+    for (const WallOutcome& outcome : trials[i][1]) line.controlled_settles.push_back(outcome.settles);
+  }
+  find_largest(lines, map, part(share_of_trials, 1.0 - share_of_trials), trials);
+}
+
+std::string text(double value) {
+  std::ostringstream stream;
+  stream << value;
+  return stream.str();
+}
+
+template <typename Value, typename Change>
+StabilitySweep sweep(const Capabilities& device, const char* name, const char* label, const std::vector<Value>& values,
+                     double in_unit, Change change) {
+  StabilitySweep result{name, label, {}, {}};
+  for (const Value& value : values) {
+    StabilityLine line;
+    line.loop.device = device;
+    change(line.loop, value);
+    result.values.push_back(text(static_cast<double>(value) * in_unit));
+    result.lines.push_back(std::move(line));
+  }
+  return result;
+}
+
+StabilitySweep grip_sweep(const Capabilities& device) {
+  const std::pair<const char*, Hand> grips[] = {{"none", {0.0, 0.0, 0.0}},
+                                                {"soft", {0.05, 1.0, 100.0}},
+                                                {"normal", {0.1, 3.0, 300.0}},
+                                                {"firm", {0.15, 5.0, 500.0}}};
+  StabilitySweep result{"grip", "grip", {}, {}};
+  for (const auto& [name, grip] : grips) {
+    StabilityLine line;
+    line.loop.device = device;
+    line.loop.grip = grip;
+    result.values.push_back(name);
+    result.lines.push_back(std::move(line));
+  }
+  return result;
+}
+
+std::vector<StabilitySweep> sweeps_of(const Capabilities& device, double friction) {
+  using Values = std::vector<double>;
+  constexpr double kilohertz = 1e-3, micrometres = 1e6;
+  return {
+      sweep(device, "damping", "damping of the device b [N s/m]", Values{0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0}, 1.0,
+            [](SampledLoop& loop, double value) { loop.device.viscous_friction = value; }),
+      sweep(device, "rate", "servo rate [kHz]", Values{100.0, 200.0, 500.0, 1000.0, 2000.0, 5000.0, 10000.0, 20000.0},
+            kilohertz, [](SampledLoop& loop, double value) { loop.rate = value; }),
+      sweep(device, "delay", "delay [ticks]", std::vector<int>{0, 1, 2, 3, 4, 5}, 1.0,
+            [](SampledLoop& loop, int value) { loop.device.sample_delay = value; }),
+      sweep(device, "wall_damping", "damping of the wall B [N s/m]",
+            Values{0.0, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 30.0}, 1.0,
+            [](SampledLoop& loop, double value) { loop.wall_damping = value; }),
+      sweep(device, "encoder_step", "encoder step [um], with dry friction", Values{0.0, 1e-6, 23e-6, 55e-6, 200e-6},
+            micrometres,
+            [friction](SampledLoop& loop, double value) {
+              loop.device.encoder_step = value;
+              loop.device.coulomb_friction = friction;
+            }),
+      grip_sweep(device)};
+}
+
+std::vector<StabilityLine> grid_of(const StabilityMapOptions& options) {
+  std::vector<StabilityLine> grid;
+  for (const Hand& grip : options.grips) {
+    for (const double wall_damping : options.wall_dampings) {
+      for (const double encoder_step : options.encoder_steps) {
+        for (const int delay : options.delays) {
+          for (const double rate : options.rates) {
+            for (const double damping : options.dampings) {
+              StabilityLine line;
+              line.loop.device = options.device;
+              line.loop.device.viscous_friction = damping;
+              line.loop.rate = rate;
+              line.loop.device.sample_delay = delay;
+              line.loop.device.encoder_step = encoder_step;
+              line.loop.device.coulomb_friction = encoder_step > 0.0 ? options.coulomb_friction : 0.0;
+              line.loop.wall_damping = wall_damping;
+              line.loop.grip = grip;
+              grid.push_back(std::move(line));
+            }
+          }
+        }
+      }
+    }
+  }
+  return grid;
+}
+
+}  // namespace
+
+Capabilities StabilityMapOptions::point_mass() {
+  Capabilities device;
+  device.apparent_mass = 0.045;
+  device.viscous_friction = 0.1;
+  device.peak_force = 7.9;
+  return device;
+}
+
+StabilityMap stability_map(const StabilityMapOptions& options) {
+  validate(options.encounter);
+  require(options.per_decade >= 1 && options.per_decade <= 100, "stiffnesses per decade", options.per_decade,
+          "from 1 to 100");
+  require(std::isfinite(options.softest) && options.softest > 0.0, "softest", options.softest,
+          "a finite number above 0");
+  require(std::isfinite(options.stiffest) && options.stiffest > options.softest, "stiffest", options.stiffest,
+          "a finite number above the softest");
+  require(options.device.peak_force > 0.0, "peak force of the device", options.device.peak_force, "above 0");
+  StabilityMap map;
+  map.encounter = options.encounter;
+  map.device = options.device;
+  map.stiffnesses = stiffnesses_of(options);
+  if (options.with_sweeps) map.sweeps = sweeps_of(options.device, options.coulomb_friction);
+  if (options.with_grid) map.grid = grid_of(options);
+  std::vector<StabilityLine*> lines;
+  for (StabilitySweep& sweep : map.sweeps) {
+    for (StabilityLine& line : sweep.lines) lines.push_back(&line);
+  }
+  for (StabilityLine& line : map.grid) lines.push_back(&line);
+  for (const StabilityLine* line : lines) validate(line->loop);
+  fill(lines, map, options.progress);
+  return map;
+}
+
+}  // namespace calligraphy

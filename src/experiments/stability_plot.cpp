@@ -1,0 +1,148 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <pugixml.hpp>
+
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/experiments/stability_map.hpp>
+
+#include "pictures/gnuplot.hpp"
+#include "pictures/svg.hpp"
+
+namespace calligraphy {
+namespace {
+
+using gnuplot::numeral;
+
+constexpr std::size_t panel_columns = 3;                         // of panels
+constexpr double panels_left = 0.078, panels_right = 0.99, panel_gap = 0.025;  // of the panels, shares of the picture
+constexpr double panels_top = 0.88, bottom = 0.085, between = 0.115;
+
+/// What a cell of the map may be.
+struct Kind {
+  bool settles, controlled_settles;
+  const char* colour;
+  const char* title;
+};
+constexpr std::array kinds = {Kind{true, true, "#9ecae1", "settles without control and with it"},
+                              Kind{false, true, "#c7e9c0", "settles with control alone"},
+                              Kind{true, false, "#fdae6b", "settles without control alone"},
+                              Kind{false, false, "#efefef", "does not settle"}};
+
+struct Bound {
+  double StabilityLine::*value;
+  const char* style;
+  const char* title;
+};
+constexpr std::array bounds = {
+    Bound{&StabilityLine::stable, "linewidth 2 linecolor rgb '#08306b'", "stable, exact"},
+    Bound{&StabilityLine::approximate, "linewidth 1.6 linecolor rgb '#d55e00' dashtype 2", "stable, Gil et al. 2009"},
+    Bound{&StabilityLine::passive, "linewidth 1.6 linecolor rgb '#222222' dashtype 3", "passive"}};
+
+std::string quoted(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\'' || c == '\\' || c < ' '; }, ' ');
+  return "'" + text + "'";
+}
+
+/// Adjoining cells of one kind in a column, as one rectangle a line: centre, corners.
+std::string rectangles(const StabilitySweep& sweep, const Kind& kind, const std::vector<double>& stiffnesses) {
+  const double half = std::sqrt(stiffnesses[1] / stiffnesses[0]);
+  std::string lines;
+  for (std::size_t i = 0; i < sweep.lines.size(); ++i) {
+    const StabilityLine& line = sweep.lines[i];
+    const auto is_kind = [&](std::size_t k) {
+      return line.settles[k] == kind.settles && line.controlled_settles[k] == kind.controlled_settles;
+    };
+    const double x = static_cast<double>(i);
+    for (std::size_t k = 0; k < stiffnesses.size(); ++k) {
+      if (!is_kind(k)) continue;
+      const std::size_t first = k;
+      while (k + 1 < stiffnesses.size() && is_kind(k + 1)) ++k;
+      lines += numeral(x) + " " + numeral(stiffnesses[first]) + " " + numeral(x - 0.5) + " " + numeral(x + 0.5) + " " +
+               numeral(stiffnesses[first] / half) + " " + numeral(stiffnesses[k] * half) + "\n";
+    }
+  }
+  return lines;
+}
+
+/// A step across each column; none where the bound is zero, which no logarithm shows.
+std::string steps(const StabilitySweep& sweep, double StabilityLine::*bound) {
+  std::string lines;
+  for (std::size_t i = 0; i < sweep.lines.size(); ++i) {
+    const double value = sweep.lines[i].*bound, x = static_cast<double>(i);
+    if (value > 0.0) {
+      lines += numeral(x - 0.5) + " " + numeral(value) + "\n" + numeral(x + 0.5) + " " + numeral(value) + "\n";
+    } else {
+      lines += "\n";
+    }
+  }
+  return lines;
+}
+
+std::string ticks(const StabilitySweep& sweep) {
+  std::string text;
+  for (std::size_t i = 0; i < sweep.values.size(); ++i) {
+    text += (i == 0 ? "" : ", ") + quoted(sweep.values[i]) + " " + std::to_string(i);
+  }
+  return "set xtics (" + text + ")\nset xrange [-0.5:" + numeral(static_cast<double>(sweep.lines.size()) - 0.5) + "]\n";
+}
+
+std::string place(std::size_t panel, std::size_t rows) {
+  const auto column = static_cast<double>(panel % panel_columns), row = static_cast<double>(panel / panel_columns);
+  const double width = (panels_right - panels_left - panel_gap * (panel_columns - 1)) / panel_columns;
+  const double height = (panels_top - bottom - between * static_cast<double>(rows - 1)) / static_cast<double>(rows);
+  const double begin = panels_left + column * (width + panel_gap), end = panels_top - row * (height + between);
+  return "set lmargin at screen " + numeral(begin) + "\nset rmargin at screen " + numeral(begin + width) +
+         "\nset tmargin at screen " + numeral(end) + "\nset bmargin at screen " + numeral(end - height) + "\n";
+}
+
+/// Data blocks and the plot of one panel. The first names all that may be seen in any.
+std::string panel(const StabilitySweep& sweep, std::size_t index, const std::vector<double>& stiffnesses) {
+  std::string text, plots;
+  const auto add = [&](const std::string& data, const std::string& drawn, const char* title) {
+    if (data.find_first_not_of('\n') == std::string::npos && index > 0) return;
+    const std::string block = "$data" + std::to_string(index) + "_" + std::to_string(plots.size());
+    // A series without a point would be refused: one outside the range stands for it in the legend.
+    text += block + " << END\n" + (data.empty() ? "-9 1 -9 -9 1 1\n" : data) + "END\n";
+    plots += (plots.empty() ? "" : ", ") + block + " " + drawn + (index == 0 ? " title " + quoted(title) : " notitle");
+  };
+  for (const Kind& kind : kinds) {
+    add(rectangles(sweep, kind, stiffnesses),
+        std::string("using 1:2:3:4:5:6 with boxxyerror fillstyle solid noborder linecolor rgb '") + kind.colour + "'",
+        kind.title);
+  }
+  for (const Bound& bound : bounds) {
+    add(steps(sweep, bound.value), std::string("using 1:2 with lines ") + bound.style, bound.title);
+  }
+  return text + ticks(sweep) + "set xlabel " + quoted(sweep.label) + "\n" +
+         (index == 0 ? "set key at screen 0.5, 0.99 center top maxrows 3 samplen 2 Left reverse\n" : "unset key\n") +
+         (index % panel_columns == 0 ? "set format y '%.0s%c'\nset ylabel 'stiffness K [N/m]'\n"
+                               : "set format y ''\nunset ylabel\n") +
+         "plot " + plots + "\n";
+}
+
+}  // namespace
+
+std::string stability_map_plot(const StabilityMap& map) {
+  if (map.sweeps.empty() || map.stiffnesses.size() < 2) throw ValueError("plot of a stability map: no sweep");
+  const std::size_t rows = (map.sweeps.size() + panel_columns - 1) / panel_columns;
+  const double half = std::sqrt(map.stiffnesses[1] / map.stiffnesses[0]);
+  std::string script = gnuplot::svg_terminal(1180, 120 + 340 * static_cast<int>(rows)) +
+                       "set border 3 linecolor rgb '#666666'\nset tics nomirror out\nset logscale y\nset mytics 1\n"
+                       "set multiplot\nset yrange [" +
+                       numeral(map.stiffnesses.front() / half) + ":" + numeral(map.stiffnesses.back() * half) + "]\n";
+  for (std::size_t i = 0; i < map.sweeps.size(); ++i) {
+    script += place(i, rows) + panel(map.sweeps[i], i, map.stiffnesses);
+  }
+  pugi::xml_document document;
+  gnuplot::draw(script + "unset multiplot\n", document);
+  document.child("svg").child("title").text() = "Stability of a sampled wall";
+  return svg::to_string(document);
+}
+
+}  // namespace calligraphy

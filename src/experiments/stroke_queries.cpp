@@ -1,0 +1,100 @@
+#include <calligraphy/experiments/stroke_queries.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/collision/stroke_element.hpp>
+
+#include "model/random_points.hpp"
+
+namespace calligraphy {
+namespace {
+
+/// Length of stroke from one turning point of the stray to the next [m].
+constexpr double stray_length = 0.01;
+
+/// A smooth way through points drawn at even distances: it rests at each, with neither speed nor acceleration.
+class Stray {
+ public:
+  Stray(RandomPoints& random, double length, double most) {
+    const double amplitude = most * random.next();
+    const auto count = static_cast<std::size_t>(length / stray_length) + 2;
+    for (std::size_t i = 0; i < count; ++i) turning_points_.push_back(amplitude * random.in_disc());
+  }
+
+  Point at(double arc) const {
+    const double scaled = arc / stray_length;
+    const auto i = std::min(static_cast<std::size_t>(scaled), turning_points_.size() - 2);
+    const double x = scaled - static_cast<double>(i);
+    const double share = x * x * x * (10.0 + x * (6.0 * x - 15.0));
+    return turning_points_[i] + share * (turning_points_[i + 1] - turning_points_[i]);
+  }
+
+ private:
+  std::vector<Point> turning_points_;
+};
+
+std::vector<std::vector<Point>> elements_of(const Stroke& stroke, double em) {
+  std::vector<std::vector<Point>> elements;
+  const std::vector<int> ends = stroke.type->feature_points(stroke.curve_degree);
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+    std::vector<Point>& element = elements.emplace_back();
+    for (int k = ends[i]; k <= ends[i + 1]; ++k) {
+      element.push_back(em * stroke.control_points[static_cast<std::size_t>(k)]);
+    }
+  }
+  return elements;
+}
+
+std::vector<Point> path_along(const std::vector<std::vector<Point>>& elements, const StrokeQueryOptions& options,
+                              RandomPoints& random) {
+  std::vector<StrokeElement> prepared;
+  double length = 0.0;
+  for (const auto& element : elements) {
+    prepared.push_back(prepare_element(element));
+    length += prepared.back().length();
+  }
+  const Stray stray(random, length, options.wobble);
+  const double step = options.speed / options.rate;
+  std::vector<Point> path;
+  double before = 0.0;  // the arc length of the elements already written
+  std::size_t element = 0;
+  for (int tick = 0;; ++tick) {
+    const double arc = tick * step;
+    if (arc > length) return path;
+    while (element + 1 < prepared.size() && arc - before > prepared[element].length()) {
+      before += prepared[element++].length();
+    }
+    const StrokeElement& active = prepared[element];
+    path.push_back(active.point(active.parameter_at(arc - before)) + stray.at(arc));
+  }
+}
+
+void require(bool holds, const char* name, double value) {
+  if (!holds) throw ValueError("stroke_queries: " + std::string(name) + " is " + std::to_string(value));
+}
+
+}  // namespace
+
+std::vector<StrokeQueries> stroke_queries(std::span<const Character> characters, const StrokeQueryOptions& options) {
+  const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
+  require(positive(options.em), "em", options.em);
+  require(positive(options.rate), "rate", options.rate);
+  require(positive(options.speed), "speed", options.speed);
+  require(std::isfinite(options.wobble) && options.wobble >= 0.0, "wobble", options.wobble);
+  std::vector<StrokeQueries> drawn;
+  RandomPoints random(options.seed);
+  for (const Character& character : characters) {
+    for (const Stroke& stroke : strokes(character)) {
+      StrokeQueries& queries = drawn.emplace_back();
+      queries.elements = elements_of(stroke, options.em);
+      queries.path = path_along(queries.elements, options, random);
+    }
+  }
+  return drawn;
+}
+
+}  // namespace calligraphy

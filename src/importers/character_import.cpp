@@ -1,0 +1,378 @@
+#include <calligraphy/importers/character_import.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <charconv>
+#include <cstdio>
+#include <fstream>
+#include <numbers>
+#include <optional>
+#include <set>
+#include <span>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/base/text.hpp>
+#include <calligraphy/importers/doubtful_strokes.hpp>
+#include <calligraphy/importers/hanzi_writer.hpp>
+#include <calligraphy/importers/kanjivg.hpp>
+#include <calligraphy/importers/stroke_fit.hpp>
+#include <calligraphy/importers/stroke_letters.hpp>
+#include <calligraphy/model/character_set.hpp>
+
+#include "base/parallel.hpp"
+#include "imported_character.hpp"
+#include "stroke_labels.hpp"
+
+namespace calligraphy {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view licence_file = "ARPHICPL.TXT";
+constexpr std::string_view package_file = "package.json";
+constexpr double label_turn = std::numbers::pi / 3.0;  // [rad]; nor one whose stroke starts in another direction
+constexpr double label_error = 0.01;       // [em]; a label whose stroke leaves the drawing farther is no help
+constexpr int most_imported_strokes = 1'000'000;    // of an import; the largest source known has 148 thousand
+constexpr std::size_t longest_order = 64;  // [byte]
+
+/// Which character a file of a source holds, as its name says.
+struct FileName {
+  SourceKind kind;
+  char32_t code;
+  std::string order;
+};
+
+bool is_ideograph(char32_t code) {
+  return (code >= 0x3400 && code <= 0x4DBF) || (code >= 0x4E00 && code <= 0x9FFF) ||
+         (code >= 0xF900 && code <= 0xFAFF) || (code >= 0x20000 && code <= 0x3FFFF);
+}
+
+bool is_word(std::string_view text) {
+  return !text.empty() && text.size() <= longest_order && std::all_of(text.begin(), text.end(), [](char c) {
+    return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+  });
+}
+
+/// 04e86.svg or 04e86-Kaisho.svg.
+std::optional<FileName> kanjivg_name(std::string_view stem) {
+  constexpr std::size_t digits = 5;
+  unsigned code = 0;
+  if (stem.size() < digits) return std::nullopt;
+  const char* const end = stem.data() + digits;
+  const auto [rest, error] = std::from_chars(stem.data(), end, code, 16);
+  if (error != std::errc() || rest != end || code == 0) return std::nullopt;
+  if (stem.size() == digits) return FileName{SourceKind::kanjivg, code, {}};
+  if (stem[digits] != '-' || !is_word(stem.substr(digits + 1))) return std::nullopt;
+  return FileName{SourceKind::kanjivg, code, std::string(stem.substr(digits + 1))};
+}
+
+/// 永.json.
+std::optional<FileName> hanzi_writer_name(std::string_view stem) {
+  try {
+    const std::u32string codes = decode_utf8(stem);
+    if (codes.size() == 1 && codes[0] > 0x7F) return FileName{SourceKind::hanzi_writer_data, codes[0], {}};
+  } catch (const FormatError&) {  // a name in another encoding
+  }
+  return std::nullopt;
+}
+
+std::optional<FileName> parse_name(std::string_view path) {
+  const std::string_view name = path.substr(path.rfind('/') + 1);
+  const std::size_t dot = name.rfind('.');
+  if (dot == std::string_view::npos) return std::nullopt;
+  if (name.substr(dot) == ".svg") return kanjivg_name(name.substr(0, dot));
+  if (name.substr(dot) == ".json") return hanzi_writer_name(name.substr(0, dot));
+  return std::nullopt;
+}
+
+/// A file of the package itself, not of one within it.
+bool is_package_file(std::string_view path, std::string_view name) {
+  return path == name || path == "package/" + std::string(name);
+}
+
+/// A text as it goes along: UTF-8, line ends of one kind. @throws FormatError naming the place
+std::string with_plain_line_ends(std::string_view text, const std::string& place) {
+  try {
+    decode_utf8(text);
+  } catch (const FormatError& error) {
+    throw FormatError(place + ": " + error.what());
+  }
+  std::string plain;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '\r' && i + 1 < text.size() && text[i + 1] == '\n') continue;
+    plain += text[i] == '\r' ? '\n' : text[i];
+  }
+  return plain;
+}
+
+/// Decides which files of a source are read: each character once.
+class Selection {
+ public:
+  explicit Selection(const ImportOptions& options) : options_(options) {}
+
+  std::string skip_reason(std::string_view path) {
+    if (is_package_file(path, licence_file) || is_package_file(path, package_file)) return {};
+    const std::optional<FileName> name = parse_name(path);
+    if (!name) return "no file of a character";
+    const bool mixed = name->kind == SourceKind::kanjivg;  // hanzi-writer-data has radicals beside ideographs
+    if (mixed && options_.ideographs_only && !is_ideograph(name->code)) return "no ideograph";
+    if (!name->order.empty() && !options_.alternates) return "an alternate order";
+    if (!options_.only.empty() && options_.only.find(name->code) == std::u32string::npos) return "not asked for";
+    if (!seen_.emplace(name->kind, name->code, name->order).second) return "a copy of a file read before";
+    return {};
+  }
+
+ private:
+  const ImportOptions& options_;
+  std::set<std::tuple<SourceKind, char32_t, std::string>> seen_;
+};
+
+struct Drawing {
+  FileName name;
+  std::string place;  ///< for messages: source and path
+  std::string text;
+};
+
+/// A path that a stroke was drawn along, and what its source calls the stroke.
+struct StrokeOfDrawing {
+  std::vector<Point> path;
+  std::string label;
+  std::span<const int> label_ids;
+};
+
+/// How the strokes of a source are drawn: medians of a brush, or lines of a textbook hand.
+StrokeFitOptions drawing_of(SourceKind kind) {
+  const bool brush = kind == SourceKind::hanzi_writer_data;
+  return {.drawn_with = brush ? DrawnWith::brush : DrawnWith::textbook_pen};
+}
+
+/// May the label have its way with a stroke of its own kind, where geometry alone recognised another?
+bool is_plausible(const FittedStroke& labelled, const FittedStroke& recognised) {
+  const StrokeInput& stroke = labelled.stroke;
+  return labelled.error <= std::max(label_error, recognised.error) &&
+         turn_from_typical_start({&typical_stroke(stroke.id), 3, stroke.control_points, {}}) <= label_turn;
+}
+
+/// Fits a stroke. A label is heard only where it contradicts the shape: most strokes are fitted once.
+FittedStroke fit(const StrokeOfDrawing& drawn, StrokeFitOptions options, ImportedStroke& result) {
+  FittedStroke fitted = fit_stroke(drawn.path, options);
+  const auto& ids = drawn.label_ids;
+  result.recognised = fitted.stroke.id;
+  result.label = drawn.label;
+  result.label_known = !ids.empty();
+  result.label_agrees = std::find(ids.begin(), ids.end(), result.recognised) != ids.end();
+  if (result.label_known && !result.label_agrees) {
+    options.ids = ids;
+    FittedStroke labelled = fit_stroke(drawn.path, options);
+    if (is_plausible(labelled, fitted)) fitted = std::move(labelled);
+  }
+  result.error = fitted.error;
+  result.median_error = fitted.median_error;
+  return fitted;
+}
+
+class Importer {
+ public:
+  Importer(const fs::path& source, const ImportOptions& options) : source_(source), options_(options) {
+    if (!options.letters.empty()) letters_ = read_stroke_letters(options.letters);
+  }
+
+  Import run() {
+    read();
+    std::vector<ImportedCharacter> characters(drawings_.size());
+    parallel_for(drawings_.size(), options_.threads, options_.progress,
+                 [&](std::size_t i) { characters[i] = imported(drawings_[i]); });
+    Import result{{provenance(characters.front().notice), {}}, report_of(kind_, characters)};
+    result.report.skipped = std::move(skipped_);
+    result.report.notes = std::move(notes_);
+    for (ImportedCharacter& character : characters) result.list.characters.push_back(std::move(character.character));
+    return result;
+  }
+
+ private:
+  void read() {
+    Selection selection(options_);
+    SourceFiles found = read_source(
+        source_,
+        [&](std::string_view path) {
+          if (options_.progress) options_.progress(0.0);  // reading may take seconds, too
+          return selection.skip_reason(path);
+        },
+        options_.limits);
+    skipped_ = std::move(found.skipped);
+    for (SourceFile& file : found.files) {
+      const std::string place = source_.string() + ": " + file.path;
+      if (is_package_file(file.path, licence_file)) {
+        licence_text_ = with_plain_line_ends(file.text, place);
+      } else if (is_package_file(file.path, package_file)) {
+        package_ = std::move(file.text);
+      } else {
+        drawings_.push_back({*parse_name(file.path), place, std::move(file.text)});
+      }
+    }
+    recognise();
+    std::sort(drawings_.begin(), drawings_.end(), [](const Drawing& a, const Drawing& b) {
+      return std::tie(a.name.code, a.name.order) < std::tie(b.name.code, b.name.order);
+    });
+  }
+
+  void recognise() {
+    if (drawings_.empty()) {
+      const char32_t wanted = options_.only.empty() ? U'永' : options_.only.front();
+      char number[16];
+      std::snprintf(number, sizeof number, "%05x", static_cast<unsigned>(wanted));
+      throw FormatError(source_.string() + ": no file of a character" +
+                        (options_.only.empty() ? "" : " that was asked for") + " in it: neither " +
+                        encode_utf8(wanted) + ".json as in hanzi-writer-data nor " + number + ".svg as in KanjiVG");
+    }
+    kind_ = drawings_.front().name.kind;
+    for (const Drawing& drawing : drawings_) {
+      if (drawing.name.kind == kind_) continue;
+      throw FormatError(source_.string() + ": both hanzi-writer-data and KanjiVG: " + drawings_.front().place +
+                        " and " + drawing.place);
+    }
+    if (kind_ == SourceKind::kanjivg && !options_.letters.empty()) {
+      throw ValueError("letters: KanjiVG has labels of its own; stroke letters are for hanzi-writer-data");
+    }
+  }
+
+  ImportedCharacter imported(const Drawing& drawing) {
+    ImportedCharacter result;
+    const std::vector<StrokeOfDrawing> drawn = drawn_strokes(drawing, result);
+    if ((strokes_ += static_cast<int>(drawn.size())) > most_imported_strokes) {
+      throw FormatError(source_.string() + ": more than " + std::to_string(most_imported_strokes) + " strokes");
+    }
+    std::vector<StrokeInput> strokes;
+    for (const StrokeOfDrawing& stroke : drawn) {
+      result.strokes.emplace_back();
+      try {
+        strokes.push_back(fit(stroke, drawing_of(kind_), result.strokes.back()).stroke);
+      } catch (const ValueError& error) {
+        throw FormatError(drawing.place + ": stroke " + std::to_string(result.strokes.size()) + ": " + error.what());
+      }
+    }
+    try {
+      result.character = make_character(drawing.name.code, strokes);
+    } catch (const ValueError& error) {
+      throw FormatError(drawing.place + ": " + error.what());
+    }
+    result.character.order = drawing.name.order;
+    return result;
+  }
+
+  std::vector<StrokeOfDrawing> drawn_strokes(const Drawing& drawing, ImportedCharacter& result) const {
+    std::vector<StrokeOfDrawing> drawn;
+    if (kind_ == SourceKind::kanjivg) {
+      KanjivgDrawing parsed = parse_kanjivg(drawing.text, drawing.place);
+      result.notice = with_plain_line_ends(parsed.notice, drawing.place);
+      for (KanjivgStroke& stroke : parsed.strokes) {
+        const std::span<const int> ids = ids_of_kanjivg_label(stroke.label);
+        drawn.push_back({std::move(stroke.path), std::move(stroke.label), ids});
+      }
+      return drawn;
+    }
+    for (auto& median : parse_hanzi_writer(drawing.text, drawing.place)) drawn.push_back({std::move(median), {}, {}});
+    const auto found = letters_.find(drawing.name.code);
+    if (found == letters_.end()) return drawn;
+    result.letters_unused = found->second.size() != drawn.size();
+    for (std::size_t i = 0; i < drawn.size() && !result.letters_unused; ++i) {
+      drawn[i].label = found->second[i];
+      drawn[i].label_ids = ids_of_stroke_letter(found->second[i]);
+    }
+    return drawn;
+  }
+
+  Provenance provenance(const std::string& notice) {
+    const std::string change = "; changed by calligraphy: fitted to typical strokes" +
+                               (options_.date.empty() ? std::string() : " on " + options_.date);
+    if (kind_ == SourceKind::kanjivg) {
+      if (notice.empty()) notes_.push_back("the source has no copyright notice that could go along");
+      return {"KanjiVG" + package_words(), "Creative Commons Attribution-Share Alike 3.0",
+              "Ulrich Apel, KanjiVG, http://kanjivg.tagaini.net" + change, notice};
+    }
+    if (licence_text_.empty()) {
+      notes_.push_back("the source has no " + std::string(licence_file) +
+                       ": whoever passes the characters on must add the Arphic Public License");
+    }
+    const std::string letters = options_.letters.empty() ? "" : "; stroke letters: theajack, cnchar-order (MIT)";
+    return {"Make Me a Hanzi" + package_words(), "Arphic Public License",
+            "Arphic Technology, Make Me a Hanzi, Hanzi Writer" + letters + change, licence_text_};
+  }
+
+  /// ", as hanzi-writer-data 2.0.1" where the source is the package and not a part of it.
+  std::string package_words() const {
+    const auto package = nlohmann::json::parse(package_, nullptr, false);
+    if (!package.is_object() || !package.contains("name") || !package.contains("version")) return {};
+    if (!package["name"].is_string() || !package["version"].is_string()) return {};
+    const std::string words =
+        ", as " + package["name"].get<std::string>() + " " + package["version"].get<std::string>();
+    constexpr std::size_t longest = 100;
+    const bool printable = std::all_of(words.begin(), words.end(), [](char c) { return c >= ' ' && c <= '~'; });
+    return printable && words.size() <= longest ? words : std::string();
+  }
+
+  fs::path source_;
+  const ImportOptions& options_;
+  StrokeLetters letters_;
+  SourceKind kind_ = SourceKind::calligraphy;
+  std::vector<Drawing> drawings_;
+  std::vector<SkippedFile> skipped_;
+  std::vector<std::string> notes_;
+  std::string licence_text_;
+  std::string package_;
+  std::atomic<int> strokes_ = 0;
+};
+
+/// Is it a set file or the text format, and not a tarball? What begins as none of them is read as the text format: its
+/// message says what was expected.
+bool is_own_format(const fs::path& source) {
+  std::error_code failure;
+  if (!fs::is_regular_file(source, failure)) return false;
+  std::ifstream in(source, std::ios::binary);
+  std::string start(262, '\0');
+  in.read(start.data(), static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<std::size_t>(in.gcount()));
+  const bool is_gzip = start.starts_with("\x1F\x8B");
+  const bool is_tar = start.ends_with("ustar") && start.size() == 262;
+  return !is_gzip && !is_tar;
+}
+
+Import import_own_format(const fs::path& source, const ImportOptions& options) {
+  if (!options.letters.empty())
+    throw ValueError("letters: they are for hanzi-writer-data, not for a set of characters");
+  CharacterList list = CharacterSet::open(source.string()).list();
+  if (!options.only.empty()) {
+    std::erase_if(list.characters, [&](const Character& c) { return options.only.find(c.code) == options.only.npos; });
+  }
+  if (list.characters.empty())
+    throw FormatError(source.string() + ": no character" + (options.only.empty() ? "" : " that was asked for"));
+  std::stable_sort(list.characters.begin(), list.characters.end(),
+                   [](const Character& a, const Character& b) { return a.code < b.code; });
+  ImportReport report = report_of(list);
+  return {std::move(list), std::move(report)};
+}
+
+void check(const ImportOptions& options) {
+  constexpr int most_threads = 256;
+  if (options.threads < 0 || options.threads > most_threads) {
+    throw ValueError("threads " + std::to_string(options.threads) + ": expected 0 to " + std::to_string(most_threads));
+  }
+  if (options.date.size() > 40 || options.date.find_first_of("\r\n") != std::string::npos) {
+    throw ValueError("date '" + options.date.substr(0, 40) + "': expected one line of at most 40 bytes");
+  }
+}
+
+}  // namespace
+
+Import import_characters(const fs::path& source, const ImportOptions& options) {
+  check(options);
+  if (is_own_format(source)) return import_own_format(source, options);
+  return Importer(source, options).run();
+}
+
+}  // namespace calligraphy

@@ -1,0 +1,260 @@
+// zlib unpacks and checks the sums, which libarchive's own filter does not; libarchive reads the tar inside.
+#include "tarball.hpp"
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <memory>
+#include <span>
+#include <string>
+#include <system_error>
+
+#include <archive.h>
+#include <archive_entry.h>
+#include <zlib.h>
+
+#include <calligraphy/base/error.hpp>
+
+namespace calligraphy {
+namespace {
+
+constexpr std::size_t longest_path = 512;  // [byte]; of an entry
+constexpr std::size_t end_mark = 1024;     // [byte]; zeros that end a tar, more than stand within one of texts
+constexpr std::size_t ratio_judged_from = 16u << 20;  // [byte]; what little is unpacked may pack any way
+
+/// The tar as a stream of bytes, within the limits, unpacked if it is gzip data. By inflate(), for gzread() takes data
+/// that end too early for whole when what it unpacked until there just fills its buffer. Remembers what went wrong, as
+/// libarchive cannot throw.
+class Unpacker {
+ public:
+  Unpacker(const std::filesystem::path& path, const SourceLimits& limits)
+      : name_(path.string()), limits_(limits), file_(std::fopen(path.c_str(), "rb")) {
+    if (!file_) throw FileError(name_ + ": cannot be opened: " + std::generic_category().message(errno));
+    if (inflateInit2(&stream_, gzip_window) != Z_OK) throw std::bad_alloc();
+    read_packed();
+    is_packed_ = begins_member();
+  }
+  ~Unpacker() { inflateEnd(&stream_); }
+  Unpacker(const Unpacker&) = delete;
+  Unpacker& operator=(const Unpacker&) = delete;
+
+  /// The next bytes: their count, 0 at the end, -1 when there was a failure.
+  la_ssize_t next(const void** bytes) noexcept {
+    std::size_t count = 0;
+    if (is_packed_) {
+      count = unpack();
+      *bytes = unpacked_.data();
+    } else {
+      if (stream_.avail_in == 0) read_packed();
+      count = stream_.avail_in;
+      *bytes = stream_.next_in;
+      stream_.avail_in = 0;
+    }
+    bytes_ += count;
+    look_for_end_mark(std::span(static_cast<const unsigned char*>(*bytes), count));
+    if (bytes_ > limits_.total_bytes) {
+      fail("unpacks to more than " + std::to_string(limits_.total_bytes) + " bytes");
+    } else if (bytes_ > ratio_judged_from &&
+               static_cast<double>(bytes_) > limits_.unpacked_to_packed * static_cast<double>(packed_offset())) {
+      fail("unpacks to more than " + std::to_string(static_cast<int>(limits_.unpacked_to_packed)) + " times its size");
+    }
+    return failure_.empty() ? static_cast<la_ssize_t>(count) : -1;
+  }
+
+  /// The zeros that end a tar were among the bytes: libarchive does without, and so would take for whole what was cut
+  /// behind a file.
+  bool has_end_mark() const { return zeros_ >= end_mark; }
+
+  const std::string& name() const { return name_; }
+  const std::string& failure() const { return failure_; }
+  std::string place() const { return " (packed byte " + std::to_string(packed_offset()) + ")"; }
+
+ private:
+  static constexpr int gzip_window = 15 + 16;  // zlib's words for any gzip data
+
+  /// The first failure is the one that is told.
+  void fail(std::string what) noexcept {
+    if (failure_.empty()) failure_ = std::move(what);
+  }
+
+  std::size_t packed_offset() const { return packed_bytes_ - stream_.avail_in; }
+
+  void look_for_end_mark(std::span<const unsigned char> bytes) noexcept {
+    for (std::size_t i = 0; i < bytes.size() && !has_end_mark(); ++i) zeros_ = bytes[i] == 0 ? zeros_ + 1 : 0;
+  }
+
+  void read_packed() noexcept {
+    const std::size_t count = std::fread(packed_.data(), 1, packed_.size(), file_.get());
+    if (std::ferror(file_.get()) != 0) fail("cannot be read");
+    packed_bytes_ += count;
+    stream_.next_in = packed_.data();
+    stream_.avail_in = static_cast<uInt>(count);
+  }
+
+  bool begins_member() const { return stream_.avail_in > 0 && *stream_.next_in == 0x1F; }
+
+  std::size_t unpack() noexcept {
+    stream_.next_out = unpacked_.data();
+    stream_.avail_out = static_cast<uInt>(unpacked_.size());
+    while (stream_.avail_out > 0 && !is_at_end_ && failure_.empty()) {
+      if (stream_.avail_in == 0) read_packed();
+      if (stream_.avail_in == 0) {
+        fail("the gzip data ends too early");
+        break;
+      }
+      const int result = inflate(&stream_, Z_NO_FLUSH);
+      if (result == Z_STREAM_END) {
+        if (stream_.avail_in == 0) read_packed();
+        is_at_end_ = !begins_member();  // what stands behind the data and is no gzip is not read, as gzip does it
+        inflateReset(&stream_);
+      } else if (result != Z_OK) {
+        fail(std::string("damaged gzip data: ") + (stream_.msg == nullptr ? "unreadable" : stream_.msg));
+      }
+    }
+    return unpacked_.size() - stream_.avail_out;
+  }
+
+  struct Close {
+    void operator()(std::FILE* file) const noexcept { std::fclose(file); }
+  };
+
+  std::string name_;
+  SourceLimits limits_;
+  std::unique_ptr<std::FILE, Close> file_;
+  z_stream stream_{};
+  bool is_packed_ = false;
+  bool is_at_end_ = false;
+  std::array<unsigned char, 1 << 16> packed_{};
+  std::array<unsigned char, 1 << 16> unpacked_{};
+  std::size_t packed_bytes_ = 0;  ///< read of the file
+  std::size_t bytes_ = 0;         ///< of the tar
+  std::size_t zeros_ = 0;         ///< in a row, until the end mark
+  std::string failure_;
+};
+
+la_ssize_t next_bytes(archive* reader, void* unpacker, const void** bytes) {
+  const la_ssize_t count = static_cast<Unpacker*>(unpacker)->next(bytes);
+  if (count < 0) archive_set_error(reader, EIO, "unpacking failed");
+  return count < 0 ? ARCHIVE_FATAL : count;
+}
+
+/// Reads one tarball.
+class Tarball {
+ public:
+  Tarball(const std::filesystem::path& path, const SourceLimits& limits)
+      : limits_(limits), unpacker_(std::make_unique<Unpacker>(path, limits)), reader_(archive_read_new()) {
+    if (!reader_) throw std::bad_alloc();
+    archive_read_support_format_tar(reader_.get());
+    check(archive_read_open(reader_.get(), unpacker_.get(), nullptr, next_bytes, nullptr), "");
+  }
+
+  SourceFiles read(const SkipReason& skip_reason) {
+    SourceFiles found;
+    archive_entry* entry = nullptr;
+    std::size_t entries = 0;
+    for (std::string last; next(entry, last);) {
+      if (++entries > limits_.entries) fail(last, "more than " + std::to_string(limits_.entries) + " entries");
+      const std::string path = path_of(entry, last);
+      last = path;
+      if (archive_entry_filetype(entry) == AE_IFDIR) continue;
+      std::string reason = kind_reason(entry);
+      if (reason.empty()) reason = skip_reason(path);
+      if (reason.empty()) {
+        found.files.push_back({path, text_of(entry, path)});
+      } else {
+        found.skipped.push_back({path, reason});
+      }
+    }
+    read_to_the_end();
+    return found;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& entry, const std::string& what) const {
+    const std::string place = entry.empty() ? "" : ": " + entry;
+    throw FormatError(unpacker_->name() + place + ": " + what);
+  }
+
+  /// Throws what went wrong, if it did. A warning is about names in other alphabets or attributes, which are not used.
+  void check(int result, const std::string& entry) const {
+    if (result >= ARCHIVE_WARN) return;
+    const char* const message = archive_error_string(reader_.get());
+    if (!unpacker_->failure().empty()) fail(entry, unpacker_->failure() + unpacker_->place());
+    fail(entry,
+         std::string("damaged, or no tarball: ") + (message == nullptr ? "unreadable" : message) + unpacker_->place());
+  }
+
+  bool next(archive_entry*& entry, const std::string& last) {
+    const int result = archive_read_next_header(reader_.get(), &entry);
+    if (result == ARCHIVE_EOF) return false;
+    check(result, last.empty() ? "" : "after " + last);
+    return true;
+  }
+
+  std::string path_of(archive_entry* entry, const std::string& last) const {
+    const char* path = archive_entry_pathname_utf8(entry);
+    if (path == nullptr) path = archive_entry_pathname(entry);
+    if (path == nullptr) fail(last.empty() ? "" : "after " + last, "an entry without a name that can be read");
+    std::string name(path);
+    if (name.size() > longest_path) {
+      fail(name.substr(0, 60) + "...", "a name of more than " + std::to_string(longest_path) + " bytes");
+    }
+    const std::filesystem::path parts(name);
+    if (parts.is_absolute()) fail(name, "an absolute path in a tarball");
+    for (const std::filesystem::path& part : parts) {
+      if (part == "..") fail(name, "a path that climbs out of the tarball");
+    }
+    return name;
+  }
+
+  static std::string kind_reason(archive_entry* entry) {
+    const bool is_hard_link = archive_entry_hardlink(entry) != nullptr || archive_entry_hardlink_utf8(entry) != nullptr;
+    if (is_hard_link || archive_entry_filetype(entry) == AE_IFLNK) return "a link";
+    if (archive_entry_sparse_count(entry) > 0) return "a sparse file";
+    return archive_entry_filetype(entry) == AE_IFREG ? "" : "not a regular file";
+  }
+
+  std::string text_of(archive_entry* entry, const std::string& path) {
+    const la_int64_t size = archive_entry_size(entry);
+    if (size < 0 || static_cast<std::uint64_t>(size) > limits_.entry_bytes) {
+      fail(path, std::to_string(size) + " bytes, more than the " + std::to_string(limits_.entry_bytes) +
+                     " that are read of a file");
+    }
+    std::string text(static_cast<std::size_t>(size), '\0');
+    std::size_t at = 0;
+    while (at < text.size()) {
+      const la_ssize_t count = archive_read_data(reader_.get(), text.data() + at, text.size() - at);
+      if (count < 0) check(static_cast<int>(count), path);
+      if (count <= 0) fail(path, "ends before its " + std::to_string(size) + " bytes");
+      at += static_cast<std::size_t>(count);
+    }
+    return text;
+  }
+
+  /// What follows the tar's end holds the sum over all of it.
+  void read_to_the_end() {
+    const void* bytes = nullptr;
+    la_ssize_t count = 0;
+    do {
+      count = unpacker_->next(&bytes);
+    } while (count > 0);
+    if (count < 0) fail("", unpacker_->failure() + unpacker_->place());
+    if (!unpacker_->has_end_mark()) fail("", "ends without a tar's end mark: it was cut short" + unpacker_->place());
+  }
+
+  struct Free {
+    void operator()(archive* reader) const noexcept { archive_read_free(reader); }
+  };
+
+  SourceLimits limits_;
+  std::unique_ptr<Unpacker> unpacker_;
+  std::unique_ptr<archive, Free> reader_;
+};
+
+}  // namespace
+
+SourceFiles read_tarball(const std::filesystem::path& path, const SkipReason& skip_reason, const SourceLimits& limits) {
+  return Tarball(path, limits).read(skip_reason);
+}
+
+}  // namespace calligraphy

@@ -1,0 +1,33 @@
+// Random points that are the same everywhere.
+#pragma once
+
+#include <calligraphy/base/random.hpp>
+#include <calligraphy/model/point.hpp>
+
+namespace calligraphy {
+
+class RandomPoints : public Random {
+ public:
+  using Random::Random;
+
+  Point point(double low, double high) {
+    const double x = between(low, high);
+    return {x, between(low, high)};
+  }
+  /// Within the unit disc.
+  Point in_disc() {
+    for (;;) {
+      const Point candidate = point(-1.0, 1.0);
+      if (candidate.squaredNorm() <= 1.0) return candidate;
+    }
+  }
+  /// Of length 1. No sine: libraries round it differently.
+  Point direction() {
+    for (;;) {
+      const Point candidate = in_disc();
+      if (candidate.squaredNorm() > 1e-2) return candidate / candidate.norm();
+    }
+  }
+};
+
+}  // namespace calligraphy

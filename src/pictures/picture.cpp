@@ -1,0 +1,284 @@
+#include <calligraphy/pictures/picture.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include <calligraphy/base/error.hpp>
+
+#include "svg.hpp"
+
+namespace calligraphy {
+namespace {
+
+using svg::add;
+using svg::add_text;
+using svg::faint;
+using svg::ink;
+using svg::number;
+
+// Blue, yellow, light green and red are the paper's (sec. 7.2), in shades that differ on white and on each other.
+constexpr const char* template_blue = "#5b8ff0";
+constexpr const char* active_yellow = "#f2b705";
+constexpr const char* trace_green = "#5fce5f";
+constexpr const char* start_red = "#e02020";
+
+// Relative to the em square.
+constexpr double stroke_width = 0.07;
+constexpr double trace_width = 0.022;
+constexpr double finest_detail = 0.0005;  ///< by which a drawn trace may differ from the recorded one
+
+constexpr std::size_t most_trace_points = 15000;  ///< about 200 kB of text
+
+using Trace = std::vector<Point>;
+
+/// The traces of each character up to `active`, those of abandoned attempts left out [m, page].
+std::vector<std::vector<Trace>> traces_until(const Recording& recording, int active) {
+  std::vector<std::vector<Trace>> result(static_cast<std::size_t>(active) + 1);
+  Trace trace;
+  int character = -1;
+  const auto extend = [&trace](const Sample& sample) {
+    if (sample.status == TickStatus::ok && sample.pen_tip.allFinite()) trace.push_back(sample.pen_tip.head<2>());
+  };
+  const auto keep = [&] {
+    const bool shown = character >= 0 && character <= active && !trace.empty();
+    if (shown) result[static_cast<std::size_t>(character)].push_back(trace);
+    trace.clear();
+    character = -1;
+  };
+  for (const Sample& sample : recording.samples) {
+    const bool writing = sample.state == InteractionState::writing;
+    if (writing) {
+      if (character < 0) character = sample.character;
+      extend(sample);
+    } else if (character >= 0) {
+      if (has(sample.events, TickEvent::stroke_finished)) extend(sample);
+      if (has(sample.events, TickEvent::stroke_abandoned)) trace.clear();
+      keep();
+    }
+  }
+  keep();
+  return result;
+}
+
+double distance_to_chord(const Point& point, const Point& begin, const Point& end) {
+  const Point chord = end - begin;
+  const double square = chord.squaredNorm();
+  const double t = square > 0.0 ? std::clamp((point - begin).dot(chord) / square, 0.0, 1.0) : 0.0;
+  return (point - begin - t * chord).norm();
+}
+
+/// Ramer, Douglas and Peucker: no point of the trace is further than `tolerance` from what is left of it.
+Trace thinned(const Trace& trace, double tolerance) {
+  std::vector<bool> kept(trace.size(), false);
+  kept.front() = kept.back() = true;
+  std::vector<std::pair<std::size_t, std::size_t>> open{{0, trace.size() - 1}};
+  while (!open.empty()) {
+    const auto [begin, end] = open.back();
+    open.pop_back();
+    std::size_t furthest = begin;
+    double largest = tolerance;
+    for (std::size_t i = begin + 1; i < end; ++i) {
+      const double distance = distance_to_chord(trace[i], trace[begin], trace[end]);
+      if (distance <= largest) continue;
+      largest = distance;
+      furthest = i;
+    }
+    if (furthest == begin) continue;
+    kept[furthest] = true;
+    open.push_back({begin, furthest});
+    open.push_back({furthest, end});
+  }
+  Trace result;
+  for (std::size_t i = 0; i < trace.size(); ++i) {
+    if (kept[i]) result.push_back(trace[i]);
+  }
+  return result;
+}
+
+/// Drops detail that nobody sees, and more of it when a picture of all would be too large.
+void thin(std::vector<std::vector<Trace>>& traces, const Page& page) {
+  for (double detail = finest_detail;; detail *= 2.0) {
+    std::size_t points = 0;
+    for (std::size_t character = 0; character < traces.size(); ++character) {
+      for (Trace& trace : traces[character]) {
+        trace = thinned(trace, detail * page.characters[character].placement.em);
+        points += trace.size();
+      }
+    }
+    if (points <= most_trace_points || detail > 1.0) return;
+  }
+}
+
+std::string trace_path(const Trace& trace, const svg::View& view) {
+  svg::Path path;
+  path.move_to(view(trace.front()));
+  // A pen that stood still leaves a dot.
+  if (trace.size() == 1) path.line_to(view(trace.front()));
+  for (std::size_t i = 1; i < trace.size(); ++i) path.line_to(view(trace[i]));
+  return path.data();
+}
+
+/// The stroke of the active character that was active last; its last one once it is complete.
+std::size_t last_active_stroke(const Recording& recording, int active, int stroke_count) {
+  int stroke = 0;
+  for (const Sample& sample : recording.samples) {
+    if (sample.character == active) stroke = sample.stroke;
+  }
+  return static_cast<std::size_t>(std::clamp(stroke, 0, stroke_count - 1));
+}
+
+svg::View view_of(const Placement& placement, const svg::View& page) {
+  return {page(placement.origin), page.scale * placement.em};
+}
+
+/// The square in which a character stands, with its middle lines, as on practice paper.
+void draw_square(pugi::xml_node parent, const svg::View& em) {
+  const Point corner = em({0.0, 1.0});
+  const std::string edge = number(em.scale);
+  add(parent, "rect", {{"x", number(corner.x())}, {"y", number(corner.y())}, {"width", edge}, {"height", edge}});
+  const Point middle = em({0.5, 0.5});
+  const Point end = em({1.0, 0.0});
+  add(parent, "path",
+      {{"d", "M" + number(corner.x()) + "," + number(middle.y()) + "H" + number(end.x()) + "M" + number(middle.x()) +
+                 "," + number(corner.y()) + "V" + number(end.y())},
+       {"stroke-dasharray", number(0.03 * em.scale)}});
+}
+
+/// What each colour means, in one line below the page.
+void draw_legend(pugi::xml_node root, double middle, double y, double unit) {
+  struct Entry {
+    const char* colour;
+    const char* text;
+    double width;
+  };
+  constexpr std::array<Entry, 3> lines = {
+      {{template_blue, "template", 2.6}, {active_yellow, "active character", 2.6}, {trace_green, "trace", 0.9}}};
+  const std::string start = "start of the active stroke";
+  const double size = 3.3 * unit, sample = 7.0 * unit, space = 1.5 * unit, gap = 6.0 * unit;
+
+  double total = svg::text_width(start, size) + sample + space;
+  for (const Entry& entry : lines) total += svg::text_width(entry.text, size) + sample + space + gap;
+  double x = middle - 0.5 * total;
+  const double line_y = y - 0.35 * size;
+  pugi::xml_node legend = add(root, "g", {{"class", "legend"}, {"fill", ink}});
+  for (const Entry& entry : lines) {
+    add(legend, "line",
+        {{"x1", number(x)},
+         {"y1", number(line_y)},
+         {"x2", number(x + sample)},
+         {"y2", number(line_y)},
+         {"stroke", entry.colour},
+         {"stroke-width", number(entry.width * unit)}});
+    x += sample + space;
+    add_text(legend, x, y, size, entry.text);
+    x += svg::text_width(entry.text, size) + gap;
+  }
+  add(legend, "ellipse",
+      {{"cx", number(x + 0.5 * sample)},
+       {"cy", number(line_y)},
+       {"rx", number(0.4 * sample)},
+       {"ry", number(0.25 * sample)},
+       {"fill", "none"},
+       {"stroke", start_red},
+       {"stroke-width", number(0.7 * unit)}});
+  add_text(legend, x + sample + space, y, size, start);
+}
+
+void require_valid(const Page& page, int active) {
+  const bool finite = std::isfinite(page.width) && std::isfinite(page.height);
+  if (!(finite && page.width > 0.0 && page.height > 0.0)) {
+    throw ValueError("a page of " + std::to_string(page.width) + " m x " + std::to_string(page.height) + " m");
+  }
+  const int count = static_cast<int>(page.characters.size());
+  if (active < 0 || active >= count) {
+    throw ValueError("active character " + std::to_string(active) + ": the page has " + std::to_string(count));
+  }
+  for (int i = 0; i < count; ++i) {
+    const std::vector<Problem> problems = validate(page.characters[static_cast<std::size_t>(i)].character);
+    if (!problems.empty()) throw ValueError("character " + std::to_string(i) + " of the page: " + problems[0].what);
+  }
+}
+
+}  // namespace
+
+std::string page_picture(const Page& page, const Recording& recording, int active, const std::string& title) {
+  require_valid(page, active);
+  const int count = static_cast<int>(page.characters.size());
+  const std::string heading = svg::clean(title);
+  const double width = 1e3 * page.width, height = 1e3 * page.height;  // [mm]
+  const double unit = width / 160.0;                                  // text and margins grow with the page
+  const double side = 6.0 * unit, top = 12.0 * unit, bottom = 9.0 * unit;
+  const svg::View view{{side, top + height}, 1e3};
+
+  pugi::xml_document document;
+  pugi::xml_node root = svg::begin(document, width + 2.0 * side, height + top + bottom, "mm", heading);
+  const double middle = side + 0.5 * width;
+  const double size = 5.0 * unit * std::min(1.0, width / (5.0 * unit * svg::text_width(heading + ".", 1.0)));
+  add_text(root, middle, 8.0 * unit, size, heading, {{"text-anchor", "middle"}, {"fill", ink}});
+  add(root, "rect",
+      {{"class", "page"},
+       {"x", number(side)},
+       {"y", number(top)},
+       {"width", number(width)},
+       {"height", number(height)},
+       {"fill", "none"},
+       {"stroke", "#bbbbbb"},
+       {"stroke-width", number(0.4 * unit)}});
+
+  pugi::xml_node squares = add(root, "g", {{"fill", "none"}, {"stroke", faint}, {"stroke-width", number(0.2 * unit)}});
+  for (const PlacedCharacter& placed : page.characters) draw_square(squares, view_of(placed.placement, view));
+
+  std::vector<std::vector<Stroke>> all_strokes;
+  for (int i = 0; i < count; ++i) {
+    const PlacedCharacter& placed = page.characters[static_cast<std::size_t>(i)];
+    const svg::View em = view_of(placed.placement, view);
+    pugi::xml_node group = add(root, "g",
+                               {{"class", i == active ? "template active" : "template"},
+                                {"fill", "none"},
+                                {"stroke", i == active ? active_yellow : template_blue},
+                                {"stroke-width", number(stroke_width * em.scale)},
+                                {"stroke-linecap", "round"},
+                                {"stroke-linejoin", "round"}});
+    all_strokes.push_back(strokes(placed.character));
+    for (const Stroke& stroke : all_strokes.back()) add(group, "path", {{"d", svg::stroke_path(stroke, em)}});
+  }
+
+  auto traces = traces_until(recording, active);
+  thin(traces, page);
+  for (std::size_t i = 0; i < traces.size(); ++i) {
+    if (traces[i].empty()) continue;
+    const double em = view.scale * page.characters[i].placement.em;
+    pugi::xml_node group = add(root, "g",
+                               {{"class", "trace"},
+                                {"fill", "none"},
+                                {"stroke", trace_green},
+                                {"stroke-width", number(trace_width * em)},
+                                {"stroke-linecap", "round"},
+                                {"stroke-linejoin", "round"}});
+    for (const Trace& trace : traces[i]) add(group, "path", {{"d", trace_path(trace, view)}});
+  }
+
+  const auto& active_strokes = all_strokes[static_cast<std::size_t>(active)];
+  const Placement& placement = page.characters[static_cast<std::size_t>(active)].placement;
+  const std::size_t stroke = last_active_stroke(recording, active, static_cast<int>(active_strokes.size()));
+  const svg::View em = view_of(placement, view);
+  const Point start = em(active_strokes[stroke].control_points[0]);
+  add(root, "ellipse",
+      {{"class", "start"},
+       {"cx", number(start.x())},
+       {"cy", number(start.y())},
+       {"rx", number(0.075 * em.scale)},
+       {"ry", number(0.052 * em.scale)},
+       {"fill", "none"},
+       {"stroke", start_red},
+       {"stroke-width", number(0.018 * em.scale)}});
+
+  draw_legend(root, middle, top + height + 6.2 * unit, unit);
+  return svg::to_string(document);
+}
+
+}  // namespace calligraphy

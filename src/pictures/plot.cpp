@@ -1,0 +1,193 @@
+#include <calligraphy/pictures/plot.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include <calligraphy/base/error.hpp>
+
+#include "gnuplot.hpp"
+#include "process.hpp"
+#include "svg.hpp"
+
+namespace calligraphy {
+namespace {
+
+constexpr int plot_width = 900, plot_height = 620;  // [px]
+constexpr double left = 0.095, right = 0.975;       // of the panels, share of the width
+constexpr std::size_t buckets = 2000;               // two points each
+
+/// A time during which a stroke was being written [s].
+struct Band {
+  double begin;
+  double end;
+  int stroke;
+  bool abandoned;
+};
+
+struct Signal {
+  const char* name;
+  std::vector<double> values;
+};
+
+struct Signals {
+  std::vector<double> time;
+  std::vector<Signal> curves;
+  std::vector<Band> bands;
+};
+
+Signals signals_of(const Recording& recording, int character) {
+  Signals signals{{}, {{"fx", {}}, {"fy", {}}, {"size", {}}, {"normal", {}}}, {}};
+  bool writing = false;
+  double end = 0.0;
+  for (const Sample& sample : recording.samples) {
+    // The tick that finishes the last stroke may already belong to the next character.
+    const bool here = sample.character == character;
+    if (writing && !(here && sample.state == InteractionState::writing)) {
+      signals.bands.back().end = sample.time;
+      signals.bands.back().abandoned = has(sample.events, TickEvent::stroke_abandoned);
+      writing = false;
+    }
+    if (!here || !std::isfinite(sample.time)) continue;
+    if (!writing && sample.state == InteractionState::writing) {
+      signals.bands.push_back({sample.time, sample.time, sample.stroke, false});
+      writing = true;
+    }
+    end = sample.time;
+    const double values[] = {sample.force.x(), sample.force.y(), sample.force.head<2>().norm(), sample.force.z()};
+    signals.time.push_back(sample.time);
+    for (std::size_t i = 0; i < signals.curves.size(); ++i) signals.curves[i].values.push_back(values[i]);
+  }
+  if (writing) signals.bands.back().end = end;
+  return signals;
+}
+
+/// The curve as a block of data. Of every bucket of samples the smallest and the largest are drawn, so that no peak is
+/// lost.
+std::string data_block(const std::vector<double>& time, const Signal& signal) {
+  std::string text = "$" + std::string(signal.name) + " << END\n";
+  const std::size_t bucket = std::max<std::size_t>(1, (time.size() + buckets - 1) / buckets);
+  const auto& values = signal.values;
+  const auto point = [&](std::size_t i) {
+    if (std::isfinite(values[i])) text += gnuplot::numeral(time[i]) + " " + gnuplot::numeral(values[i]) + "\n";
+  };
+  for (std::size_t begin = 0; begin < time.size(); begin += bucket) {
+    std::size_t low = begin, high = begin;
+    for (std::size_t i = begin; i < std::min(begin + bucket, time.size()); ++i) {
+      if (!(values[i] >= values[low])) low = i;
+      if (!(values[i] <= values[high])) high = i;
+    }
+    point(std::min(low, high));
+    if (low != high) point(std::max(low, high));
+  }
+  return text + "END\n";
+}
+
+std::string band_objects(const std::vector<Band>& bands) {
+  std::string text;
+  for (const Band& band : bands) {
+    text += "set object rectangle from first " + gnuplot::numeral(band.begin) + ", graph 0 to first " +
+            gnuplot::numeral(band.end) + ", graph 1 behind fillstyle solid noborder fillcolor rgb '" +
+            (band.abandoned ? "#e4e4e4" : "#e3ecfb") + "'\n";
+  }
+  return text;
+}
+
+/// Stroke numbers above the bands, but not one on another.
+std::string band_labels(const std::vector<Band>& bands, double begin, double end) {
+  const double needed = 20.0 / (plot_width * (right - left)) * (end - begin);
+  double last = -std::numeric_limits<double>::infinity();
+  std::string text;
+  for (const Band& band : bands) {
+    const double middle = 0.5 * (band.begin + band.end);
+    if (middle - last < needed) continue;
+    last = middle;
+    text += "set label '" + std::to_string(band.stroke + 1) + "' at first " + gnuplot::numeral(middle) +
+            ", graph 1 offset 0, 0.7 center textcolor rgb '" + (band.abandoned ? "#888888" : "#2f5fb3") + "'\n";
+  }
+  return text;
+}
+
+/// From zero at least to the smallest and to the largest value, and a little beyond.
+std::string y_range(std::span<const Signal> curves) {
+  double low = 0.0, high = 0.0;
+  for (const Signal& curve : curves) {
+    for (const double value : curve.values) {
+      if (!std::isfinite(value)) continue;
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+  }
+  if (low == high) high = 1.0;
+  const double margin = 0.06 * (high - low);
+  return "set yrange [" + gnuplot::numeral(low < 0.0 ? low - margin : 0.0) + ":" +
+         gnuplot::numeral(high > 0.0 ? high + margin : 0.0) + "]\n";
+}
+
+/// Numbers alone vary: no text of the caller's reaches gnuplot.
+std::string script(const Signals& signals) {
+  const double begin = signals.time.front();
+  const double end = std::max(signals.time.back(), begin + 1e-3);
+  std::string text = gnuplot::svg_terminal(plot_width, plot_height);
+  for (const Signal& signal : signals.curves) text += data_block(signals.time, signal);
+  text += "set lmargin at screen " + gnuplot::numeral(left) + "\nset rmargin at screen " + gnuplot::numeral(right) +
+          "\n" + "set xrange [" + gnuplot::numeral(begin) + ":" + gnuplot::numeral(end) + "]\n" +
+          band_objects(signals.bands) +
+          "set grid back linetype 1 linecolor rgb '#dcdcdc' linewidth 0.5\n"
+          "set border 3 linecolor rgb '#666666'\nset tics nomirror out\n"
+          "set xzeroaxis linetype 1 linecolor rgb '#999999'\n";
+  text +=
+      "set multiplot\n"
+      "set tmargin at screen 0.865\nset bmargin at screen 0.515\n"
+      "set format x ''\nset label 'force in the plane [N]' at screen 0.022, graph 0.5 center rotate\n"
+      "set key horizontal at screen 0.975, 0.942 right top samplen 2\n" +
+      band_labels(signals.bands, begin, end) + y_range(std::span(signals.curves).first(3)) +
+      "plot $size with lines linewidth 1.6 linecolor rgb '#555555' title '|F|', "
+      "$fx with lines linewidth 1.3 linecolor rgb '#0072b2' title 'Fx', "
+      "$fy with lines linewidth 1.3 linecolor rgb '#d55e00' title 'Fy'\n"
+      "unset label\nset tmargin at screen 0.47\nset bmargin at screen 0.12\n"
+      "set format x '%g'\nset xlabel 'time [s]'\nunset key\n"
+      "set label 'normal force [N]' at screen 0.022, graph 0.5 center rotate\n" +
+      y_range(std::span(signals.curves).last(1)) +
+      "plot $normal with lines linewidth 1.3 linecolor rgb '#222222' notitle\n"
+      "unset multiplot\n";
+  return text;
+}
+
+std::string band_caption(const std::vector<Band>& bands) {
+  if (bands.empty()) return "";
+  const bool any = std::any_of(bands.begin(), bands.end(), [](const Band& band) { return band.abandoned; });
+  return std::string("shaded: writing state, with the stroke's number") + (any ? "; grey: given up" : "");
+}
+
+}  // namespace
+
+bool can_plot() {
+  try {
+    return run_process({"gnuplot", "--version"}, "").exit_code == 0;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+std::string force_plot(const Recording& recording, int character, const std::string& title) {
+  const std::string heading = svg::clean(title);
+  const Signals signals = signals_of(recording, character);
+  if (signals.time.empty()) {
+    throw ValueError("character " + std::to_string(character) + " is active in no sample of the recording");
+  }
+  pugi::xml_document document;
+  gnuplot::draw(script(signals), document);
+  pugi::xml_node root = document.child("svg");
+  root.child("title").text() = heading.c_str();
+  const double size = std::min(17.0, 0.9 * plot_width / svg::text_width(heading + ".", 1.0));
+  svg::add_text(root, left * plot_width, 26.0, size, heading, {{"font-family", "sans-serif"}, {"fill", "#222222"}});
+  svg::add_text(root, left * plot_width, 46.0, 12.0, band_caption(signals.bands),
+                {{"font-family", "sans-serif"}, {"fill", "#666666"}});
+  return svg::to_string(document);
+}
+
+}  // namespace calligraphy

@@ -1,0 +1,288 @@
+#include <calligraphy/pictures/replay_picture.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <initializer_list>
+#include <limits>
+#include <vector>
+
+#include <calligraphy/base/error.hpp>
+
+#include "practice/resemblance.hpp"
+#include "svg.hpp"
+
+namespace calligraphy {
+namespace {
+
+using svg::add;
+using svg::add_text;
+using svg::faint;
+using svg::ink;
+using svg::number;
+
+constexpr const char* template_colour = "#c5d6f7";
+constexpr const char* number_colour = "#2f62c9";
+constexpr const char* wrong = "#e02020";
+constexpr const char* told = "#e08a00";
+constexpr const char* device_colour = "#2f9e44";
+
+// [mm]
+constexpr double sheet_margin = 6.0;
+constexpr double square_side = 86.0;           ///< of a square
+constexpr double sheet_top = 19.0;            ///< title and headings
+constexpr double border = 0.09 * square_side;  ///< within the square, round what is drawn: room for numbers
+constexpr double text_size = 3.4;
+constexpr double line_height = 4.6;
+constexpr double label_size = 3.4;
+constexpr double arrow_length = 2.4;
+
+constexpr std::size_t most_lines = 12;  ///< of remarks
+
+/// Puts numbers beside paths where they cover each other least.
+class Labels {
+ public:
+  /// Beside a path, near its start if there is room.
+  Point place(std::span<const Point> path, double width) {
+    const Outline points = outline(path);
+    Point best = points.front();
+    double least = std::numeric_limits<double>::infinity();
+    for (const std::size_t at : {std::size_t{0}, std::size_t{3}, std::size_t{6}, std::size_t{10}, std::size_t{15}}) {
+      const Point along = tangent(points, at);
+      for (const double turn : {1.0, -1.0}) {
+        for (const double away : {0.75, 1.1}) {
+          const Point beside = points[at] + away * label_size * turn * Point(-along.y(), along.x());
+          const double cost = covered(beside, width) + 0.02 * static_cast<double>(at) + 0.1 * away;
+          if (cost >= least) continue;
+          least = cost;
+          best = beside;
+        }
+      }
+    }
+    taken_.push_back({best, width});
+    return best;
+  }
+
+ private:
+  struct Taken {
+    Point centre;
+    double width;
+  };
+
+  static Point tangent(const Outline& points, std::size_t at) {
+    const std::size_t next = std::min(at + 2, points.size() - 1);
+    const Point along = points[next] - points[at];
+    return along.norm() > 0.0 ? Point(along.normalized()) : Point(1.0, 0.0);
+  }
+
+  double covered(const Point& centre, double width) const {
+    double sum = 0.0;
+    for (const Taken& other : taken_) {
+      const double x = 0.5 * (width + other.width) + 0.4 - std::abs(centre.x() - other.centre.x());
+      const double y = label_size - std::abs(centre.y() - other.centre.y());
+      if (x > 0.0 && y > 0.0) sum += 1.0 + x * y;
+    }
+    return sum;
+  }
+
+  std::vector<Taken> taken_;
+};
+
+std::vector<Point> in_picture(std::span<const Point> path, const svg::View& view) {
+  std::vector<Point> points;
+  for (const Point& point : path) points.push_back(view(point));
+  return points;
+}
+
+void draw_path(pugi::xml_node parent, std::span<const Point> points, const char* colour) {
+  svg::Path path;
+  path.move_to(points.front());
+  if (points.size() == 1) path.line_to(points.front());
+  for (std::size_t i = 1; i < points.size(); ++i) path.line_to(points[i]);
+  add(parent, "path", {{"d", path.data()}, {"stroke", colour}});
+}
+
+/// A head in the middle of the path that shows where it goes.
+void draw_arrow(pugi::xml_node parent, std::span<const Point> points, const char* colour) {
+  const Outline even = outline(points);
+  const std::size_t middle = even.size() * 3 / 5;
+  const Point along = even[middle + 1] - even[middle - 1];
+  if (along.norm() == 0.0) return;
+  const Point forward = 0.5 * arrow_length * along.normalized();
+  const Point across(-0.6 * forward.y(), 0.6 * forward.x());
+  svg::Path head;
+  head.move_to(even[middle] + forward);
+  head.line_to(even[middle] - forward + across);
+  head.line_to(even[middle] - forward - across);
+  add(parent, "path", {{"d", head.data() + "Z"}, {"fill", colour}, {"stroke", "none"}});
+}
+
+void draw_label(pugi::xml_node parent, Labels& labels, std::span<const Point> points, const std::string& text,
+                const char* colour) {
+  const double width = svg::text_width(text, label_size);
+  const Point centre = labels.place(points, width);
+  add_text(parent, centre.x(), centre.y() + 0.35 * label_size, label_size, text,
+           {{"text-anchor", "middle"},
+            {"font-weight", "bold"},
+            {"fill", colour},
+            {"stroke", "#ffffff"},
+            {"stroke-width", "0.7"},
+            {"paint-order", "stroke"}});
+}
+
+bool has_remark(const StrokeVerdict& verdict, std::size_t path, std::initializer_list<RemarkKind> kinds) {
+  return std::any_of(verdict.remarks.begin(), verdict.remarks.end(), [&](const Remark& remark) {
+    return remark.path == static_cast<int>(path) && std::find(kinds.begin(), kinds.end(), remark.kind) != kinds.end();
+  });
+}
+
+const char* colour_of(const StrokeVerdict& verdict, std::size_t path) {
+  if (has_remark(verdict, path, {RemarkKind::order, RemarkKind::direction, RemarkKind::extra})) return wrong;
+  if (has_remark(verdict, path, {RemarkKind::joined, RemarkKind::broken, RemarkKind::shape})) return told;
+  return ink;
+}
+
+bool is_missing(const StrokeVerdict& verdict, std::size_t stroke) {
+  return std::any_of(verdict.remarks.begin(), verdict.remarks.end(), [stroke](const Remark& remark) {
+    return remark.kind == RemarkKind::missing && remark.stroke == static_cast<int>(stroke);
+  });
+}
+
+bool bounced(const DrawnStroke& drawn) { return drawn.tap && drawn.stroke < 0; }
+
+/// Round all that is shown [em].
+Eigen::AlignedBox2d box_of(const Character& character, std::span<const PenPath> laid, const StrokeVerdict& verdict,
+                           std::span<const PenPath> guided) {
+  Eigen::AlignedBox2d box = bounding_box({character, {Point::Zero(), 1.0}});
+  for (std::size_t i = 0; i < laid.size(); ++i) {
+    if (bounced(verdict.drawn[i])) continue;
+    for (const Point& point : laid[i]) box.extend(point);
+  }
+  for (const PenPath& path : guided) {
+    for (const Point& point : path) box.extend(point);
+  }
+  return box;
+}
+
+/// Shows a box of the em [em] as large as it can be in the square at `x`.
+svg::View view_of(const Eigen::AlignedBox2d& box, double x) {
+  const double scale = (square_side - 2.0 * border) / std::max(box.sizes().maxCoeff(), 0.1);
+  const Point middle(x + 0.5 * square_side, sheet_top + 0.5 * square_side);
+  return {middle - scale * Point(box.center().x(), -box.center().y()), scale};
+}
+
+/// The square at `x`, its heading and the template.
+void draw_square(pugi::xml_node root, const Character& character, double x, const char* heading,
+                 const svg::View& view) {
+  add_text(root, x + 0.5 * square_side, sheet_top - 2.5, text_size, heading,
+           {{"text-anchor", "middle"}, {"fill", ink}});
+  add(root, "rect",
+      {{"x", number(x)},
+       {"y", number(sheet_top)},
+       {"width", number(square_side)},
+       {"height", number(square_side)},
+       {"fill", "none"},
+       {"stroke", faint},
+       {"stroke-width", "0.3"}});
+  pugi::xml_node group = add(root, "g",
+                             {{"class", "template"},
+                              {"fill", "none"},
+                              {"stroke", template_colour},
+                              {"stroke-width", number(0.035 * square_side)},
+                              {"stroke-linecap", "round"},
+                              {"stroke-linejoin", "round"}});
+  for (const Stroke& stroke : strokes(character)) add(group, "path", {{"d", svg::stroke_path(stroke, view)}});
+}
+
+void draw_written(pugi::xml_node root, const Character& character, std::span<const PenPath> paths,
+                  const StrokeVerdict& verdict, const svg::View& view) {
+  pugi::xml_node lines = add(root, "g",
+                             {{"class", "written"},
+                              {"fill", "none"},
+                              {"stroke-width", "0.6"},
+                              {"stroke-linecap", "round"},
+                              {"stroke-linejoin", "round"}});
+  pugi::xml_node numbers = add(root, "g", {{"class", "drawn-number"}});
+  pugi::xml_node standard = add(root, "g", {{"class", "standard-number"}});
+  Labels labels;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    if (bounced(verdict.drawn[i])) continue;
+    const std::vector<Point> points = in_picture(paths[i], view);
+    const char* const colour = colour_of(verdict, i);
+    draw_path(lines, points, colour);
+    draw_arrow(lines, points, colour);
+    draw_label(numbers, labels, points, std::to_string(i + 1), colour);
+  }
+  std::size_t stroke = 0;
+  for (const Stroke& each : strokes(character)) {
+    const std::vector<Point> points = in_picture(middle_line(each, {Point::Zero(), 1.0}), view);
+    draw_label(standard, labels, points, std::to_string(stroke + 1),
+               is_missing(verdict, stroke) ? wrong : number_colour);
+    ++stroke;
+  }
+}
+
+void draw_guided(pugi::xml_node root, std::span<const PenPath> guided, const svg::View& view) {
+  pugi::xml_node lines = add(root, "g",
+                             {{"class", "guided"},
+                              {"fill", "none"},
+                              {"stroke-width", "0.6"},
+                              {"stroke-linecap", "round"},
+                              {"stroke-linejoin", "round"}});
+  for (const PenPath& path : guided) draw_path(lines, in_picture(path, view), device_colour);
+}
+
+std::vector<std::string> lines_of(const StrokeVerdict& verdict) {
+  std::vector<std::string> lines;
+  for (const Remark& remark : verdict.remarks)
+    lines.push_back(std::string(name_of(remark.kind)) + ": " + remark.reason);
+  if (lines.empty()) lines.emplace_back("every stroke in its turn and direction");
+  if (lines.size() > most_lines) {
+    const std::size_t more = lines.size() - most_lines + 1;
+    lines.resize(most_lines - 1);
+    lines.push_back("and " + std::to_string(more) + " remarks more");
+  }
+  return lines;
+}
+
+}  // namespace
+
+std::string replay_picture(const Character& character, std::span<const PenPath> paths, const StrokeVerdict& verdict,
+                           std::span<const PenPath> guided, const std::string& title) {
+  if (verdict.drawn.size() != paths.size()) {
+    throw ValueError("a verdict on " + std::to_string(verdict.drawn.size()) + " pen-downs, of which there are " +
+                     std::to_string(paths.size()));
+  }
+  const std::vector<std::string> lines = lines_of(verdict);
+  const double width = 3.0 * sheet_margin + 2.0 * square_side;
+  const double height = sheet_top + square_side + 4.0 + line_height * static_cast<double>(lines.size() + 1) + 3.0;
+  pugi::xml_document document;
+  const std::string heading = svg::clean(title);
+  pugi::xml_node root = svg::begin(document, width, height, "mm", heading);
+  add_text(root, 0.5 * width, 8.5, 5.0, heading, {{"text-anchor", "middle"}, {"fill", ink}});
+  std::vector<PenPath> laid;
+  for (const PenPath& path : paths) {
+    PenPath& moved = laid.emplace_back();
+    for (const Point& point : path) moved.push_back(verdict.fit(point));
+  }
+  const Eigen::AlignedBox2d box = box_of(character, laid, verdict, guided);
+  const svg::View left = view_of(box, sheet_margin), right = view_of(box, 2.0 * sheet_margin + square_side);
+  draw_square(root, character, sheet_margin, "as written", left);
+  draw_written(root, character, laid, verdict, left);
+  draw_square(root, character, 2.0 * sheet_margin + square_side, "the device under guidance", right);
+  draw_guided(root, guided, right);
+
+  double y = sheet_top + square_side + 5.5;
+  add_text(root, sheet_margin, y, 0.9 * text_size,
+           "numbers: as drawn (black, red: wrong, orange: joined or of another shape), as they should be (blue, red: "
+           "missing)",
+           {{"fill", "#777777"}});
+  for (const std::string& line : lines) {
+    y += line_height;
+    const double size = text_size * std::min(1.0, 2.0 * square_side / svg::text_width(line, text_size));
+    add_text(root, sheet_margin, y, size, line, {{"fill", ink}});
+  }
+  return svg::to_string(document);
+}
+
+}  // namespace calligraphy

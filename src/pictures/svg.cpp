@@ -1,0 +1,107 @@
+#include "svg.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <sstream>
+
+#include <calligraphy/base/text.hpp>
+#include <calligraphy/model/bezier.hpp>
+
+namespace calligraphy::svg {
+
+std::string number(double value) {
+  char buffer[512];
+  const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed, 3);
+  std::string text(buffer, end);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.ends_with('.')) text.pop_back();
+  return text == "-0" ? "0" : text;
+}
+
+std::string clean(std::string_view text) {
+  std::string result;
+  for (const char32_t code : decode_utf8(text)) {
+    const bool allowed = code >= 0x20 && code != 0x7f && code != 0xfffe && code != 0xffff;
+    result += encode_utf8(allowed ? code : U' ');
+  }
+  return result;
+}
+
+pugi::xml_node add(pugi::xml_node parent, const char* name, Attributes attributes) {
+  pugi::xml_node node = parent.append_child(name);
+  for (const auto& [key, value] : attributes) node.append_attribute(key) = value.c_str();
+  return node;
+}
+
+pugi::xml_node add_text(pugi::xml_node parent, double x, double y, double size, const std::string& text,
+                        Attributes attributes) {
+  pugi::xml_node node = add(parent, "text", {{"x", number(x)}, {"y", number(y)}, {"font-size", number(size)}});
+  for (const auto& [key, value] : attributes) node.append_attribute(key) = value.c_str();
+  node.text() = text.c_str();
+  return node;
+}
+
+double text_width(std::string_view text, double size) {
+  double width = 0.0;
+  for (const char32_t code : decode_utf8(text)) width += code < 0x2e80 ? 0.58 : 1.0;
+  return width * size;
+}
+
+void Path::append(char command, std::initializer_list<Point> points) {
+  // A repeated command needs no letter.
+  if (command != command_) data_ += command;
+  bool separated = command != command_;
+  command_ = command;
+  for (const Point& point : points) {
+    if (!separated) data_ += ' ';
+    separated = false;
+    data_.append(number(point.x())).append(",").append(number(point.y()));
+  }
+}
+
+std::string stroke_path(const Stroke& stroke, const View& view) {
+  constexpr int steps = 48;
+  const auto& points = stroke.control_points;
+  Path path;
+  path.move_to(view(points[0]));
+  std::size_t at = 0;
+  for (const char element : stroke.type->elements) {
+    if (element == static_cast<char>(ElementKind::line)) {
+      path.line_to(view(points[++at]));
+    } else if (stroke.curve_degree == 3) {
+      path.curve_to(view(points[at + 1]), view(points[at + 2]), view(points[at + 3]));
+      at += 3;
+    } else {
+      const Bezier<4> curve{{points[at], points[at + 1], points[at + 2], points[at + 3], points[at + 4]}};
+      for (int i = 1; i <= steps; ++i) path.line_to(view(curve.point(static_cast<double>(i) / steps)));
+      at += 4;
+    }
+  }
+  return path.data();
+}
+
+pugi::xml_node begin(pugi::xml_document& document, double width, double height, const char* unit,
+                     const std::string& title) {
+  pugi::xml_node declaration = document.append_child(pugi::node_declaration);
+  declaration.append_attribute("version") = "1.0";
+  declaration.append_attribute("encoding") = "UTF-8";
+  pugi::xml_node root = document.append_child("svg");
+  root.append_attribute("xmlns") = "http://www.w3.org/2000/svg";
+  root.append_attribute("width") = (number(width) + unit).c_str();
+  root.append_attribute("height") = (number(height) + unit).c_str();
+  root.append_attribute("viewBox") = ("0 0 " + number(width) + " " + number(height)).c_str();
+  root.append_attribute("font-family") = "sans-serif";
+  root.append_child("title").text() = title.c_str();
+  add(root, "rect", {{"width", "100%"}, {"height", "100%"}, {"fill", "#ffffff"}});
+  return root;
+}
+
+std::string to_string(const pugi::xml_document& document) {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  document.save(out, " ", pugi::format_indent, pugi::encoding_utf8);
+  return out.str();
+}
+
+}  // namespace calligraphy::svg

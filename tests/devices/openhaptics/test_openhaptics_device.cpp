@@ -1,0 +1,579 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/devices/device_profiles.hpp>
+#include <calligraphy/devices/openhaptics/openhaptics_device.hpp>
+#include <calligraphy/devices/servo_loop.hpp>
+#include <calligraphy/devices/simulated_device.hpp>
+
+#include "../../allocation_counter.hpp"
+#include "../../catch.hpp"
+#include "stand_in.hpp"
+
+using namespace calligraphy;
+using calligraphy_test::StandIn;
+using calligraphy_test::StandInControl;
+
+namespace {
+
+const StandIn* clock_of_stand_in = nullptr;
+double virtual_time() noexcept { return (*clock_of_stand_in)->time(); }
+
+/// A runtime with one plugged device, in virtual time.
+struct Lab {
+  Lab() {
+    clock_of_stand_in = &runtime;
+    runtime->plug_in("Default Device", "PHANTOM Omni", "omni");
+  }
+  OpenHapticsOptions options(const std::string& device = {}) const {
+    OpenHapticsOptions result;
+    result.library = STAND_IN_LIBHD;
+    result.device = device;
+    result.time = virtual_time;
+    return result;
+  }
+  Eigen::Vector3d force(int device = 0) const {
+    Eigen::Vector3d result;
+    runtime->applied_force(device, result.data());
+    return result;
+  }
+  Eigen::Vector3d position(int device = 0) const {
+    Eigen::Vector3d result;
+    runtime->true_position(device, result.data());
+    return result;
+  }
+  void intend(const Eigen::Vector3d& position, int device = 0) const {
+    const Eigen::Vector3d still = Eigen::Vector3d::Zero();
+    runtime->set_intention(device, position.data(), still.data());
+  }
+  void steps(int count) const {
+    for (int i = 0; i < count; ++i) runtime->step();
+  }
+
+  StandIn runtime{STAND_IN_LIBHD};
+};
+
+/// A servo that the device's own clock runs.
+struct Driven {
+  explicit Driven(
+      OpenHapticsDevice& driven, ForceLaw law = [](const DeviceState&) { return Eigen::Vector3d(1.0, 0.0, 0.0); })
+      : device(driven), servo(driven, std::move(law), virtual_options()) {
+    device.clock()->start([this](double now) { servo.step(now); });
+  }
+  ~Driven() { device.clock()->stop(); }
+
+  static ServoOptions virtual_options() {
+    ServoOptions options;
+    options.work_clock = virtual_time;
+    return options;
+  }
+
+  OpenHapticsDevice& device;
+  Servo servo;
+};
+
+template <class Action>
+std::string message_of(Action&& action) {
+  try {
+    action();
+  } catch (const DeviceError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+bool comes(const std::function<bool()>& condition) {
+  for (int i = 0; i < 10'000; ++i) {
+    if (condition()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("a pen rests on a wall through the vendor's runtime, in metres and newtons", "[openhaptics]") {
+  Lab lab;
+  OpenHapticsDevice device(lab.options());
+  lab.intend({0.0, 0.0, -0.005});
+  DeviceState last;
+  Driven loop(device, [&](const DeviceState& state) {
+    last = state;
+    const double penetration = -state.position.z();
+    return Eigen::Vector3d(0.0, 0.0, penetration > 0.0 ? 300.0 * penetration : 0.0);
+  });
+  lab.steps(3000);
+  // Hand and wall as two springs, and the omni's friction of 0.26 N.
+  CHECK(lab.position().z() == Approx(-0.005 * 300.0 / 600.0).margin(0.26 / 600.0 + 1e-4));
+  CHECK(last.position.z() == Approx(lab.position().z()).margin(55e-6));
+  CHECK(last.velocity.allFinite());
+  CHECK(last.time == Approx(3.0).margin(0.01));
+  CHECK(lab.force().z() == Approx(300.0 * -last.position.z()).margin(0.02));
+  CHECK(loop.servo.statistics().ticks == 3000);
+  CHECK(loop.servo.status().phase == ServoPhase::running);
+  CHECK(lab.runtime->broken_rules() == 0);
+}
+
+TEST_CASE("velocity is in metres per second and buttons are the runtime's four", "[openhaptics]") {
+  Lab lab;
+  OpenHapticsDevice device(lab.options());
+  const double position[3] = {0.0, 0.0, 0.0};
+  const double velocity[3] = {0.1, 0.0, 0.0};
+  lab.runtime->set_intention(0, position, velocity);
+  lab.runtime->set_buttons(0, 0x15);
+  DeviceState last;
+  Driven loop(device, [&](const DeviceState& state) {
+    last = state;
+    return Eigen::Vector3d::Zero().eval();
+  });
+  lab.steps(500);
+  CHECK(last.velocity.x() == Approx(0.1).epsilon(0.01));
+  CHECK(last.buttons == 0x5);
+}
+
+TEST_CASE("capabilities are the runtime's where it says them, the closest profile's where it does not",
+          "[openhaptics]") {
+  StandIn runtime(STAND_IN_LIBHD);
+  clock_of_stand_in = &runtime;
+  struct Row {
+    const char* model;
+    const char* profile;
+  };
+  const Row row = GENERATE(Row{"PHANTOM Omni", "omni"}, Row{"Touch", "touch"}, Row{"Touch X", "desktop"},
+                           Row{"PHANTOM Desktop", "desktop"}, Row{"PHANTOM Premium 1.5", "premium-1.5"});
+  CAPTURE(row.model);
+  runtime->plug_in("Default Device", row.model, row.profile);
+  OpenHapticsOptions options;
+  options.library = STAND_IN_LIBHD;
+  OpenHapticsDevice device(options);
+  const Capabilities& expected = device_profile(row.profile);
+  CHECK(device.capabilities().model == row.model);
+  CHECK(device.capabilities().workspace.isApprox(expected.workspace));  // the stand-in's box is not centred
+  CHECK(device.capabilities().peak_force == expected.peak_force);
+  CHECK(device.capabilities().continuous_force == expected.continuous_force);
+  CHECK(device.capabilities().usable_stiffness == expected.usable_stiffness);
+  CHECK(device.capabilities().update_rate == 1000.0);
+  CHECK(device.serial() == "540-12345");
+  CHECK(device.library() == STAND_IN_LIBHD);
+}
+
+TEST_CASE("each error of the runtime is told as a status and a fault, and the force comes back after it",
+          "[openhaptics]") {
+  struct Row {
+    unsigned code;
+    DeviceStatus status;
+    DeviceFault fault;
+    const char* name;
+  };
+  const Row row =
+      GENERATE(Row{0x0201, DeviceStatus::fault, DeviceFault::runtime_error, "maximum force exceeded"},
+               Row{0x0202, DeviceStatus::fault, DeviceFault::runtime_error, "force impulse limit exceeded"},
+               Row{0x0203, DeviceStatus::fault, DeviceFault::runtime_error, "velocity limit exceeded"},
+               Row{0x0204, DeviceStatus::fault, DeviceFault::runtime_error, "force error"},
+               Row{0x0300, DeviceStatus::fault, DeviceFault::device_error, "device fault"},
+               Row{0x0302, DeviceStatus::disconnected, DeviceFault::link_error, "communication error"},
+               Row{0x0303, DeviceStatus::disconnected, DeviceFault::link_error, "communication configuration error"},
+               Row{0x0304, DeviceStatus::fault, DeviceFault::timed_out, "timer error"},
+               Row{0x0402, DeviceStatus::fault, DeviceFault::runtime_error, "frame error"},
+               Row{0x7777, DeviceStatus::fault, DeviceFault::runtime_error, "error 0x7777"});
+  CAPTURE(row.name);
+  Lab lab;
+  OpenHapticsDevice device(lab.options());
+  Driven loop(device);
+  lab.steps(300);
+  CHECK(lab.force().x() == Approx(1.0));
+  const int times = GENERATE(1, 40);
+  lab.runtime->inject(0, row.code, times);
+  double before = 1.0;
+  for (int i = 0; i < 20; ++i) {
+    lab.steps(1);
+    if (i == 0) {
+      CHECK(loop.servo.status().device == row.status);
+      CHECK(loop.servo.status().fault == row.fault);
+    }
+    if (i < 10) CHECK(before - lab.force().x() == Approx(0.1));
+    before = lab.force().x();
+    if (i == 9) CHECK(before == 0.0);
+  }
+  CHECK(loop.servo.statistics().fault_count(row.fault) == 1);
+  CHECK(device.last_error() == row.code);
+  CHECK(openhaptics_error_name(row.code) == row.name);
+  before = lab.force().x();
+  for (int i = 0; i < 300; ++i) {
+    lab.steps(1);
+    CHECK(lab.force().x() - before <= 0.00501);
+    before = lab.force().x();
+  }
+  CHECK(lab.force().x() == Approx(1.0));
+  CHECK(loop.servo.status().fault == DeviceFault::none);
+  CHECK(lab.runtime->broken_rules() == 0);
+}
+
+TEST_CASE("warm motors are told, and the force goes on", "[openhaptics]") {
+  Lab lab;
+  OpenHapticsDevice device(lab.options());
+  Driven loop(device);
+  lab.steps(300);
+  lab.runtime->inject(0, 0x0200, 5);
+  lab.steps(5);
+  CHECK(loop.servo.status().device == DeviceStatus::warm_motors);
+  CHECK(lab.force().x() == Approx(1.0));
+  lab.steps(1);
+  CHECK(loop.servo.status().device == DeviceStatus::ok);
+}
+
+TEST_CASE("of several errors in one tick the gravest counts, whatever their order", "[openhaptics]") {
+  std::vector<unsigned> codes = {0x0200, 0x0302, 0x0204};
+  std::rotate(codes.begin(), codes.begin() + GENERATE(0, 1, 2), codes.end());
+  Lab lab;
+  OpenHapticsDevice device(lab.options());
+  Driven loop(device);
+  lab.steps(10);
+  for (const unsigned code : codes) lab.runtime->report(code);
+  lab.steps(1);
+  CHECK(loop.servo.status().device == DeviceStatus::disconnected);
+  CHECK(device.last_error() == codes.back());
+  lab.steps(1);
+  CHECK(loop.servo.status().device == DeviceStatus::ok);  // all were taken
+}
+
+TEST_CASE("a missing runtime is named with what to install", "[openhaptics]") {
+  OpenHapticsOptions options;
+  options.library = "/nowhere/libHD.so";
+  const std::string message = message_of([&] { OpenHapticsDevice device(options); });
+  CHECK(contains(message, "/nowhere/libHD.so"));
+  CHECK(contains(message, "install OpenHaptics"));
+  CHECK(contains(message, "CALLIGRAPHY_LIBHD"));
+  const OpenHapticsRuntime runtime = openhaptics_runtime("/nowhere/libHD.so");
+  CHECK_FALSE(runtime.found);
+  CHECK(runtime.advice == message);
+}
+
+TEST_CASE("every function that a runtime lacks is named", "[openhaptics]") {
+  OpenHapticsOptions options;
+  options.library = INCOMPLETE_LIBHD;
+  const std::string message = message_of([&] { OpenHapticsDevice device(options); });
+  CHECK(contains(message, "lacks hdGetError, hdUnschedule:"));
+  CHECK(contains(message, INCOMPLETE_LIBHD));
+  CHECK_FALSE(openhaptics_runtime(INCOMPLETE_LIBHD).found);
+}
+
+TEST_CASE("the runtime is found by the environment's word when no file is named", "[openhaptics]") {
+  Lab lab;
+  setenv("CALLIGRAPHY_LIBHD", STAND_IN_LIBHD, 1);
+  const OpenHapticsRuntime found = openhaptics_runtime();
+  setenv("CALLIGRAPHY_LIBHD", "/nowhere/else.so", 1);
+  const OpenHapticsRuntime lost = openhaptics_runtime();
+  const OpenHapticsRuntime named = openhaptics_runtime(STAND_IN_LIBHD);
+  setenv("CALLIGRAPHY_LIBHD", "", 1);
+  const OpenHapticsRuntime usual = openhaptics_runtime();
+  unsetenv("CALLIGRAPHY_LIBHD");
+  CHECK(found.found);
+  CHECK(found.library == STAND_IN_LIBHD);
+  CHECK_FALSE(lost.found);
+  CHECK(contains(lost.advice, "/nowhere/else.so"));
+  CHECK(named.found);
+  if (!usual.found) CHECK(contains(usual.advice, "libHD.so.3"));
+}
+
+TEST_CASE("a device that is not there is refused with the runtime's reason and what to do", "[openhaptics]") {
+  Lab lab;
+  const std::string message = message_of([&] { OpenHapticsDevice device(lab.options("Left")); });
+  CHECK(contains(message, "the device \"Left\""));
+  CHECK(contains(message, "HD error 0x0301: no such device"));
+  CHECK(contains(message, "plug it in"));
+  OpenHapticsDevice device(lab.options());
+  CHECK(contains(message_of([&] { OpenHapticsDevice again(lab.options()); }), "its default device"));
+}
+
+TEST_CASE("a device asks to be calibrated in the inkwell, gives no force until it is, and then rises",
+          "[openhaptics]") {
+  Lab lab;
+  lab.runtime->set_calibration(0, 0x5002);
+  OpenHapticsDevice device(lab.options());
+  CHECK(device.advice() == "needs calibration: put the pen into the inkwell");
+  Driven loop(device);
+  lab.steps(300);
+  CHECK(loop.servo.status().device == DeviceStatus::needs_calibration);
+  CHECK(loop.servo.status().fault == DeviceFault::uncalibrated);
+  CHECK(lab.force().isZero(0.0));
+  lab.runtime->put_into_inkwell(0, true);
+  lab.steps(51);
+  CHECK(loop.servo.status().device == DeviceStatus::ok);
+  CHECK(device.advice().empty());
+  CHECK(lab.force().x() < 0.3);
+  lab.steps(250);
+  CHECK(lab.force().x() == Approx(1.0));
+  lab.runtime->put_into_inkwell(0, false);
+  lab.runtime->set_calibration(0, 0x5002);  // lost while it runs
+  lab.steps(70);
+  CHECK(lab.force().isZero(0.0));
+  CHECK(loop.servo.status().fault == DeviceFault::uncalibrated);
+  CHECK(lab.runtime->broken_rules() == 0);
+}
+
+TEST_CASE("a device that calibrates by itself does so by its style alone", "[openhaptics]") {
+  const CalibrationStyle style = GENERATE(CalibrationStyle::automatic, CalibrationStyle::encoder_reset);
+  Lab lab;
+  lab.runtime->set_calibration(0, 0x5001);
+  OpenHapticsOptions options = lab.options();
+  options.calibration = style;
+  OpenHapticsDevice device(options);
+  CHECK(contains(device.advice(), "needs calibration"));
+  CHECK_FALSE(contains(device.advice(), "inkwell"));
+  Driven loop(device);
+  lab.steps(1);
+  CHECK(loop.servo.status().device == DeviceStatus::ok);
+  CHECK(device.advice().empty());
+}
+
+TEST_CASE("the force output is on only while a loop runs, and everything is let go in order", "[openhaptics]") {
+  Lab lab;
+  {
+    OpenHapticsDevice device(lab.options());
+    CHECK(lab.runtime->is_open(0));
+    CHECK_FALSE(lab.runtime->output_enabled(0));
+    CHECK_FALSE(lab.runtime->scheduler_runs());
+    {
+      Driven loop(device);
+      CHECK(device.clock()->running());
+      CHECK_THROWS_AS(device.clock()->start([](double) {}), ValueError);
+      lab.steps(300);
+      CHECK(lab.runtime->output_enabled(0));
+      CHECK(lab.runtime->scheduler_runs());
+      CHECK(lab.runtime->callbacks() == 1);
+    }
+    CHECK_FALSE(lab.runtime->output_enabled(0));
+    CHECK_FALSE(lab.runtime->scheduler_runs());
+    CHECK(lab.runtime->callbacks() == 0);
+    CHECK(lab.force().isZero(0.0));
+    CHECK(lab.runtime->is_open(0));
+    Driven again(device);
+    lab.steps(300);
+    CHECK(lab.force().x() == Approx(1.0));
+  }
+  CHECK_FALSE(lab.runtime->is_open(0));
+  CHECK(lab.runtime->broken_rules() == 0);
+}
+
+TEST_CASE("a closed device says so, takes no force and can be opened anew", "[openhaptics]") {
+  Lab lab;
+  OpenHapticsDevice device(lab.options());
+  {
+    Driven loop(device);
+    lab.steps(300);
+    device.close();
+    CHECK_FALSE(lab.runtime->scheduler_runs());
+    CHECK_FALSE(lab.runtime->output_enabled(0));
+  }
+  CHECK(device.read().status == DeviceStatus::disconnected);
+  device.write({1.0, 0.0, 0.0});
+  device.close();
+  OpenHapticsDevice again(lab.options());
+  Driven loop(again);
+  lab.steps(300);
+  CHECK(lab.force().x() == Approx(1.0));
+  CHECK(lab.runtime->broken_rules() == 0);
+}
+
+TEST_CASE("outside a tick reading gives the last sample as stale and a force is ignored", "[openhaptics]") {
+  Lab lab;
+  OpenHapticsDevice device(lab.options());
+  lab.intend({0.02, 0.0, 0.0});
+  CHECK(device.read().status == DeviceStatus::stale);
+  device.write({1.0, 0.0, 0.0});
+  CHECK_FALSE(lab.runtime->output_enabled(0));
+  {
+    Driven loop(device, [](const DeviceState&) { return Eigen::Vector3d::Zero().eval(); });
+    lab.steps(1000);
+  }
+  const DeviceState last = device.read();
+  CHECK(last.status == DeviceStatus::stale);
+  CHECK(last.position.x() == Approx(0.02).margin(1.1e-3));
+  CHECK(lab.runtime->broken_rules() == 0);
+}
+
+TEST_CASE("a watchdog in another thread switches the output off, and the next tick of force on again",
+          "[openhaptics]") {
+  Lab lab;
+  OpenHapticsDevice device(lab.options());
+  Driven loop(device);
+  lab.steps(300);
+  double now = lab.runtime->time();
+  std::thread watchdog([&] {  // no tick comes for 20 ms
+    for (int i = 0; i < 20; ++i) loop.servo.supervise(now += 1e-3);
+  });
+  watchdog.join();
+  CHECK_FALSE(lab.runtime->output_enabled(0));
+  CHECK(lab.force().isZero(0.0));
+  CHECK(loop.servo.status().fault == DeviceFault::late_clock);
+  lab.steps(10);
+  CHECK(lab.runtime->output_enabled(0));
+  CHECK(lab.force().x() > 0.0);
+  CHECK(lab.force().x() <= 0.0501);
+  lab.steps(300);
+  CHECK(lab.force().x() == Approx(1.0));
+  CHECK(lab.runtime->broken_rules() == 0);
+}
+
+TEST_CASE("a law that hangs within the vendor's frame loses the force all the same", "[openhaptics]") {
+  Lab lab;
+  OpenHapticsDevice device(lab.options());
+  Servo* servo = nullptr;
+  bool hangs = false;
+  Driven loop(device, [&](const DeviceState&) {
+    if (hangs) {
+      double now = virtual_time();
+      std::thread watchdog([&] {
+        for (int i = 0; i < 30; ++i) servo->supervise(now += 1e-3);
+      });
+      watchdog.join();
+      CHECK_FALSE(lab.runtime->output_enabled(0));
+      CHECK(lab.force().isZero(0.0));
+    }
+    return Eigen::Vector3d(1.0, 0.0, 0.0);
+  });
+  servo = &loop.servo;
+  lab.steps(300);
+  hangs = true;
+  lab.steps(1);
+  hangs = false;
+  CHECK(loop.servo.status().fault == DeviceFault::slow_force_law);
+  CHECK(lab.force().isZero(0.0));
+  lab.steps(300);
+  CHECK(lab.force().x() == Approx(1.0));
+  CHECK(lab.runtime->broken_rules() == 0);
+}
+
+TEST_CASE("a force beyond the peak is shortened, one that is not finite is none", "[openhaptics]") {
+  Lab lab;
+  OpenHapticsDevice device(lab.options());
+  Eigen::Vector3d wanted(30.0, 40.0, 0.0);
+  device.clock()->start([&](double) {
+    device.read();
+    device.write(wanted);
+  });
+  const auto commanded = [&] {  // what the runtime is told, before any limit of its own
+    Eigen::Vector3d result;
+    lab.runtime->commanded_force(0, result.data());
+    return result;
+  };
+  lab.steps(2);
+  CHECK(commanded().isApprox(Eigen::Vector3d(0.6, 0.8, 0.0) * 3.3));
+  wanted.y() = std::numeric_limits<double>::quiet_NaN();
+  lab.steps(1);
+  CHECK(commanded().isZero(0.0));
+  wanted = {1.0, 2.0, -1.0};
+  lab.steps(1);
+  CHECK(commanded() == wanted);
+  device.clock()->stop();
+}
+
+TEST_CASE("two devices share the scheduler, which ends with the last loop", "[openhaptics]") {
+  Lab lab;
+  lab.runtime->plug_in("Left", "Touch", "touch");
+  OpenHapticsDevice right(lab.options());
+  OpenHapticsDevice left(lab.options("Left"));
+  {
+    Driven first(right);
+    {
+      Driven second(left, [](const DeviceState&) { return Eigen::Vector3d(0.0, -0.5, 0.0); });
+      lab.steps(300);
+      CHECK(lab.force(0).isApprox(Eigen::Vector3d(1.0, 0.0, 0.0)));
+      CHECK(lab.force(1).isApprox(Eigen::Vector3d(0.0, -0.5, 0.0)));
+      CHECK(lab.runtime->callbacks() == 2);
+      lab.runtime->inject(1, 0x0302, 1);
+      lab.steps(1);
+      CHECK(first.servo.status().fault == DeviceFault::none);
+      CHECK(second.servo.status().fault == DeviceFault::link_error);
+      const std::string message = message_of([&] { OpenHapticsDevice third(lab.options("Third")); });
+      CHECK(contains(message, "open all devices before the first loop starts"));
+    }
+    CHECK(lab.runtime->scheduler_runs());
+    lab.steps(300);
+    CHECK(lab.force(0).x() == Approx(1.0));
+    CHECK(lab.force(1).isZero(0.0));
+  }
+  CHECK_FALSE(lab.runtime->scheduler_runs());
+  CHECK(lab.runtime->broken_rules() == 0);
+}
+
+TEST_CASE("a scheduler that does not start is refused, and a later start may succeed", "[openhaptics]") {
+  Lab lab;
+  OpenHapticsDevice device(lab.options());
+  lab.runtime->fail("hdStartScheduler", 0x0304);
+  const std::string message = message_of([&] { device.clock()->start([](double) {}); });
+  CHECK(contains(message, "does not start: HD error 0x0304"));
+  CHECK_FALSE(device.clock()->running());
+  CHECK(lab.runtime->callbacks() == 0);
+  Driven loop(device);
+  lab.steps(300);
+  CHECK(lab.force().x() == Approx(1.0));
+}
+
+TEST_CASE("a tick through the runtime takes nothing from the heap", "[openhaptics]") {
+  Lab lab;
+  OpenHapticsDevice device(lab.options());
+  std::size_t taken = 0;
+  device.clock()->start([&](double) {
+    const std::size_t before = calligraphy_test::allocations();
+    const DeviceState state = device.read();
+    device.write(-10.0 * state.position);
+    taken += calligraphy_test::allocations() - before;
+  });
+  lab.steps(200);
+  device.clock()->stop();
+  CHECK(taken == 0);
+}
+
+TEST_CASE("a servo loop runs on the vendor's own thread and leaves no force behind", "[openhaptics]") {
+  Lab lab;
+  lab.runtime->run_in_real_time(true);
+  OpenHapticsOptions options = lab.options();
+  options.time = nullptr;
+  OpenHapticsDevice device(options);
+  ServoLoopOptions patient;
+  patient.servo.patience = 1.0;  // for a machine under load
+  patient.servo.rise_time = 0.0;
+  patient.thread.priority = 0;
+  patient.thread.lock_memory = false;
+  ServoLoop loop(
+      device, [](const DeviceState&) { return Eigen::Vector3d(1.0, 0.0, 0.0); }, patient);
+  loop.start();
+  CHECK(comes([&] { return loop.statistics().ticks > 20 && lab.force().x() > 0.9; }));
+  loop.stop();
+  CHECK(lab.force().isZero(0.0));
+  CHECK_FALSE(lab.runtime->scheduler_runs());
+  CHECK_FALSE(lab.runtime->output_enabled(0));
+  loop.start();
+  CHECK(comes([&] { return lab.force().x() > 0.9; }));
+  loop.stop();
+  CHECK(lab.runtime->broken_rules() == 0);
+}
+
+TEST_CASE("a clock on the vendor's own thread that is stopped leaves the output off by itself", "[openhaptics]") {
+  Lab lab;
+  lab.runtime->run_in_real_time(true);
+  OpenHapticsDevice device(lab.options());
+  device.clock()->start([&](double) {
+    device.read();
+    device.write({1.0, 0.0, 0.0});
+  });
+  CHECK(comes([&] { return lab.force().x() > 0.9; }));
+  device.clock()->stop();
+  CHECK_FALSE(lab.runtime->output_enabled(0));
+  CHECK(lab.force().isZero(0.0));
+  CHECK(lab.runtime->callbacks() == 0);
+  CHECK(lab.runtime->broken_rules() == 0);
+}

@@ -1,0 +1,168 @@
+// The far end of a link for tests in virtual time: the arm of a Phantom with the simulated device's physics in its tip,
+// behind the bytes of a wire profile, and a link in memory between it and the host.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <Eigen/LU>
+
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/devices/phantom/kinematics.hpp>
+#include <calligraphy/devices/simulated_device.hpp>
+
+#include "devices/phantom/link/link.hpp"
+#include "devices/phantom/wire/packet_codec.hpp"
+#include "devices/phantom/wire/serial_framing.hpp"
+
+namespace calligraphy_test {
+
+using namespace calligraphy;
+using namespace calligraphy::phantom;
+
+using Bytes = std::vector<std::byte>;
+
+/// What the two ends of a link in memory share; the test holds it.
+struct Wire {
+  LinkListener* listener = nullptr;
+  Bytes newest;                 ///< as the device sees it: the last packet sent
+  std::vector<Bytes> commands;  ///< in their order
+  std::atomic<std::uint64_t> sent = 0;
+  bool takes_packets = true;
+  bool fails_commands = false;
+  std::string refusal;  ///< not empty: open() throws it
+  std::vector<std::string> warnings;
+  std::function<void(LinkListener&)> at_the_end;  ///< what a link tells until its thread has ended
+};
+
+class MemoryLink final : public Link {
+ public:
+  explicit MemoryLink(std::shared_ptr<Wire> wire) : wire_(std::move(wire)) { wire_->newest.reserve(512); }
+  ~MemoryLink() override {
+    if (wire_->at_the_end) wire_->at_the_end(*wire_->listener);
+    wire_->listener = nullptr;
+  }
+
+  void open(LinkListener& listener) override {
+    if (!wire_->refusal.empty()) throw DeviceError(wire_->refusal);
+    wire_->listener = &listener;
+    listener.changed(DeviceFault::none);
+  }
+  bool send(std::span<const std::byte> packet) noexcept override {
+    if (!wire_->takes_packets) return false;
+    wire_->newest.assign(packet.begin(), packet.end());  // within what is reserved
+    ++wire_->sent;
+    return true;
+  }
+  void command(std::span<const std::byte> packet) override {
+    if (wire_->fails_commands) throw DeviceError("command refused");
+    wire_->commands.emplace_back(packet.begin(), packet.end());
+  }
+  LinkCounts counts() const noexcept override { return {0, wire_->sent, 0, 0, 1}; }
+  const std::vector<std::string>& warnings() const noexcept override { return wire_->warnings; }
+  const std::string& description() const noexcept override { return description_; }
+  const std::string& serial() const noexcept override { return description_; }
+
+ private:
+  std::shared_ptr<Wire> wire_;
+  std::string description_ = "a link in memory";
+};
+
+/// An arm on a wire. One step() is one report.
+class EmulatedArm {
+ public:
+  EmulatedArm(const WireProfile& profile, const std::string& model, const Capabilities& physics, const Hand& hand)
+      : codec(profile),
+        arm(linkage(model)),
+        wire(std::make_shared<Wire>()),
+        tip(physics, hand, tip_position(arm, *profile.docked_angles) - arm.centre),
+        model_(model) {}
+
+  PacketCodec codec;
+  const Linkage& arm;
+  std::shared_ptr<Wire> wire;
+  SimulatedDevice tip;
+  bool docked = true;
+  bool started = true;  ///< false: the motors stay off, whatever is commanded
+  std::uint32_t buttons = 0;
+  DeviceFault own_fault = DeviceFault::none;
+  std::uint32_t sequence = 0;
+  PerJoint<std::int64_t> count_offset{};  ///< what the encoders showed in the inkwell
+  /// Changes a frame before it is sent; false: it is not sent at all.
+  std::function<bool(Bytes&)> tamper;
+
+  /// Carries the hand to a place on the next steps.
+  void move_hand(const Eigen::Vector3d& position) { tip.set_intention({position, Eigen::Vector3d::Zero()}); }
+
+  Joints joints() const { return inverse_kinematics(arm, tip.true_position() + arm.centre).joints; }
+
+  /// What the motors do now: nothing when they are off, or when the dead man's bit has not moved for 20 ms.
+  Eigen::Vector3d motor_force() {
+    const RawCommand command = last_command();
+    if (!started || !command.motors_on || still_for_ > 20) return Eigen::Vector3d::Zero();
+    Eigen::Vector3d torque;
+    for (std::size_t i = 0; i < 3; ++i) {
+      torque[static_cast<Eigen::Index>(i)] = static_cast<double>(command.torque[i]);
+    }
+    torque = torque.cwiseProduct(*codec.profile().torque_per_count);
+    return tip_jacobian(arm, joints()).transpose().inverse() * torque;
+  }
+
+  RawCommand last_command() const {
+    if (wire->newest.empty()) return {};
+    if (codec.profile().framing == Framing::serial) return codec.decode_command(std::span(wire->newest).subspan(4));
+    return codec.decode_command(wire->newest);
+  }
+
+  /// One millisecond of the physics, without a report.
+  void advance() {
+    const RawCommand command = last_command();
+    still_for_ = command.toggle == last_toggle_ ? still_for_ + 1 : 0;
+    last_toggle_ = command.toggle;
+    tip.write(motor_force());
+    tip.advance(1e-3);
+    ++sequence;
+  }
+
+  /// The report of this moment.
+  Bytes report() const {
+    RawSample sample;
+    const Joints turned = joints() - *codec.profile().docked_angles;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto joint = static_cast<Eigen::Index>(i);
+      sample.encoders[i] = std::llround(turned[joint] * (*codec.profile().counts_per_radian)[joint]) + count_offset[i];
+      sample.encoders[i] &= 0xFFFF;
+    }
+    sample.docked = docked;
+    sample.buttons = buttons;
+    sample.sequence = sequence;
+    sample.fault = own_fault;
+    Bytes payload(codec.profile().report_size);
+    codec.encode_report(sample, payload);
+    if (codec.profile().framing == Framing::packet) return payload;
+    Bytes frame(payload.size() + 4);
+    write_serial_frame(codec.profile().report_code, payload, frame);
+    return frame;
+  }
+
+  void step() {
+    advance();
+    Bytes frame = report();
+    if (tamper && !tamper(frame)) return;
+    if (wire->listener != nullptr) wire->listener->received(frame);
+  }
+
+ private:
+  std::string model_;
+  bool last_toggle_ = false;
+  int still_for_ = 0;
+};
+
+}  // namespace calligraphy_test

@@ -1,0 +1,89 @@
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <thread>
+
+#include <calligraphy/devices/device_profiles.hpp>
+
+#include "../../catch.hpp"
+#include "devices/phantom/latest_value.hpp"
+#include "held_phantom.hpp"
+
+using namespace calligraphy_test;
+
+TEST_CASE("the newest value is whole, and never older than the one before", "[phantom][threads]") {
+  struct Value {
+    std::array<std::uint64_t, 16> copies{};
+  };
+  LatestValue<Value> latest;
+  constexpr std::uint64_t last = 200'000;
+  std::jthread writer([&] {
+    for (std::uint64_t i = 1; i <= last; ++i) {
+      Value value;
+      value.copies.fill(i);
+      latest.publish(value);
+    }
+  });
+  Value value;
+  std::uint64_t before = 0;
+  bool whole = true, in_order = true;
+  while (before < last) {
+    if (!latest.take(value)) {
+      std::this_thread::yield();
+      continue;
+    }
+    for (const std::uint64_t copy : value.copies) whole = whole && copy == value.copies[0];
+    in_order = in_order && value.copies[0] > before;
+    before = value.copies[0];
+  }
+  CHECK(whole);
+  CHECK(in_order);
+  CHECK_FALSE(latest.take(value));
+}
+
+TEST_CASE("reports, faults, reads, writes and statistics come from their own threads at once", "[phantom][threads]") {
+  const WireProfile& profile = wire_profile("simulated");
+  const PhantomOptions options = simulated_options();
+  std::atomic<double> now = 0.0;
+  EmulatedArm arm(profile, options.model, device_profile(options.model), {0.1, 3.0, 300.0});
+  PhantomDevice device(std::make_unique<MemoryLink>(arm.wire), options, [&] { return now.load(); });
+  LinkListener& listener = *arm.wire->listener;
+  constexpr std::uint32_t reports = 20'000;
+  std::atomic<bool> done = false;
+  arm.tip.set_intention({arm.tip.true_position(), {0.0, 0.003, 0.002}});
+  std::jthread link([&] {
+    for (std::uint32_t i = 0; i < reports; ++i) {
+      now = now + 1e-3;
+      arm.docked = i < 50;
+      arm.tip.advance(1e-3);
+      ++arm.sequence;
+      listener.received(arm.report());
+      if (i % 1000 == 999) {
+        listener.changed(DeviceFault::timed_out);
+        listener.changed(DeviceFault::none);
+      }
+      if (i % 16 == 0) std::this_thread::yield();
+    }
+    done = true;
+  });
+  std::jthread display([&] {
+    while (!done) {
+      if (device.statistics().reports > reports) return;
+      std::this_thread::yield();
+    }
+  });
+  bool finite = true;
+  while (!done) {
+    const DeviceState state = device.read();
+    finite = finite && state.position.allFinite() && state.velocity.allFinite();
+    device.write({0.3, 0.0, 0.0});
+  }
+  link.join();
+  display.join();
+  CHECK(finite);
+  CHECK(device.statistics().reports == reports);
+  CHECK(device.statistics().used_reports == reports);
+  CHECK(device.statistics().faults[static_cast<std::size_t>(DeviceFault::timed_out)] == reports / 1000);
+  device.read();
+  CHECK((device.read().position - arm.tip.true_position()).norm() < 2e-4);
+}

@@ -1,0 +1,65 @@
+#include <cstdint>
+
+#include "devices/phantom/sequence_watch.hpp"
+
+#include "../../catch.hpp"
+
+using namespace calligraphy;
+using namespace calligraphy::phantom;
+
+TEST_CASE("a sequence counts on over its wrap", "[phantom][sequence]") {
+  SequenceWatch watch(8);
+  for (unsigned i = 250; i < 1000; ++i) {
+    const SequenceWatch::Answer answer = watch.judge(i & 0xFF);
+    REQUIRE(answer.fresh);
+    REQUIRE(answer.steps == 1);
+    REQUIRE(answer.fault == DeviceFault::none);
+  }
+}
+
+TEST_CASE("two lost reports in a row are borne, three are a fault", "[phantom][sequence]") {
+  for (const unsigned lost : {0u, 1u, 2u, 3u, 100u}) {
+    SequenceWatch watch(32);
+    watch.judge(7);
+    const SequenceWatch::Answer answer = watch.judge(8 + lost);
+    CHECK(answer.fresh);
+    CHECK(answer.steps == 1 + static_cast<std::int64_t>(lost));
+    CHECK(answer.fault == (lost < 3 ? DeviceFault::none : DeviceFault::lost_frames));
+    CHECK(watch.judge(9 + lost).steps == 1);
+  }
+}
+
+TEST_CASE("one in sixty may be lost for ever, one in forty not", "[phantom][sequence]") {
+  const auto faults = [](unsigned period) {
+    SequenceWatch watch(32);
+    int found = 0;
+    for (unsigned i = 1; i < 20000; ++i) {
+      if (i % period != 0) found += watch.judge(i).fault != DeviceFault::none;
+    }
+    return found;
+  };
+  CHECK(faults(60) == 0);
+  CHECK(faults(40) > 0);
+}
+
+TEST_CASE("a repeated report is dropped, the third in a row is a fault, and one that runs back too",
+          "[phantom][sequence]") {
+  SequenceWatch watch(16);
+  watch.judge(100);
+  for (int i = 0; i < 2; ++i) {
+    const SequenceWatch::Answer answer = watch.judge(100);
+    CHECK_FALSE(answer.fresh);
+    CHECK(answer.fault == DeviceFault::none);
+  }
+  for (int i = 0; i < 5; ++i) CHECK(watch.judge(100).fault == DeviceFault::repeated_frames);
+  CHECK(watch.judge(101).fault == DeviceFault::none);
+  CHECK(watch.judge(101).fault == DeviceFault::none);  // the first of another row
+  CHECK_FALSE(watch.judge(101).fresh);
+  CHECK(watch.judge(102).fault == DeviceFault::none);
+  const SequenceWatch::Answer back = watch.judge(99);
+  CHECK_FALSE(back.fresh);
+  CHECK(back.fault == DeviceFault::repeated_frames);
+  CHECK(watch.judge(100).fresh);  // a device that has begun anew is followed
+  watch.restart();
+  CHECK(watch.judge(5).fault == DeviceFault::none);
+}

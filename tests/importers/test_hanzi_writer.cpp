@@ -1,0 +1,200 @@
+// Claims about read_hanzi_writer: files of the npm package hanzi-writer-data become characters.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/base/text.hpp>
+#include <calligraphy/importers/hanzi_writer.hpp>
+#include <calligraphy/model/character.hpp>
+
+#include "../catch.hpp"
+#include "../package_data.hpp"
+#include "../temporary_directory.hpp"
+
+namespace hanzi_writer_tests {
+
+using namespace calligraphy;
+
+namespace {
+
+/// What read_hanzi_writer says to this text, with the kind of error in front.
+std::string complaint(const std::string& text) {
+  const TemporaryDirectory directory;
+  directory.write("永.json", text);
+  try {
+    read_hanzi_writer(directory.path().string(), U'永');
+  } catch (const FormatError& error) {
+    return std::string("FormatError ") + error.what();
+  } catch (const FileError& error) {
+    return std::string("FileError ") + error.what();
+  }
+  return "";
+}
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+std::string repeated(const std::string& part, int count) {
+  std::string text;
+  for (int i = 0; i < count; ++i) text += part;
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("a median in units of 1024 to the em with the baseline at -124 lands in the unit square", "[practice]") {
+  const TemporaryDirectory directory;
+  directory.write("一.json", R"({"medians":[[[0,-124],[1024,-124]],[[512,900],[512,-124]]]})");
+  const Character character = read_hanzi_writer(directory.path().string(), U'一');
+  CHECK(character.code == U'一');
+  REQUIRE(character.sequence.stroke_ids == std::vector<int>{1, 2});
+  const auto& points = character.structure.control_points;
+  CHECK((points[0] - Point(0.0, 0.0)).norm() < 1e-6);
+  CHECK((points[1] - Point(1.0, 0.0)).norm() < 1e-6);
+  CHECK((points[2] - Point(0.5, 1.0)).norm() < 1e-6);
+  CHECK((points[3] - Point(0.5, 0.0)).norm() < 1e-6);
+  CHECK(validate(character).empty());
+  for (const double factor : character.physics.attraction_factors) CHECK(factor == 1.0);
+}
+
+TEST_CASE("a missing character is named with the path", "[practice]") {
+  const TemporaryDirectory directory;
+  try {
+    read_hanzi_writer(directory.path().string(), U'永');
+    FAIL("nothing was thrown");
+  } catch (const FileError& error) {
+    CHECK(has(error.what(), "永"));
+    CHECK(has(error.what(), directory.path().string()));
+  }
+  CHECK_THROWS_AS(read_hanzi_writer(directory.path() / "nowhere", U'永'), FileError);
+}
+
+TEST_CASE("code points that are none are refused", "[practice]") {
+  const TemporaryDirectory directory;
+  for (const unsigned number : {0u, 0xD800u, 0xDFFFu, 0x110000u, 0xFFFFFFFFu}) {
+    const auto code = static_cast<char32_t>(number);
+    CHECK_THROWS_AS(read_hanzi_writer(directory.path().string(), code), FileError);
+  }
+  CHECK_THROWS_AS(read_hanzi_writer(directory.path().string(), U'/'), FileError);
+}
+
+TEST_CASE("a directory in the place of the file is refused", "[practice]") {
+  const TemporaryDirectory directory;
+  std::filesystem::create_directory(directory.path() / "永.json");
+  CHECK_THROWS_AS(read_hanzi_writer(directory.path().string(), U'永'), FileError);
+}
+
+TEST_CASE("malformed files are refused with the file and the place", "[practice]") {
+  struct Case {
+    std::string text;
+    std::string place;
+  };
+  const std::vector<Case> cases = {
+      {"", "not JSON"},
+      {"{", "not JSON"},
+      {"\xff\xfe", "not JSON"},
+      {R"({"medians":[[[1,2],[3,4]]]} x)", "not JSON"},
+      {R"({"medians":[[[1,2],[1e999,4]]]})", "not JSON"},
+      {R"({"medians":[[[1,2],[NaN,4]]]})", "not JSON"},
+      {"[]", "expected an object"},
+      {"{}", "medians: missing"},
+      {R"({"medians":null})", "medians: expected a non-empty array"},
+      {R"({"medians":{}})", "medians: expected a non-empty array"},
+      {R"({"medians":[]})", "medians: expected a non-empty array"},
+      {R"({"medians":[[[1,2],[300,4]],[]]})", "medians[1]: expected a non-empty array of points"},
+      {R"({"medians":[7]})", "medians[0]: expected a non-empty array of points"},
+      {R"({"medians":[{"0":[1,2]}]})", "medians[0]: expected a non-empty array of points"},
+      {R"({"medians":[[[1,2],[3]]]})", "medians[0][1]: expected two finite numbers"},
+      {R"({"medians":[[[1,2],[3,4,5]]]})", "medians[0][1]: expected two finite numbers"},
+      {R"({"medians":[[[1,2],[3,"4"]]]})", "medians[0][1]: expected two finite numbers"},
+      {R"({"medians":[[[1,2],[3,true]]]})", "medians[0][1]: expected two finite numbers"},
+      {R"({"medians":[[[1,2],null]]})", "medians[0][1]: expected two finite numbers"},
+      {R"({"medians":[[[1,2],[3,1e300]]]})", "medians[0][1]: (3, 1e+300) is more than 8 em"},
+      {R"({"medians":[[[-18446744073709551615,2],[3,4]]]})", "medians[0][0]"},
+      {R"({"medians":[)" + repeated("[[1,2],[300,4]],", 300) + "[[1,2],[300,4]]]}", "medians: more than 256 strokes"},
+      {R"({"medians":[[)" + repeated("[1,2],", 10001) + "[1,2]]]}", "medians[0]: more than 10000 points"},
+  };
+  for (const Case& hostile : cases) {
+    const std::string said = complaint(hostile.text);
+    INFO(hostile.text.substr(0, 80) << " -> " << said);
+    CHECK(has(said, "FormatError 永.json: "));
+    CHECK(has(said, hostile.place));
+  }
+}
+
+TEST_CASE("a hundred thousand nested arrays are refused without a crash", "[practice]") {
+  CHECK(has(complaint(repeated("[", 100000)), "FormatError 永.json: not JSON"));
+  CHECK(has(complaint(repeated("[", 100000) + repeated("]", 100000)), "FormatError 永.json: expected an object"));
+  CHECK(has(complaint(R"({"medians":[[)" + repeated("[", 100000) + repeated("]", 100000) + "]]}"),
+            "FormatError 永.json: medians[0][0]: expected two finite numbers"));
+}
+
+TEST_CASE("a file of more than a megabyte is refused", "[practice]") {
+  const std::string valid = R"({"medians":[[[100,200],[600,200]]]})";
+  CHECK(complaint(valid).empty());
+  CHECK(complaint(std::string(500000, ' ') + valid).empty());
+  const std::string too_large = complaint(std::string(1100000, ' ') + valid);
+  CHECK(has(too_large, "FormatError "));
+  CHECK(has(too_large, "永.json: more than the 1048576 bytes"));
+}
+
+TEST_CASE("a median of one point becomes a dian", "[practice]") {
+  const TemporaryDirectory directory;
+  directory.write("丶.json", R"({"medians":[[[500,400]]]})");
+  CHECK(read_hanzi_writer(directory.path().string(), U'丶').sequence.stroke_ids == std::vector<int>{8});
+}
+
+namespace {
+
+/// A dian drawn with a bend is a chang dian to the fitter, and a bent short pie a pie: a line cannot follow them within
+/// 1 % of the em. Schools teach them as one.
+std::vector<int> without_twins(std::vector<int> ids) {
+  std::replace(ids.begin(), ids.end(), 38, 8);
+  std::replace(ids.begin(), ids.end(), 5, 4);
+  return ids;
+}
+
+}  // namespace
+
+TEST_CASE("well-known characters of the package have the strokes that schools teach", "[practice]") {
+  const std::filesystem::path directory = package_data("CALLIGRAPHY_HANZI_WRITER_DATA");
+  if (directory.empty()) return;
+  struct Known {
+    char32_t code;
+    std::vector<int> ids;
+  };
+  const std::vector<Known> known = {
+      {U'一', {1}},
+      {U'十', {1, 2}},
+      {U'人', {4, 6}},
+      {U'大', {1, 4, 6}},
+      {U'永', {8, 18, 17, 4, 6}},
+      {U'九', {4, 20}},
+      {U'几', {3, 20}},
+      {U'北', {2, 1, 10, 4, 31}},
+      {U'马', {16, 35, 1}},
+      {U'月', {3, 18, 1, 1}},
+      {U'心', {9, 15, 8, 8}},
+      {U'口', {2, 16, 1}},
+      {U'女', {37, 4, 1}},
+      {U'又', {17, 6}},
+      {U'乙', {22}},
+      {U'水', {12, 17, 4, 6}},
+      {U'计', {8, 19, 1, 2}},
+      {U'及', {4, 26, 6}},
+      {U'乃', {27, 4}},
+      {U'队', {28, 2, 4, 6}},
+      {U'我', {5, 1, 12, 10, 14, 4, 8}},
+      {U'不', {1, 4, 2, 38}},
+      {U'凸', {2, 1, 2, 25, 1}},
+      {U'凹', {2, 24, 2, 16, 1}},
+      {U'之', {8, 17, 7}},
+  };
+  for (const Known& character : known) {
+    INFO(encode_utf8(character.code));
+    const std::vector<int> found = read_hanzi_writer(directory.string(), character.code).sequence.stroke_ids;
+    CHECK(without_twins(found) == without_twins(character.ids));
+  }
+}
+
+}  // namespace hanzi_writer_tests

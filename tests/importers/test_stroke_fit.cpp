@@ -1,0 +1,416 @@
+// Claims about fit_stroke: pen paths become typical strokes by geometry alone.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/importers/stroke_fit.hpp>
+#include <calligraphy/model/bezier.hpp>
+#include <calligraphy/model/character.hpp>
+#include <calligraphy/model/typical_stroke.hpp>
+
+#include "../catch.hpp"
+
+using namespace calligraphy;
+
+namespace {
+
+using Path = std::vector<Point>;
+
+/// A stroke's centre line with `steps` points on each element.
+Path sampled(const TypicalStroke& type, const std::vector<Point>& points, int steps) {
+  Path path{points.front()};
+  std::size_t at = 0;
+  for (const char kind : type.elements) {
+    const bool line = kind == 'L';
+    for (int step = 1; step <= steps; ++step) {
+      const double t = static_cast<double>(step) / steps;
+      path.push_back(line ? Point(points[at] + t * (points[at + 1] - points[at]))
+                          : Bezier<3>{{points[at], points[at + 1], points[at + 2], points[at + 3]}}.point(t));
+    }
+    at += line ? 1 : 3;
+  }
+  return path;
+}
+
+std::vector<Point> typical_points(const TypicalStroke& type) {
+  std::vector<Point> points;
+  for (const auto& point : type.shape) points.emplace_back(point[0], point[1]);
+  return points;
+}
+
+/// Shrinks about the middle of the em square and shakes by up to `noise`, always in the same way.
+Path changed(Path path, double scale, double noise) {
+  std::uint32_t state = 12345;
+  const auto shake = [&] {
+    state = state * 1664525u + 1013904223u;
+    return noise * (static_cast<double>(state >> 8) / 8388608.0 - 1.0);
+  };
+  for (Point& point : path) {
+    point = Point(0.5, 0.5) + scale * (point - Point(0.5, 0.5));
+    const double up = shake(), right = shake();  // in this order with every compiler
+    point += Point(right, up);
+  }
+  return path;
+}
+
+double distance_to_segment(const Point& point, const Point& from, const Point& to) {
+  const Point along = to - from;
+  const double squared = along.squaredNorm();
+  const double t = squared > 0.0 ? std::clamp((point - from).dot(along) / squared, 0.0, 1.0) : 0.0;
+  return (point - from - t * along).norm();
+}
+
+double farthest(const Path& from, const Path& to) {
+  double largest = 0.0;
+  for (const Point& point : from) {
+    double nearest = (point - to.front()).norm();
+    for (std::size_t i = 1; i < to.size(); ++i) {
+      nearest = std::min(nearest, distance_to_segment(point, to[i - 1], to[i]));
+    }
+    largest = std::max(largest, nearest);
+  }
+  return largest;
+}
+
+/// Ids that the same geometry may have: which one is meant shows only in the character.
+std::set<int> accepted_ids(int id) {
+  static const std::vector<std::set<int>> twins = {
+      {3, 4},    // shu pie and pie differ by how long they stay upright
+      {4, 5},    // a small pie is short and straight
+      {8, 38},   // dian and chang dian differ by length
+      {6, 38},   // na and chang dian differ by how they end
+      {2, 9},    // left dian is a short leaning shu
+      {11, 17},  // the hook of heng gou, drawn longer, is a heng pie
+      {23, 24},  // heng zhe wan and heng zhe zhe too
+      {30, 32},  // shu wan and shu zhe differ by the roundness of the bend
+      {9, 5},    // a pen does not show the thin start of a left dian, so that it is a short pie
+      {9, 4},
+  };
+  std::set<int> accepted{id};
+  for (const auto& pair : twins) {
+    if (pair.contains(id)) accepted.insert(pair.begin(), pair.end());
+  }
+  return accepted;
+}
+
+/// Largest bend at the joints that the typical stroke calls smooth [degree].
+double largest_smooth_bend(const StrokeInput& stroke) {
+  const TypicalStroke& type = typical_stroke(stroke.id);
+  const std::vector<int> joints = type.feature_points();
+  double largest = 0.0;
+  for (std::size_t i = 1; i + 1 < joints.size(); ++i) {
+    if (type.joints[i - 1] != 's') continue;
+    const auto at = static_cast<std::size_t>(joints[i]);
+    const Point before = stroke.control_points[at] - stroke.control_points[at - 1];
+    const Point after = stroke.control_points[at + 1] - stroke.control_points[at];
+    const double cosine = before.dot(after) / (before.norm() * after.norm());
+    largest = std::max(largest, std::acos(std::clamp(cosine, -1.0, 1.0)) * 180.0 / std::numbers::pi);
+  }
+  return largest;
+}
+
+Path spiral(int count) {
+  Path path;
+  for (int i = 0; i < count; ++i) {
+    const double share = static_cast<double>(i) / (count - 1);
+    const double angle = 40.0 * share;
+    path.push_back(Point(0.5, 0.5) + 0.4 * share * Point(std::cos(angle), std::sin(angle)));
+  }
+  return path;
+}
+
+Path zigzag(int count) {
+  Path path;
+  for (int i = 0; i < count; ++i) path.emplace_back(i % 2, static_cast<double>(i) / count);
+  return path;
+}
+
+std::vector<std::pair<std::string, Path>> hard_inputs() {
+  Path long_line;
+  for (int i = 0; i < 10000; ++i) long_line.emplace_back(0.1 + 0.8e-4 * i, 0.5 + 0.01 * std::sin(0.01 * i));
+  return {
+      {"one point", {{0.5, 0.5}}},
+      {"equal points", {{0.5, 0.5}, {0.5, 0.5}, {0.5, 0.5}}},
+      {"two points", {{0.2, 0.5}, {0.8, 0.5}}},
+      {"two points, backwards", {{0.8, 0.5}, {0.2, 0.5}}},
+      {"upwards", {{0.5, 0.1}, {0.5, 0.9}}},
+      {"nearly one point", {{0.5, 0.5}, {0.5 + 1e-13, 0.5}}},
+      {"a millionth of an em", {{0.5, 0.5}, {0.5 + 1e-6, 0.5}}},
+      {"there and back", {{0.2, 0.5}, {0.8, 0.5}, {0.2, 0.5}}},
+      {"10,000 points", long_line},
+      {"10,000 equal points", Path(10000, Point(0.3, 0.7))},
+      {"a spiral", spiral(400)},
+      {"a spiral of 10,000 points", spiral(10000)},
+      {"a zigzag", zigzag(9)},
+      {"a zigzag of 10,000 points", zigzag(10000)},
+      {"far away", {{-14.0, 14.0}, {14.0, -14.0}}},
+      {"smallest numbers", {{0.0, 0.0}, {5e-324, 5e-324}}},
+  };
+}
+
+}  // namespace
+
+TEST_CASE("every typical shape drawn by a pen is recognised as itself or as a documented twin", "[model]") {
+  for (const double scale : {1.0, 0.7, 0.5}) {
+    for (const double noise : {0.0, 0.002, 0.005}) {
+      for (const TypicalStroke& type : typical_strokes()) {
+        const Path path = changed(sampled(type, typical_points(type), 12), scale, noise * scale);
+        const FittedStroke fitted = fit_stroke(path, {.drawn_with = DrawnWith::pen});
+        INFO("typical stroke " << type.id << " at scale " << scale << " with noise " << noise << " became "
+                               << fitted.stroke.id);
+        CHECK(accepted_ids(type.id).contains(fitted.stroke.id));
+      }
+    }
+  }
+}
+
+TEST_CASE("typical shapes at full size are recognised exactly", "[model]") {
+  for (const TypicalStroke& type : typical_strokes()) {
+    INFO("typical stroke " << type.id);
+    CHECK(fit_stroke(sampled(type, typical_points(type), 12)).stroke.id == type.id);
+  }
+}
+
+TEST_CASE("a dense typical shape is followed within 0.3 % of the em when its id is given, the circle within 0.4 %",
+          "[model]") {
+  for (const TypicalStroke& type : typical_strokes()) {
+    const int only[] = {type.id};
+    const FittedStroke fitted =
+        fit_stroke(sampled(type, typical_points(type), 40), {.drawn_with = DrawnWith::pen, .ids = only});
+    INFO("typical stroke " << type.id << ", error " << fitted.error);
+    CHECK(fitted.stroke.id == type.id);
+    CHECK(fitted.error < (type.id == 39 ? 0.004 : 0.003));
+  }
+}
+
+TEST_CASE("a typical shape with noise of 0.5 % of the em is followed within 1 %, the circle within 2 %", "[model]") {
+  for (const TypicalStroke& type : typical_strokes()) {
+    const Path path = changed(sampled(type, typical_points(type), 12), 1.0, 0.005);
+    const int only[] = {type.id};
+    const FittedStroke fitted = fit_stroke(path, {.drawn_with = DrawnWith::pen, .ids = only});
+    INFO("typical stroke " << type.id << ", error " << fitted.error);
+    CHECK(fitted.error < (type.id == 39 ? 0.02 : 0.01));
+  }
+}
+
+TEST_CASE("the stroke found does not depend on where it is written", "[model]") {
+  for (const TypicalStroke& type : typical_strokes()) {
+    Path path = sampled(type, typical_points(type), 12);
+    const int id = fit_stroke(path).stroke.id;
+    for (Point& point : path) point += Point(3.0, -2.0);
+    INFO("typical stroke " << type.id);
+    CHECK(fit_stroke(path).stroke.id == id);
+  }
+}
+
+TEST_CASE("the reported error of a pen path is the largest distance both ways to 1e-4 em", "[model]") {
+  for (const TypicalStroke& type : typical_strokes()) {
+    const Path path = changed(sampled(type, typical_points(type), 12), 1.0, 0.004);  // noise keeps it above zero
+    const FittedStroke fitted = fit_stroke(path, {.drawn_with = DrawnWith::pen});
+    const Path model = sampled(typical_stroke(fitted.stroke.id), fitted.stroke.control_points, 400);
+    Path dense{path.front()};
+    for (std::size_t i = 1; i < path.size(); ++i) {
+      for (int k = 1; k <= 40; ++k) dense.push_back(path[i - 1] + k / 40.0 * (path[i] - path[i - 1]));
+    }
+    INFO("typical stroke " << type.id << " became " << fitted.stroke.id);
+    CHECK(std::abs(fitted.error - std::max(farthest(model, path), farthest(dense, model))) < 1e-4);
+  }
+}
+
+TEST_CASE("joints that a typical stroke calls smooth bend by less than 5 degrees", "[model]") {
+  for (const double noise : {0.0, 0.004}) {
+    for (const TypicalStroke& type : typical_strokes()) {
+      const FittedStroke fitted = fit_stroke(changed(sampled(type, typical_points(type), 12), 0.8, noise));
+      INFO("typical stroke " << type.id << " became " << fitted.stroke.id);
+      CHECK(largest_smooth_bend(fitted.stroke) < 5.0);
+    }
+  }
+}
+
+TEST_CASE("brush entry and droop of a shu are removed", "[model]") {
+  const Path median{{0.33, 0.81}, {0.36, 0.79}, {0.38, 0.755}, {0.378, 0.40}, {0.376, 0.22}};
+  const FittedStroke fitted = fit_stroke(median);
+  CHECK(fitted.stroke.id == 2);
+  CHECK(std::abs(fitted.stroke.control_points.front().x() - 0.38) < 0.004);
+  CHECK(fitted.error < 0.002);
+}
+
+TEST_CASE("entry and press of a heng are removed", "[model]") {
+  const Path median{{0.10, 0.50}, {0.15, 0.49}, {0.50, 0.53}, {0.83, 0.57}, {0.90, 0.545}};
+  const FittedStroke fitted = fit_stroke(median);
+  CHECK(fitted.stroke.id == 1);
+  CHECK(fitted.stroke.control_points.front().x() > 0.14);
+  CHECK(fitted.stroke.control_points.back().x() < 0.84);
+  CHECK(fitted.error < 0.002);
+}
+
+TEST_CASE("a short first limb is not taken for a brush entry", "[model]") {
+  const Path median{{0.40, 0.60}, {0.48, 0.615}, {0.47, 0.50}};
+  const FittedStroke fitted = fit_stroke(median);
+  CHECK(fitted.stroke.id == 16);
+  CHECK(fitted.stroke.control_points.front().x() < 0.41);
+}
+
+TEST_CASE("a pen path keeps its ends, and its pressed start goes only when that is asked for", "[model]") {
+  const Path path{{0.35, 0.79}, {0.37, 0.775}, {0.38, 0.755}, {0.378, 0.40}, {0.376, 0.22}};
+  const int shu[] = {2};
+  CHECK(fit_stroke(path, {.drawn_with = DrawnWith::pen, .ids = shu}).error >
+        0.005);  // a line cannot follow the slanted start
+  const FittedStroke fitted = fit_stroke(path, {.drawn_with = DrawnWith::textbook_pen, .ids = shu});
+  CHECK(std::abs(fitted.stroke.control_points.front().x() - 0.38) < 0.004);
+  CHECK(fitted.error < 0.002);
+}
+
+TEST_CASE("a label decides what a path may be", "[model]") {
+  const Path heng{{0.1, 0.5}, {0.9, 0.6}};
+  const std::vector<std::vector<int>> labels{{10}, {5, 4}, {16, 18}, {31}, {8, 38}};
+  for (const std::vector<int>& ids : labels) {
+    const FittedStroke fitted = fit_stroke(heng, {.ids = ids});
+    INFO("became " << fitted.stroke.id);
+    CHECK(std::ranges::find(ids, fitted.stroke.id) != ids.end());
+  }
+  const int unknown[] = {1, 40};
+  CHECK_THROWS_AS(fit_stroke(heng, {.ids = unknown}), ValueError);
+  const int zero[] = {0};
+  CHECK_THROWS_AS(fit_stroke(heng, {.ids = zero}), ValueError);
+}
+
+TEST_CASE("a corner vertex lies where the limbs meet and not on the rounded corner", "[model]") {
+  const Path median{{0.20, 0.70}, {0.50, 0.70}, {0.72, 0.70}, {0.75, 0.69}, {0.76, 0.66}, {0.76, 0.40}, {0.76, 0.20}};
+  const FittedStroke fitted = fit_stroke(median);
+  REQUIRE(fitted.stroke.id == 16);
+  const double cut = distance_to_segment(fitted.stroke.control_points[1], median[3], median[4]);
+  CHECK(cut > 0.004);
+  CHECK(fitted.error < 0.01);
+}
+
+TEST_CASE("neighbouring strokes are told apart by direction and length", "[model]") {
+  const auto id_of = [](const Path& path) { return fit_stroke(path).stroke.id; };
+  CHECK(id_of({{0.1, 0.5}, {0.9, 0.6}}) == 1);                             // heng rises by 7 degrees
+  CHECK(id_of({{0.3, 0.4}, {0.6, 0.6}}) == 10);                            // ti by 34
+  CHECK(id_of({{0.5, 0.6}, {0.58, 0.5}}) == 8);                            // dian
+  CHECK(id_of({{0.5, 0.6}, {0.47, 0.45}}) == 9);                           // left dian
+  CHECK(id_of({{0.5, 0.9}, {0.5, 0.1}}) == 2);                             // shu
+  CHECK(id_of({{0.7, 0.8}, {0.4, 0.7}}) == 5);                             // short pie
+  CHECK(id_of({{0.2, 0.8}, {0.8, 0.82}, {0.74, 0.72}}) == 11);             // heng gou
+  CHECK(id_of({{0.2, 0.8}, {0.8, 0.82}, {0.77, 0.3}}) == 16);              // heng zhe
+  CHECK(id_of({{0.5, 0.9}, {0.5, 0.1}, {0.4, 0.16}}) == 12);               // shu gou
+  CHECK(id_of({{0.5, 0.9}, {0.5, 0.2}, {0.7, 0.4}}) == 29);                // shu ti
+  CHECK(id_of({{0.3, 0.8}, {0.3, 0.2}, {0.8, 0.24}}) == 32);               // shu zhe
+  CHECK(id_of({{0.5, 0.8}, {0.3, 0.4}, {0.7, 0.45}}) == 36);               // pie zhe
+  CHECK(id_of({{0.2, 0.8}, {0.7, 0.82}, {0.7, 0.1}, {0.6, 0.15}}) == 18);  // heng zhe gou
+  CHECK(id_of({{0.2, 0.8}, {0.5, 0.82}, {0.5, 0.2}, {0.7, 0.4}}) == 19);   // heng zhe ti
+}
+
+TEST_CASE("hard inputs give a valid finite stroke, whatever is asked for", "[model]") {
+  const std::vector<int> labels{16, 30, 39};
+  const std::vector<StrokeFitOptions> asked{
+      {}, {.drawn_with = DrawnWith::pen}, {.drawn_with = DrawnWith::textbook_pen}, {.ids = labels}};
+  for (const auto& [name, path] : hard_inputs()) {
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+      INFO(name << ", options " << i);
+      FittedStroke fitted;
+      REQUIRE_NOTHROW(fitted = fit_stroke(path, asked[i]));
+      CHECK(std::isfinite(fitted.error));
+      CHECK(fitted.error >= 0.0);
+      CHECK(std::isfinite(fitted.median_error));
+      double length = 0.0;
+      for (std::size_t k = 1; k < fitted.stroke.control_points.size(); ++k) {
+        length += (fitted.stroke.control_points[k] - fitted.stroke.control_points[k - 1]).norm();
+      }
+      CHECK(length > 0.005);
+      const std::array strokes{fitted.stroke};
+      REQUIRE_NOTHROW(make_character(U'一', strokes));
+    }
+  }
+}
+
+TEST_CASE("random scribbles give valid strokes, and the same ones again", "[model]") {
+  std::uint32_t state = 7;
+  const auto random = [&] {
+    state = state * 1664525u + 1013904223u;
+    return static_cast<double>(state >> 8) / 16777216.0;
+  };
+  for (int trial = 0; trial < 400; ++trial) {
+    Path path;
+    const int count = 2 + static_cast<int>(random() * 14);
+    const double size = trial % 5 == 0 ? 10.0 : trial % 3 == 0 ? 0.05 : 1.0;
+    for (int i = 0; i < count; ++i) path.emplace_back(size * random(), size * random());
+    const StrokeFitOptions options{.drawn_with = trial % 2 == 0 ? DrawnWith::brush : DrawnWith::pen};
+    INFO("scribble " << trial);
+    const FittedStroke fitted = fit_stroke(path, options);
+    const std::array strokes{fitted.stroke};
+    REQUIRE_NOTHROW(make_character(U'一', strokes));
+    CHECK(fit_stroke(path, options).stroke.control_points == fitted.stroke.control_points);
+  }
+}
+
+TEST_CASE("a shoulder that a brush has cut is squared, and by half a brush at most", "[model]") {
+  const Path median{{0.20, 0.70}, {0.45, 0.72}, {0.69, 0.74}, {0.76, 0.68}, {0.74, 0.45}, {0.72, 0.20}};
+  const FittedStroke fitted = fit_stroke(median);
+  REQUIRE(fitted.stroke.id == 16);
+  CHECK(fitted.error < 0.01);
+  CHECK(fitted.median_error > 0.015);
+  const double reach = distance_to_segment(fitted.stroke.control_points[1], median[2], median[3]);
+  CHECK(reach > 0.02);
+  CHECK(reach < 0.04 + fitted.error);
+  const FittedStroke pen = fit_stroke(median, {.drawn_with = DrawnWith::pen});
+  CHECK(pen.error == pen.median_error);
+  CHECK(distance_to_segment(pen.stroke.control_points[1], median[2], median[3]) <= pen.error + 1e-4);
+}
+
+TEST_CASE("what is left of a brush after a heng zhe is no hook", "[model]") {
+  const Path lifted{{0.20, 0.70}, {0.75, 0.74}, {0.72, 0.20}, {0.68, 0.21}};
+  CHECK(fit_stroke(lifted).stroke.id == 16);
+  const Path hooked{{0.20, 0.70}, {0.75, 0.74}, {0.72, 0.20}, {0.56, 0.26}};
+  CHECK(fit_stroke(hooked).stroke.id == 18);
+}
+
+TEST_CASE("a point becomes a dian of about 2 % of the em around it", "[model]") {
+  const FittedStroke fitted = fit_stroke(Path{{0.3, 0.7}});
+  REQUIRE(fitted.stroke.id == 8);
+  const auto& points = fitted.stroke.control_points;
+  CHECK((0.5 * (points[0] + points[1]) - Point(0.3, 0.7)).norm() < 1e-12);
+  CHECK((points[1] - points[0]).norm() == Approx(0.02));
+  CHECK(fitted.error == Approx(0.01));
+}
+
+TEST_CASE("paths without points or with impossible ones are refused", "[model]") {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  CHECK_THROWS_AS(fit_stroke({}), ValueError);
+  CHECK_THROWS_AS(fit_stroke(Path{{nan, 0.0}}), ValueError);
+  CHECK_THROWS_AS(fit_stroke(Path{{0.0, 0.0}, {0.5, nan}}), ValueError);
+  CHECK_THROWS_AS(fit_stroke(Path{{0.0, 0.0}, {infinity, 0.5}}), ValueError);
+  CHECK_THROWS_AS(fit_stroke(Path{{0.0, 0.0}, {1e300, 0.5}}), ValueError);
+}
+
+TEST_CASE("a path of many points is the same stroke as one of few, and its error is no smaller than it is", "[model]") {
+  for (const std::size_t count : {100u, 3'000u, 20'000u, 100'000u}) {
+    std::vector<Point> line, corner;
+    for (std::size_t i = 0; i <= count; ++i) {
+      const double t = static_cast<double>(i) / static_cast<double>(count);
+      line.emplace_back(t, 0.5);
+      corner.push_back(t < 0.5 ? Point(0.2 + t, 0.8) : Point(0.7, 1.3 - t));
+    }
+    INFO(count);
+    const FittedStroke heng = fit_stroke(line, {.drawn_with = DrawnWith::pen});
+    CHECK(heng.stroke.id == 1);
+    CHECK(heng.error <= 2e-4);
+    const FittedStroke turn = fit_stroke(corner, {.drawn_with = DrawnWith::pen});
+    CHECK(turn.stroke.id == 16);
+    CHECK(turn.error <= 2e-3);
+  }
+  // A saw of 5,000 teeth, each 2 % of the em high, is no line within less.
+  std::vector<Point> saw;
+  for (int i = 0; i <= 10'000; ++i) saw.emplace_back(1e-4 * i, i % 2 == 0 ? 0.5 : 0.52);
+  CHECK(fit_stroke(saw, {.drawn_with = DrawnWith::pen}).error >= 0.0099);
+}

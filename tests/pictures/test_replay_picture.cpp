@@ -1,0 +1,59 @@
+#include <string>
+#include <vector>
+
+#include <pugixml.hpp>
+
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/pictures/replay_picture.hpp>
+
+#include "../catch.hpp"
+#include "../practice/pages.hpp"
+#include "../practice/pen_traces.hpp"
+
+using namespace calligraphy;
+using calligraphy_test::copy_of;
+
+namespace {
+
+pugi::xml_document replay_xml(const std::string& text) {
+  pugi::xml_document document;
+  REQUIRE(document.load_string(text.c_str()));
+  return document;
+}
+
+std::size_t count(const pugi::xml_document& document, const char* query) { return document.select_nodes(query).size(); }
+
+}  // namespace
+
+TEST_CASE("the picture of a replay numbers pen-downs and strokes and draws what the device drew", "[practice]") {
+  for (const Character& character : built_in_characters().characters) {
+    const auto paths = copy_of(character);
+    const auto document = replay_xml(replay_picture(character, paths, judge_strokes(character, paths), paths, "title"));
+    CAPTURE(encode_utf8(character.code));
+    CHECK(count(document, "//g[@class='drawn-number']/text") == paths.size());
+    CHECK(count(document, "//g[@class='standard-number']/text") == paths.size());
+    CHECK(count(document, "//g[@class='written']/path[@stroke='#333333']") == paths.size());
+    CHECK(count(document, "//g[@class='guided']/path") == paths.size());
+    CHECK(count(document, "//*[@stroke='#e02020' or @fill='#e02020']") == 0);
+  }
+}
+
+TEST_CASE("the picture of a replay shows mistakes in red, tells them, and leaves bounces out", "[practice]") {
+  const Character ten = calligraphy_test::characters("十").front();
+  std::vector<PenPath> paths = copy_of(ten);
+  std::swap(paths[0], paths[1]);
+  paths.push_back({{2.0, 2.0}});
+  const StrokeVerdict verdict = judge_strokes(ten, paths);
+  const std::string text = replay_picture(ten, paths, verdict, {}, "<十>");
+  const auto document = replay_xml(text);
+  CHECK(count(document, "//g[@class='drawn-number']/text") == 2);
+  CHECK(count(document, "//g[@class='written']/path[@stroke='#e02020']") == 1);
+  CHECK(text.find(verdict.remarks.at(0).reason) != std::string::npos);
+}
+
+TEST_CASE("a verdict on other pen-downs is refused by the picture of a replay", "[practice]") {
+  const Character ten = calligraphy_test::characters("十").front();
+  const auto paths = copy_of(ten);
+  CHECK_THROWS_AS(replay_picture(ten, paths, judge_strokes(ten, {}), {}, "title"), ValueError);
+  CHECK_THROWS_AS(replay_picture(ten, paths, judge_strokes(ten, paths), {}, "\xff"), FormatError);
+}

@@ -1,0 +1,104 @@
+#!/usr/bin/env python3
+"""Components include only what lies below them, and every list of them says the same.
+
+usage: test_components.py SOURCE_DIRECTORY
+"""
+import pathlib
+import re
+import sys
+
+# Every component with those whose headers it may include, ground floor first (docs/components.md).
+BELOW = {
+    "base": [],
+    "model": ["base"],
+    "importers": ["base", "model"],
+    "devices": ["base"],
+    "phantom": ["base", "devices"],
+    "openhaptics": ["base", "devices"],
+    "collision": ["base", "model"],
+    "render": ["base", "model", "devices", "collision"],
+    "practice": ["base", "model", "devices", "collision", "render"],
+    "pictures": ["base", "model", "devices", "collision", "render", "practice"],
+    "experiments": ["base", "model", "devices", "collision", "render", "practice", "pictures"],
+}
+BACKENDS = ["phantom", "openhaptics"]  # folders beneath devices
+
+# Of devices, render sees plain structs alone: no device, no loop.
+PLAIN_DEVICE_HEADERS = {"capabilities", "device_state", "grip_impedance"}
+
+
+def component_of(parts):
+    """The component of a path below include/calligraphy or src, or None."""
+    if parts[0] == "devices" and len(parts) > 2 and parts[1] in BACKENDS:
+        return parts[1]
+    return parts[0] if parts[0] in BELOW and len(parts) > 1 else None
+
+
+def includes(path):
+    return re.findall(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', path.read_text(encoding="utf-8"), re.MULTILINE)
+
+
+def arrows(root):
+    """What is wrong with the includes below root, each with its place."""
+    found = []
+    for folder in ("include/calligraphy", "src"):
+        for path in sorted((root / folder).rglob("*.[ch]pp")):
+            parts = path.relative_to(root / folder).parts
+            own = component_of(parts)
+            if own is None:
+                if len(parts) > 1:
+                    found.append(f"{path}: no component has this folder")
+                continue  # calligraphy.hpp
+            for name in includes(path):
+                public = name.startswith("calligraphy/")
+                target = component_of(pathlib.PurePosixPath(name.removeprefix("calligraphy/")).parts)
+                if target is None:
+                    continue
+                if target not in BELOW[own] + [own]:
+                    found.append(f"{path}: {own} includes {name}, and {target} is not below it")
+                if own == "render" and target == "devices" and pathlib.PurePosixPath(name).stem not in PLAIN_DEVICE_HEADERS:
+                    found.append(f"{path}: render includes {name}, which is more than a plain struct of a device")
+                if folder.startswith("include") and not public:
+                    found.append(f"{path}: a public header includes the private {name}")
+    return found
+
+
+def order_in(text, pattern):
+    """The components in the order in which the pattern first names them."""
+    names = re.findall(pattern, text, re.MULTILINE)
+    return list(dict.fromkeys(name for name in names if name in BELOW))
+
+
+def lists(root):
+    """Every list of the components that differs from this file's."""
+    expected = list(BELOW)
+    found = []
+    for place, pattern in {
+        "CMakeLists.txt": r"^\s*calligraphy_(?:room|component)\((\w+)",
+        "README.md": r"\[`(\w+)`\]\(include/calligraphy/[\w/]+\)",
+        "cmake/calligraphyConfig.cmake.in": None,
+    }.items():
+        text = (root / place).read_text(encoding="utf-8")
+        if pattern is None:
+            order = re.search(r"foreach\(component (base [\w ]+)\)", text)[1].split()
+        else:
+            order = order_in(text, pattern)
+        if order != expected:
+            found.append(f"{place} lists {order}, expected {expected}")
+    for name in BELOW:
+        folder = f"devices/{name}" if name in BACKENDS else name
+        for place in ("src", "tests") if name == "base" else ("include/calligraphy", "src", "tests"):
+            if not (root / place / folder).is_dir():
+                found.append(f"{place}/{folder} does not exist")
+    return found
+
+
+def main():
+    root = pathlib.Path(sys.argv[1]).resolve()
+    found = arrows(root) + lists(root)
+    print("\n".join(found))
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
