@@ -76,13 +76,9 @@ def lists(root):
     for place, pattern in {
         "CMakeLists.txt": r"^\s*calligraphy_(?:room|component)\((\w+)",
         "README.md": r"\[`(\w+)`\]\(include/calligraphy/[\w/]+\)",
-        "cmake/calligraphyConfig.cmake.in": None,
     }.items():
         text = (root / place).read_text(encoding="utf-8")
-        if pattern is None:
-            order = re.search(r"foreach\(component (base [\w ]+)\)", text)[1].split()
-        else:
-            order = order_in(text, pattern)
+        order = order_in(text, pattern)
         if order != expected:
             found.append(f"{place} lists {order}, expected {expected}")
     for name in BELOW:
