@@ -38,8 +38,12 @@ function(calligraphy_room name)
   set_property(GLOBAL PROPERTY CALLIGRAPHY_${name}_DEPENDS "${rooms}")
   set_property(GLOBAL PROPERTY CALLIGRAPHY_${name}_NEEDS "${ROOM_NEEDS}")
   install(TARGETS ${target} EXPORT ${ROOM_EXPORT})
+  set(without "")
+  if(name STREQUAL "devices")  # its backends install their own; a pattern would match these folders themselves
+    set(without PATTERN phantom EXCLUDE PATTERN openhaptics EXCLUDE)
+  endif()
   install(DIRECTORY include/calligraphy/${ROOM_FOLDER}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/calligraphy/${ROOM_FOLDER}
-          PATTERN phantom EXCLUDE PATTERN openhaptics EXCLUDE)  # which install their own
+          ${without})
 endfunction()
 
 function(calligraphy_warnings target)

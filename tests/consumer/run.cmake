@@ -1,4 +1,5 @@
 # Builds a program of the project with one component of an installed copy, looks at what it is linked with, and runs it.
+cmake_minimum_required(VERSION 3.22)
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
   message("${output}")
