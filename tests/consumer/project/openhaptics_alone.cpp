@@ -6,7 +6,7 @@
 
 int main() {
   try {
-    calligraphy::OpenHapticsDevice device({});
+    calligraphy::OpenHapticsDevice device;
     std::printf("%s\n", device.capabilities().model.c_str());
   } catch (const calligraphy::DeviceError& error) {
     std::printf("%s\n", error.what());
