@@ -14,6 +14,8 @@
 #include "../../../catch.hpp"
 #include "../stand_in.hpp"
 
+namespace written_character_tests {
+
 using namespace calligraphy;
 using calligraphy_test::StandIn;
 
@@ -77,3 +79,5 @@ TEST_CASE("a whole character is written through the vendor's runtime, faults on 
   CHECK((servo.statistics().fault_count(DeviceFault::link_error) > 0) == with_faults);
   CHECK(runtime->broken_rules() == 0);
 }
+
+}  // namespace written_character_tests
