@@ -1,4 +1,4 @@
-// How evenly the servo loop's own thread ticks on this machine, and how long a tick takes: percentiles.
+// Timing of the servo thread on this machine: percentiles of period and work time.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -11,15 +11,15 @@
 
 namespace {
 
-/// A wall at the paper: the least that a force law does.
+/// A wall at the paper: a minimal force law.
 Eigen::Vector3d wall(const calligraphy::DeviceState& state) {
   const double penetration = -state.position.z();
   return {0.0, 0.0, penetration > 0.0 ? 400.0 * penetration : 0.0};
 }
 
-void print(const char* name, const calligraphy::DurationFigures& figures) {
-  std::printf("%-8s %9.1f %9.1f %9.1f %9.1f\n", name, 1e6 * figures.p50, 1e6 * figures.p99, 1e6 * figures.p99_9,
-              1e6 * figures.worst);
+void print(const char* name, const calligraphy::DurationSummary& summary) {
+  std::printf("%-8s %9.1f %9.1f %9.1f %9.1f\n", name, 1e6 * summary.p50, 1e6 * summary.p99, 1e6 * summary.p99_9,
+              1e6 * summary.worst);
 }
 
 }  // namespace
@@ -57,8 +57,8 @@ int main(int argc, char** argv) {
   std::printf("%-8s %9s %9s %9s %9s  [us]\n", "", "p50", "p99", "p99.9", "worst");
   print("period", done.period);
   print("work", done.work);
-  std::printf("%llu ticks, %llu missed deadlines, %llu times taken over by the watchdog\n",
+  std::printf("%llu ticks, %llu missed deadlines, %llu watchdog interventions\n",
               static_cast<unsigned long long>(done.ticks), static_cast<unsigned long long>(done.missed_deadlines),
-              static_cast<unsigned long long>(done.taken_over));
+              static_cast<unsigned long long>(done.watchdog_takeovers));
   return 0;
 }

@@ -1,4 +1,4 @@
-// What a servo tick costs: percentiles over a whole written page, and each of its stages.
+// Cost of a servo tick: percentiles over a whole written page, and the cost of each stage.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -8,6 +8,7 @@
 #include <benchmark/benchmark.h>
 
 #include <calligraphy/calligraphy.hpp>
+#include <calligraphy/devices/detail/flush_denormals.hpp>
 
 namespace {
 
@@ -24,7 +25,7 @@ double percentile(std::vector<double>& values, double share) {
 
 /// Four characters as a guided novice wrote them on a Desktop.
 struct WrittenPage {
-  Page page;
+  PracticePage page;
   MotionMapping mapping;
   Capabilities capabilities;
   std::vector<DeviceState> states;
@@ -80,7 +81,7 @@ RendererOptions with_method() {
   return options;
 }
 
-/// HapticRenderer::update over the whole page, each tick timed by itself; `clock_ns` is what the timing adds.
+/// HapticRenderer::update over the whole page, each tick timed individually; `clock_ns` is the overhead of the timing.
 void whole_tick(benchmark::State& state, RendererOptions (*options)()) {
   const WrittenPage& written = written_page();
   HapticRenderer renderer(written.page.characters, written.mapping, written.capabilities, options());
@@ -117,7 +118,7 @@ BENCHMARK_CAPTURE(whole_tick, nearest_wang2006_1e_6, with_method<NearestPointMet
 BENCHMARK_CAPTURE(whole_tick, nearest_wang2006_1e_9, with_method<NearestPointMethod::wang2006, 9>)->UseManualTime();
 BENCHMARK_CAPTURE(whole_tick, all_rules_wang2006, RendererOptions::wang2006)->UseManualTime();
 
-/// What a stage adds: the whole page in one piece, no clock within, by turns with the default.
+/// Cost of a stage: the whole page in one piece, without a clock inside, alternating with the default.
 void tick_with(benchmark::State& state, void (*add)(RendererOptions&)) {
   const WrittenPage& written = written_page();
   RendererOptions options = RendererOptions::for_device(written.capabilities);
@@ -173,8 +174,8 @@ BENCHMARK_CAPTURE(tick_with, passivity_control_and_budget, energy_budget);
 BENCHMARK_CAPTURE(tick_with, thermal_budget, thermal_budget);
 BENCHMARK_CAPTURE(tick_with, everything, everything);
 
-/// A pen that writes with every distance a denormal number, and one with the same motion in millimetres, a tick of each
-/// in turn; once as any thread, once with denormals flushed.
+/// A pen whose distances are all denormal numbers, and one with the same motion in millimetres, alternating in blocks
+/// of ticks; once as in any thread, once with denormals flushed.
 void denormal_ticks(benchmark::State& state, bool flush) {
   RendererOptions options = RendererOptions::everything(written_page().capabilities);
   const StrokeInput heng{1, {{0.0, 0.0}, {1.0, 0.0}}, {}};
@@ -230,12 +231,12 @@ void stage_constraint_share(benchmark::State& state, ConstraintSpaceRule rule) {
   const CurveQueries& queries = curve_queries();
   ConstraintSpace space;
   space.rule = rule;
-  std::vector<NearestPoint> feet;
-  for (const Point& tip : queries.tips) feet.push_back(nearest_point(queries.element, tip));
+  std::vector<NearestPoint> closest_points;
+  for (const Point& tip : queries.tips) closest_points.push_back(nearest_point(queries.element, tip));
   std::size_t i = 0;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(guidance_share(space, queries.element, queries.tips[i], feet[i]));
-    i = (i + 1) % feet.size();
+    benchmark::DoNotOptimize(guidance_weight(space, queries.element, queries.tips[i], closest_points[i]));
+    i = (i + 1) % closest_points.size();
   }
 }
 BENCHMARK_CAPTURE(stage_constraint_share, tube, ConstraintSpaceRule::tube);
@@ -255,7 +256,7 @@ void stage_limiter(benchmark::State& state) {
 }
 BENCHMARK(stage_limiter);
 
-/// Not a time: what objects take, for the record beside the times.
+/// Not a time: object sizes, recorded with the times.
 void bytes_per_object(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(sizeof(HapticRenderer));
   state.counters["HapticRenderer"] = sizeof(HapticRenderer);
@@ -267,7 +268,7 @@ void bytes_per_object(benchmark::State& state) {
   state.counters["CurveElement"] = sizeof(CurveElement);
   state.counters["HapticTick"] = sizeof(HapticTick);
   state.counters["DeviceState"] = sizeof(DeviceState);
-  state.counters["Sample"] = sizeof(Sample);
+  state.counters["RecordedSample"] = sizeof(RecordedSample);
 }
 BENCHMARK(bytes_per_object)->Iterations(1);
 

@@ -31,11 +31,11 @@ int main(int count_of_arguments, char** arguments) {
   for (int repeat = 0; repeat < 7; ++repeat) {
     const std::clock_t began = std::clock();
     for (std::size_t round = 0; round < rounds; ++round) {
-      std::vector<NearestPoint> results(count);  // as a caller who keeps the answers
+      std::vector<NearestPoint> results(count);  // like a caller who keeps the results
       nearest_points(element, queries, results, options);
       if (!std::isfinite(results.back().distance)) return 1;
     }
-    const double spent = 1e9 * static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC;  // of the processor [ns]
+    const double spent = 1e9 * static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC;  // processor time [ns]
     best = std::min(best, spent / static_cast<double>(rounds * count));
   }
   std::printf("%.2f\n", best);

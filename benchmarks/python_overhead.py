@@ -1,7 +1,7 @@
-"""What Python costs: batched calls beside the C++ loop, calls one by one, an experiment beside real time.
+"""Overhead of Python: batched calls relative to the C++ loop, single calls, an experiment relative to real time.
 
 usage: python python_overhead.py C++_PROGRAM     the program is benchmarks/python_batch, which prints its ns per query
-Prints figures, asserts none.
+Prints figures and asserts nothing.
 """
 
 from __future__ import annotations
@@ -20,14 +20,14 @@ CUBIC = np.array([[0.0, 0.0], [0.01, 0.02], [0.02, -0.01], [0.03, 0.005]])
 
 
 def queries(count: int) -> np.ndarray:
-    """Those of python_batch.cpp: a spiral round the curve."""
+    """The queries of python_batch.cpp: a spiral around the curve."""
     i = np.arange(count)
     angle, radius = 0.7 * i, 0.005 + 0.01 * ((i * 37) % 1000) / 1000
     return np.column_stack([0.015 + radius * np.cos(angle), 0.004 + radius * np.sin(angle)])
 
 
 def per_call(function, number: int) -> float:
-    """The fastest of seven, in processor time [s], which is what other programs disturb least."""
+    """Fastest of seven runs in processor time [s], the measure least disturbed by other programs."""
     return min(timeit.repeat(function, number=number, repeat=7, timer=time.process_time)) / number
 
 
@@ -37,7 +37,7 @@ def main() -> None:
         rounds = max(1, 200_000 // count)
         for method in ("exact", "sampled", "wang2006"):
             mine = loop = np.inf
-            for _ in range(5):  # in turns: other programs slow both
+            for _ in range(5):  # alternating, so that other programs slow both
                 mine = min(mine, per_call(lambda: cal.nearest_point(element, asked, method), rounds) / count * 1e9)
                 told = subprocess.run([sys.argv[1], str(count), method], capture_output=True, text=True, check=True)
                 loop = min(loop, float(told.stdout))
@@ -75,7 +75,7 @@ def main() -> None:
 
     in_python, both = cal.Servo(device, lambda s: (0, 0, 0)), cal.Servo(Mine(), lambda s: (0, 0, 0))
     print(f"tick, law in Python {1e6 * per_call(lambda: tick(in_python), 20000):6.2f} us")
-    print(f"and device, too     {1e6 * per_call(lambda: tick(both), 20000):6.2f} us")
+    print(f"and device          {1e6 * per_call(lambda: tick(both), 20000):6.2f} us")
 
     grid = experiment.Grid("永和九年", seeds=5)
     experiment.run(experiment.Grid("一"), progress=False)  # imports

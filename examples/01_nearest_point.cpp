@@ -1,4 +1,4 @@
-// Where on a stroke is the nearest point to the pen, and is the pen within reach of the guidance?
+// The point of a stroke nearest to the pen tip, and the weight of the guidance there.
 #include <cstdio>
 #include <vector>
 
@@ -21,9 +21,9 @@ int main() {
   const ConstraintSpace tube;
   for (const double offset : {0.0, 0.003, 0.006, 0.009}) {
     const Point tip = element.point(0.5) + Point(0.0, offset);
-    const NearestPoint foot = nearest_point(element, tip);
+    const NearestPoint closest = nearest_point(element, tip);
     std::printf("pen at (%.4f, %.4f) m: %.4f m from the stroke at t = %.4f, guidance %.0f %%\n", tip.x(), tip.y(),
-                foot.distance, foot.parameter, 100.0 * guidance_share(tube, element, tip, foot));
+                closest.distance, closest.parameter, 100.0 * guidance_weight(tube, element, tip, closest));
   }
   return 0;
 }

@@ -1,4 +1,4 @@
-// A force law of one's own, tried on a simulated device: how far does a hand sink into a virtual wall?
+// Your own force law on a simulated device: how far does the hand press into a virtual wall?
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -8,7 +8,7 @@
 
 namespace {
 
-/// A wall below z = 0: spring and damper, and it never pulls [N].
+/// A wall below z = 0: a spring and a damper that never pull [N].
 Eigen::Vector3d wall(const calligraphy::DeviceState& state) {
   const double penetration = -state.position.z();
   if (penetration <= 0.0) return Eigen::Vector3d::Zero();
@@ -19,9 +19,9 @@ Eigen::Vector3d wall(const calligraphy::DeviceState& state) {
 
 int main() {
   using namespace calligraphy;
-  const Hand firm{0.15, 5.0, 500.0};
+  const GripImpedance firm{0.15, 5.0, 500.0};
   SimulatedDevice device(device_profile("desktop"), firm, {0.0, 0.0, 0.01});
-  device.set_intention({{0.0, 0.0, -0.005}, Eigen::Vector3d::Zero()});  // the hand means to be 5 mm inside
+  device.set_intention({{0.0, 0.0, -0.005}, Eigen::Vector3d::Zero()});  // the hand aims 5 mm inside
 
   double deepest = 0.0;
   for (int tick = 0; tick < 1000; ++tick) {  // one second of virtual time at 1 kHz
@@ -32,5 +32,5 @@ int main() {
   const double rest = -device.true_position().z();
   std::printf("deepest %.2f mm, at rest %.2f mm\n", 1e3 * deepest, 1e3 * rest);
   const double expected = 0.005 * 500.0 / (500.0 + 800.0);  // hand and wall as two springs
-  return std::abs(rest - expected) < 2e-4 ? 0 : 1;          // friction may hold it a little beside
+  return std::abs(rest - expected) < 2e-4 ? 0 : 1;          // dry friction may stop it slightly short of it
 }

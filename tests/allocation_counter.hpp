@@ -1,4 +1,4 @@
-// Counts what the program takes from the heap by operator new, so that a test can say that a call takes nothing.
+// Counts heap allocations by operator new, so that a test can assert that a call does not allocate.
 #pragma once
 
 #include <cstddef>

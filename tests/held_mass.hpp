@@ -1,4 +1,4 @@
-// A mass with damping under a force that is held for each period, in closed form: no integration error at any rate.
+// A mass with viscous damping under a zero-order hold of the force, in closed form: no integration error at any rate.
 #pragma once
 
 #include <cmath>
@@ -17,7 +17,7 @@ class HeldMass {
         lag_(-mass / damping * std::expm1(-damping * period / mass)),
         period_(period) {}
 
-  /// Holds `force` [N] for one period; the way gone [m].
+  /// Holds `force` [N] for one period; returns the displacement [m].
   double advance(double force) {
     const double terminal = force / damping_;
     const double way = terminal * period_ + (speed - terminal) * lag_;

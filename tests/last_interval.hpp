@@ -12,15 +12,15 @@ namespace calligraphy_test {
 using calligraphy::ParameterRange;
 using calligraphy::Point;
 
-/// The last interval of a subdivision of [0, 1] by halves that ended with this middle: k / 2^n for an odd k is the
-/// middle of an interval of length 2^(1 - n).
+/// The last interval of a bisection of [0, 1] that ended with this midpoint: k / 2^n with odd k is the midpoint of an
+/// interval of length 2^(1 - n).
 inline ParameterRange last_interval(double middle) {
   double half = 0.5;
   while (half > 1e-300 && std::fmod(middle, 2.0 * half) != half) half *= 0.5;
   return {middle - half, middle + half};
 }
 
-/// Epsilon in metres: the tolerance, but no finer than the coordinates.
+/// Epsilon in metres: the tolerance, but not finer than the coordinates.
 inline double wang2006_epsilon(const calligraphy::StrokeElement& element, const Point& query, double tolerance) {
   const double coordinates =
       std::max({element.origin().cwiseAbs().maxCoeff(), element.size(), query.cwiseAbs().maxCoeff()});

@@ -1,4 +1,4 @@
-// Judges answers to "which point of the curve is nearest?" by a proof that owes nothing to the code under test.
+// Verifies answers to "which point of the curve is nearest?" by a proof independent of the code under test.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 #include <calligraphy/collision/nearest_point.hpp>
 
-#include "least_distance.hpp"
+#include "min_distance.hpp"
 
 namespace calligraphy_test {
 
@@ -23,20 +23,20 @@ inline constexpr NearestPointMethod certified_methods[] = {NearestPointMethod::e
 inline constexpr NearestPointMethod all_methods[] = {NearestPointMethod::exact, NearestPointMethod::tracked,
                                                      NearestPointMethod::sampled, NearestPointMethod::wang2006};
 
-/// What an answer is worth. Errors are relative to the size of the curve (of a point: to the distance).
+/// The verdict on an answer. Errors are relative to the size of the curve (of a point: to the distance).
 struct Verdict {
-  /// By how much the curve at the answer's parameter is further than the nearest point of the range: at most this, and
-  /// at least `surely`.
+  /// How much farther the curve at the answer's parameter is than the nearest point of the range: at most this, and at
+  /// least `surely`.
   double error = 0.0;
   double surely = 0.0;
-  double share = 0.0;         ///< of the allowance that the error takes
-  bool plain = false;         ///< the allowance is 1e-9 of the size: rounding of large coordinates plays no part
-  bool consistent = false;    ///< parameter within the range, point and distance as the parameter says, tangent a unit
-  bool right = false;         ///< consistent, and the error within the allowance
-  bool wrong_branch = false;  ///< surely further by more than 1e-3 of the size, and than rounding explains
+  double share = 0.0;         ///< error relative to the allowed error
+  bool plain = false;         ///< the allowed error is 1e-9 of the size: rounding of large coordinates plays no part
+  bool consistent = false;    ///< parameter within the range, point and distance match it, tangent a unit vector
+  bool right = false;         ///< consistent, and the error is allowed
+  bool wrong_branch = false;  ///< certainly farther by more than 1e-3 of the size, and by more than rounding explains
 };
 
-/// The truth about one curve. Control points and queries are finite.
+/// The ground truth about one curve. Control points and queries are finite.
 class NearestPointOracle {
  public:
   explicit NearestPointOracle(std::span<const Point> control_points) : count_(control_points.size()) {
@@ -52,12 +52,12 @@ class NearestPointOracle {
     size_ = std::hypot(high.x() - low.x(), high.y() - low.y());
   }
 
-  /// Diagonal of the control points' box.
+  /// Diagonal of the bounding box of the control points.
   double size() const { return size_; }
 
   /// Allowed error of an answer [as the coordinates]: 1e-9 of the size, or 1e-6 where the coordinates are so large that
-  /// their own steps come near to that, and what rounding of the distance explains.
-  /// Where the curve is part of something larger, that is the size that counts, and two distances were compared.
+  /// their own resolution approaches that, plus what rounding of the distance explains. Where the curve is part of
+  /// something larger, the size of the whole counts, and two distances were compared.
   double allowance(const Point& query, double distance, double whole_size = 0.0) const {
     const double size = std::max(size_, whole_size);
     constexpr double step = std::numeric_limits<double>::epsilon();
@@ -66,7 +66,7 @@ class NearestPointOracle {
     return std::max(of_size, steps) + (whole_size > 0.0 ? 8.0 : 4.0) * step * distance;
   }
 
-  /// The point of the curve at t, from the query.
+  /// The point of the curve at t, relative to the query.
   oracle::Vector<long double> offset(const Point& query, long double t) const {
     std::array<oracle::Vector<long double>, 5> row;
     for (std::size_t i = 0; i < count_; ++i) row[i] = relative<long double>(i, query);
@@ -90,8 +90,8 @@ class NearestPointOracle {
     return (1.0 - 1e-15) * std::hypot(outside.x(), outside.y());
   }
 
-  /// The distance of the nearest point of the range. Any parameter of the range helps as the hint, a good one most. In
-  /// quadruple precision only where long double cannot decide within the allowance, or when asked.
+  /// The distance of the nearest point of the range. The hint may be any parameter of the range; a good one is fastest.
+  /// In quadruple precision only where long double cannot decide within the allowed error, or when requested.
   oracle::Bounds nearest(const Point& query, long double hint, const ParameterRange& range = {},
                          bool quadruple = false) const {
     constexpr long double no_end = 1e300L;
@@ -102,7 +102,7 @@ class NearestPointOracle {
     return search<Quadruple>(query, hint, range, no_end);
   }
 
-  /// The same for the whole curve, but `least` no larger than `enough`: cheap for a curve that is clearly further.
+  /// The same for the whole curve, but with `least` no larger than `enough`: cheap for a curve that is clearly farther.
   oracle::Bounds nearest_within(const Point& query, long double enough) const {
     const oracle::Bounds bounds = search<long double>(query, 0.5L, {}, enough);
     const long double reached = std::min(bounds.found, enough);
@@ -110,7 +110,7 @@ class NearestPointOracle {
     return search<Quadruple>(query, 0.5L, {}, enough);
   }
 
-  /// Judges an answer by the bounds of `nearest` for the same query and range.
+  /// Verifies an answer by the bounds of `nearest` for the same query and range.
   Verdict judge(const NearestPoint& answer, const Point& query, const oracle::Bounds& bounds,
                 const ParameterRange& range = {}, double whole_size = 0.0) const {
     Verdict verdict;
@@ -163,7 +163,7 @@ class NearestPointOracle {
   template <typename Real, int n>
   oracle::Bounds search_degree(const Point& query, long double hint, const ParameterRange& range,
                                long double enough) const {
-    typename oracle::LeastDistance<Real, n>::Polygon polygon;
+    typename oracle::MinDistance<Real, n>::Polygon polygon;
     for (std::size_t i = 0; i <= n; ++i) polygon[i] = relative<Real>(i, query);
     const long double width = static_cast<long double>(range.end) - range.begin;
     if (!(width > 0.0L)) return {distance_floor(query, range.begin), distance(query, range.begin), 1};
@@ -173,9 +173,9 @@ class NearestPointOracle {
     }
     constexpr long double tight = 1e-14L;
     hint = std::clamp(hint, static_cast<long double>(range.begin), static_cast<long double>(range.end));
-    return oracle::LeastDistance<Real, n>().run(polygon, static_cast<Real>(distance(query, hint)),
-                                                static_cast<Real>((hint - range.begin) / width),
-                                                static_cast<Real>(tight * size_), static_cast<Real>(enough));
+    return oracle::MinDistance<Real, n>().run(polygon, static_cast<Real>(distance(query, hint)),
+                                              static_cast<Real>((hint - range.begin) / width),
+                                              static_cast<Real>(tight * size_), static_cast<Real>(enough));
   }
 
   long double distance_floor(const Point& query, long double t) const {
@@ -184,7 +184,8 @@ class NearestPointOracle {
                                  (size_ + query.cwiseAbs().maxCoeff() + coordinate_));
   }
 
-  /// Control point k of the part of the curve within the range: the blossom at n - k times its begin, k times its end.
+  /// Control point k of the part of the curve within the range: the blossom at n - k times its begin and k times its
+  /// end.
   template <typename Real, int n>
   static oracle::Vector<Real> blossom(std::array<oracle::Vector<Real>, n + 1> row, const ParameterRange& range,
                                       std::size_t k) {

@@ -1,4 +1,4 @@
-// The path of a pen that writes a stroke, taken from the model alone.
+// The path of a pen that writes a stroke, derived from the model alone.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,7 @@ inline void draw_line(std::vector<Point>& path, const Point& to, double step) {
   for (int i = 1; i <= count; ++i) path.push_back(from + (to - from) * i / count);
 }
 
-/// The path of a stroke on the page at most `step` apart [m], feature points included.
+/// The path of a stroke on the page, with points at most `step` apart [m], feature points included.
 inline std::vector<Point> path_of(const Stroke& stroke, const Placement& placement, double step) {
   std::vector<Point> path = {placement.to_page(stroke.control_points[0])};
   std::size_t at = 0;
@@ -46,7 +46,7 @@ inline std::vector<Point> path_of(const Stroke& stroke, const Placement& placeme
   return path;
 }
 
-/// The path beside another: each point moved by `offset` to the left of the path's direction there [m].
+/// The path with a lateral offset: each point moved by `offset` to the left of the path direction there [m].
 inline std::vector<Point> beside(const std::vector<Point>& path, double offset) {
   std::vector<Point> result;
   for (std::size_t i = 0; i < path.size(); ++i) {

@@ -1,4 +1,4 @@
-// An independent Bezier curve in long double: de Casteljau, dense sampling and golden section. Slow and plain.
+// An independent Bezier curve in long double: de Casteljau, dense sampling and golden-section search. Slow and simple.
 #pragma once
 
 #include <algorithm>
@@ -43,14 +43,14 @@ class ReferenceCurve {
     Real distance;
   };
 
-  /// Global nearest point within [begin, end]: every local minimum of the samples refined by golden section.
+  /// Global nearest point within [begin, end]: every local minimum of the samples, refined by golden-section search.
   Nearest nearest(const Point& query, Real begin = 0.0L, Real end = 1.0L, int samples = 800) const {
     std::vector<Real> distances;
     const auto at = [&](int i) { return begin + (end - begin) * static_cast<Real>(i) / static_cast<Real>(samples); };
     for (int i = 0; i <= samples; ++i) distances.push_back(distance(query, at(i)));
     const Real least = *std::min_element(distances.begin(), distances.end());
     Nearest best{begin, distances[0]};
-    // No point between two samples is nearer than their distances less the way between them.
+    // No point between two samples is nearer than their distances minus the path between them.
     const Real reach = speed_bound() * (end - begin) / static_cast<Real>(samples);
     std::vector<int> minima;
     for (int i = 0; i <= samples; ++i) {
@@ -59,7 +59,7 @@ class ReferenceCurve {
       if (i < samples && distances[k + 1] < distances[k]) continue;
       if (distances[k] <= least + reach) minima.push_back(i);
     }
-    // More than a few are the rounding noise of a flat valley, where any of them will do.
+    // More than a few are the rounding noise of a flat minimum, where any of them is acceptable.
     for (std::size_t k = 0; k < minima.size(); k += 1 + minima.size() / 16) {
       const int i = minima[k];
       const Nearest found = golden(query, at(std::max(i - 1, 0)), at(std::min(i + 1, samples)));

@@ -1,4 +1,5 @@
-// A pen that goes where a test says, whatever the force: samples straight into a renderer, no device, no hand.
+// A pen that moves as a test prescribes, whatever the force: its samples go straight into a renderer, without device or
+// hand.
 #pragma once
 
 #include <algorithm>
@@ -38,29 +39,29 @@ class ScriptedPen {
   std::function<void(const HapticTick&)> on_tick = [](const HapticTick&) {};
   double speed = 0.1;  ///< [m/s]
 
-  /// One sample at a place of the page.
+  /// One sample at a position on the page.
   const HapticTick& at(const Eigen::Vector3d& position) {
     calligraphy::DeviceState state;
     state.position = renderer_.mapping().to_device(position);
     return sample(state);
   }
 
-  /// One sample as the device gives it; only its time is the pen's.
+  /// One sample as the device returns it; only its time is set by the pen.
   const HapticTick& sample(calligraphy::DeviceState state) {
     state.time = time_;
     time_ += period_;
     const Eigen::Vector3d last = force_;
     const HapticTick& tick = renderer_.update(state);
     force_ = tick.force;
-    largest_step = std::max(largest_step, (force_ - last).norm());
-    largest_force = std::max(largest_force, force_.norm());
+    max_step = std::max(max_step, (force_ - last).norm());
+    max_force = std::max(max_force, force_.norm());
     finite = finite && force_.allFinite();
     if (tick.status == calligraphy::TickStatus::ok) position_ = renderer_.mapping().to_page(state.position);
     on_tick(tick);
     return tick;
   }
 
-  /// In a straight line at `speed`, the first time at once.
+  /// In a straight line at `speed`; the first call jumps there.
   void go(const Eigen::Vector3d& to) {
     const Eigen::Vector3d from = started_ ? position_ : to;
     started_ = true;
@@ -75,15 +76,15 @@ class ScriptedPen {
     go({path.back().x(), path.back().y(), 0.005});
   }
 
-  /// All strokes of a character, each beside itself by `offset` [m].
+  /// All strokes of a character, each with a lateral `offset` [m].
   void write(const calligraphy::PlacedCharacter& character, double offset = 0.0) {
     for (const Stroke& stroke : calligraphy::strokes(character.character)) {
       write(beside(path_of(stroke, character.placement, 0.0001), offset));
     }
   }
 
-  double largest_step = 0.0;   ///< of the force, from one tick to the next [N]
-  double largest_force = 0.0;  ///< [N]
+  double max_step = 0.0;   ///< maximum change of the force per tick [N]
+  double max_force = 0.0;  ///< [N]
   bool finite = true;
 
  private:

@@ -1,4 +1,4 @@
-// A directory of its own for a test.
+// A temporary directory for a test.
 #pragma once
 
 #include <cstdlib>
@@ -10,7 +10,7 @@
 
 namespace calligraphy {
 
-/// Made empty, gone with its end.
+/// Created empty, removed on destruction.
 class TemporaryDirectory {
  public:
   TemporaryDirectory() {

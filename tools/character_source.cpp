@@ -15,7 +15,7 @@ namespace calligraphy::tools {
 namespace {
 
 CharacterSet open_one(const std::string& path, const std::u32string& text) {
-  if (path.empty()) throw UsageError("--characters: an empty name");
+  if (path.empty()) throw UsageError("--characters: the name is empty");
   std::error_code failure;
   if (!text.empty() && std::filesystem::is_directory(path, failure)) {
     ImportOptions asked;
@@ -26,7 +26,7 @@ CharacterSet open_one(const std::string& path, const std::u32string& text) {
 }
 
 std::string names_of(const std::vector<std::string>& paths) {
-  if (paths.empty()) return "the built-in set; --characters names another";
+  if (paths.empty()) return "the built-in set; use --characters to name another one";
   std::string names;
   for (const std::string& path : paths) names += (names.empty() ? "" : ", ") + path;
   return names;
@@ -47,8 +47,8 @@ CharacterSet open_characters(const std::vector<std::string>& paths, const std::u
   for (const char32_t code : text) {
     if (set.find(code, order)) continue;
     const bool has_others = set.find(code).has_value();
-    throw Error("character " + name_of(code) + (has_others ? " has no order \"" + order + "\" in " : " is not in ") +
-                names_of(paths));
+    throw Error("character " + character_label(code) +
+                (has_others ? " has no stroke order \"" + order + "\" in " : " is not in ") + names_of(paths));
   }
   return set;
 }
@@ -62,8 +62,8 @@ std::vector<Character> characters_of(const CharacterSet& set, const std::u32stri
 CLI::Option* add_characters_option(CLI::App& command, std::vector<std::string>& paths) {
   return command
       .add_option("--characters", paths,
-                  "Set file, file in the text format or directory of hanzi-writer-data (default: the built-in set); "
-                  "given again, another one beneath the first")
+                  "Set file, file in the text format or hanzi-writer-data directory (default: the built-in set); "
+                  "repeat to layer several, the first on top")
       ->allow_extra_args(false)
       ->type_name("PATH");
 }

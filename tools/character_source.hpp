@@ -14,20 +14,20 @@ class Option;
 
 namespace calligraphy::tools {
 
-/// The files and directories of the option, the first over the others; without any the built-in set. Of a directory
-/// only the characters of `text` are read. @throws Error naming the file
+/// Opens the files and directories in `paths`, layered with the first on top; without any, the built-in set. From a
+/// directory, only the characters of `text` are read. @throws Error naming the file
 CharacterSet open_sources(const std::vector<std::string>& paths, const std::u32string& text);
 
-/// The same, and each character of `text` is there in the order of this name, or without a name in any.
-/// @throws Error naming the character or the file
+/// As open_sources(), and checks that the set has every character of `text` in the stroke order `order`, or in any
+/// order if that is empty. @throws Error naming the character or the file
 CharacterSet open_characters(const std::vector<std::string>& paths, const std::u32string& text,
                              const std::string& order = {});
 
-/// `text` in the order of this name, or without a name in the standard one or the first that there is.
+/// The characters of `text` in the stroke order `order`; if that is empty, in the standard or else the first order.
 std::vector<Character> characters_of(const CharacterSet& set, const std::u32string& text,
                                      const std::string& order = {});
 
-/// --characters PATH, as often as wanted.
+/// Adds --characters PATH, which may be repeated.
 CLI::Option* add_characters_option(CLI::App& command, std::vector<std::string>& paths);
 
 }  // namespace calligraphy::tools

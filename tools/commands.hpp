@@ -1,4 +1,4 @@
-// The commands of the program: each registers itself with its options and does its work when it was asked for.
+// The commands of the program. Each registers itself with its options and runs when selected.
 #pragma once
 
 #include <calligraphy/base/error.hpp>
@@ -9,7 +9,7 @@ class App;
 
 namespace calligraphy::tools {
 
-/// A command line that cannot be done: the program ends with 2, not 1.
+/// An invalid command line: the program exits with code 2 instead of 1.
 class UsageError : public Error {
  public:
   using Error::Error;
@@ -18,7 +18,7 @@ class UsageError : public Error {
 void add_write(CLI::App& program);
 void add_strokes(CLI::App& program);
 void add_info(CLI::App& program);
-void add_trade(CLI::App& program);
+void add_tradeoff(CLI::App& program);
 void add_stability(CLI::App& program);
 void add_import(CLI::App& program);
 void add_validate(CLI::App& program);

@@ -32,9 +32,10 @@ bool is_profile(const std::string& name) {
 }
 
 [[noreturn]] void refuse(const std::string& text, const std::string& reason) {
-  throw UsageError(fmt::format(
-      "--device: {}: {}; expected [simulated:]NAME with one of {}, replay:FILE, phantom[:SERIAL] or openhaptics[:NAME]",
-      text, reason, device_names()));
+  throw UsageError(
+      fmt::format("--device: {}: {}; expected [simulated:]NAME with NAME one of {}, replay:FILE, phantom[:SERIAL] or "
+                  "openhaptics[:NAME]",
+                  text, reason, device_names()));
 }
 
 }  // namespace
@@ -45,22 +46,22 @@ DeviceChoice device_choice(const std::string& text) {
   const std::string name = text.substr(0, colon);
   const std::string which = colon == std::string::npos ? "" : text.substr(colon + 1);
   const auto kind = std::find_if(kinds.begin(), kinds.end(), [&name](const auto& each) { return each.first == name; });
-  if (kind == kinds.end()) refuse(text, "no such device");
-  if (colon != std::string::npos && which.empty()) refuse(text, "nothing behind the colon");
+  if (kind == kinds.end()) refuse(text, "unknown device");
+  if (colon != std::string::npos && which.empty()) refuse(text, "nothing after the colon");
   if (kind->second == DeviceKind::simulated && !is_profile(which)) {
-    refuse(text, which.empty() ? "which one?" : "no such profile");
+    refuse(text, which.empty() ? "no profile given" : "unknown profile");
   }
-  if (kind->second == DeviceKind::replay && which.empty()) refuse(text, "which file?");
+  if (kind->second == DeviceKind::replay && which.empty()) refuse(text, "no file given");
   return {kind->second, which, {}, {}};
 }
 
 void add_phantom_options(CLI::App& command, std::string& wire_profile, std::string& model) {
   command
       .add_option("--wire-profile", wire_profile,
-                  "What the packets of a phantom hold: a name or a file of docs/wire-profile.md (default: "
-                  "CALLIGRAPHY_WIRE_PROFILE of the environment)")
+                  "Packet layout of a Phantom: the name of a shipped wire profile, or a file; see docs/wire-profile.md "
+                  "(default: environment variable CALLIGRAPHY_WIRE_PROFILE)")
       ->type_name("NAME|FILE");
-  command.add_option("--model", model, "Arm of a phantom (default: touch)")
+  command.add_option("--model", model, "Arm model of a Phantom (default: touch)")
       ->check(CLI::IsMember({"omni", "touch", "premium-1.5"}));
 }
 
@@ -84,9 +85,10 @@ std::unique_ptr<HapticDevice> open_device(const DeviceChoice& choice, [[maybe_un
     return std::make_unique<OpenHapticsDevice>(options);
   }
 #endif
-  throw UsageError(fmt::format("--device: this program was built without {}",
-                               choice.kind == DeviceKind::phantom ? "phantom (CALLIGRAPHY_PHANTOM=ON)"
-                                                                  : "openhaptics (CALLIGRAPHY_OPENHAPTICS=ON)"));
+  throw UsageError(fmt::format("--device: this program was built without the {}",
+                               choice.kind == DeviceKind::phantom
+                                   ? "phantom backend (CALLIGRAPHY_PHANTOM=ON)"
+                                   : "openhaptics backend (CALLIGRAPHY_OPENHAPTICS=ON)"));
 }
 
 }  // namespace calligraphy::tools

@@ -1,4 +1,4 @@
-// Which device --device names.
+// The device named by --device.
 #pragma once
 
 #include <memory>
@@ -12,27 +12,27 @@ namespace calligraphy::tools {
 
 enum class DeviceKind {
   simulated,   ///< a profile
-  replay,      ///< a trace that `write` recorded
+  replay,      ///< a trace recorded by `write`
   phantom,     ///< over USB
-  openhaptics  ///< by the vendor's runtime
+  openhaptics  ///< through the vendor's runtime
 };
 
 struct DeviceChoice {
   DeviceKind kind = DeviceKind::simulated;
-  std::string which;         ///< profile, file, serial number or name; empty: the only one there is
-  std::string wire_profile;  ///< of a phantom: name or file; empty: as the environment's CALLIGRAPHY_WIRE_PROFILE
-  std::string model;         ///< of a phantom: its arm; empty: touch
+  std::string which;         ///< profile, file, serial number or name; empty: the only device present
+  std::string wire_profile;  ///< Phantom only: name or file; empty: environment variable CALLIGRAPHY_WIRE_PROFILE
+  std::string model;         ///< Phantom only: arm model; empty: touch
 };
 
 /// "simulated:NAME" or a profile's bare name, "replay:FILE", "phantom[:SERIAL]", "openhaptics[:NAME]".
-/// @throws UsageError naming what there is
+/// @throws UsageError listing the accepted forms
 DeviceChoice device_choice(const std::string& text);
 
-/// --wire-profile and --model of a phantom.
+/// Adds --wire-profile and --model, for a Phantom.
 void add_phantom_options(CLI::App& command, std::string& wire_profile, std::string& model);
 
-/// A phantom or openhaptics device, opened; without `drive` its motors stay off. @throws DeviceError; UsageError when
-/// this program was built without it
+/// Opens a phantom or openhaptics device; without `drive` its motors stay off. @throws DeviceError; UsageError if this
+/// program was built without that backend
 std::unique_ptr<HapticDevice> open_device(const DeviceChoice& choice, bool drive = true);
 
 }  // namespace calligraphy::tools

@@ -1,5 +1,4 @@
-// calligraphy devices: what is plugged in, whether it may be opened, and what to do if not; and, of one device, what it
-// sends.
+// calligraphy devices: connected devices, access permissions and how to obtain them, and what one device sends.
 #include <chrono>
 #include <cstdio>
 #include <memory>
@@ -21,8 +20,8 @@
 #include <calligraphy/devices/sample_queue.hpp>
 #include <calligraphy/devices/servo_loop.hpp>
 #ifdef CALLIGRAPHY_WITH_PHANTOM
-#include <calligraphy/devices/phantom/capture.hpp>
 #include <calligraphy/devices/phantom/device_list.hpp>
+#include <calligraphy/devices/phantom/packet_capture.hpp>
 #include <calligraphy/devices/phantom/phantom_device.hpp>
 #include <calligraphy/devices/phantom/wire_profile.hpp>
 #endif
@@ -30,6 +29,7 @@
 #include <calligraphy/devices/openhaptics/openhaptics_device.hpp>
 #endif
 
+#include "base/monotonic_clock.hpp"
 #include "commands.hpp"
 #include "device_choice.hpp"
 #include "interrupt.hpp"
@@ -41,7 +41,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// One backend: what it found, for a person and for a program.
+/// What one backend found, as text and as JSON.
 struct Section {
   std::string text;
   Json json;
@@ -54,17 +54,16 @@ std::string ids(const PluggedDevice& device) {
 
 Section phantoms() {
   const std::vector<PluggedDevice> devices = plugged_devices();
-  Section section{devices.empty() ? "phantom: none is plugged in (2988:0302, 0301:2988, 2988:0304)\n" : "",
-                  Json::array()};
+  Section section{devices.empty() ? "phantom: none connected (2988:0302, 0301:2988, 2988:0304)\n" : "", Json::array()};
   for (const PluggedDevice& device : devices) {
     section.text += fmt::format("phantom:{}  {}  {}, {} on bus {} port {}\n  {}: {}\n", device.serial, ids(device),
-                                device.model, link_name(device.link), device.bus, device.port,
-                                fmt::join(device.nodes, ", "), device.may_open ? "may be opened" : "may NOT be opened");
+                                device.model, to_string(device.link), device.bus, device.port,
+                                fmt::join(device.nodes, ", "), device.may_open ? "access permitted" : "access DENIED");
     if (!device.advice.empty()) section.text += "  " + device.advice + "\n";
     section.json.push_back({{"device", "phantom" + (device.serial.empty() ? "" : ":" + device.serial)},
                             {"ids", ids(device)},
                             {"model", device.model},
-                            {"link", link_name(device.link)},
+                            {"link", to_string(device.link)},
                             {"bus", device.bus},
                             {"port", device.port},
                             {"nodes", device.nodes},
@@ -75,7 +74,9 @@ Section phantoms() {
   return section;
 }
 #else
-Section phantoms() { return {"phantom: this program was built without it (CALLIGRAPHY_PHANTOM=ON)\n", Json()}; }
+Section phantoms() {
+  return {"phantom: this program was built without the backend (CALLIGRAPHY_PHANTOM=ON)\n", Json()};
+}
 #endif
 
 #ifdef CALLIGRAPHY_WITH_OPENHAPTICS
@@ -88,7 +89,7 @@ Section vendor_runtime() {
 }
 #else
 Section vendor_runtime() {
-  return {"openhaptics: this program was built without it (CALLIGRAPHY_OPENHAPTICS=ON)\n", Json()};
+  return {"openhaptics: this program was built without the backend (CALLIGRAPHY_OPENHAPTICS=ON)\n", Json()};
 }
 #endif
 
@@ -121,22 +122,22 @@ PluggedDevice chosen_phantom(const std::string& serial) {
   std::string there;
   for (const PluggedDevice& device : devices) {
     if (!serial.empty() && device.serial == serial) return device;
-    there += (there.empty() ? "" : "; ") + describe(device);
+    there += (there.empty() ? "" : "; ") + describe_device(device);
   }
   const std::string wanted = serial.empty() ? "" : " with serial number " + serial;
-  if (devices.empty()) throw DeviceError("no Phantom" + wanted + " is plugged in");
-  throw DeviceError(serial.empty() ? "several are plugged in, name a serial number: " + there
-                                   : "no Phantom" + wanted + " is plugged in; there are: " + there);
+  if (devices.empty()) throw DeviceError("no Phantom" + wanted + " is connected");
+  throw DeviceError(serial.empty() ? "several Phantoms are connected; specify a serial number: " + there
+                                   : "no Phantom" + wanted + " is connected; available: " + there);
 }
 
-/// The descriptors first: they need no permission, and are worth having when the device cannot be opened.
+/// Writes the descriptors first: they need no permission and are useful even if the device cannot be opened.
 void probe(const ProbeOptions& options) {
   if (options.out.empty()) throw UsageError("--out: an empty name");
   const PluggedDevice device = chosen_phantom(options.serial);
   check_can_write(options.out);
   const Interrupt interrupt;
   std::ostringstream text;
-  text << "# " << describe(device) << "\n" << dump_descriptors(device);
+  text << "# " << describe_device(device) << "\n" << dump_descriptors(device);
   std::string failure;
   std::size_t transfers = 0;
   try {
@@ -144,20 +145,20 @@ void probe(const ProbeOptions& options) {
     limits.seconds = options.seconds;
     limits.transfers = 1000000;
     limits.stop = [&interrupt] { return interrupt.asked(); };
-    const Capture captured = capture(device, limits);
+    const PacketCapture captured = capture_packets(device, limits);
     transfers = captured.transfers.size();
-    write_capture(text, captured);
+    write_packet_capture(text, captured);
   } catch (const DeviceError& error) {
     failure = error.what();
     text << "# " << failure << "\n";
   }
   write_file(options.out, text.str());
-  if (!failure.empty()) throw DeviceError(failure + "; the descriptors alone are in " + options.out);
-  fmt::print("{}: descriptors and {} transfers in {}\n", describe(device), transfers, options.out);
+  if (!failure.empty()) throw DeviceError(failure + "; only the descriptors were written to " + options.out);
+  fmt::print("{}: descriptors and {} transfers written to {}\n", describe_device(device), transfers, options.out);
 }
 #else
 void probe(const ProbeOptions&) {
-  throw UsageError("devices probe: this program was built without phantom (CALLIGRAPHY_PHANTOM=ON)");
+  throw UsageError("devices probe: this program was built without the phantom backend (CALLIGRAPHY_PHANTOM=ON)");
 }
 #endif
 
@@ -170,10 +171,10 @@ struct WatchOptions {
 
 struct Sighting {
   DeviceState state;
-  Eigen::Vector3d joints = Eigen::Vector3d::Zero();  ///< of a phantom [rad]
+  Eigen::Vector3d joints = Eigen::Vector3d::Zero();  ///< joint angles of a Phantom [rad]
 };
 
-/// Shows whatever a device says, also before it is calibrated and while it is at fault, when no force law is asked.
+/// Hands out every sample of a device, including those on which the force law is not called: uncalibrated or faulty.
 class SeenDevice final : public HapticDevice {
  public:
   explicit SeenDevice(HapticDevice& device) : device_(device) {
@@ -196,7 +197,7 @@ class SeenDevice final : public HapticDevice {
   ServoClock* clock() noexcept override { return device_.clock(); }
   std::vector<std::string> warnings() const override { return device_.warnings(); }
 
-  /// Of the watching thread.
+  /// Called by the watching thread.
   void look(Sighting& newest) {
     while (queue_.pop(newest)) {
     }
@@ -222,7 +223,7 @@ std::string angles(const Eigen::Vector3d& joints) {
   return fmt::format("  joints {:7.2f} {:7.2f} {:7.2f} deg", q[0], q[1], q[2]);
 }
 
-/// Reads and never drives: the force law says zero.
+/// Only reads: the force law returns zero.
 void watch(const WatchOptions& options) {
   DeviceChoice choice = device_choice(options.device);
   if (choice.kind != DeviceKind::phantom && choice.kind != DeviceKind::openhaptics) {
@@ -231,7 +232,7 @@ void watch(const WatchOptions& options) {
   choice.wire_profile = options.wire_profile;
   choice.model = options.model;
   const std::unique_ptr<HapticDevice> device = open_device(choice, false);
-  fmt::print("{}; no force. Ctrl-C ends.\n", device->capabilities().model);
+  fmt::print("{}, without force; Ctrl-C stops\n", device->capabilities().model);
   SeenDevice seen(*device);
   ServoLoopOptions servo;
   servo.servo.rate = device->capabilities().update_rate;
@@ -239,20 +240,17 @@ void watch(const WatchOptions& options) {
       seen, [](const DeviceState&) { return Eigen::Vector3d(Eigen::Vector3d::Zero()); }, servo);
   const Interrupt interrupt;
   for (const std::string& warning : loop.start()) spdlog::warn("{}", warning);
-  const auto begin = std::chrono::steady_clock::now();
-  const auto seconds = [&begin] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  };
+  const double begin = monotonic_seconds();
   Sighting newest;
-  while (!interrupt.asked() && (options.seconds == 0.0 || seconds() < options.seconds)) {
+  while (!interrupt.asked() && (options.seconds == 0.0 || monotonic_seconds() - begin < options.seconds)) {
     std::this_thread::sleep_for(std::chrono::milliseconds(250));
     seen.look(newest);
     const ServoStatus status = loop.status();
     const Eigen::Vector3d p = 1e3 * newest.state.position;
     fmt::print("x {:8.2f}  y {:8.2f}  z {:8.2f} mm{}  buttons {:04b}  {}{}{}  {} stale of {} ticks\n", p.x(), p.y(),
-               p.z(), seen.has_joints() ? angles(newest.joints) : "", newest.state.buttons, status_name(status.device),
+               p.z(), seen.has_joints() ? angles(newest.joints) : "", newest.state.buttons, to_string(status.device),
                status.fault == DeviceFault::none ? "" : ": ",
-               status.fault == DeviceFault::none ? "" : fault_name(status.fault), loop.statistics().stale_samples,
+               status.fault == DeviceFault::none ? "" : to_string(status.fault), loop.statistics().stale_samples,
                loop.statistics().ticks);
     std::fflush(stdout);
   }
@@ -264,38 +262,40 @@ void watch(const WatchOptions& options) {
 
 void add_devices(CLI::App& program) {
   CLI::App* const command = program.add_subcommand(
-      "devices", "Lists the devices that --device of `write` can name, and what to do when one may not be opened.");
+      "devices", "List the devices available to `write --device`, and how to obtain access to them.");
   const auto as_json = std::make_shared<bool>(false);
-  command->add_flag("--json", *as_json, "Print JSON instead of lines")->disable_flag_override();
+  command->add_flag("--json", *as_json, "Print JSON instead of text")->disable_flag_override();
   command->require_subcommand(0, 1);
 
-  CLI::App* const prober = command->add_subcommand(
-      "probe",
-      "Writes the descriptors of a phantom and what it sends into a text file, the raw material of a wire "
-      "profile. Sends it no command.");
+  CLI::App* const prober =
+      command->add_subcommand("probe",
+                              "Capture the descriptors and packets of a Phantom in a text file, as the basis for a "
+                              "wire profile. No commands are sent to the device.");
   const auto probe_options = std::make_shared<ProbeOptions>();
-  prober->add_option("SERIAL", probe_options->serial, "Which one, when several are plugged in");
-  prober->add_option("--out", probe_options->out, "The text file")->required()->type_name("FILE");
-  prober->add_option("--seconds", probe_options->seconds, "How long to listen, 0.1 to 600")
+  prober->add_option("SERIAL", probe_options->serial, "Serial number, required if several are connected");
+  prober->add_option("--out", probe_options->out, "Text file to write")->required()->type_name("FILE");
+  prober->add_option("--seconds", probe_options->seconds, "Duration of the capture, 0.1 to 600")
       ->check(number(0.1, 600.0))
       ->capture_default_str()
       ->type_name("S");
   prober->callback([probe_options] { probe(*probe_options); });
 
 #ifdef CALLIGRAPHY_WITH_PHANTOM
-  CLI::App* const profiles =
-      command->add_subcommand("profile", "Prints a shipped wire profile of a phantom, to begin one's own with.");
+  CLI::App* const profiles = command->add_subcommand(
+      "profile", "Print a wire profile shipped with the library, as a starting point for your own.");
   const auto profile = std::make_shared<std::string>();
-  profiles->add_option("NAME", *profile, "Which one")->required()->check(CLI::IsMember(phantom::wire_profile_names()));
+  profiles->add_option("NAME", *profile, "Name of the profile")
+      ->required()
+      ->check(CLI::IsMember(phantom::wire_profile_names()));
   profiles->callback([profile] { fmt::print("{}", phantom::wire_profile_text(*profile)); });
 #endif
 
   CLI::App* const watcher = command->add_subcommand(
-      "watch", "Shows position, buttons and status of a device, four times a second, forceless.");
+      "watch", "Show position, buttons and status of a device four times a second, without force.");
   const auto watch_options = std::make_shared<WatchOptions>();
   watcher->add_option("DEVICE", watch_options->device, "phantom[:SERIAL] or openhaptics[:NAME]")->required();
   add_phantom_options(*watcher, watch_options->wire_profile, watch_options->model);
-  watcher->add_option("--seconds", watch_options->seconds, "How long, up to 86400 (default: until Ctrl-C)")
+  watcher->add_option("--seconds", watch_options->seconds, "Duration, 0.1 to 86400 (default: until Ctrl-C)")
       ->check(number(0.1, 86400.0))
       ->type_name("S");
   watcher->callback([watch_options] { watch(*watch_options); });

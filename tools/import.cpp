@@ -1,4 +1,4 @@
-// calligraphy import: characters of other collections as typical strokes.
+// calligraphy import: converts other character collections to typical strokes.
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -54,7 +54,7 @@ std::string encoded(const CharacterList& list, const ImportArguments& options) {
   return text.str();
 }
 
-Import imported(const ImportArguments& options, const Interrupt& interrupt) {
+ImportResult imported(const ImportArguments& options, const Interrupt& interrupt) {
   ImportOptions asked;
   asked.letters = options.letters;
   asked.alternates = options.alternates;
@@ -70,7 +70,7 @@ Import imported(const ImportArguments& options, const Interrupt& interrupt) {
   return import_characters(options.source, asked);
 }
 
-/// Is `out` the source, or a file of it?
+/// True if `out` is the source or a file in it.
 bool is_in_source(const ImportArguments& options) {
   namespace fs = std::filesystem;
   std::error_code failure;
@@ -82,13 +82,13 @@ bool is_in_source(const ImportArguments& options) {
 }
 
 void run(const ImportArguments& options) {
-  if (options.source.empty()) throw UsageError("SOURCE: an empty name");
-  if (options.out.empty()) throw UsageError("--out: an empty name");
-  if (is_in_source(options)) throw UsageError("--out: " + options.out + " is the source, or a file of it");
+  if (options.source.empty()) throw UsageError("SOURCE: the name is empty");
+  if (options.out.empty()) throw UsageError("--out: the name is empty");
+  if (is_in_source(options)) throw UsageError("--out: " + options.out + " is the source, or a file in it");
   if (options.format == "text" && options.precision) throw UsageError("--precision: the text format is always exact");
   check_can_write(options.out);
   const Interrupt interrupt;
-  const Import import = imported(options, interrupt);
+  const ImportResult import = imported(options, interrupt);
   const std::string bytes = encoded(import.list, options);
   interrupt.check();
   write_file(options.out, bytes);
@@ -101,29 +101,31 @@ void run(const ImportArguments& options) {
 void add_import(CLI::App& program) {
   CLI::App* const command = program.add_subcommand(
       "import",
-      "Characters of other collections as typical strokes: hanzi-writer-data or KanjiVG (directory or npm tarball), or "
-      "the text format. Which one SOURCE is, its content says.");
+      "Convert hanzi-writer-data or KanjiVG (directory or npm tarball), a set file or a file in the text format to "
+      "typical strokes. The kind of SOURCE is detected from its content.");
   const auto options = std::make_shared<ImportArguments>();
-  command->add_option("SOURCE", options->source, "Directory, npm tarball or text file")->required();
+  command->add_option("SOURCE", options->source, "Directory, npm tarball, set file or file in the text format")
+      ->required();
   command->add_option("-o,--out", options->out, "File to write")->required()->type_name("FILE");
-  command->add_option("--format", options->format, "A set file, or the text format that a person can edit")
+  command->add_option("--format", options->format, "Set file, or the text format, which can be edited")
       ->check(CLI::IsMember({"set", "text"}))
       ->capture_default_str();
   command
-      ->add_option("--precision", options->precision,
-                   "Of a set file's coordinates: coarse, standard (default), fine or exact; docs/set-file.md")
+      ->add_option(
+          "--precision", options->precision,
+          "Coordinate precision of a set file: coarse, standard (default), fine or exact; see docs/set-file.md")
       ->check(CLI::IsMember(precisions).description(""))
       ->type_name("NAME");
   command
       ->add_option("--letters", options->letters,
-                   "Stroke letters for hanzi-writer-data: cnchar-order, its tarball, directory or .js file")
+                   "Stroke letters for hanzi-writer-data: the tarball, directory or .js file of cnchar-order")
       ->type_name("PATH");
-  command->add_flag("--alternates", options->alternates, "KanjiVG: variants, too, as alternate orders")
+  command->add_flag("--alternates", options->alternates, "KanjiVG: also import variants, as alternate stroke orders")
       ->disable_flag_override();
-  command->add_flag("--all", options->all, "KanjiVG: kana, Latin letters, radicals and signs, too")
+  command->add_flag("--all", options->all, "KanjiVG: also import kana, Latin letters, radicals and signs")
       ->disable_flag_override();
-  command->add_option("--only", options->only, "Import these characters and no others")->type_name("TEXT");
-  command->add_option("--date", options->date, "Date of the change, for its notice in the attribution")
+  command->add_option("--only", options->only, "Import only these characters")->type_name("TEXT");
+  command->add_option("--date", options->date, "Date of the modification, stated in the attribution")
       ->type_name("DATE");
   command->add_option("--threads", options->threads, "Threads (default: one per core)")
       ->check(integer(1, 256))

@@ -16,7 +16,7 @@
 namespace calligraphy::tools {
 namespace {
 
-/// What a source calls its files is not to move a terminal's cursor.
+/// Replaces control characters, so that a file name cannot control the terminal.
 std::string printable(std::string text) {
   const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
   std::replace_if(text.begin(), text.end(), is_control, '?');
@@ -25,27 +25,28 @@ std::string printable(std::string text) {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t most_examples = 10;  // in a table; the JSON has all
+constexpr std::size_t max_examples = 10;  // in a table; the JSON has all
 constexpr double percent = 100.0;
 
 double share(int part, int whole) { return whole == 0 ? 1.0 : static_cast<double>(part) / whole; }
 
-/// What was skipped, by reason.
+/// Skipped files by reason.
 std::map<std::string, std::vector<std::string>> by_reason(const std::vector<SkippedFile>& skipped) {
   std::map<std::string, std::vector<std::string>> reasons;
   for (const SkippedFile& file : skipped) reasons[file.reason].push_back(file.path);
   return reasons;
 }
 
-std::string place_name(const StrokePlace& place) {
-  return fmt::format("{} stroke {}", name_of(place.code, place.order), place.stroke);
+std::string stroke_reference_text(const StrokeReference& place) {
+  return fmt::format("{} stroke {}", character_label(place.code, place.order), place.stroke);
 }
 
 std::string typical_name(int id) { return fmt::format("{} {}", id, typical_stroke(id).name); }
 
-int count_of(const ImportReport& report, LabelFate fate) {
-  return static_cast<int>(std::count_if(report.label_doubts.begin(), report.label_doubts.end(),
-                                        [fate](const LabelDoubt& doubt) { return doubt.fate == fate; }));
+int count_of(const ImportReport& report, LabelResolution resolution) {
+  return static_cast<int>(
+      std::count_if(report.label_conflicts.begin(), report.label_conflicts.end(),
+                    [resolution](const LabelConflict& conflict) { return conflict.resolution == resolution; }));
 }
 
 std::string fit_rows(const std::array<FitCount, 3>& counts, const ImportReport& report) {
@@ -59,14 +60,15 @@ std::string fit_rows(const std::array<FitCount, 3>& counts, const ImportReport& 
 }
 
 std::string fit_table(const ImportReport& report) {
-  std::string text = "\nfar from what was drawn, at most         0.5 %       1 %       2 %  of the em\n";
+  std::string text = "\nwithin this distance of the drawing      0.5 %       1 %       2 %  of the em\n";
   text += fit_rows(report.within, report);
   if (report.kind == SourceKind::hanzi_writer_data) {
-    text += "with the corners that the brush's median cuts\n" + fit_rows(report.within_median, report);
+    text += "including the corners that the brush's median cuts\n" + fit_rows(report.within_median, report);
   }
-  text += "\nfarthest, in % of the em\n";
+  text += "\nlargest errors [% of the em]\n";
   for (const StrokeError& worst : report.worst) {
-    text += fmt::format("{:>8.2f}  {}, {}\n", percent * worst.error, place_name(worst.place), typical_name(worst.id));
+    text += fmt::format("{:>8.2f}  {}, {}\n", percent * worst.error, stroke_reference_text(worst.place),
+                        typical_name(worst.id));
   }
   return text;
 }
@@ -83,19 +85,21 @@ std::string id_table(const ImportReport& report) {
 }
 
 std::string label_table(const ImportReport& report) {
-  if (report.labelled == 0 && report.label_doubts.empty()) return {};
-  std::string text = fmt::format("\nlabels: {} of {} strokes recognised by geometry alone as labelled ({:.2f} %)\n",
-                                 report.agreed, report.labelled, percent * share(report.agreed, report.labelled));
-  text += fmt::format("  of the others {} labels were obeyed and {} overruled by the shape; {} labels are unknown\n",
-                      count_of(report, LabelFate::obeyed), count_of(report, LabelFate::overruled),
-                      count_of(report, LabelFate::unknown));
-  for (std::size_t i = 0; i < std::min(report.confusions.size(), most_examples); ++i) {
-    const Confusion& confusion = report.confusions[i];
+  if (report.labelled == 0 && report.label_conflicts.empty()) return {};
+  std::string text =
+      fmt::format("\nlabels: {} of {} strokes recognised by geometry alone agree with their label ({:.2f} %)\n",
+                  report.agreed, report.labelled, percent * share(report.agreed, report.labelled));
+  text +=
+      fmt::format("  of the others, {} labels were accepted and {} overridden by the shape; {} labels are unknown\n",
+                  count_of(report, LabelResolution::accepted), count_of(report, LabelResolution::overridden),
+                  count_of(report, LabelResolution::unknown));
+  for (std::size_t i = 0; i < std::min(report.confusions.size(), max_examples); ++i) {
+    const LabelConfusion& confusion = report.confusions[i];
     text += fmt::format("{:>8}  {} looks like {}, as in {}\n", confusion.count, printable(confusion.label),
-                        typical_name(confusion.recognised), place_name(confusion.example));
+                        typical_name(confusion.recognised), stroke_reference_text(confusion.example));
   }
   if (!report.letters_unused.empty()) {
-    text += fmt::format("  {} characters have more or fewer letters than strokes: their letters are not used\n",
+    text += fmt::format("  {} characters whose letters do not match their stroke count: letters ignored\n",
                         report.letters_unused.size());
   }
   return text;
@@ -112,7 +116,7 @@ std::string skipped_table(const ImportReport& report) {
   return text;
 }
 
-Json place_json(const StrokePlace& place) {
+Json place_json(const StrokeReference& place) {
   return {{"character", encode_utf8(place.code)}, {"order", place.order}, {"stroke", place.stroke}};
 }
 
@@ -141,26 +145,26 @@ Json worst_json(const ImportReport& report) {
 
 Json label_json(const ImportReport& report) {
   Json confusions = Json::array();
-  for (const Confusion& confusion : report.confusions) {
+  for (const LabelConfusion& confusion : report.confusions) {
     confusions.push_back({{"label", confusion.label},
                           {"recognised_id", confusion.recognised},
                           {"strokes", confusion.count},
                           {"example", place_json(confusion.example)}});
   }
-  Json doubts = Json::array();
-  for (const LabelDoubt& doubt : report.label_doubts) {
-    Json row = place_json(doubt.place);
-    row["label"] = doubt.label;
-    row["fate"] = name_of(doubt.fate);
-    row["recognised_id"] = doubt.recognised;
-    row["id"] = doubt.id;
-    doubts.push_back(row);
+  Json conflicts = Json::array();
+  for (const LabelConflict& conflict : report.label_conflicts) {
+    Json row = place_json(conflict.place);
+    row["label"] = conflict.label;
+    row["resolution"] = to_string(conflict.resolution);
+    row["recognised_id"] = conflict.recognised;
+    row["id"] = conflict.id;
+    conflicts.push_back(row);
   }
   Json unused = Json::array();
   for (const char32_t code : report.letters_unused) unused.push_back(encode_utf8(code));
   return {
       {"strokes", report.labelled}, {"agreed", report.agreed}, {"agreed_share", share(report.agreed, report.labelled)},
-      {"confusions", confusions},   {"doubts", doubts},        {"letters_unused", unused}};
+      {"confusions", confusions},   {"conflicts", conflicts},  {"letters_unused", unused}};
 }
 
 Json ids_json(const ImportReport& report) {
@@ -182,40 +186,28 @@ Json skipped_json(const ImportReport& report) {
 
 }  // namespace
 
-const char* name_of(LabelFate fate) noexcept {
-  switch (fate) {
-    case LabelFate::obeyed:
-      return "obeyed";
-    case LabelFate::overruled:
-      return "overruled";
-    case LabelFate::unknown:
-      break;
-  }
-  return "unknown";
+std::string character_label(char32_t code, const std::string& order) {
+  return order.empty() ? character_label(code) : character_label(code) + " order " + order;
 }
 
-std::string name_of(char32_t code, const std::string& order) {
-  return order.empty() ? name_of(code) : name_of(code) + " order " + order;
-}
-
-std::string tables(const Import& import, const ImportOutput& output) {
+std::string tables(const ImportResult& import, const ImportOutput& output) {
   const ImportReport& report = import.report;
   const Provenance& provenance = import.list.provenance;
   const bool fitted = report.kind != SourceKind::calligraphy;
   return fmt::format("{} ({}, {} bytes): {} characters, {} strokes from {}\n", output.file, output.format, output.bytes,
-                     report.characters, report.strokes, calligraphy::name_of(report.kind)) +
+                     report.characters, report.strokes, calligraphy::to_string(report.kind)) +
          fmt::format("source: {}\nlicence: {}\nattribution: {}\n", provenance.source, provenance.licence,
                      provenance.attribution) +
          (fitted ? fit_table(report) : "") + id_table(report) + label_table(report) + skipped_table(report);
 }
 
-std::string json(const Import& import, const ImportOutput& output) {
+std::string json(const ImportResult& import, const ImportOutput& output) {
   const ImportReport& report = import.report;
   const Provenance& provenance = import.list.provenance;
   Json all = {{"file", output.file},
               {"format", output.format},
               {"bytes", output.bytes},
-              {"kind", calligraphy::name_of(report.kind)},
+              {"kind", calligraphy::to_string(report.kind)},
               {"source", provenance.source},
               {"licence", provenance.licence},
               {"attribution", provenance.attribution},
@@ -230,7 +222,7 @@ std::string json(const Import& import, const ImportOutput& output) {
   all["ids_used"] = ids_json(report);
   all["skipped"] = skipped_json(report);
   all["notes"] = report.notes;
-  return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // names of files may be in any encoding
+  return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // file names may be in any encoding
 }
 
 }  // namespace calligraphy::tools

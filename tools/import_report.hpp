@@ -1,4 +1,4 @@
-// What `calligraphy import` found: as tables for a person, as JSON for a program.
+// Report of `calligraphy import`, as tables and as JSON.
 #pragma once
 
 #include <string>
@@ -7,21 +7,18 @@
 
 namespace calligraphy::tools {
 
-/// Where the characters went.
+/// The file that was written.
 struct ImportOutput {
   std::string file;
   std::string format;
   std::size_t bytes = 0;
 };
 
-std::string tables(const Import& import, const ImportOutput& output);
+std::string tables(const ImportResult& import, const ImportOutput& output);
 
-std::string json(const Import& import, const ImportOutput& output);
+std::string json(const ImportResult& import, const ImportOutput& output);
 
-/// "obeyed", "overruled", "unknown".
-const char* name_of(LabelFate fate) noexcept;
-
-/// "永 (U+6C38)", with the order's name where it is not the standard one.
-std::string name_of(char32_t code, const std::string& order);
+/// "永 (U+6C38)", followed by the name of the stroke order unless it is the standard one.
+std::string character_label(char32_t code, const std::string& order);
 
 }  // namespace calligraphy::tools

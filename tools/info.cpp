@@ -1,4 +1,4 @@
-// calligraphy info: what a set of characters is, and the data structure of a character (Wang 2006, Table 3).
+// calligraphy info: contents of a character set, and the data structure of a character (Wang 2006, Table 3).
 #include <algorithm>
 #include <cstddef>
 #include <filesystem>
@@ -25,7 +25,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct InfoArguments {
-  std::optional<std::string> first;   ///< FILE, or TEXT where no file has this name
+  std::optional<std::string> first;   ///< FILE, or TEXT if no file has this name
   std::optional<std::string> second;  ///< TEXT
   std::vector<std::string> characters;
   std::string order;
@@ -34,17 +34,17 @@ struct InfoArguments {
   bool json = false;
 };
 
-/// What was asked for.
+/// Interpreted arguments.
 struct Request {
   std::vector<std::string> paths;
   std::u32string text;  ///< each character once; empty: the set as a whole
 };
 
-/// A set as a whole.
+/// Totals of a set.
 struct Summary {
   std::size_t characters = 0;
-  std::size_t strokes = 0;           ///< in the standard order of each
-  std::size_t alternate_orders = 0;  ///< beside the first one of each
+  std::size_t strokes = 0;           ///< in the standard order of each character
+  std::size_t alternate_orders = 0;  ///< not counting the first one of each character
   std::size_t bytes = 0;
   double coordinate_error = 0.0;  ///< [em]
   Provenance provenance;          ///< of all layers, each once
@@ -68,7 +68,7 @@ Provenance joined(const std::vector<Provenance>& layers) {
 Summary summary_of(const CharacterSet& set) {
   Summary summary;
   for (const StoredCharacter& character : set) {
-    if (character.stroke_count() == 0) character.character();  // says what is damaged
+    if (character.stroke_count() == 0) character.character();  // throws, naming the damage
     ++summary.characters;
     summary.strokes += static_cast<std::size_t>(character.stroke_count());
     summary.alternate_orders += set.orders(character.code()).size() - 1;
@@ -89,7 +89,7 @@ void print(const Summary& summary) {
   line("Strokes", summary.strokes);
   if (summary.alternate_orders > 0) line("Alternate stroke orders", summary.alternate_orders);
   line("Bytes", summary.bytes);
-  line("Bytes a character", fmt::format("{:.1f}", bytes_per_character(summary)));
+  line("Bytes per character", fmt::format("{:.1f}", bytes_per_character(summary)));
   line("Coordinate error [em]", fmt::format("{:.3g}", summary.coordinate_error));
 }
 
@@ -100,7 +100,7 @@ void print(const Provenance& provenance) {
 
 void print(const Character& character) {
   const SequenceData& sequence = character.sequence;
-  fmt::print("{}{}\n", name_of(character.code), character.order.empty() ? "" : ", order " + character.order);
+  fmt::print("{}{}\n", character_label(character.code), character.order.empty() ? "" : ", order " + character.order);
   fmt::print("  {:<28} {}\n", "Number of typical strokes", sequence.stroke_ids.size());
   fmt::print("  {:<28} {}\n", "ID array of typical strokes", fmt::join(sequence.stroke_ids, ", "));
   fmt::print("  {:<28} {}\n", "Number of control points", character.structure.control_points.size());
@@ -164,7 +164,7 @@ std::u32string each_once(const std::string& text) {
   return codes;
 }
 
-/// The first word is a file if there is such a file, and a text if not.
+/// The first argument is FILE if such a file exists, otherwise TEXT.
 Request request_of(const InfoArguments& options) {
   Request request{options.characters, {}};
   std::error_code failure;
@@ -177,11 +177,12 @@ Request request_of(const InfoArguments& options) {
 }
 
 void run_paper_example(const InfoArguments& options) {
-  if (!options.characters.empty()) throw UsageError("--paper-example: comes with the program, not with --characters");
-  if (options.second) throw UsageError("--paper-example: comes with the program, not with FILE");
+  if (!options.characters.empty()) throw UsageError("--paper-example: cannot be combined with --characters");
+  if (options.second) throw UsageError("--paper-example: cannot be combined with FILE");
   const Character& example = paper_example();
   if (options.first && characters_of(*options.first) != std::u32string(1, example.code)) {
-    throw UsageError(fmt::format("--paper-example: is {}, not \"{}\"", name_of(example.code), *options.first));
+    throw UsageError(
+        fmt::format("--paper-example: the example is {}, not \"{}\"", character_label(example.code), *options.first));
   }
   Provenance provenance = built_in_characters().provenance;
   provenance.source += ", after Wang 2006, Table 3";
@@ -220,19 +221,18 @@ void run(const InfoArguments& options) {
 void add_info(CLI::App& program) {
   CLI::App* const command = program.add_subcommand(
       "info",
-      "Print what a file of characters holds, where it comes from and under which licence; with TEXT the data "
-      "structure "
-      "of its characters (Table 3). FILE: a set file or a file in the text format; a first word that names no file is "
-      "TEXT.");
+      "Print the contents, source and licence of a character file, or with TEXT the data structure of its characters "
+      "(Table 3). FILE is a set file or a file in the text format; a first argument that names no file is TEXT.");
   const auto options = std::make_shared<InfoArguments>();
   command->add_option("FILE", options->first, "Set file, or file in the text format")->type_name("");
   command->add_option("TEXT", options->second, "Characters, each shown once")->type_name("");
   add_characters_option(*command, options->characters);
   command->add_option("--order", options->order, "Alternate stroke order (default: the standard one)")
       ->type_name("NAME");
-  command->add_flag("--paper-example", options->paper_example, "The character of Table 3, verbatim");
-  command->add_flag("--licence-text", options->licence_text, "Print the licence itself, too");
-  command->add_flag("--json", options->json, "Print JSON: an object, with a list \"text\" of an object per character");
+  command->add_flag("--paper-example", options->paper_example, "Print the character of Table 3, verbatim");
+  command->add_flag("--licence-text", options->licence_text, "Also print the text of the licence");
+  command->add_flag("--json", options->json,
+                    "Print JSON: an object, with one object per character in the list \"text\"");
   command->callback([options] { run(*options); });
 }
 

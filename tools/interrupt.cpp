@@ -24,7 +24,7 @@ Interrupt::Interrupt() {
   signalled = 0;
   for (std::size_t i = 0; i < signals.size(); ++i) {
     before_[i] = std::signal(signals[i], remember);
-    if (before_[i] == SIG_IGN) std::signal(signals[i], SIG_IGN);  // as nohup wants it
+    if (before_[i] == SIG_IGN) std::signal(signals[i], SIG_IGN);  // as nohup requires
   }
 }
 

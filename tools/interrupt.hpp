@@ -1,12 +1,12 @@
-// Ctrl-C as a question that a loop asks, so that a device is let go, and an empty directory removed, before the end.
+// Ctrl-C as a flag that a loop polls, so that devices are released and empty directories removed before the exit.
 #pragma once
 
 #include <array>
 
 namespace calligraphy::tools {
 
-/// While it lives, SIGINT, SIGTERM and SIGHUP are remembered; only the third one ends the program as it would have
-/// before: people press Ctrl-C twice. One that was ignored stays so.
+/// During its lifetime SIGINT, SIGTERM and SIGHUP only set a flag; the third one terminates the program, because people
+/// press Ctrl-C twice. A signal that was ignored stays ignored.
 class Interrupt {
  public:
   Interrupt();
@@ -15,7 +15,7 @@ class Interrupt {
   Interrupt& operator=(const Interrupt&) = delete;
 
   bool asked() const noexcept;
-  /// For work that leaves nothing behind. @throws Error when asked()
+  /// For work that leaves nothing behind when aborted. @throws Error if asked()
   void check() const;
 
  private:

@@ -1,4 +1,4 @@
-// The program `calligraphy`: exit code 0 done, 1 the work failed, 2 usage.
+// The program `calligraphy`. Exit codes: 0 success, 1 failure, 2 usage error.
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
@@ -16,7 +16,7 @@
 
 namespace {
 
-/// One line, whatever the message quotes.
+/// Prints one line, even if the message quotes control characters.
 int fail(int code, std::string message) noexcept {
   const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
   std::replace_if(message.begin(), message.end(), is_control, ' ');
@@ -27,21 +27,21 @@ int fail(int code, std::string message) noexcept {
 
 int flush() noexcept {
   std::cout.flush();
-  return std::fflush(stdout) == 0 && std::cout ? 0 : fail(1, "standard output cannot be written");
+  return std::fflush(stdout) == 0 && std::cout ? 0 : fail(1, "cannot write to standard output");
 }
 
 int run(int argc, char** argv) {
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that grows beyond its limit is an error of writing
+  std::signal(SIGXFSZ, SIG_IGN);  // exceeding the file size limit is a write error
   spdlog::set_default_logger(spdlog::stderr_logger_st("calligraphy"));
   spdlog::set_pattern("%n: %l: %v");
 
   CLI::App program("Haptic guidance for writing Chinese characters.", "calligraphy");
   program.set_version_flag("--version", "calligraphy " CALLIGRAPHY_VERSION);
-  program.require_subcommand(0, 1);  // none is told below, once what else is wrong has been told
+  program.require_subcommand(0, 1);  // a missing command is reported below, after any other error
   calligraphy::tools::add_write(program);
   calligraphy::tools::add_strokes(program);
   calligraphy::tools::add_info(program);
-  calligraphy::tools::add_trade(program);
+  calligraphy::tools::add_tradeoff(program);
   calligraphy::tools::add_stability(program);
   calligraphy::tools::add_import(program);
   calligraphy::tools::add_validate(program);
@@ -54,7 +54,7 @@ int run(int argc, char** argv) {
     program.exit(error);  // help and version
     return flush();
   }
-  if (program.get_subcommands().empty()) return fail(2, "a command is required; --help names them");
+  if (program.get_subcommands().empty()) return fail(2, "a command is required; --help lists them");
   return flush();
 }
 

@@ -54,11 +54,11 @@ std::u32string characters_of(const std::string& text) {
     throw UsageError(std::string("TEXT: ") + error.what());
   }
   std::erase_if(codes, is_white_space);
-  if (codes.empty()) throw UsageError(fmt::format("TEXT: \"{}\" has no character", text));
+  if (codes.empty()) throw UsageError(fmt::format("TEXT: \"{}\" contains no characters", text));
   return codes;
 }
 
-std::string name_of(char32_t code) {
+std::string character_label(char32_t code) {
   const std::string number = fmt::format("U+{:04X}", static_cast<unsigned>(code));
   const bool is_control = code < 0x20 || (code >= 0x7F && code < 0xA0);
   return is_control ? number : fmt::format("{} ({})", encode_utf8(code), number);
@@ -77,7 +77,7 @@ std::string device_names() {
 }
 
 CLI::Option* add_device_option(CLI::App& command, std::string& device) {
-  return command.add_option("--device", device, "[simulated:]NAME with one of " + device_names())
+  return command.add_option("--device", device, "[simulated:]NAME, where NAME is one of " + device_names())
       ->capture_default_str()
       ->type_name("DEVICE");
 }
@@ -88,7 +88,8 @@ Capabilities chosen_device(const std::string& device, const char* option) {
   for (const Capabilities& profile : device_profiles()) {
     if (profile.name == name) return profile;
   }
-  throw UsageError(fmt::format("{}: {}: expected [simulated:]NAME with one of {}", option, device, device_names()));
+  throw UsageError(
+      fmt::format("{}: {}: expected [simulated:]NAME, where NAME is one of {}", option, device, device_names()));
 }
 
 }  // namespace calligraphy::tools

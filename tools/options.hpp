@@ -1,4 +1,4 @@
-// What a person typed, checked.
+// Validated command-line arguments.
 #pragma once
 
 #include <string>
@@ -9,28 +9,28 @@
 
 namespace calligraphy::tools {
 
-/// A whole word that is a number in [least, most]; "1e999", "nan", "0x10" and "5 " are none.
+/// Accepts an argument that is entirely a number in [least, most]; rejects "1e999", "nan", "0x10" and "5 ".
 CLI::Validator number(double least, double most);
 
-/// A whole word that is an integer in [least, most].
+/// Accepts an argument that is entirely an integer in [least, most].
 CLI::Validator integer(unsigned long long least, unsigned long long most);
 
-/// The characters of a text without its white space. @throws UsageError when it is not UTF-8 or nothing remains
+/// The characters of a text without its white space. @throws UsageError if it is not UTF-8 or nothing remains
 std::u32string characters_of(const std::string& text);
 
-/// "北 (U+5317)", and the code alone where the character cannot be printed.
-std::string name_of(char32_t code);
+/// "北 (U+5317)", or only the code if the character is not printable.
+std::string character_label(char32_t code);
 
-/// The character, or "U+002F" where it is no good in a file name.
+/// The character, or "U+002F" if it is unsuitable for a file name.
 std::string name_in_file(char32_t code);
 
-/// --device [simulated:]NAME, the desktop unless told otherwise.
+/// Adds --device [simulated:]NAME, whose default is the initial value of `device`.
 CLI::Option* add_device_option(CLI::App& command, std::string& device);
 
-/// "desktop, ideal, ...": the profiles by name.
+/// Names of all device profiles, as in "desktop, ideal".
 std::string device_names();
 
-/// The profile that --device names. @throws UsageError naming those that there are
+/// The profile named by --device. @throws UsageError listing the available ones
 Capabilities chosen_device(const std::string& device, const char* option = "--device");
 
 }  // namespace calligraphy::tools

@@ -9,7 +9,7 @@ namespace calligraphy::tools {
 namespace fs = std::filesystem;
 namespace {
 
-/// Absolute, and without a slash at its end: "out/" is "out".
+/// Absolute path without a trailing slash: "out/" becomes "out".
 fs::path plain(const fs::path& path) {
   const fs::path normal = fs::absolute(path).lexically_normal();
   return normal.has_filename() ? normal : normal.parent_path();
@@ -29,7 +29,7 @@ OutputDirectory::OutputDirectory(const fs::path& path) : path_(plain(path)), fir
     std::error_code failure;
     fs::create_directories(path_, failure);
     if (!fs::is_directory(path_)) {
-      throw FileError(path.string() + ": cannot be made a directory" + (failure ? ": " + failure.message() : ""));
+      throw FileError(path.string() + ": cannot create directory" + (failure ? ": " + failure.message() : ""));
     }
     const fs::path probe = path_ / ".calligraphy-probe";
     write_file(probe, "");
@@ -51,7 +51,7 @@ void OutputDirectory::remove_empty() noexcept {
   if (first_created_.empty()) return;
   std::error_code failure;
   for (fs::path at = path_; at.native().size() >= first_created_.native().size(); at = at.parent_path()) {
-    fs::remove(at, failure);  // leaves a directory that holds something
+    fs::remove(at, failure);  // fails, as intended, on a directory that is not empty
   }
 }
 

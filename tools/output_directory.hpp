@@ -1,4 +1,4 @@
-// The directory that a run fills.
+// The output directory of a run.
 #pragma once
 
 #include <filesystem>
@@ -6,16 +6,16 @@
 
 namespace calligraphy::tools {
 
-/// Created when missing, with its parents; what was created and is still empty goes away again with this object.
+/// Creates the directory and its parents if missing; the destructor removes those it created that are still empty.
 class OutputDirectory {
  public:
-  /// @throws FileError naming the directory when no file can be written into it
+  /// @throws FileError naming the directory if no file can be written into it
   explicit OutputDirectory(const std::filesystem::path& path);
   ~OutputDirectory();
   OutputDirectory(const OutputDirectory&) = delete;
   OutputDirectory& operator=(const OutputDirectory&) = delete;
 
-  /// @throws FileError; the file is whole or not there
+  /// Writes the whole file or none. @throws FileError
   void write(const std::filesystem::path& name, std::string_view content) const;
 
  private:

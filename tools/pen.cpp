@@ -29,11 +29,11 @@ Pen::Pen(const PenOptions& options) : options_(options) {
       capabilities_ = device_->capabilities();
       break;
   }
-  capabilities_ = limited(capabilities_, options.peak_force);
+  capabilities_ = with_peak_force(capabilities_, options.peak_force);
   interrupt_.emplace();
 }
 
-Recording Pen::write(const Page& page, const SessionOptions& session) {
+Recording Pen::write(const PracticePage& page, const SessionOptions& session) {
   if (is_person()) return live(page, session);
   SessionOptions until_ctrl_c = session;
   until_ctrl_c.progress = [this, &session](double share) {
@@ -43,8 +43,8 @@ Recording Pen::write(const Page& page, const SessionOptions& session) {
   return is_replay() ? replay(page, until_ctrl_c) : write_page(page, until_ctrl_c);
 }
 
-Recording Pen::replay(const Page& page, const SessionOptions& session) const {
-  const Recording trace = read_csv(options_.device.which);
+Recording Pen::replay(const PracticePage& page, const SessionOptions& session) const {
+  const Recording trace = read_recording(options_.device.which);
   auto device = [&] {
     try {
       return ReplayDevice(device_states(trace, upright_page(page.width, page.height)), capabilities_);
@@ -57,17 +57,17 @@ Recording Pen::replay(const Page& page, const SessionOptions& session) const {
   return replay_page(page, device, at_its_rate);
 }
 
-Recording Pen::live(const Page& page, const SessionOptions& session) {
+Recording Pen::live(const PracticePage& page, const SessionOptions& session) {
   DeviceFault told = DeviceFault::none;
   LiveOptions options;
   options.mode = session.mode;
   options.renderer = session.renderer;
   options.peak_force = options_.peak_force;
-  options.longest = options_.longest;
+  options.timeout = options_.timeout;
   options.watch = [&](const LiveView& view) {
-    if (session.progress) session.progress(view.share);
+    if (session.progress) session.progress(view.progress);
     if (view.servo.fault != told && view.servo.fault != DeviceFault::none) {
-      spdlog::warn("the force went to zero: {}", fault_name(view.servo.fault));
+      spdlog::warn("force ramped down to zero: {}", to_string(view.servo.fault));
     }
     told = view.servo.fault;
     return !interrupt_->asked();

@@ -18,9 +18,9 @@ namespace calligraphy::tools {
 
 struct PenOptions {
   DeviceChoice device;
-  std::string like = "desktop";  ///< profile whose limits and workspace a recorded trace gets
-  double peak_force = std::numeric_limits<double>::infinity();  ///< at most this, whatever the device can do [N]
-  double longest = 600.0;                                       ///< after which a person's page is given up [s]
+  std::string like = "desktop";  ///< profile that supplies limits and workspace for a recorded trace
+  double peak_force = std::numeric_limits<double>::infinity();  ///< limit in addition to the device's own [N]
+  double timeout = 600.0;                                       ///< time after which a person's page is aborted [s]
 };
 
 class Pen {
@@ -28,32 +28,32 @@ class Pen {
   /// Opens the device. @throws DeviceError, UsageError
   explicit Pen(const PenOptions& options);
 
-  /// Of the device, its forces lowered to the peak asked for.
+  /// Capabilities of the device, with forces limited to PenOptions::peak_force.
   const Capabilities& capabilities() const noexcept { return capabilities_; }
 
-  /// A person holds the device and takes their time.
+  /// True if a person holds the device and writes in real time.
   bool is_person() const noexcept { return device_ != nullptr; }
   bool is_replay() const noexcept { return options_.device.kind == DeviceKind::replay; }
 
-  /// Of the session the mode, the renderer and the progress count for everyone. @throws FileError, FormatError,
-  /// DeviceError
-  Recording write(const Page& page, const SessionOptions& session);
+  /// Writes a page. Mode, renderer and progress of the session apply to every kind of pen, the rest to the simulated
+  /// writer. @throws FileError, FormatError, DeviceError
+  Recording write(const PracticePage& page, const SessionOptions& session);
 
-  /// Ctrl-C was pressed since the device was opened. It ends a simulated writer's or a trace's write() with an Error, a
-  /// person's with what they wrote until then.
+  /// True if Ctrl-C was pressed since the device was opened. write() then throws an Error for a simulated writer or a
+  /// trace, and returns what was written so far for a person.
   bool interrupted() const noexcept { return interrupt_->asked(); }
-  /// Of the servo loop, page by page; a person's alone.
+  /// Servo loop statistics per page; empty unless a person writes.
   const std::vector<ServoStatistics>& statistics() const noexcept { return statistics_; }
 
  private:
-  Recording replay(const Page& page, const SessionOptions& session) const;
-  Recording live(const Page& page, const SessionOptions& session);
+  Recording replay(const PracticePage& page, const SessionOptions& session) const;
+  Recording live(const PracticePage& page, const SessionOptions& session);
 
   PenOptions options_;
   Capabilities capabilities_;
-  std::unique_ptr<HapticDevice> device_;  ///< a person's
-  std::optional<Interrupt> interrupt_;    ///< from when the device is open until what was written is in its files
-  std::vector<std::string> warnings_;     ///< that were told
+  std::unique_ptr<HapticDevice> device_;  ///< null unless a person writes
+  std::optional<Interrupt> interrupt_;    ///< from opening the device until the results are written
+  std::vector<std::string> warnings_;     ///< already reported
   std::vector<ServoStatistics> statistics_;
 };
 

@@ -17,7 +17,7 @@ Progress::Progress() {
 }
 
 Progress::~Progress() {
-  if (display_ && display_->count() < steps) std::cerr << std::endl;  // what follows begins on a line of its own
+  if (display_ && display_->count() < steps) std::cerr << std::endl;  // later output starts on a new line
 }
 
 void Progress::show(double share) {

@@ -7,7 +7,7 @@
 
 namespace calligraphy::tools {
 
-/// Draws on standard error, and only when that is a terminal.
+/// Draws on standard error, only if that is a terminal.
 class Progress {
  public:
   Progress();
@@ -15,7 +15,7 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Share of the work that is done, in [0, 1]; never goes back.
+  /// Shows the fraction of the work done, in [0, 1]; the bar never moves backwards.
   void show(double share);
 
  private:

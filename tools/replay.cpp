@@ -1,4 +1,4 @@
-// calligraphy replay: pens of people, as hands that hold the simulated device, and verdicts on what they wrote.
+// calligraphy replay: replays pen traces of people on the simulated device and reports on their writing.
 #include <algorithm>
 #include <cstddef>
 #include <cstdio>
@@ -37,7 +37,7 @@ struct ReplayArguments {
   bool json = false;
 };
 
-/// A trace and where it stands in the file, from 1.
+/// A trace and its position in the file, from 1.
 struct Chosen {
   int position;
   PenTrace trace;
@@ -58,9 +58,9 @@ std::vector<Chosen> chosen_traces(const ReplayArguments& options) {
                        [code](const Chosen& each) { return each.trace.character == code; });
   };
   for (const char32_t code : only) {
-    if (!is_there(code)) throw Error("character " + name_of(code) + " is not in " + options.traces);
+    if (!is_there(code)) throw Error("character " + character_label(code) + " is not in " + options.traces);
   }
-  if (chosen.empty()) throw Error(options.traces + " has no trace");
+  if (chosen.empty()) throw Error(options.traces + " contains no traces");
   return chosen;
 }
 
@@ -75,7 +75,7 @@ std::u32string text_of(const std::vector<Chosen>& traces) {
 class ReplayRun {
  public:
   explicit ReplayRun(const ReplayArguments& options) : options_(options) {
-    if (options.out && options.out->empty()) throw UsageError("--out: an empty name");
+    if (options.out && options.out->empty()) throw UsageError("--out: the name is empty");
     session_.device = chosen_device(options.device);
     session_.renderer = options.renderer == "everything" ? RendererOptions::everything(session_.device)
                                                          : RendererOptions::for_device(session_.device);
@@ -92,7 +92,8 @@ class ReplayRun {
     for (const char32_t code : text) {
       if (!set.find(code)) report_.without_template += code;
     }
-    if (report_.without_template == text) throw Error("none of the characters written is in --characters");
+    if (report_.without_template == text)
+      throw Error("none of the written characters is in the character set; see --characters");
     const auto has_template = [&set](const Chosen& each) { return set.find(each.trace.character).has_value(); };
     const auto with_template = static_cast<std::size_t>(std::count_if(traces.begin(), traces.end(), has_template));
     const Interrupt interrupt;
@@ -118,7 +119,7 @@ class ReplayRun {
     PageLayout layout;
     layout.width = session_.device.workspace.x();
     layout.height = session_.device.workspace.y();
-    const Page page = lay_out({&character, 1}, layout).front();
+    const PracticePage page = lay_out({&character, 1}, layout).front();
     const HapticRenderer renderer(page.characters, upright_page(page.width, page.height), session_.device,
                                   session_.renderer);
     report_.max_force_step = renderer.max_force_step();
@@ -128,17 +129,17 @@ class ReplayRun {
     Replayed result;
     result.position = chosen.position;
     result.set = chosen.trace.set;
-    result.verdict = judge_strokes(character, paths);
-    result.guided = score(page, recording).front();
+    result.match = match_strokes(character, paths);
+    result.guided = score_page(page, recording).front();
     result.faults =
         static_cast<int>(std::count_if(recording.samples.begin(), recording.samples.end(),
-                                       [](const Sample& sample) { return sample.status != TickStatus::ok; }));
+                                       [](const RecordedSample& sample) { return sample.status != TickStatus::ok; }));
     if (out) {
       const std::string title =
           fmt::format("{}, {}, {}", encode_utf8(character.code), chosen.trace.set, report_.device);
       const std::vector<PenPath> guided = pen_paths(recording, page.characters.front().placement);
       out->write(fmt::format("{:02}-{}.svg", chosen.position, name_in_file(character.code)),
-                 replay_picture(character, paths, result.verdict, guided, title));
+                 replay_picture(character, paths, result.match, guided, title));
     }
     report_.traces.push_back(std::move(result));
   }
@@ -153,17 +154,18 @@ class ReplayRun {
 void add_replay(CLI::App& program) {
   CLI::App* const command = program.add_subcommand(
       "replay",
-      "Pens of people, as recorded, hold the simulated device: what order and direction they wrote in, and what they "
-      "felt. With --out DIR also a picture of each and replay.json.");
+      "Replay recorded pen traces of people on the simulated device. Reports the order and direction in which they "
+      "wrote "
+      "and the forces of the guidance. With --out DIR, also writes a picture of each trace and replay.json.");
   const auto options = std::make_shared<ReplayArguments>();
   command->add_option("TRACES", options->traces, "Pen traces in the format of docs/pen-traces.md")
       ->required()
       ->type_name("FILE");
   add_characters_option(*command, options->characters);
-  command->add_option("--out", options->out, "Directory for pictures and JSON, created when missing")->type_name("DIR");
-  command->add_option("--only", options->only, "Only traces of these characters")->type_name("TEXT");
+  command->add_option("--out", options->out, "Directory for pictures and JSON, created if missing")->type_name("DIR");
+  command->add_option("--only", options->only, "Replay only traces of these characters")->type_name("TEXT");
   add_device_option(*command, options->device);
-  command->add_option("--renderer", options->renderer, "The default stages, or every stage switched on")
+  command->add_option("--renderer", options->renderer, "Default stages, or all optional stages enabled")
       ->check(CLI::IsMember({"default", "everything"}))
       ->capture_default_str();
   command->add_flag("--json", options->json, "Print JSON instead of the table")->disable_flag_override();

@@ -12,73 +12,60 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr RemarkKind remark_kinds[] = {RemarkKind::order,  RemarkKind::direction, RemarkKind::shape, RemarkKind::joined,
-                                RemarkKind::broken, RemarkKind::missing,   RemarkKind::extra};
+constexpr StrokeRemarkKind remark_kinds[] = {
+    StrokeRemarkKind::order,  StrokeRemarkKind::direction, StrokeRemarkKind::shape, StrokeRemarkKind::joined,
+    StrokeRemarkKind::broken, StrokeRemarkKind::missing,   StrokeRemarkKind::extra};
 
-/// Pen-downs that were not a mere bounce.
-int strokes_drawn(const StrokeVerdict& verdict) {
-  return static_cast<int>(std::count_if(verdict.drawn.begin(), verdict.drawn.end(),
+/// Number of pen-downs, without taps that match no stroke.
+int strokes_drawn(const MatchResult& match) {
+  return static_cast<int>(std::count_if(match.drawn.begin(), match.drawn.end(),
                                         [](const DrawnStroke& drawn) { return drawn.stroke >= 0 || !drawn.tap; }));
 }
 
-bool none_recognised(const StrokeVerdict& verdict) {
-  return std::none_of(verdict.drawn.begin(), verdict.drawn.end(),
+bool none_recognised(const MatchResult& match) {
+  return std::none_of(match.drawn.begin(), match.drawn.end(),
                       [](const DrawnStroke& drawn) { return drawn.stroke >= 0; });
 }
 
-std::string order_of(const StrokeVerdict& verdict) {
-  if (none_recognised(verdict)) return "not told";
-  const int wrong = verdict.count(RemarkKind::order);
-  return wrong == 0 ? "right" : fmt::format("{} out of turn", wrong);
+std::string order_of(const MatchResult& match) {
+  if (none_recognised(match)) return "unclear";
+  const int wrong = match.count(StrokeRemarkKind::order);
+  return wrong == 0 ? "correct" : fmt::format("{} out of order", wrong);
 }
 
-std::string direction_of(const StrokeVerdict& verdict) {
-  if (none_recognised(verdict)) return "not told";
-  const int wrong = verdict.count(RemarkKind::direction), unclear = verdict.count(RemarkKind::shape);
+std::string direction_of(const MatchResult& match) {
+  if (none_recognised(match)) return "unclear";
+  const int wrong = match.count(StrokeRemarkKind::direction), unclear = match.count(StrokeRemarkKind::shape);
   if (wrong > 0) return fmt::format("{} backwards", wrong);
-  return unclear == 0 ? "right" : fmt::format("{} not told", unclear);
+  return unclear == 0 ? "correct" : fmt::format("{} unclear", unclear);
 }
 
 /// "1 joined, 2 missing"
-std::string others(const StrokeVerdict& verdict) {
+std::string others(const MatchResult& match) {
   std::string text;
-  for (const RemarkKind kind : remark_kinds) {
-    const int count = verdict.count(kind);
-    if (count == 0 || kind == RemarkKind::order || kind == RemarkKind::direction) continue;
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, name_of(kind));
+  for (const StrokeRemarkKind kind : remark_kinds) {
+    const int count = match.count(kind);
+    if (count == 0 || kind == StrokeRemarkKind::order || kind == StrokeRemarkKind::direction) continue;
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, to_string(kind));
   }
   return text;
 }
 
-const char* course_name(Course course) {
-  switch (course) {
-    case Course::forwards:
-      return "forwards";
-    case Course::backwards:
-      return "backwards";
-    case Course::neither:
-      return "neither";
-    case Course::unknown:
-      break;
-  }
-  return "unknown";
-}
-
 Json json_of(const Replayed& trace) {
   Json drawn = Json::array();
-  for (const DrawnStroke& each : trace.verdict.drawn) {
+  for (const DrawnStroke& each : trace.match.drawn) {
     Json strokes = Json::array();
     for (int i = 0; i < each.stroke_count; ++i) strokes.push_back(each.stroke + i + 1);
     drawn.push_back({{"strokes", strokes},
                      {"in_turn", each.in_turn},
-                     {"course", course_name(each.course)},
+                     {"course", to_string(each.direction)},
                      {"continues", each.continues},
                      {"tap", each.tap},
                      {"distance_em", each.stroke_count > 0 ? Json(each.distance) : Json()}});
   }
   Json remarks = Json::array();
-  for (const Remark& remark : trace.verdict.remarks) {
-    remarks.push_back({{"kind", calligraphy::name_of(remark.kind)},
+  for (const StrokeRemark& remark : trace.match.remarks) {
+    remarks.push_back({{"kind", calligraphy::to_string(remark.kind)},
                        {"pen_down", remark.path >= 0 ? Json(remark.path + 1) : Json()},
                        {"stroke", remark.stroke >= 0 ? Json(remark.stroke + 1) : Json()},
                        {"reason", remark.reason}});
@@ -86,10 +73,10 @@ Json json_of(const Replayed& trace) {
   return {{"character", encode_utf8(trace.guided.character)},
           {"position", trace.position},
           {"set", trace.set},
-          {"strokes_drawn", strokes_drawn(trace.verdict)},
+          {"strokes_drawn", strokes_drawn(trace.match)},
           {"strokes", trace.guided.stroke_count},
-          {"order_mistakes", trace.verdict.count(RemarkKind::order)},
-          {"direction_mistakes", trace.verdict.count(RemarkKind::direction)},
+          {"order_mistakes", trace.match.count(StrokeRemarkKind::order)},
+          {"direction_mistakes", trace.match.count(StrokeRemarkKind::direction)},
           {"drawn", drawn},
           {"remarks", remarks},
           {"strokes_completed", trace.guided.strokes_completed},
@@ -103,30 +90,30 @@ Json json_of(const Replayed& trace) {
 std::string table(const ReplayReport& report) {
   constexpr const char* head = "{:<8}{:>10}  {:<16}{:<14}{:<22}{:>11}{:>8}{:>8}{:>11}\n";
   std::string text = fmt::format(fmt::runtime(head), "", "strokes", "", "", "", "completed", "", "peak F", "max step");
-  text +=
-      fmt::format(fmt::runtime(head), "", "drawn", "order", "direction", "else", "guided", "faults", "[N]", "[N/tick]");
+  text += fmt::format(fmt::runtime(head), "", "drawn", "order", "direction", "other", "guided", "faults", "[N]",
+                      "[N/tick]");
   std::string remarks;
   for (const Replayed& trace : report.traces) {
-    const StrokeVerdict& verdict = trace.verdict;
+    const MatchResult& match = trace.match;
     const std::string character = encode_utf8(trace.guided.character);
     text += fmt::format("{:>3} {}  {:>10}  {:<16}{:<14}{:<22}{:>11}{:>8}{:>8.2f}{:>11.3f}\n", trace.position, character,
-                        fmt::format("{}/{}", strokes_drawn(verdict), trace.guided.stroke_count), order_of(verdict),
-                        direction_of(verdict), others(verdict),
+                        fmt::format("{}/{}", strokes_drawn(match), trace.guided.stroke_count), order_of(match),
+                        direction_of(match), others(match),
                         fmt::format("{}/{}", trace.guided.strokes_completed, trace.guided.stroke_count), trace.faults,
                         trace.guided.peak_force, trace.guided.max_force_step);
-    for (const Remark& remark : verdict.remarks) {
-      remarks += fmt::format("{:>3} {}  {}: {}\n", trace.position, character, calligraphy::name_of(remark.kind),
+    for (const StrokeRemark& remark : match.remarks) {
+      remarks += fmt::format("{:>3} {}  {}: {}\n", trace.position, character, calligraphy::to_string(remark.kind),
                              remark.reason);
     }
   }
   text += fmt::format("limits of {}: force {:.2f} N, force step {:.3f} N/tick\n", report.device, report.peak_force,
                       report.max_force_step);
   if (!remarks.empty()) text += "\n" + remarks;
-  const auto right = [&report](std::string (*judged)(const StrokeVerdict&)) {
+  const auto right = [&report](std::string (*judged)(const MatchResult&)) {
     return std::count_if(report.traces.begin(), report.traces.end(),
-                         [judged](const Replayed& trace) { return judged(trace.verdict) == "right"; });
+                         [judged](const Replayed& trace) { return judged(trace.match) == "correct"; });
   };
-  text += fmt::format("\n{} of {} in the right order, {} in the right direction\n", right(order_of),
+  text += fmt::format("\n{} of {} in the correct order, {} in the correct direction\n", right(order_of),
                       report.traces.size(), right(direction_of));
   if (!report.without_template.empty()) {
     text += fmt::format("{} without a template:", report.without_template.size());
@@ -143,7 +130,7 @@ std::string json(const ReplayReport& report) {
   for (const char32_t code : report.without_template) missing.push_back(encode_utf8(code));
   const Json all = {{"device", report.device},
                     {"renderer", report.renderer},
-                    {"peak_force_limit_N", report.peak_force},  // null: none
+                    {"peak_force_limit_N", report.peak_force},  // null: no limit
                     {"force_step_limit_N", report.max_force_step},
                     {"traces", traces},
                     {"without_template", missing}};

@@ -1,21 +1,21 @@
-// What `calligraphy replay` found: as a table for a person, as JSON for a program.
+// Report of `calligraphy replay`, as a table and as JSON.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include <calligraphy/practice/score.hpp>
-#include <calligraphy/practice/stroke_verdict.hpp>
+#include <calligraphy/practice/stroke_matching.hpp>
 
 namespace calligraphy::tools {
 
-/// One trace of a person.
+/// Result of one trace.
 struct Replayed {
   int position = 0;  ///< in the file, from 1
   std::string set;
-  StrokeVerdict verdict;  ///< on what the person wrote
-  CharacterScore guided;  ///< of the device under guidance
-  int faults = 0;         ///< ticks whose sample the renderer refused
+  MatchResult match;      ///< of what the person wrote
+  CharacterScore guided;  ///< of the simulated pen under guidance
+  int faults = 0;         ///< ticks whose sample the renderer rejected
 };
 
 struct ReplayReport {
@@ -24,10 +24,10 @@ struct ReplayReport {
   double peak_force = 0.0;      ///< of the device [N]
   double max_force_step = 0.0;  ///< of the renderer [N per tick]
   std::vector<Replayed> traces;
-  std::u32string without_template;  ///< characters that were written and are not in the set
+  std::u32string without_template;  ///< written characters that are not in the set
 };
 
-/// A line per trace, then every remark, then what is true of all.
+/// One line per trace, the limits, all remarks, then the totals.
 std::string table(const ReplayReport& report);
 
 std::string json(const ReplayReport& report);

@@ -6,20 +6,20 @@
 namespace calligraphy::tools {
 namespace {
 
-std::string line(const char* name, const DurationFigures& figures) {
-  return fmt::format("{:<12} {:>9.1f} {:>9.1f} {:>9.1f} {:>9.1f}\n", name, 1e6 * figures.p50, 1e6 * figures.p99,
-                     1e6 * figures.p99_9, 1e6 * figures.worst);
+std::string line(const char* name, const DurationSummary& summary) {
+  return fmt::format("{:<12} {:>9.1f} {:>9.1f} {:>9.1f} {:>9.1f}\n", name, 1e6 * summary.p50, 1e6 * summary.p99,
+                     1e6 * summary.p99_9, 1e6 * summary.worst);
 }
 
-nlohmann::ordered_json object(const DurationFigures& figures) {
-  return {{"p50_s", figures.p50}, {"p99_s", figures.p99}, {"p99_9_s", figures.p99_9}, {"worst_s", figures.worst}};
+nlohmann::ordered_json object(const DurationSummary& summary) {
+  return {{"p50_s", summary.p50}, {"p99_s", summary.p99}, {"p99_9_s", summary.p99_9}, {"worst_s", summary.worst}};
 }
 
-/// Calls `each` with the name and the count of every fault that there was.
+/// Calls `each` with the name and the count of every fault that occurred.
 template <class Each>
 void for_each_fault(const ServoStatistics& statistics, Each each) {
   for (std::size_t i = 0; i < statistics.faults.size(); ++i) {
-    if (statistics.faults[i] > 0) each(fault_name(static_cast<DeviceFault>(i)), statistics.faults[i]);
+    if (statistics.faults[i] > 0) each(to_string(static_cast<DeviceFault>(i)), statistics.faults[i]);
   }
 }
 
@@ -45,7 +45,7 @@ std::string json(const std::vector<ServoStatistics>& runs) {
                     {"work", object(run.work)},
                     {"missed_deadlines", run.missed_deadlines},
                     {"stale_samples", run.stale_samples},
-                    {"taken_over", run.taken_over},
+                    {"watchdog_takeovers", run.watchdog_takeovers},
                     {"faults", faults}});
   }
   return list.dump(2) + "\n";

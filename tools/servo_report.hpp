@@ -1,4 +1,4 @@
-// How a servo loop kept its time: as lines for a person, as JSON for a program.
+// Timing report of a servo loop, as text and as JSON.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace calligraphy::tools {
 
-/// Periods and work in percentiles, what was missed, and every fault by name.
+/// Percentiles of period and work time, missed deadlines, and every fault by name.
 std::string lines(const ServoStatistics& statistics);
 
-/// A list with an object per run.
+/// A list with one object per run.
 std::string json(const std::vector<ServoStatistics>& runs);
 
 }  // namespace calligraphy::tools

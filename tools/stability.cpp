@@ -1,4 +1,4 @@
-// calligraphy stability: how stiff a wall a device can render, for one loop or as a map.
+// calligraphy stability: maximum stiffness of a virtual wall, for one loop or as a map.
 #include <array>
 #include <charconv>
 #include <cstdio>
@@ -26,7 +26,7 @@
 namespace calligraphy::tools {
 namespace {
 
-constexpr double largest = 1e9;  ///< of any number that is typed; the library says what is physical
+constexpr double largest = 1e9;  ///< upper limit of all numeric options; the library checks what is physical
 
 struct StabilityArguments {
   std::optional<std::string> device, grip, out;
@@ -36,11 +36,11 @@ struct StabilityArguments {
   bool json = false;
 };
 
-Hand grip_of(const std::string& word) {
-  constexpr std::array<std::pair<std::string_view, Hand>, 3> named = {
+GripImpedance grip_of(const std::string& word) {
+  constexpr std::array<std::pair<std::string_view, GripImpedance>, 3> named = {
       {{"soft", {0.05, 1.0, 100.0}}, {"normal", {0.1, 3.0, 300.0}}, {"firm", {0.15, 5.0, 500.0}}}};
-  for (const auto& [name, hand] : named) {
-    if (word == name) return hand;
+  for (const auto& [name, grip] : named) {
+    if (word == name) return grip;
   }
   std::array<double, 3> values{};
   const char* at = word.data();
@@ -56,7 +56,7 @@ Hand grip_of(const std::string& word) {
   return {values[0], values[1], values[2]};
 }
 
-/// @throws UsageError naming the option or the value that is missing or not physical
+/// @throws UsageError naming the missing option or the value that is not physical
 SampledLoop loop_of(const StabilityArguments& options) {
   try {
     SampledLoop loop;
@@ -64,7 +64,7 @@ SampledLoop loop_of(const StabilityArguments& options) {
       loop.device = chosen_device(*options.device);
       loop.rate = loop.device.update_rate;
     } else if (!options.mass || !options.damping) {
-      throw UsageError(std::string(options.mass ? "--damping" : "--mass") + " is missing, or --device");
+      throw UsageError(std::string(options.mass ? "--damping" : "--mass") + " is required unless --device is given");
     }
     if (options.mass) loop.device.apparent_mass = *options.mass;
     if (options.damping) loop.device.viscous_friction = *options.damping;
@@ -88,7 +88,7 @@ bool asks_for_a_point(const StabilityArguments& options) {
 
 void advise(const StabilityArguments& options) {
   if (options.out || options.quick) {
-    throw UsageError(std::string(options.out ? "--out" : "--quick") + " is for the map, not for one loop");
+    throw UsageError(std::string(options.out ? "--out" : "--quick") + " applies to the map, not to a single loop");
   }
   const SampledLoop loop = loop_of(options);
   const StiffnessAdvice advice = advise_stiffness(loop);
@@ -96,7 +96,7 @@ void advise(const StabilityArguments& options) {
 }
 
 void map(const StabilityArguments& options) {
-  if (options.out && options.out->empty()) throw UsageError("--out: an empty name");
+  if (options.out && options.out->empty()) throw UsageError("--out: the name is empty");
   const Interrupt interrupt;
   std::optional<OutputDirectory> out;
   if (options.out) out.emplace(*options.out);
@@ -112,25 +112,25 @@ void map(const StabilityArguments& options) {
   };
   const StabilityMap map = stability_map(wanted);
   fmt::print("{}", options.json ? json(map) : tables(map));
-  std::fflush(stdout);  // what was found is not lost when drawing fails
+  std::fflush(stdout);  // results are printed even if plotting fails
   if (!out) return;
   out->write("stability.json", json(map));
-  const bool plots = can_plot();
-  interrupt.check();  // Ctrl-C is for gnuplot too, which then cannot be run
+  const bool plots = gnuplot_available();
+  interrupt.check();  // Ctrl-C also reaches gnuplot, which then seems unavailable
   if (plots) {
     out->write("stability.svg", stability_map_plot(map));
   } else {
-    spdlog::warn("gnuplot cannot be run: no picture of the map");
+    spdlog::warn("gnuplot is not available: the map is not plotted");
   }
 }
 
 }  // namespace
 
 void add_stability(CLI::App& program) {
-  CLI::App* const command = program.add_subcommand("stability",
-                                                   "How stiff a wall a device can render. With --mass and --damping, "
-                                                   "or --device: the bounds of that loop, with their "
-                                                   "formulas. Without: the map, by simulation.");
+  CLI::App* const command =
+      program.add_subcommand("stability",
+                             "Maximum stiffness of a virtual wall. With --device, or --mass and --damping: the bounds "
+                             "for that loop and their formulas. Otherwise: a stability map, by simulation.");
   const auto options = std::make_shared<StabilityArguments>();
   const auto add = [&](const char* name, auto& value, const char* help, const char* unit) {
     return command->add_option(name, value, help)->type_name(unit);
@@ -138,17 +138,20 @@ void add_stability(CLI::App& program) {
   const auto add_number = [&](const char* name, auto& value, const char* help, const char* unit) {
     add(name, value, help, unit)->check(number(0.0, largest));
   };
-  add("--device", options->device, "A simulated device: omni, touch, desktop, premium-1.5, ideal", "NAME");
-  add_number("--mass", options->mass, "Of the device at its tip", "KG");
-  add_number("--damping", options->damping, "Of the device", "N_S/M");
-  add_number("--friction", options->friction, "Dry friction of the device (default: 0)", "N");
-  add_number("--encoder-step", options->encoder_step, "Of its positions (default: 0)", "M");
-  add_number("--rate", options->rate, "Of the servo loop (default: 1000, or the device's)", "HZ");
-  add("--delay", options->delay, "Age of a sample (default: 0, or the device's)", "TICKS")->check(integer(0, 1000));
-  add_number("--wall-damping", options->wall_damping, "Of the wall (default: 0)", "N_S/M");
-  add("--grip", options->grip, "soft, normal, firm or m,b,k [kg, N s/m, N/m] (default: none)", "GRIP");
-  add("--out", options->out, "Directory for the map as JSON and picture, created when missing", "DIR");
-  command->add_flag("--quick", options->quick, "The map's sweeps alone, and coarser")->disable_flag_override();
+  add("--device", options->device, "Device profile: omni, touch, desktop, premium-1.5, ideal", "NAME");
+  add_number("--mass", options->mass, "Apparent mass of the device at its tip", "KG");
+  add_number("--damping", options->damping, "Viscous friction of the device", "N_S/M");
+  add_number("--friction", options->friction, "Coulomb friction of the device (default: 0, or the device's)", "N");
+  add_number("--encoder-step", options->encoder_step,
+             "Position resolution of its encoders (default: 0, or the device's)", "M");
+  add_number("--rate", options->rate, "Servo rate (default: 1000, or the device's)", "HZ");
+  add("--delay", options->delay, "Age of a sample when it is read (default: 0, or the device's)", "TICKS")
+      ->check(integer(0, 1000));
+  add_number("--wall-damping", options->wall_damping, "Damping of the wall (default: 0)", "N_S/M");
+  add("--grip", options->grip, "Grip: soft, normal, firm or m,b,k [kg, N s/m, N/m] (default: none)", "GRIP");
+  add("--out", options->out, "Directory for stability.json and stability.svg, created if missing", "DIR");
+  command->add_flag("--quick", options->quick, "Only the sweeps of the map, on a coarser grid")
+      ->disable_flag_override();
   command->add_flag("--json", options->json, "Print JSON instead of the tables")->disable_flag_override();
   command->callback([options] { asks_for_a_point(*options) ? advise(*options) : map(*options); });
 }

@@ -24,8 +24,8 @@ std::string description(const SampledLoop& loop) {
                   loop.device.encoder_step * per_micrometre, loop.device.sample_delay);
   text += fmt::format("{}, wall damping B = {:g} N s/m", loop.device.sample_delay == 1 ? " tick" : " ticks",
                       loop.wall_damping);
-  const Hand& grip = loop.grip;
-  if (grip.mass == 0.0 && grip.damping == 0.0 && grip.stiffness == 0.0) return text + ", held by nobody";
+  const GripImpedance& grip = loop.grip;
+  if (grip.mass == 0.0 && grip.damping == 0.0 && grip.stiffness == 0.0) return text + ", no grip";
   return text + fmt::format(", grip {:g} kg, {:g} N s/m, {:g} N/m", grip.mass, grip.damping, grip.stiffness);
 }
 
@@ -53,11 +53,11 @@ Json json_of(const StabilityLine& line) {
           {"passive_stiffness_N_per_m", line.passive},
           {"quantised_stiffness_N_per_m", line.quantised},
           {"approximate_stiffness_N_per_m", line.approximate},
-          {"largest_settling_N_per_m", line.largest},
-          {"controlled_largest_settling_N_per_m", line.controlled_largest},
-          {"controlled_largest_settling_below_peak_force_N_per_m", line.controlled_within_peak},
-          {"settles", line.settles},
-          {"controlled_settles", line.controlled_settles}};
+          {"max_stable_N_per_m", line.max_stable},
+          {"controlled_max_stable_N_per_m", line.controlled_max_stable},
+          {"controlled_max_stable_below_peak_force_N_per_m", line.controlled_max_stable_below_peak},
+          {"stable_at", line.stable_at},
+          {"controlled_stable_at", line.controlled_stable_at}};
 }
 
 Json json_of(const StabilitySweep& sweep) {
@@ -72,43 +72,45 @@ Json json_of(const StabilitySweep& sweep) {
 
 std::string sweep_table(const StabilitySweep& sweep) {
   std::string text = fmt::format("{}\n{:>10}{:>10}{:>10}{:>10}{:>14}{:>10}{:>14}{:>10}\n", sweep.label, "", "passive",
-                                 "quantised", "stable", "Gil et al.", "settles", "controlled", "in peak");
+                                 "quantised", "stable", "Gil et al.", "simulated", "controlled", "< peak");
   for (std::size_t i = 0; i < sweep.lines.size(); ++i) {
     const StabilityLine& line = sweep.lines[i];
     text += fmt::format("{:>10}{:>10.0f}{:>10.0f}{:>10.0f}{:>14.0f}{:>10.0f}{:>14.0f}{:>10.0f}\n", sweep.values[i],
-                        line.passive, line.quantised, line.stable, line.approximate, line.largest,
-                        line.controlled_largest, line.controlled_within_peak);
+                        line.passive, line.quantised, line.stable, line.approximate, line.max_stable,
+                        line.controlled_max_stable, line.controlled_max_stable_below_peak);
   }
   return text + "\n";
 }
 
-/// How the simulation stands to theory over the grid.
+/// Simulation relative to theory over the grid.
 std::string summary(const StabilityMap& map) {
   if (map.grid.empty()) return "";
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  double least = infinity, most = 0.0, least_passive = infinity;
+  double least = infinity, most = 0.0, min_passive = infinity;
   int helped = 0, harmed = 0;
   for (const StabilityLine& line : map.grid) {
-    helped += line.controlled_largest > line.largest ? 1 : 0;
-    harmed += line.controlled_largest < line.largest ? 1 : 0;
-    if (line.quantised > map.stiffnesses[1]) {  // else it lies below what was tried
-      least_passive = std::min(least_passive, line.largest / line.quantised);
+    helped += line.controlled_max_stable > line.max_stable ? 1 : 0;
+    harmed += line.controlled_max_stable < line.max_stable ? 1 : 0;
+    if (line.quantised > map.stiffnesses[1]) {  // otherwise it lies below the range tried
+      min_passive = std::min(min_passive, line.max_stable / line.quantised);
     }
     if (line.loop.device.coulomb_friction > 0.0 || line.stable <= map.stiffnesses[1]) continue;
-    least = std::min(least, line.largest / line.stable);
-    most = std::max(most, line.largest / line.stable);
+    least = std::min(least, line.max_stable / line.stable);
+    most = std::max(most, line.max_stable / line.stable);
   }
   return fmt::format("Grid: {} loops, each with control off and on\n", map.grid.size()) +
-         fmt::format("  largest that settles, of the stable bound, without dry friction: {:.3f} to {:.3f}\n", least,
-                     most) +
-         fmt::format("  of the quantised passive bound, with it and without: {:.3f} at least\n", least_passive) +
+         fmt::format(
+             "  maximum stable stiffness relative to the stable bound, without Coulomb friction: {:.3f} to {:.3f}\n",
+             least, most) +
+         fmt::format("  relative to the quantised bound, with and without Coulomb friction: at least {:.3f}\n",
+                     min_passive) +
          fmt::format("  control allows more stiffness in {} loops, less in {}\n", helped, harmed);
 }
 
 }  // namespace
 
 std::string table(const SampledLoop& loop, const StiffnessAdvice& advice) {
-  return description(loop) + fmt::format("\n\n{:<12}{:>12}\n", "largest", "K [N/m]") + row("passive", advice.passive) +
+  return description(loop) + fmt::format("\n\n{:<12}{:>12}\n", "bound", "K [N/m]") + row("passive", advice.passive) +
          row("quantised", advice.quantised) + row("stable", advice.stable) + row("approximate", advice.approximate);
 }
 
@@ -126,13 +128,12 @@ std::string json(const SampledLoop& loop, const StiffnessAdvice& advice) {
 }
 
 std::string tables(const StabilityMap& map) {
-  const WallEncounter& encounter = map.encounter;
+  const WallContact& contact = map.contact;
   std::string text = fmt::format(
-      "Largest stiffness [N/m] of a wall. A pen falls on it from {:g} mm, pushed by {:g} N, for {:g} s; peak force "
-      "{:g} "
-      "N\nsettles: up to here it comes to rest; controlled: with the passivity controller; in peak: and never reaches "
-      "the peak force\n\n",
-      encounter.height * per_millimetre, encounter.push, encounter.seconds, map.device.peak_force);
+      "Maximum stable stiffness [N/m] of a virtual wall. A pen is released {:g} mm above it and pushed down by {:g} N, "
+      "for {:g} s; peak force {:g} N\nsimulated: up to here the pen comes to rest; controlled: with the passivity "
+      "controller; < peak: and without reaching the peak force\n\n",
+      contact.height * per_millimetre, contact.push, contact.seconds, map.device.peak_force);
   for (const StabilitySweep& sweep : map.sweeps) text += sweep_table(sweep);
   return text + summary(map);
 }
@@ -141,10 +142,10 @@ std::string json(const StabilityMap& map) {
   Json sweeps = Json::array(), grid = Json::array();
   for (const StabilitySweep& sweep : map.sweeps) sweeps.push_back(json_of(sweep));
   for (const StabilityLine& line : map.grid) grid.push_back(json_of(line));
-  const Json object = {{"encounter",
-                        {{"push_N", map.encounter.push},
-                         {"height_m", map.encounter.height},
-                         {"seconds", map.encounter.seconds},
+  const Json object = {{"contact",
+                        {{"push_N", map.contact.push},
+                         {"height_m", map.contact.height},
+                         {"seconds", map.contact.seconds},
                          {"peak_force_N", map.device.peak_force}}},
                        {"stiffnesses_N_per_m", map.stiffnesses},
                        {"sweeps", std::move(sweeps)},

@@ -1,4 +1,4 @@
-// What `calligraphy stability` found: as tables for a person, as JSON for a program.
+// Report of `calligraphy stability`, as tables and as JSON.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace calligraphy::tools {
 std::string table(const SampledLoop& loop, const StiffnessAdvice& advice);
 std::string json(const SampledLoop& loop, const StiffnessAdvice& advice);
 
-/// A table per sweep, and one that sums up the grid.
+/// One table per sweep, and a summary of the grid.
 std::string tables(const StabilityMap& map);
 std::string json(const StabilityMap& map);
 

@@ -1,4 +1,4 @@
-// calligraphy strokes: the 39 typical strokes as a picture.
+// calligraphy strokes: draws the 39 typical strokes.
 #include <memory>
 #include <string>
 
@@ -16,7 +16,7 @@ void add_strokes(CLI::App& program) {
   const auto out = std::make_shared<std::string>();
   command->add_option("--out", *out, "File to write")->required()->type_name("FILE");
   command->callback([out] {
-    if (out->empty()) throw UsageError("--out: an empty name");
+    if (out->empty()) throw UsageError("--out: the name is empty");
     write_file(*out, typical_strokes_picture());
   });
 }

@@ -26,16 +26,16 @@ double mean(const std::vector<Result>& results, std::size_t begin, std::size_t e
   return sum / static_cast<double>(end - begin);
 }
 
-/// Vision only minus vision and force, once per character and repetition that has both.
+/// Values without and with force, one pair per character and repetition that has both.
 std::vector<std::pair<double, double>> pairs(const std::vector<Result>& results, const Quantity& quantity) {
   std::map<std::pair<int, int>, double> vision;
   for (const Result& result : results) {
-    if (result.mode == Mode::vision) vision[{result.position, result.repetition}] = quantity(result);
+    if (result.mode == FeedbackMode::vision) vision[{result.position, result.repetition}] = quantity(result);
   }
   std::vector<std::pair<double, double>> both;
   for (const Result& result : results) {
     const auto found = vision.find({result.position, result.repetition});
-    if (result.mode == Mode::force && found != vision.end()) both.emplace_back(found->second, quantity(result));
+    if (result.mode == FeedbackMode::force && found != vision.end()) both.emplace_back(found->second, quantity(result));
   }
   return both;
 }
@@ -60,8 +60,6 @@ std::string reduction(const char* what, const char* unit, const std::vector<std:
 
 }  // namespace
 
-const char* mode_name(Mode mode) noexcept { return mode == Mode::vision ? "vision" : "force"; }
-
 double percentile(std::vector<float>& values, double share) {
   if (values.empty()) return 0.0;
   const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size())));
@@ -85,7 +83,7 @@ std::string table(const std::vector<Result>& results) {
     const double written = of([](const Result& r) { return r.score.strokes_completed; });
     text += fmt::format(
         "{:<10}{:<8}{:>8.2f}{:>10.3f}{:>10.3f}{:>7.{}f}{:>11.{}f}{:>9}{:>10.2f}{:>10.3f}{:>10.0f}{:>12.0f}\n",
-        encode_utf8(first.score.character), mode_name(first.mode), of([](const Result& r) { return r.score.time; }),
+        encode_utf8(first.score.character), to_string(first.mode), of([](const Result& r) { return r.score.time; }),
         of([](const Result& r) { return r.score.rms_error * millimetres; }),
         of([](const Result& r) { return r.score.max_error * millimetres; }),
         of([](const Result& r) { return r.score.order_mistakes(); }), decimals,
@@ -103,19 +101,19 @@ std::string json(const std::vector<Result>& results) {
   Json list = Json::array();
   for (const Result& result : results) {
     const CharacterScore& score = result.score;
-    const auto error = [&score](double metres) {  // null: nothing was written that could be off
+    const auto error = [&score](double metres) {  // null: no stroke was completed, so there is no error
       return score.strokes_completed > 0 ? Json(metres * millimetres) : Json();
     };
     Json mistakes = Json::array();
-    for (const Mistake& mistake : score.mistakes) {
-      mistakes.push_back({{"kind", mistake.kind == MistakeKind::order ? "order" : "direction"},
+    for (const WritingMistake& mistake : score.mistakes) {
+      mistakes.push_back({{"kind", mistake.kind == WritingMistakeKind::order ? "order" : "direction"},
                           {"stroke", mistake.stroke + 1},
                           {"time_s", mistake.time},
                           {"reason", mistake.reason}});
     }
     list.push_back({{"character", encode_utf8(score.character)},
                     {"position", result.position},
-                    {"mode", mode_name(result.mode)},
+                    {"mode", to_string(result.mode)},
                     {"repetition", result.repetition},
                     {"seed", result.seed},
                     {"time_s", score.time},
@@ -139,7 +137,7 @@ std::string json(const std::vector<Result>& results) {
 }
 
 std::string reductions(const std::vector<Result>& all) {
-  std::vector<Result> results;  // only what both modes completed: a character given up has neither error nor time
+  std::vector<Result> results;  // completed in both modes: an aborted character has no meaningful error or time
   for (const Result& result : all) {
     const bool complete = std::none_of(all.begin(), all.end(), [&](const Result& other) {
       return other.position == result.position && other.repetition == result.repetition &&
@@ -150,12 +148,11 @@ std::string reductions(const std::vector<Result>& all) {
   const auto errors = pairs(results, [](const Result& r) { return r.score.rms_error * millimetres; });
   const auto times = pairs(results, [](const Result& r) { return r.score.time; });
   if (errors.size() < 2) return "";
-  std::string text =
-      reduction("RMS error", "mm", errors) + reduction("time", "s", times) +
-      fmt::format("mean over n = {} pairs of a character and a seed; mean +/- t(0.975, n - 1) s / sqrt(n)\n",
-                  errors.size());
+  std::string text = reduction("RMS error", "mm", errors) + reduction("time", "s", times) +
+                     fmt::format("mean over n = {} pairs of character and seed; mean +/- t(0.975, n - 1) s / sqrt(n)\n",
+                                 errors.size());
   const std::size_t left_out = (all.size() - results.size()) / 2;
-  if (left_out > 0) text += fmt::format("{} pairs are left out: not every stroke was completed\n", left_out);
+  if (left_out > 0) text += fmt::format("{} pairs omitted: not every stroke was completed\n", left_out);
   return text;
 }
 

@@ -1,4 +1,4 @@
-// What a run of `calligraphy write` measured: as a table for a person, as JSON for a program.
+// Report of `calligraphy write`, as a table and as JSON.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace calligraphy::tools {
 /// One character, written once.
 struct Result {
   int position = 0;  ///< in the text, from 1
-  Mode mode = Mode::force;
+  FeedbackMode mode = FeedbackMode::force;
   int repetition = 1;  ///< from 1
   std::uint64_t seed = 0;
   CharacterScore score;
@@ -21,20 +21,17 @@ struct Result {
   double tick_p999 = 0.0;  ///< [ns]
 };
 
-/// "vision" or "force".
-const char* mode_name(Mode mode) noexcept;
-
-/// The smallest value that at least `share` of the values do not exceed; 0 of none. Reorders `values`.
+/// The smallest value that at least a fraction `share` of the values do not exceed; 0 if empty. Reorders `values`.
 double percentile(std::vector<float>& values, double share);
 
-/// A line per character and mode; means over the repetitions. `results` are ordered by position, then mode.
+/// One line per character and mode, with means over repetitions. `results` must be ordered by position, then mode.
 std::string table(const std::vector<Result>& results);
 
-/// A list with an object per result.
+/// A list with one object per result.
 std::string json(const std::vector<Result>& results);
 
-/// How much smaller error and time are with force: mean over the pairs of a character and a repetition, with its 95 %
-/// interval by Student's t, over the pairs that are complete in both modes. Empty with fewer than two of them.
+/// Reduction of error and time with force: mean and 95 % interval (Student's t) over the pairs of character and
+/// repetition that are complete in both modes. Empty if there are fewer than two such pairs.
 std::string reductions(const std::vector<Result>& all);
 
 }  // namespace calligraphy::tools

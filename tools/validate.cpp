@@ -1,4 +1,4 @@
-// calligraphy validate: strokes that are valid and yet look wrong.
+// calligraphy validate: lists suspicious strokes, which are valid but look wrong.
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,7 +10,7 @@
 
 #include <calligraphy/base/text.hpp>
 #include <calligraphy/importers/character_import.hpp>
-#include <calligraphy/importers/validation.hpp>
+#include <calligraphy/importers/stroke_warnings.hpp>
 
 #include "commands.hpp"
 #include "import_report.hpp"
@@ -30,9 +30,9 @@ struct ValidateArguments {
   bool json = false;
 };
 
-/// A stroke and what is doubtful about it.
+/// A suspicious stroke.
 struct Finding {
-  StrokePlace place;
+  StrokeReference place;
   std::string kind;
   std::string what;
 };
@@ -43,11 +43,11 @@ struct Findings {
   std::vector<Finding> list;
 };
 
-std::string words_for(const LabelDoubt& doubt) {
-  const std::string recognised = fmt::format("{} ({})", doubt.recognised, typical_stroke(doubt.recognised).name);
-  if (doubt.fate == LabelFate::unknown)
-    return fmt::format("label {} is unknown; it looks like {}", doubt.label, recognised);
-  return fmt::format("is labelled {} and has the shape of {}", doubt.label, recognised);
+std::string words_for(const LabelConflict& conflict) {
+  const std::string recognised = fmt::format("{} ({})", conflict.recognised, typical_stroke(conflict.recognised).name);
+  if (conflict.resolution == LabelResolution::unknown)
+    return fmt::format("label {} is unknown; the shape is that of {}", conflict.label, recognised);
+  return fmt::format("is labelled {} but has the shape of {}", conflict.label, recognised);
 }
 
 Findings findings(const ValidateArguments& options) {
@@ -57,46 +57,46 @@ Findings findings(const ValidateArguments& options) {
   if (options.only) asked.only = characters_of(*options.only);
   asked.threads = options.threads;
   asked.progress = [&progress](double share) { progress.show(0.5 * share); };
-  const Import import = import_characters(options.file, asked);
+  const ImportResult import = import_characters(options.file, asked);
   Findings found{import.report.characters, import.report.strokes, {}};
-  for (const LabelDoubt& doubt : import.report.label_doubts) {
-    found.list.push_back({doubt.place, "label", words_for(doubt)});
+  for (const LabelConflict& conflict : import.report.label_conflicts) {
+    found.list.push_back({conflict.place, "label", words_for(conflict)});
   }
   const auto second_half = [&progress](double share) { progress.show(0.5 + 0.5 * share); };
-  for (const DoubtfulCharacter& character : doubtful_characters(import.list.characters, options.threads, second_half)) {
-    for (const Doubt& doubt : character.doubts) {
+  for (const CharacterWarnings& character : character_warnings(import.list.characters, options.threads, second_half)) {
+    for (const StrokeWarning& warning : character.warnings) {
       found.list.push_back(
-          {{character.code, character.order, doubt.stroke}, calligraphy::name_of(doubt.kind), doubt.what});
+          {{character.code, character.order, warning.stroke}, calligraphy::to_string(warning.kind), warning.what});
     }
   }
   return found;
 }
 
 std::string listed_as_json(const Findings& findings) {
-  Json doubts = Json::array();
+  Json warnings = Json::array();
   for (const Finding& finding : findings.list) {
-    doubts.push_back({{"character", encode_utf8(finding.place.code)},
-                      {"order", finding.place.order},
-                      {"stroke", finding.place.stroke},
-                      {"kind", finding.kind},
-                      {"what", finding.what}});
+    warnings.push_back({{"character", encode_utf8(finding.place.code)},
+                        {"order", finding.place.order},
+                        {"stroke", finding.place.stroke},
+                        {"kind", finding.kind},
+                        {"what", finding.what}});
   }
-  const Json all = {{"characters", findings.characters}, {"strokes", findings.strokes}, {"doubts", doubts}};
+  const Json all = {{"characters", findings.characters}, {"strokes", findings.strokes}, {"warnings", warnings}};
   return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string listed(const Findings& findings) {
   std::string text;
   for (const Finding& finding : findings.list) {
-    text += fmt::format("{} stroke {}: {}: {}\n", name_of(finding.place.code, finding.place.order),
+    text += fmt::format("{} stroke {}: {}: {}\n", character_label(finding.place.code, finding.place.order),
                         finding.place.stroke, finding.kind, finding.what);
   }
-  return text + fmt::format("{} doubts in {} characters, {} strokes\n", findings.list.size(), findings.characters,
+  return text + fmt::format("{} warnings in {} characters, {} strokes\n", findings.list.size(), findings.characters,
                             findings.strokes);
 }
 
 void run(const ValidateArguments& options) {
-  if (options.file.empty()) throw UsageError("FILE: an empty name");
+  if (options.file.empty()) throw UsageError("FILE: the name is empty");
   const Findings found = findings(options);
   fmt::print("{}", options.json ? listed_as_json(found) : listed(found));
 }
@@ -106,17 +106,19 @@ void run(const ValidateArguments& options) {
 void add_validate(CLI::App& program) {
   CLI::App* const command = program.add_subcommand(
       "validate",
-      "List doubtful strokes: type against shape, start against direction, overlaps, out of the em square. Of what "
-      "`import` reads, labels against shapes, too. Exit code 0 unless FILE cannot be read whole.");
+      "List suspicious strokes: a shape that contradicts the type, a start against the direction of the type, "
+      "overlaps, "
+      "strokes outside the em square and, in sources that `import` reads, labels that contradict the shape. The exit "
+      "code is 0 even if there are warnings.");
   const auto options = std::make_shared<ValidateArguments>();
-  command->add_option("FILE", options->file, "File of characters, or what `import` takes")->required();
+  command->add_option("FILE", options->file, "Character file, or any source of `import`")->required();
   command->add_option("--letters", options->letters, "Stroke letters for hanzi-writer-data: cnchar-order")
       ->type_name("PATH");
-  command->add_option("--only", options->only, "Look at these characters and no others")->type_name("TEXT");
+  command->add_option("--only", options->only, "Check only these characters")->type_name("TEXT");
   command->add_option("--threads", options->threads, "Threads (default: one per core)")
       ->check(integer(1, 256))
       ->type_name("N");
-  command->add_flag("--json", options->json, "Print JSON: characters, strokes, and a list of doubts")
+  command->add_flag("--json", options->json, "Print JSON: characters, strokes, and a list of warnings")
       ->disable_flag_override();
   command->callback([options] { run(*options); });
 }

@@ -1,4 +1,4 @@
-// calligraphy write: a text is written in closed loop, with vision only and with vision and force.
+// calligraphy write: writes a text in closed loop, with vision only and with vision and force.
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
@@ -43,7 +43,7 @@ struct WriteArguments {
   std::optional<std::string> writer;
   std::optional<std::string> like;
   std::optional<double> peak_force;
-  std::optional<double> longest;
+  std::optional<double> timeout;
   std::string wire_profile;
   std::string model;
   std::optional<std::string> mode;
@@ -57,9 +57,9 @@ struct WriteArguments {
   bool json = false;
 };
 
-/// A page and where its characters stand in the text.
+/// A page and the position of its characters in the text.
 struct Sheet {
-  Page page;
+  PracticePage page;
   int first_position;  ///< from 1
 };
 
@@ -68,7 +68,8 @@ RendererOptions chosen_renderer(const WriteArguments& options, const Capabilitie
                                                               : RendererOptions::for_device(capabilities);
   const RendererOptions printed = RendererOptions::wang2006();
   if (options.rules == "wang2006") {
-    if (options.renderer == "everything") throw UsageError("--renderer everything: the rules of wang2006 have no more");
+    if (options.renderer == "everything")
+      throw UsageError("--renderer everything: cannot be combined with --rules wang2006");
     RendererOptions rules = printed;
     rules.servo_rate = renderer.servo_rate;
     rules.paper_stiffness = renderer.paper_stiffness;
@@ -89,21 +90,22 @@ PenOptions chosen_pen(const WriteArguments& options) {
   const DeviceKind kind = pen.device.kind;
   const bool is_person = kind == DeviceKind::phantom || kind == DeviceKind::openhaptics;
   const auto refuse = [&options](bool given, const char* option, const char* reason) {
-    if (given) throw UsageError(fmt::format("{} with --device {}: it is {}", option, options.device, reason));
+    if (given) throw UsageError(fmt::format("{} with --device {}: {}", option, options.device, reason));
   };
-  refuse(options.writer && kind != DeviceKind::simulated, "--writer", "of the simulated writer");
-  refuse(options.like && kind != DeviceKind::replay, "--like", "for replay:FILE");
-  refuse(options.rate && kind == DeviceKind::replay, "--rate", "that of the trace");
-  refuse(options.rate && kind == DeviceKind::openhaptics, "--rate", "that of the vendor's scheduler");
-  refuse(options.repeat > 1 && kind == DeviceKind::replay, "--repeat", "the same again");
-  refuse(options.longest && !is_person, "--longest", "for a device that a person holds");
-  refuse(!options.wire_profile.empty() && kind != DeviceKind::phantom, "--wire-profile", "for a phantom");
-  refuse(!options.model.empty() && kind != DeviceKind::phantom, "--model", "for a phantom");
+  refuse(options.writer && kind != DeviceKind::simulated, "--writer", "applies only to the simulated writer");
+  refuse(options.like && kind != DeviceKind::replay, "--like", "applies only to replay:FILE");
+  refuse(options.rate && kind == DeviceKind::replay, "--rate", "the trace determines the rate");
+  refuse(options.rate && kind == DeviceKind::openhaptics, "--rate", "the vendor's scheduler determines the rate");
+  refuse(options.repeat > 1 && kind == DeviceKind::replay, "--repeat", "every repetition would be the same");
+  refuse(options.timeout && !is_person, "--timeout", "applies only to a real device");
+  refuse(!options.wire_profile.empty() && kind != DeviceKind::phantom, "--wire-profile",
+         "applies only to phantom[:SERIAL]");
+  refuse(!options.model.empty() && kind != DeviceKind::phantom, "--model", "applies only to phantom[:SERIAL]");
   pen.device.wire_profile = options.wire_profile;
   pen.device.model = options.model;
   pen.like = options.like.value_or(pen.like);
   pen.peak_force = options.peak_force.value_or(pen.peak_force);
-  pen.longest = options.longest.value_or(pen.longest);
+  pen.timeout = options.timeout.value_or(pen.timeout);
   return pen;
 }
 
@@ -116,10 +118,10 @@ SessionOptions chosen_session(const WriteArguments& options, const Capabilities&
   return session;
 }
 
-std::vector<Mode> chosen_modes(const std::optional<std::string>& mode, bool simulated) {
-  if (mode == "vision") return {Mode::vision};
-  if (mode == "force" || (!mode && !simulated)) return {Mode::force};
-  return {Mode::vision, Mode::force};
+std::vector<FeedbackMode> chosen_modes(const std::optional<std::string>& mode, bool simulated) {
+  if (mode == "vision") return {FeedbackMode::vision};
+  if (mode == "force" || (!mode && !simulated)) return {FeedbackMode::force};
+  return {FeedbackMode::vision, FeedbackMode::force};
 }
 
 std::vector<Sheet> sheets(const std::vector<Character>& characters, const Capabilities& capabilities) {
@@ -128,7 +130,7 @@ std::vector<Sheet> sheets(const std::vector<Character>& characters, const Capabi
   layout.height = capabilities.workspace.y();
   std::vector<Sheet> result;
   int position = 1;
-  for (Page& page : lay_out(characters, layout)) {
+  for (PracticePage& page : lay_out(characters, layout)) {
     const int count = static_cast<int>(page.characters.size());
     result.push_back({std::move(page), position});
     position += count;
@@ -140,7 +142,7 @@ std::vector<Sheet> sheets(const std::vector<Character>& characters, const Capabi
 Recording part(const Recording& recording, int character) {
   Recording result;
   result.rate = recording.rate;
-  const auto active = [character](const Sample& sample) { return sample.character == character; };
+  const auto active = [character](const RecordedSample& sample) { return sample.character == character; };
   std::copy_if(recording.samples.begin(), recording.samples.end(), std::back_inserter(result.samples), active);
   return result;
 }
@@ -149,15 +151,15 @@ Result measure(const CharacterScore& score, const Recording& part) {
   Result result;
   result.score = score;
   std::vector<float> ticks;
-  for (const Sample& sample : part.samples) ticks.push_back(sample.tick_ns);
+  for (const RecordedSample& sample : part.samples) ticks.push_back(sample.tick_ns);
   result.tick_p50 = percentile(ticks, 0.5);
   result.tick_p999 = percentile(ticks, 0.999);
   return result;
 }
 
 /// "03-北-force".
-std::string file_stem(int position, char32_t code, Mode mode) {
-  return fmt::format("{:02}-{}-{}", position, name_in_file(code), mode_name(mode));
+std::string file_stem(int position, char32_t code, FeedbackMode mode) {
+  return fmt::format("{:02}-{}-{}", position, name_in_file(code), to_string(mode));
 }
 
 class WriteRun {
@@ -169,7 +171,7 @@ class WriteRun {
         session_(chosen_session(options, pen_.capabilities())),
         modes_(chosen_modes(options.mode, !pen_.is_person() && !pen_.is_replay())) {
     try {
-      // At a low rate less is stable than at the device's own.
+      // The stable stiffness is lower at a rate below the device's own.
       for (const std::string& reason : clip_stiffness(session_.renderer, session_.device)) {
         spdlog::warn("clipped: {}", reason);
       }
@@ -182,10 +184,11 @@ class WriteRun {
   void write() {
     const CharacterSet set = open_characters(options_.characters, text_, options_.order);
     sheets_ = sheets(characters_of(set, text_, options_.order), session_.device);
-    if (pen_.is_replay() && sheets_.size() > 1) throw UsageError("TEXT: a replay is of one page");
+    if (pen_.is_replay() && sheets_.size() > 1)
+      throw UsageError("TEXT: does not fit on one page, as a replay requires");
     const OutputDirectory out(options_.out);
-    plots_ = can_plot();
-    if (!plots_) spdlog::warn("gnuplot cannot be run: no plots of the force");
+    plots_ = gnuplot_available();
+    if (!plots_) spdlog::warn("gnuplot is not available: forces are not plotted");
     write_all(out);
     if (pen_.interrupted() && results_.empty()) throw Error("interrupted");
     const auto order = [](const Result& a, const Result& b) {
@@ -195,7 +198,7 @@ class WriteRun {
     out.write("summary.json", json(results_));
     if (pen_.is_person()) out.write("servo.json", json(pen_.statistics()));
     report();
-    if (pen_.interrupted()) throw Error("interrupted; what was written until then is in " + options_.out);
+    if (pen_.interrupted()) throw Error("interrupted; results so far are in " + options_.out);
   }
 
  private:
@@ -207,7 +210,7 @@ class WriteRun {
       const std::size_t count = sheets_[sheet].page.characters.size();
       for (int repetition = 1; repetition <= options_.repeat; ++repetition) {
         session_.seed = options_.seed + static_cast<std::uint64_t>(repetition - 1) * sheets_.size() + sheet;
-        for (const Mode mode : modes_) {
+        for (const FeedbackMode mode : modes_) {
           session_.mode = mode;
           session_.progress = [&](double share) {
             progress.show((static_cast<double>(done) + share * static_cast<double>(count)) / static_cast<double>(runs));
@@ -217,7 +220,7 @@ class WriteRun {
           } catch (const FileError&) {
             throw;
           } catch (const Error&) {
-            if (!pen_.interrupted()) throw;  // else by Ctrl-C itself, or by gnuplot, which gets it too
+            if (!pen_.interrupted()) throw;  // otherwise caused by Ctrl-C, which gnuplot receives too
           }
           if (pen_.interrupted()) return;
           done += count;
@@ -231,15 +234,15 @@ class WriteRun {
     const Sheet& sheet = sheets_[number];
     if (pen_.is_person()) {
       spdlog::info("page {} of {}, {}: hold the pen above the paper and write; Ctrl-C stops", number + 1,
-                   sheets_.size(), session_.mode == Mode::vision ? "vision only" : "with force");
+                   sheets_.size(), session_.mode == FeedbackMode::vision ? "vision only" : "with force");
     }
     const Recording recording = pen_.write(sheet.page, session_);
-    if (pen_.is_person()) {  // one that replay:FILE takes
+    if (pen_.is_person()) {  // readable by replay:FILE
       std::ostringstream trace;
-      write_csv(trace, recording);
-      out.write(fmt::format("page-{}-{}-{}.csv", number + 1, mode_name(session_.mode), repetition), trace.str());
+      write_recording(trace, recording);
+      out.write(fmt::format("page-{}-{}-{}.csv", number + 1, to_string(session_.mode), repetition), trace.str());
     }
-    const std::vector<CharacterScore> scores = score(sheet.page, recording);
+    const std::vector<CharacterScore> scores = score_page(sheet.page, recording);
     for (std::size_t i = 0; i < scores.size(); ++i) {
       const int index = static_cast<int>(i);
       const Recording own = part(recording, index);
@@ -253,18 +256,18 @@ class WriteRun {
     }
   }
 
-  void draw(const Page& page, const Recording& recording, const Recording& own, int index, const Result& result,
+  void draw(const PracticePage& page, const Recording& recording, const Recording& own, int index, const Result& result,
             const OutputDirectory& out) const {
     const char32_t code = result.score.character;
     const std::string stem = file_stem(result.position, code, result.mode);
     const std::string title =
-        fmt::format("{}, {}, {}", encode_utf8(code), result.mode == Mode::vision ? "vision only" : "vision and force",
-                    session_.device.model);
+        fmt::format("{}, {}, {}", encode_utf8(code),
+                    result.mode == FeedbackMode::vision ? "vision only" : "vision and force", session_.device.model);
     out.write(stem + ".svg", page_picture(page, recording, index, title));
-    const bool reached = !own.samples.empty();  // the writer may have given up before
+    const bool reached = !own.samples.empty();  // the page may have been aborted before
     if (plots_ && reached) out.write(stem + "-force.svg", force_plot(recording, index, title));
     std::ostringstream trace;
-    write_csv(trace, own);
+    write_recording(trace, own);
     out.write(stem + ".csv", trace.str());
   }
 
@@ -278,14 +281,14 @@ class WriteRun {
     }
     const auto given_up = [](const Result& r) { return r.score.strokes_completed < r.score.stroke_count; };
     const auto unfinished = std::count_if(results_.begin(), results_.end(), given_up);
-    if (unfinished > 0) spdlog::warn("{} of {} characters were given up before their end", unfinished, results_.size());
+    if (unfinished > 0) spdlog::warn("{} of {} characters were not completed", unfinished, results_.size());
   }
 
   const WriteArguments& options_;
   std::u32string text_;
   Pen pen_;
   SessionOptions session_;
-  std::vector<Mode> modes_;
+  std::vector<FeedbackMode> modes_;
   std::vector<Sheet> sheets_;
   std::vector<Result> results_;
   bool plots_ = false;
@@ -296,12 +299,12 @@ class WriteRun {
 void add_write(CLI::App& program) {
   CLI::App* const command =
       program.add_subcommand("write",
-                             "A text is written in closed loop: by a simulated writer on a simulated device, or by a "
-                             "person on a real one. DIR receives, per character and mode, a "
-                             "picture, a plot of the force and a trace (of the first repetition), and summary.json.");
+                             "Write a text in closed loop: by a simulated writer on a simulated device, or by a person "
+                             "on a real one. DIR receives summary.json and, per character and mode, a picture, a force "
+                             "plot and a trace of the first repetition.");
   const auto options = std::make_shared<WriteArguments>();
-  command->add_option("TEXT", options->text, "Characters to write; white space is skipped")->required();
-  command->add_option("--out", options->out, "Directory for the results, created when missing")
+  command->add_option("TEXT", options->text, "Characters to write; white space is ignored")->required();
+  command->add_option("--out", options->out, "Directory for the results, created if missing")
       ->required()
       ->type_name("DIR");
   add_characters_option(*command, options->characters);
@@ -309,54 +312,59 @@ void add_write(CLI::App& program) {
       ->type_name("NAME");
   command
       ->add_option("--device", options->device,
-                   "[simulated:]NAME with one of " + device_names() +
-                       "; phantom[:SERIAL] or openhaptics[:NAME], which a person holds; or replay:FILE, a trace that "
-                       "this command recorded")
+                   "[simulated:]NAME, where NAME is one of " + device_names() +
+                       "; phantom[:SERIAL] or openhaptics[:NAME], real devices; or replay:FILE, a trace recorded by "
+                       "this command")
       ->capture_default_str()
       ->type_name("DEVICE");
-  command->add_option("--writer", options->writer, "How well the simulated writer writes (default: novice)")
+  command->add_option("--writer", options->writer, "Skill of the simulated writer (default: novice)")
       ->check(CLI::IsMember({"novice", "skilled"}));
   command
-      ->add_option("--mode", options->mode,
-                   "Vision only, vision and force, or both one after the other (default: both; of a device that is "
-                   "not simulated: force)")
+      ->add_option(
+          "--mode", options->mode,
+          "Vision only, vision and force, or both in turn (default: both on a simulated device, otherwise force)")
       ->check(CLI::IsMember({"both", "vision", "force"}));
-  command->add_option("--peak-force", options->peak_force, "At most so much, whatever the device can do, 0.1 to 1000")
+  command
+      ->add_option("--peak-force", options->peak_force,
+                   "Limit of the force, in addition to the device's own, 0.1 to 1000")
       ->check(number(0.1, 1000.0))
       ->type_name("N");
   command
-      ->add_option("--longest", options->longest,
-                   "A page that a person writes is given up after so long (default: 600)")
+      ->add_option("--timeout", options->timeout, "Real device: abort a page after SECONDS, 1 to 100000 (default: 600)")
       ->check(number(1.0, 1e5))
       ->type_name("SECONDS");
-  command->add_option("--like", options->like, "Device whose limits and workspace a replay gets (default: desktop)")
+  command
+      ->add_option("--like", options->like,
+                   "Device profile that supplies limits and workspace for a replay (default: desktop)")
       ->type_name("NAME");
   add_phantom_options(*command, options->wire_profile, options->model);
   command->add_option("--rate", options->rate, "Servo rate, 10 to 20000 (default: the device's)")
       ->check(number(10.0, 20000.0))
       ->type_name("HZ");
-  command->add_option("--repeat", options->repeat, "Repetitions; pictures and traces are of the first")
+  command->add_option("--repeat", options->repeat, "Number of repetitions; pictures and traces show the first")
       ->check(integer(1, 100000))
       ->type_name("N")
       ->capture_default_str();
-  command->add_option("--seed", options->seed, "Seed of the first repetition; both modes get the same seeds")
+  command->add_option("--seed", options->seed, "Seed of the first repetition; both modes use the same seeds")
       ->check(integer(0, std::numeric_limits<std::uint64_t>::max()))
       ->type_name("N")
       ->capture_default_str();
-  command->add_option("--rules", options->rules, "The rules as they should be, or as the paper prints them")
+  command->add_option("--rules", options->rules, "Default rules, or the rules as printed in the paper")
       ->check(CLI::IsMember({"default", "wang2006"}))
       ->capture_default_str();
-  command->add_option("--renderer", options->renderer, "The default stages, or every stage switched on")
+  command->add_option("--renderer", options->renderer, "Default stages, or all optional stages enabled")
       ->check(CLI::IsMember({"default", "everything"}))
       ->capture_default_str();
-  command->add_option("--method", options->method, "Nearest point on a curve (default: that of the rules)")
+  command->add_option("--method", options->method, "Nearest-point method on curves (default: that of the rules)")
       ->check(CLI::IsMember({"exact", "wang2006"}));
-  command->add_option("--tolerance", options->tolerance, "Of the nearest point, 1e-15 to 1, in sizes of the curve")
+  command
+      ->add_option("--tolerance", options->tolerance,
+                   "Tolerance of the nearest point, relative to the size of the curve, 1e-15 to 1")
       ->check(number(1e-15, 1.0))
       ->type_name("T");
   command->add_flag("--json", options->json, "Print summary.json instead of the table")->disable_flag_override();
   command->callback([options] {
-    if (options->out.empty()) throw UsageError("--out: an empty name");
+    if (options->out.empty()) throw UsageError("--out: the name is empty");
     WriteRun(*options).write();
   });
 }

@@ -1,7 +1,7 @@
-// What a set of characters costs: bytes, opening, finding, preparing a stroke, memory; beside the plain alternatives, a
+// Cost of a character set: size, opening, lookup, preparing a stroke, memory; compared with the plain alternatives, a
 // hash map of characters and a JSON text for each, in the same rounds.
-// usage: benchmark_character_set [FILE] [--benchmark_...]; FILE: characters as `calligraphy import` makes them, or else
-// the built-in set.
+// usage: benchmark_character_set [FILE] [--benchmark_...]; FILE: a set made by `calligraphy import`; default: the
+// built-in set.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -28,7 +28,7 @@ using namespace calligraphy;
 using Clock = std::chrono::steady_clock;
 using Json = nlohmann::json;
 
-constexpr int queries_per_round = 256;  // so that the clock's own time does not count
+constexpr int queries_per_round = 256;  // enough to make the overhead of the clock negligible
 
 struct Precision {
   CoordinatePrecision precision;
@@ -57,7 +57,7 @@ Character character_of(char32_t code, const Json& json) {
   return make_character(code, strokes);
 }
 
-/// The characters, as a set file of each precision in a directory of its own and as the alternatives.
+/// The characters, as a set file of each precision in a temporary directory and as the alternatives.
 class Corpus {
  public:
   explicit Corpus(const std::string& path) {
@@ -133,7 +133,7 @@ class Way {
   std::vector<double> times_;
 };
 
-/// Rounds in which every way has its turn on the same queries; the first way's time counts.
+/// Rounds in which every way runs once on the same queries; the time of the first way is the iteration time.
 void compare(benchmark::State& state, std::vector<Way> ways) {
   std::size_t next = 0;
   std::vector<char32_t> codes(queries_per_round);
@@ -167,10 +167,10 @@ void prepare(const Stroke& stroke) {
   }
 }
 
-/// Which stroke of a character: another one for each.
+/// Index of a stroke of a character, a different one for each character.
 int some_stroke(char32_t code, int count) { return static_cast<int>(code) % count; }
 
-/// A character is found once, and then its strokes are wanted one after the other: what each of them costs.
+/// A character is looked up once, then its strokes are used one after the other: the cost of each of them.
 void stroke(benchmark::State& state, CoordinatePrecision precision) {
   const CharacterSet set = CharacterSet::open(corpus->path(precision));
   std::unordered_map<char32_t, StoredCharacter> found;
@@ -204,12 +204,12 @@ void character(benchmark::State& state, CoordinatePrecision precision) {
 }
 BENCHMARK_CAPTURE(character, standard, CoordinatePrecision::standard)->UseManualTime();
 
-/// Finds one character of each group, so that every checksum is checked.
+/// Looks up one character of each group, so that every checksum is verified.
 void touch_every_group(const CharacterSet& set) {
   for (auto code = set.next(0); code; code = set.next((*code | 63) + 1)) benchmark::DoNotOptimize(set.find(*code));
 }
 
-/// `all`: as if every checksum were checked on opening.
+/// `all`: as if every checksum were verified on opening.
 void open(benchmark::State& state, CoordinatePrecision precision, bool all) {
   std::vector<double> times;
   for (auto _ : state) {
@@ -226,7 +226,7 @@ void open(benchmark::State& state, CoordinatePrecision precision, bool all) {
 BENCHMARK_CAPTURE(open, standard, CoordinatePrecision::standard, false)->UseManualTime();
 BENCHMARK_CAPTURE(open, standard_all_checksums, CoordinatePrecision::standard, true)->UseManualTime();
 
-/// The first use of a group: its checksum, and the pages it lies on.
+/// The first use of a group: its checksum, and the pages that it occupies.
 void first_find(benchmark::State& state, CoordinatePrecision precision) {
   std::vector<double> times;
   for (auto _ : state) {
@@ -243,7 +243,7 @@ void first_find(benchmark::State& state, CoordinatePrecision precision) {
 }
 BENCHMARK_CAPTURE(first_find, standard, CoordinatePrecision::standard);
 
-/// Distances between strokes as they were and as they are kept, at points of equal parameter [em].
+/// Distances between original and stored strokes, at points of equal parameter [em].
 struct ShapeError {
   double largest = 0.0;
   double squares = 0.0;
@@ -276,7 +276,7 @@ ShapeError shape_error(const CharacterSet& set) {
   return error;
 }
 
-/// Not a time: what is kept, and how exactly.
+/// Not a time: sizes and accuracy.
 void size(benchmark::State& state, CoordinatePrecision precision) {
   const CharacterSet set = CharacterSet::open(corpus->path(precision));
   for (auto _ : state) benchmark::DoNotOptimize(set.bytes());
@@ -293,7 +293,7 @@ BENCHMARK_CAPTURE(size, standard, CoordinatePrecision::standard)->Iterations(1);
 BENCHMARK_CAPTURE(size, fine, CoordinatePrecision::fine)->Iterations(1);
 BENCHMARK_CAPTURE(size, exact, CoordinatePrecision::exact)->Iterations(1);
 
-/// Not a time: how a mapping grows with the characters that are used, from a file that no one has read before.
+/// Not a time: growth of the mapping with the number of characters used, from a file not read before.
 void resident(benchmark::State& state, CoordinatePrecision precision) {
   const std::string path = corpus->path(precision);
   forget_content(path);
@@ -313,7 +313,7 @@ void resident(benchmark::State& state, CoordinatePrecision precision) {
 BENCHMARK_CAPTURE(resident, standard, CoordinatePrecision::standard)->Iterations(1);
 BENCHMARK_CAPTURE(resident, exact, CoordinatePrecision::exact)->Iterations(1);
 
-/// Not a time: what the alternatives take.
+/// Not a time: memory used by the alternatives.
 void alternatives(benchmark::State& state) {
   std::size_t json = 0, map = 0;
   for (auto _ : state) benchmark::DoNotOptimize(json);

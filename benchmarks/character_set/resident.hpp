@@ -1,12 +1,13 @@
-// How much of a mapped file is in a program's memory.
+// How much of a mapped file is resident in memory.
 #pragma once
 
 #include <cstddef>
 #include <optional>
 #include <string>
 
-/// Resident memory of this program's mappings of a file, as the system counts it [byte]; none where it does not tell.
+/// Resident memory of this program's mappings of a file, as counted by the system [byte]; empty where the system does
+/// not report it.
 std::optional<std::size_t> resident_bytes(const std::string& path);
 
-/// Writes the file out and lets the system forget its content, as after a restart.
+/// Writes the file to disk and drops its content from the cache, as after a restart.
 void forget_content(const std::string& path);

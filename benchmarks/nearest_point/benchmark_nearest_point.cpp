@@ -1,5 +1,5 @@
-// The nearest point by every method of this library and by its peers, all in one run, one after the other in every
-// round. benchmarks/nearest_point/run.sh fetches the peers and runs it.
+// Times the nearest point by every method of this library and by its peers in one run, alternating in every round.
+// benchmarks/nearest_point/run.sh fetches the peers and runs it.
 #include <cstdio>
 
 #include <benchmark/benchmark.h>
@@ -13,7 +13,7 @@ using namespace nearest_point_benchmark;
 
 namespace {
 
-/// One short line each; the tables have the counters.
+/// One short line per run; the tables contain the counters.
 class BriefReporter : public benchmark::ConsoleReporter {
  public:
   BriefReporter() : ConsoleReporter(OO_None) {}
@@ -26,10 +26,10 @@ class BriefReporter : public benchmark::ConsoleReporter {
 
 void say_who_is_missing(const RunOptions& options) {
   if (kurbo_methods().empty())
-    std::puts("left out: kurbo (needs a cargo that can build it, and CALLIGRAPHY_BENCHMARK_PEERS=ON)");
+    std::puts("omitted: kurbo (needs a cargo that can build it, and CALLIGRAPHY_BENCHMARK_PEERS=ON)");
   if (lib2geom_methods().empty())
-    std::puts("left out: lib2geom (needs lib2geom-dev, and CALLIGRAPHY_BENCHMARK_PEERS=ON)");
-  if (options.bezier_js.empty()) std::puts("left out: bezier.js (needs node, and --bezier_js with its package)");
+    std::puts("omitted: lib2geom (needs lib2geom-dev, and CALLIGRAPHY_BENCHMARK_PEERS=ON)");
+  if (options.bezier_js.empty()) std::puts("omitted: bezier.js (needs node, and --bezier_js with its package)");
 }
 
 }  // namespace
@@ -39,16 +39,20 @@ int main(int argc, char** argv) {
   CLI::App app("Times methods for the nearest point on a curve; --help for Google Benchmark's own options");
   RunOptions options;
   bool details = false;
-  app.add_option("--queries", options.queries, "of each workload")->check(CLI::PositiveNumber)->capture_default_str();
-  app.add_option("--rounds", options.rounds, "each times every method once")
+  app.add_option("--queries", options.queries, "Queries per workload")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  app.add_option("--characters", options.characters, "whose strokes are written whole, 0: all")->capture_default_str();
-  app.add_option("--elements", options.swept_elements, "out of the caches")
+  app.add_option("--rounds", options.rounds, "Rounds; each times every method once")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  app.add_option("--bezier_js", options.bezier_js, "unpacked npm package bezier-js")->check(CLI::ExistingDirectory);
-  app.add_flag("--details", details, "every workload by itself");
+  app.add_option("--characters", options.characters, "Characters whose strokes are written whole; 0: all")
+      ->capture_default_str();
+  app.add_option("--elements", options.swept_elements, "Elements of the cold-cache runs")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--bezier_js", options.bezier_js, "Directory of the unpacked npm package bezier-js")
+      ->check(CLI::ExistingDirectory);
+  app.add_flag("--details", details, "Print every workload separately");
   CLI11_PARSE(app, argc, argv);
 
   auto methods = workload_methods();

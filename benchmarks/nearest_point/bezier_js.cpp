@@ -14,7 +14,7 @@
 namespace nearest_point_benchmark {
 namespace {
 
-/// A directory of its own, gone with this object.
+/// A temporary directory, removed with this object.
 class ScratchDirectory {
  public:
   ScratchDirectory()

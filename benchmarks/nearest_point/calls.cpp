@@ -1,10 +1,10 @@
-// Single calls, each timed by itself: their percentiles, and what they cost when the caches hold nothing.
+// Single calls, each timed individually: percentiles, and the cost with cold caches.
 #include <algorithm>
 #include <numeric>
 
-#include <calligraphy/experiments/nearest_point_workload.hpp>
 #include <calligraphy/model/character_list.hpp>
 
+#include "experiments/nearest_point_workload.hpp"
 #include "runs.hpp"
 
 namespace nearest_point_benchmark {
@@ -24,7 +24,7 @@ std::vector<CurveQueries> real_queries(int queries) {
   return {};
 }
 
-/// Time of one call, the reading of the clock included.
+/// Time of one call, including reading the clock.
 double time_call(Method& method, std::size_t element, const Point& query) {
   Answer answer;
   const auto start = Clock::now();
@@ -80,7 +80,7 @@ void run_calls(benchmark::State& state, std::vector<std::unique_ptr<Method>>& me
   results.push_back(summary("(the clock alone)", times.back()));
 }
 
-/// So many elements that each is out of the near caches when its turn comes; one query each, in random order.
+/// So many elements that each has left the near caches when its turn comes; one query each, in random order.
 void run_many_elements(benchmark::State& state, std::vector<std::unique_ptr<Method>>& methods,
                        const RunOptions& options, std::vector<Measurement>& results) {
   const auto asked = real_queries(static_cast<int>(options.swept_elements));
@@ -90,7 +90,7 @@ void run_many_elements(benchmark::State& state, std::vector<std::unique_ptr<Meth
     elements.insert(elements.end(), curve.queries.size(), curve.control_points);
     queries.insert(queries.end(), curve.queries.begin(), curve.queries.end());
   }
-  // A full cycle through all of them: the step has no factor in common with the count.
+  // A full cycle through all of them: step and count are coprime.
   std::size_t step = elements.size() * 5 / 8 + 1;
   while (std::gcd(step, elements.size()) != 1) ++step;
   std::vector<std::size_t> order;
@@ -113,7 +113,7 @@ void run_many_elements(benchmark::State& state, std::vector<std::unique_ptr<Meth
   }
 }
 
-/// One call at a time after reading through more memory than the near caches hold: code and data come from afar, as in
+/// One call at a time after reading more memory than the near caches hold: code and data come from farther away, as in
 /// a servo loop that shares its core.
 void run_swept(benchmark::State& state, std::vector<std::unique_ptr<Method>>& methods, const RunOptions& options,
                std::vector<Measurement>& results) {
@@ -131,7 +131,7 @@ void run_swept(benchmark::State& state, std::vector<std::unique_ptr<Method>>& me
     double sum = 0.0;
     for (std::size_t k = 0; k < methods.size(); ++k) {
       benchmark::DoNotOptimize(std::accumulate(memory.begin(), memory.end(), std::uint64_t{0}));
-      time_clock();  // the clock's own code is warm for all
+      time_clock();  // warms up the code of the clock
       const std::size_t m = (k + call) % methods.size(), at = call % curves.size();
       times[m].push_back(time_call(*methods[m], at, queries[at]));
       sum += times[m].back();

@@ -1,9 +1,9 @@
-// What preparing an element costs, and how much is kept.
+// Time to prepare an element, and its size.
 #include <calligraphy/collision/stroke_element.hpp>
-#include <calligraphy/experiments/nearest_point_workload.hpp>
-#include <calligraphy/experiments/stroke_queries.hpp>
 #include <calligraphy/model/character_list.hpp>
 
+#include "experiments/nearest_point_workload.hpp"
+#include "experiments/stroke_queries.hpp"
 #include "runs.hpp"
 
 namespace nearest_point_benchmark {

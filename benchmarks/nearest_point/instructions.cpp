@@ -1,30 +1,30 @@
-// Runs one method on one workload for callgrind, which collects within `measured` alone. See instructions.py.
+// Runs one method on one workload for callgrind, which counts only within `measured`. See instructions.py.
 #include <cstdio>
 
 #include <CLI/CLI.hpp>
 
-#include <calligraphy/experiments/nearest_point_workload.hpp>
 #include <calligraphy/model/character_list.hpp>
 
+#include "experiments/nearest_point_workload.hpp"
 #include "method.hpp"
 
 using namespace nearest_point_benchmark;
 
-/// The name that callgrind toggles at.
+/// The name at which callgrind toggles collection.
 extern "C" __attribute__((noinline)) void measured(Method& method, std::size_t element, std::span<const Point> queries,
                                                    std::span<Answer> answers) {
   method.answer(element, queries, answers);
 }
 
 int main(int argc, char** argv) {
-  CLI::App app("Runs one nearest-point method on one workload, for callgrind");
+  CLI::App app("Run one nearest-point method on one workload, for callgrind");
   std::string method_name, workload_name;
   int queries = 2048;
   bool list = false;
   app.add_option("--method", method_name);
   app.add_option("--workload", workload_name);
   app.add_option("--queries", queries)->check(CLI::PositiveNumber);
-  app.add_flag("--list", list, "names of the methods");
+  app.add_flag("--list", list, "List the names of the methods");
   CLI11_PARSE(app, argc, argv);
 
   for (const auto& method : workload_methods()) {

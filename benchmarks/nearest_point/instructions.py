@@ -21,7 +21,7 @@ def instructions(method, workload):
 
 
 methods = subprocess.run([program, "--list"], capture_output=True, text=True, check=True).stdout.splitlines()
-print("\n## Instructions a query, by callgrind\n")
+print("\n## Instructions per query, by callgrind\n")
 print("| method | " + " | ".join(workloads) + " |")
 print("|---" * (len(workloads) + 1) + "|")
 for method in methods:

@@ -1,4 +1,4 @@
-// The library's own methods.
+// The methods of this library.
 #include <calligraphy/collision/nearest_point.hpp>
 #include <calligraphy/collision/stroke_tracker.hpp>
 
@@ -12,9 +12,9 @@ using calligraphy::NearestPointMethod;
 using calligraphy::NearestPointOptions;
 using calligraphy::StrokeElement;
 
-Answer answer_of(const NearestPoint& foot) { return {foot.parameter, foot.point, foot.distance}; }
+Answer answer_of(const NearestPoint& closest) { return {closest.parameter, closest.point, closest.distance}; }
 
-/// One call a query.
+/// One call per query.
 struct LibraryKernel {
   using Element = StrokeElement;
   NearestPointOptions options;
@@ -26,7 +26,7 @@ struct LibraryKernel {
   }
 };
 
-/// Each query from the answer of the one before.
+/// Each query starts from the answer to the one before.
 struct TrackedKernel : LibraryKernel {
   double start = 0.5;
 
@@ -58,7 +58,7 @@ class Tracker : public MethodOf<LibraryKernel> {
   using MethodOf::MethodOf;
   void follow(std::size_t first, std::size_t last, std::span<const Point> path, std::span<Answer> answers) override {
     calligraphy::StrokeTracker tracker{std::span(elements_).subspan(first, last - first)};
-    for (std::size_t i = 0; i < path.size(); ++i) answers[i] = answer_of(tracker.update(path[i]).foot);
+    for (std::size_t i = 0; i < path.size(); ++i) answers[i] = answer_of(tracker.update(path[i]).closest);
   }
 };
 

@@ -20,8 +20,7 @@ inline double nanoseconds(Clock::duration duration) {
   return std::chrono::duration<double, std::nano>(duration).count();
 }
 
-/// Time that this thread has computed [ns]: what else the machine does while it waits does not count. Too dear for a
-/// single call.
+/// Processor time of this thread [ns]: unaffected by other programs while it waits. Too expensive for a single call.
 inline double computed_nanoseconds() {
 #ifdef CLOCK_THREAD_CPUTIME_ID
   std::timespec time;
@@ -47,19 +46,19 @@ inline Spread spread(std::vector<double> values) {
   return {percentile(values, 0.1), percentile(values, 0.5), percentile(values, 0.9)};
 }
 
-/// Of distances, relative to the size of the element, against a reference in long double.
+/// Errors of distances, relative to the size of the element, against a reference in long double.
 struct Errors {
   double largest = 0.0;
-  double wrong = 0.0;   ///< share of queries off by more than 1e-3: another branch, as a rule
-  double beyond = 0.0;  ///< share of queries off by more than the workload allows
+  double wrong = 0.0;   ///< fraction of queries off by more than 1e-3: usually another branch
+  double beyond = 0.0;  ///< fraction of queries off by more than the workload permits
 };
 
 struct Measurement {
   std::string workload;
   std::string method;
-  Spread nanoseconds;  ///< a query, or a tick of a whole stroke
+  Spread nanoseconds;  ///< per query, or per tick of a whole stroke
   Errors errors;
-  double allowed = 1e-9;  ///< largest error that is right
+  double allowed = 1e-9;  ///< maximum permitted error
 };
 
 /// The nearest distances of every `stride`-th query, by dense sampling in long double.

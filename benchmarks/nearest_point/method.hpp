@@ -1,4 +1,4 @@
-// A way to find nearest points, as the benchmark asks all of them alike.
+// A nearest-point method, in a form that the benchmark can run uniformly.
 #pragma once
 
 #include <cstddef>
@@ -17,15 +17,15 @@ using calligraphy::Point;
 
 using ControlPoints = std::vector<Point>;  ///< two, a line, or four, a cubic
 
-/// What every method has to store for each query.
+/// The result that every method must store for each query.
 struct Answer {
   double parameter;
   Point point;
   double distance;
 };
 
-/// Prepared for some elements outside the timing, then asked. A call answers many queries, so that it costs nothing
-/// that it is virtual.
+/// Prepared for some elements outside the timing, then queried. A call answers many queries, which makes the cost of
+/// the virtual call negligible.
 class Method {
  public:
   explicit Method(std::string name) : name_(std::move(name)) {}
@@ -38,7 +38,8 @@ class Method {
   /// Query i to elements[i].
   virtual void answer_each(std::span<const std::size_t> elements, std::span<const Point> queries,
                            std::span<Answer> answers) = 0;
-  /// The pen's path along a stroke made of the elements first to last - 1: the nearest of all at each tick.
+  /// The path of the pen along a stroke made of the elements first to last - 1: the nearest point of all of them at
+  /// each tick.
   virtual void follow(std::size_t first, std::size_t last, std::span<const Point> path, std::span<Answer> answers) = 0;
 
  private:
@@ -89,16 +90,16 @@ std::unique_ptr<Method> method_of(std::string name, Kernel kernel) {
   return std::make_unique<MethodOf<Kernel>>(std::move(name), std::move(kernel));
 }
 
-/// Those of this library, in the order of the table: for queries to one curve, and for whole strokes.
+/// The methods of this library, in the order of the table: for queries to one curve, and for whole strokes.
 std::vector<std::unique_ptr<Method>> library_methods();
 std::vector<std::unique_ptr<Method>> library_stroke_methods();
 /// The paper's rule with de Casteljau's algorithm, as printed.
 std::vector<std::unique_ptr<Method>> paper_methods();
-/// None where the peer was not built in.
+/// Empty where the peer was not built in.
 std::vector<std::unique_ptr<Method>> kurbo_methods();
 std::vector<std::unique_ptr<Method>> lib2geom_methods();
 
-/// All of them that are there.
+/// All available methods.
 std::vector<std::unique_ptr<Method>> workload_methods();
 std::vector<std::unique_ptr<Method>> stroke_methods();
 

@@ -1,7 +1,7 @@
-// The paper's rule as printed, by plain subdivision (Wang 2006, sec. 4.3.2, Figs. 20 and 21): the yardstick.
+// The paper's rule as printed, by plain subdivision (Wang 2006, sec. 4.3.2, Figs. 20 and 21): the baseline.
 //
-// The library's own `wang2006` takes the same decisions with cheaper arithmetic. Here each child segment is made by de
-// Casteljau's algorithm, as the figures show.
+// The library's own `wang2006` makes the same decisions with cheaper arithmetic. Here each child segment is computed by
+// de Casteljau's algorithm, as the figures show.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,14 +15,14 @@ namespace {
 struct PaperElement {
   bool curve;
   std::array<Point, 4> control;  ///< a line: the first two
-  double size;                   ///< diagonal of the control points' box
+  double size;                   ///< diagonal of the bounding box of the control points
 };
 
 using Cubic = std::array<Point, 4>;
 
 Point middle(const Point& a, const Point& b) { return 0.5 * (a + b); }
 
-/// De Casteljau at the middle, Fig. 21.
+/// De Casteljau's algorithm at the midpoint, Fig. 21.
 std::pair<Cubic, Cubic> halves(const Cubic& p) {
   const Point a = middle(p[0], p[1]), b = middle(p[1], p[2]), c = middle(p[2], p[3]);
   const Point ab = middle(a, b), bc = middle(b, c);
@@ -62,12 +62,12 @@ class PaperRule {
     const Point along = p[1] - p[0];
     const double square = along.squaredNorm();
     const double t = square > 0.0 ? std::clamp(along.dot(query - p[0]) / square, 0.0, 1.0) : 0.0;
-    const Point foot = p[0] + t * along;
-    return {t, foot, (query - foot).norm()};
+    const Point closest = p[0] + t * along;
+    return {t, closest, (query - closest).norm()};
   }
 
-  /// What the text leaves open: a tie goes to the child with the nearer middle, and neither rounding nor 64 steps are
-  /// passed.
+  /// What the text leaves open: a tie goes to the child with the nearer midpoint, and subdivision stops at rounding or
+  /// after 64 steps.
   Answer on_curve(const Element& element, const Point& query) const {
     const double coordinates =
         std::max({element.control[0].cwiseAbs().maxCoeff(), element.size, query.cwiseAbs().maxCoeff()});
@@ -84,10 +84,10 @@ class PaperRule {
       const double to_left = distance(left_middle), to_right = distance(right_middle);
       if (std::abs(to_left - to_right) < epsilon) break;
       const double to_shared = distance(right[0]);
-      const double left_smallest = std::min({distance(left[0]), to_left, to_shared});
-      const double right_smallest = std::min({to_shared, to_right, distance(right[3])});
+      const double left_min = std::min({distance(left[0]), to_left, to_shared});
+      const double right_min = std::min({to_shared, to_right, distance(right[3])});
       const double half = 0.5 * (begin + end);
-      if (left_smallest < right_smallest || (left_smallest == right_smallest && to_left <= to_right)) {
+      if (left_min < right_min || (left_min == right_min && to_left <= to_right)) {
         parent = left;
         end = half;
       } else {

@@ -15,7 +15,7 @@ void Reference::add(std::span<const ControlPoints> elements, std::span<const Poi
       high = high.cwiseMax(point);
     }
   }
-  // A point has no size; its workload is drawn at the scale of 1.
+  // A point has no size; its workload is generated at a scale of 1.
   const double size = high != low ? (high - low).norm() : 1.0;
   for (std::size_t i = (stride - queries_ % stride) % stride; i < queries.size(); i += stride) {
     long double distance = std::numeric_limits<long double>::infinity();
@@ -28,9 +28,9 @@ void Reference::add(std::span<const ControlPoints> elements, std::span<const Poi
 Errors Reference::errors(std::span<const Answer> answers, double allowed) const {
   Errors errors;
   for (const Entry& entry : entries_) {
-    const Point& foot = answers[entry.query].point;
-    const long double distance = std::hypot(static_cast<long double>(foot.x()) - entry.at.x(),
-                                            static_cast<long double>(foot.y()) - entry.at.y());
+    const Point& closest = answers[entry.query].point;
+    const long double distance = std::hypot(static_cast<long double>(closest.x()) - entry.at.x(),
+                                            static_cast<long double>(closest.y()) - entry.at.y());
     double error = static_cast<double>(std::abs(distance - entry.distance) / entry.size);
     if (!std::isfinite(error)) error = std::numeric_limits<double>::infinity();
     errors.largest = std::max(errors.largest, error);

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Fetches the peers, builds, and compares every nearest-point method with them. What cannot be had is left out, and said.
+# Fetches the peers, builds, and compares every nearest-point method with them. Missing peers are omitted and listed.
 # usage: run.sh [--instructions] [options of benchmark_nearest_point]
-#   --instructions   also instructions per query, by valgrind's callgrind
+#   --instructions   also count instructions per query with valgrind's callgrind
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
@@ -13,14 +13,14 @@ fi
 
 build=$PWD/build-peers
 scripts/install_dependencies.sh tests
-scripts/install_dependencies.sh peers || echo "== not all packages of the peers could be installed" >&2
+scripts/install_dependencies.sh peers || echo "== could not install all packages of the peers" >&2
 
 # bezier.js: pinned, unpacked into the build directory.
 bezier_js=$build/bezier-js-6.1.4
 if [[ ! -f $bezier_js/package.json ]] && command -v npm > /dev/null && command -v node > /dev/null; then
   mkdir -p "$build/unpacking"
   (cd "$build/unpacking" && npm pack --loglevel=error bezier-js@6.1.4 > /dev/null && tar -xzf ./*.tgz) &&
-    mv "$build/unpacking/package" "$bezier_js" || echo "== bezier-js could not be had by npm pack" >&2
+    mv "$build/unpacking/package" "$bezier_js" || echo "== could not fetch bezier-js with npm pack" >&2
   rm -rf "$build/unpacking"
 fi
 [[ ! -f $bezier_js/package.json ]] || set -- --bezier_js "$bezier_js" "$@"
@@ -31,7 +31,7 @@ configure() {
 }
 configure -UCARGO
 if ! cmake --build "$build" --target kurbo_peer > "$build/kurbo.log" 2>&1; then
-  echo "== kurbo could not be built, see $build/kurbo.log" >&2
+  echo "== could not build kurbo, see $build/kurbo.log" >&2
   configure -DCARGO=OFF
 fi
 cmake --build "$build" --target benchmark_nearest_point nearest_point_instructions
@@ -40,6 +40,6 @@ if [[ -n $instructions ]]; then
   if command -v valgrind > /dev/null; then
     python3 benchmarks/nearest_point/instructions.py "$build/benchmarks/nearest_point/nearest_point_instructions"
   else
-    echo "left out: instructions (needs valgrind)"
+    echo "omitted: instructions (needs valgrind)"
   fi
 fi

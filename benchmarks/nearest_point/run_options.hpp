@@ -1,4 +1,4 @@
-// What the benchmark is asked to do.
+// Options of the benchmark.
 #pragma once
 
 #include <cstddef>
@@ -7,12 +7,12 @@
 namespace nearest_point_benchmark {
 
 struct RunOptions {
-  int queries = 16000;                ///< a workload
-  int rounds = 21;                    ///< each times every method once
-  int characters = 0;                 ///< whose strokes are written whole; 0: all
-  std::size_t reference_stride = 16;  ///< of this many queries one is checked
-  std::size_t tick_stride = 128;      ///< of this many ticks of a stroke one is checked
-  std::string bezier_js;              ///< unpacked npm package bezier-js; empty: left out
+  int queries = 16000;                ///< per workload
+  int rounds = 21;                    ///< each round times every method once
+  int characters = 0;                 ///< number of characters whose strokes are written whole; 0: all
+  std::size_t reference_stride = 16;  ///< one of this many queries is checked
+  std::size_t tick_stride = 128;      ///< one of this many ticks of a stroke is checked
+  std::string bezier_js;              ///< unpacked npm package bezier-js; empty: omitted
   std::size_t swept_elements = 20000;
   std::size_t sweep_bytes = std::size_t{32} << 20;  ///< read between two calls, to empty the caches near the core
 };

@@ -1,4 +1,4 @@
-// The parts of the benchmark; each registers what it runs, and what it found is in `results` afterwards.
+// The parts of the benchmark; each registers its runs and stores its findings in `results`.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@
 
 namespace nearest_point_benchmark {
 
-/// Times [ns a query] by method and round.
+/// Times [ns per query] by method and round.
 class RoundRobin {
  public:
   explicit RoundRobin(std::size_t methods) : times_(methods) {}
@@ -23,8 +23,8 @@ class RoundRobin {
   std::vector<std::vector<double>> times_;
 };
 
-/// Each iteration of `state` is a round in which every method runs once, beginning with another one each time: what
-/// disturbs the machine disturbs all alike.
+/// Each iteration of `state` is a round in which every method runs once, starting with a different one each time, so
+/// that disturbances of the machine affect all alike.
 template <typename Run>
 RoundRobin time_in_turn(benchmark::State& state, std::size_t methods, std::size_t queries, Run run) {
   RoundRobin times(methods);
@@ -45,25 +45,25 @@ RoundRobin time_in_turn(benchmark::State& state, std::size_t methods, std::size_
   return times;
 }
 
-/// The 19 workloads, ns a query.
+/// The 19 workloads, ns per query.
 void register_workloads(std::vector<std::unique_ptr<Method>>& methods, const RunOptions& options,
                         std::vector<Measurement>& results);
-/// Whole strokes, ns a tick.
+/// Whole strokes, ns per tick.
 void register_strokes(const RunOptions& options, std::vector<Measurement>& results);
-/// Elements out of the caches, ns a query; nothing is checked.
+/// Elements out of the caches, ns per query; nothing is checked.
 void register_swept(std::vector<std::unique_ptr<Method>>& methods, const RunOptions& options,
                     std::vector<Measurement>& results);
 
-/// Single calls, each timed by itself.
+/// Single calls, each timed individually.
 struct CallTimes {
   std::string method;
-  double p50, p99, p999;                       ///< over all calls, with what else the machine did [ns]
-  double steady_p50, steady_p99, steady_p999;  ///< over the queries, of each the median over the rounds [ns]
+  double p50, p99, p999;                       ///< over all calls, including disturbances of the machine [ns]
+  double steady_p50, steady_p99, steady_p999;  ///< over the medians of each query over the rounds [ns]
 };
 void register_calls(std::vector<std::unique_ptr<Method>>& methods, const RunOptions& options,
                     std::vector<CallTimes>& results);
 
-/// What preparing costs and what is kept.
+/// Time to prepare an element, and its size.
 struct ElementCost {
   std::string kind;
   Spread nanoseconds;  ///< to prepare one

@@ -1,11 +1,11 @@
-// Whole strokes at 1 kHz: the nearest point of all elements at each tick.
+// Whole strokes at 1 kHz: the nearest point over all elements at each tick.
 #include <algorithm>
 #include <iterator>
 
-#include <calligraphy/experiments/stroke_queries.hpp>
 #include <calligraphy/model/bezier.hpp>
 #include <calligraphy/model/character_list.hpp>
 
+#include "experiments/stroke_queries.hpp"
 #include "runs.hpp"
 
 namespace nearest_point_benchmark {
@@ -24,9 +24,8 @@ ControlPoints as_cubic(const ControlPoints& points) {
   return {cubic.control_points.begin(), cubic.control_points.end()};
 }
 
-/// Most elements of Chinese characters are lines, which cost next to nothing with any method: hence also the strokes
-/// with a curve alone, and with every line written as a cubic, as drawing programs do: all strokes, and the compound
-/// ones.
+/// Most elements of Chinese characters are lines, which are cheap with any method. Therefore also only the strokes with
+/// a curve, and every line written as a cubic, as drawing programs do: all strokes, and the compound ones.
 std::vector<StrokeSet> stroke_sets(int characters) {
   std::span<const calligraphy::Character> written = calligraphy::built_in_characters().characters;
   if (characters > 0) written = written.first(std::min(written.size(), static_cast<std::size_t>(characters)));

@@ -27,7 +27,7 @@ const Measurement* find(Measurements results, const std::string& workload, const
   return found == results.end() ? nullptr : &*found;
 }
 
-/// Of the medians of one method over the workloads for which `counts`.
+/// Geometric mean of the medians of one method over the workloads for which `counts`.
 double geometric_mean(Measurements results, const std::string& method,
                       const std::function<bool(const std::string&)>& counts) {
   double sum = 0.0, count = 0.0;
@@ -46,7 +46,7 @@ std::string time(const Measurement* measurement) {
   return measurement == nullptr ? "" : fmt::format("{:.1f}", measurement->nanoseconds.p50);
 }
 
-/// What issue and reference ask of `exact` (or the tracker): its time as a share of this method's.
+/// Target for the time of `exact` (or the tracker) relative to this method.
 struct Mark {
   const char* method;
   double all, real;
@@ -62,7 +62,7 @@ const Mark* mark_for(const std::string& method) {
 
 std::string judged(double ratio, std::optional<double> mark) {
   if (!mark) return fmt::format("{:.3f}", ratio);
-  return fmt::format("{:.3f} (mark {:.2f}: {})", ratio, *mark, ratio <= *mark ? "met" : "NOT MET");
+  return fmt::format("{:.3f} (target {:.2f}: {})", ratio, *mark, ratio <= *mark ? "met" : "MISSED");
 }
 
 }  // namespace
@@ -72,21 +72,21 @@ void print_workloads(std::FILE* out, Measurements results) {
   const auto workloads = distinct(results, &Measurement::workload);
   fmt::print(
       out,
-      "\n## Nearest point, ns a query: medians of rounds, and their geometric mean\n\n"
-      "Errors are of the distance, relative to the size. Largest: where 1e-9 can be asked. Beyond: off by more than "
-      "the workload allows;\nwrong: by more than 1e-3; both on the worst workload.\n\n");
+      "\n## Nearest point, ns per query: medians of rounds, and their geometric mean\n\n"
+      "Errors are errors of the distance, relative to the size. Maximum: where 1e-9 is attainable. Beyond: off by more "
+      "than\nthe workload permits; wrong: by more than 1e-3; both on the worst workload.\n\n");
   fmt::print(out, "| {:<22} | {:>10} | {:>10} | {:>10} | {:>7} | {:>9} | {:>7} | {:<20} | {:>7} | {:>7} | {:<20} |\n",
              "method", "real, near", "real, box", "random box", "hook", fmt::format("geo. of {}", workloads.size()),
-             "largest", "  on", "beyond", "wrong", "  on");
+             "maximum", "  on", "beyond", "wrong", "  on");
   fmt::print(out, "|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (const std::string& method : methods) {
     Errors worst;
-    std::string largest_on, wrong_on;
+    std::string worst_on, wrong_on;
     for (const Measurement& each : results) {
       if (each.method != method) continue;
       if (each.allowed <= 1e-9 && each.errors.largest > worst.largest) {
         worst.largest = each.errors.largest;
-        largest_on = each.workload;
+        worst_on = each.workload;
       }
       if (each.errors.wrong > worst.wrong) {
         worst.wrong = each.errors.wrong;
@@ -99,13 +99,13 @@ void print_workloads(std::FILE* out, Measurements results) {
                "{:<20} |\n",
                method, time(find(results, "real strokes near", method)),
                time(find(results, "real strokes box", method)), time(find(results, "random box", method)),
-               time(find(results, "hook", method)), geometric_mean(results, method, any), worst.largest, largest_on,
+               time(find(results, "hook", method)), geometric_mean(results, method, any), worst.largest, worst_on,
                100.0 * worst.beyond, 100.0 * worst.wrong, wrong_on);
   }
   if (std::find(methods.begin(), methods.end(), "exact") == methods.end()) return;
-  fmt::print(
-      out,
-      "\n## `exact` as a share of each, geometric means\n\n| of | all workloads | real strokes |\n|---|---|---|\n");
+  fmt::print(out,
+             "\n## Time of `exact` relative to each, geometric means\n\n| of | all workloads | real strokes "
+             "|\n|---|---|---|\n");
   for (const std::string& method : methods) {
     if (method == "exact") continue;
     const Mark* mark = mark_for(method);
@@ -119,14 +119,14 @@ void print_workloads(std::FILE* out, Measurements results) {
 
 void print_details(std::FILE* out, Measurements results) {
   const auto methods = distinct(results, &Measurement::method);
-  fmt::print(out,
-             "\n## Every workload, ns a query: p50 (p10 to p90 of the rounds); beyond: off by more than allowed\n\n");
+  fmt::print(
+      out, "\n## Every workload, ns per query: p50 (p10 to p90 of the rounds); beyond: off by more than permitted\n\n");
   for (const std::string& workload : distinct(results, &Measurement::workload)) {
     fmt::print(out, "{}\n", workload);
     for (const std::string& method : methods) {
       const Measurement* each = find(results, workload, method);
       if (each == nullptr) continue;
-      fmt::print(out, "  {:<22} {:>9.1f} ({:.1f} to {:.1f})  largest error {:.1e}, wrong {:.2f} %, beyond {:.2f} %\n",
+      fmt::print(out, "  {:<22} {:>9.1f} ({:.1f} to {:.1f})  maximum error {:.1e}, wrong {:.2f} %, beyond {:.2f} %\n",
                  method, each->nanoseconds.p50, each->nanoseconds.p10, each->nanoseconds.p90, each->errors.largest,
                  100.0 * each->errors.wrong, 100.0 * each->errors.beyond);
     }
@@ -136,10 +136,10 @@ void print_details(std::FILE* out, Measurements results) {
 void print_strokes(std::FILE* out, Measurements results) {
   for (const std::string& set : distinct(results, &Measurement::workload)) {
     const Measurement* tracker = find(results, set, "StrokeTracker");
-    fmt::print(out, "\n## Whole {} at 1 kHz, ns a tick\n\n", set);
-    fmt::print(out,
-               "| {:<22} | {:>8} | {:>17} | {:>9} | {:>7} | StrokeTracker as a share |\n|---|---|---|---|---|---|\n",
-               "method", "p50", "p10 to p90", "largest", "wrong");
+    fmt::print(out, "\n## Whole {} at 1 kHz, ns per tick\n\n", set);
+    fmt::print(
+        out, "| {:<22} | {:>8} | {:>17} | {:>9} | {:>7} | StrokeTracker relative to it |\n|---|---|---|---|---|---|\n",
+        "method", "p50", "p10 to p90", "maximum", "wrong");
     for (const Measurement& each : results) {
       if (each.workload != set) continue;
       std::string share;
@@ -156,7 +156,7 @@ void print_strokes(std::FILE* out, Measurements results) {
 }
 
 void print_swept(std::FILE* out, Measurements results) {
-  fmt::print(out, "\n## Out of the caches, ns a query: p50 (p10 to p90)\n\n");
+  fmt::print(out, "\n## Out of the caches, ns per query: p50 (p10 to p90)\n\n");
   for (const std::string& workload : distinct(results, &Measurement::workload)) {
     fmt::print(out, "{}\n", workload);
     for (const Measurement& each : results) {
@@ -169,8 +169,8 @@ void print_swept(std::FILE* out, Measurements results) {
 
 void print_calls(std::FILE* out, std::span<const CallTimes> results) {
   fmt::print(out,
-             "\n## Single calls near real strokes, ns, the clock included: over all calls | over queries, of each its "
-             "median\n\n");
+             "\n## Single calls near real strokes, ns, including the clock: over all calls | over the medians of each "
+             "query\n\n");
   fmt::print(out, "| {:<22} | {:>6} | {:>6} | {:>7} | {:>6} | {:>6} | {:>6} |\n|---|---|---|---|---|---|---|\n",
              "method", "p50", "p99", "p99.9", "p50", "p99", "p99.9");
   for (const CallTimes& each : results) {

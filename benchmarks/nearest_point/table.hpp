@@ -1,4 +1,4 @@
-// The tables that the benchmark prints at its end.
+// The tables printed at the end of the benchmark.
 #pragma once
 
 #include <cstdio>
@@ -8,10 +8,10 @@
 
 namespace nearest_point_benchmark {
 
-/// Method x nanoseconds on the workloads that stand out, the geometric mean of all, and the errors; then the ratios to
-/// `exact` and the marks set for them.
+/// Method x nanoseconds on selected workloads, the geometric mean of all, and the errors; then the ratios of `exact` to
+/// each method, with their targets.
 void print_workloads(std::FILE* out, std::span<const Measurement> results);
-/// Every workload x method: p50, and p10 to p90 beside.
+/// Every workload x method: p50, with p10 to p90.
 void print_details(std::FILE* out, std::span<const Measurement> results);
 void print_strokes(std::FILE* out, std::span<const Measurement> results);
 void print_swept(std::FILE* out, std::span<const Measurement> results);

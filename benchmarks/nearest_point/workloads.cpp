@@ -3,10 +3,10 @@
 
 #include <benchmark/benchmark.h>
 
-#include <calligraphy/experiments/nearest_point_workload.hpp>
 #include <calligraphy/model/character_list.hpp>
 
 #include "bezier_js.hpp"
+#include "experiments/nearest_point_workload.hpp"
 #include "runs.hpp"
 
 namespace nearest_point_benchmark {

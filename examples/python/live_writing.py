@@ -23,14 +23,14 @@ Watch = Callable[[cal.LiveView], object]
 def open_device(wire_profile: str) -> cal.HapticDevice:
     """What is there; a simulated device that follows a pointer when nothing is."""
     try:
-        plugged = cal.plugged_devices()
-    except cal.DeviceError:  # no bus, or a module without Phantoms
+        plugged = cal.plugged_devices() if "phantom" in cal.backends else []
+    except cal.DeviceError:  # no bus
         plugged = []
     for device in plugged:
-        print(cal.describe(device), device.advice)
+        print(device, device.advice)
     if plugged and wire_profile:
         return cal.PhantomDevice(cal.PhantomOptions(wire_profile=wire_profile))
-    if cal.openhaptics_runtime().found:
+    if "openhaptics" in cal.backends and cal.openhaptics_runtime()["found"]:
         return cal.OpenHapticsDevice()
     print("no device: a simulated one, whose hand follows a pointer that is led along the strokes")
     return cal.PointerDevice(cal.device_profile("desktop"))
@@ -39,7 +39,7 @@ def open_device(wire_profile: str) -> cal.HapticDevice:
 class LedPointer:
     """Moves a pointer along the strokes of a page, on when the pen has come near: in place of a person's mouse."""
 
-    def __init__(self, device: cal.PointerDevice, page: cal.Page) -> None:
+    def __init__(self, device: cal.PointerDevice, page: cal.PracticePage) -> None:
         self.device, self.centre = device, np.array([page.width / 2, page.height / 2])
         self.places: list[tuple[np.ndarray, float]] = []
         for placed in page.characters:
@@ -50,7 +50,8 @@ class LedPointer:
 
     def __call__(self, view: cal.LiveView) -> None:
         place, pressure = self.places[0]
-        self.device.move(*(place - self.centre), pressure)
+        x, y = place - self.centre
+        self.device.move(x, y, pressure)
         pen = view.newest["device_point"]
         is_down = pen[2] < 0.0
         if np.hypot(*(pen[:2] - place)) < 3e-3 and is_down == (pressure > 0) and len(self.places) > 1:
@@ -67,7 +68,7 @@ def main() -> None:
     arguments.out.mkdir(parents=True, exist_ok=True)
 
     with open_device(arguments.wire_profile) as device:
-        able = cal.limited(device.capabilities(), arguments.peak_force)
+        able = cal.with_peak_force(device.capabilities(), arguments.peak_force)
         layout = cal.PageLayout(width=able.workspace[0], height=able.workspace[1])
         page = cal.lay_out([cal.built_in_characters()[arguments.character]], layout)[0]
         options = cal.LiveOptions(renderer=cal.RendererOptions.for_device(able), peak_force=arguments.peak_force)
@@ -81,9 +82,9 @@ def main() -> None:
 
     for warning in result.warnings:
         print(warning)
-    score, timing = cal.score(page, result.recording)[0], result.statistics
+    score, timing = cal.score_page(page, result.recording)[0], result.statistics
     print(f"{score.strokes_completed} of {score.stroke_count} strokes, RMS {1e3 * score.rms_error:.2f} mm, "
-          f"period p99 {1e3 * timing.period.p99:.2f} ms, {timing.missed_deadlines} deadlines missed")  # fmt: skip
+          f"period p99 {1e3 * timing['period']['p99']:.2f} ms, {timing['missed_deadlines']} deadlines missed")  # fmt: skip
     samples = result.recording.samples
     figure, (left, right) = plt.subplots(1, 2, figsize=(10, 4.5), layout="constrained")
     draw_template(left, page.characters[0])

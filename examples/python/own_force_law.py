@@ -1,6 +1,7 @@
 """A force law of one's own, unit-tested against the simulated device: a groove that a pen falls into."""
 
 import unittest
+from typing import Callable
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -25,11 +26,11 @@ class Groove:
         return np.array([0.0, -self.stiffness * y * fade - self.damping * speed * fade, 0.0])
 
 
-def simulate(law, start: float, meant: float, seconds: float = 1.0) -> tuple[np.ndarray, np.ndarray]:
+def simulate(law: Callable[[cal.DeviceState], np.ndarray], start: float, meant: float, seconds: float = 1.0) -> tuple[np.ndarray, np.ndarray]:
     """A hand at `start` means to be at y = `meant` from then on; the pen's y and the force, tick by tick."""
-    device = cal.SimulatedDevice(PROFILE, cal.Hand(mass=0.1, damping=3.0, stiffness=300.0), (0.0, start, 0.0))
+    device = cal.SimulatedDevice(PROFILE, cal.GripImpedance(mass=0.1, damping=3.0, stiffness=300.0), (0.0, start, 0.0))
     device.set_intention(cal.Intention(position=(0.0, meant, 0.0)))
-    servo = cal.Servo(device, law, rise_time=0.05)
+    servo = cal.Servo(device, law, ramp_up=0.05)
     path, force = [], []
     for tick in range(round(seconds * 1000)):
         servo.step(tick * 1e-3)
@@ -40,18 +41,18 @@ def simulate(law, start: float, meant: float, seconds: float = 1.0) -> tuple[np.
 
 
 class GrooveTest(unittest.TestCase):
-    def test_the_pen_rests_where_hand_and_groove_balance(self):
+    def test_the_pen_rests_where_hand_and_groove_balance(self) -> None:
         path, _ = simulate(Groove(), 0.004, 0.004)
         # 300 (0.004 - y) = 400 y (1 - (y / 0.01)^2)^2 has one root in (0, 4 mm): 1.86 mm; dry friction holds it nearby.
         y = np.linspace(0, 0.004, 100_001)
         balance = y[np.argmin(np.abs(300 * (0.004 - y) - 400 * y * (1 - (y / 0.01) ** 2) ** 2))]
         self.assertAlmostEqual(path[-1], balance, delta=2e-4)
 
-    def test_beyond_its_reach_nothing_pulls(self):
+    def test_beyond_its_reach_nothing_pulls(self) -> None:
         _, force = simulate(Groove(), 0.03, 0.03)
         self.assertEqual(np.abs(force).max(), 0.0)
 
-    def test_the_force_never_steps(self):
+    def test_the_force_never_steps(self) -> None:
         path, force = simulate(Groove(), 0.02, -0.02)
         travel = np.abs(np.diff(path)).max()  # in a tick [m]
         speed, rounding = 1e3 * travel, 2 * PROFILE.encoder_step

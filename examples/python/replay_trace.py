@@ -57,7 +57,7 @@ draw_template(columns[0], cal.PlacedCharacter(placed.character, cal.Placement(em
 for stroke in trace.strokes:
     columns[0].plot(stroke[:, 0], stroke[:, 1], color="#222222", linewidth=1.2)
 columns[0].set(xlim=(-0.1, 1.1), ylim=(-0.1, 1.1), aspect="equal", xlabel="x [em]", ylabel="y [em]", title="as written")
-for axes, mode in zip(columns[1:], (cal.Mode.vision, cal.Mode.force)):
+for axes, mode in zip(columns[1:], (cal.FeedbackMode.vision, cal.FeedbackMode.force)):
     options = cal.SessionOptions(
         mode=mode,
         device=profile,
@@ -65,7 +65,7 @@ for axes, mode in zip(columns[1:], (cal.Mode.vision, cal.Mode.force)):
         skill=cal.WriterSkill.skilled(),
     )
     recording = cal.follow_trace(page, trace, options)
-    score = cal.score(page, recording)[0]
+    score = cal.score_page(page, recording)[0]
     draw_template(axes, placed)
     draw_trace(axes, recording.samples)
     square(axes, placed)

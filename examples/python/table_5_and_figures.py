@@ -43,14 +43,14 @@ options = cal.SessionOptions(
 )
 recordings = {}
 figure, rows = plt.subplots(2, 1, figsize=(8, 4.8), layout="constrained")
-for axes, mode in zip(rows, (cal.Mode.vision, cal.Mode.force)):
-    options.mode = mode
-    recordings[mode.name] = cal.write_page(page, options)
+for axes, kind in zip(rows, (cal.FeedbackMode.vision, cal.FeedbackMode.force)):
+    options.mode = kind
+    recordings[kind.name] = cal.write_page(page, options)
     for placed in page.characters:
         draw_template(axes, placed)
-    draw_trace(axes, recordings[mode.name].samples)
+    draw_trace(axes, recordings[kind.name].samples)
     axes.set(
-        aspect="equal", xlim=(10, 210), ylim=(4, 56), xlabel="x [mm]", ylabel="y [mm]", title=f"Fig. 31: {mode.name}"
+        aspect="equal", xlim=(10, 210), ylim=(4, 56), xlabel="x [mm]", ylabel="y [mm]", title=f"Fig. 31: {kind.name}"
     )
 save(figure, out / "figure-31.png")
 
@@ -74,7 +74,7 @@ save(figure, out / "figures-32-36.png")
 # Figs. 37 and 38: each character in both modes, enlarged.
 figure, grid = plt.subplots(2, len(TEXT), figsize=(11, 5.8), layout="constrained")
 for row, mode in zip(grid, ("vision", "force")):
-    scores = cal.score(page, recordings[mode])
+    scores = cal.score_page(page, recordings[mode])
     for index, (axes, placed) in enumerate(zip(row, page.characters)):
         every = recordings[mode].samples
         draw_template(axes, placed)

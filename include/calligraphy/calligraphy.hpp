@@ -7,9 +7,6 @@
 #include <calligraphy/base/text.hpp>
 #include <calligraphy/collision/active_stroke.hpp>
 #include <calligraphy/collision/constraint_space.hpp>
-#include <calligraphy/collision/curve_element.hpp>
-#include <calligraphy/collision/feature_plane.hpp>
-#include <calligraphy/collision/line_element.hpp>
 #include <calligraphy/collision/nearest_point.hpp>
 #include <calligraphy/collision/placed_character.hpp>
 #include <calligraphy/collision/stroke_element.hpp>
@@ -17,10 +14,8 @@
 #include <calligraphy/devices/capabilities.hpp>
 #include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/devices/device_state.hpp>
-#include <calligraphy/devices/duration_histogram.hpp>
-#include <calligraphy/devices/flush_denormals.hpp>
-#include <calligraphy/devices/force_guard.hpp>
 #include <calligraphy/devices/haptic_device.hpp>
+#include <calligraphy/devices/latest_value.hpp>
 #include <calligraphy/devices/pointer_device.hpp>
 #include <calligraphy/devices/replay_device.hpp>
 #include <calligraphy/devices/sample_queue.hpp>
@@ -45,11 +40,9 @@
 #include <calligraphy/practice/recording.hpp>
 #include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/session.hpp>
-#include <calligraphy/practice/stroke_verdict.hpp>
-#include <calligraphy/practice/trace_hand.hpp>
+#include <calligraphy/practice/stroke_matching.hpp>
 #include <calligraphy/practice/writer.hpp>
 #include <calligraphy/render/assist_policy.hpp>
-#include <calligraphy/render/force_limiter.hpp>
 #include <calligraphy/render/force_terms.hpp>
 #include <calligraphy/render/haptic_renderer.hpp>
 #include <calligraphy/render/haptic_tick.hpp>
@@ -59,4 +52,3 @@
 #include <calligraphy/render/passivity_controller.hpp>
 #include <calligraphy/render/renderer_options.hpp>
 #include <calligraphy/render/stiffness_advice.hpp>
-#include <calligraphy/render/thermal_budget.hpp>

@@ -26,7 +26,7 @@ struct CloseFile {
 };
 using File = std::unique_ptr<std::FILE, CloseFile>;
 
-/// A new, empty file beside the target; removed unless it was renamed.
+/// A new, empty file beside the target, removed unless it is renamed.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const fs::path& target) : target_(target) {
@@ -77,11 +77,11 @@ class TemporaryFile {
   bool renamed_ = false;
 };
 
-/// The file that is written for this path; a link stays a link: renaming onto it would put the file in its place.
+/// The file to write for this path: the target of a link, because renaming onto the link would replace it.
 fs::path target_of(const fs::path& path) {
   std::error_code error;
   const fs::path target = fs::is_symlink(path, error) ? fs::canonical(path, error) : path;
-  if (target.empty()) fail(path, "the link leads nowhere");
+  if (target.empty()) fail(path, "the link is dangling");
   const fs::file_status before = fs::status(target, error);
   if (fs::exists(before) && !fs::is_regular_file(before)) fail(path, "it exists and is not a regular file");
   return target;
@@ -112,19 +112,19 @@ std::ifstream open_file(const fs::path& path) {
   return in;
 }
 
-std::string read_file(const fs::path& path, std::size_t most) {
+std::string read_file(const fs::path& path, std::size_t max_bytes) {
   std::ifstream in = open_file(path);
   std::string text;
-  constexpr std::size_t chunk = 1 << 16;  // most files are small: what is not read is not asked for
-  while (in && text.size() <= most) {
+  constexpr std::size_t chunk = 1 << 16;  // most files are small, so memory grows as needed
+  while (in && text.size() <= max_bytes) {
     const std::size_t before = text.size();
     text.resize(before + chunk);
     in.read(text.data() + before, chunk);
     text.resize(before + static_cast<std::size_t>(in.gcount()));
   }
   if (in.bad()) throw FileError(path.string() + ": cannot be read");
-  if (text.size() > most) {
-    throw FormatError(path.string() + ": more than the " + std::to_string(most) + " bytes that are read of a file");
+  if (text.size() > max_bytes) {
+    throw FormatError(path.string() + ": larger than the limit of " + std::to_string(max_bytes) + " bytes");
   }
   return text;
 }

@@ -4,14 +4,15 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
 namespace calligraphy {
 namespace {
 
-/// Indices are handed out in rising order and each one handed out is worked on: of all that would fail, the lowest
-/// does.
+/// Indices are handed out in ascending order, and every one handed out is processed, so the lowest that fails is always
+/// reached.
 class Queue {
  public:
   Queue(std::size_t count, const std::function<void(std::size_t)>& work) : count_(count), work_(work) {}
@@ -54,6 +55,30 @@ class Queue {
   std::size_t failed_index_ = 0;
 };
 
+/// std::jthread, which libc++ 14 lacks.
+class Threads {
+ public:
+  ~Threads() { join(); }
+
+  /// False where the system has no more threads, or none at all: WebAssembly.
+  template <typename Work>
+  bool start(const Work& work) {
+    try {
+      threads_.emplace_back(work);
+      return true;
+    } catch (const std::system_error&) {
+      return false;
+    }
+  }
+  void join() {
+    for (std::thread& thread : threads_) thread.join();
+    threads_.clear();
+  }
+
+ private:
+  std::vector<std::thread> threads_;
+};
+
 }  // namespace
 
 void parallel_for(std::size_t count, int threads, const std::function<void(double)>& progress,
@@ -61,11 +86,12 @@ void parallel_for(std::size_t count, int threads, const std::function<void(doubl
   Queue queue(count, work);
   const std::size_t wanted =
       threads > 0 ? static_cast<std::size_t>(threads) : std::max<std::size_t>(std::thread::hardware_concurrency(), 1);
-  {
-    std::vector<std::jthread> others;
-    for (std::size_t i = 1; i < std::min(wanted, count); ++i) others.emplace_back([&queue] { queue.run({}); });
-    queue.run(progress);
+  Threads others;
+  for (std::size_t i = 1; i < std::min(wanted, count); ++i) {
+    if (!others.start([&queue] { queue.run({}); })) break;
   }
+  queue.run(progress);
+  others.join();
   queue.rethrow();
 }
 

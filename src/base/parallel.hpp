@@ -1,4 +1,4 @@
-// Work on every core.
+// A parallel loop.
 #pragma once
 
 #include <cstddef>
@@ -7,9 +7,9 @@
 namespace calligraphy {
 
 /// Calls work(i) once for every i below `count`, from `threads` threads (0: one per core) and in any order. The calling
-/// thread works too and reports the share that is done. What work or progress throws ends it all early: a program
-/// that gives up throws from `progress`. Of several failures the one of the lowest i is thrown on, so that the same
-/// input fails with the same words.
+/// thread takes part and reports the fraction done. An exception from `work` or `progress` ends the loop early; to
+/// abort it, throw from `progress`. Of several exceptions the one of the lowest i is rethrown, so that the same input
+/// fails with the same message.
 void parallel_for(std::size_t count, int threads, const std::function<void(double)>& progress,
                   const std::function<void(std::size_t)>& work);
 

@@ -12,7 +12,7 @@ double Random::between(double low, double high) { return low + (high - low) * ne
 
 std::uint64_t Random::index(std::uint64_t count) {
   if (count == 0) return 0;
-  const std::uint64_t surplus = (0 - count) % count;  // 2^64 mod count: as many values would make some too likely
+  const std::uint64_t surplus = (0 - count) % count;  // 2^64 mod count: accepting these values would bias the result
   for (;;) {
     const std::uint64_t draw = bits();
     if (draw >= surplus) return draw % count;

@@ -9,6 +9,8 @@
 
 namespace calligraphy {
 
+bool is_utf8(std::string_view text) noexcept { return utf8::is_valid(text.begin(), text.end()); }
+
 std::u32string decode_utf8(std::string_view text) {
   const auto invalid = utf8::find_invalid(text.begin(), text.end());
   if (invalid != text.end()) {
@@ -22,7 +24,7 @@ std::u32string decode_utf8(std::string_view text) {
 
 std::string encode_utf8(char32_t code) {
   if (code > U'\U0010FFFF' || (code >= 0xD800 && code <= 0xDFFF)) {
-    throw ValueError("code point " + std::to_string(static_cast<std::uint32_t>(code)) + " is no character");
+    throw ValueError("code point " + std::to_string(static_cast<std::uint32_t>(code)) + " is not a Unicode character");
   }
   std::string text;
   utf8::append(code, std::back_inserter(text));

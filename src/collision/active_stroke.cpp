@@ -6,8 +6,8 @@
 namespace calligraphy {
 namespace {
 
-/// A pen that feels less than this share of the guidance is not writing the stroke: it may be on a stroke close by.
-constexpr double least_share = 0.5;
+/// A pen with less than this fraction of the guidance is not writing the stroke: it may be on a nearby stroke.
+constexpr double min_weight = 0.5;
 
 }  // namespace
 
@@ -52,10 +52,10 @@ StrokeContact ActiveStroke::update(const Point& tip, const StrokeRules& rules) n
     contact.passed_feature = true;
     contact.finished = active_ == element_count_;
   }
-  parameter_ = contact.foot.parameter;
-  // A pen on the edge of the constraint space or outside makes no headway: a stroke cannot be finished without being
+  parameter_ = contact.closest.parameter;
+  // A pen at the edge of the constraint space or outside makes no progress: a stroke cannot be finished without being
   // written.
-  if (contact.share >= least_share) {
+  if (contact.weight >= min_weight) {
     arc_ = contact.arc - first_arc_[static_cast<std::size_t>(contact.element)];
     furthest_ = std::max(furthest_, contact.arc);
   }
@@ -74,9 +74,9 @@ StrokeContact ActiveStroke::locate(const Point& tip, const StrokeRules& rules) c
   }
   StrokeContact contact;
   contact.element = index;
-  contact.foot = nearest_point(element, tip, rules.nearest, range, parameter_);
-  contact.share = guidance_share(rules.space, element, tip, contact.foot);
-  const double arc = element.arc_length(contact.foot.parameter);
+  contact.closest = nearest_point(element, tip, rules.nearest, range, parameter_);
+  contact.weight = guidance_weight(rules.space, element, tip, contact.closest);
+  const double arc = element.arc_length(contact.closest.parameter);
   contact.arc = first_arc_[i] + arc;
   contact.attraction = attraction_[i];
   if (rules.attraction == AttractionRule::interpolated && element.length() > 0.0) {
@@ -88,22 +88,22 @@ StrokeContact ActiveStroke::locate(const Point& tip, const StrokeRules& rules) c
 
 bool ActiveStroke::passes(const Point& tip, const StrokeContact& contact, const StrokeRules& rules) const noexcept {
   const auto i = static_cast<std::size_t>(contact.element);
-  const double beyond = planes_[i].beyond(tip);
+  const double beyond = planes_[i].signed_distance(tip);
   if (rules.plane == FeaturePlaneRule::wang2006) return beyond > 0.0;
   const double length = elements_[i].length();
   const double tolerance = std::min(rules.plane_tolerance, 0.3 * length);
   const double left = first_arc_[i + 1] - contact.arc;
-  // Near the feature point along the stroke too: a plane reaches across other limbs of the same stroke. On a curve the
-  // foot may lag behind the plane by more than the tolerance, but not by more than twice of it unless the pen is far
-  // off.
-  if (contact.share < least_share || left > 2.0 * tolerance + 1e-6 * length) return false;
+  // Near the feature point along the stroke too: a plane also crosses other parts of the same stroke. On a curve the
+  // closest point may lag behind the plane by more than the tolerance, but not by more than twice the tolerance unless
+  // the pen is far away.
+  if (contact.weight < min_weight || left > 2.0 * tolerance + 1e-6 * length) return false;
   if (beyond >= -tolerance) return true;
-  // A pen that keeps to the inside of a corner never reaches the plane: it passes on the bisector, where both limbs
+  // A pen that stays on the inside of a corner never reaches the plane: it passes on the bisector, where both elements
   // attract it equally.
   if (contact.element + 1 == element_count_) return false;
   const StrokeElement& next = elements_[i + 1];
   const ParameterRange range = {0.0, rules.window > 0.0 ? next.parameter_at(rules.window) : 1.0};
-  return nearest_point(next, tip, rules.nearest, range, 0.0).distance < contact.foot.distance;
+  return nearest_point(next, tip, rules.nearest, range, 0.0).distance < contact.closest.distance;
 }
 
 }  // namespace calligraphy

@@ -1,4 +1,4 @@
-// The methods that certify nothing: samples, and the subdivision of Wang 2006.
+// The methods without a certificate: sampling, and the subdivision of Wang 2006.
 #pragma once
 
 #include <calligraphy/collision/nearest_point.hpp>

@@ -13,9 +13,9 @@ namespace calligraphy {
 namespace {
 
 constexpr std::size_t block_size = 32;
-constexpr std::size_t lanes = 4;  // of the widest register used, in doubles
+constexpr std::size_t lanes = 4;  // of the widest SIMD register used, in doubles
 
-/// Queries with one minimum each, one array per quantity: loops over them become wide instructions.
+/// Queries with one minimum each, one array per quantity: loops over them vectorise.
 struct Block {
   std::size_t count = 0;
   std::array<std::size_t, block_size> index;  ///< of the query
@@ -24,11 +24,11 @@ struct Block {
   std::array<double, block_size> point_x, point_y, distance, tangent_x, tangent_y, speed;
 };
 
-/// The same operations as for one query, in the same order, so that the answers are the same to the last bit.
+/// The same operations as for one query, in the same order, so that the results are the same to the last bit.
 template <int Degree>
 [[gnu::always_inline]] inline void polish_block(const CurveElement& curve, Block& block) {
   const std::size_t count = (block.count + lanes - 1) / lanes * lanes;
-  for (std::size_t i = block.count; i < count; ++i) {  // the last register is full, too
+  for (std::size_t i = block.count; i < count; ++i) {  // fills the last register
     block.query_x[i] = block.query_x[0];
     block.query_y[i] = block.query_y[0];
     block.t[i] = block.t[0];
@@ -55,7 +55,7 @@ template <int Degree>
 
 using Signs = SlopeSigns<CurveElement::max_ordinates>;
 
-/// Answers at most a block of queries whose signs are known.
+/// Processes at most one block of queries whose signs are known.
 template <int Degree>
 [[gnu::always_inline]] inline void answer_block(const CurveElement& curve, const std::array<Signs, block_size>& signs,
                                                 std::span<const Point> queries, std::span<NearestPoint> results,
@@ -80,7 +80,7 @@ template <int Degree>
     const std::size_t to = block.index[i];
     const Residue residue{block.step[i], block.slope[i], block.bend[i]};
     const double t = block.t[i];
-    if (residue.converged(curve, allowed) && t >= 0.0 && t <= 1.0 && block.speed[i] > least_speed) {
+    if (residue.converged(curve, allowed) && t >= 0.0 && t <= 1.0 && block.speed[i] > min_speed) {
       results[to] = {t, Point(block.point_x[i], block.point_y[i]), block.distance[i],
                      Point(block.tangent_x[i], block.tangent_y[i]), NearestPointStatus::certified};
     } else {
@@ -119,7 +119,7 @@ template <int Degree>
 }
 #endif
 
-/// By degree less 2. The baseline until the processor has been asked, when the program starts.
+/// By degree minus 2. The baseline until the processor has been detected at program start.
 constinit std::array<Method, 3> methods = {answer_baseline<2>, answer_baseline<3>, answer_baseline<4>};
 
 #if defined(__SSE2__)

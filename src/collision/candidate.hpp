@@ -23,13 +23,13 @@ template <int Degree, typename Vector>
   return {t, at, at - query, first_derivative<Degree, Vector>(curve, t)};
 }
 
-/// Below it the direction of the velocity is rounding noise [sizes].
-inline constexpr double least_speed = 1e-7;
+/// Below this the direction of the velocity is rounding noise [sizes].
+inline constexpr double min_speed = 1e-7;
 
-/// Whether `next` takes the place of `best`: it is nearer, or as near up to rounding and its parameter is smaller.
+/// Whether `next` replaces `best`: it is nearer, or equally near up to rounding with a smaller parameter.
 [[gnu::always_inline]] inline bool nearer(const Candidate& next, const Candidate& best) {
-  // The difference of the squares as a product is exact to rounding however far the query is; the places are so to
-  // about 1e-15 sizes.
+  // The difference of the squares as a product is exact up to rounding however far the query is; the positions are
+  // exact to about 1e-15 sizes.
   constexpr double rounding = 1e-14;
   const Pair sum = best.offset + next.offset;
   const double gain = dot(best.place - next.place, sum);
@@ -44,7 +44,7 @@ inline constexpr double least_speed = 1e-7;
   const Pair tangent = at.velocity * (1.0 / speed);
   NearestPoint answer{at.t, Point(point[0], point[1]), curve.size * std::sqrt(dot(at.offset, at.offset)),
                       Point(tangent[0], tangent[1]), status};
-  if (!(speed > least_speed)) [[unlikely]]
+  if (!(speed > min_speed)) [[unlikely]]
     answer.tangent = curve.tangent(at.t);
   return answer;
 }

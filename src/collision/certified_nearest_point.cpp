@@ -21,7 +21,7 @@ namespace {
   return search_minima(curve, query, tolerance, range);
 }
 
-/// The only minimum of the whole curve is the answer within a range, too, or the range's nearer end is.
+/// The only minimum of the whole curve is also the result within a range, or else the nearer end of the range is.
 template <int Degree>
 [[gnu::always_inline]] inline NearestPoint answer_within(const CurveElement& curve, const Candidate& minimum,
                                                          Pair query, double tolerance, const ParameterRange& range) {
@@ -34,8 +34,8 @@ template <int Degree>
   return curve_answer(curve, end, NearestPointStatus::certified);
 }
 
-/// Several changes of sign, all certain, on the whole curve: each cell with one change from - to + holds one minimum.
-/// The nearest of them and of the ends is the answer.
+/// Several sign changes on the whole curve, all certain: each cell with one change from - to + contains one minimum.
+/// The nearest of these and of the ends is the result.
 template <int Degree>
 [[gnu::noinline]] NearestPoint nearest_of_several(const CurveElement& curve,
                                                   SlopeSigns<CurveElement::max_ordinates> signs, Pair query,
@@ -70,8 +70,8 @@ template <int Degree>
   return curve_answer(curve, best, NearestPointStatus::certified);
 }
 
-/// With every sign certain, one change from - to + says that there is one minimum, between these ordinates; no change,
-/// that the nearest point is an end.
+/// With all signs certain, one change from - to + means that there is one minimum, between these ordinates; no change
+/// means that an end is nearest.
 template <int Degree>
 [[gnu::always_inline]] inline NearestPoint from_signs(const CurveElement& curve,
                                                       SlopeSigns<CurveElement::max_ordinates> signs, Pair query,
@@ -96,7 +96,7 @@ template <int Degree>
   return search_or_refuse(curve, query, tolerance, range);
 }
 
-/// `query` in metres, in all that follow.
+/// `query` is in metres in all of the following.
 using CertifiedMethod = NearestPoint (*)(const CurveElement&, const Point&, double, const ParameterRange&);
 
 template <int Degree>
@@ -115,9 +115,8 @@ template <int Degree>
 }
 #endif
 
-/// By degree less 2. The baseline until the processor has been asked, when the program starts.
-constinit std::array<CertifiedMethod, 3> certified_methods = {certified_baseline<2>, certified_baseline<3>,
-                                                              certified_baseline<4>};
+/// By degree minus 2. The baseline until the processor has been detected at program start.
+constinit std::array<CertifiedMethod, 3> certified_methods = {certified_baseline<2>, certified_baseline<3>, certified_baseline<4>};
 
 #if defined(__SSE2__)
 [[maybe_unused]] const bool certified_chosen = [] {

@@ -1,4 +1,4 @@
-// The global nearest point on a curve, proven by signs.
+// The global nearest point on a curve, certified by signs.
 #pragma once
 
 #include <span>
@@ -10,11 +10,11 @@ namespace calligraphy {
 NearestPoint certified_nearest_point(const CurveElement& curve, const Point& query, double tolerance,
                                      const ParameterRange& range) noexcept;
 
-/// Of many queries; the same as one by one, to the last bit.
+/// For many queries; the same as one by one, to the last bit.
 void certified_nearest_points(const CurveElement& curve, std::span<const Point> queries,
                               std::span<NearestPoint> results, double tolerance) noexcept;
 
-/// The same point, from the last one.
+/// The same point, starting from the last one.
 NearestPoint tracked_nearest_point(const CurveElement& curve, const Point& query, double tolerance,
                                    const ParameterRange& range, double start) noexcept;
 

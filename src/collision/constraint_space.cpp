@@ -4,10 +4,11 @@ namespace calligraphy {
 namespace {
 
 /// Wang 2006, sec. 4.3.1 (a)-(d) for an LSE. Sec. 4.3.2 gives a CSE a "spherical neighboring area around the start
-/// point" without a radius; read here, as for an LSE, as the distance from its start to its end.
-double printed_share(const StrokeElement& element, const Point& query, const NearestPoint& foot) {
-  if (!(element.size() > 0.0)) return 1.0;                          // (d)
-  const bool ahead = element.degree() > 1 || foot.parameter > 0.0;  // (a): the foot on a line is its projection
+/// point" without a radius; interpreted, as for an LSE, as the distance from its start to its end.
+double printed_share(const StrokeElement& element, const Point& query, const NearestPoint& closest) {
+  if (!(element.size() > 0.0)) return 1.0;  // (d)
+  const bool ahead =
+      element.degree() > 1 || closest.parameter > 0.0;  // (a): the closest point on a line is its projection
   const double reach = (element.point(1.0) - element.origin()).squaredNorm();
   const bool near = (query - element.origin()).squaredNorm() < reach;  // (b), (c)
   return ahead && near ? 1.0 : 0.0;
@@ -15,13 +16,13 @@ double printed_share(const StrokeElement& element, const Point& query, const Nea
 
 }  // namespace
 
-double guidance_share(const ConstraintSpace& space, const StrokeElement& element, const Point& query,
-                      const NearestPoint& foot) noexcept {
-  if (space.rule == ConstraintSpaceRule::wang2006) return printed_share(element, query, foot);
-  if (!(foot.distance < space.radius)) return 0.0;
-  const double depth = space.radius - foot.distance;  // > 0: below the tube's edge
-  if (depth >= space.edge) return 1.0;
-  const double x = depth / space.edge;
+double guidance_weight(const ConstraintSpace& space, const StrokeElement& element, const Point& query,
+                       const NearestPoint& closest) noexcept {
+  if (space.rule == ConstraintSpaceRule::wang2006) return printed_share(element, query, closest);
+  if (!(closest.distance < space.radius)) return 0.0;
+  const double depth = space.radius - closest.distance;  // > 0: inside the edge of the tube
+  if (depth >= space.fade_width) return 1.0;
+  const double x = depth / space.fade_width;
   return x * x * (3.0 - 2.0 * x);
 }
 

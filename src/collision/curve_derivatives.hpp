@@ -1,9 +1,9 @@
-// A curve and its derivatives in units of its size, relative to its origin; the degree is known when compiling.
+// A curve and its derivatives in units of its size, relative to its origin; the degree is a compile-time constant.
 #pragma once
 
 #include <cstddef>
 
-#include <calligraphy/collision/curve_element.hpp>
+#include <calligraphy/collision/detail/curve_element.hpp>
 
 #include "pair.hpp"
 
@@ -14,7 +14,7 @@ namespace calligraphy {
   return (pair(query) - pair(curve.origin)) * curve.per_size;
 }
 
-/// In pairs of terms, for a short chain of dependent operations.
+/// In pairs of terms, for a short dependency chain.
 template <int Degree, typename Vector = Pair>
 [[gnu::always_inline]] inline Vector place(const CurveElement& curve, double t) {
   const auto c = [&](std::size_t k) __attribute__((always_inline)) {

@@ -1,4 +1,4 @@
-#include <calligraphy/collision/curve_element.hpp>
+#include <calligraphy/collision/detail/curve_element.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -14,13 +14,13 @@ namespace {
 /// Length of the derivative relative to the element's size below which its direction is rounding noise.
 constexpr double vanishing_slope = 1e-7;
 
-/// So near to the end of a curve that ends without speed, the sign of its derivatives is rounding noise too.
+/// This close to the end of a curve that ends with zero speed, the sign of its derivatives is rounding noise too.
 constexpr double at_end = 1e-6;
 
-/// Coefficients or ordinates of one part of g: of the factor of q_x, of that of q_y, or of what no query changes.
+/// Coefficients or ordinates of one part of g: the factor of q_x, the factor of q_y, or the constant.
 using Row = std::array<double, 2 * max_curve_degree>;
 
-/// From powers of t to Bernstein's basis over [0, 1].
+/// From the power basis to the Bernstein basis over [0, 1].
 template <int Degree>
 void to_bernstein(Row& row) {
   for (std::size_t i = 1; i < Degree; ++i) row[i] *= 1.0 / binomial[Degree][i];
@@ -29,8 +29,9 @@ void to_bernstein(Row& row) {
   }
 }
 
-/// Divides by t as often as the curve starts without speed, and by 1 - t as often as it ends so: g is zero there for
-/// every query, which would leave its sign open. The signs inside stay, and so does the degree, by elevation.
+/// Divides by t as often as the curve starts with zero speed, and by 1 - t as often as it ends so: there g vanishes for
+/// every query, which would leave its sign undecided. The signs inside are preserved, and so is the degree, by
+/// elevation.
 template <int Degree>
 void divide_zeros_out(Row& row, int from_start, int from_end) {
   const int reduced = Degree - from_start - from_end;
@@ -52,10 +53,11 @@ void divide_zeros_out(Row& row, int from_start, int from_end) {
   }
 }
 
-/// Error of an ordinate as a share of the largest term: five roundings to single precision, and room.
+/// Error of an ordinate relative to the maximum term: five roundings to single precision, plus a margin.
 constexpr float noise_share = 8.0F * 0x1p-24F;
 
-/// What each ordinate of a polynomial over the whole curve adds to each ordinate over the cells: subdivision is linear.
+/// Contribution of each ordinate of a polynomial over the whole curve to each ordinate over the cells: subdivision is
+/// linear.
 template <int Degree, std::size_t Count>
 constexpr std::array<std::array<double, Count>, Degree + 1> subdivision(int cells) {
   std::array<std::array<double, Count>, Degree + 1> weights = {};
@@ -64,7 +66,7 @@ constexpr std::array<std::array<double, Count>, Degree + 1> subdivision(int cell
     rest[unit] = 1.0;
     std::size_t next = 0;
     weights[unit][place_of_ordinate<Count>(next++)] = rest[0];
-    // De Casteljau's algorithm cuts one cell after the other off the rest.
+    // De Casteljau's algorithm splits one cell after the other off the rest.
     for (int left = cells; left > 0; --left) {
       std::array<double, Degree + 1> cell = rest;
       for (std::size_t k = 0; left > 1 && k <= Degree; ++k) {
@@ -73,7 +75,7 @@ constexpr std::array<std::array<double, Count>, Degree + 1> subdivision(int cell
       }
       for (std::size_t i = 1; i <= Degree; ++i) weights[unit][place_of_ordinate<Count>(next++)] = cell[i];
     }
-    // Unused places repeat the last ordinate and so show no change of sign.
+    // Unused entries repeat the last ordinate and so show no sign change.
     for (; next < Count; ++next) weights[unit][place_of_ordinate<Count>(next)] = rest[Degree];
   }
   return weights;
@@ -87,7 +89,7 @@ float write_ordinates(const Row& row, const std::array<std::array<double, Count>
     for (std::size_t k = 0; k <= Degree; ++k) sum += weights[k][i] * row[k];
     ordinates[i] = static_cast<float>(sum);
   }
-  float largest = 0.0F;  // over the whole curve bounds what is over a part
+  float largest = 0.0F;  // the maximum over the whole curve bounds that over a part
   for (std::size_t k = 0; k <= Degree; ++k) largest = std::max(largest, static_cast<float>(std::abs(row[k])));
   return largest;
 }
@@ -119,15 +121,15 @@ void prepare_ordinates(CurveElement& curve, int equal_at_start, int equal_at_end
   write_parts<degree>(parts, of_cells, curve.ordinates);
 }
 
-/// Control points equal to the first one and next to it, itself included.
+/// Number of control points equal to the first one and adjacent to it, including itself.
 template <typename Iterator>
 int equal_run(Iterator begin, Iterator end) {
   const auto other = std::find_if(begin, end, [&](const Point& point) { return point != *begin; });
   return static_cast<int>(other - begin);
 }
 
-/// Gauss-Legendre quadrature of the speed with 2 nodes an interval; in sizes first, whose squares neither overflow nor
-/// vanish.
+/// Gauss-Legendre quadrature of the speed with 2 nodes per interval; in units of the size first, so that squares
+/// neither overflow nor underflow.
 void prepare_arc(CurveElement& curve) {
   constexpr double node = 0.57735026918962576;
   constexpr double half = 0.5 / CurveElement::arc_intervals;
@@ -156,8 +158,8 @@ Point CurveElement::derivative_per_size(double t) const noexcept {
 
 Point CurveElement::tangent(double t) const noexcept {
   // Where the first derivative vanishes, the next one that does not gives the direction: the curve leaves its start
-  // along +B'' and arrives at its end along -B''. Between them a derivative too short to show a direction still shows
-  // on which side of its zero t is; at the zero, a cusp, the curve leaves along +B''.
+  // along +B'' and reaches its end along -B''. In between, a derivative too small to show a direction still shows on
+  // which side of its zero t is; at the zero, a cusp, the curve leaves along +B''.
   std::array<Point, max_curve_degree> row = coefficients;
   Point last = Point::Zero();
   double sign = 1.0;
@@ -207,7 +209,7 @@ CurveElement prepare_curve(std::span<const Point> control_points) noexcept {
   for (std::size_t k = 1; k <= n; ++k) {
     for (std::size_t i = 0; i + k <= n; ++i) difference[i] = difference[i + 1] - difference[i];
     curve.coefficients[k - 1] = binomial[n][k] * difference[0];
-    curve.least_slope += 1e-5 * curve.coefficients[k - 1].squaredNorm();
+    curve.min_slope += 1e-5 * curve.coefficients[k - 1].squaredNorm();
   }
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t k = 0; k < n; ++k) {

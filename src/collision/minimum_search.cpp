@@ -20,10 +20,10 @@ constexpr double unit_rounding = std::numeric_limits<double>::epsilon();
 
 double larger_coordinate(Pair vector) { return std::max(std::abs(vector[0]), std::abs(vector[1])); }
 
-/// The search of one query on one curve. Half the slope of the squared distance is the polynomial
+/// The search for one query on one curve. Half the slope of the squared distance is the polynomial
 /// g(t) = (B(t) - q) . B'(t), of degree 2 n - 1. Its Bernstein ordinates over an interval bound it there, and the
-/// number of their sign changes bounds the number of its zeros (variation diminishing), so that every minimum can be
-/// isolated: halve until an interval shows no change (none inside), or one (Newton's method cannot leave it).
+/// number of their sign changes bounds the number of its zeros (variation diminishing), so every minimum can be
+/// isolated: bisect until an interval shows no sign change (none inside) or one (Newton's method cannot leave it).
 template <int Degree>
 class MinimumSearch {
  public:
@@ -63,7 +63,7 @@ class MinimumSearch {
     return square;
   }
 
-  /// Cells whose ordinates have certain signs need no more than a look at them.
+  /// Cells whose ordinates all have certain signs only need to be inspected.
   void search_cells() {
     const CertainSigns signs = certain_signs(curve_.ordinates, query_);
     const double width = 1.0 / curve_.cells;
@@ -91,8 +91,8 @@ class MinimumSearch {
     }
   }
 
-  /// Whether the bits of `first` are the lowest ones and those of `second` the highest ones of `all`, with no more than
-  /// one between them that is of neither.
+  /// Whether the bits of `first` are the lowest ones and those of `second` the highest ones of `all`, with at most one
+  /// bit between them that is in neither.
   static bool starts_and_ends(std::uint64_t first, std::uint64_t second, std::uint64_t all) {
     const std::uint64_t not_second = all & ~second, between = not_second & ~first;
     return first != 0 && second != 0 && (first & (first + 1)) == 0 && (not_second & (not_second + 1)) == 0 &&
@@ -101,8 +101,8 @@ class MinimumSearch {
 
   /// Control points of a part of the curve, relative to the query.
   Controls controls(const ParameterRange& part) const {
-    // Of the whole curve: from the power basis to Bernstein's. Then de Casteljau's algorithm at both ends. Coordinates
-    // relative to the query keep their digits where control points and query crowd together.
+    // For the whole curve: from the power basis to the Bernstein basis, then de Casteljau's algorithm at both ends.
+    // Coordinates relative to the query keep their precision where control points and query lie close together.
     Controls row;
     row[0] = -query_;
     for (std::size_t k = 1; k <= Degree; ++k) row[k] = pair(curve_.coefficients[k - 1]) / binomial[Degree][k];
@@ -165,17 +165,17 @@ class MinimumSearch {
     }
   }
 
-  /// Whether the interval has to be halved. Its ends have been offered.
+  /// Whether the interval has to be bisected. Its ends have already been considered.
   bool examine(const Interval& interval) {
     const Terms g = ordinates(interval);
     const auto [lowest, highest] = std::minmax_element(g.begin(), g.end());
     if (*lowest >= 0.0 || *highest <= 0.0) return false;  // monotone: nothing nearer inside than at the ends
-    // What would be nearer by a thousandth of the tolerance, or by what rounds away, is not worth halving.
+    // An improvement below a thousandth of the tolerance, or below rounding, does not justify bisection.
     const double slack = 2e-3 * tolerance_ * larger_coordinate(best_.offset) + 2.0 * unit_rounding * best_square_;
-    if (least_square(interval, *lowest, *highest) >= best_square_ - slack) return false;
+    if (min_square(interval, *lowest, *highest) >= best_square_ - slack) return false;
     // Signs within rounding of zero: one between different ones leaves one change whatever it is; at an end they can
     // only hide a minimum as near as the end itself.
-    const double noise = 16.0 * unit_rounding * largest_product(interval);
+    const double noise = 16.0 * unit_rounding * max_product(interval);
     int changes = 0, change = 0, last = -1;
     bool doubtful = false;
     for (int i = 0; i <= slope_degree; ++i) {
@@ -202,8 +202,8 @@ class MinimumSearch {
     return false;
   }
 
-  /// Bound of the terms of which g is the sum.
-  static double largest_product(const Interval& interval) {
+  /// Bound on the terms whose sum is g.
+  static double max_product(const Interval& interval) {
     double offset = 0.0, velocity = 0.0;
     for (std::size_t i = 0; i <= Degree; ++i) {
       offset = std::max(offset, larger_coordinate(interval.controls[i]));
@@ -212,14 +212,14 @@ class MinimumSearch {
     return offset * velocity * Degree / (interval.end - interval.begin);
   }
 
-  /// No point of the interval is nearer: the squared distance falls from its ends by at most twice the ordinates.
-  static double least_square(const Interval& interval, double lowest, double highest) {
+  /// No point of the interval is nearer: the squared distance decreases from its ends by at most twice the ordinates.
+  static double min_square(const Interval& interval, double lowest, double highest) {
     const double width = interval.end - interval.begin;
     return (interval.begin_square * highest - interval.end_square * lowest + 2.0 * width * lowest * highest) /
            (highest - lowest);
   }
 
-  /// The only zero of g within the interval, where it changes from - to +: Newton's method, kept inside by halving.
+  /// The only zero of g within the interval, where it changes from - to +: Newton's method, safeguarded by bisection.
   void descend(double low, double high, double t) {
     Residue residue;
     const double polished = polish<Degree>(curve_, polynomial_, query_, t, residue).t;
@@ -241,14 +241,15 @@ class MinimumSearch {
       if (!(next > low && next < high)) next = 0.5 * (low + high);
       const double moved = std::abs(next - t);
       t = next;
-      // Newton's method doubles the digits, so a step of the root of the tolerance would do; halving does not.
+      // Newton's method doubles the digits, so a step of the square root of the tolerance would suffice; bisection does
+      // not.
       if (moved <= tolerance_ * 1e-3 || high - low <= 4.0 * unit_rounding) break;
     }
     offer(t);
   }
 
-  /// Where rounding decides the sign of g: whether its zero is near, or, by the nearest places to both sides where the
-  /// sign is certain, on which side of them.
+  /// Where rounding decides the sign of g: whether its zero is near, or on which side it lies, by the nearest positions
+  /// on both sides where the sign is certain.
   bool zero_is_here(double t, double& low, double& high) const {
     for (double aside = narrowest;; aside *= 4.0) {
       const double left = std::max(t - aside, low), right = std::min(t + aside, high);
@@ -266,7 +267,8 @@ class MinimumSearch {
     return std::abs(value) <= noise(at) ? 0 : value < 0.0 ? -1 : 1;
   }
 
-  /// Rounding of g: of the place, relative to the size, and of the velocity, relative to what it is the sum of.
+  /// Rounding error of g: from the position, relative to the size, and from the velocity, relative to the terms that it
+  /// is the sum of.
   double noise(const Candidate& at) const {
     double speed = 0.0;
     for (std::size_t k = 0; k < Degree; ++k) {

@@ -4,11 +4,9 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <sstream>
-
-#include <calligraphy/base/error.hpp>
 
 #include "approximate_nearest_point.hpp"
+#include "base/require.hpp"
 #include "certified_nearest_point.hpp"
 #include "length.hpp"
 
@@ -18,26 +16,26 @@ namespace {
 /// Beyond this many lengths squares overflow.
 constexpr double furthest_query = 1e100;
 
-/// Wang 2006, sec. 4.3.1: the perpendicular foot, clamped to the range. Not inlined, so that all nearest_point does is
-/// jump.
+/// Wang 2006, sec. 4.3.1: the foot of the perpendicular, clamped to the range. Not inlined, so that nearest_point is
+/// only a dispatch.
 [[gnu::noinline]] NearestPoint on_line(const LineElement& line, const Point& query, const ParameterRange& range) {
-  NearestPoint foot;
-  foot.parameter = range.begin;
-  foot.tangent = line.direction;
+  NearestPoint closest;
+  closest.parameter = range.begin;
+  closest.tangent = line.direction;
   const Point from_start = query - line.origin;
   const bool is_point = !(line.length > 0.0);
   if (std::isnan(line.length) || !query.allFinite() ||
       !(is_point || from_start.cwiseAbs().maxCoeff() <= furthest_query * line.length)) {
-    foot.point = line.point(range.begin);
-    foot.distance = std::numeric_limits<double>::infinity();
-    foot.status = NearestPointStatus::not_finite;
-    return foot;
+    closest.point = line.point(range.begin);
+    closest.distance = std::numeric_limits<double>::infinity();
+    closest.status = NearestPointStatus::not_finite;
+    return closest;
   }
-  if (!is_point) foot.parameter = std::clamp(line.direction.dot(from_start) / line.length, range.begin, range.end);
-  foot.point = line.point(foot.parameter);
-  foot.distance = length(query - foot.point);
-  foot.status = NearestPointStatus::certified;
-  return foot;
+  if (!is_point) closest.parameter = std::clamp(line.direction.dot(from_start) / line.length, range.begin, range.end);
+  closest.point = line.point(closest.parameter);
+  closest.distance = length(query - closest.point);
+  closest.status = NearestPointStatus::certified;
+  return closest;
 }
 
 bool usable(const ParameterRange& range) { return 0.0 <= range.begin && range.begin <= range.end && range.end <= 1.0; }
@@ -48,21 +46,27 @@ ParameterRange clamped(const ParameterRange& range) {
   return {begin, end};
 }
 
-void require(bool is_good, const char* name, double value, const char* domain) {
-  if (is_good) return;
-  std::ostringstream message;
-  message << name << " = " << value << ": expected " << domain;
-  throw ValueError(message.str());
-}
-
 }  // namespace
 
+const char* to_string(NearestPointMethod method) noexcept {
+  switch (method) {
+    case NearestPointMethod::exact:
+      return "exact";
+    case NearestPointMethod::tracked:
+      return "tracked";
+    case NearestPointMethod::sampled:
+      return "sampled";
+    case NearestPointMethod::wang2006:
+      return "wang2006";
+  }
+  return "";
+}
+
 void validate(const NearestPointOptions& options) {
-  require(options.tolerance > 0.0 && options.tolerance <= 1.0, "tolerance", options.tolerance,
-          "a number above 0, at most 1");
-  require(options.samples >= 2 && options.samples <= 64, "samples", options.samples, "a whole number from 2 to 64");
-  require(options.refinements >= 0 && options.refinements <= 8, "refinements", options.refinements,
-          "a whole number from 0 to 8");
+  require(options.tolerance > 0.0 && options.tolerance <= 1.0, "tolerance", options.tolerance, "",
+          "above 0 and at most 1");
+  require_within("samples", options.samples, "", 2, 64);
+  require_within("refinements", options.refinements, "", 0, 8);
 }
 
 NearestPoint nearest_point(const StrokeElement& element, const Point& query, const NearestPointOptions& options,

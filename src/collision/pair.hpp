@@ -1,5 +1,5 @@
-// Two coordinates, for the searches. Nothing of it is ever called: a call from code for wider registers into code that
-// was compiled without them would cost more than the query.
+// Two coordinates, for the searches. All of it is inlined: a call from code for wide registers into code compiled
+// without them would cost more than the query.
 #pragma once
 
 #include <cmath>
@@ -10,13 +10,13 @@
 
 namespace calligraphy {
 
-/// Both in one register: for one query at a time.
+/// Both in one register: for a single query.
 using Pair = double __attribute__((vector_size(16)));
 
 [[gnu::always_inline]] inline double x_of(Pair pair) { return pair[0]; }
 [[gnu::always_inline]] inline double y_of(Pair pair) { return pair[1]; }
 
-/// Each by itself: for many queries in a loop, which the compiler sets side by side.
+/// Each separately: for many queries in a loop that the compiler vectorises.
 struct Coordinates {
   double x, y;
 };
@@ -47,7 +47,7 @@ template <typename Vector>
   return x_of(product) + y_of(product);
 }
 
-/// False for NaN, too.
+/// Also false for NaN.
 [[gnu::always_inline]] inline bool within(Pair query, double limit) {
   return std::abs(query[0]) <= limit && std::abs(query[1]) <= limit;
 }

@@ -1,4 +1,4 @@
-// From a good guess to the nearest point: a step of Halley's method, one of Newton's, and a check of both.
+// From a good initial value to the nearest point: one step of Halley's method, one of Newton's, and a check of both.
 #pragma once
 
 #include <array>
@@ -9,8 +9,8 @@
 
 namespace calligraphy {
 
-/// g(t) = (B(t) - q) . B'(t), half the slope of the squared distance, by powers of t. Quick to evaluate; what is lost
-/// to cancellation, a step on the curve itself makes good.
+/// g(t) = (B(t) - q) . B'(t), half the slope of the squared distance, in powers of t. Fast to evaluate; what
+/// cancellation loses, a step on the curve itself restores.
 template <int Degree>
 struct SlopePolynomial {
   static constexpr std::size_t terms = 2 * Degree;
@@ -55,7 +55,7 @@ struct SlopePolynomial {
     return static_cast<double>(k * (k - 1) * (k - 2) / 6) * c(k);
   }
 
-  /// Like the others by Estrin's scheme: pairs of terms side by side, for short chains of dependent operations.
+  /// Evaluated like the others by Estrin's scheme: pairs of terms in parallel, for short dependency chains.
   [[gnu::always_inline]] double slope(double t, double square) const {
     double sum = static_cast<double>(last) * c(last);
     for (std::size_t k = last - 1; k >= 2; k -= 2) {
@@ -68,27 +68,28 @@ struct SlopePolynomial {
   const std::array<double, 2 * max_curve_degree>& high_;
 };
 
-/// How far off the zero of g a polished parameter may be: what decides whether to trust it.
+/// Bounds the error of a polished parameter relative to the zero of g, which decides whether to trust it.
 struct Residue {
   double step;   ///< the last one
   double slope;  ///< of g
   double bend;   ///< g''
 
   [[gnu::always_inline]] bool converged(const CurveElement& curve, double allowed) const {
-    // The last step is so small that two terms of the curve's Taylor series give the new place to rounding.
-    constexpr double largest_step = 1e-5;
-    return std::abs(step) <= largest_step && slope > curve.least_slope &&
+    // The last step is so small that two terms of the Taylor series of the curve give the new position up to rounding.
+    constexpr double max_step = 1e-5;
+    return std::abs(step) <= max_step && slope > curve.min_slope &&
            step * step * std::abs(bend) <= 2.0 * allowed * slope;
   }
 };
 
-/// Error that the tolerance allows a parameter; the point moves faster than it by up to the degree.
+/// Error of the parameter that the tolerance permits; the point moves faster than the parameter by a factor of up to
+/// the degree.
 template <int Degree>
 [[gnu::always_inline]] inline double allowed_error(double tolerance) {
   return tolerance * (0.5 / Degree);
 }
 
-/// Zero of g near t. The caller knows that there is one only, and asks whether it converged.
+/// Zero of g near t. The caller knows that there is only one, and checks for convergence.
 template <int Degree, typename Vector>
 [[gnu::always_inline]] inline CurvePoint<Vector> polish(const CurveElement& curve,
                                                         const SlopePolynomial<Degree>& polynomial, Vector query,
@@ -111,8 +112,9 @@ template <int Degree, typename Vector>
   return at;
 }
 
-/// From a guess so good that one step of Halley's method on the curve itself does: shifts the curve's Taylor series by
-/// the step and looks how far off the zero of g that leaves it. False where that was not enough.
+/// From an initial value so good that one step of Halley's method on the curve itself suffices: shifts the Taylor
+/// series of the curve by the step and checks the remaining distance from the zero of g. False where that was not
+/// enough.
 template <int Degree>
 [[gnu::always_inline]] inline bool follow(const CurveElement& curve, Pair query, double t, double allowed,
                                           Candidate& at) {
@@ -122,13 +124,13 @@ template <int Degree>
   const double slope = dot(at.velocity, at.velocity) + dot(at.offset, acceleration);
   const double bend = 0.5 * (3.0 * dot(at.velocity, acceleration) + dot(at.offset, jerk));
   const double step = g * slope / (slope * slope - g * bend);
-  constexpr double largest_step = 1e-3;  // what a quartic's fourth derivative adds is below rounding
+  constexpr double max_step = 1e-3;  // the contribution of a quartic's fourth derivative is below rounding
   const Pair moved = (at.velocity - (acceleration - jerk * (step / 3.0)) * (0.5 * step)) * step;
   at.t -= step;
   at.place -= moved;
   at.offset -= moved;
   at.velocity -= (acceleration - jerk * (0.5 * step)) * step;
-  return std::abs(step) <= largest_step && slope > curve.least_slope &&
+  return std::abs(step) <= max_step && slope > curve.min_slope &&
          std::abs(dot(at.offset, at.velocity)) <= allowed * slope;
 }
 

@@ -1,4 +1,4 @@
-// The answer to a query that is not finite, or so far from the curve that squares would overflow.
+// The result for a query that is not finite, or so far from the curve that squares would overflow.
 #pragma once
 
 #include <limits>

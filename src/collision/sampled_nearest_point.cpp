@@ -12,7 +12,7 @@ namespace calligraphy {
 namespace {
 
 constexpr int max_samples = 64;
-constexpr int block = 8;  // samples side by side
+constexpr int block = 8;  // samples in parallel
 using Lanes = float __attribute__((vector_size(4 * block)));
 constexpr int max_refinements = 8;
 
@@ -23,8 +23,8 @@ constexpr int max_refinements = 8;
   nearest = nearer ? index : nearest;
 }
 
-/// Index of the sample that is nearest to the query, by |B|^2 - 2 q . B: the square of the distance less that of the
-/// query, so that a far query loses no digits. In single precision, which is what is fast about this method.
+/// Index of the sample nearest to the query, by |B|^2 - 2 q . B: the squared distance minus the square of the query, so
+/// that a distant query loses no precision. In single precision, which is what makes this method fast.
 template <int Degree>
 [[gnu::always_inline]] inline int nearest_sample(const CurveElement& curve, Pair query, const ParameterRange& range,
                                                  int samples) {
@@ -34,7 +34,7 @@ template <int Degree>
   Lanes index = {0, 1, 2, 3, 4, 5, 6, 7};
   Lanes least = std::numeric_limits<float>::infinity() + Lanes{}, nearest = {};
   for (int first = 0; first < samples; first += block, index += block) {
-    const Lanes i = index < last ? index : last;  // after the last sample it is repeated
+    const Lanes i = index < last ? index : last;  // beyond the last sample, repeats it
     const Lanes t = static_cast<float>(range.begin) + step * i;
     Lanes x = static_cast<float>(curve.coefficients[Degree - 1].x()) * t;
     Lanes y = static_cast<float>(curve.coefficients[Degree - 1].y()) * t;
@@ -45,7 +45,7 @@ template <int Degree>
     const Lanes square = x * (x - twice_x) + y * (y - twice_y);
     take_nearer(least, nearest, square, i);
   }
-  // Halves against halves, without branches that no processor could foresee.
+  // Compares halves without branches, which no processor could predict.
   take_nearer(least, nearest, __builtin_shufflevector(least, least, 4, 5, 6, 7, 0, 1, 2, 3),
               __builtin_shufflevector(nearest, nearest, 4, 5, 6, 7, 0, 1, 2, 3));
   take_nearer(least, nearest, __builtin_shufflevector(least, least, 2, 3, 0, 1, 6, 7, 4, 5),
@@ -55,7 +55,7 @@ template <int Degree>
   return static_cast<int>(nearest[0]);
 }
 
-/// Halley's method, kept between the neighbours of the sample; a step that does not come nearer is not taken.
+/// Halley's method, kept between the neighbours of the sample; a step that does not come nearer is rejected.
 template <int Degree>
 [[gnu::always_inline]] inline NearestPoint refined(const CurveElement& curve, Pair query,
                                                    const NearestPointOptions& options, const ParameterRange& range) {
@@ -93,9 +93,8 @@ template <int Degree>
 }
 #endif
 
-/// By degree less 2. The baseline until the processor has been asked, when the program starts.
-constinit std::array<RefinedMethod, 3> refined_methods = {refined_baseline<2>, refined_baseline<3>,
-                                                          refined_baseline<4>};
+/// By degree minus 2. The baseline until the processor has been detected at program start.
+constinit std::array<RefinedMethod, 3> refined_methods = {refined_baseline<2>, refined_baseline<3>, refined_baseline<4>};
 
 #if defined(__SSE2__)
 [[maybe_unused]] const bool refined_chosen = [] {

@@ -1,10 +1,10 @@
-// How a curve is cut for its slope ordinates, and where they are kept.
+// How a curve is divided for its slope ordinates, and where they are stored.
 #pragma once
 
 #include <array>
 #include <cstddef>
 
-#include <calligraphy/collision/curve_element.hpp>
+#include <calligraphy/collision/detail/curve_element.hpp>
 
 namespace calligraphy {
 
@@ -13,8 +13,8 @@ constexpr int cells_of_degree(int degree) {
   return (static_cast<int>(CurveElement::max_ordinates) - 1) / (2 * degree - 1);
 }
 
-/// Where ordinate i is in memory. Packing the signs of registers of eight takes their halves by turns, so the ordinates
-/// are kept such that the signs come out in order: halves of a group of registers hold one half of its ordinates each.
+/// Position of ordinate i in memory. Packing the signs of registers of eight interleaves their halves, so the ordinates
+/// are stored such that the signs come out in order: each half of a group of registers holds one half of its ordinates.
 template <std::size_t Count>
 constexpr std::size_t place_of_ordinate(std::size_t i) {
   if (Count == 8) return i;
@@ -23,7 +23,7 @@ constexpr std::size_t place_of_ordinate(std::size_t i) {
   return group + 8 * chunk + 4 * half + i % 4;
 }
 
-/// Parameter in the middle between an ordinate and the next.
+/// Parameter midway between an ordinate and the next.
 template <int Degree>
 inline constexpr std::array<double, CurveElement::max_ordinates> middles = [] {
   std::array<double, CurveElement::max_ordinates> parameters = {};

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include <calligraphy/collision/curve_element.hpp>
+#include <calligraphy/collision/detail/curve_element.hpp>
 
 #include "pair.hpp"
 #include "slope_cells.hpp"
@@ -19,7 +19,7 @@ namespace calligraphy {
 template <std::size_t Count>
 struct SlopeSigns {
   std::uint64_t negative = 0;  ///< bit i: ordinate i is below zero
-  bool certain = false;        ///< rounding could turn no sign, and the query fits single precision
+  bool certain = false;        ///< rounding can flip no sign, and the query fits single precision
 
   bool first_negative() const { return negative & 1U; }
   bool last_negative() const { return (negative >> (Count - 1)) & 1U; }
@@ -27,12 +27,12 @@ struct SlopeSigns {
   std::uint64_t changes() const { return (negative ^ (negative >> 1)) & ((std::uint64_t{1} << (Count - 1)) - 1); }
 };
 
-/// The same with those left out that rounding could turn.
+/// The same, without those that rounding could flip.
 struct CertainSigns {
   std::uint64_t negative = 0, positive = 0;
 };
 
-/// Bound of the error of an ordinate.
+/// Bound on the error of an ordinate.
 template <std::size_t Count>
 [[gnu::always_inline]] inline float slope_noise(const SlopeOrdinates<Count>& ordinates, float x, float y) {
   return std::fabs(x) * ordinates.noise_x + std::fabs(y) * ordinates.noise_y + ordinates.noise_constant;
@@ -61,7 +61,7 @@ inline SlopeSigns<Count> slope_signs_portable(const SlopeOrdinates<Count>& ordin
 
 #if defined(__SSE2__)
 
-/// Four ordinates, of which the first is number i.
+/// Four ordinates, the first of which is number i.
 template <std::size_t Count>
 [[gnu::always_inline]] inline __m128 slope_ordinates_sse2(const SlopeOrdinates<Count>& ordinates, std::size_t i,
                                                           __m128 x, __m128 y) {
@@ -88,7 +88,7 @@ template <std::size_t Count>
   for (std::size_t i = 0; i < Count; i += 16) {
     __m128 values[4];
     for (std::size_t k = 0; k < 4; ++k) {
-      // A group that is not full repeats its first four.
+      // An incomplete group repeats its first four.
       values[k] = slope_ordinates_sse2(ordinates, i + 4 * k < Count ? i + 4 * k : i, all_x, all_y);
       least = _mm_min_ps(least, _mm_and_ps(values[k], magnitude));
     }
@@ -154,7 +154,7 @@ inline CertainSigns certain_signs(const SlopeOrdinates<Count>& ordinates, Pair q
   return signs;
 }
 
-/// What every processor of the kind that is compiled for can do.
+/// What every processor of the target architecture supports.
 template <std::size_t Count>
 [[gnu::always_inline]] inline SlopeSigns<Count> slope_signs(const SlopeOrdinates<Count>& ordinates, Pair query) {
 #if defined(__SSE2__)

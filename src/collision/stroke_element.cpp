@@ -9,13 +9,13 @@
 namespace calligraphy {
 namespace {
 
-/// What is smaller cannot be divided by.
-constexpr double smallest_curve = 1e-300;
+/// A smaller curve counts as a point: division by its size could overflow [m].
+constexpr double min_curve = 1e-300;
 
-/// The squares of what is larger overflow.
-constexpr double largest_element = 1e150;
+/// Squares of anything larger overflow [m].
+constexpr double max_element = 1e150;
 
-/// What has no place answers every query by not_finite.
+/// An element without a position: every query returns not_finite.
 LineElement unusable_element() {
   LineElement nowhere;
   nowhere.length = std::numeric_limits<double>::quiet_NaN();
@@ -52,8 +52,8 @@ StrokeElement prepare_element(std::span<const Point> control_points) noexcept {
       return std::abs(point.x() - start.x()) <= reach && std::abs(point.y() - start.y()) <= reach;
     });
   };
-  if (!all_within(largest_element)) return {unusable_element()};
-  if (all_within(smallest_curve)) return {prepare_line(start, start)};
+  if (!all_within(max_element)) return {unusable_element()};
+  if (all_within(min_curve)) return {prepare_line(start, start)};
   if (control_points.size() == 2) return {prepare_line(start, control_points.back())};
   return {prepare_curve(control_points)};
 }

@@ -7,7 +7,7 @@
 namespace calligraphy {
 namespace {
 
-/// Rounding of a distance, relative to it and to the size of the element.
+/// Rounding error of a distance, relative to it and to the size of the element.
 constexpr double rounding = 1e-14;
 constexpr double relative_rounding = std::numeric_limits<double>::epsilon();
 
@@ -29,30 +29,30 @@ StrokeTracker::StrokeTracker(std::span<const StrokeElement> elements, double tol
 NearestPoint StrokeTracker::look(int element, const Point& query) noexcept {
   const auto i = static_cast<std::size_t>(element);
   Sighting& sighting = sightings_[i];
-  const NearestPoint foot = nearest_point(elements_[i], query, options_, {}, sighting.parameter + sighting.step);
-  if (foot.status == NearestPointStatus::not_finite) return foot;
-  sighting.clearance = foot.distance - rounding * (foot.distance + elements_[i].size());
+  const NearestPoint closest = nearest_point(elements_[i], query, options_, {}, sighting.parameter + sighting.step);
+  if (closest.status == NearestPointStatus::not_finite) return closest;
+  sighting.clearance = closest.distance - rounding * (closest.distance + elements_[i].size());
   sighting.query = query;
-  sighting.step = foot.parameter - sighting.parameter;
-  sighting.parameter = foot.parameter;
-  return foot;
+  sighting.step = closest.parameter - sighting.parameter;
+  sighting.parameter = closest.parameter;
+  return closest;
 }
 
 StrokePoint StrokeTracker::update(const Point& query) noexcept {
   if (elements_.empty()) return {0, unanswered()};
   StrokePoint nearest{last_, look(last_, query)};
-  if (nearest.foot.status == NearestPointStatus::not_finite) return nearest;
+  if (nearest.closest.status == NearestPointStatus::not_finite) return nearest;
   for (int i = 0; i < static_cast<int>(elements_.size()); ++i) {
     if (i == last_) continue;
-    // The distance to an element changes by no more than the pen travels.
+    // The distance to an element changes by at most the distance that the pen travels.
     const Sighting& sighting = sightings_[static_cast<std::size_t>(i)];
-    const double lead = sighting.clearance - nearest.foot.distance;
+    const double lead = sighting.clearance - nearest.closest.distance;
     if (lead > 0.0 && (query - sighting.query).squaredNorm() < lead * lead) continue;
-    const NearestPoint foot = look(i, query);
-    const double gain = nearest.foot.distance - foot.distance;
+    const NearestPoint closest = look(i, query);
+    const double gain = nearest.closest.distance - closest.distance;
     const double tie =
-        rounding * elements_[static_cast<std::size_t>(i)].size() + 2.0 * relative_rounding * foot.distance;
-    if (gain > tie || (gain >= -tie && i < nearest.element)) nearest = {i, foot};
+        rounding * elements_[static_cast<std::size_t>(i)].size() + 2.0 * relative_rounding * closest.distance;
+    if (gain > tie || (gain >= -tie && i < nearest.element)) nearest = {i, closest};
   }
   last_ = nearest.element;
   return nearest;

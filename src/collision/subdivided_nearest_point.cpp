@@ -10,9 +10,9 @@
 namespace calligraphy {
 namespace {
 
-/// Whether an interval of the curve may hold a point whose distance is less than `distance` by more than epsilon. The
-/// squared distance dips below the least of five even samples by at most its largest second derivative times the square
-/// of their spacing over 8; all in sizes.
+/// Whether an interval of the curve may contain a point nearer than `distance` by more than epsilon. The squared
+/// distance falls below the minimum of five equally spaced samples by at most its maximum second derivative times the
+/// square of their spacing over 8; all in sizes.
 bool may_hide_nearer(const CurveElement& curve, const ParameterRange& part, double least, double distance,
                      double epsilon) {
   double speed = 0.0, acceleration = 0.0;
@@ -29,7 +29,7 @@ bool may_hide_nearer(const CurveElement& curve, const ParameterRange& part, doub
 }
 
 /// A point on the curve and its distance from the query.
-struct Sample {
+struct RecordedSample {
   Pair point;
   double distance;
 };
@@ -43,21 +43,21 @@ NearestPoint subdivided(const CurveElement& curve, const Point& query, double to
   const auto distance_to = [&](Pair point) { return std::sqrt(dot(point - relative, point - relative)); };
   const auto sample = [&](double t) {
     const Pair point = place<Degree>(curve, t);
-    return Sample{point, distance_to(point)};
+    return RecordedSample{point, distance_to(point)};
   };
 
   ParameterRange part = range;
   double t = 0.5 * (part.begin + part.end);
-  Sample begin = sample(part.begin), middle = sample(t), end = sample(part.end), left, right;
+  RecordedSample begin = sample(part.begin), middle = sample(t), end = sample(part.end), left, right;
   bool stopped = false;
   for (int step = 0; step < 64; ++step) {
     left = sample(0.5 * (part.begin + t));
     right = sample(0.5 * (t + part.end));
     stopped = std::abs(left.distance - right.distance) < epsilon;
     if (stopped) break;
-    const double left_least = std::min({begin.distance, left.distance, middle.distance});
-    const double right_least = std::min({middle.distance, right.distance, end.distance});
-    if (left_least < right_least || (left_least == right_least && left.distance <= right.distance)) {
+    const double left_min = std::min({begin.distance, left.distance, middle.distance});
+    const double right_min = std::min({middle.distance, right.distance, end.distance});
+    if (left_min < right_min || (left_min == right_min && left.distance <= right.distance)) {
       part.end = t;
       end = middle;
       middle = left;
@@ -71,7 +71,7 @@ NearestPoint subdivided(const CurveElement& curve, const Point& query, double to
   const Pair solution = (left.point + right.point) * 0.5;
   const double distance = distance_to(solution);
   const double least = std::min({begin.distance, left.distance, middle.distance, right.distance, end.distance});
-  // The bound settles most stops at little cost; where it does not, the interval is searched.
+  // The bound decides most stops at low cost; where it does not, the interval is searched.
   const bool unsafe = !stopped || (may_hide_nearer(curve, part, least, distance, epsilon) &&
                                    certified_nearest_point(curve, query, tolerance, part).distance * curve.per_size <
                                        distance - epsilon);
@@ -86,8 +86,8 @@ NearestPoint subdivided(const CurveElement& curve, const Point& query, double to
 
 }  // namespace
 
-/// Wang 2006, sec. 4.3.2, as printed. The printed text names no rule for a tie, which is generic: the point between the
-/// children belongs to both. Here it goes to the child with the nearer middle. Never certified.
+/// Wang 2006, sec. 4.3.2, as printed. The paper gives no rule for a tie, which is the generic case: the point between
+/// the children belongs to both. Here it goes to the child with the nearer midpoint. Never certified.
 NearestPoint subdivided_nearest_point(const CurveElement& curve, const Point& query, double tolerance,
                                       const ParameterRange& range) noexcept {
   if (!within_reach(in_sizes(curve, query))) return refused_query(curve, range);

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Motion with one sign of velocity: x'' + 2 decay x' + frequency^2 x = push + ramp t, x(0) = 0, x'(0) = velocity.
+/// Motion with constant sign of velocity: x'' + 2 decay x' + frequency^2 x = push + ramp t, x(0) = 0, x'(0) = velocity.
 struct Slide {
   double velocity;  ///< [m/s]
   double push;      ///< [m/s^2]
@@ -21,7 +21,7 @@ struct Slide {
   double velocity_after(const ImpulseResponse& response) const noexcept {
     return velocity * response.derivative + push * response.value + ramp * response.integral;
   }
-  // The acceleration solves the equation without a right-hand side: start * derivative + slope * value.
+  // The acceleration solves the homogeneous equation: start * derivative + slope * value.
   double acceleration_start(const Oscillator& oscillator) const noexcept {
     return push - 2.0 * oscillator.decay() * velocity;
   }
@@ -30,8 +30,8 @@ struct Slide {
   }
 };
 
-/// Zero of the velocity in low..high, where it goes monotonically from `direction` to the other side: Newton's method,
-/// by halves where it would leave the bracket.
+/// Zero of the velocity in low..high, where it changes monotonically from the sign `direction` to the opposite one:
+/// Newton's method, with bisection where it would leave the bracket.
 double stop_within(const Oscillator& oscillator, const Slide& slide, double direction, double low,
                    double high) noexcept {
   const double start = slide.acceleration_start(oscillator);
@@ -52,8 +52,8 @@ double stop_within(const Oscillator& oscillator, const Slide& slide, double dire
   return time;
 }
 
-/// When the velocity, which has the sign `direction` or is about to take it, first vanishes; infinity if not before
-/// `seconds`. Swings about the target's velocity only shrink: what the first one back does not reach, none will.
+/// Time at which the velocity, which has the sign `direction` or is about to take it, first vanishes; infinity if not
+/// before `seconds`. Oscillations about the target's velocity only decay, so only the first reversal can reach zero.
 double first_stop(const Oscillator& oscillator, const Slide& slide, double direction, double seconds) noexcept {
   const double start = slide.acceleration_start(oscillator);
   const double slope = slide.acceleration_slope(oscillator);
@@ -70,7 +70,7 @@ double first_stop(const Oscillator& oscillator, const Slide& slide, double direc
   return stop_within(oscillator, slide, direction, low, high);
 }
 
-/// How long friction holds a mass at rest against `drive`, which changes at `rate` [N/s].
+/// Time for which friction holds a mass at rest against `drive` [N], which changes at `rate` [N/s].
 double sticking_time(double drive, double rate, double dry_friction) noexcept {
   if (rate == 0.0) return infinity;
   return (std::copysign(dry_friction, rate) - drive) / rate;
@@ -78,9 +78,9 @@ double sticking_time(double drive, double rate, double dry_friction) noexcept {
 
 }  // namespace
 
-AxisState move_axis(const Oscillator& oscillator, const ImpulseResponse& whole_step, AxisState start,
-                    const AxisLoad& load, double seconds) noexcept {
-  const double rate = oscillator.stiffness() * load.target_velocity;  // of the spring's force while the mass rests
+AxisState advance_axis(const Oscillator& oscillator, const ImpulseResponse& whole_step, AxisState start,
+                       const AxisLoad& load, double seconds) noexcept {
+  const double rate = oscillator.stiffness() * load.target_velocity;  // of the spring force at rest [N/s]
   AxisState state = start;
   double remaining = seconds;
   for (int phase = 0; phase < max_phases && remaining > 0.0; ++phase) {
@@ -93,7 +93,7 @@ AxisState move_axis(const Oscillator& oscillator, const ImpulseResponse& whole_s
       if (!(stuck < remaining)) return state;
       remaining -= stuck;
       direction = std::copysign(1.0, rate);
-      net_force = 0.0;  // by definition of breaking away; computing it again would leave a rounding error of any sign
+      net_force = 0.0;  // by definition of breakaway; recomputing it would leave a rounding error of either sign
     }
     const Slide slide{state.velocity, net_force / oscillator.mass(), rate / oscillator.mass()};
     const double stop = load.dry_friction > 0.0 ? first_stop(oscillator, slide, direction, remaining) : infinity;

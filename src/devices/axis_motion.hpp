@@ -1,4 +1,4 @@
-// One axis of a point mass with dry friction, between two samples.
+// Motion of a point mass with dry friction along one axis, between two samples.
 #pragma once
 
 #include "oscillator.hpp"
@@ -10,22 +10,22 @@ struct AxisState {
   double velocity = 0.0;  ///< [m/s]
 };
 
-/// What acts on the axis besides the oscillator's own spring and damper.
+/// Forces on the axis, in addition to the oscillator's own spring and damper.
 struct AxisLoad {
-  double force = 0.0;            ///< held, damping of the hand against its moving target included [N]
+  double force = 0.0;            ///< held constant; includes the grip damping times target_velocity [N]
   double target = 0.0;           ///< rest position of the spring at the start [m]
   double target_velocity = 0.0;  ///< [m/s]
-  double dry_friction = 0.0;     ///< largest friction that opposes motion or holds against it [N]
+  double dry_friction = 0.0;     ///< Coulomb friction: opposes motion, or holds the mass up to this force [N]
 };
 
-/// Phases of sliding that one call follows exactly. More fit into no step of a servo loop; past it the axis is held at
-/// its last stop, so that the work is bounded whatever the step.
+/// Sliding phases that one call computes exactly; no step of a servo loop contains more. Beyond that the axis stays at
+/// its last stop, so the work is bounded for any step.
 inline constexpr int max_phases = 256;
 
-/// Exact motion through `seconds`: m x'' = force + k (target(t) - x) - d x' - dry friction. While the velocity keeps
-/// its sign the equation is linear and solved in closed form; at each stop the mass sticks or turns back.
+/// Exact motion over `seconds`: m x'' = force + k (target(t) - x) - d x' - dry friction. While the velocity keeps its
+/// sign the equation is linear and solved in closed form; at each stop the mass sticks or reverses.
 /// `whole_step` is oscillator.impulse_response(seconds), which several axes can share.
-AxisState move_axis(const Oscillator& oscillator, const ImpulseResponse& whole_step, AxisState start,
-                    const AxisLoad& load, double seconds) noexcept;
+AxisState advance_axis(const Oscillator& oscillator, const ImpulseResponse& whole_step, AxisState start,
+                       const AxisLoad& load, double seconds) noexcept;
 
 }  // namespace calligraphy

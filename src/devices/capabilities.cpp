@@ -1,14 +1,13 @@
 #include <calligraphy/devices/capabilities.hpp>
 
-#include <cmath>
-#include <sstream>
-
 #include <calligraphy/base/error.hpp>
+
+#include "base/require.hpp"
 
 namespace calligraphy {
 namespace {
 
-/// How messages begin.
+/// Prefix of error messages.
 std::string device_text(const Capabilities& capabilities) { return "device \"" + device_label(capabilities) + "\": "; }
 
 }  // namespace
@@ -30,34 +29,31 @@ const std::string& device_label(const Capabilities& capabilities) noexcept {
 }
 
 void validate(const Capabilities& capabilities) {
-  const auto check = [&capabilities](const char* name, double value, bool may_be_infinite = false) {
-    if (value >= 0.0 && (may_be_infinite || std::isfinite(value))) return;
-    std::ostringstream message;
-    message << device_text(capabilities) << name << " is " << value << ", must be at least 0"
-            << (may_be_infinite ? "" : " and finite");
-    throw ValueError(message.str());
+  const std::string device = device_text(capabilities);
+  const auto may_be_infinite = [&device](const char* name, double value, const char* unit) {
+    require(value >= 0.0, device + name, value, unit, "at least 0");
   };
-  for (const double extent : capabilities.workspace) check("workspace", extent);
-  check("peak force", capabilities.peak_force, true);
-  check("continuous force", capabilities.continuous_force, true);
-  check("usable stiffness", capabilities.usable_stiffness, true);
-  check("encoder step", capabilities.encoder_step);
-  check("update rate", capabilities.update_rate);
-  check("apparent mass", capabilities.apparent_mass);
-  check("viscous friction", capabilities.viscous_friction);
-  check("Coulomb friction", capabilities.coulomb_friction);
-  check("sample delay", capabilities.sample_delay);
+  for (const double extent : capabilities.workspace) require_not_negative(device + "workspace", extent, "m");
+  may_be_infinite("peak force", capabilities.peak_force, "N");
+  may_be_infinite("continuous force", capabilities.continuous_force, "N");
+  may_be_infinite("usable stiffness", capabilities.usable_stiffness, "N/m");
+  require_not_negative(device + "encoder step", capabilities.encoder_step, "m");
+  require_not_negative(device + "update rate", capabilities.update_rate, "Hz");
+  require_not_negative(device + "apparent mass", capabilities.apparent_mass, "kg");
+  require_not_negative(device + "viscous friction", capabilities.viscous_friction, "N s/m");
+  require_not_negative(device + "Coulomb friction", capabilities.coulomb_friction, "N");
+  require_not_negative(device + "sample delay", capabilities.sample_delay, "ticks");
 
   const DeviceAxes& sensed = capabilities.sensed;
   const DeviceAxes& driven = capabilities.driven;
   if (!(sensed.x || sensed.y || sensed.z || sensed.rotations)) {
-    throw ValueError(device_text(capabilities) + "sensed axes are none, must be at least one");
+    throw ValueError(device + "no axis is sensed, at least one must be");
   }
   const DeviceAxes blind{driven.x && !sensed.x, driven.y && !sensed.y, driven.z && !sensed.z,
                          driven.rotations && !sensed.rotations};
   if (blind.x || blind.y || blind.z || blind.rotations) {
-    throw ValueError(device_text(capabilities) + "driven axes are " + axes_text(driven) + ", sensed ones " +
-                     axes_text(sensed) + ": must be sensed too: " + axes_text(blind));
+    throw ValueError(device + "driven axes are " + axes_text(driven) + ", sensed axes are " +
+                     axes_text(sensed) + "; driven but not sensed: " + axes_text(blind));
   }
 }
 

@@ -1,5 +1,5 @@
-// Where each figure comes from, and how good that source is, stands in docs/devices.md. Apparent mass, viscous friction
-// and, but for the Omni, Coulomb friction are estimates.
+// docs/devices.md gives the source of each value and its quality. Apparent mass, viscous friction and, except for the
+// Omni, Coulomb friction are estimates.
 #include <calligraphy/devices/device_profiles.hpp>
 
 #include <array>
@@ -10,7 +10,7 @@
 namespace calligraphy {
 namespace {
 
-/// Peak force and usable stiffness: what CHAI3D's CPhantomDevices.cpp allows. The rest: secondary tables.
+/// Peak force and usable stiffness are the limits in CHAI3D's CPhantomDevices.cpp, the rest is from secondary tables.
 Capabilities profile(const char* name, const char* model, const Eigen::Vector3d& workspace, double peak,
                      double continuous, double stiffness) {
   Capabilities result;
@@ -26,7 +26,8 @@ Capabilities profile(const char* name, const char* model, const Eigen::Vector3d&
 Capabilities physical(Capabilities profile, double encoder_step, double mass, double coulomb_friction) {
   profile.encoder_step = encoder_step;
   profile.apparent_mass = mass;
-  // Estimate for every real device: the low end of what is plausible, so that the simulation flatters no controller.
+  // An estimate for every real device, at the low end of the plausible range, so that the simulation favours no
+  // controller.
   profile.viscous_friction = 0.1;
   profile.coulomb_friction = coulomb_friction;
   return profile;
@@ -59,7 +60,7 @@ const Capabilities& device_profile(std::string_view name) {
     if (profile.name == name) return profile;
     known += (known.empty() ? "" : ", ") + profile.name;
   }
-  throw ValueError("device profile \"" + std::string(name) + "\" does not exist; there are " + known);
+  throw ValueError("device profile \"" + std::string(name) + "\" does not exist; available: " + known);
 }
 
 }  // namespace calligraphy

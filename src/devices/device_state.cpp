@@ -2,7 +2,7 @@
 
 namespace calligraphy {
 
-const char* status_name(DeviceStatus status) noexcept {
+const char* to_string(DeviceStatus status) noexcept {
   switch (status) {
     case DeviceStatus::ok:
       return "ok";
@@ -20,7 +20,7 @@ const char* status_name(DeviceStatus status) noexcept {
   return "unknown";
 }
 
-const char* fault_name(DeviceFault fault) noexcept {
+const char* to_string(DeviceFault fault) noexcept {
   switch (fault) {
     case DeviceFault::none:
       return "none";

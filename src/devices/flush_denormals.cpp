@@ -1,4 +1,4 @@
-#include <calligraphy/devices/flush_denormals.hpp>
+#include <calligraphy/devices/detail/flush_denormals.hpp>
 
 #if defined(__SSE2__) || defined(_M_X64)
 #include <xmmintrin.h>
@@ -7,7 +7,7 @@
 namespace calligraphy {
 namespace {
 
-// The control word of floating-point arithmetic, and its bits that flush what goes in and what comes out.
+// The floating-point control register, and its bits that flush denormal operands and results.
 #if defined(__SSE2__) || defined(_M_X64)
 constexpr std::uint64_t flush = 0x8040;  // FTZ and DAZ of MXCSR
 std::uint64_t control() noexcept { return _mm_getcsr(); }

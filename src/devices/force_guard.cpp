@@ -1,39 +1,24 @@
-#include <calligraphy/devices/force_guard.hpp>
+#include <calligraphy/devices/detail/force_guard.hpp>
 
 #include <algorithm>
-#include <cmath>
-#include <sstream>
 
-#include <calligraphy/base/error.hpp>
+#include <calligraphy/devices/servo.hpp>
+
+#include "base/require.hpp"
 
 namespace calligraphy {
 namespace {
 
 double checked(const char* name, double value, double largest) {
-  if (std::isfinite(value) && value >= 0.0 && value <= largest) return value;
-  std::ostringstream message;
-  message << name << " of the force is " << value << " s, must be from 0 to " << largest << " s";
-  throw ValueError(message.str());
+  require_within(name, value, "s", 0.0, largest);
+  return value;
 }
 
 }  // namespace
 
-const char* phase_name(ServoPhase phase) noexcept {
-  switch (phase) {
-    case ServoPhase::zero:
-      return "zero";
-    case ServoPhase::rising:
-      return "rising";
-    case ServoPhase::running:
-      return "running";
-    case ServoPhase::falling:
-      return "falling";
-  }
-  return "unknown";
-}
-
-ForceGuard::ForceGuard(double fall_time, double rise_time)
-    : fall_time_(checked("fall time", fall_time, 0.1)), rise_time_(checked("rise time", rise_time, 10.0)) {}
+ForceGuard::ForceGuard(double ramp_down, double ramp_up)
+    : ramp_down_(checked("servo loop: ramp_down", ramp_down, 0.1)),
+      ramp_up_(checked("servo loop: ramp_up", ramp_up, 10.0)) {}
 
 const Eigen::Vector3d& ForceGuard::pass(const Eigen::Vector3d& wanted, double elapsed) noexcept {
   if (phase_ == ServoPhase::falling) return hold(elapsed);
@@ -42,7 +27,7 @@ const Eigen::Vector3d& ForceGuard::pass(const Eigen::Vector3d& wanted, double el
     gain_ = 0.0;
   }
   if (phase_ == ServoPhase::rising) {
-    gain_ = rise_time_ > 0.0 ? gain_ + elapsed / rise_time_ : 1.0;
+    gain_ = ramp_up_ > 0.0 ? gain_ + elapsed / ramp_up_ : 1.0;
     if (gain_ >= 1.0) {
       gain_ = 1.0;
       phase_ = ServoPhase::running;
@@ -55,8 +40,8 @@ const Eigen::Vector3d& ForceGuard::pass(const Eigen::Vector3d& wanted, double el
 
 const Eigen::Vector3d& ForceGuard::hold(double elapsed) noexcept {
   if (phase_ != ServoPhase::falling) return force_;
-  gain_ = fall_time_ > 0.0 ? gain_ - elapsed / fall_time_ : 0.0;
-  // Sums of ticks that should end at zero end at some 1e-16 of it.
+  gain_ = ramp_down_ > 0.0 ? gain_ - elapsed / ramp_down_ : 0.0;
+  // Rounding leaves sums of ticks about 1e-16 off zero.
   if (gain_ > 1e-9) {
     force_ = gain_ * held_;
   } else {
@@ -67,13 +52,13 @@ const Eigen::Vector3d& ForceGuard::hold(double elapsed) noexcept {
   return force_;
 }
 
-const Eigen::Vector3d& ForceGuard::fall(DeviceFault fault, double elapsed, double longest_first) noexcept {
+const Eigen::Vector3d& ForceGuard::fall(DeviceFault fault, double elapsed, double max_first_step) noexcept {
   fault_ = fault;
   if (phase_ == ServoPhase::zero || phase_ == ServoPhase::falling) return hold(elapsed);
   phase_ = ServoPhase::falling;
   held_ = force_;
   gain_ = 1.0;
-  return hold(std::min(elapsed, longest_first));
+  return hold(std::min(elapsed, max_first_step));
 }
 
 void ForceGuard::reset() noexcept {

@@ -12,7 +12,7 @@ constexpr double never = std::numeric_limits<double>::infinity();
 /// (1 - exp(-z)) / z, the mean of exp(-s) over 0..z.
 double mean_decay(double z) noexcept { return z == 0.0 ? 1.0 : -std::expm1(-z) / z; }
 
-/// (z - 1 + exp(-z)) / z^2; the plain formula cancels for small z.
+/// (z - 1 + exp(-z)) / z^2; the direct formula suffers from cancellation for small z.
 double mean_decay_integral(double z) noexcept {
   if (z > 0.5) return (z + std::expm1(-z)) / (z * z);
   double term = 0.5;
@@ -30,7 +30,7 @@ Oscillator::Oscillator(double mass, double damping, double stiffness) noexcept
     : mass_(mass), stiffness_(stiffness), decay_(0.5 * damping / mass), frequency_squared_(stiffness / mass) {
   const double frequency = std::sqrt(frequency_squared_);
   oscillates_ = frequency > decay_;
-  // (a - b)(a + b) instead of a^2 - b^2: exact beside critical damping, where the difference is all that counts.
+  // (a - b)(a + b) instead of a^2 - b^2: accurate near critical damping, where cancellation would dominate.
   if (oscillates_) {
     ringing_ = std::sqrt(frequency - decay_) * std::sqrt(frequency + decay_);
   } else {
@@ -40,7 +40,7 @@ Oscillator::Oscillator(double mass, double damping, double stiffness) noexcept
 }
 
 ImpulseResponse Oscillator::impulse_response(double seconds) const noexcept {
-  // Below one radian or one time constant the closed forms subtract nearly equal numbers, and the series is short.
+  // Below one radian or one time constant the closed forms suffer from cancellation, and the series is short.
   const double fastest = oscillates_ ? std::sqrt(frequency_squared_) : fast_rate_;
   if (fastest * seconds <= 1.0) return power_series(seconds);
   return oscillates_ ? oscillating(seconds) : aperiodic(seconds);
@@ -85,8 +85,8 @@ ImpulseResponse Oscillator::oscillating(double seconds) const noexcept {
 }
 
 ImpulseResponse Oscillator::aperiodic(double seconds) const noexcept {
-  // (d/dt + fast) y = exp(-slow t): integrating this chain of two first-order lags divides by the fast rate alone, so
-  // that neither equal rates nor a missing spring (slow = 0) divide by zero.
+  // (d/dt + fast) y = exp(-slow t): integrating this chain of two first-order lags divides only by the fast rate, so
+  // neither equal rates nor a missing spring (slow = 0) cause a division by zero.
   const double slow = slow_rate_ * seconds;
   ImpulseResponse response;
   response.value = std::exp(-slow) * seconds * mean_decay((fast_rate_ - slow_rate_) * seconds);

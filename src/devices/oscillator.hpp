@@ -1,10 +1,10 @@
-// The linear motion of a mass on a spring and a damper, in closed form.
+// Linear motion of a mass on a spring and a damper, in closed form.
 #pragma once
 
 namespace calligraphy {
 
-/// What an impulse does after a time t: y(t) for y'' + 2 decay y' + frequency^2 y = 0, y(0) = 0, y'(0) = 1, with its
-/// derivative and its first two integrals from 0 to t. Every motion below is a sum of these.
+/// Impulse response at time t: y(t) for y'' + 2 decay y' + frequency^2 y = 0, y(0) = 0, y'(0) = 1, with its derivative
+/// and its first two integrals from 0 to t. Every motion is a linear combination of these.
 struct ImpulseResponse {
   double derivative = 1.0;       ///< y'(t) [1]
   double value = 0.0;            ///< y(t) [s]
@@ -12,19 +12,19 @@ struct ImpulseResponse {
   double double_integral = 0.0;  ///< [s^3]
 };
 
-/// m x'' + d x' + k x with m > 0, d >= 0, k >= 0; d = 0 and k = 0 included.
+/// m x'' + d x' + k x with m > 0, d >= 0, k >= 0.
 class Oscillator {
  public:
   Oscillator(double mass, double damping, double stiffness) noexcept;
 
-  /// To a few units in the last place of its own size for every t >= 0, at and beside critical damping too.
+  /// Accurate to a few units in the last place for every t >= 0, also at and near critical damping.
   ImpulseResponse impulse_response(double seconds) const noexcept;
 
   /// First t > 0 at which a solution of the equation above with y(0) = start, y'(0) = slope - 2 decay start vanishes;
-  /// infinity if there is none. [s]
+  /// infinity if it never does. [s]
   double first_zero(double start, double slope) const noexcept;
 
-  /// Time between two zeros of any solution, infinity without oscillation. [s]
+  /// Time between two zeros of any solution; infinity without oscillation. [s]
   double half_period() const noexcept;
 
   double mass() const noexcept { return mass_; }

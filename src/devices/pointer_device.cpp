@@ -2,44 +2,37 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include <calligraphy/base/error.hpp>
+
+#include "base/require.hpp"
 
 namespace calligraphy {
 namespace {
 
-void require(const char* name, double value, double smallest, double largest, const char* unit) {
-  if (std::isfinite(value) && value >= smallest && value <= largest) return;
-  std::ostringstream message;
-  message << "pointer: " << name << " is " << value << ", must be from " << smallest << " to " << largest << " "
-          << unit;
-  throw ValueError(message.str());
-}
-
 const PointerOptions& checked(const PointerOptions& options) {
-  require("rate", options.rate, 100.0, 1e5, "Hz");
-  require("smoothing time", options.smoothing_time, 0.0, 1.0, "s");
-  require("largest speed", options.largest_speed, 1e-3, 10.0, "m/s");
-  require("lifting speed", options.lifting_speed, 1e-3, 10.0, "m/s");
-  require("hover height", options.hover_height, 0.0, 0.1, "m");
-  require("press depth", options.press_depth, 0.0, 0.1, "m");
+  require_within("pointer: rate", options.rate, "Hz", 100.0, 1e5);
+  require_within("pointer: smoothing_time", options.smoothing_time, "s", 0.0, 1.0);
+  require_within("pointer: max_speed", options.max_speed, "m/s", 1e-3, 10.0);
+  require_within("pointer: lifting_speed", options.lifting_speed, "m/s", 1e-3, 10.0);
+  require_within("pointer: hover_height", options.hover_height, "m", 0.0, 0.1);
+  require_within("pointer: press_depth", options.press_depth, "m", 0.0, 0.1);
   const Eigen::Matrix3d rotation = options.paper.linear();
   if (!options.paper.matrix().allFinite() ||
       !(rotation.transpose() * rotation).isApprox(Eigen::Matrix3d::Identity(), 1e-9) || rotation.determinant() < 0.0) {
-    throw ValueError("pointer: the paper's place is not a rotation and a shift");
+    throw ValueError("pointer: the transform of the paper is not a rotation and a translation");
   }
   return options;
 }
 
-/// Copies of a place while it changes are thrown away; a writer is done in some nanoseconds.
-constexpr int most_attempts = 8;
+/// Reads that overlap a write are retried; a write takes a few nanoseconds.
+constexpr int max_attempts = 8;
 
 }  // namespace
 
-PointerDevice::PointerDevice(const Capabilities& device, const Hand& hand, const PointerOptions& options)
+PointerDevice::PointerDevice(const Capabilities& device, const GripImpedance& grip, const PointerOptions& options)
     : options_(checked(options)),
-      device_(device, hand, options.paper * Eigen::Vector3d(0.0, 0.0, options.hover_height)),
+      device_(device, grip, options.paper * Eigen::Vector3d(0.0, 0.0, options.hover_height)),
       target_(0.0, 0.0, options.hover_height),
       between_(target_),
       meant_(target_) {
@@ -49,7 +42,7 @@ PointerDevice::PointerDevice(const Capabilities& device, const Hand& hand, const
 void PointerDevice::move(double x, double y, double pressure, std::uint32_t buttons) noexcept {
   if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(pressure)) return;
   const double height = pressure > 0.0 ? -std::min(pressure, 1.0) * options_.press_depth : options_.hover_height;
-  const Eigen::Vector3d& workspace = device_.capabilities().workspace;  // from which no hand reaches twice as far
+  const Eigen::Vector3d& workspace = device_.capabilities().workspace;  // positions are clamped to twice its size
   sequence_.fetch_add(1, std::memory_order_acquire);
   place_[0].store(std::clamp(x, -workspace.x(), workspace.x()), std::memory_order_release);
   place_[1].store(std::clamp(y, -workspace.y(), workspace.y()), std::memory_order_release);
@@ -67,7 +60,7 @@ DeviceState PointerDevice::read() noexcept {
 }
 
 void PointerDevice::take_target() noexcept {
-  for (int attempt = 0; attempt < most_attempts; ++attempt) {
+  for (int attempt = 0; attempt < max_attempts; ++attempt) {
     const std::uint32_t before = sequence_.load(std::memory_order_acquire);
     if (before == taken_) return;
     if (before % 2 == 1) continue;
@@ -82,8 +75,8 @@ void PointerDevice::take_target() noexcept {
   }
 }
 
-/// Two equal lags in a row: a staircase of places becomes a path of continuous speed. The second is limited in speed,
-/// so that a pointer which leaps, or is lifted, does not fling the pen.
+/// Two equal first-order lags in series turn stepwise positions into a path of continuous velocity. The second is
+/// limited in speed, so that a pointer that jumps or is lifted does not fling the pen.
 void PointerDevice::follow() noexcept {
   const double period = 1.0 / options_.rate;
   const double lag = 0.5 * options_.smoothing_time;
@@ -91,7 +84,7 @@ void PointerDevice::follow() noexcept {
   between_ += share * (target_ - between_);
   Eigen::Vector3d step = share * (between_ - meant_);
   const double along = step.head<2>().norm();
-  const double longest = options_.largest_speed * period;
+  const double longest = options_.max_speed * period;
   if (along > longest) step.head<2>() *= longest / along;
   step.z() = std::clamp(step.z(), -options_.lifting_speed * period, options_.lifting_speed * period);
   intention_.position = options_.paper * meant_;

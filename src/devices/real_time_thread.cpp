@@ -40,11 +40,10 @@ void lock_memory(std::vector<std::string>& warnings) {
   const std::string remedy =
       ": memory that is swapped out may delay the servo loop. Add the line \"@realtime - memlock unlimited\" to a file "
       "in /etc/security/limits.d, join the group realtime and log in again";
-  // Under a limit, a lock on future memory would make later allocations of the program fail.
+  // With a finite limit, locking future pages would make later allocations of the program fail.
   rlimit limit = {};
   if (getrlimit(RLIMIT_MEMLOCK, &limit) != 0 || limit.rlim_cur != RLIM_INFINITY) {
-    warnings.push_back("memory is not locked, for the limit is " + std::to_string(limit.rlim_cur / 1024) + " kB" +
-                       remedy);
+    warnings.push_back("memory is not locked (the limit is " + std::to_string(limit.rlim_cur / 1024) + " kB)" + remedy);
   } else if (mlockall(MCL_CURRENT | MCL_FUTURE) != 0) {
     warnings.push_back("memory is not locked (" + reason(errno) + ")" + remedy);
   }
@@ -57,16 +56,10 @@ void pin(int core, std::vector<std::string>& warnings) {
   const int error = pthread_setaffinity_np(pthread_self(), sizeof cores, &cores);
   if (error == 0) return;
   warnings.push_back("the servo thread is not bound to processor core " + std::to_string(core) + " (" + reason(error) +
-                     "): choose one that this process may use, or none");
+                     "): choose a core that this process may use, or none");
 }
 
 }  // namespace
-
-double now() noexcept {
-  timespec time = {};
-  clock_gettime(CLOCK_MONOTONIC, &time);
-  return static_cast<double>(time.tv_sec) + nanosecond * static_cast<double>(time.tv_nsec);
-}
 
 void sleep_until(double deadline) noexcept {
   timespec time = {};
@@ -79,7 +72,7 @@ void sleep_until(double deadline) noexcept {
 
 std::vector<std::string> make_real_time(const ServoThreadOptions& options) {
   std::vector<std::string> warnings;
-  // An ordinary thread is otherwise woken up to 50 us late, to save power.
+  // By default a normal thread is woken up to 50 us late, to save power.
   prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
   if (options.lock_memory) lock_memory(warnings);
   if (options.core >= 0) pin(options.core, warnings);
@@ -89,10 +82,6 @@ std::vector<std::string> make_real_time(const ServoThreadOptions& options) {
 
 #else
 
-double now() noexcept {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
 void sleep_until(double deadline) noexcept {
   const auto since_epoch =
       std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(deadline));
@@ -101,7 +90,7 @@ void sleep_until(double deadline) noexcept {
 
 std::vector<std::string> make_real_time(const ServoThreadOptions& options) {
   if (options.priority == 0 && !options.lock_memory && options.core < 0) return {};
-  return {"this build knows no real-time threads on this system: other programs may delay the servo loop"};
+  return {"real-time threads are not supported on this system: other programs may delay the servo loop"};
 }
 
 #endif

@@ -1,4 +1,4 @@
-// What a servo thread needs of the operating system: a clock, a sleep to a deadline, and the rights of real time.
+// Operating-system services for a servo thread: clock, sleep until a deadline, real-time scheduling.
 #pragma once
 
 #include <string>
@@ -8,14 +8,10 @@
 
 namespace calligraphy::real_time {
 
-/// Of a clock that never runs back [s].
-double now() noexcept;
-
-/// Returns at once when the deadline [s] has passed.
+/// Sleeps until `deadline` of monotonic_seconds() [s]; returns immediately if it has passed.
 void sleep_until(double deadline) noexcept;
 
-/// Gives the calling thread, as far as the system permits, what the options ask for. Returns what it does not permit,
-/// with what to do.
+/// Applies the options to the calling thread as far as the system permits. Returns what it refused, with a remedy.
 std::vector<std::string> make_real_time(const ServoThreadOptions& options);
 
 }  // namespace calligraphy::real_time

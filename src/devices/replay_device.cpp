@@ -9,16 +9,16 @@
 namespace calligraphy {
 namespace {
 
-/// Positions may be anything: a recorded fault has to be replayed as it was.
+/// Positions are not checked: a recorded fault must be replayed as it was.
 std::vector<DeviceState> checked(std::vector<DeviceState> samples) {
-  if (samples.empty()) throw ValueError("replay has no sample");
+  if (samples.empty()) throw ValueError("replay has no samples");
   double previous = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const double time = samples[i].time;
     if (!(std::isfinite(time) && time > previous)) {
       std::ostringstream message;
       message << "replay sample " << i << ": time is " << time << " s after " << previous
-              << " s, must be finite and increase";
+              << " s, must be finite and increasing";
       throw ValueError(message.str());
     }
     previous = time;

@@ -2,50 +2,42 @@
 
 #include <algorithm>
 #include <bit>
-#include <chrono>
 #include <cmath>
-#include <sstream>
 #include <utility>
 
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/devices/flush_denormals.hpp>
+#include <calligraphy/devices/detail/flush_denormals.hpp>
+
+#include "base/monotonic_clock.hpp"
+#include "base/require.hpp"
+
+#include "base/bit_cast.hpp"
 
 namespace calligraphy {
 namespace {
 
-constexpr std::uint64_t owner_bits = 2;  // below the count of changes
-constexpr int fault_shift = 8;           // within the packed status
+constexpr std::uint64_t owner_bits = 2;  // below the change count
+constexpr int fault_shift = 8;           // in the packed status
 
 std::uint64_t with_fault(std::uint64_t status, DeviceFault fault) noexcept {
   return (status & ~(std::uint64_t{0xff} << fault_shift)) | (static_cast<std::uint64_t>(fault) << fault_shift);
 }
 
-double monotonic_seconds() noexcept {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-void require(bool valid, const char* name, double value, const char* domain) {
-  if (valid) return;
-  std::ostringstream message;
-  message << "servo loop: " << name << " is " << value << ", must be " << domain;
-  throw ValueError(message.str());
-}
-
 ServoOptions checked(ServoOptions options) {
-  require(options.rate >= 1.0 && options.rate <= 1e5, "rate", options.rate, "from 1 to 100000 Hz");
-  require(options.patience >= 2.0 / options.rate && options.patience <= 1.0, "patience", options.patience,
-          "from two periods of the rate to 1 s");
+  require_within("servo loop: rate", options.rate, "Hz", 1.0, 1e5);
+  require(options.timeout >= 2.0 / options.rate && options.timeout <= 1.0, "servo loop: timeout", options.timeout, "s",
+          "from two periods of the rate to 1");
   if (options.work_clock == nullptr) options.work_clock = monotonic_seconds;
-  options.patience += 1e-3 / options.rate;  // sums of ticks that should come to it exactly are a little beside
+  options.timeout += 1e-3 / options.rate;  // tolerates rounding in sums of ticks
   return options;
 }
 
-/// Written by one thread alone.
+/// For counters with a single writing thread.
 void increment(std::atomic<std::uint64_t>& count, std::uint64_t by = 1) noexcept {
   count.store(count.load(std::memory_order_relaxed) + by, std::memory_order_relaxed);
 }
 
-/// A device that says no more than that it cannot go on.
+/// The fault to report for a device that names none.
 DeviceFault unnamed_fault(DeviceStatus status) noexcept {
   switch (status) {
     case DeviceStatus::disconnected:
@@ -59,20 +51,34 @@ DeviceFault unnamed_fault(DeviceStatus status) noexcept {
   }
 }
 
-/// The servo whose force law this thread is in.
+/// The servo whose force law this thread is executing.
 thread_local const Servo* asking = nullptr;
 
 }  // namespace
 
+const char* to_string(ServoPhase phase) noexcept {
+  switch (phase) {
+    case ServoPhase::zero:
+      return "zero";
+    case ServoPhase::rising:
+      return "rising";
+    case ServoPhase::running:
+      return "running";
+    case ServoPhase::falling:
+      return "falling";
+  }
+  return "unknown";
+}
+
 Servo::Servo(HapticDevice& device, ForceLaw law, const ServoOptions& options)
-    : device_(device), law_(std::move(law)), options_(checked(options)), guard_(options.fall_time, options.rise_time) {
+    : device_(device), law_(std::move(law)), options_(checked(options)), guard_(options.ramp_down, options.ramp_up) {
   const double peak = device.capabilities().peak_force;
-  if (peak > 0.0) peak_force_ = peak;  // 0 is "not known"
+  if (peak > 0.0) peak_force_ = peak;  // 0 means unknown
   if (!law_) throw ValueError("servo loop: the force law is empty");
 }
 
 void Servo::step(double now) noexcept {
-  // Decaying filters of the force law end in denormal numbers, whatever thread this is.
+  // Decaying filters in the force law end in denormal numbers, whichever thread calls.
   const FlushDenormals flush;
   std::uint64_t owner = owner_.load(std::memory_order_acquire);
   if (owner_of(owner) != Owner::nobody || !hand_over(owner, Owner::tick)) {
@@ -93,16 +99,16 @@ void Servo::step(double now) noexcept {
     const double asked = options_.work_clock();
     const bool answered = ask(sample, force);
     const double answer_time = options_.work_clock() - asked;
-    if (!hand_over(owner, Owner::tick)) {  // the watchdog has taken the device meanwhile
+    if (!hand_over(owner, Owner::tick)) {  // the watchdog has taken over the device
       idle_ticks_.fetch_add(1, std::memory_order_relaxed);
       return;
     }
     if (!answered) {
       fault = DeviceFault::bad_force;
-    } else if (answer_time > options_.patience) {
+    } else if (answer_time > options_.timeout) {
       fault = DeviceFault::slow_force_law;
     } else {
-      guard_.pass(force, std::min(elapsed, period));  // what a late clock left out does not rise
+      guard_.pass(force, std::min(elapsed, period));  // a late tick ramps up by one period only
     }
   } else if (fault == DeviceFault::none && released) {
     guard_.fall(guard_.fault(), elapsed, period);
@@ -120,7 +126,7 @@ void Servo::step(double now) noexcept {
   hand_over(owner, Owner::nobody);
 }
 
-/// Also counts what the clock left out.
+/// Also counts missed and stalled ticks.
 double Servo::elapsed_since_last_tick(double now) noexcept {
   const double period = 1.0 / options_.rate;
   if (!std::isfinite(now)) {
@@ -140,8 +146,8 @@ double Servo::elapsed_since_last_tick(double now) noexcept {
 }
 
 DeviceFault Servo::judge(const DeviceState& sample, double elapsed) noexcept {
-  // Where the force is at zero a gap does no harm, and the fault that brought it there keeps its name.
-  const bool gap = elapsed > options_.patience && guard_.phase() != ServoPhase::zero;
+  // While the force is zero a gap is harmless, and the fault that caused the ramp-down stays reported.
+  const bool gap = elapsed > options_.timeout && guard_.phase() != ServoPhase::zero;
   if (sample.status == DeviceStatus::stale) {
     increment(stale_);
     stale_for_ += elapsed;
@@ -152,11 +158,11 @@ DeviceFault Servo::judge(const DeviceState& sample, double elapsed) noexcept {
   switch (sample.status) {
     case DeviceStatus::ok:
     case DeviceStatus::warm_motors:
-      // A velocity that the device does not measure is not a number; one that is infinite is no velocity.
+      // NaN is valid: a velocity that the device does not measure. Infinity is not.
       if (!sample.position.allFinite() || sample.velocity.array().isInf().any()) return DeviceFault::corrupted_frame;
       break;
     case DeviceStatus::stale:
-      if (stale_for_ > options_.patience) return named;
+      if (stale_for_ > options_.timeout) return named;
       break;
     default:
       return named;
@@ -165,7 +171,7 @@ DeviceFault Servo::judge(const DeviceState& sample, double elapsed) noexcept {
 }
 
 bool Servo::ask(const DeviceState& sample, Eigen::Vector3d& force) noexcept {
-  const Servo* const outer = std::exchange(asking, this);  // a law may step another servo
+  const Servo* const outer = std::exchange(asking, this);  // a force law may step another servo
   bool answered = true;
   try {
     force = law_(sample);
@@ -200,29 +206,29 @@ void Servo::supervise(double now) noexcept {
     return;
   }
   unchanged_for_ += elapsed;
-  if (unchanged_for_ <= options_.patience || owner == dealt_with_) return;
+  if (unchanged_for_ <= options_.timeout || owner == dealt_with_) return;
 
   dealt_with_ = owner;
   const Owner who = owner_of(owner);
   if (who == Owner::tick) {
-    // Within read() or write(): out of reach.
+    // Inside read() or write(): nothing else may touch the device.
     count_fault(DeviceFault::timed_out);
     std::uint64_t told = status_.load(std::memory_order_relaxed);
     status_.compare_exchange_strong(told, with_fault(told, DeviceFault::timed_out), std::memory_order_relaxed);
     return;
   }
-  if (!hand_over(owner, Owner::watchdog)) return;  // it has just gone on
+  if (!hand_over(owner, Owner::watchdog)) return;  // the tick has just continued
   if (released_.load(std::memory_order_relaxed) && guard_.phase() == ServoPhase::zero) {
-    give_back(owner);  // a loop that ends may let its clock end first
+    give_back(owner);  // a stopping loop may stop its clock first
     return;
   }
   reason_ = who == Owner::law ? DeviceFault::slow_force_law : DeviceFault::late_clock;
-  taken_over_.fetch_add(1, std::memory_order_relaxed);
+  watchdog_takeovers_.fetch_add(1, std::memory_order_relaxed);
   count_fault(reason_);
   let_fall(owner, std::min(elapsed, period));
 }
 
-/// The watchdog's tick while it has the device: the same fall as that of the servo.
+/// The watchdog's tick while it owns the device: the same ramp-down as the servo's.
 void Servo::let_fall(std::uint64_t owner, double elapsed) noexcept {
   guard_.fall(reason_, elapsed, 1.0 / options_.rate);
   device_.write(guard_.force());
@@ -233,7 +239,7 @@ void Servo::let_fall(std::uint64_t owner, double elapsed) noexcept {
 
 void Servo::give_back(std::uint64_t owner) noexcept {
   hand_over(owner, Owner::nobody);
-  watched_owner_ = dealt_with_ = owner;  // not to be taken again until a tick has come
+  watched_owner_ = dealt_with_ = owner;  // no further takeover until a tick arrives
 }
 
 void Servo::reset() noexcept {
@@ -248,7 +254,7 @@ void Servo::reset() noexcept {
   watched_owner_ = dealt_with_ = 0;
 }
 
-/// From what the caller saw to another owner, unless somebody has changed it since; `owner` is then the new word.
+/// Changes the owner unless the word has changed since the caller read it. On success `owner` is the new word.
 bool Servo::hand_over(std::uint64_t& owner, Owner to) noexcept {
   const std::uint64_t next = (((owner >> owner_bits) + 1) << owner_bits) | static_cast<std::uint64_t>(to);
   std::uint64_t expected = owner;
@@ -262,9 +268,9 @@ void Servo::count_fault(DeviceFault fault) noexcept {
   faults_[static_cast<std::size_t>(fault)].fetch_add(1, std::memory_order_relaxed);
 }
 
-/// Phase, fault and device status in a byte each, the gain as a float: one word, so that they belong together.
+/// Packs phase, fault and device status (a byte each) and the gain (a float) into one word, for consistency.
 void Servo::publish() noexcept {
-  const auto gain = std::bit_cast<std::uint32_t>(static_cast<float>(guard_.gain()));
+  const auto gain = bit_cast<std::uint32_t>(static_cast<float>(guard_.gain()));
   const std::uint64_t word = (std::uint64_t{gain} << 32) | (static_cast<std::uint64_t>(device_status_) << 16) |
                              (static_cast<std::uint64_t>(guard_.fault()) << fault_shift) |
                              static_cast<std::uint64_t>(guard_.phase());
@@ -277,19 +283,19 @@ ServoStatus Servo::status() const noexcept {
   status.phase = static_cast<ServoPhase>(word & 0xff);
   status.fault = static_cast<DeviceFault>((word >> fault_shift) & 0xff);
   status.device = static_cast<DeviceStatus>((word >> 16) & 0xff);
-  status.gain = std::bit_cast<float>(static_cast<std::uint32_t>(word >> 32));
+  status.gain = bit_cast<float>(static_cast<std::uint32_t>(word >> 32));
   return status;
 }
 
 ServoStatistics Servo::statistics() const noexcept {
   ServoStatistics result;
-  result.period = periods_.figures();
-  result.work = work_.figures();
+  result.period = periods_.summary();
+  result.work = work_.summary();
   result.ticks = ticks_.load(std::memory_order_relaxed);
   result.missed_deadlines = missed_.load(std::memory_order_relaxed);
   result.stale_samples = stale_.load(std::memory_order_relaxed);
-  result.standing_clock = standing_.load(std::memory_order_relaxed);
-  result.taken_over = taken_over_.load(std::memory_order_relaxed);
+  result.stalled_clock = standing_.load(std::memory_order_relaxed);
+  result.watchdog_takeovers = watchdog_takeovers_.load(std::memory_order_relaxed);
   result.idle_ticks = idle_ticks_.load(std::memory_order_relaxed);
   for (std::size_t i = 0; i < faults_.size(); ++i) result.faults[i] = faults_[i].load(std::memory_order_relaxed);
   return result;

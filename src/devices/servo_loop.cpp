@@ -12,11 +12,11 @@ namespace {
 
 ServoThreadOptions for_servo(ServoThreadOptions options, double rate) {
   options.rate = rate;
-  options.lock_memory = false;  // the watchdog does it for the whole process, whatever the servo's clock is
+  options.lock_memory = false;  // the watchdog locks it for the whole process, whichever clock the servo has
   return options;
 }
 
-/// Above the servo, so that a force law which never returns cannot keep it from running.
+/// One priority above the servo, so that a force law that never returns cannot block it.
 ServoThreadOptions for_watchdog(ServoThreadOptions options, double rate) {
   options.rate = rate;
   if (options.priority > 0 && options.priority < 99) ++options.priority;
@@ -35,13 +35,13 @@ ServoLoop::ServoLoop(HapticDevice& device, ForceLaw law, const ServoLoopOptions&
 ServoLoop::~ServoLoop() { stop(); }
 
 std::vector<std::string> ServoLoop::start() {
-  if (running_) throw ValueError("the servo loop runs already: stop it before it is started again");
+  if (running_) throw ValueError("the servo loop is already running: stop it before starting it again");
   servo_.reset();
   watchdog_.start([this](double now) { servo_.supervise(now); });
   clock_ = device_.clock();
   const bool own = clock_ == nullptr;
   if (own) clock_ = &thread_;
-  running_ = true;  // before the first tick, whose law may ask
+  running_ = true;  // before the first tick, whose force law may query it
   try {
     clock_->start([this](double now) { servo_.step(now); });
   } catch (...) {
@@ -50,7 +50,7 @@ std::vector<std::string> ServoLoop::start() {
     throw;
   }
   std::vector<std::string> warnings = watchdog_.warnings();
-  const auto add = [&warnings](const std::vector<std::string>& more) {  // each but once, whoever says it
+  const auto add = [&warnings](const std::vector<std::string>& more) {  // without duplicates
     for (const std::string& warning : more) {
       if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);
     }
@@ -62,15 +62,15 @@ std::vector<std::string> ServoLoop::start() {
 
 void ServoLoop::stop() noexcept {
   if (servo_.in_law()) {
-    // This thread cannot wait for itself. Whether start() has returned does not matter: the release is kept.
+    // This thread cannot wait for itself. The release also takes effect if start() has not returned yet.
     servo_.release();
     return;
   }
   if (!running_) return;
   servo_.release();
-  // A clock that stands still would never let the force fall: the watchdog does, and the wait is bounded.
-  constexpr int longest_wait = 500;  // [ms]
-  for (int i = 0; i < longest_wait && servo_.status().phase != ServoPhase::zero; ++i) {
+  // With a stalled clock no tick would ramp the force down: the watchdog does, and the wait is bounded.
+  constexpr int max_wait = 500;  // [ms]
+  for (int i = 0; i < max_wait && servo_.status().phase != ServoPhase::zero; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   clock_->stop();

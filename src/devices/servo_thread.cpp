@@ -3,30 +3,25 @@
 #include <algorithm>
 #include <cmath>
 #include <future>
-#include <sstream>
 #include <system_error>
 #include <utility>
 
 #include <calligraphy/base/error.hpp>
 
+#include "base/monotonic_clock.hpp"
+#include "base/require.hpp"
 #include "real_time_thread.hpp"
 
 namespace calligraphy {
 namespace {
 
 ServoThreadOptions checked(const ServoThreadOptions& options) {
-  std::ostringstream message;
-  message << "servo thread: ";
-  if (!(options.rate >= 1.0 && options.rate <= 1e5)) {
-    message << "rate is " << options.rate << ", must be from 1 to 100000 Hz";
-  } else if (options.priority < 0 || options.priority > 99) {
-    message << "priority is " << options.priority << ", must be from 1 to 99, or 0 for an ordinary thread";
-  } else if (options.core < -1 || options.core > 1023) {
-    message << "core is " << options.core << ", must be from 0 to 1023, or -1 for any";
-  } else {
-    return options;
-  }
-  throw ValueError(message.str());
+  require_within("servo thread: rate", options.rate, "Hz", 1.0, 1e5);
+  require(options.priority >= 0 && options.priority <= 99, "servo thread: priority", options.priority, "",
+          "from 1 to 99, or 0 for a normal thread");
+  require(options.core >= -1 && options.core <= 1023, "servo thread: core", options.core, "",
+          "from 0 to 1023, or -1 for any");
+  return options;
 }
 
 }  // namespace
@@ -50,7 +45,7 @@ ServoThread::ServoThread(const ServoThreadOptions& options) : options_(checked(o
 ServoThread::~ServoThread() { stop(); }
 
 void ServoThread::start(std::function<void(double now)> tick) {
-  if (running()) throw ValueError("the servo thread runs already: stop it before it is started again");
+  if (running()) throw ValueError("the servo thread is already running: stop it before starting it again");
   if (!tick) throw ValueError("servo thread: the tick is empty");
   stopping_.store(false, std::memory_order_relaxed);
   std::promise<std::vector<std::string>> ready;
@@ -84,10 +79,10 @@ void ServoThread::stop() noexcept {
 
 void ServoThread::run(const std::function<void(double now)>& tick) noexcept {
   const double period = 1.0 / options_.rate;
-  double deadline = real_time::now();
+  double deadline = monotonic_seconds();
   while (!stopping_.load(std::memory_order_relaxed)) {
-    tick(real_time::now());
-    deadline = next_deadline(deadline, period, real_time::now()).time;
+    tick(monotonic_seconds());
+    deadline = next_deadline(deadline, period, monotonic_seconds()).time;
     real_time::sleep_until(deadline);
   }
 }

@@ -6,9 +6,11 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <string>
 
-#include <calligraphy/base/error.hpp>
 #include <calligraphy/render/force_terms.hpp>
+
+#include "base/require.hpp"
 
 namespace calligraphy {
 namespace {
@@ -26,7 +28,7 @@ constexpr double writing_step = 1e-4;
 constexpr double overshoot = 2e-4;
 
 Pull pull(const StrokeContact& contact, const Point& tip, double stiffness) {
-  return {attraction_force(stiffness * contact.attraction * contact.share, tip, contact.foot.point),
+  return {attraction_force(stiffness * contact.attraction * contact.weight, tip, contact.closest.point),
           contact.passed_feature};
 }
 
@@ -75,18 +77,18 @@ Field nearest_stroke_field(const PlacedCharacter& placed, const ForceFieldOption
   }
   return [candidates, options](const Point& tip) {
     const Candidate* nearest = nullptr;
-    NearestPoint foot;
+    NearestPoint closest;
     for (const Candidate& candidate : candidates) {
       const NearestPoint found = nearest_point(candidate.element, tip, options.rules.nearest);
-      if (nearest != nullptr && !(found.distance < foot.distance)) continue;
+      if (nearest != nullptr && !(found.distance < closest.distance)) continue;
       nearest = &candidate;
-      foot = found;
+      closest = found;
     }
     StrokeContact contact;
-    contact.foot = foot;
-    contact.share = guidance_share(options.rules.space, nearest->element, tip, foot);
+    contact.closest = closest;
+    contact.weight = guidance_weight(options.rules.space, nearest->element, tip, closest);
     const double length = nearest->element.length();
-    const double along = length > 0.0 ? nearest->element.arc_length(foot.parameter) / length : 0.0;
+    const double along = length > 0.0 ? nearest->element.arc_length(closest.parameter) / length : 0.0;
     contact.attraction = nearest->first_factor + along * (nearest->last_factor - nearest->first_factor);
     return pull(contact, tip, options.stiffness);
   };
@@ -101,8 +103,8 @@ struct Crossing {
 /// Where the force jumps between two places, by halving: a continuous change shrinks with the interval, a jump does
 /// not.
 std::optional<Crossing> crossing(const Field& field, Point begin, Point end, Pull at_begin, Pull at_end,
-                                 double least_jump) {
-  if ((at_end.force - at_begin.force).norm() < least_jump) return {};
+                                 double min_jump) {
+  if ((at_end.force - at_begin.force).norm() < min_jump) return {};
   for (int i = 0; i < 10; ++i) {
     const Point middle = 0.5 * (begin + end);
     const Pull at_middle = field(middle);
@@ -111,7 +113,7 @@ std::optional<Crossing> crossing(const Field& field, Point begin, Point end, Pul
     (first ? at_end : at_begin) = at_middle;
   }
   const double jump = (at_end.force - at_begin.force).norm();
-  if (jump < least_jump) return {};
+  if (jump < min_jump) return {};
   return Crossing{0.5 * (begin + end), jump, at_begin.passed_feature != at_end.passed_feature};
 }
 
@@ -163,7 +165,7 @@ class Scan {
 
   std::optional<Crossing> between(int column, int row, int next_column, int next_row) const {
     return crossing(field_, square_.place(column, row), square_.place(next_column, next_row),
-                    pulls_[index(column, row)], pulls_[index(next_column, next_row)], options_.least_jump);
+                    pulls_[index(column, row)], pulls_[index(next_column, next_row)], options_.min_jump);
   }
 
   static void join(const std::vector<Crossing>& found, std::vector<ForceJump>& jumps) {
@@ -200,10 +202,6 @@ double distance_to(const std::vector<StrokeElement>& elements, const Point& poin
   return distance;
 }
 
-void require(bool condition, const char* what) {
-  if (!condition) throw ValueError(std::string("force field: ") + what);
-}
-
 }  // namespace
 
 Point ForceField::place(int column, int row) const noexcept {
@@ -214,7 +212,7 @@ const Point& ForceField::force(int column, int row) const noexcept {
   return forces[static_cast<std::size_t>(row * columns + column)];
 }
 
-double ForceField::largest_force() const noexcept {
+double ForceField::max_force() const noexcept {
   double largest = 0.0;
   for (const Point& each : forces) largest = std::max(largest, each.norm());
   return largest;
@@ -222,12 +220,16 @@ double ForceField::largest_force() const noexcept {
 
 ForceField guidance_field(const PlacedCharacter& placed, int stroke, double progress, const Point& corner, double edge,
                           const ForceFieldOptions& options) {
-  require(stroke >= 0 && stroke < placed.character.stroke_count(), "no such stroke");
-  require(progress >= 0.0 && progress <= 1.0, "progress is not in [0, 1]");
-  require(corner.allFinite() && std::isfinite(edge) && edge > 0.0, "the square is not a finite one above 0");
-  require(options.columns >= 2 && options.columns <= 4096, "columns are not in [2, 4096]");
-  require(std::isfinite(options.stiffness) && options.stiffness >= 0.0, "stiffness is not finite and at least 0");
-  require(std::isfinite(options.least_jump) && options.least_jump > 0.0, "least_jump is not finite and above 0");
+  require(stroke >= 0 && stroke < placed.character.stroke_count(), "force field: stroke", stroke, "",
+          "the index of one of " + std::to_string(placed.character.stroke_count()) + " strokes");
+  require_within("force field: progress", progress, "", 0.0, 1.0);
+  for (const double coordinate : corner) {
+    require(std::isfinite(coordinate), "force field: corner", coordinate, "m", "finite");
+  }
+  require_above_zero("force field: edge", edge, "m");
+  require_within("force field: columns", options.columns, "", 2, 4096);
+  require_not_negative("force field: stiffness", options.stiffness, "N/m");
+  require_above_zero("force field: min_jump", options.min_jump, "N");
   const Stroke active = strokes(placed.character)[static_cast<std::size_t>(stroke)];
   const Field pulls = options.attractor == Attractor::nearest_stroke
                           ? nearest_stroke_field(placed, options)

@@ -22,7 +22,7 @@ using svg::number;
 // [px]
 constexpr double map_square = 318.0, map_margin = 16.0, map_gap = 14.0, map_top = 66.0, note_height = 22.0,
                  key_height = 46.0;
-constexpr double longest_arrow = 15.0, arrow_spacing = 16.6;
+constexpr double max_arrow = 15.0, arrow_spacing = 16.6;
 constexpr double millimetres = 1e3;
 constexpr double fullest = 5.0;  ///< force that has the last colour and the longest arrow [N]
 
@@ -90,7 +90,7 @@ void draw_arrows(pugi::xml_node parent, const ForceField& field, const svg::View
   for (int row = stride / 2; row < field.columns; row += stride) {
     for (int column = stride / 2; column < field.columns; column += stride) {
       const Point force = field.force(column, row);
-      const double length = std::min(force.norm() / fullest, 1.0) * longest_arrow;
+      const double length = std::min(force.norm() / fullest, 1.0) * max_arrow;
       if (length < 0.8) continue;
       data += arrow(view(field.place(column, row)), Point(force.x(), -force.y()).normalized(), length);
     }
@@ -136,7 +136,7 @@ std::string note_on_jumps(const ForceFieldFigure::Panel& panel) {
     largest = std::max(largest, jump.size);
     nearest = std::min(nearest, jump.from_stroke);
   }
-  if (!(largest > 0.0)) return passes ? "no jump but the passage of the feature point" : "no jump";
+  if (!(largest > 0.0)) return passes ? "no jump except where the feature point is passed" : "no jump";
   char note[96];
   std::snprintf(note, sizeof note, "jumps up to %.1f N, from %.1f mm off the stroke", largest, millimetres * nearest);
   return note;
@@ -255,7 +255,7 @@ void draw_key(pugi::xml_node root, const ForceFieldFigure& figure, double y) {
 }  // namespace
 
 std::string force_field_picture(const ForceFieldFigure& figure) {
-  if (figure.panels.empty()) throw ValueError("force field picture: no panel");
+  if (figure.panels.empty()) throw ValueError("force field picture: the figure has no panel");
   const auto count = static_cast<double>(figure.panels.size());
   const double width = 2.0 * map_margin + count * map_square + (count - 1.0) * map_gap;
   pugi::xml_document document;

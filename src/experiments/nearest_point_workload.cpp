@@ -1,4 +1,4 @@
-#include <calligraphy/experiments/nearest_point_workload.hpp>
+#include "nearest_point_workload.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,6 +9,7 @@
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/model/bezier.hpp>
 
+#include "base/require.hpp"
 #include "model/random_points.hpp"
 
 namespace calligraphy {
@@ -205,7 +206,7 @@ Point along_line(RandomPoints& random, const Target& target) {
   return from + random.between(-2.0, 3.0) * (to - from);
 }
 
-/// On the axis x = 0, where two feet are equally near, or slightly beside it.
+/// On the axis x = 0, where two closest points are equally near, or slightly beside it.
 Point near_axis(RandomPoints& random, const Target& target) {
   if (random.index(4) == 0) return in_box(random, target);
   const double y = random.between(-1.5, 1.5) * target.size;
@@ -218,7 +219,7 @@ Point near_origin(RandomPoints& random, const Target& target) {
   return slight(random) * target.size * random.in_disc();
 }
 
-/// At a centre of curvature no further than ten sizes, or slightly beside it: three feet are one there.
+/// At a centre of curvature no further than ten sizes, or slightly beside it: three closest points are one there.
 Point near_centre_of_curvature(RandomPoints& random, const Target& target) {
   const Bezier<2> first = target.curve.hodograph();
   const Bezier<1> second = first.hodograph();
@@ -270,8 +271,8 @@ constexpr Recipe recipes[] = {
 
 Curve as_cubic(const std::vector<Point>& points) {
   if (points.size() != 4) {
-    throw ValueError("nearest_point_workloads: a real curve of " + std::to_string(points.size()) +
-                     " control points; a cubic has 4");
+    throw ValueError("nearest_point_workloads: a real curve has " + std::to_string(points.size()) +
+                     " control points, expected the 4 of a cubic");
   }
   return {{points[0], points[1], points[2], points[3]}};
 }
@@ -280,7 +281,7 @@ Curve as_cubic(const std::vector<Point>& points) {
 
 std::vector<NearestPointWorkload> nearest_point_workloads(std::span<const std::vector<Point>> real_curves, int queries,
                                                           std::uint64_t seed) {
-  if (queries < 1) throw ValueError("nearest_point_workloads: " + std::to_string(queries) + " queries");
+  require_above_zero("queries", queries, "");
   if (real_curves.empty()) throw ValueError("nearest_point_workloads: no real curves");
   std::vector<NearestPointWorkload> workloads;
   RandomPoints seeds(seed);

@@ -10,41 +10,30 @@
 #include <sstream>
 #include <utility>
 
-#include <calligraphy/base/error.hpp>
 #include <calligraphy/base/random.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
 #include <calligraphy/render/passivity_controller.hpp>
 
 #include "base/parallel.hpp"
+#include "base/require.hpp"
 
 namespace calligraphy {
 namespace {
 
-constexpr double at_rest = 1e-7;      ///< from peak to peak, a hundredth of a coarse encoder's step [m]
-constexpr double shrunk = 0.95;       ///< in half of the time
-constexpr double still = 0.99;        ///< in the last quarter: an approach to a smaller swing stands still by then
-constexpr double out_of_reach = 1.0;  ///< no pen is there [m]
-constexpr int windows = 16;           ///< of the time, in each of which the swing is measured
-constexpr double precision = 1.02;    ///< of the largest stable stiffness
-constexpr Eigen::Index wall_normal = 2;    ///< the axis along which the pen meets the wall
+constexpr double at_rest = 1e-7;         ///< from peak to peak, a hundredth of a coarse encoder's step [m]
+constexpr double shrunk = 0.95;          ///< in half of the time
+constexpr double still = 0.99;           ///< in the last quarter: an approach to a smaller swing stands still by then
+constexpr double out_of_reach = 1.0;     ///< no pen is there [m]
+constexpr int windows = 16;              ///< of the time, in each of which the swing is measured
+constexpr double precision = 1.02;       ///< of the largest stable stiffness
+constexpr Eigen::Index wall_normal = 2;  ///< the axis along which the pen meets the wall
 
-void require(bool in_domain, const char* name, double value, const char* domain) {
-  if (in_domain) return;
-  std::ostringstream message;
-  message << "stability: " << name << " = " << value << ": expected " << domain;
-  throw ValueError(message.str());
-}
-
-void validate(const WallEncounter& encounter) {
-  const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
-  require(positive(encounter.push), "push", encounter.push, "a finite number above 0");
-  require(encounter.height >= 0.0 && encounter.height < out_of_reach, "height", encounter.height,
-          "from 0 to below 1 m");
-  require(positive(encounter.seconds) && encounter.seconds <= 1000.0, "seconds", encounter.seconds,
-          "above 0, at most 1000");
-  require(encounter.lost >= 0.0 && encounter.lost <= 0.9, "share of samples lost", encounter.lost, "from 0 to 0.9");
-  require(encounter.reordered >= 0.0 && encounter.reordered <= 1.0, "share of samples out of order",
-          encounter.reordered, "from 0 to 1");
+void validate(const WallContact& contact) {
+  require_above_zero("push", contact.push, "N");
+  require(contact.height >= 0.0 && contact.height < out_of_reach, "height", contact.height, "m", "from 0 to below 1");
+  require_above_zero("seconds", contact.seconds, "s", 1000.0);
+  require_within("lost", contact.lost, "", 0.0, 0.9);
+  require_within("reordered", contact.reordered, "", 0.0, 1.0);
 }
 
 Capabilities pushed(Capabilities device) {
@@ -55,8 +44,8 @@ Capabilities pushed(Capabilities device) {
 /// Samples as they come over a bad line.
 class Line {
  public:
-  Line(const WallEncounter& encounter, double position)
-      : lost_(encounter.lost), reordered_(encounter.reordered), last_(position), waiting_(position) {}
+  Line(const WallContact& contact, double position)
+      : lost_(contact.lost), reordered_(contact.reordered), last_(position), waiting_(position) {}
 
   double receive(double position) {
     if (lost_ > 0.0 && random_.next() < lost_) return last_;
@@ -102,7 +91,7 @@ bool shrinks(std::span<const double> swings) {
 PassivityController controller_for(const SampledLoop& loop, bool controlled) {
   PassivityOptions options;
   if (controlled) {
-    options.delay = std::min(loop.device.sample_delay, PassivityController::longest_delay);
+    options.delay = std::min(loop.device.sample_delay, PassivityController::max_delay);
     options.max_damping = injectable_damping(loop);
   }
   return {options, 1.0 / loop.rate};
@@ -110,44 +99,44 @@ PassivityController controller_for(const SampledLoop& loop, bool controlled) {
 
 }  // namespace
 
-WallOutcome meet_wall(const SampledLoop& loop, double stiffness, const WallEncounter& encounter) {
+WallContactResult simulate_wall_contact(const SampledLoop& loop, double stiffness, const WallContact& contact) {
   validate(loop);
-  validate(encounter);
-  require(loop.device.peak_force > 0.0, "peak force of the device", loop.device.peak_force, "above 0");
-  require(std::isfinite(stiffness) && stiffness >= 0.0, "stiffness", stiffness, "a finite number from 0 up");
+  validate(contact);
+  require(loop.device.peak_force > 0.0, "peak force of the device", loop.device.peak_force, "N", "above 0");
+  require_not_negative("stiffness", stiffness, "N/m");
   const double period = 1.0 / loop.rate;
-  SimulatedDevice device(pushed(loop.device), loop.grip, {0.0, 0.0, encounter.height});
+  SimulatedDevice device(pushed(loop.device), loop.grip, {0.0, 0.0, contact.height});
   device.set_intention({});
-  Line line(encounter, encounter.height);
-  Wall wall(loop, stiffness, encounter.height);
-  PassivityController controller = controller_for(loop, encounter.controlled);
-  const int ticks = std::max(1, static_cast<int>(encounter.seconds * loop.rate / windows));
+  Line line(contact, contact.height);
+  Wall wall(loop, stiffness, contact.height);
+  PassivityController controller = controller_for(loop, contact.controlled);
+  const int ticks = std::max(1, static_cast<int>(contact.seconds * loop.rate / windows));
   std::array<double, windows> swings{};
-  WallOutcome outcome;
+  WallContactResult outcome;
   for (double& swing : swings) {
     double low = out_of_reach, high = -out_of_reach;
     outcome.last_force = 0.0;
     for (int tick = 0; tick < ticks; ++tick) {
       const double position = line.receive(device.read().position[wall_normal]);
       Eigen::Vector3d wanted(0.0, 0.0, wall.force(position));
-      if (encounter.controlled) wanted = controller.next({0.0, 0.0, position}, wanted);
+      if (contact.controlled) wanted = controller.next({0.0, 0.0, position}, wanted);
       const double sent = std::clamp(wanted[wall_normal], -loop.device.peak_force, loop.device.peak_force);
       controller.sent({0.0, 0.0, sent});
-      device.write({0.0, 0.0, sent - encounter.push});
+      device.write({0.0, 0.0, sent - contact.push});
       device.advance(period);
       outcome.last_force = std::max(outcome.last_force, std::abs(sent));
       low = std::min(low, device.true_position()[wall_normal]);
       high = std::max(high, device.true_position()[wall_normal]);
     }
-    outcome.largest_force = std::max(outcome.largest_force, outcome.last_force);
-    outcome.swing = swing = high - low;
+    outcome.max_force = std::max(outcome.max_force, outcome.last_force);
+    outcome.peak_to_peak = swing = high - low;
     if (swing < at_rest) {
-      outcome.settles = true;
+      outcome.stable = true;
       return outcome;
     }
     if (!(low > -out_of_reach && high < out_of_reach)) return outcome;
   }
-  outcome.settles = shrinks(std::span(swings).subspan(windows / 2 - 1));
+  outcome.stable = shrinks(std::span(swings).subspan(windows / 2 - 1));
   return outcome;
 }
 
@@ -155,18 +144,18 @@ namespace {
 
 std::vector<double> stiffnesses_of(const StabilityMapOptions& options) {
   std::vector<double> stiffnesses;
-  const double steps = options.per_decade * std::log10(options.stiffest / options.softest);
+  const double steps = options.per_decade * std::log10(options.max_stiffness / options.min_stiffness);
   for (int i = 0; i <= static_cast<int>(std::lround(steps)); ++i) {
-    stiffnesses.push_back(options.softest * std::pow(10.0, static_cast<double>(i) / options.per_decade));
+    stiffnesses.push_back(options.min_stiffness * std::pow(10.0, static_cast<double>(i) / options.per_decade));
   }
   return stiffnesses;
 }
 
-using Test = std::function<bool(const WallOutcome&)>;
+using Test = std::function<bool(const WallContactResult&)>;
 
 /// Between the last that passes and the first that does not, by halves of the logarithm.
-double largest(const StabilityLine& line, const std::vector<WallOutcome>& outcomes, const StabilityMap& map,
-               const WallEncounter& encounter, const Test& passes) {
+double largest(const StabilityLine& line, const std::vector<WallContactResult>& outcomes, const StabilityMap& map,
+               const WallContact& contact, const Test& passes) {
   const auto first = std::find_if_not(outcomes.begin(), outcomes.end(), passes) - outcomes.begin();
   if (first == 0) return 0.0;
   double good = map.stiffnesses[static_cast<std::size_t>(first) - 1];
@@ -174,42 +163,42 @@ double largest(const StabilityLine& line, const std::vector<WallOutcome>& outcom
   double bad = map.stiffnesses[static_cast<std::size_t>(first)];
   while (bad > precision * good) {
     const double middle = std::sqrt(good * bad);
-    (passes(meet_wall(line.loop, middle, encounter)) ? good : bad) = middle;
+    (passes(simulate_wall_contact(line.loop, middle, contact)) ? good : bad) = middle;
   }
   return good;
 }
 
 /// What became of a pen on each stiffness of a line, without and with passivity control.
-using Trials = std::array<std::vector<WallOutcome>, 2>;
+using Trials = std::array<std::vector<WallContactResult>, 2>;
 
 /// Many short pieces of work, so that whoever waits for them can give up soon.
 void try_all(const std::vector<StabilityLine*>& lines, const StabilityMap& map,
              const std::function<void(double)>& progress, std::vector<Trials>& trials) {
   const std::size_t stiffnesses = map.stiffnesses.size();
-  for (Trials& each : trials) each.fill(std::vector<WallOutcome>(stiffnesses));
+  for (Trials& each : trials) each.fill(std::vector<WallContactResult>(stiffnesses));
   parallel_for(2 * stiffnesses * lines.size(), 0, progress, [&](std::size_t i) {
     const std::size_t line = i / (2 * stiffnesses), controlled = i / stiffnesses % 2, stiffness = i % stiffnesses;
-    WallEncounter encounter = map.encounter;
-    encounter.controlled = controlled == 1;
-    trials[line][controlled][stiffness] = meet_wall(lines[line]->loop, map.stiffnesses[stiffness], encounter);
+    WallContact contact = map.contact;
+    contact.controlled = controlled == 1;
+    trials[line][controlled][stiffness] = simulate_wall_contact(lines[line]->loop, map.stiffnesses[stiffness], contact);
   });
 }
 
-void find_largest(const std::vector<StabilityLine*>& lines, const StabilityMap& map,
-                  const std::function<void(double)>& progress, const std::vector<Trials>& trials) {
-  const Test comes_to_rest = [](const WallOutcome& outcome) { return outcome.settles; };
-  const Test within_peak = [&map](const WallOutcome& outcome) {
-    return outcome.settles && outcome.largest_force < map.device.peak_force;
+void find_max_stable(const std::vector<StabilityLine*>& lines, const StabilityMap& map,
+                     const std::function<void(double)>& progress, const std::vector<Trials>& trials) {
+  const Test comes_to_rest = [](const WallContactResult& outcome) { return outcome.stable; };
+  const Test within_peak = [&map](const WallContactResult& outcome) {
+    return outcome.stable && outcome.max_force < map.device.peak_force;
   };
-  WallEncounter free = map.encounter, controlled = map.encounter;
+  WallContact free = map.contact, controlled = map.contact;
   free.controlled = false;
   controlled.controlled = true;
   parallel_for(3 * lines.size(), 0, progress, [&](std::size_t i) {
     StabilityLine& line = *lines[i / 3];
     const auto& [without, with] = trials[i / 3];
-    if (i % 3 == 0) line.largest = largest(line, without, map, free, comes_to_rest);
-    if (i % 3 == 1) line.controlled_largest = largest(line, with, map, controlled, comes_to_rest);
-    if (i % 3 == 2) line.controlled_within_peak = largest(line, with, map, controlled, within_peak);
+    if (i % 3 == 0) line.max_stable = largest(line, without, map, free, comes_to_rest);
+    if (i % 3 == 1) line.controlled_max_stable = largest(line, with, map, controlled, comes_to_rest);
+    if (i % 3 == 2) line.controlled_max_stable_below_peak = largest(line, with, map, controlled, within_peak);
   });
 }
 
@@ -229,10 +218,10 @@ void fill(const std::vector<StabilityLine*>& lines, const StabilityMap& map,
     line.quantised = advice.quantised.value;
     line.stable = advice.stable.value;
     line.approximate = advice.approximate.value;
-    for (const WallOutcome& outcome : trials[i][0]) line.settles.push_back(outcome.settles);
-    for (const WallOutcome& outcome : trials[i][1]) line.controlled_settles.push_back(outcome.settles);
+    for (const WallContactResult& outcome : trials[i][0]) line.stable_at.push_back(outcome.stable);
+    for (const WallContactResult& outcome : trials[i][1]) line.controlled_stable_at.push_back(outcome.stable);
   }
-  find_largest(lines, map, part(share_of_trials, 1.0 - share_of_trials), trials);
+  find_max_stable(lines, map, part(share_of_trials, 1.0 - share_of_trials), trials);
 }
 
 std::string text(double value) {
@@ -256,10 +245,10 @@ StabilitySweep sweep(const Capabilities& device, const char* name, const char* l
 }
 
 StabilitySweep grip_sweep(const Capabilities& device) {
-  const std::pair<const char*, Hand> grips[] = {{"none", {0.0, 0.0, 0.0}},
-                                                {"soft", {0.05, 1.0, 100.0}},
-                                                {"normal", {0.1, 3.0, 300.0}},
-                                                {"firm", {0.15, 5.0, 500.0}}};
+  const std::pair<const char*, GripImpedance> grips[] = {{"none", {0.0, 0.0, 0.0}},
+                                                         {"soft", {0.05, 1.0, 100.0}},
+                                                         {"normal", {0.1, 3.0, 300.0}},
+                                                         {"firm", {0.15, 5.0, 500.0}}};
   StabilitySweep result{"grip", "grip", {}, {}};
   for (const auto& [name, grip] : grips) {
     StabilityLine line;
@@ -295,7 +284,7 @@ std::vector<StabilitySweep> sweeps_of(const Capabilities& device, double frictio
 
 std::vector<StabilityLine> grid_of(const StabilityMapOptions& options) {
   std::vector<StabilityLine> grid;
-  for (const Hand& grip : options.grips) {
+  for (const GripImpedance& grip : options.grips) {
     for (const double wall_damping : options.wall_dampings) {
       for (const double encoder_step : options.encoder_steps) {
         for (const int delay : options.delays) {
@@ -331,16 +320,14 @@ Capabilities StabilityMapOptions::point_mass() {
 }
 
 StabilityMap stability_map(const StabilityMapOptions& options) {
-  validate(options.encounter);
-  require(options.per_decade >= 1 && options.per_decade <= 100, "stiffnesses per decade", options.per_decade,
-          "from 1 to 100");
-  require(std::isfinite(options.softest) && options.softest > 0.0, "softest", options.softest,
-          "a finite number above 0");
-  require(std::isfinite(options.stiffest) && options.stiffest > options.softest, "stiffest", options.stiffest,
-          "a finite number above the softest");
-  require(options.device.peak_force > 0.0, "peak force of the device", options.device.peak_force, "above 0");
+  validate(options.contact);
+  require_within("per_decade", options.per_decade, "", 1, 100);
+  require_above_zero("min_stiffness", options.min_stiffness, "N/m");
+  require(std::isfinite(options.max_stiffness) && options.max_stiffness > options.min_stiffness, "max_stiffness",
+          options.max_stiffness, "N/m", "finite and above min_stiffness");
+  require(options.device.peak_force > 0.0, "peak force of the device", options.device.peak_force, "N", "above 0");
   StabilityMap map;
-  map.encounter = options.encounter;
+  map.contact = options.contact;
   map.device = options.device;
   map.stiffnesses = stiffnesses_of(options);
   if (options.with_sweeps) map.sweeps = sweeps_of(options.device, options.coulomb_friction);

@@ -18,19 +18,19 @@ namespace {
 
 using gnuplot::numeral;
 
-constexpr std::size_t panel_columns = 3;                         // of panels
+constexpr std::size_t panel_columns = 3;                                       // of panels
 constexpr double panels_left = 0.078, panels_right = 0.99, panel_gap = 0.025;  // of the panels, shares of the picture
 constexpr double panels_top = 0.88, bottom = 0.085, between = 0.115;
 
 /// What a cell of the map may be.
 struct Kind {
-  bool settles, controlled_settles;
+  bool stable, controlled_stable;
   const char* colour;
   const char* title;
 };
-constexpr std::array kinds = {Kind{true, true, "#9ecae1", "settles without control and with it"},
-                              Kind{false, true, "#c7e9c0", "settles with control alone"},
-                              Kind{true, false, "#fdae6b", "settles without control alone"},
+constexpr std::array kinds = {Kind{true, true, "#9ecae1", "settles with and without control"},
+                              Kind{false, true, "#c7e9c0", "settles only with control"},
+                              Kind{true, false, "#fdae6b", "settles only without control"},
                               Kind{false, false, "#efefef", "does not settle"}};
 
 struct Bound {
@@ -56,7 +56,7 @@ std::string rectangles(const StabilitySweep& sweep, const Kind& kind, const std:
   for (std::size_t i = 0; i < sweep.lines.size(); ++i) {
     const StabilityLine& line = sweep.lines[i];
     const auto is_kind = [&](std::size_t k) {
-      return line.settles[k] == kind.settles && line.controlled_settles[k] == kind.controlled_settles;
+      return line.stable_at[k] == kind.stable && line.controlled_stable_at[k] == kind.controlled_stable;
     };
     const double x = static_cast<double>(i);
     for (std::size_t k = 0; k < stiffnesses.size(); ++k) {
@@ -122,14 +122,14 @@ std::string panel(const StabilitySweep& sweep, std::size_t index, const std::vec
   return text + ticks(sweep) + "set xlabel " + quoted(sweep.label) + "\n" +
          (index == 0 ? "set key at screen 0.5, 0.99 center top maxrows 3 samplen 2 Left reverse\n" : "unset key\n") +
          (index % panel_columns == 0 ? "set format y '%.0s%c'\nset ylabel 'stiffness K [N/m]'\n"
-                               : "set format y ''\nunset ylabel\n") +
+                                     : "set format y ''\nunset ylabel\n") +
          "plot " + plots + "\n";
 }
 
 }  // namespace
 
 std::string stability_map_plot(const StabilityMap& map) {
-  if (map.sweeps.empty() || map.stiffnesses.size() < 2) throw ValueError("plot of a stability map: no sweep");
+  if (map.sweeps.empty() || map.stiffnesses.size() < 2) throw ValueError("stability map plot: the map has no sweep");
   const std::size_t rows = (map.sweeps.size() + panel_columns - 1) / panel_columns;
   const double half = std::sqrt(map.stiffnesses[1] / map.stiffnesses[0]);
   std::string script = gnuplot::svg_terminal(1180, 120 + 340 * static_cast<int>(rows)) +

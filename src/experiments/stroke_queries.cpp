@@ -1,13 +1,11 @@
-#include <calligraphy/experiments/stroke_queries.hpp>
+#include "stroke_queries.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <string>
 
-#include <calligraphy/base/error.hpp>
 #include <calligraphy/collision/stroke_element.hpp>
 
+#include "base/require.hpp"
 #include "model/random_points.hpp"
 
 namespace calligraphy {
@@ -73,18 +71,13 @@ std::vector<Point> path_along(const std::vector<std::vector<Point>>& elements, c
   }
 }
 
-void require(bool holds, const char* name, double value) {
-  if (!holds) throw ValueError("stroke_queries: " + std::string(name) + " is " + std::to_string(value));
-}
-
 }  // namespace
 
 std::vector<StrokeQueries> stroke_queries(std::span<const Character> characters, const StrokeQueryOptions& options) {
-  const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
-  require(positive(options.em), "em", options.em);
-  require(positive(options.rate), "rate", options.rate);
-  require(positive(options.speed), "speed", options.speed);
-  require(std::isfinite(options.wobble) && options.wobble >= 0.0, "wobble", options.wobble);
+  require_above_zero("stroke queries: em", options.em, "m");
+  require_above_zero("stroke queries: rate", options.rate, "Hz");
+  require_above_zero("stroke queries: speed", options.speed, "m/s");
+  require_not_negative("stroke queries: wobble", options.wobble, "m");
   std::vector<StrokeQueries> drawn;
   RandomPoints random(options.seed);
   for (const Character& character : characters) {

@@ -9,21 +9,21 @@
 namespace calligraphy::recognition {
 namespace {
 
-/// Lengths of what the brush leaves [em], measured on hanzi-writer-data.
-constexpr double longest_entry = 0.095;
-constexpr double longest_pen_press = 0.05;  // on KanjiVG: 99 % are shorter
-constexpr double longest_droop = 0.055;
-constexpr double longest_lift_share = 0.095;  // [1], of the stroke's length; a hook is longer
-constexpr double longest_press = 0.1;
+/// Lengths of brush traces [em], measured on hanzi-writer-data.
+constexpr double max_entry = 0.095;
+constexpr double max_pen_press = 0.05;  // on KanjiVG: 99 % are shorter
+constexpr double max_droop = 0.055;
+constexpr double max_lift_share = 0.095;  // [1], relative to the stroke's length; a hook is longer
+constexpr double max_press = 0.1;
 
 /// Directions in which a brush is set down: from the upper left, or curling in before a ti or a pie.
 constexpr Range set_down{-95.0, 8.0};
 constexpr Range curl_before_ti{70.0, 150.0};
 constexpr Range curl_before_pie{130.0, 230.0};
 
-/// Does a start piece with this direction belong to the brush, when the stroke goes on in direction `body`?
-/// Strokes that go right or up are entered from the upper left by turning left, those that go down by turning right. A
-/// na and a dian start thin and have no entry, so bodies between are left alone.
+/// True if a start piece with this direction belongs to the brush when the stroke continues in direction `body`.
+/// Strokes to the right or upwards are entered from the upper left with a left turn, downward strokes with a right
+/// turn. A na and a dian start thin and have no entry, so directions in between are not changed.
 bool is_entry(double piece, double body) {
   const double turn = wrapped(body - piece);
   if (contains(curl_before_ti, piece) && contains({30.0, 80.0}, body)) return turn < -10.0;
@@ -33,8 +33,8 @@ bool is_entry(double piece, double body) {
   return contains({-200.0, -62.0}, body) && turn < -10.0;
 }
 
-/// Does an end piece with this direction belong to the brush? The brush is lifted towards the lower right after a heng,
-/// downwards after a pie, sidewards after a ti or shu. Hooks turn by more than that.
+/// True if an end piece with this direction belongs to the brush, which is lifted towards the lower right after a heng,
+/// downwards after a pie, and sideways after a ti or shu. Hooks turn by more than that.
 bool is_droop(double piece, double body) {
   const double turn = wrapped(piece - body);
   if (contains({-20.0, 30.0}, body)) return turn < -12.0 && turn > -115.0;
@@ -43,7 +43,7 @@ bool is_droop(double piece, double body) {
   return contains({-112.0, -20.0}, body) && turn < -12.0 && turn > -75.0;
 }
 
-/// A heng may be pressed down longer at its end than other strokes are.
+/// A heng may be pressed longer at its end than other strokes.
 bool is_press(double piece, double body) {
   const double turn = wrapped(piece - body);
   return contains({-10.0, 25.0}, body) && turn < -12.0 && turn > -70.0;
@@ -68,7 +68,7 @@ std::size_t entry_vertices(std::span<const Point> path, double length, double lo
     if (is_entry(piece, direction_of(point_after(path, i, look_ahead) - path[i]))) {
       cut = i;
     } else if (!contains(set_down, piece) && !contains(curl_before_ti, piece)) {
-      break;  // the stroke's own first limb has begun
+      break;  // the first limb of the stroke has begun
     }
   }
   return cut;
@@ -77,7 +77,7 @@ std::size_t entry_vertices(std::span<const Point> path, double length, double lo
 /// Number of vertices at the end that belong to the droop.
 std::size_t droop_vertices(std::span<const Point> path, double length) {
   const Path reversed(path.rbegin(), path.rend());
-  const double limit = std::min(longest_press, 0.25 * length);
+  const double limit = std::min(max_press, 0.25 * length);
   double travelled = 0.0;
   std::size_t cut = 0;
   for (std::size_t i = 1; i + 1 < reversed.size(); ++i) {
@@ -86,24 +86,23 @@ std::size_t droop_vertices(std::span<const Point> path, double length) {
     const double piece = direction_of(reversed.front() - reversed[i]);
     const double look_back = std::clamp(0.2 * length, 0.03, 0.10);
     const double body = direction_of(reversed[i] - point_after(reversed, i, look_back));
-    const bool drooped = travelled <= longest_droop && is_droop(piece, body);
-    // A lift starts at a corner: what comes before it goes the way of the body.
+    const bool drooped = travelled <= max_droop && is_droop(piece, body);
+    // A lift starts at a corner, before which the path follows the body.
     const bool at_corner = std::abs(wrapped(direction_of(reversed[i] - reversed[i + 1]) - body)) < 25.0;
-    const bool lifted =
-        travelled <= std::min(longest_press, longest_lift_share * length) && at_corner && is_lift(piece, body);
+    const bool lifted = travelled <= std::min(max_press, max_lift_share * length) && at_corner && is_lift(piece, body);
     if (drooped || lifted || is_press(piece, body)) cut = i;
   }
   return cut;
 }
 
 CleanPath as_it_is(std::span<const Point> points) {
-  constexpr double reach = 0.04;            // [em]
-  constexpr std::size_t most_points = 512;  // what more points add is less than a pen can show
-  constexpr double simplification = 2e-5;   // [em], well below the tolerance of the error
+  constexpr double reach = 0.04;           // [em]
+  constexpr std::size_t max_points = 512;  // more points add less detail than a pen can show
+  constexpr double simplification = 2e-5;  // [em], well below the tolerance of the error
   CleanPath clean;
   clean.points = without_repeats(points);
-  if (clean.points.size() > most_points) {
-    const Path simple = simplified(clean.points, most_points, simplification);
+  if (clean.points.size() > max_points) {
+    const Path simple = simplified(clean.points, max_points, simplification);
     clean.slack = distance_to_simplified(clean.points, simple);
     clean.points = simple;
   }
@@ -119,7 +118,7 @@ CleanPath clean_median(std::span<const Point> median) {
   CleanPath clean = as_it_is(median);
   const Path path = clean.points;
   const double length = path_length(path);
-  const std::size_t entry = entry_vertices(path, length, longest_entry);
+  const std::size_t entry = entry_vertices(path, length, max_entry);
   const std::size_t droop = droop_vertices(path, length);
   clean.had_entry = entry > 0;
   if (entry + droop + 2 <= path.size()) {
@@ -132,7 +131,7 @@ CleanPath clean_median(std::span<const Point> median) {
 CleanPath clean_pen_path(std::span<const Point> path) { return as_it_is(path); }
 
 Path without_entry(const Path& path) {
-  const std::size_t entry = entry_vertices(path, path_length(path), longest_pen_press);
+  const std::size_t entry = entry_vertices(path, path_length(path), max_pen_press);
   return Path(path.begin() + static_cast<std::ptrdiff_t>(entry), path.end());
 }
 

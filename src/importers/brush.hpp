@@ -1,4 +1,4 @@
-// What a brush adds to the median of a stroke and a pen does not write; private to the model.
+// Removal of what a brush adds to the median of a stroke; private to the importers.
 #pragma once
 
 #include <span>
@@ -10,8 +10,8 @@ namespace calligraphy::recognition {
 /// A pen path without repeated points, brush entry and end droop [em].
 struct CleanPath {
   Path points;             ///< at most 512
-  double slack = 0.0;      ///< a path of more points was simplified: how far it may be from `points` [em]
-  bool had_entry = false;  ///< a slanted start was cut off
+  double slack = 0.0;      ///< maximum distance of the original path from `points`, if it was simplified [em]
+  bool had_entry = false;  ///< a slanted start was removed
   double first = 0.0;      ///< direction of the first 0.04 em, entry included [degree]
   double last = 0.0;       ///< direction of the last 0.04 em, droop included [degree]
 };
@@ -19,10 +19,10 @@ struct CleanPath {
 /// Removes the slanted start and the end droop of a median. Keeps at least half of the path. O(points).
 CleanPath clean_median(std::span<const Point> median);
 
-/// The path of a pen, from which nothing but repeats is removed. O(points).
+/// The path of a pen, from which only repeated points are removed. O(points).
 CleanPath clean_pen_path(std::span<const Point> path);
 
-/// The path without its slanted start alone, for a pen that presses at the start. O(points).
+/// The path without only its slanted start, for a pen that presses at the start. O(points).
 Path without_entry(const Path& path);
 
 }  // namespace calligraphy::recognition

@@ -1,4 +1,4 @@
-// Texts of data/, compiled in by cmake/room.cmake.
+// Texts of data/, compiled in by cmake/component.cmake.
 #pragma once
 
 namespace calligraphy::built_in {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <charconv>
 #include <cstdio>
 #include <fstream>
 #include <numbers>
@@ -17,16 +16,19 @@
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/text.hpp>
-#include <calligraphy/importers/doubtful_strokes.hpp>
-#include <calligraphy/importers/hanzi_writer.hpp>
-#include <calligraphy/importers/kanjivg.hpp>
 #include <calligraphy/importers/stroke_fit.hpp>
-#include <calligraphy/importers/stroke_letters.hpp>
+#include <calligraphy/importers/stroke_warnings.hpp>
 #include <calligraphy/model/character_set.hpp>
 
+#include "base/charconv.hpp"
 #include "base/parallel.hpp"
+#include "base/require.hpp"
+#include "hanzi_writer.hpp"
 #include "imported_character.hpp"
+#include "kanjivg.hpp"
+#include "source_files.hpp"
 #include "stroke_labels.hpp"
+#include "stroke_letters.hpp"
 
 namespace calligraphy {
 namespace {
@@ -35,12 +37,12 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view licence_file = "ARPHICPL.TXT";
 constexpr std::string_view package_file = "package.json";
-constexpr double label_turn = std::numbers::pi / 3.0;  // [rad]; nor one whose stroke starts in another direction
-constexpr double label_error = 0.01;       // [em]; a label whose stroke leaves the drawing farther is no help
-constexpr int most_imported_strokes = 1'000'000;    // of an import; the largest source known has 148 thousand
-constexpr std::size_t longest_order = 64;  // [byte]
+constexpr double label_turn = std::numbers::pi / 3.0;  // [rad]; maximum turn from the typical start
+constexpr double label_error = 0.01;                   // [em]; a label is rejected if its stroke deviates by more
+constexpr int max_imported_strokes = 1'000'000;                 // of an import; the largest source known has 148 thousand
+constexpr std::size_t max_order = 64;                  // [byte]
 
-/// Which character a file of a source holds, as its name says.
+/// The character in a file of a source, according to the file name.
 struct FileName {
   SourceKind kind;
   char32_t code;
@@ -53,7 +55,7 @@ bool is_ideograph(char32_t code) {
 }
 
 bool is_word(std::string_view text) {
-  return !text.empty() && text.size() <= longest_order && std::all_of(text.begin(), text.end(), [](char c) {
+  return !text.empty() && text.size() <= max_order && std::all_of(text.begin(), text.end(), [](char c) {
     return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
   });
 }
@@ -64,7 +66,7 @@ std::optional<FileName> kanjivg_name(std::string_view stem) {
   unsigned code = 0;
   if (stem.size() < digits) return std::nullopt;
   const char* const end = stem.data() + digits;
-  const auto [rest, error] = std::from_chars(stem.data(), end, code, 16);
+  const auto [rest, error] = from_chars(stem.data(), end, code, 16);
   if (error != std::errc() || rest != end || code == 0) return std::nullopt;
   if (stem.size() == digits) return FileName{SourceKind::kanjivg, code, {}};
   if (stem[digits] != '-' || !is_word(stem.substr(digits + 1))) return std::nullopt;
@@ -76,7 +78,7 @@ std::optional<FileName> hanzi_writer_name(std::string_view stem) {
   try {
     const std::u32string codes = decode_utf8(stem);
     if (codes.size() == 1 && codes[0] > 0x7F) return FileName{SourceKind::hanzi_writer_data, codes[0], {}};
-  } catch (const FormatError&) {  // a name in another encoding
+  } catch (const FormatError&) {  // the name is in another encoding
   }
   return std::nullopt;
 }
@@ -90,12 +92,12 @@ std::optional<FileName> parse_name(std::string_view path) {
   return std::nullopt;
 }
 
-/// A file of the package itself, not of one within it.
+/// True for a file of the package itself, not of a nested one.
 bool is_package_file(std::string_view path, std::string_view name) {
   return path == name || path == "package/" + std::string(name);
 }
 
-/// A text as it goes along: UTF-8, line ends of one kind. @throws FormatError naming the place
+/// A text as it is redistributed: UTF-8 with '\n' line ends. @throws FormatError naming the place
 std::string with_plain_line_ends(std::string_view text, const std::string& place) {
   try {
     decode_utf8(text);
@@ -118,12 +120,12 @@ class Selection {
   std::string skip_reason(std::string_view path) {
     if (is_package_file(path, licence_file) || is_package_file(path, package_file)) return {};
     const std::optional<FileName> name = parse_name(path);
-    if (!name) return "no file of a character";
+    if (!name) return "not a character file";
     const bool mixed = name->kind == SourceKind::kanjivg;  // hanzi-writer-data has radicals beside ideographs
-    if (mixed && options_.ideographs_only && !is_ideograph(name->code)) return "no ideograph";
+    if (mixed && options_.ideographs_only && !is_ideograph(name->code)) return "not an ideograph";
     if (!name->order.empty() && !options_.alternates) return "an alternate order";
-    if (!options_.only.empty() && options_.only.find(name->code) == std::u32string::npos) return "not asked for";
-    if (!seen_.emplace(name->kind, name->code, name->order).second) return "a copy of a file read before";
+    if (!options_.only.empty() && options_.only.find(name->code) == std::u32string::npos) return "not requested";
+    if (!seen_.emplace(name->kind, name->code, name->order).second) return "a duplicate of an earlier file";
     return {};
   }
 
@@ -138,27 +140,27 @@ struct Drawing {
   std::string text;
 };
 
-/// A path that a stroke was drawn along, and what its source calls the stroke.
+/// The drawn path of a stroke, and its label in the source.
 struct StrokeOfDrawing {
   std::vector<Point> path;
   std::string label;
   std::span<const int> label_ids;
 };
 
-/// How the strokes of a source are drawn: medians of a brush, or lines of a textbook hand.
+/// How the strokes of a source are drawn: medians of a brush, or lines in textbook style.
 StrokeFitOptions drawing_of(SourceKind kind) {
   const bool brush = kind == SourceKind::hanzi_writer_data;
-  return {.drawn_with = brush ? DrawnWith::brush : DrawnWith::textbook_pen};
+  return {.drawing_tool = brush ? DrawingTool::brush : DrawingTool::textbook_pen};
 }
 
-/// May the label have its way with a stroke of its own kind, where geometry alone recognised another?
+/// True if the label decides, with a stroke of its own kind, where geometry alone recognised another.
 bool is_plausible(const FittedStroke& labelled, const FittedStroke& recognised) {
   const StrokeInput& stroke = labelled.stroke;
   return labelled.error <= std::max(label_error, recognised.error) &&
-         turn_from_typical_start({&typical_stroke(stroke.id), 3, stroke.control_points, {}}) <= label_turn;
+         start_direction_error({&typical_stroke(stroke.id), 3, stroke.control_points, {}}) <= label_turn;
 }
 
-/// Fits a stroke. A label is heard only where it contradicts the shape: most strokes are fitted once.
+/// Fits a stroke. Its label is considered only if it contradicts the shape, so most strokes are fitted once.
 FittedStroke fit(const StrokeOfDrawing& drawn, StrokeFitOptions options, ImportedStroke& result) {
   FittedStroke fitted = fit_stroke(drawn.path, options);
   const auto& ids = drawn.label_ids;
@@ -182,12 +184,12 @@ class Importer {
     if (!options.letters.empty()) letters_ = read_stroke_letters(options.letters);
   }
 
-  Import run() {
+  ImportResult run() {
     read();
     std::vector<ImportedCharacter> characters(drawings_.size());
     parallel_for(drawings_.size(), options_.threads, options_.progress,
                  [&](std::size_t i) { characters[i] = imported(drawings_[i]); });
-    Import result{{provenance(characters.front().notice), {}}, report_of(kind_, characters)};
+    ImportResult result{{provenance(characters.front().notice), {}}, report_of(kind_, characters)};
     result.report.skipped = std::move(skipped_);
     result.report.notes = std::move(notes_);
     for (ImportedCharacter& character : characters) result.list.characters.push_back(std::move(character.character));
@@ -200,7 +202,7 @@ class Importer {
     SourceFiles found = read_source(
         source_,
         [&](std::string_view path) {
-          if (options_.progress) options_.progress(0.0);  // reading may take seconds, too
+          if (options_.progress) options_.progress(0.0);  // reading alone may take seconds
           return selection.skip_reason(path);
         },
         options_.limits);
@@ -226,26 +228,26 @@ class Importer {
       const char32_t wanted = options_.only.empty() ? U'永' : options_.only.front();
       char number[16];
       std::snprintf(number, sizeof number, "%05x", static_cast<unsigned>(wanted));
-      throw FormatError(source_.string() + ": no file of a character" +
-                        (options_.only.empty() ? "" : " that was asked for") + " in it: neither " +
-                        encode_utf8(wanted) + ".json as in hanzi-writer-data nor " + number + ".svg as in KanjiVG");
+      throw FormatError(source_.string() + ": contains no character file" +
+                        (options_.only.empty() ? "" : " that was requested") + ": neither " + encode_utf8(wanted) +
+                        ".json as in hanzi-writer-data nor " + number + ".svg as in KanjiVG");
     }
     kind_ = drawings_.front().name.kind;
     for (const Drawing& drawing : drawings_) {
       if (drawing.name.kind == kind_) continue;
-      throw FormatError(source_.string() + ": both hanzi-writer-data and KanjiVG: " + drawings_.front().place +
+      throw FormatError(source_.string() + ": contains both hanzi-writer-data and KanjiVG: " + drawings_.front().place +
                         " and " + drawing.place);
     }
     if (kind_ == SourceKind::kanjivg && !options_.letters.empty()) {
-      throw ValueError("letters: KanjiVG has labels of its own; stroke letters are for hanzi-writer-data");
+      throw ValueError("letters: stroke letters apply only to hanzi-writer-data; KanjiVG has its own labels");
     }
   }
 
   ImportedCharacter imported(const Drawing& drawing) {
     ImportedCharacter result;
     const std::vector<StrokeOfDrawing> drawn = drawn_strokes(drawing, result);
-    if ((strokes_ += static_cast<int>(drawn.size())) > most_imported_strokes) {
-      throw FormatError(source_.string() + ": more than " + std::to_string(most_imported_strokes) + " strokes");
+    if ((strokes_ += static_cast<int>(drawn.size())) > max_imported_strokes) {
+      throw FormatError(source_.string() + ": more than " + std::to_string(max_imported_strokes) + " strokes");
     }
     std::vector<StrokeInput> strokes;
     for (const StrokeOfDrawing& stroke : drawn) {
@@ -291,20 +293,20 @@ class Importer {
     const std::string change = "; changed by calligraphy: fitted to typical strokes" +
                                (options_.date.empty() ? std::string() : " on " + options_.date);
     if (kind_ == SourceKind::kanjivg) {
-      if (notice.empty()) notes_.push_back("the source has no copyright notice that could go along");
+      if (notice.empty()) notes_.push_back("the source has no copyright notice to include");
       return {"KanjiVG" + package_words(), "Creative Commons Attribution-Share Alike 3.0",
               "Ulrich Apel, KanjiVG, http://kanjivg.tagaini.net" + change, notice};
     }
     if (licence_text_.empty()) {
       notes_.push_back("the source has no " + std::string(licence_file) +
-                       ": whoever passes the characters on must add the Arphic Public License");
+                       ": add the Arphic Public License when redistributing the characters");
     }
     const std::string letters = options_.letters.empty() ? "" : "; stroke letters: theajack, cnchar-order (MIT)";
     return {"Make Me a Hanzi" + package_words(), "Arphic Public License",
             "Arphic Technology, Make Me a Hanzi, Hanzi Writer" + letters + change, licence_text_};
   }
 
-  /// ", as hanzi-writer-data 2.0.1" where the source is the package and not a part of it.
+  /// ", as hanzi-writer-data 2.0.1" if the source is the complete package.
   std::string package_words() const {
     const auto package = nlohmann::json::parse(package_, nullptr, false);
     if (!package.is_object() || !package.contains("name") || !package.contains("version")) return {};
@@ -328,8 +330,8 @@ class Importer {
   std::atomic<int> strokes_ = 0;
 };
 
-/// Is it a set file or the text format, and not a tarball? What begins as none of them is read as the text format: its
-/// message says what was expected.
+/// True for a set file or the text format, as opposed to a tarball. Anything unknown is read as the text format, whose
+/// error message states what was expected.
 bool is_own_format(const fs::path& source) {
   std::error_code failure;
   if (!fs::is_regular_file(source, failure)) return false;
@@ -342,15 +344,16 @@ bool is_own_format(const fs::path& source) {
   return !is_gzip && !is_tar;
 }
 
-Import import_own_format(const fs::path& source, const ImportOptions& options) {
+ImportResult import_own_format(const fs::path& source, const ImportOptions& options) {
   if (!options.letters.empty())
-    throw ValueError("letters: they are for hanzi-writer-data, not for a set of characters");
+    throw ValueError("letters: stroke letters apply only to hanzi-writer-data, not to a character set");
   CharacterList list = CharacterSet::open(source.string()).list();
   if (!options.only.empty()) {
     std::erase_if(list.characters, [&](const Character& c) { return options.only.find(c.code) == options.only.npos; });
   }
   if (list.characters.empty())
-    throw FormatError(source.string() + ": no character" + (options.only.empty() ? "" : " that was asked for"));
+    throw FormatError(source.string() + ": contains no character" +
+                      (options.only.empty() ? "" : " that was requested"));
   std::stable_sort(list.characters.begin(), list.characters.end(),
                    [](const Character& a, const Character& b) { return a.code < b.code; });
   ImportReport report = report_of(list);
@@ -358,10 +361,8 @@ Import import_own_format(const fs::path& source, const ImportOptions& options) {
 }
 
 void check(const ImportOptions& options) {
-  constexpr int most_threads = 256;
-  if (options.threads < 0 || options.threads > most_threads) {
-    throw ValueError("threads " + std::to_string(options.threads) + ": expected 0 to " + std::to_string(most_threads));
-  }
+  constexpr int max_threads = 256;
+  require_within("threads", options.threads, "", 0, max_threads);
   if (options.date.size() > 40 || options.date.find_first_of("\r\n") != std::string::npos) {
     throw ValueError("date '" + options.date.substr(0, 40) + "': expected one line of at most 40 bytes");
   }
@@ -369,7 +370,7 @@ void check(const ImportOptions& options) {
 
 }  // namespace
 
-Import import_characters(const fs::path& source, const ImportOptions& options) {
+ImportResult import_characters(const fs::path& source, const ImportOptions& options) {
   check(options);
   if (is_own_format(source)) return import_own_format(source, options);
   return Importer(source, options).run();

@@ -12,7 +12,7 @@
 namespace calligraphy::recognition {
 namespace {
 
-/// Inner control points by linear least squares at given parameters, the end points fixed.
+/// Inner control points by linear least squares at given parameters, with fixed end points.
 bool solve_handles(std::span<const Point> points, std::span<const double> parameters, Point handles[2]) {
   const Point& first = points.front();
   const Point& last = points.back();
@@ -37,7 +37,7 @@ bool solve_handles(std::span<const Point> points, std::span<const double> parame
   return handles[0].allFinite() && handles[1].allFinite();
 }
 
-/// One Newton step of each parameter towards the foot of its point on the curve (Plass and Stone 1983).
+/// One Newton step of each parameter towards the closest point on the curve (Plass and Stone 1983).
 void improve_parameters(std::span<const Point> points, const Bezier<3>& curve, std::vector<double>& parameters) {
   const Bezier<2> velocity = curve.hodograph();
   for (std::size_t i = 1; i + 1 < points.size(); ++i) {
@@ -66,7 +66,7 @@ double fit_cubic(std::span<const Point> points, Point handles[2]) {
   for (int round = 0; round < 2; ++round) {
     Point next[2];
     if (!solve_handles(points, parameters, next)) break;
-    // A handle far from the path would make a loop that nobody wrote.
+    // A handle far from the path would create a loop that is not in the drawing.
     if ((next[0] - first).norm() > 1.5 * length || (next[1] - last).norm() > 1.5 * length) {
       handles[0] = straight[0];
       handles[1] = straight[1];

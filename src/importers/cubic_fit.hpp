@@ -1,4 +1,4 @@
-// The cubic that follows points best, its ends given; private to the model.
+// Least-squares fit of a cubic with given end points; private to the importers.
 #pragma once
 
 #include <span>
@@ -7,8 +7,8 @@
 
 namespace calligraphy::recognition {
 
-/// Largest distance of the points to the cubic with these end points that fits them best in least squares.
-/// `handles` receives its inner control points.
+/// Maximum distance of the points from their least-squares cubic with these end points. `handles` receives its inner
+/// control points.
 double fit_cubic(std::span<const Point> points, Point handles[2]);
 
 }  // namespace calligraphy::recognition

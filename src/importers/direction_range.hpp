@@ -1,4 +1,4 @@
-// Ranges of directions and of numbers, as the rules about strokes state them; private to the model.
+// Ranges of directions and numbers for the stroke rules; private to the importers.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace calligraphy::recognition {
 
-/// From and to, the ends included; a range of directions may go past 180 degrees.
+/// A closed interval; a range of directions may extend past 180 degrees.
 struct Range {
   double from;
   double to;
@@ -18,13 +18,13 @@ inline bool contains(const Range& range, double degrees) {
   return std::abs(wrapped(degrees - 0.5 * (range.from + range.to))) <= 0.5 * (range.to - range.from);
 }
 
-/// How far outside the range a direction is [degree].
+/// Distance of a direction from the range [degree]; 0 inside.
 inline double outside(const Range& range, double degrees) {
   const double half = 0.5 * (range.to - range.from);
   return std::max(0.0, std::abs(wrapped(degrees - 0.5 * (range.from + range.to))) - half);
 }
 
-/// How far outside the range a number is.
+/// Distance of a number from the range; 0 inside.
 inline double beyond(const Range& range, double value) { return std::max({0.0, range.from - value, value - range.to}); }
 
 }  // namespace calligraphy::recognition

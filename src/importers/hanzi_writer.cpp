@@ -1,4 +1,4 @@
-#include <calligraphy/importers/hanzi_writer.hpp>
+#include "hanzi_writer.hpp"
 
 #include <cmath>
 #include <filesystem>
@@ -15,18 +15,18 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::size_t largest_file = 1 << 20;  // [byte]; the largest of the package has 15 thousand
-constexpr std::size_t most_strokes = 256;
-constexpr std::size_t most_points = 10000;  // of one median
+constexpr std::size_t max_file_bytes = 1 << 20;  // [byte]; the largest of the package has 15 thousand
+constexpr std::size_t max_strokes = 256;
+constexpr std::size_t max_points = 10000;  // of one median
 constexpr double units_per_em = 1024.0;
-constexpr double baseline = -124.0;                        // [unit]
-constexpr double largest_coordinate = 8.0 * units_per_em;  // [unit]
+constexpr double baseline = -124.0;                    // [unit]
+constexpr double max_coordinate = 8.0 * units_per_em;  // [unit]
 
-/// What the JSON text of one character says, with messages that name the file and the place.
+/// Parses the JSON text of one character, with messages that name the file and the place.
 class Reader {
  public:
   Reader(std::string_view text, std::string name) : name_(std::move(name)) {
-    if (text.size() > largest_file) fail("", "larger than 1 MB");
+    if (text.size() > max_file_bytes) fail("", "larger than 1 MB");
     try {
       root_ = Json::parse(text);
     } catch (const Json::exception& error) {
@@ -39,7 +39,7 @@ class Reader {
     const auto found = root_.find("medians");
     if (found == root_.end()) fail("medians", "missing");
     if (!found->is_array() || found->empty()) fail("medians", "expected a non-empty array");
-    if (found->size() > most_strokes) fail("medians", "more than " + std::to_string(most_strokes) + " strokes");
+    if (found->size() > max_strokes) fail("medians", "more than " + std::to_string(max_strokes) + " strokes");
     std::vector<std::vector<Point>> result;
     for (std::size_t i = 0; i < found->size(); ++i) {
       result.push_back(median((*found)[i], "medians[" + std::to_string(i) + "]"));
@@ -54,7 +54,7 @@ class Reader {
  private:
   std::vector<Point> median(const Json& value, const std::string& place) const {
     if (!value.is_array() || value.empty()) fail(place, "expected a non-empty array of points");
-    if (value.size() > most_points) fail(place, "more than " + std::to_string(most_points) + " points");
+    if (value.size() > max_points) fail(place, "more than " + std::to_string(max_points) + " points");
     std::vector<Point> points;
     for (std::size_t i = 0; i < value.size(); ++i) {
       points.push_back(point(value[i], place + "[" + std::to_string(i) + "]"));
@@ -67,7 +67,7 @@ class Reader {
     if (!two_numbers) fail(place, "expected two finite numbers");
     const Point units(value[0].get<double>(), value[1].get<double>());
     if (!units.allFinite()) fail(place, "expected two finite numbers");
-    if (units.cwiseAbs().maxCoeff() > largest_coordinate) {
+    if (units.cwiseAbs().maxCoeff() > max_coordinate) {
       fail(place, "(" + value[0].dump() + ", " + value[1].dump() + ") is more than 8 em from the origin");
     }
     return Point(units.x(), units.y() - baseline) / units_per_em;
@@ -85,15 +85,16 @@ std::vector<std::vector<Point>> parse_hanzi_writer(std::string_view json, const 
 
 Character read_hanzi_writer(const std::string& directory, char32_t code) {
   const bool is_character = code > 0 && code <= 0x10FFFF && (code < 0xD800 || code > 0xDFFF);
-  if (!is_character) throw FileError(directory + ": no code point " + std::to_string(static_cast<unsigned>(code)));
+  if (!is_character) throw FileError(directory + ": invalid code point " + std::to_string(static_cast<unsigned>(code)));
   const std::string name = encode_utf8(code);
   const std::filesystem::path path = std::filesystem::path(directory) / (name + ".json");
   std::error_code failure;
   if (!std::filesystem::is_regular_file(path, failure)) {
-    throw FileError(path.string() + ": no such file; is this the unpacked npm package hanzi-writer-data, and has it " +
-                    name + "?");
+    throw FileError(path.string() +
+                    ": no such file; is this the unpacked npm package hanzi-writer-data, and does it contain " + name +
+                    "?");
   }
-  const auto medians = parse_hanzi_writer(read_file(path, largest_file), path.filename().string());
+  const auto medians = parse_hanzi_writer(read_file(path, max_file_bytes), path.filename().string());
   std::vector<StrokeInput> strokes;
   for (const std::vector<Point>& median : medians) strokes.push_back(fit_stroke(median).stroke);
   return make_character(code, strokes);

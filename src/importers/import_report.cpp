@@ -7,11 +7,11 @@
 namespace calligraphy {
 namespace {
 
-constexpr std::size_t most_worst = 10;
+constexpr std::size_t max_worst = 10;
 
 using FitCounts = std::array<FitCount, 3>;
 
-/// Counts a character with every stroke within each error.
+/// Counts a character towards each error that none of its strokes exceeds.
 void count_character(FitCounts& counts, const std::vector<ImportedStroke>& strokes, double ImportedStroke::*error) {
   for (FitCount& count : counts) {
     const auto is_within = [&](const ImportedStroke& stroke) { return stroke.*error <= count.error; };
@@ -28,7 +28,7 @@ class Counter {
   void add(const ImportedCharacter& imported) {
     const Character& character = imported.character;
     for (std::size_t i = 0; i < imported.strokes.size(); ++i) {
-      const StrokePlace place{character.code, character.order, static_cast<int>(i) + 1};
+      const StrokeReference place{character.code, character.order, static_cast<int>(i) + 1};
       const int id = character.sequence.stroke_ids[i];
       add_stroke(imported.strokes[i], place, id);
     }
@@ -40,7 +40,7 @@ class Counter {
 
   ImportReport finish() {
     std::stable_sort(errors_.begin(), errors_.end(), [](const auto& a, const auto& b) { return a.error > b.error; });
-    errors_.resize(std::min(errors_.size(), most_worst));
+    errors_.resize(std::min(errors_.size(), max_worst));
     report_.worst = std::move(errors_);
     for (auto& [key, confusion] : confusions_) report_.confusions.push_back(std::move(confusion));
     std::stable_sort(report_.confusions.begin(), report_.confusions.end(),
@@ -49,7 +49,7 @@ class Counter {
   }
 
  private:
-  void add_stroke(const ImportedStroke& stroke, const StrokePlace& place, int id) {
+  void add_stroke(const ImportedStroke& stroke, const StrokeReference& place, int id) {
     ++report_.strokes;
     ++report_.ids_used[static_cast<std::size_t>(id)];
     errors_.push_back({place, id, stroke.error});
@@ -59,24 +59,24 @@ class Counter {
       ++report_.agreed;
       return;
     }
-    const LabelFate fate = !stroke.label_known       ? LabelFate::unknown
-                           : id == stroke.recognised ? LabelFate::overruled
-                                                     : LabelFate::obeyed;
-    report_.label_doubts.push_back({place, stroke.label, fate, stroke.recognised, id});
+    const LabelResolution resolution = !stroke.label_known       ? LabelResolution::unknown
+                                       : id == stroke.recognised ? LabelResolution::overridden
+                                                                 : LabelResolution::accepted;
+    report_.label_conflicts.push_back({place, stroke.label, resolution, stroke.recognised, id});
     if (!stroke.label_known) return;
     const auto [entry, is_new] = confusions_.try_emplace({stroke.label, stroke.recognised},
-                                                         Confusion{stroke.label, stroke.recognised, 0, place});
+                                                         LabelConfusion{stroke.label, stroke.recognised, 0, place});
     ++entry->second.count;
   }
 
   ImportReport report_;
   std::vector<StrokeError> errors_;
-  std::map<std::pair<std::string, int>, Confusion> confusions_;
+  std::map<std::pair<std::string, int>, LabelConfusion> confusions_;
 };
 
 }  // namespace
 
-const char* name_of(SourceKind kind) noexcept {
+const char* to_string(SourceKind kind) noexcept {
   switch (kind) {
     case SourceKind::hanzi_writer_data:
       return "hanzi-writer-data";
@@ -86,6 +86,18 @@ const char* name_of(SourceKind kind) noexcept {
       break;
   }
   return "calligraphy";
+}
+
+const char* to_string(LabelResolution resolution) noexcept {
+  switch (resolution) {
+    case LabelResolution::accepted:
+      return "accepted";
+    case LabelResolution::overridden:
+      return "overridden";
+    case LabelResolution::unknown:
+      break;
+  }
+  return "unknown";
 }
 
 ImportReport report_of(SourceKind kind, const std::vector<ImportedCharacter>& characters) {

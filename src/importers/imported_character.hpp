@@ -1,4 +1,4 @@
-// One character on its way from a source to a CharacterList; private to the import.
+// One imported character before it enters a CharacterList; private to the import.
 #pragma once
 
 #include <string>
@@ -10,9 +10,9 @@ namespace calligraphy {
 
 struct ImportedStroke {
   double error = 0.0;         ///< [em]
-  double median_error = 0.0;  ///< with the corners that a brush's median cuts [em]
+  double median_error = 0.0;  ///< including the corners that the brush's median cuts [em]
   int recognised = 0;         ///< id by geometry alone
-  std::string label;          ///< empty where there is none
+  std::string label;          ///< empty if there is none
   bool label_known = false;
   bool label_agrees = false;
 };
@@ -21,13 +21,13 @@ struct ImportedCharacter {
   Character character;
   std::vector<ImportedStroke> strokes;
   bool letters_unused = false;
-  std::string notice;  ///< of its file
+  std::string notice;  ///< copyright notice of its file
 };
 
-/// Counts what was fitted and how labels fared.
+/// Statistics of fits and labels.
 ImportReport report_of(SourceKind kind, const std::vector<ImportedCharacter>& characters);
 
-/// Counts what the text format gave.
+/// Statistics of a set file or the text format.
 ImportReport report_of(const CharacterList& list);
 
 }  // namespace calligraphy

@@ -1,4 +1,4 @@
-#include <calligraphy/importers/kanjivg.hpp>
+#include "kanjivg.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -14,9 +14,9 @@
 namespace calligraphy {
 namespace {
 
-constexpr std::size_t largest_svg = 1 << 20;  // [byte]; the largest of the package has 8 thousand
-constexpr std::size_t most_svg_strokes = 256;
-constexpr std::size_t longest_label = 64;  // [byte]
+constexpr std::size_t max_svg = 1 << 20;  // [byte]; the largest of the package has 8 thousand
+constexpr std::size_t max_svg_strokes = 256;
+constexpr std::size_t max_label = 64;  // [byte]
 constexpr double svg_units_per_em = 109.0;
 constexpr double svg_tolerance = 5e-5;  // [em]
 
@@ -27,7 +27,7 @@ std::size_t line_of(std::string_view text, std::ptrdiff_t offset) {
   return 1 + static_cast<std::size_t>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
 }
 
-/// The node after this one in the order of the document. No recursion: nesting may be as deep as the file is long.
+/// The next node in document order. Not recursive, because nesting may be as deep as the file is long.
 pugi::xml_node next_in_document(pugi::xml_node node, pugi::xml_node root) {
   if (node.first_child()) return node.first_child();
   while (node && node != root && !node.next_sibling()) node = node.parent();
@@ -47,7 +47,7 @@ void check_view_box(pugi::xml_node root, const std::string& name) {
 
 KanjivgStroke stroke_of(pugi::xml_node path, const std::string& place) {
   KanjivgStroke stroke{path.attribute("kvg:type").value(), {}};
-  if (stroke.label.size() > longest_label) fail(place, "kvg:type of more than 64 bytes");
+  if (stroke.label.size() > max_label) fail(place, "kvg:type is longer than 64 bytes");
   try {
     decode_utf8(stroke.label);
     stroke.path = flattened_path(path.attribute("d").value(), svg_tolerance * svg_units_per_em);
@@ -61,7 +61,7 @@ KanjivgStroke stroke_of(pugi::xml_node path, const std::string& place) {
 }  // namespace
 
 KanjivgDrawing parse_kanjivg(std::string_view svg, const std::string& name) {
-  if (svg.size() > largest_svg) fail(name, "larger than 1 MB");
+  if (svg.size() > max_svg) fail(name, "larger than 1 MB");
   pugi::xml_document document;
   const auto result =
       document.load_buffer(svg.data(), svg.size(), pugi::parse_default | pugi::parse_comments, pugi::encoding_utf8);
@@ -80,9 +80,9 @@ KanjivgDrawing parse_kanjivg(std::string_view svg, const std::string& name) {
     const bool is_path = std::strcmp(node.name(), "path") == 0;
     const std::string place = name + (is_path ? ": stroke " + std::to_string(drawing.strokes.size() + 1) : "");
     const bool is_drawn = is_path || std::strcmp(node.name(), "g") == 0 || std::strcmp(node.name(), "svg") == 0;
-    if (is_drawn && node.attribute("transform")) fail(place, "a transform, which is not supported");
+    if (is_drawn && node.attribute("transform")) fail(place, "a transform is not supported");
     if (!is_path) continue;
-    if (drawing.strokes.size() == most_svg_strokes) fail(name, "more than 256 strokes");
+    if (drawing.strokes.size() == max_svg_strokes) fail(name, "more than 256 strokes");
     drawing.strokes.push_back(stroke_of(node, place));
   }
   if (drawing.strokes.empty()) fail(name, "no <path> element: there is no stroke");

@@ -6,8 +6,8 @@ namespace calligraphy {
 
 SourceFiles read_tarball(const std::filesystem::path& path, const SkipReason&, const SourceLimits&) {
   throw FileError(path.string() +
-                  ": tarballs cannot be read by this build, which was made without libarchive or zlib; "
-                  "unpack it and name the directory");
+                  ": this build cannot read tarballs, because libarchive or zlib was missing; "
+                  "unpack it and specify the directory");
 }
 
 }  // namespace calligraphy

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <string>
 #include <system_error>
@@ -10,12 +9,14 @@
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/model/bezier.hpp>
 
+#include "base/charconv.hpp"
+
 namespace calligraphy {
 namespace {
 
-constexpr double largest_path_coordinate = 1e4;  // [unit]; a drawing has 109
-constexpr std::size_t most_path_points = 20000;
-constexpr int most_pieces = 1000;  // of one curve
+constexpr double max_path_coordinate = 1e4;  // [unit]; a drawing has 109
+constexpr std::size_t max_path_points = 20000;
+constexpr int max_pieces = 1000;  // of one curve
 
 class PathReader {
  public:
@@ -25,8 +26,8 @@ class PathReader {
     const char start = command();
     if (start != 'M' && start != 'm') fail("expected M, found " + quoted(start));
     points_.push_back(pair(Point::Zero()));
-    // The first pair is absolute for m, too. More pairs would be straight lines.
-    if (number_follows()) fail("a second pair after M, which is a straight line: expected C or S");
+    // The first pair is absolute even for m. Further pairs would be straight lines.
+    if (number_follows()) fail("a second point after M draws a straight line: expected C or S");
     handle_ = points_.back();
     while (!at_end()) draw(command());
     return std::move(points_);
@@ -50,22 +51,22 @@ class PathReader {
     } while (number_follows());
   }
 
-  /// Pieces of equal parameter: a cubic is nowhere farther from its chord than h^2 / 8 max |B''|.
+  /// Pieces of equal parameter length h: the distance of a cubic from its chord is at most h^2 / 8 max |B''|.
   void add_curve(const Bezier<3>& curve) {
     const auto& p = curve.control_points;
     const double second = 6.0 * std::max((p[0] - 2.0 * p[1] + p[2]).norm(), (p[1] - 2.0 * p[2] + p[3]).norm());
     const double needed = std::ceil(std::sqrt(second / (8.0 * tolerance_)));
-    const int pieces = static_cast<int>(std::clamp(needed, 1.0, static_cast<double>(most_pieces)));
+    const int pieces = static_cast<int>(std::clamp(needed, 1.0, static_cast<double>(max_pieces)));
     for (int i = 1; i < pieces; ++i) points_.push_back(curve.point(static_cast<double>(i) / pieces));
     points_.push_back(p[3]);
-    if (points_.size() > most_path_points) fail("more than " + std::to_string(most_path_points) + " points");
+    if (points_.size() > max_path_points) fail("more than " + std::to_string(max_path_points) + " points");
   }
 
   Point pair(const Point& origin) {
     const double x = number();
     const double y = number();
     const Point point = origin + Point(x, y);
-    if (point.cwiseAbs().maxCoeff() > largest_path_coordinate) fail("a coordinate beyond 10000");
+    if (point.cwiseAbs().maxCoeff() > max_path_coordinate) fail("a coordinate beyond 10000");
     return point;
   }
 
@@ -74,7 +75,7 @@ class PathReader {
     const std::size_t begin = at_;
     if (at_ < data_.size() && data_[at_] == '+' && at_ + 1 < data_.size() && data_[at_ + 1] != '-') ++at_;
     double value = 0.0;
-    const auto [end, error] = std::from_chars(data_.data() + at_, data_.data() + data_.size(), value);
+    const auto [end, error] = from_chars(data_.data() + at_, data_.data() + data_.size(), value);
     at_ = begin;
     if (error != std::errc() || !std::isfinite(value)) fail("expected a number, found " + rest());
     at_ = static_cast<std::size_t>(end - data_.data());

@@ -1,4 +1,4 @@
-// The path data of SVG, as far as centre lines of strokes use it.
+// The subset of SVG path data that centre lines of strokes use.
 #pragma once
 
 #include <string_view>
@@ -8,8 +8,8 @@
 
 namespace calligraphy {
 
-/// The curve of M/m, C/c and S/s as a polyline no farther than `tolerance` from it, in the units of the data.
-/// @throws FormatError naming the byte, for every other command and for a second M, too
+/// The curve of M/m, C/c and S/s as a polyline within `tolerance` of it, in the units of the data.
+/// @throws FormatError naming the byte, also for any other command and for a second M
 std::vector<Point> flattened_path(std::string_view data, double tolerance);
 
 }  // namespace calligraphy

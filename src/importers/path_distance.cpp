@@ -9,7 +9,7 @@
 namespace calligraphy::recognition {
 namespace {
 
-/// The segments of a polyline, by component so that the loops over them vectorise.
+/// The segments of a polyline, stored by component so that loops over them vectorise.
 class Segments {
  public:
   explicit Segments(std::span<const Point> path) {
@@ -43,18 +43,18 @@ class Segments {
   std::vector<double> x_, y_, dx_, dy_, inverse_;
 };
 
-/// Farthest point of a polyline from another by branch and bound: the distance to one segment is convex along a
-/// straight piece, so the piece is nowhere farther from the whole than the least, over segments, of the larger of the
-/// distances at its two ends.
+/// Maximum distance of a polyline from another, by branch and bound. The distance to one segment is convex along a
+/// straight piece, so its distance from the whole polyline is at most the minimum over segments of the larger distance
+/// at its two ends.
 class FarthestPoint {
  public:
   FarthestPoint(std::span<const Point> to, double tolerance)
       : to_(to), tolerance_(tolerance), at_from_(to_.count()), at_end_(to_.count()) {}
 
   double run(std::span<const Point> from) {
-    constexpr std::size_t most_distances = 20'000'000;  // about 50 ms
+    constexpr std::size_t max_distances = 20'000'000;  // about 50 ms
     for (const Point& point : from) largest_ = std::max(largest_, nearest(point, at_end_));
-    left_ = most_distances / to_.count();
+    left_ = max_distances / to_.count();
     double bound = largest_;
     for (std::size_t i = 1; i < from.size(); ++i) bound = std::max(bound, search(from[i - 1], from[i]));
     return bound;
@@ -66,7 +66,7 @@ class FarthestPoint {
     return std::sqrt(*std::min_element(distances.begin(), distances.end()));
   }
 
-  /// Upper bound on the distances along a piece, at most `tolerance` above the largest distance met.
+  /// Upper bound on the distances along a piece, at most `tolerance` above the maximum distance found.
   double search(const Point& from, const Point& end) {
     pieces_.assign(1, {from, end});
     double bound = 0.0;

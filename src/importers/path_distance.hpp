@@ -1,4 +1,4 @@
-// How far two polylines are apart, certified; private to the model.
+// Certified distance between two polylines; private to the importers.
 #pragma once
 
 #include <span>
@@ -7,9 +7,9 @@
 
 namespace calligraphy::recognition {
 
-/// Hausdorff distance of two polylines [em]: the larger of the farthest point of one from the other, and back. Every
-/// point of them counts, not their vertices alone. Right to within `tolerance`, or too large by more where the paths
-/// are so long that it would take too much time; never too small by more than rounding.
+/// Hausdorff distance of two polylines [em], over all their points, not only the vertices. Accurate to `tolerance`,
+/// except for paths so long that this would take too much time, where it may be larger; never too small by more than
+/// rounding.
 double hausdorff_distance(std::span<const Point> one, std::span<const Point> other, double tolerance);
 
 }  // namespace calligraphy::recognition

@@ -53,7 +53,7 @@ Path without_repeats(std::span<const Point> points) {
 
 Path simplified(const Path& path, std::size_t most, double tolerance) {
   if (path.size() < 3) return path;
-  // The vertex farthest from the path so far is added next: at most `most` passes.
+  // Adds the vertex farthest from the path so far, in at most `most` passes.
   std::vector<std::size_t> kept{0, path.size() - 1};
   std::vector<double> distance(path.size(), 0.0);
   const auto measure = [&](std::size_t from, std::size_t to) {
@@ -82,7 +82,7 @@ double distance_to_simplified(std::span<const Point> path, std::span<const Point
   double largest = 0.0;
   std::size_t segment = 0;
   for (const Point& point : path) {
-    // What was kept is kept in order: a vertex of the simple path ends one segment and begins the next.
+    // The kept vertices are in order: each ends one segment of the simplified path and begins the next.
     if (segment + 2 < simple.size() && point == simple[segment + 1]) ++segment;
     largest = std::max(largest, (point - nearest_on_segment(point, simple[segment], simple[segment + 1])).norm());
   }
@@ -90,8 +90,8 @@ double distance_to_simplified(std::span<const Point> path, std::span<const Point
 }
 
 Path refined(const Path& path, double step) {
-  constexpr double most_steps = 96.0;
-  step = std::max(step, path_length(path) / most_steps);
+  constexpr double max_steps = 96.0;
+  step = std::max(step, path_length(path) / max_steps);
   Path result{path.front()};
   for (std::size_t i = 1; i < path.size(); ++i) {
     const int pieces = std::max(1, static_cast<int>(std::ceil((path[i] - path[i - 1]).norm() / step)));

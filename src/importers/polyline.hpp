@@ -1,4 +1,4 @@
-// Polylines of pen paths: lengths, directions, simpler and denser versions; private to the model.
+// Polylines of pen paths: length, direction, simplification and refinement; private to the importers.
 #pragma once
 
 #include <cstddef>
@@ -14,13 +14,13 @@ using Path = std::vector<Point>;
 /// Direction of a vector [degree], counter-clockwise from the right: heng is about 5, shu -90, pie -125.
 double direction_of(const Point& vector);
 
-/// Angle brought to [-180, 180] degrees.
+/// Angle wrapped to [-180, 180] degrees.
 double wrapped(double degrees);
 
 /// Length of a path [em].
 double path_length(std::span<const Point> path);
 
-/// Point of the segment nearest to a point.
+/// Nearest point on the segment.
 Point nearest_on_segment(const Point& point, const Point& from, const Point& to);
 
 /// Point of the path at an arc length [em] after vertex `from`, at most the last point.
@@ -29,17 +29,17 @@ Point point_after(std::span<const Point> path, std::size_t from, double length);
 /// Point of the path at an arc length [em] before vertex `from`, at least the first point.
 Point point_before(std::span<const Point> path, std::size_t from, double length);
 
-/// The path without points that repeat the one before.
+/// The path without points that repeat the previous one.
 Path without_repeats(std::span<const Point> points);
 
-/// The path with fewer vertices, at most `most`, each dropped point within `tolerance` [em] of the new path while that
-/// limit allows (Douglas and Peucker 1973). O(points * most).
+/// The path with fewer vertices, at most `most`, such that each dropped point is within `tolerance` [em] of the new
+/// path if that limit permits (Douglas and Peucker 1973). O(points * most).
 Path simplified(const Path& path, std::size_t most, double tolerance);
 
-/// How far a path may be from what `simplified` made of it [em]. O(path * simple).
+/// Maximum distance of a path from the result of `simplified` [em]. O(path * simple).
 double distance_to_simplified(std::span<const Point> path, std::span<const Point> simple);
 
-/// The path with vertices added so that no step is longer than `step` [em], which grows when there would be many.
+/// The path with vertices added so that no step exceeds `step` [em], which is increased if there would be too many.
 Path refined(const Path& path, double step);
 
 /// Line through points by total least squares: a point on it and its unit direction.

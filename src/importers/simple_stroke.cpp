@@ -7,15 +7,15 @@
 namespace calligraphy::recognition {
 namespace {
 
-/// Direction from -220 to 140 degrees: no stroke goes to the upper left.
+/// Direction from -220 to 140 degrees: no stroke runs to the upper left.
 double unbroken(double degrees) {
   constexpr double gap = 140.0;
   const double turned = wrapped(degrees);
   return turned > gap ? turned - 360.0 : turned;
 }
 
-/// How much a stroke turns between its fifths, left positive [degree]. A dian, which is pressed at its end, turns right
-/// late; a pie turns right early; a na turns left.
+/// Turn of a stroke between its fifths, left positive [degree]. A dian, which is pressed at its end, turns right late;
+/// a pie turns right early; a na turns left.
 struct Turns {
   double early;   ///< first to third
   double middle;  ///< second to fifth
@@ -32,14 +32,14 @@ Turns turns_of(const SimpleShape& shape) {
 
 /// Pie, short pie or shu pie.
 int kind_of_pie(const SimpleShape& shape) {
-  constexpr double straight = 0.01;       // [em] from a line; a short pie is one
+  constexpr double straight = 0.01;       // [em] from a line; a short pie is straight
   constexpr double upright = -113.0;      // [degree]; a shu pie is steeper than this
-  constexpr double shu_pie_bulge = 0.02;  // [1]; and turns off towards its end
+  constexpr double shu_pie_bulge = 0.02;  // [1]; and bends towards its end
   constexpr double flat = -148.0;         // [degree]; as on top of 千
   constexpr double short_length = 0.15;   // [em]
-  constexpr double longest_flat = 0.5;    // [em]
+  constexpr double max_flat = 0.5;        // [em]
   if (shape.direction > upright && shape.bulge > shu_pie_bulge) return 3;
-  const bool is_short = shape.length < short_length || (shape.direction < flat && shape.length < longest_flat);
+  const bool is_short = shape.length < short_length || (shape.direction < flat && shape.length < max_flat);
   return is_short && shape.line_error < straight ? 5 : 4;
 }
 
@@ -51,7 +51,7 @@ int kind_of_na(const SimpleShape& shape) {
 
 /// Dian, chang dian or zuo dian.
 int kind_of_dian(const SimpleShape& shape) {
-  constexpr double steepest_dian = -80.0;  // [degree]; what leans farther to the left is a zuo dian
+  constexpr double steepest_dian = -80.0;  // [degree]; one that leans farther to the left is a zuo dian
   constexpr double straight = 0.012;       // [em] from a line
   constexpr double long_length = 0.24;     // [em]
   if (shape.direction < steepest_dian) return 9;
@@ -78,7 +78,7 @@ SimpleShape simple_shape(const Path& path, const Piece& whole, const CleanPath& 
   shape.direction = unbroken(whole.direction);
   shape.leaving = unbroken(whole.leaving);
   shape.arriving = unbroken(whole.arriving);
-  // The path is simplified, and a small stroke's turns are in what that leaves out.
+  // The path is simplified, which may remove the turns of a small stroke.
   const Path& whole_path = clean.points;
   const double length = path_length(whole_path);
   Point from = whole_path.front();
@@ -100,7 +100,7 @@ int brush_stroke(const SimpleShape& shape) {
   const double bend = shape.line_error / shape.length;
   if (is_flat_wave(shape)) return 7;
   if (shape.direction > level || is_flat_line(shape)) {
-    // A ti rises to its very end; a heng is less steep, or is pressed at its end, which turns it up before.
+    // A ti rises to its end; a heng is less steep, or pressed at its end, which turns it upwards before.
     if (shape.fifths[3] > 22.0) return shape.last > 20.4 ? 10 : 1;
     return shape.last > 17.8 && turns.late < 7.2 ? 10 : 1;
   }
@@ -108,13 +108,13 @@ int brush_stroke(const SimpleShape& shape) {
   const bool is_line = shape.line_error < 0.001;
   if (is_line && !shape.entry && contains(leaning, shape.direction) && shape.length < 0.3) return 9;
   if (shape.fifths[4] < -114.3) {
-    // A pie runs out thin to the lower left; a zuo dian is pressed, which turns its end down.
+    // A pie tapers off to the lower left; a zuo dian is pressed, which turns its end down.
     if (shape.last > -111.0) return 9;
     const bool bent_shu = shape.last > -120.0 && turns.early > -2.7 && shape.direction > -114.0;
     return bent_shu ? 2 : kind_of_pie(shape);
   }
   if (!shape.entry) {
-    // What starts thin is a na when its end is flat, a dian, or a shu whose entry does not show.
+    // A stroke that starts thin is a na if its end is flat, a dian, or a shu without a visible entry.
     if (turns.late > 19.9 && bend > 0.04) return kind_of_na(shape);
     return shape.fifths[1] < -75.7 && turns.whole > -6.3 ? 2 : kind_of_dian(shape);
   }
@@ -129,7 +129,7 @@ int brush_stroke(const SimpleShape& shape) {
 }
 
 int pen_stroke(const SimpleShape& shape) {
-  constexpr int dian = 8;  // a pen's left dian is not told from others
+  constexpr int dian = 8;  // a left dian written with a pen is not distinguished from others
   constexpr int na = 6;
   const Turns turns = turns_of(shape);
   const double bend = shape.line_error / shape.length;

@@ -1,4 +1,4 @@
-#include <calligraphy/importers/source_files.hpp>
+#include "source_files.hpp"
 
 #include <algorithm>
 #include <system_error>
@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 constexpr int deepest = 16;  // levels of directories
 
-/// Reads one directory and those below it.
+/// Reads a directory recursively.
 class Directory {
  public:
   Directory(const fs::path& path, const SourceLimits& limits) : path_(path), limits_(limits) {}
@@ -58,7 +58,7 @@ class Directory {
     if (fs::is_directory(status)) {
       if (at.depth() + 1 < deepest) return;
       at.disable_recursion_pending();
-      skipped_.push_back({path, "nested more than " + std::to_string(deepest) + " deep"});
+      skipped_.push_back({path, "nested more than " + std::to_string(deepest) + " levels deep"});
     } else if (fs::is_regular_file(status)) {
       regular_.push_back(path);
     } else {

@@ -1,4 +1,4 @@
-// Fits a pen path: the typical stroke that stroke_recognition finds, its control points polished to the path.
+// Fits a pen path: the typical stroke found by stroke_recognition, with its control points refined to follow the path.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -26,10 +26,10 @@ namespace {
 
 using namespace recognition;
 
-constexpr double largest_fitted_coordinate = 15.0;  // [em]; validate() allows 16, and a handle may lie outside its path
-constexpr double shortest_path = 0.01;       // [em]; what is shorter is a dot
-constexpr double dot_length = 0.02;          // [em]
-constexpr double shortest_fitted_element = 1e-4;    // [em]
+constexpr double max_fitted_coordinate = 15.0;  // [em]; validate() allows 16, and a handle may lie outside its path
+constexpr double min_path = 0.01;        // [em]; a shorter path is a dot
+constexpr double dot_length = 0.02;      // [em]
+constexpr double min_fitted_element = 1e-4;     // [em]
 
 /// Where each element of a stroke begins among the control points.
 std::vector<std::size_t> element_starts(std::string_view elements) {
@@ -41,19 +41,19 @@ std::vector<std::size_t> element_starts(std::string_view elements) {
 void check(std::span<const Point> median) {
   if (median.empty()) throw ValueError("a stroke needs at least one point");
   for (std::size_t i = 0; i < median.size(); ++i) {
-    if (median[i].allFinite() && median[i].cwiseAbs().maxCoeff() <= largest_fitted_coordinate) continue;
+    if (median[i].allFinite() && median[i].cwiseAbs().maxCoeff() <= max_fitted_coordinate) continue;
     throw ValueError("point " + std::to_string(i + 1) + " of a stroke is (" + std::to_string(median[i].x()) + ", " +
                      std::to_string(median[i].y()) + "): expected finite numbers within 15 em of the origin");
   }
 }
 
-/// Middle part of a limb, so that rounded corners do not turn its line.
+/// Middle part of a limb, so that rounded corners do not affect its direction.
 std::span<const Point> middle(std::span<const Point> limb) {
   const std::size_t margin = limb.size() / 5;
   return limb.subspan(margin, limb.size() - 2 * margin);
 }
 
-/// Where two limbs meet when they are drawn on, or the path's own corner when they meet far away or never.
+/// Intersection of two extended limbs, or the corner of the path if they meet too far away or never.
 Point limb_intersection(std::span<const Point> before, std::span<const Point> after) {
   constexpr double farthest = 0.08;  // [em]
   const Point& corner = after.front();
@@ -67,7 +67,7 @@ Point limb_intersection(std::span<const Point> before, std::span<const Point> af
   return (meeting - corner).norm() < farthest ? meeting : corner;
 }
 
-/// First guess of the control points from where the elements begin and end in the path.
+/// Initial control points, from the positions where the elements begin and end in the path.
 std::vector<Point> initial_points(const TypicalStroke& type, const Path& path, std::span<const std::size_t> splits) {
   const std::string_view elements = type.elements;
   const std::span<const Point> all(path);
@@ -95,25 +95,25 @@ std::vector<Point> initial_points(const TypicalStroke& type, const Path& path, s
   return points;
 }
 
-/// Can make_character take it? Elements without length and far handles come from inputs that nobody wrote.
+/// True if make_character() accepts the points. Elements of zero length and far handles result from unnatural input.
 bool usable(const TypicalStroke& type, std::span<const Point> points) {
   for (const Point& point : points) {
-    if (!point.allFinite() || point.cwiseAbs().maxCoeff() > largest_fitted_coordinate) return false;
+    if (!point.allFinite() || point.cwiseAbs().maxCoeff() > max_fitted_coordinate) return false;
   }
   const std::vector<std::size_t> starts = element_starts(type.elements);
   for (std::size_t element = 0; element + 1 < starts.size(); ++element) {
-    if ((points[starts[element + 1]] - points[starts[element]]).norm() < shortest_fitted_element) return false;
+    if ((points[starts[element + 1]] - points[starts[element]]).norm() < min_fitted_element) return false;
   }
   return true;
 }
 
-/// Largest distance both ways, right to 1e-4 em.
+/// Maximum distance in both directions, to 1e-4 em.
 double two_sided_error(const Path& path, const TypicalStroke& type, std::span<const Point> points) {
   constexpr double tolerance = 4e-5;  // [em], of the flattened stroke and of the distance
   return hausdorff_distance(path, flattened(type.elements, points, tolerance), tolerance);
 }
 
-/// A dot of the brush around a point: a short dian towards the lower right.
+/// A dot centred on a point: a short dian towards the lower right.
 FittedStroke dot_around(const Path& path) {
   Point low = path.front();
   Point high = path.front();
@@ -128,16 +128,16 @@ FittedStroke dot_around(const Path& path) {
   return {{8, points}, error, error};
 }
 
-/// Vertices where an element may end: those of the path and, on long pieces, points between.
+/// Vertices where an element may end: those of the path and, on long pieces, intermediate points.
 std::vector<std::size_t> corners_of(const Path& vertices, const Path& refined) {
-  constexpr double longest_gap = 0.10;  // [em]
+  constexpr double max_gap = 0.10;  // [em]
   std::vector<std::size_t> corners{0};
   std::size_t vertex = 1;
   double travelled = 0.0;
   for (std::size_t i = 1; i < refined.size(); ++i) {
     travelled += (refined[i] - refined[i - 1]).norm();
     const bool at_vertex = vertex < vertices.size() && refined[i] == vertices[vertex];
-    if (!at_vertex && (travelled < longest_gap || corners.size() > 24)) continue;
+    if (!at_vertex && (travelled < max_gap || corners.size() > 24)) continue;
     if (at_vertex) ++vertex;
     corners.push_back(i);
     travelled = 0.0;
@@ -146,7 +146,7 @@ std::vector<std::size_t> corners_of(const Path& vertices, const Path& refined) {
   return corners;
 }
 
-/// What a stroke may be instead when its elements do not follow the path closely: the same, drawn rounder.
+/// Alternative to a stroke whose elements do not follow the path closely: the same stroke, drawn rounder.
 struct Rounder {
   int id;
   int instead;
@@ -158,13 +158,13 @@ constexpr Rounder rounder_strokes[] = {
     {32, 30, 0.003},  // shu zhe, shu wan
 };
 
-/// The path that the pen follows: without what a brush adds to it.
+/// The path of a pen, without what the brush adds.
 Path pen_path(const CleanPath& clean, const StrokeFitOptions& options) {
-  if (options.drawn_with == DrawnWith::brush) return without_shoulders(clean.points);
-  return options.drawn_with == DrawnWith::textbook_pen ? without_entry(clean.points) : clean.points;
+  if (options.drawing_tool == DrawingTool::brush) return without_shoulders(clean.points);
+  return options.drawing_tool == DrawingTool::textbook_pen ? without_entry(clean.points) : clean.points;
 }
 
-/// Fits of one path as one stroke after another.
+/// Fits one path as different strokes.
 class Fit {
  public:
   Fit(const CleanPath& clean, const StrokeFitOptions& options)
@@ -175,20 +175,20 @@ class Fit {
         pen_(pen_path(clean, options)),
         followed_(refined(simplified(pen_, 96, 2e-4), step)) {}
 
-  /// As the typical stroke that the path is, or when that cannot follow it, as the next that can. No control points
-  /// when none is usable.
+  /// Fits the recognised typical stroke or, if that cannot follow the path, the next one that can. Without control
+  /// points if none is usable.
   FittedStroke best() const {
     constexpr double far_off = 0.02;  // [em]
-    constexpr std::size_t most_tries = 4;
+    constexpr std::size_t max_tries = 4;
     const std::vector<Recognition> found = recognised(options_.ids);
     FittedStroke best = nothing();
-    for (std::size_t i = 0; i < std::min(found.size(), most_tries) && best.error > far_off; ++i) {
+    for (std::size_t i = 0; i < std::min(found.size(), max_tries) && best.error > far_off; ++i) {
       keep_better(best, as(found[i]));
     }
     for (const Rounder& rounder : rounder_strokes) {
       if (rounder.id != best.stroke.id || best.error <= rounder.from_error) continue;
-      const bool allowed =
-          options_.ids.empty() || std::ranges::find(options_.ids, rounder.instead) != options_.ids.end();
+      const bool allowed = options_.ids.empty() ||
+                           std::find(options_.ids.begin(), options_.ids.end(), rounder.instead) != options_.ids.end();
       const std::vector<Recognition> other = recognised({&rounder.instead, 1});
       if (allowed && !other.empty()) keep_better(best, as(other[0]));
       break;
@@ -196,10 +196,10 @@ class Fit {
     return best;
   }
 
-  /// A straight dian is always a stroke.
+  /// A straight dian can always be fitted.
   FittedStroke straight() const {
     Point end = path_.back();
-    if ((end - path_.front()).norm() < shortest_path) end = path_.front() + dot_length * Point(1.0, -1.0).normalized();
+    if ((end - path_.front()).norm() < min_path) end = path_.front() + dot_length * Point(1.0, -1.0).normalized();
     const std::vector<Point> points{path_.front(), end};
     return measured({8, points});
   }
@@ -217,7 +217,7 @@ class Fit {
   }
 
   std::vector<Recognition> recognised(std::span<const int> ids) const {
-    return recognise(path_, corners_of(vertices_, path_), clean_, options_.drawn_with == DrawnWith::brush, ids);
+    return recognise(path_, corners_of(vertices_, path_), clean_, options_.drawing_tool == DrawingTool::brush, ids);
   }
 
   FittedStroke as(const Recognition& found) const {
@@ -230,7 +230,7 @@ class Fit {
   FittedStroke measured(StrokeInput stroke) const {
     const TypicalStroke& type = typical_stroke(stroke.id);
     const double error = two_sided_error(pen_, type, stroke.control_points) + clean_.slack;
-    const bool squared = options_.drawn_with == DrawnWith::brush && pen_.size() != clean_.points.size();
+    const bool squared = options_.drawing_tool == DrawingTool::brush && pen_.size() != clean_.points.size();
     const double median_error =
         squared ? two_sided_error(clean_.points, type, stroke.control_points) + clean_.slack : error;
     return {std::move(stroke), error, median_error};
@@ -239,18 +239,18 @@ class Fit {
   const CleanPath& clean_;
   const StrokeFitOptions& options_;
   Path vertices_;  ///< of the clean path
-  Path path_;      ///< what is recognised
-  Path pen_;       ///< what is measured
-  Path followed_;  ///< what is fitted
+  Path path_;      ///< used for recognition
+  Path pen_;       ///< used for measuring errors
+  Path followed_;  ///< used for fitting
 };
 
 }  // namespace
 
 FittedStroke fit_stroke(std::span<const Point> median, const StrokeFitOptions& options) {
   check(median);
-  for (const int id : options.ids) typical_stroke(id);  // throws when there is none
-  const CleanPath clean = options.drawn_with == DrawnWith::brush ? clean_median(median) : clean_pen_path(median);
-  if (path_length(clean.points) < shortest_path) return dot_around(clean.points);
+  for (const int id : options.ids) typical_stroke(id);  // throws if there is none
+  const CleanPath clean = options.drawing_tool == DrawingTool::brush ? clean_median(median) : clean_pen_path(median);
+  if (path_length(clean.points) < min_path) return dot_around(clean.points);
 
   const Fit fit(clean, options);
   FittedStroke best = fit.best();

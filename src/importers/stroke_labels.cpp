@@ -1,11 +1,11 @@
 #include "stroke_labels.hpp"
 
 #include <array>
-#include <charconv>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "base/charconv.hpp"
 #include "built_in.hpp"
 
 namespace calligraphy {
@@ -19,13 +19,13 @@ std::vector<int> parse_ids(std::string_view list) {
   const char* const end = at + list.size();
   while (at < end) {
     int id = 0;
-    at = std::from_chars(at, end, id).ptr + 1;
+    at = from_chars(at, end, id).ptr + 1;
     ids.push_back(id);
   }
   return ids;
 }
 
-/// Rows of label, ids with commas between, example; the first row has the names of the columns.
+/// Rows of label, comma-separated ids and example; the first row has the column names.
 LabelIds parse_table(std::string_view table) {
   LabelIds labels;
   std::size_t begin = table.find('\n') + 1;

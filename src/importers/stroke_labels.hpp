@@ -1,4 +1,4 @@
-// Which typical strokes the labels of others stand for.
+// The typical strokes that labels of other collections stand for.
 #pragma once
 
 #include <span>
@@ -6,10 +6,10 @@
 
 namespace calligraphy {
 
-/// Typical strokes that KanjiVG's kvg:type may mean, from data/kanjivg_labels.tsv; none for a label that is unknown.
+/// Typical strokes that KanjiVG's kvg:type may mean, from data/kanjivg_labels.tsv; empty for an unknown label.
 std::span<const int> ids_of_kanjivg_label(std::string_view label);
 
-/// Typical strokes that a stroke letter of cnchar-order may mean; none for what is no letter.
+/// Typical strokes that a stroke letter of cnchar-order may mean; empty for other characters.
 std::span<const int> ids_of_stroke_letter(char letter) noexcept;
 
 }  // namespace calligraphy

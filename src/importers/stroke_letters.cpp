@@ -1,4 +1,4 @@
-#include <calligraphy/importers/stroke_letters.hpp>
+#include "stroke_letters.hpp"
 
 #include <vector>
 
@@ -7,7 +7,8 @@
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/file.hpp>
 #include <calligraphy/base/text.hpp>
-#include <calligraphy/importers/source_files.hpp>
+
+#include "source_files.hpp"
 
 namespace calligraphy {
 namespace {
@@ -16,10 +17,10 @@ using Json = nlohmann::json;
 
 constexpr std::string_view file_name = "cnchar.order.min.js";
 constexpr std::string_view before_literal = "JSON.parse('";
-constexpr std::size_t largest_script = 4 << 20;  // [byte]; the package's has 125 thousand
-constexpr std::size_t most_lettered_strokes = 256;
+constexpr std::size_t max_script = 4 << 20;  // [byte]; the package's has 125 thousand
+constexpr std::size_t max_lettered_strokes = 256;
 
-/// The text of a JavaScript string in single quotes that begins at `at`; `at` goes past its end.
+/// The text of a single-quoted JavaScript string that begins at `at`; advances `at` past its end.
 std::string unquoted(std::string_view text, std::size_t& at, const std::string& name) {
   const std::size_t begin = at;
   std::string result;
@@ -32,18 +33,18 @@ std::string unquoted(std::string_view text, std::size_t& at, const std::string& 
     }
     result += text[at];
   }
-  if (at == text.size()) throw FormatError(name + ": byte " + std::to_string(begin) + ": a string without an end");
+  if (at == text.size()) throw FormatError(name + ": byte " + std::to_string(begin) + ": unterminated string");
   return result;
 }
 
 bool is_letters(const Json& value) {
   if (!value.is_string()) return false;
   const auto& text = value.get_ref<const std::string&>();
-  return !text.empty() && text.size() <= most_lettered_strokes &&
+  return !text.empty() && text.size() <= max_lettered_strokes &&
          text.find_first_not_of("abcdefghijklmnopqrstuvwxyz") == text.npos;
 }
 
-/// The entries of a table of letters; none when the table is about something else.
+/// The entries of a table of letters; empty if the table has other content.
 StrokeLetters letters_of(const Json& table) {
   StrokeLetters letters;
   if (!table.is_object()) return letters;
@@ -69,19 +70,19 @@ StrokeLetters parse_stroke_letters(std::string_view javascript, const std::strin
       throw FormatError(name + ": byte " + std::to_string(begin) + ": not JSON: " + error.what());
     }
   }
-  throw FormatError(name + ": no table of stroke letters, JSON.parse('{\"一\":\"j\",...}'), in it");
+  throw FormatError(name + ": no table of stroke letters found, such as JSON.parse('{\"一\":\"j\",...}')");
 }
 
 StrokeLetters read_stroke_letters(const std::filesystem::path& source) {
   std::error_code failure;
   if (std::filesystem::is_regular_file(source, failure) && source.extension() == ".js") {
-    return parse_stroke_letters(read_file(source, largest_script), source.string());
+    return parse_stroke_letters(read_file(source, max_script), source.string());
   }
   const auto reason = [](std::string_view path) {
     return std::filesystem::path(path).filename() == file_name ? std::string() : std::string("not the letters");
   };
   const SourceFiles found = read_source(source, reason);
-  if (found.files.empty()) throw FileError(source.string() + ": holds no " + std::string(file_name));
+  if (found.files.empty()) throw FileError(source.string() + ": contains no " + std::string(file_name));
   const SourceFile& file = found.files.front();
   return parse_stroke_letters(file.text, source.string() + ": " + file.path);
 }

@@ -8,7 +8,7 @@
 namespace calligraphy::recognition {
 namespace {
 
-/// The points without what a rounded corner at either end may have bent.
+/// The points without the parts at either end that a rounded corner may have bent.
 std::span<const Point> between_corners(std::span<const Point> points) {
   constexpr double corner_radius = 0.03;  // [em]
   const double reach = std::min(corner_radius, 0.15 * (points.back() - points.front()).norm());
@@ -19,7 +19,7 @@ std::span<const Point> between_corners(std::span<const Point> points) {
   return points.subspan(first, last - first + 1);
 }
 
-/// Total least squares line: its direction, forwards [degree], and the largest distance from it [em].
+/// Total least squares line: its forward direction [degree] and the maximum distance from it [em].
 struct LineFit {
   double direction;
   double error;
@@ -33,7 +33,7 @@ LineFit fit_line(std::span<const Point> points) {
   return {direction_of(along.dot(points.back() - points.front()) < 0.0 ? Point(-along) : along), largest};
 }
 
-/// How far the path turns at each of its points, between the chords of one window before and after it [degree].
+/// Turn of the path at each point, between the chords of one window before and after it [degree].
 std::vector<double> turns_along(const Path& path) {
   constexpr double window = 0.03;  // [em]
   const Path reversed(path.rbegin(), path.rend());
@@ -78,7 +78,7 @@ double bulge_of(std::span<const Point> points, double chord) {
     const Point b = points[i] - points.front();
     area += 0.5 * (a.x() * b.y() - a.y() * b.x());
   }
-  // The area left of travel counts positive when the path lies left of its chord.
+  // The area is positive if the path lies left of its chord.
   return -area / (chord * chord);
 }
 

@@ -1,4 +1,4 @@
-// Pieces of a path as the elements of a stroke may see them; private to the model.
+// Pieces of a path as candidates for the elements of a stroke; private to the importers.
 #pragma once
 
 #include <cstddef>
@@ -9,23 +9,24 @@
 
 namespace calligraphy::recognition {
 
-/// What is measured of a piece of a path.
+/// Measured features of a piece of a path.
 struct Piece {
   double length = 0.0;          ///< of the chord [em]
   double direction = 0.0;       ///< of the chord [degree]
   double leaving = 0.0;         ///< direction of the first third [degree]
   double arriving = 0.0;        ///< direction of the last third [degree]
-  double bulge = 0.0;           ///< mean offset of the path from the chord, over the chord's length, left positive [1]
-  double line_direction = 0.0;  ///< of the best line, corners left out [degree]
-  double line_error = 0.0;      ///< largest distance from the best line [em]
-  double cubic_error = 0.0;     ///< largest distance from the best cubic [em]
-  double sharpest = 0.0;        ///< largest turn inside, within 6 % of the em [degree]
+  double bulge = 0.0;           ///< mean offset from the chord, divided by its length, left positive [1]
+  double line_direction = 0.0;  ///< of the best line, without corners [degree]
+  double line_error = 0.0;      ///< maximum distance from the best line [em]
+  double cubic_error = 0.0;     ///< maximum distance from the best cubic [em]
+  double sharpest = 0.0;        ///< maximum turn inside, within 6 % of the em [degree]
 };
 
-/// Mean offset of a path from its chord of the given length, over that length, left of travel positive [1].
+/// Mean offset of a path from its chord, divided by the given chord length, left of travel positive [1].
 double bulge_of(std::span<const Point> points, double chord);
 
-/// Pieces between all pairs of corners, which are indices into the path, rising, the first and last vertex included.
+/// Pieces between all pairs of corners, given as ascending indices into the path that include its first and last
+/// vertex.
 class PieceTable {
  public:
   PieceTable(const Path& path, std::span<const std::size_t> corners);

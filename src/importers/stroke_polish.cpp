@@ -15,29 +15,29 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Nearest place of a polyline's segment: squared distance and share of the way along.
-struct Foot {
+/// Nearest point on a segment of a polyline: squared distance and position along the segment.
+struct ClosestPoint {
   double squared = infinity;
   std::size_t segment = 0;
   double share = 0.0;
 };
 
-Foot foot_on(std::span<const Point> from, std::span<const Point> along, std::span<const double> inverse,
-             const Point& point) {
-  Foot foot;
+ClosestPoint foot_on(std::span<const Point> from, std::span<const Point> along, std::span<const double> inverse,
+                     const Point& point) {
+  ClosestPoint closest;
   for (std::size_t i = 0; i < from.size(); ++i) {
     const Point offset = point - from[i];
     const double share = std::clamp(offset.dot(along[i]) * inverse[i], 0.0, 1.0);
     const double squared = (offset - share * along[i]).squaredNorm();
-    if (squared < foot.squared) foot = {squared, i, share};
+    if (squared < closest.squared) closest = {squared, i, share};
   }
-  return foot;
+  return closest;
 }
 
-/// Segments of a polyline, ready for many feet.
+/// Segments of a polyline, prepared for many closest-point queries.
 struct OutlineSegments {
   std::vector<Point> from, along;
-  std::vector<double> inverse;  ///< one over the squared length, 0 for a segment without length
+  std::vector<double> inverse;  ///< 1 / squared length, 0 for a segment of zero length
 
   void add(const Point& first, const Point& last) {
     from.push_back(first);
@@ -45,10 +45,10 @@ struct OutlineSegments {
     const double squared = along.back().squaredNorm();
     inverse.push_back(squared > 0.0 ? 1.0 / squared : 0.0);
   }
-  Foot foot_of(const Point& point) const { return foot_on(from, along, inverse, point); }
+  ClosestPoint closest_to(const Point& point) const { return foot_on(from, along, inverse, point); }
 };
 
-/// A distance with its direction and how far each control point of an element moves its end on the stroke.
+/// A distance, its direction, and the weight of each control point of an element in its end on the stroke.
 struct Offset {
   int first;
   int count;
@@ -57,8 +57,8 @@ struct Offset {
   Point unit;
 };
 
-/// Sum of a power of the distances, over a scale, with its derivatives after the coordinates of the control points.
-/// A distance is taken as linear in them, which makes the second derivative positive.
+/// Sum of a power of the scaled distances, with its derivatives with respect to the control point coordinates.
+/// Distances are linearised in them, which makes the second derivative positive.
 struct Penalty {
   double sum = infinity;
   Eigen::VectorXd gradient;
@@ -92,7 +92,7 @@ double sum_of(std::span<const Offset> offsets, double scale, int power) {
   return sum;
 }
 
-double largest_of(std::span<const Offset> offsets) {
+double max_over(std::span<const Offset> offsets) {
   double largest = 0.0;
   for (const Offset& offset : offsets) largest = std::max(largest, offset.distance);
   return largest;
@@ -112,7 +112,7 @@ class Polish {
     Eigen::VectorXd values = variables_.values_of(points);
     for (const int power : {4, 16, 64}) {
       step_down(values, power);
-      if (largest_of(offsets_of(variables_.control_points_of(values))) < good_enough) break;
+      if (max_over(offsets_of(variables_.control_points_of(values))) < good_enough) break;
     }
     return variables_.control_points_of(values);
   }
@@ -121,14 +121,14 @@ class Polish {
   static constexpr int curve_steps = 16;
   static constexpr int line_steps = 8;
 
-  /// Newton's method with Levenberg's damping on the sum of one power.
+  /// Newton's method with Levenberg damping on the sum of one power.
   void step_down(Eigen::VectorXd& values, int power) const {
-    constexpr int most_steps = 20;
+    constexpr int max_steps = 20;
     double damping = 1e-3;
     std::vector<Point> points = variables_.control_points_of(values);
     std::vector<Offset> offsets = offsets_of(points);
-    for (int step = 0; step < most_steps; ++step) {
-      const double scale = std::max(largest_of(offsets), 1e-9);
+    for (int step = 0; step < max_steps; ++step) {
+      const double scale = std::max(max_over(offsets), 1e-9);
       const Penalty penalty = reduced(penalty_of(offsets, static_cast<int>(2 * points.size()), scale, power), points);
       const double floor = 1e-3 * penalty.curvature.diagonal().maxCoeff() + 1e-12;
       bool better = false;
@@ -149,7 +149,7 @@ class Polish {
     }
   }
 
-  /// The derivatives after the variables.
+  /// Derivatives with respect to the variables.
   Penalty reduced(Penalty penalty, std::span<const Point> points) const {
     if (variables_.plain()) return penalty;
     const Eigen::MatrixXd slopes = variables_.slopes_at(points);
@@ -162,21 +162,22 @@ class Polish {
     for (const StrokeChord& chord : chords_)
       stroke.add(mixed(chord, chord.from, points), mixed(chord, chord.to, points));
     for (const Point& point : path_) {
-      const Foot foot = stroke.foot_of(point);
-      add(offsets, foot.segment, foot.share, stroke, point);
+      const ClosestPoint closest = stroke.closest_to(point);
+      add(offsets, closest.segment, closest.share, stroke, point);
     }
     for (std::size_t segment = 0; segment < chords_.size(); ++segment) {
       const int steps = chords_[segment].count == 2 ? line_steps : 1;
       for (int step = segment == 0 ? 0 : 1; step <= steps; ++step) {
         const double share = static_cast<double>(step) / steps;
-        const Foot foot = outline_.foot_of(stroke.from[segment] + share * stroke.along[segment]);
-        add(offsets, segment, share, stroke, outline_.from[foot.segment] + foot.share * outline_.along[foot.segment]);
+        const ClosestPoint closest = outline_.closest_to(stroke.from[segment] + share * stroke.along[segment]);
+        add(offsets, segment, share, stroke,
+            outline_.from[closest.segment] + closest.share * outline_.along[closest.segment]);
       }
     }
     return offsets;
   }
 
-  /// The offset of a place on the stroke from a place on the path.
+  /// Offset of a point on the stroke from a point on the path.
   void add(std::vector<Offset>& offsets, std::size_t segment, double share, const OutlineSegments& stroke,
            const Point& target) const {
     const StrokeChord& chord = chords_[segment];

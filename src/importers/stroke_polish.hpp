@@ -1,4 +1,4 @@
-// Moves control points until the largest distance between a path and a stroke is least; private to the model.
+// Minimises the maximum distance between a path and a stroke; private to the importers.
 #pragma once
 
 #include <span>
@@ -10,10 +10,10 @@
 
 namespace calligraphy::recognition {
 
-/// The control points of the typical stroke that follow the path most closely near a first guess: the largest distance,
-/// path to stroke and stroke to path, is as small as Newton's method on sums of rising powers of the distances brings
-/// it. Joints called smooth stay smooth. Bounded time: O(points of the path) per step, at most 60 steps.
-/// `path` should have no step longer than about 0.02 em: its vertices are what is kept near.
+/// Control points of the typical stroke that follow the path most closely, starting from an initial guess: minimises
+/// the maximum distance, path to stroke and stroke to path, by Newton's method on sums of increasing powers of the
+/// distances. Smooth joints stay smooth. Bounded time: O(points of the path) per step, at most 60 steps. The steps of
+/// `path` should not exceed about 0.02 em, because only its vertices are considered.
 std::vector<Point> polished(const TypicalStroke& type, const Path& path, std::vector<Point> control_points);
 
 }  // namespace calligraphy::recognition

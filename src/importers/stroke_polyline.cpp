@@ -9,14 +9,15 @@
 namespace calligraphy::recognition {
 namespace {
 
-/// Pieces of equal parameter that keep a cubic within the tolerance of its chords: |B''| / 8 / pieces^2 bounds it.
+/// Number of pieces of equal parameter length that keep a cubic within the tolerance of its chords: max |B''| / 8 /
+/// pieces^2 bounds the distance.
 int pieces_of(const Bezier<3>& curve, double tolerance) {
   const auto& c = curve.control_points;
   const double bend = 6.0 * std::max((c[0] - 2.0 * c[1] + c[2]).norm(), (c[1] - 2.0 * c[2] + c[3]).norm());
   return static_cast<int>(std::clamp(std::ceil(std::sqrt(bend / (8.0 * tolerance))), 1.0, 256.0));
 }
 
-/// Bernstein's weights of a cubic at t.
+/// Bernstein polynomials of a cubic at t.
 std::array<double, 4> weights_at(double t) {
   const double s = 1.0 - t;
   return {s * s * s, 3.0 * s * s * t, 3.0 * s * t * t, t * t * t};

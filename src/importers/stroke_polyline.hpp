@@ -1,4 +1,4 @@
-// A stroke's centre line as a polyline; private to the model.
+// A stroke's centre line as a polyline; private to the importers.
 #pragma once
 
 #include <array>
@@ -10,11 +10,11 @@
 
 namespace calligraphy::recognition {
 
-/// The stroke as a polyline nowhere farther than `tolerance` [em] from it, unless a curve is so large that it would
-/// take more than 256 pieces.
+/// The stroke as a polyline within `tolerance` [em] of it, unless a curve is so large that this would require more than
+/// 256 pieces.
 Path flattened(std::string_view elements, std::span<const Point> control_points, double tolerance);
 
-/// A chord of an element: its ends are fixed mixtures of the element's control points, `count` of them from `first` on.
+/// A chord of an element: its ends are fixed linear combinations of `count` control points from index `first`.
 struct StrokeChord {
   int first;
   int count;
@@ -22,7 +22,7 @@ struct StrokeChord {
   std::array<double, 4> to;
 };
 
-/// The chords of a stroke with these elements, one to a line, `curve_steps` of equal parameter to a curve.
+/// The chords of a stroke with these elements: one per line, `curve_steps` of equal parameter length per curve.
 std::vector<StrokeChord> stroke_chords(std::string_view elements, int curve_steps);
 
 }  // namespace calligraphy::recognition

@@ -20,7 +20,7 @@ struct Choice {
   std::vector<std::size_t> corners;
 };
 
-/// Cheapest way to divide the path into the elements of a compound stroke, by dynamic programming over the corners.
+/// Minimum-cost division of the path into the elements of a compound stroke, by dynamic programming over the corners.
 Choice divide(const CompoundRule& rule, std::string_view kinds, const PieceTable& table, double length) {
   const std::size_t corners = table.count();
   const std::size_t elements = rule.elements.size();
@@ -50,10 +50,12 @@ Choice divide(const CompoundRule& rule, std::string_view kinds, const PieceTable
   return choice;
 }
 
-bool allowed(std::span<const int> ids, int id) { return ids.empty() || std::ranges::find(ids, id) != ids.end(); }
+bool allowed(std::span<const int> ids, int id) {
+  return ids.empty() || std::find(ids.begin(), ids.end(), id) != ids.end();
+}
 
-/// The allowed stroke of one element that the path is: the one that the rules find, else the cheapest; 0 when none is
-/// allowed.
+/// The allowed one-element stroke that the path is: the one that the rules find, otherwise the one of minimum cost; 0
+/// if none is allowed.
 int simple_stroke(const SimpleShape& shape, const Piece& whole, bool brush, std::span<const int> ids) {
   const int found = brush ? brush_stroke(shape) : pen_stroke(shape);
   if (allowed(ids, found)) return found;
@@ -74,7 +76,7 @@ Recognition as_compound(const CompoundRule& rule, const PieceTable& table, std::
                         double length) {
   const Choice choice = divide(rule, typical_stroke(rule.id).elements, table, length);
   Recognition recognition{rule.id, {}, choice.cost};
-  // A circle closes; nothing else that turns so far does.
+  // Of the strokes that turn this far, only a circle closes.
   if (rule.id == 39) recognition.cost += 0.6 * table.whole().length;
   for (const std::size_t corner : choice.corners) recognition.splits.push_back(corners[corner]);
   return recognition;
@@ -98,11 +100,12 @@ std::vector<Recognition> recognise(const Path& path, std::span<const std::size_t
     Recognition compound = as_compound(rule, table, corners, shape.length);
     if (compound.cost < unreachable) found.push_back(std::move(compound));
   }
-  std::ranges::stable_sort(found, {}, &Recognition::cost);
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Recognition& a, const Recognition& b) { return a.cost < b.cost; });
   if (found.empty()) return found;
   const int sibling = sibling_of(found[0].id, path, found[0].splits, brush);
   if (sibling != found[0].id && allowed(ids, sibling)) {
-    const auto at = std::ranges::find(found, sibling, &Recognition::id);
+    const auto at = std::find_if(found.begin(), found.end(), [&](const Recognition& one) { return one.id == sibling; });
     if (at != found.end()) std::rotate(found.begin(), at, at + 1);
   }
   return found;

@@ -1,4 +1,4 @@
-// From a pen path to the typical stroke it is, by geometry alone; private to the model.
+// Recognition of a pen path as a typical stroke, by geometry alone; private to the importers.
 #pragma once
 
 #include <cstddef>
@@ -10,16 +10,16 @@
 
 namespace calligraphy::recognition {
 
-/// What a path may be: a typical stroke and where its elements begin and end in the path.
+/// A candidate for a path: a typical stroke and where its elements begin and end in the path.
 struct Recognition {
   int id;
-  std::vector<std::size_t> splits;  ///< indices into the path, elements + 1 of them, the ends included
+  std::vector<std::size_t> splits;  ///< elements + 1 indices into the path, including its ends
   double cost;                      ///< [em]
 };
 
-/// The typical strokes that a refined path may be, the best first. `corners` are indices of path vertices where an
-/// element may end, rising, the first and last vertex included. `clean` is what the path was made of. `ids` restricts
-/// the choice, and restricts nothing when it is empty. Empty when no allowed stroke has so few elements.
+/// Candidate typical strokes for a refined path, the best first. `corners` are ascending indices of path vertices where
+/// an element may end, including the first and last vertex. `clean` is the path before refinement. `ids` restricts the
+/// candidates; empty: no restriction. Returns no candidate if every allowed stroke has too many elements.
 std::vector<Recognition> recognise(const Path& path, std::span<const std::size_t> corners, const CleanPath& clean,
                                    bool brush, std::span<const int> ids);
 

@@ -19,7 +19,7 @@ constexpr Range hook_share{0.0, 0.34};
 
 const std::vector<CompoundRule>& compound_rules() {
   static const std::vector<CompoundRule> rules = {
-      // heng gou: the second limb is a short straight hook; longer or curved it is heng pie (17).
+      // heng gou: the second limb is a short straight hook; if longer or curved, it is a heng pie (17).
       {11, {{heng}, {{-165.0, -117.5}, {0.0, 0.55}}}},
       {12, {{{-112.0, -72.0}}, {hook_left, hook_share}}},
       // wan gou bows to the right, xie gou and wo gou to the lower left.
@@ -81,12 +81,12 @@ const std::vector<CompoundRule>& compound_rules() {
 
 namespace {
 
-/// A heng gou's second limb is no longer than this [em].
-constexpr double longest_heng_gou_hook = 0.25;
-/// A pen's hook is no longer than this [em].
-constexpr double longest_pen_hook = 0.17;
+/// Maximum length of the second limb of a heng gou [em].
+constexpr double max_heng_gou_hook = 0.25;
+/// Maximum length of a hook written with a pen [em].
+constexpr double max_pen_hook = 0.17;
 
-/// Prices in the currency of the choice, em of deviation.
+/// Costs of deviations, in em.
 constexpr double price_of_degree = 0.0009;
 constexpr double price_of_bulge = 0.25;     // per unit of offset over chord
 constexpr double price_of_share = 0.25;     // per unit of the stroke's length
@@ -94,10 +94,10 @@ constexpr double price_of_corner = 0.0012;  // per degree of a sharp turn inside
 constexpr double price_of_line = 0.005;
 constexpr double price_of_curve = 0.009;
 
-/// An element has no corner inside: what turns by more than this within a few per cent of the em is one.
+/// An element contains no corner: a turn by more than this within a few per cent of the em is one.
 double corner_cost(const Piece& piece) { return price_of_corner * std::max(0.0, piece.sharpest - 40.0); }
 
-/// Price of an element for its control points; less in a small stroke, where all deviations are small.
+/// Cost of an element for its control points; lower in a small stroke, where all deviations are small.
 double price_of(char kind, double stroke_length) {
   return (kind == 'L' ? price_of_line : price_of_curve) * std::clamp(stroke_length / 0.5, 0.35, 1.0);
 }
@@ -131,22 +131,22 @@ int sibling_of(int id, const Path& path, std::span<const std::size_t> splits, bo
   const auto chord = [&](std::size_t index) { return Point(element(index).back() - element(index).front()); };
   switch (id) {
     case 11:  // the hook of heng gou is short; a long straight limb is a heng pie
-      return path_length(element(1)) > longest_heng_gou_hook ? 17 : 11;
+      return path_length(element(1)) > max_heng_gou_hook ? 17 : 11;
     case 15:  // wo gou starts on a slant, shu wan gou upright
       return leaving(0) < -78.0 ? 31 : 15;
-    case 13: {  // a shu gou may bow a little and leans to the left; a wan gou swings back under its start
+    case 13: {  // a shu gou may bow slightly and leans to the left; a wan gou swings back under its start
       const double bow = bulge_of(element(0), chord(0).norm());
       return brush && bow < 0.075 && direction_of(chord(0)) < -92.0 ? 12 : 13;
     }
-    case 16: {  // the second limb of heng pie leans farther; in a pen's hand a long one need not lean as far
+    case 16: {  // the second limb of heng pie leans farther; a long one written with a pen need not lean as far
       const double direction = direction_of(chord(1));
       const double length = path_length(element(1));
-      const bool leans = !brush && length > longest_pen_hook ? contains({-180.0, -109.0}, direction)
-                                                             : contains({-180.0, -118.0}, direction);
+      const bool leans = !brush && length > max_pen_hook ? contains({-180.0, -109.0}, direction)
+                                                         : contains({-180.0, -118.0}, direction);
       if (!leans) return 16;
-      return length > longest_heng_gou_hook ? 17 : 11;
+      return length > max_heng_gou_hook ? 17 : 11;
     }
-    case 21: {  // heng xie gou falls all the way to its hook, heng zhe wan gou runs out level
+    case 21: {  // heng xie gou descends all the way to its hook, heng zhe wan gou ends level
       const std::span<const Point> curve = element(1);
       if (leaving(1) < -112.0) return 22;
       return direction_of(curve.back() - curve[curve.size() - 1 - curve.size() / 3]) > -8.0 ? 20 : 21;

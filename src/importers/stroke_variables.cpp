@@ -7,10 +7,10 @@
 namespace calligraphy::recognition {
 namespace {
 
-/// Bounds of a handle's length, over the distance from the joint to the fixed point: never on the joint, where the
-/// curve would lose its direction, and never so far that it makes a loop.
-constexpr double shortest_handle = 0.02;
-constexpr double longest_handle = 8.0;
+/// Bounds of the length of a handle, relative to the distance from the joint to the fixed point: not zero, where the
+/// curve would have no direction, and not long enough to create a loop.
+constexpr double min_handle = 0.02;
+constexpr double max_handle = 8.0;
 
 }  // namespace
 
@@ -26,8 +26,12 @@ StrokeVariables::StrokeVariables(const TypicalStroke& type) : points_(type.contr
   variables_ = 0;
   for (int point = 0; point < points_; ++point) {
     first_variable_.push_back(variables_);
-    variables_ += std::ranges::find(handles_, point, &Handle::at) == handles_.end() ? 2 : 1;
+    variables_ += is_handle(point) ? 1 : 2;
   }
+}
+
+bool StrokeVariables::is_handle(int point) const {
+  return std::any_of(handles_.begin(), handles_.end(), [&](const Handle& handle) { return handle.at == point; });
 }
 
 Eigen::VectorXd StrokeVariables::values_of(std::span<const Point> control_points) const {
@@ -53,7 +57,7 @@ std::vector<Point> StrokeVariables::control_points_of(const Eigen::VectorXd& val
     points[point] = values.segment<2>(std::min(first, variables_ - 2));
   }
   for (const Handle& handle : handles_) {
-    const double reach = std::clamp(values[first_variable_[handle.at]], shortest_handle, longest_handle);
+    const double reach = std::clamp(values[first_variable_[handle.at]], min_handle, max_handle);
     points[handle.at] = points[handle.joint] + reach * (points[handle.joint] - points[handle.fixed]);
   }
   return points;
@@ -63,7 +67,7 @@ Eigen::MatrixXd StrokeVariables::slopes_at(std::span<const Point> control_points
   Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(2 * points_, variables_);
   for (int point = 0; point < points_; ++point) {
     const int first = first_variable_[point];
-    if (std::ranges::find(handles_, point, &Handle::at) == handles_.end()) {
+    if (!is_handle(point)) {
       slopes.block<2, 2>(2 * point, first).setIdentity();
     }
   }

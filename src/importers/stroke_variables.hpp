@@ -1,5 +1,4 @@
-// What may move when a stroke is fitted: its control points, without what smooth joints take away; private to the
-// model.
+// The variables of a fit: the control points of a stroke, constrained by smooth joints; private to the importers.
 #pragma once
 
 #include <span>
@@ -13,23 +12,25 @@
 
 namespace calligraphy::recognition {
 
-/// At a joint that its typical stroke calls smooth the handle of one curve lies on the tangent of the element beside
-/// it: handle = joint + a (joint - fixed), where a > 0 is the only thing left to choose.
+/// At a smooth joint, the handle of one curve lies on the tangent of the adjacent element: handle = joint + a (joint -
+/// fixed), where a > 0 is the only variable.
 class StrokeVariables {
  public:
   explicit StrokeVariables(const TypicalStroke& type);
 
   Eigen::VectorXd values_of(std::span<const Point> control_points) const;
   std::vector<Point> control_points_of(const Eigen::VectorXd& values) const;
-  /// Derivative of all coordinates (x, y of the first control point, of the second ...) after the variables.
+  /// Derivative of all coordinates (x, y of the first control point, of the second ...) with respect to the variables.
   Eigen::MatrixXd slopes_at(std::span<const Point> control_points) const;
-  /// No smooth joint: the variables are the coordinates.
+  /// True without smooth joints: the variables are the coordinates.
   bool plain() const { return handles_.empty(); }
 
  private:
   struct Handle {
     int at, joint, fixed;  ///< indices of control points
   };
+  bool is_handle(int point) const;
+
   std::vector<Handle> handles_;
   std::vector<int> first_variable_;  ///< of each control point
   int points_;

@@ -1,4 +1,4 @@
-// zlib unpacks and checks the sums, which libarchive's own filter does not; libarchive reads the tar inside.
+// zlib decompresses and verifies the checksums, which libarchive's filter does not; libarchive reads the tar inside.
 #include "tarball.hpp"
 
 #include <array>
@@ -18,13 +18,13 @@
 namespace calligraphy {
 namespace {
 
-constexpr std::size_t longest_path = 512;  // [byte]; of an entry
-constexpr std::size_t end_mark = 1024;     // [byte]; zeros that end a tar, more than stand within one of texts
-constexpr std::size_t ratio_judged_from = 16u << 20;  // [byte]; what little is unpacked may pack any way
+constexpr std::size_t max_path = 512;   // [byte]; of an entry
+constexpr std::size_t end_mark = 1024;  // [byte]; zeros at the end of a tar, more than occur within one of texts
+constexpr std::size_t ratio_judged_from = 16u << 20;  // [byte]; below this, any ratio is acceptable
 
-/// The tar as a stream of bytes, within the limits, unpacked if it is gzip data. By inflate(), for gzread() takes data
-/// that end too early for whole when what it unpacked until there just fills its buffer. Remembers what went wrong, as
-/// libarchive cannot throw.
+/// The tar as a stream of bytes, within the limits, decompressed if it is gzip data. Uses inflate(), because gzread()
+/// accepts truncated data if the output so far exactly fills its buffer. Stores errors, because libarchive cannot
+/// propagate exceptions.
 class Unpacker {
  public:
   Unpacker(const std::filesystem::path& path, const SourceLimits& limits)
@@ -38,7 +38,7 @@ class Unpacker {
   Unpacker(const Unpacker&) = delete;
   Unpacker& operator=(const Unpacker&) = delete;
 
-  /// The next bytes: their count, 0 at the end, -1 when there was a failure.
+  /// The next bytes: returns their count, 0 at the end, -1 on failure.
   la_ssize_t next(const void** bytes) noexcept {
     std::size_t count = 0;
     if (is_packed_) {
@@ -61,8 +61,8 @@ class Unpacker {
     return failure_.empty() ? static_cast<la_ssize_t>(count) : -1;
   }
 
-  /// The zeros that end a tar were among the bytes: libarchive does without, and so would take for whole what was cut
-  /// behind a file.
+  /// True once the zeros that end a tar were read. libarchive does not require them, and so would accept a tar
+  /// truncated after a file.
   bool has_end_mark() const { return zeros_ >= end_mark; }
 
   const std::string& name() const { return name_; }
@@ -70,9 +70,9 @@ class Unpacker {
   std::string place() const { return " (packed byte " + std::to_string(packed_offset()) + ")"; }
 
  private:
-  static constexpr int gzip_window = 15 + 16;  // zlib's words for any gzip data
+  static constexpr int gzip_window = 15 + 16;  // zlib's value for any gzip data
 
-  /// The first failure is the one that is told.
+  /// Only the first failure is reported.
   void fail(std::string what) noexcept {
     if (failure_.empty()) failure_ = std::move(what);
   }
@@ -105,7 +105,7 @@ class Unpacker {
       const int result = inflate(&stream_, Z_NO_FLUSH);
       if (result == Z_STREAM_END) {
         if (stream_.avail_in == 0) read_packed();
-        is_at_end_ = !begins_member();  // what stands behind the data and is no gzip is not read, as gzip does it
+        is_at_end_ = !begins_member();  // like gzip, ignores trailing data that is not gzip
         inflateReset(&stream_);
       } else if (result != Z_OK) {
         fail(std::string("damaged gzip data: ") + (stream_.msg == nullptr ? "unreadable" : stream_.msg));
@@ -126,7 +126,7 @@ class Unpacker {
   bool is_at_end_ = false;
   std::array<unsigned char, 1 << 16> packed_{};
   std::array<unsigned char, 1 << 16> unpacked_{};
-  std::size_t packed_bytes_ = 0;  ///< read of the file
+  std::size_t packed_bytes_ = 0;  ///< read from the file
   std::size_t bytes_ = 0;         ///< of the tar
   std::size_t zeros_ = 0;         ///< in a row, until the end mark
   std::string failure_;
@@ -175,13 +175,13 @@ class Tarball {
     throw FormatError(unpacker_->name() + place + ": " + what);
   }
 
-  /// Throws what went wrong, if it did. A warning is about names in other alphabets or attributes, which are not used.
+  /// Throws on failure. Warnings concern names in other alphabets, or attributes, which are not used.
   void check(int result, const std::string& entry) const {
     if (result >= ARCHIVE_WARN) return;
     const char* const message = archive_error_string(reader_.get());
     if (!unpacker_->failure().empty()) fail(entry, unpacker_->failure() + unpacker_->place());
-    fail(entry,
-         std::string("damaged, or no tarball: ") + (message == nullptr ? "unreadable" : message) + unpacker_->place());
+    fail(entry, std::string("damaged, or not a tarball: ") + (message == nullptr ? "unreadable" : message) +
+                    unpacker_->place());
   }
 
   bool next(archive_entry*& entry, const std::string& last) {
@@ -194,15 +194,15 @@ class Tarball {
   std::string path_of(archive_entry* entry, const std::string& last) const {
     const char* path = archive_entry_pathname_utf8(entry);
     if (path == nullptr) path = archive_entry_pathname(entry);
-    if (path == nullptr) fail(last.empty() ? "" : "after " + last, "an entry without a name that can be read");
+    if (path == nullptr) fail(last.empty() ? "" : "after " + last, "an entry without a readable name");
     std::string name(path);
-    if (name.size() > longest_path) {
-      fail(name.substr(0, 60) + "...", "a name of more than " + std::to_string(longest_path) + " bytes");
+    if (name.size() > max_path) {
+      fail(name.substr(0, 60) + "...", "a name of more than " + std::to_string(max_path) + " bytes");
     }
     const std::filesystem::path parts(name);
-    if (parts.is_absolute()) fail(name, "an absolute path in a tarball");
+    if (parts.is_absolute()) fail(name, "an absolute path");
     for (const std::filesystem::path& part : parts) {
-      if (part == "..") fail(name, "a path that climbs out of the tarball");
+      if (part == "..") fail(name, "a path that leaves the tarball");
     }
     return name;
   }
@@ -217,21 +217,21 @@ class Tarball {
   std::string text_of(archive_entry* entry, const std::string& path) {
     const la_int64_t size = archive_entry_size(entry);
     if (size < 0 || static_cast<std::uint64_t>(size) > limits_.entry_bytes) {
-      fail(path, std::to_string(size) + " bytes, more than the " + std::to_string(limits_.entry_bytes) +
-                     " that are read of a file");
+      fail(path,
+           std::to_string(size) + " bytes, larger than the limit of " + std::to_string(limits_.entry_bytes) + " bytes");
     }
     std::string text(static_cast<std::size_t>(size), '\0');
     std::size_t at = 0;
     while (at < text.size()) {
       const la_ssize_t count = archive_read_data(reader_.get(), text.data() + at, text.size() - at);
       if (count < 0) check(static_cast<int>(count), path);
-      if (count <= 0) fail(path, "ends before its " + std::to_string(size) + " bytes");
+      if (count <= 0) fail(path, "is shorter than its " + std::to_string(size) + " bytes");
       at += static_cast<std::size_t>(count);
     }
     return text;
   }
 
-  /// What follows the tar's end holds the sum over all of it.
+  /// The data after the end of the tar contains the checksum of all of it.
   void read_to_the_end() {
     const void* bytes = nullptr;
     la_ssize_t count = 0;
@@ -239,7 +239,7 @@ class Tarball {
       count = unpacker_->next(&bytes);
     } while (count > 0);
     if (count < 0) fail("", unpacker_->failure() + unpacker_->place());
-    if (!unpacker_->has_end_mark()) fail("", "ends without a tar's end mark: it was cut short" + unpacker_->place());
+    if (!unpacker_->has_end_mark()) fail("", "is truncated: it has no end-of-archive marker" + unpacker_->place());
   }
 
   struct Free {

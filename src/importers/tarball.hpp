@@ -1,7 +1,7 @@
-// Tarballs, read in memory; refused where the build has no libarchive or no zlib.
+// Tarballs, read in memory; rejected if the build has no libarchive or no zlib.
 #pragma once
 
-#include <calligraphy/importers/source_files.hpp>
+#include "source_files.hpp"
 
 namespace calligraphy {
 

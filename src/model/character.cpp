@@ -11,9 +11,9 @@
 namespace calligraphy {
 namespace {
 
-constexpr double largest_coordinate = 16.0;               // [em]; far outside any em square, far inside double's range
-constexpr double smooth_angle = std::numbers::pi / 12.0;  // a joint called smooth may bend by this much [rad]
-constexpr double shortest_element = 1e-6;                 // [em]
+constexpr double max_coordinate = 16.0;                   // [em]; far outside any em square, far inside double's range
+constexpr double smooth_angle = std::numbers::pi / 12.0;  // maximum bend at a smooth joint [rad]
+constexpr double min_element = 1e-6;                      // [em]
 
 std::string format_point(const Point& point) {
   return "(" + std::to_string(point.x()) + ", " + std::to_string(point.y()) + ")";
@@ -21,11 +21,11 @@ std::string format_point(const Point& point) {
 
 bool known_degree(int degree) { return degree == 3 || degree == 4; }
 
-/// Direction in which control points leave their first one; zero when they all coincide.
+/// Direction in which a curve leaves its first control point; zero if all control points coincide.
 Point leaving_direction(std::span<const Point> points) {
   for (const Point& point : points.subspan(1)) {
     const Point difference = point - points.front();
-    if (difference.norm() > shortest_element) return difference.normalized();
+    if (difference.norm() > min_element) return difference.normalized();
   }
   return Point::Zero();
 }
@@ -35,16 +35,17 @@ Point arriving_direction(std::span<const Point> points) {
   return -leaving_direction(reversed);
 }
 
-void validate_stroke(const Stroke& stroke, int number, std::vector<Problem>& problems) {
+void validate_stroke(const Stroke& stroke, int number, std::vector<ValidationIssue>& problems) {
   bool finite = true;
   for (const Point& point : stroke.control_points) {
-    if (point.allFinite() && point.cwiseAbs().maxCoeff() <= largest_coordinate) continue;
+    if (point.allFinite() && point.cwiseAbs().maxCoeff() <= max_coordinate) continue;
     problems.push_back({number, "control point " + format_point(point) + " is not within 16 em of the origin"});
     finite = false;
   }
   for (const double factor : stroke.attraction_factors) {
     if (std::isfinite(factor) && factor >= 0.0) continue;
-    problems.push_back({number, "attraction factor " + std::to_string(factor) + " is not a finite number from 0 up"});
+    problems.push_back(
+        {number, "attraction factor " + std::to_string(factor) + " is not a finite, non-negative number"});
   }
   if (!finite) return;
 
@@ -56,7 +57,7 @@ void validate_stroke(const Stroke& stroke, int number, std::vector<Problem>& pro
     const Point leaving = leaving_direction(points);
     const bool may_be_point = stroke.type->elements == "L";  // "line segment stroke include points" (sec. 3.3)
     if (leaving.isZero() && !may_be_point) {
-      problems.push_back({number, "element " + std::to_string(element + 1) + " has no length"});
+      problems.push_back({number, "element " + std::to_string(element + 1) + " has zero length"});
     } else if (element > 0 && stroke.type->joints[element - 1] == 's' && !arriving.isZero()) {
       const double cosine = std::clamp(arriving.dot(leaving), -1.0, 1.0);
       if (std::acos(cosine) > smooth_angle) {
@@ -111,7 +112,7 @@ Character make_character(char32_t code, std::span<const StrokeInput> inputs, int
       factors.insert(factors.end(), input.attraction_factors.begin(), input.attraction_factors.end());
     }
   }
-  const std::vector<Problem> problems = validate(character);
+  const std::vector<ValidationIssue> problems = validate(character);
   if (!problems.empty()) {
     throw ValueError((problems[0].stroke > 0 ? "stroke " + std::to_string(problems[0].stroke) + ": " : std::string()) +
                      problems[0].what);
@@ -162,8 +163,8 @@ Character with_quartic_curves(const Character& character) {
   return result;
 }
 
-std::vector<Problem> validate(const Character& character) {
-  std::vector<Problem> problems;
+std::vector<ValidationIssue> validate(const Character& character) {
+  std::vector<ValidationIssue> problems;
   if (!known_degree(character.curve_degree)) {
     return {{0, "curve degree " + std::to_string(character.curve_degree) + ": expected 3 or 4"}};
   }
@@ -187,7 +188,7 @@ std::vector<Problem> validate(const Character& character) {
                                std::to_string(character.structure.control_points.size())});
   }
   if (character.sequence.feature_points != feature_points) {
-    problems.push_back({0, "the indices of feature points do not follow from the stroke ids"});
+    problems.push_back({0, "the feature point indices do not match the stroke ids"});
   }
   if (character.physics.attraction_factors.size() != feature_points.size()) {
     problems.push_back({0, std::to_string(feature_points.size()) + " feature points have " +

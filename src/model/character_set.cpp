@@ -10,7 +10,7 @@
 namespace calligraphy {
 namespace {
 
-/// A file that begins like this is a set file, if only a damaged one: no text may.
+/// A file that begins like this is a set file, possibly damaged: no text begins like this.
 bool begins_like_a_set_file(std::span<const std::byte> bytes) {
   return !bytes.empty() && bytes[0] == static_cast<std::byte>(set_format::magic[0]);
 }

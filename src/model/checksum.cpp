@@ -7,11 +7,11 @@
 namespace calligraphy {
 namespace {
 
-constexpr int slices = 8;  // bytes taken at once
+constexpr int slices = 8;  // bytes per step
 
 using Table = std::array<std::uint32_t, 256>;
 
-/// tables[k][b]: what byte b, followed by k zero bytes, makes of a register of zeros.
+/// tables[k][b]: the register, initially zero, after byte b and k zero bytes.
 constexpr std::array<Table, slices> make_tables() {
   constexpr std::uint32_t polynomial = 0xEDB88320;
   std::array<Table, slices> tables{};

@@ -1,4 +1,4 @@
-// CRC-32, as zip and PNG have it.
+// CRC-32, as used by zip and PNG.
 #pragma once
 
 #include <cstddef>

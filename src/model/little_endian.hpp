@@ -1,4 +1,4 @@
-// Numbers and bits as a set file holds them, whatever the processor: the least significant first.
+// Numbers and bits as stored in a set file, least significant first on every processor.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ void append(std::vector<std::byte>& bytes, Unsigned value) {
   for (std::size_t i = 0; i < sizeof(Unsigned); ++i) bytes.push_back(static_cast<std::byte>((value >> (8 * i)) & 0xFF));
 }
 
-/// `count` bits, 0 to 32, from bit `at` on. What lies beyond the end is 0.
+/// `count` bits, 0 to 32, starting at bit `at`. Bits beyond the end are 0.
 inline std::uint32_t load_bits(std::span<const std::byte> bytes, std::uint64_t at, int count) noexcept {
   const std::uint64_t mask = (std::uint64_t{1} << count) - 1;
   const std::uint64_t first = at / 8;
@@ -37,17 +37,17 @@ inline std::uint32_t load_bits(std::span<const std::byte> bytes, std::uint64_t a
   return static_cast<std::uint32_t>((value >> (at % 8)) & mask);
 }
 
-/// Bits one after the other.
+/// A sequence of bits to write.
 class BitWriter {
  public:
-  /// The `count` least significant bits of `value`, which has no others; 0 to 32.
+  /// Appends the `count` least significant bits of `value`, which must have no others set; 0 to 32.
   void write(std::uint64_t value, int count) {
     for (int i = 0; i < count; ++i, ++size_) {
       if (size_ % 8 == 0) bytes_.push_back(std::byte{0});
       if (((value >> i) & 1) != 0) bytes_.back() |= std::byte{1} << (size_ % 8);
     }
   }
-  /// Filled up with zeros to a whole byte.
+  /// The bits so far, padded with zeros to a whole byte.
   const std::vector<std::byte>& bytes() const { return bytes_; }
 
  private:

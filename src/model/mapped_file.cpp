@@ -31,18 +31,18 @@ struct Descriptor {
 }  // namespace
 
 MappedFile::MappedFile(const std::string& path) {
-  // A pipe without a writer must not hold us up.
+  // Opening a pipe without a writer must not block.
   const Descriptor file{open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
   if (file.number < 0) fail(path, "cannot be opened: " + reason());
   struct stat status {};
   if (fstat(file.number, &status) != 0) fail(path, "cannot be read: " + reason());
   if (!S_ISREG(status.st_mode)) fail(path, "is not a regular file");
   const auto size = static_cast<std::uintmax_t>(status.st_size);
-  if (size == 0) return;  // nothing cannot be mapped
-  if (size > std::numeric_limits<std::size_t>::max()) fail(path, std::to_string(size) + " bytes are too many");
+  if (size == 0) return;  // an empty file cannot be mapped
+  if (size > std::numeric_limits<std::size_t>::max()) fail(path, std::to_string(size) + " bytes are too many to map");
   void* const start = mmap(nullptr, static_cast<std::size_t>(size), PROT_READ, MAP_PRIVATE, file.number, 0);
   if (start == MAP_FAILED) fail(path, "cannot be mapped: " + reason());
-  madvise(start, static_cast<std::size_t>(size), MADV_RANDOM);  // what is not asked for is not read ahead
+  madvise(start, static_cast<std::size_t>(size), MADV_RANDOM);  // no read-ahead
   bytes_ = {static_cast<const std::byte*>(start), static_cast<std::size_t>(size)};
 }
 
@@ -59,7 +59,7 @@ MappedFile::~MappedFile() {
 
 namespace calligraphy {
 
-// Without a mapping the file is read as a whole.
+// Without memory mapping the whole file is read.
 MappedFile::MappedFile(const std::string& path) {
   std::error_code error;
   if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error)) {

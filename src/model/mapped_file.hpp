@@ -1,4 +1,4 @@
-// The bytes of a file, mapped where the system can.
+// The bytes of a file, memory-mapped if the system supports it.
 #pragma once
 
 #include <cstddef>
@@ -7,14 +7,13 @@
 
 namespace calligraphy {
 
-/// A file as bytes, read-only. Only the pages that are looked at take memory.
+/// A file as bytes, read-only. Only pages that are accessed take memory.
 ///
-/// A file that someone makes shorter meanwhile cannot be read beyond its new end: the system stops the program
-/// (SIGBUS). Whoever writes set files writes a new one and renames it, as write_file() does; the old one then stays as
-/// it was for as long as it is open.
+/// If a mapped file is truncated, access beyond its new end terminates the program (SIGBUS). To replace a set file,
+/// write a new one and rename it, as write_file() does; the old one then stays unchanged as long as it is open.
 class MappedFile {
  public:
-  /// @throws FileError naming the path when it is not a regular file or cannot be read
+  /// @throws FileError naming the path if it is not a regular file or cannot be read
   explicit MappedFile(const std::string& path);
   MappedFile(const MappedFile&) = delete;
   MappedFile& operator=(const MappedFile&) = delete;

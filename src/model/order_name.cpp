@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <string>
 
-#include <utf8.h>
-
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/base/text.hpp>
 
 namespace calligraphy {
 namespace {
@@ -19,7 +18,7 @@ bool is_control(char c) noexcept { return static_cast<unsigned char>(c) < 0x20 |
 bool is_order_name(std::string_view name) noexcept {
   return !name.empty() && name.size() <= longest && name.front() != ' ' && name.back() != ' ' &&
          std::none_of(name.begin(), name.end(), is_control) && name.find('#') == std::string_view::npos &&
-         utf8::is_valid(name.begin(), name.end());
+         is_utf8(name);
 }
 
 void check_order_name(std::string_view name) {
@@ -28,8 +27,8 @@ void check_order_name(std::string_view name) {
   std::replace_if(quoted.begin(), quoted.end(), is_control, '?');
   throw ValueError(
       "'" + quoted +
-      "' is no name of a stroke order: 1 to 255 bytes of UTF-8, without control characters, '#' and blanks "
-      "at its ends");
+      "' is not a valid name of a stroke order: expected 1 to 255 bytes of UTF-8 without control characters, '#' and "
+      "blanks at the ends");
 }
 
 }  // namespace calligraphy

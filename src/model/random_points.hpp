@@ -1,4 +1,4 @@
-// Random points that are the same everywhere.
+// Random points that are identical on every platform.
 #pragma once
 
 #include <calligraphy/base/random.hpp>
@@ -21,7 +21,7 @@ class RandomPoints : public Random {
       if (candidate.squaredNorm() <= 1.0) return candidate;
     }
   }
-  /// Of length 1. No sine: libraries round it differently.
+  /// A unit vector. Avoids sine, which libraries round differently.
   Point direction() {
     for (;;) {
       const Point candidate = in_disc();

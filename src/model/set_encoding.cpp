@@ -14,8 +14,9 @@
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/text.hpp>
 
+#include "base/bit_cast.hpp"
 #include "checksum.hpp"
-#include "code_name.hpp"
+#include "code_point_name.hpp"
 #include "little_endian.hpp"
 #include "order_name.hpp"
 #include "set_format.hpp"
@@ -27,8 +28,8 @@ using namespace set_format;
 
 using Bytes = std::vector<std::byte>;
 
-/// From -0.14 em on, the steps of each precision reach to 1.14 em.
-CoordinateCoding coding_of(CoordinatePrecision precision) {
+/// The steps of each precision cover -0.14 to 1.14 em.
+CoordinateEncoding coding_of(CoordinatePrecision precision) {
   switch (precision) {
     case CoordinatePrecision::coarse:
       return {200, -28, -28, 8, 8};
@@ -48,13 +49,13 @@ void append_text(Bytes& bytes, std::string_view text) {
   for (const char c : text) bytes.push_back(static_cast<std::byte>(c));
 }
 
-/// Seven bits a byte, the lowest first.
+/// Seven bits per byte, the lowest first.
 void append_number(Bytes& bytes, std::size_t number) {
   for (; number >= 0x80; number >>= 7) bytes.push_back(static_cast<std::byte>((number & 0x7F) | 0x80));
   bytes.push_back(static_cast<std::byte>(number));
 }
 
-void append_coding(Bytes& bytes, const CoordinateCoding& coding) {
+void append_coding(Bytes& bytes, const CoordinateEncoding& coding) {
   append(bytes, coding.steps_per_em);
   append(bytes, static_cast<std::uint32_t>(coding.x_origin));
   append(bytes, static_cast<std::uint32_t>(coding.y_origin));
@@ -68,7 +69,7 @@ bool is_covered(std::int64_t step, std::int64_t origin, int bits) {
   return step >= origin && step - origin < std::int64_t{1} << bits;
 }
 
-bool covers(const CoordinateCoding& coding, const Character& character) {
+bool covers(const CoordinateEncoding& coding, const Character& character) {
   const auto& points = character.structure.control_points;
   return coding.steps_per_em == 0 || std::all_of(points.begin(), points.end(), [&](const Point& point) {
            return is_covered(steps(point.x(), coding.steps_per_em), coding.x_origin, coding.x_bits) &&
@@ -76,9 +77,9 @@ bool covers(const CoordinateCoding& coding, const Character& character) {
          });
 }
 
-/// As few bits as cover the character.
-CoordinateCoding fitted_coding(const Character& character, std::uint32_t steps_per_em) {
-  CoordinateCoding coding{steps_per_em, 0, 0, 0, 0};
+/// The fewest bits that cover the character.
+CoordinateEncoding fitted_coding(const Character& character, std::uint32_t steps_per_em) {
+  CoordinateEncoding coding{steps_per_em, 0, 0, 0, 0};
   const auto fit = [&](int axis, std::int32_t& origin, std::uint8_t& bits) {
     std::int64_t least = std::numeric_limits<std::int64_t>::max(), most = std::numeric_limits<std::int64_t>::min();
     for (const Point& point : character.structure.control_points) {
@@ -95,7 +96,7 @@ CoordinateCoding fitted_coding(const Character& character, std::uint32_t steps_p
   return coding;
 }
 
-/// What the character is after it was stored.
+/// The character as it will be decoded.
 Character rounded(const Character& character, std::uint32_t steps_per_em) {
   Character result = character;
   if (steps_per_em == 0) return result;
@@ -106,7 +107,7 @@ Character rounded(const Character& character, std::uint32_t steps_per_em) {
   return result;
 }
 
-double largest_distance(const Character& a, const Character& b) {
+double max_distance(const Character& a, const Character& b) {
   double largest = 0.0;
   for (std::size_t i = 0; i < a.structure.control_points.size(); ++i) {
     largest = std::max(largest, (a.structure.control_points[i] - b.structure.control_points[i]).norm());
@@ -114,29 +115,29 @@ double largest_distance(const Character& a, const Character& b) {
   return largest;
 }
 
-/// A form and how it is kept.
+/// A form and its encoding.
 struct Form {
   const Character* character;
-  CoordinateCoding coding;
+  CoordinateEncoding coding;
   bool has_own_coding;
 };
 
-/// The coding of the set, or else a finer one of the character's own.
-Form choose_coding(const Character& character, const CoordinateCoding& common, double& largest_error) {
+/// The encoding of the set, or a finer one specific to the character.
+Form choose_coding(const Character& character, const CoordinateEncoding& common, double& max_error) {
   constexpr std::uint32_t finer = 4;
   for (std::uint32_t steps_per_em = common.steps_per_em; steps_per_em != 0; steps_per_em *= finer) {
-    if (steps_per_em > most_steps_per_em) break;
+    if (steps_per_em > max_steps_per_em) break;
     const Character stored = rounded(character, steps_per_em);
     if (!validate(stored).empty()) continue;
-    largest_error = std::max(largest_error, largest_distance(stored, character));
+    max_error = std::max(max_error, max_distance(stored, character));
     if (steps_per_em == common.steps_per_em && covers(common, character)) return {&character, common, false};
     return {&character, fitted_coding(character, steps_per_em), true};
   }
-  return {&character, CoordinateCoding(), common.steps_per_em != 0};
+  return {&character, CoordinateEncoding(), common.steps_per_em != 0};
 }
 
 void write_double(BitWriter& bits, double value) {
-  const auto whole = std::bit_cast<std::uint64_t>(value);
+  const auto whole = bit_cast<std::uint64_t>(value);
   bits.write(whole & 0xFFFFFFFF, 32);
   bits.write(whole >> 32, 32);
 }
@@ -163,7 +164,7 @@ class FormEncoder {
                            (character.curve_degree == 4 ? quartic : 0U) | (has_factors ? factors : 0U) |
                            (form.has_own_coding ? own_coding : 0U);
     Bytes bytes;
-    if (flags == 0 && count <= most_plain_strokes) {
+    if (flags == 0 && count <= max_plain_strokes) {
       bytes.push_back(static_cast<std::byte>(count));
       append_bytes(bytes, bits);
       return bytes;
@@ -185,7 +186,7 @@ class FormEncoder {
  private:
   Bytes encode_bits(const Form& form, bool has_factors) const {
     const Character& character = *form.character;
-    const CoordinateCoding& coding = form.coding;
+    const CoordinateEncoding& coding = form.coding;
     BitWriter bits;
     for (const int id : character.sequence.stroke_ids) {
       const std::uint32_t rank = ranks_[static_cast<std::size_t>(id)];
@@ -206,20 +207,20 @@ class FormEncoder {
   std::array<std::uint32_t, typical_stroke_count + 1> ranks_{};
 };
 
-std::string name_of(const Character& character) {
-  const std::string name = "character " + code_name(character.code);
+std::string character_label(const Character& character) {
+  const std::string name = "character " + code_point_name(character.code);
   return character.order.empty() ? name : name + " order " + character.order;
 }
 
 void check(const Character& character) {
-  const auto fail = [&](const std::string& what) { throw ValueError(name_of(character) + ": " + what); };
+  const auto fail = [&](const std::string& what) { throw ValueError(character_label(character) + ": " + what); };
   const auto code = static_cast<std::uint32_t>(character.code);
-  if (code > 0x10FFFF || (code >= 0xD800 && code <= 0xDFFF)) fail("is no Unicode character");
+  if (code > 0x10FFFF || (code >= 0xD800 && code <= 0xDFFF)) fail("is not a Unicode character");
   if (!character.order.empty()) check_order_name(character.order);
-  if (const std::size_t count = character.sequence.stroke_ids.size(); count > most_strokes) {
-    fail(std::to_string(count) + " strokes, more than " + std::to_string(most_strokes));
+  if (const std::size_t count = character.sequence.stroke_ids.size(); count > max_strokes) {
+    fail(std::to_string(count) + " strokes, more than " + std::to_string(max_strokes));
   }
-  const std::vector<Problem> problems = validate(character);
+  const std::vector<ValidationIssue> problems = validate(character);
   if (problems.empty()) return;
   fail((problems[0].stroke > 0 ? "stroke " + std::to_string(problems[0].stroke) + ": " : "") + problems[0].what);
 }
@@ -230,7 +231,7 @@ void check(const Provenance& provenance) {
     try {
       decode_utf8(text);
     } catch (const FormatError& error) {
-      throw ValueError("where the characters come from: " + std::string(error.what()));
+      throw ValueError("provenance: " + std::string(error.what()));
     }
   }
 }
@@ -242,16 +243,16 @@ std::map<char32_t, std::vector<const Character*>> sorted(const CharacterList& se
     check(character);
     auto& own = forms[character.code];
     const auto is_same = [&](const Character* other) { return other->order == character.order; };
-    if (std::any_of(own.begin(), own.end(), is_same)) throw ValueError(name_of(character) + ": stands there twice");
-    if (own.size() == most_forms) {
-      throw ValueError(name_of(character) + ": more than " + std::to_string(most_forms) + " orders");
+    if (std::any_of(own.begin(), own.end(), is_same)) throw ValueError(character_label(character) + ": occurs twice");
+    if (own.size() == max_forms) {
+      throw ValueError(character_label(character) + ": more than " + std::to_string(max_forms) + " orders");
     }
     own.insert(character.order.empty() ? own.begin() : own.end(), &character);
   }
   return forms;
 }
 
-/// All ids, those that most strokes have first.
+/// All ids, the most frequent first.
 RankedIds ranked_ids(const CharacterList& set) {
   std::array<std::size_t, typical_stroke_count + 1> strokes{};
   for (const Character& character : set.characters) {
@@ -263,7 +264,7 @@ RankedIds ranked_ids(const CharacterList& set) {
   return ids;
 }
 
-/// Gathers the records of 64 neighbouring code points, group after group.
+/// Collects the records of 64 neighbouring code points, group by group.
 class GroupWriter {
  public:
   void add(char32_t code, const Bytes& record) {
@@ -301,7 +302,7 @@ class GroupWriter {
 
   struct Entry {
     std::uint64_t present;
-    std::size_t begin;  ///< from the first group on
+    std::size_t begin;  ///< relative to the first group
     std::uint32_t checksum;
   };
   std::vector<std::uint16_t> blocks;
@@ -315,12 +316,12 @@ class GroupWriter {
 };
 
 struct Header {
-  CoordinateCoding coding;
+  CoordinateEncoding coding;
   RankedIds ids;
   double coordinate_error;
 };
 
-/// The whole file, its checksum and all.
+/// The complete file, including its checksum.
 Bytes assemble(const Header& header, const Provenance& provenance, const GroupWriter& writer) {
   const auto texts = {&provenance.source, &provenance.licence, &provenance.attribution, &provenance.licence_text};
   std::size_t first_group = header_size + (block_size + entry_size) * writer.blocks.size();
@@ -329,11 +330,11 @@ Bytes assemble(const Header& header, const Provenance& provenance, const GroupWr
   if (size > std::numeric_limits<std::uint32_t>::max()) {
     throw ValueError("set file: " + std::to_string(size) + " bytes, more than 4 GiB");
   }
-  Bytes index;  // what the checksum is of
+  Bytes index;  // covered by the checksum
   append(index, static_cast<std::uint32_t>(size));
   append(index, static_cast<std::uint32_t>(first_group));
   append(index, static_cast<std::uint32_t>(writer.blocks.size()));
-  append(index, std::bit_cast<std::uint64_t>(header.coordinate_error));
+  append(index, bit_cast<std::uint64_t>(header.coordinate_error));
   append_coding(index, header.coding);
   for (const std::uint8_t id : header.ids) append(index, id);
   for (const std::string* text : texts) {

@@ -7,6 +7,7 @@
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/text.hpp>
 
+#include "base/bit_cast.hpp"
 #include "checksum.hpp"
 #include "little_endian.hpp"
 #include "order_name.hpp"
@@ -21,19 +22,19 @@ constexpr std::uint32_t last_surrogate_block = 0xDFFF >> group_shift;
 
 std::uint64_t bit_of(std::uint32_t number) { return std::uint64_t{1} << (number & 63); }
 
-CoordinateCoding load_coding(const std::byte* at) noexcept {
+CoordinateEncoding load_coding(const std::byte* at) noexcept {
   return {load<std::uint32_t>(at), static_cast<std::int32_t>(load<std::uint32_t>(at + 4)),
           static_cast<std::int32_t>(load<std::uint32_t>(at + 8)), load<std::uint8_t>(at + 12),
           load<std::uint8_t>(at + 13)};
 }
 
-bool is_sound(const CoordinateCoding& coding) noexcept {
+bool is_sound(const CoordinateEncoding& coding) noexcept {
   if (coding.steps_per_em == 0) return coding.x_bits == 64 && coding.y_bits == 64;
-  const auto is_width = [](std::uint8_t bits) { return bits >= 1 && bits <= most_coordinate_bits; };
-  return coding.steps_per_em <= most_steps_per_em && is_width(coding.x_bits) && is_width(coding.y_bits);
+  const auto is_width = [](std::uint8_t bits) { return bits >= 1 && bits <= max_coordinate_bits; };
+  return coding.steps_per_em <= max_steps_per_em && is_width(coding.x_bits) && is_width(coding.y_bits);
 }
 
-/// A number of up to 32 bits, seven of them a byte, the lowest first. False when it ends beyond `end` or is too large.
+/// A number of up to 32 bits, seven per byte, the lowest first. False if it ends beyond `end` or is too large.
 bool read_number(std::span<const std::byte> bytes, std::size_t& at, std::size_t end, std::uint32_t& number) noexcept {
   std::uint64_t value = 0;
   for (int shift = 0; shift < 35 && at < end; shift += 7) {
@@ -69,16 +70,16 @@ void SetFile::read() {
 void SetFile::read_header() {
   const std::size_t size = bytes_.size();
   const std::string_view start(reinterpret_cast<const char*>(bytes_.data()), std::min(size, magic.size()));
-  if (start != magic.substr(0, start.size())) fail("is not a set file: its first bytes are others");
-  if (size < version_at + 4) fail("is cut off after " + std::to_string(size) + " bytes");
+  if (start != magic.substr(0, start.size())) fail("is not a set file: its first bytes differ");
+  if (size < version_at + 4) fail("is truncated after " + std::to_string(size) + " bytes");
   if (const auto found = load<std::uint32_t>(bytes_.data() + version_at); found != version) {
     fail("was written by " + std::string(found > version ? "a newer version" : "another program") + ": its format is " +
-         std::to_string(found) + ", and this program reads " + std::to_string(version));
+         std::to_string(found) + ", but this program reads " + std::to_string(version));
   }
-  if (size < header_size) fail("is cut off after " + std::to_string(size) + " bytes");
+  if (size < header_size) fail("is truncated after " + std::to_string(size) + " bytes");
   if (const auto whole = load<std::uint32_t>(bytes_.data() + size_at); whole != size) {
-    fail(std::string(whole > size ? "is cut off" : "goes on after its end") + ": " + std::to_string(size) +
-         " bytes, where its header says " + std::to_string(whole));
+    fail(std::string(whole > size ? "is truncated" : "continues after its end") + ": " + std::to_string(size) +
+         " bytes, but its header states " + std::to_string(whole));
   }
   first_group_ = load<std::uint32_t>(bytes_.data() + first_group_at);
   if (first_group_ < header_size || first_group_ > size) {
@@ -86,17 +87,17 @@ void SetFile::read_header() {
   }
   const std::uint32_t checksum = crc32(bytes_.subspan(size_at, first_group_ - size_at));
   if (checksum != load<std::uint32_t>(bytes_.data() + checksum_at)) {
-    fail("is damaged: the checksum of its index does not agree");
+    fail("is damaged: the checksum of its index does not match");
   }
   group_count_ = load<std::uint32_t>(bytes_.data() + group_count_at);
-  coordinate_error_ = std::bit_cast<double>(load<std::uint64_t>(bytes_.data() + error_at));
-  if (!(coordinate_error_ >= 0.0) || std::isinf(coordinate_error_)) fail("its coordinate error is no distance");
+  coordinate_error_ = bit_cast<double>(load<std::uint64_t>(bytes_.data() + error_at));
+  if (!(coordinate_error_ >= 0.0) || std::isinf(coordinate_error_)) fail("its coordinate error is not a distance");
   coding_ = load_coding(bytes_.data() + coding_at);
-  if (!is_sound(coding_)) fail("its coding of coordinates has impossible numbers");
+  if (!is_sound(coding_)) fail("its coordinate encoding has invalid numbers");
   for (std::size_t i = 0; i < ranked_ids_.size(); ++i) {
     ranked_ids_[i] = load<std::uint8_t>(&bytes_[ranked_ids_at + i]);
     if (ranked_ids_[i] < 1 || ranked_ids_[i] > typical_stroke_count) {
-      fail("its list of typical strokes has the id " + std::to_string(ranked_ids_[i]));
+      fail("its list of typical strokes contains the invalid id " + std::to_string(ranked_ids_[i]));
     }
   }
 }
@@ -105,10 +106,10 @@ void SetFile::read_provenance() {
   std::size_t at = header_size;
   for (std::string* const text :
        {&provenance_.source, &provenance_.licence, &provenance_.attribution, &provenance_.licence_text}) {
-    if (first_group_ - at < 4) fail("its index ends within the names of its source");
+    if (first_group_ - at < 4) fail("its index ends within its provenance");
     const std::size_t length = load<std::uint32_t>(bytes_.data() + at);
     at += 4;
-    if (first_group_ - at < length) fail("its index ends within the names of its source");
+    if (first_group_ - at < length) fail("its index ends within its provenance");
     text->assign(reinterpret_cast<const char*>(bytes_.data() + at), length);
     at += length;
     check_text(*text);
@@ -120,7 +121,7 @@ void SetFile::check_text(const std::string& text) const {
   try {
     decode_utf8(text);
   } catch (const FormatError& error) {
-    fail("the names of its source: " + std::string(error.what()));
+    fail("its provenance: " + std::string(error.what()));
   }
 }
 
@@ -152,7 +153,7 @@ void SetFile::check_group(std::size_t group) {
   const bool has_room = begin >= first_group_ && begin <= end && end <= bytes_.size() &&
                         end - begin > characters * offset_size(end - begin);
   if (!is_above || own > last_block || is_surrogate || characters == 0 || !has_room) {
-    fail("entry " + std::to_string(group + 1) + " of its index has impossible numbers");
+    fail("entry " + std::to_string(group + 1) + " of its index has invalid numbers");
   }
   size_ += characters;
   cells_[own >> 6].present |= bit_of(own);
@@ -254,8 +255,8 @@ bool SetFile::read_form(Record& rest, StoredCharacter& form) const noexcept {
   rest.begin = end;
   form.first_bit_ = 8 * std::uint64_t{at};
   form.end_bit_ = 8 * std::uint64_t{end};
-  if (strokes == 0 || std::uint64_t{strokes} * least_id_bits > form.end_bit_ - form.first_bit_) return false;
-  if (strokes > most_strokes) return false;
+  if (strokes == 0 || std::uint64_t{strokes} * min_id_bits > form.end_bit_ - form.first_bit_) return false;
+  if (strokes > max_strokes) return false;
   form.stroke_count_ = static_cast<int>(strokes);
   return true;
 }
@@ -264,7 +265,7 @@ SetFile::Found SetFile::find(const std::shared_ptr<const SetFile>& file, char32_
                              StoredCharacter& form) noexcept {
   std::optional<Record> record = file->record(code);
   if (!record) return Found::nothing;
-  for (std::size_t i = 0; i < most_forms && (i == 0 || record->begin < record->end); ++i) {
+  for (std::size_t i = 0; i < max_forms && (i == 0 || record->begin < record->end); ++i) {
     if (!file->read_form(*record, form) || form.order_ == order) {
       form.code_ = code;
       form.file_ = file;
@@ -285,7 +286,7 @@ std::vector<StoredCharacter> SetFile::find_all(const std::shared_ptr<const SetFi
   std::vector<StoredCharacter> forms;
   std::optional<Record> record = file->record(code);
   if (!record) return forms;
-  while (forms.size() < most_forms && (forms.empty() || record->begin < record->end)) {
+  while (forms.size() < max_forms && (forms.empty() || record->begin < record->end)) {
     StoredCharacter form;
     form.code_ = code;
     form.file_ = file;

@@ -1,4 +1,4 @@
-// The bytes of a set file and what its index says (docs/set-file.md).
+// The bytes of a set file and its index (docs/set-file.md).
 #pragma once
 
 #include <atomic>
@@ -18,8 +18,8 @@
 
 namespace calligraphy {
 
-/// Opening checks the header and the index, and their checksum; a group's checksum is checked on its first use. No
-/// number in the file is trusted for being under a checksum: each is checked before it leads anywhere.
+/// Opening validates the header and the index, and their checksum; the checksum of a group is verified on its first
+/// use. A matching checksum does not make a number trusted: each is validated before it is used.
 class SetFile {
  public:
   /// @throws FormatError naming the file
@@ -28,12 +28,12 @@ class SetFile {
 
   enum class Found { nothing, other_orders, this_order };
 
-  /// Looks for the form of a character that has this order, and fills `form` with it.
+  /// Finds the form of a character with this stroke order and stores it in `form`.
   static Found find(const std::shared_ptr<const SetFile>& file, char32_t code, std::string_view order,
                     StoredCharacter& form) noexcept;
-  /// Fills `form` with the first form of a character that is there.
+  /// Stores the first form of a character in `form`, if there is one.
   static void find_first(const std::shared_ptr<const SetFile>& file, char32_t code, StoredCharacter& form) noexcept;
-  /// All forms, as far as they are sound.
+  /// All forms that are undamaged.
   static std::vector<StoredCharacter> find_all(const std::shared_ptr<const SetFile>& file, char32_t code);
   std::optional<char32_t> next(char32_t from) const noexcept;
 
@@ -45,13 +45,13 @@ class SetFile {
   const set_format::RankedIds& ranked_ids() const noexcept { return ranked_ids_; }
 
  private:
-  /// Where the forms of a character are [byte]; empty when that place is damaged.
+  /// Position of the forms of a character [byte]; empty if that part is damaged.
   struct Record {
     std::size_t begin = 0;
     std::size_t end = 0;
   };
 
-  /// Which of 64 neighbouring blocks have a group, and how many groups come before.
+  /// Which of 64 neighbouring blocks have a group, and the number of groups before them.
   struct BlockCell {
     std::uint64_t present = 0;
     std::uint32_t before = 0;
@@ -69,12 +69,12 @@ class SetFile {
   std::uint64_t present(std::size_t group) const noexcept;
   std::size_t group_begin(std::size_t group) const noexcept;
   std::size_t group_end(std::size_t group) const noexcept;
-  /// Number of groups of lower blocks: where this block's group is, if it has one.
+  /// Number of groups in lower blocks: the index of this block's group, if it has one.
   std::size_t groups_before(std::uint32_t block) const noexcept;
   bool has_group(std::uint32_t block) const noexcept;
   bool is_intact(std::size_t group) const noexcept;
   std::optional<Record> record(char32_t code) const noexcept;
-  /// Reads what stands before the bits of a form. False when it is damaged, and then it has no strokes.
+  /// Reads the head of a form. False if it is damaged; it then has no strokes.
   bool read_form(Record& rest, StoredCharacter& form) const noexcept;
 
   enum class GroupState : std::uint8_t { unknown, intact, damaged };
@@ -84,7 +84,7 @@ class SetFile {
   std::unique_ptr<const MappedFile> file_;
   std::span<const std::byte> bytes_;
   Provenance provenance_;
-  CoordinateCoding coding_;
+  CoordinateEncoding coding_;
   set_format::RankedIds ranked_ids_{};
   double coordinate_error_ = 0.0;
   std::size_t group_count_ = 0;
@@ -93,7 +93,7 @@ class SetFile {
   const std::byte* blocks_ = nullptr;
   const std::byte* entries_ = nullptr;
   std::array<BlockCell, (set_format::last_block >> 6) + 1> cells_{};
-  /// The same in every thread that finds it out, so that no order between threads is needed.
+  /// Every thread that computes it finds the same value, so no memory ordering between threads is needed.
   mutable std::unique_ptr<std::atomic<GroupState>[]> states_;
 };
 

@@ -1,11 +1,12 @@
-// How the bits of a character become its strokes (docs/set-file.md).
+// Decoding of the strokes of a character (docs/set-file.md).
 #include <bit>
 #include <cmath>
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/model/character_set.hpp>
 
-#include "code_name.hpp"
+#include "base/bit_cast.hpp"
+#include "code_point_name.hpp"
 #include "little_endian.hpp"
 #include "set_file.hpp"
 #include "set_format.hpp"
@@ -17,13 +18,13 @@ using namespace set_format;
 
 double load_double(std::span<const std::byte> bytes, std::uint64_t at) noexcept {
   const std::uint64_t low = load_bits(bytes, at, 32);
-  return std::bit_cast<double>(low | std::uint64_t{load_bits(bytes, at + 32, 32)} << 32);
+  return bit_cast<double>(low | std::uint64_t{load_bits(bytes, at + 32, 32)} << 32);
 }
 
-/// Reads coordinates one after the other.
+/// Reads a sequence of coordinates.
 class PointReader {
  public:
-  PointReader(std::span<const std::byte> bytes, const CoordinateCoding& coding, std::uint64_t at) noexcept
+  PointReader(std::span<const std::byte> bytes, const CoordinateEncoding& coding, std::uint64_t at) noexcept
       : bytes_(bytes), coding_(coding), at_(at) {}
 
   Point next() noexcept {
@@ -40,18 +41,18 @@ class PointReader {
   }
 
   std::span<const std::byte> bytes_;
-  CoordinateCoding coding_;
+  CoordinateEncoding coding_;
   std::uint64_t at_;
 };
 
-/// Reads stroke ids one after the other.
+/// Reads a sequence of stroke ids.
 class IdReader {
  public:
   IdReader(const SetFile& file, std::uint64_t at) noexcept : file_(file), at_(at) {}
 
-  /// 0 when it is none.
+  /// 0 if the id is invalid.
   int next() noexcept {
-    const std::uint32_t bits = load_bits(file_.bytes(), at_, most_id_bits);
+    const std::uint32_t bits = load_bits(file_.bytes(), at_, max_id_bits);
     const int ones = std::countr_one(bits);
     at_ += static_cast<std::uint64_t>(ones + 2);
     const std::size_t rank = 2 * static_cast<std::size_t>(ones) + ((bits >> (ones + 1)) & 1);
@@ -65,7 +66,7 @@ class IdReader {
 };
 
 bool in_domain(const Point& point) noexcept {
-  return std::abs(point.x()) <= largest_coordinate && std::abs(point.y()) <= largest_coordinate;  // and is a number
+  return std::abs(point.x()) <= max_coordinate && std::abs(point.y()) <= max_coordinate;  // false for NaN
 }
 
 }  // namespace
@@ -128,16 +129,17 @@ std::optional<StoredStroke> StoredCharacter::stroke(int index) const noexcept {
 
 Character StoredCharacter::character() const {
   const auto fail = [&](const std::string& what) {
-    throw FormatError((file_ ? file_->name() : "no set") + ": character " + code_name(code_) + " is damaged: " + what);
+    throw FormatError((file_ ? file_->name() : "no set") + ": character " + code_point_name(code_) +
+                      " is damaged: " + what);
   };
-  if (stroke_count_ == 0) fail("the checksum or the numbers of the place where it is kept do not agree");
+  if (stroke_count_ == 0) fail("the checksum or the numbers of its record are wrong");
   const auto& counts = stroke_counts()[static_cast<std::size_t>(curve_degree_ - 3)];
   std::vector<StrokeInput> strokes(static_cast<std::size_t>(stroke_count_));
   IdReader ids(*file_, first_bit_);
   std::uint64_t points = 0, features = 0;
   for (StrokeInput& stroke : strokes) {
     stroke.id = ids.next();
-    if (stroke.id == 0) fail("it has a stroke that is no typical stroke");
+    if (stroke.id == 0) fail("it has a stroke with an invalid id");
     points += counts[static_cast<std::size_t>(stroke.id)].points;
     features += counts[static_cast<std::size_t>(stroke.id)].features;
   }

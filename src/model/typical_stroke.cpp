@@ -11,7 +11,7 @@ namespace {
 
 using EmPoint = std::array<double, 2>;
 
-// Typical shapes [em], y up: what a pen's tip draws, without the brush's entry and exit. Heng zhe wan gou (20) and
+// Typical shapes [em], y up: the path of a pen tip, without the entry and exit of a brush. Heng zhe wan gou (20) and
 // shu wan gou (31) are polylines by the paper's count, so one short segment stands for their round bend.
 constexpr EmPoint heng[] = {{0.10, 0.48}, {0.90, 0.53}};
 constexpr EmPoint shu[] = {{0.50, 0.90}, {0.50, 0.10}};

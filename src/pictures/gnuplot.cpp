@@ -1,16 +1,15 @@
 #include "gnuplot.hpp"
 
-#include <charconv>
-
 #include <calligraphy/base/error.hpp>
 
+#include "base/charconv.hpp"
 #include "process.hpp"
 
 namespace calligraphy::gnuplot {
 
 std::string numeral(double value) {
   char buffer[32];
-  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
+  return {buffer, to_chars(buffer, buffer + sizeof buffer, value).ptr};
 }
 
 std::string svg_terminal(int width, int height) {
@@ -25,7 +24,7 @@ void draw(const std::string& script, pugi::xml_document& picture) {
   }
   const auto parsed = picture.load_string(result.output.c_str(), pugi::parse_default | pugi::parse_declaration);
   if (!parsed || !picture.child("svg")) {
-    throw Error(std::string("gnuplot gave no SVG: ") + parsed.description() + " " + result.errors);
+    throw Error(std::string("gnuplot returned no SVG: ") + parsed.description() + " " + result.errors);
   }
 }
 

@@ -7,7 +7,7 @@
 
 namespace calligraphy::gnuplot {
 
-/// In the shortest form that reads back the same, whatever the locale.
+/// The shortest form that reads back exactly, independent of the locale.
 std::string numeral(double value);
 
 /// The beginning of a script: SVG of this size [px], on white.

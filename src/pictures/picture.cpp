@@ -9,6 +9,7 @@
 
 #include <calligraphy/base/error.hpp>
 
+#include "base/require.hpp"
 #include "svg.hpp"
 
 namespace calligraphy {
@@ -31,7 +32,7 @@ constexpr double stroke_width = 0.07;
 constexpr double trace_width = 0.022;
 constexpr double finest_detail = 0.0005;  ///< by which a drawn trace may differ from the recorded one
 
-constexpr std::size_t most_trace_points = 15000;  ///< about 200 kB of text
+constexpr std::size_t max_trace_points = 15000;  ///< about 200 kB of text
 
 using Trace = std::vector<Point>;
 
@@ -40,7 +41,7 @@ std::vector<std::vector<Trace>> traces_until(const Recording& recording, int act
   std::vector<std::vector<Trace>> result(static_cast<std::size_t>(active) + 1);
   Trace trace;
   int character = -1;
-  const auto extend = [&trace](const Sample& sample) {
+  const auto extend = [&trace](const RecordedSample& sample) {
     if (sample.status == TickStatus::ok && sample.pen_tip.allFinite()) trace.push_back(sample.pen_tip.head<2>());
   };
   const auto keep = [&] {
@@ -49,14 +50,14 @@ std::vector<std::vector<Trace>> traces_until(const Recording& recording, int act
     trace.clear();
     character = -1;
   };
-  for (const Sample& sample : recording.samples) {
+  for (const RecordedSample& sample : recording.samples) {
     const bool writing = sample.state == InteractionState::writing;
     if (writing) {
       if (character < 0) character = sample.character;
       extend(sample);
     } else if (character >= 0) {
-      if (has(sample.events, TickEvent::stroke_finished)) extend(sample);
-      if (has(sample.events, TickEvent::stroke_abandoned)) trace.clear();
+      if (has_event(sample.events, TickEvent::stroke_finished)) extend(sample);
+      if (has_event(sample.events, TickEvent::stroke_abandoned)) trace.clear();
       keep();
     }
   }
@@ -100,7 +101,7 @@ Trace thinned(const Trace& trace, double tolerance) {
 }
 
 /// Drops detail that nobody sees, and more of it when a picture of all would be too large.
-void thin(std::vector<std::vector<Trace>>& traces, const Page& page) {
+void thin(std::vector<std::vector<Trace>>& traces, const PracticePage& page) {
   for (double detail = finest_detail;; detail *= 2.0) {
     std::size_t points = 0;
     for (std::size_t character = 0; character < traces.size(); ++character) {
@@ -109,7 +110,7 @@ void thin(std::vector<std::vector<Trace>>& traces, const Page& page) {
         points += trace.size();
       }
     }
-    if (points <= most_trace_points || detail > 1.0) return;
+    if (points <= max_trace_points || detail > 1.0) return;
   }
 }
 
@@ -125,7 +126,7 @@ std::string trace_path(const Trace& trace, const svg::View& view) {
 /// The stroke of the active character that was active last; its last one once it is complete.
 std::size_t last_active_stroke(const Recording& recording, int active, int stroke_count) {
   int stroke = 0;
-  for (const Sample& sample : recording.samples) {
+  for (const RecordedSample& sample : recording.samples) {
     if (sample.character == active) stroke = sample.stroke;
   }
   return static_cast<std::size_t>(std::clamp(stroke, 0, stroke_count - 1));
@@ -188,24 +189,22 @@ void draw_legend(pugi::xml_node root, double middle, double y, double unit) {
   add_text(legend, x + sample + space, y, size, start);
 }
 
-void require_valid(const Page& page, int active) {
-  const bool finite = std::isfinite(page.width) && std::isfinite(page.height);
-  if (!(finite && page.width > 0.0 && page.height > 0.0)) {
-    throw ValueError("a page of " + std::to_string(page.width) + " m x " + std::to_string(page.height) + " m");
-  }
+void require_valid(const PracticePage& page, int active) {
+  require_above_zero("width of the page", page.width, "m");
+  require_above_zero("height of the page", page.height, "m");
   const int count = static_cast<int>(page.characters.size());
   if (active < 0 || active >= count) {
     throw ValueError("active character " + std::to_string(active) + ": the page has " + std::to_string(count));
   }
   for (int i = 0; i < count; ++i) {
-    const std::vector<Problem> problems = validate(page.characters[static_cast<std::size_t>(i)].character);
+    const std::vector<ValidationIssue> problems = validate(page.characters[static_cast<std::size_t>(i)].character);
     if (!problems.empty()) throw ValueError("character " + std::to_string(i) + " of the page: " + problems[0].what);
   }
 }
 
 }  // namespace
 
-std::string page_picture(const Page& page, const Recording& recording, int active, const std::string& title) {
+std::string page_picture(const PracticePage& page, const Recording& recording, int active, const std::string& title) {
   require_valid(page, active);
   const int count = static_cast<int>(page.characters.size());
   const std::string heading = svg::clean(title);

@@ -16,9 +16,9 @@
 namespace calligraphy {
 namespace {
 
-constexpr int plot_width = 900, plot_height = 620;         // [px]
-constexpr double panel_left = 0.095, panel_right = 0.975;  // of the panels, share of the width
-constexpr std::size_t buckets = 2000;                      // two points each
+constexpr int plot_width = 900, plot_height = 620;  // [px]
+constexpr double left = 0.095, right = 0.975;       // of the panels, share of the width
+constexpr std::size_t buckets = 2000;               // two points each
 
 /// A time during which a stroke was being written [s].
 struct Band {
@@ -43,12 +43,12 @@ Signals signals_of(const Recording& recording, int character) {
   Signals signals{{}, {{"fx", {}}, {"fy", {}}, {"size", {}}, {"normal", {}}}, {}};
   bool writing = false;
   double end = 0.0;
-  for (const Sample& sample : recording.samples) {
+  for (const RecordedSample& sample : recording.samples) {
     // The tick that finishes the last stroke may already belong to the next character.
     const bool here = sample.character == character;
     if (writing && !(here && sample.state == InteractionState::writing)) {
       signals.bands.back().end = sample.time;
-      signals.bands.back().abandoned = has(sample.events, TickEvent::stroke_abandoned);
+      signals.bands.back().abandoned = has_event(sample.events, TickEvent::stroke_abandoned);
       writing = false;
     }
     if (!here || !std::isfinite(sample.time)) continue;
@@ -98,7 +98,7 @@ std::string band_objects(const std::vector<Band>& bands) {
 
 /// Stroke numbers above the bands, but not one on another.
 std::string band_labels(const std::vector<Band>& bands, double begin, double end) {
-  const double needed = 20.0 / (plot_width * (panel_right - panel_left)) * (end - begin);
+  const double needed = 20.0 / (plot_width * (right - left)) * (end - begin);
   double last = -std::numeric_limits<double>::infinity();
   std::string text;
   for (const Band& band : bands) {
@@ -133,16 +133,16 @@ std::string script(const Signals& signals) {
   const double end = std::max(signals.time.back(), begin + 1e-3);
   std::string text = gnuplot::svg_terminal(plot_width, plot_height);
   for (const Signal& signal : signals.curves) text += data_block(signals.time, signal);
-  text += "set lmargin at screen " + gnuplot::numeral(panel_left) + "\nset rmargin at screen " +
-          gnuplot::numeral(panel_right) + "\n" + "set xrange [" + gnuplot::numeral(begin) + ":" +
-          gnuplot::numeral(end) + "]\n" + band_objects(signals.bands) +
+  text += "set lmargin at screen " + gnuplot::numeral(left) + "\nset rmargin at screen " + gnuplot::numeral(right) +
+          "\n" + "set xrange [" + gnuplot::numeral(begin) + ":" + gnuplot::numeral(end) + "]\n" +
+          band_objects(signals.bands) +
           "set grid back linetype 1 linecolor rgb '#dcdcdc' linewidth 0.5\n"
           "set border 3 linecolor rgb '#666666'\nset tics nomirror out\n"
           "set xzeroaxis linetype 1 linecolor rgb '#999999'\n";
   text +=
       "set multiplot\n"
       "set tmargin at screen 0.865\nset bmargin at screen 0.515\n"
-      "set format x ''\nset label 'force in the plane [N]' at screen 0.022, graph 0.5 center rotate\n"
+      "set format x ''\nset label 'in-plane force [N]' at screen 0.022, graph 0.5 center rotate\n"
       "set key horizontal at screen 0.975, 0.942 right top samplen 2\n" +
       band_labels(signals.bands, begin, end) + y_range(std::span(signals.curves).first(3)) +
       "plot $size with lines linewidth 1.6 linecolor rgb '#555555' title '|F|', "
@@ -160,12 +160,12 @@ std::string script(const Signals& signals) {
 std::string band_caption(const std::vector<Band>& bands) {
   if (bands.empty()) return "";
   const bool any = std::any_of(bands.begin(), bands.end(), [](const Band& band) { return band.abandoned; });
-  return std::string("shaded: writing state, with the stroke's number") + (any ? "; grey: given up" : "");
+  return std::string("shaded: writing state, with the stroke number") + (any ? "; grey: abandoned" : "");
 }
 
 }  // namespace
 
-bool can_plot() {
+bool gnuplot_available() {
   try {
     return run_process({"gnuplot", "--version"}, "").exit_code == 0;
   } catch (const Error&) {
@@ -177,15 +177,15 @@ std::string force_plot(const Recording& recording, int character, const std::str
   const std::string heading = svg::clean(title);
   const Signals signals = signals_of(recording, character);
   if (signals.time.empty()) {
-    throw ValueError("character " + std::to_string(character) + " is active in no sample of the recording");
+    throw ValueError("character " + std::to_string(character) + " is not active in any sample of the recording");
   }
   pugi::xml_document document;
   gnuplot::draw(script(signals), document);
   pugi::xml_node root = document.child("svg");
   root.child("title").text() = heading.c_str();
   const double size = std::min(17.0, 0.9 * plot_width / svg::text_width(heading + ".", 1.0));
-  svg::add_text(root, panel_left * plot_width, 26.0, size, heading, {{"font-family", "sans-serif"}, {"fill", "#222222"}});
-  svg::add_text(root, panel_left * plot_width, 46.0, 12.0, band_caption(signals.bands),
+  svg::add_text(root, left * plot_width, 26.0, size, heading, {{"font-family", "sans-serif"}, {"fill", "#222222"}});
+  svg::add_text(root, left * plot_width, 46.0, 12.0, band_caption(signals.bands),
                 {{"font-family", "sans-serif"}, {"fill", "#666666"}});
   return svg::to_string(document);
 }

@@ -25,7 +25,7 @@ struct CloseTemporary {
 };
 using UnnamedFile = std::unique_ptr<std::FILE, CloseTemporary>;
 
-/// Without a name: gone once both sides have closed it.
+/// Unnamed: deleted once both sides have closed it.
 UnnamedFile temporary_file(const std::string& program) {
   UnnamedFile file(std::tmpfile());
   if (!file) fail(program, errno);

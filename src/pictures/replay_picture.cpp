@@ -30,14 +30,14 @@ constexpr const char* device_colour = "#2f9e44";
 // [mm]
 constexpr double sheet_margin = 6.0;
 constexpr double square_side = 86.0;           ///< of a square
-constexpr double sheet_top = 19.0;            ///< title and headings
-constexpr double border = 0.09 * square_side;  ///< within the square, round what is drawn: room for numbers
+constexpr double sheet_top = 19.0;             ///< title and headings
+constexpr double border = 0.09 * square_side;  ///< within the square, around the drawing: space for numbers
 constexpr double text_size = 3.4;
 constexpr double line_height = 4.6;
 constexpr double label_size = 3.4;
 constexpr double arrow_length = 2.4;
 
-constexpr std::size_t most_lines = 12;  ///< of remarks
+constexpr std::size_t max_lines = 12;  ///< of remarks
 
 /// Puts numbers beside paths where they cover each other least.
 class Labels {
@@ -130,32 +130,34 @@ void draw_label(pugi::xml_node parent, Labels& labels, std::span<const Point> po
             {"paint-order", "stroke"}});
 }
 
-bool has_remark(const StrokeVerdict& verdict, std::size_t path, std::initializer_list<RemarkKind> kinds) {
-  return std::any_of(verdict.remarks.begin(), verdict.remarks.end(), [&](const Remark& remark) {
+bool has_remark(const MatchResult& match, std::size_t path, std::initializer_list<StrokeRemarkKind> kinds) {
+  return std::any_of(match.remarks.begin(), match.remarks.end(), [&](const StrokeRemark& remark) {
     return remark.path == static_cast<int>(path) && std::find(kinds.begin(), kinds.end(), remark.kind) != kinds.end();
   });
 }
 
-const char* colour_of(const StrokeVerdict& verdict, std::size_t path) {
-  if (has_remark(verdict, path, {RemarkKind::order, RemarkKind::direction, RemarkKind::extra})) return wrong;
-  if (has_remark(verdict, path, {RemarkKind::joined, RemarkKind::broken, RemarkKind::shape})) return told;
+const char* colour_of(const MatchResult& match, std::size_t path) {
+  if (has_remark(match, path, {StrokeRemarkKind::order, StrokeRemarkKind::direction, StrokeRemarkKind::extra}))
+    return wrong;
+  if (has_remark(match, path, {StrokeRemarkKind::joined, StrokeRemarkKind::broken, StrokeRemarkKind::shape}))
+    return told;
   return ink;
 }
 
-bool is_missing(const StrokeVerdict& verdict, std::size_t stroke) {
-  return std::any_of(verdict.remarks.begin(), verdict.remarks.end(), [stroke](const Remark& remark) {
-    return remark.kind == RemarkKind::missing && remark.stroke == static_cast<int>(stroke);
+bool is_missing(const MatchResult& match, std::size_t stroke) {
+  return std::any_of(match.remarks.begin(), match.remarks.end(), [stroke](const StrokeRemark& remark) {
+    return remark.kind == StrokeRemarkKind::missing && remark.stroke == static_cast<int>(stroke);
   });
 }
 
 bool bounced(const DrawnStroke& drawn) { return drawn.tap && drawn.stroke < 0; }
 
 /// Round all that is shown [em].
-Eigen::AlignedBox2d box_of(const Character& character, std::span<const PenPath> laid, const StrokeVerdict& verdict,
+Eigen::AlignedBox2d box_of(const Character& character, std::span<const PenPath> laid, const MatchResult& match,
                            std::span<const PenPath> guided) {
   Eigen::AlignedBox2d box = bounding_box({character, {Point::Zero(), 1.0}});
   for (std::size_t i = 0; i < laid.size(); ++i) {
-    if (bounced(verdict.drawn[i])) continue;
+    if (bounced(match.drawn[i])) continue;
     for (const Point& point : laid[i]) box.extend(point);
   }
   for (const PenPath& path : guided) {
@@ -195,7 +197,7 @@ void draw_square(pugi::xml_node root, const Character& character, double x, cons
 }
 
 void draw_written(pugi::xml_node root, const Character& character, std::span<const PenPath> paths,
-                  const StrokeVerdict& verdict, const svg::View& view) {
+                  const MatchResult& match, const svg::View& view) {
   pugi::xml_node lines = add(root, "g",
                              {{"class", "written"},
                               {"fill", "none"},
@@ -206,9 +208,9 @@ void draw_written(pugi::xml_node root, const Character& character, std::span<con
   pugi::xml_node standard = add(root, "g", {{"class", "standard-number"}});
   Labels labels;
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    if (bounced(verdict.drawn[i])) continue;
+    if (bounced(match.drawn[i])) continue;
     const std::vector<Point> points = in_picture(paths[i], view);
-    const char* const colour = colour_of(verdict, i);
+    const char* const colour = colour_of(match, i);
     draw_path(lines, points, colour);
     draw_arrow(lines, points, colour);
     draw_label(numbers, labels, points, std::to_string(i + 1), colour);
@@ -216,8 +218,7 @@ void draw_written(pugi::xml_node root, const Character& character, std::span<con
   std::size_t stroke = 0;
   for (const Stroke& each : strokes(character)) {
     const std::vector<Point> points = in_picture(middle_line(each, {Point::Zero(), 1.0}), view);
-    draw_label(standard, labels, points, std::to_string(stroke + 1),
-               is_missing(verdict, stroke) ? wrong : number_colour);
+    draw_label(standard, labels, points, std::to_string(stroke + 1), is_missing(match, stroke) ? wrong : number_colour);
     ++stroke;
   }
 }
@@ -232,28 +233,28 @@ void draw_guided(pugi::xml_node root, std::span<const PenPath> guided, const svg
   for (const PenPath& path : guided) draw_path(lines, in_picture(path, view), device_colour);
 }
 
-std::vector<std::string> lines_of(const StrokeVerdict& verdict) {
+std::vector<std::string> lines_of(const MatchResult& match) {
   std::vector<std::string> lines;
-  for (const Remark& remark : verdict.remarks)
-    lines.push_back(std::string(name_of(remark.kind)) + ": " + remark.reason);
-  if (lines.empty()) lines.emplace_back("every stroke in its turn and direction");
-  if (lines.size() > most_lines) {
-    const std::size_t more = lines.size() - most_lines + 1;
-    lines.resize(most_lines - 1);
-    lines.push_back("and " + std::to_string(more) + " remarks more");
+  for (const StrokeRemark& remark : match.remarks)
+    lines.push_back(std::string(to_string(remark.kind)) + ": " + remark.reason);
+  if (lines.empty()) lines.emplace_back("all strokes in the correct order and direction");
+  if (lines.size() > max_lines) {
+    const std::size_t more = lines.size() - max_lines + 1;
+    lines.resize(max_lines - 1);
+    lines.push_back("and " + std::to_string(more) + " more remarks");
   }
   return lines;
 }
 
 }  // namespace
 
-std::string replay_picture(const Character& character, std::span<const PenPath> paths, const StrokeVerdict& verdict,
+std::string replay_picture(const Character& character, std::span<const PenPath> paths, const MatchResult& match,
                            std::span<const PenPath> guided, const std::string& title) {
-  if (verdict.drawn.size() != paths.size()) {
-    throw ValueError("a verdict on " + std::to_string(verdict.drawn.size()) + " pen-downs, of which there are " +
-                     std::to_string(paths.size()));
+  if (match.drawn.size() != paths.size()) {
+    throw ValueError("replay picture: the match has " + std::to_string(match.drawn.size()) +
+                     " pen-downs, expected the same number as paths, " + std::to_string(paths.size()));
   }
-  const std::vector<std::string> lines = lines_of(verdict);
+  const std::vector<std::string> lines = lines_of(match);
   const double width = 3.0 * sheet_margin + 2.0 * square_side;
   const double height = sheet_top + square_side + 4.0 + line_height * static_cast<double>(lines.size() + 1) + 3.0;
   pugi::xml_document document;
@@ -263,13 +264,13 @@ std::string replay_picture(const Character& character, std::span<const PenPath> 
   std::vector<PenPath> laid;
   for (const PenPath& path : paths) {
     PenPath& moved = laid.emplace_back();
-    for (const Point& point : path) moved.push_back(verdict.fit(point));
+    for (const Point& point : path) moved.push_back(match.fit(point));
   }
-  const Eigen::AlignedBox2d box = box_of(character, laid, verdict, guided);
+  const Eigen::AlignedBox2d box = box_of(character, laid, match, guided);
   const svg::View left = view_of(box, sheet_margin), right = view_of(box, 2.0 * sheet_margin + square_side);
   draw_square(root, character, sheet_margin, "as written", left);
-  draw_written(root, character, laid, verdict, left);
-  draw_square(root, character, 2.0 * sheet_margin + square_side, "the device under guidance", right);
+  draw_written(root, character, laid, match, left);
+  draw_square(root, character, 2.0 * sheet_margin + square_side, "device, under guidance", right);
   draw_guided(root, guided, right);
 
   double y = sheet_top + square_side + 5.5;

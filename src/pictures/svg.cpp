@@ -1,6 +1,5 @@
 #include "svg.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <sstream>
@@ -8,11 +7,13 @@
 #include <calligraphy/base/text.hpp>
 #include <calligraphy/model/bezier.hpp>
 
+#include "base/charconv.hpp"
+
 namespace calligraphy::svg {
 
 std::string number(double value) {
   char buffer[512];
-  const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed, 3);
+  const auto [end, error] = to_chars_fixed(buffer, buffer + sizeof buffer, value, 3);
   std::string text(buffer, end);
   text.erase(text.find_last_not_of('0') + 1);
   if (text.ends_with('.')) text.pop_back();

@@ -133,7 +133,7 @@ void draw_key(pugi::xml_node parent, double x, double y) {
 }  // namespace
 
 std::string typical_strokes_picture() {
-  constexpr int rows = (typical_stroke_count + sheet_columns) / sheet_columns;  // one cell more, for the key
+  constexpr int rows = (typical_stroke_count + sheet_columns) / sheet_columns;  // one more cell, for the key
   const double width = sheet_columns * cell_width + 2.0 * table_margin;
   const std::string title = "The " + std::to_string(typical_stroke_count) + " typical strokes";
   pugi::xml_document document;

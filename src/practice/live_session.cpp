@@ -6,9 +6,10 @@
 #include <cmath>
 #include <thread>
 
-#include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/sample_queue.hpp>
 
+#include "base/monotonic_clock.hpp"
+#include "base/require.hpp"
 #include "session_tick.hpp"
 
 namespace calligraphy {
@@ -18,33 +19,31 @@ namespace {
 constexpr std::chrono::milliseconds glance(20);
 
 /// For as long may the calling thread be away before ticks are lost [s].
-constexpr double longest_absence = 2.0;
+constexpr double max_absence = 2.0;
 
 /// Of the servo loop, when its rate is low [ticks].
-constexpr double least_patience = 3.0;
+constexpr double min_patience = 3.0;
 
 }  // namespace
 
-Capabilities limited(Capabilities capabilities, double peak_force) {
-  if (!(peak_force > 0.0)) throw ValueError("peak_force = " + std::to_string(peak_force) + " N, must be above 0");
+Capabilities with_peak_force(Capabilities capabilities, double peak_force) {
+  require(peak_force > 0.0, "peak_force", peak_force, "N", "above 0");
   capabilities.peak_force = std::min(capabilities.peak_force, peak_force);
   capabilities.continuous_force = std::min(capabilities.continuous_force, peak_force);
   return capabilities;
 }
 
-LiveResult write_with_device(const Page& page, HapticDevice& device, const LiveOptions& options) {
-  if (!std::isfinite(options.longest) || options.longest <= 0.0) {
-    throw ValueError("longest = " + std::to_string(options.longest) + " s, must be finite and above 0");
-  }
+LiveResult write_with_device(const PracticePage& page, HapticDevice& device, const LiveOptions& options) {
+  require_above_zero("timeout", options.timeout, "s");
   validate(device.capabilities());
   const MotionMapping mapping = upright_page(page.width, page.height);
-  HapticRenderer renderer(page.characters, mapping, limited(device.capabilities(), options.peak_force),
+  HapticRenderer renderer(page.characters, mapping, with_peak_force(device.capabilities(), options.peak_force),
                           options.renderer);
   SessionTick session(renderer, options.mode, true);
-  SampleQueue<Sample> queue(static_cast<std::size_t>(std::ceil(longest_absence * options.renderer.servo_rate)));
+  SampleQueue<RecordedSample> queue(static_cast<std::size_t>(std::ceil(max_absence * options.renderer.servo_rate)));
   ServoLoopOptions servo = options.servo;
   servo.servo.rate = options.renderer.servo_rate;
-  servo.servo.patience = std::max(servo.servo.patience, least_patience / servo.servo.rate);
+  servo.servo.timeout = std::max(servo.servo.timeout, min_patience / servo.servo.rate);
   std::atomic<bool> in_front = false;  // an inkwell lies behind the paper: the way out of it is no writing
   ServoLoop loop(
       device,
@@ -66,15 +65,14 @@ LiveResult write_with_device(const Page& page, HapticDevice& device, const LiveO
     while (queue.pop(view.newest)) result.recording.samples.push_back(view.newest);
   };
   const int count = static_cast<int>(page.characters.size());
-  const auto begin = std::chrono::steady_clock::now();
-  const std::chrono::duration<double> longest(options.longest);
+  const double begin = monotonic_seconds();
   result.warnings = loop.start();
-  while (std::chrono::steady_clock::now() - begin < longest) {
+  while (monotonic_seconds() - begin < options.timeout) {
     std::this_thread::sleep_for(glance);
     take_over();
     view.servo = loop.status();
-    view.begun = in_front.load(std::memory_order_relaxed);
-    view.share = share_written(page, view.newest.character, view.newest.stroke);
+    view.started = in_front.load(std::memory_order_relaxed);
+    view.progress = share_written(page, view.newest.character, view.newest.stroke);
     if (options.watch && !options.watch(view)) break;
     if (view.newest.character >= count && view.newest.state != InteractionState::writing) break;
   }

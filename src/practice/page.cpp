@@ -6,38 +6,31 @@
 
 #include <calligraphy/base/error.hpp>
 
+#include "base/require.hpp"
+
 namespace calligraphy {
-namespace {
 
-void require_length(const char* name, double value, bool may_be_zero) {
-  if (std::isfinite(value) && (value > 0.0 || (may_be_zero && value == 0.0))) return;
-  throw ValueError(std::string("page layout: ") + name + " = " + std::to_string(value) + " m, must be finite and " +
-                   (may_be_zero ? "at least 0" : "above 0"));
-}
-
-}  // namespace
-
-std::vector<Page> lay_out(std::span<const Character> characters, const PageLayout& layout) {
-  require_length("width", layout.width, false);
-  require_length("height", layout.height, false);
-  require_length("em", layout.em, false);
-  require_length("gap", layout.gap, true);
+std::vector<PracticePage> lay_out(std::span<const Character> characters, const PageLayout& layout) {
+  require_above_zero("page layout: width", layout.width, "m");
+  require_above_zero("page layout: height", layout.height, "m");
+  require_above_zero("page layout: em", layout.em, "m");
+  require_not_negative("page layout: gap", layout.gap, "m");
   const double pitch = layout.em + layout.gap;
   const double columns_that_fit = std::floor((layout.width - layout.gap) / pitch);
   const double rows_that_fit = std::floor((layout.height - layout.gap) / pitch);
   if (columns_that_fit < 1.0 || rows_that_fit < 1.0) {
-    throw ValueError("page layout: a square of " + std::to_string(layout.em) + " m does not fit a page of " +
+    throw ValueError("page layout: a square of " + std::to_string(layout.em) + " m does not fit on a page of " +
                      std::to_string(layout.width) + " m x " + std::to_string(layout.height) + " m");
   }
   const std::size_t most = std::max<std::size_t>(characters.size(), 1);
   const auto columns = static_cast<std::size_t>(std::min(columns_that_fit, static_cast<double>(most)));
   const auto rows = static_cast<std::size_t>(std::min(rows_that_fit, static_cast<double>(most)));
 
-  std::vector<Page> pages;
+  std::vector<PracticePage> pages;
   for (std::size_t first = 0; first < characters.size(); first += columns * rows) {
     const auto on_page = characters.subspan(first, std::min(columns * rows, characters.size() - first));
     const std::size_t rows_used = (on_page.size() + columns - 1) / columns;
-    Page page{layout.width, layout.height, {}};
+    PracticePage page{layout.width, layout.height, {}};
     for (std::size_t i = 0; i < on_page.size(); ++i) {
       const std::size_t row = i / columns;
       const std::size_t in_row = std::min(columns, on_page.size() - row * columns);

@@ -8,9 +8,9 @@
 namespace calligraphy {
 namespace {
 
-constexpr double flat = 0.15;            // a side of a box below this is flat [em]
-constexpr double longest_bounce = 0.05;  // nobody lifts a pen and lowers it again within half a period of 10 Hz [s]
-constexpr double largest_stretch = 1.5;  // of one axis against the other
+constexpr double flat = 0.15;        // a side of a box below this is flat [em]
+constexpr double max_bounce = 0.05;  // nobody lifts a pen and lowers it again within half a period of 10 Hz [s]
+constexpr double max_stretch = 1.5;  // of one axis against the other
 
 Eigen::AlignedBox2d box_of(std::span<const PenPath> paths) {
   Eigen::AlignedBox2d written, everything;
@@ -45,10 +45,10 @@ std::vector<PenPath> pen_paths(const PenTrace& trace) {
 std::vector<PenPath> pen_paths(const Recording& recording, const Placement& placement) {
   std::vector<PenPath> paths;
   double last_touch = -std::numeric_limits<double>::infinity();
-  for (const Sample& sample : recording.samples) {
+  for (const RecordedSample& sample : recording.samples) {
     const bool good = sample.status == TickStatus::ok && sample.pen_tip.allFinite();
     if (sample.state == InteractionState::separation || !good) continue;
-    if (paths.empty() || sample.time > last_touch + longest_bounce) paths.emplace_back();
+    if (paths.empty() || sample.time > last_touch + max_bounce) paths.emplace_back();
     paths.back().push_back((sample.pen_tip.head<2>() - placement.origin) / placement.em);
     last_touch = sample.time;
   }
@@ -67,7 +67,7 @@ BoxMap fit_box(std::span<const PenPath> paths, const Character& character) {
   if (flat_x) map.scale.x() = map.scale.y();
   if (flat_y) map.scale.y() = map.scale.x();
   const double mean = std::sqrt(map.scale.x() * map.scale.y());
-  const double limit = std::sqrt(largest_stretch);
+  const double limit = std::sqrt(max_stretch);
   const double stretch = std::clamp(std::sqrt(map.scale.x() / map.scale.y()), 1.0 / limit, limit);
   map.scale = {mean * stretch, mean / stretch};
   map.offset = to.center() - map.scale.cwiseProduct(from.center());

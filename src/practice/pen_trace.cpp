@@ -1,7 +1,6 @@
 #include <calligraphy/practice/pen_trace.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -15,23 +14,26 @@
 #include <calligraphy/base/file.hpp>
 #include <calligraphy/base/text.hpp>
 
+#include "base/charconv.hpp"
+#include "base/line_reader.hpp"
+
 namespace calligraphy {
 namespace {
 
-// What no person's pen exceeds: a file beyond is not what it should be.
-constexpr std::size_t most_traces = 1000000;
-constexpr std::size_t most_trace_strokes = 1000;
-constexpr std::size_t most_stroke_points = 1000000;  // of a stroke: a quarter of an hour at 1 kHz
-constexpr double farthest = 10.0;             // coordinate [em]
-constexpr double largest_em = 1e9;            // [file's units]
-constexpr double longest_time = 86400.0;      // [s]
-constexpr double finest = 1e-6;               // that is written [unit, ms]
+// Limits that no person's pen exceeds: a file beyond them is rejected.
+constexpr std::size_t max_traces = 1000000;
+constexpr std::size_t max_trace_strokes = 1000;
+constexpr std::size_t max_stroke_points = 1000000;  // of a stroke: a quarter of an hour at 1 kHz
+constexpr double farthest = 10.0;                   // coordinate [em]
+constexpr double max_em = 1e9;                      // [file's units]
+constexpr double max_time = 86400.0;                // [s]
+constexpr double finest = 1e-6;                     // that is written [unit, ms]
 
 constexpr double milliseconds = 1e3;
 
 std::string code_in_hex(char32_t code) {
   char buffer[16];
-  char* const end = std::to_chars(buffer, buffer + sizeof buffer, static_cast<std::uint32_t>(code), 16).ptr;
+  char* const end = to_chars(buffer, buffer + sizeof buffer, static_cast<std::uint32_t>(code), 16).ptr;
   std::transform(buffer, end, buffer, [](char c) { return c >= 'a' ? static_cast<char>(c - 'a' + 'A') : c; });
   const std::string digits(buffer, end);
   return std::string(digits.size() < 4 ? 4 - digits.size() : 0, '0') + digits;
@@ -43,9 +45,9 @@ std::optional<Number> number_in(std::string_view word, int base = 10) {
   const char* const end = word.data() + word.size();
   std::from_chars_result result{};
   if constexpr (std::is_floating_point_v<Number>) {
-    result = std::from_chars(word.data(), end, value);
+    result = from_chars(word.data(), end, value);
   } else {
-    result = std::from_chars(word.data(), end, value, base);
+    result = from_chars(word.data(), end, value, base);
   }
   if (result.ec != std::errc() || result.ptr != end) return std::nullopt;
   return value;
@@ -55,9 +57,9 @@ bool is_character(char32_t code) {
   return code > 0x20 && code != 0x7F && code <= 0x10FFFF && !(code >= 0xD800 && code <= 0xDFFF);
 }
 
-class TraceParser {
+class TraceParser : private LineReader {
  public:
-  TraceParser(std::istream& in, std::string_view name) : in_(in), name_(name) {}
+  TraceParser(std::istream& in, std::string_view name) : LineReader(in, name) {}
 
   std::vector<PenTrace> parse() {
     std::vector<PenTrace> traces;
@@ -65,49 +67,38 @@ class TraceParser {
       const std::string_view kind = next_word("C, S or a comment");
       if (kind == "C") {
         require_complete(traces);
-        if (traces.size() >= most_traces) fail("more than " + std::to_string(most_traces) + " characters");
+        if (traces.size() >= max_traces) fail("more than " + std::to_string(max_traces) + " characters");
         traces.push_back(trace());
       } else if (kind == "S") {
         if (traces.empty()) fail("a stroke before the first character");
         if (traces.back().strokes.size() >= announced_) {
-          fail("a stroke too many: its character was to have " + std::to_string(announced_));
+          fail("one stroke too many: the number of strokes given for the character is " + std::to_string(announced_));
         }
         traces.back().strokes.push_back(stroke(traces.back()));
       } else {
         fail("the line begins with '" + std::string(kind) + "': expected C, S or #");
       }
-      if (!rest_.empty()) fail("'" + std::string(rest_.substr(0, 40)) + "' stands after what the line should hold");
+      if (!rest_.empty()) fail("unexpected '" + std::string(rest_.substr(0, 40)) + "' at the end of the line");
     }
     require_complete(traces);
     return traces;
   }
 
  private:
-  [[noreturn]] void fail(const std::string& what) const {
-    throw FormatError(name_ + ":" + std::to_string(line_number_) + ": " + what);
-  }
-
-  /// The next line that holds something. A last line without its end may hold a number that was cut in two.
+  /// The next line that holds something.
   bool next_line() {
-    for (;;) {
-      ++line_number_;
-      const bool found = static_cast<bool>(std::getline(in_, line_));
-      if (in_.bad()) throw FileError(name_ + ": cannot be read");
-      if (!found) return false;
-      if (in_.eof())
-        fail("the file is cut off after '" + line_.substr(line_.size() - std::min<std::size_t>(line_.size(), 40)) +
-             "'");
-      if (line_.ends_with('\r')) line_.pop_back();
-      rest_ = line_;
+    while (next_whole()) {
+      rest_ = line();
       if (!rest_.empty() && rest_.front() != '#') return true;
     }
+    return false;
   }
 
   std::string_view next_word(const char* expected) {
     const std::size_t blank = rest_.find(' ');
     const std::string_view word = rest_.substr(0, blank);
     rest_.remove_prefix(blank == std::string_view::npos ? rest_.size() : blank + 1);
-    if (word.empty()) fail(std::string("the line ends or has two blanks where it should have ") + expected);
+    if (word.empty()) fail(std::string("expected ") + expected + ", found the end of the line or an extra space");
     return word;
   }
 
@@ -128,7 +119,7 @@ class TraceParser {
 
   static std::string shown(double value) {
     char buffer[32];
-    return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
+    return {buffer, to_chars(buffer, buffer + sizeof buffer, value).ptr};
   }
 
   PenTrace trace() {
@@ -136,14 +127,14 @@ class TraceParser {
     const std::string_view text = next_word("a character");
     const std::string_view hex = next_word("its code");
     const auto code = number_in<std::uint32_t>(hex, 16);
-    if (!code || !is_character(*code)) fail("the code is '" + std::string(hex) + "': expected that of a character");
+    if (!code || !is_character(*code)) fail("the code is '" + std::string(hex) + "': expected a Unicode character");
     trace.character = *code;
     if (encode_utf8(trace.character) != text) {
-      fail("the character is not that of the code " + std::string(hex) + ", or it is not UTF-8");
+      fail("the character does not match the code " + std::string(hex) + ", or is not UTF-8");
     }
     trace.set = utf8(next_word("the name of a set"));
-    trace.em = next_number("the em", finest, largest_em);
-    announced_ = next_count("the number of strokes", most_trace_strokes);
+    trace.em = next_number("the em", finest, max_em);
+    announced_ = next_count("the number of strokes", max_trace_strokes);
     last_time_ = 0.0;
     return trace;
   }
@@ -158,7 +149,7 @@ class TraceParser {
   }
 
   PenStroke stroke(const PenTrace& trace) {
-    const std::size_t count = next_count("the number of points", most_stroke_points);
+    const std::size_t count = next_count("the number of points", max_stroke_points);
     // Each point is a word of three numbers: a count beyond them must not be believed.
     if (count > rest_.size() / 5 + 1) fail("the line is too short for " + std::to_string(count) + " points");
     PenStroke stroke;
@@ -167,8 +158,8 @@ class TraceParser {
     for (std::size_t i = 0; i < count; ++i) {
       const double x = next_number("x", -bound, bound);
       const double y = next_number("y", -bound, bound);
-      const double time = next_number("the time", 0.0, longest_time * milliseconds);
-      if (time < last_time_) fail("the time falls from " + shown(last_time_) + " to " + shown(time) + " ms");
+      const double time = next_number("the time", 0.0, max_time * milliseconds);
+      if (time < last_time_) fail("the time decreases from " + shown(last_time_) + " to " + shown(time) + " ms");
       last_time_ = time;
       stroke.push_back({{x / trace.em, 1.0 - y / trace.em}, time / milliseconds});
     }
@@ -177,15 +168,11 @@ class TraceParser {
 
   void require_complete(const std::vector<PenTrace>& traces) const {
     if (traces.empty() || traces.back().strokes.size() == announced_) return;
-    fail("the character before has " + std::to_string(traces.back().strokes.size()) + " strokes of " +
-         std::to_string(announced_));
+    fail("the previous character has " + std::to_string(traces.back().strokes.size()) + " of " +
+         std::to_string(announced_) + " strokes");
   }
 
-  std::istream& in_;
-  std::string name_;
-  std::string line_;
-  std::string_view rest_;  ///< of line_
-  int line_number_ = 0;
+  std::string_view rest_;      ///< of the line
   std::size_t announced_ = 0;  ///< strokes of the last character
   double last_time_ = 0.0;     ///< [ms]
 };
@@ -193,7 +180,7 @@ class TraceParser {
 void append_rounded(std::string& text, double value) {
   char buffer[64];
   const double rounded = std::round(value / finest) * finest;
-  char* end = std::to_chars(buffer, buffer + sizeof buffer, rounded, std::chars_format::fixed, 6).ptr;
+  char* end = to_chars_fixed(buffer, buffer + sizeof buffer, rounded, 6).ptr;
   while (end[-1] == '0') --end;
   if (end[-1] == '.') --end;
   const std::string_view digits(buffer, static_cast<std::size_t>(end - buffer));
@@ -209,19 +196,19 @@ void require_writable(const PenTrace& trace, std::size_t index) {
   require(!trace.set.empty() && trace.set.find_first_of(" \r\n") == std::string::npos,
           "its set is '" + trace.set + "': expected a word");
   decode_utf8(trace.set);
-  require(trace.em >= finest && trace.em <= largest_em, "its em is " + std::to_string(trace.em));
-  require(!trace.strokes.empty() && trace.strokes.size() <= most_trace_strokes,
+  require(trace.em >= finest && trace.em <= max_em, "its em is " + std::to_string(trace.em));
+  require(!trace.strokes.empty() && trace.strokes.size() <= max_trace_strokes,
           "it has " + std::to_string(trace.strokes.size()) + " strokes");
   double last = 0.0;
   for (std::size_t i = 0; i < trace.strokes.size(); ++i) {
     const std::string place = "stroke " + std::to_string(i + 1);
     const PenStroke& stroke = trace.strokes[i];
-    require(!stroke.empty() && stroke.size() <= most_stroke_points,
+    require(!stroke.empty() && stroke.size() <= max_stroke_points,
             place + " has " + std::to_string(stroke.size()) + " points");
     for (const TimedPoint& point : stroke) {
       require(std::abs(point.point.x()) <= farthest && std::abs(1.0 - point.point.y()) <= farthest,
               place + " has a point at " + std::to_string(point.point.x()) + ", " + std::to_string(point.point.y()));
-      require(point.time >= last && point.time <= longest_time,
+      require(point.time >= last && point.time <= max_time,
               place + " has a time of " + std::to_string(point.time) + " s after " + std::to_string(last) + " s");
       last = point.time;
     }

@@ -1,7 +1,6 @@
 #include <calligraphy/practice/recording.hpp>
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <istream>
@@ -12,6 +11,9 @@
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/file.hpp>
+
+#include "base/charconv.hpp"
+#include "base/line_reader.hpp"
 
 namespace calligraphy {
 namespace {
@@ -27,18 +29,6 @@ constexpr std::array states = {InteractionState::separation, InteractionState::a
 constexpr std::array statuses = {TickStatus::ok, TickStatus::bad_sample, TickStatus::device_fault};
 constexpr int all_events = 2 * static_cast<int>(TickEvent::page_finished) - 1;
 
-const char* name_of(TickStatus status) noexcept {
-  switch (status) {
-    case TickStatus::ok:
-      return "ok";
-    case TickStatus::bad_sample:
-      return "bad_sample";
-    case TickStatus::device_fault:
-      return "device_fault";
-  }
-  return "";
-}
-
 std::string header() {
   std::string text;
   for (const std::string_view column : column_names) text.append(text.empty() ? "" : ",").append(column);
@@ -48,71 +38,58 @@ std::string header() {
 template <typename Number>
 void append(std::string& text, Number value) {
   char buffer[32];
-  text.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
+  text.append(buffer, to_chars(buffer, buffer + sizeof buffer, value).ptr);
 }
 
-void append_row(std::string& text, const Sample& sample) {
+void append_row(std::string& text, const RecordedSample& sample) {
   append(text, sample.time);
   for (const Eigen::Vector3d* vector : {&sample.device_point, &sample.pen_tip, &sample.force}) {
     for (const double value : *vector) append(text += ',', value);
   }
-  text.append(",").append(short_name(sample.state));
+  text.append(",").append(to_string(sample.state));
   append(text += ',', static_cast<int>(sample.events));
-  text.append(",").append(name_of(sample.status));
+  text.append(",").append(to_string(sample.status));
   append(text += ',', sample.character);
   append(text += ',', sample.stroke);
   append(text += ',', sample.tick_ns);
   text += '\n';
 }
 
-/// Reads what write_csv writes, and nothing else but line ends of either kind.
-class RecordingParser {
+/// Reads what write_recording writes, and nothing else but line ends of either kind.
+class RecordingParser : private LineReader {
  public:
-  RecordingParser(std::istream& in, std::string_view name) : in_(in), name_(name) {}
+  RecordingParser(std::istream& in, std::string_view name) : LineReader(in, name) {}
 
   Recording parse() {
-    next_line();
-    if (line_ != header()) fail("expected '" + header() + "', found '" + line_ + "'");
-    next_line();
-    if (!line_.starts_with(rate_comment)) {
-      fail("expected '" + std::string(rate_comment) + "...', found '" + line_ + "'");
+    next_whole();
+    if (line() != header()) fail("expected '" + header() + "', found '" + line() + "'");
+    next_whole();
+    if (!line().starts_with(rate_comment)) {
+      fail("expected '" + std::string(rate_comment) + "...', found '" + line() + "'");
     }
     Recording recording;
-    recording.rate = number<double>("rate_Hz", std::string_view(line_).substr(rate_comment.size()));
+    recording.rate = number<double>("rate_Hz", std::string_view(line()).substr(rate_comment.size()));
     if (!(std::isfinite(recording.rate) && recording.rate > 0.0)) {
-      fail("rate_Hz is '" + line_.substr(rate_comment.size()) + "': expected a finite number above 0");
+      fail("rate_Hz is '" + line().substr(rate_comment.size()) + "': expected a finite number above 0");
     }
-    while (next_line()) recording.samples.push_back(sample());
+    while (next_whole()) recording.samples.push_back(sample());
     return recording;
   }
 
  private:
-  [[noreturn]] void fail(const std::string& what) const {
-    throw FormatError(name_ + ":" + std::to_string(line_number_) + ": " + what);
-  }
-
-  /// A last line without its end may hold a number that was cut in two.
-  bool next_line() {
-    ++line_number_;
-    const bool found = static_cast<bool>(std::getline(in_, line_));
-    if (in_.bad()) throw FileError(name_ + ": cannot be read");
-    if (!found) return false;
-    if (in_.eof()) fail("the file is cut off after '" + line_ + "'");
-    if (line_.ends_with('\r')) line_.pop_back();
-    return true;
-  }
-
-  Sample sample() {
+  RecordedSample sample() {
     split();
     column_ = 0;
-    Sample sample;
+    RecordedSample sample;
     sample.time = next_number<double>();
     for (Eigen::Vector3d* vector : {&sample.device_point, &sample.pen_tip, &sample.force}) {
       for (double& value : *vector) value = next_number<double>();
     }
-    sample.state = next_of(states, short_name, "SS, AS, CS or WS");
+    sample.state = next_of(
+        states, [](auto each) { return to_string(each); }, "SS, AS, CS or WS");
     sample.events = static_cast<TickEvent>(next_integer(all_events));
-    sample.status = next_of(statuses, name_of, "ok, bad_sample or device_fault");
+    sample.status = next_of(
+        statuses, [](auto each) { return to_string(each); }, "ok, bad_sample or device_fault");
     sample.character = next_integer(std::numeric_limits<int>::max());
     sample.stroke = next_integer(std::numeric_limits<int>::max());
     sample.tick_ns = next_number<float>();
@@ -121,7 +98,7 @@ class RecordingParser {
 
   void split() {
     std::size_t count = 0;
-    std::string_view rest = line_;
+    std::string_view rest = line();
     for (bool more = true; more; ++count) {
       const std::size_t comma = rest.find(',');
       if (count < values_.size()) values_[count] = rest.substr(0, comma);
@@ -129,15 +106,15 @@ class RecordingParser {
       if (more) rest.remove_prefix(comma + 1);
     }
     if (count != column_names.size()) {
-      fail("expected " + std::to_string(column_names.size()) + " values, found " + std::to_string(count) + " in '" +
-           line_ + "'");
+      fail("expected " + std::to_string(column_names.size()) + " values, found " + std::to_string(count) + " in '" + line() +
+           "'");
     }
   }
 
   template <typename Number>
   Number number(std::string_view column, std::string_view text) const {
     Number value{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const auto [end, error] = from_chars(text.data(), text.data() + text.size(), value);
     if (error == std::errc::result_out_of_range) {
       fail(std::string(column) + " is '" + std::string(text) + "': out of range");
     }
@@ -171,21 +148,17 @@ class RecordingParser {
     fail(std::string(column_names[i]) + " is '" + std::string(values_[i]) + "': expected " + expected);
   }
 
-  std::istream& in_;
-  std::string name_;
-  std::string line_;
-  int line_number_ = 0;
-  std::array<std::string_view, column_names.size()> values_;  ///< of line_
+  std::array<std::string_view, column_names.size()> values_;  ///< of the line
   std::size_t column_ = 0;                               ///< the next one
 };
 
 }  // namespace
 
-void write_csv(std::ostream& out, const Recording& recording) {
+void write_recording(std::ostream& out, const Recording& recording) {
   std::string text = header().append("\n").append(rate_comment);
   append(text, recording.rate);
   text += '\n';
-  for (const Sample& sample : recording.samples) {
+  for (const RecordedSample& sample : recording.samples) {
     append_row(text, sample);
     if (text.size() < chunk) continue;
     out.write(text.data(), static_cast<std::streamsize>(text.size()));
@@ -194,17 +167,17 @@ void write_csv(std::ostream& out, const Recording& recording) {
   out.write(text.data(), static_cast<std::streamsize>(text.size()));
 }
 
-Recording read_csv(std::istream& in, std::string_view name) { return RecordingParser(in, name).parse(); }
+Recording read_recording(std::istream& in, std::string_view name) { return RecordingParser(in, name).parse(); }
 
-Recording read_csv(const std::filesystem::path& path) {
+Recording read_recording(const std::filesystem::path& path) {
   std::ifstream in = open_file(path);
-  return read_csv(in, path.string());
+  return read_recording(in, path.string());
 }
 
 std::vector<DeviceState> device_states(const Recording& recording, const MotionMapping& mapping) {
   std::vector<DeviceState> result;
   result.reserve(recording.samples.size());
-  for (const Sample& sample : recording.samples) {
+  for (const RecordedSample& sample : recording.samples) {
     DeviceState state;
     state.time = sample.time;
     state.position = mapping.to_device(sample.device_point);

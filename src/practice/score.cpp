@@ -16,8 +16,8 @@ namespace calligraphy {
 namespace {
 
 constexpr double contour_tolerance = 0.05;   // RMS error at which the contour score has fallen to 1/e [em]
-constexpr double shortest_attempt = 0.1;     // a path on the paper that is shorter says nothing of a stroke [em]
-constexpr double shortest_time = 0.15;       // a pen that is down for less has bounced [s]
+constexpr double min_attempt = 0.1;          // a path on the paper that is shorter says nothing of a stroke [em]
+constexpr double min_time = 0.15;            // a pen that is down for less has bounced [s]
 constexpr double doubt = 0.05;               // another stroke must be resembled more than the due one by this [em]
 constexpr double backward_tolerance = 0.15;  // going back by more within a stroke is a mistake [em]
 
@@ -56,7 +56,7 @@ struct PathError {
   double rms() const { return length > 0.0 ? std::sqrt(square / length) : largest; }
 };
 
-PathError lateral_error(const Template& stroke, std::span<const Sample> path) {
+PathError lateral_error(const Template& stroke, std::span<const RecordedSample> path) {
   PathError error;
   for (std::size_t i = 0; i < path.size(); ++i) {
     const Point tip = path[i].pen_tip.head<2>();
@@ -66,19 +66,20 @@ PathError lateral_error(const Template& stroke, std::span<const Sample> path) {
   return error;
 }
 
-std::vector<Point> points_of(std::span<const Sample> path) {
+std::vector<Point> points_of(std::span<const RecordedSample> path) {
   std::vector<Point> points;
-  for (const Sample& sample : path) points.push_back(sample.pen_tip.head<2>());
+  for (const RecordedSample& sample : path) points.push_back(sample.pen_tip.head<2>());
   return points;
 }
 
 /// How far the pen went back within a stroke, at most [m].
-double backwards(const PlacedCharacter& placed, std::size_t stroke, std::span<const Sample> path) {
+double backwards(const PlacedCharacter& placed, std::size_t stroke, std::span<const RecordedSample> path) {
   ActiveStroke active;
   active.load(strokes(placed.character)[stroke], placed.placement);
   const StrokeRules rules;
   double most = 0.0;
-  for (const Sample& sample : path) most = std::max(most, active.update(sample.pen_tip.head<2>(), rules).backwards);
+  for (const RecordedSample& sample : path)
+    most = std::max(most, active.update(sample.pen_tip.head<2>(), rules).backwards);
   return most;
 }
 
@@ -98,13 +99,13 @@ Resemblance compare(const Template& stroke, const std::vector<Point>& path) {
   return {std::min(forwards, backwards), backwards < forwards};
 }
 
-std::string name_of(const std::vector<Template>& strokes, std::size_t index) {
+std::string stroke_label(const std::vector<Template>& strokes, std::size_t index) {
   return stroke_name(index, *strokes[index].type);
 }
 
 class CharacterScorer {
  public:
-  CharacterScorer(const PlacedCharacter& placed, std::span<const Sample> samples)
+  CharacterScorer(const PlacedCharacter& placed, std::span<const RecordedSample> samples)
       : placed_(placed), strokes_(templates(placed)), samples_(samples) {
     result_.character = placed.character.code;
     result_.stroke_count = placed.character.stroke_count();
@@ -121,26 +122,26 @@ class CharacterScorer {
 
  private:
   void visit(std::size_t i) {
-    const Sample& sample = samples_[i];
-    if (has(sample.events, TickEvent::contact)) {
+    const RecordedSample& sample = samples_[i];
+    if (has_event(sample.events, TickEvent::contact)) {
       down_ = i;
       due_ = static_cast<std::size_t>(sample.stroke);
       finished_while_down_ = false;
     }
-    if (has(sample.events, TickEvent::stroke_started)) started_ = i;
-    if (has(sample.events, TickEvent::stroke_finished)) {
+    if (has_event(sample.events, TickEvent::stroke_started)) started_ = i;
+    if (has_event(sample.events, TickEvent::stroke_finished)) {
       finish(samples_.subspan(started_, i + 1 - started_));
       finished_while_down_ = true;
       last_finish_ = i;
     }
-    const bool lifted = has(sample.events, TickEvent::lift) && down_ != none;
+    const bool lifted = has_event(sample.events, TickEvent::lift) && down_ != none;
     if (lifted) {
       if (!finished_while_down_ && due_ < strokes_.size()) judge_attempt(samples_.subspan(down_, i - down_));
       down_ = none;
     }
   }
 
-  void finish(std::span<const Sample> path) {
+  void finish(std::span<const RecordedSample> path) {
     const auto stroke = static_cast<std::size_t>(result_.strokes_completed++);
     if (stroke >= strokes_.size()) return;
     const PathError error = lateral_error(strokes_[stroke], path);
@@ -150,18 +151,18 @@ class CharacterScorer {
     contour_ += std::exp(-error.rms() / (contour_tolerance * placed_.placement.em));
     const double back = backwards(placed_, stroke, path);
     if (back > backward_tolerance * placed_.placement.em) {
-      add(MistakeKind::direction, stroke, path.front().time,
-          name_of(strokes_, stroke) + " was written with a stretch of " + std::to_string(std::lround(back * 1e3)) +
-              " mm backwards");
+      add(WritingMistakeKind::direction, stroke, path.front().time,
+          stroke_label(strokes_, stroke) + " was written backwards over " + std::to_string(std::lround(back * 1e3)) +
+              " mm");
     }
   }
 
   /// A pen-down that completed nothing. In doubt the writer meant the stroke that was due.
-  void judge_attempt(std::span<const Sample> path) {
+  void judge_attempt(std::span<const RecordedSample> path) {
     const double em = placed_.placement.em;
-    if (path.size() < 2 || path.back().time - path.front().time < shortest_time) return;
+    if (path.size() < 2 || path.back().time - path.front().time < min_time) return;
     const std::vector<Point> points = points_of(path);
-    if (path_length(points) < shortest_attempt * em) return;
+    if (path_length(points) < min_attempt * em) return;
     std::size_t meant = due_;
     Resemblance best = compare(strokes_[due_], points);
     const double of_due = best.cost;
@@ -173,20 +174,22 @@ class CharacterScorer {
     }
     if (meant != due_) {
       const std::string was = meant < due_ ? " was written again where " : " was written where ";
-      add(MistakeKind::order, due_, path.front().time,
-          name_of(strokes_, meant) + was + name_of(strokes_, due_) + " was due");
+      add(WritingMistakeKind::order, due_, path.front().time,
+          stroke_label(strokes_, meant) + was + stroke_label(strokes_, due_) + " was due");
     } else if (best.backwards) {
-      add(MistakeKind::direction, due_, path.front().time, name_of(strokes_, due_) + " was written from its end");
+      add(WritingMistakeKind::direction, due_, path.front().time,
+          stroke_label(strokes_, due_) + " was written from its end");
     }
   }
 
-  void add(MistakeKind kind, std::size_t stroke, double time, std::string reason) {
+  void add(WritingMistakeKind kind, std::size_t stroke, double time, std::string reason) {
     result_.mistakes.push_back({kind, static_cast<int>(stroke), time, std::move(reason)});
   }
 
   void judge_time_and_force() {
-    const auto first = std::find_if(samples_.begin(), samples_.end(),
-                                    [](const Sample& sample) { return has(sample.events, TickEvent::contact); });
+    const auto first = std::find_if(samples_.begin(), samples_.end(), [](const RecordedSample& sample) {
+      return has_event(sample.events, TickEvent::contact);
+    });
     if (first != samples_.end()) {
       const bool complete = result_.strokes_completed == result_.stroke_count;
       const double end = complete && last_finish_ != none ? samples_[last_finish_].time : samples_.back().time;
@@ -212,7 +215,7 @@ class CharacterScorer {
 
   const PlacedCharacter& placed_;
   const std::vector<Template> strokes_;
-  const std::span<const Sample> samples_;
+  const std::span<const RecordedSample> samples_;
   CharacterScore result_;
   PathError whole_;
   double contour_ = 0.0;
@@ -223,19 +226,19 @@ class CharacterScorer {
   bool finished_while_down_ = false;
 };
 
-int count(const std::vector<Mistake>& mistakes, MistakeKind kind) {
-  return static_cast<int>(
-      std::count_if(mistakes.begin(), mistakes.end(), [kind](const Mistake& mistake) { return mistake.kind == kind; }));
+int count(const std::vector<WritingMistake>& mistakes, WritingMistakeKind kind) {
+  return static_cast<int>(std::count_if(mistakes.begin(), mistakes.end(),
+                                        [kind](const WritingMistake& mistake) { return mistake.kind == kind; }));
 }
 
 }  // namespace
 
-int CharacterScore::order_mistakes() const noexcept { return count(mistakes, MistakeKind::order); }
-int CharacterScore::direction_mistakes() const noexcept { return count(mistakes, MistakeKind::direction); }
+int CharacterScore::order_mistakes() const noexcept { return count(mistakes, WritingMistakeKind::order); }
+int CharacterScore::direction_mistakes() const noexcept { return count(mistakes, WritingMistakeKind::direction); }
 
-std::vector<CharacterScore> score(const Page& page, const Recording& recording) {
+std::vector<CharacterScore> score_page(const PracticePage& page, const Recording& recording) {
   std::vector<CharacterScore> scores;
-  const std::span<const Sample> samples(recording.samples);
+  const std::span<const RecordedSample> samples(recording.samples);
   std::size_t begin = 0;
   for (std::size_t index = 0; index < page.characters.size(); ++index) {
     std::size_t end = begin;

@@ -1,12 +1,11 @@
 #include <calligraphy/practice/session.hpp>
 
-#include <cmath>
-
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/devices/flush_denormals.hpp>
-#include <calligraphy/practice/trace_hand.hpp>
+#include <calligraphy/devices/detail/flush_denormals.hpp>
 
+#include "base/require.hpp"
 #include "session_tick.hpp"
+#include "trace_hand.hpp"
 
 namespace calligraphy {
 namespace {
@@ -21,30 +20,31 @@ Intention to_device(const Intention& page, const MotionMapping& mapping) {
   return {mapping.to_device(page.position), mapping.rotation.transpose() * page.velocity / mapping.scale};
 }
 
-Eigen::Vector3d resting_point(const Page& page) { return {0.5 * page.width, 0.5 * page.height, resting_height}; }
+Eigen::Vector3d resting_point(const PracticePage& page) {
+  return {0.5 * page.width, 0.5 * page.height, resting_height};
+}
 
 }  // namespace
 
-double share_written(const Page& page, int character, int stroke) noexcept {
+const char* to_string(FeedbackMode mode) noexcept { return mode == FeedbackMode::vision ? "vision" : "force"; }
+
+double share_written(const PracticePage& page, int character, int stroke) noexcept {
   const auto count = static_cast<double>(page.characters.size());
   if (character >= static_cast<int>(page.characters.size())) return 1.0;
   const auto& active = page.characters[static_cast<std::size_t>(character)].character;
   return (character + stroke / static_cast<double>(active.stroke_count())) / count;
 }
 
-Recording run_session(const Page& page, const SessionOptions& options, const PenMotion& motion) {
-  if (!std::isfinite(options.longest_character) || options.longest_character <= 0.0) {
-    throw ValueError("longest_character = " + std::to_string(options.longest_character) +
-                     " s, must be finite and above 0");
-  }
+Recording run_session(const PracticePage& page, const SessionOptions& options, const PenMotion& motion) {
+  require_above_zero("character_timeout", options.character_timeout, "s");
   const MotionMapping mapping = upright_page(page.width, page.height);
   HapticRenderer renderer(page.characters, mapping, options.device, options.renderer);
-  SimulatedDevice device(options.device, options.skill.hand, mapping.to_device(resting_point(page)));
+  SimulatedDevice device(options.device, options.skill.grip, mapping.to_device(resting_point(page)));
 
   const FlushDenormals as_a_servo_thread;
   SessionTick session(renderer, options.mode, options.measure_ticks);
   const double period = 1.0 / options.renderer.servo_rate;
-  const double longest = options.longest_character * static_cast<double>(page.characters.size());
+  const double longest = options.character_timeout * static_cast<double>(page.characters.size());
   Recording recording;
   recording.rate = options.renderer.servo_rate;
   while (device.time() < longest) {
@@ -63,19 +63,20 @@ Recording run_session(const Page& page, const SessionOptions& options, const Pen
   return recording;
 }
 
-Recording write_page(const Page& page, const SessionOptions& options) {
+Recording write_page(const PracticePage& page, const SessionOptions& options) {
   SimulatedWriter writer(page, options.skill, options.seed);
   return run_session(page, options, [&writer](const HapticTick& tick, double seconds) -> std::optional<Intention> {
-    const Sight sight{tick.pen_tip, tick.character, tick.stroke, tick.state == InteractionState::writing};
+    const VisualFeedback sight{tick.pen_tip, tick.character, tick.stroke, tick.state == InteractionState::writing};
     const Intention next = writer.update(sight, seconds);
     if (writer.done()) return std::nullopt;
     return next;
   });
 }
 
-Recording follow_trace(const Page& page, const PenTrace& trace, const SessionOptions& options) {
+Recording follow_trace(const PracticePage& page, const PenTrace& trace, const SessionOptions& options) {
   if (page.characters.size() != 1) {
-    throw ValueError("a trace is followed on a page of 1 character, not of " + std::to_string(page.characters.size()));
+    throw ValueError("follow_trace: the page has " + std::to_string(page.characters.size()) +
+                     " characters, expected 1");
   }
   const TraceHand hand(trace, page.characters.front(), resting_point(page));
   double time = 0.0;
@@ -87,7 +88,7 @@ Recording follow_trace(const Page& page, const PenTrace& trace, const SessionOpt
   });
 }
 
-Recording replay_page(const Page& page, ReplayDevice& device, const SessionOptions& options) {
+Recording replay_page(const PracticePage& page, ReplayDevice& device, const SessionOptions& options) {
   HapticRenderer renderer(page.characters, upright_page(page.width, page.height), device.capabilities(),
                           options.renderer);
   const FlushDenormals as_a_servo_thread;

@@ -1,4 +1,4 @@
-#include <calligraphy/practice/trace_hand.hpp>
+#include "trace_hand.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,10 +12,10 @@
 namespace calligraphy {
 namespace {
 
-constexpr double shortest_traced_approach = 0.15;  // [s]
-constexpr double first_approach = 0.5;      // time to the first stroke [s]
-constexpr double longest_rest = 3.0;        // in the air, beyond which nothing is waited for [s]
-constexpr double air_step = 0.004;          // between knots in the air [s]
+constexpr double min_traced_approach = 0.15;  // [s]
+constexpr double first_approach = 0.5;        // time to the first stroke [s]
+constexpr double max_rest = 3.0;              // in the air, beyond which nothing is waited for [s]
+constexpr double air_step = 0.004;            // between knots in the air [s]
 
 void require_valid(const PenTrace& trace) {
   double last = 0.0;
@@ -46,9 +46,9 @@ TraceHand::TraceHand(const PenTrace& trace, const PlacedCharacter& placed, const
     const bool first = knots_.size() == 1;
     Eigen::Vector3d above = Eigen::Vector3d::Zero();
     above << placed.placement.to_page(map(stroke.front().point)), raised_height;
-    const double rest = std::min(stroke.front().time - last_time, longest_rest) - lowering_time - raising_time;
+    const double rest = std::min(stroke.front().time - last_time, max_rest) - lowering_time - raising_time;
     const double way = (above - knots_.back().point).norm();
-    move(above, std::max({first ? first_approach : rest, way / approach_speed, shortest_traced_approach}));
+    move(above, std::max({first ? first_approach : rest, way / approach_speed, min_traced_approach}));
     move({above.x(), above.y(), -pressed_depth}, lowering_time);
     write(stroke, map, placed.placement);
     const Eigen::Vector3d end = knots_.back().point;

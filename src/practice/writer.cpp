@@ -3,52 +3,46 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <string>
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/collision/nearest_point.hpp>
 
+#include "base/require.hpp"
 #include "minimum_jerk.hpp"
 #include "pen_lift.hpp"
 
 namespace calligraphy {
 namespace {
 
-constexpr double shortest_approach = 0.2;  // [s]
-constexpr double shortest_element = 0.12;  // time for a hook or a dot [s]
-constexpr double longest_settling = 1.2;   // how long the writer looks for the end of a stroke or for a corner [s]
-constexpr double close_enough = 0.02;      // a corner or an end looks reached at this distance [em]
-constexpr double notice_time = 0.5;        // on the paper without a green trace until the writer notices [s]
-constexpr double wandering_time = 1.0;     // after which drift is forgotten [s]
-constexpr int most_attempts = 10;
+constexpr double min_approach = 0.2;    // [s]
+constexpr double min_element = 0.12;    // time for a hook or a dot [s]
+constexpr double max_settling = 1.2;    // how long the writer looks for the end of a stroke or for a corner [s]
+constexpr double close_enough = 0.02;   // a corner or an end looks reached at this distance [em]
+constexpr double notice_time = 0.5;     // on the paper without a green trace until the writer notices [s]
+constexpr double wandering_time = 1.0;  // after which drift is forgotten [s]
+constexpr int max_attempts = 10;
 
 Point normal_point(Random& random) {
   const double x = random.normal();
   return {x, random.normal()};
 }
 
-void require(const char* name, double value, double least, double most) {
-  if (std::isfinite(value) && value >= least && value <= most) return;
-  throw ValueError(std::string("writer: ") + name + " = " + std::to_string(value) + ": expected " +
-                   std::to_string(least) + " to " + std::to_string(most));
-}
-
 void validate(const WriterSkill& skill) {
-  require("offset", skill.offset, 0.0, 1.0);
-  require("bias", skill.bias, 0.0, 1.0);
-  require("scale", skill.scale, 0.0, 0.5);
-  require("tilt", skill.tilt, 0.0, 1.0);
-  require("shape", skill.shape, 0.0, 1.0);
-  require("drift", skill.drift, 0.0, 1.0);
-  require("tremor", skill.tremor, 0.0, 0.01);
-  require("aim", skill.aim, 0.0, 1.0);
-  require("wrong_order", skill.wrong_order, 0.0, 1.0);
-  require("wrong_direction", skill.wrong_direction, 0.0, 1.0);
-  require("speed", skill.speed, 0.01, 10.0);
-  require("pause", skill.pause, 0.0, 10.0);
-  require("sight_delay", skill.sight_delay, 0.0, 1.0);
-  require("correction", skill.correction, 0.0, 20.0);
-  require("caution", skill.caution, 1e-3, 10.0);
+  require_within("writer: offset", skill.offset, "em", 0.0, 1.0);
+  require_within("writer: bias", skill.bias, "em", 0.0, 1.0);
+  require_within("writer: scale", skill.scale, "", 0.0, 0.5);
+  require_within("writer: tilt", skill.tilt, "rad", 0.0, 1.0);
+  require_within("writer: shape", skill.shape, "em", 0.0, 1.0);
+  require_within("writer: drift", skill.drift, "em/s^0.5", 0.0, 1.0);
+  require_within("writer: tremor", skill.tremor, "m", 0.0, 0.01);
+  require_within("writer: aim", skill.aim, "em", 0.0, 1.0);
+  require_within("writer: wrong_order", skill.wrong_order, "", 0.0, 1.0);
+  require_within("writer: wrong_direction", skill.wrong_direction, "", 0.0, 1.0);
+  require_within("writer: speed", skill.speed, "em/s", 0.01, 10.0);
+  require_within("writer: pause", skill.pause, "s", 0.0, 10.0);
+  require_within("writer: visual_delay", skill.visual_delay, "s", 0.0, 1.0);
+  require_within("writer: correction", skill.correction, "1/s", 0.0, 20.0);
+  require_within("writer: caution", skill.caution, "em", 1e-3, 10.0);
 }
 
 }  // namespace
@@ -90,7 +84,7 @@ Point SimulatedWriter::Belief::operator()(const Point& truth) const {
   return centre + offset + Point(cosine * arm.x() - sine * arm.y(), sine * arm.x() + cosine * arm.y());
 }
 
-SimulatedWriter::SimulatedWriter(const Page& page, const WriterSkill& skill, std::uint64_t seed)
+SimulatedWriter::SimulatedWriter(const PracticePage& page, const WriterSkill& skill, std::uint64_t seed)
     : page_(page.characters), skill_(skill), seed_(seed) {
   if (page_.empty()) throw ValueError("writer: the page has no character");
   validate(skill);
@@ -99,7 +93,7 @@ SimulatedWriter::SimulatedWriter(const Page& page, const WriterSkill& skill, std
   begin(Phase::pause);
 }
 
-Intention SimulatedWriter::update(const Sight& sight, double seconds) {
+Intention SimulatedWriter::update(const VisualFeedback& sight, double seconds) {
   if (!(seconds > 0.0) || done()) return {now_, Eigen::Vector3d::Zero()};
   see(sight);
   time_ += seconds;
@@ -111,11 +105,11 @@ Intention SimulatedWriter::update(const Sight& sight, double seconds) {
 }
 
 /// What is shown now will be known only after the delay of sight.
-void SimulatedWriter::see(const Sight& sight) {
+void SimulatedWriter::see(const VisualFeedback& sight) {
   const double duration = plan_[element_].duration;
   sights_.push_back({time_, sight, element_, plan_[element_].at(minimum_jerk(progress_ / duration)),
                      phase_ == Phase::write || phase_ == Phase::settle});
-  while (!sights_.empty() && sights_.front().time <= time_ - skill_.sight_delay) {
+  while (!sights_.empty() && sights_.front().time <= time_ - skill_.visual_delay) {
     seen_ = sights_.front();
     sights_.pop_front();
   }
@@ -129,7 +123,7 @@ void SimulatedWriter::think(double seconds) {
       return;
     case Phase::approach: {
       const double way = (belief_(plan_[0].at(0.0)) + aim_error_ - from_.head<2>()).norm();
-      if (phase_time_ >= std::max(shortest_approach, way / approach_speed)) begin(Phase::lower);
+      if (phase_time_ >= std::max(min_approach, way / approach_speed)) begin(Phase::lower);
       return;
     }
     case Phase::lower:
@@ -140,25 +134,25 @@ void SimulatedWriter::think(double seconds) {
       shake(seconds);
       correct(seconds);
       untaken_ = seen_.sight.writing || accepted() ? 0.0 : untaken_ + seconds;
-      if (untaken_ > notice_time + skill_.sight_delay) {
+      if (untaken_ > notice_time + skill_.visual_delay) {
         begin(Phase::raise);
       } else if (phase_ == Phase::write) {
         follow_plan(seconds);
-      } else if (accepted() || phase_time_ > longest_settling) {
+      } else if (accepted() || phase_time_ > max_settling) {
         begin(Phase::raise);
-      } else if (error_.norm() < close_enough * em && phase_time_ > skill_.sight_delay) {
+      } else if (error_.norm() < close_enough * em && phase_time_ > skill_.visual_delay) {
         leave_element();
       }
       return;
     }
     case Phase::raise: {
-      if (phase_time_ < raising_time + skill_.sight_delay) return;  // long enough to see what became of the stroke
+      if (phase_time_ < raising_time + skill_.visual_delay) return;  // long enough to see what became of the stroke
       if (waiting_for_lift()) return;
       const bool next = accepted();
       attempt_ = next ? 0 : attempt_ + 1;
       character_ = next ? seen_.sight.character : character_;
       stroke_ = next ? seen_.sight.stroke : stroke_;
-      gave_up_ = attempt_ >= most_attempts;
+      gave_up_ = attempt_ >= max_attempts;
       if (gave_up_ || character_ >= static_cast<int>(page_.size())) {
         begin(Phase::done);
         return;
@@ -276,7 +270,7 @@ void SimulatedWriter::plan_elements(int stroke, bool backwards) {
   const Stroke drawn = strokes(placed.character)[static_cast<std::size_t>(stroke)];
   for (const StrokeElement& truth : place_elements(drawn, placed.placement)) {
     const double duration = truth.length() / (skill_.speed * placed.placement.em);
-    plan_.push_back({truth, backwards, std::max(shortest_element, duration)});
+    plan_.push_back({truth, backwards, std::max(min_element, duration)});
   }
   if (backwards) std::reverse(plan_.begin(), plan_.end());
 }
@@ -291,7 +285,7 @@ Eigen::Vector3d SimulatedWriter::target() const {
       return point;
     case Phase::approach: {
       const double way = (start - from_.head<2>()).norm();
-      const double share = minimum_jerk(phase_time_ / std::max(shortest_approach, way / approach_speed));
+      const double share = minimum_jerk(phase_time_ / std::max(min_approach, way / approach_speed));
       point.head<2>() = from_.head<2>() + share * (start - from_.head<2>());
       return point;
     }

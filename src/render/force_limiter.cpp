@@ -1,36 +1,38 @@
-#include <calligraphy/render/force_limiter.hpp>
+#include <calligraphy/render/detail/force_limiter.hpp>
 
 #include <algorithm>
 #include <cmath>
 
+#include "collision/length.hpp"
+
 namespace calligraphy {
 namespace {
 
-Eigen::Vector3d shortened(const Eigen::Vector3d& force, double longest) noexcept {
-  const double size = force.norm();
-  return size > longest ? Eigen::Vector3d(force * (longest / size)) : force;
+Eigen::Vector3d shortened(const Eigen::Vector3d& force, double max_length) noexcept {
+  const double size = norm(force);
+  return size > max_length ? Eigen::Vector3d(force * (max_length / size)) : force;
 }
 
-/// The largest first step of a run that ends after `way`, each step smaller by `jerk` than the last. With k whole jerks
-/// in it that is way = (k + 1) (step - k jerk / 2).
+/// Maximum first step of a sequence that ends after `way`, each step smaller by `jerk` than the last. With k whole
+/// jerks in it, way = (k + 1) (step - k jerk / 2).
 double braking_step(double way, double jerk) noexcept {
   const double smooth = std::sqrt(0.25 * jerk * jerk + 2.0 * jerk * way) - 0.5 * jerk;
   const double whole = jerk > 0.0 ? std::floor(smooth / jerk) : 0.0;
   return way / (whole + 1.0) + 0.5 * whole * jerk;
 }
 
-/// One step towards a target `way` off, after the step `last`.
+/// One step towards a target at a distance of `way`, after the step `last`.
 template <typename Vector>
-Vector jerk_limited(const Vector& way, const Vector& last, double longest, double jerk) noexcept {
+Vector jerk_limited(const Vector& way, const Vector& last, double max_length, double jerk) noexcept {
   const double distance = way.norm();
-  const double wanted = std::min(longest, braking_step(distance, jerk));
+  const double wanted = std::min(max_length, braking_step(distance, jerk));
   Vector step = Vector::Zero();
   if (distance > 0.0) step = way * (wanted / distance);
   const Vector change = step - last;
   const double size = change.norm();
   if (size > jerk) step = last + change * (jerk / size);
   const double length = step.norm();
-  return length > longest ? Vector(step * (longest / length)) : step;
+  return length > max_length ? Vector(step * (max_length / length)) : step;
 }
 
 }  // namespace
@@ -40,13 +42,13 @@ double ForceLimiter::max_step() const noexcept {
 }
 
 Eigen::Vector3d ForceLimiter::next(const Eigen::Vector3d& previous, const Eigen::Vector3d& target,
-                                   double longest) noexcept {
-  double most = std::min(peak, longest);
+                                   double max_length) noexcept {
+  double most = std::min(peak, max_length);
   Eigen::Vector3d force = shortened(target, most);
   if (!limit_rate) return force;
   double taken = 0.0;
-  if (longest < peak) {
-    const double size = previous.norm();
+  if (max_length < peak) {
+    const double size = norm(previous);
     taken = std::clamp(size - most, 0.0, std::min(in_plane_step, normal_step));
     most = std::max(most, size - taken);
   }
@@ -64,16 +66,16 @@ Eigen::Vector3d ForceLimiter::next(const Eigen::Vector3d& previous, const Eigen:
     force.z() = previous.z() + std::clamp(normal_change, taken - normal_step, normal_step - taken);
   }
   force = shortened(force, most);
-  // Shortening takes some of the way on which a force with limited jerk comes to rest.
+  // Shortening removes part of the path over which a jerk-limited force slows down, so it could overshoot.
   if (previous.z() >= 0.0 && target.z() >= 0.0) force.z() = std::max(0.0, force.z());
-  // What was taken is no swing to be brought to rest.
+  // A shortening step is no rate from which the force would have to slow down.
   last_step = taken > 0.0 ? Eigen::Vector3d(0.0, 0.0, 0.0) : Eigen::Vector3d(force - previous);
   return force;
 }
 
 Eigen::Vector3d ForceLimiter::release(const Eigen::Vector3d& previous) noexcept {
   last_step.setZero();
-  const double size = previous.norm();
+  const double size = norm(previous);
   const double step = max_step();
   return size <= step ? Eigen::Vector3d(0.0, 0.0, 0.0) : Eigen::Vector3d(previous * (1.0 - step / size));
 }

@@ -3,33 +3,34 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <string>
 #include <utility>
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/render/stiffness_advice.hpp>
 
+#include "base/require.hpp"
+
 namespace calligraphy {
 namespace {
 
-/// A pen further from the page than this is a fault, whatever its speed [m].
+/// A pen farther from the page than this is a fault, whatever its speed [m].
 constexpr double furthest_point = 1e3;
 
-/// Smallest motion scale, and one over the largest; keeps every force a number.
-constexpr double smallest_scale = 1e-6;
+/// Minimum motion scale, and the inverse of the maximum; keeps every force finite.
+constexpr double min_scale = 1e-6;
 
-/// Longest time that eq. (3) integrates over in one tick [s].
-constexpr double longest_tick = 0.1;
+/// Maximum time over which eq. (3) integrates in one tick [s].
+constexpr double max_tick = 0.1;
 
 void require_valid(const PlacedCharacter& placed, std::size_t index) {
   const std::string place = "character " + std::to_string(index + 1) + " of the page: ";
-  const std::vector<Problem> problems = validate(placed.character);
+  const std::vector<ValidationIssue> problems = validate(placed.character);
   if (!problems.empty()) {
     throw ValueError(place + "stroke " + std::to_string(problems[0].stroke) + ": " + problems[0].what);
   }
   const double em = placed.placement.em;
-  if (!std::isfinite(em) || em <= 0.0) throw ValueError(place + "em = " + std::to_string(em) + " m");
+  require_above_zero(place + "em", em, "m");
   if (!placed.placement.origin.allFinite()) throw ValueError(place + "its origin is not finite");
   const Eigen::AlignedBox2d box = bounding_box(placed);
   if (!(std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff()) <= furthest_point)) {
@@ -42,15 +43,11 @@ void require_valid(const MotionMapping& mapping) {
       mapping.rotation.allFinite() && mapping.rotation.isUnitary(1e-9) && mapping.rotation.determinant() > 0.0;
   if (!rigid) throw ValueError("motion mapping: rotation is not a rotation matrix");
   if (!mapping.offset.allFinite()) throw ValueError("motion mapping: offset is not finite");
-  if (!(mapping.scale >= smallest_scale && mapping.scale <= 1.0 / smallest_scale)) {
-    std::ostringstream message;
-    message << "motion mapping: scale = " << mapping.scale << ": expected from " << smallest_scale << " to "
-            << 1.0 / smallest_scale;
-    throw ValueError(message.str());
-  }
+  require_within("motion mapping: scale", mapping.scale, "", min_scale, 1.0 / min_scale);
 }
 
-/// In page axes, where masses and forces look `scale` times as the device has them (MotionMapping).
+/// In page axes, where forces are 1 / scale times those of the device, masses and damping 1 / scale^2 times
+/// (MotionMapping).
 PassivityController passivity_controller(const RendererOptions& options, const Capabilities& capabilities,
                                          double scale) {
   const double period = 1.0 / options.servo_rate;
@@ -72,11 +69,11 @@ HapticRenderer::HapticRenderer(std::vector<PlacedCharacter> page, const MotionMa
                                const Capabilities& capabilities, const RendererOptions& options)
     : page_(std::move(page)), mapping_(mapping), options_(options) {
   if (page_.empty()) throw ValueError("the page has no character");
-  double largest_attraction = 1.0;
+  double max_attraction = 1.0;
   for (std::size_t i = 0; i < page_.size(); ++i) {
     require_valid(page_[i], i);
     const auto& factors = page_[i].character.physics.attraction_factors;
-    largest_attraction = std::max(largest_attraction, *std::max_element(factors.begin(), factors.end()));
+    max_attraction = std::max(max_attraction, *std::max_element(factors.begin(), factors.end()));
     Eigen::AlignedBox2d box = bounding_box(page_[i]);
     box.min().array() -= options.box_margin;
     box.max().array() += options.box_margin;
@@ -84,13 +81,11 @@ HapticRenderer::HapticRenderer(std::vector<PlacedCharacter> page, const MotionMa
   }
   require_valid(mapping);
   if (options_.stiffness_check == StiffnessCheck::clip) {
-    clipped_ = clip_stiffness(options_, capabilities, largest_attraction, mapping.scale);
+    clipped_ = clip_stiffness(options_, capabilities, max_attraction, mapping.scale);
   }
-  validate(options_, capabilities, largest_attraction, mapping.scale);
+  validate(options_, capabilities, max_attraction, mapping.scale);
   require_translations(capabilities, "the renderer");
-  if (!(capabilities.peak_force > 0.0)) {
-    throw ValueError("peak force of the device = " + std::to_string(capabilities.peak_force) + " N");
-  }
+  require(capabilities.peak_force > 0.0, "peak force of the device", capabilities.peak_force, "N", "above 0");
   fade_step_ = options.guidance_fade_in > 0.0 ? 1.0 / (options.guidance_fade_in * options.servo_rate) : 1.0;
   limiter_.in_plane_step = options.in_plane_force_rate / options.servo_rate / mapping.scale;
   limiter_.normal_step = options.normal_force_rate / options.servo_rate / mapping.scale;
@@ -153,9 +148,9 @@ TickStatus HapticRenderer::map_sample(const DeviceState& state) noexcept {
   }
 
   if (options_.motion == MotionMappingRule::wang2006 && has_sample_) {
-    const double elapsed = std::clamp(state.time - last_time_, 0.0, longest_tick);
+    const double elapsed = std::clamp(state.time - last_time_, 0.0, max_tick);
     const Eigen::Vector3d velocity = mapping_.velocity_to_page(state.velocity);
-    const bool measured = velocity.norm() <= options_.largest_speed;  // false for NaN too
+    const bool measured = norm(velocity) <= options_.max_speed;  // false for NaN too
     tick_.device_point += measured ? Eigen::Vector3d(velocity * elapsed) : Eigen::Vector3d(mapped - last_position_);
   } else {
     tick_.device_point = mapped;
@@ -167,14 +162,14 @@ TickStatus HapticRenderer::map_sample(const DeviceState& state) noexcept {
   return TickStatus::ok;
 }
 
-/// A pen cannot jump: a lone sample far away is refused. A second one near the first is believed, for then the device
-/// really is elsewhere.
+/// A pen cannot jump: a single sample far away is rejected. A second one near the first is accepted, because then the
+/// device really is elsewhere.
 bool HapticRenderer::plausible(const Eigen::Vector3d& position, double time) const noexcept {
   if (!has_sample_) return true;
   const double period = 1.0 / options_.servo_rate;
-  const double reach = options_.largest_speed * std::max(time - last_time_, period);
-  if ((position - last_position_).norm() <= reach) return true;
-  return has_rejected_ && (position - rejected_position_).norm() <= options_.largest_speed * period;
+  const double reach = options_.max_speed * std::max(time - last_time_, period);
+  if (norm(position - last_position_) <= reach) return true;
+  return has_rejected_ && norm(position - rejected_position_) <= options_.max_speed * period;
 }
 
 TransitionInput HapticRenderer::sense() noexcept {
@@ -213,7 +208,7 @@ void HapticRenderer::follow(const TransitionInput& input) noexcept {
     tick_.events |= TickEvent::contact;
   }
   if (before == InteractionState::writing && after != InteractionState::writing) {
-    if (options_.assist.enabled) adapt_help(!input.stroke_finished);
+    if (options_.assist.enabled) adapt_assistance(!input.stroke_finished);
     if (input.stroke_finished) {
       finish_stroke();
     } else {
@@ -244,7 +239,8 @@ void HapticRenderer::finish_stroke() noexcept {
   tick_.events |= TickEvent::character_finished;
   if (tick_.character + 1 == static_cast<int>(page_.size())) tick_.events |= TickEvent::page_finished;
   if (options_.lift_between_strokes) {
-    // The box of the next character is elsewhere: the paper would give way under a pen that still rests on this one.
+    // The box of the next character is elsewhere, and outside a box the paper does not press back: it would give way
+    // under a pen that still rests on this character.
     tick_.stroke = next;
     character_done_ = true;
   } else {
@@ -264,20 +260,20 @@ void HapticRenderer::activate(int character, int stroke) noexcept {
 
 void HapticRenderer::measure_error() noexcept {
   const Point tip = tick_.pen_tip.head<2>();
-  if (has(tick_.events, TickEvent::stroke_started)) {
+  if (has_event(tick_.events, TickEvent::stroke_started)) {
     error_square_ = error_way_ = 0.0;
     error_tip_ = tip;
   }
   const double way = (tip - error_tip_).norm();
-  error_square_ += way * tick_.contact.foot.distance * tick_.contact.foot.distance;
+  error_square_ += way * tick_.contact.closest.distance * tick_.contact.closest.distance;
   error_way_ += way;
   error_tip_ = tip;
 }
 
-void HapticRenderer::adapt_help(bool abandoned) noexcept {
+void HapticRenderer::adapt_assistance(bool abandoned) noexcept {
   const AssistPolicy& policy = options_.assist;
   const double error = error_way_ > 0.0 ? std::sqrt(error_square_ / error_way_) : 0.0;
-  tick_.help = policy.next(tick_.help, abandoned ? std::max(error, policy.full_help_error) : error);
+  tick_.assistance = policy.next(tick_.assistance, abandoned ? std::max(error, policy.full_assistance_error) : error);
 }
 
 Eigen::Vector3d HapticRenderer::sum_forces() noexcept {
@@ -286,23 +282,23 @@ Eigen::Vector3d HapticRenderer::sum_forces() noexcept {
   const bool solid = tick_.state == InteractionState::calibration || tick_.state == InteractionState::writing ||
                      (tick_.state == InteractionState::adjusting && options_.solid_paper);
   if (solid) tick_.normal = normal_force(options_.paper_stiffness, tick_.penetration, options_.force_sign);
-  Point in_plane = guide();
-  if (options_.friction.coefficient > 0.0) in_plane += rub();
+  Point in_plane = guidance_force();
+  if (options_.friction.coefficient > 0.0) in_plane += friction_force();
   return {in_plane.x(), in_plane.y(), tick_.normal};
 }
 
-Point HapticRenderer::guide() noexcept {
+Point HapticRenderer::guidance_force() noexcept {
   const Point tip = tick_.pen_tip.head<2>();
-  const double stiffness = options_.guidance_stiffness * tick_.help;
+  const double stiffness = options_.guidance_stiffness * tick_.assistance;
   const bool saturating = options_.guidance == GuidanceLaw::saturating;
   const bool writing = tick_.state == InteractionState::writing;
   if (writing) {
     const StrokeContact& contact = tick_.contact;
-    const double share = saturating ? contact.attraction : contact.attraction * contact.share;
-    tick_.attraction = attraction_force(stiffness * share, tip, contact.foot.point, options_.force_sign);
+    const double share = saturating ? contact.attraction : contact.attraction * contact.weight;
+    tick_.attraction = attraction_force(stiffness * share, tip, contact.closest.point, options_.force_sign);
     tick_.wrong_way =
-        contact.share * wrong_way_force(options_.wrong_way_stiffness, options_.wrong_way_limit,
-                                        options_.wrong_way_slack, contact.backwards, contact.foot.tangent);
+        contact.weight * wrong_way_force(options_.wrong_way_stiffness, options_.wrong_way_limit,
+                                         options_.wrong_way_slack, contact.backwards, contact.closest.tangent);
     if (options_.assist.enabled) measure_error();
   } else if (options_.guide_to_start && tick_.state == InteractionState::calibration && may_start()) {
     tick_.attraction = attraction_force(stiffness, tip, active_.start(), options_.force_sign);
@@ -313,9 +309,9 @@ Point HapticRenderer::guide() noexcept {
   return fade(tick_.attraction + tick_.wrong_way);
 }
 
-Point HapticRenderer::rub() noexcept {
+Point HapticRenderer::friction_force() noexcept {
   if (tick_.normal > 0.0) {
-    const double normal = std::max(0.0, tick_.page_force.z());  // what the hand really presses against
+    const double normal = std::max(0.0, tick_.page_force.z());  // the actual contact force of the hand
     tick_.friction =
         friction_.update(options_.friction, tick_.device_point.head<2>(), normal, 1.0 / options_.servo_rate);
   } else {
@@ -325,12 +321,12 @@ Point HapticRenderer::rub() noexcept {
   return tick_.friction;
 }
 
-/// Where the foot leaps, at the start of a stroke and at a feature point, a spring that appears at once throws the pen:
-/// the force passes from what it was to what it is now to be over the fade-in.
+/// Where the closest point jumps, at the start of a stroke and at a feature point, a spring that appears at once would
+/// throw the pen: during the fade-in the force passes from its previous value to the new one.
 Point HapticRenderer::fade(const Point& force) noexcept {
   constexpr TickEvent leaps =
       TickEvent::stroke_started | TickEvent::feature_passed | TickEvent::contact | TickEvent::stroke_abandoned;
-  if (has(tick_.events, leaps)) {
+  if (has_event(tick_.events, leaps)) {
     fade_from_ = tick_.page_force.head<2>() - tick_.friction - tick_.damping.head<2>();
     faded_ = 0.0;
   }
@@ -339,16 +335,17 @@ Point HapticRenderer::fade(const Point& force) noexcept {
   return fade_from_ + share * (force - fade_from_);
 }
 
-/// The last stages, in this order: passivity, direction-keeping saturation, rate and jerk, account of what is sent.
+/// The last stages, in this order: passivity, direction-preserving saturation, rate and jerk, energy and heat of the
+/// force sent.
 void HapticRenderer::send(const Eigen::Vector3d& wanted) noexcept {
   const Eigen::Vector3d force = observes_energy_ ? control_passivity(wanted) : wanted;
-  double longest = observes_energy_ ? passivity_.longest_force() : ForceLimiter::no_limit;
-  if (thermal_.peak > 0.0) longest = std::min(longest, thermal_.largest_force());
+  double longest = observes_energy_ ? passivity_.max_force() : ForceLimiter::no_limit;
+  if (thermal_.peak > 0.0) longest = std::min(longest, thermal_.max_force());
   const bool trusted = tick_.status == TickStatus::ok;
   tick_.page_force = trusted ? limiter_.next(tick_.page_force, force, longest) : limiter_.release(tick_.page_force);
   if (observes_energy_) passivity_.sent(tick_.page_force);
   if (thermal_.peak > 0.0) {
-    thermal_.held(tick_.page_force.norm(), 1.0 / options_.servo_rate);
+    thermal_.held(norm(tick_.page_force), 1.0 / options_.servo_rate);
     tick_.heat = thermal_.heat;
   }
   tick_.force = mapping_.force_to_device(tick_.page_force);

@@ -2,7 +2,7 @@
 
 namespace calligraphy {
 
-const char* short_name(InteractionState state) noexcept {
+const char* to_string(InteractionState state) noexcept {
   switch (state) {
     case InteractionState::separation:
       return "SS";

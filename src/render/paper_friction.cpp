@@ -6,7 +6,7 @@
 namespace calligraphy {
 namespace {
 
-/// Where alpha of Hayward and Armstrong rises, as a share of z_max.
+/// Where alpha of Hayward and Armstrong rises, as a fraction of z_max.
 constexpr double stick_share = 0.75;
 
 /// alpha(z) z_max.
@@ -44,7 +44,7 @@ Point PaperFriction::update(const FrictionOptions& options, const Point& tip, do
 Point PaperFriction::stretch(const FrictionOptions& options, const Point& tip, double longest) noexcept {
   if (options.model == FrictionModel::hayward_armstrong) {
     const double length = (tip - anchor_).norm();
-    if (length < longest) {  // else it slides, as below; longest > 0
+    if (length < longest) {  // otherwise it slides, as below; longest > 0
       const double followed = (tip - tip_).norm() * creep(length / longest) / longest;
       anchor_ += std::min(1.0, followed) * (tip - anchor_);
     }
@@ -59,19 +59,20 @@ Point PaperFriction::karnopp(const FrictionOptions& options, const Point& tip, d
   const double way = motion.norm();
   const bool slow = way <= options.stick_speed * seconds;
   if (slow && !sticks_) {
-    // Holds with the force that it slid with: no step.
+    // Sticks with the force of sliding: no force step.
     sticks_ = true;
     anchor_ = tip + no_longer_than(anchor_ - tip, most / options.stiffness);
   }
   if (sticks_) {
     const Point pull = options.stiffness * (anchor_ - tip);
     if (pull.norm() <= options.static_ratio * most) return pull;
-    // It slips the way that it was pulled, whatever it did in this tick: a pen at rest slips as the pressure falls.
+    // Slips in the direction in which it was pulled, whatever its motion in this tick: a pen at rest slips when the
+    // normal force drops.
     sticks_ = false;
     anchor_ = tip + no_longer_than(anchor_ - tip, most / options.stiffness);
     return options.stiffness * (anchor_ - tip);
   }
-  const Point direction = motion / way;  // faster than stick_speed, so not nothing
+  const Point direction = motion / way;  // faster than stick_speed, so not zero
   anchor_ = tip - direction * (most / options.stiffness);
   return -most * direction;
 }

@@ -10,28 +10,18 @@
 #include <calligraphy/render/passivity_controller.hpp>
 #include <calligraphy/render/stiffness_advice.hpp>
 
+#include "base/require.hpp"
+
 namespace calligraphy {
 namespace {
 
-/// For a device that states no limit; keeps every force a number [N/m].
+/// For a device that states no limit; keeps every force finite [N/m].
 constexpr double stiffest = 1e6;
 
-enum class Bound { above_zero, from_zero, from_one };
-
-void require(const char* name, double value, Bound bound, double most = std::numeric_limits<double>::max()) {
-  const bool in_domain = bound == Bound::above_zero ? value > 0.0 : value >= (bound == Bound::from_one ? 1.0 : 0.0);
-  if (std::isfinite(value) && in_domain && value <= most) return;
-  const char* domain = bound == Bound::above_zero ? "above 0" : bound == Bound::from_zero ? "from 0 up" : "from 1 up";
-  std::ostringstream message;
-  message << name << " = " << value << ": expected a finite number " << domain;
-  if (most < std::numeric_limits<double>::max()) message << ", at most " << most;
-  throw ValueError(message.str());
-}
-
-/// Keeps every step of a force a number [N/s].
+/// Keeps every force step finite [N/s].
 constexpr double fastest_force = 1e12;
 
-/// Of the critical stiffness, what is left for what a rigid mass does not show.
+/// Fraction of the critical stiffness, a margin for what a rigid mass does not model.
 constexpr double stable_share = 0.9;
 
 struct StiffnessLimit {
@@ -41,20 +31,20 @@ struct StiffnessLimit {
 
 StiffnessLimit usable_stiffness(const Capabilities& capabilities) {
   if (!(capabilities.usable_stiffness > 0.0 && capabilities.usable_stiffness < stiffest)) {
-    return {stiffest, "no stiffness above it is taken"};
+    return {stiffest, "at most 1e6 N/m are accepted"};
   }
   std::ostringstream reason;
   reason << "the device " << capabilities.model << " is usable up to " << capabilities.usable_stiffness << " N/m";
   return {capabilities.usable_stiffness, reason.str()};
 }
 
-/// In single precision: the last bits, in which one libm differs from another, reach no force.
+/// Rounded to single precision: the last bits, which differ between implementations of libm, reach no force.
 double without_last_bits(double stiffness) { return static_cast<float>(stiffness); }
 
-/// A pen that meets the paper calls for a change of force of K times its speed v; a limiter that gives less, or comes
-/// up to it too slowly for the swing of mass and spring, lags behind and throws the pen back, ever on. Found by
-/// simulation (docs/stability.md): no such swing where K v <= rate, and where K v / jerk, the time to come up to it, is
-/// at most two fifths of sqrt(m / K).
+/// A pen that hits the paper requires the force to change at K times its speed v. A limiter that is slower, or reaches
+/// this rate too slowly for the oscillation of mass and spring, lags behind and throws the pen back, again and again.
+/// An empirical result of simulation (docs/stability.md): this does not happen where K v <= rate and where K v / jerk,
+/// the time to reach that rate, is at most two fifths of sqrt(m / K).
 StiffnessLimit followed_stiffness(const RendererOptions& options, const Capabilities& capabilities) {
   constexpr double meeting_speed = 0.2;  // [m/s]
   if (!options.limit_force_rate || !(capabilities.apparent_mass > 0.0)) {
@@ -66,7 +56,7 @@ StiffnessLimit followed_stiffness(const RendererOptions& options, const Capabili
   const double followed = without_last_bits(std::min(by_rate, by_jerk));
   std::ostringstream reason;
   reason << ": with normal_force_rate = " << options.normal_force_rate << " N/s and force_jerk = " << options.force_jerk
-         << " N/s^2 the force follows a pen of " << meeting_speed << " m/s up to " << followed << " N/m";
+         << " N/s^2 the force can follow a pen at " << meeting_speed << " m/s up to " << followed << " N/m";
   return {followed, reason.str()};
 }
 
@@ -75,8 +65,8 @@ StiffnessLimit stable_stiffness(const RendererOptions& options, const Capabiliti
   const double critical =
       without_last_bits(critical_stiffness({capabilities, options.servo_rate, options.softest_grip}));
   std::ostringstream reason;
-  reason << "held in the softest grip at " << options.servo_rate << " Hz the device " << capabilities.model
-         << " is stable below " << critical << " N/m (critical_stiffness), nine tenths of which is "
+  reason << "in the softest grip at " << options.servo_rate << " Hz the device " << capabilities.model
+         << " is stable below " << critical << " N/m (critical_stiffness); the limit is nine tenths of that, "
          << stable_share * critical << " N/m";
   return {stable_share * critical, reason.str()};
 }
@@ -119,7 +109,7 @@ RendererOptions RendererOptions::everything(const Capabilities& capabilities) {
   clip_stiffness(options, capabilities);
   options.force_jerk = 1e5;
   const bool is_modelled =
-      capabilities.apparent_mass > 0.0 && capabilities.sample_delay <= PassivityController::longest_delay;
+      capabilities.apparent_mass > 0.0 && capabilities.sample_delay <= PassivityController::max_delay;
   options.passivity_control = is_modelled;
   if (is_modelled) options.energy_budget = 0.1;
   const bool warms = capabilities.continuous_force > 0.0 && capabilities.continuous_force < capabilities.peak_force;
@@ -128,15 +118,15 @@ RendererOptions RendererOptions::everything(const Capabilities& capabilities) {
 }
 
 std::vector<std::string> clip_stiffness(RendererOptions& options, const Capabilities& capabilities,
-                                        double largest_attraction, double scale) {
-  require("servo_rate", options.servo_rate, Bound::above_zero, 1e6);
-  require("largest_attraction", largest_attraction, Bound::from_zero);
-  require("scale", scale, Bound::above_zero);
+                                        double max_attraction, double scale) {
+  require_above_zero("servo_rate", options.servo_rate, "Hz", 1e6);
+  require_not_negative("max_attraction", max_attraction, "");
+  require_above_zero("scale", scale, "");
   const Capabilities unknown;  // states no limit
-  const Capabilities& known = options.stiffness_check == StiffnessCheck::none ? unknown : capabilities;
+  const Capabilities& known = options.stiffness_check == StiffnessCheck::off ? unknown : capabilities;
   StiffnessLimit usable = usable_stiffness(known), stable = stable_stiffness(options, known);
   if (scale != 1.0) {
-    // Motion appears enlarged and so does force: the device feels K K_S^2.
+    // Motion is enlarged on the page, and so is force: the device renders K K_S^2.
     std::ostringstream enlarged;
     enlarged << " times the square of the motion scale " << scale << ": ";
     for (StiffnessLimit* limit : {&usable, &stable})
@@ -146,7 +136,7 @@ std::vector<std::string> clip_stiffness(RendererOptions& options, const Capabili
   }
   std::vector<std::string> clipped;
   const auto clip = [&](const char* name, double& stiffness, double most, const std::string& reason) {
-    require(name, stiffness, Bound::from_zero);
+    require_not_negative(name, stiffness, "N/m");
     if (stiffness <= most) return;
     std::ostringstream message;
     message << name << " = " << stiffness << " N/m" << reason;
@@ -155,73 +145,70 @@ std::vector<std::string> clip_stiffness(RendererOptions& options, const Capabili
   };
   const StiffnessLimit& limit = usable.value < stable.value ? usable : stable;
   std::ostringstream attraction;
-  if (largest_attraction != 1.0) attraction << " times the largest attraction factor " << largest_attraction;
+  if (max_attraction != 1.0) attraction << " times the maximum attraction factor " << max_attraction;
   clip("paper_stiffness", options.paper_stiffness, limit.value, limit.reason);
   const StiffnessLimit followed = followed_stiffness(options, known);
   clip("paper_stiffness", options.paper_stiffness, followed.value / (scale * scale), followed.reason);
-  clip("guidance_stiffness", options.guidance_stiffness, limit.value / largest_attraction,
-       attraction.str() + limit.reason);
+  clip("guidance_stiffness", options.guidance_stiffness, limit.value / max_attraction, attraction.str() + limit.reason);
   clip("wrong_way_stiffness", options.wrong_way_stiffness, limit.value, limit.reason);
   if (options.friction.coefficient > 0.0) {
-    // A device may be usable with both springs at once, one along the stroke and one across; stable it must be with
-    // both.
+    // `usable_stiffness` applies to each of the two springs, one along the stroke and one across; stability requires
+    // counting both.
     clip("friction.stiffness", options.friction.stiffness, limit.value, limit.reason);
-    const double guidance = options.guidance_stiffness * largest_attraction;
+    const double guidance = options.guidance_stiffness * max_attraction;
     std::ostringstream beside;
-    beside << " beside " << guidance << " N/m of guidance";
+    beside << " in addition to " << guidance << " N/m of guidance";
     clip("friction.stiffness", options.friction.stiffness, std::max(0.1 * stable.value, stable.value - guidance),
          beside.str() + stable.reason);
   }
   return clipped;
 }
 
-void validate(const RendererOptions& options, const Capabilities& capabilities, double largest_attraction,
-              double scale) {
-  require("servo_rate", options.servo_rate, Bound::above_zero, 1e6);
+void validate(const RendererOptions& options, const Capabilities& capabilities, double max_attraction, double scale) {
+  require_above_zero("servo_rate", options.servo_rate, "Hz", 1e6);
   RendererOptions stable = options;
-  const std::vector<std::string> too_stiff = clip_stiffness(stable, capabilities, largest_attraction, scale);
+  const std::vector<std::string> too_stiff = clip_stiffness(stable, capabilities, max_attraction, scale);
   if (!too_stiff.empty()) throw ValueError(too_stiff.front());
-  require("guidance_fade_in", options.guidance_fade_in, Bound::from_zero);
-  require("wrong_way_limit", options.wrong_way_limit, Bound::from_zero);
-  require("wrong_way_slack", options.wrong_way_slack, Bound::from_zero);
-  require("guidance_limit", options.guidance_limit, Bound::above_zero);
-  require("assist.retention", options.assist.retention, Bound::from_zero, 1.0);
-  require("assist.full_help_error", options.assist.full_help_error, Bound::above_zero);
-  require("assist.least", options.assist.least, Bound::from_zero, 1.0);
-  require("friction.coefficient", options.friction.coefficient, Bound::from_zero, 10.0);
-  require("friction.stiffness", options.friction.stiffness, Bound::above_zero, stiffest);
-  require("friction.static_ratio", options.friction.static_ratio, Bound::from_one, 10.0);
-  require("friction.stick_speed", options.friction.stick_speed, Bound::from_zero);
+  require_not_negative("guidance_fade_in", options.guidance_fade_in, "s");
+  require_not_negative("wrong_way_limit", options.wrong_way_limit, "N");
+  require_not_negative("wrong_way_slack", options.wrong_way_slack, "m");
+  require_above_zero("guidance_limit", options.guidance_limit, "N");
+  require_within("assist.retention", options.assist.retention, "", 0.0, 1.0);
+  require_above_zero("assist.full_assistance_error", options.assist.full_assistance_error, "m");
+  require_within("min_assistance", options.assist.min_assistance, "", 0.0, 1.0);
+  require_within("friction.coefficient", options.friction.coefficient, "", 0.0, 10.0);
+  require_above_zero("friction.stiffness", options.friction.stiffness, "N/m", stiffest);
+  require_within("friction.static_ratio", options.friction.static_ratio, "", 1.0, 10.0);
+  require_not_negative("friction.stick_speed", options.friction.stick_speed, "m/s");
   try {
     validate(options.stroke.nearest);
   } catch (const ValueError& error) {
     throw ValueError(std::string("stroke.nearest.") + error.what());
   }
-  require("stroke.space.radius", options.stroke.space.radius, Bound::above_zero);
-  require("stroke.space.edge", options.stroke.space.edge, Bound::above_zero, options.stroke.space.radius);
-  require("stroke.plane_tolerance", options.stroke.plane_tolerance, Bound::from_zero);
-  require("stroke.window", options.stroke.window, Bound::from_zero);
-  require("start_radius", options.start_radius, Bound::above_zero);
-  require("box_margin", options.box_margin, Bound::from_zero);
-  require("lift_height", options.lift_height, Bound::from_zero);
-  require("box_hysteresis", options.box_hysteresis, Bound::from_zero);
-  require("in_plane_force_rate", options.in_plane_force_rate, Bound::above_zero, fastest_force);
-  require("normal_force_rate", options.normal_force_rate, Bound::above_zero, fastest_force);
+  require_above_zero("stroke.space.radius", options.stroke.space.radius, "m");
+  require_above_zero("stroke.space.fade_width", options.stroke.space.fade_width, "m", options.stroke.space.radius);
+  require_not_negative("stroke.plane_tolerance", options.stroke.plane_tolerance, "m");
+  require_not_negative("stroke.window", options.stroke.window, "m");
+  require_above_zero("start_radius", options.start_radius, "m");
+  require_not_negative("box_margin", options.box_margin, "m");
+  require_not_negative("lift_height", options.lift_height, "m");
+  require_not_negative("box_hysteresis", options.box_hysteresis, "m");
+  require_above_zero("in_plane_force_rate", options.in_plane_force_rate, "N/s", fastest_force);
+  require_above_zero("normal_force_rate", options.normal_force_rate, "N/s", fastest_force);
   if (!(options.force_jerk == std::numeric_limits<double>::infinity())) {
-    require("force_jerk", options.force_jerk, Bound::above_zero, 1e3 * fastest_force);
+    require_above_zero("force_jerk", options.force_jerk, "N/s^2", 1e3 * fastest_force);
   }
   if (!(options.energy_budget == std::numeric_limits<double>::infinity())) {
-    require("energy_budget", options.energy_budget, Bound::from_zero);
+    require_not_negative("energy_budget", options.energy_budget, "J");
   }
-  require("thermal_time_constant", options.thermal_time_constant, Bound::from_zero);
+  require_not_negative("thermal_time_constant", options.thermal_time_constant, "s");
   if (options.thermal_time_constant > 0.0) {
-    require("continuous_force of the device, for thermal_time_constant", capabilities.continuous_force,
-            Bound::above_zero);
+    require_above_zero("continuous_force of the device, for thermal_time_constant", capabilities.continuous_force, "N");
   }
   if (options.passivity_control) {
-    require("apparent_mass of the device, for passivity_control", capabilities.apparent_mass, Bound::above_zero);
+    require_above_zero("apparent_mass of the device, for passivity_control", capabilities.apparent_mass, "kg");
   }
-  require("largest_speed", options.largest_speed, Bound::above_zero);
+  require_above_zero("max_speed", options.max_speed, "m/s");
 }
 
 }  // namespace calligraphy

@@ -4,14 +4,13 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
-#include <iomanip>
 #include <limits>
 #include <numbers>
-#include <sstream>
 #include <vector>
 
-#include <calligraphy/base/error.hpp>
 #include <calligraphy/render/passivity_controller.hpp>
+
+#include "base/require.hpp"
 
 namespace calligraphy {
 namespace {
@@ -19,21 +18,13 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr double fastest_rate = 1e6;  // [Hz]
-constexpr double largest = 1e9;       // of any other field, so that no product of them leaves the numbers
-constexpr int longest_delay = 1000;
+constexpr double largest = 1e9;       // of any other field, so that no product of them overflows
+constexpr int max_delay = 1000;
 
-/// Of a device that states none: that of the shipped profile with the least [N].
+/// For a device that states none: the minimum of the shipped profiles [N].
 constexpr double presumed_friction = 0.04;
 
-void require(const char* name, double value, const char* unit, double least, double most = largest) {
-  if (value >= least && value <= most) return;
-  std::ostringstream message;
-  message << std::setprecision(10) << name << " = " << value << " " << unit << ": expected from " << least << " to "
-          << most;
-  throw ValueError(message.str());
-}
-
-/// How the mass moves from sample to sample under a held force, in units of the period T and of the mass: the response
+/// Motion of the mass between samples under a held force, in units of the period T and of the mass: the response
 /// after one period to a unit impulse (`speed`) and to a unit force held (`force`).
 struct Motion {
   double damping, stiffness;  ///< b T / m, k T^2 / m
@@ -41,7 +32,7 @@ struct Motion {
 };
 
 Motion motion_over_a_period(double damping, double stiffness) {
-  // A short series for a part of the period, then doubled: nothing is subtracted that is nearly equal.
+  // A short series for a part of the period, then doubled: avoids cancellation.
   int doublings = 0;
   double part = 1.0;
   while (std::max(damping * part, std::sqrt(stiffness) * part) > 0.25) {
@@ -65,7 +56,7 @@ Motion motion_over_a_period(double damping, double stiffness) {
   return {damping, stiffness, speed, force};
 }
 
-/// The loop in units of T and of the whole mass: stiffness counts in m / T^2, damping in m / T.
+/// The loop in units of T and of the total mass: stiffness in m / T^2, damping in m / T.
 class Loop {
  public:
   explicit Loop(const SampledLoop& loop) : delay_(loop.device.sample_delay) {
@@ -75,7 +66,7 @@ class Loop {
     wall_damping_ = loop.wall_damping * period / mass;
     const Motion motion = motion_over_a_period((loop.device.viscous_friction + loop.grip.damping) * period / mass,
                                                loop.grip.stiffness / unit_);
-    // G = (force w + rest) / (w^2 + drag w + spring) with w = z - 1, which keeps its figures where z is near 1.
+    // G = (force w + rest) / (w^2 + drag w + spring) with w = z - 1, which keeps its precision where z is near 1.
     const double slowing = motion.damping * motion.speed + motion.stiffness * motion.force;
     force_ = motion.force;
     rest_ = motion.speed * motion.speed + slowing * motion.force;
@@ -94,7 +85,7 @@ class Loop {
     return -std::polar(1.0, angle * delay_) * inverse_motion - wall_damping_ * (w / (1.0 + w));
   }
 
-  /// The wall's damping at which it would be one without any stiffness.
+  /// The wall damping at which z = exp(i angle) would be a root without any stiffness, if that were real.
   Complex wall_damping_at(double angle) const noexcept {
     const Complex w = step_at(angle);
     return -std::polar(1.0, angle * delay_) * (w + drag_ + spring_ / w) * (1.0 + w) / (force_ * w + rest_);
@@ -111,8 +102,8 @@ class Loop {
   double force_, rest_, drag_, spring_;
 };
 
-/// Angles at which to look for the crossings. The imaginary part of what is looked at is sin(angle) times a polynomial
-/// in cos(angle), of degree d + 1: it has at most so many zeros, which the even spacing tells apart. The others find
+/// Angles between which to look for crossings. The imaginary part of the function is sin(angle) times a polynomial in
+/// cos(angle) of degree d + 1: it has at most that many zeros, which the even spacing separates. The other angles find
 /// those of a slow motion near z = 1.
 std::vector<double> angles(int delay) {
   constexpr double lowest = 1e-9;
@@ -125,8 +116,8 @@ std::vector<double> angles(int delay) {
   return all;
 }
 
-/// The smallest positive value that `gain` takes where it is real, on the upper half of the unit circle; infinite if
-/// there is none.
+/// The minimum positive value of `gain` where it is real, on the upper half of the unit circle; infinite if there is
+/// none.
 template <typename Gain>
 double first_crossing(int delay, Gain gain) {
   double smallest = std::numeric_limits<double>::infinity();
@@ -155,11 +146,11 @@ StiffnessBound passive_bound(const SampledLoop& loop) {
   const char* of_delay = loop.device.sample_delay == 0 ? "exact (Colgate & Brown 1994)"
                          : loop.wall_damping == 0.0
                              ? "exact for B = 0 (derived from the condition of Colgate & Schenkel 1997)"
-                             : "sufficient with both delay and B, not necessary";
+                             : "sufficient, not necessary, with both delay and B";
   return {2.0 * spare * loop.rate / (2.0 * loop.device.sample_delay + 1.0), "b > K T (2 d + 1) / 2 + |B|",
           std::string(of_delay) +
-              ", for a rigid device in any passive hand: the grip's damping is not counted; does not see the encoder's "
-              "steps, flexible links or saturation"};
+              ", for a rigid device in any passive hand: the damping of the grip is not counted; does not model "
+              "quantisation, flexible links or saturation"};
 }
 
 StiffnessBound quantised_bound(const SampledLoop& loop, double passive) {
@@ -170,49 +161,46 @@ StiffnessBound quantised_bound(const SampledLoop& loop, double passive) {
   }
   return {
       value, "K <= min(passive, 2 f_c / D - 2 B / T)",
-      "Abbott & Okamura 2005 for B = 0 and no delay; the terms in B and d are the worst case, derived here; relies on "
-      "dry friction that is the same everywhere, and does not count the grip"};
+      "Abbott & Okamura 2005 for B = 0 and no delay; the terms in B and d are the worst case, derived here; assumes "
+      "uniform Coulomb friction and does not count the grip"};
 }
 
 StiffnessBound approximate_bound(const SampledLoop& loop) {
   const double damping = loop.device.viscous_friction + loop.grip.damping + loop.wall_damping;
   return {
       damping * loop.rate / (0.5 + loop.device.sample_delay), "K < (b + b_grip + B) / (T / 2 + d T)",
-      "Gil et al. 2009: good only for small B, where the loop is much faster than the motion; twice too high at B = "
-      "30 N s/m and 1 kHz"};
+      "Gil et al. 2009: for small B only, where the loop is much faster than the motion; a factor of two too high at "
+      "B = 30 N s/m and 1 kHz"};
 }
 
 }  // namespace
 
 void validate(const SampledLoop& loop) {
-  require("rate", loop.rate, "Hz", 1.0, fastest_rate);
-  require("device.apparent_mass", loop.device.apparent_mass, "kg", 1e-9);
-  require("device.viscous_friction", loop.device.viscous_friction, "N s/m", 0.0);
-  require("device.coulomb_friction", loop.device.coulomb_friction, "N", 0.0);
-  require("device.encoder_step", loop.device.encoder_step, "m", 0.0);
-  require("wall_damping", loop.wall_damping, "N s/m", 0.0);
-  require("grip.mass", loop.grip.mass, "kg", 0.0);
-  require("grip.damping", loop.grip.damping, "N s/m", 0.0);
-  require("grip.stiffness", loop.grip.stiffness, "N/m", 0.0);
-  if (loop.device.sample_delay < 0 || loop.device.sample_delay > longest_delay) {
-    throw ValueError("device.sample_delay = " + std::to_string(loop.device.sample_delay) +
-                     " ticks: expected from 0 to " + std::to_string(longest_delay));
-  }
+  require_within("rate", loop.rate, "Hz", 1.0, fastest_rate);
+  require_within("device.apparent_mass", loop.device.apparent_mass, "kg", 1e-9, largest);
+  require_within("device.viscous_friction", loop.device.viscous_friction, "N s/m", 0.0, largest);
+  require_within("device.coulomb_friction", loop.device.coulomb_friction, "N", 0.0, largest);
+  require_within("device.encoder_step", loop.device.encoder_step, "m", 0.0, largest);
+  require_within("wall_damping", loop.wall_damping, "N s/m", 0.0, largest);
+  require_within("grip.mass", loop.grip.mass, "kg", 0.0, largest);
+  require_within("grip.damping", loop.grip.damping, "N s/m", 0.0, largest);
+  require_within("grip.stiffness", loop.grip.stiffness, "N/m", 0.0, largest);
+  require_within("device.sample_delay", loop.device.sample_delay, "ticks", 0, max_delay);
 }
 
 double critical_stiffness(const SampledLoop& sampled) {
   validate(sampled);
   const bool damped = sampled.device.viscous_friction + sampled.grip.damping > 0.0;
   if (!damped && (sampled.wall_damping == 0.0 || sampled.grip.stiffness > 0.0)) return 0.0;
-  // Under a soft wall a damped motion stays damped, unless the wall's own damping is too much for the rate. From there
-  // on it stays so until a root comes to the circle.
+  // Against a soft wall a damped motion stays damped, unless the damping of the wall is too high for the rate. With
+  // increasing stiffness it stays damped until a root reaches the unit circle.
   const Loop loop(sampled);
   const auto damping_at = [&](double angle) { return loop.wall_damping_at(angle); };
   if (loop.wall_damping() > 0.0 && loop.wall_damping() >= first_crossing(sampled.device.sample_delay, damping_at))
     return 0.0;
   const double first =
       first_crossing(sampled.device.sample_delay, [&](double angle) { return loop.stiffness_at(angle); });
-  // The stiffest wall is never stable. That none is found says that the damping is lost among the rounding errors.
+  // An infinitely stiff wall is never stable, so finding no crossing means that the damping is lost in rounding errors.
   return std::isfinite(first) ? first * loop.unit() : 0.0;
 }
 
@@ -224,8 +212,8 @@ StiffnessAdvice advise_stiffness(const SampledLoop& loop) {
   advice.stable = {
       critical_stiffness(loop),
       "exact zero-order hold: all roots of z^(d+1) D(z) + (K z + B (z - 1) / T) N(z) inside |z| = 1",
-      "exact for a rigid mass in this grip on a bilateral wall; does not see flexible links, which make it "
-      "optimistic, nor dry friction, rounding and saturation"};
+      "exact for a rigid mass in this grip on a bilateral wall; does not model flexible links, which make it "
+      "optimistic, nor Coulomb friction, quantisation and saturation"};
   advice.approximate = approximate_bound(loop);
   return advice;
 }

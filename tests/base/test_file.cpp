@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A directory of its own, gone at the end of the test.
+/// A temporary directory, removed at the end of the test.
 struct Directory {
   fs::path path;
   Directory() {
@@ -44,7 +44,7 @@ std::string error_of(const fs::path& path, const std::string& text) {
   return {};
 }
 
-/// While it lives no file grows beyond `bytes`, as if the disk were full.
+/// During its lifetime no file can grow beyond `bytes`, as if the disk were full.
 struct SmallDisk {
   rlimit before{};
   void (*handler)(int);
@@ -64,7 +64,7 @@ struct SmallDisk {
 
 }  // namespace
 
-TEST_CASE("a file is read whole, up to the number of bytes that is asked for", "[practice]") {
+TEST_CASE("a file is read completely, up to the given number of bytes", "[practice]") {
   const Directory directory;
   const fs::path path = directory.path / "text";
   for (const std::size_t size : {0u, 1u, 65535u, 65536u, 65537u, 200000u}) {
@@ -75,7 +75,7 @@ TEST_CASE("a file is read whole, up to the number of bytes that is asked for", "
     CHECK(read_file(path, size) == all);
     CHECK(read_file(path, size + 1) == all);
     if (size == 0) continue;
-    const std::string reason = ": more than the " + std::to_string(size - 1) + " bytes that are read of a file";
+    const std::string reason = ": larger than the limit of " + std::to_string(size - 1) + " bytes";
     CHECK_THROWS_WITH(read_file(path, size - 1), path.string() + reason);
     CHECK_THROWS_AS(read_file(path, size - 1), FormatError);
   }
@@ -83,7 +83,7 @@ TEST_CASE("a file is read whole, up to the number of bytes that is asked for", "
   CHECK_THROWS_WITH(read_file(directory.path, 10), directory.path.string() + ": is not a regular file");
 }
 
-TEST_CASE("a written file holds the content byte for byte, and nothing else is left", "[practice]") {
+TEST_CASE("a written file has the given content byte for byte, and no other file is left behind", "[practice]") {
   const Directory directory;
   std::string all(100006, 'x');
   all.replace(0, 6, std::string("a\0b\r\n\xff", 6));
@@ -94,7 +94,7 @@ TEST_CASE("a written file holds the content byte for byte, and nothing else is l
   }
 }
 
-TEST_CASE("a name without a directory is written beside where the program runs", "[practice]") {
+TEST_CASE("a name without a directory is written to the working directory", "[practice]") {
   const Directory directory;
   const fs::path before = fs::current_path();
   fs::current_path(directory.path);
@@ -104,7 +104,7 @@ TEST_CASE("a name without a directory is written beside where the program runs",
   CHECK(content(directory.path / "plain.txt") == "text");
 }
 
-TEST_CASE("a path that cannot be written is an error naming path and reason", "[practice]") {
+TEST_CASE("a path that cannot be written is an error that names path and reason", "[practice]") {
   const Directory directory;
   write_file(directory.path / "file", "old");
   const fs::path inside_file = directory.path / "file" / "out.txt";
@@ -117,7 +117,7 @@ TEST_CASE("a path that cannot be written is an error naming path and reason", "[
   CHECK(directory.entries() == 1);
 }
 
-TEST_CASE("a full disk leaves the old file as it was and no half of a new one", "[practice]") {
+TEST_CASE("a full disk leaves the old file unchanged and no partial new one", "[practice]") {
   const Directory directory;
   const fs::path path = directory.path / "out.txt";
   write_file(path, "old");
@@ -134,7 +134,7 @@ TEST_CASE("a full disk leaves the old file as it was and no half of a new one", 
   }
 }
 
-TEST_CASE("a file that is replaced keeps its permissions, and a link to it stays a link", "[practice]") {
+TEST_CASE("a replaced file keeps its permissions, and a link to it stays a link", "[practice]") {
   const Directory directory;
   const fs::path path = directory.path / "private.txt", link = directory.path / "link.txt";
   write_file(path, "old");
@@ -147,5 +147,5 @@ TEST_CASE("a file that is replaced keeps its permissions, and a link to it stays
   CHECK(fs::status(path).permissions() == (fs::perms::owner_read | fs::perms::owner_write));
 
   fs::create_symlink("missing.txt", directory.path / "dangling.txt");
-  CHECK(error_of(directory.path / "dangling.txt", "new").find("the link leads nowhere") != std::string::npos);
+  CHECK(error_of(directory.path / "dangling.txt", "new").find("the link is dangling") != std::string::npos);
 }

@@ -1,4 +1,4 @@
-// Claims about parallel_for.
+// parallel_for: every index, errors and progress.
 #include <atomic>
 #include <stdexcept>
 #include <string>
@@ -10,7 +10,7 @@
 
 using namespace calligraphy;
 
-TEST_CASE("every index is worked on once, whatever the number of threads", "[practice]") {
+TEST_CASE("every index is processed once, whatever the number of threads", "[practice]") {
   for (const int threads : {0, 1, 2, 7, 100}) {
     std::vector<std::atomic<int>> calls(50);
     parallel_for(calls.size(), threads, {}, [&](std::size_t i) { ++calls[i]; });
@@ -19,7 +19,7 @@ TEST_CASE("every index is worked on once, whatever the number of threads", "[pra
   parallel_for(0, 4, {}, [](std::size_t) { throw std::logic_error("no work"); });
 }
 
-TEST_CASE("of several failures the one of the lowest index is thrown", "[practice]") {
+TEST_CASE("of several exceptions the one of the lowest index is thrown", "[practice]") {
   for (int round = 0; round < 50; ++round) {
     std::string message;
     try {
@@ -33,7 +33,7 @@ TEST_CASE("of several failures the one of the lowest index is thrown", "[practic
   }
 }
 
-TEST_CASE("what progress throws is thrown on and ends the work of every thread", "[practice]") {
+TEST_CASE("an exception from progress is rethrown and stops every thread", "[practice]") {
   std::atomic<int> calls = 0;
   std::atomic<bool> given_up = false;
   const auto give_up = [&](double) {
@@ -43,7 +43,7 @@ TEST_CASE("what progress throws is thrown on and ends the work of every thread",
   const std::thread::id caller = std::this_thread::get_id();
   CHECK_THROWS_WITH(parallel_for(1'000'000, 4, give_up,
                                  [&](std::size_t) {
-                                   // Nobody goes far before the caller has had its turn.
+                                   // No thread gets far before the caller has had its turn.
                                    while (!given_up && std::this_thread::get_id() != caller) std::this_thread::yield();
                                    ++calls;
                                  }),
@@ -51,7 +51,7 @@ TEST_CASE("what progress throws is thrown on and ends the work of every thread",
   CHECK(calls < 1'000'000);
 }
 
-TEST_CASE("progress rises, from the calling thread alone, and one thread reports to the end", "[practice]") {
+TEST_CASE("progress increases, comes only from the calling thread, and reaches the end with one thread", "[practice]") {
   std::vector<double> shares;
   parallel_for(
       10, 1, [&](double share) { shares.push_back(share); }, [](std::size_t) {});

@@ -11,7 +11,7 @@
 
 using calligraphy::Random;
 
-// Expected values: splitmix64's published ones, and those of a Python program after the description in the header.
+// Expected values: those published for splitmix64, and those of a Python program written from the header's description.
 
 TEST_CASE("the engine is splitmix64", "[random]") {
   Random random(1234567);
@@ -21,7 +21,7 @@ TEST_CASE("the engine is splitmix64", "[random]") {
   }
 }
 
-TEST_CASE("draws have the bits that the written algorithm gives", "[random]") {
+TEST_CASE("draws have the bits of the specified algorithm", "[random]") {
   Random uniform(1);
   for (const double expected : {0x1.22145bd91204bp-1, 0x1.7dd71b42cb1ddp-1, 0x1.f12745ddf664ap-1}) {
     CHECK(uniform.next() == expected);
@@ -38,7 +38,7 @@ TEST_CASE("draws have the bits that the written algorithm gives", "[random]") {
   CHECK(keyed.bits() == 0x2d865ffa9bf499f2u);
 }
 
-TEST_CASE("an order is shuffled as Fisher and Yates do, and stays the same set", "[random]") {
+TEST_CASE("shuffling follows Fisher and Yates and keeps all values", "[random]") {
   std::array<int, 10> order;
   std::iota(order.begin(), order.end(), 0);
   Random random(1);
@@ -57,7 +57,7 @@ TEST_CASE("an order is shuffled as Fisher and Yates do, and stays the same set",
   for (const int count : seen) CHECK(std::abs(count - 1000) < 5 * 31);  // five standard deviations
 }
 
-TEST_CASE("no index is likelier than another, however large the count", "[random]") {
+TEST_CASE("all indices are equally likely, however large the count", "[random]") {
   // Of 2^64 values the lowest 2^62 would be drawn twice as often for this count.
   constexpr std::uint64_t count = 3ull << 62;
   Random random(5);
@@ -72,7 +72,7 @@ TEST_CASE("no index is likelier than another, however large the count", "[random
   CHECK(random.index(0) == 0);
 }
 
-TEST_CASE("uniform draws stay within their ends and fill them evenly", "[random]") {
+TEST_CASE("uniform draws stay within their interval and fill it evenly", "[random]") {
   Random random(3);
   double sum = 0.0, square = 0.0;
   constexpr int count = 1'000'000;
@@ -126,7 +126,7 @@ TEST_CASE("normal draws have the moments and the tails of the normal distributio
   CHECK(largest < 1.95 / std::sqrt(static_cast<double>(draws.size())));
 }
 
-TEST_CASE("each list of keys has a sequence of its own", "[random]") {
+TEST_CASE("each list of keys has an independent sequence", "[random]") {
   std::vector<std::uint64_t> first;
   for (std::uint64_t seed = 0; seed < 4; ++seed) {
     first.push_back(Random(seed).bits());

@@ -25,6 +25,8 @@ std::string complaint(std::string_view text) {
 
 TEST_CASE("code points of one to four bytes are decoded", "[model]") {
   CHECK(decode_utf8("").empty());
+  CHECK(is_utf8("A\xC3\xA9"));
+  CHECK_FALSE(is_utf8("\xC3"));
   CHECK(decode_utf8("A\xC3\xA9\xE6\xB0\xB8\xF0\xA0\x80\x80") == U"A\u00E9\u6C38\U00020000");
 }
 
@@ -37,7 +39,7 @@ TEST_CASE("encoding undoes decoding over the whole of Unicode", "[model]") {
   CHECK(wrong == 0);
 }
 
-TEST_CASE("a code that is no character is refused", "[model]") {
+TEST_CASE("a code point that is not a character is rejected", "[model]") {
   for (const char32_t code : {char32_t{0xD800}, char32_t{0xDFFF}, char32_t{0x110000}, char32_t{0xFFFFFFFF}}) {
     CHECK_THROWS_AS(encode_utf8(code), ValueError);
   }
@@ -50,6 +52,13 @@ TEST_CASE("the first invalid sequence is named by its byte offset", "[model]") {
   CHECK(complaint("abc\xED\xA0\x80").find("byte 3 ") != std::string::npos);    // surrogate
   CHECK(complaint("a\xF4\x90\x80\x80").find("byte 1 ") != std::string::npos);  // above U+10FFFF
   CHECK(complaint("a\x80").find("byte 1 ") != std::string::npos);              // stray continuation
+}
+
+TEST_CASE("text is UTF-8 only when all of it is", "[base]") {
+  CHECK(is_utf8(""));
+  CHECK(is_utf8("p\xC3\xA4per \xE6\xB0\xB8"));
+  CHECK_FALSE(is_utf8("p\xE4per"));
+  CHECK_FALSE(is_utf8("\xC3"));
 }
 
 }  // namespace text_tests

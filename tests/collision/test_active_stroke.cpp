@@ -32,8 +32,8 @@ StrokeRules printed_rules() {
 struct Trace {
   int passed = 0;
   bool finished = false;
-  int falls = 0;              ///< updates in which the active element went back
-  double largest_step = 0.0;  ///< of the foot's arc length outside feature points [m]
+  int falls = 0;          ///< updates in which the index of the active element decreased
+  double max_step = 0.0;  ///< maximum change of the closest point's arc length, except at feature points [m]
 };
 
 Trace trace(ActiveStroke& active, const std::vector<Point>& path, const StrokeRules& rules = {}) {
@@ -43,8 +43,7 @@ Trace trace(ActiveStroke& active, const std::vector<Point>& path, const StrokeRu
     const StrokeContact contact = active.update(path[i], rules);
     result.passed += contact.passed_feature;
     result.falls += contact.element < last.element;
-    if (i > 0 && !contact.passed_feature)
-      result.largest_step = std::max(result.largest_step, std::abs(contact.arc - last.arc));
+    if (i > 0 && !contact.passed_feature) result.max_step = std::max(result.max_step, std::abs(contact.arc - last.arc));
     result.finished = contact.finished;
     last = contact;
   }
@@ -64,12 +63,12 @@ TEST_CASE("a pen that traces a typical stroke passes each feature point once, in
     CHECK(result.passed == static_cast<int>(type.elements.size()));
     CHECK(result.finished);
     CHECK(result.falls == 0);
-    CHECK(result.largest_step < 3.0 * pen_step);
-    CHECK(active.features_left() == 0);
+    CHECK(result.max_step < 3.0 * pen_step);
+    CHECK(active.features_remaining() == 0);
   }
 }
 
-TEST_CASE("a pen 2 mm beside a typical stroke passes each feature point too", "[collision]") {
+TEST_CASE("a pen 2 mm off a typical stroke passes each feature point too", "[collision]") {
   for (const TypicalStroke& type : typical_strokes()) {
     const Character character = typical_character(type.id);
     const Stroke stroke = strokes(character)[0];
@@ -99,7 +98,7 @@ TEST_CASE("a typical stroke traced backwards never finishes", "[collision]") {
     const auto begin =
         std::find_if(path.begin(), path.end(), [&](const Point& tip) { return active.begins_at(tip, 0.008); });
     REQUIRE(begin != path.end());
-    CHECK_FALSE(trace(active, {begin, path.end()}).finished);  // what a pen that went on into the start would write
+    CHECK_FALSE(trace(active, {begin, path.end()}).finished);  // what a pen that slid on into the start would write
   }
 }
 
@@ -109,18 +108,18 @@ TEST_CASE("a reloaded stroke starts again, with all of its feature points", "[co
   const std::vector<Point> path = path_of(stroke, place, pen_step);
   ActiveStroke active;
   active.load(stroke, place);
-  CHECK(active.features_left() == 3);
+  CHECK(active.features_remaining() == 3);
   trace(active, {path.begin(), path.begin() + static_cast<std::ptrdiff_t>(path.size() / 2)});
-  CHECK(active.features_left() == 2);
+  CHECK(active.features_remaining() == 2);
   active.reload();
-  CHECK(active.features_left() == 3);
+  CHECK(active.features_remaining() == 3);
   const StrokeContact contact = active.update(active.start(), {});
   CHECK(contact.element == 0);
   CHECK(contact.arc == Approx(0.0).margin(1e-12));
   CHECK(contact.backwards == 0.0);
   CHECK(trace(active, path).finished);
   active.load(stroke, place);
-  CHECK(active.features_left() == 3);
+  CHECK(active.features_remaining() == 3);
 }
 
 TEST_CASE("a pen far from a feature point passes its plane only as printed", "[collision]") {
@@ -131,15 +130,15 @@ TEST_CASE("a pen far from a feature point passes its plane only as printed", "[c
   const Point corner = place.to_page(stroke.control_points[1]);
   const Point beyond = corner + 0.5 * (corner - active.start()) + Point(0.0, 0.02);
   CHECK_FALSE(active.update(beyond, {}).passed_feature);
-  CHECK(active.features_left() == 2);
+  CHECK(active.features_remaining() == 2);
   CHECK(active.update(beyond, printed_rules()).passed_feature);
-  // As printed, jumping back and forth across the planes writes a stroke that the pen never touched.
+  // As printed, a pen that jumps back and forth across the planes finishes a stroke that it never touched.
   active.reload();
   CHECK(active.update(beyond, printed_rules()).passed_feature);
   CHECK(active.update(place.to_page(stroke.control_points[2]) + Point(0.05, -0.03), printed_rules()).finished);
 }
 
-TEST_CASE("a finished stroke keeps its foot where the pen is", "[collision]") {
+TEST_CASE("a finished stroke keeps its closest point where the pen is", "[collision]") {
   const Character character = typical_character(16);
   const Stroke stroke = strokes(character)[0];
   const std::vector<Point> path = path_of(stroke, place, pen_step);
@@ -149,10 +148,10 @@ TEST_CASE("a finished stroke keeps its foot where the pen is", "[collision]") {
   const StrokeContact after = active.update(path.back(), {});
   CHECK(after.finished);
   CHECK_FALSE(after.passed_feature);
-  CHECK((after.foot.point - path.back()).norm() < 1e-9);
+  CHECK((after.closest.point - path.back()).norm() < 1e-9);
 }
 
-TEST_CASE("crossing a plane back and forth passes one feature point", "[collision]") {
+TEST_CASE("crossing a feature plane back and forth passes one feature point", "[collision]") {
   const Character character = typical_character(16);
   const Stroke stroke = strokes(character)[0];
   ActiveStroke active;
@@ -169,7 +168,7 @@ TEST_CASE("crossing a plane back and forth passes one feature point", "[collisio
   CHECK(passed == 1);
 }
 
-TEST_CASE("a stroke begins near its start, and not where it already ends", "[collision]") {
+TEST_CASE("a stroke begins near its start, and not where it ends", "[collision]") {
   const Character character = typical_character(8);  // a dot, 0.28 em long: 11.3 mm
   const Stroke stroke = strokes(character)[0];
   ActiveStroke active;
@@ -184,7 +183,8 @@ TEST_CASE("a stroke begins near its start, and not where it already ends", "[col
   CHECK_FALSE(active.begins_at({std::nan(""), 0.0}, 0.008));
 }
 
-TEST_CASE("the attraction factor is linear in arc length, and as printed steps at each feature point", "[collision]") {
+TEST_CASE("the attraction factor is linear in arc length, and as printed it steps at each feature point",
+          "[collision]") {
   const Character character = typical_character(16, {1.0, 2.0, 0.5});
   const Stroke stroke = strokes(character)[0];
   const std::vector<Point> path = path_of(stroke, place, pen_step);
@@ -195,21 +195,21 @@ TEST_CASE("the attraction factor is linear in arc length, and as printed steps a
   printed.load(stroke, place);
   StrokeRules rules = printed_rules();
   rules.plane = FeaturePlaneRule::bounded;
-  double worst = 0.0, last = 1.0, largest_step = 0.0;
+  double worst = 0.0, last = 1.0, max_step = 0.0;
   for (const Point& tip : path) {
     const StrokeContact contact = active.update(tip, {}), step = printed.update(tip, rules);
     const double expected =
         contact.arc <= first ? 1.0 + contact.arc / first : 2.0 - 1.5 * (contact.arc - first) / second;
     worst = std::max(worst, std::abs(contact.attraction - expected));
     if (!step.finished) CHECK(step.attraction == (step.element == 0 ? 1.0 : 2.0));
-    if (!contact.passed_feature) largest_step = std::max(largest_step, std::abs(contact.attraction - last));
+    if (!contact.passed_feature) max_step = std::max(max_step, std::abs(contact.attraction - last));
     last = contact.attraction;
   }
   CHECK(worst < 1e-9);
-  CHECK(largest_step < 2.0 * pen_step / first);
+  CHECK(max_step < 2.0 * pen_step / first);
 }
 
-TEST_CASE("a pen that goes back is behind by as much", "[collision]") {
+TEST_CASE("a pen that moves back along the stroke is reported to be behind by that arc length", "[collision]") {
   const Character character = typical_character(1);
   const Stroke stroke = strokes(character)[0];
   const std::vector<Point> path = path_of(stroke, place, pen_step);
@@ -221,7 +221,7 @@ TEST_CASE("a pen that goes back is behind by as much", "[collision]") {
   CHECK(active.update(path[210], {}).backwards == 0.0);
 }
 
-TEST_CASE("a stroke being written takes nothing from the heap", "[collision]") {
+TEST_CASE("writing a stroke does not allocate", "[collision]") {
   const Character character = typical_character(27);
   const Stroke stroke = strokes(character)[0];
   const std::vector<Point> path = path_of(stroke, place, pen_step);
@@ -233,7 +233,7 @@ TEST_CASE("a stroke being written takes nothing from the heap", "[collision]") {
   CHECK(result.finished);
 }
 
-TEST_CASE("a stroke left at its start and met again at its end is not finished", "[collision]") {
+TEST_CASE("a pen that leaves a stroke at its start and returns at its end does not finish it", "[collision]") {
   const Character* one = built_in_characters().find(U'一');
   REQUIRE(one != nullptr);
   const Placement em_40_mm{Point::Zero(), 0.04};

@@ -26,7 +26,7 @@ Character stroke_of(int id, std::vector<Point> points) {
 
 struct Run {
   bool finished = false;
-  double largest_jump = 0.0;   ///< of the foot from one update to the next [m]
+  double max_jump = 0.0;       ///< maximum, of the closest point from one update to the next [m]
   double furthest_back = 0.0;  ///< [m]
 };
 
@@ -39,7 +39,7 @@ Run follow(const Character& character, const std::vector<Point>& path, const Str
     const StrokeContact contact = active.update(path[i], rules);
     run.finished = contact.finished;
     run.furthest_back = std::max(run.furthest_back, contact.backwards);
-    if (i > 0) run.largest_jump = std::max(run.largest_jump, (contact.foot.point - last.foot.point).norm());
+    if (i > 0) run.max_jump = std::max(run.max_jump, (contact.closest.point - last.closest.point).norm());
     last = contact;
   }
   return run;
@@ -47,23 +47,23 @@ Run follow(const Character& character, const std::vector<Point>& path, const Str
 
 }  // namespace
 
-TEST_CASE("Fig. 25, strong bend: the foot stays on its own limb of a hairpin", "[collision]") {
-  // Limbs 3.5 mm apart, the pen 2.5 mm towards the other limb: the whole element has its nearest point there.
+TEST_CASE("Fig. 25, sharp bend: the closest point stays on its own limb of a hairpin", "[collision]") {
+  // Limbs 3.5 mm apart, the pen 2.5 mm towards the other limb: there the nearest point of the whole element lies.
   const Character hairpin = stroke_of(4, {{0.1, 0.5}, {1.3, 0.5}, {1.3, 0.6}, {0.1, 0.59}});
   const std::vector<Point> path = beside(path_of(strokes(hairpin)[0], at_origin, drawn_step), 0.0025);
   std::vector<Point> first_limb(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(path.size() / 3));
   const Run windowed = follow(hairpin, first_limb);
   CHECK(windowed.furthest_back == Approx(0.0).margin(1e-6));
-  CHECK(windowed.largest_jump < 3.0 * drawn_step);
+  CHECK(windowed.max_jump < 3.0 * drawn_step);
   StrokeRules whole;
   whole.window = 0.0;
   CHECK_FALSE(windowed.finished);
   CHECK(follow(hairpin, first_limb, whole)
-            .finished);  // sought on the whole element, the foot is on the other limb at once
+            .finished);  // searched on the whole element, the closest point is on the other limb at once
   CHECK(follow(hairpin, path_of(strokes(hairpin)[0], at_origin, drawn_step)).finished);
 }
 
-TEST_CASE("Fig. 25, strong bend: a pen on the other limb writes nothing of this one", "[collision]") {
+TEST_CASE("Fig. 25, sharp bend: a pen on the other limb makes no progress on this one", "[collision]") {
   const Character hairpin = stroke_of(4, {{0.1, 0.5}, {1.3, 0.5}, {1.3, 0.6}, {0.1, 0.59}});
   ActiveStroke active;
   active.load(strokes(hairpin)[0], at_origin);
@@ -73,7 +73,7 @@ TEST_CASE("Fig. 25, strong bend: a pen on the other limb writes nothing of this 
   CHECK(jumped.arc < 0.008 + 1e-4);
 }
 
-TEST_CASE("Fig. 26, corner: cutting it and overshooting it both go on to the second limb", "[collision]") {
+TEST_CASE("Fig. 26, corner: a pen that cuts or overshoots it continues on the second limb", "[collision]") {
   const Character corner = calligraphy_test::typical_character(16);
   const Stroke stroke = strokes(corner)[0];
   const Point start = at_origin.to_page(stroke.control_points[0]), turn = at_origin.to_page(stroke.control_points[1]),
@@ -97,33 +97,35 @@ TEST_CASE("Fig. 26, corner: cutting it and overshooting it both go on to the sec
   }
 }
 
-TEST_CASE("Fig. 26, corner: a pen that keeps inside it goes on where both limbs attract it equally", "[collision]") {
+TEST_CASE("Fig. 26, corner: a pen inside it continues on the second limb where both attract it equally",
+          "[collision]") {
   const Character corner = calligraphy_test::typical_character(16);
   const Stroke stroke = strokes(corner)[0];
   const Point start = at_origin.to_page(stroke.control_points[0]), turn = at_origin.to_page(stroke.control_points[1]),
               end = at_origin.to_page(stroke.control_points[2]);
   const Point below(0.0, -1.0), left(-1.0, 0.0);
-  for (const double inside : {0.0016, 0.002, 0.0025}) {  // the plane itself is passed up to 1.5 mm before it
+  for (const double inside : {0.0016, 0.002, 0.0025}) {  // the plane itself counts as crossed up to 1.5 mm before it
     std::vector<Point> path = {start + inside * below};
     draw_line(path, turn + inside * (below + left), drawn_step);
     draw_line(path, end + inside * left, drawn_step);
     ActiveStroke active;
     active.load(stroke, at_origin);
-    double last = inside, largest_change = 0.0;
+    double last = inside, max_change = 0.0;
     bool finished = false;
     for (std::size_t i = 0; i < path.size() && !finished; ++i) {
       const StrokeContact contact = active.update(path[i], {});
-      largest_change = std::max(largest_change, std::abs(contact.foot.distance - last));
-      last = contact.foot.distance;
+      max_change = std::max(max_change, std::abs(contact.closest.distance - last));
+      last = contact.closest.distance;
       finished = contact.finished;
     }
     INFO("inside by " << inside << " m");
     CHECK(finished);
-    CHECK(largest_change < 2.0 * drawn_step);  // so the size of the force does not step where its direction turns
+    CHECK(max_change < 2.0 * drawn_step);  // so the magnitude of the force does not step where its direction turns
   }
 }
 
-TEST_CASE("Fig. 26, corner: on its bisector the foot belongs to one limb, not to both in turn", "[collision]") {
+TEST_CASE("Fig. 26, corner: on its bisector the closest point belongs to one limb and does not alternate",
+          "[collision]") {
   const Character corner = calligraphy_test::typical_character(16);
   ActiveStroke active;
   const Stroke stroke = strokes(corner)[0];
@@ -142,7 +144,7 @@ TEST_CASE("Fig. 26, corner: on its bisector the foot belongs to one limb, not to
   CHECK(changes == 0);
 }
 
-TEST_CASE("Fig. 27, parallel strokes: the active one alone attracts", "[collision]") {
+TEST_CASE("Fig. 27, parallel strokes: only the active one attracts", "[collision]") {
   const Character* three = built_in_characters().find(U'三');
   REQUIRE(three != nullptr);
   const std::vector<Stroke> all = strokes(*three);
@@ -151,23 +153,23 @@ TEST_CASE("Fig. 27, parallel strokes: the active one alone attracts", "[collisio
   for (const Point& tip : path_of(all[0], at_origin, drawn_step)) {  // the pen runs along the stroke above
     const StrokeContact contact = active.update(tip, {});
     const double to_active = nearest_point(active.element(0), tip).distance;
-    REQUIRE(contact.foot.distance >= to_active - 1e-12);
+    REQUIRE(contact.closest.distance >= to_active - 1e-12);
     REQUIRE_FALSE(contact.finished);
   }
 }
 
-TEST_CASE("Fig. 28, crossed strokes: crossing the other stroke changes nothing", "[collision]") {
+TEST_CASE("Fig. 28, crossing strokes: crossing the other stroke changes nothing", "[collision]") {
   const Character* ten = built_in_characters().find(U'十');
   REQUIRE(ten != nullptr);
   const std::vector<Stroke> all = strokes(*ten);
   ActiveStroke active;
-  active.load(all[1], at_origin);  // the vertical, across the written horizontal
-  double largest_force_arm = 0.0, last_arc = 0.0;
+  active.load(all[1], at_origin);  // the vertical stroke, across the finished horizontal one
+  double max_force_arm = 0.0, last_arc = 0.0;
   int falls = 0;
   bool finished = false;
   for (const Point& tip : path_of(all[1], at_origin, drawn_step)) {
     const StrokeContact contact = active.update(tip, {});
-    largest_force_arm = std::max(largest_force_arm, contact.foot.distance);
+    max_force_arm = std::max(max_force_arm, contact.closest.distance);
     falls += contact.arc < last_arc;
     last_arc = contact.arc;
     finished = finished || contact.finished;
@@ -175,5 +177,5 @@ TEST_CASE("Fig. 28, crossed strokes: crossing the other stroke changes nothing",
   }
   CHECK(finished);
   CHECK(falls == 0);
-  CHECK(largest_force_arm < 1e-9);
+  CHECK(max_force_arm < 1e-9);
 }

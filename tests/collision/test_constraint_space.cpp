@@ -17,7 +17,7 @@ constexpr ConstraintSpace printed{ConstraintSpaceRule::wang2006};
 StrokeElement element_of(std::vector<Point> points) { return prepare_element(points); }
 
 double share_at(const ConstraintSpace& space, const StrokeElement& element, const Point& query) {
-  return guidance_share(space, element, query, nearest_point(element, query));
+  return guidance_weight(space, element, query, nearest_point(element, query));
 }
 
 const StrokeElement horizontal = element_of({{0.01, 0.02}, {0.05, 0.02}});  // 40 mm
@@ -26,7 +26,7 @@ const StrokeElement horizontal = element_of({{0.01, 0.02}, {0.05, 0.02}});  // 4
 
 TEST_CASE("rule (a): behind the start of a line there is no guidance as printed", "[collision]") {
   CHECK(share_at(printed, horizontal, {0.0101, 0.02}) == 1.0);
-  CHECK(share_at(printed, horizontal, {0.01, 0.02}) == 0.0);  // on the border: not ahead
+  CHECK(share_at(printed, horizontal, {0.01, 0.02}) == 0.0);  // on the boundary: not ahead
   CHECK(share_at(printed, horizontal, {0.0099, 0.02}) == 0.0);
   CHECK(share_at(printed, horizontal, {0.0101, 0.02 + 0.039}) == 1.0);
   CHECK(share_at(printed, horizontal, {0.0099, 0.02 + 0.039}) == 0.0);
@@ -39,22 +39,22 @@ TEST_CASE("rules (b) and (c): guidance as printed reaches as far from the start 
   CHECK(share_at(printed, horizontal, {0.01 + 0.0284, 0.02 + 0.0284}) == 0.0);  // 40.2 mm
 }
 
-TEST_CASE("rule (d): a point as printed always guides", "[collision]") {
+TEST_CASE("rule (d): a point as printed always attracts", "[collision]") {
   const StrokeElement point = element_of({{0.01, 0.02}, {0.01, 0.02}});
   CHECK(share_at(printed, point, {0.01, 0.02}) == 1.0);
   CHECK(share_at(printed, point, {0.5, -3.0}) == 1.0);
 }
 
-TEST_CASE("a curve as printed guides within a disc round its start, behind it too", "[collision]") {
+TEST_CASE("a curve as printed attracts within a disc around its start, behind it too", "[collision]") {
   const StrokeElement curve = element_of({{0, 0}, {0.01, 0.01}, {0.02, 0.01}, {0.03, 0}});
   CHECK(share_at(printed, curve, {-0.0299, 0}) == 1.0);
   CHECK(share_at(printed, curve, {-0.0301, 0}) == 0.0);
   CHECK(share_at(printed, curve, {0, 0.0299}) == 1.0);
 }
 
-TEST_CASE("the printed half disc drops a deviation's whole force before the end of a stroke", "[collision]") {
-  // At lateral deviation d the half disc ends where x^2 + d^2 = L^2, so before the stroke does, and K d falls to 0 at
-  // once.
+TEST_CASE("as printed, the half disc drops the whole force of a deviation before the end of a stroke", "[collision]") {
+  // At lateral deviation d the half disc ends where x^2 + d^2 = L^2, which is before the end of the stroke, and K d
+  // drops to 0 at once.
   const double length = 0.04, stiffness = 400.0;
   for (const double deviation : {0.001, 0.003, 0.008, 0.02}) {
     const double border = std::sqrt(length * length - deviation * deviation);
@@ -70,7 +70,7 @@ TEST_CASE("the printed half disc drops a deviation's whole force before the end 
   }
 }
 
-TEST_CASE("the tube is whole inside, nothing outside, and without step or kink between", "[collision]") {
+TEST_CASE("the weight of the tube is 1 inside, 0 outside, and without step or kink in between", "[collision]") {
   const ConstraintSpace tube{ConstraintSpaceRule::tube, 0.008, 0.003};
   const auto share = [&](double y) { return share_at(tube, horizontal, {0.03, 0.02 + y}); };
   CHECK(share(0.0) == 1.0);
@@ -79,19 +79,19 @@ TEST_CASE("the tube is whole inside, nothing outside, and without step or kink b
   CHECK(share(0.008) == 0.0);
   CHECK(share(1.0) == 0.0);
   const double step = 1e-6;
-  double largest_step = 0.0, largest_bend = 0.0, rises = 0.0;
+  double max_step = 0.0, max_bend = 0.0, rises = 0.0;
   for (double y = 0.0; y < 0.010; y += step) {
     const double before = share(y), at = share(y + step), after = share(y + 2.0 * step);
-    largest_step = std::max(largest_step, std::abs(at - before));
-    largest_bend = std::max(largest_bend, std::abs(after - 2.0 * at + before));
+    max_step = std::max(max_step, std::abs(at - before));
+    max_bend = std::max(max_bend, std::abs(after - 2.0 * at + before));
     rises = std::max(rises, at - before);
   }
   CHECK(rises <= 1e-12);
-  CHECK(largest_step <= 1.5 / 0.003 * step * 1.001);                  // slope of the smooth step: 3/2 per edge
-  CHECK(largest_bend <= 6.0 / (0.003 * 0.003) * step * step * 1.01);  // a kink would bend by a whole slope
+  CHECK(max_step <= 1.5 / 0.003 * step * 1.001);                  // slope of the smooth step: 3/2 per fade width
+  CHECK(max_bend <= 6.0 / (0.003 * 0.003) * step * step * 1.01);  // a kink would bend by a whole slope
 }
 
-TEST_CASE("the tube is the same on both sides of a stroke and round both of its ends", "[collision]") {
+TEST_CASE("the tube is the same on both sides of a stroke and around both of its ends", "[collision]") {
   const ConstraintSpace tube;
   for (double x = -0.012; x < 0.06; x += 0.0011) {
     for (double y = 0.0; y < 0.012; y += 0.0007) {
@@ -102,7 +102,7 @@ TEST_CASE("the tube is the same on both sides of a stroke and round both of its 
   }
 }
 
-TEST_CASE("the tube's edge may be the whole tube, and a lost query is outside", "[collision]") {
+TEST_CASE("the fade may fill the whole tube, and a query that is not finite is outside", "[collision]") {
   const ConstraintSpace tube{ConstraintSpaceRule::tube, 0.008, 0.008};
   CHECK(share_at(tube, horizontal, {0.03, 0.02}) == 1.0);
   CHECK(share_at(tube, horizontal, {0.03, 0.024}) == Approx(0.5));

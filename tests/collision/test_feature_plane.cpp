@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include <calligraphy/collision/feature_plane.hpp>
+#include <calligraphy/collision/detail/feature_plane.hpp>
 
 using namespace calligraphy;
 
@@ -13,17 +13,17 @@ FeaturePlane plane_of(std::vector<Point> points) { return end_plane(prepare_elem
 
 }  // namespace
 
-TEST_CASE("a feature point is written where V_t . V_f of eq. (6) is positive", "[collision]") {
+TEST_CASE("a feature point has been passed where V_t . V_f of eq. (6) is positive", "[collision]") {
   const FeaturePlane plane = plane_of({{0, 0}, {3, 4}});
   CHECK(plane.point == Point(3, 4));
   CHECK(plane.normal.isApprox(Point(0.6, 0.8)));
-  CHECK(plane.beyond({3, 4}) == 0.0);
-  CHECK(plane.beyond({3 + 0.6, 4 + 0.8}) == Approx(1.0));
-  CHECK(plane.beyond({3 - 0.6, 4 - 0.8}) == Approx(-1.0));
-  CHECK(plane.beyond({3 - 8, 4 + 6}) == Approx(0.0).margin(1e-12));  // on the plane, however far
+  CHECK(plane.signed_distance({3, 4}) == 0.0);
+  CHECK(plane.signed_distance({3 + 0.6, 4 + 0.8}) == Approx(1.0));
+  CHECK(plane.signed_distance({3 - 0.6, 4 - 0.8}) == Approx(-1.0));
+  CHECK(plane.signed_distance({3 - 8, 4 + 6}) == Approx(0.0).margin(1e-12));  // on the plane, however far
 }
 
-TEST_CASE("the plane of a curve stands across its tangent at the end, also where the derivative vanishes",
+TEST_CASE("the plane of a curve is perpendicular to its end tangent, also where the derivative vanishes",
           "[collision]") {
   CHECK(plane_of({{0, 0}, {1, 0}, {2, 1}, {2, 2}}).normal.isApprox(Point(0, 1)));
   CHECK(plane_of({{0, 0}, {1, 0}, {2, 2}, {2, 2}}).normal.isApprox(Point(1, 2).normalized()));
@@ -31,8 +31,8 @@ TEST_CASE("the plane of a curve stands across its tangent at the end, also where
   CHECK(plane_of({{0, 0}, {0, 1}, {1, 1}, {1, 1}, {1, 1}}).normal.isApprox(Point(1, 0)));
 }
 
-TEST_CASE("the plane of a point has no side", "[collision]") {
+TEST_CASE("the plane of a point has no sides", "[collision]") {
   const FeaturePlane plane = plane_of({{1, 1}, {1, 1}});
   CHECK(plane.normal == Point(0, 0));
-  CHECK(plane.beyond({5, -7}) == 0.0);
+  CHECK(plane.signed_distance({5, -7}) == 0.0);
 }

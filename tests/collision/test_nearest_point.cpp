@@ -30,7 +30,7 @@ constexpr int fuzz_queries = 20'000;
 constexpr int fuzz_queries = 200'000;
 #endif
 
-/// Error of the distance relative to the size, beyond what rounding of a far query's distance allows.
+/// Error of the distance relative to the size, beyond what rounding of the distance of a far query permits.
 double error_of(const NearestPoint& found, const ReferenceCurve& reference, const Point& query, const HardCurve& curve,
                 const ParameterRange& range = {}) {
   const auto expected = reference.nearest(query, range.begin, range.end, 400);
@@ -64,7 +64,7 @@ TEST_CASE("the exact nearest point agrees with brute force on every hard curve",
   }
 }
 
-TEST_CASE("the exact nearest point agrees with brute force within a part of an element", "[collision]") {
+TEST_CASE("the exact nearest point agrees with brute force within a range of an element", "[collision]") {
   constexpr ParameterRange ranges[] = {{0.0, 0.3}, {0.2, 0.7}, {0.55, 1.0}, {0.4, 0.4}, {0.999, 1.0}, {0.0, 1e-9}};
   for (const HardCurve& curve : hard_curves()) {
     const StrokeElement element = prepare_element(curve.control_points);
@@ -106,26 +106,27 @@ TEST_CASE("ties go to the smaller parameter", "[collision]") {
   CHECK(parameter({{0, 0}, {1, 0}, {1, 0}, {0, 0}}, {0.375, 0.0}) ==
         Approx(parameter({{0, 0}, {1, 0}, {1, 0}, {0, 0}}, {0.375, 1e-12})));  // there and back over the same points
   CHECK(parameter({{0, 0}, {1, 0}, {1, 0}, {0, 0}}, {0.5, 0.3}) < 0.5);
-  // A tie of two inner minima is found up to rounding: the same distance, the same answer each time.
+  // A tie of two inner minima is resolved up to rounding: the same distance, the same result every time.
   const StrokeElement s = prepare_element(std::vector<Point>{{0, 0}, {1, 0}, {0, 1}, {1, 1}});
   CHECK(nearest_point(s, {0.5, 0.5}).parameter == nearest_point(s, {0.5, 0.5}).parameter);
 }
 
-TEST_CASE("at the centre of an arc any point of it will do, and one is found", "[collision]") {
+TEST_CASE("at the centre of an arc, where all its points are equally near, one of them is found", "[collision]") {
   const double k = 0.5522847498307936;
   const StrokeElement arc = prepare_element(std::vector<Point>{{1, 0}, {1, k}, {k, 1}, {0, 1}});
   const NearestPoint found = nearest_point(arc, {0, 0});
   CHECK(found.certified());
   CHECK(found.distance == Approx(1.0).margin(1e-9));  // this cubic leaves the circle outwards by at most 2.7e-4
-  // Centre of curvature of the parabola y = 2 x (1 - x) at its top: three zeros of the slope fall together there.
+  // Centre of curvature of the parabola y = 2 x (1 - x) at its vertex: three zeros of the slope coincide there.
   const StrokeElement parabola = prepare_element(std::vector<Point>{{0, 0}, {0.5, 1}, {1, 0}});
   const NearestPoint top = nearest_point(parabola, {0.5, 0.25});
   CHECK(top.certified());
   CHECK(top.distance == Approx(0.25).margin(1e-9));
 }
 
-TEST_CASE("the nearest point moves, turns and grows with its curve, and stays when the curve is reversed",
-          "[collision]") {
+TEST_CASE(
+    "the nearest point follows translation, rotation and scaling of its curve, and is the same on the reversed curve",
+    "[collision]") {
   Sequence random(7);
   for (const HardCurve& curve : hard_curves()) {
     if (curve.tolerance > 1e-9) continue;
@@ -150,7 +151,7 @@ TEST_CASE("the nearest point moves, turns and grows with its curve, and stays wh
   }
 }
 
-TEST_CASE("no query and no element makes the nearest point other than finite", "[collision]") {
+TEST_CASE("the nearest point is finite for every query and every element", "[collision]") {
   const double values[] = {0.0,   -0.0,  5e-324,  1e-310,   1e-200,    1.0,         -1e8,
                            1e154, 1e200, 1.7e308, infinity, -infinity, not_a_number};
   std::vector<HardCurve> curves = hard_curves();
@@ -178,7 +179,7 @@ TEST_CASE("no query and no element makes the nearest point other than finite", "
   }
 }
 
-TEST_CASE("hundreds of thousands of random queries find nothing nearer than the nearest point", "[collision]") {
+TEST_CASE("over hundreds of thousands of random queries no sample is nearer than the nearest point", "[collision]") {
   Sequence random(99);
   double worst_against_samples = -infinity, worst_against_reference = -infinity;
   int uncertified = 0;
@@ -214,7 +215,7 @@ TEST_CASE("hundreds of thousands of random queries find nothing nearer than the 
   CHECK(calligraphy_test::allocations() - before - own == 0);
 }
 
-TEST_CASE("an element that is not finite, or too large to square, refuses every query", "[collision]") {
+TEST_CASE("an element that is not finite, or too large to square, rejects every query", "[collision]") {
   const std::vector<std::vector<Point>> unusable = {
       {{0, 0}, {not_a_number, 0}},
       {{infinity, 0}, {0, 0}},

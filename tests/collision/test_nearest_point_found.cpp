@@ -1,4 +1,4 @@
-// What nearest_point_fuzz found, so that it stays mended.
+// Regression tests for what nearest_point_fuzz found.
 #include "../catch.hpp"
 
 #include <cmath>
@@ -69,7 +69,7 @@ const Found found[] = {
 
 }  // namespace
 
-TEST_CASE("the nearest point is right where the fuzz found it wrong", "[collision]") {
+TEST_CASE("the nearest point is right where the fuzzer found it wrong", "[collision]") {
   for (const Found& found_case : found) {
     const StrokeElement element = prepare_element(found_case.points);
     const NearestPointOracle oracle(found_case.points);
@@ -86,8 +86,8 @@ TEST_CASE("the nearest point is right where the fuzz found it wrong", "[collisio
   }
 }
 
-TEST_CASE("a pen that comes back from very far is on the nearest element at once", "[collision]") {
-  // The margin within which two distances are equal follows from them, not from those of the last tick.
+TEST_CASE("a pen that returns from very far is on the nearest element at once", "[collision]") {
+  // The margin within which two distances count as equal follows from them, not from those of the last tick.
   const std::vector<Point> spot = {{0x1.49p+6, -0x1.48p+6}, {0x1.49p+6, -0x1.48p+6}},
                            bend = {{0x1.49p+6, -0x1.48p+6},
                                    {0x1.4ad990e8a0d09p+6, -0x1.481ae3cadd062p+6},
@@ -100,5 +100,5 @@ TEST_CASE("a pen that comes back from very far is on the nearest element at once
   tracker.update({-0x1.2342019b69a86p+23, 0x1.3582f30a0eb2p+26});
   const Point back(0x1.4900005c57961p+6, -0x1.4800006a5551p+6);
   CHECK(tracker.update(back).element == 1);
-  CHECK(tracker.update(back).foot.distance == Approx(nearest_point(elements[1], back).distance).margin(1e-12));
+  CHECK(tracker.update(back).closest.distance == Approx(nearest_point(elements[1], back).distance).margin(1e-12));
 }

@@ -24,9 +24,9 @@ using calligraphy_test::Sequence;
 
 namespace {
 
-using calligraphy_test::infinity;
 using calligraphy_test::all_methods;
 using calligraphy_test::certified_methods;
+using calligraphy_test::infinity;
 
 /// No point of the curve moves faster than this with its parameter.
 double fastest(const std::vector<Point>& points) {
@@ -37,7 +37,7 @@ double fastest(const std::vector<Point>& points) {
 
 }  // namespace
 
-TEST_CASE("options out of their domain are refused by name and value", "[collision]") {
+TEST_CASE("options out of range are rejected by name and value", "[collision]") {
   const auto complaint = [](const NearestPointOptions& options) -> std::string {
     try {
       validate(options);
@@ -61,7 +61,7 @@ TEST_CASE("options out of their domain are refused by name and value", "[collisi
     for (const auto& [value, is_good] : {std::pair{least, true}, {most, true}, {least - 1, false}, {most + 1, false}}) {
       option = value;
       CHECK(complaint(options) == (is_good ? ""
-                                           : name + " = " + std::to_string(value) + ": expected a whole number from " +
+                                           : name + " = " + std::to_string(value) + ", must be from " +
                                                  std::to_string(least) + " to " + std::to_string(most)));
     }
     option = usual;
@@ -70,11 +70,11 @@ TEST_CASE("options out of their domain are refused by name and value", "[collisi
   judge(options.refinements, "refinements", 0, 8);
 }
 
-TEST_CASE("a certified nearest point is off by no more than its tolerance", "[collision]") {
+TEST_CASE("the error of a certified nearest point is at most its tolerance", "[collision]") {
   for (const HardCurve& curve : hard_curves()) {
     const NearestPointOracle oracle(curve.control_points);
     const StrokeElement element = prepare_element(curve.control_points);
-    // What the coordinates themselves do not resolve is no method's error.
+    // What the coordinates themselves cannot resolve is not an error of the method.
     const double steps = 1e-9 * oracle.allowance(Point::Zero(), 0.0) + (curve.tolerance > 1e-9 ? 1e-7 : 0.0);
     for (const double tolerance : {1e-3, 1e-6, 1e-12}) {
       double worst = 0.0;
@@ -99,7 +99,7 @@ TEST_CASE("a certified nearest point is off by no more than its tolerance", "[co
   }
 }
 
-TEST_CASE("every method refuses a query that is not finite or too far, with a point and a status", "[collision]") {
+TEST_CASE("every method rejects a query that is not finite or too far, with a point and a status", "[collision]") {
   std::vector<Point> lost = {{1e120, 0.0}, {-1e200, 1e200}, {0.0, std::numeric_limits<double>::max()}};
   for (const double value : {infinity, -infinity, std::numeric_limits<double>::quiet_NaN()}) {
     lost.insert(lost.end(), {{value, 0.5}, {0.5, value}, {value, value}, {value, 1e300}});
@@ -112,7 +112,7 @@ TEST_CASE("every method refuses a query that is not finite or too far, with a po
         for (const ParameterRange& range : {ParameterRange{}, ParameterRange{0.25, 0.5}}) {
           const NearestPoint found = nearest_point(element, query, {method}, range, 0.75);
           const bool usable = found.point.allFinite() && found.tangent.allFinite() && !std::isnan(found.distance);
-          // Of a point every finite query has a distance.
+          // A point has a distance to every finite query.
           const bool told = found.status == NearestPointStatus::not_finite && std::isinf(found.distance) &&
                             found.parameter == range.begin && found.point == element.point(range.begin);
           wrong += !usable || !(told || (!(element.size() > 0.0) && query.allFinite()));
@@ -127,7 +127,7 @@ TEST_CASE("every method refuses a query that is not finite or too far, with a po
   }
 }
 
-TEST_CASE("the sampled nearest point is near the nearest sample, better refined, and never called certified",
+TEST_CASE("the sampled nearest point is near the nearest sample, better with refinement, and never certified",
           "[collision]") {
   for (const HardCurve& curve : hard_curves()) {
     const StrokeElement element = prepare_element(curve.control_points);
@@ -140,7 +140,7 @@ TEST_CASE("the sampled nearest point is near the nearest sample, better refined,
       if ((query - element.origin()).norm() > 100.0 * element.size()) continue;  // single precision ranks the samples
       const auto bounds = oracle.nearest(query, 0.5L);
       for (const int samples : {4, 16, 64}) {
-        // Some sample is at most half a step of the parameter from the nearest point.
+        // Some sample is at most half a parameter step from the nearest point.
         const double reach = 0.5 * fastest(curve.control_points) / (samples - 1);
         const NearestPointOptions options{NearestPointMethod::sampled, 1e-9, samples, 0};
         const NearestPoint found = nearest_point(element, query, options);
@@ -163,7 +163,7 @@ TEST_CASE("the sampled nearest point is near the nearest sample, better refined,
   }
 }
 
-TEST_CASE("no method takes anything from the heap", "[collision]") {
+TEST_CASE("no method allocates", "[collision]") {
   const std::vector<HardCurve> curves = hard_curves();
   std::vector<std::vector<Point>> queries;
   for (const HardCurve& curve : curves) queries.push_back(hard_queries(curve));
@@ -179,7 +179,7 @@ TEST_CASE("no method takes anything from the heap", "[collision]") {
       const std::size_t count = std::min(results.size(), queries[i].size());
       nearest_points(elements[0], std::span(queries[i]).first(count), std::span(results).first(count), {method});
     }
-    for (const Point& query : queries[i]) sum += tracker.update(query).foot.distance;
+    for (const Point& query : queries[i]) sum += tracker.update(query).closest.distance;
   }
   CHECK(calligraphy_test::allocations() == before);
   CHECK(sum > 0.0);

@@ -1,4 +1,4 @@
-// The judge of nearest points itself: it accepts the truth, and nothing that is further off than it allows.
+// The nearest-point oracle itself: it accepts the truth, and nothing farther off than it permits.
 #include "../catch.hpp"
 
 #include <cmath>
@@ -19,7 +19,7 @@ using calligraphy_test::Verdict;
 
 namespace {
 
-/// The answer that a method would give at this parameter.
+/// The result that a method would return at this parameter.
 NearestPoint answer_at(const std::vector<Point>& points, const Point& query, double t) {
   const StrokeElement element = prepare_element(points);
   NearestPoint answer;
@@ -53,10 +53,10 @@ struct Vector {
   Point query;
   double parameter;       ///< of the nearest point
   double distance;        ///< of the nearest point
-  double wrong_distance;  ///< what the printed rule gives: on the wrong branch, or stopped early
+  double wrong_distance;  ///< the result of the printed rule: on the wrong branch, or stopped early
 };
 
-/// F1 to F8 of the project's reference on nearest points.
+/// F1 to F8 of the project's nearest-point reference.
 const Vector vectors[] = {
     {"F1", {{0, 0}, {0, 1}, {1, 1}, {1, 0}}, {0.5, 1.0}, 0.5, 0.25, 0.4375},
     {"F4", {{0, 0}, {1, 2}, {3, 3}, {4, 0}}, {1.7890625, 3.046875}, 0.498169, 1.190654, 1.65413},
@@ -67,7 +67,7 @@ const Vector vectors[] = {
 
 }  // namespace
 
-TEST_CASE("the judge of nearest points knows the reference's test vectors, right and wrong", "[collision]") {
+TEST_CASE("the oracle recognises the reference's test vectors, right and wrong", "[collision]") {
   for (const Vector& vector : vectors) {
     INFO(vector.name);
     const ReferenceCurve reference(vector.points);
@@ -83,7 +83,7 @@ TEST_CASE("the judge of nearest points knows the reference's test vectors, right
     CHECK(judged(vector.points, vector.query, right).right);
     CHECK(judged(vector.points, vector.query, right).error <= 2e-14);
 
-    // Every parameter, wherever it is and however found, is judged by how much further its point is.
+    // Every parameter, however found, is judged by how much farther its point is.
     int misjudged = 0;
     for (int i = 0; i <= 1000; ++i) {
       const double t = i / 1000.0;
@@ -95,7 +95,7 @@ TEST_CASE("the judge of nearest points knows the reference's test vectors, right
   }
 }
 
-TEST_CASE("the judge of nearest points rejects what the printed rule answers on its test vectors", "[collision]") {
+TEST_CASE("the oracle rejects the results of the printed rule on its test vectors", "[collision]") {
   for (const Vector& vector : vectors) {
     INFO(vector.name);
     const NearestPoint printed =
@@ -103,13 +103,12 @@ TEST_CASE("the judge of nearest points rejects what the printed rule answers on 
     const Verdict verdict = judged(vector.points, vector.query, printed);
     CHECK_FALSE(verdict.right);
     // F1 and F4 stop at the right parameter by chance, with a point that is not on the curve; on F5 the tie to the
-    // nearer middle saves the branch.
+    // nearer midpoint saves the branch.
     CHECK(verdict.wrong_branch == (vector.name == std::string("F6") || vector.name == std::string("F8")));
   }
 }
 
-TEST_CASE("the judge of nearest points accepts an error just below its allowance and rejects one just above",
-          "[collision]") {
+TEST_CASE("the oracle accepts an error just below its tolerance and rejects one just above", "[collision]") {
   for (const Vector& vector : vectors) {
     const NearestPointOracle oracle(vector.points);
     const auto nearest = ReferenceCurve(vector.points).nearest(vector.query);
@@ -129,8 +128,7 @@ TEST_CASE("the judge of nearest points accepts an error just below its allowance
   }
 }
 
-TEST_CASE("the judge of nearest points rejects a point, a distance or a tangent that is not the parameter's",
-          "[collision]") {
+TEST_CASE("the oracle rejects a point, a distance or a tangent that does not match the parameter", "[collision]") {
   const std::vector<Point> points = vectors[1].points;
   const Point query = vectors[1].query;
   const NearestPoint right =
@@ -159,8 +157,7 @@ TEST_CASE("the judge of nearest points rejects a point, a distance or a tangent 
   for (const NearestPoint& answer : broken) CHECK_FALSE(judged(points, query, answer).right);
 }
 
-TEST_CASE("the judge of nearest points proves a bound on every hard curve that brute force cannot beat",
-          "[collision]") {
+TEST_CASE("the oracle proves a bound on every hard curve that brute force cannot beat", "[collision]") {
   constexpr ParameterRange ranges[] = {{0.0, 1.0}, {0.2, 0.7}, {0.0, 1e-6}, {0.4, 0.4}};
   for (const HardCurve& curve : hard_curves()) {
     const NearestPointOracle oracle(curve.control_points);
@@ -169,7 +166,7 @@ TEST_CASE("the judge of nearest points proves a bound on every hard curve that b
     for (const Point& query : hard_queries(curve, 8)) {
       for (const ParameterRange& range : ranges) {
         if (++queries % 7 != 0 && range.begin != 0.0) continue;
-        // The hint may be anything: the proof does not rest on it.
+        // The hint may be anything: the proof does not depend on it.
         const auto bounds = oracle.nearest(query, 0.37L, range);
         long double sampled = std::numeric_limits<long double>::infinity();
         for (int i = 0; i <= 400; ++i) {
@@ -189,7 +186,7 @@ TEST_CASE("the judge of nearest points proves a bound on every hard curve that b
   }
 }
 
-TEST_CASE("the judge of nearest points proves the same in quadruple precision, closer", "[collision]") {
+TEST_CASE("the oracle proves the same in quadruple precision, more tightly", "[collision]") {
   double loosest = 0.0;
   int contradictions = 0, loose = 0;
   for (const HardCurve& curve : hard_curves()) {
@@ -208,8 +205,7 @@ TEST_CASE("the judge of nearest points proves the same in quadruple precision, c
   CHECK(loose == 0);
 }
 
-TEST_CASE("the judge of nearest points finds the second curve clearly further without its nearest point",
-          "[collision]") {
+TEST_CASE("the oracle proves that a second curve is clearly farther without finding its nearest point", "[collision]") {
   const std::vector<Point> arch = {{0, 0}, {0, 1}, {1, 1}, {1, 0}};
   const NearestPointOracle oracle(arch);
   CHECK(oracle.nearest_within({0.5, 2.0}, 1.0L).least == Approx(1.0).margin(1e-12));

@@ -1,4 +1,4 @@
-// What holds of nearest points whatever the curve: they go with it when it moves, and are the same every time.
+// Properties of nearest points on any curve: they follow its transformations, and are reproducible.
 #include "../catch.hpp"
 
 #include <bit>
@@ -34,7 +34,7 @@ std::vector<Point> mapped(const std::vector<Point>& points, const auto& map) {
 
 std::vector<Point> reversed(const std::vector<Point>& points) { return {points.rbegin(), points.rend()}; }
 
-/// The same curve with one degree more.
+/// The same curve, elevated by one degree.
 std::vector<Point> elevated(const std::vector<Point>& points) {
   std::vector<Point> result = {points.front()};
   const auto n = static_cast<double>(points.size());
@@ -54,8 +54,8 @@ bool same_bits(const NearestPoint& a, const NearestPoint& b) {
          same_bits(a.tangent.x(), b.tangent.x()) && same_bits(a.tangent.y(), b.tangent.y()) && a.status == b.status;
 }
 
-/// By how much the answer's parameter is wrong for the query to the curve itself, as a share of what is allowed, to
-/// which the rounding of an image of them adds.
+/// Error of the parameter for the query to the original curve, relative to what is permitted, which includes the
+/// rounding of a transformation of both.
 double share_of_allowance(const NearestPointOracle& oracle, const Point& query, double parameter, double rounding) {
   const auto bounds = oracle.nearest(query, parameter);
   const long double error = oracle.distance(query, parameter) - bounds.least;
@@ -63,7 +63,7 @@ double share_of_allowance(const NearestPointOracle& oracle, const Point& query, 
   return static_cast<double>(error) / allowed;
 }
 
-/// Curves that are their own image in the axis x = 0, to the last bit.
+/// Curves that are their own mirror image in the axis x = 0, to the last bit.
 std::vector<std::vector<Point>> mirrored_curves() {
   std::vector<std::vector<Point>> curves = {{{-0.5, 0}, {-0.5, 1}, {0.5, 1}, {0.5, 0}},
                                             {{-0.5, 0}, {1.0, 1}, {-1.0, 1}, {0.5, 0}},
@@ -84,7 +84,7 @@ std::vector<std::vector<Point>> mirrored_curves() {
 
 }  // namespace
 
-TEST_CASE("the nearest point goes with its curve when it is moved, turned, scaled and mirrored", "[collision]") {
+TEST_CASE("the nearest point follows its curve through translation, rotation, scaling and reflection", "[collision]") {
   Sequence random(7);
   for (const HardCurve& curve : hard_curves()) {
     if (curve.tolerance > 1e-9) continue;
@@ -98,7 +98,7 @@ TEST_CASE("the nearest point goes with its curve when it is moved, turned, scale
     const StrokeElement image = prepare_element(mapped(curve.control_points, map));
     double worst = 0.0, furthest = 0.0;
     for (const Point& query : hard_queries(curve)) {
-      // Rounding moves the image of a point by this, seen from the curve itself.
+      // Rounding moves the image of a point by this much, measured on the original curve.
       const double rounding = 1e-15 * (query.cwiseAbs().maxCoeff() + offset.cwiseAbs().maxCoeff() / scale);
       for (const NearestPointMethod method : certified_methods) {
         const NearestPoint found = nearest_point(image, map(query), {method}, {}, random.next());
@@ -114,7 +114,7 @@ TEST_CASE("the nearest point goes with its curve when it is moved, turned, scale
   }
 }
 
-TEST_CASE("the nearest point stays when its curve is reversed or written with a higher degree", "[collision]") {
+TEST_CASE("the nearest point stays the same when its curve is reversed or elevated in degree", "[collision]") {
   Sequence random(8);
   for (const HardCurve& curve : hard_curves()) {
     const NearestPointOracle oracle(curve.control_points);
@@ -182,7 +182,7 @@ TEST_CASE("a curve scaled by a power of two or moved without rounding has the sa
   CHECK(different == 0);
 }
 
-TEST_CASE("of two equally near points of a symmetric curve the first is the nearest point", "[collision]") {
+TEST_CASE("of two equally near points of a symmetric curve the first is returned", "[collision]") {
   Sequence random(11);
   int second = 0, ties = 0;
   for (const std::vector<Point>& curve : mirrored_curves()) {
@@ -192,7 +192,7 @@ TEST_CASE("of two equally near points of a symmetric curve the first is the near
       const double scale = std::exp2(std::round(random.between(-30.0, 20.0)));
       const Point offset(0.0, i % 2 == 0 ? 0.0 : std::round(random.between(-4.0, 4.0)));
       const auto map = [&](const Point& point) { return Point(scale * (point + offset)); };
-      if (((mapped(curve, map)[0] / scale - offset) - curve[0]).norm() > 0.0) continue;  // moving rounded it
+      if (((mapped(curve, map)[0] / scale - offset) - curve[0]).norm() > 0.0) continue;  // rounded by the translation
       const StrokeElement element = prepare_element(mapped(curve, map));
       for (const NearestPointMethod method : certified_methods) {
         const double parameter = nearest_point(element, map(query), {method}, {}, random.next()).parameter;
@@ -205,11 +205,11 @@ TEST_CASE("of two equally near points of a symmetric curve the first is the near
   CHECK(ties > 1000);
 }
 
-TEST_CASE("of two equally near elements the first is the tracker's, however the pen came there", "[collision]") {
+TEST_CASE("of two equally near elements the tracker returns the first, however the pen came there", "[collision]") {
   Sequence random(12);
   int second = 0, ties = 0;
   for (int i = 0; i < 300; ++i) {
-    // A limb on the right, and its image on the left.
+    // A limb on the right, and its mirror image on the left.
     std::vector<Point> right(2 + static_cast<std::size_t>(4.0 * random.next())), left;
     for (Point& point : right) point = random.point(0.0, 1.0) + Point(0.1, 0.0);
     for (const Point& point : right) left.emplace_back(-point.x(), point.y());
@@ -217,11 +217,11 @@ TEST_CASE("of two equally near elements the first is the tracker's, however the 
     StrokeTracker tracker(elements);
     for (int k = 0; k < 20; ++k) {
       const Point tie(0.0, random.between(-1.0, 2.0));
-      // Straight away from a foot the distances change by exactly what the pen travels.
+      // Straight away from a closest point the distances change by exactly the distance travelled.
       const Point before = k % 2 == 0 ? random.point(-1.0, 1.0) : Point(0.1 * random.point(-1.0, 0.0));
       tracker.update(before);
       const StrokePoint from_there = tracker.update(tie);
-      tracker.update(tie + random.between(0.0, 0.5) * (tie - from_there.foot.point));
+      tracker.update(tie + random.between(0.0, 0.5) * (tie - from_there.closest.point));
       second += tracker.update(tie).element != 0;
       second += from_there.element != 0;
       ++ties;
@@ -253,8 +253,7 @@ TEST_CASE("the same query has the same nearest point to the last bit, alone and 
   }
 }
 
-TEST_CASE("a range outside [0, 1], reversed or not finite counts as the range that its ends are clamped to",
-          "[collision]") {
+TEST_CASE("a range outside [0, 1], reversed or not finite is clamped", "[collision]") {
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
   struct Case {
     calligraphy::ParameterRange given, meant;
@@ -281,7 +280,7 @@ TEST_CASE("a range outside [0, 1], reversed or not finite counts as the range th
   }
 }
 
-TEST_CASE("options out of their range and a start that is not finite still find the nearest point", "[collision]") {
+TEST_CASE("options out of range and a start that is not finite still find the nearest point", "[collision]") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const HardCurve& curve : hard_curves()) {
     const StrokeElement element = prepare_element(curve.control_points);
@@ -308,7 +307,7 @@ TEST_CASE("options out of their range and a start that is not finite still find 
   }
 }
 
-TEST_CASE("a batch answers as many queries as both spans hold", "[collision]") {
+TEST_CASE("a batch processes as many queries as both spans hold", "[collision]") {
   const std::vector<Point> bend = {{0.0, 0.0}, {0.01, 0.02}, {0.02, 0.02}, {0.03, 0.0}},
                            line = {{0.0, 0.0}, {0.03, 0.0}};
   const std::vector<Point> queries(20, Point(0.01, 0.01));

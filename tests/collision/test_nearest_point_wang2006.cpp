@@ -1,4 +1,4 @@
-// The subdivision as printed in Wang 2006, sec. 4.3.2: its answers, its wrong answers, and that it always ends.
+// The subdivision as printed in Wang 2006, sec. 4.3.2: its results, its wrong results, and that it always terminates.
 #include "../catch.hpp"
 
 #include <cmath>
@@ -42,13 +42,13 @@ TEST_CASE("the printed rule stops at once where both children are equally far", 
   CHECK(exact(wave, {1.7890625, 3.046875}).parameter == Approx(0.498169).epsilon(1e-5));
 }
 
-TEST_CASE("a tie of the printed rule goes to the child with the nearer middle", "[collision]") {
+TEST_CASE("a tie of the printed rule goes to the child with the nearer midpoint", "[collision]") {
   const std::vector<Point> straight = {{0, 0}, {1, 0}, {2, 0}, {3, 0}};
   CHECK(printed(straight, {1.71, 0.3}).distance == Approx(0.3).margin(1e-4));
   CHECK(exact(straight, {1.71, 0.3}).distance == Approx(0.3));
 }
 
-TEST_CASE("the printed rule takes the wrong branch on a hook and on a strong bend", "[collision]") {
+TEST_CASE("the printed rule takes the wrong branch on a hook and on a sharp bend", "[collision]") {
   const std::vector<Point> hook = {{0, 0}, {1.2, 0}, {1.3, 0.1}, {0.9, 0.15}};
   CHECK(printed(hook, {0.88, 0.085}).distance == Approx(0.0680074).epsilon(1e-4));
   CHECK(exact(hook, {0.88, 0.085}).distance == Approx(0.0545434).epsilon(1e-6));
@@ -60,7 +60,7 @@ TEST_CASE("the printed rule takes the wrong branch on a hook and on a strong ben
   CHECK(exact(bend, {0.5, 0.7}).parameter == Approx(0.093316).epsilon(1e-4));
 }
 
-TEST_CASE("the printed rule ends where it would not as printed: far offset, no number, huge number", "[collision]") {
+TEST_CASE("the printed rule terminates where it would not as printed: far offset, NaN, huge number", "[collision]") {
   std::vector<Point> far = {{0.1, 0.2}, {0.9, 0.1}, {0.3, 0.8}, {0.7, 0.6}};
   for (Point& point : far) point += Point(1e8, 1e8);
   const Point query(1e8 + 0.4, 1e8 + 0.9);
@@ -77,7 +77,7 @@ TEST_CASE("the printed rule ends where it would not as printed: far offset, no n
   }
 }
 
-TEST_CASE("the printed rule never claims a certificate on a curve and never beats the exact answer", "[collision]") {
+TEST_CASE("the printed rule never claims a certificate on a curve and never beats the exact result", "[collision]") {
   int certified = 0, wrong = 0, queries = 0;
   double best_gain = 0.0;
   for (const auto& curve : calligraphy_test::hard_curves()) {
@@ -85,7 +85,7 @@ TEST_CASE("the printed rule never claims a certificate on a curve and never beat
     if (element.degree() == 1 || element.size() == 0.0 || curve.tolerance > 1e-9) continue;
     for (const Point& query : calligraphy_test::hard_queries(curve)) {
       const NearestPoint found = nearest_point(element, query, {NearestPointMethod::wang2006, 1e-6});
-      // Its point lies between two points of the curve, at most the last step beside it: let that pass.
+      // Its point lies between two points of the curve, at most the last step off it: this is tolerated.
       const double gain = nearest_point(element, query).distance - found.distance;
       certified += found.certified();
       wrong += gain < -1e-3 * element.size();
@@ -98,26 +98,26 @@ TEST_CASE("the printed rule never claims a certificate on a curve and never beat
   CHECK(wrong > queries / 100);  // this is why it is not the default
 }
 
-TEST_CASE("on a line both methods are the perpendicular foot", "[collision]") {
+TEST_CASE("on a line both methods return the foot of the perpendicular", "[collision]") {
   const std::vector<Point> line = {{0.1, 0.2}, {0.9, 0.2}};
   for (const double x : {-1.0, 0.1, 0.35, 0.5, 0.9, 3.0}) {
-    const double foot = std::min(std::max(x, 0.1), 0.9);
-    CHECK(printed(line, {x, 0.7}).point.isApprox(Point(foot, 0.2)));
-    CHECK(exact(line, {x, 0.7}).point.isApprox(Point(foot, 0.2)));
+    const double closest = std::min(std::max(x, 0.1), 0.9);
+    CHECK(printed(line, {x, 0.7}).point.isApprox(Point(closest, 0.2)));
+    CHECK(exact(line, {x, 0.7}).point.isApprox(Point(closest, 0.2)));
   }
 }
 
-TEST_CASE("the printed rule tells where it stopped by an accidental equality", "[collision]") {
+TEST_CASE("the printed rule reports where it stopped by an accidental equality", "[collision]") {
   const std::vector<Point> arch = {{0, 0}, {0, 1}, {1, 1}, {1, 0}}, wave = {{0, 0}, {1, 2}, {3, 3}, {4, 0}};
   for (const double epsilon : {1e-3, 1e-6, 1e-9}) {
     CHECK(printed(arch, {0.5, 1.0}, epsilon).status == NearestPointStatus::unsafe_stop);
     CHECK(printed(wave, {1.7890625, 3.046875}, epsilon).status == NearestPointStatus::unsafe_stop);
-    // Here it comes near enough to a nearest point, if not to the nearest one.
+    // Here it comes near enough to a local nearest point, if not to the global one.
     CHECK(printed({{0, 0}, {1, 0}, {2, 0}, {3, 0}}, {1.71, 0.3}, epsilon).status == NearestPointStatus::approximate);
   }
 }
 
-TEST_CASE("every stop of the printed rule that leaves a nearer point in its last interval is told", "[collision]") {
+TEST_CASE("every stop of the printed rule that leaves a nearer point in its last interval is reported", "[collision]") {
   int untold = 0, unsafe = 0, told = 0, stops = 0;
   for (const auto& curve : calligraphy_test::hard_curves()) {
     const StrokeElement element = prepare_element(curve.control_points);
@@ -129,7 +129,7 @@ TEST_CASE("every stop of the printed rule that leaves a nearer point in its last
         const auto last = calligraphy_test::last_interval(found.parameter);
         const auto nearest = oracle.nearest(query, found.parameter, last).found;
         const double epsilon = calligraphy_test::wang2006_epsilon(element, query, tolerance);
-        const double rounding = 1e-15 * found.distance;  // of the distances that were compared
+        const double rounding = 1e-15 * found.distance;  // of the distances compared
         const bool leaves_nearer = nearest < found.distance - epsilon - rounding;
         unsafe += leaves_nearer;
         told += found.status == NearestPointStatus::unsafe_stop;
@@ -141,5 +141,5 @@ TEST_CASE("every stop of the printed rule that leaves a nearer point in its last
   INFO(stops << " stops, " << told << " told to be unsafe, " << unsafe << " are");
   CHECK(untold == 0);
   CHECK(unsafe > 100);
-  CHECK(told <= unsafe + stops / 1000);  // and no others are, up to rounding
+  CHECK(told <= unsafe + stops / 1000);  // and no others are reported, up to rounding
 }

@@ -28,7 +28,7 @@ bool same(const Signs& a, const Signs& b) { return a.certain == b.certain && (!a
 
 }  // namespace
 
-TEST_CASE("plain, SSE2 and AVX2 code find the same signs", "[collision]") {
+TEST_CASE("plain, SSE2 and AVX2 code give the same signs", "[collision]") {
 #if defined(__SSE2__)
   const bool wide = __builtin_cpu_supports("avx2");
   int different = 0, compared = 0;
@@ -50,7 +50,7 @@ TEST_CASE("plain, SSE2 and AVX2 code find the same signs", "[collision]") {
 #endif
 }
 
-TEST_CASE("certain signs are those of the slope in double precision", "[collision]") {
+TEST_CASE("certain signs agree with the slope in double precision", "[collision]") {
   Sequence random(31);
   int wrong = 0, certain = 0;
   for (int i = 0; i < 200; ++i) {
@@ -62,7 +62,7 @@ TEST_CASE("certain signs are those of the slope in double precision", "[collisio
       const Signs signs = slope_signs(curve.ordinates, (pair(query) - pair(curve.origin)) * curve.per_size);
       if (!signs.certain) continue;
       ++certain;
-      // No change of sign means that the distance is monotone; the ends tell which way.
+      // No sign change means that the distance is monotone; the ends tell in which direction.
       const auto slope_at = [&](double t) { return (curve.point(t) - query).dot(curve.derivative(t)); };
       wrong += signs.first_negative() != (slope_at(0.0) < 0.0);
       wrong += signs.last_negative() != (slope_at(1.0) < 0.0);
@@ -74,7 +74,7 @@ TEST_CASE("certain signs are those of the slope in double precision", "[collisio
   CHECK(certain > 9'000);
 }
 
-TEST_CASE("a line takes 64 bytes and a curve 1200, at most", "[collision]") {
+TEST_CASE("a line takes at most 64 bytes and a curve at most 1200", "[collision]") {
   CHECK(sizeof(LineElement) <= 64);
   CHECK(sizeof(CurveElement) <= 1200);
 }

@@ -93,11 +93,11 @@ TEST_CASE("arc length is exact at its nodes and within its bound between them", 
       worst = std::max(worst, std::abs(element.arc_length(t) - static_cast<double>(reference.arc_length(t, 400))));
     }
     INFO(curve.name << ": " << worst / element.size());
-    CHECK(worst <= 3e-3 * element.size());  // as the header promises: (1/32)^2 / 8 of |B''| <= 24 sizes for a quartic
+    CHECK(worst <= 3e-3 * element.size());  // as the header states: (1/32)^2 / 8 of |B''| <= 24 sizes for a quartic
   }
 }
 
-TEST_CASE("arc length grows with the parameter and parameter_at undoes it", "[collision]") {
+TEST_CASE("arc length increases with the parameter, and parameter_at inverts it", "[collision]") {
   for (const HardCurve& curve : hard_curves()) {
     const StrokeElement element = prepare_element(curve.control_points);
     int falls = 0;
@@ -138,7 +138,7 @@ TEST_CASE("a curve from 1e-290 m to 1e150 m has the length of its shape, scaled"
   }
 }
 
-TEST_CASE("a number of control points that no element has gives an element that refuses every query", "[collision]") {
+TEST_CASE("an invalid number of control points gives an element that rejects every query", "[collision]") {
   for (const std::size_t count : {0u, 1u, 6u, 100u}) {
     std::vector<Point> points;
     for (std::size_t i = 0; i < count; ++i) points.emplace_back(static_cast<double>(i), static_cast<double>(i * i));

@@ -1,4 +1,4 @@
-// The tracker against every element asked for itself (Wang 2006, sec. 4.3.3).
+// The tracker against every element queried individually (Wang 2006, sec. 4.3.3).
 #include "../catch.hpp"
 
 #include <cmath>
@@ -17,13 +17,13 @@ using calligraphy_test::Sequence;
 
 namespace {
 
-double least_distance(const std::vector<StrokeElement>& elements, const Point& query) {
+double min_distance(const std::vector<StrokeElement>& elements, const Point& query) {
   double least = std::numeric_limits<double>::infinity();
   for (const StrokeElement& element : elements) least = std::min(least, nearest_point(element, query).distance);
   return least;
 }
 
-/// Along the stroke and aside by a wobble; every so often the pen jumps.
+/// Along the stroke with a lateral wobble; the pen jumps every so often.
 std::vector<Point> path_along(const std::vector<StrokeElement>& elements, Sequence& random) {
   std::vector<Point> path;
   for (const StrokeElement& element : elements) {
@@ -51,10 +51,10 @@ TEST_CASE("the tracker finds the nearest point of the whole stroke at every tick
       StrokeTracker tracker(elements);
       for (const Point& tip : path) {
         const StrokePoint found = tracker.update(tip);
-        worst = std::max(worst, std::abs(found.foot.distance - least_distance(elements, tip)));
-        uncertified += !found.foot.certified();
+        worst = std::max(worst, std::abs(found.closest.distance - min_distance(elements, tip)));
+        uncertified += !found.closest.certified();
         const double of_its_element = nearest_point(elements[static_cast<std::size_t>(found.element)], tip).distance;
-        elsewhere += std::abs(of_its_element - found.foot.distance) > 1e-12;
+        elsewhere += std::abs(of_its_element - found.closest.distance) > 1e-12;
       }
     }
   }
@@ -63,24 +63,24 @@ TEST_CASE("the tracker finds the nearest point of the whole stroke at every tick
   CHECK(elsewhere == 0);
 }
 
-TEST_CASE("the tracker gives equal distances to the earlier element, and does not allocate", "[collision]") {
+TEST_CASE("of equal distances the tracker returns the earlier element, and it does not allocate", "[collision]") {
   const std::vector<Point> across = {{0.0, 0.0}, {0.02, 0.0}}, down = {{0.02, 0.0}, {0.02, -0.02}};
   const std::vector<StrokeElement> corner = {prepare_element(across), prepare_element(down)};
   const std::size_t before = calligraphy_test::allocations();
   StrokeTracker tracker(corner);
   int later = 0;
-  // Outside the corner its point is the nearest of both limbs; on the bisector inside both are as far.
+  // Outside the corner its point is the nearest of both limbs; on the bisector inside both are equally far.
   for (int round = 0; round < 3; ++round) {
     for (const Point& tip : {Point(0.025, 0.005), Point(0.0225, 0.0025), Point(0.015, -0.005), Point(0.025, 0.005)}) {
       later += tracker.update(tip).element != 0;
-      tracker.update({0.021, -0.015});  // the later limb is the last one asked
+      tracker.update({0.021, -0.015});  // the later limb is the last one queried
     }
   }
   CHECK(later == 0);
   CHECK(calligraphy_test::allocations() == before);
 }
 
-TEST_CASE("a query that is not finite leaves the tracker as it was", "[collision]") {
+TEST_CASE("a query that is not finite leaves the tracker unchanged", "[collision]") {
   const std::vector<Point> across = {{0.0, 0.0}, {0.02, 0.0}},
                            bend = {{0.02, 0.0}, {0.03, 0.0}, {0.03, -0.02}, {0.02, -0.03}};
   const std::vector<StrokeElement> elements = {prepare_element(across), prepare_element(bend)};
@@ -90,18 +90,18 @@ TEST_CASE("a query that is not finite leaves the tracker as it was", "[collision
   CHECK(before.element == 1);
   for (const double x : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e300}) {
     const StrokePoint lost = tracker.update({x, 0.0});
-    CHECK(lost.foot.status == NearestPointStatus::not_finite);
-    CHECK(std::isinf(lost.foot.distance));
-    CHECK(lost.foot.point.allFinite());
+    CHECK(lost.closest.status == NearestPointStatus::not_finite);
+    CHECK(std::isinf(lost.closest.distance));
+    CHECK(lost.closest.point.allFinite());
   }
   const StrokePoint after = tracker.update(tip);
   CHECK(after.element == before.element);
-  CHECK(after.foot.distance == Approx(before.foot.distance).epsilon(1e-12));
+  CHECK(after.closest.distance == Approx(before.closest.distance).epsilon(1e-12));
 }
 
-TEST_CASE("a tracker of no element refuses every query, and one of too many keeps the first five", "[collision]") {
+TEST_CASE("a tracker without elements rejects every query, and one with too many keeps the first five", "[collision]") {
   StrokeTracker none{std::span<const StrokeElement>()};
-  CHECK(none.update({0.0, 0.0}).foot.status == NearestPointStatus::not_finite);
+  CHECK(none.update({0.0, 0.0}).closest.status == NearestPointStatus::not_finite);
   std::vector<StrokeElement> elements;
   for (int i = 0; i < 9; ++i) {
     elements.push_back(prepare_element(std::vector<Point>{{0.01 * i, 0.0}, {0.01 * (i + 1), 0.0}}));

@@ -1,4 +1,4 @@
-// The closed forms below the simulated device, from any state: the device itself starts at rest.
+// The closed-form solutions behind the simulated device, from arbitrary states: the device itself starts at rest.
 #include <algorithm>
 #include <cmath>
 
@@ -15,7 +15,7 @@ AxisState move(const Oscillator& oscillator, AxisState state, AxisLoad load, dou
   const double step = seconds / steps;
   const ImpulseResponse response = oscillator.impulse_response(step);
   for (int i = 0; i < steps; ++i) {
-    state = move_axis(oscillator, response, state, load, step);
+    state = advance_axis(oscillator, response, state, load, step);
     load.target += load.target_velocity * step;
   }
   return state;
@@ -23,7 +23,7 @@ AxisState move(const Oscillator& oscillator, AxisState state, AxisLoad load, dou
 
 }  // namespace
 
-TEST_CASE("a vanishing spring acts as none, however strong the damper", "[devices]") {
+TEST_CASE("a vanishing spring acts like none, however strong the damper", "[devices]") {
   const double rate = GENERATE(1e-3, 1.0, 1e3, 1e6);
   const double turns = GENERATE(1.001, 3.0, 30.0, 1e4);
   const double seconds = turns / rate;
@@ -37,7 +37,7 @@ TEST_CASE("a vanishing spring acts as none, however strong the damper", "[device
   CHECK(weak.double_integral == Approx(static_cast<double>((t * t / 2 - (t - gone / r) / r) / r)).epsilon(tolerance));
 }
 
-TEST_CASE("the response to a short time is exact relative to its own size", "[devices]") {
+TEST_CASE("the response after a short time is accurate relative to its size", "[devices]") {
   const double ratio = GENERATE(0.0, 0.5, 1.0, 4.0);
   const double seconds = GENERATE(1e-12, 1e-9, 1e-6);
   const ImpulseResponse response = Oscillator(1.0, 2.0 * ratio, 1.0).impulse_response(seconds);
@@ -47,7 +47,7 @@ TEST_CASE("the response to a short time is exact relative to its own size", "[de
   CHECK(response.double_integral == Approx(std::pow(seconds, 3) / 6.0 * (1.0 - 0.5 * ratio * seconds)).epsilon(2e-11));
 }
 
-TEST_CASE("the response has no step where one formula hands over to the next", "[devices]") {
+TEST_CASE("the response is continuous where the formula changes", "[devices]") {
   const double ratio = GENERATE(0.0, 0.3, 1.0 - 1e-12, 1.0, 1.0 + 1e-12, 3.0, 1e3);
   const Oscillator oscillator(1.0, 2.0 * ratio, 1.0);
   const double edge = ratio <= 1.0 ? 1.0 : 1.0 / (ratio + std::sqrt(ratio * ratio - 1.0));
@@ -60,13 +60,13 @@ TEST_CASE("the response has no step where one formula hands over to the next", "
   CHECK(above.double_integral == Approx(below.double_integral).epsilon(2e-13));
 }
 
-TEST_CASE("a mass thrown at the point where spring and friction balance slows down at once", "[devices]") {
+TEST_CASE("a mass thrown from the point where spring and friction balance slows down immediately", "[devices]") {
   const double direction = GENERATE(1.0, -1.0);
   const double damping = GENERATE(0.0, 64.0);
   const Oscillator oscillator(1.0, damping, 256.0);
   AxisLoad load;
   load.dry_friction = 0.25;
-  // At the start the acceleration is exactly zero: force and spring carry friction and damper.
+  // At the start the acceleration is exactly zero: force and spring balance friction and damper.
   load.force = direction * (0.25 + 0.13 * damping);
   const AxisState once = move(oscillator, {0.0, direction * 0.13}, load, 0.3, 1);
   const AxisState often = move(oscillator, {0.0, direction * 0.13}, load, 0.3, 1000);
@@ -74,7 +74,7 @@ TEST_CASE("a mass thrown at the point where spring and friction balance slows do
   CHECK(std::abs(once.velocity - often.velocity) < 1e-12);
 }
 
-TEST_CASE("from any state one step is a thousand small ones", "[devices]") {
+TEST_CASE("from any state one step equals a thousand small ones", "[devices]") {
   Random random(20060704);
   const auto between = [&](double low, double high) { return random.between(low, high); };
   int stops = 0;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include <calligraphy/base/random.hpp>
-#include <calligraphy/devices/duration_histogram.hpp>
+#include <calligraphy/devices/detail/duration_histogram.hpp>
 
 #include "../catch.hpp"
 
@@ -21,14 +21,14 @@ double true_percentile(std::vector<double> values, double share) {
 
 }  // namespace
 
-TEST_CASE("an empty histogram has no figures", "[servo]") {
-  const DurationFigures figures = DurationHistogram().figures();
-  CHECK(figures.count == 0);
-  CHECK(figures.p50 == 0.0);
-  CHECK(figures.worst == 0.0);
+TEST_CASE("an empty histogram has a zero summary", "[servo]") {
+  const DurationSummary summary = DurationHistogram().summary();
+  CHECK(summary.count == 0);
+  CHECK(summary.p50 == 0.0);
+  CHECK(summary.worst == 0.0);
 }
 
-TEST_CASE("percentiles are within a 256th of the true ones at every size of duration", "[servo]") {
+TEST_CASE("percentiles are within 1/256 of the true ones at every scale of duration", "[servo]") {
   const double middle = GENERATE(1e-8, 1e-6, 1e-3, 0.5, 60.0);
   Random random(7);
   DurationHistogram histogram;
@@ -38,45 +38,45 @@ TEST_CASE("percentiles are within a 256th of the true ones at every size of dura
     values.push_back(value);
     histogram.add(value);
   }
-  const DurationFigures figures = histogram.figures();
+  const DurationSummary summary = histogram.summary();
   CAPTURE(middle);
-  CHECK(figures.count == values.size());
-  CHECK(std::abs(figures.p50 - true_percentile(values, 0.5)) <=
+  CHECK(summary.count == values.size());
+  CHECK(std::abs(summary.p50 - true_percentile(values, 0.5)) <=
         DurationHistogram::relative_error * true_percentile(values, 0.5) + 1e-12);
-  CHECK(std::abs(figures.p99 - true_percentile(values, 0.99)) <=
+  CHECK(std::abs(summary.p99 - true_percentile(values, 0.99)) <=
         DurationHistogram::relative_error * true_percentile(values, 0.99) + 1e-12);
-  CHECK(std::abs(figures.p99_9 - true_percentile(values, 0.999)) <=
+  CHECK(std::abs(summary.p99_9 - true_percentile(values, 0.999)) <=
         DurationHistogram::relative_error * true_percentile(values, 0.999) + 1e-12);
-  CHECK(figures.worst == Approx(*std::max_element(values.begin(), values.end())).epsilon(1e-12));
+  CHECK(summary.worst == Approx(*std::max_element(values.begin(), values.end())).epsilon(1e-12));
 }
 
-TEST_CASE("every single duration is told within a 256th", "[servo]") {
+TEST_CASE("every single duration is reported to within 1/256", "[servo]") {
   for (double value = 1e-9; value < 1000.0; value *= 1.013) {
     DurationHistogram histogram;
     histogram.add(value);
     histogram.add(1000.0);  // so that the worst does not correct it
     histogram.add(value);
-    const double told = histogram.figures().p50;
+    const double told = histogram.summary().p50;
     CAPTURE(value, told);
     REQUIRE(std::abs(told - value) <= DurationHistogram::relative_error * value + 0.51e-9);
   }
 }
 
-TEST_CASE("a percentile is a duration that at least its share does not exceed", "[servo]") {
+TEST_CASE("a percentile is a duration that at least its fraction of durations does not exceed", "[servo]") {
   DurationHistogram histogram;
   for (const double value : {1e-3, 2e-3, 3e-3}) histogram.add(value);
-  CHECK(histogram.figures().p50 == Approx(2e-3).epsilon(DurationHistogram::relative_error));
-  CHECK(histogram.figures().p99 == Approx(3e-3).epsilon(DurationHistogram::relative_error));
+  CHECK(histogram.summary().p50 == Approx(2e-3).epsilon(DurationHistogram::relative_error));
+  CHECK(histogram.summary().p99 == Approx(3e-3).epsilon(DurationHistogram::relative_error));
 }
 
-TEST_CASE("durations that are none count as zero, and endless ones in the last bucket", "[servo]") {
+TEST_CASE("invalid durations count as zero, and infinite ones in the last bucket", "[servo]") {
   DurationHistogram histogram;
   for (const double value : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), -1e300}) histogram.add(value);
-  CHECK(histogram.figures().count == 4);
-  CHECK(histogram.figures().worst == 0.0);
+  CHECK(histogram.summary().count == 4);
+  CHECK(histogram.summary().worst == 0.0);
   histogram.add(std::numeric_limits<double>::infinity());
   histogram.add(1e300);
-  CHECK(histogram.figures().count == 6);
-  CHECK(histogram.figures().worst > 1e9);
-  CHECK(histogram.figures().p99 > 1000.0);
+  CHECK(histogram.summary().count == 6);
+  CHECK(histogram.summary().worst > 1e9);
+  CHECK(histogram.summary().p99 > 1000.0);
 }

@@ -18,8 +18,8 @@ using namespace calligraphy;
 namespace {
 
 constexpr double pointer_period = 1e-3;  // [s]
-using calligraphy_test::not_a_number;
 using calligraphy_test::infinity;
+using calligraphy_test::not_a_number;
 
 std::string error_of(const PointerOptions& options) {
   try {
@@ -36,7 +36,7 @@ void reads(PointerDevice& device, int count) {
 
 }  // namespace
 
-TEST_CASE("a pen goes to where the pointer is, hovers unpressed and sinks when pressed", "[pointer]") {
+TEST_CASE("a pen moves to the pointer, hovers when not pressed and sinks when pressed", "[pointer]") {
   PointerDevice device(device_profile("ideal"));
   CHECK(device.read().position.isApprox(Eigen::Vector3d(0.0, 0.0, 8e-3)));
   device.move(0.02, -0.01, 0.0);
@@ -45,7 +45,7 @@ TEST_CASE("a pen goes to where the pointer is, hovers unpressed and sinks when p
   device.move(0.02, -0.01, 0.5);
   reads(device, 3000);
   CHECK(device.read().position.z() == Approx(-2.5e-3));
-  device.move(0.02, -0.01, 7.0);  // as much as there is
+  device.move(0.02, -0.01, 7.0);  // more than full pressure
   reads(device, 3000);
   CHECK(device.read().position.z() == Approx(-5e-3));
   device.move(0.02, -0.01, -1.0);
@@ -53,7 +53,7 @@ TEST_CASE("a pen goes to where the pointer is, hovers unpressed and sinks when p
   CHECK(device.read().position.z() == Approx(8e-3));
 }
 
-TEST_CASE("a hand that is pushed away gives way, so the pen is not where the pointer is", "[pointer]") {
+TEST_CASE("a hand that is pushed yields, so the pen is not at the pointer", "[pointer]") {
   PointerDevice device(device_profile("ideal"), {0.1, 3.0, 300.0});
   for (int i = 0; i < 3000; ++i) {
     device.read();
@@ -62,14 +62,14 @@ TEST_CASE("a hand that is pushed away gives way, so the pen is not where the poi
   CHECK(device.read().position.x() == Approx(0.6 / 300.0));
 }
 
-TEST_CASE("coarse and irregular events become a path of bounded, continuous speed", "[pointer]") {
+TEST_CASE("coarse and irregular events become a path of bounded, continuous velocity", "[pointer]") {
   const double rate = GENERATE(60.0, 90.0, 125.0);
   PointerDevice device(device_profile("ideal"));
   const double speed = 0.1;  // [m/s], of the pointer along a circle of 20 mm
   const double radius = 0.02;
   double next_event = 0.0;
-  double largest_change = 0.0;
-  double largest_speed_error = 0.0;
+  double max_change = 0.0;
+  double max_speed_error = 0.0;
   Eigen::Vector3d position = device.intention().position;
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
   for (int tick = 0; tick < 4000; ++tick) {
@@ -84,19 +84,19 @@ TEST_CASE("coarse and irregular events become a path of bounded, continuous spee
     // The next line begins where the last one ended.
     REQUIRE((meant.position - (position + velocity * pointer_period)).norm() < 1e-12);
     if (tick > 500) {
-      largest_change = std::max(largest_change, (meant.velocity - velocity).norm());
-      largest_speed_error = std::max(largest_speed_error, std::abs(meant.velocity.norm() - speed));
+      max_change = std::max(max_change, (meant.velocity - velocity).norm());
+      max_speed_error = std::max(max_speed_error, std::abs(meant.velocity.norm() - speed));
     }
     position = meant.position;
     velocity = meant.velocity;
   }
   CAPTURE(rate);
   // Without smoothing an event of 60 Hz moves the pen by 1.7 mm within one tick: 1.7 m/s, up and down again.
-  CHECK(largest_change < 0.12 * speed);
-  CHECK(largest_speed_error < 0.25 * speed);
+  CHECK(max_change < 0.12 * speed);
+  CHECK(max_speed_error < 0.25 * speed);
 }
 
-TEST_CASE("the intention is as late as the smoothing time says", "[pointer]") {
+TEST_CASE("the intention lags by the smoothing time", "[pointer]") {
   PointerOptions options;
   options.smoothing_time = GENERATE(0.0, 0.02, 0.03, 0.1);
   PointerDevice device(device_profile("ideal"), {}, options);
@@ -109,7 +109,8 @@ TEST_CASE("the intention is as late as the smoothing time says", "[pointer]") {
   CHECK(late == Approx(options.smoothing_time).margin(1.1e-3));
 }
 
-TEST_CASE("a pointer that leaps is followed at the largest speed, one that is lifted at its own", "[pointer]") {
+TEST_CASE("a pointer that jumps is followed at the maximum speed, one that is lifted at the lifting speed",
+          "[pointer]") {
   PointerDevice device(device_profile("ideal"));
   device.move(1.0, 0.0, 0.0);
   double fastest = 0.0;
@@ -128,7 +129,7 @@ TEST_CASE("a pointer that leaps is followed at the largest speed, one that is li
   CHECK(fastest == Approx(0.12));
 }
 
-TEST_CASE("the paper lies in the device as it is told", "[pointer]") {
+TEST_CASE("the paper has the position and orientation given in the options", "[pointer]") {
   PointerOptions options;  // flat on a desk: the paper's z is the device's y
   options.paper =
       Eigen::Translation3d(0.01, 0.02, 0.03) * Eigen::AngleAxisd(-0.5 * std::numbers::pi, Eigen::Vector3d::UnitX());
@@ -143,7 +144,7 @@ TEST_CASE("the paper lies in the device as it is told", "[pointer]") {
   CHECK(device.read().position.isApprox(Eigen::Vector3d(0.015, 0.0175, 0.024), 1e-6));
 }
 
-TEST_CASE("a place or pressure that is not finite is ignored", "[pointer]") {
+TEST_CASE("a position or pressure that is not finite is ignored", "[pointer]") {
   const double bad = GENERATE(as<double>{}, not_a_number, infinity, -infinity);
   PointerDevice device(device_profile("ideal"));
   device.move(0.01, 0.0, 0.0, 1);
@@ -155,13 +156,13 @@ TEST_CASE("a place or pressure that is not finite is ignored", "[pointer]") {
   CHECK(device.read().buttons == 1);
 }
 
-TEST_CASE("a closed pointer says so", "[pointer]") {
+TEST_CASE("a closed pointer reports disconnected", "[pointer]") {
   PointerDevice device(device_profile("ideal"));
   device.close();
   CHECK(device.read().status == DeviceStatus::disconnected);
 }
 
-TEST_CASE("moving and reading a pointer take nothing from the heap", "[pointer]") {
+TEST_CASE("moving and reading a pointer do not allocate", "[pointer]") {
   PointerDevice device(device_profile("omni"));
   const std::size_t before = calligraphy_test::allocations();
   for (int i = 0; i < 1000; ++i) {
@@ -172,10 +173,10 @@ TEST_CASE("moving and reading a pointer take nothing from the heap", "[pointer]"
   CHECK(after == before);
 }
 
-TEST_CASE("places that another thread gives arrive whole", "[pointer]") {
+TEST_CASE("positions from another thread arrive intact", "[pointer]") {
   PointerOptions options;
   options.smoothing_time = 0.0;
-  options.largest_speed = options.lifting_speed = 10.0;
+  options.max_speed = options.lifting_speed = 10.0;
   PointerDevice device(device_profile("ideal"), {}, options);
   std::atomic<bool> done = false;
   std::thread hand([&] {
@@ -192,19 +193,19 @@ TEST_CASE("places that another thread gives arrive whole", "[pointer]") {
   CHECK(whole);
 }
 
-TEST_CASE("options of a pointer out of their domain are refused with name and value", "[pointer]") {
+TEST_CASE("pointer options out of range are rejected with name and value", "[pointer]") {
   const auto message = [](auto&& change) {
     PointerOptions options;
     change(options);
     return error_of(options);
   };
   CHECK(message([](PointerOptions&) {}).empty());
-  CHECK(message([](PointerOptions& o) { o.rate = 0.0; }) == "pointer: rate is 0, must be from 100 to 100000 Hz");
-  CHECK(message([](PointerOptions& o) { o.smoothing_time = -1.0; }).find("smoothing time is -1") != std::string::npos);
-  CHECK(message([](PointerOptions& o) { o.largest_speed = 0.0; }).find("largest speed is 0") != std::string::npos);
-  CHECK(message([](PointerOptions& o) { o.lifting_speed = infinity; }).find("lifting speed") != std::string::npos);
-  CHECK(message([](PointerOptions& o) { o.hover_height = not_a_number; }).find("hover height") != std::string::npos);
-  CHECK(message([](PointerOptions& o) { o.press_depth = 1.0; }).find("press depth is 1") != std::string::npos);
+  CHECK(message([](PointerOptions& o) { o.rate = 0.0; }) == "pointer: rate = 0 Hz, must be from 100 to 100000");
+  CHECK(message([](PointerOptions& o) { o.smoothing_time = -1.0; }).find("smoothing_time = -1 s") != std::string::npos);
+  CHECK(message([](PointerOptions& o) { o.max_speed = 0.0; }).find("max_speed = 0") != std::string::npos);
+  CHECK(message([](PointerOptions& o) { o.lifting_speed = infinity; }).find("lifting_speed = ") != std::string::npos);
+  CHECK(message([](PointerOptions& o) { o.hover_height = not_a_number; }).find("hover_height = ") != std::string::npos);
+  CHECK(message([](PointerOptions& o) { o.press_depth = 1.0; }).find("press_depth = 1") != std::string::npos);
   CHECK(message([](PointerOptions& o) { o.paper.linear() *= 2.0; }).find("rotation") != std::string::npos);
   CHECK_THROWS_AS(PointerDevice(device_profile("ideal"), {-1.0, 0.0, 0.0}), ValueError);
 }

@@ -37,7 +37,7 @@ std::string replay_error(const std::vector<DeviceState>& samples) {
 
 }  // namespace
 
-TEST_CASE("a replay returns its samples in order and as they are", "[devices]") {
+TEST_CASE("a replay returns its samples in order and unchanged", "[devices]") {
   Capabilities capabilities;
   capabilities.model = "recorded";
   ReplayDevice device(trace({-1.0, 0.5, 0.75}), capabilities);
@@ -54,7 +54,7 @@ TEST_CASE("a replay returns its samples in order and as they are", "[devices]") 
   CHECK(device.finished());
 }
 
-TEST_CASE("a replay that has ended says disconnected at the last position for ever", "[devices]") {
+TEST_CASE("a replay that has ended reports disconnected at the last position forever", "[devices]") {
   ReplayDevice device(trace({0.0, 0.5}), {});
   device.read();
   device.read();
@@ -66,7 +66,7 @@ TEST_CASE("a replay that has ended says disconnected at the last position for ev
   }
 }
 
-TEST_CASE("a closed replay plays no more and stays at the sample it had reached", "[devices]") {
+TEST_CASE("a closed replay stops at the sample it has reached", "[devices]") {
   ReplayDevice device(trace({1.0, 2.0, 3.0}), {});
   const bool has_read = GENERATE(false, true);
   if (has_read) {
@@ -83,7 +83,7 @@ TEST_CASE("a closed replay plays no more and stays at the sample it had reached"
   CHECK(device.read().time == (has_read ? 2.0 : 1.0));
 }
 
-TEST_CASE("a replay remembers the last force, and none that is not finite", "[devices]") {
+TEST_CASE("a replay stores the last force, with a non-finite one as zero", "[devices]") {
   ReplayDevice device(trace({0.0}), {});
   CHECK(device.last_force().isZero(0.0));
   device.write({1.0, -2.0, 30.0});
@@ -99,11 +99,11 @@ TEST_CASE("a recorded fault is replayed as it was", "[devices]") {
   CHECK(std::isnan(device.read().position.x()));
 }
 
-TEST_CASE("a trace without samples or with time that does not increase is refused", "[devices]") {
+TEST_CASE("a recording without samples or with times that do not increase is rejected", "[devices]") {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   CHECK(replay_error({}).find("no sample") != std::string::npos);
   CHECK(replay_error(trace({0.0, 0.25, 0.25})) ==
-        "replay sample 2: time is 0.25 s after 0.25 s, must be finite and increase");
+        "replay sample 2: time is 0.25 s after 0.25 s, must be finite and increasing");
   CHECK(replay_error(trace({0.0, 0.5, 0.25, 0.75})).find("sample 2") != std::string::npos);
   CHECK(replay_error(trace({std::numeric_limits<double>::quiet_NaN()})).find("sample 0") != std::string::npos);
   CHECK(replay_error(trace({0.0, infinity})).find("sample 1") != std::string::npos);
@@ -111,7 +111,7 @@ TEST_CASE("a trace without samples or with time that does not increase is refuse
   CHECK(replay_error(trace({0.0})).empty());
 }
 
-TEST_CASE("a replay reads and writes without the heap", "[devices]") {
+TEST_CASE("a replay reads and writes without allocating", "[devices]") {
   ReplayDevice device(trace({0.0, 1.0, 2.0}), {});
   const std::size_t before = calligraphy_test::allocations();
   for (int i = 0; i < 6; ++i) {

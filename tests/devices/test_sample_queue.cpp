@@ -10,7 +10,7 @@ using namespace calligraphy;
 
 namespace {
 
-/// Larger than what a processor writes at once: a torn copy would show.
+/// Larger than an atomic write of the processor, so that a torn copy would be detected.
 struct Numbered {
   std::uint64_t number = 0;
   std::uint64_t again[15] = {};
@@ -31,7 +31,7 @@ struct Numbered {
 
 }  // namespace
 
-TEST_CASE("a queue gives back what was pushed, in order", "[servo]") {
+TEST_CASE("a queue returns values in the order in which they were pushed", "[servo]") {
   SampleQueue<int> queue(4);
   int value = 0;
   CHECK_FALSE(queue.pop(value));
@@ -46,7 +46,7 @@ TEST_CASE("a queue gives back what was pushed, in order", "[servo]") {
   CHECK(queue.dropped() == 0);
 }
 
-TEST_CASE("a full queue drops the new value, counts it and keeps the old ones", "[servo]") {
+TEST_CASE("a full queue drops and counts the new value and keeps the old ones", "[servo]") {
   SampleQueue<int> queue(3);
   CHECK(queue.capacity() == 4);
   for (int i = 0; i < 4; ++i) CHECK(queue.push(i));
@@ -64,7 +64,7 @@ TEST_CASE("a full queue drops the new value, counts it and keeps the old ones", 
   CHECK_FALSE(queue.pop(value));
 }
 
-TEST_CASE("a queue takes its memory when it is made and none later", "[servo]") {
+TEST_CASE("a queue allocates on construction only", "[servo]") {
   SampleQueue<Numbered> queue(100);
   const std::size_t before = calligraphy_test::allocations();
   Numbered value;
@@ -76,13 +76,13 @@ TEST_CASE("a queue takes its memory when it is made and none later", "[servo]") 
   CHECK(after == before);
 }
 
-TEST_CASE("a capacity that is none is refused", "[servo]") {
+TEST_CASE("an invalid capacity is rejected", "[servo]") {
   CHECK_THROWS_AS(SampleQueue<int>(0), ValueError);
   CHECK_THROWS_AS(SampleQueue<int>((std::size_t{1} << 24) + 1), ValueError);
   CHECK(SampleQueue<int>(1).capacity() == 1);
 }
 
-TEST_CASE("between two threads every value is popped whole, in order, or counted as dropped", "[servo]") {
+TEST_CASE("between two threads every value is popped intact and in order, or counted as dropped", "[servo]") {
   constexpr std::uint64_t count = 300'000;
   SampleQueue<Numbered> queue(64);
   std::thread producer([&] {
@@ -110,7 +110,7 @@ TEST_CASE("between two threads every value is popped whole, in order, or counted
   producer.join();
   CHECK(whole);
   CHECK(in_order);
-  // Attempts to push the last one that found no room are counted too.
+  // Failed attempts to push the last value are counted, too.
   CHECK(popped + queue.dropped() >= count + 1);
   CHECK(popped <= count + 1);
 }

@@ -17,7 +17,7 @@ using calligraphy_test::WatchedDevice;
 
 namespace {
 
-/// Waits for what must come, ten seconds at most; how long it takes is nobody's claim.
+/// Waits at most ten seconds for a condition; no test asserts how long it takes.
 bool comes(const std::function<bool()>& condition) {
   for (int i = 0; i < 10'000; ++i) {
     if (condition()) return true;
@@ -35,11 +35,11 @@ ServoLoopOptions ordinary_thread() {
   return options;
 }
 
-/// A machine under load may stop a thread for longer than a person would want to wait.
+/// A machine under load may suspend a thread for longer than the default timeout.
 ServoLoopOptions patient() {
   ServoLoopOptions options = ordinary_thread();
-  options.servo.patience = 1.0;
-  options.servo.rise_time = 0.0;
+  options.servo.timeout = 1.0;
+  options.servo.ramp_up = 0.0;
   return options;
 }
 
@@ -74,7 +74,8 @@ class DeviceWithClock final : public HapticDevice {
 
 }  // namespace
 
-TEST_CASE("a late tick is followed at the next deadline of the grid, and the skipped ones are counted", "[servo]") {
+TEST_CASE("after a late tick the next one runs at the next deadline of the grid, and the skipped ones are counted",
+          "[servo]") {
   const auto next = [](double deadline, double now) { return next_deadline(deadline, 1.0, now); };
   CHECK(next(10.0, 10.2).time == 11.0);
   CHECK(next(10.0, 10.2).skipped == 0);
@@ -83,14 +84,14 @@ TEST_CASE("a late tick is followed at the next deadline of the grid, and the ski
   CHECK(next(10.0, 11.0).skipped == 1);
   CHECK(next(10.0, 13.5).time == 14.0);
   CHECK(next(10.0, 13.5).skipped == 3);
-  CHECK(next(10.0, 9.0).time == 11.0);  // a clock that ran back makes no burst either
+  CHECK(next(10.0, 9.0).time == 11.0);  // a clock that ran backwards causes no burst either
   for (const double now : {1e3, 1e6 + 0.5, 1e9 + 0.25}) {
     CHECK(next(10.0, now).time > now);
     CHECK(next(10.0, now).time <= now + 1.0);
   }
 }
 
-TEST_CASE("a servo thread ticks with a clock that never runs back until it is stopped", "[servo]") {
+TEST_CASE("a servo thread ticks with a monotonic clock until it is stopped", "[servo]") {
   ServoThreadOptions options;
   options.priority = 0;
   options.lock_memory = false;
@@ -117,7 +118,7 @@ TEST_CASE("a servo thread ticks with a clock that never runs back until it is st
   CHECK(comes([&] { return count > after; }));
 }
 
-TEST_CASE("what the system does not permit is a warning that says what to do, not a failure", "[servo]") {
+TEST_CASE("a refused privilege is a warning with a remedy, not an error", "[servo]") {
   ServoThreadOptions options;
   options.priority = 0;
   options.lock_memory = false;
@@ -129,10 +130,10 @@ TEST_CASE("what the system does not permit is a warning that says what to do, no
   thread.stop();
   REQUIRE(thread.warnings().size() == 1);
   CHECK(thread.warnings()[0].find("1023") != std::string::npos);
-  CHECK(thread.warnings()[0].find("choose one") != std::string::npos);
+  CHECK(thread.warnings()[0].find("choose a core") != std::string::npos);
 }
 
-TEST_CASE("asking for real time never keeps a loop from running", "[servo]") {
+TEST_CASE("requesting real-time priority never prevents a loop from running", "[servo]") {
   WatchedDevice device;
   ServoLoopOptions options = patient();
   options.thread.priority = 50;
@@ -149,7 +150,7 @@ TEST_CASE("asking for real time never keeps a loop from running", "[servo]") {
   loop.stop();
 }
 
-TEST_CASE("options of the thread out of their domain are refused with name and value", "[servo]") {
+TEST_CASE("thread options out of range are rejected with name and value", "[servo]") {
   const auto message = [](auto&& change) -> std::string {
     ServoThreadOptions options;
     change(options);
@@ -160,16 +161,16 @@ TEST_CASE("options of the thread out of their domain are refused with name and v
     }
     return {};
   };
-  CHECK(message([](auto& o) { o.rate = 0.0; }) == "servo thread: rate is 0, must be from 1 to 100000 Hz");
-  CHECK(message([](auto& o) { o.priority = 100; }).find("priority is 100") != std::string::npos);
-  CHECK(message([](auto& o) { o.priority = -1; }).find("priority is -1") != std::string::npos);
-  CHECK(message([](auto& o) { o.core = -2; }).find("core is -2") != std::string::npos);
-  CHECK(message([](auto& o) { o.core = 1024; }).find("core is 1024") != std::string::npos);
+  CHECK(message([](auto& o) { o.rate = 0.0; }) == "servo thread: rate = 0 Hz, must be from 1 to 100000");
+  CHECK(message([](auto& o) { o.priority = 100; }).find("priority = 100") != std::string::npos);
+  CHECK(message([](auto& o) { o.priority = -1; }).find("priority = -1") != std::string::npos);
+  CHECK(message([](auto& o) { o.core = -2; }).find("core = -2") != std::string::npos);
+  CHECK(message([](auto& o) { o.core = 1024; }).find("core = 1024") != std::string::npos);
   CHECK(message([](auto&) {}).empty());
   CHECK_THROWS_AS(ServoThread().start(nullptr), ValueError);
 }
 
-TEST_CASE("a loop writes what the law wants, and stopping leaves the force at zero", "[servo]") {
+TEST_CASE("a loop writes the desired force, and stopping leaves the force at zero", "[servo]") {
   WatchedDevice device;
   ServoLoop loop(device, push, patient());
   CHECK_FALSE(loop.running());
@@ -182,7 +183,7 @@ TEST_CASE("a loop writes what the law wants, and stopping leaves the force at ze
   CHECK_FALSE(loop.running());
   REQUIRE(device.forces.size() > 10);
   CHECK(device.forces.back().isZero(0.0));
-  CHECK(std::any_of(device.forces.begin(), device.forces.end(),  // it fell, it was not cut
+  CHECK(std::any_of(device.forces.begin(), device.forces.end(),  // ramped down, not cut off
                     [](const Eigen::Vector3d& force) { return force.x() > 0.0 && force.x() < 2.0; }));
   CHECK(loop.status().phase == ServoPhase::zero);
   const std::uint64_t ticks = loop.statistics().ticks;
@@ -194,7 +195,7 @@ TEST_CASE("a loop writes what the law wants, and stopping leaves the force at ze
   CHECK(loop.statistics().ticks > ticks);
 }
 
-TEST_CASE("the end of a loop stops it", "[servo]") {
+TEST_CASE("destroying a loop stops it", "[servo]") {
   WatchedDevice device;
   {
     ServoLoop loop(device, push, patient());
@@ -204,12 +205,12 @@ TEST_CASE("the end of a loop stops it", "[servo]") {
   CHECK(device.last() == 0.0);
 }
 
-TEST_CASE("a force law that hangs in the loop's own thread loses the device to the watchdog", "[servo]") {
+TEST_CASE("the watchdog takes over the device from a force law that hangs in the loop's own thread", "[servo]") {
   WatchedDevice device;
   std::atomic<bool> hang = false;
   std::atomic<bool> hangs = false;
   ServoLoopOptions options = patient();
-  options.servo.patience = 0.05;
+  options.servo.timeout = 0.05;
   ServoLoop loop(
       device,
       [&](const DeviceState& state) {
@@ -235,7 +236,7 @@ TEST_CASE("a force law that hangs in the loop's own thread loses the device to t
   CHECK_FALSE(device.touched_by_two);
 }
 
-TEST_CASE("a loop that is stopped from within its own law lets the force fall, and ends when it is stopped outside",
+TEST_CASE("a loop stopped from within its force law ramps the force down, and ends when it is stopped from outside",
           "[servo]") {
   WatchedDevice device;
   ServoLoop* itself = nullptr;
@@ -257,7 +258,7 @@ TEST_CASE("a loop that is stopped from within its own law lets the force fall, a
   CHECK(device.last() == 0.0);
 }
 
-TEST_CASE("a law that stops its loop before start() has returned is heard", "[servo]") {
+TEST_CASE("a stop from within the force law before start() has returned takes effect", "[servo]") {
   DeviceWithClock device;
   device.own_clock.ticks_at_start = 3;
   ServoLoop* itself = nullptr;
@@ -285,7 +286,7 @@ TEST_CASE("a law that stops its loop before start() has returned is heard", "[se
   CHECK_FALSE(loop.running());
 }
 
-TEST_CASE("a law that stops its loop in its first call is heard however the threads run", "[servo]") {
+TEST_CASE("a stop in the first call of the force law takes effect however the threads are scheduled", "[servo]") {
   for (int run = 0; run < 50; ++run) {
     WatchedDevice device;
     std::atomic<ServoLoop*> itself = nullptr;
@@ -328,7 +329,7 @@ TEST_CASE("two loops run two devices at once", "[servo]") {
   for (const Eigen::Vector3d& force : right.forces) REQUIRE(force.isZero(0.0));
 }
 
-TEST_CASE("a device that brings a clock is run by it and by nothing else", "[servo]") {
+TEST_CASE("a device with its own clock is clocked only by it", "[servo]") {
   DeviceWithClock device;
   ServoLoop loop(device, push, patient());
   loop.start();
@@ -336,7 +337,7 @@ TEST_CASE("a device that brings a clock is run by it and by nothing else", "[ser
   for (int i = 1; i <= 10; ++i) device.own_clock.tick(1e-3 * i);
   CHECK(loop.statistics().ticks == 10);
   CHECK(device.inner.last() == 2.0);
-  loop.stop();  // this clock ticks no more: the wait for the fall is bounded, the end is zero all the same
+  loop.stop();  // this clock has stopped: the wait for the ramp-down is bounded, and the force still ends at zero
   CHECK_FALSE(device.own_clock.running());
   CHECK(device.inner.last() == 0.0);
 }

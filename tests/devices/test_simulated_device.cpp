@@ -28,15 +28,15 @@ Capabilities point_mass(double mass, double viscous_friction = 0.0, double coulo
   return profile;
 }
 
-Hand spring(double stiffness, double damping = 0.0) { return {0.0, damping, stiffness}; }
+GripImpedance spring(double stiffness, double damping = 0.0) { return {0.0, damping, stiffness}; }
 
-SimulatedDevice at_x(const Capabilities& profile, const Hand& hand, double x) {
-  SimulatedDevice device(profile, hand, {x, 0.0, 0.0});
+SimulatedDevice at_x(const Capabilities& profile, const GripImpedance& grip, double x) {
+  SimulatedDevice device(profile, grip, {x, 0.0, 0.0});
   device.set_intention({});
   return device;
 }
 
-/// Gives the device a velocity along x by a hard push that lasts a nanosecond.
+/// Gives the device a velocity along x by an impulse of 1 ns.
 void push(SimulatedDevice& device, double moving_mass, double velocity) {
   device.write({moving_mass * velocity * 1e9, 0.0, 0.0});
   device.advance(1e-9);
@@ -61,7 +61,7 @@ Motion textbook(double mass, double damping, double stiffness, Motion start, dou
     const long double w = sqrtl(w2 - g * g), b = (v0 + g * x0) / w, e = expl(-g * t);
     x = e * (x0 * cosl(w * t) + b * sinl(w * t));
     v = -g * x + e * w * (b * cosl(w * t) - x0 * sinl(w * t));
-  } else if (g * g > w2 && sqrtl(g * g - w2) * t < 1) {  // the form below cancels beside critical damping
+  } else if (g * g > w2 && sqrtl(g * g - w2) * t < 1) {  // the form below cancels near critical damping
     const long double root = sqrtl(g * g - w2), b = v0 + g * x0, e = expl(-g * t);
     x = e * (x0 * coshl(root * t) + b * sinhl(root * t) / root);
     v = -g * x + e * (b * coshl(root * t) + x0 * root * sinhl(root * t));
@@ -78,10 +78,10 @@ Motion textbook(double mass, double damping, double stiffness, Motion start, dou
   return {static_cast<double>(x), static_cast<double>(v)};
 }
 
-std::string error_of(const Capabilities& profile, const Hand& hand = {0.0, 0.0, 0.0},
+std::string error_of(const Capabilities& profile, const GripImpedance& grip = {0.0, 0.0, 0.0},
                      const Eigen::Vector3d& position = Eigen::Vector3d::Zero()) {
   try {
-    SimulatedDevice device(profile, hand, position);
+    SimulatedDevice device(profile, grip, position);
   } catch (const ValueError& error) {
     return error.what();
   }
@@ -100,7 +100,7 @@ bool same_bits(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 
 // ---- linear motion
 
-TEST_CASE("a mass on a hand swings and settles as the textbook says", "[devices]") {
+TEST_CASE("a mass held by a hand oscillates and settles as in the textbook", "[devices]") {
   constexpr double mass = 0.145;
   constexpr double stiffness = 300.0;
   const double critical = 2.0 * std::sqrt(mass * stiffness);
@@ -119,7 +119,7 @@ TEST_CASE("a mass on a hand swings and settles as the textbook says", "[devices]
   CHECK(std::abs(v_of(device) - expected.velocity) < 1e-13 * scale * std::sqrt(stiffness / mass) * (1.0 + ratio));
 }
 
-TEST_CASE("a held force and a moving intention act as the superposed solutions say", "[devices]") {
+TEST_CASE("the response to a held force and a moving intention is the superposition of both", "[devices]") {
   constexpr double mass = 0.1;
   constexpr double stiffness = 200.0;
   constexpr double own_damping = 0.4;
@@ -133,14 +133,14 @@ TEST_CASE("a held force and a moving intention act as the superposed solutions s
   device.set_intention({{target, 0.0, 0.0}, {speed, 0.0, 0.0}});
   device.write({force, 0.0, 0.0});
   device.advance(seconds);
-  // Relative to this point that moves with the target the equation has no right-hand side.
+  // Relative to this point, which moves with the target, the equation is homogeneous.
   const double rest = target + (force - own_damping * speed) / stiffness;
   const Motion relative = textbook(mass, own_damping + hand_damping, stiffness, {0.01 - rest, -speed}, seconds);
   CHECK(std::abs(x_of(device) - (rest + speed * seconds + relative.position)) < 1e-14);
   CHECK(std::abs(v_of(device) - (speed + relative.velocity)) < 1e-13);
 }
 
-TEST_CASE("a free mass accelerates evenly", "[devices]") {
+TEST_CASE("a free mass accelerates uniformly", "[devices]") {
   const double seconds = GENERATE(1e-12, 1e-3, 1.0, 1e4);
   SimulatedDevice device(point_mass(0.5));
   device.write({0.2, -0.4, 0.0});
@@ -150,7 +150,7 @@ TEST_CASE("a free mass accelerates evenly", "[devices]") {
   CHECK((device.true_position() - acceleration * (0.5 * seconds * seconds)).norm() <= 1e-15 * seconds * seconds);
 }
 
-TEST_CASE("a mass in a viscous medium reaches the force over the friction", "[devices]") {
+TEST_CASE("a mass with viscous friction reaches the velocity force / friction", "[devices]") {
   constexpr double mass = 0.045;
   constexpr double friction = 0.5;
   SimulatedDevice device(point_mass(mass, friction));
@@ -163,7 +163,7 @@ TEST_CASE("a mass in a viscous medium reaches the force over the friction", "[de
   CHECK(v_of(device) == Approx(2.0).epsilon(1e-14));
 }
 
-TEST_CASE("dry friction lowers the terminal velocity by its own force", "[devices]") {
+TEST_CASE("Coulomb friction lowers the terminal velocity as an opposing force does", "[devices]") {
   SimulatedDevice device(point_mass(0.045, 0.5, 0.26));
   device.write({1.0, -1.0, 0.2});
   device.advance(10.0);
@@ -174,7 +174,7 @@ TEST_CASE("dry friction lowers the terminal velocity by its own force", "[device
 
 // ---- dry friction
 
-TEST_CASE("a force within the friction never moves a mass at rest", "[devices]") {
+TEST_CASE("a force below Coulomb friction never moves a mass at rest", "[devices]") {
   SimulatedDevice device(point_mass(0.045, 0.1, 0.26), spring(300.0, 3.0), {0.01, 0.02, 0.03});
   const double force = GENERATE(0.26, -0.26, 0.1, 5e-324, 0.0);
   device.write({force, -force, force});
@@ -184,7 +184,7 @@ TEST_CASE("a force within the friction never moves a mass at rest", "[devices]")
   CHECK(device.true_velocity().isZero(0.0));
 }
 
-TEST_CASE("a force above the friction moves a mass at rest at once", "[devices]") {
+TEST_CASE("a force above Coulomb friction moves a mass at rest immediately", "[devices]") {
   SimulatedDevice device(point_mass(0.045, 0.0, 0.26));
   device.write({0.26 * (1.0 + 1e-9), 0.0, -0.27});
   device.advance(1e-3);
@@ -193,7 +193,7 @@ TEST_CASE("a force above the friction moves a mass at rest at once", "[devices]"
   CHECK(device.true_velocity().z() == Approx(-0.01 / 0.045 * 1e-3).epsilon(1e-12));
 }
 
-TEST_CASE("a sliding mass stops after the distance of its kinetic energy", "[devices]") {
+TEST_CASE("a sliding mass stops after the distance given by its kinetic energy", "[devices]") {
   constexpr double mass = 0.045;
   constexpr double friction = 0.26;
   const double step = GENERATE(1e-5, 1e-3, 0.01, 1.0, 1e6);
@@ -211,7 +211,7 @@ TEST_CASE("a sliding mass stops after the distance of its kinetic energy", "[dev
   CHECK(v_of(device) == 0.0);
 }
 
-TEST_CASE("a sliding mass stops at the time that viscous and dry friction together give", "[devices]") {
+TEST_CASE("a sliding mass stops at the time given by viscous and Coulomb friction together", "[devices]") {
   constexpr double mass = 0.045;
   constexpr double viscous = 0.5;
   constexpr double dry = 0.1;
@@ -227,7 +227,7 @@ TEST_CASE("a sliding mass stops at the time that viscous and dry friction togeth
   CHECK(x_of(device) - start == Approx((mass * speed - dry * duration) / viscous).epsilon(1e-11));
 }
 
-TEST_CASE("a mass thrown against a force turns back with the friction reversed", "[devices]") {
+TEST_CASE("a mass thrown against a force reverses, and so does the friction", "[devices]") {
   constexpr double mass = 0.1;
   constexpr double friction = 0.2;
   SimulatedDevice device(point_mass(mass, 0.0, friction));
@@ -243,7 +243,7 @@ TEST_CASE("a mass thrown against a force turns back with the friction reversed",
   CHECK(x_of(device) - start == Approx(speed * speed / (2.0 * up) - 0.5 * down * falling * falling).epsilon(1e-12));
 }
 
-TEST_CASE("a moving intention breaks the mass away at the moment its spring exceeds the friction", "[devices]") {
+TEST_CASE("a moving intention breaks the mass away when its spring force exceeds the friction", "[devices]") {
   constexpr double mass = 0.1;
   constexpr double stiffness = 400.0;
   constexpr double friction = 0.26;
@@ -268,7 +268,7 @@ TEST_CASE("a moving intention breaks the mass away at the moment its spring exce
   }
 }
 
-TEST_CASE("each half swing against dry friction loses twice friction over stiffness, to the last stop", "[devices]") {
+TEST_CASE("each half-cycle with Coulomb friction loses twice friction / stiffness, until the last stop", "[devices]") {
   constexpr double mass = 0.045;
   constexpr double stiffness = 500.0;
   constexpr double friction = 0.26;
@@ -289,20 +289,20 @@ TEST_CASE("each half swing against dry friction loses twice friction over stiffn
   CHECK(v_of(device) == 0.0);
 }
 
-TEST_CASE("the answer does not depend on the step, through stops, starts and turns", "[devices]") {
+TEST_CASE("the result does not depend on the step, through stops, breakaways and reversals", "[devices]") {
   struct Case {
     double viscous, coulomb;
-    Hand hand;
+    GripImpedance grip;
     double amplitude;
   };
-  // From slow creeping over stick-slip to several swings within one long step.
+  // From slow creep and stick-slip to several oscillations within one long step.
   const Case c = GENERATE(Case{0.1, 0.26, {0.1, 3.0, 300.0}, 0.01}, Case{0.1, 0.26, {0.05, 1.0, 100.0}, 0.004},
                           Case{0.0, 0.26, {0.0, 0.0, 1e5}, 0.001}, Case{0.1, 0.06, {0.15, 5.0, 500.0}, 0.02},
                           Case{0.5, 0.04, {0.1, 20.0, 300.0}, 0.01}, Case{0.0, 0.0, {0.0, 0.0, 1e5}, 0.001},
                           Case{0.1, 0.26, {0.0, 0.0, 0.0}, 0.0});
-  CAPTURE(c.viscous, c.coulomb, c.hand.stiffness);
-  SimulatedDevice coarse(point_mass(0.045, c.viscous, c.coulomb), c.hand);
-  SimulatedDevice fine(point_mass(0.045, c.viscous, c.coulomb), c.hand);
+  CAPTURE(c.viscous, c.coulomb, c.grip.stiffness);
+  SimulatedDevice coarse(point_mass(0.045, c.viscous, c.coulomb), c.grip);
+  SimulatedDevice fine(point_mass(0.045, c.viscous, c.coulomb), c.grip);
   int stuck = 0;
   int sliding = 0;
   for (int tick = 0; tick < 60; ++tick) {
@@ -327,13 +327,13 @@ TEST_CASE("the answer does not depend on the step, through stops, starts and tur
   if (c.coulomb > 0.2) CHECK(stuck > 500);
 }
 
-TEST_CASE("what the force and the hand put in equals what is stored and what friction takes", "[devices]") {
+TEST_CASE("the energy from force and hand equals the stored energy plus the friction losses", "[devices]") {
   constexpr double mass = 0.045;
   constexpr double viscous = 0.2;
   constexpr double dry = 0.15;
-  const Hand hand{0.1, 2.0, 300.0};
-  SimulatedDevice device(point_mass(mass, viscous, dry), hand, {0.02, 0.0, 0.0});
-  const double moving_mass = mass + hand.mass;
+  const GripImpedance grip{0.1, 2.0, 300.0};
+  SimulatedDevice device(point_mass(mass, viscous, dry), grip, {0.02, 0.0, 0.0});
+  const double moving_mass = mass + grip.mass;
   double work = 0.0;
   double lost = 0.0;
   const auto energy = [&] { return 0.5 * moving_mass * v_of(device) * v_of(device); };
@@ -346,7 +346,7 @@ TEST_CASE("what the force and the hand put in equals what is stored and what fri
     device.set_intention({{target, 0.0, 0.0}, {speed, 0.0, 0.0}});
     device.write({force, 0.0, 0.0});
     const auto pull = [&](double time) {
-      return force + hand.stiffness * (target + speed * time - x_of(device)) + hand.damping * (speed - v_of(device));
+      return force + grip.stiffness * (target + speed * time - x_of(device)) + grip.damping * (speed - v_of(device));
     };
     for (int i = 0; i < 500; ++i) {
       const double x = x_of(device), v = v_of(device), pull_before = pull(i * step);
@@ -361,7 +361,7 @@ TEST_CASE("what the force and the hand put in equals what is stored and what fri
   CHECK(lost > 1e-3);
 }
 
-TEST_CASE("more stops than one call follows end at rest, in bounded work", "[devices]") {
+TEST_CASE("more stops than one call follows end at rest, with bounded work", "[devices]") {
   SimulatedDevice device = at_x(point_mass(0.045, 0.0, 1e-6), spring(1e6), 0.01);
   device.advance(1e6);
   CHECK(std::abs(x_of(device)) <= 0.01);
@@ -370,7 +370,7 @@ TEST_CASE("more stops than one call follows end at rest, in bounded work", "[dev
   CHECK(v_of(device) != 0.0);
 }
 
-TEST_CASE("a mass carried by a steady intention lags by its friction over the stiffness", "[devices]") {
+TEST_CASE("a mass that follows a steady intention lags by friction / stiffness", "[devices]") {
   SimulatedDevice device(point_mass(0.045, 0.4, 0.1), spring(300.0, 3.0));
   device.set_intention({Eigen::Vector3d::Zero(), {0.2, 0.0, 0.0}});
   const double step = GENERATE(1e-3, 0.25, 4.0);
@@ -386,15 +386,15 @@ namespace {
 struct Wall {
   double period, friction, damping;
   int delay;
-  Hand hand;
+  GripImpedance grip;
   double critical_stiffness;
 };
 
-/// Whether a bilateral wall of this stiffness feeds an oscillation, by comparing early and late swings of 20 s.
+/// Whether an oscillation on a bilateral wall of this stiffness grows: compares its early and late amplitude over 20 s.
 bool grows(const Wall& wall, double stiffness) {
   Capabilities profile = point_mass(0.045, wall.friction);
   profile.sample_delay = wall.delay;
-  SimulatedDevice device = at_x(profile, wall.hand, 1e-3);
+  SimulatedDevice device = at_x(profile, wall.grip, 1e-3);
   const int ticks = static_cast<int>(20.0 / wall.period);
   double previous = 1e-3;
   double early = 0.0;
@@ -424,8 +424,8 @@ double critical_stiffness(const Wall& wall) {
 
 }  // namespace
 
-TEST_CASE("a sampled wall turns unstable at the stiffness that theory gives", "[devices]") {
-  const Hand none{0.0, 0.0, 0.0};
+TEST_CASE("a sampled wall becomes unstable at the theoretical stiffness", "[devices]") {
+  const GripImpedance none{0.0, 0.0, 0.0};
   const Wall wall = GENERATE_COPY(
       Wall{10e-3, 0.5, 0.0, 0, none, 101.9}, Wall{1e-3, 0.05, 0.0, 0, none, 100.0},
       Wall{1e-3, 0.1, 0.0, 0, none, 200.1}, Wall{1e-3, 0.5, 0.0, 0, none, 1001.9},
@@ -437,13 +437,13 @@ TEST_CASE("a sampled wall turns unstable at the stiffness that theory gives", "[
       Wall{1e-3, 0.1, 10.0, 0, none, 16170.0}, Wall{1e-3, 0.1, 20.0, 0, none, 25606.0},
       Wall{1e-3, 0.1, 30.0, 0, none, 30139.0}, Wall{1e-3, 0.05, 0.0, 0, {0.05, 1.0, 100.0}, 2104.0},
       Wall{1e-3, 0.05, 0.0, 0, {0.1, 3.0, 300.0}, 6123.0}, Wall{1e-3, 0.05, 0.0, 0, {0.15, 5.0, 500.0}, 10146.0});
-  CAPTURE(wall.period, wall.friction, wall.damping, wall.delay, wall.hand.stiffness);
+  CAPTURE(wall.period, wall.friction, wall.damping, wall.delay, wall.grip.stiffness);
   CHECK(critical_stiffness(wall) == Approx(wall.critical_stiffness).epsilon(0.002));
 }
 
-// ---- what the encoder and the amplifier do
+// ---- encoder and amplifier
 
-TEST_CASE("a delayed device tells what was true that many ticks ago", "[devices]") {
+TEST_CASE("a delayed device returns the state of that many ticks ago", "[devices]") {
   Capabilities profile = point_mass(0.045);
   profile.sample_delay = GENERATE(0, 1, 2, 5);
   SimulatedDevice device(profile);
@@ -465,7 +465,7 @@ TEST_CASE("a delayed device tells what was true that many ticks ago", "[devices]
   }
 }
 
-TEST_CASE("the encoder rounds what is read to its nearest step and leaves the motion alone", "[devices]") {
+TEST_CASE("the encoder rounds positions to its nearest step and does not affect the motion", "[devices]") {
   Capabilities rough = point_mass(0.045);
   rough.encoder_step = 55e-6;
   SimulatedDevice device(rough, {0.0, 0.0, 0.0}, {26e-6, 28e-6, -28e-6});
@@ -485,7 +485,7 @@ TEST_CASE("the encoder rounds what is read to its nearest step and leaves the mo
   }
 }
 
-TEST_CASE("a force beyond the peak is shortened to it and keeps its direction", "[devices]") {
+TEST_CASE("a force above the peak is limited to it, with its direction preserved", "[devices]") {
   SimulatedDevice device(device_profile("omni"));
   const double size = GENERATE(3.3000001, 5.0, 1e10, 1e200, 1e308);
   const Eigen::Vector3d direction = Eigen::Vector3d(1.0, -0.9, 0.5).normalized();
@@ -494,7 +494,7 @@ TEST_CASE("a force beyond the peak is shortened to it and keeps its direction", 
   CHECK((device.applied_force() / 3.3 - direction).norm() < 1e-14);
 }
 
-TEST_CASE("a force up to the peak is applied as it is", "[devices]") {
+TEST_CASE("a force up to the peak is applied unchanged", "[devices]") {
   const Eigen::Vector3d force = GENERATE(Eigen::Vector3d(1.0, -2.0, 2.0), Eigen::Vector3d(0.0, 3.3, 0.0),
                                          Eigen::Vector3d(5e-324, 0.0, -1e-310), Eigen::Vector3d(0.0, 0.0, 0.0));
   SimulatedDevice device(device_profile("omni"));
@@ -522,7 +522,7 @@ TEST_CASE("a force is held until the next one", "[devices]") {
   CHECK(v_of(device) == Approx(1.0));
 }
 
-TEST_CASE("a closed device has no force and says so", "[devices]") {
+TEST_CASE("a closed device has no force and reports disconnected", "[devices]") {
   SimulatedDevice device(point_mass(0.045, 0.5), {0.0, 0.0, 0.0}, {0.01, 0.0, 0.0});
   device.write({1.0, 0.0, 0.0});
   device.advance(1e-3);
@@ -541,7 +541,7 @@ TEST_CASE("a closed device has no force and says so", "[devices]") {
 
 // ---- hostile and extreme input
 
-TEST_CASE("time that is no time changes nothing", "[devices]") {
+TEST_CASE("advancing by an invalid time changes nothing", "[devices]") {
   SimulatedDevice device(device_profile("omni"), {0.1, 3.0, 300.0});
   device.set_intention({{0.01, 0.0, 0.0}, {1.0, 0.0, 0.0}});
   device.write({1.0, 2.0, 0.0});
@@ -563,13 +563,13 @@ TEST_CASE("an intention that is not finite is ignored", "[devices]") {
   CHECK(device.true_position().isApprox(Eigen::Vector3d(0.01, 0.0, 0.0)));
 }
 
-TEST_CASE("a hand that is told nothing holds the start position", "[devices]") {
+TEST_CASE("a hand without an intention holds the start position", "[devices]") {
   SimulatedDevice device(point_mass(0.045), {0.1, 3.0, 300.0}, {0.03, -0.02, 0.01});
   for (int i = 0; i < 100; ++i) device.advance(1e-3);
   CHECK((device.true_position() - Eigen::Vector3d(0.03, -0.02, 0.01)).norm() < 1e-15);
 }
 
-TEST_CASE("motion stays finite at the ends of the number range", "[devices]") {
+TEST_CASE("motion stays finite at the limits of double", "[devices]") {
   const double seconds = GENERATE(5e-324, 1e-300, 1e-9, 1e-3, 10.0, 1e9, 1e300);
   const double force = GENERATE(0.0, 5e-324, 1.0, 1e308);
   const double stiffness = GENERATE(0.0, 5e-324, 1.0, 1e6, 1e300);
@@ -611,7 +611,7 @@ TEST_CASE("the same calls give the same bits", "[devices]") {
   CHECK(same_bits(run(), run()));
 }
 
-TEST_CASE("two devices at once do not touch each other", "[devices]") {
+TEST_CASE("two devices at once are independent", "[devices]") {
   SimulatedDevice alone(point_mass(0.045, 0.1), {0.1, 3.0, 300.0});
   SimulatedDevice first(point_mass(0.045, 0.1), {0.1, 3.0, 300.0});
   SimulatedDevice second(device_profile("omni"));
@@ -629,12 +629,12 @@ TEST_CASE("two devices at once do not touch each other", "[devices]") {
   CHECK(second.true_position().y() > 0.0);
 }
 
-TEST_CASE("reading, writing and advancing take nothing from the heap", "[devices]") {
+TEST_CASE("reading, writing and advancing do not allocate", "[devices]") {
   Capabilities profile = device_profile("omni");
   profile.sample_delay = 3;
   SimulatedDevice device(profile, {0.1, 3.0, 300.0});
   const std::size_t control = calligraphy_test::allocations();
-  ::operator delete(::operator new(1));  // the counter counts; a new expression could be optimised away
+  ::operator delete(::operator new(1));  // checks the counter; a new-expression could be optimised away
   const std::size_t before = calligraphy_test::allocations();
   for (int tick = 0; tick < 1000; ++tick) {
     device.set_intention({{0.01 * std::sin(0.1 * tick), 0.0, 0.0}, {0.1, 0.0, 0.0}});
@@ -649,7 +649,7 @@ TEST_CASE("reading, writing and advancing take nothing from the heap", "[devices
 
 // ---- profiles and validation
 
-TEST_CASE("the shipped profiles carry the figures of their sources", "[devices]") {
+TEST_CASE("the built-in profiles have the values of their sources", "[devices]") {
   struct Row {
     const char* name;
     double peak, stiffness, continuous, resolution_mm;
@@ -684,7 +684,7 @@ TEST_CASE("the ideal profile adds nothing to a point mass", "[devices]") {
   CHECK(profile.peak_force == infinity);
 }
 
-TEST_CASE("every shipped profile opens a device under its own name", "[devices]") {
+TEST_CASE("every built-in profile opens a device under its own name", "[devices]") {
   std::vector<std::string> names;
   for (const Capabilities& profile : device_profiles()) {
     CAPTURE(profile.name);
@@ -698,7 +698,7 @@ TEST_CASE("every shipped profile opens a device under its own name", "[devices]"
   CHECK(names == std::vector<std::string>{"omni", "touch", "desktop", "premium-1.5", "ideal"});
 }
 
-TEST_CASE("an unknown profile is refused with the names there are", "[devices]") {
+TEST_CASE("an unknown profile is rejected with the available names", "[devices]") {
   std::string message;
   try {
     device_profile("omnibus");
@@ -709,7 +709,7 @@ TEST_CASE("an unknown profile is refused with the names there are", "[devices]")
   CHECK(contains(message, "omni, touch, desktop, premium-1.5, ideal"));
 }
 
-TEST_CASE("a profile or hand that is not physical is refused with the name and the value", "[devices]") {
+TEST_CASE("an unphysical profile or grip is rejected with name and value", "[devices]") {
   const auto profile_error = [](auto&& change) {
     Capabilities profile = device_profile("omni");
     change(profile);
@@ -722,48 +722,48 @@ TEST_CASE("a profile or hand that is not physical is refused with the name and t
     CHECK(contains(profile_error([&](Capabilities& p) { p.viscous_friction = bad; }), "viscous friction"));
     CHECK(contains(profile_error([&](Capabilities& p) { p.coulomb_friction = bad; }), "Coulomb friction"));
     CHECK(contains(profile_error([&](Capabilities& p) { p.encoder_step = bad; }), "encoder step"));
-    CHECK(contains(error_of(device_profile("omni"), {bad, 1.0, 1.0}), "mass of the hand"));
-    CHECK(contains(error_of(device_profile("omni"), {1.0, bad, 1.0}), "damping of the hand"));
-    CHECK(contains(error_of(device_profile("omni"), {1.0, 1.0, bad}), "stiffness of the hand"));
+    CHECK(contains(error_of(device_profile("omni"), {bad, 1.0, 1.0}), "mass of the grip"));
+    CHECK(contains(error_of(device_profile("omni"), {1.0, bad, 1.0}), "damping of the grip"));
+    CHECK(contains(error_of(device_profile("omni"), {1.0, 1.0, bad}), "stiffness of the grip"));
   }
   for (const double bad : {0.0, -1.0, not_a_number}) {
     CHECK(contains(profile_error([&](Capabilities& p) { p.peak_force = bad; }), "peak force"));
   }
   for (const double bad : {-1.0, not_a_number}) {
-    CHECK(contains(profile_error([&](Capabilities& p) { p.workspace.y() = bad; }), "workspace is"));
+    CHECK(contains(profile_error([&](Capabilities& p) { p.workspace.y() = bad; }), "workspace = "));
     CHECK(contains(profile_error([&](Capabilities& p) { p.continuous_force = bad; }), "continuous force"));
     CHECK(contains(profile_error([&](Capabilities& p) { p.usable_stiffness = bad; }), "usable stiffness"));
     CHECK(contains(profile_error([&](Capabilities& p) { p.update_rate = bad; }), "update rate"));
   }
-  CHECK(contains(profile_error([](Capabilities& p) { p.sample_delay = -1; }), "sample delay is -1"));
+  CHECK(contains(profile_error([](Capabilities& p) { p.sample_delay = -1; }), "sample delay = -1"));
   CHECK(profile_error([](Capabilities& p) { p.usable_stiffness = infinity; }).empty());
   for (const int bad : {-1, 100'001}) {
-    CHECK(contains(profile_error([&](Capabilities& p) { p.sample_delay = bad; }), "delay is " + std::to_string(bad)));
+    CHECK(contains(profile_error([&](Capabilities& p) { p.sample_delay = bad; }), "delay = " + std::to_string(bad)));
   }
   CHECK(contains(error_of(device_profile("omni"), {0.0, 0.0, 0.0}, {0.0, infinity, 0.0}), "position"));
-  CHECK(contains(profile_error([](Capabilities& p) { p.apparent_mass = -0.5; }), "\"omni\": apparent mass is -0.5"));
+  CHECK(contains(profile_error([](Capabilities& p) { p.apparent_mass = -0.5; }), "\"omni\": apparent mass = -0.5"));
 }
 
-TEST_CASE("a hand can be changed, and a refused one leaves the old", "[devices]") {
+TEST_CASE("the grip can be changed, and a rejected one leaves it unchanged", "[devices]") {
   SimulatedDevice device(point_mass(0.045));
   device.set_intention({{0.01, 0.0, 0.0}, Eigen::Vector3d::Zero()});
   device.advance(1.0);
   CHECK(x_of(device) == 0.0);
-  device.set_hand({0.1, 3.0, 300.0});
-  CHECK_THROWS_AS(device.set_hand({0.1, 3.0, -1.0}), ValueError);
+  device.set_grip({0.1, 3.0, 300.0});
+  CHECK_THROWS_AS(device.set_grip({0.1, 3.0, -1.0}), ValueError);
   device.advance(100.0);
   CHECK(x_of(device) == Approx(0.01));
 }
 
-TEST_CASE("a device whose mass is not known is described, but cannot be simulated", "[devices]") {
+TEST_CASE("a device of unknown mass is valid but cannot be simulated", "[devices]") {
   Capabilities unknown = device_profile("omni");
   unknown.apparent_mass = 0.0;
   CHECK_NOTHROW(validate(unknown));
   CHECK(error_of(unknown) ==
-        "device \"omni\": apparent mass is 0, must be above 0: a mass that is not known cannot be simulated");
+        "device \"omni\": apparent mass = 0 kg, must be above 0: a device of unknown mass cannot be simulated");
 }
 
-TEST_CASE("axes that cannot be are named", "[devices]") {
+TEST_CASE("invalid combinations of axes are rejected by name", "[devices]") {
   const auto axes_error = [](const DeviceAxes& sensed, const DeviceAxes& driven) -> std::string {
     Capabilities device = device_profile("omni");
     device.sensed = sensed;
@@ -781,14 +781,15 @@ TEST_CASE("axes that cannot be are named", "[devices]") {
   CHECK(axes_error(all, translations).empty());
   CHECK(axes_error(translations, none).empty());  // a tablet
   CHECK(axes_error(x, x).empty());
-  CHECK(axes_error(none, none) == "device \"omni\": sensed axes are none, must be at least one");
+  CHECK(axes_error(none, none) == "device \"omni\": no axis is sensed, at least one must be");
   CHECK(axes_error(translations, all) ==
-        "device \"omni\": driven axes are x, y, z, rotations, sensed ones x, y, z: must be sensed too: rotations");
+        "device \"omni\": driven axes are x, y, z, rotations, sensed axes are x, y, z; driven but not sensed: "
+        "rotations");
   CHECK(axes_error(x, translations) ==
-        "device \"omni\": driven axes are x, y, z, sensed ones x: must be sensed too: y, z");
+        "device \"omni\": driven axes are x, y, z, sensed axes are x; driven but not sensed: y, z");
 }
 
-TEST_CASE("the simulation is of three translations that are sensed and driven, without an orientation", "[devices]") {
+TEST_CASE("the simulation requires three translations, sensed and driven, and has no orientation", "[devices]") {
   Capabilities knob = device_profile("omni");
   knob.sensed = knob.driven = {true, false, false, false};
   CHECK(error_of(knob) ==

@@ -1,4 +1,4 @@
-// A device that does what a test says, remembers every force, and notices when two touch it at once.
+// A device controlled by a test; it records every force and detects concurrent access.
 #pragma once
 
 #include <atomic>
@@ -34,7 +34,7 @@ class WatchedDevice final : public calligraphy::HapticDevice {
   }
   void close() noexcept override {}
 
-  /// Not a number when no force has been written since the forces were cleared.
+  /// NaN if no force has been written since the forces were cleared.
   double last() const { return forces.empty() ? std::numeric_limits<double>::quiet_NaN() : forces.back().x(); }
 
   calligraphy::DeviceState state;  ///< the next sample

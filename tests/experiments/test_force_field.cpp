@@ -1,4 +1,4 @@
-// The fields round real strokes, and what Figs. 25 to 28 of Wang 2006 are about: where the force is ambiguous.
+// Force fields around real strokes, and the cases of ambiguity in Figs. 25 to 28 of Wang 2006.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -53,7 +53,7 @@ double distance_to(const PlacedCharacter& character, std::size_t stroke, const P
 
 }  // namespace
 
-TEST_CASE("beside a line the force is stiffness times distance, towards the line", "[force field]") {
+TEST_CASE("beside a line the force is stiffness times distance, towards it", "[force field]") {
   ForceFieldOptions options;
   options.columns = 8;
   options.stiffness = 500.0;
@@ -67,19 +67,19 @@ TEST_CASE("beside a line the force is stiffness times distance, towards the line
       CHECK(field.force(column, row).y() == Approx(500.0 * (0.02 - place.y())).margin(1e-9));
     }
   }
-  CHECK(field.largest_force() == Approx(500.0 * 0.00325));
+  CHECK(field.max_force() == Approx(500.0 * 0.00325));
   CHECK(field.jumps.empty());
 }
 
-TEST_CASE("the default field of one line has no jump anywhere, the printed one ends in jumps", "[force field]") {
+TEST_CASE("the default field of one line has no jump, the printed one jumps at its boundary", "[force field]") {
   ForceFieldOptions options;
   options.columns = 40;
-  options.least_jump = 0.01;
+  options.min_jump = 0.01;
   CHECK(guidance_field(straight_line(), 0, 0.5, {0.0, 0.0}, 0.04, options).jumps.empty());
   options.rules = RendererOptions::wang2006().stroke;
   const ForceField field = guidance_field(straight_line(), 0, 0.5, {0.0, 0.0}, 0.04, options);
   REQUIRE_FALSE(field.jumps.empty());
-  // Sec. 4.3.1 (a)-(d): the half disc round the start, as far as the stroke is long, and the feature plane at its end.
+  // Sec. 4.3.1 (a)-(d): the half disc around the start, with the stroke's length as radius, and the feature plane.
   const Point start(0.004, 0.02);
   for (const ForceJump& jump : field.jumps) {
     const Point middle = 0.5 * (jump.begin + jump.end) - start;
@@ -90,7 +90,7 @@ TEST_CASE("the default field of one line has no jump anywhere, the printed one e
   }
 }
 
-TEST_CASE("without an active stroke the force jumps where two strokes are equally near", "[force field]") {
+TEST_CASE("without an active stroke the force jumps where two strokes are equidistant", "[force field]") {
   const std::string name = GENERATE("parallel", "crossed");
   const PlacedCharacter& character = figure(name).placed;
   REQUIRE_FALSE(nearest_stroke(name).jumps.empty());
@@ -108,25 +108,25 @@ TEST_CASE("without an active stroke the force jumps where two strokes are equall
   }
 }
 
-TEST_CASE("Figs. 27 and 28: with the default rules parallel and crossed strokes make no jump", "[force field]") {
+TEST_CASE("Figs. 27 and 28: with the default rules parallel and crossed strokes cause no jump", "[force field]") {
   const std::string name = GENERATE("parallel", "crossed");
   CHECK(usual(name).jumps.empty());
-  CHECK(usual(name).largest_force() > 1.0);
+  CHECK(usual(name).max_force() > 1.0);
 }
 
-TEST_CASE("Fig. 26: with the default rules a corner jumps where it is passed, and nowhere else", "[force field]") {
+TEST_CASE("Fig. 26: with the default rules the force jumps only where the corner is passed", "[force field]") {
   REQUIRE_FALSE(usual("corner").jumps.empty());
   for (const ForceJump& jump : usual("corner").jumps) CHECK(jump.passes_feature);
   CHECK(figure("corner").panels.at(2).fades_in);
   CHECK_FALSE(figure("corner").panels.at(1).fades_in);
 }
 
-TEST_CASE("Fig. 25: in a strong bend the default force is steady within 2.5 mm of the stroke", "[force field]") {
+TEST_CASE("Fig. 25: in a strong bend the default force is continuous within 2.5 mm of the stroke", "[force field]") {
   CHECK(nearest_jump(usual("bend")) > 0.0025);
   CHECK(nearest_jump(printed("bend")) < 0.0005);
 }
 
-TEST_CASE("where the pen has written to, its own stroke holds it, as printed and by default", "[force field]") {
+TEST_CASE("at its current progress the pen is held by its own stroke, as printed and by default", "[force field]") {
   const std::string name = GENERATE("bend", "corner", "parallel", "crossed");
   const ForceFieldFigure& shown = figure(name);
   ForceFieldOptions options;
@@ -136,18 +136,18 @@ TEST_CASE("where the pen has written to, its own stroke holds it, as printed and
   constexpr double edge = 1e-4;
   const Point corner = shown.pen - Point(0.5 * edge, 0.5 * edge);
   const ForceField field = guidance_field(shown.placed, shown.stroke, shown.progress, corner, edge, options);
-  CHECK(field.largest_force() > 0.0);
-  // Subdivision as printed may stop half a millimetre off; the element before is many millimetres away.
-  CHECK(field.largest_force() < (as_printed ? 1.0 : options.stiffness * edge));
+  CHECK(field.max_force() > 0.0);
+  // Subdivision as printed may stop half a millimetre away; the previous element is many millimetres away.
+  CHECK(field.max_force() < (as_printed ? 1.0 : options.stiffness * edge));
 }
 
-TEST_CASE("the rules as printed make the force jump on the stroke itself", "[force field]") {
+TEST_CASE("with the rules as printed the force jumps on the stroke itself", "[force field]") {
   const std::string name = GENERATE("bend", "corner", "parallel", "crossed");
   CHECK(nearest_jump(printed(name)) < 1.5 * printed(name).edge / printed(name).columns);
-  CHECK(printed(name).largest_force() > 2.0 * usual(name).largest_force());
+  CHECK(printed(name).max_force() > 2.0 * usual(name).max_force());
 }
 
-TEST_CASE("a field of what does not exist is refused", "[force field]") {
+TEST_CASE("a field with parameters out of their domain is rejected", "[force field]") {
   const PlacedCharacter three = placed(U'\u4E09');
   const auto field = [&](int stroke, double progress, const Point& corner, double edge, auto change) {
     ForceFieldOptions options;
@@ -168,11 +168,11 @@ TEST_CASE("a field of what does not exist is refused", "[force field]") {
   CHECK_THROWS_AS(field(0, 0.5, {0.0, not_a_number}, 0.04, as_it_is), ValueError);
   CHECK_THROWS_AS(field(0, 0.5, {0.0, 0.0}, 0.04, [](ForceFieldOptions& o) { o.columns = 1; }), ValueError);
   CHECK_THROWS_AS(field(0, 0.5, {0.0, 0.0}, 0.04, [](ForceFieldOptions& o) { o.stiffness = -1.0; }), ValueError);
-  CHECK_THROWS_AS(field(0, 0.5, {0.0, 0.0}, 0.04, [](ForceFieldOptions& o) { o.least_jump = 0.0; }), ValueError);
+  CHECK_THROWS_AS(field(0, 0.5, {0.0, 0.0}, 0.04, [](ForceFieldOptions& o) { o.min_jump = 0.0; }), ValueError);
   CHECK_THROWS_AS(force_field_picture({}), ValueError);
 }
 
-TEST_CASE("a field tells how much of it is done, and ends by what that throws", "[force field]") {
+TEST_CASE("a field reports its progress, and an exception from the callback ends it", "[force field]") {
   const PlacedCharacter three = placed(U'\u4E09');
   ForceFieldOptions options;
   options.columns = 8;

@@ -3,11 +3,11 @@
 #include <limits>
 
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/experiments/nearest_point_workload.hpp>
 #include <calligraphy/model/bezier.hpp>
 #include <calligraphy/model/character_list.hpp>
 
 #include "../catch.hpp"
+#include "experiments/nearest_point_workload.hpp"
 #include "hard_cases.hpp"
 #include "reference_curve.hpp"
 
@@ -43,7 +43,7 @@ double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.
 
 double sine(const Point& a, const Point& b) { return cross(a, b) / (a.norm() * b.norm()); }
 
-/// Share of the queries of all curves for which `holds(curve, query)`.
+/// Share of all queries for which `holds(curve, query)` is true.
 template <typename Predicate>
 double share(const NearestPointWorkload& of, Predicate holds, std::size_t stride = 1) {
   double asked = 0.0, held = 0.0;
@@ -99,7 +99,7 @@ TEST_CASE("there are 19 workloads of 16,000 finite queries to 64 cubics", "[prac
                                           "offset 1e8", "size 1e-12", "far", "on the curve"});
 }
 
-TEST_CASE("the same seed gives the same workloads, another seed others", "[practice]") {
+TEST_CASE("the same seed gives the same workloads, another seed different ones", "[practice]") {
   const auto again = nearest_point_workloads(real_curves()), other = nearest_point_workloads(real_curves(), 16000, 2);
   for (std::size_t i = 0; i < again.size(); ++i) {
     INFO(again[i].name);
@@ -111,11 +111,11 @@ TEST_CASE("the same seed gives the same workloads, another seed others", "[pract
     }
     CHECK(other_queries == 64);
   }
-  // The first two numbers of splitmix64, seeded by splitmix64's first of seed 1: no library's distribution.
+  // The first two numbers of splitmix64, seeded by its first number for seed 1: no standard library distribution.
   CHECK(again[0].curves[0].control_points[0] == Point(0.36818951565166946, 0.9435642308648544));
 }
 
-TEST_CASE("a few queries make a few curves, and what is no workload is refused", "[practice]") {
+TEST_CASE("few queries give few curves, and an invalid workload is rejected", "[practice]") {
   const auto few = nearest_point_workloads(real_curves(), 5);
   CHECK(few[0].curves.size() == 5);
   const auto uneven = nearest_point_workloads(real_curves(), 100);
@@ -148,7 +148,7 @@ TEST_CASE("real strokes are the cubics of the characters on squares of 40 mm", "
   }
 }
 
-TEST_CASE("queries are where the name of their workload says", "[practice]") {
+TEST_CASE("queries lie where the name of their workload says", "[practice]") {
   CHECK(share(workload("random box"), in_widened_box) == 1.0);
   CHECK(share(workload("real strokes box"), in_widened_box) == 1.0);
   const auto within = [](double sizes) {
@@ -162,7 +162,7 @@ TEST_CASE("queries are where the name of their workload says", "[practice]") {
   CHECK(share(workload("on the curve"), [](const auto& curve, const Point& query) {
           return query == curve.control_points[0] || query == curve.control_points[3];
         }) > 0.04);
-  // The curve may come nearer than the point of it from which the query was moved.
+  // The curve may come closer than the point from which the query was displaced.
   CHECK(share(
             workload("real strokes near"),
             [](const auto& curve, const Point& query) { return reference_distance(curve, query) <= 0.005; },
@@ -185,9 +185,9 @@ TEST_CASE("queries are where the name of their workload says", "[practice]") {
   CHECK(furthest > 5e5);
 }
 
-TEST_CASE("a loop crosses itself, a cusp stands still, a hook has two branches near each other", "[practice]") {
+TEST_CASE("a loop crosses itself, a cusp has zero velocity, a hook has two close branches", "[practice]") {
   for (const CurveQueries& curve : workload("loop").curves) {
-    // Before its crossing a loop comes from the left below, after it goes away to the right below.
+    // A loop approaches its crossing from the lower left and leaves it to the lower right.
     const auto& p = curve.control_points;
     const auto crosses = [](const Point& a, const Point& b, const Point& c, const Point& d) {
       return cross(b - a, c - a) * cross(b - a, d - a) < 0.0 && cross(d - c, a - c) * cross(d - c, b - c) < 0.0;
@@ -242,7 +242,7 @@ TEST_CASE("collinear curves lie on a line and some fold back, degenerate ones ha
   CHECK(curves_that(degenerate, [](const auto& curve) { return size_of(curve.control_points) == 0.0; }) == 6);
 }
 
-TEST_CASE("near straight curves are bowed by 1e-2 to 1e-14", "[practice]") {
+TEST_CASE("nearly straight curves are bowed by 1e-2 to 1e-14", "[practice]") {
   double least = 1.0, most = 0.0;
   for (const CurveQueries& curve : workload("near straight").curves) {
     const auto& p = curve.control_points;
@@ -255,7 +255,7 @@ TEST_CASE("near straight curves are bowed by 1e-2 to 1e-14", "[practice]") {
   CHECK(least < 1e-13);
 }
 
-TEST_CASE("symmetric curves are so to the last bit, with queries on the axis or the centre and slightly beside",
+TEST_CASE("symmetric curves are exact to the last bit, with queries on or slightly beside the axis or centre",
           "[practice]") {
   for (const CurveQueries& curve : workload("symmetric").curves) {
     const auto& p = curve.control_points;
@@ -279,7 +279,7 @@ TEST_CASE("symmetric curves are so to the last bit, with queries on the axis or 
   }
 }
 
-TEST_CASE("arcs keep their distance from their centre within the cubic's known error", "[practice]") {
+TEST_CASE("arcs keep a constant radius within the known error of the cubic", "[practice]") {
   double shortest = 4.0, longest = 0.0;
   for (const CurveQueries& curve : workload("arc centre").curves) {
     const double radius = curve.control_points[0].norm();
@@ -297,7 +297,7 @@ TEST_CASE("arcs keep their distance from their centre within the cubic's known e
   CHECK(longest > 2.8);
 }
 
-TEST_CASE("queries at a centre of curvature are where the distance has no second derivative", "[practice]") {
+TEST_CASE("queries at a centre of curvature lie where the second derivative of the distance vanishes", "[practice]") {
   const auto at_centre = [](const CurveQueries& curve, const Point& query) {
     const Bezier<3> of = cubic(curve);
     const Bezier<2> first = of.hodograph();

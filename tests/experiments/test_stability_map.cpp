@@ -20,9 +20,10 @@ using namespace calligraphy;
 namespace {
 
 using calligraphy_test::not_a_number;
-const Hand nobody{0.0, 0.0, 0.0};
+const GripImpedance nobody{0.0, 0.0, 0.0};
 
-SampledLoop loop_of(double rate, double damping, int delay = 0, double wall_damping = 0.0, const Hand& grip = nobody) {
+SampledLoop loop_of(double rate, double damping, int delay = 0, double wall_damping = 0.0,
+                    const GripImpedance& grip = nobody) {
   SampledLoop loop;
   loop.rate = rate;
   loop.device = StabilityMapOptions::point_mass();
@@ -33,7 +34,7 @@ SampledLoop loop_of(double rate, double damping, int delay = 0, double wall_damp
   return loop;
 }
 
-/// Whether a bilateral wall feeds the swing of a simulated device, by comparing early and late swings.
+/// Whether the oscillation of a simulated device on a bilateral wall grows, from early and late amplitudes.
 bool grows(const SampledLoop& loop, double stiffness) {
   Capabilities endless = loop.device;
   endless.peak_force = std::numeric_limits<double>::infinity();
@@ -55,10 +56,10 @@ bool grows(const SampledLoop& loop, double stiffness) {
 
 StabilityMapOptions small_map() {
   StabilityMapOptions options;
-  options.encounter.seconds = 0.5;
+  options.contact.seconds = 0.5;
   options.per_decade = 2;
-  options.softest = 30.0;
-  options.stiffest = 3000.0;
+  options.min_stiffness = 30.0;
+  options.max_stiffness = 3000.0;
   options.dampings = {0.1, 2.0};
   options.rates = {500.0};
   options.delays = {0, 2};
@@ -68,25 +69,25 @@ StabilityMapOptions small_map() {
   return options;
 }
 
-WallEncounter controlled() {
-  WallEncounter encounter;
-  encounter.controlled = true;
-  return encounter;
+WallContact controlled() {
+  WallContact contact;
+  contact.controlled = true;
+  return contact;
 }
 
 }  // namespace
 
-TEST_CASE("a simulated device swings up just above the critical stiffness and down just below", "[stability map]") {
+TEST_CASE("oscillations grow just above the critical stiffness and decay just below it", "[stability map]") {
   const double rate = GENERATE(200.0, 1000.0, 10000.0);
   const double damping = GENERATE(0.3, 3.0);
   const int delay = GENERATE(0, 1, 5);
   for (const double wall_damping : {0.0, 0.5, 8.0}) {
-    for (const Hand& grip : {nobody, Hand{0.1, 3.0, 300.0}}) {
+    for (const GripImpedance& grip : {nobody, GripImpedance{0.1, 3.0, 300.0}}) {
       const SampledLoop loop = loop_of(rate, damping, delay, wall_damping, grip);
       const double critical = critical_stiffness(loop);
       CAPTURE(rate, damping, delay, wall_damping, grip.stiffness, critical);
       if (critical == 0.0) {
-        CHECK(grows(loop, 1e-3));  // the wall's damping alone is too much for this rate and delay
+        CHECK(grows(loop, 1e-3));  // the damping of the wall alone is too high for this rate and delay
         continue;
       }
       CHECK(grows(loop, 1.05 * critical));
@@ -95,96 +96,95 @@ TEST_CASE("a simulated device swings up just above the critical stiffness and do
   }
 }
 
-TEST_CASE("a pen that falls on a wall settles up to the critical stiffness of the linear loop", "[stability map]") {
+TEST_CASE("a pen that falls onto a wall settles up to the critical stiffness of the linear loop", "[stability map]") {
   const double damping = GENERATE(0.05, 0.1, 0.5, 2.0);
   const int delay = GENERATE(0, 1, 2, 5);
-  for (const Hand& grip : {nobody, Hand{0.1, 3.0, 300.0}}) {
+  for (const GripImpedance& grip : {nobody, GripImpedance{0.1, 3.0, 300.0}}) {
     const SampledLoop loop = loop_of(1000.0, damping, delay, 0.0, grip);
     const double critical = critical_stiffness(loop);
     CAPTURE(damping, delay, grip.stiffness, critical);
-    CHECK(meet_wall(loop, 0.96 * critical).settles);
-    CHECK_FALSE(meet_wall(loop, 1.04 * critical).settles);
+    CHECK(simulate_wall_contact(loop, 0.96 * critical).stable);
+    CHECK_FALSE(simulate_wall_contact(loop, 1.04 * critical).stable);
   }
 }
 
-TEST_CASE("a swing that shrinks onto a smaller one, and stays there, has not settled", "[stability map]") {
+TEST_CASE("an oscillation that decays to a limit cycle has not settled", "[stability map]") {
   const double seconds = GENERATE(4.0, 12.0, 60.0);
-  WallEncounter encounter;
-  encounter.seconds = seconds;
+  WallContact contact;
+  contact.seconds = seconds;
   CAPTURE(seconds);
-  const Hand grip{0.1, 3.0, 300.0};
-  CHECK_FALSE(meet_wall(loop_of(500.0, 0.1, 0, 0.0, grip), std::pow(10.0, 4.5), encounter).settles);
+  const GripImpedance grip{0.1, 3.0, 300.0};
+  CHECK_FALSE(simulate_wall_contact(loop_of(500.0, 0.1, 0, 0.0, grip), std::pow(10.0, 4.5), contact).stable);
   SampledLoop rounded = loop_of(2000.0, 2.0, 0, 0.0, grip);
   rounded.device.encoder_step = 23e-6;
   rounded.device.coulomb_friction = 0.06;
-  CHECK_FALSE(meet_wall(rounded, std::pow(10.0, 4.75), encounter).settles);
-  // One that shrinks slowly all the way, by 2.6 % in the last quarter of the first 4 s, settles.
-  CHECK(meet_wall(loop_of(4000.0, 0.2, 2), std::pow(10.0, 2.5), encounter).settles);
+  CHECK_FALSE(simulate_wall_contact(rounded, std::pow(10.0, 4.75), contact).stable);
+  // One that decays slowly all the time, by 2.6 % in the last quarter of the first 4 s, settles.
+  CHECK(simulate_wall_contact(loop_of(4000.0, 0.2, 2), std::pow(10.0, 2.5), contact).stable);
 }
 
 TEST_CASE("with the passivity controller a wall ten times as stiff settles below the peak force", "[stability map]") {
   const SampledLoop loop = loop_of(1000.0, 0.1);
   const double critical = critical_stiffness(loop);
   CHECK(critical == Approx(200.1).epsilon(0.001));
-  CHECK_FALSE(meet_wall(loop, 1.04 * critical).settles);
+  CHECK_FALSE(simulate_wall_contact(loop, 1.04 * critical).stable);
   for (double stiffness = 20.0; stiffness <= 20.0 * critical; stiffness *= 1.25) {
-    // Within the peak force of an Omni, and from higher up, at 0.2 m/s, of a Desktop.
+    // Within the peak force of an Omni, and, from a greater height, at 0.2 m/s, of a Desktop.
     for (const auto& [height, peak] : {std::pair(0.0, 3.3), std::pair(0.00025, 3.3), std::pair(0.001, 7.9)}) {
-      WallEncounter encounter = controlled();
-      encounter.height = height;
+      WallContact contact = controlled();
+      contact.height = height;
       CAPTURE(stiffness, height);
-      const WallOutcome outcome = meet_wall(loop, stiffness, encounter);
-      CHECK(outcome.settles);
-      CHECK(outcome.largest_force < peak);
-      CHECK(outcome.last_force == Approx(encounter.push).epsilon(0.1));
+      const WallContactResult outcome = simulate_wall_contact(loop, stiffness, contact);
+      CHECK(outcome.stable);
+      CHECK(outcome.max_force < peak);
+      CHECK(outcome.last_force == Approx(contact.push).epsilon(0.1));
     }
   }
 }
 
-TEST_CASE("a wall that is damped as well gains nothing and loses nothing by a controller at its limit",
-          "[stability map]") {
+TEST_CASE("on a wall with damping, the controller at its limit neither gains nor loses stability", "[stability map]") {
   const SampledLoop loop = loop_of(1000.0, 0.1, 0, 20.0);
-  CHECK(meet_wall(loop, 0.95 * critical_stiffness(loop)).settles);
-  CHECK(meet_wall(loop, 0.95 * critical_stiffness(loop), controlled()).settles);
+  CHECK(simulate_wall_contact(loop, 0.95 * critical_stiffness(loop)).stable);
+  CHECK(simulate_wall_contact(loop, 0.95 * critical_stiffness(loop), controlled()).stable);
 }
 
-TEST_CASE("no encoder step keeps up a swing at the advised stiffness", "[stability map]") {
+TEST_CASE("at the advised stiffness no encoder step sustains an oscillation", "[stability map]") {
   const double step = GENERATE(1e-6, 23e-6, 55e-6, 200e-6);
   const double friction = GENERATE(0.06, 0.26);
-  const double damping = GENERATE(0.1, 1.0, 5.0);  // at 5 N s/m friction is the tighter bound for a coarse encoder
+  const double damping = GENERATE(0.1, 1.0, 5.0);  // at 5 N s/m dry friction is the tighter bound for a coarse encoder
   SampledLoop loop = loop_of(1000.0, damping);
   loop.device.encoder_step = step;
   loop.device.coulomb_friction = friction;
   const double passive = advise_stiffness(loop).passive.value;
-  const double held = 2.0 * friction / step;  // of the rounding, by dry friction
+  const double held = 2.0 * friction / step;  // quantisation held by dry friction
   CHECK(advise_stiffness(loop).quantised.value == Approx(std::min(passive, held)));
   for (const bool with_control : {false, true}) {
-    WallEncounter encounter;
-    encounter.controlled = with_control;
+    WallContact contact;
+    contact.controlled = with_control;
     const double advised = std::min(passive, held);
     CAPTURE(step, friction, damping, advised, with_control);
-    const WallOutcome outcome = meet_wall(loop, advised, encounter);
-    CHECK(outcome.settles);
-    CHECK(outcome.swing < 1e-7);
+    const WallContactResult outcome = simulate_wall_contact(loop, advised, contact);
+    CHECK(outcome.stable);
+    CHECK(outcome.peak_to_peak < 1e-7);
   }
 }
 
-TEST_CASE("rounding that dry friction does not hold keeps up a swing on a passive wall", "[stability map]") {
+TEST_CASE("quantisation that dry friction does not hold sustains an oscillation on a passive wall", "[stability map]") {
   SampledLoop loop = loop_of(1000.0, 5.0);
   const double step = GENERATE(23e-6, 55e-6, 200e-6);
-  CHECK(meet_wall(loop, 5000.0).settles);  // half of what is passive
+  CHECK(simulate_wall_contact(loop, 5000.0).stable);  // half of what is passive
   loop.device.encoder_step = step;
   loop.device.coulomb_friction = 0.06;
   const double held = advise_stiffness(loop).quantised.value;
   CAPTURE(step, held);
-  CHECK(meet_wall(loop, held).settles);
-  CHECK_FALSE(meet_wall(loop, 1.5 * held).settles);
+  CHECK(simulate_wall_contact(loop, held).stable);
+  CHECK_FALSE(simulate_wall_contact(loop, 1.5 * held).stable);
   loop.device.coulomb_friction = 0.0;
   CHECK(advise_stiffness(loop).quantised.value == 0.0);
-  CHECK_FALSE(meet_wall(loop, 9000.0).settles);
+  CHECK_FALSE(simulate_wall_contact(loop, 9000.0).stable);
 }
 
-TEST_CASE("where positions are rounded, what settles without control settles with it", "[stability map]") {
+TEST_CASE("with quantised positions, what settles without control also settles with it", "[stability map]") {
   const double rate = GENERATE(1000.0, 4000.0);
   const double step = GENERATE(23e-6, 55e-6);
   for (const double wall_damping : {0.0, 1.0}) {
@@ -193,24 +193,25 @@ TEST_CASE("where positions are rounded, what settles without control settles wit
     loop.device.coulomb_friction = 0.06;
     for (double stiffness = 10.0; stiffness < 1e5; stiffness *= 2.0) {
       CAPTURE(rate, step, wall_damping, stiffness);
-      if (meet_wall(loop, stiffness).settles) CHECK(meet_wall(loop, stiffness, controlled()).settles);
+      if (simulate_wall_contact(loop, stiffness).stable)
+        CHECK(simulate_wall_contact(loop, stiffness, controlled()).stable);
     }
   }
 }
 
-TEST_CASE("from 100 Hz to 20 kHz a passive wall settles, with control and without", "[stability map]") {
+TEST_CASE("from 100 Hz to 20 kHz a passive wall settles, with and without control", "[stability map]") {
   const double rate = GENERATE(100.0, 500.0, 1000.0, 4000.0, 10000.0, 20000.0);
   const SampledLoop loop = loop_of(rate, 0.5);
   const double passive = advise_stiffness(loop).passive.value;
-  WallEncounter encounter;
-  encounter.seconds = rate > 4000.0 ? 4.0 : 12.0;
+  WallContact contact;
+  contact.seconds = rate > 4000.0 ? 4.0 : 12.0;
   CAPTURE(rate, passive);
-  CHECK(meet_wall(loop, 0.95 * passive, encounter).settles);
-  encounter.controlled = true;
-  CHECK(meet_wall(loop, 0.95 * passive, encounter).settles);
+  CHECK(simulate_wall_contact(loop, 0.95 * passive, contact).stable);
+  contact.controlled = true;
+  CHECK(simulate_wall_contact(loop, 0.95 * passive, contact).stable);
 }
 
-TEST_CASE("samples late by 0 to 5 ticks, lost or out of order leave a wall stable that bears one tick more",
+TEST_CASE("with samples 0 to 5 ticks late, lost or reordered, a wall that tolerates one more tick of delay is stable",
           "[stability map]") {
   const int delay = GENERATE(0, 1, 2, 3, 4, 5);
   const SampledLoop loop = loop_of(1000.0, 0.5, delay);
@@ -219,57 +220,57 @@ TEST_CASE("samples late by 0 to 5 ticks, lost or out of order leave a wall stabl
   const double stiffness = 0.95 * critical_stiffness(later);
   for (const double share : {0.0, 0.01, 0.2}) {
     for (const bool with_control : {false, true}) {
-      WallEncounter encounter;
-      encounter.controlled = with_control;
-      encounter.lost = encounter.reordered = share;
+      WallContact contact;
+      contact.controlled = with_control;
+      contact.lost = contact.reordered = share;
       CAPTURE(delay, share, with_control, stiffness);
-      CHECK(meet_wall(loop, stiffness, encounter).settles);
+      CHECK(simulate_wall_contact(loop, stiffness, contact).stable);
     }
   }
 }
 
-TEST_CASE("samples that are lost or out of order cost stiffness", "[stability map]") {
+TEST_CASE("lost or reordered samples reduce the stable stiffness", "[stability map]") {
   const SampledLoop loop = loop_of(1000.0, 0.5);
   const double stiffness = 0.95 * critical_stiffness(loop);
-  WallEncounter encounter;
-  CHECK(meet_wall(loop, stiffness, encounter).settles);
-  encounter.lost = 0.3;
-  CHECK_FALSE(meet_wall(loop, stiffness, encounter).settles);
-  encounter.lost = 0.0;
-  encounter.reordered = 0.3;
-  CHECK_FALSE(meet_wall(loop, stiffness, encounter).settles);
+  WallContact contact;
+  CHECK(simulate_wall_contact(loop, stiffness, contact).stable);
+  contact.lost = 0.3;
+  CHECK_FALSE(simulate_wall_contact(loop, stiffness, contact).stable);
+  contact.lost = 0.0;
+  contact.reordered = 0.3;
+  CHECK_FALSE(simulate_wall_contact(loop, stiffness, contact).stable);
 }
 
-TEST_CASE("the force of the wall is cut off at the device's peak", "[stability map]") {
-  WallEncounter encounter;
-  encounter.height = 0.01;
+TEST_CASE("the wall force is clipped at the peak force of the device", "[stability map]") {
+  WallContact contact;
+  contact.height = 0.01;
   SampledLoop loop = loop_of(1000.0, 5.0);
   loop.device.peak_force = 2.0;
-  CHECK(meet_wall(loop, 5000.0, encounter).largest_force == 2.0);
+  CHECK(simulate_wall_contact(loop, 5000.0, contact).max_force == 2.0);
   loop.device.peak_force = 50.0;
-  CHECK(meet_wall(loop, 5000.0, encounter).largest_force > 2.0);
+  CHECK(simulate_wall_contact(loop, 5000.0, contact).max_force > 2.0);
 }
 
-TEST_CASE("a wall that gives way is not one that settles", "[stability map]") {
-  const WallOutcome outcome = meet_wall(loop_of(1000.0, 0.1), 0.0);
-  CHECK_FALSE(outcome.settles);
-  CHECK(outcome.largest_force == 0.0);
+TEST_CASE("on a wall without stiffness the pen does not settle", "[stability map]") {
+  const WallContactResult outcome = simulate_wall_contact(loop_of(1000.0, 0.1), 0.0);
+  CHECK_FALSE(outcome.stable);
+  CHECK(outcome.max_force == 0.0);
 }
 
-TEST_CASE("the map has every combination, its bounds and the stiffnesses that settle", "[stability map]") {
+TEST_CASE("the map has every combination with its bounds and stable stiffnesses", "[stability map]") {
   const StabilityMap map = stability_map(small_map());
   REQUIRE(map.stiffnesses.size() == 5);
   CHECK(map.stiffnesses.back() == Approx(3000.0));
   CHECK(map.grid.size() == 2u * 1u * 2u * 2u * 1u * 2u);
   CHECK(map.sweeps.size() == 6);
   const auto check = [&](const StabilityLine& line) {
-    CHECK(line.settles.size() == map.stiffnesses.size());
-    CHECK(line.controlled_settles.size() == map.stiffnesses.size());
+    CHECK(line.stable_at.size() == map.stiffnesses.size());
+    CHECK(line.controlled_stable_at.size() == map.stiffnesses.size());
     CHECK(line.stable == critical_stiffness(line.loop));
     CHECK(line.passive == advise_stiffness(line.loop).passive.value);
-    CHECK(line.controlled_within_peak <= line.controlled_largest);
-    for (std::size_t i = 0; i < map.stiffnesses.size() && map.stiffnesses[i] <= line.largest; ++i) {
-      CHECK(line.settles[i]);
+    CHECK(line.controlled_max_stable_below_peak <= line.controlled_max_stable);
+    for (std::size_t i = 0; i < map.stiffnesses.size() && map.stiffnesses[i] <= line.max_stable; ++i) {
+      CHECK(line.stable_at[i]);
     }
   };
   for (const StabilityLine& line : map.grid) check(line);
@@ -280,47 +281,47 @@ TEST_CASE("the map has every combination, its bounds and the stiffnesses that se
   }
   const StabilityMap again = stability_map(small_map());
   for (std::size_t i = 0; i < map.grid.size(); ++i) {
-    CHECK(again.grid[i].largest == map.grid[i].largest);
-    CHECK(again.grid[i].controlled_largest == map.grid[i].controlled_largest);
-    CHECK(again.grid[i].settles == map.grid[i].settles);
+    CHECK(again.grid[i].max_stable == map.grid[i].max_stable);
+    CHECK(again.grid[i].controlled_max_stable == map.grid[i].controlled_max_stable);
+    CHECK(again.grid[i].stable_at == map.grid[i].stable_at);
   }
 }
 
-TEST_CASE("the largest stiffness that settles is found to 2 %", "[stability map]") {
+TEST_CASE("the maximum stable stiffness is found to 2 %", "[stability map]") {
   StabilityMapOptions options = small_map();
   options.with_sweeps = false;
-  options.encounter.seconds = 12.0;
-  options.softest = 10.0;
+  options.contact.seconds = 12.0;
+  options.min_stiffness = 10.0;
   options.encoder_steps = {0.0};
   options.grips = {nobody};
   for (const StabilityLine& line : stability_map(options).grid) {
     CAPTURE(line.loop.device.viscous_friction, line.loop.device.sample_delay);
-    CHECK(line.largest == Approx(std::min(line.stable, 3162.3)).epsilon(0.04));
+    CHECK(line.max_stable == Approx(std::min(line.stable, 3162.3)).epsilon(0.04));
   }
 }
 
-TEST_CASE("an encounter or a map out of its domain is refused", "[stability map]") {
+TEST_CASE("a contact or a map out of its domain is rejected", "[stability map]") {
   const auto refused = [](auto change) {
-    WallEncounter encounter;
-    change(encounter);
-    CHECK_THROWS_AS(meet_wall(loop_of(1000.0, 0.1), 100.0, encounter), ValueError);
+    WallContact contact;
+    change(contact);
+    CHECK_THROWS_AS(simulate_wall_contact(loop_of(1000.0, 0.1), 100.0, contact), ValueError);
   };
   for (const double bad : {-1.0, not_a_number}) {
-    refused([bad](WallEncounter& e) { e.push = bad; });
-    refused([bad](WallEncounter& e) { e.height = bad; });
-    refused([bad](WallEncounter& e) { e.seconds = bad; });
+    refused([bad](WallContact& e) { e.push = bad; });
+    refused([bad](WallContact& e) { e.height = bad; });
+    refused([bad](WallContact& e) { e.seconds = bad; });
     SampledLoop weak = loop_of(1000.0, 0.1);
     weak.device.peak_force = bad;
-    CHECK_THROWS_AS(meet_wall(weak, 100.0), ValueError);
-    refused([bad](WallEncounter& e) { e.lost = bad; });
-    refused([bad](WallEncounter& e) { e.reordered = bad; });
-    CHECK_THROWS_AS(meet_wall(loop_of(1000.0, 0.1), bad), ValueError);
-    CHECK_THROWS_AS(meet_wall(loop_of(bad, 0.1), 100.0), ValueError);
+    CHECK_THROWS_AS(simulate_wall_contact(weak, 100.0), ValueError);
+    refused([bad](WallContact& e) { e.lost = bad; });
+    refused([bad](WallContact& e) { e.reordered = bad; });
+    CHECK_THROWS_AS(simulate_wall_contact(loop_of(1000.0, 0.1), bad), ValueError);
+    CHECK_THROWS_AS(simulate_wall_contact(loop_of(bad, 0.1), 100.0), ValueError);
     StabilityMapOptions options = small_map();
-    options.softest = bad;
+    options.min_stiffness = bad;
     CHECK_THROWS_AS(stability_map(options), ValueError);
     options = small_map();
-    options.stiffest = bad;
+    options.max_stiffness = bad;
     CHECK_THROWS_AS(stability_map(options), ValueError);
     options = small_map();
     options.dampings.push_back(bad);
@@ -331,23 +332,23 @@ TEST_CASE("an encounter or a map out of its domain is refused", "[stability map]
   CHECK_THROWS_AS(stability_map(options), ValueError);
 }
 
-TEST_CASE("the map is drawn as a picture that parses, with the bounds named", "[stability map]") {
+TEST_CASE("the plot of the map is valid XML and names the bounds", "[stability map]") {
   CHECK_THROWS_AS(stability_map_plot({}), ValueError);
-  if (!can_plot()) {
+  if (!gnuplot_available()) {
     if (std::getenv("CALLIGRAPHY_REQUIRE_DATA") != nullptr) FAIL("gnuplot cannot be started");
     WARN("skipped: gnuplot cannot be started");
     return;
   }
   StabilityMapOptions options = small_map();
   options.with_grid = false;
-  options.encounter.seconds = 0.1;
+  options.contact.seconds = 0.1;
   StabilityMap map = stability_map(options);
   CHECK(map.grid.empty());
   map.sweeps[0].label = "a 'label'\nwith all that ends one";
   const std::string picture = stability_map_plot(map);
   pugi::xml_document document;
   REQUIRE(document.load_string(picture.c_str()));
-  for (const char* word : {"passive", "stable, exact", "Gil et al. 2009", "settles with control alone", "grip",
+  for (const char* word : {"passive", "stable, exact", "Gil et al. 2009", "settles only with control", "grip",
                            "servo rate [kHz]", "stiffness K [N/m]"}) {
     CHECK(picture.find(word) != std::string::npos);
   }

@@ -4,10 +4,10 @@
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/collision/nearest_point.hpp>
-#include <calligraphy/experiments/stroke_queries.hpp>
 
 #include "../catch.hpp"
 #include "../practice/pages.hpp"
+#include "experiments/stroke_queries.hpp"
 
 using namespace calligraphy;
 using calligraphy_test::characters;
@@ -28,7 +28,7 @@ double distance_to(const StrokeQueries& stroke, const Point& query) {
 
 }  // namespace
 
-TEST_CASE("a pen path leads along each stroke from its start to its end at 50 mm/s", "[practice]") {
+TEST_CASE("a pen path runs along each stroke from start to end at 50 mm/s", "[practice]") {
   StrokeQueryOptions straight;
   straight.wobble = 0.0;
   const auto all = drawn(straight);
@@ -46,7 +46,7 @@ TEST_CASE("a pen path leads along each stroke from its start to its end at 50 mm
   }
 }
 
-TEST_CASE("the pen strays smoothly and at most by the wobble", "[practice]") {
+TEST_CASE("the pen deviates smoothly and at most by the wobble", "[practice]") {
   double furthest = 0.0;
   for (const StrokeQueries& stroke : drawn()) {
     for (std::size_t i = 0; i < stroke.path.size(); ++i) {
@@ -58,7 +58,7 @@ TEST_CASE("the pen strays smoothly and at most by the wobble", "[practice]") {
   CHECK(furthest > 0.001);
 }
 
-TEST_CASE("the same seed draws the same paths, another seed others", "[practice]") {
+TEST_CASE("the same seed gives the same paths, another seed different ones", "[practice]") {
   StrokeQueryOptions other;
   other.seed = 2;
   const auto first = drawn(), again = drawn(), second = drawn(other);
@@ -69,11 +69,11 @@ TEST_CASE("the same seed draws the same paths, another seed others", "[practice]
   }
 }
 
-TEST_CASE("a pen path that cannot be drawn is refused", "[practice]") {
+TEST_CASE("an option out of its domain is rejected", "[practice]") {
   StrokeQueryOptions options;
   SECTION("no speed") { options.speed = 0.0; }
   SECTION("no rate") { options.rate = -1.0; }
   SECTION("an infinite square") { options.em = std::numeric_limits<double>::infinity(); }
-  SECTION("a wobble that is no number") { options.wobble = std::numeric_limits<double>::quiet_NaN(); }
+  SECTION("a wobble that is not a number") { options.wobble = std::numeric_limits<double>::quiet_NaN(); }
   CHECK_THROWS_AS(drawn(options), ValueError);
 }

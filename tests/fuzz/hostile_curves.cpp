@@ -33,7 +33,7 @@ Polygon anywhere(RandomPoints& random, int degree) {
   return polygon;
 }
 
-/// As strokes are: handles of similar length, each turned a little from the last.
+/// Like real strokes: handles of similar length, each turned slightly from the last.
 Polygon gentle(RandomPoints& random, int degree) {
   Polygon polygon = {random.point(0.0, 1.0)};
   double heading = random.between(0.0, 2.0 * std::numbers::pi);
@@ -105,7 +105,7 @@ Polygon evenly_spaced(RandomPoints& random, int degree) {
   return polygon;
 }
 
-/// Its own image in the axis x = 0 or, when turned by half a turn, in the origin; or nearly.
+/// Its own mirror image in the axis x = 0, or its own image when rotated by half a turn about the origin; or nearly so.
 Polygon symmetric(RandomPoints& random, int degree) {
   const bool grid = one_in(random, 2), turned = one_in(random, 3);
   const double broken = one_in(random, 3) ? slight(random) : 0.0;
@@ -130,7 +130,7 @@ Polygon closed(RandomPoints& random, int degree) {
   return polygon;
 }
 
-/// B' = (t - t0) V(t): the speed vanishes within, or nearly.
+/// B' = (t - t0) V(t): the speed vanishes inside, or nearly so.
 Polygon cusp(RandomPoints& random, int degree) {
   const double t0 = one_in(random, 3) ? 0.5 : random.between(0.05, 0.95);
   std::vector<Point> v(static_cast<std::size_t>(degree) - 1);  // Bernstein ordinates of V, of degree n - 2
@@ -161,7 +161,7 @@ Polygon loop(RandomPoints& random, int degree) {
   return polygon;
 }
 
-/// There and back, a narrow way apart.
+/// Forwards and backwards, a narrow distance apart.
 Polygon hairpin(RandomPoints& random, int degree) {
   const double width = magnitude(random, -16.0, -1.0);
   Polygon polygon;
@@ -172,7 +172,7 @@ Polygon hairpin(RandomPoints& random, int degree) {
   return polygon;
 }
 
-/// The usual Bezier curves of circular arcs round the origin.
+/// The usual Bezier approximations of circular arcs around the origin.
 Polygon arc(RandomPoints& random, int degree) {
   const double angle = one_in(random, 2) ? random.between(0.05, 3.0) : magnitude(random, -3.0, 0.0);
   const double first = one_in(random, 3) ? 0.0 : random.between(0.0, 6.3);
@@ -186,7 +186,7 @@ Polygon arc(RandomPoints& random, int degree) {
           cubic[3]};
 }
 
-/// A curve of a lower degree written with this one, so that the leading coefficient is rounding noise.
+/// A curve elevated from a lower degree, so that the leading coefficient is rounding noise.
 Polygon raised(RandomPoints& random, int degree) {
   const int lower = 1 + static_cast<int>(random.index(static_cast<std::uint64_t>(degree) - 1));
   Polygon polygon = one_in(random, 2) ? snapped(random, lower) : anywhere(random, lower);

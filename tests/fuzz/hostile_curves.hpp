@@ -16,7 +16,7 @@ using calligraphy::Point;
 
 struct CurveFamily {
   const char* name;
-  /// Control points of a curve of the degree (2 to 4; a family may take another), about as large as the unit square.
+  /// Control points of a curve of the degree (2 to 4; a family may choose another), about as large as the unit square.
   std::vector<Point> (*draw)(RandomPoints&, int degree);
 };
 
@@ -24,13 +24,13 @@ std::span<const CurveFamily> curve_families();
 
 /// 10^x with x between `low` and `high`.
 double magnitude(RandomPoints& random, double low, double high);
-/// Nothing in one case of two, else 1e-16 to 1e-4.
+/// Zero in one case out of two, otherwise 1e-16 to 1e-4.
 double slight(RandomPoints& random);
-/// True in one case of `count`.
+/// True in one case out of `count`.
 bool one_in(RandomPoints& random, int count);
 
-/// Where a curve stands: mostly as it is; else scaled by 1e-12 to 1e8, turned, moved by up to 1e8 sizes; by powers of
-/// two and by representable numbers in one case of two, so that exact ties stay ties.
+/// Transformation of a curve: mostly none; otherwise scaled by 1e-12 to 1e8, rotated, translated by up to 1e8 sizes; in
+/// one case out of two by powers of two and representable numbers, so that exact ties remain ties.
 class Place {
  public:
   explicit Place(RandomPoints& random);

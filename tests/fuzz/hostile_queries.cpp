@@ -91,7 +91,7 @@ Point on_end_normal(RandomPoints& random, Points points) {
   return end + sizes * turned_left(handle) + slight(random) * random.in_disc();
 }
 
-/// On the straight line on which a handle lies.
+/// On the straight line through a handle.
 Point on_handle(RandomPoints& random, Points points) {
   const std::size_t i = random.index(points.size() - 1);
   const double share =
@@ -99,7 +99,7 @@ Point on_handle(RandomPoints& random, Points points) {
   return points[i] + share * (points[i + 1] - points[i]);
 }
 
-/// Two or three feet are one there.
+/// Where two or three closest points coincide.
 Point at_centre_of_curvature(RandomPoints& random, Points points) {
   const double size = size_of_box(points);
   for (int attempt = 0; attempt < 8; ++attempt) {
@@ -107,14 +107,14 @@ Point at_centre_of_curvature(RandomPoints& random, Points points) {
     const double turn = at.slope.x() * at.bend.y() - at.slope.y() * at.bend.x();
     const Point radius = turned_left(at.slope) * at.slope.squaredNorm();
     if (!(radius.norm() < 100.0 * size * std::abs(turn))) continue;
-    // Beside it the feet part, by so little that signs in single precision hardly tell them apart.
+    // Next to it the closest points separate, by so little that signs in single precision hardly distinguish them.
     const double beside = one_in(random, 2) ? slight(random) : magnitude(random, -7.0, -1.0);
     return at.point + radius / turn + beside * size * random.in_disc();
   }
   return in_box(random, points);
 }
 
-/// On the grid that snapped control points lie on, or on the axis of those that are symmetric.
+/// On the grid of snapped control points, or on the axis of symmetric ones.
 Point on_grid(RandomPoints& random, Points) {
   const auto step = [&] { return static_cast<double>(random.index(65)) / 16.0 - 2.0; };
   if (one_in(random, 3)) return {slight(random), one_in(random, 2) ? step() : random.between(-2.0, 2.0)};
@@ -122,7 +122,7 @@ Point on_grid(RandomPoints& random, Points) {
   return {x, step()};
 }
 
-/// The centre of arcs, and of curves that are their own image when turned.
+/// The centre of arcs, and of curves with rotational symmetry.
 Point at_origin(RandomPoints& random, Points) { return slight(random) * random.in_disc(); }
 
 Point far(RandomPoints& random, Points points) {
@@ -138,20 +138,20 @@ constexpr Point (*kinds[])(RandomPoints&, Points) = {
 }  // namespace
 
 Point draw_query(RandomPoints& random, Points control_points) {
-  // Most pens are near or in the box.
+  // Most pens are near the box or inside it.
   if (one_in(random, 3)) return one_in(random, 2) ? in_box(random, control_points) : near(random, control_points);
   return kinds[random.index(std::size(kinds))](random, control_points);
 }
 
 Point draw_tie(RandomPoints& random, Points control_points) {
   const calligraphy::StrokeElement element = calligraphy::prepare_element(control_points);
-  const auto foot = [&](const Point& query) { return calligraphy::nearest_point(element, query).parameter; };
+  const auto closest = [&](const Point& query) { return calligraphy::nearest_point(element, query).parameter; };
   Point one = in_box(random, control_points), other = in_box(random, control_points);
-  double at_one = foot(one), at_other = foot(other);
+  double at_one = closest(one), at_other = closest(other);
   const int halvings = 10 + static_cast<int>(random.index(45));
   for (int i = 0; i < halvings; ++i) {
     const Point middle = 0.5 * (one + other);
-    const double at_middle = foot(middle);
+    const double at_middle = closest(middle);
     if (std::abs(at_middle - at_one) < std::abs(at_middle - at_other)) {
       one = middle, at_one = at_middle;
     } else {

@@ -1,4 +1,5 @@
-// Queries at which the nearest point of a curve is hard to tell: ties, centres of curvature, end normals, far away.
+// Queries for which the nearest point of a curve is hard to determine: ties, centres of curvature, end normals, far
+// away.
 #pragma once
 
 #include <span>
@@ -7,11 +8,11 @@
 
 namespace calligraphy_test {
 
-/// A query to a curve, of a kind drawn at random. The curve is not yet at its place.
+/// A query to a curve, of a random kind. The curve is not yet transformed.
 Point draw_query(RandomPoints& random, std::span<const Point> control_points);
 
-/// A query whose nearest points on two branches are equally far to the last bits: between two random queries whose feet
-/// are far apart, by halving. What is under test only steers it.
+/// A query whose nearest points on two branches are equally far to the last bits: by bisection between two random
+/// queries whose closest points are far apart. The code under test only steers the search.
 Point draw_tie(RandomPoints& random, std::span<const Point> control_points);
 
 }  // namespace calligraphy_test

@@ -1,4 +1,5 @@
 #include "hostile_strokes.hpp"
+#include "experiments/stroke_queries.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +8,6 @@
 #include <iterator>
 #include <limits>
 
-#include <calligraphy/experiments/stroke_queries.hpp>
 #include <calligraphy/model/character_list.hpp>
 
 #include "hostile_queries.hpp"
@@ -19,7 +19,7 @@ using Elements = std::vector<std::vector<Point>>;
 
 int draw_count(RandomPoints& random) { return 50 + static_cast<int>(random.index(700)); }
 
-/// Elements of any family end to end; some apart, some over one another.
+/// Elements of any family end to end; some disconnected, some on top of one another.
 Elements draw_elements(RandomPoints& random) {
   Elements elements;
   const std::size_t count = 1 + random.index(5);
@@ -88,7 +88,7 @@ PenPath placed(RandomPoints& random, const Elements& elements, std::vector<Point
   return path;
 }
 
-/// Written as a person writes: the strokes of a character of the built-in set.
+/// Written as by a person: the strokes of a character of the built-in set.
 PenPath real_stroke(RandomPoints& random) {
   const auto& characters = calligraphy::built_in_characters().characters;
   const auto& character = characters[random.index(characters.size())];
@@ -127,7 +127,7 @@ PenPath wandering(RandomPoints& random) {
   return placed(random, elements, ticks);
 }
 
-/// Straight from one hard place to another, at a steady speed.
+/// Straight from one hard position to another, at constant speed.
 PenPath across(RandomPoints& random) {
   const Elements elements = draw_elements(random);
   const Point from = draw_query(random, elements[random.index(elements.size())]);
@@ -138,7 +138,7 @@ PenPath across(RandomPoints& random) {
   return placed(random, elements, ticks);
 }
 
-/// A hand that holds the pen still, at a place where the nearest point is hard to tell.
+/// A hand that holds the pen still, where the nearest point is hard to determine.
 PenPath tremor(RandomPoints& random) {
   const Elements elements = draw_elements(random);
   const auto& element = elements[random.index(elements.size())];
@@ -152,7 +152,7 @@ PenPath tremor(RandomPoints& random) {
   return placed(random, elements, ticks);
 }
 
-/// Ever slower towards a place where the nearest point is hard to tell, and beyond it.
+/// Slower and slower towards a position where the nearest point is hard to determine, and beyond it.
 PenPath approaching(RandomPoints& random) {
   const Elements elements = draw_elements(random);
   const auto& element = elements[random.index(elements.size())];

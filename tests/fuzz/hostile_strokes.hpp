@@ -1,4 +1,4 @@
-// Strokes of one to five elements and pens that are drawn over them, along and across, smoothly and in jumps.
+// Strokes of one to five elements, and pens that move over them, along and across, smoothly and in jumps.
 #pragma once
 
 #include <span>
@@ -8,10 +8,10 @@
 
 namespace calligraphy_test {
 
-/// A stroke and a pen over it.
+/// A stroke and a pen path over it.
 struct PenPath {
   std::vector<std::vector<Point>> elements;  ///< control points of each
-  std::vector<Point> ticks;                  ///< where the pen is
+  std::vector<Point> ticks;                  ///< positions of the pen
 };
 
 struct PathFamily {
@@ -21,7 +21,7 @@ struct PathFamily {
 
 std::span<const PathFamily> path_families();
 
-/// Infinite, no number, or so far that squares overflow.
+/// Infinite, NaN, or so far that squares overflow.
 Point draw_lost_query(RandomPoints& random);
 
 }  // namespace calligraphy_test

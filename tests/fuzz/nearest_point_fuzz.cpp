@@ -1,5 +1,5 @@
-// nearest_point_fuzz: queries and warm ticks without end, each answer judged by proof.
-// Exit code 0 nothing wrong, 1 something is, 2 usage.
+// nearest_point_fuzz: endless queries and warm ticks, with every result verified by proof.
+// Exit codes: 0 no failures, 1 failures, 2 usage.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -36,7 +36,7 @@ struct Options {
 
 using RunBlock = std::function<void(std::uint64_t block, std::uint64_t limit, Tally& tally)>;
 
-/// One part of the fuzz and what came of it.
+/// One part of the fuzz test and its result.
 struct Part {
   const char* name;
   const char* unit;  ///< what is counted
@@ -78,7 +78,7 @@ void run(Part& part, const Options& options) {
   part.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Nothing where nothing was measured.
+/// Empty where nothing was measured.
 std::string figure(double value, const char* format) {
   return value > 0.0 ? fmt::format(fmt::runtime(format), value) : "";
 }
@@ -93,9 +93,9 @@ std::string row(const std::string& name, const Count& count) {
 void print(const Part& part) {
   fmt::print("{}: {} {} in {:.0f} s\n", part.name, part.asked, part.unit, part.seconds);
   fmt::print("{:36} {:>11} {:>7} {:>9} {:>8} {:>8} {:>7} {:>7}  {:>8} {:>9}  {:>6}\n", "", "answers", "wrong", "above",
-             "incon-", "uncer-", "not", "differ-", "worst", "of the", "ns");
-  fmt::print("{:36} {:>11} {:>7} {:>9} {:>8} {:>8} {:>7} {:>7}  {:>8} {:>9}  {:>6}\n", "", "", "branch", "allowance",
-             "sistent", "tified", "finite", "ent", "error", "allowance", "each");
+             "incon-", "uncer-", "not", "differ-", "max", "of the", "ns");
+  fmt::print("{:36} {:>11} {:>7} {:>9} {:>8} {:>8} {:>7} {:>7}  {:>8} {:>9}  {:>6}\n", "", "", "branch", "tolerance",
+             "sistent", "tified", "finite", "ent", "error", "tolerance", "each");
   for (std::size_t i = 0; i < part.families.size(); ++i) fmt::print("{}", row(part.families[i], (*part.tally)[i]));
   fmt::print("{}", row("all", part.tally->total()));
   for (const Failure& failure : part.tally->failures()) fmt::print("block {}: {}\n", failure.block, failure.text);
@@ -131,21 +131,22 @@ nlohmann::ordered_json as_json(const Part& part) {
 
 int run(int argc, char** argv) {
   Options options;
-  CLI::App program("Shows nearest points right: random queries and warm ticks, each answer judged by proof.",
+  CLI::App program("Verify nearest points: random queries and warm ticks, with every result verified by proof.",
                    "nearest_point_fuzz");
   using calligraphy::tools::integer;
   constexpr unsigned long long most = 1'000'000'000'000;
-  program.add_option("--queries", options.queries, "Queries to single curves")
+  program.add_option("--queries", options.queries, "Number of queries to single curves")
       ->check(integer(0, most))
       ->capture_default_str();
-  program.add_option("--ticks", options.ticks, "Warm ticks over whole strokes")
+  program.add_option("--ticks", options.ticks, "Number of warm ticks over whole strokes")
       ->check(integer(0, most))
       ->capture_default_str();
-  program.add_option("--seed", options.seed, "Another seed, other queries")
+  program.add_option("--seed", options.seed, "Seed of the random queries")
       ->check(integer(0, most))
       ->capture_default_str();
-  program.add_option("--threads", options.threads, "The result does not depend on it")->check(integer(1, 1024));
-  program.add_option("--block", options.block, "Run this block alone, as a failure names it")->check(integer(0, most));
+  program.add_option("--threads", options.threads, "Number of threads; does not affect the result")
+      ->check(integer(1, 1024));
+  program.add_option("--block", options.block, "Run only this block, as named by a failure")->check(integer(0, most));
   program.add_flag("--json", options.json, "Print a JSON document");
   try {
     program.parse(argc, argv);

@@ -1,4 +1,5 @@
 #include "query_fuzz.hpp"
+#include "experiments/nearest_point_workload.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +12,6 @@
 #include <fmt/format.h>
 
 #include <calligraphy/collision/nearest_point.hpp>
-#include <calligraphy/experiments/nearest_point_workload.hpp>
 #include <calligraphy/model/character_list.hpp>
 
 #include "../last_interval.hpp"
@@ -43,7 +43,7 @@ bool same_bits(const NearestPoint& a, const NearestPoint& b) {
          a.status == b.status;
 }
 
-/// Mostly the whole curve; else a part of it, which may be tiny or a point.
+/// Mostly the whole curve; otherwise a part of it, which may be tiny or a point.
 ParameterRange draw_range(RandomPoints& random) {
   if (!one_in(random, 4)) return {};
   double begin = random.next(), end = random.next();
@@ -69,7 +69,7 @@ ParameterRange draw_range(RandomPoints& random) {
   return {std::min(begin, end), std::max(begin, end)};
 }
 
-/// One curve and what is asked of it.
+/// One curve and the queries to it.
 struct Case {
   std::size_t family;
   std::vector<Point> control_points;
@@ -132,7 +132,7 @@ class CaseRun {
     const bool told = answer.parameter == case_.range.begin && std::isinf(answer.distance) && !answer.certified();
     if (usable && (told || element_size() == 0.0)) return;
     ++(usable ? count.inconsistent : count.not_finite);
-    report(case_.family, "exact", answer, query, 0.0, "a query that is lost");
+    report(case_.family, "exact", answer, query, 0.0, "a query that is not finite must be rejected");
   }
 
   double element_size() const { return oracle_.size(); }
@@ -156,7 +156,7 @@ class CaseRun {
     report(other_methods_ + 2, "sampled", sampled, query, 0.0, "not consistent");
   }
 
-  /// It may be wrong, but has to say so where its last interval holds a nearer point.
+  /// It may be wrong, but must report where its last interval contains a nearer point.
   void ask_printed(const Point& query) {
     constexpr double tolerances[] = {1e-3, 1e-6, 1e-9};
     const double tolerance = tolerances[random_.index(std::size(tolerances))];
@@ -174,12 +174,12 @@ class CaseRun {
     const double epsilon = wang2006_epsilon(element_, query, tolerance) + rounding;
     if (printed.status == NearestPointStatus::approximate && bounds.found >= printed.distance - epsilon) return;
     ++count.inconsistent;
-    report(
-        other_methods_ + 1, "wang2006", printed, query, tolerance,
-        fmt::format("not told to be unsafe, nearest of the last interval {:.17g}", static_cast<double>(bounds.found)));
+    report(other_methods_ + 1, "wang2006", printed, query, tolerance,
+           fmt::format("unsafe stop not reported, nearest of the last interval {:.17g}",
+                       static_cast<double>(bounds.found)));
   }
 
-  /// The same bits in a batch, and when asked one by one once more.
+  /// The same bits in a batch, and when queried individually again.
   void compare_again() {
     std::vector<NearestPoint> again(case_.queries.size());
     const bool whole = case_.range.begin == 0.0 && case_.range.end == 1.0;

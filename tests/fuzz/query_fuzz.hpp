@@ -1,4 +1,4 @@
-// Queries to single curves, cold and warm, one by one and in batches, each answer judged by proof.
+// Queries to single curves, cold and warm, individually and in batches, with every result verified by proof.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace calligraphy_test {
 
-/// Block after block of queries; each follows from the seed and its number alone.
+/// Blocks of queries; each is determined by the seed and its number alone.
 class QueryFuzz {
  public:
   static constexpr std::uint64_t block_size = 20000;
@@ -17,7 +17,7 @@ class QueryFuzz {
 
   /// The 19 workloads, then the families of curves of every degree, then the methods that are not exact.
   const std::vector<std::string>& families() const { return families_; }
-  /// Asks the first `limit` queries of a block. Safe in several threads.
+  /// Runs the first `limit` queries of a block. Thread-safe.
   void run(std::uint64_t seed, std::uint64_t block, std::uint64_t limit, Tally& tally) const;
 
  private:

@@ -1,4 +1,4 @@
-// What a run of the fuzz counts, by family, and the failures it found.
+// Counts of a fuzz run, by family, and the failures found.
 #pragma once
 
 #include <array>
@@ -11,12 +11,12 @@
 
 namespace calligraphy_test {
 
-/// Times of calls by eighths of an octave: their median does not mind that other programs run.
+/// Histogram of call times in eighths of an octave: its median is insensitive to other running programs.
 class Times {
  public:
   void add(double nanoseconds, std::uint64_t calls);
   void add(const Times& other);
-  /// Of one call [ns]; 0 when none was timed.
+  /// Median of one call [ns]; 0 when none was timed.
   double median() const;
 
  private:
@@ -24,18 +24,18 @@ class Times {
   std::array<std::uint64_t, 20 * steps_per_octave> counts_ = {};
 };
 
-/// Numbers of answers, and the largest errors.
+/// Counts of results, and the maximum errors.
 struct Count {
   std::uint64_t answers = 0;
   std::uint64_t wrong_branches = 0;
-  std::uint64_t above_allowance = 0;  ///< no wrong branch, but an error above the allowance
+  std::uint64_t above_allowance = 0;  ///< no wrong branch, but an error above the tolerance
   std::uint64_t inconsistent = 0;     ///< parameter, point, distance, tangent or status contradict each other
   std::uint64_t uncertified = 0;
   std::uint64_t not_finite = 0;  ///< output that is not finite for finite input
-  std::uint64_t different = 0;   ///< another answer in a batch, or when asked again
-  double worst_error = 0.0;      ///< of those whose allowance is 1e-9 of the size [size of the curve]
-  double proven_error = 0.0;     ///< of the same ones no error is larger: by proof, which knows them a little less well
-  double worst_share = 0.0;      ///< of all, proven [allowance]
+  std::uint64_t different = 0;   ///< a different result in a batch or in a repeated query
+  double worst_error = 0.0;      ///< maximum over those whose tolerance is 1e-9 of the size [size of the curve]
+  double proven_error = 0.0;     ///< of the same results, a proven upper bound [size of the curve]
+  double worst_share = 0.0;      ///< over all results, proven [tolerance]
   Times times;                   ///< of the code under test
 
   std::uint64_t failures() const {
@@ -47,10 +47,10 @@ struct Count {
 struct Failure {
   std::uint64_t block = 0, index = 0;  ///< order of the failures, whatever the threads
   std::size_t family = 0;
-  std::string text;  ///< one line from which it can be reproduced
+  std::string text;  ///< one line that suffices to reproduce it
 };
 
-/// Of one thread.
+/// The tally of one thread.
 class Tally {
  public:
   static constexpr std::size_t shown_failures = 10;
@@ -58,12 +58,12 @@ class Tally {
 
   explicit Tally(std::size_t families) : counts_(families), kept_(families) {}
 
-  /// The blocks of a thread must ascend, so that the first failures are kept.
+  /// The blocks of a thread must ascend, so that the first failures are retained.
   void begin_block(std::uint64_t block) { block_ = block; }
   Count& operator[](std::size_t family) { return counts_[family]; }
   const Count& operator[](std::size_t family) const { return counts_[family]; }
 
-  /// Counts a judged answer; true when it is not as it should be.
+  /// Counts a verified result; true when it is a failure.
   bool judge(std::size_t family, const Verdict& verdict, bool finite, bool certified);
   template <typename Text>
   void fail(std::size_t family, Text text) {
@@ -74,7 +74,7 @@ class Tally {
 
   void add(const Tally& other);
   Count total() const;
-  /// The first ones in order, a few of each family.
+  /// The first ones in order, a few per family.
   std::vector<Failure> failures() const;
 
  private:

@@ -18,7 +18,7 @@ using calligraphy::StrokeElement;
 using calligraphy::StrokePoint;
 using calligraphy::StrokeTracker;
 
-/// The truth about a stroke.
+/// The oracle for a stroke.
 class StrokeOracle {
  public:
   explicit StrokeOracle(const std::vector<std::vector<Point>>& elements) {
@@ -31,14 +31,14 @@ class StrokeOracle {
   Verdict judge(const StrokePoint& answer, const Point& query) const {
     const auto which = static_cast<std::size_t>(answer.element);
     const NearestPointOracle& its = oracles_[which];
-    oracle::Bounds bounds = its.nearest(query, answer.foot.parameter);
+    oracle::Bounds bounds = its.nearest(query, answer.closest.parameter);
     for (std::size_t i = 0; i < oracles_.size(); ++i) {
-      if (i == which || oracles_[i].box_distance(query) >= answer.foot.distance) continue;
+      if (i == which || oracles_[i].box_distance(query) >= answer.closest.distance) continue;
       const oracle::Bounds others = oracles_[i].nearest_within(query, bounds.least);
       bounds.least = std::min(bounds.least, others.least);
       bounds.found = std::min(bounds.found, others.found);
     }
-    return its.judge(answer.foot, query, bounds, {}, size_);
+    return its.judge(answer.closest, query, bounds, {}, size_);
   }
 
   int count() const { return static_cast<int>(oracles_.size()); }
@@ -75,20 +75,20 @@ class PathRun {
  private:
   void judge(const StrokePoint& answer, std::size_t tick) {
     const Point& query = path_.ticks[tick];
-    if (answer.element < 0 || answer.element >= oracle_.count() || !is_usable(answer.foot)) {
+    if (answer.element < 0 || answer.element >= oracle_.count() || !is_usable(answer.closest)) {
       ++tally_[family_].answers;
       ++tally_[family_].not_finite;
       return report(answer, tick, "not finite, or no element");
     }
     if (is_lost(query)) {
       ++tally_[family_].answers;
-      if (std::isinf(answer.foot.distance) && !answer.foot.certified()) return;
+      if (std::isinf(answer.closest.distance) && !answer.closest.certified()) return;
       if (elements_[static_cast<std::size_t>(answer.element)].length() == 0.0) return;
       ++tally_[family_].inconsistent;
-      return report(answer, tick, "a query that is lost");
+      return report(answer, tick, "a query that is not finite must be rejected");
     }
     const Verdict verdict = oracle_.judge(answer, query);
-    if (!tally_.judge(family_, verdict, std::isfinite(answer.foot.distance), answer.foot.certified())) return;
+    if (!tally_.judge(family_, verdict, std::isfinite(answer.closest.distance), answer.closest.certified())) return;
     report(answer, tick, fmt::format("error {:.3g} of the size", verdict.error));
   }
 
@@ -100,8 +100,8 @@ class PathRun {
       text += fmt::format(" tick {}, last queries {}", tick,
                           exact_text(std::span(path_.ticks).subspan(first, tick + 1 - first)));
       return text + fmt::format(" -> element {} t {} distance {:.17g}{}; {}", answer.element,
-                                exact_text(answer.foot.parameter), answer.foot.distance,
-                                answer.foot.certified() ? ", certified" : "", what);
+                                exact_text(answer.closest.parameter), answer.closest.distance,
+                                answer.closest.certified() ? ", certified" : "", what);
     });
   }
 

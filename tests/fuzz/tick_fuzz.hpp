@@ -1,4 +1,4 @@
-// Pens that follow strokes from tick to tick: every answer must be the nearest point of the whole stroke.
+// Pens that follow strokes from tick to tick: every result must be the nearest point of the whole stroke.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace calligraphy_test {
 
-/// Block after block of warm ticks; each follows from the seed and its number alone.
+/// Blocks of warm ticks; each is determined by the seed and its number alone.
 class TickFuzz {
  public:
   static constexpr std::uint64_t block_size = 20000;
@@ -19,7 +19,7 @@ class TickFuzz {
 
   /// The kinds of path.
   const std::vector<std::string>& families() const { return families_; }
-  /// Asks the first `limit` ticks of a block. Safe in several threads.
+  /// Runs the first `limit` ticks of a block. Thread-safe.
   void run(std::uint64_t seed, std::uint64_t block, std::uint64_t limit, Tally& tally) const;
 
  private:

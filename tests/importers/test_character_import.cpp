@@ -1,4 +1,4 @@
-// Claims about import_characters on sources made for them; test_corpora.cpp has the real ones.
+// import_characters on small artificial sources; test_corpora.cpp tests the real ones.
 #include <cstddef>
 #include <sstream>
 #include <string>
@@ -15,7 +15,7 @@ using namespace calligraphy;
 
 namespace {
 
-/// A file of KanjiVG; each stroke is its label and its path data.
+/// A KanjiVG file; each stroke is a label and path data.
 std::string kanjivg(const std::vector<std::pair<std::string, std::string>>& strokes, const std::string& notice = "") {
   std::string text = notice + "<svg viewBox=\"0 0 109 109\"><g>";
   for (const auto& [label, data] : strokes) text += "<path kvg:type=\"" + label + "\" d=\"" + data + "\"/>";
@@ -53,7 +53,7 @@ std::string text_of(const CharacterList& list) {
 
 }  // namespace
 
-TEST_CASE("the content of a source says what it is", "[practice]") {
+TEST_CASE("the kind of a source is detected from its content", "[practice]") {
   const TemporaryDirectory brush, lines, both, neither;
   brush.write("package/一.json", hanzi_writer_heng);
   lines.write("deep/down/04e00.svg", kanjivg({{"㇐", heng}}));
@@ -63,24 +63,24 @@ TEST_CASE("the content of a source says what it is", "[practice]") {
   neither.write("picture.svg", "<svg/>");
   neither.write("4e00.svg", "<svg/>");
   for (const TemporaryDirectory* const directory : {&brush, &lines}) {
-    const Import import = import_characters(directory->path());
+    const ImportResult import = import_characters(directory->path());
     CHECK(import.report.kind == (directory == &brush ? SourceKind::hanzi_writer_data : SourceKind::kanjivg));
     REQUIRE(import.list.characters.size() == 1);
     CHECK(import.list.characters[0].code == U'一');
     CHECK(import.list.characters[0].sequence.stroke_ids == std::vector<int>{1});
   }
   CHECK(has(complaint(both.path()), "both hanzi-writer-data and KanjiVG"));
-  CHECK(has(complaint(neither.path()), "no file of a character"));
+  CHECK(has(complaint(neither.path()), "contains no character file"));
   CHECK(has(complaint(neither.path() / "none"), "no such file or directory"));
 }
 
-TEST_CASE("the text format and set files are imported as they are, in the order of code points", "[practice]") {
+TEST_CASE("the text format and set files are imported unchanged, by ascending code point", "[practice]") {
   const TemporaryDirectory directory;
   const std::string head = "calligraphy characters 1\nsource s\nlicence l\nattribution a\n";
   const std::string one = "\ncharacter 一\nstroke 1 0.1,0.5 0.9,0.5\n";
   const std::string ten = "\ncharacter 十\nstroke 1 0.1,0.5 0.9,0.5\nstroke 2 0.5,0.9 0.5,0.1\n";
   directory.write("own.txt", head + ten + one);
-  const Import import = import_characters(directory.path() / "own.txt");
+  const ImportResult import = import_characters(directory.path() / "own.txt");
   CHECK(text_of(import.list) == head + one + ten);
   CHECK(import.report.kind == SourceKind::calligraphy);
   CHECK(import.report.characters == 2);
@@ -90,7 +90,7 @@ TEST_CASE("the text format and set files are imported as they are, in the order 
   options.only = U"永一";
   CHECK(text_of(import_characters(directory.path() / "own.txt", options).list) == head + one);
   options.only = U"永";
-  CHECK(has(complaint(directory.path() / "own.txt", options), "no character that was asked for"));
+  CHECK(has(complaint(directory.path() / "own.txt", options), "no character that was requested"));
   const std::vector<std::byte> bytes = encode_character_set(import.list, CoordinatePrecision::exact);
   directory.write("own.set", std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
   CHECK(text_of(import_characters(directory.path() / "own.set").list) == head + one + ten);
@@ -98,14 +98,14 @@ TEST_CASE("the text format and set files are imported as they are, in the order 
   CHECK(has(complaint(directory.path() / "other.bin"), "FormatError"));
 }
 
-TEST_CASE("characters come by rising code point and are the same from any number of threads", "[practice]") {
+TEST_CASE("characters are sorted by code point and do not depend on the number of threads", "[practice]") {
   const TemporaryDirectory directory;
   for (const char* const name : {"永", "一", "十", "丁", "七", "丈"}) {
     directory.write(std::string(name) + ".json", hanzi_writer_cross);
   }
   ImportOptions options;
   options.threads = 1;
-  const Import expected = import_characters(directory.path(), options);
+  const ImportResult expected = import_characters(directory.path(), options);
   REQUIRE(expected.list.characters.size() == 6);
   for (std::size_t i = 1; i < 6; ++i) CHECK(expected.list.characters[i - 1].code < expected.list.characters[i].code);
   CHECK(expected.report.strokes == 12);
@@ -116,36 +116,37 @@ TEST_CASE("characters come by rising code point and are the same from any number
   }
 }
 
-TEST_CASE("a label decides between strokes that follow the drawing, and is overruled by the shape", "[practice]") {
+TEST_CASE("a label decides between strokes that follow the drawing, and is overridden by the shape", "[practice]") {
   const TemporaryDirectory directory;
   directory.write("04e00.svg", kanjivg({{"㇐", heng},           // agrees
-                                        {"㇐", steep_heng},     // obeyed: geometry alone says ti
-                                        {"㇑", shu_with_hook},  // overruled: a line loses the hook
+                                        {"㇐", steep_heng},     // accepted: geometry alone says ti
+                                        {"㇑", shu_with_hook},  // overridden: a line loses the hook
                                         {"６", heng},           // unknown
                                         {"", shu},
                                         {"㇐", shu}}));  // none
-  const Import import = import_characters(directory.path());
+  const ImportResult import = import_characters(directory.path());
   const ImportReport& report = import.report;
   CHECK(import.list.characters[0].sequence.stroke_ids == std::vector<int>{1, 1, 12, 1, 2, 2});
   CHECK(report.labelled == 4);
   CHECK(report.agreed == 1);
-  REQUIRE(report.label_doubts.size() == 4);
-  CHECK(report.label_doubts[0].place.stroke == 2);
-  CHECK(report.label_doubts[0].fate == LabelFate::obeyed);
-  CHECK(report.label_doubts[0].recognised == 10);
-  CHECK(report.label_doubts[0].id == 1);
-  CHECK(report.label_doubts[1].place.stroke == 3);
-  CHECK(report.label_doubts[1].fate == LabelFate::overruled);
-  CHECK(report.label_doubts[1].id == 12);
-  CHECK(report.label_doubts[2].place.stroke == 4);
-  CHECK(report.label_doubts[2].fate == LabelFate::unknown);
-  CHECK(report.label_doubts[3].place.stroke == 6);
-  CHECK(report.label_doubts[3].fate == LabelFate::overruled);  // a line fits, but no heng goes down
+  REQUIRE(report.label_conflicts.size() == 4);
+  CHECK(report.label_conflicts[0].place.stroke == 2);
+  CHECK(report.label_conflicts[0].resolution == LabelResolution::accepted);
+  CHECK(report.label_conflicts[0].recognised == 10);
+  CHECK(report.label_conflicts[0].id == 1);
+  CHECK(report.label_conflicts[1].place.stroke == 3);
+  CHECK(report.label_conflicts[1].resolution == LabelResolution::overridden);
+  CHECK(report.label_conflicts[1].id == 12);
+  CHECK(report.label_conflicts[2].place.stroke == 4);
+  CHECK(report.label_conflicts[2].resolution == LabelResolution::unknown);
+  CHECK(report.label_conflicts[3].place.stroke == 6);
+  CHECK(report.label_conflicts[3].resolution ==
+        LabelResolution::overridden);  // a line fits, but a heng never runs downwards
   REQUIRE(report.confusions.size() == 3);
   CHECK(report.confusions[0].count == 1);
 }
 
-TEST_CASE("stroke letters are labels where there is one per stroke", "[practice]") {
+TEST_CASE("stroke letters are used as labels if there is one per stroke", "[practice]") {
   const TemporaryDirectory directory;
   directory.write("data/一.json", hanzi_writer_heng);
   directory.write("data/十.json", hanzi_writer_cross);
@@ -153,7 +154,7 @@ TEST_CASE("stroke letters are labels where there is one per stroke", "[practice]
   directory.write("letters.js", R"js(x=JSON.parse('{"一":"jj","十":"jf"}'))js");
   ImportOptions options;
   options.letters = directory.path() / "letters.js";
-  const Import import = import_characters(directory.path() / "data", options);
+  const ImportResult import = import_characters(directory.path() / "data", options);
   CHECK(import.report.labelled == 2);
   CHECK(import.report.agreed == 2);
   CHECK(import.report.letters_unused == std::vector<char32_t>{U'一'});
@@ -163,27 +164,27 @@ TEST_CASE("stroke letters are labels where there is one per stroke", "[practice]
   CHECK(has(complaint(directory.path() / "lines", options), "ValueError letters"));
 }
 
-TEST_CASE("variants are alternate orders when asked for, kana come when asked for, copies once", "[practice]") {
+TEST_CASE("variants become alternate orders on request, kana are imported on request, duplicates once", "[practice]") {
   const TemporaryDirectory directory;
   directory.write("a/05341.svg", kanjivg({{"㇐", heng}, {"㇑", shu}}));
   directory.write("b/05341.svg", kanjivg({{"㇐", heng}, {"㇑", shu}}));
   directory.write("a/05341-VtFst.svg", kanjivg({{"㇑", shu}, {"㇐", heng}}));
   directory.write("a/03044.svg", kanjivg({{"", heng}}));
   directory.write("a/05341-a_b.svg", "no name of a variant");
-  const auto reasons = [](const Import& import) {
+  const auto reasons = [](const ImportResult& import) {
     std::vector<std::string> all;
     for (const SkippedFile& file : import.report.skipped) all.push_back(file.path + ": " + file.reason);
     return all;
   };
-  const Import plain = import_characters(directory.path());
+  const ImportResult plain = import_characters(directory.path());
   CHECK(plain.list.characters.size() == 1);
-  CHECK(reasons(plain) == std::vector<std::string>{"a/03044.svg: no ideograph", "a/05341-VtFst.svg: an alternate order",
-                                                   "a/05341-a_b.svg: no file of a character",
-                                                   "b/05341.svg: a copy of a file read before"});
+  CHECK(reasons(plain) == std::vector<std::string>{
+                              "a/03044.svg: not an ideograph", "a/05341-VtFst.svg: an alternate order",
+                              "a/05341-a_b.svg: not a character file", "b/05341.svg: a duplicate of an earlier file"});
   ImportOptions options;
   options.alternates = true;
   options.ideographs_only = false;
-  const Import all = import_characters(directory.path(), options);
+  const ImportResult all = import_characters(directory.path(), options);
   REQUIRE(all.list.characters.size() == 3);
   CHECK(all.list.characters[0].code == U'い');
   CHECK(all.list.characters[1].order.empty());
@@ -192,7 +193,7 @@ TEST_CASE("variants are alternate orders when asked for, kana come when asked fo
   CHECK(all.list.characters[2].sequence.stroke_ids == std::vector<int>{2, 1});
 }
 
-TEST_CASE("an import says whose work it is, that it was changed, and under which licence", "[practice]") {
+TEST_CASE("an import states its source, its licence and that it was modified", "[practice]") {
   const TemporaryDirectory brush, lines;
   brush.write("一.json", hanzi_writer_heng);
   Provenance found = import_characters(brush.path()).list.provenance;
@@ -205,7 +206,7 @@ TEST_CASE("an import says whose work it is, that it was changed, and under which
   brush.write("inner/ARPHICPL.TXT", "another");
   ImportOptions options;
   options.date = "2026-11-21";
-  const Import import = import_characters(brush.path(), options);
+  const ImportResult import = import_characters(brush.path(), options);
   found = import.list.provenance;
   CHECK(found.source == "Make Me a Hanzi, as hanzi-writer-data 2.0.1");
   CHECK(found.licence == "Arphic Public License");
@@ -223,7 +224,7 @@ TEST_CASE("an import says whose work it is, that it was changed, and under which
   CHECK(found.licence_text == " Copyright U. Apel ");
 }
 
-TEST_CASE("one faulty file fails the import with its name, the same one whatever the threads", "[practice]") {
+TEST_CASE("one malformed file fails the import by name, the same one for any number of threads", "[practice]") {
   const TemporaryDirectory directory;
   for (int code = 0x4E00; code < 0x4E40; ++code) {
     char name[16];
@@ -240,23 +241,23 @@ TEST_CASE("one faulty file fails the import with its name, the same one whatever
   }
 }
 
-TEST_CASE("options of an import out of their domain are refused by name", "[practice]") {
+TEST_CASE("import options outside their domain are rejected by name", "[practice]") {
   const TemporaryDirectory directory;
   directory.write("一.json", hanzi_writer_heng);
   ImportOptions options;
   options.threads = -1;
-  CHECK(has(complaint(directory.path(), options), "ValueError threads -1"));
+  CHECK(has(complaint(directory.path(), options), "ValueError threads = -1"));
   options.threads = 257;
-  CHECK(has(complaint(directory.path(), options), "ValueError threads 257"));
+  CHECK(has(complaint(directory.path(), options), "ValueError threads = 257"));
   options = {};
   options.date = "2026\n11";
   CHECK(has(complaint(directory.path(), options), "ValueError date"));
 }
 
-TEST_CASE("what is within an error counts strokes, and characters by their farthest stroke", "[practice]") {
+TEST_CASE("fit counts include strokes, and characters by their worst stroke", "[practice]") {
   const TemporaryDirectory directory;
   directory.write("一.json", hanzi_writer_heng);
-  // Zigzags of 3 % of the em are no typical stroke: nothing follows them within 2 %.
+  // No typical stroke follows zigzags of 3 % of the em within 2 %.
   std::string zigzag = R"({"medians":[[[100,400],[900,400]],[)";
   for (int i = 0; i <= 16; ++i) {
     zigzag += (i > 0 ? ",[" : "[") + std::to_string(100 + 50 * i) + "," + std::to_string(i % 2 == 0 ? 600 : 680) + "]";

@@ -1,16 +1,16 @@
-// Claims about read_hanzi_writer: files of the npm package hanzi-writer-data become characters.
+// read_hanzi_writer: files of the npm package hanzi-writer-data become characters.
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/text.hpp>
-#include <calligraphy/importers/hanzi_writer.hpp>
 #include <calligraphy/model/character.hpp>
 
 #include "../catch.hpp"
 #include "../package_data.hpp"
 #include "../temporary_directory.hpp"
+#include "importers/hanzi_writer.hpp"
 
 namespace hanzi_writer_tests {
 
@@ -18,7 +18,7 @@ using namespace calligraphy;
 
 namespace {
 
-/// What read_hanzi_writer says to this text, with the kind of error in front.
+/// The error of read_hanzi_writer for this text, preceded by its type.
 std::string complaint(const std::string& text) {
   const TemporaryDirectory directory;
   directory.write("永.json", text);
@@ -42,7 +42,7 @@ std::string repeated(const std::string& part, int count) {
 
 }  // namespace
 
-TEST_CASE("a median in units of 1024 to the em with the baseline at -124 lands in the unit square", "[practice]") {
+TEST_CASE("a median in units of 1/1024 em with the baseline at -124 is mapped to the unit square", "[practice]") {
   const TemporaryDirectory directory;
   directory.write("一.json", R"({"medians":[[[0,-124],[1024,-124]],[[512,900],[512,-124]]]})");
   const Character character = read_hanzi_writer(directory.path().string(), U'一');
@@ -69,7 +69,7 @@ TEST_CASE("a missing character is named with the path", "[practice]") {
   CHECK_THROWS_AS(read_hanzi_writer(directory.path() / "nowhere", U'永'), FileError);
 }
 
-TEST_CASE("code points that are none are refused", "[practice]") {
+TEST_CASE("invalid code points are rejected", "[practice]") {
   const TemporaryDirectory directory;
   for (const unsigned number : {0u, 0xD800u, 0xDFFFu, 0x110000u, 0xFFFFFFFFu}) {
     const auto code = static_cast<char32_t>(number);
@@ -78,13 +78,13 @@ TEST_CASE("code points that are none are refused", "[practice]") {
   CHECK_THROWS_AS(read_hanzi_writer(directory.path().string(), U'/'), FileError);
 }
 
-TEST_CASE("a directory in the place of the file is refused", "[practice]") {
+TEST_CASE("a directory in place of the file is rejected", "[practice]") {
   const TemporaryDirectory directory;
   std::filesystem::create_directory(directory.path() / "永.json");
   CHECK_THROWS_AS(read_hanzi_writer(directory.path().string(), U'永'), FileError);
 }
 
-TEST_CASE("malformed files are refused with the file and the place", "[practice]") {
+TEST_CASE("malformed files are rejected with the file and the place", "[practice]") {
   struct Case {
     std::string text;
     std::string place;
@@ -122,20 +122,20 @@ TEST_CASE("malformed files are refused with the file and the place", "[practice]
   }
 }
 
-TEST_CASE("a hundred thousand nested arrays are refused without a crash", "[practice]") {
+TEST_CASE("a hundred thousand nested arrays are rejected without a crash", "[practice]") {
   CHECK(has(complaint(repeated("[", 100000)), "FormatError 永.json: not JSON"));
   CHECK(has(complaint(repeated("[", 100000) + repeated("]", 100000)), "FormatError 永.json: expected an object"));
   CHECK(has(complaint(R"({"medians":[[)" + repeated("[", 100000) + repeated("]", 100000) + "]]}"),
             "FormatError 永.json: medians[0][0]: expected two finite numbers"));
 }
 
-TEST_CASE("a file of more than a megabyte is refused", "[practice]") {
+TEST_CASE("a file of more than one megabyte is rejected", "[practice]") {
   const std::string valid = R"({"medians":[[[100,200],[600,200]]]})";
   CHECK(complaint(valid).empty());
   CHECK(complaint(std::string(500000, ' ') + valid).empty());
   const std::string too_large = complaint(std::string(1100000, ' ') + valid);
   CHECK(has(too_large, "FormatError "));
-  CHECK(has(too_large, "永.json: more than the 1048576 bytes"));
+  CHECK(has(too_large, "永.json: larger than the limit of 1048576 bytes"));
 }
 
 TEST_CASE("a median of one point becomes a dian", "[practice]") {
@@ -146,8 +146,8 @@ TEST_CASE("a median of one point becomes a dian", "[practice]") {
 
 namespace {
 
-/// A dian drawn with a bend is a chang dian to the fitter, and a bent short pie a pie: a line cannot follow them within
-/// 1 % of the em. Schools teach them as one.
+/// The fitter takes a bent dian for a chang dian, and a bent short pie for a pie: a line cannot follow them within 1 %
+/// of the em. Schools teach each pair as one stroke.
 std::vector<int> without_twins(std::vector<int> ids) {
   std::replace(ids.begin(), ids.end(), 38, 8);
   std::replace(ids.begin(), ids.end(), 5, 4);
@@ -156,7 +156,7 @@ std::vector<int> without_twins(std::vector<int> ids) {
 
 }  // namespace
 
-TEST_CASE("well-known characters of the package have the strokes that schools teach", "[practice]") {
+TEST_CASE("well-known characters of the package have the strokes taught in schools", "[practice]") {
   const std::filesystem::path directory = package_data("CALLIGRAPHY_HANZI_WRITER_DATA");
   if (directory.empty()) return;
   struct Known {

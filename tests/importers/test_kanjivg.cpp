@@ -1,14 +1,14 @@
-// Claims about parse_kanjivg: an SVG becomes centre lines with labels, and nothing else becomes anything.
+// parse_kanjivg: an SVG becomes centre lines with labels, and everything else is rejected.
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/importers/kanjivg.hpp>
 #include <calligraphy/model/bezier.hpp>
 
 #include "../catch.hpp"
+#include "importers/kanjivg.hpp"
 #include "importers/path_data.hpp"
 
 namespace kanjivg_tests {
@@ -60,7 +60,7 @@ double distance_to(const std::vector<Point>& path, const Point& point) {
 
 }  // namespace
 
-TEST_CASE("109 units with y down become the em square with y up, labels and order kept", "[practice]") {
+TEST_CASE("109 units with y down become the em square with y up, with labels and order kept", "[practice]") {
   const KanjivgDrawing drawing = parse_kanjivg(
       svg(R"(<g><path kvg:type="㇐" d="M0,109c36.3,0,72.6,0,109,0"/></g><path d="M54.5,0C54.5,30,54.5,80,54.5,109"/>)",
           "<!-- Copyright -->"),
@@ -75,7 +75,7 @@ TEST_CASE("109 units with y down become the em square with y up, labels and orde
   CHECK((drawing.strokes[1].path.back() - Point(0.5, 0.0)).norm() < 1e-12);
 }
 
-TEST_CASE("a polyline is nowhere farther from its curve than the tolerance", "[practice]") {
+TEST_CASE("a polyline is within the tolerance of its curve everywhere", "[practice]") {
   const Bezier<3> curve{{Point(10, 10), Point(90, 5), Point(-20, 100), Point(70, 95)}};
   for (const double tolerance : {1.0, 0.1, 0.005}) {
     const std::vector<Point> path = flattened_path("M10,10C90,5-20,100,70,95", tolerance);
@@ -100,7 +100,7 @@ TEST_CASE("relative, smooth and repeated commands draw the same curve as absolut
   }
 }
 
-TEST_CASE("path data that is no centre line is refused at its byte", "[practice]") {
+TEST_CASE("path data other than a centre line is rejected with its byte", "[practice]") {
   CHECK(has(path_complaint(""), "at byte 0: expected a command"));
   CHECK(has(path_complaint("C1,2,3,4,5,6"), "expected M, found 'C'"));
   CHECK(has(path_complaint("M1,2L3,4"), "at byte 5: command 'L': expected C or S"));
@@ -121,7 +121,7 @@ TEST_CASE("path data that is no centre line is refused at its byte", "[practice]
   CHECK(has(path_complaint("M1,1" + repeated("c9999,0,-9999,0,0,9", 100)), "more than 20000 points"));
 }
 
-TEST_CASE("SVG that is no drawing of KanjiVG is refused with the place", "[practice]") {
+TEST_CASE("SVG other than a KanjiVG drawing is rejected with the place", "[practice]") {
   const std::string path = R"(<path d="M1,2c1,1,2,2,3,3"/>)";
   CHECK(complaint(svg(path)).empty());
   CHECK(has(complaint(""), "x.svg: line 1: not XML"));
@@ -140,7 +140,7 @@ TEST_CASE("SVG that is no drawing of KanjiVG is refused with the place", "[pract
   CHECK(has(complaint(svg("<path kvg:type=\"\xFF\" d=\"M1,2c1,1,2,2,3,3\"/>")), "stroke 1"));
 }
 
-TEST_CASE("entities of a document's own are not expanded, and deep nesting is no danger", "[practice]") {
+TEST_CASE("entities declared in a document are not expanded, and deep nesting is harmless", "[practice]") {
   std::string entities = "<!DOCTYPE svg [<!ENTITY a0 \"1,2c1,1,2,2,3,3\">";
   for (int i = 1; i < 20; ++i) {
     const std::string before = "&a" + std::to_string(i - 1) + ";";

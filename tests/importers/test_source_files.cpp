@@ -1,13 +1,13 @@
-// Claims about directories as sources; hostile tarballs are in tests/tools/test_import.py.
+// Directories as sources; hostile tarballs are tested in tests/tools/test_import.py.
 #include <sys/stat.h>
 
 #include <string>
 
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/importers/source_files.hpp>
 
 #include "../catch.hpp"
 #include "../temporary_directory.hpp"
+#include "importers/source_files.hpp"
 
 namespace source_files_tests {
 
@@ -33,7 +33,8 @@ bool has(const std::string& text, const std::string& part) { return text.find(pa
 
 }  // namespace
 
-TEST_CASE("files of a directory come by path, byte for byte, those not wanted with the reason", "[practice]") {
+TEST_CASE("files of a directory are read by path, byte for byte, and skipped ones are listed with the reason",
+          "[practice]") {
   const TemporaryDirectory directory;
   const std::string binary("a\0b\r\n", 5);
   directory.write("b/2.txt", "two");
@@ -52,7 +53,7 @@ TEST_CASE("files of a directory come by path, byte for byte, those not wanted wi
   CHECK(found.skipped[0].reason == "why");
 }
 
-TEST_CASE("links, pipes and what is nested too deeply are passed over and named", "[practice]") {
+TEST_CASE("links, pipes and files nested too deeply are skipped and listed", "[practice]") {
   const TemporaryDirectory directory;
   directory.write("plain.txt", "x");
   fs::create_symlink("/dev/zero", directory.path() / "device");
@@ -65,12 +66,12 @@ TEST_CASE("links, pipes and what is nested too deeply are passed over and named"
   const SourceFiles found = read_source(directory.path(), take_all);
   REQUIRE(found.files.size() == 1);
   REQUIRE(found.skipped.size() == 5);
-  CHECK(has(found.skipped[0].reason, "nested more than 16 deep"));
+  CHECK(has(found.skipped[0].reason, "nested more than 16 levels deep"));
   for (const std::size_t link : {1u, 2u, 4u}) CHECK(found.skipped[link].reason == "a link");
   CHECK(found.skipped[3].reason == "not a regular file");
 }
 
-TEST_CASE("a source beyond a limit is refused with the limit", "[practice]") {
+TEST_CASE("a source that exceeds a limit is rejected with the limit", "[practice]") {
   const TemporaryDirectory directory;
   directory.write("a.txt", std::string(100, 'x'));
   directory.write("b.txt", std::string(100, 'x'));
@@ -80,7 +81,7 @@ TEST_CASE("a source beyond a limit is refused with the limit", "[practice]") {
   limits.entries = 2;
   CHECK(complaint(directory.path(), limits).empty());
   limits.entry_bytes = 99;
-  CHECK(has(complaint(directory.path(), limits), "a.txt: more than the 99 bytes"));
+  CHECK(has(complaint(directory.path(), limits), "a.txt: larger than the limit of 99 bytes"));
   limits.entry_bytes = 100;
   limits.total_bytes = 199;
   CHECK(has(complaint(directory.path(), limits), "more than 199 bytes"));
@@ -89,7 +90,7 @@ TEST_CASE("a source beyond a limit is refused with the limit", "[practice]") {
   CHECK(has(complaint(directory.path(), limits), "more than 1 entries"));
 }
 
-TEST_CASE("a source that is not there, or a device, is named", "[practice]") {
+TEST_CASE("a missing source or a device is named", "[practice]") {
   const TemporaryDirectory directory;
   const fs::path none = directory.path() / "none";
   CHECK(complaint(none) == "FileError " + none.string() + ": no such file or directory");

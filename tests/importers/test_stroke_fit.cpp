@@ -1,4 +1,4 @@
-// Claims about fit_stroke: pen paths become typical strokes by geometry alone.
+// fit_stroke: pen paths become typical strokes by geometry alone.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -46,7 +46,7 @@ std::vector<Point> typical_points(const TypicalStroke& type) {
   return points;
 }
 
-/// Shrinks about the middle of the em square and shakes by up to `noise`, always in the same way.
+/// Scales about the centre of the em square and adds reproducible noise of up to `noise`.
 Path changed(Path path, double scale, double noise) {
   std::uint32_t state = 12345;
   const auto shake = [&] {
@@ -80,18 +80,18 @@ double farthest(const Path& from, const Path& to) {
   return largest;
 }
 
-/// Ids that the same geometry may have: which one is meant shows only in the character.
+/// Ids that share the same geometry: only the character tells which one is meant.
 std::set<int> accepted_ids(int id) {
   static const std::vector<std::set<int>> twins = {
-      {3, 4},    // shu pie and pie differ by how long they stay upright
+      {3, 4},    // shu pie and pie differ in how long they stay upright
       {4, 5},    // a small pie is short and straight
-      {8, 38},   // dian and chang dian differ by length
-      {6, 38},   // na and chang dian differ by how they end
+      {8, 38},   // dian and chang dian differ in length
+      {6, 38},   // na and chang dian differ in how they end
       {2, 9},    // left dian is a short leaning shu
-      {11, 17},  // the hook of heng gou, drawn longer, is a heng pie
-      {23, 24},  // heng zhe wan and heng zhe zhe too
-      {30, 32},  // shu wan and shu zhe differ by the roundness of the bend
-      {9, 5},    // a pen does not show the thin start of a left dian, so that it is a short pie
+      {11, 17},  // a heng gou with a longer hook is a heng pie
+      {23, 24},  // as do heng zhe wan and heng zhe zhe
+      {30, 32},  // shu wan and shu zhe differ in the roundness of the bend
+      {9, 5},    // without the thin start, which a pen does not show, a left dian is a short pie
       {9, 4},
   };
   std::set<int> accepted{id};
@@ -101,8 +101,8 @@ std::set<int> accepted_ids(int id) {
   return accepted;
 }
 
-/// Largest bend at the joints that the typical stroke calls smooth [degree].
-double largest_smooth_bend(const StrokeInput& stroke) {
+/// Maximum bend at the smooth joints of the typical stroke [degree].
+double max_smooth_bend(const StrokeInput& stroke) {
   const TypicalStroke& type = typical_stroke(stroke.id);
   const std::vector<int> joints = type.feature_points();
   double largest = 0.0;
@@ -163,7 +163,7 @@ TEST_CASE("every typical shape drawn by a pen is recognised as itself or as a do
     for (const double noise : {0.0, 0.002, 0.005}) {
       for (const TypicalStroke& type : typical_strokes()) {
         const Path path = changed(sampled(type, typical_points(type), 12), scale, noise * scale);
-        const FittedStroke fitted = fit_stroke(path, {.drawn_with = DrawnWith::pen});
+        const FittedStroke fitted = fit_stroke(path, {.drawing_tool = DrawingTool::pen});
         INFO("typical stroke " << type.id << " at scale " << scale << " with noise " << noise << " became "
                                << fitted.stroke.id);
         CHECK(accepted_ids(type.id).contains(fitted.stroke.id));
@@ -179,29 +179,29 @@ TEST_CASE("typical shapes at full size are recognised exactly", "[model]") {
   }
 }
 
-TEST_CASE("a dense typical shape is followed within 0.3 % of the em when its id is given, the circle within 0.4 %",
+TEST_CASE("a dense typical shape is fitted within 0.3 % of the em if its id is given, the circle within 0.4 %",
           "[model]") {
   for (const TypicalStroke& type : typical_strokes()) {
     const int only[] = {type.id};
     const FittedStroke fitted =
-        fit_stroke(sampled(type, typical_points(type), 40), {.drawn_with = DrawnWith::pen, .ids = only});
+        fit_stroke(sampled(type, typical_points(type), 40), {.drawing_tool = DrawingTool::pen, .ids = only});
     INFO("typical stroke " << type.id << ", error " << fitted.error);
     CHECK(fitted.stroke.id == type.id);
     CHECK(fitted.error < (type.id == 39 ? 0.004 : 0.003));
   }
 }
 
-TEST_CASE("a typical shape with noise of 0.5 % of the em is followed within 1 %, the circle within 2 %", "[model]") {
+TEST_CASE("a typical shape with noise of 0.5 % of the em is fitted within 1 %, the circle within 2 %", "[model]") {
   for (const TypicalStroke& type : typical_strokes()) {
     const Path path = changed(sampled(type, typical_points(type), 12), 1.0, 0.005);
     const int only[] = {type.id};
-    const FittedStroke fitted = fit_stroke(path, {.drawn_with = DrawnWith::pen, .ids = only});
+    const FittedStroke fitted = fit_stroke(path, {.drawing_tool = DrawingTool::pen, .ids = only});
     INFO("typical stroke " << type.id << ", error " << fitted.error);
     CHECK(fitted.error < (type.id == 39 ? 0.02 : 0.01));
   }
 }
 
-TEST_CASE("the stroke found does not depend on where it is written", "[model]") {
+TEST_CASE("recognition does not depend on the position of the stroke", "[model]") {
   for (const TypicalStroke& type : typical_strokes()) {
     Path path = sampled(type, typical_points(type), 12);
     const int id = fit_stroke(path).stroke.id;
@@ -211,10 +211,10 @@ TEST_CASE("the stroke found does not depend on where it is written", "[model]") 
   }
 }
 
-TEST_CASE("the reported error of a pen path is the largest distance both ways to 1e-4 em", "[model]") {
+TEST_CASE("the reported error of a pen path is the maximum distance in both directions to 1e-4 em", "[model]") {
   for (const TypicalStroke& type : typical_strokes()) {
     const Path path = changed(sampled(type, typical_points(type), 12), 1.0, 0.004);  // noise keeps it above zero
-    const FittedStroke fitted = fit_stroke(path, {.drawn_with = DrawnWith::pen});
+    const FittedStroke fitted = fit_stroke(path, {.drawing_tool = DrawingTool::pen});
     const Path model = sampled(typical_stroke(fitted.stroke.id), fitted.stroke.control_points, 400);
     Path dense{path.front()};
     for (std::size_t i = 1; i < path.size(); ++i) {
@@ -225,12 +225,12 @@ TEST_CASE("the reported error of a pen path is the largest distance both ways to
   }
 }
 
-TEST_CASE("joints that a typical stroke calls smooth bend by less than 5 degrees", "[model]") {
+TEST_CASE("smooth joints of a typical stroke bend by less than 5 degrees", "[model]") {
   for (const double noise : {0.0, 0.004}) {
     for (const TypicalStroke& type : typical_strokes()) {
       const FittedStroke fitted = fit_stroke(changed(sampled(type, typical_points(type), 12), 0.8, noise));
       INFO("typical stroke " << type.id << " became " << fitted.stroke.id);
-      CHECK(largest_smooth_bend(fitted.stroke) < 5.0);
+      CHECK(max_smooth_bend(fitted.stroke) < 5.0);
     }
   }
 }
@@ -252,24 +252,24 @@ TEST_CASE("entry and press of a heng are removed", "[model]") {
   CHECK(fitted.error < 0.002);
 }
 
-TEST_CASE("a short first limb is not taken for a brush entry", "[model]") {
+TEST_CASE("a short first limb is not mistaken for a brush entry", "[model]") {
   const Path median{{0.40, 0.60}, {0.48, 0.615}, {0.47, 0.50}};
   const FittedStroke fitted = fit_stroke(median);
   CHECK(fitted.stroke.id == 16);
   CHECK(fitted.stroke.control_points.front().x() < 0.41);
 }
 
-TEST_CASE("a pen path keeps its ends, and its pressed start goes only when that is asked for", "[model]") {
+TEST_CASE("a pen path keeps its ends, and its pressed start is removed only on request", "[model]") {
   const Path path{{0.35, 0.79}, {0.37, 0.775}, {0.38, 0.755}, {0.378, 0.40}, {0.376, 0.22}};
   const int shu[] = {2};
-  CHECK(fit_stroke(path, {.drawn_with = DrawnWith::pen, .ids = shu}).error >
+  CHECK(fit_stroke(path, {.drawing_tool = DrawingTool::pen, .ids = shu}).error >
         0.005);  // a line cannot follow the slanted start
-  const FittedStroke fitted = fit_stroke(path, {.drawn_with = DrawnWith::textbook_pen, .ids = shu});
+  const FittedStroke fitted = fit_stroke(path, {.drawing_tool = DrawingTool::textbook_pen, .ids = shu});
   CHECK(std::abs(fitted.stroke.control_points.front().x() - 0.38) < 0.004);
   CHECK(fitted.error < 0.002);
 }
 
-TEST_CASE("a label decides what a path may be", "[model]") {
+TEST_CASE("a label restricts the candidates for a path", "[model]") {
   const Path heng{{0.1, 0.5}, {0.9, 0.6}};
   const std::vector<std::vector<int>> labels{{10}, {5, 4}, {16, 18}, {31}, {8, 38}};
   for (const std::vector<int>& ids : labels) {
@@ -283,7 +283,7 @@ TEST_CASE("a label decides what a path may be", "[model]") {
   CHECK_THROWS_AS(fit_stroke(heng, {.ids = zero}), ValueError);
 }
 
-TEST_CASE("a corner vertex lies where the limbs meet and not on the rounded corner", "[model]") {
+TEST_CASE("a corner vertex lies at the intersection of the limbs, not on the rounded corner", "[model]") {
   const Path median{{0.20, 0.70}, {0.50, 0.70}, {0.72, 0.70}, {0.75, 0.69}, {0.76, 0.66}, {0.76, 0.40}, {0.76, 0.20}};
   const FittedStroke fitted = fit_stroke(median);
   REQUIRE(fitted.stroke.id == 16);
@@ -292,7 +292,7 @@ TEST_CASE("a corner vertex lies where the limbs meet and not on the rounded corn
   CHECK(fitted.error < 0.01);
 }
 
-TEST_CASE("neighbouring strokes are told apart by direction and length", "[model]") {
+TEST_CASE("similar strokes are distinguished by direction and length", "[model]") {
   const auto id_of = [](const Path& path) { return fit_stroke(path).stroke.id; };
   CHECK(id_of({{0.1, 0.5}, {0.9, 0.6}}) == 1);                             // heng rises by 7 degrees
   CHECK(id_of({{0.3, 0.4}, {0.6, 0.6}}) == 10);                            // ti by 34
@@ -310,10 +310,10 @@ TEST_CASE("neighbouring strokes are told apart by direction and length", "[model
   CHECK(id_of({{0.2, 0.8}, {0.5, 0.82}, {0.5, 0.2}, {0.7, 0.4}}) == 19);   // heng zhe ti
 }
 
-TEST_CASE("hard inputs give a valid finite stroke, whatever is asked for", "[model]") {
+TEST_CASE("hard inputs give a valid, finite stroke with any options", "[model]") {
   const std::vector<int> labels{16, 30, 39};
   const std::vector<StrokeFitOptions> asked{
-      {}, {.drawn_with = DrawnWith::pen}, {.drawn_with = DrawnWith::textbook_pen}, {.ids = labels}};
+      {}, {.drawing_tool = DrawingTool::pen}, {.drawing_tool = DrawingTool::textbook_pen}, {.ids = labels}};
   for (const auto& [name, path] : hard_inputs()) {
     for (std::size_t i = 0; i < asked.size(); ++i) {
       INFO(name << ", options " << i);
@@ -333,7 +333,7 @@ TEST_CASE("hard inputs give a valid finite stroke, whatever is asked for", "[mod
   }
 }
 
-TEST_CASE("random scribbles give valid strokes, and the same ones again", "[model]") {
+TEST_CASE("random scribbles give valid strokes, reproducibly", "[model]") {
   std::uint32_t state = 7;
   const auto random = [&] {
     state = state * 1664525u + 1013904223u;
@@ -344,7 +344,7 @@ TEST_CASE("random scribbles give valid strokes, and the same ones again", "[mode
     const int count = 2 + static_cast<int>(random() * 14);
     const double size = trial % 5 == 0 ? 10.0 : trial % 3 == 0 ? 0.05 : 1.0;
     for (int i = 0; i < count; ++i) path.emplace_back(size * random(), size * random());
-    const StrokeFitOptions options{.drawn_with = trial % 2 == 0 ? DrawnWith::brush : DrawnWith::pen};
+    const StrokeFitOptions options{.drawing_tool = trial % 2 == 0 ? DrawingTool::brush : DrawingTool::pen};
     INFO("scribble " << trial);
     const FittedStroke fitted = fit_stroke(path, options);
     const std::array strokes{fitted.stroke};
@@ -353,7 +353,7 @@ TEST_CASE("random scribbles give valid strokes, and the same ones again", "[mode
   }
 }
 
-TEST_CASE("a shoulder that a brush has cut is squared, and by half a brush at most", "[model]") {
+TEST_CASE("a shoulder cut by the brush is restored to a corner, by at most half a brush width", "[model]") {
   const Path median{{0.20, 0.70}, {0.45, 0.72}, {0.69, 0.74}, {0.76, 0.68}, {0.74, 0.45}, {0.72, 0.20}};
   const FittedStroke fitted = fit_stroke(median);
   REQUIRE(fitted.stroke.id == 16);
@@ -362,12 +362,12 @@ TEST_CASE("a shoulder that a brush has cut is squared, and by half a brush at mo
   const double reach = distance_to_segment(fitted.stroke.control_points[1], median[2], median[3]);
   CHECK(reach > 0.02);
   CHECK(reach < 0.04 + fitted.error);
-  const FittedStroke pen = fit_stroke(median, {.drawn_with = DrawnWith::pen});
+  const FittedStroke pen = fit_stroke(median, {.drawing_tool = DrawingTool::pen});
   CHECK(pen.error == pen.median_error);
   CHECK(distance_to_segment(pen.stroke.control_points[1], median[2], median[3]) <= pen.error + 1e-4);
 }
 
-TEST_CASE("what is left of a brush after a heng zhe is no hook", "[model]") {
+TEST_CASE("a brush remnant after a heng zhe is not a hook", "[model]") {
   const Path lifted{{0.20, 0.70}, {0.75, 0.74}, {0.72, 0.20}, {0.68, 0.21}};
   CHECK(fit_stroke(lifted).stroke.id == 16);
   const Path hooked{{0.20, 0.70}, {0.75, 0.74}, {0.72, 0.20}, {0.56, 0.26}};
@@ -383,7 +383,7 @@ TEST_CASE("a point becomes a dian of about 2 % of the em around it", "[model]") 
   CHECK(fitted.error == Approx(0.01));
 }
 
-TEST_CASE("paths without points or with impossible ones are refused", "[model]") {
+TEST_CASE("paths without points or with invalid ones are rejected", "[model]") {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   constexpr double infinity = std::numeric_limits<double>::infinity();
   CHECK_THROWS_AS(fit_stroke({}), ValueError);
@@ -393,7 +393,7 @@ TEST_CASE("paths without points or with impossible ones are refused", "[model]")
   CHECK_THROWS_AS(fit_stroke(Path{{0.0, 0.0}, {1e300, 0.5}}), ValueError);
 }
 
-TEST_CASE("a path of many points is the same stroke as one of few, and its error is no smaller than it is", "[model]") {
+TEST_CASE("a path of many points gives the same stroke as one of few, and its error is not underestimated", "[model]") {
   for (const std::size_t count : {100u, 3'000u, 20'000u, 100'000u}) {
     std::vector<Point> line, corner;
     for (std::size_t i = 0; i <= count; ++i) {
@@ -402,15 +402,15 @@ TEST_CASE("a path of many points is the same stroke as one of few, and its error
       corner.push_back(t < 0.5 ? Point(0.2 + t, 0.8) : Point(0.7, 1.3 - t));
     }
     INFO(count);
-    const FittedStroke heng = fit_stroke(line, {.drawn_with = DrawnWith::pen});
+    const FittedStroke heng = fit_stroke(line, {.drawing_tool = DrawingTool::pen});
     CHECK(heng.stroke.id == 1);
     CHECK(heng.error <= 2e-4);
-    const FittedStroke turn = fit_stroke(corner, {.drawn_with = DrawnWith::pen});
+    const FittedStroke turn = fit_stroke(corner, {.drawing_tool = DrawingTool::pen});
     CHECK(turn.stroke.id == 16);
     CHECK(turn.error <= 2e-3);
   }
-  // A saw of 5,000 teeth, each 2 % of the em high, is no line within less.
+  // A line cannot follow a saw of 5,000 teeth, each 2 % of the em high, any closer.
   std::vector<Point> saw;
   for (int i = 0; i <= 10'000; ++i) saw.emplace_back(1e-4 * i, i % 2 == 0 ? 0.5 : 0.52);
-  CHECK(fit_stroke(saw, {.drawn_with = DrawnWith::pen}).error >= 0.0099);
+  CHECK(fit_stroke(saw, {.drawing_tool = DrawingTool::pen}).error >= 0.0099);
 }

@@ -1,15 +1,15 @@
-// Claims about the stroke letters of cnchar-order, which come inside a JavaScript program.
+// The stroke letters of cnchar-order, which are contained in a JavaScript program.
 #include <set>
 #include <string>
 
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/importers/stroke_letters.hpp>
 #include <calligraphy/model/typical_stroke.hpp>
 
 #include "../catch.hpp"
 #include "../package_data.hpp"
 #include "../temporary_directory.hpp"
 #include "importers/stroke_labels.hpp"
+#include "importers/stroke_letters.hpp"
 
 namespace stroke_letters_tests {
 
@@ -36,9 +36,9 @@ TEST_CASE("the table of letters is found among other literals", "[practice]") {
   CHECK(letters == StrokeLetters{{U'一', "j"}, {U'十', "jf"}});
 }
 
-TEST_CASE("JavaScript without a table of letters is refused with the byte", "[practice]") {
+TEST_CASE("JavaScript without a table of letters is rejected with the byte", "[practice]") {
   CHECK(has(complaint(""), "x.js: no table of stroke letters"));
-  CHECK(has(complaint("JSON.parse('{\"一\":\"j\"}"), "byte 12: a string without an end"));
+  CHECK(has(complaint("JSON.parse('{\"一\":\"j\"}"), "byte 12: unterminated string"));
   CHECK(has(complaint("JSON.parse('{\"一\":')"), "byte 12: not JSON"));
   CHECK(has(complaint("JSON.parse('\\x41')"), "byte 13: an escape"));
   CHECK(has(complaint("JSON.parse('\\"), "byte 13: an escape"));
@@ -64,7 +64,7 @@ TEST_CASE("every typical stroke but the circle has a letter, and every letter st
   CHECK(ids_of_stroke_letter('\xFF').empty());
 }
 
-TEST_CASE("labels of KanjiVG stand for typical strokes, combined ones for those of all parts", "[practice]") {
+TEST_CASE("labels of KanjiVG stand for typical strokes, combined labels for those of all parts", "[practice]") {
   const auto ids = [](std::string_view label) {
     const auto span = ids_of_kanjivg_label(label);
     return std::vector<int>(span.begin(), span.end());
@@ -78,7 +78,7 @@ TEST_CASE("labels of KanjiVG stand for typical strokes, combined ones for those 
   CHECK(ids("").empty());
 }
 
-TEST_CASE("letters are read from a directory or a file of the package alike", "[practice]") {
+TEST_CASE("letters are read from the directory or the file of the package", "[practice]") {
   const std::filesystem::path package = package_data("CALLIGRAPHY_CNCHAR_ORDER");
   if (package.empty()) return;
   const StrokeLetters letters = read_stroke_letters(package);

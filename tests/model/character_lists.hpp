@@ -1,4 +1,4 @@
-// Characters for tests of sets.
+// Characters for testing character sets.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ inline bool same(const calligraphy::Character& a, const calligraphy::Character& 
          a.physics.attraction_factors == b.physics.attraction_factors;
 }
 
-/// Every typical stroke as a character of its own, from U+4E00 on, scaled about a place of its own.
+/// Every typical stroke as a separate character from U+4E00 on, each scaled about a different point.
 inline calligraphy::CharacterList typical_strokes_as_characters(double scale, Sequence& random) {
   calligraphy::CharacterList list;
   for (const calligraphy::TypicalStroke& type : calligraphy::typical_strokes()) {
@@ -35,8 +35,8 @@ inline calligraphy::CharacterList typical_strokes_as_characters(double scale, Se
   return list;
 }
 
-/// The built-in characters and what is rare: quartics, factors, alternate orders, points far outside, numbers of all
-/// digits, code points of four bytes.
+/// The built-in characters and rare cases: quartics, factors, alternate orders, points far outside, numbers with all
+/// digits, four-byte code points.
 inline calligraphy::CharacterList rich_list() {
   calligraphy::CharacterList list = calligraphy::built_in_characters();
   list.provenance.licence_text = "First line\n\n  the third\n";

@@ -70,7 +70,7 @@ void check_identities() {
 
 }  // namespace
 
-TEST_CASE("curves of every degree keep the identities of Bezier curves on every hard curve", "[model]") {
+TEST_CASE("the Bezier identities hold for every degree on every hard curve", "[model]") {
   check_identities<1>();
   check_identities<2>();
   check_identities<3>();
@@ -95,7 +95,7 @@ TEST_CASE("the quartic is eq. (1) as printed: a sum to 4 with 4!", "[model]") {
   }
 }
 
-TEST_CASE("a curve stays within the box of its control points", "[model]") {
+TEST_CASE("a curve stays within the bounding box of its control points", "[model]") {
   for_each<3>([](const Bezier<3>& curve, const ReferenceCurve&, double rounding) {
     Point low = curve.control_points[0], high = low;
     for (const Point& point : curve.control_points) low = low.cwiseMin(point), high = high.cwiseMax(point);

@@ -39,7 +39,7 @@ TEST_CASE("Table 3: five strokes with ids 2, 1, 10, 31, 4, 15 control points and
   CHECK(validate(example).empty());
 }
 
-TEST_CASE("eq. (1) as printed contradicts Table 3: with quartics there are 16 control points", "[model]") {
+TEST_CASE("eq. (1) as printed contradicts Table 3: quartics give 16 control points", "[model]") {
   const Character quartic = with_quartic_curves(paper_example());
   CHECK(quartic.curve_degree == 4);
   CHECK(quartic.structure.control_points.size() == 16);
@@ -108,7 +108,7 @@ TEST_CASE("the same shape with quartic curves is the same shape", "[model]") {
   CHECK(with_quartic_curves(once).structure.control_points == once.structure.control_points);
 }
 
-TEST_CASE("continuity of second order, as sec. 3.4 asks for, cannot hold at a corner", "[model]") {
+TEST_CASE("second-order continuity, as sec. 3.4 requires, is impossible at a corner", "[model]") {
   const Character corner = typical_character(16);  // heng zhe
   const double turn = turn_at_joint(strokes(corner)[0], 1);
   CHECK(turn > 75.0);
@@ -116,7 +116,7 @@ TEST_CASE("continuity of second order, as sec. 3.4 asks for, cannot hold at a co
   CHECK(typical_stroke(16).joints == "c");
 }
 
-TEST_CASE("joints that are called smooth are tangent continuous, in the library and in every character", "[model]") {
+TEST_CASE("smooth joints are tangent continuous, in the stroke library and in every character", "[model]") {
   int smooth_joints = 0;
   const auto check = [&](const Character& character, double limit) {
     for (const Stroke& stroke : strokes(character)) {
@@ -132,7 +132,7 @@ TEST_CASE("joints that are called smooth are tangent continuous, in the library 
   for (const Character& character : built_in_characters().characters) check(character, 15.0);
 }
 
-TEST_CASE("strokes view their part of the character, one after the other", "[model]") {
+TEST_CASE("strokes are consecutive views into the character", "[model]") {
   const Character& example = paper_example();
   const auto views = strokes(example);
   REQUIRE(views.size() == 5);

@@ -1,4 +1,4 @@
-// The text format: what is written reads back the same, and what is wrong is named by file, line and value.
+// The text format: writing and reading round-trips, and errors are reported with file, line and value.
 #include "../catch.hpp"
 
 #include <cstdio>
@@ -30,7 +30,7 @@ std::string write(const CharacterList& set) {
   return out.str();
 }
 
-/// What the FormatError says, or "" when the text is read.
+/// The message of the FormatError, or "" if the text is accepted.
 std::string complaint(const std::string& text) {
   try {
     read(text);
@@ -63,7 +63,7 @@ struct CommaNumbers : std::numpunct<char> {
 
 }  // namespace
 
-TEST_CASE("a set that is written reads back the same, quartics and attraction factors too", "[model]") {
+TEST_CASE("a written list reads back identically, including quartics and attraction factors", "[model]") {
   CharacterList set = built_in_characters();
   set.characters.push_back(with_quartic_curves(*set.find(U'永')));
   set.characters.back().code = U'\U00020000';
@@ -78,7 +78,7 @@ TEST_CASE("a set that is written reads back the same, quartics and attraction fa
   CHECK(read(write({})).characters.empty());
 }
 
-TEST_CASE("source, licence and attribution are free text, with '#' and all", "[model]") {
+TEST_CASE("source, licence and attribution are free text, including '#'", "[model]") {
   CharacterList set;
   set.provenance.source = "https://example.org/set#2 # second edition";
   set.provenance.licence = "stroke 1 is not a stroke here";
@@ -88,7 +88,7 @@ TEST_CASE("source, licence and attribution are free text, with '#' and all", "[m
   CHECK_THROWS_AS(write(set), ValueError);
 }
 
-TEST_CASE("a licence text of many lines is kept to the last blank", "[model]") {
+TEST_CASE("a licence text of many lines is kept, including trailing white space", "[model]") {
   CharacterList set = built_in_characters();
   for (const std::string& text :
        {std::string("one"), std::string("one\n"), std::string("\n"), std::string("\n\n one # 1 \t\n"),
@@ -101,7 +101,7 @@ TEST_CASE("a licence text of many lines is kept to the last blank", "[model]") {
   CHECK_THROWS_AS(write(set), ValueError);
 }
 
-TEST_CASE("a character may stand in a file once in each order", "[model]") {
+TEST_CASE("a file may contain a character once in each stroke order", "[model]") {
   CharacterList set;
   for (const char* const order : {"", "Table 3", "degree 4", "\xE5\x8C\x97 | 2"}) {
     set.characters.push_back(std::string_view(order) == "degree 4" ? with_quartic_curves(paper_example())
@@ -118,7 +118,7 @@ TEST_CASE("a character may stand in a file once in each order", "[model]") {
   }
 }
 
-TEST_CASE("comments, blank lines, tabs, CRLF and a byte order mark are let pass", "[model]") {
+TEST_CASE("comments, blank lines, tabs, CRLF and a byte order mark are accepted", "[model]") {
   const CharacterList plain = read(head + "character \xE4\xB8\x80\nstroke 1 0.1,0.5 0.9,0.5 | 1 2\n");
   CHECK(same(read("\xEF\xBB\xBF" + head + "character \xE4\xB8\x80\nstroke 1 0.1,0.5 0.9,0.5 | 1 2"), plain));
   CHECK(same(read("calligraphy characters 1\r\n\r\ncharacter \xE4\xB8\x80\r\nstroke 1 0.1,0.5 0.9,0.5 | 1 2\r\n"),
@@ -129,7 +129,7 @@ TEST_CASE("comments, blank lines, tabs, CRLF and a byte order mark are let pass"
              plain));
 }
 
-TEST_CASE("each kind of broken line is named by file, line and value", "[model]") {
+TEST_CASE("each kind of malformed line is reported with file, line and value", "[model]") {
   const std::string north = head + "character \xE5\x8C\x97\n";
   const struct {
     std::string text, line, value;
@@ -145,7 +145,7 @@ TEST_CASE("each kind of broken line is named by file, line and value", "[model]"
       {head + "character\n", "test.txt:2: ", "found 0"},
       {head + "character \xE5\x8C\x97\xE5\x8C\x97\n", "test.txt:2: ", "found 2"},
       {head + "character \xE5\x8C\x97 grade 4\n", "test.txt:2: ", "'grade'"},
-      {head + "character \xE5\x8C\x97 degree\n", "test.txt:2: ", "''"},
+      {head + "character \xE5\x8C\x97 degree\n", "test.txt:2: ", "the end of the line"},
       {head + "character \xE5\x8C\x97 degree four\n", "test.txt:2: ", "'four'"},
       {head + "character \xE5\x8C\x97 degree 4 5\n", "test.txt:2: ", "'5'"},
       {head + "character \xE5\x8C\x97 order\n", "test.txt:2: ", "''"},
@@ -158,7 +158,7 @@ TEST_CASE("each kind of broken line is named by file, line and value", "[model]"
       {north + "stroke 1 0,0 1,1\n" + "character \xE5\x8C\x97\nstroke 1 0,0 1,1\n", "test.txt:4: ", "\xE5\x8C\x97"},
       {north, "test.txt:2: ", "\xE5\x8C\x97"},
       {north + "character \xE4\xB8\x80\nstroke 1 0,0 1,1\n", "test.txt:2: ", "no stroke"},
-      {north + "stroke\n", "test.txt:3: ", "''"},
+      {north + "stroke\n", "test.txt:3: ", "the end of the line"},
       {north + "stroke one 0,0 1,1\n", "test.txt:3: ", "'one'"},
       {north + "stroke 1.5 0,0 1,1\n", "test.txt:3: ", "'1.5'"},
       {north + "stroke 99999999999 0,0 1,1\n", "test.txt:3: ", "'99999999999'"},
@@ -170,7 +170,7 @@ TEST_CASE("each kind of broken line is named by file, line and value", "[model]"
       {north + "stroke 1 0,0 1\n", "test.txt:3: ", "'1'"},
       {north + "stroke 1 0,0 1;1\n", "test.txt:3: ", "'1;1'"},
       {north + "stroke 1 0,0 1,1,1\n", "test.txt:3: ", "'1,1'"},
-      {north + "stroke 1 0,0 1,\n", "test.txt:3: ", "''"},
+      {north + "stroke 1 0,0 1,\n", "test.txt:3: ", "the end of the line"},
       {north + "stroke 1 0,0 1,one\n", "test.txt:3: ", "'one'"},
       {north + "stroke 1 0,0 1,1e999\n", "test.txt:3: ", "'1e999'"},
       {north + "stroke 1 0,0 nan,1\n", "test.txt:3: ", "nan"},
@@ -180,7 +180,7 @@ TEST_CASE("each kind of broken line is named by file, line and value", "[model]"
       {north + "stroke 1 0,0 1,1 | 1\n", "test.txt:3: ", "not 1"},
       {north + "stroke 1 0,0 1,1 | 1 two\n", "test.txt:3: ", "'two'"},
       {north + "stroke 1 0,0 1,1 | 1 -2\n", "test.txt:3: ", "-2"},
-      {north + "stroke 16 0,0 1,1 1,1\n", "test.txt:3: ", "element 2 has no length"},
+      {north + "stroke 16 0,0 1,1 1,1\n", "test.txt:3: ", "element 2 has zero length"},
   };
   for (const auto& [text, line, value] : cases) {
     const std::string found = complaint(text);
@@ -190,7 +190,7 @@ TEST_CASE("each kind of broken line is named by file, line and value", "[model]"
   }
 }
 
-TEST_CASE("a message does not repeat a line of a megabyte", "[model]") {
+TEST_CASE("a message does not repeat a line of one megabyte", "[model]") {
   for (const std::string& start :
        {std::string(), head, head + "character ", head + "character \xE5\x8C\x97\nstroke 1 "}) {
     const std::string found = complaint(start + std::string(1'000'000, 'x'));
@@ -212,7 +212,7 @@ TEST_CASE("a million strokes are read", "[model]") {
   CHECK(set.characters[0].sequence.feature_points.back() == 2 * count - 1);
 }
 
-TEST_CASE("random damage is refused or read, never worse", "[model]") {
+TEST_CASE("randomly damaged text is rejected or read, without any other effect", "[model]") {
   const std::string text = write(built_in_characters());
   calligraphy_test::Sequence random(8);
   int refused = 0;
@@ -238,7 +238,7 @@ TEST_CASE("random damage is refused or read, never worse", "[model]") {
   CHECK(refused > 100);
 }
 
-TEST_CASE("the locale changes neither what is read nor what is written", "[model]") {
+TEST_CASE("the locale affects neither reading nor writing", "[model]") {
   CharacterList set = built_in_characters();
   const std::string usual = write(set);
   const std::locale before = std::locale::global(std::locale(std::locale::classic(), new CommaNumbers));

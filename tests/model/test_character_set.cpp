@@ -1,4 +1,4 @@
-// Sets of characters: what is put in is found, alone, layered, in every order and from every thread.
+// Character sets: lookup in single and layered sets, in every stroke order and from every thread.
 #include "../catch.hpp"
 
 #include <cstdio>
@@ -47,7 +47,7 @@ Character named(Character character, const std::string& order) {
 
 }  // namespace
 
-TEST_CASE("characters in memory come back as they were, rare ones too", "[model]") {
+TEST_CASE("characters in memory are restored exactly, including rare cases", "[model]") {
   const CharacterList list = rich_list();
   const CharacterSet set(list);
   for (const Character& character : list.characters) {
@@ -64,7 +64,7 @@ TEST_CASE("characters in memory come back as they were, rare ones too", "[model]
   CHECK_NOTHROW(set.check());
 }
 
-TEST_CASE("what was not put in is not found", "[model]") {
+TEST_CASE("characters that are not in the set are not found", "[model]") {
   const CharacterList list = rich_list();
   const CharacterSet set(list);
   std::size_t found = 0;
@@ -84,7 +84,7 @@ TEST_CASE("what was not put in is not found", "[model]") {
   CHECK(codes_of(CharacterSet()).empty());
 }
 
-TEST_CASE("a stroke decoded by itself is that of the whole character", "[model]") {
+TEST_CASE("a stroke decoded on its own equals that of the whole character", "[model]") {
   const CharacterList list = rich_list();
   for (const CoordinatePrecision precision : {CoordinatePrecision::coarse, CoordinatePrecision::exact}) {
     const CharacterSet set = CharacterSet::from_bytes(encode_character_set(list, precision), "test");
@@ -105,7 +105,7 @@ TEST_CASE("a stroke decoded by itself is that of the whole character", "[model]"
   }
 }
 
-TEST_CASE("a set is gone through by rising code point, whatever the order it was put in", "[model]") {
+TEST_CASE("iteration is by ascending code point, whatever the order of insertion", "[model]") {
   const std::vector<char32_t> codes{0, 1, 63, 64, 127, 128, 0xD7FF, 0xE000, 0xFFFF, 0x10000, 0x10FFBF, 0x10FFFF};
   std::vector<Character> characters;
   for (const char32_t code : codes) characters.insert(characters.begin(), one_stroke(code));
@@ -130,7 +130,7 @@ TEST_CASE("a character may have several orders, the standard one first", "[model
   CHECK(set.size() == 2);
 }
 
-TEST_CASE("of layered sets the first that has a character wins", "[model]") {
+TEST_CASE("in layered sets the first set that has a character wins", "[model]") {
   const CharacterSet mine = set_of({one_stroke(U'b', 0.1), named(one_stroke(U'd', 0.1), "own")}, "mine");
   const CharacterSet standard =
       set_of({one_stroke(U'a', 0.9), one_stroke(U'b', 0.9), named(one_stroke(U'b', 0.8), "old"), one_stroke(U'd', 0.9)},
@@ -142,8 +142,8 @@ TEST_CASE("of layered sets the first that has a character wins", "[model]") {
   CHECK(both.find(U'a')->provenance().source == "standard");
   CHECK(both.find(U'b')->provenance().source == "mine");
   CHECK(both.find(U'b')->stroke(0)->points[0].y() == 0.1);
-  CHECK(both.find(U'b', "old")->stroke(0)->points[0].y() == 0.8);  // hidden is only what has the same name
-  CHECK(both.find(U'd')->provenance().source == "standard");       // the standard order, where there is one
+  CHECK(both.find(U'b', "old")->stroke(0)->points[0].y() == 0.8);  // only the order of the same name is hidden
+  CHECK(both.find(U'd')->provenance().source == "standard");       // the standard order, if there is one
   CHECK(both.orders(U'b') == std::vector<std::string>{"", "old"});
   CHECK(both.orders(U'd') == std::vector<std::string>{"own", ""});
   CHECK(both.provenances().size() == 2);
@@ -169,7 +169,7 @@ TEST_CASE("a stored control point is within the bound of its precision, and so i
     const CharacterSet set = CharacterSet::from_bytes(encode_character_set(list, precision), "test");
     double largest = 0.0;
     for (const Character& character : list.characters) {
-      const Character stored = set.find(character.code, character.order)->character();  // and it is valid
+      const Character stored = set.find(character.code, character.order)->character();  // throws unless it is valid
       const auto &drawn = character.structure.control_points, &kept = stored.structure.control_points;
       REQUIRE(drawn.size() == kept.size());
       for (std::size_t i = 0; i < drawn.size(); ++i) largest = std::max(largest, (drawn[i] - kept[i]).norm());
@@ -194,7 +194,7 @@ TEST_CASE("small strokes with smooth joints stay smooth at every precision", "[m
   }
 }
 
-TEST_CASE("a set that is decoded and encoded again is the same to the byte", "[model]") {
+TEST_CASE("decoding and encoding a set again gives the same bytes", "[model]") {
   const CharacterList list = rich_list();
   for (const CoordinatePrecision precision :
        {CoordinatePrecision::coarse, CoordinatePrecision::standard, CoordinatePrecision::fine}) {
@@ -214,7 +214,7 @@ TEST_CASE("a set that is decoded and encoded again is the same to the byte", "[m
   }
 }
 
-TEST_CASE("seventy thousand characters over all of Unicode are found", "[model]") {
+TEST_CASE("seventy thousand characters across all of Unicode are found", "[model]") {
   std::vector<Character> characters;
   for (char32_t code = 0; code <= 0x10FFFF; code += 15) {
     if (code < 0xD800 || code > 0xDFFF) characters.push_back(one_stroke(code, 1e-6 * code / 2.0));
@@ -232,7 +232,7 @@ TEST_CASE("seventy thousand characters over all of Unicode are found", "[model]"
   CHECK(codes_of(set).size() == characters.size());
 }
 
-TEST_CASE("characters of very many strokes, and more than fit 16 bits in one group", "[model]") {
+TEST_CASE("characters with very many strokes, and groups larger than 16-bit offsets, are stored", "[model]") {
   calligraphy_test::Sequence random(5);
   std::vector<Character> characters;
   for (const int count : {127, 128, 256, 4096}) {
@@ -252,7 +252,7 @@ TEST_CASE("characters of very many strokes, and more than fit 16 bits in one gro
   }
 }
 
-TEST_CASE("finding a character and decoding its strokes takes nothing from the heap", "[model]") {
+TEST_CASE("finding a character and decoding its strokes does not allocate", "[model]") {
   const CharacterSet one = CharacterSet::from_bytes(encode_character_set(built_in_characters()), "test");
   const CharacterSet set = CharacterSet::layered(std::vector{set_of({one_stroke(U'一')}), one});
   double sum = 0.0;
@@ -268,7 +268,7 @@ TEST_CASE("finding a character and decoding its strokes takes nothing from the h
   CHECK(sum > 0.0);
 }
 
-TEST_CASE("a character lives on when its set is gone, and a set when it was copied", "[model]") {
+TEST_CASE("a character outlives its set, and a copied set outlives the original", "[model]") {
   std::optional<StoredCharacter> kept;
   CharacterSet copy;
   {
@@ -281,7 +281,7 @@ TEST_CASE("a character lives on when its set is gone, and a set when it was copi
   CHECK(copy.size() == built_in_characters().characters.size());
 }
 
-TEST_CASE("a character of no set has no strokes", "[model]") {
+TEST_CASE("a default-constructed character has no strokes", "[model]") {
   const StoredCharacter none;
   CHECK(none.stroke_count() == 0);
   CHECK(none.stroke_id(0) == 0);
@@ -290,7 +290,7 @@ TEST_CASE("a character of no set has no strokes", "[model]") {
   CHECK_THROWS_AS(none.character(), FormatError);
 }
 
-TEST_CASE("several threads find and decode in a set none of them has used", "[model]") {
+TEST_CASE("several threads find and decode in a set that none has used before", "[model]") {
   const CharacterList list = rich_list();
   for (int repetition = 0; repetition < 20; ++repetition) {
     const CharacterSet set(list);
@@ -310,7 +310,7 @@ TEST_CASE("several threads find and decode in a set none of them has used", "[mo
   }
 }
 
-TEST_CASE("what cannot be encoded is named", "[model]") {
+TEST_CASE("a character that cannot be encoded is named", "[model]") {
   const auto complaint = [](const std::vector<Character>& characters) -> std::string {
     try {
       encode_character_set({{}, characters});
@@ -320,15 +320,15 @@ TEST_CASE("what cannot be encoded is named", "[model]") {
     return "";
   };
   const Character one = one_stroke(U'一');
-  CHECK(complaint({one, one}).find("一 (U+4E00): stands there twice") != std::string::npos);
-  CHECK(complaint({named(one, "a"), one, named(one, "a")}).find("一 (U+4E00) order a: stands there twice") !=
+  CHECK(complaint({one, one}).find("一 (U+4E00): occurs twice") != std::string::npos);
+  CHECK(complaint({named(one, "a"), one, named(one, "a")}).find("一 (U+4E00) order a: occurs twice") !=
         std::string::npos);
   CHECK(complaint({named(one, "a"), one, named(one, "b")}).empty());
   CHECK(complaint({one_stroke(0xD800)}).find("U+D800") != std::string::npos);
   CHECK(complaint({one_stroke(0x110000)}).find("U+110000") != std::string::npos);
   for (const std::string& order : {std::string(" a"), std::string("a "), std::string("a\nb"), std::string("a#b"),
                                    std::string("\xFF"), std::string(256, 'a'), std::string(1, '\0')}) {
-    CHECK(complaint({named(one, order)}).find("is no name of a stroke order") != std::string::npos);
+    CHECK(complaint({named(one, order)}).find("is not a valid name of a stroke order") != std::string::npos);
   }
   CHECK(complaint({named(one, std::string(255, 'a'))}).empty());
   Character broken = one;

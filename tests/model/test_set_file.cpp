@@ -1,4 +1,4 @@
-// Set files that are whole, damaged, cut off, forged or no set files at all.
+// Set files: intact, damaged, truncated, forged, and files of other formats.
 #include "../catch.hpp"
 
 #include <sys/stat.h>
@@ -32,7 +32,8 @@ namespace {
 namespace fs = std::filesystem;
 using Bytes = std::vector<std::byte>;
 
-/// Few characters in two groups, with an alternate order, factors, quartics and a coding of its own among them.
+/// A few characters in several groups, including an alternate order, factors, quartics and a character-specific
+/// encoding.
 CharacterList small_list() {
   const CharacterList rich = rich_list();
   CharacterList list{{"s", "l", "a", "t\n"}, {one_stroke(U'一')}};
@@ -43,7 +44,7 @@ CharacterList small_list() {
   return list;
 }
 
-/// What opening and decoding all of it complains about; "" when nothing.
+/// The error of opening and decoding everything; "" if there is none.
 std::string complaint(const Bytes& bytes) {
   try {
     CharacterSet::from_bytes(bytes, "test.set").check();
@@ -53,7 +54,7 @@ std::string complaint(const Bytes& bytes) {
   return "";
 }
 
-/// As complaint(), of a file.
+/// As complaint(), for a file.
 std::string complaint_of_file(const std::string& path) {
   try {
     CharacterSet::open(path).check();
@@ -72,7 +73,7 @@ void store(Bytes& bytes, std::size_t at, Unsigned value) {
 
 std::size_t load_u32(const Bytes& bytes, std::size_t at) { return load<std::uint32_t>(bytes.data() + at); }
 
-/// Makes all checksums agree with what the numbers of the file say, as far as those lead anywhere.
+/// Recomputes all checksums from the numbers in the file, as far as those point into it.
 void forge_checksums(Bytes& bytes) {
   using namespace set_format;
   const std::size_t first = std::min(load_u32(bytes, first_group_at), bytes.size());
@@ -91,7 +92,7 @@ void forge_checksums(Bytes& bytes) {
   if (first > size_at) store(bytes, checksum_at, crc32(std::span(bytes).subspan(size_at, first - size_at)));
 }
 
-/// Asks for everything that a set can be asked; whatever it gives must be in its domain.
+/// Calls everything that a set offers; all results must be within their domains.
 void use(const CharacterSet& set) {
   std::size_t count = 0;
   for (const StoredCharacter& character : set) {
@@ -117,7 +118,7 @@ void use(const CharacterSet& set) {
   REQUIRE(count == set.size());
 }
 
-/// Whether the bytes can be opened once their checksums agree; everything in them is asked for.
+/// Recomputes the checksums and uses everything in the bytes; true if they can be opened.
 bool use_forged(Bytes bytes) {
   forge_checksums(bytes);
   try {
@@ -129,7 +130,7 @@ bool use_forged(Bytes bytes) {
   }
 }
 
-/// A file of its own, removed in the end.
+/// A temporary file, removed at the end.
 class TestFile {
  public:
   explicit TestFile(const std::string& name) : path_((fs::temp_directory_path() / ("calligraphy_" + name)).string()) {
@@ -149,14 +150,14 @@ class TestFile {
 
 }  // namespace
 
-TEST_CASE("the checksum is the CRC-32 of zip, and feels every bit", "[model]") {
+TEST_CASE("the checksum is the CRC-32 of zip, and depends on every bit", "[model]") {
   const auto sum = [](std::string_view text) { return crc32(std::as_bytes(std::span(text.data(), text.size()))); };
   CHECK(sum("123456789") == 0xCBF43926);  // the check value of the CRC catalogues
   CHECK(sum("") == 0);
   CHECK(sum("The quick brown fox jumps over the lazy dog") == 0x414FA339);
 }
 
-TEST_CASE("a set file is opened, and a text file too, by what is in them", "[model]") {
+TEST_CASE("set files and text files are distinguished by their content", "[model]") {
   const CharacterList list = rich_list();
   const TestFile file("set");
   file.write(encode_character_set(list, CoordinatePrecision::exact));
@@ -177,7 +178,7 @@ TEST_CASE("a set file is opened, and a text file too, by what is in them", "[mod
   }
 }
 
-TEST_CASE("files of version 1 stay readable, and are still written the same", "[model]") {
+TEST_CASE("files of version 1 stay readable and are still written identically", "[model]") {
   const std::string directory = CALLIGRAPHY_SOURCE_DIR "/tests/data/";
   const CharacterSet stored = CharacterSet::open(directory + "version_1.set");
   const CharacterList list = read_characters(directory + "version_1.txt");
@@ -192,7 +193,7 @@ TEST_CASE("files of version 1 stay readable, and are still written the same", "[
   CHECK(std::string(reinterpret_cast<const char*>(written.data()), written.size()) == bytes);
 }
 
-TEST_CASE("an open set stays what it is when its file is replaced or removed", "[model]") {
+TEST_CASE("an open set is unaffected when its file is replaced or removed", "[model]") {
   const TestFile file("replaced"), other("replacement");
   file.write(encode_character_set(small_list()));
   const CharacterSet set = CharacterSet::open(file.path());
@@ -203,20 +204,20 @@ TEST_CASE("an open set stays what it is when its file is replaced or removed", "
   CHECK_NOTHROW(set.check());
 }
 
-TEST_CASE("a file cut off anywhere, or with more behind it, is refused", "[model]") {
+TEST_CASE("a file truncated anywhere, or with trailing data, is rejected", "[model]") {
   const Bytes whole = encode_character_set(small_list());
   for (std::size_t length = 0; length < whole.size(); ++length) {
     const std::string found = complaint(Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length)));
     INFO(length << ": " << found);
-    CHECK(found.starts_with("test.set: is cut off"));
+    CHECK(found.starts_with("test.set: is truncated"));
   }
   Bytes longer = whole;
   longer.push_back(std::byte{0});
-  CHECK(complaint(longer).starts_with("test.set: goes on after its end"));
+  CHECK(complaint(longer).starts_with("test.set: continues after its end"));
   CHECK(complaint(whole).empty());
 }
 
-TEST_CASE("no changed bit goes unnoticed", "[model]") {
+TEST_CASE("every changed bit is detected", "[model]") {
   const Bytes whole = encode_character_set(small_list());
   for (std::size_t at = 0; at < whole.size(); ++at) {
     for (int bit = 0; bit < 8; ++bit) {
@@ -228,21 +229,21 @@ TEST_CASE("no changed bit goes unnoticed", "[model]") {
   }
 }
 
-TEST_CASE("damage in one group leaves the others as they were", "[model]") {
+TEST_CASE("damage in one group leaves the others usable", "[model]") {
   const CharacterList list = small_list();
   Bytes bytes = encode_character_set(list, CoordinatePrecision::exact);
   bytes.back() ^= std::byte{1};  // in the last group, U+20000's
   const CharacterSet set = CharacterSet::from_bytes(bytes, "test.set");
   CHECK(same(set.find(U'一')->character(), list.characters[0]));
   const auto damaged = set.find(U'\U00020000');
-  REQUIRE(damaged);  // it is known to be there
+  REQUIRE(damaged);  // the index still lists it
   CHECK(damaged->stroke_count() == 0);
   CHECK_FALSE(damaged->stroke(0));
   CHECK(damaged->stroke_id(0) == 0);
   CHECK_THROWS_AS(damaged->character(), FormatError);
   const CharacterSet under = CharacterSet(list);
   CHECK(CharacterSet::layered(std::vector{set, under}).find(U'\U00020000')->stroke_count() ==
-        0);  // and not papered over
+        0);  // not replaced by a lower layer
   try {
     set.check();
     FAIL("not noticed");
@@ -251,7 +252,7 @@ TEST_CASE("damage in one group leaves the others as they were", "[model]") {
   }
 }
 
-TEST_CASE("any byte forged under right checksums leads nowhere outside the file", "[model]") {
+TEST_CASE("any byte forged under correct checksums causes no access outside the file", "[model]") {
 #if defined(__SANITIZE_ADDRESS__)
   constexpr unsigned stride = 17;  // 0 and 255 are among them
 #else
@@ -273,7 +274,7 @@ TEST_CASE("any byte forged under right checksums leads nowhere outside the file"
   CHECK(refused > 1000);
 }
 
-TEST_CASE("several numbers forged under right checksums lead nowhere outside the file", "[model]") {
+TEST_CASE("several numbers forged under correct checksums cause no access outside the file", "[model]") {
 #if defined(__SANITIZE_ADDRESS__)
   constexpr int repetitions = 10'000;
 #else
@@ -305,7 +306,7 @@ TEST_CASE("several numbers forged under right checksums lead nowhere outside the
   CHECK(refused > repetitions / 10);
 }
 
-TEST_CASE("each number of the header is checked for what it says, not only by its checksum", "[model]") {
+TEST_CASE("each number of the header is validated, not only its checksum", "[model]") {
   using namespace set_format;
   const Bytes whole = encode_character_set(small_list());
   const auto with = [&](std::size_t at, std::uint32_t value) {
@@ -324,9 +325,9 @@ TEST_CASE("each number of the header is checked for what it says, not only by it
   CHECK(with(error_at + 4, 0xBFF00000).find("coordinate error") != std::string::npos);
   CHECK(with(coding_at, 0).find("coding") != std::string::npos);  // doubles of 10 bits
   CHECK(with(coding_at, 0xFFFFFFFF).find("coding") != std::string::npos);
-  CHECK(with(header_size, 0xFFFFFFFF).find("names of its source") != std::string::npos);
-  CHECK(with(header_size + 1, 0xFF000000).find("names of its source") != std::string::npos);  // no UTF-8
-  CHECK(with(entries, 0).find("entry 1 ") != std::string::npos);                              // a group of no character
+  CHECK(with(header_size, 0xFFFFFFFF).find("its provenance") != std::string::npos);
+  CHECK(with(header_size + 1, 0xFF000000).find("its provenance") != std::string::npos);  // no UTF-8
+  CHECK(with(entries, 0).find("entry 1 ") != std::string::npos);                         // a group of no character
   const auto with_block = [&](std::size_t group, std::uint16_t value) {
     Bytes bytes = whole;
     store(bytes, entries - (groups - group) * block_size, value);
@@ -344,7 +345,7 @@ TEST_CASE("each number of the header is checked for what it says, not only by it
   }
 }
 
-TEST_CASE("a coding of a character's own is checked like that of the file", "[model]") {
+TEST_CASE("a character-specific encoding is validated like that of the file", "[model]") {
   using namespace set_format;
   CharacterList list;
   list.characters.push_back(one_stroke(U'一'));
@@ -365,12 +366,12 @@ TEST_CASE("a coding of a character's own is checked like that of the file", "[mo
   CHECK(with_bits(x + y, 0).find("一") != std::string::npos);  // as many bits as before, but not a width
   CHECK(with_bits(0, x + y).find("一") != std::string::npos);
   Bytes bytes = whole;
-  store(bytes, coding, most_steps_per_em + 1);
+  store(bytes, coding, max_steps_per_em + 1);
   forge_checksums(bytes);
   CHECK(complaint(bytes).find("一") != std::string::npos);
 }
 
-TEST_CASE("a newer version and another program's file are told so", "[model]") {
+TEST_CASE("files of a newer version and of another program are reported as such", "[model]") {
   Bytes bytes = encode_character_set(small_list());
   store(bytes, set_format::version_at, std::uint32_t{2});
   CHECK(complaint(bytes).find("newer version") != std::string::npos);
@@ -379,10 +380,10 @@ TEST_CASE("a newer version and another program's file are told so", "[model]") {
   CHECK(complaint(bytes).find("another program") != std::string::npos);
   const TestFile file("magic");
   file.write("\x89PNG\r\n\x1A\n");
-  CHECK(complaint_of_file(file.path()) == file.path() + ": is not a set file: its first bytes are others");
+  CHECK(complaint_of_file(file.path()) == file.path() + ": is not a set file: its first bytes differ");
 }
 
-TEST_CASE("what cannot be opened is named", "[model]") {
+TEST_CASE("a file that cannot be opened is named", "[model]") {
   const auto is_named = [](const std::string& path, const std::string& what) {
     const std::string found = complaint_of_file(path);
     INFO(found);
@@ -399,7 +400,7 @@ TEST_CASE("what cannot be opened is named", "[model]") {
   CHECK(complaint_of_file(text.path()).starts_with(text.path() + ":3: "));
   const TestFile pipe("pipe");
   REQUIRE(mkfifo(pipe.path().c_str(), 0600) == 0);
-  CHECK(is_named(pipe.path(), "regular file"));  // and no one waits for a writer
+  CHECK(is_named(pipe.path(), "regular file"));  // without waiting for a writer
   const TestFile hidden("hidden");
   hidden.write(encode_character_set(small_list()));
   fs::permissions(hidden.path(), fs::perms::none);
@@ -407,7 +408,7 @@ TEST_CASE("what cannot be opened is named", "[model]") {
   if (!is_root) CHECK(is_named(hidden.path(), "cannot be opened"));
 }
 
-TEST_CASE("a character of too many strokes or orders is refused by name", "[model]") {
+TEST_CASE("a character with too many strokes or orders is rejected by name", "[model]") {
   const auto complaint = [](const CharacterList& list) -> std::string {
     try {
       encode_character_set(list);
@@ -417,24 +418,24 @@ TEST_CASE("a character of too many strokes or orders is refused by name", "[mode
     }
   };
   const StrokeInput heng{1, {{0.1, 0.5}, {0.9, 0.5}}, {}};
-  CharacterList strokes{{}, {make_character(U'一', std::vector<StrokeInput>(set_format::most_strokes, heng))}};
-  CHECK(CharacterSet(strokes).find(U'一')->stroke_count() == static_cast<int>(set_format::most_strokes));
-  strokes.characters = {make_character(U'一', std::vector<StrokeInput>(set_format::most_strokes + 1, heng))};
+  CharacterList strokes{{}, {make_character(U'一', std::vector<StrokeInput>(set_format::max_strokes, heng))}};
+  CHECK(CharacterSet(strokes).find(U'一')->stroke_count() == static_cast<int>(set_format::max_strokes));
+  strokes.characters = {make_character(U'一', std::vector<StrokeInput>(set_format::max_strokes + 1, heng))};
   CHECK(complaint(strokes).find("4097 strokes") != std::string::npos);
 
   CharacterList orders{{}, {}};
   const Character one = make_character(U'一', std::vector{heng});
-  for (std::size_t i = 0; i < set_format::most_forms; ++i) {
+  for (std::size_t i = 0; i < set_format::max_forms; ++i) {
     orders.characters.push_back(one);
     orders.characters.back().order = "order " + std::to_string(i);
   }
-  CHECK(CharacterSet(orders).orders(U'一').size() == set_format::most_forms);
+  CHECK(CharacterSet(orders).orders(U'一').size() == set_format::max_forms);
   CHECK(CharacterSet(orders).find(U'一', "order 254").has_value());
   orders.characters.push_back(one);
   CHECK(complaint(orders).find("more than 255 orders") != std::string::npos);
 }
 
-TEST_CASE("all characters of an imported set take no more room, and err no more, than promised", "[model]") {
+TEST_CASE("all characters of an imported set stay within the stated size and error", "[model]") {
   const char* const path = std::getenv("CALLIGRAPHY_CHARACTER_FILE");
   if (path == nullptr) {
     WARN("skipped: CALLIGRAPHY_CHARACTER_FILE does not name a file of characters as calligraphy import makes it");
@@ -447,12 +448,12 @@ TEST_CASE("all characters of an imported set take no more room, and err no more,
   CHECK(list.characters.size() >= 9574);
   const struct {
     CoordinatePrecision precision;
-    double most_bytes, most_error;
+    double max_bytes, max_error;
   } marks[] = {{CoordinatePrecision::standard, 110.0, 1e-3}, {CoordinatePrecision::coarse, 75.0, 4e-3}};
-  for (const auto& [precision, most_bytes, most_error] : marks) {
+  for (const auto& [precision, max_bytes, max_error] : marks) {
     const CharacterSet set = CharacterSet::from_bytes(encode_character_set(list, precision), path);
     CHECK(set.size() == list.characters.size());
-    CHECK(static_cast<double>(set.bytes()) <= most_bytes * static_cast<double>(set.size()));
+    CHECK(static_cast<double>(set.bytes()) <= max_bytes * static_cast<double>(set.size()));
     double largest = 0.0;
     for (const Character& character : list.characters) {
       const Character stored = set.find(character.code)->character();
@@ -463,7 +464,7 @@ TEST_CASE("all characters of an imported set take no more room, and err no more,
       }
     }
     CHECK(largest <= coordinate_error_bound(precision));
-    CHECK(largest <= most_error);
+    CHECK(largest <= max_error);
   }
 }
 

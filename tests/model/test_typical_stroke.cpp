@@ -63,12 +63,12 @@ TEST_CASE("feature points are the ends of elements among the control points, for
   }
 }
 
-TEST_CASE("id 16 is a compound of two elements, id 20 of five, as Figs. 11 and 12 say", "[model]") {
+TEST_CASE("id 16 is a compound of two elements, id 20 of five, as in Figs. 11 and 12", "[model]") {
   CHECK(typical_stroke(16).elements.size() == 2);
   CHECK(typical_stroke(20).elements.size() == 5);
 }
 
-TEST_CASE("an id outside 1 to 39 is refused with its value", "[model]") {
+TEST_CASE("an id outside 1 to 39 is rejected with its value", "[model]") {
   for (const int id : {0, -1, 40, 1000000}) {
     CHECK_THROWS_AS(typical_stroke(id), ValueError);
     try {

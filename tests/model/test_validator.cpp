@@ -1,4 +1,4 @@
-// Every kind of fault is found, with the stroke that has it.
+// validate() and make_character() find every kind of fault and name the stroke.
 #include "../catch.hpp"
 
 #include <cmath>
@@ -18,12 +18,12 @@ namespace {
 
 using calligraphy_test::infinity;
 
-/// The problems of 北 as in Table 3 after a change, one a line as "stroke: what".
+/// The problems of 北 as in Table 3 after a change, one per line as "stroke: what".
 std::string problems_after(const std::function<void(Character&)>& change) {
   Character character = paper_example();
   change(character);
   std::string text;
-  for (const Problem& problem : validate(character))
+  for (const ValidationIssue& problem : validate(character))
     text += std::to_string(problem.stroke) + ": " + problem.what + "\n";
   return text;
 }
@@ -47,7 +47,7 @@ TEST_CASE("a valid character has no problems", "[model]") {
   CHECK(problems_after([](Character&) {}).empty());
 }
 
-TEST_CASE("points that are not finite or far off are named with their stroke", "[model]") {
+TEST_CASE("points that are not finite or too far away are reported with their stroke", "[model]") {
   for (const double value : {infinity, -infinity, std::nan(""), 17.0, -1e300}) {
     for (const std::size_t index : {0u, 5u, 9u, 14u}) {
       const int stroke = index < 2 ? 1 : index < 4 ? 2 : index < 6 ? 3 : index < 11 ? 4 : 5;
@@ -58,7 +58,7 @@ TEST_CASE("points that are not finite or far off are named with their stroke", "
   }
 }
 
-TEST_CASE("attraction factors below zero or not finite are named with their stroke", "[model]") {
+TEST_CASE("attraction factors that are negative or not finite are reported with their stroke", "[model]") {
   for (const double value : {infinity, std::nan(""), -0.5}) {
     const std::string found = problems_after([&](Character& c) { c.physics.attraction_factors[2] = value; });
     CHECK(found.starts_with("2: attraction factor"));
@@ -66,16 +66,16 @@ TEST_CASE("attraction factors below zero or not finite are named with their stro
   CHECK(problems_after([](Character& c) { c.physics.attraction_factors[2] = 0.0; }).empty());
 }
 
-TEST_CASE("counts that do not fit the ids are found", "[model]") {
+TEST_CASE("counts that do not match the ids are found", "[model]") {
   CHECK(contains(problems_after([](Character& c) { c.structure.control_points.pop_back(); }),
                  "0: the stroke ids take 15 control points, not 14"));
   CHECK(contains(problems_after([](Character& c) { c.structure.control_points.emplace_back(0.5, 0.5); }), "not 16"));
-  CHECK(contains(problems_after([](Character& c) { c.sequence.feature_points[3] = 4; }),
-                 "0: the indices of feature points"));
+  CHECK(
+      contains(problems_after([](Character& c) { c.sequence.feature_points[3] = 4; }), "0: the feature point indices"));
   CHECK(contains(problems_after([](Character& c) { c.sequence.feature_points.clear(); }),
-                 "0: the indices of feature points"));
+                 "0: the feature point indices"));
   CHECK(contains(problems_after([](Character& c) { c.sequence.feature_points[0] = -7; }),
-                 "0: the indices of feature points"));
+                 "0: the feature point indices"));
   CHECK(contains(problems_after([](Character& c) { c.physics.attraction_factors.pop_back(); }),
                  "13 feature points have 12"));
   CHECK(contains(problems_after([](Character& c) { c.sequence.stroke_ids.pop_back(); }), "0: the stroke ids take 11"));
@@ -93,18 +93,18 @@ TEST_CASE("unknown ids and degrees, and a character without strokes, are found",
   CHECK(problems_after([](Character& c) { c = {}; }) == "0: there is no stroke\n");
 }
 
-TEST_CASE("elements without length are found, a stroke of one line may be a point", "[model]") {
+TEST_CASE("elements of zero length are found, but a stroke of one line may be a point", "[model]") {
   const std::string found =
       problems_after([](Character& c) { c.structure.control_points[8] = c.structure.control_points[7]; });
-  CHECK(found == "4: element 2 has no length\n");
+  CHECK(found == "4: element 2 has zero length\n");
   CHECK(contains(problems_after([](Character& c) {
                    for (std::size_t i = 11; i < 15; ++i) c.structure.control_points[i] = {0.5, 0.5};
                  }),
-                 "5: element 1 has no length"));
+                 "5: element 1 has zero length"));
   CHECK(problems_after([](Character& c) { c.structure.control_points[1] = c.structure.control_points[0]; }).empty());
 }
 
-TEST_CASE("a smooth joint that bends is found with its angle", "[model]") {
+TEST_CASE("a smooth joint that bends is reported with its angle", "[model]") {
   // shu wan (30), LCL with smooth joints: the last line turned off by 90 degrees.
   const std::vector<Point> points = {{0.32, 0.80}, {0.32, 0.42}, {0.32, 0.26},
                                      {0.36, 0.24}, {0.48, 0.24}, {0.48, 0.60}};
@@ -118,7 +118,7 @@ TEST_CASE("a smooth joint that bends is found with its angle", "[model]") {
   CHECK(contains(complaint({{30, straight}}), "bends by 16 degrees"));
 }
 
-TEST_CASE("building a character names the stroke and what it takes", "[model]") {
+TEST_CASE("errors of make_character name the stroke and what it requires", "[model]") {
   CHECK(complaint({{2, {{0, 0}, {0, 1}}}, {4, curve}}).empty());
   CHECK(contains(complaint({{2, {{0, 0}, {0, 1}}}, {40, curve}}), "stroke 2: typical stroke id 40"));
   CHECK(contains(complaint({{2, {{0, 0}, {0, 1}}}, {4, {{0, 0}, {1, 1}}}}),

@@ -44,7 +44,7 @@ std::size_t paths(const pugi::xml_node& node) {
   return static_cast<std::size_t>(std::distance(children.begin(), children.end()));
 }
 
-/// Every number of path data, two by two.
+/// The numbers of path data, in pairs.
 std::vector<Point> points(const pugi::xml_node& path) {
   const std::string text = path.attribute("d").value();
   std::vector<double> numbers;
@@ -85,8 +85,9 @@ Point start_of(const PlacedCharacter& placed, std::size_t stroke) {
   return placed.placement.to_page(strokes(placed.character)[stroke].control_points[0]);
 }
 
-Sample sample(InteractionState state, int character, int stroke, const Point& tip, TickEvent events = TickEvent::none) {
-  Sample result;
+RecordedSample sample(InteractionState state, int character, int stroke, const Point& tip,
+                      TickEvent events = TickEvent::none) {
+  RecordedSample result;
   result.state = state;
   result.character = character;
   result.stroke = stroke;
@@ -99,12 +100,12 @@ constexpr auto ws = InteractionState::writing;
 constexpr auto cs = InteractionState::calibration;
 constexpr auto ss = InteractionState::separation;
 
-/// A polyline written in the writing state but for its last point, which leaves it.
+/// A polyline in the writing state, except for its last point, which leaves it.
 void append_run(Recording& recording, int character, int stroke, const std::vector<Point>& tips, TickEvent end) {
   for (std::size_t i = 0; i + 1 < tips.size(); ++i) {
     recording.samples.push_back(sample(ws, character, stroke, tips[i]));
   }
-  const bool finished = has(end, TickEvent::stroke_finished);
+  const bool finished = has_event(end, TickEvent::stroke_finished);
   recording.samples.push_back(sample(finished ? cs : ss, character, finished ? stroke + 1 : stroke, tips.back(), end));
 }
 
@@ -113,7 +114,7 @@ const std::vector<Point> corner = {{0.05, 0.05}, {0.06, 0.05}, {0.06, 0.06}};
 }  // namespace
 
 TEST_CASE("a page picture has one path per stroke of every character", "[practice]") {
-  const Page page = page_of("永北京");
+  const PracticePage page = page_of("永北京");
   const auto document = xml(page_picture(page, {}, 0, "title"));
   const auto groups = templates(document);
   REQUIRE(groups.size() == page.characters.size());
@@ -124,7 +125,7 @@ TEST_CASE("a page picture has one path per stroke of every character", "[practic
 }
 
 TEST_CASE("only the active character is yellow, the others are blue", "[practice]") {
-  const Page page = page_of("永北京");
+  const PracticePage page = page_of("永北京");
   for (int active = 0; active < 3; ++active) {
     const auto document = xml(page_picture(page, {}, active, "title"));
     const auto groups = templates(document);
@@ -136,8 +137,8 @@ TEST_CASE("only the active character is yellow, the others are blue", "[practice
   }
 }
 
-TEST_CASE("template paths are the strokes' control points at their place, in millimetres and upright", "[practice]") {
-  const Page page = page_of("永北");
+TEST_CASE("template paths are the strokes' control points on the page, in millimetres and upright", "[practice]") {
+  const PracticePage page = page_of("永北");
   const auto document = xml(page_picture(page, {}, 0, "title"));
   const auto groups = templates(document);
   REQUIRE(groups.size() == 2);
@@ -160,9 +161,9 @@ TEST_CASE("template paths are the strokes' control points at their place, in mil
                                                  std::to_string(root.attribute("height").as_int()));
 }
 
-TEST_CASE("quartic curves are drawn where the same cubic ones are", "[practice]") {
+TEST_CASE("quartic curves are drawn like the equal cubic curves", "[practice]") {
   for (const Character& character : built_in_characters().characters) {
-    Page page = lay_out({&character, 1}).front();
+    PracticePage page = lay_out({&character, 1}).front();
     const auto cubic = xml(page_picture(page, {}, 0, "title"));
     page.characters[0].character = with_quartic_curves(character);
     const auto quartic = xml(page_picture(page, {}, 0, "title"));
@@ -190,8 +191,8 @@ TEST_CASE("quartic curves are drawn where the same cubic ones are", "[practice]"
   }
 }
 
-TEST_CASE("the red ellipse is at the start of the stroke that was active last", "[practice]") {
-  const Page page = page_of("永北");
+TEST_CASE("the red ellipse is at the start of the last active stroke", "[practice]") {
+  const PracticePage page = page_of("永北");
   const auto at = [&](const Recording& recording, int active, std::size_t stroke) {
     const auto document = xml(page_picture(page, recording, active, "title"));
     const Point expected = in_picture(document, start_of(page.characters[static_cast<std::size_t>(active)], stroke));
@@ -204,7 +205,7 @@ TEST_CASE("the red ellipse is at the start of the stroke that was active last", 
   append_run(recording, 0, 1, corner, TickEvent::stroke_finished);
   CHECK(at(recording, 0, 2));
   CHECK(at(recording, 1, 0));
-  recording.samples.push_back(sample(cs, 0, 5, corner[0]));  // complete, the pen still down
+  recording.samples.push_back(sample(cs, 0, 5, corner[0]));  // complete, with the pen still down
   CHECK(at(recording, 0, 4));
   recording.samples.push_back(sample(ss, 1, 0, corner[0]));
   CHECK(at(recording, 0, 4));
@@ -214,8 +215,8 @@ TEST_CASE("the red ellipse is at the start of the stroke that was active last", 
   CHECK(at(recording, 1, 3));
 }
 
-TEST_CASE("traces are the pen's path in light green, in page coordinates", "[practice]") {
-  const Page page = page_of("永北");
+TEST_CASE("traces show the path of the pen in light green, in page coordinates", "[practice]") {
+  const PracticePage page = page_of("永北");
   Recording recording;
   recording.samples.push_back(sample(ss, 0, 0, {0.01, 0.01}));
   append_run(recording, 0, 0, corner, TickEvent::stroke_finished);
@@ -229,8 +230,8 @@ TEST_CASE("traces are the pen's path in light green, in page coordinates", "[pra
   for (std::size_t i = 0; i < 3; ++i) CHECK((drawn[i] - in_picture(document, corner[i])).norm() < 0.001);
 }
 
-TEST_CASE("traces of abandoned attempts are absent, an unfinished one is there", "[practice]") {
-  const Page page = page_of("永北");
+TEST_CASE("traces of abandoned attempts are omitted, an unfinished one is shown", "[practice]") {
+  const PracticePage page = page_of("永北");
   const auto count = [&page](const Recording& recording) {
     const auto document = xml(page_picture(page, recording, 0, "title"));
     return all(document, "//g[@class='trace']/path").size();
@@ -247,8 +248,8 @@ TEST_CASE("traces of abandoned attempts are absent, an unfinished one is there",
   CHECK(count(recording) == 2);
 }
 
-TEST_CASE("a stroke that ends as the next character begins belongs to the one it was written for", "[practice]") {
-  const Page page = page_of("永北");
+TEST_CASE("a stroke that ends as the next character begins belongs to its own character", "[practice]") {
+  const PracticePage page = page_of("永北");
   Recording recording;
   append_run(recording, 0, 4, corner, TickEvent::stroke_finished);
   recording.samples.back().character = 1;
@@ -260,11 +261,11 @@ TEST_CASE("a stroke that ends as the next character begins belongs to the one it
   CHECK(count(1) == 2);
 }
 
-TEST_CASE("samples that were refused leave no mark", "[practice]") {
-  const Page page = page_of("永");
+TEST_CASE("rejected samples leave no mark", "[practice]") {
+  const PracticePage page = page_of("永");
   Recording recording;
   append_run(recording, 0, 0, corner, TickEvent::stroke_finished);
-  Sample bad = sample(ws, 0, 0, {1.0, 1.0});
+  RecordedSample bad = sample(ws, 0, 0, {1.0, 1.0});
   bad.status = TickStatus::bad_sample;
   recording.samples.insert(recording.samples.begin() + 1, bad);
   bad.status = TickStatus::ok;
@@ -298,7 +299,7 @@ TEST_CASE("a drawn trace is within 0.03 mm of the recorded one", "[practice]") {
 }
 
 TEST_CASE("the picture of a long scribble stays under 300 kB", "[practice]") {
-  const Page page = page_of("永北京航空天");
+  const PracticePage page = page_of("永北京航空天");
   Recording recording;
   calligraphy_test::Sequence random(1);
   for (int character = 0; character < 6; ++character) {
@@ -313,19 +314,19 @@ TEST_CASE("the picture of a long scribble stays under 300 kB", "[practice]") {
   CHECK(all(xml(svg), "//g[@class='trace']/path").size() == 24);
 }
 
-TEST_CASE("a real session's picture shows as many traces as strokes were finished", "[practice]") {
-  const Page page = page_of("永北");
-  const Recording recording = write_page(page, calligraphy_test::session(WriterSkill::novice(), Mode::force));
+TEST_CASE("the picture of a real session shows one trace per finished stroke", "[practice]") {
+  const PracticePage page = page_of("永北");
+  const Recording recording = write_page(page, calligraphy_test::session(WriterSkill::novice(), FeedbackMode::force));
   std::size_t finished = 0;
-  for (const Sample& each : recording.samples) finished += has(each.events, TickEvent::stroke_finished);
+  for (const RecordedSample& each : recording.samples) finished += has_event(each.events, TickEvent::stroke_finished);
   REQUIRE(finished > 0);
   const std::string svg = page_picture(page, recording, 1, "title");
   CHECK(all(xml(svg), "//g[@class='trace']/path").size() == finished);
   CHECK(page_picture(page, recording, 1, "title") == svg);
 }
 
-TEST_CASE("a title may hold anything but broken UTF-8", "[practice]") {
-  const Page page = page_of("永");
+TEST_CASE("a title may contain anything but invalid UTF-8", "[practice]") {
+  const PracticePage page = page_of("永");
   for (const std::string title : {"<&>\"'", "北京 ]]> <!--", "bell \x07 and tab\t", "",
                                   "a very long title, much longer than the page is wide, which must be set smaller"}) {
     CAPTURE(title);
@@ -337,9 +338,9 @@ TEST_CASE("a title may hold anything but broken UTF-8", "[practice]") {
   CHECK_THROWS_AS(page_picture(page, {}, 0, "\xff"), FormatError);
 }
 
-TEST_CASE("a picture without its page or its character is an error naming the value", "[practice]") {
-  const Page page = page_of("永");
-  const auto error = [](const Page& some, int active) -> std::string {
+TEST_CASE("an invalid page or active character is an error naming the value", "[practice]") {
+  const PracticePage page = page_of("永");
+  const auto error = [](const PracticePage& some, int active) -> std::string {
     try {
       page_picture(some, {}, active, "title");
     } catch (const ValueError& caught) {
@@ -350,7 +351,7 @@ TEST_CASE("a picture without its page or its character is an error naming the va
   CHECK(error(page, 1) == "active character 1: the page has 1");
   CHECK(error(page, -1) == "active character -1: the page has 1");
   CHECK(error({0.1, 0.1, {}}, 0) == "active character 0: the page has 0");
-  CHECK(error({0.0, 0.1, page.characters}, 0).find("a page of 0.000000 m") == 0);
+  CHECK(error({0.0, 0.1, page.characters}, 0).find("width of the page = 0 m") == 0);
   CHECK(error({0.1, 0.1, {PlacedCharacter{}}}, 0) == "character 0 of the page: there is no stroke");
 }
 

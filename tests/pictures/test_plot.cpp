@@ -22,9 +22,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// True when gnuplot is there; without it a test is skipped, or fails where all must run.
+/// Whether gnuplot is available; without it a test is skipped, or fails where all tests must run.
 bool gnuplot_is_there() {
-  if (can_plot()) return true;
+  if (gnuplot_available()) return true;
   if (std::getenv("CALLIGRAPHY_REQUIRE_DATA") != nullptr) {
     FAIL("gnuplot cannot be started, and CALLIGRAPHY_REQUIRE_DATA is set");
   }
@@ -48,7 +48,7 @@ class ShimDirectory {
     fs::remove_all(path_);
   }
 
-  /// A gnuplot of the test's own, as a shell script.
+  /// Provides the test's own gnuplot, a shell script.
   void provide_gnuplot(const std::string& body) const {
     write_file(path_ / "gnuplot", "#!/bin/sh\nPATH=" + search_path_ + "\n" + body + "\n");
     fs::permissions(path_ / "gnuplot", fs::perms::owner_all);
@@ -72,7 +72,7 @@ class ShimDirectory {
 Recording recording() {
   Recording result;
   for (int i = 0; i < 10000; ++i) {
-    Sample sample;
+    RecordedSample sample;
     sample.time = i / 1000.0;
     const auto within = [&sample](double begin, double end) { return sample.time >= begin && sample.time < end; };
     sample.character = sample.time < 8.0 ? 0 : 1;
@@ -99,7 +99,7 @@ const std::string hostile = "a'; system(\"touch x\"); #{1} `touch y` $(touch z) 
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-/// Lines of a block of data in a gnuplot script.
+/// Number of lines of a data block in a gnuplot script.
 std::ptrdiff_t lines_of_block(const std::string& script, const std::string& name) {
   const auto begin = script.find("$" + name + " << END\n");
   REQUIRE(begin != std::string::npos);
@@ -124,8 +124,8 @@ TEST_CASE("a force plot is valid SVG with axes, units, stroke numbers and title"
     for (const auto& part : found.node().select_nodes(".//text()")) text += part.node().value();
     texts += "[" + text + "]";
   }
-  for (const char* expected : {"[北 & <force>]", "[force in the plane [N]]", "[normal force [N]]", "[time [s]]",
-                               "[|F|]", "[Fx]", "[Fy]", "[1]", "[2]", "grey: given up"}) {
+  for (const char* expected : {"[北 & <force>]", "[in-plane force [N]]", "[normal force [N]]", "[time [s]]", "[|F|]",
+                               "[Fx]", "[Fy]", "[1]", "[2]", "grey: abandoned"}) {
     CAPTURE(texts, expected);
     CHECK(contains(texts, expected));
   }
@@ -181,7 +181,7 @@ TEST_CASE("a long recording is drawn with few points and every peak", "[practice
   directory.provide_gnuplot("cat > script; echo '<svg><title/></svg>'");
   Recording long_one = recording();
   for (int i = 0; i < 200000; ++i) {
-    Sample sample;
+    RecordedSample sample;
     sample.time = 10.0 + i / 1000.0;
     sample.force.z() = i == 123500 ? 7.125 : i == 150050 ? -3.25 : 0.5;
     long_one.samples.push_back(sample);
@@ -206,7 +206,7 @@ TEST_CASE("forces that are not numbers do not reach gnuplot", "[practice]") {
   CHECK_FALSE(contains(script, "inf"));
 }
 
-TEST_CASE("a recording with few forces that are numbers, or none, is plotted", "[practice]") {
+TEST_CASE("a recording with few finite forces, or none, is plotted", "[practice]") {
   if (!gnuplot_is_there()) return;
   Recording some = recording();
   for (std::size_t i = 0; i < some.samples.size(); ++i) {
@@ -214,39 +214,39 @@ TEST_CASE("a recording with few forces that are numbers, or none, is plotted", "
   }
   const std::string svg = force_plot(some, 0, "title");
   CHECK_FALSE(contains(svg, "nan"));
-  for (Sample& sample : some.samples) sample.force.setConstant(std::numeric_limits<double>::infinity());
+  for (RecordedSample& sample : some.samples) sample.force.setConstant(std::numeric_limits<double>::infinity());
   CHECK(error_of(some, 0) == "");
   some.samples.resize(1);
   CHECK(error_of(some, 0) == "");
 }
 
 TEST_CASE("a plot of a character without samples is an error naming it", "[practice]") {
-  CHECK(error_of(recording(), 2) == "character 2 is active in no sample of the recording");
-  CHECK(error_of({}, 0) == "character 0 is active in no sample of the recording");
+  CHECK(error_of(recording(), 2) == "character 2 is not active in any sample of the recording");
+  CHECK(error_of({}, 0) == "character 0 is not active in any sample of the recording");
   CHECK_THROWS_AS(force_plot(recording(), 0, "\xff"), FormatError);
 }
 
 TEST_CASE("without gnuplot there is no plot, and the error says so", "[practice]") {
   const ShimDirectory directory;
   directory.hide_others();
-  CHECK_FALSE(can_plot());
+  CHECK_FALSE(gnuplot_available());
   CHECK(error_of(recording(), 0) == "gnuplot cannot be run: No such file or directory");
 }
 
 TEST_CASE("a gnuplot that fails is an error with its message", "[practice]") {
   const ShimDirectory directory;
   directory.provide_gnuplot("echo 'line 7: no such terminal' >&2; exit 3");
-  CHECK_FALSE(can_plot());
+  CHECK_FALSE(gnuplot_available());
   CHECK(contains(error_of(recording(), 0), "gnuplot failed with exit code 3: line 7: no such terminal"));
 }
 
 TEST_CASE("a gnuplot that gives no SVG, reads nothing or is killed is an error, not the end", "[practice]") {
   const ShimDirectory directory;
   directory.provide_gnuplot("echo 'a warning' >&2");
-  CHECK(contains(error_of(recording(), 0), "gnuplot gave no SVG: "));
+  CHECK(contains(error_of(recording(), 0), "gnuplot returned no SVG: "));
   CHECK(contains(error_of(recording(), 0), "a warning"));
   directory.provide_gnuplot("exec <&-; echo '<svg'");
-  CHECK(contains(error_of(recording(), 0), "gnuplot gave no SVG: "));
+  CHECK(contains(error_of(recording(), 0), "gnuplot returned no SVG: "));
   directory.provide_gnuplot("kill -9 $$");
   CHECK(contains(error_of(recording(), 0), "exit code 137"));
 }

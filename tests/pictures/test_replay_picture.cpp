@@ -25,10 +25,10 @@ std::size_t count(const pugi::xml_document& document, const char* query) { retur
 
 }  // namespace
 
-TEST_CASE("the picture of a replay numbers pen-downs and strokes and draws what the device drew", "[practice]") {
+TEST_CASE("a replay picture numbers pen-downs and strokes and shows the path of the device", "[practice]") {
   for (const Character& character : built_in_characters().characters) {
     const auto paths = copy_of(character);
-    const auto document = replay_xml(replay_picture(character, paths, judge_strokes(character, paths), paths, "title"));
+    const auto document = replay_xml(replay_picture(character, paths, match_strokes(character, paths), paths, "title"));
     CAPTURE(encode_utf8(character.code));
     CHECK(count(document, "//g[@class='drawn-number']/text") == paths.size());
     CHECK(count(document, "//g[@class='standard-number']/text") == paths.size());
@@ -38,22 +38,22 @@ TEST_CASE("the picture of a replay numbers pen-downs and strokes and draws what 
   }
 }
 
-TEST_CASE("the picture of a replay shows mistakes in red, tells them, and leaves bounces out", "[practice]") {
+TEST_CASE("a replay picture shows mistakes in red, lists them, and omits bounces", "[practice]") {
   const Character ten = calligraphy_test::characters("十").front();
   std::vector<PenPath> paths = copy_of(ten);
   std::swap(paths[0], paths[1]);
   paths.push_back({{2.0, 2.0}});
-  const StrokeVerdict verdict = judge_strokes(ten, paths);
-  const std::string text = replay_picture(ten, paths, verdict, {}, "<十>");
+  const MatchResult match = match_strokes(ten, paths);
+  const std::string text = replay_picture(ten, paths, match, {}, "<十>");
   const auto document = replay_xml(text);
   CHECK(count(document, "//g[@class='drawn-number']/text") == 2);
   CHECK(count(document, "//g[@class='written']/path[@stroke='#e02020']") == 1);
-  CHECK(text.find(verdict.remarks.at(0).reason) != std::string::npos);
+  CHECK(text.find(match.remarks.at(0).reason) != std::string::npos);
 }
 
-TEST_CASE("a verdict on other pen-downs is refused by the picture of a replay", "[practice]") {
+TEST_CASE("a replay picture rejects a match of other pen-downs", "[practice]") {
   const Character ten = calligraphy_test::characters("十").front();
   const auto paths = copy_of(ten);
-  CHECK_THROWS_AS(replay_picture(ten, paths, judge_strokes(ten, {}), {}, "title"), ValueError);
-  CHECK_THROWS_AS(replay_picture(ten, paths, judge_strokes(ten, paths), {}, "\xff"), FormatError);
+  CHECK_THROWS_AS(replay_picture(ten, paths, match_strokes(ten, {}), {}, "title"), ValueError);
+  CHECK_THROWS_AS(replay_picture(ten, paths, match_strokes(ten, paths), {}, "\xff"), FormatError);
 }

@@ -8,7 +8,7 @@
 
 #include <calligraphy/base/random.hpp>
 #include <calligraphy/collision/nearest_point.hpp>
-#include <calligraphy/devices/simulated_device.hpp>
+#include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/model/character_list.hpp>
 #include <calligraphy/render/haptic_renderer.hpp>
 
@@ -27,8 +27,8 @@ void print(double value) {
 }
 
 void print(const NearestPoint& found) {
-  for (const double value : {found.parameter, found.distance, found.point.x(), found.point.y(), found.tangent.x(),
-                             found.tangent.y()}) {
+  for (const double value :
+       {found.parameter, found.distance, found.point.x(), found.point.y(), found.tangent.x(), found.tangent.y()}) {
     print(value);
   }
 }
@@ -65,7 +65,9 @@ void print_nearest_points() {
 
 /// Every stroke of a character by a pen that wanders about it, pressed into the paper.
 void print_forces(const PlacedCharacter& placed, const Capabilities& device, const RendererOptions& options) {
-  HapticRenderer renderer({placed}, {}, device, options);
+  MotionMapping tilted;
+  tilted.rotation << 0.48, 0.64, -0.6, -0.8, 0.6, 0.0, 0.36, 0.48, 0.8;
+  HapticRenderer renderer({placed}, tilted, device, options);
   Random random(2);
   double time = 0.0;
   const auto go = [&](const Point& point, double z) {
@@ -96,7 +98,7 @@ void print_forces(const PlacedCharacter& placed, const Capabilities& device, con
 int main() {
   print_nearest_points();
   for (const char* name : {"desktop", "omni"}) {
-    const Capabilities device = device_profile(name).capabilities;
+    const Capabilities device = device_profile(name);
     RendererOptions printed = RendererOptions::wang2006();
     printed.paper_stiffness = printed.guidance_stiffness = 200.0;
     printed.wrong_way_stiffness = 100.0;

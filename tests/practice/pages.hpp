@@ -20,9 +20,11 @@ inline std::vector<calligraphy::Character> characters(std::string_view text) {
   return found;
 }
 
-inline calligraphy::Page page_of(std::string_view text) { return calligraphy::lay_out(characters(text)).front(); }
+inline calligraphy::PracticePage page_of(std::string_view text) {
+  return calligraphy::lay_out(characters(text)).front();
+}
 
-inline calligraphy::SessionOptions session(const calligraphy::WriterSkill& skill, calligraphy::Mode mode,
+inline calligraphy::SessionOptions session(const calligraphy::WriterSkill& skill, calligraphy::FeedbackMode mode,
                                            std::uint64_t seed = 1) {
   calligraphy::SessionOptions options;
   options.device = calligraphy::device_profile("desktop");

@@ -1,4 +1,4 @@
-// Pen traces for tests: of people, where they can be had, and made up.
+// Pen traces for tests: people's, where available, and synthetic ones.
 #pragma once
 
 #include <cstdlib>
@@ -18,8 +18,8 @@
 
 namespace calligraphy_test {
 
-/// Every trace of the directory that CALLIGRAPHY_PEN_TRACES names, or none with the reason printed: no package has
-/// them, so no test may need them.
+/// Every trace in the directory named by CALLIGRAPHY_PEN_TRACES, or none with the reason printed: no package provides
+/// them, so no test may require them.
 inline std::vector<calligraphy::PenTrace> traces_of_people() {
   const char* const directory = std::getenv("CALLIGRAPHY_PEN_TRACES");
   std::vector<calligraphy::PenTrace> all;
@@ -37,25 +37,25 @@ inline std::vector<calligraphy::PenTrace> traces_of_people() {
   return all;
 }
 
-/// The characters that calligraphy import made of hanzi-writer-data, if there are any.
+/// The characters imported from hanzi-writer-data by calligraphy import, if available.
 inline std::optional<calligraphy::CharacterSet> imported_characters() {
   const char* const path = std::getenv("CALLIGRAPHY_CHARACTER_FILE");
   if (path != nullptr) return calligraphy::CharacterSet::open(path);
-  WARN("skipped: CALLIGRAPHY_CHARACTER_FILE does not name a file of characters as calligraphy import makes it");
+  WARN("skipped: CALLIGRAPHY_CHARACTER_FILE does not name a character set made by calligraphy import");
   return std::nullopt;
 }
 
-/// A character made of the person's own strokes, in the person's order: a template for what no set holds.
+/// A character made of the person's own strokes, in the person's order: a template for characters in no set.
 inline calligraphy::Character own_character(const calligraphy::PenTrace& trace) {
   std::vector<calligraphy::StrokeInput> strokes;
   for (const calligraphy::PenPath& path : calligraphy::pen_paths(trace)) {
     if (calligraphy::path_length(path) < calligraphy::tap_length) continue;
-    strokes.push_back(calligraphy::fit_stroke(path, {.drawn_with = calligraphy::DrawnWith::pen}).stroke);
+    strokes.push_back(calligraphy::fit_stroke(path, {.drawing_tool = calligraphy::DrawingTool::pen}).stroke);
   }
   return calligraphy::make_character(trace.character, strokes);
 }
 
-/// The strokes as a pen draws them that makes no mistake.
+/// The strokes drawn by a pen without mistakes.
 inline std::vector<calligraphy::PenPath> copy_of(const calligraphy::Character& character) {
   std::vector<calligraphy::PenPath> paths;
   for (const calligraphy::Stroke& stroke : calligraphy::strokes(character)) {
@@ -64,7 +64,7 @@ inline std::vector<calligraphy::PenPath> copy_of(const calligraphy::Character& c
   return paths;
 }
 
-/// A pen that draws each path at 0.5 em/s, 0.3 s in the air before each.
+/// A pen that draws each path at 0.5 em/s, with 0.3 s in the air before it.
 inline calligraphy::PenTrace trace_of(char32_t code, const std::vector<calligraphy::PenPath>& paths) {
   calligraphy::PenTrace trace{code, "made-up", 1000.0, {}};
   double time = 0.0;

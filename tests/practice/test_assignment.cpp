@@ -22,7 +22,7 @@ double sum(const Costs& costs, std::size_t columns, double unmatched,
   return total;
 }
 
-/// Every way there is.
+/// Tries every assignment.
 double least(const Costs& costs, std::size_t columns, double unmatched, std::size_t row, std::vector<bool>& taken) {
   if (row == costs.size()) {
     return unmatched * static_cast<double>(std::count(taken.begin(), taken.end(), false));
@@ -39,7 +39,7 @@ double least(const Costs& costs, std::size_t columns, double unmatched, std::siz
 
 }  // namespace
 
-TEST_CASE("an assignment costs as little as the best of all there are", "[practice]") {
+TEST_CASE("an assignment has the minimum cost of all assignments", "[practice]") {
   calligraphy_test::Sequence random(3);
   for (int run = 0; run < 400; ++run) {
     const auto rows = static_cast<std::size_t>(random.between(0, 6)),

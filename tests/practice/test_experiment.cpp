@@ -1,4 +1,4 @@
-// The paper's result (Wang 2006, Table 5, Figs. 37 and 38), unforced: the writer does not know the mode.
+// Reproduces the paper's result (Wang 2006, Table 5, Figs. 37 and 38) with a writer that does not know the mode.
 #include <cmath>
 #include <cstdio>
 
@@ -13,7 +13,7 @@ using calligraphy_test::session;
 namespace {
 
 #if defined(__SANITIZE_ADDRESS__)
-constexpr int seeds = 2;  // the claim is made with 20; here only memory is watched
+constexpr int seeds = 2;  // sanitizer builds check memory only; the claim is tested with 20
 constexpr const char* text = "北永书";
 #else
 constexpr int seeds = 20;
@@ -25,23 +25,23 @@ struct Sums {
   double sum = 0.0, square = 0.0;
   void add(double value) { ++count, sum += value, square += value * value; }
   double mean() const { return sum / count; }
-  /// Half width of the 95 % interval of the mean; the normal quantile, for hundreds of pairs.
+  /// Half width of the 95 % confidence interval of the mean, by the normal quantile: there are hundreds of pairs.
   double half_width() const { return 1.96 * std::sqrt((square - sum * sum / count) / (count - 1.0) / count); }
 };
 
 }  // namespace
 
-TEST_CASE("force makes an unskilled writer's error and time smaller on every character's mean", "[practice]") {
+TEST_CASE("force reduces an unskilled writer's mean error and time on every character", "[practice]") {
   Sums error_reduction, time_reduction;
   for (const Character& character : calligraphy_test::characters(text)) {
-    const Page page = lay_out(std::span(&character, 1)).front();
+    const PracticePage page = lay_out(std::span(&character, 1)).front();
     Sums error[2], time[2];
     for (int seed = 1; seed <= seeds; ++seed) {
       CharacterScore result[2];
-      for (const Mode mode : {Mode::vision, Mode::force}) {
+      for (const FeedbackMode mode : {FeedbackMode::vision, FeedbackMode::force}) {
         const auto i = static_cast<std::size_t>(mode);
         result[i] =
-            score(page, write_page(page, session(WriterSkill::novice(), mode, static_cast<std::uint64_t>(seed))))
+            score_page(page, write_page(page, session(WriterSkill::novice(), mode, static_cast<std::uint64_t>(seed))))
                 .front();
         CHECK(result[i].strokes_completed == result[i].stroke_count);
         error[i].add(result[i].rms_error);

@@ -1,5 +1,5 @@
-// The extremes of a device, a loop and a page, each with its outcome, over the default composition and over everything
-// switched on. Samples that no pen gives, faults and days of work: tests/render and tests/soak.
+// Extremes of a device, a loop and a page, with the default options and with every stage enabled. For impossible
+// samples, faults and long runs see tests/render and tests/soak.
 #include "../catch.hpp"
 
 #include <cmath>
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <calligraphy/calligraphy.hpp>
+#include <calligraphy/devices/detail/flush_denormals.hpp>
 
 #include "../special_values.hpp"
 #include "hard_cases.hpp"
@@ -22,7 +23,7 @@ namespace {
 
 using calligraphy_test::infinity;
 using calligraphy_test::not_a_number;
-constexpr Hand normal_grip = {0.1, 3.0, 300.0};
+constexpr GripImpedance normal_grip = {0.1, 3.0, 300.0};
 
 struct Composition {
   const char* name;
@@ -33,12 +34,12 @@ const std::vector<Composition> compositions = {{"default", RendererOptions::for_
 
 PlacedCharacter one_stroke() { return {calligraphy_test::typical_character(1), {{0.02, 0.02}, 0.04}}; }
 
-/// A hand that writes a heng beside its place, in closed loop, however fast the servo.
+/// A hand that writes a heng beside its template, in closed loop at any servo rate.
 struct Writing {
   std::vector<Vector3d> forces, places;  ///< every 10 ms, page
-  double largest_force = 0.0, largest_step = 0.0, step_limit = 0.0;
+  double max_force = 0.0, max_step = 0.0, step_limit = 0.0;
   bool finite = true, finished = false;
-  double late_swing = 0.0;  ///< of the pen along z, in the last 0.3 s of a rest on the paper [m]
+  double late_swing = 0.0;  ///< peak-to-peak motion along z in the last 0.3 s of a rest on the paper [m]
   RendererOptions options;
 };
 
@@ -48,7 +49,7 @@ Writing write_beside(const Capabilities& profile, RendererOptions options, doubl
   HapticRenderer renderer({one_stroke()}, mapping, profile, options);
   const auto path = path_of(strokes(renderer.page()[0].character)[0], renderer.page()[0].placement, 0.0001);
   const Point begin = path.front() + Point(0.0, offset), end = path.back() + Point(0.0, offset);
-  // Down in 0.2 s, along the stroke in 1 s, a rest of 0.8 s on the way at its middle.
+  // Down in 0.2 s, along the stroke in 1 s, with a rest of 0.8 s at its middle.
   const auto meant = [&](double t) -> Vector3d {
     const auto smooth = [](double s) {
       s = std::clamp(s, 0.0, 1.0);
@@ -70,10 +71,10 @@ Writing write_beside(const Capabilities& profile, RendererOptions options, doubl
   for (int i = 0; i < ticks; ++i) {
     const HapticTick& tick = renderer.update(device.read());
     writing.finite = writing.finite && tick.force.allFinite();
-    writing.largest_force = std::max(writing.largest_force, tick.force.norm());
-    writing.largest_step = std::max(writing.largest_step, (tick.force - last).norm());
+    writing.max_force = std::max(writing.max_force, tick.force.norm());
+    writing.max_step = std::max(writing.max_step, (tick.force - last).norm());
     last = tick.force;
-    writing.finished = writing.finished || has(tick.events, TickEvent::stroke_finished);
+    writing.finished = writing.finished || has_event(tick.events, TickEvent::stroke_finished);
     const double t = i * period;
     if (i % between == 0) {
       writing.forces.push_back(tick.page_force);
@@ -93,7 +94,7 @@ Writing write_beside(const Capabilities& profile, RendererOptions options, doubl
   return writing;
 }
 
-/// Root mean square of the difference of two histories, and of the first.
+/// RMS of the difference of two histories, and of one.
 double rms_difference(const std::vector<Vector3d>& a, const std::vector<Vector3d>& b) {
   double sum = 0.0;
   const std::size_t count = std::min(a.size(), b.size());
@@ -107,14 +108,14 @@ double rms(const std::vector<Vector3d>& a) {
 void check_kept(const Writing& writing, const Capabilities& profile) {
   CHECK(writing.finite);
   CHECK(writing.finished);
-  CHECK(writing.largest_force <= profile.peak_force * (1.0 + 1e-12));
-  CHECK(writing.largest_step <= writing.step_limit * (1.0 + 1e-9));
+  CHECK(writing.max_force <= profile.peak_force * (1.0 + 1e-12));
+  CHECK(writing.max_step <= writing.step_limit * (1.0 + 1e-9));
 }
 
 }  // namespace
 
-TEST_CASE("the same hand is led the same way at every rate, to what a person can tell", "[practice][extremes]") {
-  // The stiffness is one that every rate is stable with, so that the rate alone differs.
+TEST_CASE("at every rate a hand is guided the same, to within what a person can tell", "[practice][extremes]") {
+  // The stiffness is stable at every rate, so that only the rate differs.
   const Capabilities& profile = device_profile("desktop");
   for (const Composition& composition : compositions) {
     RendererOptions options = composition.options(profile);
@@ -128,7 +129,7 @@ TEST_CASE("the same hand is led the same way at every rate, to what a person can
       const Writing writing = write_beside(profile, options, 0.003);
       CAPTURE(composition.name, rate, writing.late_swing);
       check_kept(writing, profile);
-      // At 100 Hz a held force is 5 ms old on the way down and up; JNDs go from 6 to 10 %.
+      // At 100 Hz a held force is 5 ms old on average; force JNDs are 6 to 10 %.
       const double just_noticeable = rate < 500.0 ? 0.1 : 0.05;
       CHECK(rms_difference(writing.forces, reference.forces) <= just_noticeable * rms(reference.forces));
       CHECK(rms_difference(writing.places, reference.places) <= 0.05 * 0.003);
@@ -152,7 +153,7 @@ TEST_CASE("with delays of 0 to 5 samples the stiffness is clipped and a pen pres
   }
 }
 
-TEST_CASE("at the stiffness that is let through no encoder step keeps up a swing", "[practice][extremes]") {
+TEST_CASE("at the accepted stiffness no encoder step sustains an oscillation", "[practice][extremes]") {
   for (const Composition& composition : compositions) {
     for (const double step : {1e-6, 23e-6, 55e-6, 200e-6}) {
       Capabilities profile = device_profile("omni");
@@ -165,7 +166,7 @@ TEST_CASE("at the stiffness that is let through no encoder step keeps up a swing
   }
 }
 
-TEST_CASE("every stiffness has a defined outcome: taken, clipped with its reason, or refused by name",
+TEST_CASE("every stiffness has a defined outcome: accepted, clipped with a reason, or rejected by name",
           "[practice][extremes]") {
   const Capabilities& capabilities = device_profile("omni");
   for (const Composition& composition : compositions) {
@@ -175,7 +176,7 @@ TEST_CASE("every stiffness has a defined outcome: taken, clipped with its reason
       for (const double value : {not_a_number, -1e-300, -600.0, infinity}) {
         RendererOptions options = base;
         options.*stiffness = value;
-        for (const StiffnessCheck check : {StiffnessCheck::refuse, StiffnessCheck::clip}) {
+        for (const StiffnessCheck check : {StiffnessCheck::reject, StiffnessCheck::clip}) {
           options.stiffness_check = check;
           CHECK_THROWS_WITH(HapticRenderer({one_stroke()}, {}, capabilities, options),
                             Catch::Matchers::Contains("stiffness = "));
@@ -202,7 +203,7 @@ TEST_CASE("every stiffness has a defined outcome: taken, clipped with its reason
 }
 
 TEST_CASE(
-    "at a rate too low for the stiffness, it is clipped to nine tenths of the critical one, and the reason says so",
+    "at a rate too low for it, the stiffness is clipped to nine tenths of the critical stiffness with that reason",
     "[practice][extremes]") {
   const Capabilities& capabilities = device_profile("omni");
   RendererOptions options;
@@ -218,8 +219,9 @@ TEST_CASE(
 
 namespace {
 
-/// Swing along z of a pen that was tapped onto the paper beside the stroke and is held pressed [m].
-double swing_after_a_tap(const Capabilities& profile, const RendererOptions& options, const Hand& grip, double speed) {
+/// Peak-to-peak motion along z of a pen tapped onto the paper beside the stroke and held pressed [m].
+double swing_after_a_tap(const Capabilities& profile, const RendererOptions& options, const GripImpedance& grip,
+                         double speed) {
   HapticRenderer renderer({one_stroke()}, {}, profile, options);
   const Eigen::AlignedBox2d box = bounding_box(renderer.page()[0]);
   const Vector3d above(box.center().x(), box.max().y() + 0.003, 0.01);
@@ -240,7 +242,7 @@ double swing_after_a_tap(const Capabilities& profile, const RendererOptions& opt
 
 }  // namespace
 
-TEST_CASE("paper stiffer than the limits of the force's rate and jerk can follow is clipped, and a tap on it dies away",
+TEST_CASE("paper too stiff for the force rate and jerk limits is clipped, and the oscillation of a tap decays",
           "[practice][extremes]") {
   Capabilities profile = device_profile("desktop");
   profile.usable_stiffness = 0.0;
@@ -255,7 +257,8 @@ TEST_CASE("paper stiffer than the limits of the force's rate and jerk can follow
       CHECK(renderer.options().paper_stiffness <= options.normal_force_rate / 0.2);
       CHECK_THAT(renderer.clipped().back(), Catch::Matchers::Contains("normal_force_rate = 400") ||
                                                 Catch::Matchers::Contains("critical_stiffness"));
-      for (const Hand& grip : {Hand{0.05, 1.0, 100.0}, normal_grip, Hand{0.15, 5.0, 500.0}}) {
+      for (const GripImpedance& grip :
+           {GripImpedance{0.05, 1.0, 100.0}, normal_grip, GripImpedance{0.15, 5.0, 500.0}}) {
         for (const double speed : {0.1, 0.2, 0.4}) {
           CAPTURE(rate, jerk, grip.mass, speed, renderer.options().paper_stiffness);
           CHECK(swing_after_a_tap(profile, renderer.options(), grip, speed) < 1e-5);
@@ -265,13 +268,13 @@ TEST_CASE("paper stiffer than the limits of the force's rate and jerk can follow
   }
 }
 
-TEST_CASE("hard curves as strokes are refused by name or written with finite forces", "[practice][extremes]") {
+TEST_CASE("adversarial curves as strokes are rejected by name or written with finite forces", "[practice][extremes]") {
   const Capabilities& profile = device_profile("desktop");
   int written = 0;
   for (const Composition& composition : compositions) {
     for (const calligraphy_test::HardCurve& hard : calligraphy_test::hard_curves()) {
       if (hard.control_points.size() != 4) continue;
-      // As the pie, one cubic, brought into the unit square.
+      // As a pie, one cubic, mapped into the unit square.
       Point low = hard.control_points[0], high = low;
       for (const Point& point : hard.control_points) {
         low = low.cwiseMin(point);
@@ -288,7 +291,7 @@ TEST_CASE("hard curves as strokes are refused by name or written with finite for
         bool finite = true, stepped = false;
         calligraphy_test::Sequence random(5);
         for (int i = 0; i < 4000; ++i) {
-          // From the start over the curve, and across it.
+          // Along the curve from its start, then scattered around it.
           const double t = 0.001 * (i % 1000);
           Point tip = renderer.page()[0].placement.to_page(Bezier<3>{
               {input.control_points[0], input.control_points[1], input.control_points[2],
@@ -314,7 +317,7 @@ TEST_CASE("hard curves as strokes are refused by name or written with finite for
   CHECK(written > 0);
 }
 
-TEST_CASE("denormal places, depths and stiffnesses give finite forces, with and without flushing",
+TEST_CASE("denormal positions, depths and stiffnesses give finite forces, with and without flushing",
           "[practice][extremes]") {
   const Capabilities& capabilities = device_profile("desktop");
   for (const Composition& composition : compositions) {
@@ -334,17 +337,18 @@ TEST_CASE("denormal places, depths and stiffnesses give finite forces, with and 
   }
 }
 
-TEST_CASE("a servo thread takes denormal numbers as zero, and only while it is told to", "[practice][extremes]") {
+TEST_CASE("FlushDenormals treats denormal inputs and results as zero, only during its lifetime",
+          "[practice][extremes]") {
   if (!FlushDenormals::available()) {
-    WARN("this processor has no such mode");
+    WARN("skipped: this processor cannot flush denormals");
     return;
   }
   volatile double small = 1e-310, half = 0.5, least = 2.3e-308;
   CHECK(small * half != 0.0);
   {
     const FlushDenormals as_a_servo_thread;
-    CHECK(small * half == 0.0);  // in
-    CHECK(least * half == 0.0);  // out
+    CHECK(small * half == 0.0);  // input
+    CHECK(least * half == 0.0);  // result
   }
   CHECK(small * half != 0.0);
   CHECK(least * half != 0.0);

@@ -1,5 +1,5 @@
-// A novice who believes the character to be somewhere else: what guidance for large deviations makes of it, against the
-// linear law (Wang 2006, sec. 7.3, the limit that the authors admit).
+// Guidance for large deviations compared with the linear law, for a novice who believes the character to be elsewhere
+// (Wang 2006, sec. 7.3, a limitation that the authors state).
 #include "../catch.hpp"
 
 #include <cmath>
@@ -25,16 +25,16 @@ constexpr int deviating_seeds = 8;
 const char* const deviating_text = "永北京木国大";
 #endif
 
-/// What the pages of one law and one bias add up to.
+/// Totals over the pages of one law and one bias.
 struct Outcome {
   int strokes = 0, completed = 0, at_once = 0, faults = 0;
-  double square = 0.0, way = 0.0;  ///< distance from the stroke that is due, over all that was drawn on the paper
+  double square = 0.0, way = 0.0;  ///< distance from the expected stroke, integrated along the path on the paper
   double peak = 0.0, step = 0.0;
 
   double share_at_once() const { return at_once / static_cast<double>(strokes); }
   double rms() const { return std::sqrt(square / way); }
 
-  void add(const Page& page, const Recording& recording) {
+  void add(const PracticePage& page, const Recording& recording) {
     strokes += page.characters.front().character.stroke_count();
     const auto drawn = calligraphy::strokes(page.characters.front().character);
     const Placement& placement = page.characters.front().placement;
@@ -42,9 +42,9 @@ struct Outcome {
     int loaded = -1, contacts = 0;
     Eigen::Vector3d force = Eigen::Vector3d::Zero();
     Point last = recording.samples.front().pen_tip.head<2>();
-    for (const Sample& sample : recording.samples) {
-      contacts += has(sample.events, TickEvent::contact);
-      if (has(sample.events, TickEvent::stroke_finished)) {
+    for (const RecordedSample& sample : recording.samples) {
+      contacts += has_event(sample.events, TickEvent::contact);
+      if (has_event(sample.events, TickEvent::stroke_finished)) {
         ++completed;
         at_once += contacts == 1;
         contacts = 0;
@@ -92,7 +92,7 @@ Outcome write(const std::string& device, Law law, double bias) {
   session.skill.bias = bias;
   Outcome outcome;
   for (const Character& character : calligraphy_test::characters(deviating_text)) {
-    const Page page = lay_out(std::span(&character, 1)).front();
+    const PracticePage page = lay_out(std::span(&character, 1)).front();
     for (int seed = 1; seed <= deviating_seeds; ++seed) {
       session.seed = static_cast<std::uint64_t>(seed);
       outcome.add(page, write_page(page, session));
@@ -103,7 +103,7 @@ Outcome write(const std::string& device, Law law, double bias) {
 
 }  // namespace
 
-TEST_CASE("guidance for large deviations completes more strokes at once and keeps nearer to them than the linear law",
+TEST_CASE("guidance for large deviations completes more strokes at once and closer to them than the linear law",
           "[practice]") {
   for (const std::string device : {"desktop", "omni"}) {
     const Capabilities& capabilities = device_profile(device);

@@ -25,14 +25,14 @@ namespace {
 
 constexpr double period = 1e-3;  // [s]
 
-/// A device with a scheduler of its own, as a vendor's has, and a person who holds it: in virtual time, but in step
-/// with whoever watches, so that nothing is lost however slow the machine is.
+/// A device with its own scheduler, like that of a vendor, held by a simulated writer. It runs in virtual time but in
+/// step with the watching thread, so that no tick is lost on a slow machine.
 class HeldDevice final : public HapticDevice, public ServoClock {
  public:
-  explicit HeldDevice(const Page& page, const WriterSkill& skill = WriterSkill::skilled(), double rate = 1000.0)
+  explicit HeldDevice(const PracticePage& page, const WriterSkill& skill = WriterSkill::skilled(), double rate = 1000.0)
       : period_(1.0 / rate),
         mapping_(upright_page(page.width, page.height)),
-        device_(device_profile("desktop"), skill.hand, mapping_.to_device({0.5 * page.width, 0.5 * page.height, 0.02})),
+        device_(device_profile("desktop"), skill.grip, mapping_.to_device({0.5 * page.width, 0.5 * page.height, 0.02})),
         eyes_(page.characters, mapping_, device_.capabilities(), RendererOptions::for_device(device_.capabilities())),
         writer_(page, skill, 1) {}
   ~HeldDevice() override { HeldDevice::stop(); }
@@ -49,7 +49,7 @@ class HeldDevice final : public HapticDevice, public ServoClock {
   }
   void write(const Eigen::Vector3d& force) noexcept override {
     last_force = force;
-    largest_force = std::max(largest_force, force.norm());
+    max_force = std::max(max_force, force.norm());
     device_.write(force);
   }
   void close() noexcept override { device_.close(); }
@@ -72,19 +72,19 @@ class HeldDevice final : public HapticDevice, public ServoClock {
   }
   bool running() const noexcept override { return thread_.joinable(); }
 
-  /// Of the watching thread: the next ticks may come.
+  /// Called by the watching thread: permits the next ticks.
   void seen() { ++glances_; }
   std::uint64_t ticks() const { return ticks_; }
 
   double unplugged_after = 0.0;  ///< for 0.3 s; 0: never [s]
   double behind_until = 0.0;     ///< the pen is behind the paper [s]
-  double largest_force = 0.0;    ///< [N]
+  double max_force = 0.0;        ///< [N]
   Eigen::Vector3d last_force = Eigen::Vector3d::Zero();
 
  private:
   void move() {
     const HapticTick& tick = eyes_.update(device_.read());
-    const Sight sight{tick.pen_tip, tick.character, tick.stroke, tick.state == InteractionState::writing};
+    const VisualFeedback sight{tick.pen_tip, tick.character, tick.stroke, tick.state == InteractionState::writing};
     const Intention next = writer_.update(sight, period_);
     device_.set_intention({mapping_.to_device(next.position), mapping_.rotation.transpose() * next.velocity});
     device_.advance(period_);
@@ -108,7 +108,7 @@ class HeldDevice final : public HapticDevice, public ServoClock {
 LiveOptions watched(HeldDevice& device, std::vector<LiveView>* views = nullptr) {
   LiveOptions options;
   options.renderer = RendererOptions::for_device(device.capabilities());
-  options.servo.servo.patience = 1.0;  // of a watchdog by the wall clock, which virtual time does not keep
+  options.servo.servo.timeout = 1.0;  // the watchdog uses the wall clock, which virtual time does not follow
   options.watch = [&device, views](const LiveView& view) {
     if (views) views->push_back(view);
     device.seen();
@@ -119,48 +119,48 @@ LiveOptions watched(HeldDevice& device, std::vector<LiveView>* views = nullptr) 
 
 }  // namespace
 
-TEST_CASE("a page is written with a device that has its own clock, and every tick is recorded") {
-  const Page page = page_of("十");
+TEST_CASE("a page is written on a device with its own clock, and every tick is recorded") {
+  const PracticePage page = page_of("十");
   HeldDevice device(page);
   std::vector<LiveView> views;
   const LiveResult result = write_with_device(page, device, watched(device, &views));
   CHECK(result.dropped == 0);
-  CHECK(result.recording.samples.size() <= result.statistics.ticks);  // while the force falls in the end none is asked
-  const CharacterScore written = score(page, result.recording).front();
+  CHECK(result.recording.samples.size() <= result.statistics.ticks);  // none during the final ramp-down of the force
+  const CharacterScore written = score_page(page, result.recording).front();
   CHECK(written.strokes_completed == 2);
   CHECK(written.mistakes.empty());
-  CHECK(device.largest_force > 0.1);
+  CHECK(device.max_force > 0.1);
   REQUIRE(!views.empty());
-  CHECK(views.back().share == 1.0);
-  for (std::size_t i = 1; i < views.size(); ++i) CHECK(views[i].share >= views[i - 1].share);
-  const std::vector<Sample>& samples = result.recording.samples;
+  CHECK(views.back().progress == 1.0);
+  for (std::size_t i = 1; i < views.size(); ++i) CHECK(views[i].progress >= views[i - 1].progress);
+  const std::vector<RecordedSample>& samples = result.recording.samples;
   for (std::size_t i = 1; i < samples.size(); ++i) {
     REQUIRE(samples[i].time - samples[i - 1].time == Approx(period).margin(1e-9));
   }
 }
 
 TEST_CASE("after a session the force is zero and the device still open") {
-  const Page page = page_of("十");
+  const PracticePage page = page_of("十");
   HeldDevice device(page);
   LiveOptions options = watched(device);
   int glances = 0;
   options.watch = [&](const LiveView&) {
     device.seen();
-    return ++glances < 8;  // in the midst of a stroke
+    return ++glances < 8;  // in the middle of a stroke
   };
   const LiveResult result = write_with_device(page, device, options);
-  CHECK(score(page, result.recording).front().strokes_completed < 2);
+  CHECK(score_page(page, result.recording).front().strokes_completed < 2);
   CHECK(!device.running());
   CHECK(device.last_force.isZero(0.0));
   CHECK(result.statistics.ticks + result.statistics.idle_ticks == device.ticks());  // nothing has moved since
   CHECK(device.read().status == DeviceStatus::ok);
 }
 
-TEST_CASE("what the device did since the last glance is recorded too") {
-  const Page page = page_of("十");
+TEST_CASE("ticks since the last call of watch are recorded too") {
+  const PracticePage page = page_of("十");
   HeldDevice device(page);
   LiveOptions options = watched(device);
-  options.watch = [&](const LiveView&) {  // the first glance saw 200 ticks at most
+  options.watch = [&](const LiveView&) {  // the first call sees at most 200 ticks
     device.seen();
     while (device.ticks() < 400) std::this_thread::yield();
     return false;
@@ -168,11 +168,11 @@ TEST_CASE("what the device did since the last glance is recorded too") {
   CHECK(write_with_device(page, device, options).recording.samples.size() > 200);
 }
 
-TEST_CASE("ticks that the recording lacks are counted") {
-  const Page page = page_of("十");
+TEST_CASE("ticks missing from the recording are counted") {
+  const PracticePage page = page_of("十");
   HeldDevice device(page);
   LiveOptions options = watched(device);
-  constexpr std::uint64_t away = 4000;  // twice as long as ticks are kept for
+  constexpr std::uint64_t away = 4000;  // twice the capacity of the queue
   options.watch = [&](const LiveView&) {
     while (device.ticks() < away) device.seen();
     return false;
@@ -182,47 +182,47 @@ TEST_CASE("ticks that the recording lacks are counted") {
   CHECK(result.recording.samples.size() + result.dropped > away / 2);
 }
 
-TEST_CASE("no force goes beyond the peak that was asked for") {
-  const Page page = page_of("十");
+TEST_CASE("no force exceeds the requested peak") {
+  const PracticePage page = page_of("十");
   HeldDevice device(page);
   LiveOptions options = watched(device);
   options.peak_force = 0.3;
   const LiveResult result = write_with_device(page, device, options);
-  CHECK(score(page, result.recording).front().strokes_completed == 2);
-  CHECK(device.largest_force > 0.1);
-  CHECK(device.largest_force <= 0.3 + 1e-12);
+  CHECK(score_page(page, result.recording).front().strokes_completed == 2);
+  CHECK(device.max_force > 0.1);
+  CHECK(device.max_force <= 0.3 + 1e-12);
 }
 
-TEST_CASE("a pen that comes from an inkwell behind the paper has written nothing on its way") {
-  const Page page = page_of("十");
+TEST_CASE("a pen that comes out of an inkwell behind the paper writes nothing on its way") {
+  const PracticePage page = page_of("十");
   HeldDevice device(page);
   device.behind_until = 0.2;
   std::vector<LiveView> views;
   const LiveResult result = write_with_device(page, device, watched(device, &views));
   REQUIRE(views.size() > 2);
-  CHECK_FALSE(views.front().begun);
-  CHECK(views.back().begun);
-  CHECK(std::is_partitioned(views.begin(), views.end(), [](const LiveView& view) { return !view.begun; }));
-  const CharacterScore written = score(page, result.recording).front();
+  CHECK_FALSE(views.front().started);
+  CHECK(views.back().started);
+  CHECK(std::is_partitioned(views.begin(), views.end(), [](const LiveView& view) { return !view.started; }));
+  const CharacterScore written = score_page(page, result.recording).front();
   CHECK(written.strokes_completed == 2);
   CHECK(written.mistakes.empty());
   REQUIRE(!result.recording.samples.empty());
   CHECK(result.recording.samples.front().device_point.z() > 0.0);
 }
 
-TEST_CASE("with vision alone the hand feels nothing") {
-  const Page page = page_of("一");
+TEST_CASE("with vision alone no force is sent") {
+  const PracticePage page = page_of("一");
   HeldDevice device(page);
   LiveOptions options = watched(device);
-  options.mode = Mode::vision;
+  options.mode = FeedbackMode::vision;
   const LiveResult result = write_with_device(page, device, options);
-  CHECK(score(page, result.recording).front().strokes_completed == 1);
-  CHECK(device.largest_force == 0.0);
-  for (const Sample& sample : result.recording.samples) REQUIRE(sample.force.isZero(0.0));
+  CHECK(score_page(page, result.recording).front().strokes_completed == 1);
+  CHECK(device.max_force == 0.0);
+  for (const RecordedSample& sample : result.recording.samples) REQUIRE(sample.force.isZero(0.0));
 }
 
-TEST_CASE("a device that is unplugged for a while is named, and the page is written all the same") {
-  const Page page = page_of("十");
+TEST_CASE("a device unplugged for a moment is reported, and the page is completed") {
+  const PracticePage page = page_of("十");
   HeldDevice device(page);
   device.unplugged_after = 1.5;
   std::vector<LiveView> views;
@@ -230,12 +230,12 @@ TEST_CASE("a device that is unplugged for a while is named, and the page is writ
   CHECK(result.statistics.fault_count(DeviceFault::unplugged) == 1);
   CHECK(std::any_of(views.begin(), views.end(),
                     [](const LiveView& view) { return view.servo.fault == DeviceFault::unplugged; }));
-  CHECK(score(page, result.recording).front().strokes_completed == 2);
+  CHECK(score_page(page, result.recording).front().strokes_completed == 2);
 }
 
-TEST_CASE("a session goes by the rate of the renderer, however low") {
+TEST_CASE("a session runs at the rate of the renderer, however low") {
   constexpr double rate = 400.0;
-  const Page page = page_of("十");
+  const PracticePage page = page_of("十");
   HeldDevice device(page, WriterSkill::skilled(), rate);
   LiveOptions options = watched(device);
   options.renderer.servo_rate = rate;
@@ -244,20 +244,20 @@ TEST_CASE("a session goes by the rate of the renderer, however low") {
     device.seen();
     return ++glances < 3;
   };
-  SECTION("of the loop and of the recording") {
+  SECTION("the loop and the recording") {
     const LiveResult result = write_with_device(page, device, options);
     CHECK(result.recording.rate == rate);
     CHECK(result.statistics.ticks > 0);
     CHECK(result.statistics.missed_deadlines == 0);
   }
-  SECTION("with a patience of ticks enough") {
+  SECTION("with a timeout of enough ticks") {
     options.servo = {};  // 4 ms
     CHECK_NOTHROW(write_with_device(page, device, options));
   }
 }
 
-TEST_CASE("a session tells what the system did not permit, and measures its ticks") {
-  const Page page = page_of("一");
+TEST_CASE("a session reports what the system did not permit, and measures its ticks") {
+  const PracticePage page = page_of("一");
   HeldDevice device(page);
   LiveOptions options = watched(device);
   options.servo.thread.priority = 0;
@@ -265,18 +265,18 @@ TEST_CASE("a session tells what the system did not permit, and measures its tick
   const LiveResult result = write_with_device(page, device, options);
   CHECK(result.warnings == device.warnings());
   CHECK(std::any_of(result.recording.samples.begin(), result.recording.samples.end(),
-                    [](const Sample& sample) { return sample.tick_ns > 0; }));
+                    [](const RecordedSample& sample) { return sample.tick_ns > 0; }));
 }
 
-TEST_CASE("a session that takes too long is given up") {
-  const Page page = page_of("十");
+TEST_CASE("a session ends at its timeout") {
+  const PracticePage page = page_of("十");
   HeldDevice device(page);
   LiveOptions options = watched(device);
-  options.longest = 0.05;  // three glances of 200 ticks at most, and a stroke takes more
-  CHECK(score(page, write_with_device(page, device, options).recording).front().strokes_completed < 2);
+  options.timeout = 0.05;  // at most three calls of 200 ticks each; a stroke takes longer
+  CHECK(score_page(page, write_with_device(page, device, options).recording).front().strokes_completed < 2);
 }
 
-TEST_CASE("forces are lowered to a peak and never raised") {
+TEST_CASE("forces are limited to a peak and never raised") {
   Capabilities device;
   device.peak_force = 3.3;
   device.continuous_force = 0.88;
@@ -286,25 +286,25 @@ TEST_CASE("forces are lowered to a peak and never raised") {
   for (const Case c : {Case{0.5, 0.5, 0.5}, Case{2.0, 2.0, 0.88}, Case{5.0, 3.3, 0.88},
                        Case{std::numeric_limits<double>::infinity(), 3.3, 0.88}}) {
     CAPTURE(c.peak);
-    CHECK(limited(device, c.peak).peak_force == c.lowered_peak);
-    CHECK(limited(device, c.peak).continuous_force == c.lowered_continuous);
+    CHECK(with_peak_force(device, c.peak).peak_force == c.lowered_peak);
+    CHECK(with_peak_force(device, c.peak).continuous_force == c.lowered_continuous);
   }
-  for (const double peak : {0.0, -1.0, std::nan("")}) CHECK_THROWS_AS(limited(device, peak), ValueError);
+  for (const double peak : {0.0, -1.0, std::nan("")}) CHECK_THROWS_AS(with_peak_force(device, peak), ValueError);
 }
 
-TEST_CASE("a session without end is not begun") {
-  const Page page = page_of("十");
+TEST_CASE("a session without a finite timeout is rejected") {
+  const PracticePage page = page_of("十");
   HeldDevice device(page);
   LiveOptions options = watched(device);
-  for (const double longest : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
-    options.longest = longest;
+  for (const double timeout : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
+    options.timeout = timeout;
     CHECK_THROWS_AS(write_with_device(page, device, options), ValueError);
   }
   CHECK(!device.running());
 }
 
-TEST_CASE("a recording that is replayed gives the same ticks again") {
-  const Page page = page_of("十");
+TEST_CASE("replaying a recording reproduces its ticks") {
+  const PracticePage page = page_of("十");
   SessionOptions options;
   options.device = device_profile("desktop");
   options.renderer = RendererOptions::for_device(options.device);

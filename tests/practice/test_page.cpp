@@ -8,11 +8,11 @@
 using namespace calligraphy;
 using calligraphy_test::characters;
 
-TEST_CASE("every square lies on its page and none overlaps another", "[practice]") {
+TEST_CASE("every square lies on its page and no two overlap", "[practice]") {
   const PageLayout layout;
   const auto pages = lay_out(characters("永北京航空天大学和年中国书法"), layout);
   std::size_t placed = 0;
-  for (const Page& page : pages) {
+  for (const PracticePage& page : pages) {
     placed += page.characters.size();
     for (std::size_t i = 0; i < page.characters.size(); ++i) {
       const Placement& place = page.characters[i].placement;
@@ -29,7 +29,7 @@ TEST_CASE("every square lies on its page and none overlaps another", "[practice]
   CHECK(placed == 14);
 }
 
-TEST_CASE("characters are read left to right and top to bottom, in the order of the text", "[practice]") {
+TEST_CASE("characters run left to right and top to bottom, in the order of the text", "[practice]") {
   const auto page = lay_out(characters("永北京航")).front();
   CHECK(page.characters[0].character.code == U'永');
   CHECK(page.characters[0].placement.origin.x() < page.characters[1].placement.origin.x());
@@ -37,21 +37,21 @@ TEST_CASE("characters are read left to right and top to bottom, in the order of 
   CHECK(page.characters[3].placement.origin.y() < page.characters[0].placement.origin.y());
 }
 
-TEST_CASE("a lone character stands in the middle of its page", "[practice]") {
+TEST_CASE("a single character is centred on its page", "[practice]") {
   const auto page = lay_out(characters("永")).front();
   const Placement& place = page.characters[0].placement;
   CHECK(place.origin.x() + 0.5 * place.em == Approx(0.5 * page.width));
   CHECK(place.origin.y() + 0.5 * place.em == Approx(0.5 * page.height));
 }
 
-TEST_CASE("no text makes no page", "[practice]") { CHECK(lay_out({}).empty()); }
+TEST_CASE("an empty text gives no page", "[practice]") { CHECK(lay_out({}).empty()); }
 
-TEST_CASE("a layout that cannot hold a character is refused with its numbers", "[practice]") {
+TEST_CASE("a layout that cannot hold a character is rejected", "[practice]") {
   const auto one = characters("永");
   PageLayout layout;
   SECTION("too large a square") { layout.em = 0.2; }
   SECTION("a negative width") { layout.width = -0.1; }
-  SECTION("a height that is no number") { layout.height = std::numeric_limits<double>::quiet_NaN(); }
+  SECTION("a height that is not a number") { layout.height = std::numeric_limits<double>::quiet_NaN(); }
   SECTION("an infinite gap") { layout.gap = std::numeric_limits<double>::infinity(); }
   SECTION("an em of zero") { layout.em = 0.0; }
   CHECK_THROWS_AS(lay_out(one, layout), ValueError);

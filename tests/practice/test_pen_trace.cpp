@@ -65,7 +65,7 @@ TEST_CASE("a pen trace is read in em, y up, and in seconds", "[practice]") {
   CHECK(traces[1].strokes[0].size() == 1);
 }
 
-TEST_CASE("a pen trace that was read and written is the same text", "[practice]") {
+TEST_CASE("reading and writing a pen trace reproduces the text", "[practice]") {
   const std::string text = written(read(good), "made up\nby hand");
   CHECK(text ==
         "# made up\n# by hand\n"
@@ -74,7 +74,7 @@ TEST_CASE("a pen trace that was read and written is the same text", "[practice]"
   CHECK(written(read(text)) == text.substr(text.find("C ")));
 }
 
-TEST_CASE("pen traces of people are written as they were read", "[practice][corpus]") {
+TEST_CASE("reading and writing people's pen traces reproduces the text", "[practice][corpus]") {
   const auto traces = calligraphy_test::traces_of_people();
   const std::string text = written(traces);
   CHECK(written(read(text)) == text);
@@ -93,14 +93,14 @@ TEST_CASE("pen traces do not depend on the locale", "[practice]") {
   CHECK(out.str() == expected);
 }
 
-TEST_CASE("what is no pen trace is refused at its line with its value", "[practice]") {
+TEST_CASE("an invalid pen trace is rejected naming the line and the value", "[practice]") {
   const auto line = [](const std::string& text) { return "C 一 4E00 made-up 1000 1\n" + text + "\n"; };
   struct Case {
     std::string text, where, value;
   };
   const Case cases[] = {
       {"X\n", "pens.txt:1:", "'X'"},
-      {" C 一 4E00 made-up 1000 1\n", "pens.txt:1:", "blank"},
+      {" C 一 4E00 made-up 1000 1\n", "pens.txt:1:", "extra space"},
       {"S 1 0 0 0\n", "pens.txt:1:", "before the first character"},
       {"C 一 4E01 made-up 1000 1\n", "pens.txt:1:", "4E01"},
       {"C \xff 4E00 made-up 1000 1\n", "pens.txt:1:", "UTF-8"},
@@ -115,7 +115,7 @@ TEST_CASE("what is no pen trace is refused at its line with its value", "[practi
       {"C 一 4E00 made-up 1000 1000000000\n", "pens.txt:1:", "1000000000"},
       {"C 一 4E00 made-up 1000 1 more\n", "pens.txt:1:", "more"},
       {"C 一 4E00 made-up 1000\n", "pens.txt:1:", "number of strokes"},
-      {line("S 2 0 0 0"), "pens.txt:2:", "should have x"},
+      {line("S 2 0 0 0"), "pens.txt:2:", "expected x"},
       {line("S 999999 0 0 0"), "pens.txt:2:", "too short for 999999"},
       {line("S 18446744073709551616 0 0 0"), "pens.txt:2:", "18446744073709551616"},
       {line("S 0"), "pens.txt:2:", "'0'"},
@@ -128,9 +128,9 @@ TEST_CASE("what is no pen trace is refused at its line with its value", "[practi
       {line("S 1 0 0 1e12"), "pens.txt:2:", "'1e12'"},
       {line("S 2 0 0 9 10 0 8.5"), "pens.txt:2:", "9 to 8.5"},
       {line("S 1 0 0 0\nS 1 0 0 0"), "pens.txt:3:", "too many"},
-      {"C 一 4E00 made-up 1000 2\nS 1 0 0 5\nC 一 4E00 made-up 1000 1\nS 1 0 0 0\n", "pens.txt:3:", "1 strokes of 2"},
+      {"C 一 4E00 made-up 1000 2\nS 1 0 0 5\nC 一 4E00 made-up 1000 1\nS 1 0 0 0\n", "pens.txt:3:", "1 of 2 strokes"},
       {"C 一 4E00 made-up 1000 2\nS 1 0 0 5\nS 1 0 0 4\n", "pens.txt:3:", "5 to 4"},
-      {"C 一 4E00 made-up 1000 2\nS 1 0 0 5\n", "pens.txt:3:", "1 strokes of 2"},
+      {"C 一 4E00 made-up 1000 2\nS 1 0 0 5\n", "pens.txt:3:", "1 of 2 strokes"},
   };
   for (const Case& each : cases) {
     CAPTURE(each.text);
@@ -140,7 +140,7 @@ TEST_CASE("what is no pen trace is refused at its line with its value", "[practi
   }
 }
 
-TEST_CASE("a pen trace cut off anywhere but at the end of a character is refused", "[practice]") {
+TEST_CASE("a pen trace truncated anywhere but at the end of a character is rejected", "[practice]") {
   const std::size_t first = good.find("C 一");
   for (std::size_t length = 0; length < good.size(); ++length) {
     CAPTURE(length);
@@ -149,7 +149,7 @@ TEST_CASE("a pen trace cut off anywhere but at the end of a character is refused
   }
 }
 
-TEST_CASE("random bytes are refused or read, and nothing else happens", "[practice]") {
+TEST_CASE("a file with a random byte is either read or rejected with FormatError", "[practice]") {
   std::string text = good;
   std::uint32_t state = 1;
   for (int i = 0; i < 3000; ++i) {
@@ -167,15 +167,15 @@ TEST_CASE("random bytes are refused or read, and nothing else happens", "[practi
   }
 }
 
-TEST_CASE("a pen trace that could not be read again is not written", "[practice]") {
+TEST_CASE("a pen trace that could not be read back is not written", "[practice]") {
   const PenTrace fine = read(good).back();
   PenTrace trace = fine;
   std::string named;
   SECTION("no stroke") { trace.strokes.clear(), named = "0 strokes"; }
   SECTION("no point") { trace.strokes[0].clear(), named = "0 points"; }
-  SECTION("falling time") { trace.strokes[0].push_back({Point(0, 0), 0.0}), named = "0.000000 s after 0.001000 s"; }
+  SECTION("decreasing time") { trace.strokes[0].push_back({Point(0, 0), 0.0}), named = "0.000000 s after 0.001000 s"; }
   SECTION("not finite") { trace.strokes[0][0].point.x() = std::nan(""), named = "nan"; }
-  SECTION("blank in the set") { trace.set = "a b", named = "'a b'"; }
+  SECTION("space in the set") { trace.set = "a b", named = "'a b'"; }
   SECTION("no character") { trace.character = 0xD800, named = "D800"; }
   SECTION("no em") { trace.em = 0.0, named = "em"; }
   try {
@@ -187,7 +187,7 @@ TEST_CASE("a pen trace that could not be read again is not written", "[practice]
   }
 }
 
-TEST_CASE("a file of pen traces that is not there is named", "[practice]") {
+TEST_CASE("a missing pen trace file is a FileError", "[practice]") {
   CHECK_THROWS_AS(read_pen_traces(std::string("none.txt")), FileError);
   CHECK_THROWS_AS(read_pen_traces(std::string("/")), FileError);
 }

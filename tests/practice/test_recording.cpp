@@ -38,13 +38,13 @@ const std::vector<double> hard_numbers = {0.0,
                                           -infinity,
                                           not_a_number};
 
-/// Every hard number in every place, every state, event and status.
+/// Every hard number in every column, every state, event and status.
 Recording hard_recording() {
   Recording recording;
   recording.rate = 1000.0 / 3.0;
   for (std::size_t i = 0; i < hard_numbers.size(); ++i) {
     const auto next = [i](std::size_t offset) { return hard_numbers[(i + offset) % hard_numbers.size()]; };
-    Sample sample;
+    RecordedSample sample;
     sample.time = next(0);
     sample.device_point = {next(1), next(2), next(3)};
     sample.pen_tip = {next(4), next(5), next(6)};
@@ -66,7 +66,7 @@ bool same(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return bits(a.x()) == bits(b.x()) && bits(a.y()) == bits(b.y()) && bits(a.z()) == bits(b.z());
 }
 
-bool same(const Sample& a, const Sample& b) {
+bool same(const RecordedSample& a, const RecordedSample& b) {
   return bits(a.time) == bits(b.time) && same(a.device_point, b.device_point) && same(a.pen_tip, b.pen_tip) &&
          same(a.force, b.force) && a.state == b.state && a.events == b.events && a.status == b.status &&
          a.character == b.character && a.stroke == b.stroke && a.tick_ns == b.tick_ns;
@@ -83,13 +83,13 @@ void check_same(const Recording& a, const Recording& b) {
 
 std::string csv(const Recording& recording) {
   std::ostringstream out;
-  write_csv(out, recording);
+  write_recording(out, recording);
   return out.str();
 }
 
 Recording parsed(const std::string& text) {
   std::istringstream in(text);
-  return read_csv(in, "trace.csv");
+  return read_recording(in, "trace.csv");
 }
 
 std::string error_of(const std::string& text) {
@@ -119,18 +119,18 @@ struct GermanNumbers : std::numpunct<char> {
 
 }  // namespace
 
-TEST_CASE("a recording is read from a regular file alone, and others are named", "[practice]") {
-  CHECK_THROWS_WITH(read_csv("/dev/zero"), "/dev/zero: is not a regular file");
-  CHECK_THROWS_WITH(read_csv("none.csv"), "none.csv: cannot be opened: No such file or directory");
+TEST_CASE("a recording is read only from a regular file, and the error names any other", "[practice]") {
+  CHECK_THROWS_WITH(read_recording("/dev/zero"), "/dev/zero: is not a regular file");
+  CHECK_THROWS_WITH(read_recording("none.csv"), "none.csv: cannot be opened: No such file or directory");
 }
 
-TEST_CASE("a recording read back is the same to the last bit", "[practice]") {
+TEST_CASE("a recording read back is identical to the last bit", "[practice]") {
   check_same(parsed(csv(hard_recording())), hard_recording());
   check_same(parsed(csv({})), {});
 
-  Recording longer{500.0, {}};  // more than is given to the stream at a time
+  Recording longer{500.0, {}};  // more than one chunk of output
   for (int i = 0; i < 2000; ++i) {
-    Sample sample;
+    RecordedSample sample;
     sample.time = i / 500.0;
     sample.device_point = {std::sin(i), std::cos(i), 1e-3 * i};
     longer.samples.push_back(sample);
@@ -138,8 +138,8 @@ TEST_CASE("a recording read back is the same to the last bit", "[practice]") {
   check_same(parsed(csv(longer)), longer);
 }
 
-TEST_CASE("the first line names columns and units, and a row is what it says", "[practice]") {
-  Sample sample;
+TEST_CASE("the first line names columns and units, and a row has these values", "[practice]") {
+  RecordedSample sample;
   sample.time = 0.5;
   sample.device_point = {1, 2, 3};
   sample.pen_tip = {4, 5, 6};
@@ -152,7 +152,7 @@ TEST_CASE("the first line names columns and units, and a row is what it says", "
   CHECK(same(parsed(head + row).samples.at(0), sample));
 }
 
-TEST_CASE("line ends of either kind are read", "[practice]") {
+TEST_CASE("both kinds of line endings are read", "[practice]") {
   std::string text;
   for (const char c : head + row + row) text += c == '\n' ? std::string("\r\n") : std::string(1, c);
   check_same(parsed(text), parsed(head + row + row));
@@ -179,7 +179,7 @@ TEST_CASE("malformed CSV is an error naming the line and the value", "[practice]
   CHECK(second(row, "\n").starts_with("trace.csv:4: expected 16 values, found 1 in ''"));
 }
 
-TEST_CASE("CSV that is not a recording is refused at the line that shows it", "[practice]") {
+TEST_CASE("CSV that is not a recording is rejected naming the line", "[practice]") {
   CHECK(error_of("").starts_with("trace.csv:1: expected 'time_s,"));
   CHECK(error_of("time,x\n1,2\n").ends_with("found 'time,x'"));
   CHECK(error_of(header) == "trace.csv:2: expected '# rate_Hz=...', found ''");
@@ -191,7 +191,7 @@ TEST_CASE("CSV that is not a recording is refused at the line that shows it", "[
   CHECK(error_of(header + "# rate_Hz=1k\n") == "trace.csv:2: rate_Hz is '1k': expected a number");
 }
 
-TEST_CASE("a file cut off anywhere within a line is refused", "[practice]") {
+TEST_CASE("a file truncated anywhere within a line is rejected", "[practice]") {
   const std::string text = head + row + row;
   for (std::size_t size = 0; size < text.size(); ++size) {
     CAPTURE(size);
@@ -200,14 +200,14 @@ TEST_CASE("a file cut off anywhere within a line is refused", "[practice]") {
   }
 }
 
-TEST_CASE("a stream that fails is not taken for the end of the file", "[practice]") {
+TEST_CASE("a failing stream is not mistaken for the end of the file", "[practice]") {
   struct Failing : std::stringbuf {
     using std::stringbuf::stringbuf;
     int_type underflow() override { throw 1; }
     int_type uflow() override { throw 1; }
   } buffer;
   std::istream in(&buffer);
-  CHECK_THROWS_AS(read_csv(in, "trace.csv"), FileError);
+  CHECK_THROWS_AS(read_recording(in, "trace.csv"), FileError);
 }
 
 TEST_CASE("CSV does not depend on the locale of streams", "[practice]") {
@@ -234,7 +234,7 @@ TEST_CASE("CSV does not depend on the locale of the C library", "[practice]") {
   const std::string expected = csv(hard_recording());
   const std::string before = std::setlocale(LC_ALL, nullptr);
   if (std::setlocale(LC_ALL, "de_DE.UTF-8") == nullptr && std::setlocale(LC_ALL, "de_DE.utf8") == nullptr) {
-    WARN("skipped: there is no locale de_DE.UTF-8 on this machine");
+    WARN("skipped: this machine has no locale de_DE.UTF-8");
     return;
   }
   const std::string text = csv(hard_recording());
@@ -256,7 +256,7 @@ TEST_CASE("device states are the device points in device axes, and faults stay f
   mapping.scale = 2.0;
   Recording recording;
   for (int i = 0; i < 4; ++i) {
-    Sample sample;
+    RecordedSample sample;
     sample.time = 0.25 * i;
     sample.device_point = {0.1 * i, 0.05, -0.001 * i};
     sample.pen_tip = {9, 9, 9};
@@ -268,7 +268,7 @@ TEST_CASE("device states are the device points in device axes, and faults stay f
   REQUIRE(states.size() == 4);
   for (std::size_t i = 0; i < 4; ++i) {
     CAPTURE(i);
-    const Sample& sample = recording.samples[i];
+    const RecordedSample& sample = recording.samples[i];
     CHECK(states[i].time == sample.time);
     CHECK(states[i].velocity.array().isNaN().all());
     CHECK(states[i].status == (i == 2 ? DeviceStatus::fault : DeviceStatus::ok));

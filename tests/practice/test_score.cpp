@@ -12,10 +12,10 @@ using calligraphy_test::page_of;
 
 namespace {
 
-/// A pen moved by hand through a renderer: no device, no writer, so that the truth is known.
+/// A pen moved directly through a renderer: no device, no writer, so that the ground truth is known.
 class Pen {
  public:
-  explicit Pen(const Page& page)
+  explicit Pen(const PracticePage& page)
       : page_(page),
         mapping_(upright_page(page.width, page.height)),
         renderer_(page.characters, mapping_, device_profile("ideal")) {
@@ -39,7 +39,7 @@ class Pen {
     hover(path.back());
   }
 
-  std::vector<CharacterScore> scores() const { return score(page_, recording_); }
+  std::vector<CharacterScore> scores() const { return score_page(page_, recording_); }
 
  private:
   void rest() { hover({0.5 * page_.width, 0.5 * page_.height}); }
@@ -48,14 +48,14 @@ class Pen {
   }
   void step(const Eigen::Vector3d& point) {
     DeviceState state;
-    state.time = static_cast<double>(recording_.samples.size()) * 1e-3 * 100;  // slow enough for any jump in the air
+    state.time = static_cast<double>(recording_.samples.size()) * 1e-3 * 100;  // slow enough for any motion in the air
     state.position = mapping_.to_device(point);
     const HapticTick& tick = renderer_.update(state);
     recording_.samples.push_back({tick.time, tick.device_point, tick.pen_tip, tick.page_force, tick.state, tick.events,
                                   tick.status, tick.character, tick.stroke, 0.0F});
   }
 
-  Page page_;
+  PracticePage page_;
   MotionMapping mapping_;
   HapticRenderer renderer_;
   Recording recording_;
@@ -74,7 +74,7 @@ TEST_CASE("a perfect copy has no error, no mistake and full fidelity", "[practic
 }
 
 TEST_CASE("a heng drawn 1 mm too high has a lateral error of 1 mm", "[practice]") {
-  const Page page = page_of("一");
+  const PracticePage page = page_of("一");
   const Point along = strokes(page.characters[0].character)[0].control_points[1] -
                       strokes(page.characters[0].character)[0].control_points[0];
   const Point across = 1e-3 * Point(-along.y(), along.x()).normalized();
@@ -87,7 +87,7 @@ TEST_CASE("a heng drawn 1 mm too high has a lateral error of 1 mm", "[practice]"
   CHECK(result.contour == Approx(std::exp(-0.5)).epsilon(1e-6));  // 1 mm of an em of 40 mm, against 5 %
 }
 
-TEST_CASE("a stroke written out of turn is an order mistake that names both strokes", "[practice]") {
+TEST_CASE("a stroke written out of order is an order mistake that names both strokes", "[practice]") {
   Pen pen(page_of("永"));
   pen.draw(0, 4);
   for (int stroke = 0; stroke < 5; ++stroke) pen.draw(0, stroke);
@@ -101,7 +101,7 @@ TEST_CASE("a stroke written out of turn is an order mistake that names both stro
   CHECK(result.internal_sequence == 1.0);
 }
 
-TEST_CASE("a stroke already written and written again is an order mistake", "[practice]") {
+TEST_CASE("a stroke written twice is an order mistake", "[practice]") {
   Pen pen(page_of("永"));
   pen.draw(0, 0);
   pen.draw(0, 1);
@@ -113,10 +113,10 @@ TEST_CASE("a stroke already written and written again is an order mistake", "[pr
   CHECK(result.strokes_completed == 5);
 }
 
-TEST_CASE("every stroke of every built-in character, written backwards, is a direction mistake and not taken",
+TEST_CASE("every stroke of every built-in character, written backwards, is a direction mistake and not accepted",
           "[practice]") {
   for (const Character& character : built_in_characters().characters) {
-    const Page page = lay_out(std::span(&character, 1)).front();
+    const PracticePage page = lay_out(std::span(&character, 1)).front();
     const auto drawn = strokes(character);
     for (int stroke = 0; stroke < character.stroke_count(); ++stroke) {
       const auto& points = drawn[static_cast<std::size_t>(stroke)].control_points;
@@ -134,7 +134,7 @@ TEST_CASE("every stroke of every built-in character, written backwards, is a dir
   }
 }
 
-TEST_CASE("a page half written scores what was written and nothing for the rest", "[practice]") {
+TEST_CASE("a partly written page scores what was written and zero for the rest", "[practice]") {
   Pen pen(page_of("永北"));
   for (int stroke = 0; stroke < 5; ++stroke) pen.draw(0, stroke);
   pen.draw(1, 0);
@@ -145,9 +145,9 @@ TEST_CASE("a page half written scores what was written and nothing for the rest"
   CHECK(results[1].contour == Approx(0.2).epsilon(1e-3));
 }
 
-TEST_CASE("an empty recording scores nothing", "[practice]") {
-  const Page page = page_of("永");
-  const auto results = score(page, Recording());
+TEST_CASE("an empty recording scores zero", "[practice]") {
+  const PracticePage page = page_of("永");
+  const auto results = score_page(page, Recording());
   REQUIRE(results.size() == 1);
   CHECK(results[0].strokes_completed == 0);
   CHECK(results[0].fidelity == 0.0);

@@ -7,12 +7,12 @@
 #include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/session.hpp>
-#include <calligraphy/practice/stroke_verdict.hpp>
-#include <calligraphy/practice/trace_hand.hpp>
+#include <calligraphy/practice/stroke_matching.hpp>
 
 #include "../catch.hpp"
 #include "pages.hpp"
 #include "pen_traces.hpp"
+#include "practice/trace_hand.hpp"
 
 using namespace calligraphy;
 using calligraphy_test::copy_of;
@@ -24,7 +24,7 @@ namespace {
 
 const Eigen::Vector3d start(0.08, 0.06, 0.02);
 
-double largest_traced_step(const Recording& recording) {
+double max_traced_step(const Recording& recording) {
   double largest = 0.0;
   for (std::size_t i = 1; i < recording.samples.size(); ++i) {
     largest = std::max(largest, (recording.samples[i].force - recording.samples[i - 1].force).norm());
@@ -32,18 +32,19 @@ double largest_traced_step(const Recording& recording) {
   return largest;
 }
 
-/// No fault, force and force step within their limits, and the hand came to its end.
+/// Checks that there is no fault, force and force step are within their limits, and the hand reaches its end.
 void check_bounded(const Character& character, const PenTrace& trace, const SessionOptions& options) {
-  const Page page = lay_out(std::span(&character, 1)).front();
+  const PracticePage page = lay_out(std::span(&character, 1)).front();
   const Recording recording = follow_trace(page, trace, options);
   const HapticRenderer renderer(page.characters, upright_page(page.width, page.height), options.device,
                                 options.renderer);
   CAPTURE(encode_utf8(trace.character), trace.strokes.size());
   REQUIRE(recording.samples.size() > 100);
-  CHECK(std::all_of(recording.samples.begin(), recording.samples.end(),
-                    [](const Sample& sample) { return sample.status == TickStatus::ok && sample.force.allFinite(); }));
-  CHECK(largest_traced_step(recording) <= renderer.max_force_step() * (1.0 + 1e-12));
-  CHECK(score(page, recording).front().peak_force <= options.device.peak_force);
+  CHECK(std::all_of(recording.samples.begin(), recording.samples.end(), [](const RecordedSample& sample) {
+    return sample.status == TickStatus::ok && sample.force.allFinite();
+  }));
+  CHECK(max_traced_step(recording) <= renderer.max_force_step() * (1.0 + 1e-12));
+  CHECK(score_page(page, recording).front().peak_force <= options.device.peak_force);
   const double written = trace.strokes.back().back().time - trace.strokes.front().front().time;
   CHECK(recording.samples.back().time > std::min(written, 1.0));
   CHECK(recording.samples.back().device_point.z() > 0.004);
@@ -51,8 +52,8 @@ void check_bounded(const Character& character, const PenTrace& trace, const Sess
 
 }  // namespace
 
-TEST_CASE("a hand on a trace is where the pen was, when it was there", "[practice]") {
-  const Page page = page_of("十");
+TEST_CASE("a hand on a trace is at the pen's recorded position at the recorded time", "[practice]") {
+  const PracticePage page = page_of("十");
   const PlacedCharacter& placed = page.characters.front();
   const PenTrace trace = trace_of(U'十', copy_of(placed.character));
   const TraceHand hand(trace, placed, start);
@@ -64,7 +65,7 @@ TEST_CASE("a hand on a trace is where the pen was, when it was there", "[practic
   double time = 0.0;
   for (const PenStroke& stroke : trace.strokes) {
     while (time < hand.duration() && !pressed(time)) time += step;
-    const double shift = time - stroke.front().time;  // right to a step, in which the pen moves 0.002 mm
+    const double shift = time - stroke.front().time;  // accurate to a step, in which the pen moves 0.002 mm
     for (const TimedPoint& timed : stroke) {
       const Point expected = placed.placement.to_page(map(timed.point));
       CHECK((hand.at(timed.time + shift).head<2>() - expected).norm() < 5e-6);
@@ -77,19 +78,19 @@ TEST_CASE("a hand on a trace is where the pen was, when it was there", "[practic
 }
 
 TEST_CASE("a hand on a trace never jumps", "[practice]") {
-  const Page page = page_of("永");
+  const PracticePage page = page_of("永");
   const TraceHand hand(trace_of(U'永', copy_of(page.characters.front().character)), page.characters.front(), start);
   for (double time = 0.0; time < hand.duration(); time += 1e-3) {
     CHECK((hand.at(time + 1e-3) - hand.at(time)).norm() < 0.6e-3);  // 0.6 m/s
   }
 }
 
-TEST_CASE("the pen-downs of a recording are its contacts, bounces and refused samples left out", "[practice]") {
+TEST_CASE("the pen-downs of a recording are its contacts, without bounces and rejected samples", "[practice]") {
   const Placement placement{{0.05, 0.04}, 0.04};
   Recording recording;
   const auto add = [&](double seconds, InteractionState state, TickStatus status = TickStatus::ok) {
     for (int i = 0; i < static_cast<int>(std::lround(seconds * 1e3)); ++i) {
-      Sample sample;
+      RecordedSample sample;
       sample.time = 1e-3 * static_cast<double>(recording.samples.size());
       sample.pen_tip = {0.06, 0.05, 0.0};
       sample.state = state;
@@ -113,7 +114,7 @@ TEST_CASE("the pen-downs of a recording are its contacts, bounces and refused sa
   CHECK(paths[0].front().isApprox(Point(0.25, 0.25)));
 }
 
-TEST_CASE("the box of what was written comes onto the box of the character", "[practice]") {
+TEST_CASE("the bounding box of the writing is mapped onto that of the character", "[practice]") {
   const Character ten = page_of("十").characters.front().character;
   std::vector<PenPath> paths = copy_of(ten);
   const auto box_after = [&] {
@@ -136,62 +137,62 @@ TEST_CASE("the box of what was written comes onto the box of the character", "[p
     CHECK(fit_box(paths, ten).offset.isApprox(before.offset));
     CHECK(fit_box(paths, ten).scale.isApprox(before.scale));
   }
-  SECTION("a heng is not blown up to a band") {
+  SECTION("a heng is not stretched into a band") {
     const Character one = page_of("一").characters.front().character;
     const PenPath heng = {{0.2, 0.5}, {0.5, 0.51}, {0.6, 0.5}};
     const BoxMap map = fit_box(std::vector<PenPath>{heng}, one);
     CHECK(map.scale.x() == map.scale.y());
   }
-  SECTION("one axis is stretched at most 1.5 times the other") {
+  SECTION("the two scales differ by a factor of at most 1.5") {
     for (PenPath& path : paths) {
       for (Point& point : path) point.x() *= 10.0;
     }
     const BoxMap map = fit_box(paths, ten);
     CHECK(map.scale.y() / map.scale.x() == Approx(1.5));
   }
-  SECTION("nothing stays where it is") {
+  SECTION("without paths the map is the identity") {
     const BoxMap map = fit_box({}, ten);
     CHECK(map.scale == Point(1.0, 1.0));
     CHECK(map.offset == Point(0.0, 0.0));
   }
 }
 
-TEST_CASE("a trace drawn right on the template is completed under guidance, and the device draws what was written",
+TEST_CASE("a trace drawn exactly on the template is completed under guidance, and the device draws the same strokes",
           "[practice]") {
   for (const char* const text : {"十", "永", "北", "书"}) {
-    const Page page = page_of(text);
+    const PracticePage page = page_of(text);
     const PlacedCharacter& placed = page.characters.front();
     const PenTrace trace = trace_of(placed.character.code, copy_of(placed.character));
-    const Recording recording = follow_trace(page, trace, session({}, Mode::force));
+    const Recording recording = follow_trace(page, trace, session({}, FeedbackMode::force));
     CAPTURE(text);
-    CHECK(score(page, recording).front().strokes_completed == placed.character.stroke_count());
+    CHECK(score_page(page, recording).front().strokes_completed == placed.character.stroke_count());
     const std::vector<PenPath> drawn = pen_paths(recording, placed.placement);
     CHECK(drawn.size() == trace.strokes.size());
-    for (const Remark& remark : judge_strokes(placed.character, drawn).remarks) FAIL_CHECK(remark.reason);
+    for (const StrokeRemark& remark : match_strokes(placed.character, drawn).remarks) FAIL_CHECK(remark.reason);
   }
 }
 
-TEST_CASE("what the device drew is told as what the pen drew, whether the renderer took it or not", "[practice]") {
-  const Page page = page_of("北");
+TEST_CASE("the device's path matches the same strokes as the pen's, accepted by the renderer or not", "[practice]") {
+  const PracticePage page = page_of("北");
   const PlacedCharacter& placed = page.characters.front();
   std::vector<PenPath> paths = copy_of(placed.character);
   std::swap(paths[1], paths[3]);
   std::reverse(paths[4].begin(), paths[4].end());
-  const StrokeVerdict written = judge_strokes(placed.character, paths);
-  for (const Mode mode : {Mode::vision, Mode::force}) {
+  const MatchResult written = match_strokes(placed.character, paths);
+  for (const FeedbackMode mode : {FeedbackMode::vision, FeedbackMode::force}) {
     const Recording recording = follow_trace(page, trace_of(placed.character.code, paths), session({}, mode));
-    const StrokeVerdict drawn = judge_strokes(placed.character, pen_paths(recording, placed.placement));
-    for (const Remark& remark : drawn.remarks) INFO(remark.reason);
+    const MatchResult drawn = match_strokes(placed.character, pen_paths(recording, placed.placement));
+    for (const StrokeRemark& remark : drawn.remarks) INFO(remark.reason);
     REQUIRE(drawn.remarks.size() == written.remarks.size());
     for (std::size_t i = 0; i < drawn.remarks.size(); ++i) CHECK(drawn.remarks[i].reason == written.remarks[i].reason);
   }
 }
 
-TEST_CASE("pens of people hold the device without a fault, and no force or force step is above its limit",
+TEST_CASE("people's pens hold the device without a fault, and no force or force step exceeds its limit",
           "[practice][corpus]") {
   const bool everything = GENERATE(false, true);
   CAPTURE(everything);
-  SessionOptions options = session({}, Mode::force);
+  SessionOptions options = session({}, FeedbackMode::force);
   if (everything) options.renderer = RendererOptions::everything(options.device);
   const auto traces = calligraphy_test::traces_of_people();
   const auto set = calligraphy_test::imported_characters();
@@ -207,10 +208,10 @@ TEST_CASE("pens of people hold the device without a fault, and no force or force
   }
 }
 
-TEST_CASE("a person who writes another character than is due meets no fault and no force step above the limit",
+TEST_CASE("a person who writes the wrong character causes no fault and no force step above the limit",
           "[practice][corpus]") {
   const bool everything = GENERATE(false, true);
-  SessionOptions options = session({}, Mode::force);
+  SessionOptions options = session({}, FeedbackMode::force);
   if (everything) options.renderer = RendererOptions::everything(options.device);
   const auto traces = calligraphy_test::traces_of_people();
   for (std::size_t i = 0; i < traces.size(); i += 8) {
@@ -218,11 +219,11 @@ TEST_CASE("a person who writes another character than is due meets no fault and 
   }
 }
 
-TEST_CASE("hands that were made up meet no fault and no force step above the limit on any device", "[practice]") {
+TEST_CASE("synthetic hands cause no fault and no force step above the limit on any device", "[practice]") {
   const std::string name = GENERATE("omni", "touch", "desktop", "premium-1.5", "ideal");
   const bool everything = GENERATE(false, true);
   CAPTURE(name, everything);
-  SessionOptions options = session({}, Mode::force);
+  SessionOptions options = session({}, FeedbackMode::force);
   options.device = device_profile(name);
   const Capabilities& capabilities = options.device;
   options.renderer = everything ? RendererOptions::everything(capabilities) : RendererOptions::for_device(capabilities);
@@ -233,17 +234,17 @@ TEST_CASE("hands that were made up meet no fault and no force step above the lim
   check_bounded(eternal, trace_of(U'永', paths), options);
 }
 
-TEST_CASE("a trace that no hand can follow is refused", "[practice]") {
-  const Page page = page_of("十");
+TEST_CASE("a trace that no hand can follow is rejected", "[practice]") {
+  const PracticePage page = page_of("十");
   const auto refused = [&](const PenTrace& trace) {
-    CHECK_THROWS_AS(follow_trace(page, trace, session({}, Mode::force)), ValueError);
+    CHECK_THROWS_AS(follow_trace(page, trace, session({}, FeedbackMode::force)), ValueError);
   };
   refused({U'十', "none", 1000.0, {}});
   refused({U'十', "none", 1000.0, {{}}});
   refused({U'十', "none", 1000.0, {{{Point(0, 0), 1.0}, {Point(0, 0), 0.5}}}});
   refused({U'十', "none", 1000.0, {{{Point(0, 0), std::nan("")}}}});
   refused({U'十', "none", 1000.0, {{{Point(0, std::nan("")), 0.0}}}});
-  CHECK_THROWS_AS(
-      follow_trace(page_of("十人"), trace_of(U'十', copy_of(page.characters[0].character)), session({}, Mode::force)),
-      ValueError);
+  CHECK_THROWS_AS(follow_trace(page_of("十人"), trace_of(U'十', copy_of(page.characters[0].character)),
+                               session({}, FeedbackMode::force)),
+                  ValueError);
 }

@@ -5,16 +5,16 @@
 
 using namespace calligraphy;
 
-TEST_CASE("eq. (8) draws the tip to its foot, and away from it as the text stands", "[render]") {
-  const Point tip(0.003, 0.004), foot(0.0, 0.0);
-  CHECK(attraction_force(400.0, tip, foot).isApprox(Point(-1.2, -1.6)));
-  CHECK(attraction_force(400.0, tip, foot).dot(foot - tip) > 0.0);
-  CHECK(attraction_force(400.0, tip, foot, ForceSign::wang2006).isApprox(Point(1.2, 1.6)));
-  CHECK(attraction_force(400.0, foot, foot) == Point(0, 0));
-  CHECK(attraction_force(0.0, tip, foot) == Point(0, 0));
+TEST_CASE("eq. (8) pulls the tip to its closest point, and as printed pushes it away", "[render]") {
+  const Point tip(0.003, 0.004), closest(0.0, 0.0);
+  CHECK(attraction_force(400.0, tip, closest).isApprox(Point(-1.2, -1.6)));
+  CHECK(attraction_force(400.0, tip, closest).dot(closest - tip) > 0.0);
+  CHECK(attraction_force(400.0, tip, closest, ForceSign::wang2006).isApprox(Point(1.2, 1.6)));
+  CHECK(attraction_force(400.0, closest, closest) == Point(0, 0));
+  CHECK(attraction_force(0.0, tip, closest) == Point(0, 0));
 }
 
-TEST_CASE("eq. (9) pushes out of the paper, in proportion, and only below it", "[render]") {
+TEST_CASE("eq. (9) pushes out of the paper in proportion to the penetration, and only below the surface", "[render]") {
   CHECK(normal_force(400.0, 0.002) == Approx(0.8));
   CHECK(normal_force(400.0, 0.0) == 0.0);
   CHECK(normal_force(400.0, -0.002) == 0.0);
@@ -22,7 +22,7 @@ TEST_CASE("eq. (9) pushes out of the paper, in proportion, and only below it", "
   CHECK(normal_force(400.0, -0.002, ForceSign::wang2006) == 0.0);
 }
 
-TEST_CASE("Fig. 4: motion backwards is resisted forwards along the stroke, past a slack, up to a limit", "[render]") {
+TEST_CASE("Fig. 4: writing backwards is resisted along the stroke, beyond a dead band and up to a limit", "[render]") {
   const Point tangent(0.6, 0.8);
   CHECK(wrong_way_force(200.0, 1.0, 0.002, 0.0, tangent) == Point(0, 0));
   CHECK(wrong_way_force(200.0, 1.0, 0.002, 0.002, tangent) == Point(0, 0));

@@ -26,7 +26,7 @@ HapticRenderer renderer_of(std::u32string_view text, const RendererOptions& opti
   return {page, mapping, test_device(), options};
 }
 
-/// Events in the order in which they come, one letter each.
+/// Events in order of occurrence, one letter each.
 struct Log {
   std::string letters;
   int features = 0;
@@ -38,9 +38,9 @@ struct Log {
                                                 {TickEvent::character_finished, 'C'},
                                                 {TickEvent::page_finished, 'P'}};
     for (const auto& [event, letter] : names) {
-      if (has(tick.events, event)) letters += letter;
+      if (has_event(tick.events, event)) letters += letter;
     }
-    features += has(tick.events, TickEvent::feature_passed);
+    features += has_event(tick.events, TickEvent::feature_passed);
   }
 };
 
@@ -48,18 +48,18 @@ using calligraphy_test::at;
 
 }  // namespace
 
-TEST_CASE("a pen that writes 永 well finishes each of its strokes in order", "[render]") {
+TEST_CASE("a pen that writes 永 accurately finishes each of its strokes in order", "[render]") {
   HapticRenderer renderer = renderer_of(U"永");
   ScriptedPen pen(renderer);
   Log log;
   int last_stroke = 0, falls = 0;
-  double largest_attraction = 0.0;
+  double max_attraction = 0.0;
   pen.on_tick = [&](const HapticTick& tick) {
     log(tick);
     falls += tick.stroke < last_stroke && tick.character == 0;
     last_stroke = tick.stroke;
-    if (!has(tick.events, TickEvent::feature_passed)) {
-      largest_attraction = std::max(largest_attraction, tick.attraction.norm());
+    if (!has_event(tick.events, TickEvent::feature_passed)) {
+      max_attraction = std::max(max_attraction, tick.attraction.norm());
     }
   };
   pen.write(renderer.page()[0]);
@@ -67,11 +67,12 @@ TEST_CASE("a pen that writes 永 well finishes each of its strokes in order", "[
   CHECK(log.features == 1 + 3 + 2 + 1 + 1);
   CHECK(falls == 0);
   CHECK(renderer.last().character == 1);
-  // On the path the guide is silent but for the last 1.5 mm before a corner, where the next limb already draws.
-  CHECK(largest_attraction <= renderer.options().guidance_stiffness * 0.0016);
+  // On the path there is no guidance force except in the last 1.5 mm before a corner, where the next element already
+  // attracts.
+  CHECK(max_attraction <= renderer.options().guidance_stiffness * 0.0016);
 }
 
-TEST_CASE("several characters follow one another, and writing on afterwards changes nothing", "[render]") {
+TEST_CASE("characters are written one after another, and writing after the last changes nothing", "[render]") {
   HapticRenderer renderer = renderer_of(U"北京一");
   ScriptedPen pen(renderer);
   Log log;
@@ -84,7 +85,7 @@ TEST_CASE("several characters follow one another, and writing on afterwards chan
   CHECK(renderer.last().force == Vector3d(0, 0, 0));
 }
 
-TEST_CASE("each built-in character can be written, exactly and 1 mm beside itself", "[render]") {
+TEST_CASE("each built-in character can be written, exactly and with an offset of 1 mm", "[render]") {
   for (const Character& character : built_in_characters().characters) {
     for (const double offset : {0.0, 0.001}) {
       HapticRenderer renderer({{character, {{0.02, 0.02}, 0.04}}}, {}, test_device());
@@ -94,12 +95,12 @@ TEST_CASE("each built-in character can be written, exactly and 1 mm beside itsel
       pen.write(renderer.page()[0], offset);
       INFO("U+" << std::hex << static_cast<unsigned>(character.code) << ", " << offset << " m: " << log.letters);
       CHECK(renderer.last().character == 1);
-      CHECK(pen.largest_step <= renderer.max_force_step());
+      CHECK(pen.max_step <= renderer.max_force_step());
     }
   }
 }
 
-TEST_CASE("written strokes are closed: writing one again moves nothing on", "[render]") {
+TEST_CASE("finished strokes are closed: writing one again makes no progress", "[render]") {
   HapticRenderer renderer = renderer_of(U"三");
   ScriptedPen pen(renderer);
   const auto first = path_of(strokes(renderer.page()[0].character)[0], renderer.page()[0].placement, 1e-4);
@@ -114,7 +115,7 @@ TEST_CASE("written strokes are closed: writing one again moves nothing on", "[re
   CHECK(in_plane == 0.0);
 }
 
-TEST_CASE("strokes out of order and backwards are not taken", "[render]") {
+TEST_CASE("strokes out of order and backwards are not accepted", "[render]") {
   HapticRenderer renderer = renderer_of(U"三");
   ScriptedPen pen(renderer);
   const auto all = strokes(renderer.page()[0].character);
@@ -127,7 +128,7 @@ TEST_CASE("strokes out of order and backwards are not taken", "[render]") {
   CHECK(renderer.last().stroke == 0);
 }
 
-TEST_CASE("a pen lifted in mid-stroke gives it up, and the stroke begins again at its start", "[render]") {
+TEST_CASE("lifting the pen in mid-stroke abandons the stroke, which begins again at its start", "[render]") {
   HapticRenderer renderer = renderer_of(U"永");
   ScriptedPen pen(renderer);
   const auto all = strokes(renderer.page()[0].character);
@@ -144,11 +145,11 @@ TEST_CASE("a pen lifted in mid-stroke gives it up, and the stroke begins again a
   log.features = 0;
   pen.write(second);
   CHECK(log.letters == "sasf");
-  CHECK(log.features == 3);  // all of them again, as the stack was loaded again
+  CHECK(log.features == 3);  // all of them again: the stack was refilled
   CHECK(renderer.last().stroke == 2);
 }
 
-TEST_CASE("the next stroke begins with a new contact, and by sliding where that is chosen", "[render]") {
+TEST_CASE("the next stroke begins with a new contact, or by sliding where that is selected", "[render]") {
   RendererOptions sliding;
   sliding.lift_between_strokes = false;
   for (const bool slides : {false, true}) {
@@ -162,7 +163,7 @@ TEST_CASE("the next stroke begins with a new contact, and by sliding where that 
   }
 }
 
-TEST_CASE("Table 2: what each state outputs and where it holds the pen tip", "[render]") {
+TEST_CASE("Table 2: the force of each state and where it keeps the pen tip", "[render]") {
   HapticRenderer renderer = renderer_of(U"三");
   ScriptedPen pen(renderer);
   const Placement place = renderer.page()[0].placement;
@@ -193,13 +194,13 @@ TEST_CASE("Table 2: what each state outputs and where it holds the pen tip", "[r
   settle(start + 0.01 * along + 0.003 * left, -0.002);
   CHECK(renderer.last().state == InteractionState::writing);
   const Point expected =
-      -renderer.options().guidance_stiffness * 0.003 * left;  // eq. (8), the factor and the share being 1
+      -renderer.options().guidance_stiffness * 0.003 * left;  // eq. (8), with attraction factor and guidance weight 1
   CHECK(renderer.last().force.isApprox(Vector3d(expected.x(), expected.y(), 0.002 * renderer.options().paper_stiffness),
                                        1e-9));
   CHECK(renderer.last().pen_tip.z() == 0.0);
 }
 
-TEST_CASE("a solid paper is felt outside the character too", "[render]") {
+TEST_CASE("solid paper is felt outside the character too", "[render]") {
   RendererOptions options;
   options.solid_paper = true;
   HapticRenderer renderer = renderer_of(U"三", options);
@@ -211,7 +212,7 @@ TEST_CASE("a solid paper is felt outside the character too", "[render]") {
   CHECK(renderer.last().force.isApprox(Vector3d(0, 0, 0.002 * renderer.options().paper_stiffness)));
 }
 
-TEST_CASE("a pen that goes back along a stroke is resisted forwards, Fig. 4", "[render]") {
+TEST_CASE("a pen that moves back along a stroke meets resistance, Fig. 4", "[render]") {
   RendererOptions options;
   options.wrong_way_stiffness = 200.0;
   options.wrong_way_limit = 1.0;
@@ -228,21 +229,21 @@ TEST_CASE("a pen that goes back along a stroke is resisted forwards, Fig. 4", "[
   pen.go(at(start + 0.015 * along, -0.001));
   CHECK(renderer.last().wrong_way == Point(0, 0));
   pen.go(at(start + 0.0135 * along, -0.001));
-  CHECK(renderer.last().wrong_way == Point(0, 0));  // within the slack of 2 mm
+  CHECK(renderer.last().wrong_way == Point(0, 0));  // within the dead band of 2 mm
   pen.go(at(start + 0.010 * along, -0.001));
   CHECK(renderer.last().wrong_way.isApprox(200.0 * 0.003 * along, 1e-6));
   pen.go(at(start + 0.002 * along, -0.001));
   CHECK(renderer.last().wrong_way.isApprox(1.0 * along, 1e-6));  // its limit
 }
 
-TEST_CASE("a renderer moved elsewhere goes on, and restart begins the page anew", "[render]") {
+TEST_CASE("a moved renderer continues, and restart begins the page again", "[render]") {
   HapticRenderer first = renderer_of(U"三");
   {
     ScriptedPen pen(first);
     pen.write(path_of(strokes(first.page()[0].character)[0], first.page()[0].placement, 1e-4));
   }
   HapticRenderer renderer = std::move(first);
-  first = renderer_of(U"永");  // reuses the place that it left
+  first = renderer_of(U"永");  // reuses the moved-from object
   ScriptedPen pen(renderer);
   const auto all = strokes(renderer.page()[0].character);
   pen.write(path_of(all[1], renderer.page()[0].placement, 1e-4));
@@ -256,7 +257,7 @@ TEST_CASE("a renderer moved elsewhere goes on, and restart begins the page anew"
   CHECK(renderer.last().character == 1);
 }
 
-TEST_CASE("a million updates take nothing from the heap", "[render]") {
+TEST_CASE("a million updates do not allocate", "[render]") {
 #ifdef __SANITIZE_ADDRESS__
   constexpr int updates = 100'000;
 #else

@@ -1,4 +1,4 @@
-// Samples that no pen gives: the force stays finite, bounded and without steps, and the loop recovers.
+// Implausible samples: the force stays finite, bounded and without steps, and the loop recovers.
 #include "../catch.hpp"
 
 #include <cmath>
@@ -22,7 +22,7 @@ using calligraphy_test::not_a_number;
 constexpr double extremes[] = {0.0,   -0.0,   5e-324,  1e-310,   -1.0,     1.0,       1e3,
                                1e154, -1e200, 1.7e308, -1.7e308, infinity, -infinity, not_a_number};
 
-/// A renderer in the middle of a stroke, the pen 3 mm beside it and 2 mm in the paper.
+/// A renderer in the middle of a stroke, with the pen 3 mm off the stroke and 2 mm in the paper.
 struct InStroke {
   HapticRenderer renderer{{placed(U'三')}, {}, test_device()};
   ScriptedPen pen{renderer};
@@ -51,8 +51,8 @@ DeviceState state_with(const Vector3d& position, DeviceStatus status = DeviceSta
 
 double any_of(Sequence& random) { return extremes[static_cast<std::size_t>(random.next() * std::size(extremes))]; }
 
-/// Ticks of every kind: pen-like motion, leaps, extremes, frozen samples, faults, clocks that stop or go back.
-void torment(HapticRenderer& renderer, std::uint64_t seed, int ticks, double& largest_excess, int& not_finite) {
+/// Ticks of every kind: pen-like motion, jumps, extremes, frozen samples, faults, clocks that stop or run backwards.
+void torment(HapticRenderer& renderer, std::uint64_t seed, int ticks, double& max_excess, int& not_finite) {
   Sequence random(seed);
   Vector3d position(0.03, 0.05, 0.0), last = renderer.last().force;
   double time = 0.0;
@@ -75,8 +75,8 @@ void torment(HapticRenderer& renderer, std::uint64_t seed, int ticks, double& la
     state.status = kind > 0.985 && kind < 0.99 ? static_cast<DeviceStatus>(i % 9) : DeviceStatus::ok;
     const HapticTick& tick = renderer.update(state);
     not_finite += !tick.force.allFinite() || !tick.page_force.allFinite() || !tick.pen_tip.allFinite() ||
-                  !tick.contact.foot.point.allFinite();
-    largest_excess = std::max({largest_excess, (tick.force - last).norm() - step, tick.force.norm() - 3.3});
+                  !tick.contact.closest.point.allFinite();
+    max_excess = std::max({max_excess, (tick.force - last).norm() - step, tick.force.norm() - 3.3});
     last = tick.force;
   }
 }
@@ -89,7 +89,7 @@ constexpr int torment_ticks = 200'000;
 
 }  // namespace
 
-TEST_CASE("a bad sample takes the force to zero by a ramp, and the next good ones bring it back", "[render]") {
+TEST_CASE("on bad samples the force ramps down to zero, and it recovers with the next good ones", "[render]") {
   for (const double value : {infinity, -infinity, not_a_number, 1e200, 1.0}) {
     for (int axis = 0; axis < 3; ++axis) {
       InStroke test;
@@ -97,7 +97,7 @@ TEST_CASE("a bad sample takes the force to zero by a ramp, and the next good one
       REQUIRE(before.norm() > 1.5);
       Vector3d position = test.place;
       for (int i = 0; i < 60; ++i) {
-        position[axis] = value + (i % 2 ? 0.1 : -0.1);  // never twice the same: no pen
+        position[axis] = value + (i % 2 ? 0.1 : -0.1);  // never the same twice: not a pen
         CHECK(test.pen.sample(state_with(position)).status == TickStatus::bad_sample);
       }
       CHECK(test.renderer.last().force == Vector3d(0, 0, 0));
@@ -105,12 +105,12 @@ TEST_CASE("a bad sample takes the force to zero by a ramp, and the next good one
       CHECK(test.renderer.last().status == TickStatus::ok);
       CHECK(test.renderer.last().force.isApprox(before));
       CHECK(test.pen.finite);
-      CHECK(test.pen.largest_step <= test.renderer.max_force_step() * (1.0 + 1e-12));
+      CHECK(test.pen.max_step <= test.renderer.max_force_step() * (1.0 + 1e-12));
     }
   }
 }
 
-TEST_CASE("a device that is gone or at fault gets zero force by a ramp, and no jump when it is back", "[render]") {
+TEST_CASE("on a missing or faulty device the force ramps down to zero, and does not step on its return", "[render]") {
   for (const DeviceStatus status : {DeviceStatus::disconnected, DeviceStatus::needs_calibration, DeviceStatus::fault,
                                     static_cast<DeviceStatus>(200)}) {
     InStroke test;
@@ -122,11 +122,11 @@ TEST_CASE("a device that is gone or at fault gets zero force by a ramp, and no j
     test.rest(100);
     CHECK(test.renderer.last().status == TickStatus::ok);
     CHECK(test.renderer.last().force.norm() > 1.0);
-    CHECK(test.pen.largest_step <= test.renderer.max_force_step() * (1.0 + 1e-12));
+    CHECK(test.pen.max_step <= test.renderer.max_force_step() * (1.0 + 1e-12));
   }
 }
 
-TEST_CASE("a stale sample and warm motors are no faults", "[render]") {
+TEST_CASE("stale samples and warm motors are not faults", "[render]") {
   for (const DeviceStatus status : {DeviceStatus::stale, DeviceStatus::warm_motors}) {
     InStroke test;
     const Vector3d before = test.renderer.last().force;
@@ -136,7 +136,7 @@ TEST_CASE("a stale sample and warm motors are no faults", "[render]") {
   }
 }
 
-TEST_CASE("a lone sample far away is refused, a second one near it believed", "[render]") {
+TEST_CASE("a single sample far away is rejected, a second one near it accepted", "[render]") {
   InStroke test;
   const Vector3d away = test.place + Vector3d(1.0, 0.0, 0.0);
   CHECK(test.pen.sample(state_with(away)).status == TickStatus::bad_sample);
@@ -146,10 +146,10 @@ TEST_CASE("a lone sample far away is refused, a second one near it believed", "[
   CHECK(test.pen.sample(state_with(away)).status == TickStatus::bad_sample);
   CHECK(test.pen.sample(state_with(away)).status == TickStatus::ok);
   CHECK(test.renderer.last().state == InteractionState::adjusting);
-  CHECK(test.pen.largest_step <= test.renderer.max_force_step() * (1.0 + 1e-12));
+  CHECK(test.pen.max_step <= test.renderer.max_force_step() * (1.0 + 1e-12));
 }
 
-TEST_CASE("clocks that stand still, go back or leap change neither force nor state", "[render]") {
+TEST_CASE("clocks that stop, run backwards or jump change neither force nor state", "[render]") {
   for (const double leap : {0.0, -1.0, -1e9, 10.0, 1e9, 1e300}) {
     InStroke test;
     const Vector3d before = test.renderer.last().force;
@@ -163,7 +163,7 @@ TEST_CASE("clocks that stand still, go back or leap change neither force nor sta
   }
 }
 
-TEST_CASE("no sequence of samples gives a force that is not finite, steps or exceeds the peak", "[render]") {
+TEST_CASE("no sequence of samples makes the force step, exceed the peak or lose finiteness", "[render]") {
   std::vector<RendererOptions> all(5);
   all[1].lift_between_strokes = false;
   all[1].solid_paper = true;
@@ -172,7 +172,7 @@ TEST_CASE("no sequence of samples gives a force that is not finite, steps or exc
   all[3].motion = MotionMappingRule::wang2006;
   all[3].force_sign = ForceSign::wang2006;
   all[4].stroke.window = 0.0;
-  all[4].largest_speed = 1e9;
+  all[4].max_speed = 1e9;
   for (std::size_t i = 0; i < all.size(); ++i) {
     HapticRenderer renderer({placed(U'永'), placed(U'北', {0.03, 0.02})}, {}, test_device(), all[i]);
     INFO("options " << i);
@@ -181,16 +181,16 @@ TEST_CASE("no sequence of samples gives a force that is not finite, steps or exc
         renderer.page()[0].placement.to_page(strokes(renderer.page()[0].character)[0].control_points[0]);
     pen.go({start.x(), start.y(), 0.005});
     pen.go({start.x(), start.y(), -0.002});
-    CHECK(renderer.last().state == InteractionState::writing);  // it is a stroke that is tormented, at first
-    double largest_excess = -infinity;
+    CHECK(renderer.last().state == InteractionState::writing);  // initially these samples hit a stroke in progress
+    double max_excess = -infinity;
     int not_finite = 0;
-    torment(renderer, 17 + i, torment_ticks, largest_excess, not_finite);
+    torment(renderer, 17 + i, torment_ticks, max_excess, not_finite);
     CHECK(not_finite == 0);
-    CHECK(largest_excess <= 1e-12);
+    CHECK(max_excess <= 1e-12);
   }
 }
 
-TEST_CASE("huge velocities do not carry the pen tip of eq. (3) away from every number", "[render]") {
+TEST_CASE("huge velocities leave the pen tip of eq. (3) finite", "[render]") {
   RendererOptions options = RendererOptions::wang2006();
   HapticRenderer renderer({placed(U'永')}, {}, test_device(), options);
   DeviceState state = state_with({0.03, 0.05, -0.001});
@@ -204,22 +204,22 @@ TEST_CASE("huge velocities do not carry the pen tip of eq. (3) away from every n
   CHECK(not_finite == 0);
 }
 
-TEST_CASE("with no stiffness there is no force, whatever the pen does", "[render]") {
+TEST_CASE("with zero stiffness there is no force, whatever the pen does", "[render]") {
   RendererOptions options;
   options.paper_stiffness = options.guidance_stiffness = options.wrong_way_stiffness = 0.0;
   HapticRenderer renderer({placed(U'永')}, {}, test_device(), options);
   ScriptedPen pen(renderer);
   pen.write(renderer.page()[0], 0.002);
-  CHECK(pen.largest_force == 0.0);
+  CHECK(pen.max_force == 0.0);
   CHECK(renderer.last().character == 1);
 }
 
-TEST_CASE("a page and a device far from their zeros are written as those near", "[render]") {
+TEST_CASE("a page and a device far from their origins behave like those nearby", "[render]") {
   MotionMapping mapping;
   mapping.offset = {500.0, -300.0, 20.0};
   HapticRenderer renderer({placed(U'永', {500.02, -300.05})}, mapping, test_device());
   ScriptedPen pen(renderer);
   pen.write(renderer.page()[0], 0.001);
   CHECK(renderer.last().character == 1);
-  CHECK(pen.largest_step <= renderer.max_force_step() * (1.0 + 1e-12));
+  CHECK(pen.max_step <= renderer.max_force_step() * (1.0 + 1e-12));
 }

@@ -18,7 +18,7 @@ TransitionInput input_of(int bits) {
   return {(bits & 1) != 0, (bits & 2) != 0, (bits & 4) != 0, (bits & 8) != 0, (bits & 16) != 0};
 }
 
-/// The table of interaction_state.hpp, row by row: the first that holds.
+/// The table of interaction_state.hpp, row by row: the first match applies.
 S by_table(S from, const TransitionInput& in) {
   struct Row {
     bool from, holds;
@@ -40,16 +40,16 @@ S by_table(S from, const TransitionInput& in) {
 
 }  // namespace
 
-TEST_CASE("every state and every input lead where the written table says", "[render]") {
+TEST_CASE("every state and every input lead to the state of the documented table", "[render]") {
   for (const S from : states) {
     for (int bits = 0; bits < 32; ++bits) {
-      INFO(short_name(from) << ", input " << bits);
+      INFO(to_string(from) << ", input " << bits);
       CHECK(next_state(from, input_of(bits)) == by_table(from, input_of(bits)));
     }
   }
 }
 
-TEST_CASE("Table 1: what each state means holds after every transition", "[render]") {
+TEST_CASE("Table 1: the meaning of each state holds after every transition", "[render]") {
   for (const S from : states) {
     for (int bits = 0; bits < 32; ++bits) {
       const TransitionInput in = input_of(bits);
@@ -62,9 +62,9 @@ TEST_CASE("Table 1: what each state means holds after every transition", "[rende
   }
 }
 
-TEST_CASE("the same input twice gives the same state, so that no state oscillates by itself", "[render]") {
+TEST_CASE("repeating an input keeps the state, so no state oscillates by itself", "[render]") {
   for (const S from : states) {
-    for (int bits = 0; bits < 16; ++bits) {  // a stroke is finished once
+    for (int bits = 0; bits < 16; ++bits) {  // a stroke is finished only once
       const S to = next_state(from, input_of(bits));
       CHECK(next_state(to, input_of(bits)) == to);
     }
@@ -81,7 +81,7 @@ TEST_CASE("Fig. 6: every state can be reached from every other", "[render]") {
 
 TEST_CASE("states have the paper's short names", "[render]") {
   std::string names;
-  for (const S state : states) names += short_name(state) + std::string(" ");
+  for (const S state : states) names += to_string(state) + std::string(" ");
   CHECK(names == "SS AS CS WS ");
-  CHECK(std::string(short_name(static_cast<S>(77))).empty());
+  CHECK(std::string(to_string(static_cast<S>(77))).empty());
 }

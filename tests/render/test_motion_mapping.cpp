@@ -31,8 +31,7 @@ MotionMapping random_mapping(Sequence& random) {
   return mapping;
 }
 
-/// How far a circle of 20 mm at 1 Hz misses its start after a quarter, half, three quarters and a whole turn, at most
-/// [m].
+/// Maximum position error of a circle of 20 mm at 1 Hz after a quarter, half, three quarters and a whole turn [m].
 double error_on_a_circle(MotionMappingRule rule, double rate) {
   Capabilities device;
   device.peak_force = 3.3;
@@ -55,7 +54,7 @@ double error_on_a_circle(MotionMappingRule rule, double rate) {
 
 }  // namespace
 
-TEST_CASE("to_device undoes to_page", "[render]") {
+TEST_CASE("to_device inverts to_page", "[render]") {
   Sequence random(1);
   for (int i = 0; i < 200; ++i) {
     const MotionMapping mapping = random_mapping(random);
@@ -64,7 +63,7 @@ TEST_CASE("to_device undoes to_page", "[render]") {
   }
 }
 
-TEST_CASE("the mapping keeps power: force times velocity is the same on both sides", "[render]") {
+TEST_CASE("the mapping preserves power: force times velocity is the same on both sides", "[render]") {
   Sequence random(2);
   for (int i = 0; i < 200; ++i) {
     const MotionMapping mapping = random_mapping(random);
@@ -74,7 +73,7 @@ TEST_CASE("the mapping keeps power: force times velocity is the same on both sid
   }
 }
 
-TEST_CASE("velocities map as differences of positions do, eq. (2)", "[render]") {
+TEST_CASE("velocities map like differences of positions, eq. (2)", "[render]") {
   Sequence random(3);
   const MotionMapping mapping = random_mapping(random);
   const Vector3d from = random_vector(random), way = random_vector(random);
@@ -82,7 +81,7 @@ TEST_CASE("velocities map as differences of positions do, eq. (2)", "[render]") 
   CHECK(mapping.velocity_to_page(way).norm() == Approx(mapping.scale * way.norm()));
 }
 
-TEST_CASE("an upright page lies in the device's x-y plane, a flat one on the desk", "[render]") {
+TEST_CASE("an upright page lies in the x-y plane of the device, a desk page flat on the desk", "[render]") {
   const MotionMapping upright = upright_page(0.16, 0.12);
   CHECK(upright.to_page({0, 0, 0}).isApprox(Vector3d(0.08, 0.06, 0.0)));
   CHECK(upright.to_page({0.01, 0.02, 0.03}).isApprox(Vector3d(0.09, 0.08, 0.03)));
@@ -94,8 +93,8 @@ TEST_CASE("an upright page lies in the device's x-y plane, a flat one on the des
   for (const MotionMapping& mapping : {upright, flat}) CHECK(mapping.rotation.determinant() == Approx(1.0));
 }
 
-TEST_CASE("eq. (3) as printed depends on the rate and misses the place, the affine map does not", "[render]") {
-  // Rectangles of velocity over a circle: after half a turn the error is |v| dt = 2 pi r / rate, to first order.
+TEST_CASE("eq. (3) as printed depends on the rate and misses the position, the affine map does not", "[render]") {
+  // Rectangle rule for the velocity on a circle: after half a turn the error is |v| dt = 2 pi r / rate, to first order.
   const double at_100 = error_on_a_circle(MotionMappingRule::wang2006, 100.0);
   const double at_1000 = error_on_a_circle(MotionMappingRule::wang2006, 1000.0);
   constexpr double speed = 2.0 * std::numbers::pi * 0.02;
@@ -105,7 +104,7 @@ TEST_CASE("eq. (3) as printed depends on the rate and misses the place, the affi
   CHECK(error_on_a_circle(MotionMappingRule::affine, 1000.0) < 1e-15);
 }
 
-TEST_CASE("eq. (3) as printed never comes back from a velocity that is always off by a little", "[render]") {
+TEST_CASE("eq. (3) as printed never recovers from a small constant error of the velocity", "[render]") {
   Capabilities device;
   device.peak_force = 3.3;
   RendererOptions options;
@@ -113,7 +112,7 @@ TEST_CASE("eq. (3) as printed never comes back from a velocity that is always of
   HapticRenderer renderer({{paper_example(), {}}}, MotionMapping{}, device, options);
   DeviceState state;
   state.position = {0.0, 0.0, 0.01};
-  state.velocity = {0.001, 0.0, 0.0};  // an offset of 1 mm/s in a pen at rest
+  state.velocity = {0.001, 0.0, 0.0};  // an error of 1 mm/s for a pen at rest
   for (int i = 0; i <= 10'000; ++i) {
     state.time = i / 1000.0;
     renderer.update(state);

@@ -1,4 +1,4 @@
-// Friction of the paper: holds without drift, whatever the rate, slides at mu N, and gives no energy.
+// Friction of the paper: sticks without drift, whatever the rate, slides at mu N, and generates no energy.
 #include "../catch.hpp"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ constexpr int rates[] = {100, 500, 1000, 4000, 10'000, 20'000};
 constexpr double coefficient = 0.3;
 constexpr double pressed = 1.0;               // [N]
 constexpr double sliding_force = 0.3;         // mu N [N]
-constexpr double longest_stretch = 0.3e-3;    // mu N / stiffness [m]
+constexpr double max_stretch = 0.3e-3;        // mu N / stiffness [m]
 constexpr double vibration_frequency = 20.0;  // a whole number of samples a period at each rate [Hz]
 
 constexpr int last_second = 20;
@@ -33,16 +33,16 @@ FrictionOptions options_of(FrictionModel model) {
   FrictionOptions options;
   options.model = model;
   options.coefficient = coefficient;
-  options.stiffness = sliding_force / longest_stretch;
+  options.stiffness = sliding_force / max_stretch;
   return options;
 }
 
-/// Comes in over the first second, so that nothing breaks away at the start.
+/// Fades in over the first second, so that nothing breaks away at the start.
 double biased_vibration(double bias, double amplitude, double time) {
   return std::min(1.0, time) * (bias + amplitude * std::sin(2.0 * std::numbers::pi * vibration_frequency * time));
 }
 
-/// How far the mean of a value over the last second is from that over the third.
+/// Difference between the mean of a value over the last second and over the third.
 template <typename Step>
 double drift(int rate, Step step) {
   double early = 0.0, late = 0.0;
@@ -54,8 +54,8 @@ double drift(int rate, Step step) {
   return late - early;
 }
 
-/// Of a mass of 0.2 kg with 6 N s/m, firmly held, so that it is passive at 100 Hz too: b > K T / 2. The bias is half of
-/// mu N.
+/// Drift of a mass of 0.2 kg with 6 N s/m, held firmly so that it is passive at 100 Hz too: b > K T / 2. The bias is
+/// half of mu N.
 double drift_of_mass(FrictionModel model, int rate, double amplitude) {
   const FrictionOptions options = options_of(model);
   const double period = 1.0 / rate;
@@ -68,18 +68,17 @@ double drift_of_mass(FrictionModel model, int rate, double amplitude) {
   });
 }
 
-/// Of the point of the paper that a pen hangs on while it vibrates about half the longest stretch.
+/// Drift of the anchor of a pen that vibrates about half the maximum stretch.
 double drift_of_hold(FrictionModel model, int rate, double amplitude) {
   const FrictionOptions options = options_of(model);
   PaperFriction friction;
   return drift(rate, [&](double time) {
-    const double tip = biased_vibration(0.5 * longest_stretch, amplitude, time);
+    const double tip = biased_vibration(0.5 * max_stretch, amplitude, time);
     return tip + friction.update(options, {tip, 0.0}, pressed, 1.0 / rate).x() / options.stiffness;
   });
 }
 
-/// Once round a random closed path of `count` steps that ends where it began, several times; the steps are shorter than
-/// `step`.
+/// Several times around a random closed path of `count` steps, each shorter than `step`.
 std::vector<Point> random_path(Sequence& random, int count, double step, bool closed) {
   std::vector<Point> path = {{0.0, 0.0}};
   Point direction(0.0, 0.0);
@@ -98,8 +97,8 @@ std::vector<Point> random_path(Sequence& random, int count, double step, bool cl
   return path;
 }
 
-/// Most work that the force has done on the pen at any moment of a path, by the trapezoid rule [J].
-double most_given(const FrictionOptions& options, const std::vector<Point>& path) {
+/// Maximum work done by the force on the pen up to any moment of a path, by the trapezoidal rule [J].
+double max_given(const FrictionOptions& options, const std::vector<Point>& path) {
   PaperFriction friction;
   double given = 0.0, most = 0.0;
   Point last_force(0.0, 0.0), last_tip = path.front();
@@ -124,7 +123,7 @@ TEST_CASE("a mass on the paper does not drift under biased vibration, at any rat
   }
 }
 
-TEST_CASE("the hold of a vibrating pen does not drift, at any rate", "[render]") {
+TEST_CASE("the anchor of a vibrating pen does not drift, at any rate", "[render]") {
   for (const FrictionModel model : {FrictionModel::breakaway, FrictionModel::karnopp}) {
     for (const int rate : rates) {
       for (const double amplitude : {10e-6, 100e-6}) {
@@ -135,9 +134,9 @@ TEST_CASE("the hold of a vibrating pen does not drift, at any rate", "[render]")
   }
 }
 
-TEST_CASE("Hayward and Armstrong's smooth alpha drifts by tens of micrometres, and so is not the default", "[render]") {
-  // A tremor of 10 to 100 um about half the longest stretch, 150 um. Under a bias force of half mu N, that does not
-  // slacken as the pen gives way, it drifts on and on.
+TEST_CASE("Hayward and Armstrong's smooth alpha drifts by tens of micrometres, so it is not the default", "[render]") {
+  // A tremor of 10 to 100 um about half the maximum stretch, 150 um. Under a constant bias force of half mu N, which
+  // does not slacken as the pen yields, the drift continues.
   CHECK(FrictionOptions{}.model == FrictionModel::breakaway);
   for (const int rate : {1000, 20'000}) {
     for (const double amplitude : {10e-6, 50e-6, 100e-6}) {
@@ -150,8 +149,8 @@ TEST_CASE("Hayward and Armstrong's smooth alpha drifts by tens of micrometres, a
   }
 }
 
-TEST_CASE("break-away friction depends on the path alone: the rate changes nothing", "[render]") {
-  // To and fro between places that are reached at instants which all rates share.
+TEST_CASE("break-away friction depends on the path alone, not on the rate", "[render]") {
+  // Back and forth between positions reached at instants that all rates share.
   const FrictionOptions options = options_of(FrictionModel::breakaway);
   std::vector<std::vector<double>> forces;
   for (const int rate : rates) {
@@ -161,7 +160,7 @@ TEST_CASE("break-away friction depends on the path alone: the rate changes nothi
     double from = 0.0;
     std::vector<double> found;
     for (int leg = 0; leg < 200; ++leg) {
-      const double to = from + random.between(-2.0, 2.0) * longest_stretch;
+      const double to = from + random.between(-2.0, 2.0) * max_stretch;
       const int samples = rate / 100;
       double force = 0.0;
       for (int i = 1; i <= samples; ++i) {
@@ -177,8 +176,7 @@ TEST_CASE("break-away friction depends on the path alone: the rate changes nothi
   }
 }
 
-TEST_CASE("on a curved path the rates agree the better the finer they are, far within what a hand can tell",
-          "[render]") {
+TEST_CASE("on a curved path the rates converge, and differ by far less than a hand can feel", "[render]") {
   const FrictionOptions options = options_of(FrictionModel::breakaway);
   const auto after = [&](int rate) {  // a figure of eight, 10 mm wide, in a second: 0.07 m/s
     PaperFriction friction;
@@ -203,7 +201,7 @@ TEST_CASE("on a curved path the rates agree the better the finer they are, far w
   CHECK(furthest(10'000) <= furthest(4000));
 }
 
-TEST_CASE("a sliding pen is held back by mu N against its motion, whatever the model", "[render]") {
+TEST_CASE("sliding friction is mu N against the motion, whatever the model", "[render]") {
   for (const FrictionModel model : models) {
     for (const double pressed : {0.1, 1.0, 3.0}) {
       for (const Point& direction : {Point(1.0, 0.0), Point(-0.6, 0.8)}) {
@@ -219,7 +217,7 @@ TEST_CASE("a sliding pen is held back by mu N against its motion, whatever the m
   }
 }
 
-TEST_CASE("friction never exceeds mu N, and Karnopp's its break-away", "[render]") {
+TEST_CASE("friction never exceeds mu N, or break-away in Karnopp's model", "[render]") {
   for (const FrictionModel model : models) {
     FrictionOptions options = options_of(model);
     options.static_ratio = 1.5;
@@ -239,7 +237,7 @@ TEST_CASE("friction never exceeds mu N, and Karnopp's its break-away", "[render]
   }
 }
 
-TEST_CASE("Karnopp's pen holds up to its break-away, then slides at mu N", "[render]") {
+TEST_CASE("Karnopp's model sticks up to break-away, then slides at mu N", "[render]") {
   FrictionOptions options = options_of(FrictionModel::karnopp);
   options.static_ratio = 1.5;
   PaperFriction friction;
@@ -253,7 +251,7 @@ TEST_CASE("Karnopp's pen holds up to its break-away, then slides at mu N", "[ren
   CHECK(force.x() == Approx(-sliding_force));
 }
 
-TEST_CASE("a new hold begins without force", "[render]") {
+TEST_CASE("a new contact begins without friction", "[render]") {
   for (const FrictionModel model : models) {
     PaperFriction friction;
     for (const Point& place : {Point(0.0, 0.0), Point(0.1, -0.2)}) {
@@ -264,7 +262,7 @@ TEST_CASE("a new hold begins without force", "[render]") {
   }
 }
 
-TEST_CASE("when the pressure falls and rises on a resting pen its friction follows without a step", "[render]") {
+TEST_CASE("when the normal force on a resting pen falls and rises, friction follows without a step", "[render]") {
   for (const FrictionModel model : models) {
     const FrictionOptions options = options_of(model);
     PaperFriction friction;
@@ -273,14 +271,14 @@ TEST_CASE("when the pressure falls and rises on a resting pen its friction follo
     for (int i = 1; i <= 28; ++i) last = friction.update(options, {1e-5 * i, 0.0}, pressed, 0.001);  // 0.01 m/s
     const Point held = last;
     REQUIRE(held.norm() > 0.05);
-    double largest_step = 0.0;
+    double max_step = 0.0;
     bool along = true;
     for (const double to : {0.1, 1.0, 0.0, 1.0}) {
       const double from = to > 0.5 ? last.norm() / sliding_force : 1.0;
       for (int i = 0; i <= 1000; ++i) {
         const double pressed = from + (to - from) * i / 1000.0;
         const Point force = friction.update(options, {2.8e-4, 0.0}, pressed, 0.001);
-        largest_step = std::max(largest_step, (force - last).norm());
+        max_step = std::max(max_step, (force - last).norm());
         along = along && force.x() <= 0.0 && force.y() == 0.0;
         last = force;
         if (to < from && pressed < 0.2 && pressed >= 0.1) CHECK(force.norm() > 0.9 * coefficient * 0.1);
@@ -288,36 +286,36 @@ TEST_CASE("when the pressure falls and rises on a resting pen its friction follo
     }
     INFO("model " << static_cast<int>(model));
     CHECK(along);
-    // mu N falls by 0.3 mN a tick. At its own break-away Karnopp's falls from static_ratio mu N to mu N.
+    // mu N falls by 0.3 mN per tick. At its own break-away Karnopp's friction falls from static_ratio mu N to mu N.
     const double break_away = model == FrictionModel::karnopp ? (options.static_ratio - 1.0) * sliding_force : 0.0;
-    CHECK(largest_step <= break_away + 0.0004);
+    CHECK(max_step <= break_away + 0.0004);
   }
 }
 
-TEST_CASE("break-away friction gives no energy on any path, however coarse", "[render]") {
-  // (z0 + z1) . dw >= 0, as the hold only ever moves along z1 and no z is longer than z1 then.
+TEST_CASE("break-away friction generates no energy on any path, however coarse", "[render]") {
+  // (z0 + z1) . dw >= 0, because the anchor only moves along z1, and then no z is longer than z1.
   Sequence random(7);
   for (const double step : {1e-6, 3e-5, 3e-4, 3e-3}) {
     for (int i = 0; i < 100; ++i) {
       INFO("steps up to " << step << " m");
-      CHECK(most_given(options_of(FrictionModel::breakaway), random_path(random, 300, step, i % 2 == 0)) <= 1e-12);
+      CHECK(max_given(options_of(FrictionModel::breakaway), random_path(random, 300, step, i % 2 == 0)) <= 1e-12);
     }
   }
 }
 
-TEST_CASE("the other models give no energy as long as a step is a tenth of the longest stretch", "[render]") {
+TEST_CASE("the other models generate no energy as long as a step is a tenth of the maximum stretch", "[render]") {
   Sequence random(8);
   for (const FrictionModel model : {FrictionModel::hayward_armstrong, FrictionModel::karnopp}) {
     for (const double step : {1e-6, 1e-5, 3e-5}) {
       for (int i = 0; i < 100; ++i) {
         INFO("model " << static_cast<int>(model) << ", steps up to " << step << " m");
-        CHECK(most_given(options_of(model), random_path(random, 1000, step, i % 2 == 0)) <= 1e-12);
+        CHECK(max_given(options_of(model), random_path(random, 1000, step, i % 2 == 0)) <= 1e-12);
       }
     }
   }
 }
 
-TEST_CASE("friction is finite where its formulas are near nothing or beyond all measure", "[render]") {
+TEST_CASE("friction is finite where its formulas nearly vanish or overflow", "[render]") {
   constexpr double least = std::numeric_limits<double>::denorm_min();
   for (const FrictionModel model : models) {
     FrictionOptions options = options_of(model);
@@ -339,7 +337,7 @@ TEST_CASE("friction is finite where its formulas are near nothing or beyond all 
   }
 }
 
-TEST_CASE("without pressure there is no friction, and a pen that does not move feels none", "[render]") {
+TEST_CASE("without normal force there is no friction, and a pen that does not move feels none", "[render]") {
   for (const FrictionModel model : models) {
     PaperFriction friction;
     for (int i = 0; i < 100; ++i) {

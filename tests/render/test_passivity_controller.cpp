@@ -1,4 +1,4 @@
-// Passivity observer and controller: true energy, Colgate's bound, walls that settle, a budget that nothing exceeds.
+// Passivity observer and controller: true energy, Colgate's bound, stable walls, a budget that is never exceeded.
 #include "../catch.hpp"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/render/force_limiter.hpp>
+#include <calligraphy/render/detail/force_limiter.hpp>
 #include <calligraphy/render/passivity_controller.hpp>
 
 #include "../allocation_counter.hpp"
@@ -34,12 +34,12 @@ Vector3d random_vector(Sequence& random, double largest) {
 }
 
 struct Press {
-  double peak = 0.0;   ///< largest force [N]
-  double swing = 0.0;  ///< of the place, over the last fifth [m]
+  double peak = 0.0;   ///< maximum force [N]
+  double swing = 0.0;  ///< peak-to-peak motion over the last fifth [m]
 };
 
-/// A device of 45 g and 0.1 N s/m is pressed with 0.5 N onto a wall below 0, which it meets with 0.1 m/s, for 12 s:
-/// what is left when sampling is made good, the device's own damping, takes 2 m / b = 0.9 s.
+/// A device of 45 g and 0.1 N s/m is pressed with 0.5 N onto a wall below 0, which it hits at 0.1 m/s, for 12 s. What
+/// remains when the energy of sampling is removed, the damping of the device, has a time constant of 2 m / b = 0.9 s.
 Press press(double stiffness, bool controlled, double saturation, int delay = 0, double period = 0.001) {
   constexpr double mass = 0.045, damping = 0.1, push = 0.5;
   PassivityOptions options;
@@ -76,15 +76,16 @@ struct Setting {
   double rate = 1000.0;
   int delay = 0;
   double budget = 0.01;
-  double jerk = infinity;      ///< of the limiter behind [N/s^2]
-  bool limited = true;         ///< a force limiter is behind
-  double share_of_lost = 0.0;  ///< of the samples
+  double jerk = infinity;      ///< of the limiter that follows [N/s^2]
+  bool limited = true;         ///< a force limiter follows
+  double share_of_lost = 0.0;  ///< fraction of the samples
 };
 
 constexpr double force_rate = 100.0, peak = 3.3;
 
-/// Most energy that the force has given to a pen which goes its own way, at any tick, over the budget: true work.
-double most_given(const Setting& setting, const Pen& pen, const Field& field, double seconds) {
+/// Maximum energy that the force has delivered at any tick to a pen on a prescribed path, relative to the budget: true
+/// work.
+double max_given(const Setting& setting, const Pen& pen, const Field& field, double seconds) {
   const double period = 1.0 / setting.rate;
   PassivityOptions options;
   options.energy_budget = setting.budget;
@@ -106,7 +107,7 @@ double most_given(const Setting& setting, const Pen& pen, const Field& field, do
       force = limiter.release(force);
     } else {
       const Vector3d wanted = passivity.next(position, field(i * period, velocity, force));
-      force = limiter.next(force, wanted, passivity.longest_force());
+      force = limiter.next(force, wanted, passivity.max_force());
     }
     passivity.sent(force);
     const Vector3d next = pen((i + 1) * period);
@@ -121,7 +122,7 @@ Pen straight(double speed) {
   return [speed](double time) { return Vector3d(0.6 * speed * time, 0.8 * speed * time, 0.0); };
 }
 
-/// To and fro, up to `speed`, with accelerations up to `acceleration`.
+/// Back and forth, up to `speed`, with accelerations up to `acceleration`.
 Pen to_and_fro(double speed, double acceleration) {
   const double frequency = acceleration / speed;
   return [=](double time) {
@@ -130,7 +131,7 @@ Pen to_and_fro(double speed, double acceleration) {
   };
 }
 
-/// In a circle, so that the direction of motion turns all the time.
+/// In a circle, so that the direction of motion turns constantly.
 Pen round(double speed, double acceleration) {
   const double frequency = acceleration / speed, radius = speed / frequency;
   return [=](double time) {
@@ -143,7 +144,7 @@ Vector3d unit(const Vector3d& velocity) {
   return speed > 0.0 ? Vector3d(velocity / speed) : Vector3d(0, 0, 0);
 }
 
-/// Fields that give energy as fast as they can.
+/// Fields that deliver energy as fast as they can.
 const std::vector<std::pair<const char*, Field>> hostile_fields = {
     {"along the motion",
      [](double, const Vector3d& velocity, const Vector3d&) -> Vector3d { return 10.0 * unit(velocity); }},
@@ -174,20 +175,20 @@ constexpr double hostile_seconds = 2.0;
 
 }  // namespace
 
-TEST_CASE("the observed energy is the true work of the force that was held", "[render]") {
+TEST_CASE("the observed energy is the true work of the held force", "[render]") {
   // Random forces and steps, so that nothing but F(n) . (x(n + 1) - x(n)) can add up to it.
-  for (const int delay : {0, 1, 2, 5, PassivityController::longest_delay}) {
+  for (const int delay : {0, 1, 2, 5, PassivityController::max_delay}) {
     PassivityOptions options;
     options.delay = delay;
     PassivityController passivity(options, 0.001);
     Sequence random(41);
     std::vector<Vector3d> places = {random_vector(random, 0.1)};
     std::vector<double> work = {0.0};  // done until each tick
-    double largest_error = 0.0;
+    double max_error = 0.0;
     for (int i = 0; i < 5000; ++i) {
       const std::size_t seen = static_cast<std::size_t>(std::max(0, i - delay));
       passivity.next(places[seen], random_vector(random, 3.0));
-      largest_error = std::max(largest_error, std::abs(passivity.energy_given() - work[seen]));
+      max_error = std::max(max_error, std::abs(passivity.energy_given() - work[seen]));
       const Vector3d force = random_vector(random, 3.0);
       passivity.sent(force);
       places.push_back(places.back() + random_vector(random, 1e-3));
@@ -195,7 +196,7 @@ TEST_CASE("the observed energy is the true work of the force that was held", "[r
     }
     INFO("delay " << delay);
     CHECK(std::abs(work.back()) > 1e-3);
-    CHECK(largest_error < 1e-13 * 5000);
+    CHECK(max_error < 1e-13 * 5000);
   }
 }
 
@@ -221,7 +222,7 @@ TEST_CASE("a pen that runs into a spring is damped by K T / 2, Colgate's bound",
   }
 }
 
-TEST_CASE("damping stays below its largest, in the plane and along the normal each", "[render]") {
+TEST_CASE("damping stays below its maximum, in plane and along the normal separately", "[render]") {
   PassivityOptions options;
   options.max_damping = 0.2;
   PassivityController passivity(options, 0.001);
@@ -232,57 +233,58 @@ TEST_CASE("damping stays below its largest, in the plane and along the normal ea
   CHECK(force.isApprox(Vector3d(-30.0, -40.0, 20.0) + passivity.damping()));
 }
 
-TEST_CASE("with control a wall 10 to 50 times stiffer than is passive settles below the peak", "[render]") {
+TEST_CASE("with control a pen comes to rest on a wall 10 to 50 times stiffer than is passive, below the peak",
+          "[render]") {
   // b = 0.1 N s/m and T = 1 ms: critical is 200 N/m.
   for (const double stiffness : {2001.0, 5000.0, 10'000.0}) {
     const Press with = press(stiffness, true, 7.9), without = press(stiffness, false, 7.9);
-    INFO(stiffness << " N/m: peak " << with.peak << " N, swing " << with.swing << " m, without " << without.swing);
+    INFO(stiffness << " N/m: peak " << with.peak << " N, peak-to-peak " << with.swing << " m, without "
+                   << without.swing);
     CHECK(with.swing < 1e-6);
     CHECK(with.peak < 7.9);
     CHECK(without.swing > 1e-4);
   }
 }
 
-TEST_CASE("with control a wall that a late sample makes unstable settles", "[render]") {
+TEST_CASE("with control a pen comes to rest on a wall that a delayed sample makes unstable", "[render]") {
   for (const int delay : {1, 2}) {
     const Press with = press(1000.0, true, 7.9, delay), without = press(1000.0, false, 7.9, delay);
-    INFO("delay " << delay << ": swing " << with.swing << " m, without " << without.swing);
+    INFO("delay " << delay << ": peak-to-peak " << with.swing << " m, without " << without.swing);
     CHECK(with.swing < 1e-6);
     CHECK(with.peak < 7.9);
     CHECK(without.swing > 1e-4);
   }
 }
 
-TEST_CASE("energy that was dissipated is no credit to vibrate on", "[render]") {
+TEST_CASE("dissipated energy is no credit to vibrate on", "[render]") {
   PassivityOptions options;
   options.max_damping = 1e6;
   PassivityController passivity(options, 0.001);
   double place = 0.0;
-  for (int i = 0; i < 1000; ++i) {  // 0.1 m against 1 N that the field does not ask for
+  for (int i = 0; i < 1000; ++i) {  // 0.1 m against 1 N that the field does not request
     passivity.next({place, 0, 0}, {0, 0, 0});
     passivity.sent({i < 999 ? -1.0 : 0.0, 0, 0});
     place += 1e-4;
   }
   CHECK(passivity.energy_given() < -0.09);
-  place -= 1e-4;  // where the force was last dissipating; the spring below begins here
+  place -= 1e-4;  // where the force last dissipated; the spring below begins here
   passivity.next({place, 0, 0}, {0, 0, 0});
   passivity.sent({0, 0, 0});
   passivity.next({place + 1e-4, 0, 0}, {-1000.0 * 1e-4, 0, 0});
   CHECK(passivity.damping().x() == Approx(-0.5 * 1000.0 * 0.001 * 0.1));
 }
 
-TEST_CASE("no field, pen speed, rate or delay gets more than the budget out of the controller and limiter",
-          "[render]") {
+TEST_CASE("no field, pen speed, rate or delay extracts more than the budget from controller and limiter", "[render]") {
   for (const double rate : {100.0, 1000.0, 20'000.0}) {
     for (const int delay : {0, 1, 2}) {
       for (const double jerk : {infinity, 1e5, 2e4}) {
         Setting setting{rate, delay, 0.01, jerk};
         const double seconds = rate > 5000.0 ? 0.25 * hostile_seconds : hostile_seconds;
         for (const auto& [name, field] : hostile_fields) {
-          // With |F| / rate = 33 ms and two late samples of 10 ms, 0.25 m/s are 4 m/s^2.
+          // With |F| / rate = 33 ms and two delayed samples of 10 ms each, 0.25 m/s are 4 m/s^2.
           for (const Pen& pen : {straight(0.1), straight(1.0), to_and_fro(0.5, 4.0), round(0.3, 4.0)}) {
             INFO(name << ", " << rate << " Hz, delay " << delay << ", jerk " << jerk);
-            CHECK(most_given(setting, pen, field, seconds) <= 1.0 + 1e-9);
+            CHECK(max_given(setting, pen, field, seconds) <= 1.0 + 1e-9);
           }
         }
       }
@@ -294,7 +296,7 @@ TEST_CASE("the budget holds whatever its size, and is used", "[render]") {
   for (const double budget : {0.0, 1e-9, 1e-3, 0.1}) {
     for (const auto& [name, field] : hostile_fields) {
       const Setting setting{1000.0, 0, std::max(budget, 1e-300), 1e5};
-      const double share = most_given(setting, straight(1.0), field, hostile_seconds);
+      const double share = max_given(setting, straight(1.0), field, hostile_seconds);
       INFO(name << ", " << budget << " J");
       CHECK(share <= 1.0 + 1e-9);
       if (budget >= 1e-3) CHECK(share > 0.9);
@@ -302,17 +304,17 @@ TEST_CASE("the budget holds whatever its size, and is used", "[render]") {
   }
 }
 
-TEST_CASE("the budget holds without a limiter behind, for then a force is taken away at once", "[render]") {
+TEST_CASE("the budget holds without a limiter, where a force is removed at once", "[render]") {
   for (const auto& [name, field] : hostile_fields) {
     for (const double rate : {100.0, 1000.0, 20'000.0}) {
       const Setting setting{rate, 0, 0.01, infinity, false};
       INFO(name << ", " << rate << " Hz");
-      CHECK(most_given(setting, straight(1.0), field, 0.25 * hostile_seconds) <= 1.0 + 1e-9);
+      CHECK(max_given(setting, straight(1.0), field, 0.25 * hostile_seconds) <= 1.0 + 1e-9);
     }
   }
 }
 
-TEST_CASE("lost samples are paid for as if the pen went on along the force", "[render]") {
+TEST_CASE("lost samples are charged as if the pen continued along the force", "[render]") {
   for (const double share : {0.01, 0.1, 0.5, 0.9}) {
     for (const double speed : {0.1, 1.0}) {
       for (const int delay : {0, 2}) {
@@ -320,14 +322,14 @@ TEST_CASE("lost samples are paid for as if the pen went on along the force", "[r
         setting.share_of_lost = share;
         for (const auto& [name, field] : hostile_fields) {
           INFO(name << ", " << share << " lost, " << speed << " m/s, delay " << delay);
-          CHECK(most_given(setting, straight(speed), field, hostile_seconds) <= 1.0 + 1e-9);
+          CHECK(max_given(setting, straight(speed), field, hostile_seconds) <= 1.0 + 1e-9);
         }
       }
     }
   }
 }
 
-TEST_CASE("a pen that speeds up by more than is reckoned with gains no more than the force and that speed allow",
+TEST_CASE("a pen that accelerates beyond the assumption gains no more than the force and that speed allow",
           "[render]") {
   // From rest to 2 m/s at once, while a force along it is as large as the budget allows.
   const double budget = 0.005, delay = 0.2;
@@ -337,12 +339,12 @@ TEST_CASE("a pen that speeds up by more than is reckoned with gains no more than
   // F^2 v / (2 rate) with v = 0.251 m/s is all of the budget; u = 2 - 0.251 m/s.
   const double force = std::sqrt(2.0 * force_rate * budget / 0.251);
   const double beyond = force * (2.0 - 0.251) * (force / force_rate + 0.001);
-  const double given = budget * most_given(setting, thrown, along, 0.5);
+  const double given = budget * max_given(setting, thrown, along, 0.5);
   CHECK(given > budget);
   CHECK(given <= budget + beyond);
 }
 
-TEST_CASE("energy that the hand gives comes back into the budget, up to its size", "[render]") {
+TEST_CASE("energy that the hand returns is added to the budget, up to its size", "[render]") {
   PassivityOptions options;
   options.energy_budget = 0.01;
   PassivityController passivity(options, 0.001);
@@ -354,17 +356,17 @@ TEST_CASE("energy that the hand gives comes back into the budget, up to its size
     passivity.next({place, 0, 0}, {force, 0, 0});
     passivity.sent({0, 0, 0});
   };
-  CHECK(passivity.energy_left() == 0.01);
+  CHECK(passivity.energy_remaining() == 0.01);
   move(0.004, 1.0);
-  CHECK(passivity.energy_left() == Approx(0.006));
+  CHECK(passivity.energy_remaining() == Approx(0.006));
   move(-0.003, 1.0);
-  CHECK(passivity.energy_left() == Approx(0.009));
+  CHECK(passivity.energy_remaining() == Approx(0.009));
   move(-0.009, 1.0);
-  CHECK(passivity.energy_left() == 0.01);
+  CHECK(passivity.energy_remaining() == 0.01);
   CHECK(passivity.energy_given() == Approx(0.004 - 0.003 - 0.009));
 }
 
-TEST_CASE("without a budget or damping the wanted force comes out as it went in", "[render]") {
+TEST_CASE("without a budget or damping the desired force is unchanged", "[render]") {
   PassivityController passivity(PassivityOptions{}, 0.001);
   Sequence random(9);
   for (int i = 0; i < 1000; ++i) {
@@ -372,10 +374,10 @@ TEST_CASE("without a budget or damping the wanted force comes out as it went in"
     CHECK(passivity.next(random_vector(random, 0.01), wanted) == wanted);
     passivity.sent(random_vector(random, 3.0));
   }
-  CHECK(std::isinf(passivity.longest_force()));
+  CHECK(std::isinf(passivity.max_force()));
 }
 
-TEST_CASE("a lost sample damps nothing and leaves every figure a number", "[render]") {
+TEST_CASE("a lost sample injects no damping and leaves every value finite", "[render]") {
   PassivityOptions options;
   options.max_damping = 10.0;
   options.energy_budget = 0.01;
@@ -388,14 +390,14 @@ TEST_CASE("a lost sample damps nothing and leaves every figure a number", "[rend
     if (is_lost) position[i % 3] = i % 2 ? not_a_number : infinity;
     const Vector3d force = passivity.next(position, random_vector(random, 3.0));
     finite = finite && force.allFinite() && std::isfinite(passivity.energy_given()) &&
-             std::isfinite(passivity.energy_left());
+             std::isfinite(passivity.energy_remaining());
     if (is_lost) CHECK(passivity.damping() == Vector3d(0, 0, 0));
     passivity.sent(force);
   }
   CHECK(finite);
 }
 
-TEST_CASE("samples lost before the first cost nothing", "[render]") {
+TEST_CASE("samples lost before the first good one are not charged", "[render]") {
   PassivityOptions options;
   options.energy_budget = 0.01;
   PassivityController passivity(options, 0.001);
@@ -405,10 +407,10 @@ TEST_CASE("samples lost before the first cost nothing", "[render]") {
   }
   passivity.next({0.1, 0.2, 0.3}, {0, 0, 0});
   CHECK(passivity.energy_given() == 0.0);
-  CHECK(passivity.energy_left() == 0.01);
+  CHECK(passivity.energy_remaining() == 0.01);
 }
 
-TEST_CASE("restart forgets everything", "[render]") {
+TEST_CASE("a restarted passivity controller behaves like a new one", "[render]") {
   PassivityOptions options;
   options.max_damping = 10.0;
   options.energy_budget = 0.01;
@@ -427,13 +429,13 @@ TEST_CASE("restart forgets everything", "[render]") {
     const Vector3d position = random_vector(random, 0.01), wanted = random_vector(random, 3.0);
     const Vector3d force = fresh.next(position, wanted);
     CHECK(used.next(position, wanted) == force);
-    CHECK(used.energy_left() == fresh.energy_left());
+    CHECK(used.energy_remaining() == fresh.energy_remaining());
     fresh.sent(force);
     used.sent(force);
   }
 }
 
-TEST_CASE("an option of the passivity controller out of its domain is named with its value", "[render]") {
+TEST_CASE("an option of the passivity controller out of range is named with its value", "[render]") {
   const auto complaint = [](const PassivityOptions& options, double period) -> std::string {
     try {
       PassivityController(options, period);
@@ -462,7 +464,7 @@ TEST_CASE("an option of the passivity controller out of its domain is named with
   names({.delay = 16}, 0.001, "delay = 16");
 }
 
-TEST_CASE("the passivity controller takes nothing from the heap", "[render]") {
+TEST_CASE("the passivity controller does not allocate", "[render]") {
   PassivityOptions options;
   options.max_damping = 10.0;
   options.energy_budget = 0.01;

@@ -1,4 +1,4 @@
-// Set-up validates everything and names what is wrong.
+// Set-up validates every option and names what is wrong.
 #include "../catch.hpp"
 
 #include <cmath>
@@ -20,7 +20,7 @@ namespace {
 using calligraphy_test::infinity;
 using calligraphy_test::not_a_number;
 
-/// What a ValueError says, or "" when there is none.
+/// The message of the ValueError thrown, or "".
 std::string complaint(const std::function<void()>& act) {
   try {
     act();
@@ -54,7 +54,7 @@ const Domain domains[] = {
     {"wrong_way_slack", [](RendererOptions& o) -> double& { return o.wrong_way_slack; }, true},
     {"stroke.nearest.tolerance", [](RendererOptions& o) -> double& { return o.stroke.nearest.tolerance; }, false},
     {"stroke.space.radius", [](RendererOptions& o) -> double& { return o.stroke.space.radius; }, false},
-    {"stroke.space.edge", [](RendererOptions& o) -> double& { return o.stroke.space.edge; }, false},
+    {"stroke.space.fade_width", [](RendererOptions& o) -> double& { return o.stroke.space.fade_width; }, false},
     {"stroke.plane_tolerance", [](RendererOptions& o) -> double& { return o.stroke.plane_tolerance; }, true},
     {"stroke.window", [](RendererOptions& o) -> double& { return o.stroke.window; }, true},
     {"start_radius", [](RendererOptions& o) -> double& { return o.start_radius; }, false},
@@ -63,11 +63,12 @@ const Domain domains[] = {
     {"box_hysteresis", [](RendererOptions& o) -> double& { return o.box_hysteresis; }, true},
     {"in_plane_force_rate", [](RendererOptions& o) -> double& { return o.in_plane_force_rate; }, false},
     {"normal_force_rate", [](RendererOptions& o) -> double& { return o.normal_force_rate; }, false},
-    {"largest_speed", [](RendererOptions& o) -> double& { return o.largest_speed; }, false},
+    {"max_speed", [](RendererOptions& o) -> double& { return o.max_speed; }, false},
     {"guidance_limit", [](RendererOptions& o) -> double& { return o.guidance_limit; }, false},
     {"assist.retention", [](RendererOptions& o) -> double& { return o.assist.retention; }, true},
-    {"assist.full_help_error", [](RendererOptions& o) -> double& { return o.assist.full_help_error; }, false},
-    {"assist.least", [](RendererOptions& o) -> double& { return o.assist.least; }, true},
+    {"assist.full_assistance_error", [](RendererOptions& o) -> double& { return o.assist.full_assistance_error; },
+     false},
+    {"min_assistance", [](RendererOptions& o) -> double& { return o.assist.min_assistance; }, true},
     {"friction.coefficient", [](RendererOptions& o) -> double& { return o.friction.coefficient; }, true},
     {"friction.stiffness", [](RendererOptions& o) -> double& { return o.friction.stiffness; }, false},
     {"friction.static_ratio", [](RendererOptions& o) -> double& { return o.friction.static_ratio; }, false},
@@ -79,7 +80,7 @@ const Domain domains[] = {
 
 }  // namespace
 
-TEST_CASE("each option out of its domain is named with its value", "[render]") {
+TEST_CASE("each option out of range is named with its value", "[render]") {
   CHECK(complaint(RendererOptions{}).empty());
   for (const Domain& domain : domains) {
     for (const auto& [value, text] :
@@ -98,13 +99,13 @@ TEST_CASE("each option out of its domain is named with its value", "[render]") {
   }
 }
 
-TEST_CASE("stiffness is not clipped by factors that are none", "[render]") {
+TEST_CASE("an attraction factor or a scale out of range is named and clips no stiffness", "[render]") {
   const Capabilities device = test_device();
-  const auto complaint_of = [&](double largest_attraction, double scale) -> std::string {
+  const auto complaint_of = [&](double max_attraction, double scale) -> std::string {
     RendererOptions options;
     options.guidance_stiffness = 1e9;
     try {
-      clip_stiffness(options, device, largest_attraction, scale);
+      clip_stiffness(options, device, max_attraction, scale);
     } catch (const ValueError& error) {
       CHECK(options.guidance_stiffness == 1e9);
       return error.what();
@@ -113,20 +114,20 @@ TEST_CASE("stiffness is not clipped by factors that are none", "[render]") {
     return {};
   };
   for (const double bad : {-1.0, -infinity, infinity, std::numeric_limits<double>::quiet_NaN()}) {
-    CHECK(contains(complaint_of(bad, 1.0), "largest_attraction"));
+    CHECK(contains(complaint_of(bad, 1.0), "max_attraction"));
     CHECK(contains(complaint_of(1.0, bad), "scale"));
   }
   CHECK(contains(complaint_of(1.0, 0.0), "scale"));
-  CHECK(complaint_of(0.0, 1.0).empty());  // no stroke pulls
+  CHECK(complaint_of(0.0, 1.0).empty());  // no stroke attracts
 }
 
-TEST_CASE("upper bounds are named too", "[render]") {
+TEST_CASE("options above their upper bounds are named too", "[render]") {
   RendererOptions options;
   options.servo_rate = 2e6;
   CHECK(contains(complaint(options), "servo_rate"));
   options = {};
-  options.stroke.space.edge = 2.0 * options.stroke.space.radius;
-  CHECK(contains(complaint(options), "stroke.space.edge"));
+  options.stroke.space.fade_width = 2.0 * options.stroke.space.radius;
+  CHECK(contains(complaint(options), "stroke.space.fade_width"));
   options = {};
   for (const int samples : {1, 65, -3}) {
     RendererOptions coarse = options;
@@ -142,7 +143,7 @@ TEST_CASE("upper bounds are named too", "[render]") {
   CHECK(contains(complaint(options), "stroke.nearest.tolerance"));
 }
 
-TEST_CASE("shares and ratios of the stages have their upper and lower bounds", "[render]") {
+TEST_CASE("fractions and ratios of the stages have upper and lower bounds", "[render]") {
   const auto refused = [](const char* name, double value) {
     RendererOptions options;
     for (const Domain& domain : domains) {
@@ -150,7 +151,7 @@ TEST_CASE("shares and ratios of the stages have their upper and lower bounds", "
     }
     return contains(complaint(options), name);
   };
-  for (const char* name : {"assist.retention", "assist.least"}) {
+  for (const char* name : {"assist.retention", "min_assistance"}) {
     CHECK_FALSE(refused(name, 1.0));
     CHECK(refused(name, 1.0 + 1e-9));
   }
@@ -158,11 +159,11 @@ TEST_CASE("shares and ratios of the stages have their upper and lower bounds", "
   CHECK(refused("friction.coefficient", 10.5));
   CHECK(refused("friction.stiffness", 2e6));
   CHECK_FALSE(refused("friction.static_ratio", 1.0));
-  CHECK(refused("friction.static_ratio", 0.999));  // below 1 every slip would give energy
+  CHECK(refused("friction.static_ratio", 0.999));  // below 1 every slip would generate energy
   CHECK(refused("friction.static_ratio", 11.0));
 }
 
-TEST_CASE("a stage that needs to know the device says what it misses", "[render]") {
+TEST_CASE("a stage that needs a property of the device names it when it is missing", "[render]") {
   RendererOptions options;
   options.passivity_control = true;
   for (const double mass : {0.0, -0.1, not_a_number}) {
@@ -187,14 +188,14 @@ TEST_CASE("a stage that needs to know the device says what it misses", "[render]
   CHECK(contains(complaint([&] { HapticRenderer({placed(U'永')}, {}, late, options); }), "delay = 16"));
 }
 
-TEST_CASE("a stiffness is taken as it is where no check is asked for, but for one that is no stiffness", "[render]") {
+TEST_CASE("with the check off any stiffness from 0 to 1e6 N/m is accepted", "[render]") {
   Capabilities device = test_device();
   device.usable_stiffness = 100.0;
   device.apparent_mass = 0.045;
   RendererOptions options;
   options.paper_stiffness = 5000.0;
   CHECK(contains(complaint(options, device), "paper_stiffness = 5000"));
-  options.stiffness_check = StiffnessCheck::none;
+  options.stiffness_check = StiffnessCheck::off;
   CHECK(complaint(options, device).empty());
   CHECK(HapticRenderer({placed(U'永')}, {}, device, options).options().paper_stiffness == 5000.0);
   options.paper_stiffness = 2e6;
@@ -218,7 +219,7 @@ TEST_CASE("a renderer needs a device that senses and drives three translations",
   CHECK(contains(complaint_of(plane, plane), "sensed axes are x, y, driven axes are x, y; the renderer"));
 }
 
-TEST_CASE("everything() is valid for devices as they are shipped, and every stage is on", "[render]") {
+TEST_CASE("everything() is valid for the shipped devices, and every stage is enabled", "[render]") {
   struct Shipped {
     double peak, continuous, stiffness, mass;
     int delay;
@@ -253,7 +254,7 @@ TEST_CASE("everything() is valid for devices as they are shipped, and every stag
   }
 }
 
-TEST_CASE("a stiffness above what the device can hold is refused, the attraction factor counted", "[render]") {
+TEST_CASE("a stiffness above the device's usable one is rejected, counting the attraction factor", "[render]") {
   for (const char* name : {"paper_stiffness", "guidance_stiffness", "wrong_way_stiffness"}) {
     RendererOptions options;
     for (const Domain& domain : domains) {
@@ -266,15 +267,15 @@ TEST_CASE("a stiffness above what the device can hold is refused, the attraction
   RendererOptions options;
   options.guidance_stiffness = 600.0;
   CHECK(complaint(options, test_device(), 1.6).empty());
-  CHECK(contains(complaint(options, test_device(), 1.7), "largest attraction factor 1.7"));
+  CHECK(contains(complaint(options, test_device(), 1.7), "maximum attraction factor 1.7"));
   CHECK(
       contains(complaint([&] {
                  HapticRenderer({{calligraphy_test::typical_character(1, {1.0, 2.0}), {}}}, {}, test_device(), options);
                }),
-               "largest attraction factor 2"));
+               "maximum attraction factor 2"));
 }
 
-TEST_CASE("no stiffness that is a number makes a force that is none, for a device that states no limit", "[render]") {
+TEST_CASE("every accepted stiffness gives finite forces on a device that states no limit", "[render]") {
   Capabilities device = test_device();
   device.usable_stiffness = 0.0;
   for (const double stiffness : {1e-300, 1e-12, 1e6, 1e12, 1e306, 1.7e308}) {
@@ -289,16 +290,16 @@ TEST_CASE("no stiffness that is a number makes a force that is none, for a devic
     pen.go({0.03, 0.05, -5.0});
     INFO(stiffness);
     CHECK(pen.finite);
-    CHECK(pen.largest_force <= 3.3 * (1.0 + 1e-12));
-    CHECK(pen.largest_step <= renderer.max_force_step() * (1.0 + 1e-12));
+    CHECK(pen.max_force <= 3.3 * (1.0 + 1e-12));
+    CHECK(pen.max_step <= renderer.max_force_step() * (1.0 + 1e-12));
   }
   CHECK(contains(complaint([&] {
                    HapticRenderer({{calligraphy_test::typical_character(1, {1.0, 1e300}), {}}}, {}, device);
                  }),
-                 "largest attraction factor"));
+                 "maximum attraction factor"));
 }
 
-TEST_CASE("a page, a place or a mapping that is no use is refused by name", "[render]") {
+TEST_CASE("an invalid page, placement or mapping is rejected by name", "[render]") {
   const auto refusal = [](std::vector<PlacedCharacter> page, const MotionMapping& mapping = {}) {
     return complaint([&] { HapticRenderer(std::move(page), mapping, test_device()); });
   };
@@ -325,11 +326,11 @@ TEST_CASE("a page, a place or a mapping that is no use is refused by name", "[re
   mapping.rotation(0, 0) = 1.1;
   CHECK(contains(refusal({placed(U'永')}, mapping), "rotation"));
   mapping = {};
-  mapping.rotation(0, 0) = -1.0;  // a mirror: writing would come out reversed
+  mapping.rotation(0, 0) = -1.0;  // a reflection: writing would be mirrored
   CHECK(contains(refusal({placed(U'永')}, mapping), "rotation"));
 }
 
-TEST_CASE("a device without a peak force is refused", "[render]") {
+TEST_CASE("a device without a peak force is rejected", "[render]") {
   for (const double peak : {0.0, -1.0, not_a_number}) {
     Capabilities device = test_device();
     device.peak_force = peak;
@@ -350,7 +351,7 @@ TEST_CASE("for_device takes the device's rate and stays within its stiffness", "
   CHECK(RendererOptions::for_device(test_device()).paper_stiffness == RendererOptions{}.paper_stiffness);
 }
 
-TEST_CASE("the largest step of the force is per tick, in the device's newtons", "[render]") {
+TEST_CASE("the maximum force step is per tick, in newtons at the device", "[render]") {
   for (const double scale : {0.5, 1.0, 4.0}) {
     MotionMapping mapping;
     mapping.scale = scale;
@@ -362,7 +363,7 @@ TEST_CASE("the largest step of the force is per tick, in the device's newtons", 
   }
 }
 
-TEST_CASE("a stiffness counts with the square of the motion scale, as the device feels it", "[render]") {
+TEST_CASE("a stiffness counts with the square of the motion scale, as the device renders it", "[render]") {
   MotionMapping mapping;
   mapping.scale = 2.0;  // 600 N/m on the page are 2400 at the device, which is usable up to 1000
   CHECK(complaint([&] {
@@ -378,7 +379,7 @@ TEST_CASE("a stiffness counts with the square of the motion scale, as the device
   }
 }
 
-TEST_CASE("with any scale the device's peak and rate hold on the device's side", "[render]") {
+TEST_CASE("with any scale the peak and the rate limit hold at the device", "[render]") {
   for (const double scale : {0.2, 1.0, 5.0}) {
     MotionMapping mapping;
     mapping.scale = scale;
@@ -390,8 +391,8 @@ TEST_CASE("with any scale the device's peak and rate hold on the device's side",
     pen.write(renderer.page()[0], 0.002);
     pen.go({0.04, 0.06, 0.005});
     pen.go({0.04, 0.06, -0.1});
-    CHECK(pen.largest_force <= 3.3 * (1.0 + 1e-12));
-    CHECK(pen.largest_step <= renderer.max_force_step() * (1.0 + 1e-12));
+    CHECK(pen.max_force <= 3.3 * (1.0 + 1e-12));
+    CHECK(pen.max_step <= renderer.max_force_step() * (1.0 + 1e-12));
     CHECK(renderer.last().character == 1);
   }
 }

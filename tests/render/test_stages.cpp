@@ -1,4 +1,5 @@
-// The renderer's stages by choice: guidance for large deviations, friction, passivity, heat, and all of them at once.
+// The optional stages of the renderer: guidance for large deviations, friction, passivity, heat, and all of them
+// together.
 #include "../catch.hpp"
 
 #include <algorithm>
@@ -59,7 +60,7 @@ void rest(ScriptedPen& pen, const Vector3d& place, int ticks) {
   for (int i = 0; i < ticks; ++i) pen.at(place);
 }
 
-/// Starts the first stroke and goes 10 mm along it, pressed in by 2 mm.
+/// Starts the first stroke and moves 10 mm along it, pressed in by 2 mm.
 FirstStroke begin_writing(ScriptedPen& pen, const HapticRenderer& renderer) {
   const FirstStroke stroke(renderer);
   pen.go(at(stroke.start, 0.005));
@@ -68,27 +69,27 @@ FirstStroke begin_writing(ScriptedPen& pen, const HapticRenderer& renderer) {
   return stroke;
 }
 
-/// Changes of state, and what went on meanwhile.
+/// Changes of state, and what happened meanwhile.
 struct Watch {
   std::string states, events;
 
   void operator()(const HapticTick& tick) {
-    const std::string state = short_name(tick.state);
+    const std::string state = to_string(tick.state);
     if (states.empty() || states.substr(states.size() - 2) != state) states += states.empty() ? state : " " + state;
     const std::pair<TickEvent, char> names[] = {{TickEvent::stroke_started, 's'},
                                                 {TickEvent::feature_passed, 'p'},
                                                 {TickEvent::stroke_finished, 'f'},
                                                 {TickEvent::stroke_abandoned, 'a'}};
     for (const auto& [event, letter] : names) {
-      if (has(tick.events, event)) events += letter;
+      if (has_event(tick.events, event)) events += letter;
     }
   }
 };
 
 void check_steps(const ScriptedPen& pen, const HapticRenderer& renderer) {
   CHECK(pen.finite);
-  CHECK(pen.largest_step <= renderer.max_force_step() * (1.0 + 1e-12));
-  CHECK(pen.largest_force <= 3.3 * (1.0 + 1e-12));
+  CHECK(pen.max_step <= renderer.max_force_step() * (1.0 + 1e-12));
+  CHECK(pen.max_force <= 3.3 * (1.0 + 1e-12));
 }
 
 #ifdef __SANITIZE_ADDRESS__
@@ -97,7 +98,7 @@ constexpr int random_strokes = 2;
 constexpr int random_strokes = 10;
 #endif
 
-/// Writing, leaps, wanderings in and above the paper, at speeds up to 1 m/s.
+/// Writing, jumps and random motion in and above the paper, at speeds up to 1 m/s.
 void wander(ScriptedPen& pen, const HapticRenderer& renderer, std::uint64_t seed) {
   Sequence random(seed);
   const auto all = strokes(renderer.page()[0].character);
@@ -112,7 +113,7 @@ void wander(ScriptedPen& pen, const HapticRenderer& renderer, std::uint64_t seed
 
 }  // namespace
 
-TEST_CASE("saturating guidance has the stiffness of eq. (8) near the stroke and its limit far off, at any distance",
+TEST_CASE("saturating guidance has the stiffness of eq. (8) near the stroke and stays below its limit at any distance",
           "[render]") {
   HapticRenderer renderer = renderer_of(U'三', saturating());
   ScriptedPen pen(renderer);
@@ -134,7 +135,7 @@ TEST_CASE("saturating guidance has the stiffness of eq. (8) near the stroke and 
   }
 }
 
-TEST_CASE("the linear law lets go where the saturating one still guides", "[render]") {
+TEST_CASE("the linear law ends where the saturating one still guides", "[render]") {
   for (const bool saturates : {false, true}) {
     RendererOptions options = saturating();
     if (!saturates) options.guidance = GuidanceLaw::linear;
@@ -148,7 +149,7 @@ TEST_CASE("the linear law lets go where the saturating one still guides", "[rend
   }
 }
 
-TEST_CASE("a pen led astray is drawn to the stroke's start, but on the paper only and before the stroke", "[render]") {
+TEST_CASE("a misplaced pen is pulled to the stroke's start, but only on the paper and before the stroke", "[render]") {
   for (const bool leads : {false, true}) {
     RendererOptions options = saturating();
     options.guide_to_start = leads;
@@ -160,7 +161,7 @@ TEST_CASE("a pen led astray is drawn to the stroke's start, but on the paper onl
     rest(pen, at(astray, 0.005), 50);
     CHECK(renderer.last().force == Vector3d(0, 0, 0));  // in the air
     pen.go(at(astray, -0.001));
-    CHECK(renderer.last().page_force.head<2>().norm() < 0.1);  // 10 ms on the paper: it has begun to come in
+    CHECK(renderer.last().page_force.head<2>().norm() < 0.1);  // 10 ms on the paper: it has begun to fade in
     rest(pen, at(astray, -0.001), 500);
     CHECK(renderer.last().state == InteractionState::calibration);
     const Point in_plane = renderer.last().page_force.head<2>();
@@ -174,7 +175,7 @@ TEST_CASE("a pen led astray is drawn to the stroke's start, but on the paper onl
     pen.go(at(astray, 0.005));
     rest(pen, at(astray, 0.005), 50);
     pen.go(at(astray, -0.001));
-    CHECK(renderer.last().page_force.head<2>().norm() < 0.1);  // and comes in anew with each contact
+    CHECK(renderer.last().page_force.head<2>().norm() < 0.1);  // and fades in again with each contact
     pen.go(at(stroke.start, -0.001));
     CHECK(renderer.last().state == InteractionState::writing);
     pen.go(at(stroke.end, -0.001));
@@ -189,7 +190,7 @@ TEST_CASE("a pen led astray is drawn to the stroke's start, but on the paper onl
   }
 }
 
-TEST_CASE("a pen comes back from anywhere without a step of the force, whatever the stages", "[render]") {
+TEST_CASE("a pen returns from anywhere without a force step, whatever the stages", "[render]") {
   for (const RendererOptions& options : {RendererOptions{}, saturating(), everything()}) {
     HapticRenderer renderer = renderer_of(U'三', options);
     ScriptedPen pen(renderer);
@@ -199,7 +200,7 @@ TEST_CASE("a pen comes back from anywhere without a step of the force, whatever 
     for (int i = 0; i < 20; ++i) {
       pen.speed = random.between(0.05, 0.5);
       begin_writing(pen, renderer);
-      // Out of the tube, out of the box, into the air, and back on a way of its own.
+      // Out of the tube, out of the box, into the air, and back on another path.
       pen.go(at(stroke.start + random.point(-0.1, 0.1), i % 3 == 0 ? 0.004 : -random.between(0.0, 0.005)));
       pen.go(at(stroke.start + random.point(-0.03, 0.05), -random.between(0.0, 0.005)));
       rest(pen, at(stroke.start + 0.015 * stroke.along + random.point(-0.01, 0.01), -0.004), 50);
@@ -210,7 +211,7 @@ TEST_CASE("a pen comes back from anywhere without a step of the force, whatever 
   }
 }
 
-TEST_CASE("friction opposes the motion of writing with mu N and is none in the air", "[render]") {
+TEST_CASE("friction opposes the writing motion with mu N, and there is none in the air", "[render]") {
   for (const FrictionModel model :
        {FrictionModel::breakaway, FrictionModel::hayward_armstrong, FrictionModel::karnopp}) {
     RendererOptions options;
@@ -224,7 +225,7 @@ TEST_CASE("friction opposes the motion of writing with mu N and is none in the a
     pen.on_tick = [&](const HapticTick& tick) {
       if (tick.state == InteractionState::separation) in_air = std::max(in_air, tick.friction.norm());
       if (tick.state != InteractionState::writing || tick.penetration < 0.0019) return;
-      // Against the force of the last tick, which this one's pressure follows.
+      // Computed from the force of the last tick, which the normal force of this one follows.
       CHECK((tick.friction + 0.2 * 0.002 * 600.0 * stroke.along).norm() < 1e-6);
       ++writing;
     };
@@ -238,7 +239,7 @@ TEST_CASE("friction opposes the motion of writing with mu N and is none in the a
   }
 }
 
-TEST_CASE("a pen held at rest on the paper feels no friction, and the next contact none at first", "[render]") {
+TEST_CASE("a pen at rest on the paper feels no friction, nor does the next contact at first", "[render]") {
   RendererOptions options;
   options.friction.coefficient = 0.3;
   HapticRenderer renderer = renderer_of(U'三', options);
@@ -255,7 +256,7 @@ TEST_CASE("a pen held at rest on the paper feels no friction, and the next conta
   CHECK(none);
 }
 
-TEST_CASE("a pen pressed for a minute: warm motors bring the force down to the continuous one, its direction kept",
+TEST_CASE("a pen pressed for a minute: warm motors reduce the force to the continuous one, in the same direction",
           "[render]") {
   RendererOptions plain;
   plain.thermal_time_constant = 10.0;
@@ -267,8 +268,8 @@ TEST_CASE("a pen pressed for a minute: warm motors bring the force down to the c
     pen.go(place);
     rest(pen, place, 500);
     const HapticTick& tick = renderer.last();
-    CHECK(pen.largest_force == Approx(3.3));
-    double last = tick.force.norm(), largest_rise = 0.0, largest_turn = 0.0, hottest = 0.0;
+    CHECK(pen.max_force == Approx(3.3));
+    double last = tick.force.norm(), max_rise = 0.0, max_turn = 0.0, hottest = 0.0;
 #ifdef __SANITIZE_ADDRESS__
     constexpr int seconds = 40;
 #else
@@ -277,18 +278,18 @@ TEST_CASE("a pen pressed for a minute: warm motors bring the force down to the c
     for (int i = 0; i < 1000 * seconds; ++i) {
       pen.at(place);
       const double size = tick.force.norm();
-      // What friction is left from the way here falls with the pressure, and turns the force a little.
+      // The friction left from the approach falls with the normal force, and turns the force slightly.
       Vector3d wanted(0, 0, tick.normal);
       wanted.head<2>() = tick.attraction + tick.wrong_way + tick.friction;
-      largest_rise = std::max(largest_rise, size - last);
-      largest_turn = std::max(largest_turn, (tick.force / size - wanted.normalized()).norm());
+      max_rise = std::max(max_rise, size - last);
+      max_turn = std::max(max_turn, (tick.force / size - wanted.normalized()).norm());
       hottest = std::max(hottest, tick.heat);
       last = size;
     }
     CHECK(last == Approx(0.88).epsilon(0.03));
     CHECK(last >= 0.88 * (1.0 - 1e-9));
-    CHECK(largest_rise <= 1e-9);
-    CHECK(largest_turn < 1e-3);
+    CHECK(max_rise <= 1e-9);
+    CHECK(max_turn < 1e-3);
     CHECK(hottest <= 1.0);
     pen.go(at(stroke.start, 0.01));
     rest(pen, at(stroke.start, 0.01), 30'000);
@@ -307,10 +308,10 @@ TEST_CASE("with passivity control the paper still never pulls, however fast the 
     HapticRenderer renderer = renderer_of(U'三', options);
     ScriptedPen pen(renderer);
     const FirstStroke stroke(renderer);
-    double least = 0.0, most_damped = 0.0;
+    double least = 0.0, max_damped = 0.0;
     pen.on_tick = [&](const HapticTick& tick) {
       least = std::min(least, tick.page_force.z());
-      most_damped = std::max(most_damped, tick.damping.norm());
+      max_damped = std::max(max_damped, tick.damping.norm());
     };
     Sequence random(5);
     for (int i = 0; i < 200; ++i) {
@@ -319,12 +320,12 @@ TEST_CASE("with passivity control the paper still never pulls, however fast the 
       pen.go(at(stroke.start + random.point(-0.01, 0.03), random.between(0.0, 0.01)));
     }
     CHECK(least == 0.0);
-    CHECK(most_damped > 0.5);
+    CHECK(max_damped > 0.5);
     check_steps(pen, renderer);
   }
 }
 
-TEST_CASE("passivity control damps what sampling adds where the pen moves through the paper, and not at rest",
+TEST_CASE("passivity control dissipates what sampling adds where the pen moves in the paper, and nothing at rest",
           "[render]") {
   RendererOptions options;
   options.passivity_control = true;
@@ -346,12 +347,12 @@ TEST_CASE("passivity control damps what sampling adds where the pen moves throug
   CHECK(renderer.last().damping == Vector3d(0, 0, 0));
 }
 
-TEST_CASE("a stage that is off changes no bit, whatever its parameters", "[render]") {
+TEST_CASE("a disabled stage changes no bit, whatever its parameters", "[render]") {
   RendererOptions changed;
   changed.guidance_limit = 0.01;
   changed.assist.retention = 0.1;
-  changed.assist.full_help_error = 1e-5;
-  changed.assist.least = 0.9;
+  changed.assist.full_assistance_error = 1e-5;
+  changed.assist.min_assistance = 0.9;
   changed.friction.model = FrictionModel::karnopp;
   changed.friction.stiffness = 10.0;
   changed.friction.static_ratio = 3.0;
@@ -374,39 +375,39 @@ TEST_CASE("a stage that is off changes no bit, whatever its parameters", "[rende
   }
 }
 
-TEST_CASE("with every stage off the force is that of the plain composition: terms, sum, limits", "[render]") {
+TEST_CASE("with every stage disabled the force is the plain composition: terms, sum, limits", "[render]") {
   RendererOptions options;
   options.guidance_fade_in = 0.0;
   HapticRenderer renderer = renderer_of(U'永', options);
   ScriptedPen pen(renderer);
   ForceLimiter limiter{0.1, 0.4, 3.3, true};
   Vector3d force(0, 0, 0);
-  double largest_difference = 0.0, largest_force = 0.0;
+  double max_difference = 0.0, max_force = 0.0;
   pen.on_tick = [&](const HapticTick& tick) {
     Vector3d sum(0, 0, 0);
     if (tick.state == InteractionState::writing) {
       const StrokeContact& contact = tick.contact;
       sum.head<2>() =
-          attraction_force(600.0 * contact.share * contact.attraction, tick.pen_tip.head<2>(), contact.foot.point) +
-          contact.share * wrong_way_force(200.0, 1.0, 0.002, contact.backwards, contact.foot.tangent);
+          attraction_force(600.0 * contact.weight * contact.attraction, tick.pen_tip.head<2>(), contact.closest.point) +
+          contact.weight * wrong_way_force(200.0, 1.0, 0.002, contact.backwards, contact.closest.tangent);
     }
     const bool solid = tick.state == InteractionState::writing || tick.state == InteractionState::calibration;
     if (solid) sum.z() = normal_force(600.0, -tick.device_point.z());
     force = limiter.next(force, sum);
-    largest_difference = std::max(largest_difference, (force - tick.force).norm());
-    largest_force = std::max(largest_force, force.norm());
+    max_difference = std::max(max_difference, (force - tick.force).norm());
+    max_force = std::max(max_force, force.norm());
     CHECK(tick.friction == Point(0, 0));
     CHECK(tick.damping == Vector3d(0, 0, 0));
-    CHECK(tick.help == 1.0);
+    CHECK(tick.assistance == 1.0);
     CHECK(tick.heat == 0.0);
     CHECK(tick.energy_given == 0.0);
   };
   wander(pen, renderer, 8);
-  CHECK(largest_difference < 1e-12);
-  CHECK(largest_force > 1.0);
+  CHECK(max_difference < 1e-12);
+  CHECK(max_force > 1.0);
 }
 
-TEST_CASE("with everything on each stroke of 永 is written, exactly and 3 mm beside itself", "[render]") {
+TEST_CASE("with every stage enabled each stroke of 永 is written, exactly and with an offset of 3 mm", "[render]") {
   for (const double offset : {0.0, 0.003}) {
     HapticRenderer renderer = renderer_of(U'永', everything());
     ScriptedPen pen(renderer);
@@ -420,7 +421,8 @@ TEST_CASE("with everything on each stroke of 永 is written, exactly and 3 mm be
   }
 }
 
-TEST_CASE("on the feature plane and in chatter across it one feature point is passed and the state stays", "[render]") {
+TEST_CASE("a pen on the feature plane or chattering across it passes one feature point and keeps its state",
+          "[render]") {
   for (const RendererOptions& options : {RendererOptions{}, everything()}) {
     const PlacedCharacter corner{calligraphy_test::typical_character(16), {{0.07, 0.07}, 0.04}};
     const Stroke stroke = strokes(corner.character)[0];
@@ -447,7 +449,7 @@ TEST_CASE("on the feature plane and in chatter across it one feature point is pa
   }
 }
 
-TEST_CASE("back onto a written stroke: it stays written, and the pen on it changes no state", "[render]") {
+TEST_CASE("a finished stroke stays finished, and a pen back on it changes no state", "[render]") {
   for (const RendererOptions& options : {RendererOptions{}, everything()}) {
     HapticRenderer renderer = renderer_of(U'三', options);
     ScriptedPen pen(renderer);
@@ -464,7 +466,7 @@ TEST_CASE("back onto a written stroke: it stays written, and the pen on it chang
   }
 }
 
-TEST_CASE("a pen lifted after one sample gives the stroke up, each time anew, and nothing steps", "[render]") {
+TEST_CASE("a pen lifted after one sample abandons the stroke, every time, without a force step", "[render]") {
   for (const RendererOptions& options : {RendererOptions{}, everything()}) {
     HapticRenderer renderer = renderer_of(U'三', options);
     ScriptedPen pen(renderer);
@@ -491,7 +493,7 @@ TEST_CASE("a pen lifted after one sample gives the stroke up, each time anew, an
   }
 }
 
-TEST_CASE("a stroke that crosses a written one is written as if it were alone", "[render]") {
+TEST_CASE("a stroke that crosses a finished one is written as if it were alone", "[render]") {
   for (const RendererOptions& options : {RendererOptions{}, everything()}) {
     HapticRenderer renderer = renderer_of(U'木', options);
     ScriptedPen pen(renderer);

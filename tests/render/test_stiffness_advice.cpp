@@ -14,11 +14,12 @@ using namespace calligraphy;
 
 namespace {
 
-using calligraphy_test::not_a_number;
 using calligraphy_test::infinity;
-const Hand nobody{0.0, 0.0, 0.0};
+using calligraphy_test::not_a_number;
+const GripImpedance nobody{0.0, 0.0, 0.0};
 
-SampledLoop loop_of(double rate, double damping, int delay = 0, double wall_damping = 0.0, const Hand& grip = nobody) {
+SampledLoop loop_of(double rate, double damping, int delay = 0, double wall_damping = 0.0,
+                    const GripImpedance& grip = nobody) {
   SampledLoop loop;
   loop.rate = rate;
   loop.device.apparent_mass = 0.045;
@@ -29,8 +30,8 @@ SampledLoop loop_of(double rate, double damping, int delay = 0, double wall_damp
   return loop;
 }
 
-/// What the device's damping has to exceed for the wall to be passive, at one angle per sample: Colgate & Schenkel
-/// 1997, T / 2 / (1 - cos) Re((1 - 1/z) H(z)), with H(z) = (K + B (1 - 1/z) / T) z^-d.
+/// What the device's damping must exceed for the wall to be passive, at one angle per sample: Colgate & Schenkel 1997,
+/// T / 2 / (1 - cos) Re((1 - 1/z) H(z)), with H(z) = (K + B (1 - 1/z) / T) z^-d.
 double needed_damping(const SampledLoop& loop, double stiffness, double angle) {
   const std::complex<double> z = std::polar(1.0, angle);
   const std::complex<double> wall = (stiffness + loop.wall_damping * loop.rate * (1.0 - 1.0 / z)) *
@@ -38,7 +39,7 @@ double needed_damping(const SampledLoop& loop, double stiffness, double angle) {
   return ((1.0 - 1.0 / z) * wall).real() / (2.0 * loop.rate * (1.0 - std::cos(angle)));
 }
 
-double most_needed_damping(const SampledLoop& loop, double stiffness) {
+double max_needed_damping(const SampledLoop& loop, double stiffness) {
   double most = 0.0;
   constexpr int steps = 20000;
   for (int i = 1; i <= steps; ++i) {
@@ -58,15 +59,15 @@ std::string error_of(const SampledLoop& loop) {
 
 }  // namespace
 
-TEST_CASE("the linear loop turns unstable at the stiffnesses of the table", "[stiffness advice]") {
+TEST_CASE("the linear loop becomes unstable at the stiffnesses of the table", "[stiffness advice]") {
   struct Row {
     double period, damping;
     int delay;
     double wall_damping;
-    Hand grip;
+    GripImpedance grip;
     double critical;
   };
-  // A simulation made for the project, with the exact zero-order hold of 45 g.
+  // A simulation made for the project, with the exact zero-order hold for 45 g.
   const Row row = GENERATE_COPY(Row{10e-3, 0.5, 0, 0.0, nobody, 101.9}, Row{1e-3, 0.05, 0, 0.0, nobody, 100.0},
                                 Row{1e-3, 0.1, 0, 0.0, nobody, 200.1}, Row{1e-3, 0.5, 0, 0.0, nobody, 1001.9},
                                 Row{1e-3, 1.0, 0, 0.0, nobody, 2007.0}, Row{1e-3, 2.0, 0, 0.0, nobody, 4030.0},
@@ -85,7 +86,7 @@ TEST_CASE("the linear loop turns unstable at the stiffnesses of the table", "[st
   CHECK(advise_stiffness(loop).stable.value == critical_stiffness(loop));
 }
 
-TEST_CASE("without damping no stiffness is stable, nor with a wall whose damping alone feeds the swing",
+TEST_CASE("without damping no stiffness is stable, nor with wall damping that drives the oscillation by itself",
           "[stiffness advice]") {
   CHECK(critical_stiffness(loop_of(1000.0, 0.0)) == 0.0);
   CHECK(critical_stiffness(loop_of(1000.0, 0.0, 3)) == 0.0);
@@ -110,13 +111,14 @@ TEST_CASE("at every rate and delay a small damping allows 2 b / (T (2 d + 1)), a
   }
 }
 
-TEST_CASE("loops at the edge of what is accepted have a finite answer", "[stiffness advice]") {
+TEST_CASE("loops at the limits of the accepted range have a finite result", "[stiffness advice]") {
   const double rate = GENERATE(1.0, 1e6);
   const double mass = GENERATE(1e-9, 1e9);
   const double damping = GENERATE(0.0, 1e-9, 1e9);
   const int delay = GENERATE(0, 1000);
   const double wall_damping = GENERATE(0.0, 1e9);
-  for (const Hand& grip : {nobody, Hand{1e9, 0.0, 0.0}, Hand{0.0, 1e9, 0.0}, Hand{0.0, 0.0, 1e9}}) {
+  for (const GripImpedance& grip :
+       {nobody, GripImpedance{1e9, 0.0, 0.0}, GripImpedance{0.0, 1e9, 0.0}, GripImpedance{0.0, 0.0, 1e9}}) {
     SampledLoop loop = loop_of(rate, damping, delay, wall_damping, grip);
     loop.device.apparent_mass = mass;
     loop.device.encoder_step = 1e-6;
@@ -129,7 +131,7 @@ TEST_CASE("loops at the edge of what is accepted have a finite answer", "[stiffn
   }
 }
 
-TEST_CASE("the passive bound keeps the condition of Colgate and Schenkel, and no larger one does",
+TEST_CASE("the passive bound satisfies the condition of Colgate and Schenkel, and no larger one does",
           "[stiffness advice]") {
   const double damping = GENERATE(0.1, 2.0);
   const double rate = GENERATE(100.0, 1000.0, 20000.0);
@@ -139,20 +141,21 @@ TEST_CASE("the passive bound keeps the condition of Colgate and Schenkel, and no
     CAPTURE(damping, rate, delay, share);
     const double passive = advise_stiffness(loop).passive.value;
     CHECK(passive > 0.0);
-    CHECK(most_needed_damping(loop, passive) <= damping * (1.0 + 1e-6));
-    if (delay == 0 || share == 0.0) CHECK(most_needed_damping(loop, 1.01 * passive) > damping);
+    CHECK(max_needed_damping(loop, passive) <= damping * (1.0 + 1e-6));
+    if (delay == 0 || share == 0.0) CHECK(max_needed_damping(loop, 1.01 * passive) > damping);
   }
   CHECK(advise_stiffness(loop_of(rate, damping, delay, 1.01 * damping)).passive.value == 0.0);
-  CHECK(most_needed_damping(loop_of(rate, damping, delay, 1.01 * damping), 1e-9) > damping);
+  CHECK(max_needed_damping(loop_of(rate, damping, delay, 1.01 * damping), 1e-9) > damping);
 }
 
-TEST_CASE("what is passive is stable in every grip", "[stiffness advice]") {
+TEST_CASE("a passive loop is stable in every grip", "[stiffness advice]") {
   const double rate = GENERATE(1.0, 100.0, 1000.0, 20000.0, 1e6);
   const double damping = GENERATE(0.001, 0.1, 5.0, 1000.0);
   for (const int delay : {0, 1, 2, 5, 50}) {
     for (const double share : {0.0, 0.3, 0.999, 2.0}) {
-      for (const Hand& grip : {nobody, Hand{0.1, 3.0, 300.0}, Hand{0.15, 5.0, 500.0}, Hand{0.0, 0.0, 1e6},
-                               Hand{10.0, 0.0, 0.0}, Hand{0.0, 500.0, 1.0}}) {
+      for (const GripImpedance& grip :
+           {nobody, GripImpedance{0.1, 3.0, 300.0}, GripImpedance{0.15, 5.0, 500.0}, GripImpedance{0.0, 0.0, 1e6},
+            GripImpedance{10.0, 0.0, 0.0}, GripImpedance{0.0, 500.0, 1.0}}) {
         const SampledLoop loop = loop_of(rate, damping, delay, share * damping, grip);
         CAPTURE(rate, damping, delay, share, grip.mass, grip.damping, grip.stiffness);
         const StiffnessAdvice advice = advise_stiffness(loop);
@@ -163,7 +166,7 @@ TEST_CASE("what is passive is stable in every grip", "[stiffness advice]") {
   }
 }
 
-TEST_CASE("the passive bound does not count on a hand, the stable one does", "[stiffness advice]") {
+TEST_CASE("the passive bound does not count the grip, the stable one does", "[stiffness advice]") {
   const StiffnessAdvice free = advise_stiffness(loop_of(1000.0, 0.1));
   const StiffnessAdvice held = advise_stiffness(loop_of(1000.0, 0.1, 0, 0.0, {0.1, 3.0, 300.0}));
   CHECK(held.passive.value == free.passive.value);
@@ -171,7 +174,7 @@ TEST_CASE("the passive bound does not count on a hand, the stable one does", "[s
   CHECK(held.stable.value > 30.0 * free.stable.value);
 }
 
-TEST_CASE("dry friction has to hold the rounding of the encoder", "[stiffness advice]") {
+TEST_CASE("Coulomb friction must hold the quantisation of the encoder", "[stiffness advice]") {
   SampledLoop loop = loop_of(1000.0, 10.0);
   const auto quantised = [&](double friction, double step) {
     loop.device.coulomb_friction = friction;
@@ -183,12 +186,13 @@ TEST_CASE("dry friction has to hold the rounding of the encoder", "[stiffness ad
   CHECK(quantised(0.0, 55e-6) == 0.0);
   CHECK(quantised(0.0, 0.0) == Approx(20000.0));
   CHECK(quantised(0.26, 1e-9) == Approx(20000.0));
-  loop.wall_damping = 1.0;  // its rounded speed makes steps of B D / T
+  loop.wall_damping = 1.0;  // its quantised velocity makes force steps of B D / T
   CHECK(quantised(0.26, 55e-6) == Approx(2.0 * (0.26 / 55e-6 - 1000.0)));
   CHECK(quantised(0.05, 55e-6) == 0.0);
 }
 
-TEST_CASE("the rule of thumb is right for little wall damping and twice too high for much", "[stiffness advice]") {
+TEST_CASE("the rule of thumb is right for small wall damping and a factor of two too high for large",
+          "[stiffness advice]") {
   const auto ratio = [](double wall_damping) {
     const StiffnessAdvice advice = advise_stiffness(loop_of(1000.0, 0.1, 0, wall_damping));
     return advice.approximate.value / advice.stable.value;
@@ -199,7 +203,7 @@ TEST_CASE("the rule of thumb is right for little wall damping and twice too high
   CHECK(advise_stiffness(loop_of(1000.0, 0.5, 2)).approximate.value == Approx(0.5 / 0.0025));
 }
 
-TEST_CASE("every bound names its formula and in one line its validity", "[stiffness advice]") {
+TEST_CASE("every bound states its formula and, in one line, its validity", "[stiffness advice]") {
   const StiffnessAdvice advice = advise_stiffness(loop_of(1000.0, 0.5, 1, 0.1));
   for (const StiffnessBound& bound : {advice.passive, advice.quantised, advice.stable, advice.approximate}) {
     CHECK(bound.formula.find('K') != std::string::npos);
@@ -209,7 +213,7 @@ TEST_CASE("every bound names its formula and in one line its validity", "[stiffn
   CHECK(advice.passive.validity.find("sufficient") != std::string::npos);
 }
 
-TEST_CASE("the damping that a controller may inject is bounded by mass, wall and encoder", "[stiffness advice]") {
+TEST_CASE("injectable damping is bounded by mass, wall and encoder", "[stiffness advice]") {
   SampledLoop loop = loop_of(1000.0, 0.1);
   CHECK(injectable_damping(loop) == Approx(0.9 * 0.045 * 1000.0));
   loop.wall_damping = 10.0;
@@ -219,16 +223,16 @@ TEST_CASE("the damping that a controller may inject is bounded by mass, wall and
   loop = loop_of(1000.0, 0.1, 2);
   CHECK(injectable_damping(loop) == Approx(0.9 * 0.045 * 1000.0 / 5.0));
   loop.device.encoder_step = 55e-6;
-  CHECK(injectable_damping(loop) == Approx(0.04 / 55e-6 / 1000.0));  // presumed
+  CHECK(injectable_damping(loop) == Approx(0.04 / 55e-6 / 1000.0));  // assumed
   loop.device.coulomb_friction = 0.26;
   CHECK(injectable_damping(loop) == Approx(0.26 / 55e-6 / 1000.0));
   loop.device.apparent_mass = 0.0;
   CHECK_THROWS_AS(injectable_damping(loop), ValueError);
 }
 
-TEST_CASE("a loop that is not physical is refused by the field's name and value", "[stiffness advice]") {
+TEST_CASE("a loop that is not physical is rejected with the field's name and value", "[stiffness advice]") {
   CHECK(error_of(loop_of(1000.0, 0.1)).empty());
-  CHECK_THAT(error_of({}), Catch::Matchers::StartsWith("device.apparent_mass = 0 kg"));  // not known
+  CHECK_THAT(error_of({}), Catch::Matchers::StartsWith("device.apparent_mass = 0 kg"));  // unknown
   const auto refused = [](auto field, const char* name) {
     for (const double bad : {-1.0, not_a_number, infinity, 2e9}) {
       SampledLoop loop = loop_of(1000.0, 0.1);
@@ -245,12 +249,12 @@ TEST_CASE("a loop that is not physical is refused by the field's name and value"
   refused([](SampledLoop& loop) -> double& { return loop.device.coulomb_friction; }, "device.coulomb_friction = ");
   refused([](SampledLoop& loop) -> double& { return loop.device.encoder_step; }, "device.encoder_step = ");
   refused([](SampledLoop& loop) -> double& { return loop.wall_damping; }, "wall_damping = ");
-  for (double Hand::*field : {&Hand::mass, &Hand::damping, &Hand::stiffness}) {
+  for (double GripImpedance::*field : {&GripImpedance::mass, &GripImpedance::damping, &GripImpedance::stiffness}) {
     SampledLoop loop = loop_of(1000.0, 0.1);
     loop.grip.*field = -1.0;
     CHECK(error_of(loop).find("grip.") == 0);
   }
-  CHECK(error_of(loop_of(0.0, 0.1)) == "rate = 0 Hz: expected from 1 to 1000000");
-  CHECK(error_of(loop_of(1000.0, 0.1, -1)) == "device.sample_delay = -1 ticks: expected from 0 to 1000");
-  CHECK(error_of(loop_of(1000.0, 0.1, 1001)) == "device.sample_delay = 1001 ticks: expected from 0 to 1000");
+  CHECK(error_of(loop_of(0.0, 0.1)) == "rate = 0 Hz, must be from 1 to 1000000");
+  CHECK(error_of(loop_of(1000.0, 0.1, -1)) == "device.sample_delay = -1 ticks, must be from 0 to 1000");
+  CHECK(error_of(loop_of(1000.0, 0.1, 1001)) == "device.sample_delay = 1001 ticks, must be from 0 to 1000");
 }

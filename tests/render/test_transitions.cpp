@@ -1,4 +1,4 @@
-// The third kind of instability, Wang 2006, sec. 6: pens that chatter on a border, and what the force does there.
+// The third kind of instability, Wang 2006, sec. 6: pens that chatter at a border, and the force there.
 #include "../catch.hpp"
 
 #include <cmath>
@@ -19,20 +19,20 @@ struct Chatter {
   int changes = 0;   ///< of state
   int features = 0;  ///< passed
   int strokes = 0;   ///< started
-  double largest_step = 0.0;
+  double max_step = 0.0;
 };
 
-/// The pen swings by 0.1 mm about a place, every tick and then more slowly, after whatever it did before.
+/// The pen oscillates by 0.1 mm about a position, every tick and then more slowly, after whatever it did before.
 Chatter chatter(ScriptedPen& pen, const Vector3d& about, const Vector3d& direction) {
   Chatter result;
   bool first = true;
   InteractionState last{};
   pen.go(about - 0.0001 * direction);
-  pen.largest_step = 0.0;
+  pen.max_step = 0.0;
   pen.on_tick = [&](const HapticTick& tick) {
     result.changes += !first && tick.state != last;
-    result.features += has(tick.events, TickEvent::feature_passed);
-    result.strokes += has(tick.events, TickEvent::stroke_started);
+    result.features += has_event(tick.events, TickEvent::feature_passed);
+    result.strokes += has_event(tick.events, TickEvent::stroke_started);
     last = tick.state;
     first = false;
   };
@@ -40,7 +40,7 @@ Chatter chatter(ScriptedPen& pen, const Vector3d& about, const Vector3d& directi
     for (int i = 0; i < 400; ++i) pen.at(about + (i / half % 2 ? 0.0001 : -0.0001) * direction);
   }
   pen.on_tick = [](const HapticTick&) {};
-  result.largest_step = pen.largest_step;
+  result.max_step = pen.max_step;
   return result;
 }
 
@@ -48,16 +48,16 @@ using calligraphy_test::at;
 
 }  // namespace
 
-TEST_CASE("a pen that chatters on the paper's surface changes its state once", "[render]") {
+TEST_CASE("a pen that chatters at the paper surface changes its state once", "[render]") {
   HapticRenderer renderer({placed(U'三')}, {}, test_device());
   ScriptedPen pen(renderer);
   pen.go({0.04, 0.06, 0.005});
   const Chatter result = chatter(pen, {0.04, 0.06, 0.0}, {0, 0, -1});
   CHECK(result.changes == 1);
-  CHECK(result.largest_step <= renderer.max_force_step());
+  CHECK(result.max_step <= renderer.max_force_step());
 }
 
-TEST_CASE("a pen that chatters on the box's border changes its state once", "[render]") {
+TEST_CASE("a pen that chatters at the border of the box changes its state once", "[render]") {
   HapticRenderer renderer({placed(U'三')}, {}, test_device());
   const RendererOptions& options = renderer.options();
   const Eigen::AlignedBox2d box = bounding_box(renderer.page()[0]);
@@ -71,11 +71,11 @@ TEST_CASE("a pen that chatters on the box's border changes its state once", "[re
     CHECK(renderer.last().state == InteractionState::adjusting);
     const Chatter result = chatter(pen, {border, y, -0.002}, {1, 0, 0});
     CHECK(result.changes <= 1);
-    CHECK(result.largest_step <= renderer.max_force_step());
+    CHECK(result.max_step <= renderer.max_force_step());
   }
 }
 
-TEST_CASE("a pen that chatters on the start circle begins the stroke once", "[render]") {
+TEST_CASE("a pen that chatters at the start circle begins the stroke once", "[render]") {
   HapticRenderer renderer({placed(U'三')}, {}, test_device());
   ScriptedPen pen(renderer);
   const Stroke first = strokes(renderer.page()[0].character)[0];
@@ -88,7 +88,7 @@ TEST_CASE("a pen that chatters on the start circle begins the stroke once", "[re
   CHECK(result.changes <= 1);
   CHECK(result.strokes <= 1);
   CHECK(renderer.last().state == InteractionState::writing);
-  CHECK(result.largest_step <= renderer.max_force_step());
+  CHECK(result.max_step <= renderer.max_force_step());
 }
 
 TEST_CASE("a pen that chatters across a feature plane passes one feature point", "[render]") {
@@ -96,18 +96,18 @@ TEST_CASE("a pen that chatters across a feature plane passes one feature point",
   const Stroke stroke = strokes(corner.character)[0];
   const Point turn = corner.placement.to_page(stroke.control_points[1]);
   const Point along = (turn - corner.placement.to_page(stroke.control_points[0])).normalized();
-  for (const double before : {0.0, 0.0015}) {  // the plane, and where it counts
+  for (const double before : {0.0, 0.0015}) {  // the plane, and where it counts as crossed
     HapticRenderer renderer({corner}, {}, test_device());
     ScriptedPen pen(renderer);
     pen.go(at(corner.placement.to_page(stroke.control_points[0]), 0.005));
     pen.go(at(corner.placement.to_page(stroke.control_points[0]), -0.001));
     int features = 0;
-    pen.on_tick = [&](const HapticTick& tick) { features += has(tick.events, TickEvent::feature_passed); };
+    pen.on_tick = [&](const HapticTick& tick) { features += has_event(tick.events, TickEvent::feature_passed); };
     pen.go(at(turn - (before + 0.0002) * along, -0.001));
     const Chatter result = chatter(pen, at(turn - before * along, -0.001), {along.x(), along.y(), 0});
     CHECK(features + result.features == 1);
     CHECK(result.changes == 0);
-    CHECK(result.largest_step <= renderer.max_force_step());
+    CHECK(result.max_step <= renderer.max_force_step());
   }
 }
 
@@ -125,11 +125,11 @@ TEST_CASE("a pen that chatters at the end of a stroke finishes it once and start
   CHECK(result.changes <= 1);
   CHECK(result.strokes == 0);
   CHECK(renderer.last().stroke == 1);
-  CHECK(result.largest_step <= renderer.max_force_step());
+  CHECK(result.max_step <= renderer.max_force_step());
 }
 
-TEST_CASE("the force of every transition comes and goes within the rate limit", "[render]") {
-  // Pressed in by 5 mm and 6 mm beside the stroke throughout: all steps would be near 2 to 3 N.
+TEST_CASE("at every transition the force changes within the rate limit", "[render]") {
+  // Pressed in by 5 mm and 6 mm off the stroke throughout: without the limit all steps would be near 2 to 3 N.
   HapticRenderer renderer({placed(U'永')}, {}, test_device());
   ScriptedPen pen(renderer);
   const Placement place = renderer.page()[0].placement;
@@ -141,7 +141,7 @@ TEST_CASE("the force of every transition comes and goes within the rate limit", 
     pen.go(at(path.front(), -0.005));
     pen.go(at(path.back(), 0.005));
   }
-  CHECK(pen.largest_force > 2.0);
-  CHECK(pen.largest_step <= renderer.max_force_step() * (1.0 + 1e-12));
+  CHECK(pen.max_force > 2.0);
+  CHECK(pen.max_step <= renderer.max_force_step() * (1.0 + 1e-12));
   CHECK(renderer.max_force_step() == Approx(std::hypot(0.1, 0.4)));
 }

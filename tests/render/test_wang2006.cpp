@@ -1,4 +1,4 @@
-// Each rule as printed against the default reading, with the figure that theory gives for the difference.
+// Each rule as printed against the default, with the difference that theory predicts.
 #include "../catch.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr double stiffness = 400.0;
 
-/// The defaults, the force as it is: no limit of its rate, no fade-in.
+/// The defaults with the raw force: no rate limit, no fade-in.
 RendererOptions direct() {
   RendererOptions options;
   options.paper_stiffness = options.guidance_stiffness = stiffness;
@@ -30,9 +30,8 @@ RendererOptions direct() {
 
 const Character line = calligraphy_test::typical_character(1);
 
-/// Largest step of the in-plane force while the pen writes `path` on the first stroke of `character` [N].
-double largest_in_plane_step(const Character& character, const std::vector<Point>& path,
-                             const RendererOptions& options) {
+/// Maximum step of the in-plane force while the pen writes `path` on the first stroke of `character` [N].
+double max_in_plane_step(const Character& character, const std::vector<Point>& path, const RendererOptions& options) {
   HapticRenderer renderer({{character, {{0.02, 0.02}, 0.04}}}, {}, test_device(), options);
   ScriptedPen pen(renderer);
   Vector3d last = Vector3d::Zero();
@@ -60,9 +59,8 @@ TEST_CASE("the half disc drops K d before the end of a stroke, the tube does not
   printed.stroke.space.rule = ConstraintSpaceRule::wang2006;
   for (const double deviation : {0.001, 0.002, 0.004}) {
     INFO("deviation " << deviation << " m");
-    CHECK(largest_in_plane_step(line, page_path(line, deviation), printed) ==
-          Approx(stiffness * deviation).epsilon(1e-6));
-    CHECK(largest_in_plane_step(line, page_path(line, deviation), direct()) < 0.05 * stiffness * deviation);
+    CHECK(max_in_plane_step(line, page_path(line, deviation), printed) == Approx(stiffness * deviation).epsilon(1e-6));
+    CHECK(max_in_plane_step(line, page_path(line, deviation), direct()) < 0.05 * stiffness * deviation);
   }
 }
 
@@ -94,27 +92,27 @@ TEST_CASE("entering a stroke steps the force by K d as printed, within the rate 
   CHECK(entering(limited) <= 0.1);
 }
 
-TEST_CASE("a factor that changes at a feature point steps the force by K d times its change, as printed", "[render]") {
+TEST_CASE("as printed, a factor that changes at a feature point steps the force by K d times its change", "[render]") {
   const Character bend = calligraphy_test::typical_character(30, {1.0, 2.0, 2.0, 2.0});  // smooth joints
   RendererOptions printed = direct(), whole = direct();
   printed.stroke.attraction = AttractionRule::wang2006;
   printed.stroke.plane_tolerance = whole.stroke.plane_tolerance = 0.0;
   constexpr double deviation = 0.001;
-  CHECK(largest_in_plane_step(bend, page_path(bend, deviation), printed) ==
+  CHECK(max_in_plane_step(bend, page_path(bend, deviation), printed) ==
         Approx(stiffness * deviation * 1.0).epsilon(0.05));
-  CHECK(largest_in_plane_step(bend, page_path(bend, deviation), whole) < 0.1 * stiffness * deviation);
+  CHECK(max_in_plane_step(bend, page_path(bend, deviation), whole) < 0.1 * stiffness * deviation);
 }
 
-TEST_CASE("crossing the box while pressed into the paper steps the normal force by K d as printed", "[render]") {
+TEST_CASE("as printed, crossing the edge of the box while pressing steps the normal force by K d", "[render]") {
   const auto crossing = [](const RendererOptions& options) {
     HapticRenderer renderer({placed(U'三')}, {}, test_device(), options);
     ScriptedPen pen(renderer);
     const Eigen::AlignedBox2d box = bounding_box(renderer.page()[0]);
     pen.go({box.min().x() - 0.012, 0.03, 0.005});
     pen.go({box.min().x() - 0.012, 0.03, -0.003});
-    pen.largest_step = 0.0;
+    pen.max_step = 0.0;
     pen.go({box.min().x() + 0.002, 0.03, -0.003});
-    return pen.largest_step;
+    return pen.max_step;
   };
   RendererOptions printed = RendererOptions::wang2006(), limited, solid;
   printed.paper_stiffness = limited.paper_stiffness = solid.paper_stiffness = stiffness;
@@ -124,7 +122,7 @@ TEST_CASE("crossing the box while pressed into the paper steps the normal force 
   CHECK(crossing(solid) < 1e-9);
 }
 
-TEST_CASE("the signs as the text has them push away from the stroke and into the paper", "[render]") {
+TEST_CASE("the signs as printed push away from the stroke and into the paper", "[render]") {
   RendererOptions printed = direct();
   printed.force_sign = ForceSign::wang2006;
   HapticRenderer renderer({{line, {{0.02, 0.02}, 0.04}}}, {}, test_device(), printed);
@@ -134,11 +132,11 @@ TEST_CASE("the signs as the text has them push away from the stroke and into the
   for (std::size_t i = 0; i < 100; ++i) pen.go({path[i].x(), path[i].y(), -0.001});
   const HapticTick& tick = renderer.last();
   CHECK(tick.state == InteractionState::writing);
-  CHECK(tick.attraction.dot(tick.contact.foot.point - tick.pen_tip.head<2>()) < 0.0);
+  CHECK(tick.attraction.dot(tick.contact.closest.point - tick.pen_tip.head<2>()) < 0.0);
   CHECK(tick.page_force.z() == Approx(-stiffness * 0.001));
 }
 
-TEST_CASE("eq. (5) takes the pen tip into the paper, Table 2 keeps it on it", "[render]") {
+TEST_CASE("eq. (5) moves the pen tip into the paper, Table 2 keeps it on the surface", "[render]") {
   for (const PenTipRule rule : {PenTipRule::wang2006, PenTipRule::projected}) {
     RendererOptions options;
     options.pen_tip = rule;
@@ -151,19 +149,19 @@ TEST_CASE("eq. (5) takes the pen tip into the paper, Table 2 keeps it on it", "[
   }
 }
 
-TEST_CASE("the same pen feels steps above the default's limit where every rule is as printed", "[render]") {
+TEST_CASE("with every rule as printed the same pen feels steps above the default's limit", "[render]") {
   HapticRenderer usual({placed(U'永')}, {}, test_device());
   HapticRenderer printed({placed(U'永')}, {}, test_device(), RendererOptions::wang2006());
   ScriptedPen pen(usual), other(printed);
   pen.write(usual.page()[0], 0.002);
   other.write(printed.page()[0], 0.002);
   CHECK(usual.last().character == 1);
-  CHECK(pen.largest_step <= usual.max_force_step() * (1.0 + 1e-12));
-  CHECK(other.largest_step > 2.0 * usual.max_force_step());
+  CHECK(pen.max_step <= usual.max_force_step() * (1.0 + 1e-12));
+  CHECK(other.max_step > 2.0 * usual.max_force_step());
   CHECK(std::isinf(printed.max_force_step()));
 }
 
-TEST_CASE("wang2006() sets every printed rule but the signs", "[render]") {
+TEST_CASE("wang2006() selects every printed rule except the signs", "[render]") {
   const RendererOptions options = RendererOptions::wang2006();
   CHECK(options.stroke.nearest.method == NearestPointMethod::wang2006);
   CHECK(options.stroke.space.rule == ConstraintSpaceRule::wang2006);

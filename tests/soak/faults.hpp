@@ -1,4 +1,4 @@
-// What goes wrong between a device and its renderer, at random.
+// Random faults between a device and its renderer.
 #pragma once
 
 #include <cstdint>
@@ -9,16 +9,16 @@
 
 namespace calligraphy_test {
 
-/// Tampers with samples: every so often a fault of a random kind begins and lasts for some ticks.
+/// Tampers with samples: at random intervals a fault of a random kind begins and lasts for some ticks.
 class Faults {
  public:
   explicit Faults(std::uint64_t seed) : random_(seed) {}
 
-  /// The sample as it arrives.
+  /// The sample as received by the renderer.
   calligraphy::DeviceState tamper(const calligraphy::DeviceState& state);
 
-  std::uint64_t count() const { return count_; }                           ///< faults begun
-  bool force_is_lost() const { return left_ > 0 && kind_ == Kind::gone; }  ///< what is written does not arrive
+  std::uint64_t count() const { return count_; }                           ///< number of faults so far
+  bool force_is_lost() const { return left_ > 0 && kind_ == Kind::gone; }  ///< written forces are lost
 
  private:
   enum class Kind {

@@ -42,19 +42,19 @@ RestlessHand::RestlessHand(const calligraphy::HapticRenderer& renderer, std::uin
   }
 }
 
-/// What to write next, and how.
+/// Selects what to write next, and how.
 void RestlessHand::choose(const HapticTick& tick) {
   const auto& strokes = drawn_[static_cast<std::size_t>(tick.character) % drawn_.size()].strokes;
   const std::size_t due = std::min(static_cast<std::size_t>(std::max(0, tick.stroke)), strokes.size() - 1);
   const double kind = random_.next();
-  // Out of turn at times.
+  // Out of order at times.
   path_ = &strokes[kind < 0.03 ? static_cast<std::size_t>(random_.next() * static_cast<double>(strokes.size())) : due];
   const double last = static_cast<double>(path_->size() - 1);
   const bool backwards = kind > 0.98;
   way_ = backwards ? last : 0.0;
   end_ = backwards ? 0.0 : last;
   if (kind > 0.95 && !backwards) end_ = last * random_.next();  // lifts before the end
-  const double miss = random_.next() < 0.05 ? 0.012 : 0.003;    // 30 % of the square at times
+  const double miss = random_.next() < 0.05 ? 0.012 : 0.003;    // at times 30 % of the square
   error_ = random_.point(-miss, miss);
   speed_ = random_.between(0.03, 0.15);
   depth_ = random_.between(0.0005, 0.003);
@@ -86,7 +86,7 @@ calligraphy::Intention RestlessHand::next(const HapticTick& tick, double seconds
   } else if (phase_ == Phase::write) {
     const double points = speed_ * seconds / point_distance;
     way_ += std::clamp(end_ - way_, -points, points);
-    error_ += random_.point(-1.0, 1.0) * 0.002 * std::sqrt(seconds);  // wanders
+    error_ += random_.point(-1.0, 1.0) * 0.002 * std::sqrt(seconds);  // random walk
     if (way_ == end_) phase_ = Phase::raise;
   }
   const Vector3d before = place_;

@@ -12,13 +12,13 @@
 
 namespace calligraphy_test {
 
-/// Goes to the start of the stroke that is due, lowers the pen, follows the stroke with an error, raises the pen, again
-/// and again. Allocates when it is made and never after.
+/// Moves to the start of the next stroke, lowers the pen, follows the stroke with an error, raises the pen, and
+/// repeats. Allocates only when constructed.
 class RestlessHand {
  public:
   RestlessHand(const calligraphy::HapticRenderer& renderer, std::uint64_t seed);
 
-  /// How the pen is meant to move over the next `seconds`, in device axes.
+  /// Intended motion of the pen over the next `seconds`, in device axes.
   calligraphy::Intention next(const calligraphy::HapticTick& tick, double seconds);
 
   const Eigen::Vector3d& place() const { return place_; }  ///< page [m]
@@ -38,19 +38,19 @@ class RestlessHand {
   Sequence random_;
   std::vector<Drawn> drawn_;  ///< of the page's first characters, which repeat
   Phase phase_ = Phase::rest;
-  double left_ = 0.1;  ///< of a rest [s]
+  double left_ = 0.1;  ///< remaining time of a rest [s]
   const std::vector<calligraphy::Point>* path_ = nullptr;
   calligraphy::Point error_ = {0.0, 0.0};     ///< of the whole stroke [m]
-  double way_ = 0.0, end_ = 0.0;              ///< on the stroke, in points
+  double way_ = 0.0, end_ = 0.0;              ///< position on the stroke, in points
   double speed_ = 0.06;                       ///< [m/s]
-  double depth_ = 0.001;                      ///< pressed in [m]
+  double depth_ = 0.001;                      ///< depth in the paper [m]
   Eigen::Vector3d place_ = {0.0, 0.0, 0.02};  ///< page [m]
 };
 
-/// How many different characters a soak page has before they repeat.
+/// Number of different characters on a soak page before they repeat.
 inline constexpr int soak_characters = 12;
 
-/// `count` characters of the built-in set, one over the other in a row of three squares.
+/// `count` characters of the built-in set, on top of one another in a row of three squares.
 std::vector<calligraphy::PlacedCharacter> soak_page(int count);
 
 }  // namespace calligraphy_test

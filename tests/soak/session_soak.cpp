@@ -1,5 +1,5 @@
-// session_soak: days at the device in virtual time, with faults at random, and every promise of the loop watched.
-// Exit code 0 all kept, 1 one broken, 2 usage.
+// session_soak: days of writing in virtual time, with random faults, while every guarantee of the loop is checked.
+// Exit codes: 0 all kept, 1 one broken, 2 usage.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -11,6 +11,7 @@
 #include <CLI/CLI.hpp>
 
 #include <calligraphy/calligraphy.hpp>
+#include <calligraphy/devices/detail/flush_denormals.hpp>
 
 #include "allocation_counter.hpp"
 #include "faults.hpp"
@@ -36,8 +37,8 @@ struct Watched {
   std::uint64_t faults = 0, bad_ticks = 0, not_finite = 0, above_peak = 0, steps_too_large = 0, strokes = 0,
                 allocations = 0;
   std::uint64_t felt_late = 0;  ///< ticks of the last tenth with a force above 0.1 N
-  double largest_force = 0.0, largest_step = 0.0;
-  double given = 0.0, most_given = 0.0, least_given = 0.0;  ///< net work of the force really applied [J]
+  double max_force = 0.0, max_step = 0.0;
+  double given = 0.0, max_given = 0.0, min_given = 0.0;  ///< net work of the force actually applied [J]
   bool page_was_too_short = false;
 };
 
@@ -49,7 +50,7 @@ RendererOptions renderer_options(const Options& options, const Capabilities& cap
 Watched run(const Options& options) {
   const Capabilities& profile = device_profile(options.device);
   const RendererOptions chosen = renderer_options(options, profile);
-  // More characters than the hand can write: restarting the page would be a new start-up budget.
+  // More characters than the hand can write: restarting the page would start a new energy budget.
   const auto characters = static_cast<int>(options.ticks / 1500 + 2);
   HapticRenderer renderer(soak_page(characters), upright_page(0.145, 0.08), profile, chosen);
   RestlessHand hand(renderer, options.seed);
@@ -71,11 +72,11 @@ Watched run(const Options& options) {
     watched.not_finite += !tick.force.allFinite();
     watched.above_peak += size > peak;
     watched.steps_too_large += step > step_limit;
-    watched.largest_force = std::max(watched.largest_force, size);
-    watched.largest_step = std::max(watched.largest_step, step);
+    watched.max_force = std::max(watched.max_force, size);
+    watched.max_step = std::max(watched.max_step, step);
     watched.felt_late += i >= options.ticks / 10 * 9 && size > 0.1;
     watched.bad_ticks += tick.status != TickStatus::ok;
-    watched.strokes += has(tick.events, TickEvent::stroke_finished);
+    watched.strokes += has_event(tick.events, TickEvent::stroke_finished);
     last = tick.force;
 
     device.write(faults.force_is_lost() ? Vector3d(0.0, 0.0, 0.0) : tick.force);
@@ -83,8 +84,8 @@ Watched run(const Options& options) {
     const Vector3d before = device.true_position();
     device.advance(period);
     watched.given += device.applied_force().dot(device.true_position() - before);
-    watched.most_given = std::max(watched.most_given, watched.given);
-    watched.least_given = std::min(watched.least_given, watched.given);
+    watched.max_given = std::max(watched.max_given, watched.given);
+    watched.min_given = std::min(watched.min_given, watched.given);
     watched.page_was_too_short = tick.character >= characters;
     if (i % 1'000'000 == 999'999) {
       watched.allocations = allocations() - allocated;
@@ -108,31 +109,31 @@ int report(const Options& options, const Watched& watched) {
              static_cast<double>(options.ticks) / chosen.servo_rate / 3600.0, chosen.servo_rate, options.composition,
              options.device, options.seed);
   fmt::print("  {} strokes written, {} faults in {} ticks\n", watched.strokes, watched.faults, watched.bad_ticks);
-  fmt::print("  largest force {:.3f} N, largest step {:.3f} N\n", watched.largest_force, watched.largest_step);
-  fmt::print("  net energy given to the hand: {:.4f} J at the end, {:.4f} J at most\n", watched.given,
-             watched.most_given);
-  bool all = kept("no allocation", watched.allocations == 0);
-  all &= kept("no force that is not finite", watched.not_finite == 0);
+  fmt::print("  maximum force {:.3f} N, maximum step {:.3f} N\n", watched.max_force, watched.max_step);
+  fmt::print("  net energy delivered to the hand: {:.4f} J at the end, {:.4f} J at most\n", watched.given,
+             watched.max_given);
+  bool all = kept("no allocations", watched.allocations == 0);
+  all &= kept("every force is finite", watched.not_finite == 0);
   all &= kept("no force above the peak", watched.above_peak == 0);
-  all &= kept("no step of the force above the limit", watched.steps_too_large == 0);
+  all &= kept("no force step above the limit", watched.steps_too_large == 0);
   if (std::isfinite(chosen.energy_budget)) {
-    all &= kept("net energy given never above the start-up budget", watched.most_given <= chosen.energy_budget);
+    all &= kept("net energy delivered never exceeds the budget", watched.max_given <= chosen.energy_budget);
   }
-  all &= kept("forces are still felt in the last tenth", watched.felt_late > options.ticks / 200);
+  all &= kept("forces are still rendered in the last tenth", watched.felt_late > options.ticks / 200);
   all &= kept("strokes are written", watched.strokes > options.ticks / 20'000 && !watched.page_was_too_short);
   return all ? 0 : 1;
 }
 
 int parse_and_run(int argc, char** argv) {
   Options options;
-  CLI::App program("Days at the device in virtual time, with faults at random.", "session_soak");
-  program.add_option("--ticks", options.ticks, "How many; 86400000 are 24 h at 1 kHz")
+  CLI::App program("Days of writing in virtual time, with random faults.", "session_soak");
+  program.add_option("--ticks", options.ticks, "Number of ticks; 86400000 are 24 h at 1 kHz")
       ->check(tools::integer(1, 10'000'000'000ull));
-  program.add_option("--seed", options.seed, "Of hand and faults");
-  program.add_option("--composition", options.composition, "default or everything")
+  program.add_option("--seed", options.seed, "Seed of the hand and of the faults");
+  program.add_option("--composition", options.composition, "Renderer options: default or everything")
       ->check(CLI::IsMember({"default", "everything"}));
   program.add_option("--device", options.device, "Profile of the simulated device");
-  program.add_flag("!--no-faults", options.faults, "Nothing goes wrong");
+  program.add_flag("!--no-faults", options.faults, "Inject no faults");
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -7,7 +7,7 @@ import pathlib
 import re
 import sys
 
-# Every component with those whose headers it may include, ground floor first (docs/components.md).
+# Every component with those whose headers it may include, ground floor first (README.md).
 BELOW = {
     "base": [],
     "model": ["base"],
@@ -24,7 +24,7 @@ BELOW = {
 BACKENDS = ["phantom", "openhaptics"]  # folders beneath devices
 
 # Of devices, render sees plain structs alone: no device, no loop.
-PLAIN_DEVICE_HEADERS = {"capabilities", "device_state", "grip_impedance"}
+PLAIN_DEVICE_HEADERS = {"capabilities", "device_state"}
 
 
 def component_of(parts):
@@ -48,7 +48,10 @@ def arrows(root):
             if own is None:
                 if len(parts) > 1:
                     found.append(f"{path}: no component has this folder")
-                continue  # calligraphy.hpp
+                for name in includes(path):  # calligraphy.hpp
+                    if "/detail/" in name:
+                        found.append(f"{path}: {name} is no header for users")
+                continue
             for name in includes(path):
                 public = name.startswith("calligraphy/")
                 target = component_of(pathlib.PurePosixPath(name.removeprefix("calligraphy/")).parts)

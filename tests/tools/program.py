@@ -1,4 +1,4 @@
-"""Runs the program as a person would."""
+"""Runs the program as a user would."""
 import os
 import shutil
 import signal
@@ -9,12 +9,12 @@ import unittest
 from pathlib import Path
 
 
-# Who runs the tests in the background may ignore Ctrl-C, and what they start would, too.
+# A background job ignores Ctrl-C, and so would the programs that it starts.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 class ProgramTest(unittest.TestCase):
-    """A test with a directory of its own, where the program runs."""
+    """A test that runs the program in a temporary directory."""
 
     def setUp(self):
         directory = tempfile.TemporaryDirectory()
@@ -35,7 +35,7 @@ class ProgramTest(unittest.TestCase):
         emulated = os.environ.get("CALLIGRAPHY_EMULATED_PHANTOM")
         if not emulated or shutil.which("umockdev-wrapper") is None:
             if os.environ.get("CALLIGRAPHY_REQUIRE_DATA"):
-                self.fail("umockdev and its wrapper must be there")
+                self.fail("umockdev and umockdev-wrapper are required")
             self.skipTest("no emulated Phantom: umockdev is missing")
         done = subprocess.run([emulated, *hand, "--", os.environ["CALLIGRAPHY_PROGRAM"], *arguments],
                               cwd=self.directory, capture_output=True, text=True, stdin=subprocess.DEVNULL, timeout=600)
@@ -43,7 +43,7 @@ class ProgramTest(unittest.TestCase):
         return done
 
     def assert_refused(self, code, arguments, *words, environment=None):
-        """One line that says where and what, and nothing left behind."""
+        """Expects this exit code, a one-line message that contains `words`, and no files left behind."""
         before = self.files()
         done = self.run_program(*arguments, code=code, environment=environment)
         self.assertEqual(done.stdout, "")
@@ -53,7 +53,7 @@ class ProgramTest(unittest.TestCase):
         self.assertEqual(self.files(), before)
 
     def interrupted(self, *arguments, once):
-        """Ctrl-C once the file or directory `once` is there: what was printed, and what was told."""
+        """Sends Ctrl-C as soon as the file or directory `once` exists. Returns standard output and standard error."""
         running = subprocess.Popen([os.environ["CALLIGRAPHY_PROGRAM"], *arguments], cwd=self.directory,
                                    stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         while running.poll() is None and not (self.directory / once).exists():
@@ -64,7 +64,7 @@ class ProgramTest(unittest.TestCase):
         return printed, told
 
     def assert_interrupted_leaves_nothing(self, *arguments):
-        """Ctrl-C once the new directory, where the command is to write, is there."""
+        """Sends Ctrl-C as soon as the output directory exists."""
         done = self.interrupted(*arguments, "--out", "out/new", once="out/new")
         self.assertEqual(done, ("", "calligraphy: interrupted\n"))
         self.assertEqual(self.files(), [])
@@ -77,7 +77,7 @@ class ProgramTest(unittest.TestCase):
         return self.package("CALLIGRAPHY_HANZI_WRITER_DATA")
 
     def package(self, variable):
-        """An npm package, packed or unpacked, that this variable names."""
+        """The npm package, packed or unpacked, that this variable names."""
         path = os.environ.get(variable, "")
         if not path:
             if os.environ.get("CALLIGRAPHY_REQUIRE_DATA"):

@@ -7,21 +7,21 @@ from program import ProgramTest
 
 
 class Devices(ProgramTest):
-    """The list, the probe and the watch; tests/devices/phantom/emulator has what a device may do wrong."""
+    """List, probe and watch. Device faults are tested in tests/devices/phantom/emulator."""
 
-    def test_every_kind_of_device_is_told_of(self):
+    def test_every_kind_of_device_is_listed(self):
         text = self.run_program("devices").stdout
         for word in ("phantom", "openhaptics", "simulated", "desktop", "omni"):
             self.assertIn(word, text)
 
-    def test_the_list_is_json_by_choice(self):
+    def test_the_list_is_available_as_json(self):
         devices = json.loads(self.run_program("devices", "--json").stdout)
         self.assertEqual(set(devices), {"phantom", "openhaptics", "simulated"})
         self.assertIn("simulated:desktop", devices["simulated"])
         for name in devices["simulated"]:
             self.run_program("write", "一", "--out", "out", "--mode", "force", "--device", name)
 
-    def test_what_is_not_there_is_named(self):
+    def test_a_missing_device_is_named(self):
         self.assert_refused(1, ["devices", "probe", "none-such", "--out", "probe.txt"], "none-such")
         phantom = ["phantom:none-such", "--wire-profile", "simulated"]
         self.assert_refused(1, ["devices", "watch", *phantom], "none-such")
@@ -29,7 +29,7 @@ class Devices(ProgramTest):
         self.assert_refused(1, ["devices", "watch", "openhaptics"], "libHD")
         self.assert_refused(1, ["write", "一", "--out", "out", "--device", "openhaptics"], "libHD")
 
-    def test_a_wire_profile_is_read_before_the_device_is_looked_for(self):
+    def test_a_wire_profile_is_read_before_the_device_is_opened(self):
         write = ["write", "一", "--out", "out", "--device", "phantom"]
         self.assert_refused(1, write, "wire profile")
         self.assert_refused(1, [*write, "--wire-profile", "omni"], "omni", "lacks")
@@ -48,7 +48,7 @@ class Devices(ProgramTest):
             with self.subTest(arguments=arguments):
                 self.assert_refused(2, arguments, *words)
 
-    def test_a_device_that_is_plugged_in_is_listed_with_what_names_it(self):
+    def test_a_connected_device_is_listed_with_its_identifiers(self):
         for kind, ids in (("usb", "2988:0302"), ("hid", "2988:0304")):
             with self.subTest(kind=kind):
                 done = self.run_on_emulated_phantom("devices", "--json", hand=["--kind", kind, "--serial", "540-77"])
@@ -57,7 +57,7 @@ class Devices(ProgramTest):
                 self.assertTrue(device["may_open"])
                 self.assertTrue(device["nodes"])
 
-    def test_a_probe_holds_descriptors_and_what_came(self):
+    def test_a_probe_contains_descriptors_and_packets(self):
         done = self.run_on_emulated_phantom("devices", "probe", "--out", "probe.txt", "--seconds", "1")
         self.assertIn("probe.txt", done.stdout)
         lines = (self.directory / "probe.txt").read_text().splitlines()
@@ -81,12 +81,12 @@ class Devices(ProgramTest):
             self.assertAlmostEqual(z, reach * math.cos(q1) - 133.35 - 50, delta=0.1)
 
     def test_a_character_is_written_through_a_real_usb_stack(self):
-        """In real time: a busy machine may cost force and strokes, never the program's end or its files."""
-        done = self.run_on_emulated_phantom("write", "十", "--device", "phantom", "--out", "out", "--longest", "30",
+        """In real time: a busy machine may lose force and strokes, but the program always ends and writes its files."""
+        done = self.run_on_emulated_phantom("write", "十", "--device", "phantom", "--out", "out", "--timeout", "30",
                                             hand=["--write", "十", "--skill", "skilled"])
         row, = json.loads((self.directory / "out" / "summary.json").read_text())
         self.assertEqual(row["mode"], "force")
-        if "the force went to zero" not in done.stderr:
+        if "force ramped down to zero" not in done.stderr:
             self.assertEqual(row["strokes_completed"], 2, done.stderr)
         self.assertGreater(row["peak_force_N"], 0.0)
         loop, = json.loads((self.directory / "out" / "servo.json").read_text())
@@ -96,7 +96,7 @@ class Devices(ProgramTest):
         again, = json.loads((self.directory / "again" / "summary.json").read_text())
         self.assertEqual(again["strokes_completed"], row["strokes_completed"])
 
-    def test_a_shipped_profile_is_printed_as_a_file_that_is_taken(self):
+    def test_a_shipped_profile_is_printed_in_the_file_format(self):
         for name in ("omni", "simulated"):
             text = self.run_program("devices", "profile", name).stdout
             self.assertTrue(text.startswith("calligraphy wire profile 1\n"))
@@ -104,7 +104,7 @@ class Devices(ProgramTest):
         self.assert_refused(2, ["devices", "profile", "touch"], "NAME", "omni")
 
     def test_the_vendors_runtime_is_listed_watched_and_written_through(self):
-        """On a library that stands in for it, its device held by a hand that writes; in real time, as above."""
+        """On a stand-in for the library, whose device is held by a simulated writer; in real time, as above."""
         library = os.environ.get("CALLIGRAPHY_HELD_LIBHD")
         if not library:
             self.skipTest("built without the backend for openhaptics")
@@ -115,9 +115,9 @@ class Devices(ProgramTest):
         self.assertIn("ticks", watched.stdout)
         self.assert_refused(1, ["write", "十", "--out", "out", "--device", "openhaptics:Nobody's"], "Nobody's",
                             environment=with_runtime)
-        done = self.run_program("write", "十", "--device", "openhaptics", "--out", "out", "--longest", "30",
+        done = self.run_program("write", "十", "--device", "openhaptics", "--out", "out", "--timeout", "30",
                                 environment=with_runtime)
         row, = json.loads((self.directory / "out" / "summary.json").read_text())
-        if "the force went to zero" not in done.stderr:
+        if "force ramped down to zero" not in done.stderr:
             self.assertEqual(row["strokes_completed"], 2, done.stderr)
         self.assertGreater(row["peak_force_N"], 0.0)

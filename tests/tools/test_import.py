@@ -36,13 +36,13 @@ def member(name, content="", **fields):
 class ImportTest(ProgramTest):
     @contextlib.contextmanager
     def on_terminal(self, *arguments):
-        """The program and what it tells a terminal, as a file that ends with it."""
+        """The program, and its terminal output as a file that ends with the program."""
         terminal, end = pty.openpty()
         with open(terminal, "rb", buffering=0) as screen, \
                 subprocess.Popen([os.environ["CALLIGRAPHY_PROGRAM"], *arguments], stderr=end,
                                  stdout=subprocess.DEVNULL, cwd=self.directory) as running:
             os.close(end)
-            with contextlib.suppress(OSError):  # EIO is how a terminal that nobody writes to any more ends
+            with contextlib.suppress(OSError):  # a terminal without writers ends with EIO
                 yield running, screen
 
     def tar(self, *members, name="source.tgz", format=tarfile.PAX_FORMAT, mode="w:gz"):
@@ -61,7 +61,7 @@ class ImportTest(ProgramTest):
         return json.loads(self.run_program("import", *arguments, "-o", "out.txt", "--json").stdout)
 
 
-class Import(ImportTest):
+class ImportResult(ImportTest):
     def test_a_directory_and_its_tarball_in_every_format_give_the_same_characters(self):
         for code in ("04e00", "05341"):
             self.write(f"package/dist/{code}.svg", svg(HENG + SHU))
@@ -86,7 +86,7 @@ class Import(ImportTest):
                     self.tar(member(name, content), format=format)
                     self.assertEqual(self.report("source.tgz")["characters"], 1)
 
-    def test_the_json_has_all_of_the_report(self):
+    def test_the_json_contains_the_whole_report(self):
         self.tar(member("package/04e00.svg", svg(HENG + SHU.replace("㇑", "㇒") + HENG.replace("㇐", "６"))),
                  member("package/04e00-VtFst.svg", svg()), member("package/03042.svg", svg()),
                  member("package/readme.md", "text"), member("package/link", type=tarfile.SYMTYPE, linkname="/etc"))
@@ -103,19 +103,19 @@ class Import(ImportTest):
         self.assertEqual(sum(report["ids_used"].values()), 3)
         labels = report["labels"]
         self.assertEqual((labels["strokes"], labels["agreed"]), (2, 1))
-        self.assertEqual([doubt["label"] for doubt in labels["doubts"]], ["㇒", "６"])
-        self.assertEqual(labels["doubts"][1]["fate"], "unknown")
+        self.assertEqual([conflict["label"] for conflict in labels["conflicts"]], ["㇒", "６"])
+        self.assertEqual(labels["conflicts"][1]["resolution"], "unknown")
         self.assertEqual({row["reason"]: row["files"] for row in report["skipped"]},
                          {"a link": ["package/link"], "an alternate order": ["package/04e00-VtFst.svg"],
-                          "no file of a character": ["package/readme.md"],
-                          "no ideograph": ["package/03042.svg"]})
+                          "not a character file": ["package/readme.md"],
+                          "not an ideograph": ["package/03042.svg"]})
 
-    def test_the_tables_name_what_the_json_has(self):
+    def test_the_tables_contain_what_the_json_contains(self):
         self.tar(member("package/04e00.svg", svg(HENG + SHU.replace("㇑", "㇒"))), member("package/03042.svg", svg()))
         done = self.run_program("import", "source.tgz", "-o", "out.txt")
         for words in ("1 characters, 2 strokes from KanjiVG", "Attribution-Share Alike", "Ulrich Apel", "100.00 %",
                       "一 (U+4E00) stroke 1", "横", "1 of 2 strokes recognised", "㇒ looks like 2 竖",
-                      "no ideograph: package/03042.svg", "note: "):
+                      "not an ideograph: package/03042.svg", "note: "):
             self.assertIn(words, done.stdout)
         self.assertEqual(done.stderr, "", "no progress bar in a pipe")
 
@@ -123,12 +123,12 @@ class Import(ImportTest):
         self.write("data/04e00.svg", svg())
         shown = b""
         with self.on_terminal("import", "data", "-o", "out.txt") as (running, screen):
-            while part := screen.read(10000):  # what has come so far, be it a part of a line
+            while part := screen.read(10000):  # the output so far, possibly part of a line
                 shown += part
         self.assertEqual(running.returncode, 0)
         self.assertIn(b"****", shown)
 
-    def test_text_and_sets_turn_into_each_other_without_loss(self):
+    def test_text_and_set_files_convert_without_loss(self):
         self.write("data/05341.svg", svg(HENG + SHU))
         self.write("data/05341-VtFst.svg", svg(SHU + HENG))
         self.run_program("import", "data", "-o", "first.txt", "--format", "text", "--alternates")
@@ -152,13 +152,13 @@ class Import(ImportTest):
         self.assertEqual(errors, sorted(errors, reverse=True))
         self.assertEqual(errors[-1], 0.0)
 
-    def test_only_those_asked_for_are_imported(self):
+    def test_only_requested_characters_are_imported(self):
         for code in ("04e00", "05341", "04e8c"):
             self.write(f"data/{code}.svg", svg())
         self.assertEqual(self.report("data", "--only", "十 一 永")["characters"], 2)
-        self.assert_refused(1, ["import", "data", "-o", "none.txt", "--only", "永"], "asked for")
+        self.assert_refused(1, ["import", "data", "-o", "none.txt", "--only", "永"], "requested")
 
-    def test_the_letters_of_a_package_are_heard(self):
+    def test_the_stroke_letters_of_a_package_are_used(self):
         hanzi = self.package("CALLIGRAPHY_HANZI_WRITER_DATA_TARBALL")
         letters = self.package("CALLIGRAPHY_CNCHAR_ORDER_TARBALL")
         report = self.report(hanzi, "--letters", letters, "--only", "永北京航空棻")
@@ -168,17 +168,17 @@ class Import(ImportTest):
 
 
 class Hostile(ImportTest):
-    """What must neither crash, nor fill memory or disk, nor leave anything behind."""
+    """Input that must not crash the program, exhaust memory or disk, or leave files behind."""
 
     def assert_fails(self, source, *words):
         self.assert_refused(1, ["import", source, "-o", "out.txt"], source, *words)
 
-    def test_paths_that_climb_out_are_refused(self):
+    def test_paths_that_leave_the_tarball_are_rejected(self):
         for path in ("../04e00.svg", "package/../../04e00.svg", "/tmp/04e00.svg", "package/.."):
             with self.subTest(path=path):
                 self.assert_fails(self.tar(member("package/04e00.svg", svg()), member(path, svg())), path)
 
-    def test_links_and_devices_are_passed_over(self):
+    def test_links_and_devices_are_skipped(self):
         self.tar(member("package/04e00.svg", svg()),
                  member("package/05341.svg", type=tarfile.LNKTYPE, linkname="package/04e00.svg"),
                  member("package/04e8c.svg", type=tarfile.SYMTYPE, linkname="/dev/zero"),
@@ -196,7 +196,7 @@ class Hostile(ImportTest):
         return subprocess.run([os.environ["CALLIGRAPHY_PROGRAM"], *arguments], cwd=self.directory, capture_output=True,
                               preexec_fn=None if sanitized else limit, timeout=300)
 
-    def test_a_bomb_is_stopped_in_bounded_memory(self):
+    def test_a_decompression_bomb_is_stopped_in_bounded_memory(self):
         def bomb(name):
             with gzip.open(self.directory / "bomb.tgz", "wb", compresslevel=9) as out:
                 info = tarfile.TarInfo(name)
@@ -204,7 +204,7 @@ class Hostile(ImportTest):
                 out.write(info.tobuf())
                 for _ in range(1000):
                     out.write(b"\0" * (1 << 20))
-        for name, words in (("package/readme.txt", b"times its size"), ("package/04e00.svg", b"more than the")):
+        for name, words in (("package/readme.txt", b"times its size"), ("package/04e00.svg", b"larger than the limit")):
             with self.subTest(name=name):
                 bomb(name)
                 done = self.bounded("import", "bomb.tgz", "-o", "out.txt")
@@ -213,7 +213,7 @@ class Hostile(ImportTest):
                 self.assertIn(words, done.stderr)
                 self.assertFalse((self.directory / "out.txt").exists())
 
-    def test_a_sparse_file_larger_than_what_it_holds_is_stopped(self):
+    def test_a_sparse_file_larger_than_its_content_is_rejected(self):
         pax = {"GNU.sparse.major": "1", "GNU.sparse.minor": "0", "GNU.sparse.name": "package/04e00.svg",
                "GNU.sparse.realsize": str(1 << 40)}
         self.tar(member("package/x", b"1\n0\n0\n" + b"\0" * 506, pax_headers=pax))
@@ -221,8 +221,8 @@ class Hostile(ImportTest):
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn(b"source.tgz", done.stderr)
 
-    def test_a_tarball_cut_short_or_damaged_is_refused(self):
-        # Seeded: of 15,000 such files, one unpacks to the same bytes when damaged (a copy of equal bytes from farther).
+    def test_a_truncated_or_damaged_tarball_is_rejected(self):
+        # Seeded: one in 15,000 such files unpacks to the same bytes although damaged (equal bytes copied from farther).
         tar = self.noisy_tar(files=16)
         whole = gzip.compress(tar, mtime=0)
         for length in (0, 1, 10, 11, 50, len(whole) // 2, len(whole) - 9, len(whole) - 1):
@@ -236,21 +236,21 @@ class Hostile(ImportTest):
         for length in (300, 513, 1000, 5000):
             with self.subTest(tar=length):
                 self.assert_fails(self.write("cut.tar", tar[:length]))
-        for length in (2048, 4096, 16 * 2048, 16 * 2048 + 512):  # where a file ends, and before the tar does
+        for length in (2048, 4096, 16 * 2048, 16 * 2048 + 512):  # at the end of a file, before the end of the tar
             with self.subTest(tar=length):
-                self.assert_fails(self.write("cut.tar", tar[:length]), "end mark")
-                self.assert_fails(self.write("cut.tgz", gzip.compress(tar[:length])), "end mark")
+                self.assert_fails(self.write("cut.tar", tar[:length]), "end-of-archive marker")
+                self.assert_fails(self.write("cut.tgz", gzip.compress(tar[:length])), "end-of-archive marker")
         self.assertEqual(self.report(self.write("whole.tar", tar[:16 * 2048 + 1024]))["characters"], 16)
 
     def noisy_tar(self, files):
-        """Bytes of a tar of files that pack badly, 2 KiB each with its header."""
+        """A tar of files that compress badly, 2 KiB each with its header."""
         noise = random.Random(1)
         return (self.directory / self.tar(
             *(member(f"package/{code:05x}.svg", svg(HENG + f"<!-- {noise.randbytes(500).hex()} -->"))
               for code in range(0x4e00, 0x4e00 + files)), name="source.tar", mode="w")).read_bytes()
 
-    def test_a_tarball_cut_where_a_file_and_a_buffer_end_is_refused(self):
-        """zlib's gzread() takes some of these for whole: all that is packed was read, and its buffer was full."""
+    def test_a_tarball_truncated_where_a_file_and_a_buffer_end_is_rejected(self):
+        """zlib's gzread() takes some of these for complete: all packed data was read, and its buffer was full."""
         whole = gzip.compress(self.noisy_tar(files=40), mtime=0)
         unpacker, sizes = zlib.decompressobj(wbits=31), [0]
         for byte in whole:
@@ -262,7 +262,7 @@ class Hostile(ImportTest):
             with self.subTest(length=length):
                 self.assert_fails(self.write("cut.tgz", whole[:length]), "ends too early")
 
-    def test_gzip_data_in_pieces_and_with_something_behind_are_read(self):
+    def test_gzip_data_of_several_members_or_with_trailing_data_is_read(self):
         tar = self.noisy_tar(files=16)
         self.write("whole.tgz", gzip.compress(tar))
         expected = self.report("whole.tgz")["characters"]
@@ -274,7 +274,7 @@ class Hostile(ImportTest):
                 self.assertEqual(self.report(self.write("source.tgz", data))["characters"], expected)
         self.assert_fails(self.write("cut.tgz", gzip.compress(tar) + gzip.compress(b"more")[:-1]), "ends too early")
 
-    def test_a_sparse_file_is_passed_over_as_what_it_is(self):
+    def test_a_sparse_file_is_skipped_and_reported(self):
         (self.directory / "package").mkdir()
         self.write("package/04e00.svg", svg())
         with open(self.directory / "package/05341.svg", "wb") as file:
@@ -284,7 +284,7 @@ class Hostile(ImportTest):
         self.assertEqual((report["characters"], [(row["reason"], row["count"]) for row in report["skipped"]]),
                          (1, [("a sparse file", 1)]))
 
-    def test_what_is_no_source_is_refused(self):
+    def test_invalid_sources_are_rejected(self):
         self.write("empty", "")
         self.write("picture.png", b"\x89PNG\r\n\x1a\n" + bytes(range(256)) * 4)
         self.write("gzip.gz", gzip.compress(b"no tar " * 1000))
@@ -296,7 +296,7 @@ class Hostile(ImportTest):
                 self.assert_fails(source)
         self.assert_refused(1, ["import", "/dev/zero", "-o", "out.txt"], "/dev/zero")
 
-    def test_entities_strokes_and_nesting_beyond_measure_are_refused(self):
+    def test_excessive_entities_strokes_and_nesting_are_rejected(self):
         entities = "<!DOCTYPE svg [<!ENTITY a0 'x'>" + "".join(
             f"<!ENTITY a{i} '" + f"&a{i - 1};" * 10 + "'>" for i in range(1, 12)) + "]>"
         for name, content, words in (
@@ -314,7 +314,7 @@ class Hostile(ImportTest):
             with self.subTest(json=name):
                 self.assert_fails(self.tar(member("package/永.json", content), name=name + ".tgz"), "永.json")
 
-    def test_names_beyond_measure_are_refused(self):
+    def test_excessively_long_names_are_rejected(self):
         self.assert_fails(self.tar(member("x" * 5000 + "/04e00.svg", svg())), "512 bytes")
 
     def test_random_damage_never_crashes(self):
@@ -332,14 +332,14 @@ class Hostile(ImportTest):
 
 
 class Output(ImportTest):
-    def test_an_old_file_outlives_an_import_that_fails(self):
+    def test_an_existing_file_survives_a_failed_import(self):
         self.write("out.txt", "keep")
         self.write("data/04e00.svg", "no SVG")
         self.run_program("import", "data", "-o", "out.txt", code=1)
         self.assertEqual((self.directory / "out.txt").read_text(), "keep")
         self.assertEqual(self.files(), ["data", "data/04e00.svg", "out.txt"])
 
-    def test_an_old_file_outlives_an_import_that_is_interrupted(self):
+    def test_an_existing_file_survives_an_interrupted_import(self):
         self.write("out.txt", "keep")
         for code in range(0x4e00, 0x5600):
             self.write(f"data/{code:05x}.svg", svg((HENG + SHU) * 50))
@@ -353,7 +353,7 @@ class Output(ImportTest):
         self.assertEqual((self.directory / "out.txt").read_text(), "keep")
         self.assertEqual([name for name in self.files() if not name.startswith("data")], ["out.txt"])
 
-    def test_a_place_that_cannot_be_written_is_named_before_the_work(self):
+    def test_an_unwritable_output_file_is_named_before_the_import(self):
         self.write("data/04e00.svg", "no SVG")
         (self.directory / "directory").mkdir()
         self.assert_refused(1, ["import", "data", "-o", "none/out.txt"], "none/out.txt")

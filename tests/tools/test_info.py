@@ -33,7 +33,7 @@ class Info(ProgramTest):
         for word in ("北 (U+5317)", "永 (U+6C38)", "source:", "licence:", "attribution:"):
             self.assertIn(word, text)
 
-    def test_a_set_file_tells_what_it_holds_and_whose_it_is(self):
+    def test_the_contents_and_provenance_of_a_set_file_are_printed(self):
         for name in ("version_1.set", "version_1.txt"):
             told = json.loads(self.run_program("info", str(DATA / name), "--json", "--licence-text").stdout)
             self.assertEqual((told["characters"], told["strokes"], told["alternate_orders"]), (3, 7, 1))
@@ -59,13 +59,13 @@ class Info(ProgramTest):
                                            "--json").stdout)["text"]
         self.assertEqual(row["sequence"], [2, 1, 10, 31, 4])
 
-    def test_the_first_word_is_a_file_where_there_is_one(self):
+    def test_the_first_argument_is_a_file_if_one_exists(self):
         (self.directory / "北").write_bytes((DATA / "version_1.set").read_bytes())
         self.assertEqual(json.loads(self.run_program("info", "北", "--json").stdout)["characters"], 3)
         told = json.loads(self.run_program("info", "北", "北", "--json").stdout)
         self.assertEqual((told["characters"], len(told["text"])), (3, 1))
 
-    def test_of_several_sets_the_first_that_has_a_character_is_shown(self):
+    def test_a_character_is_taken_from_the_first_set_that_has_it(self):
         (self.directory / "mine.txt").write_text("calligraphy characters 1\nsource mine\n\n"
                                                  "character 一\nstroke 1 0.1,0.5 0.9,0.5\n")
         arguments = ["info", "一北", "--characters", "mine.txt", "--characters", str(DATA / "version_1.set"), "--json"]
@@ -73,17 +73,17 @@ class Info(ProgramTest):
         self.assertEqual([row["source"] for row in told["text"]], ["mine", "Drawn for calligraphy"])
         self.assertEqual(told["characters"], 3)
 
-    def test_a_character_that_no_one_here_drew(self):
+    def test_characters_of_hanzi_writer_data_are_printed(self):
         row, = json.loads(self.run_program("info", "北", "--json", "--characters", self.data_directory()).stdout)["text"]
         self.assertEqual(row["number_of_typical_strokes"], 5)
         self.assertIn("Arphic", row["licence"])
 
     def test_version_and_help_succeed(self):
         self.assertRegex(self.run_program("--version").stdout, r"\Acalligraphy \d+\.\d+\.\d+\n\Z")
-        for command in ([], ["write"], ["strokes"], ["info"], ["trade"]):
+        for command in ([], ["write"], ["strokes"], ["info"], ["tradeoff"]):
             self.assertIn("--help", self.run_program(*command, "--help").stdout)
 
-    def test_a_full_disk_is_no_success(self):
+    def test_a_full_disk_is_an_error(self):
         with open("/dev/full", "w") as full:
             done = subprocess.run([os.environ["CALLIGRAPHY_PROGRAM"], "info", "北"], stdout=full,
                                   stderr=subprocess.PIPE)
@@ -92,7 +92,7 @@ class Info(ProgramTest):
 
 
 class Refusals(ProgramTest):
-    def test_what_cannot_be_shown_is_refused_in_one_line(self):
+    def test_errors_are_one_line_that_names_the_cause(self):
         self.assert_refused(2, ["info"], "TEXT")
         self.assert_refused(2, ["info", ""], "TEXT")
         self.assert_refused(2, ["info", b"\xff"], "byte 0")
@@ -105,9 +105,9 @@ class Refusals(ProgramTest):
         self.assert_refused(1, ["info", str(DATA / "version_1.set"), "一", "--order", "Table 3"], "一", "Table 3")
         self.assert_refused(2, ["info", str(DATA / "version_1.set"), ""], "TEXT")
 
-    def test_a_set_file_that_is_broken_is_named(self):
+    def test_a_damaged_set_file_is_named(self):
         whole = (DATA / "version_1.set").read_bytes()
-        for name, content, words in (("cut.set", whole[:-1], ["cut off"]),
+        for name, content, words in (("cut.set", whole[:-1], ["truncated"]),
                                      ("index.set", whole[:70] + b"x" + whole[71:], ["checksum"]),
                                      ("group.set", whole[:-1] + bytes([whole[-1] ^ 1]), ["U+20000", "checksum"]),
                                      ("newer.set", whole[:8] + b"\2" + whole[9:], ["newer version"]),

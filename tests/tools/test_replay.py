@@ -38,7 +38,7 @@ class ReplayTest(ProgramTest):
 
 
 class Replay(ReplayTest):
-    def test_the_right_order_and_direction_have_no_remark(self):
+    def test_the_correct_order_and_direction_have_no_remark(self):
         report = self.replay(character("三", THREE), character("十", TEN))
         self.assertEqual([trace["character"] for trace in report["traces"]], ["三", "十"])
         for trace in report["traces"]:
@@ -49,19 +49,19 @@ class Replay(ReplayTest):
             self.assertEqual([d["strokes"] for d in trace["drawn"]], [[i + 1] for i in range(trace["strokes"])])
             self.assertEqual({d["course"] for d in trace["drawn"]}, {"forwards"})
 
-    def test_a_wrong_order_names_the_stroke_and_what_was_due(self):
+    def test_a_wrong_order_names_the_written_and_the_expected_stroke(self):
         one, two, three = THREE
         self.assertEqual(self.remarks(character("三", [one, three, two])), [[("order", 2, 3)]])
         self.assertEqual(self.remarks(character("三", [three, two, one])), [[("order", 1, 3), ("order", 2, 2)]])
         text = self.run_program("replay", self.traces(character("三", [one, three, two]))).stdout
         self.assertIn("stroke 3 (héng) was written where stroke 2 (héng) was due", text)
-        self.assertIn("0 of 1 in the right order, 1 in the right direction", text)
+        self.assertIn("0 of 1 in the correct order, 1 in the correct direction", text)
 
-    def test_a_stroke_from_its_end_is_a_mistake_of_direction(self):
+    def test_a_stroke_written_from_its_end_is_a_direction_mistake(self):
         one, two, three = THREE
         self.assertEqual(self.remarks(character("三", [one, two[::-1], three])), [[("direction", 2, 2)]])
 
-    def test_what_was_replayed_until_ctrl_c_is_in_its_files(self):
+    def test_results_up_to_ctrl_c_are_saved(self):
         self.traces(*[character("三", THREE)] * 2000)
         printed, told = self.interrupted("replay", "pens.txt", "--out", "out", once="out/01-三.svg")
         self.assertIn("三", printed)
@@ -69,12 +69,12 @@ class Replay(ReplayTest):
         self.assertEqual(told, f"calligraphy: interrupted after {replayed} of 2000 traces\n")
         self.assertEqual(len(list((self.directory / "out").glob("*.svg"))), replayed)
 
-    def test_joined_strokes_are_no_mistake_of_order(self):
+    def test_joined_strokes_are_not_an_order_mistake(self):
         lines = "".join(stroke(*line, 500 * i)[len("S 41"):] for i, line in enumerate(THREE[:2]))
         text = "C 三 4E09 made-up 1000 2\nS 82" + lines + "\n" + stroke(*THREE[2], 2000) + "\n"
         self.assertEqual(self.remarks(text), [[("joined", 1, 1)]])
 
-    def test_what_is_missing_or_too_much_is_told(self):
+    def test_missing_and_extra_strokes_are_reported(self):
         one, two, three = THREE
         self.assertEqual(self.remarks(character("三", [one, three])), [[("missing", None, 2)]])
         extra = ((950, 60), (990, 400))
@@ -91,11 +91,11 @@ class Replay(ReplayTest):
                 self.assertEqual(trace["faults"], 0)
                 self.assertEqual(trace["strokes_completed"], 3)
                 self.assertGreater(trace["peak_force_N"], 0.1)
-                limit = report["peak_force_limit_N"]  # of the ideal device: none
+                limit = report["peak_force_limit_N"]  # None for the ideal device
                 self.assertLessEqual(trace["peak_force_N"], math.inf if limit is None else limit)
                 self.assertLessEqual(trace["max_force_step_N"], report["force_step_limit_N"] * (1 + 1e-9))
 
-    def test_the_directory_gets_a_picture_of_each_and_the_json(self):
+    def test_the_output_directory_has_a_picture_of_each_trace_and_the_json(self):
         traces = self.traces(character("三", THREE[::-1]), character("十", TEN), character("〇", TEN, "other"))
         done = self.run_program("replay", traces, "--out", "deep/out", "--json")
         self.assertEqual(done.stderr, "", "no progress bar in a pipe")
@@ -115,19 +115,19 @@ class Replay(ReplayTest):
         self.assertEqual(colours, ["#e02020", "#e02020", "#333333"])
         self.assertGreaterEqual(len(list(group["guided"])), 3)
 
-    def test_only_the_characters_asked_for_are_replayed(self):
+    def test_only_requested_characters_are_replayed(self):
         texts = [character("三", THREE), character("十", TEN), character("三", THREE)]
         report = self.replay(*texts, options=["--only", "三"])
         self.assertEqual([trace["position"] for trace in report["traces"]], [1, 3])
 
-    def test_a_character_without_a_template_is_named_and_costs_no_other(self):
+    def test_a_character_without_a_template_is_named_and_does_not_affect_others(self):
         report = self.replay(character("\u9f98", TEN), character("十", TEN))
         self.assertEqual([trace["character"] for trace in report["traces"]], ["十"])
         self.assertEqual(report["without_template"], ["\u9f98"])
 
     def test_the_table_has_units_and_limits(self):
         text = self.run_program("replay", self.traces(character("三", THREE))).stdout
-        for word in ("[N]", "[N/tick]", "3/3", "right", "limits of"):
+        for word in ("[N]", "[N/tick]", "3/3", "correct", "limits of"):
             self.assertIn(word, text)
 
     def test_the_same_run_gives_the_same_bytes(self):
@@ -152,7 +152,7 @@ class Refusals(ReplayTest):
             with self.subTest(arguments=arguments):
                 self.assert_refused(2, ["replay", *arguments], *words)
 
-    def test_what_cannot_be_replayed_is_named(self):
+    def test_unusable_input_is_named(self):
         traces = self.traces(character("十", TEN))
         self.assert_refused(1, ["replay", "none.txt"], "none.txt")
         self.assert_refused(1, ["replay", traces, "--only", "三"], "三", "pens.txt")

@@ -4,8 +4,8 @@ import xml.etree.ElementTree as xml
 
 from program import ProgramTest
 
-# Period [s], damping [N s/m], delay [ticks], damping of the wall [N s/m], grip, critical stiffness [N/m]: the project's
-# reference, 45 g under an exact zero-order hold.
+# Period [s], damping [N s/m], delay [ticks], wall damping [N s/m], grip, critical stiffness [N/m]: the project's
+# reference table, 45 g with an exact zero-order hold.
 CRITICAL = [
     (10e-3, 0.5, 0, 0, None, 101.9),
     (1e-3, 0.05, 0, 0, None, 100.0),
@@ -31,8 +31,8 @@ CRITICAL = [
 ]
 POINT = ["--mass", "0.045", "--damping", "0.5"]
 LINE = {"loop", "critical_stiffness_N_per_m", "passive_stiffness_N_per_m", "quantised_stiffness_N_per_m",
-        "approximate_stiffness_N_per_m", "largest_settling_N_per_m", "controlled_largest_settling_N_per_m",
-        "controlled_largest_settling_below_peak_force_N_per_m", "settles", "controlled_settles"}
+        "approximate_stiffness_N_per_m", "max_stable_N_per_m", "controlled_max_stable_N_per_m",
+        "controlled_max_stable_below_peak_force_N_per_m", "stable_at", "controlled_stable_at"}
 
 
 class Point(ProgramTest):
@@ -58,12 +58,12 @@ class Point(ProgramTest):
         self.assertEqual(own["bounds"]["stable"]["stiffness_N_per_m"], own["critical_stiffness_N_per_m"])
         self.assertEqual(own["loop"]["delay_ticks"], 1)
 
-    def test_a_grip_has_a_name_or_three_numbers(self):
+    def test_a_grip_is_given_by_name_or_by_three_numbers(self):
         named = self.point(*POINT, "--grip", "normal")
         self.assertEqual(named, self.point(*POINT, "--grip", "0.1,3,300"))
         self.assertNotEqual(named, self.point(*POINT, "--grip", "firm"))
 
-    def test_a_device_tells_its_figures_and_options_change_them(self):
+    def test_a_device_supplies_defaults_that_options_override(self):
         own = self.point("--device", "omni")
         self.assertEqual(own, self.point("--device", "simulated:omni"))
         self.assertEqual(own["loop"]["mass_kg"], 0.045)
@@ -77,12 +77,12 @@ class Point(ProgramTest):
     def test_the_table_names_units_bounds_and_formulas(self):
         text = self.run_program("stability", *POINT).stdout
         for word in ("[N/m]", "passive", "quantised", "stable", "approximate", "b > K T (2 d + 1) / 2 + |B|", "1001.9",
-                     "held by nobody"):
+                     "no grip"):
             self.assertIn(word, text)
 
 
 class Map(ProgramTest):
-    def test_the_map_is_printed_and_drawn(self):
+    def test_the_map_is_printed_and_plotted(self):
         done = self.run_program("stability", "--quick", "--out", "deep/out")
         self.assertEqual(done.stderr, "", "no progress bar in a pipe")
         for word in ("[N/m]", "passive", "controlled", "servo rate [kHz]", "delay [ticks]", "grip"):
@@ -99,12 +99,12 @@ class Map(ProgramTest):
         for sweep in stability["sweeps"]:
             for line in sweep["lines"]:
                 self.assertEqual(set(line), LINE | {"value"})
-                self.assertEqual(len(line["settles"]), len(stability["stiffnesses_N_per_m"]))
+                self.assertEqual(len(line["stable_at"]), len(stability["stiffnesses_N_per_m"]))
         damping = {line["value"]: line for line in stability["sweeps"][0]["lines"]}
         line = damping["0.1"]
-        self.assertAlmostEqual(line["largest_settling_N_per_m"] / 200.1, 1.0, delta=0.05)
-        self.assertGreater(line["controlled_largest_settling_below_peak_force_N_per_m"],
-                           10 * line["largest_settling_N_per_m"])
+        self.assertAlmostEqual(line["max_stable_N_per_m"] / 200.1, 1.0, delta=0.05)
+        self.assertGreater(line["controlled_max_stable_below_peak_force_N_per_m"],
+                           10 * line["max_stable_N_per_m"])
 
 
 class Refusals(ProgramTest):
@@ -132,10 +132,10 @@ class Refusals(ProgramTest):
             with self.subTest(arguments=arguments):
                 self.assert_refused(2, ["stability", *arguments], *words)
 
-    def test_a_directory_that_cannot_be_written_is_named_before_the_run(self):
+    def test_an_unwritable_directory_is_named_before_the_run(self):
         (self.directory / "file").write_text("keep")
         self.assert_refused(1, ["stability", "--out", "file"], "file")
         self.assertEqual((self.directory / "file").read_text(), "keep")
 
-    def test_a_map_that_is_interrupted_leaves_no_directory(self):
+    def test_an_interrupted_map_leaves_no_directory(self):
         self.assert_interrupted_leaves_nothing("stability")

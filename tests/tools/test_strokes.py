@@ -14,7 +14,7 @@ class Strokes(ProgramTest):
         for name in ("横", "竖", "横折弯钩"):
             self.assertIn(name, texts)
 
-    def test_a_place_that_cannot_be_written_is_named(self):
+    def test_an_unwritable_output_file_is_named(self):
         self.assert_refused(1, ["strokes", "--out", "none/strokes.svg"], "none/strokes.svg")
         self.assert_refused(2, ["strokes"], "--out")
         self.assert_refused(2, ["strokes", "--out", ""], "--out")

@@ -16,8 +16,8 @@ FIELDS = ["character", "mode", "time_s", "rms_error_mm", "max_error_mm", "order_
 
 
 class Write(ProgramTest):
-    def test_a_hang_up_that_is_ignored_stays_so(self):
-        """As nohup starts a program."""
+    def test_an_ignored_hangup_signal_stays_ignored(self):
+        """As when nohup starts the program."""
         before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
         try:
             running = subprocess.Popen([os.environ["CALLIGRAPHY_PROGRAM"], "write", "一", "--mode", "force", "--repeat",
@@ -30,7 +30,7 @@ class Write(ProgramTest):
         self.assertEqual(running.wait(600), 0)
         self.assertEqual(len(self.summary()), 20)
 
-    def test_a_file_that_may_not_grow_is_an_error_like_a_full_disk(self):
+    def test_exceeding_the_file_size_limit_is_a_write_error(self):
         def limit():
             resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
 
@@ -40,10 +40,10 @@ class Write(ProgramTest):
                          (1, "calligraphy: strokes.svg: cannot be written: File too large\n"))
         self.assertEqual(self.files(), [])
 
-    def test_what_was_written_until_ctrl_c_is_in_its_files(self):
+    def test_results_up_to_ctrl_c_are_saved(self):
         printed, told = self.interrupted("write", "一", "--mode", "force", "--repeat", "100000", "--out", "out",
                                          once="out/01-一-force.csv")
-        self.assertIn("calligraphy: interrupted; what was written until then is in out\n", told)
+        self.assertIn("calligraphy: interrupted; results so far are in out\n", told)
         self.assertIn("一", printed)
         written = len(self.summary())
         self.assertGreater(written, 0)
@@ -55,7 +55,7 @@ class Write(ProgramTest):
     def without_ticks(self, out):
         return [{k: v for k, v in row.items() if not k.startswith("tick_ns")} for row in self.summary(out)]
 
-    def test_every_file_of_a_run_is_there_and_well_formed(self):
+    def test_all_files_of_a_run_are_written_and_well_formed(self):
         done = self.run_program("write", "十 人", "--out", "deep/out")
         self.assertNotIn("%", done.stderr, "no progress bar in a pipe")
         out = self.directory / "deep" / "out"
@@ -80,7 +80,7 @@ class Write(ProgramTest):
         self.assertEqual([(row["character"], row["mode"]) for row in self.summary("deep/out")],
                          [("十", "vision"), ("十", "force"), ("人", "vision"), ("人", "force")])
 
-    def test_the_trace_is_that_of_its_character(self):
+    def test_a_trace_contains_only_its_character(self):
         self.run_program("write", "十", "--out", "out", "--mode", "force", "--rate", "500")
         with open(self.directory / "out" / "01-十-force.csv", newline="") as file:
             rows = [row for row in csv.reader(file) if not row[0].startswith("#")]
@@ -94,7 +94,7 @@ class Write(ProgramTest):
         self.assertAlmostEqual(min(steps), 0.002, places=6)
         self.assertAlmostEqual(max(steps), 0.002, places=6)
 
-    def test_the_table_names_units_and_compares_the_modes(self):
+    def test_the_table_has_units_and_compares_the_modes(self):
         text = self.run_program("write", "十人", "--out", "out").stdout
         lines = text.splitlines()
         for word in ("[s]", "[mm]", "[N]", "[ns]", "95 % interval"):
@@ -116,9 +116,9 @@ class Write(ProgramTest):
         for mode in ("vision", "force"):
             seeds = [(r["repetition"], r["seed"]) for r in rows if r["mode"] == mode and r["character"] == "十"]
             self.assertEqual(seeds, [(1, 5), (2, 6), (3, 7)])
-        self.assertEqual(len(list((self.directory / "out").glob("*.csv"))), 4, "traces of the first repetition alone")
+        self.assertEqual(len(list((self.directory / "out").glob("*.csv"))), 4, "traces of the first repetition only")
 
-    def test_a_run_can_be_repeated_to_the_last_digit(self):
+    def test_a_run_is_reproducible_to_the_last_digit(self):
         for out in ("a", "b"):
             self.run_program("write", "人", "--out", out, "--seed", "7")
         self.assertEqual(self.without_ticks("a"), self.without_ticks("b"))
@@ -127,33 +127,33 @@ class Write(ProgramTest):
         self.run_program("write", "人", "--out", "c", "--seed", "8")
         self.assertNotEqual(self.without_ticks("a"), self.without_ticks("c"))
 
-    def test_a_character_given_up_costs_no_other_result(self):
+    def test_an_aborted_character_does_not_affect_other_results(self):
         done = self.run_program("write", "永北", "--out", "out", "--rules", "wang2006", "--mode", "force")
-        self.assertIn("given up", done.stderr)
+        self.assertIn("not completed", done.stderr)
         rows = self.summary()
         self.assertEqual([row["character"] for row in rows], ["永", "北"])
         self.assertEqual(rows[1]["strokes_completed"], 0)
         self.assertIsNone(rows[1]["rms_error_mm"])
 
-    def test_a_rate_too_low_to_write_at_ends_cleanly(self):
+    def test_a_run_at_a_rate_too_low_for_writing_ends_cleanly(self):
         for rate in ("10", "12", "20", "50"):
             self.run_program("write", "一北", "--out", "out", "--rate", rate)
             self.assertEqual(len(self.summary()), 4)
 
-    def test_a_skilled_writer_errs_less(self):
+    def test_a_skilled_writer_has_smaller_errors(self):
         for writer in ("novice", "skilled"):
             self.run_program("write", "十人", "--out", writer, "--writer", writer, "--mode", "vision", "--repeat", "3")
         error = {w: sum(row["rms_error_mm"] for row in self.summary(w)) for w in ("novice", "skilled")}
         self.assertLess(error["skilled"], error["novice"])
 
-    def test_the_rules_as_printed_step_and_the_default_does_not(self):
+    def test_the_printed_rules_have_larger_force_steps_than_the_default(self):
         self.run_program("write", "十人", "--out", "ours", "--mode", "force")
         self.run_program("write", "十人", "--out", "printed", "--mode", "force", "--rules", "wang2006")
         ours = max(row["max_force_step_N"] for row in self.summary("ours"))
         printed = max(row["max_force_step_N"] for row in self.summary("printed"))
         self.assertLess(ours, printed)
 
-    def test_a_recorded_trace_is_a_device(self):
+    def test_a_recorded_trace_can_be_replayed_as_a_device(self):
         self.run_program("write", "十", "--out", "first", "--mode", "force")
         trace = self.directory / "first" / "01-十-force.csv"
         self.run_program("write", "十", "--out", "again", "--device", f"replay:{trace}")
@@ -164,44 +164,44 @@ class Write(ProgramTest):
         lines = [path.read_text().count("\n") for path in (trace, self.directory / "again" / trace.name)]
         self.assertEqual(lines[0], lines[1])
 
-    def test_a_trace_whose_time_runs_back_is_named(self):
+    def test_a_trace_whose_time_runs_backwards_is_named(self):
         self.run_program("write", "一", "--out", "first", "--mode", "force")
         lines = (self.directory / "first" / "01-一-force.csv").read_text().splitlines(keepends=True)
         lines[10], lines[11] = lines[11], lines[10]
         (self.directory / "back.csv").write_text("".join(lines))
         self.assert_refused(1, ["write", "一", "--out", "again", "--device", "replay:back.csv"], "back.csv", "time")
 
-    def test_the_peak_force_asked_for_is_never_exceeded(self):
+    def test_the_requested_peak_force_is_never_exceeded(self):
         self.run_program("write", "十", "--out", "out", "--mode", "force", "--peak-force", "0.3")
         self.assertLessEqual(self.summary()[0]["peak_force_N"], 0.3 + 1e-9)
         self.run_program("write", "十", "--out", "free", "--mode", "force")
         self.assertGreater(self.summary("free")[0]["peak_force_N"], 0.3)
 
-    def test_every_stage_can_be_switched_on(self):
+    def test_all_optional_stages_can_be_enabled(self):
         for renderer in ("default", "everything"):
             self.run_program("write", "十", "--out", renderer, "--mode", "force", "--renderer", renderer)
         plain, everything = self.summary("default")[0], self.summary("everything")[0]
         self.assertEqual(everything["strokes_completed"], 2)
         self.assertNotEqual(everything["rms_error_mm"], plain["rms_error_mm"])
 
-    def test_every_choice_of_device_and_method_runs(self):
+    def test_every_device_runs_with_the_printed_method(self):
         for device in ("omni", "touch", "desktop", "premium-1.5", "ideal"):
             self.run_program("write", "一", "--out", device, "--device", "simulated:" + device, "--method", "wang2006",
                              "--tolerance", "1e-3")
             self.assertEqual(len(self.summary(device)), 2)
 
-    def test_a_character_may_be_written_again_on_as_many_pages_as_it_takes(self):
+    def test_a_repeated_character_fills_as_many_pages_as_needed(self):
         self.run_program("write", "一一一一一一一一", "--out", "out", "--mode", "force")
         self.assertEqual([row["position"] for row in self.summary()], list(range(1, 9)))
         self.assertTrue((self.directory / "out/08-一-force.svg").exists())
 
-    def test_characters_of_a_file(self):
+    def test_characters_of_a_text_file_are_written(self):
         (self.directory / "own.txt").write_text("calligraphy characters 1\nsource s\nlicence l\nattribution a\n\n"
                                                 "character /\nstroke 1 0.1,0.5 0.9,0.5\n")
         self.run_program("write", "/", "--out", "out", "--characters", "own.txt", "--mode", "force")
         self.assertTrue((self.directory / "out/01-U+002F-force.csv").exists(), self.files())
 
-    def test_characters_of_a_set_file_in_the_order_asked_for(self):
+    def test_characters_of_a_set_file_are_written_in_the_requested_order(self):
         data = str(Path(__file__).resolve().parent.parent / "data" / "version_1.set")
         self.run_program("write", "北一", "--out", "out", "--characters", data, "--mode", "force")
         self.assertEqual([(row["strokes_completed"], row["strokes"]) for row in self.summary()], [(5, 5), (1, 1)])
@@ -210,7 +210,7 @@ class Write(ProgramTest):
         self.assertNotEqual((self.directory / "out/01-北-force.csv").read_bytes(),
                             (self.directory / "other/01-北-force.csv").read_bytes())
 
-    def test_characters_that_no_one_here_drew(self):
+    def test_characters_of_hanzi_writer_data_are_written(self):
         self.run_program("write", "永和九年", "--out", "out", "--characters", self.data_directory())
         rows = self.summary()
         self.assertEqual([row["character"] for row in rows[::2]], list("永和九年"))
@@ -237,7 +237,7 @@ class Refusals(ProgramTest):
                 (["write", "北", "--out", "out", "--device", "replay:x", "--rate", "500"], ["--rate", "replay"]),
                 (["write", "北", "--out", "out", "--like", "omni"], ["--like", "replay"]),
                 (["write", "北", "--out", "out", "--device", "replay:t.csv", "--like", "omnibus"], ["--like: omnibus"]),
-                (["write", "北", "--out", "out", "--longest", "5"], ["--longest", "simulated"]),
+                (["write", "北", "--out", "out", "--timeout", "5"], ["--timeout", "simulated"]),
                 (["write", "北", "--out", "out", "--wire-profile", "omni"], ["--wire-profile", "simulated"]),
                 (["write", "北", "--out", "out", "--rules", "wang2006", "--renderer", "everything"], ["--renderer"]),
                 (["write", "北", "--out", "out", "--device", "simulated:novint"], ["--device", "novint", "desktop"]),
@@ -249,8 +249,8 @@ class Refusals(ProgramTest):
             with self.subTest(arguments=arguments):
                 self.assert_refused(2, arguments, *words)
 
-    def test_impossible_numbers_are_named(self):
-        for option in ("--rate", "--tolerance", "--repeat", "--seed", "--peak-force", "--longest"):
+    def test_invalid_numbers_are_named(self):
+        for option in ("--rate", "--tolerance", "--repeat", "--seed", "--peak-force", "--timeout"):
             for value in ("nan", "inf", "1e999", "-1", "x", "", "1x", "0x10", "18446744073709551616"):
                 with self.subTest(option=option, value=value):
                     self.assert_refused(2, ["write", "北", "--out", "out", f"{option}={value}"], option, value)
@@ -275,7 +275,7 @@ class Refusals(ProgramTest):
         (self.directory / "data" / "北.json").write_text('{"medians": [[[0, 0], [1e999, 5]]]}')
         self.assert_refused(1, ["write", "北", "--out", "out", "--characters", "data"], "北.json")
 
-    def test_a_directory_that_cannot_be_written_is_named_before_the_run(self):
+    def test_an_unwritable_directory_is_named_before_the_run(self):
         (self.directory / "file").write_text("keep")
         self.assert_refused(1, ["write", "北", "--out", "file"], "file")
         self.assert_refused(1, ["write", "北", "--out", "file/out"], "file/out")

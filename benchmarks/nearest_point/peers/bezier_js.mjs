@@ -30,13 +30,13 @@ const pass = () => {
   }
 };
 
-// Until the compiler of the engine has done its work.
+// Warm-up for the JIT compiler of the engine.
 for (const start = process.hrtime.bigint(); process.hrtime.bigint() - start < 300_000_000n; ) pass();
 const nanoseconds = [];
 for (let round = 0; round < rounds; ++round) {
   const start = process.cpuUsage();
   pass();
-  const { user, system } = process.cpuUsage(start); // us of computing, like the other methods' times
+  const { user, system } = process.cpuUsage(start); // processor time [us], like the other methods' times
   nanoseconds.push((1000 * (user + system)) / count);
 }
 writeFileSync(answersFile, JSON.stringify({ nanoseconds, answers: Array.from(answers) }));

@@ -1,6 +1,6 @@
 """Closed-loop trials over a grid of conditions: a simulated writer, a simulated device and the renderer.
 
-A trial is deterministic: its row depends on its condition alone, not on the order, the process or the machine's load.
+A trial is deterministic: its row depends only on its condition, not on the order, the process or the machine's load.
 """
 
 from __future__ import annotations
@@ -32,27 +32,28 @@ class TrialsLost(RuntimeError):
 
 
 class Condition(NamedTuple):
-    """What one trial is done under."""
+    """The condition of one trial."""
 
     character: str
     writer: str  #: name of the writer
     mode: str  #: "vision" or "force"
-    stiffness: float  #: of the guidance and the paper [N/m]
-    rate: float  #: of the servo loop [Hz]
-    method: str  #: of the nearest point: "exact", "tracked", "sampled", "wang2006"
-    tolerance: float  #: of the nearest point, relative to the element's size
+    stiffness: float  #: guidance and paper stiffness [N/m]
+    rate: float  #: servo rate [Hz]
+    method: str  #: nearest-point method: "exact", "tracked", "sampled", "wang2006"
+    tolerance: float  #: nearest-point tolerance, relative to the element's size
     seed: int
 
 
 class Grid:
-    """The conditions of an experiment: every combination of the lists, in this order, the last one fastest.
+    """The conditions of an experiment: every combination of the lists, in this order, the last one varying fastest.
 
-    No list has a value twice, as that would be the same trial again: a trial is repeated with another seed.
+    A value may occur only once per list, because a second one would be the same trial. To repeat a trial, use another
+    seed.
 
+    characters: looked up in `source`, a CharacterSet or CharacterList; by default the built-in characters.
     writers: names ("novice", "skilled") or a dict from name to WriterSkill.
-    stiffness: of the guidance and the paper [N/m]; clipped to nine tenths of what is stable, as RendererOptions does:
-    the columns guidance_stiffness and paper_stiffness have what was at work.
-    characters come from `characters`, a CharacterSet or CharacterList; the built-in ones by default.
+    stiffness: guidance and paper stiffness [N/m], clipped to nine tenths of the stable maximum as RendererOptions does;
+    the columns guidance_stiffness and paper_stiffness contain the effective values.
     """
 
     def __init__(
@@ -60,7 +61,7 @@ class Grid:
         characters: Iterable[str],
         *,
         writers: Union[Sequence[str], Mapping[str, cal.WriterSkill]] = ("novice",),
-        modes: Sequence[Union[str, cal.Mode]] = ("vision", "force"),
+        modes: Sequence[Union[str, cal.FeedbackMode]] = ("vision", "force"),
         stiffness: Sequence[float] = (600.0,),
         rate: Sequence[float] = (1000.0,),
         method: Sequence[Union[str, cal.NearestPointMethod]] = ("tracked",),
@@ -69,12 +70,12 @@ class Grid:
         device: Union[str, cal.Capabilities] = "desktop",
         options: cal.RendererOptions | None = None,
         source: cal.CharacterSet | cal.CharacterList | None = None,
-        longest_character: float = 120.0,
+        character_timeout: float = 120.0,
     ) -> None:
         codes = _axis("characters", characters, _text)
         self.characters = {code: _character(source, code) for code in codes}
         self.writers = _writers(writers)
-        self.modes = _axis("modes", _list("modes", modes), _name_of(cal.Mode))
+        self.modes = _axis("modes", _list("modes", modes), _name_of(cal.FeedbackMode))
         self.stiffness = _axis("stiffness", stiffness, _positive)
         self.rate = _axis("rate", rate, _positive)
         self.method = _axis("method", _list("method", method), _name_of(cal.NearestPointMethod))
@@ -86,7 +87,7 @@ class Grid:
         self.device = _one("device", cal.device_profile(device) if isinstance(device, str) else device, cal.Capabilities)
         usual = cal.RendererOptions.for_device(self.device)
         self.options = usual if options is None else _one("options", options, cal.RendererOptions)
-        self.longest_character = _positive("longest_character", longest_character)
+        self.character_timeout = _positive("character_timeout", character_timeout)
 
     def __repr__(self) -> str:
         axes = ("characters", "writers", "modes", "stiffness", "rate", "method", "tolerance", "seeds")
@@ -114,7 +115,7 @@ class Grid:
         )
 
 
-#: The columns of a table, of which the first ones are those of Condition, and their types.
+#: The columns of a table and their types; the first ones are those of Condition.
 _COLUMNS: dict[str, type] = {
     "character": str,
     "writer": str,
@@ -144,7 +145,7 @@ _COLUMNS: dict[str, type] = {
 
 
 def conditions(grid: Grid) -> list[Condition]:
-    """Every condition of the grid, in the order of the table's rows."""
+    """Every condition of the grid, in the order of the rows of the table."""
     return list(grid)
 
 
@@ -154,15 +155,15 @@ def novice_and_skilled() -> dict[str, cal.WriterSkill]:
 
 
 def trial(grid: Grid, condition: Condition) -> Row:
-    """One trial in this process: the condition and what came of it, a number each."""
+    """Runs one trial in this process and returns its row: the condition and the results."""
     character = grid.characters[condition.character]
     options = cal.SessionOptions(
-        mode=getattr(cal.Mode, condition.mode),
+        mode=getattr(cal.FeedbackMode, condition.mode),
         device=grid.device,
         renderer=grid.options,
         skill=grid.writers[condition.writer],
         seed=condition.seed,
-        longest_character=grid.longest_character,
+        character_timeout=grid.character_timeout,
     )
     renderer = options.renderer
     renderer.servo_rate = condition.rate
@@ -175,7 +176,7 @@ def trial(grid: Grid, condition: Condition) -> Row:
     workspace = grid.device.workspace
     page = cal.lay_out([character], cal.PageLayout(width=workspace[0], height=workspace[1]))[0]
     recording = cal.write_page(page, options)
-    score = cal.score(page, recording)[0]
+    score = cal.score_page(page, recording)[0]
     return {
         **condition._asdict(),
         "guidance_stiffness": renderer.guidance_stiffness,
@@ -205,14 +206,15 @@ def run(
     chunk: int = 8,
     retries: int = 3,
 ) -> Any:
-    """Runs every trial of the grid and gives the table: a pandas.DataFrame, or a structured array without pandas.
+    """Runs every trial of the grid and returns the table: a pandas.DataFrame, or a structured array without pandas.
 
-    executor: any concurrent.futures.Executor; a process pool on one machine, `dask.distributed.Client.get_executor()`
-    on several; None: this process. Trials go out `chunk` at a time. A chunk whose worker died is sent again, up to
-    `retries` times each, so that nothing is lost; with a pool that breaks as a whole (concurrent.futures' own does), its
-    chunks are done in this process. Rows are in the order of conditions(grid), whatever came back first, and the same
-    for the same condition and seed. With tqdm and a terminal a bar shows the progress.
-    Raises TrialsLost naming the first condition when a chunk fails for good.
+    executor: any concurrent.futures.Executor, for example a process pool on one machine or
+    `dask.distributed.Client.get_executor()` on several; None: run in this process. Trials are submitted in chunks of
+    `chunk`. A chunk whose worker died is submitted again, up to `retries` times, so that no trial is lost; if the whole
+    pool breaks (as that of concurrent.futures does), its chunks run in this process. Rows are in the order of
+    conditions(grid), whichever finishes first, and identical for the same condition and seed. With tqdm installed, a
+    progress bar is shown on a terminal.
+    Raises TrialsLost naming the first condition of a chunk that failed too often.
     """
     every = conditions(grid)
     chunk, retries = _whole("chunk", chunk, least=1), _whole("retries", retries)
@@ -239,7 +241,7 @@ def to_table(rows: Sequence[Row]) -> Any:
 
 
 def write(table: Any, path: str | os.PathLike[str]) -> None:
-    """Writes a table of run() as .csv or .parquet (needs pyarrow); a whole file or none.
+    """Writes a table of run() as .csv or .parquet (requires pyarrow), atomically: the whole file or none.
 
     Raises FileError naming the file and the reason.
     """
@@ -333,7 +335,7 @@ def _run_on(
 
 
 class _Bar:
-    """tqdm's progress bar where it is installed, on a terminal; else nothing."""
+    """The progress bar of tqdm on a terminal, if installed; otherwise nothing."""
 
     def __init__(self, total: int, wanted: bool) -> None:
         self._bar: Any = None
@@ -360,7 +362,7 @@ def _character(source: cal.CharacterSet | cal.CharacterList | None, code: str) -
     found = (cal.built_in_characters() if source is None else source).find(code)
     if found is None:
         raise cal.InvalidValue(f"characters: there is no {code!r} in the set")
-    return found.character() if isinstance(found, cal.StoredCharacter) else found
+    return found
 
 
 def _writers(writers: Union[Sequence[str], Mapping[str, cal.WriterSkill]]) -> dict[str, cal.WriterSkill]:
@@ -377,7 +379,7 @@ def _writers(writers: Union[Sequence[str], Mapping[str, cal.WriterSkill]]) -> di
 
 
 def _axis(what: str, values: Iterable[Any], checked: Callable[[str, Any], _Value]) -> list[_Value]:
-    """The values of one axis, none of them twice."""
+    """The checked values of one axis; none may occur twice."""
     if not isinstance(values, Iterable):
         raise cal.InvalidValue(f"{what}: a list is expected, not {values!r}")
     result: dict[_Value, None] = {}
@@ -390,7 +392,7 @@ def _axis(what: str, values: Iterable[Any], checked: Callable[[str, Any], _Value
 
 
 def _list(what: str, values: Any) -> Any:
-    """Names are in a list: a name alone would be taken for one of its letters."""
+    """Rejects a single name in place of a list: it would be taken as a list of its letters."""
     if isinstance(values, str):
         raise cal.InvalidValue(f"{what}: a list is expected, not {values!r}")
     return values

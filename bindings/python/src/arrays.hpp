@@ -1,6 +1,7 @@
 // NumPy arrays in and out: checked against the shape that is expected, shared where the memory allows.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -10,11 +11,13 @@
 
 #include <Eigen/Core>
 
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/model/point.hpp>
 
 namespace calligraphy::python {
 
 namespace py = pybind11;
+using namespace py::literals;
 
 /// Whatever NumPy can make an array of; what it may hold is checked by the functions below.
 class ArrayLike : public py::object {
@@ -26,37 +29,155 @@ class ArrayLike : public py::object {
 
 using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-/// Real numbers as contiguous doubles: the array itself where it is that already, else a copy. `columns` 0: one
-/// dimension. An empty list is taken for an array without rows.
-/// @throws InvalidValue naming the argument, the shape or type expected and the one given
-Doubles doubles(py::handle value, const char* name, py::ssize_t columns = 0);
+/// "(3, 2)"
+inline std::string shape_of(const py::array& array) { return py::str(array.attr("shape")).cast<std::string>(); }
 
-/// The same of a fixed length.
-Doubles fixed_doubles(py::handle value, const char* name, py::ssize_t length);
-Point point(py::handle value, const char* name);
-Eigen::Vector3d vector(py::handle value, const char* name);
-Eigen::Matrix3d matrix(py::handle value, const char* name);
-
-/// (n, 2), copied.
-std::vector<Point> points(py::handle value, const char* name);
-
-/// Rows of an (n, 2) or (n, 3) array of doubles where they are.
-inline Eigen::Map<const Point> point_at(const double* data, py::ssize_t row) {
-  return Eigen::Map<const Point>(data + 2 * row);
+/// What NumPy says, with the argument's name. Ctrl-C and a lack of memory stay what they are.
+[[noreturn]] inline void refuse(py::error_already_set& error, const char* name, const std::string& what) {
+  const std::string message = std::string(name) + ": " + what + ": " + py::str(error.value()).cast<std::string>();
+  if (error.matches(PyExc_MemoryError)) {
+    PyErr_SetString(PyExc_MemoryError, message.c_str());
+    throw py::error_already_set();
+  }
+  if (!error.matches(PyExc_Exception)) throw;
+  throw ValueError(message);
 }
+
+[[noreturn]] inline void refuse_shape(const char* name, const std::string& expected, const py::array& given) {
+  throw ValueError(std::string(name) + ": shape " + expected + " is expected, not " + shape_of(given));
+}
+
+/// Whether something of it is masked: asked of subclasses alone, as each tick of a force law passes through here.
+inline bool is_masked(const py::array& array) {
+  if (Py_TYPE(array.ptr()) == py::detail::npy_api::get().PyArray_Type_) return false;
+  return py::module_::import("numpy.ma").attr("is_masked")(array).cast<bool>();
+}
+
+/// An array of real numbers that doubles hold without loss, or an error that names the argument.
+inline py::array real_numbers(py::handle value, const char* name) {
+  py::array array;
+  try {
+    array = py::isinstance<py::array>(value) ? py::reinterpret_borrow<py::array>(value)
+                                             : py::array(py::module_::import("numpy").attr("asarray")(value));
+  } catch (py::error_already_set& error) {
+    refuse(error, name, "an array of numbers is expected");
+  }
+  if (is_masked(array)) {
+    throw ValueError(std::string(name) +
+                     ": a masked array is given, whose masked numbers C++ would take as they are: fill them first");
+  }
+  const char kind = array.dtype().kind();
+  if ((kind != 'f' && kind != 'i' && kind != 'u') || array.itemsize() > 8) {
+    throw ValueError(std::string(name) + ": real numbers are expected (dtype float64 or what converts to it), not " +
+                     py::str(array.dtype()).cast<std::string>());
+  }
+  return array;
+}
+
+/// As contiguous doubles, the array itself where it is that already; aligned as points are, so that rows of two may be
+/// read as such. Not by Doubles::ensure(), which forgets why NumPy could not.
+inline Doubles contiguous(const py::array& array, const char* name) {
+  Doubles result;
+  if (Doubles::check_(array) && (array.flags() & py::array::c_style) != 0) {
+    result = py::reinterpret_borrow<Doubles>(array);
+  } else {
+    try {
+      result = py::module_::import("numpy").attr("ascontiguousarray")(array, py::dtype::of<double>()).cast<Doubles>();
+    } catch (py::error_already_set& error) {
+      refuse(error, name, "shape " + shape_of(array) + " cannot be copied");
+    }
+  }
+  if (reinterpret_cast<std::uintptr_t>(result.data()) % alignof(Point) == 0) return result;
+  return Doubles(std::vector<py::ssize_t>(result.shape(), result.shape() + result.ndim()), result.data());
+}
+
+/// Real numbers (n, columns), with 0 columns (n,), as contiguous doubles: the array itself where it is that already,
+/// else a copy. An empty list is taken for an array without rows.
+/// @throws ValueError naming the argument, the shape or type expected and the one given
+inline Doubles doubles(py::handle value, const char* name, py::ssize_t columns = 0) {
+  const py::array array = real_numbers(value, name);
+  if (columns == 0) {
+    if (array.ndim() != 1) refuse_shape(name, "(n,)", array);
+    return contiguous(array, name);
+  }
+  if (array.ndim() == 1 && array.size() == 0) return Doubles(std::vector<py::ssize_t>{0, columns});
+  if (array.ndim() != 2 || array.shape(1) != columns) refuse_shape(name, "(n, " + std::to_string(columns) + ")", array);
+  return contiguous(array, name);
+}
+
+/// One row or many: (columns,) or (n, columns), with 0 columns () or (n,); `one` says which.
+inline Doubles one_or_many(py::handle value, const char* name, py::ssize_t columns, bool& one) {
+  const py::array array = real_numbers(value, name);
+  one = columns == 0 ? array.ndim() == 0 : array.ndim() == 1 && array.size() == columns;
+  if (!one) return doubles(array, name, columns);
+  return doubles(columns == 0 ? array.attr("reshape")(1) : array.attr("reshape")(1, columns), name, columns);
+}
+
+/// (length,)
+inline Doubles fixed_doubles(py::handle value, const char* name, py::ssize_t length) {
+  const py::array array = real_numbers(value, name);
+  if (array.ndim() != 1 || array.size() != length) refuse_shape(name, "(" + std::to_string(length) + ",)", array);
+  return contiguous(array, name);
+}
+
+/// A vector, a point or a matrix of Eigen.
+template <class Matrix>
+Matrix matrix_of(py::handle value, const char* name) {
+  constexpr py::ssize_t rows = Matrix::RowsAtCompileTime, columns = Matrix::ColsAtCompileTime;
+  if constexpr (columns == 1) {
+    return Eigen::Map<const Matrix>(fixed_doubles(value, name, rows).data());
+  } else {
+    const py::array array = real_numbers(value, name);
+    if (array.ndim() != 2 || array.shape(0) != rows || array.shape(1) != columns) {
+      refuse_shape(name, "(" + std::to_string(rows) + ", " + std::to_string(columns) + ")", array);
+    }
+    return Eigen::Map<const Eigen::Matrix<double, rows, columns, Eigen::RowMajor>>(contiguous(array, name).data());
+  }
+}
+inline Point point(py::handle value, const char* name) { return matrix_of<Point>(value, name); }
+inline Eigen::Vector3d vector(py::handle value, const char* name) { return matrix_of<Eigen::Vector3d>(value, name); }
+
+/// Row of an (n, 3) array of doubles where it is.
 inline Eigen::Map<const Eigen::Vector3d> vector_at(const double* data, py::ssize_t row) {
   return Eigen::Map<const Eigen::Vector3d>(data + 3 * row);
 }
 
-/// A view of doubles that `owner` keeps alive; `owner` must not move them.
-py::array_t<double> view(const double* data, std::vector<py::ssize_t> shape, py::handle owner, bool writable);
+/// (n, 2), copied.
+inline std::vector<Point> points(py::handle value, const char* name) {
+  const Doubles array = doubles(value, name, 2);
+  const auto* const first = reinterpret_cast<const Point*>(array.data());
+  return {first, first + array.shape(0)};
+}
 
-/// A copy.
-py::array_t<double> array_of(const Point& value);
-py::array_t<double> array_of(const Eigen::Vector3d& value);
+/// A read-only view of C++ memory, which `owner` keeps alive and must not move: (n,) of numbers, (n, 2) of points.
+template <class Values>
+auto view_of(const Values& values, py::handle owner) {
+  using Value = std::remove_cvref_t<decltype(*values.data())>;
+  using Number = std::conditional_t<std::is_arithmetic_v<Value>, Value, double>;
+  std::vector<py::ssize_t> shape = {static_cast<py::ssize_t>(values.size())};
+  if (sizeof(Value) == sizeof(Point)) shape.push_back(2);
+  py::array_t<Number> result(shape, reinterpret_cast<const Number*>(values.data()), owner);
+  result.attr("flags").attr("writeable") = false;
+  return result;
+}
+
+/// A copy of a vector or point.
+template <class Matrix>
+Doubles array_of(const Matrix& value) {
+  return Doubles(value.size(), value.eval().data());
+}
+/// Of C++ as Python has it: vectors as copies.
+template <class Value>
+auto as_python(const Value& value) {
+  if constexpr (std::is_base_of_v<Eigen::EigenBase<Value>, Value>) {
+    return array_of(value);
+  } else {
+    return value;
+  }
+}
 template <class Points>
-py::array_t<double> array_of_points(const Points& values) {
-  py::array_t<double> result({static_cast<py::ssize_t>(values.size()), py::ssize_t{2}});
+Doubles array_of_points(const Points& values) {
+  Doubles result({static_cast<py::ssize_t>(values.size()), py::ssize_t{2}});
   double* to = result.mutable_data();
   for (const Point& value : values) *to++ = value.x(), *to++ = value.y();
   return result;
@@ -67,11 +188,10 @@ template <class Row>
 class Columns {
  public:
   template <class Member>
-  Columns& add(const char* name, const Row& row, const Member& member) {
+  void add(const char* name, const Row& row, const Member& member) {
     names_.append(name);
     formats_.append(format<Member>());
     offsets_.append(reinterpret_cast<const char*>(&member) - reinterpret_cast<const char*>(&row));
-    return *this;
   }
   py::dtype dtype() const { return py::dtype(names_, formats_, offsets_, sizeof(Row)); }
 
@@ -81,11 +201,9 @@ class Columns {
     if constexpr (std::is_same_v<Member, bool>) {
       return "?";
     } else if constexpr (std::is_enum_v<Member>) {
-      return std::string(std::is_signed_v<std::underlying_type_t<Member>> ? "i" : "u") + std::to_string(sizeof(Member));
-    } else if constexpr (std::is_floating_point_v<Member>) {
-      return "f" + std::to_string(sizeof(Member));
-    } else if constexpr (std::is_integral_v<Member>) {
-      return "i" + std::to_string(sizeof(Member));
+      return (std::is_signed_v<std::underlying_type_t<Member>> ? "i" : "u") + std::to_string(sizeof(Member));
+    } else if constexpr (std::is_arithmetic_v<Member>) {
+      return (std::is_floating_point_v<Member> ? "f" : "i") + std::to_string(sizeof(Member));
     } else {
       return "(" + std::to_string(Member::RowsAtCompileTime) + ",)f8";
     }
@@ -94,13 +212,36 @@ class Columns {
   py::list names_, formats_, offsets_;
 };
 
+/// The type of rows like this one, from the names and the members of its columns.
+template <class Row, class... Rest>
+py::dtype columns_of(const Row& row, const Rest&... rest) {
+  Columns<Row> columns;
+  const auto add = [&](auto&& self, const char* name, const auto& member, const auto&... more) -> void {
+    columns.add(name, row, member);
+    if constexpr (sizeof...(more) > 0) self(self, more...);
+  };
+  add(add, rest...);
+  return columns.dtype();
+}
+
 /// A structured array over the rows, which it owns from now on.
 template <class Row>
 py::array structured(const py::dtype& dtype, std::vector<Row>&& rows) {
   auto* const owned = new std::vector<Row>(std::move(rows));
   const py::capsule owner(owned, [](void* pointer) { delete static_cast<std::vector<Row>*>(pointer); });
-  return py::array(dtype, {static_cast<py::ssize_t>(owned->size())}, {static_cast<py::ssize_t>(sizeof(Row))},
-                   owned->data(), owner);
+  return py::array(dtype, owned->size(), owned->data(), owner);
+}
+
+/// The columns of a table from words "name:format", formats as numpy.dtype takes them.
+inline py::list dtype_of(const std::string& columns) {
+  py::list result;
+  for (const py::handle column : py::str(columns).attr("split")()) result.append(py::tuple(column.attr("split")(":")));
+  return result;
+}
+
+/// A structured array of a list of tuples.
+inline py::array table(const py::list& rows, const py::list& dtype) {
+  return py::module_::import("numpy").attr("array")(rows, "dtype"_a = dtype);
 }
 
 }  // namespace calligraphy::python

@@ -1,24 +1,9 @@
 // Real time: the servo loop in a thread of its own, and a person who writes a page with a device.
 #include <unistd.h>
 
-#include <chrono>
-#include <exception>
-#include <memory>
-#include <set>
-#include <thread>
-#include <utility>
-#include <vector>
-
-#include <pybind11/stl.h>
-
-#include <calligraphy/base/error.hpp>
 #include <calligraphy/practice/live_session.hpp>
 
-#include "at_work.hpp"
-#include "force_law.hpp"
-#include "python_device.hpp"
-#include "record.hpp"
-#include "rooms.hpp"
+#include "components.hpp"
 
 namespace calligraphy::python {
 namespace {
@@ -39,7 +24,7 @@ class Loop {
             device, py::cast(&renderer), &renderer, nullptr,
             [&renderer](const DeviceState& state) { return renderer.update(state).force; }, options) {}
   // A clock of a vendor may end its thread when the device is closed, with the GIL held.
-  Loop(HapticDevice& device, const py::function& law, const ServoLoopOptions& options)
+  Loop(HapticDevice& device, const Law& law, const ServoLoopOptions& options)
       : Loop(device, PythonLaw::make(law), options) {}
   ~Loop() {
     stop();
@@ -57,8 +42,8 @@ class Loop {
     if (changing_ || loop_->running())
       throw ValueError("the servo loop runs already: stop it before it is started again");
     if (!InLaw::here()) stop_orphans();
-    refuse_without_capabilities(device_.cast<HapticDevice&>());
-    at_work_ = std::make_unique<AtWork>(device_.cast<HapticDevice&>(), renderer_);
+    PythonDevice::refuse_without_capabilities(device_.cast<HapticDevice&>());
+    at_work_ = std::make_unique<AtWork>(AtWork::User::loop, &device_.cast<HapticDevice&>(), renderer_);
     if (python_law_) python_law_->forget_errors();
     changing_ = true;
     process_ = getpid();
@@ -96,14 +81,14 @@ class Loop {
 
   bool is_running() const { return loop_->running(); }
   ServoStatus status() const { return loop_->status(); }
-  ServoStatistics statistics() const { return loop_->statistics(); }
+  py::dict statistics() const { return servo_statistics(loop_->statistics()); }
   const std::vector<std::string>& warnings() const { return warnings_; }
-  py::object error() const { return python_law_ ? python_law_->error() : py::none(); }
-  std::size_t errors() const { return python_law_ ? python_law_->errors() : 0; }
+  py::object error() const { return python_law_ ? python_law_->error : py::none(); }
+  std::size_t errors() const { return python_law_ ? python_law_->errors : 0; }
 
  private:
   Loop(HapticDevice& device, const std::shared_ptr<PythonLaw>& law, const ServoLoopOptions& options)
-      : Loop(device, py::none(), nullptr, law, force_law(law, device.clock() == nullptr), options) {}
+      : Loop(device, py::none(), nullptr, law, PythonLaw::force_law(law, device.clock() == nullptr), options) {}
   Loop(HapticDevice& device, py::object renderer_of_python, HapticRenderer* renderer, std::shared_ptr<PythonLaw> law,
        ForceLaw force, const ServoLoopOptions& options)
       : device_(py::cast(&device)),
@@ -149,39 +134,6 @@ class Loop {
 std::set<Loop*> Loop::running;
 std::vector<Loop::Orphan>& Loop::orphans = *new std::vector<Orphan>;
 
-void add_loop(py::module_& module) {
-  py::class_<Loop>(
-      module, "ServoLoop",
-      "A servo loop in real time: a thread of its own, or the device's own clock, reads the device, asks the force "
-      "law,\n"
-      "guards the force and writes it, with a watchdog over both. The law is a HapticRenderer, and then no tick waits\n"
-      "for Python, or a callable from DeviceState to a force (3,) [N], which needs the GIL: docs/python.md has its "
-      "cost\n"
-      "and what other Python threads do to it. A `with` block starts it and stops it at its end, whatever ends it.")
-      .def(py::init<HapticDevice&, HapticRenderer&, const ServoLoopOptions&>(), py::arg("device"), py::arg("law"),
-           py::arg("options") = ServoLoopOptions{})
-      .def(py::init<HapticDevice&, const py::function&, const ServoLoopOptions&>(), py::arg("device"), py::arg("law"),
-           py::arg("options") = ServoLoopOptions{})
-      .def("start", &Loop::start,
-           "Begins with no force, which rises. What the system did not permit, each with what to do.")
-      .def("stop", &Loop::stop,
-           "Lets the force fall to zero, then ends the thread. From within the law it lets the force fall and returns.")
-      .def_property_readonly("running", &Loop::is_running)
-      .def_property_readonly("status", &Loop::status, "ServoStatus, while it runs and afterwards")
-      .def_property_readonly("statistics", &Loop::statistics, "ServoStatistics, while it runs and afterwards")
-      .def_property_readonly("warnings", &Loop::warnings, "what the last start() returned")
-      .def_property_readonly("error", &Loop::error,
-                             "the last exception of a law in Python since start(), or None; the first one goes to\n"
-                             "sys.unraisablehook too")
-      .def_property_readonly("errors", &Loop::errors, "how often a law in Python raised since start()")
-      .def("__enter__",
-           [](const py::object& self) {
-             self.cast<Loop&>().start();
-             return self;
-           })
-      .def("__exit__", [](Loop& self, const py::args&) { self.stop(); });
-}
-
 // Sessions of threads that the program does not wait for end with it; under the GIL.
 int live_sessions = 0;
 pid_t process_of_sessions = 0;
@@ -207,9 +159,11 @@ void end_all() {
   }
 }
 
-LiveResult write_live(const Page& page, HapticDevice& device, LiveOptions options, const py::object& watch) {
-  refuse_without_capabilities(device);
-  const AtWork at_work(device);
+using Watch = std::optional<py::typing::Callable<py::object(const LiveView&)>>;
+
+LiveResult write_live(const PracticePage& page, HapticDevice& device, LiveOptions options, const Watch& watch) {
+  PythonDevice::refuse_without_capabilities(device);
+  const AtWork at_work(AtWork::User::loop, &device);
   const LiveSession counted;
   std::exception_ptr raised;
   options.watch = [&](const LiveView& view) {
@@ -217,8 +171,8 @@ LiveResult write_live(const Page& page, HapticDevice& device, LiveOptions option
     try {
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
       if (program_ends) return false;
-      if (watch.is_none()) return true;
-      const py::object answer = watch(view);
+      if (!watch) return true;
+      const py::object answer = (*watch)(view);
       const int goes_on = answer.is_none() ? 1 : PyObject_IsTrue(answer.ptr());
       if (goes_on < 0) throw py::error_already_set();
       return goes_on == 1;
@@ -227,11 +181,10 @@ LiveResult write_live(const Page& page, HapticDevice& device, LiveOptions option
       return false;
     }
   };
-  LiveResult result;
-  {
-    const py::gil_scoped_release release;
-    result = write_with_device(page, device, options);
-  }
+  const auto write = +[](const PracticePage& on, HapticDevice* const& with, const LiveOptions& chosen) {
+    return write_with_device(on, *with, chosen);
+  };
+  LiveResult result = released(write)(page, &device, options);
   if (!raised) return result;
   try {
     std::rethrow_exception(raised);
@@ -242,57 +195,69 @@ LiveResult write_live(const Page& page, HapticDevice& device, LiveOptions option
   }
 }
 
-void add_live_session(py::module_& module) {
+}  // namespace
+
+void add_live(py::module_& module) {
+  py::class_<Loop>(
+      module, "ServoLoop",
+      "A servo loop in real time, in a thread of its own or on the device's own clock, with a watchdog. The law is a "
+      "HapticRenderer, which needs no Python, or a callable from DeviceState to a force (3,) [N], which needs the GIL "
+      "in every tick (docs/python.md). A `with` block starts it and stops it at its end, whatever ends it.")
+      .def(py::init<HapticDevice&, HapticRenderer&, const ServoLoopOptions&>(), "device"_a, "law"_a,
+           "options"_a = ServoLoopOptions{})
+      .def(py::init<HapticDevice&, const Law&, const ServoLoopOptions&>(), "device"_a, "law"_a,
+           "options"_a = ServoLoopOptions{})
+      .def("start", &Loop::start,
+           "Begins with no force, which rises. What the system did not permit, each with what to do.")
+      .def("stop", &Loop::stop,
+           "Lets the force fall to zero, then ends the thread. From within the law it lets the force fall and returns.")
+      .def_property_readonly("running", &Loop::is_running, "the loop has been started and not stopped")
+      .def_property_readonly("status", &Loop::status, "ServoStatus, while it runs and afterwards")
+      .def_property_readonly("statistics", &Loop::statistics, "as of a Servo, while it runs and afterwards")
+      .def_property_readonly("warnings", &Loop::warnings, "what the last start() returned")
+      .def_property_readonly(
+          "error", &Loop::error,
+          "the last exception of a law in Python since start(), or None; the first one goes to sys.unraisablehook too")
+      .def_property_readonly("errors", &Loop::errors, "how often a law in Python raised since start()")
+      .def("__enter__",
+           [](const py::object& self) {
+             self.cast<Loop&>().start();
+             return self;
+           })
+      .def("__exit__", [](Loop& self, const py::args&) { self.stop(); });
+
   py::class_<LiveView>(module, "LiveView", "What a display shows, some 50 times a second.")
       .def_property_readonly(
           "newest",
           [](const LiveView& self) {
-            return py::array(py::module_::import("calligraphy._calligraphy").attr("sample_dtype").cast<py::dtype>(),
-                             std::vector<py::ssize_t>{}, std::vector<py::ssize_t>{}, &self.newest);
+            const py::object type = py::module_::import("calligraphy._calligraphy").attr("sample_dtype");
+            return py::array(type.cast<py::dtype>(), py::array::ShapeContainer{}, &self.newest);
           },
-          "The newest tick, all zero before the first one: a structured array () of sample_dtype, copied.")
+          "the newest tick, all zero before the first one: a structured array () of sample_dtype, copied.")
       .def_property_readonly(
           "servo", [](const LiveView& self) { return self.servo; }, "ServoStatus")
-      .def_readonly("share", &LiveView::share, "of the page that is written, in [0, 1]")
-      .def_readonly("begun", &LiveView::begun,
-                    "the pen has been in front of the paper; before, nothing is felt and nothing recorded")
-      .def("__repr__", [](const py::object& self) {
-        return told("LiveView(share {:.3f}, servo {})", self.attr("share"),
-                    self.attr("servo").attr("phase").attr("name"));
-      });
-  Record<LiveOptions>(module, "LiveOptions", "A person who writes with a device.")
-      .field("mode", &LiveOptions::mode, "Mode")
-      .field("renderer", &LiveOptions::renderer, "RendererOptions; its servo rate is that of the loop too")
-      .field("servo", &LiveOptions::servo, "ServoLoopOptions; its rate is not read")
-      .field("peak_force", &LiveOptions::peak_force, "at most this, whatever the device can do [N]")
-      .field("longest", &LiveOptions::longest, "given up after so long [s]");
+      .def_readonly("progress", &LiveView::progress, "of the page that is written, in [0, 1]")
+      .def_readonly("started", &LiveView::started,
+                    "the pen has been in front of the paper; before, nothing is felt and nothing recorded");
+  add_struct<LiveOptions>(module, "LiveOptions", "A person who writes with a device.", &LiveOptions::mode, "mode: Mode",
+                          &LiveOptions::renderer, "renderer: RendererOptions; its servo rate is that of the loop too",
+                          &LiveOptions::servo, "servo: ServoLoopOptions; its rate is not read",
+                          &LiveOptions::peak_force, "peak_force: at most this, whatever the device can do [N]",
+                          &LiveOptions::timeout, "timeout: given up after so long [s]");
   py::class_<LiveResult>(module, "LiveResult", "What came of it.")
-      .def_readonly("recording", &LiveResult::recording)
+      .def_readonly("recording", &LiveResult::recording, "Recording")
       .def_property_readonly(
-          "statistics", [](const LiveResult& self) { return self.statistics; }, "ServoStatistics")
+          "statistics", [](const LiveResult& self) { return servo_statistics(self.statistics); }, "as of a Servo")
       .def_readonly("dropped", &LiveResult::dropped, "ticks that the recording lacks, because `watch` took 2 s or more")
-      .def_readonly("warnings", &LiveResult::warnings, "what the servo loop could not have")
-      .def("__repr__", [](const py::object& self) {
-        return told("LiveResult({!r}, {} dropped, {} warnings)", self.attr("recording"), self.attr("dropped"),
-                    py::len(self.attr("warnings")));
-      });
-  module.def("limited", &limited, py::arg("capabilities"), py::arg("peak_force"),
+      .def_readonly("warnings", &LiveResult::warnings, "what the servo loop could not have");
+  module.def("with_peak_force", &with_peak_force, "capabilities"_a, "peak_force"_a,
              "The device with its forces lowered to a peak [N].");
-  module.def(
-      "write_with_device", &write_live, py::arg("page"), py::arg("device"), py::arg("options") = LiveOptions{},
-      py::arg("watch") = py::none(),
-      "A person writes the page in real time: the loop runs in C++ and needs no GIL, unless the device is written in\n"
-      "Python. Ends when the page is written and the pen lifted, `watch` says False, or time is up; then the force is\n"
-      "zero and the device still open. `watch` is called with a LiveView some 50 times a second.\n"
-      "Ctrl-C, in the main thread, and what `watch` raises end it too: the force falls to zero, then the exception is\n"
-      "raised, with the LiveResult as its attribute `result`.");
-}
-
-}  // namespace
-
-void add_live(py::module_& module) {
-  add_loop(module);
-  add_live_session(module);
+  module.def("write_with_device", &write_live, "page"_a, "device"_a, "options"_a = LiveOptions{},
+             "watch"_a = py::none(),
+             "A person writes the page in real time, in C++ without the GIL. Ends when the page is written and the pen "
+             "lifted, `watch`, called with a LiveView some 50 times a second, returns False, or time is up; then the "
+             "force is zero and the device still open. So do Ctrl-C and what `watch` raises: the exception has the "
+             "LiveResult as its attribute `result`.");
   // A program that ends must not leave a force behind, nor threads that ask for a Python that is gone.
   py::module_::import("atexit").attr("register")(py::cpp_function(&end_all));
 }

@@ -1,5 +1,6 @@
 """The examples and the lines of README.md and docs/python.md do what they say."""
 
+import json
 import os
 import pathlib
 import re
@@ -13,19 +14,55 @@ import calligraphy as cal
 ROOT = pathlib.Path(__file__).parents[3]
 EXAMPLES = {
     "table_5_and_figures": ["figure-31.png", "figures-32-36.png", "figures-37-38.png"],
-    "speed_accuracy_trade": ["speed-accuracy-trade.png"],
+    "speed_accuracy_tradeoff": ["speed-accuracy-tradeoff.png"],
     "stability_map": ["stability-map.png"],
     "own_force_law": ["own-force-law.png"],
     "replay_trace": ["replay-trace.png"],
     "live_writing": ["live-writing.png"],
 }
+PAGES = ["README.md", "docs/python.md"]
+
+#: Each program in a process of its own, forked from one that has imported what takes long; prints the exit codes.
+RUN_ALL = """
+import json, os, runpy, sys
+import calligraphy, matplotlib.pyplot, numpy, pandas
+codes = {}
+for name, (program, directory) in json.loads(sys.argv[1]).items():
+    child = os.fork()
+    if child == 0:
+        os.chdir(directory)
+        told = os.open("told.txt", os.O_WRONLY | os.O_CREAT, 0o644)
+        os.dup2(told, 1), os.dup2(told, 2)
+        sys.argv, sys.path[0] = [program, "--out", "."], os.path.dirname(program)
+        try:
+            runpy.run_path(program, run_name="__main__")
+        except SystemExit as end:
+            sys.exit(end.code)
+        sys.exit(0)
+    codes[name] = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+print(json.dumps(codes))
+"""
 
 
-def run(arguments, directory):
+@pytest.fixture(scope="module")
+def ended(tmp_path_factory):
+    """What all programs of examples and pages left: exit code, output and directory of each."""
+    for module in ("matplotlib", "pandas"):
+        pytest.importorskip(module)
+    programs = {name: str(ROOT / "examples" / "python" / f"{name}.py") for name in EXAMPLES}
+    directories = {name: tmp_path_factory.mktemp(name.replace("/", "-")) for name in (*EXAMPLES, *PAGES)}
+    for page in PAGES:
+        programs[page] = str(directories[page] / "pasted.py")
+        pathlib.Path(programs[page]).write_text("".join(blocks(page)), encoding="utf-8")
+    both = json.dumps({name: [program, str(directories[name])] for name, program in programs.items()})
     environment = {**os.environ, "PYTHONPATH": str(pathlib.Path(cal.__file__).parents[1]), "PYTHONIOENCODING": "utf-8"}
-    done = subprocess.run([sys.executable, *arguments], capture_output=True, text=True, cwd=directory, env=environment)
-    assert done.returncode == 0, done.stdout + done.stderr
-    return done.stdout
+    done = subprocess.run([sys.executable, "-c", RUN_ALL, both], capture_output=True, text=True, env=environment)
+    assert done.returncode == 0, done.stderr
+    codes = json.loads(done.stdout.splitlines()[-1])
+    return {
+        name: (codes[name], (directory / "told.txt").read_text(encoding="utf-8"), directory)
+        for name, directory in directories.items()
+    }
 
 
 def blocks(page):
@@ -33,30 +70,33 @@ def blocks(page):
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
-def test_an_example_runs_and_leaves_its_pictures(name, tmp_path):
-    pytest.importorskip("matplotlib")
-    told = run([str(ROOT / "examples" / "python" / f"{name}.py"), "--out", str(tmp_path)], tmp_path)
+def test_an_example_runs_and_leaves_its_pictures(name, ended):
+    code, told, directory = ended[name]
+    assert code == 0, told
     import matplotlib.image
 
     for picture in EXAMPLES[name]:
         assert picture in told
-        pixels = matplotlib.image.imread(tmp_path / picture)
+        pixels = matplotlib.image.imread(directory / picture)
         assert pixels.shape[0] > 300 and pixels.shape[1] > 300 and pixels[..., :3].std() > 0.02
 
 
 def test_every_example_is_tried():
-    scripts = {path.stem for path in (ROOT / "examples" / "python").glob("*.py")} - {"plotting"}
+    scripts = {path.stem for path in (ROOT / "examples" / "python").glob("*.py")} - {"plotting", "test_force_law"}
     assert scripts == set(EXAMPLES)
 
 
-@pytest.mark.parametrize("page", ["README.md", "docs/python.md"])
-def test_the_lines_of_a_page_work_when_pasted(page, tmp_path):
-    if page != "README.md":
-        pytest.importorskip("matplotlib")
-    lines = "".join(blocks(page))
-    assert lines
-    (tmp_path / "pasted.py").write_text(lines, encoding="utf-8")
-    run(["pasted.py"], tmp_path)
+def test_the_unit_tests_of_a_force_law_pass():
+    program = ROOT / "examples" / "python" / "test_force_law.py"
+    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", str(program)]
+    done = subprocess.run(command, capture_output=True, text=True, cwd=program.parent)
+    assert done.returncode == 0 and "2 passed" in done.stdout, done.stdout + done.stderr
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_the_lines_of_a_page_work_when_pasted(page, ended):
+    code, told, _ = ended[page]
+    assert blocks(page) and code == 0, told
 
 
 def test_the_readme_has_ten_lines():

@@ -45,7 +45,7 @@ def ctrl_c():
 def session(**fields):
     return cal.SessionOptions(
         device=PROFILE,
-        renderer=cal.RendererOptions.for_device(PROFILE.capabilities),
+        renderer=cal.RendererOptions.for_device(PROFILE),
         skill=cal.WriterSkill.novice(),
         **fields,
     )
@@ -53,7 +53,7 @@ def session(**fields):
 
 def long_page(count=40):
     placed = cal.lay_out([cal.built_in_characters()["永"]])[0].characters[0]
-    return cal.Page(width=0.16, height=0.12, characters=[placed] * count)
+    return cal.PracticePage(width=0.16, height=0.12, characters=[placed] * count)
 
 
 def characters(count=1):
@@ -68,10 +68,10 @@ def long_trace():
 def long_replay():
     state = cal.DeviceState
     down = np.array([0.0, 0.0, -1e-3])
-    return cal.ReplayDevice([state(time=i * 1e-3, position=down) for i in range(800_000)], PROFILE.capabilities)
+    return cal.ReplayDevice([state(time=i * 1e-3, position=down) for i in range(200_000)], PROFILE)
 
 
-def drawings(tmp_path, count=3000):
+def drawings(tmp_path, count=1000):
     heng = '{"medians":[[[100,400],[900,400]],[[512,800],[512,0]]]}'
     for i in range(count):
         (tmp_path / f"{chr(0x4E00 + i)}.json").write_text(heng, encoding="utf-8")
@@ -81,20 +81,20 @@ def drawings(tmp_path, count=3000):
 LONG = {
     "write_page": lambda progress, _: cal.write_page(long_page(), session(), progress),
     "follow_trace": lambda progress, _: cal.follow_trace(
-        long_page(1), long_trace(), session(longest_character=2000.0), progress
+        long_page(1), long_trace(), session(character_timeout=2000.0), progress
     ),
     "replay_page": lambda progress, _: cal.replay_page(
         long_page(1), long_replay(), session(measure_ticks=True), progress
     ),
     "run_session": lambda progress, _: cal.run_session(
-        long_page(1), session(longest_character=1e4), lambda tick, seconds: cal.Intention(), progress
+        long_page(1), session(character_timeout=1e4), lambda tick, seconds: cal.Intention(), progress
     ),
-    "stability_map": lambda progress, _: cal.stability_map(cal.StabilityMapOptions(with_grid=True), progress),
-    "nearest_point_trade": lambda progress, _: cal.nearest_point_trade(characters(), 1000, 200, progress=progress),
-    "servo_rate_trade": lambda progress, _: cal.servo_rate_trade(
+    "stability_map": lambda progress, _: cal.stability_map(cal.StabilityMapOptions(), progress),
+    "nearest_point_tradeoff": lambda progress, _: cal.nearest_point_tradeoff(characters(), 1000, 200, progress=progress),
+    "servo_rate_tradeoff": lambda progress, _: cal.servo_rate_tradeoff(
         characters(), [1000.0, 4000.0, 8000.0], progress=progress
     ),
-    "coordinate_width_trade": lambda progress, _: cal.coordinate_width_trade(characters(500), progress),
+    "coordinate_width_tradeoff": lambda progress, _: cal.coordinate_width_tradeoff(characters(500), progress),
     "import_characters": lambda progress, path: cal.import_characters(drawings(path), threads=1, progress=progress),
 }
 
@@ -112,7 +112,7 @@ def test_ctrl_c_ends_a_long_call_before_its_work_is_done(name, ctrl_c, tmp_path)
 def test_a_call_with_no_progress_to_tell_looks_for_signals_while_it_works():
     seen = []
     before = signal.signal(signal.SIGALRM, lambda *_: seen.append(1))
-    points = np.random.default_rng(1).normal(size=(3_000_000, 2))
+    points = np.random.default_rng(1).normal(size=(1_000_000, 2))
     try:
         signal.setitimer(signal.ITIMER_REAL, 0.01, 0.01)
         result = cal.nearest_point([[0, 0], [1, 2], [2, -1], [3, 0], [4, 4]], points, tolerance=1e-12)
@@ -125,7 +125,7 @@ def test_a_call_with_no_progress_to_tell_looks_for_signals_while_it_works():
 
 
 def a_renderer():
-    return cal.HapticRenderer(long_page(1).characters, cal.MotionMapping(), PROFILE.capabilities)
+    return cal.HapticRenderer(long_page(1).characters, cal.MotionMapping(), PROFILE)
 
 
 def test_ctrl_c_ends_a_field_of_many_places():
@@ -195,7 +195,7 @@ def test_what_progress_raises_ends_the_call():
 
     for call in (
         lambda: cal.write_page(long_page(), session(), progress),
-        lambda: cal.coordinate_width_trade(characters(20), progress),
+        lambda: cal.coordinate_width_tradeoff(characters(20), progress),
         lambda: cal.stability_map(cal.StabilityMapOptions(with_grid=False, per_decade=1), progress),
     ):
         with pytest.raises(LookupError, match="enough"):
@@ -209,8 +209,8 @@ def test_progress_goes_to_the_end_and_changes_nothing():
     assert shares[-1] == 1.0 and sorted(shares) == shares and len(shares) > 10
     assert (told.samples == cal.write_page(page, session(seed=4)).samples).all()
     shares.clear()
-    rows = cal.coordinate_width_trade(characters(), shares.append)
-    assert shares[-1] == pytest.approx(1.0) and [row.bits for row in rows] == list(range(4, 17))
+    rows = cal.coordinate_width_tradeoff(characters(), shares.append)
+    assert shares[-1] == pytest.approx(1.0) and rows["bits"].tolist() == list(range(4, 17))
 
 
 def test_in_another_thread_a_long_call_goes_on_whatever_is_pressed():
@@ -222,7 +222,7 @@ def test_in_another_thread_a_long_call_goes_on_whatever_is_pressed():
         os.kill(os.getpid(), signal.SIGINT)
         thread.join()
     thread.join()
-    assert len(done) == 1 and cal.score(page, done[0])[1].strokes_completed > 0
+    assert len(done) == 1 and cal.score_page(page, done[0])[1].strokes_completed > 0
 
 
 def test_ctrl_c_ends_an_experiment():
@@ -237,14 +237,14 @@ def test_ctrl_c_while_a_person_writes_lets_the_force_fall_and_keeps_what_was_wri
     device = cal.PointerDevice(PROFILE)
     views = []
     ctrl_c(views)
-    options = cal.LiveOptions(renderer=cal.RendererOptions.for_device(PROFILE.capabilities), longest=300.0)
+    options = cal.LiveOptions(renderer=cal.RendererOptions.for_device(PROFILE), timeout=300.0)
     options.servo = cal.ServoLoopOptions(
-        servo=cal.ServoOptions(patience=1.0), thread=cal.ServoThreadOptions(priority=0, lock_memory=False)
+        servo=cal.ServoOptions(timeout=1.0), thread=cal.ServoThreadOptions(priority=0, lock_memory=False)
     )
     with pytest.raises(KeyboardInterrupt) as pressed:
         cal.write_with_device(page, device, options, views.append)
     result = pressed.value.result
-    assert len(result.recording) > 0 and result.statistics.ticks > 0
+    assert len(result.recording) > 0 and result.statistics["ticks"] > 0
     assert device.read().status == cal.DeviceStatus.ok  # no loop has it any more, and it is open
 
 

@@ -26,7 +26,7 @@ def session(**fields):
     return cal.SessionOptions(
         **{
             "device": PROFILE,
-            "renderer": cal.RendererOptions.for_device(PROFILE.capabilities),
+            "renderer": cal.RendererOptions.for_device(PROFILE),
             "skill": cal.WriterSkill.novice(),
             **fields,
         }
@@ -40,7 +40,7 @@ def wall(state):
 
 
 def held_device():
-    device = cal.SimulatedDevice(PROFILE, cal.Hand(mass=0.15, damping=5.0, stiffness=500.0), (0, 0, 0.01))
+    device = cal.SimulatedDevice(PROFILE, cal.GripImpedance(mass=0.15, damping=5.0, stiffness=500.0), (0, 0, 0.01))
     device.set_intention(cal.Intention(position=(0, 0, -0.005)))
     return device
 
@@ -55,13 +55,13 @@ def test_a_wall_of_ones_own_rests_where_two_springs_do():
 
 def test_a_servo_runs_a_force_law_in_virtual_time():
     device = held_device()
-    servo = cal.Servo(device, wall, rise_time=0.01)
+    servo = cal.Servo(device, wall, ramp_up=0.01)
     for tick in range(1500):
         servo.step(tick * 1e-3)
         device.advance(1e-3)
     assert -device.true_position[2] == pytest.approx(0.005 * 500 / (500 + 800), abs=2e-4)
     assert servo.status.phase == cal.ServoPhase.running
-    assert servo.statistics.ticks == 1500
+    assert servo.statistics["ticks"] == 1500
 
 
 @pytest.mark.parametrize(
@@ -78,7 +78,7 @@ def test_a_force_law_that_fails_lets_the_force_fall(answer, raises, monkeypatch)
     told = []
     monkeypatch.setattr(sys, "unraisablehook", lambda unraisable: told.append(unraisable.exc_type))
     device = held_device()
-    servo = cal.Servo(device, lambda state: answer() if state.time > 0.3 else wall(state), rise_time=0.0)
+    servo = cal.Servo(device, lambda state: answer() if state.time > 0.3 else wall(state), ramp_up=0.0)
     pushed = False
     for tick in range(400):
         servo.step(tick * 1e-3)
@@ -87,7 +87,7 @@ def test_a_force_law_that_fails_lets_the_force_fall(answer, raises, monkeypatch)
     assert pushed
     assert np.linalg.norm(device.applied_force) == 0.0
     assert servo.status.fault == cal.DeviceFault.bad_force
-    assert sum(servo.statistics.faults) >= 1
+    assert servo.statistics["faults"][cal.DeviceFault.bad_force] == 1
     assert bool(told) == raises
 
 
@@ -154,7 +154,7 @@ class Recorder(cal.HapticDevice):
         self.closed = False
 
     def capabilities(self):
-        return PROFILE.capabilities
+        return PROFILE
 
     def read(self):
         self.time += 1e-3
@@ -169,7 +169,7 @@ class Recorder(cal.HapticDevice):
 
 def test_a_device_of_ones_own_works_in_the_loop():
     device = Recorder()
-    servo = cal.Servo(device, lambda state: [0, 0, -1000 * state.position[2]], rise_time=0.0)
+    servo = cal.Servo(device, lambda state: [0, 0, -1000 * state.position[2]], ramp_up=0.0)
     for tick in range(100):
         servo.step(tick * 1e-3)
     assert len(device.forces) == 100
@@ -180,7 +180,7 @@ def test_the_servo_keeps_a_device_alive_that_python_has_let_go():
     servo = cal.Servo(Recorder(), lambda state: [0, 0, 1])
     for tick in range(10):
         servo.step(tick * 1e-3)
-    assert servo.statistics.ticks == 10
+    assert servo.statistics["ticks"] == 10
 
 
 @pytest.mark.parametrize("kind", ["raises", "wrong type", "missing"])
@@ -199,7 +199,7 @@ def test_a_device_of_ones_own_that_fails_is_a_fault_not_a_crash(kind, monkeypatc
 
     class Missing(cal.HapticDevice):
         def capabilities(self):
-            return PROFILE.capabilities
+            return PROFILE
 
     device = Missing() if kind == "missing" else Broken()
     servo = cal.Servo(device, wall)
@@ -248,7 +248,7 @@ def test_a_force_that_a_device_does_not_take_is_a_fault_until_it_takes_one(monke
             super().write(force)
 
     device = Loose()
-    servo = cal.Servo(device, lambda state: (0.0, 0.0, 1.0), rise_time=0.0)
+    servo = cal.Servo(device, lambda state: (0.0, 0.0, 1.0), ramp_up=0.0)
     tick = 0
 
     def steps(count):
@@ -262,13 +262,12 @@ def test_a_force_that_a_device_does_not_take_is_a_fault_until_it_takes_one(monke
     device.broken = True
     steps(30)
     assert servo.status.fault == cal.DeviceFault.device_error and servo.status.phase == cal.ServoPhase.zero
-    assert servo.statistics.faults[cal.DeviceFault.device_error] == 1 and told == ["bus gone"]
+    assert servo.statistics["faults"][cal.DeviceFault.device_error] == 1 and told == ["bus gone"]
     device.broken = False
     steps(1)
     assert device.forces[-1][2] == 0.0  # the first that it takes again
     steps(10)
     assert servo.status.phase == cal.ServoPhase.running and device.forces[-1][2] == 1.0
-    assert cal.fault_name(cal.DeviceFault.device_error) == "device error"
 
 
 def test_a_device_that_fails_again_is_told_again(monkeypatch):
@@ -326,7 +325,7 @@ def test_a_servo_is_stepped_by_one_at_a_time():
     servo = cal.Servo(cal.SimulatedDevice(PROFILE), law)
     servo.step(0.0)
     servo.step(1e-3)
-    assert len(refused) == 2 and "within a tick" in refused[0] and servo.statistics.ticks == 2
+    assert len(refused) == 2 and "within a tick" in refused[0] and servo.statistics["ticks"] == 2
 
 
 def test_methods_that_c_plus_plus_would_not_call_cannot_be_overridden():
@@ -349,7 +348,7 @@ def test_a_recording_is_a_structured_array_over_its_own_memory():
     assert np.shares_memory(samples, recording.samples)
     assert np.all(np.diff(samples["time"]) > 0)
     assert samples["force"].shape == (len(recording), 3)
-    assert set(np.unique(samples["state"])) <= {int(s) for s in cal.InteractionState.__members__.values()}
+    assert set(np.unique(samples["state"])) <= set(cal.InteractionState)
     with pytest.raises(ValueError, match="read-only"):
         samples["time"][0] = 1.0
     time = cal.write_page(one_page("一"), session()).samples["time"]  # its owner is gone
@@ -358,10 +357,9 @@ def test_a_recording_is_a_structured_array_over_its_own_memory():
 
 def test_recordings_survive_csv_pickling_and_arrays(tmp_path):
     recording = cal.write_page(one_page("一"), session())
-    cal.write_csv(tmp_path / "one.csv", recording)
+    cal.write_recording(tmp_path / "one.csv", recording)
     for again in (
-        cal.read_csv(tmp_path / "one.csv"),
-        cal.read_csv_text(recording.to_csv()),
+        cal.read_recording(tmp_path / "one.csv"),
         pickle.loads(pickle.dumps(recording)),
         cal.Recording(recording.rate, recording.samples),
     ):
@@ -380,7 +378,7 @@ def test_a_whole_trace_is_what_single_ticks_are():
     states = cal.device_states(recording, mapping)
 
     def renderer():
-        return cal.HapticRenderer(page.characters, mapping, PROFILE.capabilities)
+        return cal.HapticRenderer(page.characters, mapping, PROFILE)
 
     single, whole = renderer(), renderer()
     forces = np.array([single.update(state).force for state in states])
@@ -389,7 +387,7 @@ def test_a_whole_trace_is_what_single_ticks_are():
     assert np.array_equal(ticks["force"], forces)
     assert ticks["character"][-1] == 1 and np.abs(forces).max() > 0.1
     events = np.bitwise_or.reduce(ticks["events"])
-    assert cal.has(events, cal.TickEvent.page_finished) and not cal.has(events, cal.TickEvent.stroke_abandoned)
+    assert events & cal.TickEvent.page_finished and not events & cal.TickEvent.stroke_abandoned
     at_the_rate = renderer().trace([s.position for s in states])
     assert np.allclose(np.diff(at_the_rate["time"]), 1e-3)
     with pytest.raises(cal.InvalidValue, match="times: shape"):
@@ -399,66 +397,48 @@ def test_a_whole_trace_is_what_single_ticks_are():
 
 def test_a_position_that_is_not_finite_is_a_bad_sample():
     page = one_page()
-    renderer = cal.HapticRenderer(page.characters, cal.upright_page(page.width, page.height), PROFILE.capabilities)
+    renderer = cal.HapticRenderer(page.characters, cal.upright_page(page.width, page.height), PROFILE)
     ticks = renderer.trace([[0, 0, 0.02], [math.nan, 0, 0], [0, 0, 0.02]])
     assert ticks["status"].tolist() == [0, int(cal.TickStatus.bad_sample), 0]
     assert np.isfinite(ticks["force"]).all()
 
 
-def test_the_loop_by_hand_is_the_session():
-    page = one_page("一")
-    options = session()
-    mapping = cal.upright_page(page.width, page.height)
-    writer = cal.SimulatedWriter(page, options.skill, options.seed)
+def test_a_motion_of_ones_own_is_asked_at_every_tick():
+    page, asked = one_page("一"), []
 
     def motion(tick, seconds):
-        writing = tick.state == cal.InteractionState.writing
-        sight = cal.Sight(pen_tip=tick.pen_tip, character=tick.character, stroke=tick.stroke, writing=writing)
-        intention = writer.update(sight, seconds)
-        return None if writer.done else intention
+        asked.append((tick.time, seconds))
+        down = 8e-3 - 1e-4 * len(asked)
+        place = (page.width / 2, page.height / 2, down)
+        return None if len(asked) == 200 else cal.Intention(position=place, velocity=(0, 0, -0.1))
 
-    by_hand = cal.run_session(page, options, motion)
-    assert np.array_equal(by_hand.samples, cal.write_page(page, options).samples)
+    samples = cal.run_session(page, session(), motion).samples
+    assert len(samples) == len(asked) == 200 and np.allclose(np.diff([time for time, _ in asked]), 1e-3)
+    assert {seconds for _, seconds in asked} == {1e-3}
+    assert samples["device_point"][0, 2] > 0 > samples["device_point"][-1, 2] and samples["force"][-1, 2] > 0
     with pytest.raises(ZeroDivisionError):
-        cal.run_session(page, options, lambda tick, seconds: 1 / 0)
-    assert mapping.to_device([page.width / 2, page.height / 2, 0.0]) == pytest.approx([0, 0, 0])
+        cal.run_session(page, session(), lambda tick, seconds: 1 / 0)
 
 
 def test_a_replay_gives_the_forces_that_were_given():
     page, options = one_page("一"), session()
     recording = cal.write_page(page, options)
     states = cal.device_states(recording, cal.upright_page(page.width, page.height))
-    replay = cal.replay_page(page, cal.ReplayDevice(states, PROFILE.capabilities), options)
+    replay = cal.replay_page(page, cal.ReplayDevice(states, PROFILE), options)
     assert np.allclose(replay.samples["force"][: len(recording)], recording.samples["force"], atol=1e-6)
 
 
 def test_a_score_tells_force_from_vision():
     page = one_page("永")
     errors = {
-        mode: np.mean([cal.score(page, cal.write_page(page, session(mode=mode, seed=s)))[0].rms_error for s in range(8)])
-        for mode in (cal.Mode.vision, cal.Mode.force)
+        mode: np.mean([cal.score_page(page, cal.write_page(page, session(mode=mode, seed=s)))[0].rms_error for s in range(8)])
+        for mode in (cal.FeedbackMode.vision, cal.FeedbackMode.force)
     }
-    assert errors[cal.Mode.force] < errors[cal.Mode.vision]
-
-
-def test_several_renderers_in_several_threads_do_what_one_does():
-    page = one_page("永")
-    mapping = cal.upright_page(page.width, page.height)
-    recording = cal.write_page(page, session())
-    positions = [s.position for s in cal.device_states(recording, mapping)]
-
-    def forces(_):
-        renderer = cal.HapticRenderer(page.characters, mapping, PROFILE.capabilities)
-        return renderer.trace(positions)["force"]
-
-    expected = forces(0)
-    with concurrent.futures.ThreadPoolExecutor(4) as pool:
-        for result in pool.map(forces, range(12)):
-            assert np.array_equal(result, expected)
+    assert errors[cal.FeedbackMode.force] < errors[cal.FeedbackMode.vision]
 
 
 def _write_in_child(seed):
-    return cal.score(one_page("一"), cal.write_page(one_page("一"), session(seed=seed)))[0]
+    return cal.score_page(one_page("一"), cal.write_page(one_page("一"), session(seed=seed)))[0]
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="there is no fork here")
@@ -467,36 +447,6 @@ def test_a_forked_process_writes_as_this_one_does():
     context = multiprocessing.get_context("fork")
     with concurrent.futures.ProcessPoolExecutor(2, mp_context=context) as pool:
         assert list(pool.map(_write_in_child, [1, 2, 3])) == [_write_in_child(s) for s in (1, 2, 3)]
-
-
-RECORDS = [
-    session(seed=7, mode=cal.Mode.vision),
-    cal.RendererOptions.wang2006(),
-    cal.RendererOptions.everything(PROFILE.capabilities),
-    cal.WriterSkill.skilled(),
-    PROFILE,
-    cal.DeviceState(buttons=3),
-    cal.upright_page(0.16, 0.12),
-    cal.sampled_loop(PROFILE.capabilities, 1000.0),
-    cal.advise_stiffness(cal.sampled_loop(PROFILE.capabilities, 1000.0)),
-    cal.StabilityMapOptions(rates=[500.0]),
-    cal.PageLayout(em=0.03),
-    cal.ServoStatistics(),
-    cal.CharacterScore(character="永", mistakes=[cal.Mistake(kind=cal.MistakeKind.order, reason="so")]),
-]
-
-
-@pytest.mark.parametrize("record", RECORDS, ids=lambda r: type(r).__name__)
-def test_options_and_results_survive_pickling_and_copying(record):
-    for protocol in range(2, pickle.HIGHEST_PROTOCOL + 1):
-        assert pickle.loads(pickle.dumps(record, protocol)) == record
-    assert copy.copy(record) == record and copy.deepcopy(record) == record
-    assert type(record).__name__ in repr(record)
-
-
-def test_a_field_that_is_none_is_refused_with_those_that_are():
-    with pytest.raises(TypeError, match="Hand has no field 'weight'; it has mass, damping, stiffness"):
-        cal.Hand(weight=1.0)
 
 
 def test_records_differ_when_a_field_does():
@@ -508,7 +458,7 @@ def test_records_differ_when_a_field_does():
 
 def test_a_simulated_device_refuses_what_is_not_physical():
     with pytest.raises(cal.InvalidValue, match="mass"):
-        cal.SimulatedDevice(cal.DeviceProfile(mass=-1.0))
+        cal.SimulatedDevice(cal.Capabilities(apparent_mass=-1.0))
 
 
 def test_stiffness_beyond_what_is_stable_is_refused_or_clipped():
@@ -516,35 +466,37 @@ def test_stiffness_beyond_what_is_stable_is_refused_or_clipped():
     mapping = cal.upright_page(page.width, page.height)
     options = cal.RendererOptions(paper_stiffness=1e6)
     with pytest.raises(cal.InvalidValue, match="paper_stiffness"):
-        cal.HapticRenderer(page.characters, mapping, PROFILE.capabilities, options)
-    assert cal.clip_stiffness(options, PROFILE.capabilities)
+        cal.HapticRenderer(page.characters, mapping, PROFILE, options)
+    assert cal.clip_stiffness(options, PROFILE)
     assert options.paper_stiffness < 1e6
-    cal.validate(options, PROFILE.capabilities)
+    cal.validate(options, PROFILE)
 
 
 def test_the_advisor_and_a_wall_agree():
-    loop = cal.SampledLoop(mass=0.045, damping=0.1, rate=1000.0)
+    loop = cal.SampledLoop(device=cal.Capabilities(apparent_mass=0.045, viscous_friction=0.1, peak_force=7.9), rate=1000.0)
     critical = cal.critical_stiffness(loop)
-    assert cal.advise_stiffness(loop).stable.value == critical
-    assert cal.meet_wall(loop, 0.8 * critical).settles and not cal.meet_wall(loop, 1.5 * critical).settles
+    advice = cal.advise_stiffness(loop)
+    assert advice["stable"]["value"] == critical and set(advice) == {"passive", "quantised", "stable", "approximate"}
+    assert all(bound["formula"] and bound["validity"] for bound in advice.values())
+    assert cal.simulate_wall_contact(loop, 0.8 * critical)["stable"] and not cal.simulate_wall_contact(loop, 1.5 * critical)["stable"]
 
 
 def test_a_stability_map_reports_its_progress():
     shares = []
     options = cal.StabilityMapOptions(
         with_sweeps=False, per_decade=2, dampings=[0.5], rates=[1000.0], delays=[0], encoder_steps=[0.0],
-        wall_dampings=[0.0], grips=[cal.Hand(mass=0, damping=0, stiffness=0)],
+        wall_dampings=[0.0], grips=[cal.GripImpedance(mass=0, damping=0, stiffness=0)],
     )  # fmt: skip
     result = cal.stability_map(options, shares.append)
-    assert len(result.grid) == 1 and len(result.grid[0].settles) == len(result.stiffnesses)
+    assert len(result["grid"]) == 1 and result["grid"][0]["stable_at"].shape == result["stiffnesses"].shape
     assert shares and shares[-1] == 1.0
 
 
 def test_a_force_field_is_an_array_of_forces():
     placed = one_page().characters[0]
     field = cal.guidance_field(placed, 0, 0.2, placed.placement.origin, placed.placement.em, columns=12)
-    assert field.forces.shape == (12, 12, 2)
-    assert np.max(np.linalg.norm(field.forces, axis=2)) == pytest.approx(field.largest_force())
+    assert field["forces"].shape == (12, 12, 2) and 0.0 < np.linalg.norm(field["forces"], axis=2).max() < 600 * 0.012
+    assert field["jumps"].dtype.names == ("begin", "end", "size", "from_stroke", "passes_feature")
 
 
 def test_a_trace_of_a_person_is_followed(tmp_path):
@@ -554,4 +506,4 @@ def test_a_trace_of_a_person_is_followed(tmp_path):
     again = cal.read_pen_traces(str(tmp_path / "traces.txt"))[0]
     assert again.character == "一" and np.allclose(again.strokes[0], trace.strokes[0], atol=1e-6)
     recording = cal.follow_trace(one_page("一"), again, session())
-    assert cal.score(one_page("一"), recording)[0].strokes_completed == 1
+    assert cal.score_page(one_page("一"), recording)[0].strokes_completed == 1

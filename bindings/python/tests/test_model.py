@@ -21,8 +21,8 @@ def test_there_are_39_typical_strokes():
     strokes = cal.typical_strokes()
     assert [stroke.id for stroke in strokes] == list(range(1, 40))
     for stroke in strokes:
-        assert stroke.shape.shape == (stroke.control_point_count(), 2)
-        assert len(stroke.feature_points()) == stroke.feature_point_count() == len(stroke.elements) + 1
+        assert stroke.shape.shape == (1 + sum({"L": 1, "C": 3}[kind] for kind in stroke.elements), 2)
+        assert len(stroke.joints) == len(stroke.elements) - 1
         assert pickle.loads(pickle.dumps(stroke)).id == stroke.id
     with pytest.raises(cal.InvalidValue, match="40"):
         cal.typical_stroke(40)
@@ -37,7 +37,7 @@ def test_a_character_is_made_of_its_strokes_again():
     again = cal.make_character("永", inputs)
     assert np.array_equal(again.control_points, original.control_points)
     assert np.array_equal(again.stroke_ids, original.stroke_ids)
-    assert cal.validate(again) == []
+    assert again == original
     inputs[2].id = 99
     with pytest.raises(cal.InvalidValue, match="99"):
         cal.make_character("永", inputs)
@@ -54,10 +54,9 @@ def test_a_character_survives_pickling_and_copying(again):
 
 def test_a_damaged_pickle_of_a_character_is_refused():
     character = cal.built_in_characters()["永"]
-    state = list(character.__getstate__())
-    state[4] = [99] * len(state[4])
-    with pytest.raises(cal.InvalidValue):
-        cal.Character.__new__(cal.Character).__setstate__(tuple(state))
+    state = character.__reduce__()[0].keywords
+    with pytest.raises(cal.InvalidValue, match="stroke 1: .*99"):
+        cal.Character(**{**state, "stroke_ids": [99] * character.stroke_count})
 
 
 def test_a_list_and_a_set_hold_the_same_characters(tmp_path):
@@ -68,18 +67,13 @@ def test_a_list_and_a_set_hold_the_same_characters(tmp_path):
     stored = cal.CharacterSet.open(str(tmp_path / "characters.set"))
     assert "永" in stored and "龘" not in stored and stored.find("龘") is None
     assert np.array_equal(stored["永"].control_points, characters["永"].control_points)
-    assert [s.code for s in stored] == sorted({c.code for c in characters.characters})
+    assert list(stored) == sorted({c.code for c in characters.characters})
     assert len(stored) == len({c.code for c in characters.characters})
     assert stored.coordinate_error() == 0.0
     assert len(cal.CharacterSet.layered([stored, cal.CharacterSet(characters)])) == len(stored)
     assert len(pickle.loads(pickle.dumps(characters))) == len(characters)
     with pytest.raises(KeyError):
         stored["龘"]
-
-
-def test_a_stored_character_outlives_its_set():
-    found = cal.CharacterSet.from_bytes(cal.encode_character_set(cal.built_in_characters())).find("北")
-    assert found.character().stroke_count == found.stroke_count == 5
 
 
 def test_errors_are_of_one_family_and_of_the_built_in_ones(tmp_path):
@@ -92,22 +86,14 @@ def test_errors_are_of_one_family_and_of_the_built_in_ones(tmp_path):
     assert issubclass(cal.DeviceError, OSError) and issubclass(cal.Error, RuntimeError)
 
 
-def test_a_path_is_recognised_and_fitted():
-    path = np.column_stack([np.linspace(0.1, 0.9, 30), np.full(30, 0.5)])
-    fitted = cal.fit_stroke(path, cal.DrawnWith.pen)
-    assert cal.typical_stroke(fitted.stroke.id).name == "横"
-    assert fitted.error < 0.01
-    with pytest.raises(cal.InvalidValue):
-        cal.fit_stroke(np.zeros((0, 2)))
-
-
 READERS = {
     "read_characters": cal.read_characters,
     "CharacterSet.open": cal.CharacterSet.open,
     "read_pen_traces": cal.read_pen_traces,
-    "read_wire_profile": cal.read_wire_profile,
-    "read_csv": cal.read_csv,
+    "read_recording": cal.read_recording,
 }
+if "phantom" in cal.backends:
+    READERS["read_wire_profile"] = cal.read_wire_profile
 
 
 @pytest.mark.parametrize("name", READERS)
@@ -130,12 +116,9 @@ def test_a_list_of_characters_is_gone_through_in_its_order():
     built_in = cal.built_in_characters()
     assert [character.code for character in built_in] == [character.code for character in built_in.characters]
     assert len(cal.lay_out(list(built_in)[:3])[0].characters) == 3
-    for wrong in (built_in, None, "永"):
-        with pytest.raises(TypeError, match="a calligraphy.Character is expected"):
-            cal.strokes(wrong)
 
 
 @pytest.mark.parametrize("method", [cal.NearestPointOptions(), {}, None, 3])
-def test_what_is_no_method_is_named(method):
-    with pytest.raises(TypeError, match="method: one of exact"):
+def test_what_is_no_method_is_refused(method):
+    with pytest.raises(TypeError, match="method: "):
         cal.nearest_point([[0, 0], [1, 0]], [[0, 1]], method)

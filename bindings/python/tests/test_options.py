@@ -54,36 +54,9 @@ def test_tangents_and_derivatives_point_along_the_curve():
     assert element.parameter_at(element.arc_length(0.3)) == pytest.approx(0.3, abs=0.01)
 
 
-def test_a_stroke_is_followed_by_the_rules_given():
-    stroke, placement = PLACED.character.strokes()[1], PLACED.placement
-    start = cal.ActiveStroke(stroke, placement).start
-    off = start + [0.0, 0.009]
-    wide, narrow = (cal.StrokeRules(space=cal.ConstraintSpace(radius=r, edge=r / 2)) for r in (0.02, 0.005))
-    assert cal.ActiveStroke(stroke, placement).update(off, wide).share == 1.0
-    assert cal.ActiveStroke(stroke, placement).update(off, narrow).share == 0.0
-
-
-def test_a_stroke_begins_anew_when_it_is_reloaded():
-    stroke, placement = PLACED.character.strokes()[1], PLACED.placement
-    active = cal.ActiveStroke(stroke, placement)
-    left = active.features_left
-    elements = cal.place_elements(stroke, placement)
-    for t in np.linspace(0, 1, 200):
-        contact = active.update(elements[0].point(t))
-    assert active.features_left == left - 1 and contact.arc > 0.005
-    assert np.allclose(contact.foot, elements[0].point(1.0), atol=1e-3)
-    on = cal.ActiveStroke(stroke, placement).update(elements[0].point(0.4))
-    assert on.parameter == pytest.approx(0.4, abs=1e-3) and on.distance < 1e-9
-    active.reload()
-    assert active.features_left == left
-
-
 def test_an_alternate_order_is_found_by_its_name(tmp_path):
     usual = CHARACTERS["十"] if "十" in CHARACTERS else CHARACTERS["人"]
-    state = list(usual.__getstate__())
-    state[1] = "the other way"
-    other = cal.Character.__new__(cal.Character)
-    other.__setstate__(tuple(state))
+    other = cal.Character(**{**usual.__reduce__()[0].keywords, "order": "the other way"})
     assert other.order == "the other way" and other != usual
     both = cal.CharacterList([usual, other], cal.Provenance(source="a test", licence="MIT"))
     for kept in (both, cal.CharacterSet(both)):
@@ -111,7 +84,7 @@ def test_of_several_sets_the_first_ones_character_is_found():
 def test_a_set_keeps_places_as_finely_as_it_is_told():
     errors = [
         cal.CharacterSet.from_bytes(cal.encode_character_set(CHARACTERS, precision)).coordinate_error()
-        for precision in cal.CoordinatePrecision.__members__.values()
+        for precision in cal.CoordinatePrecision
     ]
     assert errors == sorted(errors, reverse=True) and errors[0] > errors[1] > errors[2] > errors[3] == 0.0
 
@@ -124,31 +97,20 @@ def test_a_character_has_the_degree_it_is_made_with():
         cal.make_character("人", inputs)
 
 
-def test_a_path_is_fitted_as_what_it_was_drawn_with_and_by_the_strokes_given():
-    path = np.column_stack([np.linspace(0.1, 0.9, 30), np.full(30, 0.5)])
-    rising = cal.fit_stroke(path + [0, 0.1] * np.linspace(0, 1, 30)[:, None], cal.DrawnWith.pen).stroke.id
-    ids = [stroke.id for stroke in cal.typical_strokes() if stroke.elements == "L" and stroke.id != rising]
-    assert cal.fit_stroke(path, cal.DrawnWith.pen, ids[:1]).stroke.id == ids[0]
-    # A brush comes down aslant before it goes its way; a pen that does so means it.
-    entry = np.vstack([np.linspace([0.06, 0.58], [0.1, 0.5], 8)[:-1], path])
-    assert cal.fit_stroke(entry, cal.DrawnWith.brush).stroke.id == cal.fit_stroke(path, cal.DrawnWith.pen).stroke.id
-    assert cal.fit_stroke(entry, cal.DrawnWith.pen).stroke.id != cal.fit_stroke(entry, cal.DrawnWith.brush).stroke.id
-
-
 def test_a_servo_runs_as_it_is_told():
-    quick, _ = stepped(rise_time=0.05)
-    slow, _ = stepped(rise_time=0.2)
+    quick, _ = stepped(ramp_up=0.05)
+    slow, _ = stepped(ramp_up=0.2)
     assert np.argmax(quick >= 0.999) < 60 < 150 < np.argmax(slow >= 0.999) < 210
     _, usual = stepped()
-    assert usual.statistics.missed_deadlines == 0
+    assert usual.statistics["missed_deadlines"] == 0
     with pytest.raises(cal.InvalidValue, match="rate"):
         stepped(rate=-1.0)
 
 
 def test_a_servo_falls_as_it_is_told():
-    def fall(fall_time):
+    def fall(ramp_down):
         device = cal.SimulatedDevice(PROFILE)
-        servo = cal.Servo(device, lambda state: (0, 0, 1.0), rise_time=0.0, fall_time=fall_time)
+        servo = cal.Servo(device, lambda state: (0, 0, 1.0), ramp_up=0.0, ramp_down=ramp_down)
         sent = []
         for tick in range(200):
             if tick == 50:
@@ -163,10 +125,10 @@ def test_a_servo_falls_as_it_is_told():
 
 
 def test_a_servo_is_as_patient_as_it_is_told():
-    def ticks_with_force(patience):
+    def ticks_with_force(timeout):
         device = Weak()
         device.stale_from = 30
-        servo = cal.Servo(device, lambda state: (0, 0, 0.1), rise_time=0.0, patience=patience)
+        servo = cal.Servo(device, lambda state: (0, 0, 0.1), ramp_up=0.0, timeout=timeout)
         for tick in range(130):
             servo.step(tick * 1e-3)
         return sum(force[2] == 0.1 for force in device.forces[30:])
@@ -178,15 +140,15 @@ def test_a_law_takes_no_virtual_time_however_slow_it_is():
     """A second of work a tick would be a fault by the clock."""
 
     def slow(state):
-        sum(range(400_000))  # some 5 ms, more than the patience of 4 ms
+        sum(range(400_000))  # some 5 ms, more than the timeout of 4 ms
         return (0, 0, 1.0)
 
-    sent, servo = stepped(0.02, law=slow, rise_time=0.0)
-    assert servo.statistics.work.worst == 0.0 and servo.status.fault == cal.DeviceFault.none and sent[-1] == 1.0
+    sent, servo = stepped(0.02, law=slow, ramp_up=0.0)
+    assert servo.statistics["work"]["worst"] == 0.0 and servo.status.fault == cal.DeviceFault.none and sent[-1] == 1.0
 
 
 def test_a_servo_begins_anew_when_it_is_reset():
-    _, servo = stepped(rise_time=0.05)
+    _, servo = stepped(ramp_up=0.05)
     assert servo.status.phase == cal.ServoPhase.running
     servo.reset()
     assert servo.status.phase == cal.ServoPhase.zero and servo.status.gain == 0.0
@@ -195,11 +157,10 @@ def test_a_servo_begins_anew_when_it_is_reset():
 def test_faults_are_named_as_python_can_write_them():
     assert cal.DeviceFault.timed_out.name == "timed_out"
     assert all(name.isidentifier() for name in cal.DeviceFault.__members__)
-    assert len(cal.DeviceFault.__members__) == len(cal.ServoStatistics().faults)
 
 
 def test_a_simulated_device_has_the_place_the_hand_and_the_buttons_it_is_given():
-    device = cal.SimulatedDevice(PROFILE, cal.Hand(mass=0.1, damping=3.0, stiffness=300.0), (0.01, 0.02, 0.03))
+    device = cal.SimulatedDevice(PROFILE, cal.GripImpedance(mass=0.1, damping=3.0, stiffness=300.0), (0.01, 0.02, 0.03))
     assert np.allclose(device.true_position, (0.01, 0.02, 0.03)) and not device.true_velocity.any()
     device.set_intention(cal.Intention(position=(0.05, 0.02, 0.03)))
     device.advance(0.01)
@@ -207,8 +168,8 @@ def test_a_simulated_device_has_the_place_the_hand_and_the_buttons_it_is_given()
     device.set_buttons(5)
     device.advance(1e-3)
     assert device.read().buttons == 5
-    let_go = cal.SimulatedDevice(PROFILE, cal.Hand(mass=0.1, damping=3.0, stiffness=300.0), (0.01, 0.02, 0.03))
-    let_go.set_hand(cal.Hand(mass=0.0, damping=0.0, stiffness=0.0))
+    let_go = cal.SimulatedDevice(PROFILE, cal.GripImpedance(mass=0.1, damping=3.0, stiffness=300.0), (0.01, 0.02, 0.03))
+    let_go.set_grip(cal.GripImpedance(mass=0.0, damping=0.0, stiffness=0.0))
     let_go.set_intention(cal.Intention(position=(0.05, 0.02, 0.03)))
     let_go.advance(1.0)
     assert np.allclose(let_go.true_position, (0.01, 0.02, 0.03))
@@ -217,10 +178,10 @@ def test_a_simulated_device_has_the_place_the_hand_and_the_buttons_it_is_given()
 
 
 def test_a_replayed_device_keeps_the_last_force():
-    device = cal.ReplayDevice([cal.DeviceState()], PROFILE.capabilities)
+    device = cal.ReplayDevice([cal.DeviceState()], PROFILE)
     device.write((1.0, 2.0, 3.0))
     assert device.last_force.tolist() == [1.0, 2.0, 3.0] and not device.finished
-    assert device.capabilities() == PROFILE.capabilities
+    assert device.capabilities() == PROFILE
 
 
 class Weak(cal.HapticDevice):
@@ -247,7 +208,7 @@ class Weak(cal.HapticDevice):
 
 def test_no_more_is_asked_of_a_device_of_ones_own_than_it_says_it_can():
     device = Weak()
-    servo = cal.Servo(device, lambda state: (0, 0, 3.0), rise_time=0.0)
+    servo = cal.Servo(device, lambda state: (0, 0, 3.0), ramp_up=0.0)
     for tick in range(10):
         servo.step(tick * 1e-3)
     assert device.forces[-1] == pytest.approx([0, 0, 0.5])
@@ -257,7 +218,7 @@ def test_a_renderer_says_what_it_clipped_and_begins_anew():
     page = cal.lay_out([CHARACTERS["一"]])[0]
     mapping = cal.upright_page(page.width, page.height)
     options = cal.RendererOptions(paper_stiffness=1e6, stiffness_check=cal.StiffnessCheck.clip)
-    renderer = cal.HapticRenderer(page.characters, mapping, PROFILE.capabilities, options)
+    renderer = cal.HapticRenderer(page.characters, mapping, PROFILE, options)
     assert any("paper_stiffness" in reason for reason in renderer.clipped)
     assert renderer.options.paper_stiffness < 1e6 and renderer.page == page.characters
     renderer.trace(np.zeros((10, 3)))
@@ -269,27 +230,23 @@ def test_a_renderer_says_what_it_clipped_and_begins_anew():
     renderer.restart()
     assert renderer.last.state == cal.InteractionState.separation and renderer.last.character == 0
     with pytest.raises(cal.InvalidValue, match="stiffness"):
-        cal.validate(cal.RendererOptions(), PROFILE.capabilities, 1e3)
+        cal.validate(cal.RendererOptions(), PROFILE, 1e3)
     with pytest.raises(cal.InvalidValue, match="stiffness"):
-        cal.validate(cal.RendererOptions(), PROFILE.capabilities, scale=1e3)
+        cal.validate(cal.RendererOptions(), PROFILE, scale=1e3)
 
 
 def test_a_tick_of_a_trace_is_the_tick_of_an_update_column_by_column():
     page = cal.lay_out([CHARACTERS["十"] if "十" in CHARACTERS else CHARACTERS["人"]])[0]
     mapping = cal.MotionMapping(rotation=[[0, 1, 0], [0, 0, 1], [1, 0, 0]], offset=(0.01, 0.02, 0.0), scale=0.8)
-    options = cal.RendererOptions.everything(PROFILE.capabilities)
+    options = cal.RendererOptions.everything(PROFILE)
     session = cal.SessionOptions(device=PROFILE, renderer=options, skill=cal.WriterSkill.novice())
     written = cal.write_page(page, session)
     states = cal.device_states(written, mapping)
-    one, all_at_once = (cal.HapticRenderer(page.characters, mapping, PROFILE.capabilities, options) for _ in range(2))
+    one, all_at_once = (cal.HapticRenderer(page.characters, mapping, PROFILE, options) for _ in range(2))
     rows = all_at_once.trace([s.position for s in states], [s.time for s in states])
     ticks = [one.update(cal.DeviceState(time=s.time, position=s.position)) for s in states]
     for name in rows.dtype.names:
-        if name in ("element", "parameter", "foot", "distance", "share", "arc"):
-            values = [getattr(tick.contact, name) for tick in ticks]
-        else:
-            values = [getattr(tick, name) for tick in ticks]
-        values = np.array([int(v) if hasattr(v, "name") else v for v in values])
+        values = np.array([getattr(tick, name) for tick in ticks])
         assert np.array_equal(rows[name], values, equal_nan=True), name
     for name in ("attraction", "friction", "damping", "page_force", "force", "heat", "energy_given"):
         assert np.abs(rows[name]).max() > 0, name
@@ -297,8 +254,7 @@ def test_a_tick_of_a_trace_is_the_tick_of_an_update_column_by_column():
     assert np.allclose(turned * np.abs(rows["force"]).max() / np.abs(turned).max(), rows["force"], atol=1e-9)
     direction = mapping.force_to_device((0, 0, 1.0))
     assert np.allclose(direction / np.linalg.norm(direction), (1, 0, 0) @ np.eye(3))
-    assert not cal.has(0, cal.TickEvent.lift)
-    assert cal.has(int(cal.TickEvent.contact) | int(cal.TickEvent.lift), cal.TickEvent.lift)
+    assert ticks[0].events == cal.TickEvent(0) and (rows["events"] & cal.TickEvent.contact).any()
 
 
 def test_a_trace_file_has_the_notice_and_the_unit_given(tmp_path):
@@ -322,8 +278,8 @@ def test_a_trace_as_it_is_made_can_be_written(tmp_path):
 def test_characters_are_imported_as_asked(tmp_path):
     source = tmp_path / "characters.txt"
     cal.write_characters(str(source), CHARACTERS)
-    assert len(cal.import_characters(source).list) == len(CHARACTERS)
-    assert [c.code for c in cal.import_characters(source, only="永").list.characters] == ["永"]
+    assert len(cal.import_characters(source)[0]) == len(CHARACTERS)
+    assert [c.code for c in cal.import_characters(source, only="永")[0]] == ["永"]
     with pytest.raises(cal.InvalidValue, match="letters"):
         cal.import_characters(source, letters=tmp_path / "letters.tgz")
 
@@ -348,18 +304,18 @@ def test_a_recording_keeps_its_rate_and_takes_rows_of_rows_alone():
         with pytest.raises(cal.InvalidValue, match="rate"):
             cal.Recording(rate, rows[:1])
     with pytest.raises(cal.FileError, match="nowhere"):
-        cal.read_csv("nowhere.csv")
+        cal.read_recording("nowhere.csv")
 
 
-def test_a_trade_is_of_the_queries_and_the_seed_given():
+def test_a_tradeoff_is_of_the_queries_and_the_seed_given():
     def errors(**options):
-        trade = cal.nearest_point_trade([CHARACTERS["永"]], rounds=1, **options)
-        return [(t.name, getattr(t, k).error_worst, getattr(t, k).error) for t in trade for k in ("real", "hard")]
+        tradeoff = cal.nearest_point_tradeoff([CHARACTERS["永"]], rounds=1, **options)
+        return [tradeoff["name"].tolist(), *(tradeoff[k][f].tolist() for k in ("real", "hard", "ticks") for f in ("error_worst", "error"))]
 
     usual = errors(queries=64)
     assert usual == errors(queries=64) and usual != errors(queries=64, seed=2) and usual != errors(queries=128)
     told = []
-    cal.nearest_point_trade([CHARACTERS["永"]], queries=16, rounds=3, progress=told.append)
+    cal.nearest_point_tradeoff([CHARACTERS["永"]], queries=16, rounds=3, progress=told.append)
     work = told[: told.index(1.0) + 1]
     assert len(work) % 3 == 0 and work == pytest.approx(np.linspace(0, 1, len(work) + 1)[1:])
     assert set(told[len(work) :]) == {1.0}  # while errors are looked for
@@ -367,66 +323,56 @@ def test_a_trade_is_of_the_queries_and_the_seed_given():
 
 def test_a_field_is_of_the_stroke_the_progress_and_the_options_given():
     def forces(stroke=1, progress=0.3, corner=PLACED.placement.origin, edge=PLACED.placement.em, **options):
-        return cal.guidance_field(PLACED, stroke, progress, corner, edge, **{"columns": 16, **options}).forces
+        return cal.guidance_field(PLACED, stroke, progress, corner, edge, **{"columns": 16, **options})["forces"]
 
     usual = forces()
     assert np.allclose(forces(stiffness=1200.0), 2 * usual) and np.abs(usual).max() > 0.1
-    assert forces(columns=9).shape == (9, 9, 2) and cal.guidance_field(PLACED, 1, 0.3, (0, 0), 0.01).columns == 96
+    assert forces(columns=9).shape == (9, 9, 2) and forces(corner=(0, 0), columns=96).shape[0] == 96
     for other in (
         forces(stroke=2), forces(progress=0.9), forces(attractor=cal.Attractor.nearest_stroke),
-        forces(rules=cal.StrokeRules(space=cal.ConstraintSpace(radius=0.004, edge=0.002))),
+        forces(rules=cal.StrokeRules(space=cal.ConstraintSpace(radius=0.004, fade_width=0.002))),
         forces(corner=(0.0, 0.0)), forces(edge=0.02),
     ):  # fmt: skip
         assert not np.allclose(other, usual)
 
 
-def test_the_figures_of_ambiguity_are_the_fields_that_they_say():
-    figures = cal.ambiguity_figures(columns=24)
-    assert [figure.name for figure in figures] == ["bend", "corner", "parallel", "crossed"]
-    for figure in figures:
-        assert len(figure.panels) == 3 and "Fig. 2" in figure.title and 0.0 < figure.progress < 1.0
-        assert [panel.fades_in for panel in figure.panels] == [True, False, True]
-        placed, (nearest, _, default) = figure.placed, figure.panels
-        stroke = placed.character.strokes()[figure.stroke]
-        elements = cal.place_elements(stroke, placed.placement)
-        gap = min(cal.nearest_point(element, [figure.pen]).distance[0] for element in elements)
-        assert gap < 1e-9  # the pen is on its stroke
-        for panel, attractor in ((nearest, cal.Attractor.nearest_stroke), (default, cal.Attractor.active_stroke)):
-            field = panel.field
-            same = cal.guidance_field(
-                placed, figure.stroke, figure.progress, field.corner, field.edge, columns=24, attractor=attractor
-            )
-            assert field.forces.shape == (24, 24, 2) and np.array_equal(field.forces, same.forces)
-            assert np.array_equal(field.jumps, same.jumps)
-        picture = cal.force_field_picture(figure)
-        assert picture.startswith("<?xml") and picture.rstrip().endswith("</svg>") and nearest.name in picture
-
-
 def test_the_jumps_of_a_field_are_where_its_force_jumps():
     placement, attractor = PLACED.placement, cal.Attractor.nearest_stroke
     field = cal.guidance_field(PLACED, 1, 0.3, placement.origin, placement.em, columns=48, attractor=attractor)
-    jumps = field.jumps
+    jumps = field["jumps"]
     assert jumps.dtype.names == ("begin", "end", "size", "from_stroke", "passes_feature")
     assert jumps["begin"].shape == (len(jumps), 2) and jumps["passes_feature"].dtype == bool
-    steps = [np.linalg.norm(np.diff(field.forces, axis=axis), axis=2).max() for axis in (0, 1)]
+    steps = [np.linalg.norm(np.diff(field["forces"], axis=axis), axis=2).max() for axis in (0, 1)]
     assert len(jumps) > 0 and 0.1 <= jumps["size"].max() <= 1.05 * max(steps)
-    corner, edge = field.corner, field.edge
+    corner, edge = placement.origin, placement.em
     for end in ("begin", "end"):
         assert (jumps[end] >= corner).all() and (jumps[end] <= corner + edge).all()
     cell = edge / 48
     assert (np.linalg.norm(jumps["end"] - jumps["begin"], axis=1) <= 1.5 * cell).all()
 
 
-def test_curves_are_as_large_as_asked():
-    small, large = (cal.curve_control_points([CHARACTERS["永"]], em) for em in (0.04, 0.08))
-    assert small and small[0].shape == (4, 2) and all(np.allclose(2 * a, b) for a, b in zip(small, large))
-
-
-def test_a_closed_stability_map_is_of_what_was_asked():
-    options = cal.StabilityMapOptions(
-        with_sweeps=False, per_decade=1, dampings=[0.5, 1.0], rates=[1000.0], delays=[0], encoder_steps=[0.0],
-        wall_dampings=[0.0], grips=[cal.Hand(mass=0, damping=0, stiffness=0)], encounter=cal.WallEncounter(seconds=0.1),
-    )  # fmt: skip
-    result = cal.stability_map(options)
-    assert [line.loop.damping for line in result.grid] == [0.5, 1.0] and result.sweeps == []
-    assert result.encounter == options.encounter
+def test_a_stability_map_is_of_what_was_asked():
+    result = cal.stability_map(cal.StabilityMapOptions(
+        device=cal.Capabilities(apparent_mass=0.1, peak_force=5.0), per_decade=1, min_stiffness=100.0, max_stiffness=1e4,
+        dampings=[0.5, 1.0], rates=[1000.0], delays=[2], encoder_steps=[0.0], wall_dampings=[0.0],
+        grips=[cal.GripImpedance(mass=0.1, damping=3, stiffness=300)], contact=cal.WallContact(seconds=0.1), with_sweeps=False,
+    ))  # fmt: skip
+    grid = result["grid"]
+    assert result["sweeps"] == {} and result["stiffnesses"].tolist() == pytest.approx([100.0, 1e3, 1e4])
+    assert grid["viscous_friction"].tolist() == [0.5, 1.0] and grid["stable_at"].shape == (2, 3)
+    for row in grid:
+        assert (row["rate"], row["apparent_mass"], row["sample_delay"]) == (1000.0, 0.1, 2)
+        assert row["grip"].tolist() == [0.1, 3.0, 300.0]
+        device = cal.Capabilities(
+            apparent_mass=0.1, viscous_friction=row["viscous_friction"], sample_delay=2, peak_force=5.0
+        )
+        advice = cal.advise_stiffness(cal.SampledLoop(device=device, grip=cal.GripImpedance(mass=0.1, damping=3, stiffness=300)))
+        assert {name: row[name] for name in advice} == {name: bound["value"] for name, bound in advice.items()}
+    brief = cal.WallContact(seconds=0.01)
+    swept = cal.stability_map(
+        cal.StabilityMapOptions(contact=brief, per_decade=1, min_stiffness=100.0, max_stiffness=1e3, with_grid=False)
+    )
+    assert len(swept["grid"]) == 0 and {"damping", "rate"} <= set(swept["sweeps"])
+    for sweep in swept["sweeps"].values():
+        assert sweep["label"] and len(sweep["values"]) == len(sweep["lines"]) > 1
+        assert sweep["lines"].dtype == swept["grid"].dtype

@@ -2,9 +2,9 @@
 
 import copy
 import gc
+import itertools
 import operator
 import pickle
-import re
 
 import numpy as np
 import pytest
@@ -16,7 +16,7 @@ import calligraphy as cal
 
 RECORDS = [value for value in vars(cal).values() if isinstance(value, type) and hasattr(value, "fields")]
 NUMBERS = st.floats(allow_nan=False)
-TINY = settings(deadline=None, max_examples=5, derandomize=True, database=None)
+TINY = settings(deadline=None, max_examples=2, derandomize=True, database=None)
 
 
 def records(kind):
@@ -35,8 +35,7 @@ def values(kind, name):
     if isinstance(default, np.ndarray):
         return hnp.arrays(float, default.shape, elements=st.floats())
     if isinstance(default, list):
-        fixed = len(default) if name in {"faults", "within", "within_median", "ids_used"} else None
-        return st.lists(LISTS[kind, name](), min_size=fixed or 0, max_size=fixed or 3)
+        return st.lists(LISTS[kind, name](), max_size=3)
     if default == "\0":  # a single character
         return st.sampled_from("永一\U00020000")
     return {
@@ -59,36 +58,14 @@ def placed():
 
 
 LISTS = {
-    (cal.Page, "characters"): placed,
-    (cal.CharacterScore, "mistakes"): lambda: records(cal.Mistake),
-    (cal.ServoStatistics, "faults"): lambda: st.integers(0, 1000),
-    (cal.PluggedDevice, "nodes"): lambda: st.text(max_size=5),
-    (cal.PhantomStatistics, "faults"): lambda: st.integers(0, 1000),
-    (cal.StrokeVerdict, "drawn"): lambda: records(cal.DrawnStroke),
-    (cal.StrokeVerdict, "remarks"): lambda: records(cal.Remark),
-    (cal.ImportReport, "within"): lambda: records(cal.FitCount),
-    (cal.ImportReport, "within_median"): lambda: records(cal.FitCount),
-    (cal.ImportReport, "worst"): lambda: records(cal.StrokeError),
-    (cal.ImportReport, "ids_used"): lambda: st.integers(0, 1000),
-    (cal.ImportReport, "confusions"): lambda: records(cal.Confusion),
-    (cal.ImportReport, "label_doubts"): lambda: records(cal.LabelDoubt),
-    (cal.ImportReport, "letters_unused"): lambda: st.sampled_from("永一"),
-    (cal.ImportReport, "skipped"): lambda: records(cal.SkippedFile),
-    (cal.ImportReport, "notes"): lambda: st.text(max_size=3),
-    (cal.StabilityLine, "settles"): st.booleans,
-    (cal.StabilityLine, "controlled_settles"): st.booleans,
-    (cal.StabilitySweep, "values"): lambda: st.text(max_size=3),
-    (cal.StabilitySweep, "lines"): lambda: records(cal.StabilityLine),
-    (cal.StabilityMap, "stiffnesses"): lambda: NUMBERS,
-    (cal.StabilityMap, "sweeps"): lambda: records(cal.StabilitySweep),
-    (cal.StabilityMap, "grid"): lambda: records(cal.StabilityLine),
-    (cal.StabilityMapOptions, "dampings"): lambda: NUMBERS,
-    (cal.StabilityMapOptions, "rates"): lambda: NUMBERS,
+    (cal.PracticePage, "characters"): placed,
+    (cal.CharacterScore, "mistakes"): lambda: records(cal.WritingMistake),
+    (cal.StabilityMapOptions, "grips"): lambda: records(cal.GripImpedance),
     (cal.StabilityMapOptions, "delays"): lambda: st.integers(0, 9),
-    (cal.StabilityMapOptions, "encoder_steps"): lambda: NUMBERS,
-    (cal.StabilityMapOptions, "wall_dampings"): lambda: NUMBERS,
-    (cal.StabilityMapOptions, "grips"): lambda: records(cal.Hand),
+    **{(cal.StabilityMapOptions, n): lambda: NUMBERS for n in ("dampings", "rates", "encoder_steps", "wall_dampings")},
 }
+if "phantom" in cal.backends:
+    LISTS[cal.PluggedDevice, "nodes"] = lambda: st.text(max_size=5)
 
 
 def test_there_are_records():
@@ -98,51 +75,37 @@ def test_there_are_records():
 @pytest.mark.parametrize("kind", RECORDS)
 @TINY
 @given(st.data())
-def test_every_record_survives_pickling_and_copying_whatever_it_holds(kind, data):
-    record = data.draw(records(kind))
-    for protocol in range(2, pickle.HIGHEST_PROTOCOL + 1):
-        assert pickle.loads(pickle.dumps(record, protocol)) == record
-    assert copy.copy(record) == record == copy.deepcopy(record)
-    assert repr(record).startswith(kind.__name__ + "(") and repr(copy.copy(record)) == repr(record)
-    assert record == kind(**{name: getattr(record, name) for name in kind.fields})
-
-
-@pytest.mark.parametrize("kind", RECORDS)
-@TINY
-@given(st.data())
-def test_records_differ_as_soon_as_one_field_does(kind, data):
-    name = data.draw(st.sampled_from(kind.fields))
+def test_every_record_survives_pickling_and_copying_and_differs_as_soon_as_one_field_does(kind, data):
     one = data.draw(records(kind))
+    for protocol in range(pickle.HIGHEST_PROTOCOL + 1):
+        assert pickle.loads(pickle.dumps(one, protocol)) == one
+    assert copy.copy(one) == one == copy.deepcopy(one) == kind(**{name: getattr(one, name) for name in kind.fields})
+    assert repr(one).startswith(kind.__name__ + "(") and repr(copy.copy(one)) == repr(one)
+    name = data.draw(st.sampled_from(kind.fields))
     value = data.draw(values(kind, name))
     other = copy.copy(one)
     setattr(other, name, value)
     now, before = getattr(other, name), getattr(one, name)
     same = np.array_equal(now, before, equal_nan=True) if isinstance(now, np.ndarray) else now == before
     assert (one == other) == same and (one != other) == (not same)
-    assert getattr(other, name) is not None and one != 3 and one != None  # noqa: E711
+    assert one != 3 and one != None  # noqa: E711
 
 
 @pytest.mark.parametrize("kind", RECORDS)
 def test_a_pickle_of_another_version_keeps_what_both_know(kind):
     """A field that the other version did not have is the default; one that this version does not have is told."""
-    state = kind().__getstate__()
+    state = kind().__reduce__()[0].keywords
     assert tuple(state) == kind.fields
     for name in kind.fields:
-        older = {other: value for other, value in state.items() if other != name}
-        again = kind.__new__(kind)
-        again.__setstate__(older)
-        assert again == kind()
+        assert kind(**{other: value for other, value in state.items() if other != name}) == kind()
     with pytest.raises(TypeError, match=f"{kind.__name__} has no field 'later'; it has {kind.fields[0]}"):
-        kind.__new__(kind).__setstate__({**state, "later": 1})
+        kind(**{**state, "later": 1})
 
 
-def test_a_record_that_lacks_a_field_keeps_the_others():
-    profile = cal.device_profile("omni")
-    state = profile.__getstate__()
-    del state["encoder_step"]
-    again = cal.DeviceProfile.__new__(cal.DeviceProfile)
-    again.__setstate__(state)
-    assert again.mass == profile.mass and again.encoder_step == cal.DeviceProfile().encoder_step
+def test_nan_equals_nan_whatever_holds_it():
+    nan = float("nan")
+    assert cal.DeviceState() == cal.DeviceState() and cal.GripImpedance(mass=nan) == cal.GripImpedance(mass=nan) != cal.GripImpedance()
+    assert cal.WritingMistake(time=nan) in [cal.WritingMistake(time=nan)]
 
 
 @pytest.mark.parametrize("kind", RECORDS)
@@ -157,7 +120,7 @@ def test_a_copy_shares_nothing_with_the_original(kind):
                 field = next(f for f in value.fields if not isinstance(getattr(value, f), list))
                 before = copy.copy(getattr(value, field))
                 setattr(ours, field, _another(getattr(ours, field)))
-                assert np.array_equal(getattr(value, field), before)
+                assert np.array_equal(getattr(value, field), before, equal_nan=isinstance(before, (float, np.ndarray)))
 
 
 def _another(value):
@@ -176,12 +139,8 @@ def _number(value):
 @pytest.mark.parametrize(
     "owner, name, make",
     [
-        (cal.Page(), "characters", lambda: cal.PlacedCharacter(cal.built_in_characters()["永"])),
-        (cal.CharacterScore(), "mistakes", lambda: cal.Mistake(reason="so long that it is kept elsewhere")),
-        (cal.StabilityMapOptions(), "grips", lambda: cal.Hand(mass=7.0)),
-        (cal.StabilitySweep(), "lines", lambda: cal.StabilityLine(largest=3.0)),
-        (cal.StabilityMap(), "sweeps", lambda: cal.StabilitySweep(name="damping of the device, viscous")),
-        (cal.StabilityMap(), "grid", lambda: cal.StabilityLine(settles=[True, False])),
+        (cal.PracticePage(), "characters", lambda: cal.PlacedCharacter(cal.built_in_characters()["永"])),
+        (cal.CharacterScore(), "mistakes", lambda: cal.WritingMistake(reason="so long that it is kept elsewhere")),
         (cal.CharacterList(), "characters", lambda: cal.built_in_characters()["永"]),
     ],
     ids=lambda value: value if isinstance(value, str) else type(value).__name__,
@@ -197,10 +156,10 @@ def test_a_list_of_a_record_is_a_copy_that_outlives_what_it_came_from(owner, nam
 
 
 def test_a_change_to_an_element_of_a_list_does_not_reach_its_owner():
-    score = cal.CharacterScore(mistakes=[cal.Mistake(stroke=1)])
+    score = cal.CharacterScore(mistakes=[cal.WritingMistake(stroke=1)])
     score.mistakes[0].stroke = 2
-    score.mistakes.append(cal.Mistake())
-    assert score.mistakes == [cal.Mistake(stroke=1)]
+    score.mistakes.append(cal.WritingMistake())
+    assert score.mistakes == [cal.WritingMistake(stroke=1)]
 
 
 def test_what_is_not_a_field_or_not_of_its_type_is_refused():
@@ -209,13 +168,15 @@ def test_what_is_not_a_field_or_not_of_its_type_is_refused():
             kind(no_field=1)
         with pytest.raises(TypeError):
             kind(1)
+        with pytest.raises(TypeError, match="unhashable"):
+            hash(kind())
         for name in kind.fields:
             with pytest.raises((TypeError, cal.InvalidValue)):
                 kind(**{name: object()})
 
 
 def test_a_record_says_what_it_holds_as_it_would_be_written():
-    assert repr(cal.Hand(mass=0.5)) == "Hand(mass=0.5, damping=3.0, stiffness=300.0)"
+    assert repr(cal.GripImpedance(mass=0.5)) == "GripImpedance(mass=0.5, damping=3.0, stiffness=300.0)"
     state = repr(cal.DeviceState(position=(1, 2, 3)))
     assert state.startswith("DeviceState(time=0.0, position=[1.0, 2.0, 3.0], velocity=")
 
@@ -240,18 +201,16 @@ RESULTS = {
         [cal.built_in_characters()["永"]], cal.Provenance(source="mine", licence="MIT")
     ),
     "TypicalStroke": lambda: cal.typical_stroke(7),
-    "Mode": lambda: cal.Mode.force,
-    "InverseKinematics": lambda: cal.inverse_kinematics(cal.linkage("omni"), [[0, 0.1, 0.05], [9, 9, 9]]),
+    "FeedbackMode": lambda: cal.FeedbackMode.force,
 }
 PARTS = {
     "NearestPoints": ("parameter", "point", "distance", "tangent", "status", "certified"),
     "Recording": ("rate", "samples"),
     "StrokeInput": ("id", "control_points", "attraction_factors"),
     "PenTrace": ("character", "set", "em", "strokes"),
-    "CharacterList": ("provenance", "characters"),
+    "CharacterList": ("characters", "provenance"),
     "TypicalStroke": ("id", "name"),
-    "Mode": ("name", "value"),
-    "InverseKinematics": ("joints", "reachable"),
+    "FeedbackMode": ("name", "value"),
 }
 
 
@@ -275,7 +234,7 @@ def test_results_survive_pickling_and_copying(name, again):
 def written():
     page = cal.lay_out([cal.built_in_characters()["一"]])[0]
     device = cal.device_profile("desktop")
-    options = cal.SessionOptions(device=device, renderer=cal.RendererOptions.for_device(device.capabilities))
+    options = cal.SessionOptions(device=device, renderer=cal.RendererOptions.for_device(device))
     return page, cal.write_page(page, options)
 
 
@@ -284,67 +243,50 @@ def test_what_is_no_record_says_in_a_line_what_it_is(written):
     characters = cal.built_in_characters()
     stroke = characters["永"].strokes()[0]
     element = cal.StrokeElement([[0, 0], [3, 4]])
-    renderer = cal.HapticRenderer(page.characters, cal.MotionMapping(), cal.device_profile("omni").capabilities)
-    field = cal.guidance_field(page.characters[0], 0, 0.5, (0, 0), 0.04, columns=8)
-    told = {
-        recording: f"Recording({len(recording)} samples at 1000 Hz, {len(recording) / 1000:.6g} s)",
-        cal.PenTrace("一", [[[0, 0, 0]]], set="mine"): "PenTrace(一, 1 strokes, 'mine')",
-        cal.nearest_point(element_points(), [[0, 1], [np.nan, 0]]): "NearestPoints(2 queries, 1 certified)",
-        element: "StrokeElement(degree 1, length 5)",
-        stroke: f"Stroke({stroke.type.name}, {len(stroke.control_points)} control points)",
-        cal.CharacterSet(characters): f"CharacterSet({len(characters.characters)} characters)",
-        cal.CharacterSet(characters).find("永"): "StoredCharacter(永, 5 strokes)",
-        renderer: "HapticRenderer(page of 1 at 1000 Hz)",
-        renderer.last: "HapticTick(time 0 s, ok, separation, character 0, stroke 0, force [0.0, 0.0, 0.0] N)",
-        field: "ForceField(8 x 8 places, edge 0.04 m)",
-    }
-    assert {repr(value): text for value, text in told.items()} == {text: text for text in told.values()}
-    assert repr(cal.CharacterList([], cal.Provenance(source="me"))) == "CharacterList(0 characters of 'me')"
-    tick = renderer.update(cal.DeviceState())
-    assert repr(tick.contact).startswith("StrokeContact(element 0, distance ")
-    for value in (cal.fit_stroke([[0, 0], [1, 0.01]]), *cal.nearest_point_trade([characters["永"]], 10, 1)[:1]):
-        assert re.fullmatch(rf"{type(value).__name__}\(.{{5,120}}\)", repr(value))
-
-
-def element_points():
-    return [[0, 0], [1, 2], [3, 0]]
+    renderer = cal.HapticRenderer(page.characters, cal.MotionMapping(), cal.device_profile("omni"))
+    told = [
+        (element, "StrokeElement(degree 1, length 5)"),
+        (stroke, f"Stroke({stroke.type.name}, {len(stroke.control_points)} control points)"),
+        (characters["永"], "Character(永, 5 strokes)"),
+        (cal.CharacterSet(characters), f"CharacterSet({len(characters.characters)} characters)"),
+        (renderer, "HapticRenderer(page of 1 at 1000 Hz)"),
+        (recording, f"Recording(rate=1000.0, samples=array({len(recording)},))"),
+        (cal.PenTrace("一", [[[0, 0, 0]]], set="mine"),
+         "PenTrace(character='一', strokes=[[[0.0, 0.0, 0.0]]], set='mine', em=1000.0)"),
+        (cal.CharacterList([], cal.Provenance(source="me")),
+         "CharacterList(characters=[], provenance=Provenance(source='me', licence='', attribution='', licence_text=''))"),
+    ]  # fmt: skip
+    assert [repr(value) for value, _ in told] == [text for _, text in told]
+    assert repr(characters).startswith("CharacterList(characters=[Character(") and f"... {len(characters)} in all]" in repr(characters)
 
 
 def test_a_record_of_much_says_how_much():
-    map_of_much = cal.StabilityMap(stiffnesses=np.arange(50.0).tolist())
-    assert "stiffnesses=[0.0, 1.0, 2.0, ... 50 in all]" in repr(map_of_much)
-    assert "stiffnesses=[0.0, 1.0, 2.0, 3.0]" in repr(cal.StabilityMap(stiffnesses=[0.0, 1.0, 2.0, 3.0]))
+    strokes = cal.StrokeInput(1, [[0, 0], [1, 1]], np.arange(50.0))
+    assert "attraction_factors=[0.0, 1.0, 2.0, ... 50 in all]" in repr(strokes)
+    assert "attraction_factors=[0.0, 1.0])" in repr(cal.StrokeInput(1, [[0, 0], [1, 1]], [0.0, 1.0]))
     licence = repr(cal.Provenance(licence_text="word " * 1000))
     assert "licence_text='word word" in licence and "... 5000 letters in all" in licence and len(licence) < 200
-    score = repr(cal.CharacterScore(character="永", mistakes=[cal.Mistake(reason="x")]))
-    assert score.startswith("CharacterScore(character='永', time=0.0") and "mistakes=[Mistake(kind=" in score
+    score = repr(cal.CharacterScore(character="永", mistakes=[cal.WritingMistake(reason="x")]))
+    assert score.startswith("CharacterScore(character='永', time=0.0") and "mistakes=[WritingMistake(kind=" in score
 
 
 def test_what_holds_a_device_or_a_file_does_not_pickle():
     page = cal.lay_out([cal.built_in_characters()["一"]])[0]
     profile = cal.device_profile("ideal")
-    for value in (
+    for protocol, value in itertools.product(range(pickle.HIGHEST_PROTOCOL + 1), (
         cal.SimulatedDevice(profile),
         cal.Servo(cal.SimulatedDevice(profile), lambda state: (0, 0, 0)),
-        cal.HapticRenderer(page.characters, cal.MotionMapping(), profile.capabilities),
+        cal.HapticRenderer(page.characters, cal.MotionMapping(), profile),
         cal.CharacterSet(cal.built_in_characters()),
-    ):
+    )):  # fmt: skip
         with pytest.raises(TypeError, match="pickle"):
-            pickle.dumps(value)
-
-
-def test_any_protocol_of_pickle_will_do():
-    options = cal.SessionOptions(seed=7)
-    for protocol in range(pickle.HIGHEST_PROTOCOL + 1):
-        assert pickle.loads(pickle.dumps(options, protocol)) == options
-        with pytest.raises(TypeError):
-            pickle.dumps(cal.SimulatedDevice(cal.device_profile("omni")), protocol)
+            pickle.dumps(value, protocol)
 
 
 CLASSES = [
     value
     for value in vars(cal).values()
-    if isinstance(value, type) and value.__module__ == "calligraphy._calligraphy" and not issubclass(value, Exception)
+    if isinstance(value, type) and value.__module__ == "calligraphy._calligraphy" and type(value).__name__ == "pybind11_type"
 ]
 
 

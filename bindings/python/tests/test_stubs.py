@@ -1,9 +1,13 @@
-"""Type stubs: complete, true to the module, and checked by mypy."""
+"""Type stubs: complete, true to the module, and enough for mypy and pyright to check programs."""
 
+import ast
+import enum
 import importlib.util
+import json
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 
@@ -11,92 +15,100 @@ import pytest
 
 import calligraphy as cal
 
-HERE = pathlib.Path(__file__).parent
-ROOT = HERE.parents[2]
+ROOT = pathlib.Path(__file__).parents[3]
 PACKAGE = pathlib.Path(cal.__file__).parent
 
 
-def run(*arguments, directory=None):
+PROGRAMS = [*sorted((ROOT / "examples" / "python").glob("*.py")), ROOT / "docs" / "python.md", ROOT / "README.md"]
+
+USER = """
+import numpy as np
+import numpy.typing as npt
+import calligraphy as cal
+result = cal.nearest_point([[0, 0], [1, 2], [3, 0]], np.zeros((5, 2)), method="exact", tolerance=1e-9)
+points: npt.NDArray[np.float64] = result.point
+state = cal.DeviceState(position=(0, 0, 0.01))
+state.position = [1, 2, 3]
+options = cal.RendererOptions(servo_rate=2000.0)
+options.stroke.nearest.method = cal.NearestPointMethod["exact"]
+class Mine(cal.HapticDevice):
+    def read(self) -> cal.DeviceState:
+        return state
+servo = cal.Servo(Mine(), lambda state: 10.0 * state.position)
+stroke: cal.Stroke = cal.built_in_characters()["永"].strokes()[0]
+flags: cal.TickEvent = cal.TickEvent.lift | cal.TickEvent.contact
+modes: list[cal.FeedbackMode] = list(cal.FeedbackMode)
+with cal.PointerDevice(cal.device_profile("desktop")) as pointer:
+    pointer.move(0.0, 0.0, 0.5)
+if servo.error is not None:
+    raise servo.error
+"""
+WRONG = """
+import calligraphy as cal
+cal.RendererOptions(servo_rat=1.0)
+cal.GripImpedance(mass="heavy")
+cal.nearest_pont
+cal.FeedbackMode.blind
+"""
+
+
+def checked(words, directory):
     environment = dict(os.environ)
-    if PACKAGE.parent.name != "site-packages":  # where mypy looks anyway
+    if PACKAGE.parent.name != "site-packages":  # where type checkers look anyway
         environment.update(MYPYPATH=str(PACKAGE.parent), PYTHONPATH=str(PACKAGE.parent))
-    return subprocess.run(
-        [sys.executable, *arguments], capture_output=True, text=True, env=environment, cwd=directory or ROOT
-    )
+    return subprocess.run(words, capture_output=True, text=True, env=environment, cwd=directory)
 
 
-def installed(name):
-    return pytest.mark.skipif(importlib.util.find_spec(name) is None, reason=f"{name} is not installed")
+def programs(directory):
+    """Every program of examples and pages, and two of users, in one directory; `wrong.py` has a mistake a line."""
+    for path in PROGRAMS:
+        text = path.read_text(encoding="utf-8")
+        if path.suffix == ".md":
+            text = "".join(re.findall(r"^```python\n(.*?)^```", text, re.DOTALL | re.MULTILINE))
+        (directory / f"{path.stem.lower()}.py").write_text(text, encoding="utf-8")
+    (directory / "user.py").write_text(USER, encoding="utf-8")
+    (directory / "wrong.py").write_text(WRONG, encoding="utf-8")
 
 
-@pytest.fixture(scope="module")
-def mypy(tmp_path_factory):
-    """Runs mypy; what it knows of NumPy is found out once."""
-    cache = tmp_path_factory.mktemp("mypy")
-    words = ["-m", "mypy", "--config-file", str(ROOT / "pyproject.toml"), "--cache-dir", str(cache)]
-    return lambda *arguments, directory: run(*words, *arguments, directory=directory)
+@pytest.mark.skipif(importlib.util.find_spec("mypy") is None, reason="mypy is not installed")
+def test_mypy_finds_nothing_in_programs_but_what_is_wrong(tmp_path):
+    programs(tmp_path)
+    words = [sys.executable, "-m", "mypy", "--config-file", str(ROOT / "pyproject.toml"), "--cache-dir", "cache"]
+    found = checked([*words, "."], tmp_path)
+    errors = [line for line in found.stdout.splitlines() if ": error:" in line]
+    package = checked([*words, "-p", "calligraphy"], tmp_path)
+    assert package.returncode == 0, package.stdout + package.stderr
+    assert [line for line in errors if not line.startswith("wrong.py:")] == [], found.stdout + found.stderr
+    assert [int(line.split(":")[1]) for line in errors] == [3, 4, 5, 6]
 
 
-@installed("mypy")
-def test_mypy_finds_nothing_in_the_package_and_in_a_program_of_a_user(tmp_path, mypy):
-    (tmp_path / "user.py").write_text(
-        "import numpy as np\n"
-        "import numpy.typing as npt\n"
-        "import calligraphy as cal\n"
-        "result = cal.nearest_point([[0, 0], [1, 2], [3, 0]], np.zeros((5, 2)), method='exact', tolerance=1e-9)\n"
-        "points: npt.NDArray[np.float64] = result.point\n"
-        "state = cal.DeviceState(position=(0, 0, 0.01))\n"
-        "state.position = [1, 2, 3]\n"
-        "options = cal.RendererOptions(servo_rate=2000.0)\n"
-        "options.stroke.nearest.method = cal.NearestPointMethod.exact\n"
-        "class Mine(cal.HapticDevice):\n"
-        "    def read(self) -> cal.DeviceState:\n"
-        "        return state\n"
-        "servo = cal.Servo(Mine(), lambda state: 10.0 * state.position)\n"
-        "stroke: cal.Stroke = cal.built_in_characters()['永'].strokes()[0]\n"
-    )
-    checked = mypy("-p", "calligraphy", directory=tmp_path)
-    assert checked.returncode == 0, checked.stdout + checked.stderr
-    checked = mypy(str(tmp_path / "user.py"), directory=tmp_path)
-    assert checked.returncode == 0, checked.stdout + checked.stderr
+@pytest.mark.skipif(shutil.which("pyright") is None, reason="pyright is not installed")
+def test_pyright_finds_nothing_in_programs_but_what_is_wrong(tmp_path):
+    programs(tmp_path)
+    words = ["pyright", "--outputjson", "--pythonpath", sys.executable, "."]
+    found = json.loads(checked(words, tmp_path).stdout)["generalDiagnostics"]
+    errors = [(pathlib.Path(e["file"]).name, e["range"]["start"]["line"] + 1) for e in found if e["severity"] == "error"]
+    assert sorted(set(errors)) == [("wrong.py", line) for line in (3, 4, 5, 6)], found
 
 
-@installed("mypy")
-def test_mypy_finds_what_a_user_does_wrong(tmp_path, mypy):
-    (tmp_path / "wrong.py").write_text(
-        "import calligraphy as cal\ncal.RendererOptions(servo_rat=1.0)\ncal.Hand(mass='heavy')\ncal.nearest_pont\n"
-    )
-    checked = mypy(str(tmp_path / "wrong.py"), directory=tmp_path)
-    assert {int(line) for line in re.findall(r"wrong\.py:(\d+): error", checked.stdout)} == {2, 3, 4}
-
-
-@installed("mypy")
-def test_the_stubs_name_what_the_module_has(tmp_path):
-    allowed = tmp_path / "allowed"
-    # pybind11's metaclass, and what a class without a constructor or with an order inherits.
-    allowed.write_text(r"calligraphy\._calligraphy\.[A-Z]\w+" "\n" r".*\.__(copy|deepcopy|init|lt|le|gt|ge)__" "\n")
-    checked = run(
-        "-m", "mypy.stubtest", "calligraphy._calligraphy", "--concise", "--allowlist", str(allowed),
-        "--ignore-unused-allowlist", directory=tmp_path,
-    )  # fmt: skip
-    assert checked.returncode == 0, checked.stdout + checked.stderr
-
-
-@installed("pybind11_stubgen")
-def test_the_stubs_are_what_the_module_says_of_itself():
-    checked = run(str(HERE.parent / "make_stubs.py"), "--check")
-    assert checked.returncode == 0, checked.stdout + checked.stderr
-
-
-def test_every_public_name_says_what_it_is():
-    untold = []
-    for name in dir(cal):
-        value = getattr(cal, name)
-        if name.startswith("_") or not callable(value) or hasattr(value, "__members__"):
-            continue
-        told = (value.__doc__ or "").strip()
-        if not isinstance(value, type):
-            told = re.sub(r"^[^\n]*->[^\n]*", "", told).strip()
-        if not told:
-            untold.append(name)
+def test_the_stubs_say_all_that_the_module_has_with_docstrings_and_units():
+    """In names and signatures they are the module's own, as they are made of it; here is what was added."""
+    tree = ast.parse((PACKAGE / "_calligraphy.pyi").read_text(encoding="utf-8"))
+    told = {item.name: item for item in tree.body if isinstance(item, (ast.ClassDef, ast.FunctionDef))}
+    module = vars(cal._calligraphy)
+    assert {name for name, value in module.items() if callable(value) and not name.startswith("__")} == set(told)
+    untold = [name for name, item in told.items() if not ast.get_docstring(item)]
+    for item in told.values():
+        kind = module[item.name]
+        if isinstance(kind, type) and "fields" in vars(kind):
+            (made,) = (f for f in item.body if isinstance(f, ast.FunctionDef) and f.name == "__init__")
+            assert tuple(argument.arg for argument in made.args.kwonlyargs) == kind.fields
+        if isinstance(kind, enum.EnumMeta):
+            members = {each.targets[0].id: each.value.value for each in item.body if isinstance(each, ast.Assign)}
+            assert members == {member.name: member.value for member in kind}
+        for part in item.body if isinstance(item, ast.ClassDef) else ():
+            if isinstance(part, ast.FunctionDef) and [ast.unparse(d) for d in part.decorator_list] == ["property"]:
+                untold += [] if ast.get_docstring(part) else [f"{item.name}.{part.name}"]
     assert untold == []
+    (mass,) = (f for f in told["SessionOptions"].body if getattr(f, "name", "") == "character_timeout" and f.args.args[1:] == [])
+    assert ast.get_docstring(mass).endswith("[s]")

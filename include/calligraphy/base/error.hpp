@@ -1,4 +1,4 @@
-// Errors of set-up: every one names the place and the value. The servo loop never throws.
+// Exceptions thrown during set-up. Every message names the place and the value; the servo loop never throws.
 #pragma once
 
 #include <stdexcept>
@@ -6,7 +6,7 @@
 
 namespace calligraphy {
 
-/// Base of everything that this library throws.
+/// Base class of all exceptions thrown by this library.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -24,8 +24,7 @@ class FileError : public Error {
   using Error::Error;
 };
 
-/// Text or data that is not what it should be; the message names the source, the line where there is one, and the
-/// value.
+/// Malformed input; the message names the source, the line if there is one, and the value.
 class FormatError : public Error {
  public:
   using Error::Error;

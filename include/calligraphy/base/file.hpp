@@ -1,4 +1,4 @@
-// Files that are whole or not there, and those that are read.
+// Writing files atomically, and reading regular files.
 #pragma once
 
 #include <cstddef>
@@ -9,20 +9,20 @@
 
 namespace calligraphy {
 
-/// Writes to a temporary file beside `path`, then renames it.
-/// @throws FileError naming the path and the reason; a file that was there before is left as it was
+/// Writes atomically: to a temporary file beside `path`, which is then renamed.
+/// @throws FileError naming the path and the reason; an existing file is then left unchanged
 void write_file(const std::filesystem::path& path, std::string_view content);
 
-/// Tells before long work that write_file would fail: makes a temporary file beside `path` and removes it.
-/// @throws FileError as write_file does
+/// Checks before long work that write_file() can succeed: creates and removes a temporary file beside `path`.
+/// @throws FileError as write_file()
 void check_can_write(const std::filesystem::path& path);
 
-/// A regular file to read from: a pipe might never say a word, and a device never end.
+/// Opens a regular file for reading. Pipes and devices are rejected: they may block, or never end.
 /// @throws FileError naming the path and the reason
 std::ifstream open_file(const std::filesystem::path& path);
 
-/// All that a regular file holds. @throws FileError as open_file does; FormatError naming a file of more than `most`
+/// Content of a regular file. @throws FileError as open_file(); FormatError naming a file of more than `max_bytes`
 /// bytes
-std::string read_file(const std::filesystem::path& path, std::size_t most);
+std::string read_file(const std::filesystem::path& path, std::size_t max_bytes);
 
 }  // namespace calligraphy

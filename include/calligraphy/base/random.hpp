@@ -1,4 +1,4 @@
-// Random draws that are the same with every compiler, standard library and processor.
+// Random numbers that are identical with every compiler, standard library and processor.
 #pragma once
 
 #include <cstddef>
@@ -8,15 +8,15 @@
 
 namespace calligraphy {
 
-/// A sequence of draws that depends on its seed alone. The standard leaves the algorithms of its distributions and of
-/// std::shuffle open, and libraries differ; here each is defined.
+/// A sequence of draws that depends only on its seed. The standard does not specify the algorithms of its distributions
+/// and of std::shuffle, so libraries differ; here each algorithm is specified.
 ///
 /// The engine is splitmix64 (Steele, Lea and Flood, Fast splittable pseudorandom number generators, OOPSLA 2014): the
 /// n-th draw is a hash of seed + n * 0x9E3779B97F4A7C15. Not for cryptography.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}
-  /// A sequence of its own for each list of keys: draws for one key do not depend on how many another key took.
+  /// An independent sequence for each list of keys: draws for one key do not depend on how many were taken for another.
   Random(std::uint64_t seed, std::initializer_list<int> keys);
 
   /// 64 random bits.
@@ -28,20 +28,20 @@ class Random {
   }
   /// Uniform in [0, 1), in steps of 2^-53.
   double next() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
-  /// Uniform from `low` to `high`.
+  /// Uniform between `low` and `high`.
   double between(double low, double high);
-  /// Uniform among 0 to `count` - 1, without bias; 0 when `count` is 0.
+  /// Uniform over 0 to `count` - 1, without bias; 0 if `count` is 0.
   std::uint64_t index(std::uint64_t count);
   /// Normal with mean 0 and standard deviation 1: the ratio of two uniform draws (Kinderman and Monahan, Computer
   /// generation of random variables using the ratio of uniform deviates, ACM TOMS 3, 1977). The logarithm decides only
-  /// which ratios are taken, so that the last bit of a libm does not reach the value.
+  /// which ratios are accepted, so rounding differences between libms do not reach the value.
   double normal();
 
  private:
   std::uint64_t state_;
 };
 
-/// Puts the values of an array, vector or span in a random order, each order as likely (Fisher and Yates).
+/// Shuffles the values of an array, vector or span; all orders are equally likely (Fisher and Yates).
 template <typename Values>
 void shuffle(Values&& values, Random& random) {
   for (std::size_t left = values.size(); left > 1; --left) {

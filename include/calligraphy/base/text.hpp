@@ -1,4 +1,4 @@
-// UTF-8 text to code points and back.
+// Conversion between UTF-8 text and code points.
 #pragma once
 
 #include <string>
@@ -6,10 +6,12 @@
 
 namespace calligraphy {
 
+bool is_utf8(std::string_view text) noexcept;
+
 /// Code points of a UTF-8 text. @throws FormatError naming the byte offset of the first invalid sequence
 std::u32string decode_utf8(std::string_view text);
 
-/// UTF-8 of one code point. @throws ValueError when it is a surrogate or above U+10FFFF
+/// UTF-8 of one code point. @throws ValueError if it is a surrogate or above U+10FFFF
 std::string encode_utf8(char32_t code);
 
 }  // namespace calligraphy

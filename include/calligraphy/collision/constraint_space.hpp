@@ -1,4 +1,4 @@
-// Where a stroke element attracts the pen (Wang 2006, sec. 4.3.1 (a)-(d), 4.3.2).
+// The region in which a stroke element attracts the pen (Wang 2006, sec. 4.3.1 (a)-(d), 4.3.2).
 #pragma once
 
 #include <calligraphy/collision/nearest_point.hpp>
@@ -6,19 +6,19 @@
 namespace calligraphy {
 
 enum class ConstraintSpaceRule {
-  tube,     ///< all within `radius` of the element, fading out over the last `edge` of it
-  wang2006  ///< as printed: half disc round the start of an LSE, disc round the start of a CSE, no fading
+  tube,     ///< everything within `radius` of the element, fading out over the outermost `fade_width`
+  wang2006  ///< as printed: half disc around the start of an LSE, disc around the start of a CSE, no fading
 };
 
 struct ConstraintSpace {
   ConstraintSpaceRule rule = ConstraintSpaceRule::tube;
-  double radius = 0.012;  ///< [m]
-  double edge = 0.008;    ///< [m], at most `radius`; a narrow one drops the force steeply, a negative stiffness
+  double radius = 0.012;      ///< [m]
+  double fade_width = 0.008;  ///< at most `radius`; a narrow one lets the force drop steeply, a negative stiffness [m]
 };
 
-/// Share of the guidance force that the pen feels at `query`: 1 inside, 0 outside, between them on the tube's edge,
-/// where it is continuously differentiable. `foot` is the nearest point of the same element to the same query.
-double guidance_share(const ConstraintSpace& space, const StrokeElement& element, const Point& query,
-                      const NearestPoint& foot) noexcept;
+/// Factor on the guidance force at `query`: 1 inside, 0 outside, continuously differentiable in between, at the edge of
+/// the tube. `closest` is the nearest point of the same element to the same query.
+double guidance_weight(const ConstraintSpace& space, const StrokeElement& element, const Point& query,
+                       const NearestPoint& closest) noexcept;
 
 }  // namespace calligraphy

@@ -1,4 +1,4 @@
-// Nearest point on a stroke element (Wang 2006, sec. 4.3.1 and 4.3.2). How to choose a method: docs/nearest-point.md.
+// Nearest point on a stroke element (Wang 2006, sec. 4.3.1 and 4.3.2). Choosing a method: docs/nearest-point.md.
 #pragma once
 
 #include <span>
@@ -7,37 +7,40 @@
 
 namespace calligraphy {
 
-/// On a line and a point all of them are the perpendicular foot, clamped to the range, and certified.
+/// On a line or a point every method returns the foot of the perpendicular, clamped to the range, and certifies it.
 enum class NearestPointMethod {
   exact,    ///< the global nearest point, certified by the signs of the slope of the squared distance
   tracked,  ///< the same point, found from the last one: for a query that moves little from call to call
-  sampled,  ///< the best of some samples, refined: fast, and wrong where another branch is nearly as near
-  wang2006  ///< subdivision as printed in sec. 4.3.2, ties to the nearer middle; misses branches, see docs/wang2006.md
+  sampled,  ///< the best of some samples, refined: fast, but wrong where another branch is nearly as near
+  wang2006  ///< subdivision as printed in sec. 4.3.2, ties to the nearer midpoint; misses branches: docs/wang2006.md
 };
+
+/// "exact", "tracked", "sampled", "wang2006".
+const char* to_string(NearestPointMethod method) noexcept;
 
 struct NearestPointOptions {
   NearestPointMethod method = NearestPointMethod::exact;
-  /// exact, tracked: error of the point; wang2006: epsilon. Both relative to the size of the element. (0, 1]; what is
-  /// not above 0 asks for more than rounding allows: the answer may then be only approximate.
+  /// exact, tracked: error of the point; wang2006: epsilon. Both relative to the size of the element, in (0, 1]. A
+  /// value of 0 or less requests more than rounding allows: the result may then be only approximate.
   double tolerance = 1e-9;
-  int samples = 16;     ///< sampled: points at even distances of the parameter, clamped to [2, 64]
+  int samples = 16;     ///< sampled: points at equal parameter spacing, clamped to [2, 64]
   int refinements = 2;  ///< sampled: steps of Halley's method, clamped to [0, 8]
 };
 
-/// For set-up, which refuses what nearest_point() would clamp. @throws ValueError naming the option and its value
+/// For set-up: rejects what nearest_point() would clamp. @throws ValueError naming the option and its value
 void validate(const NearestPointOptions& options);
 
 enum class NearestPointStatus {
-  certified,    ///< no other point of the range is nearer, up to the tolerance and rounding
-  approximate,  ///< not certified: sampled or wang2006 on a curve, or exact at its limit of work
-  unsafe_stop,  ///< wang2006 stopped where its last interval holds a point nearer by more than epsilon
-  not_finite    ///< the query or the element is not finite, or the query further than 1e100 sizes of an element that
-                ///< has one: start of the range, infinite distance
+  certified,    ///< no other point of the range is nearer, within the tolerance and rounding
+  approximate,  ///< not certified: sampled or wang2006 on a curve, or exact at its work limit
+  unsafe_stop,  ///< wang2006 stopped although its last interval holds a point nearer by more than epsilon
+  not_finite    ///< the query or the element is not finite, or the query is farther than 1e100 sizes from an element of
+                ///< nonzero size: returns the start of the range and an infinite distance
 };
 
 struct NearestPoint {
   double parameter = 0.0;         ///< in [0, 1]
-  Point point = Point::Zero();    ///< on the curve (wang2006: the middle between two points of it)
+  Point point = Point::Zero();    ///< on the curve (wang2006: the midpoint of two points of it)
   double distance = 0.0;          ///< from the query to `point`
   Point tangent = Point::Zero();  ///< unit vector in writing direction; zero for a point
   NearestPointStatus status = NearestPointStatus::approximate;
@@ -45,23 +48,23 @@ struct NearestPoint {
   bool certified() const noexcept { return status == NearestPointStatus::certified; }
 };
 
-/// Part of an element. What lies outside [0, 1] counts as the nearer end, NaN as 0 and 1, an end before the beginning
-/// as the beginning.
+/// Part of an element. Values outside [0, 1] are clamped, NaN becomes 0 for `begin` and 1 for `end`, and an end before
+/// the beginning becomes the beginning.
 struct ParameterRange {
   double begin = 0.0;
   double end = 1.0;
 };
 
-/// Nearest point of the element within the range. Equal distances go to the smaller parameter. `start` is for tracked:
-/// the last answer's parameter; it changes the time taken, never the branch found.
+/// Nearest point of the element within the range. Of equal distances the smaller parameter wins. `start` is for
+/// tracked: the parameter of the last result; it affects the time taken, never the branch found.
 ///
-/// The answer is the same to the last bit on every processor and in batches. Bounded work: at most 256 intervals
-/// (exact, tracked), 64 halvings (wang2006).
+/// The result is the same to the last bit on every processor and in batches. Work is bounded: at most 256 intervals
+/// (exact, tracked), 64 bisections (wang2006).
 NearestPoint nearest_point(const StrokeElement& element, const Point& query, const NearestPointOptions& options = {},
                            const ParameterRange& range = {}, double start = 0.5) noexcept;
 
 /// Nearest points of many queries on one element: `results[i]` is that of `queries[i]`, the same as one by one but
-/// faster (exact). Of spans that are not equally long, the longer one's rest is left alone.
+/// faster (exact). Where the spans differ in length, the excess of the longer one is ignored.
 void nearest_points(const StrokeElement& element, std::span<const Point> queries, std::span<NearestPoint> results,
                     const NearestPointOptions& options = {}) noexcept;
 

@@ -1,4 +1,4 @@
-// A character at its place on the page.
+// A character placed on the page.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace calligraphy {
 
-/// em coordinates to metres: page point = origin + em * point.
+/// Maps em coordinates to metres: page point = origin + em * point.
 struct Placement {
   Point origin = Point::Zero();  ///< lower left corner of the em square on the page [m]
   double em = 0.04;              ///< edge of the em square [m]
@@ -23,10 +23,10 @@ struct PlacedCharacter {
   Placement placement;
 };
 
-/// The elements of a stroke at its place, in writing order, prepared for queries [m].
+/// The elements of a stroke as placed, in writing order, prepared for queries [m].
 std::vector<StrokeElement> place_elements(const Stroke& stroke, const Placement& placement);
 
-/// Box round the control points of a character on the page [m].
+/// Bounding box of the control points of a character on the page [m].
 Eigen::AlignedBox2d bounding_box(const PlacedCharacter& placed);
 
 }  // namespace calligraphy

@@ -4,12 +4,12 @@
 #include <span>
 #include <variant>
 
-#include <calligraphy/collision/curve_element.hpp>
-#include <calligraphy/collision/line_element.hpp>
+#include <calligraphy/collision/detail/curve_element.hpp>
+#include <calligraphy/collision/detail/line_element.hpp>
 
 namespace calligraphy {
 
-/// Either kind, with what they have in common.
+/// A line or a curve, with their common interface.
 struct StrokeElement {
   std::variant<LineElement, CurveElement> kind;
 
@@ -19,7 +19,7 @@ struct StrokeElement {
   int degree() const noexcept { return curve() ? curve()->degree : 1; }
   /// First control point.
   const Point& origin() const noexcept { return curve() ? curve()->origin : line()->origin; }
-  /// Diagonal of the control points' box [m]; 0 for a point.
+  /// Diagonal of the bounding box of the control points [m]; 0 for a point.
   double size() const noexcept { return curve() ? curve()->size : line()->length; }
   double length() const noexcept { return curve() ? curve()->arc.back() : line()->length; }
   Point point(double t) const noexcept { return curve() ? curve()->point(t) : line()->point(t); }
@@ -27,16 +27,16 @@ struct StrokeElement {
   Point derivative(double t) const noexcept { return curve() ? curve()->derivative(t) : line()->edge; }
   /// Unit tangent in writing direction, also where dB/dt vanishes; zero for a point.
   Point tangent(double t) const noexcept { return curve() ? curve()->tangent(t) : line()->direction; }
-  /// Arc length from 0 to t, which is clamped to [0, 1] (NaN is 0); exact on a line, on a curve to 3e-3 of the size
-  /// (1e-4 on typical strokes) [m].
+  /// Arc length from 0 to t, which is clamped to [0, 1] (NaN counts as 0); exact on a line, accurate to 3e-3 of the
+  /// size on a curve (1e-4 on typical strokes) [m].
   double arc_length(double t) const noexcept;
   /// Parameter at an arc length, clamped to [0, 1]; the inverse of arc_length.
   double parameter_at(double arc_length) const noexcept;
 };
 
-/// Prepares 2 to 5 control points, an element of degree one less; a point when all are equal (to 1e-300 m). Where one
-/// is not finite, or further than 1e150 m from the first, or their number is none of these, the length is NaN and every
-/// query's status is not_finite. No allocation.
+/// Prepares 2 to 5 control points: an element of a degree one lower, or a point when all are equal (within 1e-300 m).
+/// If one is not finite or farther than 1e150 m from the first, or for any other number of points, the length is NaN
+/// and every query returns the status not_finite. Does not allocate.
 StrokeElement prepare_element(std::span<const Point> control_points) noexcept;
 
 }  // namespace calligraphy

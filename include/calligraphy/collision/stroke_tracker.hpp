@@ -1,4 +1,4 @@
-// The nearest point over all elements of a stroke, from tick to tick.
+// Nearest point of a whole stroke, tracked from tick to tick.
 #pragma once
 
 #include <array>
@@ -9,32 +9,32 @@
 
 namespace calligraphy {
 
-/// A point of a stroke.
+/// A point on a stroke.
 struct StrokePoint {
   int element = 0;  ///< index
-  NearestPoint foot;
+  NearestPoint closest;
 };
 
-/// Finds for each position of a pen the nearest point of the whole stroke, certified, and quickly where the pen moves
-/// little: the element of the last answer starts from the last parameter, and an element is left alone until the pen
-/// has travelled far enough to come as near to it. Equal distances go to the earlier element.
+/// Finds the nearest point of the whole stroke for each position of a pen, certified, and fast where the pen moves
+/// little: the element of the last result starts from the last parameter, and the others are skipped until the pen has
+/// travelled far enough to be as near to them. Of equal distances the earlier element wins.
 class StrokeTracker {
  public:
-  /// Keeps a view of the elements, of the first 5 if there are more. `tolerance` as in NearestPointOptions.
+  /// Keeps a view of the elements, of the first 5 if there are more. `tolerance` is as in NearestPointOptions.
   explicit StrokeTracker(std::span<const StrokeElement> elements, double tolerance = 1e-9) noexcept;
-  StrokeTracker(std::vector<StrokeElement>&&, double = 0.0) = delete;  // would be gone before the first update
+  StrokeTracker(std::vector<StrokeElement>&&, double = 0.0) = delete;  // would dangle before the first update
 
-  /// A query that is not finite is answered by the start of the element that was nearest last, status not_finite, and
-  /// is not remembered. A stroke without elements answers every query by the origin, status not_finite.
+  /// For a query that is not finite, returns the start of the element that was nearest last, with status not_finite,
+  /// and does not remember the query. For a stroke without elements, always returns the origin with status not_finite.
   StrokePoint update(const Point& query) noexcept;
 
  private:
-  /// What is known of an element from the last time it was asked.
+  /// An element as it was last queried.
   struct Sighting {
     Point query = Point::Zero();
-    double clearance = 0.0;  ///< the distance, less what may be rounding
+    double clearance = 0.0;  ///< the distance, minus the possible rounding error
     double parameter = 0.5;
-    double step = 0.0;  ///< the last change of the parameter
+    double step = 0.0;  ///< last change of the parameter
   };
 
   NearestPoint look(int element, const Point& query) noexcept;

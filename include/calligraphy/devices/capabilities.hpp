@@ -1,4 +1,4 @@
-// What a haptic device can do, and its physics: the one description of a device.
+// Description of a haptic device: its axes, its limits and its physical properties.
 #pragma once
 
 #include <string>
@@ -10,41 +10,42 @@ namespace calligraphy {
 /// Degrees of freedom of a device.
 struct DeviceAxes {
   bool x = true, y = true, z = true;  ///< translations, along the device axes
-  bool rotations = false;             ///< of the pen: sensed as DeviceState::orientation
+  bool rotations = false;             ///< pen orientation, sensed as DeviceState::orientation
 
   bool all_translations() const noexcept { return x && y && z; }
 };
 
-/// "x, y, z, rotations"; "none"
+/// For example "x, y, z, rotations" or "none".
 std::string axes_text(const DeviceAxes& axes);
 
-/// What a device can do, and its physics as a point mass, the same along each axis. The simulation, the stiffness
-/// advice and the renderer all read it here.
+/// Limits of a device, and its properties as a point mass, equal along all axes. The simulation, the stiffness bounds
+/// and the renderer all use this struct.
 struct Capabilities {
-  std::string name;                                     ///< of the shipped profile that it came from; may be empty
-  std::string model;                                    ///< for people: "Phantom Omni"
-  DeviceAxes sensed;                                    ///< what read() measures
-  DeviceAxes driven;                                    ///< where write() exerts a force
+  std::string name;                                     ///< name of the built-in profile; may be empty
+  std::string model;                                    ///< display name: "Phantom Omni"
+  DeviceAxes sensed;                                    ///< axes that read() measures
+  DeviceAxes driven;                                    ///< axes along which write() exerts a force
   Eigen::Vector3d workspace = Eigen::Vector3d::Zero();  ///< extent along each device axis, centred on zero [m]
   double peak_force = 0.0;                              ///< [N]
   double continuous_force = 0.0;                        ///< [N]
-  double usable_stiffness = 0.0;                        ///< largest stiffness that users of the device report [N/m]
-  double encoder_step = 0.0;      ///< positions are rounded to multiples of it; 0: not known, or not rounded [m]
+  double usable_stiffness = 0.0;                        ///< maximum stiffness reported by users of the device [N/m]
+  double encoder_step = 0.0;      ///< positions are rounded to multiples of it; 0: unknown, or not quantised [m]
   double update_rate = 1000.0;    ///< [Hz]
-  double apparent_mass = 0.0;     ///< at the tip; 0: not known [kg]
+  double apparent_mass = 0.0;     ///< at the tip; 0: unknown [kg]
   double viscous_friction = 0.0;  ///< [N s/m]
-  double coulomb_friction = 0.0;  ///< back-drive friction along each axis [N]
+  double coulomb_friction = 0.0;  ///< back-drive friction [N]
   int sample_delay = 0;           ///< age of a sample when it is read [ticks]
 };
 
-/// For messages: the name, or else the model.
+/// The name, or the model if the name is empty; for messages.
 const std::string& device_label(const Capabilities& capabilities) noexcept;
 
-/// @throws ValueError naming what is negative or not a number (0 may be "not known", and forces may have no limit), an
-/// axis that is driven and not sensed, or that no axis is sensed
+/// Zero is valid ("unknown" where a field says so), and forces may be unlimited.
+/// @throws ValueError naming the field that is negative or not a number, or an axis that is driven but not sensed; also
+/// when no axis is sensed
 void validate(const Capabilities& capabilities);
 
-/// @throws ValueError naming `user` and the axes unless x, y and z are sensed and driven
+/// @throws ValueError naming `user` and the axes unless x, y and z are both sensed and driven
 void require_translations(const Capabilities& capabilities, const char* user);
 
 }  // namespace calligraphy

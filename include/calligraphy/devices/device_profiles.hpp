@@ -1,4 +1,4 @@
-// The shipped descriptions of devices.
+// Built-in device profiles.
 #pragma once
 
 #include <span>
@@ -8,11 +8,11 @@
 
 namespace calligraphy {
 
-/// omni, touch, desktop, premium-1.5, ideal (no friction, encoder step or delay).
-/// Apparent masses and some frictions are estimates, not the vendor's figures: docs/devices.md names each source.
+/// omni, touch, desktop, premium-1.5 and ideal (no friction, encoder step or delay).
+/// Apparent masses and some friction values are estimates, not vendor data; docs/devices.md gives the sources.
 std::span<const Capabilities> device_profiles();
 
-/// @throws ValueError naming the name and those that exist
+/// @throws ValueError naming the unknown profile and the available ones
 const Capabilities& device_profile(std::string_view name);
 
 }  // namespace calligraphy

@@ -1,4 +1,4 @@
-// The interface of every haptic device.
+// Interface of all haptic devices.
 #pragma once
 
 #include <string>
@@ -11,10 +11,11 @@ namespace calligraphy {
 
 class ServoClock;
 
-/// A force-feedback device; its capabilities say which axes it senses and drives. Several may be open at once.
+/// A force-feedback device. Its capabilities state which axes it senses and drives. Several devices may be open at
+/// once.
 ///
-/// Opening is what a constructor does; it throws DeviceError. read() and write() belong to the servo loop: they neither
-/// allocate, lock, throw nor log, and report by DeviceState::status.
+/// The constructor opens the device and throws DeviceError. The servo loop calls read() and write(): they neither
+/// allocate, lock, throw nor log, and report errors in DeviceState::status.
 class HapticDevice {
  public:
   virtual ~HapticDevice() = default;
@@ -27,13 +28,14 @@ class HapticDevice {
   /// Commands a force in device axes [N], held until the next call. A non-finite force counts as zero.
   virtual void write(const Eigen::Vector3d& force) noexcept = 0;
 
-  /// Sets the force to zero and lets the device go; later reads say `disconnected`.
+  /// Sets the force to zero and releases the device; later reads return `disconnected`.
   virtual void close() noexcept = 0;
 
-  /// The device's own scheduler where that must be the clock of the servo loop; null: any clock will do.
+  /// The device's own scheduler, if the servo loop must be clocked by it; null: any clock will do.
   virtual ServoClock* clock() noexcept { return nullptr; }
 
-  /// What the system did not permit to threads of the device's own, each with what to do; ServoLoop::start() tells it.
+  /// Privileges that the system refused to the device's own threads, each with a remedy. ServoLoop::start() returns
+  /// them.
   virtual std::vector<std::string> warnings() const { return {}; }
 };
 

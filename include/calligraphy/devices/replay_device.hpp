@@ -8,11 +8,11 @@
 
 namespace calligraphy {
 
-/// Returns the recorded samples one after the other, then `disconnected` with the last position for ever.
-/// Forces are remembered, not felt. After close() nothing more is played.
+/// Returns the recorded samples in order, then `disconnected` at the last position forever. Forces are stored and have
+/// no effect. close() ends playback.
 class ReplayDevice final : public HapticDevice {
  public:
-  /// @throws ValueError when there is no sample or when times do not increase
+  /// @throws ValueError when there are no samples or their times do not increase
   ReplayDevice(std::vector<DeviceState> samples, Capabilities capabilities);
 
   const Capabilities& capabilities() const noexcept override { return capabilities_; }

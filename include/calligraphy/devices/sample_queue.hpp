@@ -1,4 +1,4 @@
-// A wait-free queue from one thread to another that drops what does not fit and counts it.
+// Wait-free single-producer, single-consumer queue that drops and counts what does not fit.
 #pragma once
 
 #include <atomic>
@@ -12,19 +12,19 @@
 
 namespace calligraphy {
 
-/// One thread pushes (a servo loop), one pops (a display, a recorder). Neither ever waits for the other; when the queue
-/// is full the new value is dropped, so that what has been queued stays in order and whole.
+/// One thread pushes (a servo loop), one pops (a recorder). Neither waits for the other. When the queue is
+/// full, the new value is dropped, so queued values stay intact and in order.
 template <class Sample>
 class SampleQueue {
   static_assert(std::is_copy_assignable_v<Sample> && std::is_trivially_destructible_v<Sample>,
-                "values are copied within the servo loop: plain structs, which own nothing");
+                "values are copied in the servo loop: use a plain struct that owns no resources");
 
  public:
-  /// Holds at least `capacity` values: the next power of two. Takes all its memory here.
+  /// Holds at least `capacity` values, rounded up to a power of two. All memory is allocated here.
   /// @throws ValueError when capacity is 0 or above 2^24
   explicit SampleQueue(std::size_t capacity) : mask_(slots(capacity) - 1), samples_(new Sample[mask_ + 1]) {}
 
-  /// False, and counted, when there is no room. Pushing thread.
+  /// Returns false, and counts the value as dropped, if the queue is full. Call from the producer only.
   bool push(const Sample& sample) noexcept {
     const std::uint64_t end = end_.load(std::memory_order_relaxed);
     if (end - known_begin_ > mask_) {
@@ -39,7 +39,7 @@ class SampleQueue {
     return true;
   }
 
-  /// The oldest value; false when there is none. Popping thread.
+  /// Takes the oldest value; returns false if the queue is empty. Call from the consumer only.
   bool pop(Sample& sample) noexcept {
     const std::uint64_t begin = begin_.load(std::memory_order_relaxed);
     if (begin == known_end_) {
@@ -52,29 +52,29 @@ class SampleQueue {
   }
 
   std::size_t capacity() const noexcept { return mask_ + 1; }
-  /// Values that found no room so far. Any thread.
+  /// Number of values dropped so far. Thread-safe.
   std::uint64_t dropped() const noexcept { return dropped_.load(std::memory_order_relaxed); }
 
  private:
   static std::size_t slots(std::size_t capacity) {
     if (capacity == 0 || capacity > (std::size_t{1} << 24)) {
-      throw ValueError("capacity of a queue is " + std::to_string(capacity) + ", must be from 1 to 16777216");
+      throw ValueError("capacity of a queue = " + std::to_string(capacity) + ", must be from 1 to 16777216");
     }
     std::size_t result = 1;
     while (result < capacity) result *= 2;
     return result;
   }
 
-  // What either thread writes lies on cache lines of its own.
+  // Each thread writes only to its own cache lines, which prevents false sharing.
   static constexpr std::size_t line = 64;
 
   std::size_t mask_;
   std::unique_ptr<Sample[]> samples_;
   alignas(line) std::atomic<std::uint64_t> end_ = 0;  ///< next to be pushed
-  std::uint64_t known_begin_ = 0;                     ///< of the pushing thread
+  std::uint64_t known_begin_ = 0;                     ///< producer's copy
   std::atomic<std::uint64_t> dropped_ = 0;
   alignas(line) std::atomic<std::uint64_t> begin_ = 0;  ///< next to be popped
-  std::uint64_t known_end_ = 0;                         ///< of the popping thread
+  std::uint64_t known_end_ = 0;                         ///< consumer's copy
 };
 
 }  // namespace calligraphy

@@ -1,4 +1,4 @@
-// One tick of a servo loop, and the watchdog over it; whoever calls them is the clock.
+// One tick of a servo loop and its watchdog, independent of what clocks them.
 #pragma once
 
 #include <array>
@@ -7,78 +7,92 @@
 #include <functional>
 #include <limits>
 
-#include <calligraphy/devices/force_guard.hpp>
+#include <calligraphy/devices/detail/duration_histogram.hpp>
+#include <calligraphy/devices/detail/force_guard.hpp>
 #include <calligraphy/devices/haptic_device.hpp>
 #include <calligraphy/devices/servo_statistics.hpp>
 
 namespace calligraphy {
 
-/// From a sample to the force in device axes [N]. Called with fresh samples alone, each once: never with one that is
-/// stale, uncalibrated, faulty or not finite. It may neither allocate, lock, log nor throw; a servo lives with all of
-/// it, but then the force falls.
+/// Maps a sample to the force in device axes [N]. Called once per fresh sample, never with one that is stale,
+/// uncalibrated, faulty or not finite. It must neither allocate, lock, log nor throw. A servo survives a force law that
+/// does, but ramps the force down when it throws or takes too long.
 using ForceLaw = std::function<Eigen::Vector3d(const DeviceState&)>;
 
 struct ServoOptions {
   double rate = 1000.0;      ///< [Hz]
-  double patience = 4e-3;    ///< without a fresh sample, a tick or an answer of the force law, before the force falls:
-                             ///< real devices pause for 2.4 ms now and then [s]
-  double fall_time = 10e-3;  ///< of the force, from what it was to zero [s]
-  double rise_time = 0.2;    ///< of the share of the force, from 0 to 1, when the loop begins and after a fault [s]
-  double (*work_clock)() noexcept = nullptr;  ///< measures the force law [s]; null: the system's monotonic clock
+  double timeout = 4e-3;     ///< time without a fresh sample, a tick or a result of the force law before the force
+                             ///< ramps down; real devices pause for up to 2.4 ms [s]
+  double ramp_down = 10e-3;  ///< linear ramp from the last force to zero [s]
+  double ramp_up = 0.2;      ///< ramp of the gain on the desired force from 0 to 1, at the start and after a fault [s]
+  double (*work_clock)() noexcept = nullptr;  ///< times force law and tick [s]; null: the system's monotonic clock
 };
 
-/// Where a servo loop stands.
+/// Phase of the force output.
+enum class ServoPhase : std::uint8_t {
+  zero,     ///< no force: before the first tick, or while a fault persists
+  rising,   ///< ramp-up: the gain on the desired force increases from 0 to 1
+  running,  ///< the desired force is output
+  falling   ///< ramp-down: the last force decreases linearly, whatever force is desired
+};
+
+/// "zero", "rising", "running", "falling".
+const char* to_string(ServoPhase phase) noexcept;
+
+/// Current state of a servo loop.
 struct ServoStatus {
   ServoPhase phase = ServoPhase::zero;
-  DeviceFault fault = DeviceFault::none;   ///< why the force fell, until it has risen again
-  DeviceStatus device = DeviceStatus::ok;  ///< of the last sample
-  double gain = 0.0;                       ///< see ForceGuard
+  DeviceFault fault = DeviceFault::none;   ///< cause of the ramp-down, until the force has ramped up again
+  DeviceStatus device = DeviceStatus::ok;  ///< status of the last sample
+  double gain = 0.0;                       ///< on the desired force, or on the held one while it ramps down [1]
 };
 
-/// Reads the device, asks the force law, guards the force, writes it, counts.
+/// Reads the device, calls the force law, guards and writes the force, and keeps statistics.
 ///
-/// A force beyond the device's peak is shortened to it, its direction kept.
+/// A force above the device's peak is limited to it, its direction preserved.
 ///
-/// The force falls to zero when the device is disconnected, uncalibrated or at fault, when its samples stay stale for
-/// longer than `patience` or are not finite, when the force law throws, gives a force that is not finite or takes
-/// longer than `patience`, and when no tick comes for that long. The last two need supervise(), called by another
-/// thread: while the force law runs, or between ticks, it takes the device over, lets the force fall, and gives the
-/// device back. A tick that returns from a slow force law then finds the device taken and writes nothing.
+/// The force ramps down to zero when the device is disconnected, uncalibrated or at fault; when its samples are not
+/// finite or stay stale for longer than `timeout`; when the force law throws, returns a force that is not finite or
+/// takes longer than `timeout`; and when no tick arrives for that long. A force law that does not return and missing
+/// ticks are handled by supervise(), called from another thread: while the force law runs, or between ticks, it takes
+/// over the device, ramps the force down and releases the device again. A tick that returns from a slow force law then
+/// finds the device taken and writes nothing.
 ///
-/// So the force is zero at the latest `patience` + `fall_time` + two ticks after whatever went wrong: 16 ms. Only a
-/// device whose own read() or write() hangs is beyond reach: nobody else may touch it then, the status says
-/// `timed_out`, and what remains is the watchdog of the device itself.
+/// After any fault the force is therefore zero within `timeout` + `ramp_down` + two ticks, 16 ms by default. The only
+/// exception is a device whose own read() or write() hangs, because nothing else may touch it then: the status is
+/// `timed_out`, and only the device's own watchdog remains.
 ///
-/// step() and supervise() are wait-free towards each other and neither allocate, lock, log nor throw.
+/// step() and supervise() are wait-free with respect to each other and neither allocate, lock, log nor throw.
 class Servo {
  public:
-  /// The device must outlive the servo. @throws ValueError naming the value when an option is out of its domain or the
-  /// force law is empty
+  /// The device must outlive the servo. @throws ValueError naming the value when an option is out of range or the force
+  /// law is empty
   Servo(HapticDevice& device, ForceLaw law, const ServoOptions& options = {});
 
-  /// One tick at the time `now` [s] of a clock that should not run back. One thread at a time; a second one that calls
-  /// meanwhile does nothing.
+  /// Runs one tick at time `now` [s] of a clock that should not run backwards. Call from one thread at a time; a
+  /// concurrent second call does nothing.
   void step(double now) noexcept;
 
-  /// The watchdog, to be called about once a tick from another thread, by a clock [s] that does not depend on step()'s.
+  /// The watchdog. Call about once per tick from another thread, with a clock [s] independent of that of step().
   void supervise(double now) noexcept;
 
-  /// From the next tick on the force falls to zero and stays there.
+  /// From the next tick on, ramps the force down to zero and keeps it there.
   void release() noexcept { released_.store(true, std::memory_order_relaxed); }
 
-  /// Whether the calling thread is within the force law of this servo.
+  /// Whether the calling thread is inside this servo's force law.
   bool in_law() const noexcept;
 
-  /// Zero at once, and as new but for the statistics. Not while step() or supervise() runs.
+  /// Sets the force to zero immediately and resets everything but the statistics. Do not call while step() or
+  /// supervise() runs.
   void reset() noexcept;
 
-  /// Any thread, at any time.
+  /// Thread-safe.
   ServoStatus status() const noexcept;
   ServoStatistics statistics() const noexcept;
 
  private:
-  /// Who may touch the device and the guard. The upper bits count the changes, so that a state which has come back is
-  /// not taken for one that has lasted.
+  /// Owner of the device and the guard. The upper bits of the word count changes, so that a state that was left and
+  /// re-entered is not mistaken for one that persisted.
   enum class Owner : std::uint64_t { nobody, tick, law, watchdog };
 
   static Owner owner_of(std::uint64_t word) noexcept { return static_cast<Owner>(word & 3u); }
@@ -94,28 +108,28 @@ class Servo {
   HapticDevice& device_;
   ForceLaw law_;
   ServoOptions options_;
-  double peak_force_ = std::numeric_limits<double>::infinity();  ///< of the device [N]
+  double peak_force_ = std::numeric_limits<double>::infinity();  ///< the device's [N]
 
   std::atomic<std::uint64_t> owner_ = 0;
   std::atomic<bool> released_ = false;
-  std::atomic<bool> begun_ = false;        ///< a tick has come
+  std::atomic<bool> begun_ = false;        ///< the first tick has arrived
   std::atomic<std::uint64_t> status_ = 0;  ///< packed
 
-  // Of the owner of the device.
+  // Used only by the owner of the device.
   ForceGuard guard_;
   DeviceStatus device_status_ = DeviceStatus::ok;
-  DeviceFault last_fault_ = DeviceFault::none;  ///< of the tick before
+  DeviceFault last_fault_ = DeviceFault::none;  ///< of the previous tick
 
-  // Of the thread that calls step().
+  // Used only by the thread that calls step().
   bool has_time_ = false;
   double last_time_ = 0.0;  ///< [s]
   double stale_for_ = 0.0;  ///< [s]
 
-  // Of the thread that calls supervise().
+  // Used only by the thread that calls supervise().
   bool watch_has_time_ = false;
   double watch_time_ = 0.0;          ///< [s]
   std::uint64_t watched_owner_ = 0;  ///< as last seen
-  std::uint64_t dealt_with_ = 0;     ///< seen for too long, and nothing more is to be done about it; 0: no tick yet
+  std::uint64_t dealt_with_ = 0;     ///< a word that persisted too long and has been handled; 0: no tick yet
   double unchanged_for_ = 0.0;       ///< [s]
   DeviceFault reason_ = DeviceFault::none;
 
@@ -125,7 +139,7 @@ class Servo {
   std::atomic<std::uint64_t> missed_ = 0;
   std::atomic<std::uint64_t> stale_ = 0;
   std::atomic<std::uint64_t> standing_ = 0;
-  std::atomic<std::uint64_t> taken_over_ = 0;
+  std::atomic<std::uint64_t> watchdog_takeovers_ = 0;
   std::atomic<std::uint64_t> idle_ticks_ = 0;
   std::array<std::atomic<std::uint64_t>, device_fault_count> faults_ = {};
 };

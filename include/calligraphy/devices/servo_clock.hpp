@@ -1,20 +1,20 @@
-// What calls the servo loop, tick by tick.
+// Interface of the clock that calls the servo loop once per tick.
 #pragma once
 
 #include <functional>
 
 namespace calligraphy {
 
-/// Calls a function once a tick until it is stopped: the servo thread of this library, or the scheduler of a vendor.
+/// Calls a function once per tick until it is stopped: ServoThread, or a vendor's scheduler.
 class ServoClock {
  public:
   virtual ~ServoClock() = default;
 
-  /// From now on calls `tick` with the time [s] of a clock that never runs back, one call at a time, from one thread.
-  /// @throws DeviceError when the clock cannot be started, ValueError when it runs already
+  /// Starts calling `tick` with the time [s] of a clock that never runs backwards, one call at a time, from one thread.
+  /// @throws DeviceError when the clock cannot be started, ValueError when it is already running
   virtual void start(std::function<void(double now)> tick) = 0;
 
-  /// No call runs any more once this has returned. Not to be called from within a tick.
+  /// After it returns, no tick is running or will run. Do not call it from within a tick.
   virtual void stop() noexcept = 0;
 
   virtual bool running() const noexcept = 0;

@@ -1,4 +1,4 @@
-// Runs a device against a force law, in real time, with a watchdog.
+// Runs a force law on a device in real time, with a watchdog.
 #pragma once
 
 #include <atomic>
@@ -12,30 +12,31 @@ namespace calligraphy {
 
 struct ServoLoopOptions {
   ServoOptions servo;
-  /// Of the loop's own thread; its rate is that of the servo. Not used by a device that brings its own clock.
+  /// Options of the loop's own thread; its rate is taken from the servo. Unused if the device has its own clock.
   ServoThreadOptions thread;
 };
 
-/// A servo, its clock and its watchdog. The clock is the device's own where it has one (`HapticDevice::clock()`), else
-/// a ServoThread. Several loops may run at once, each with its own device. Use start() and stop() from one thread,
-/// stop() also from within the force law.
+/// A servo, its clock and its watchdog. The clock is the device's own if it has one (`HapticDevice::clock()`),
+/// otherwise a ServoThread. Several loops may run at once, each with its own device. Call start() and stop() from one
+/// thread; stop() may also be called from within the force law.
 class ServoLoop {
  public:
-  /// The device must outlive the loop. @throws ValueError naming the value when an option is out of its domain
+  /// The device must outlive the loop. @throws ValueError naming the value when an option is out of range or the force
+  /// law is empty
   ServoLoop(HapticDevice& device, ForceLaw law, const ServoLoopOptions& options = {});
-  /// Stops.
+  /// Calls stop().
   ~ServoLoop();
 
-  /// Begins with no force, which rises. Returns what the system did not permit, each with what to do.
-  /// @throws DeviceError when the clock cannot be started, ValueError when the loop runs already
+  /// Starts with zero force and ramps it up. Returns the privileges that the system refused, each with a remedy.
+  /// @throws DeviceError when the clock cannot be started, ValueError when the loop is already running
   std::vector<std::string> start();
 
-  /// From within the force law, even before start() has returned, it lets the force fall and returns; the loop ends
-  /// when stop() is called from outside. Otherwise: lets the force fall, stops the clock and leaves the force at zero.
-  /// Waits for a force law that has not returned; the force does not wait for it.
+  /// Ramps the force down to zero, stops the clock and leaves the force at zero. Waits for a force law that has not
+  /// returned; the ramp does not wait for it. From within the force law, even before start() has returned, it begins
+  /// the ramp-down and returns; the loop ends when stop() is called from outside.
   void stop() noexcept;
 
-  /// These from any thread, at any time; running() is true from the first tick until stop() from outside.
+  /// Thread-safe, as are the two below. True from the first tick until stop() is called from outside the force law.
   bool running() const noexcept { return running_; }
   ServoStatus status() const noexcept { return servo_.status(); }
   ServoStatistics statistics() const noexcept { return servo_.statistics(); }
@@ -45,7 +46,7 @@ class ServoLoop {
   Servo servo_;
   ServoThread thread_;
   ServoThread watchdog_;
-  ServoClock* clock_ = nullptr;  ///< while it runs
+  ServoClock* clock_ = nullptr;  ///< null while stopped
   std::atomic<bool> running_ = false;
 };
 

@@ -1,24 +1,32 @@
-// What a servo loop has done so far: plain figures.
+// Statistics of a servo loop.
 #pragma once
 
 #include <array>
 #include <cstdint>
 
 #include <calligraphy/devices/device_state.hpp>
-#include <calligraphy/devices/duration_histogram.hpp>
 
 namespace calligraphy {
 
+/// Durations as a histogram has counted them [s].
+struct DurationSummary {
+  std::uint64_t count = 0;
+  double p50 = 0.0;
+  double p99 = 0.0;
+  double p99_9 = 0.0;
+  double worst = 0.0;  ///< exact to a nanosecond
+};
+
 struct ServoStatistics {
-  DurationFigures period;              ///< from one tick to the next, by the time that the clock gives [s]
-  DurationFigures work;                ///< of a tick: read, force law, write [s]
-  std::uint64_t ticks = 0;             ///< that reached the device
-  std::uint64_t missed_deadlines = 0;  ///< ticks that should have been: a period of 3 counts 2
-  std::uint64_t stale_samples = 0;     ///< ticks on which the device had nothing new
-  std::uint64_t standing_clock = 0;    ///< ticks whose time was not later than that of the tick before
-  std::uint64_t taken_over = 0;        ///< times that the watchdog took the device
-  std::uint64_t idle_ticks = 0;        ///< ticks that came, or ended, while the watchdog had it: they wrote nothing
-  std::array<std::uint64_t, device_fault_count> faults = {};  ///< times that each began
+  DurationSummary period;                ///< from one tick to the next, as reported by the clock [s]
+  DurationSummary work;                  ///< duration of a tick: read, force law, write [s]
+  std::uint64_t ticks = 0;               ///< ticks that reached the device
+  std::uint64_t missed_deadlines = 0;    ///< skipped ticks: an interval of 3 periods counts 2
+  std::uint64_t stale_samples = 0;       ///< ticks without a fresh sample
+  std::uint64_t stalled_clock = 0;       ///< ticks whose time was not later than that of the previous tick
+  std::uint64_t watchdog_takeovers = 0;  ///< times that the watchdog took over the device
+  std::uint64_t idle_ticks = 0;          ///< ticks that wrote nothing because the watchdog had the device
+  std::array<std::uint64_t, device_fault_count> faults = {};  ///< occurrences of each fault
 
   std::uint64_t fault_count(DeviceFault fault) const { return faults.at(static_cast<std::size_t>(fault)); }
 };

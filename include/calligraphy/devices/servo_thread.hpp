@@ -1,4 +1,4 @@
-// A clock of this library: a thread of its own with absolute deadlines, in real time where that is permitted.
+// A clock with its own thread and absolute deadlines, real-time where the system permits it.
 #pragma once
 
 #include <atomic>
@@ -13,33 +13,34 @@ namespace calligraphy {
 
 struct ServoThreadOptions {
   double rate = 1000.0;     ///< [Hz]
-  int priority = 80;        ///< real-time priority, 1 to 99; 0: an ordinary thread
-  bool lock_memory = true;  ///< keep the memory of the whole process from being swapped out, from then on
-  int core = -1;            ///< the only processor core that the thread runs on; -1: any
+  int priority = 80;        ///< real-time priority (SCHED_FIFO), 1 to 99; 0: a normal thread
+  bool lock_memory = true;  ///< lock the memory of the whole process into RAM, from the start on
+  int core = -1;            ///< processor core that the thread is bound to; -1: any
 };
 
-/// The next deadline after `now` on the grid of `deadline` and `period`, and how many were skipped to get there.
+/// The next deadline after `now` on the grid defined by `deadline` and `period`, and the number of deadlines skipped.
 struct NextDeadline {
   double time = 0.0;  ///< [s]
   std::uint64_t skipped = 0;
 };
 NextDeadline next_deadline(double deadline, double period, double now) noexcept;
 
-/// Calls the tick at deadlines that do not drift. A late tick is not made up for: the next one comes at the next
-/// deadline of the grid. What the system does not permit (real-time priority, locked memory, the core) is left out and
-/// told by warnings().
+/// Calls the tick at deadlines that do not drift. A late tick is not caught up: the next one runs at the next deadline
+/// of the grid. If the system refuses real-time priority, locked memory or the core, the thread runs without it and
+/// warnings() reports it.
 class ServoThread final : public ServoClock {
  public:
-  /// @throws ValueError naming the value when an option is out of its domain
+  /// @throws ValueError naming the value when an option is out of range
   explicit ServoThread(const ServoThreadOptions& options = {});
   ~ServoThread() override;
 
-  /// `now` is the system's monotonic clock when the tick is called. A tick that throws ends the program.
+  /// `now` is the time of the system's monotonic clock when the tick is called. An exception from the tick terminates
+  /// the program.
   void start(std::function<void(double now)> tick) override;
   void stop() noexcept override;
   bool running() const noexcept override { return thread_.joinable(); }
 
-  /// What was not permitted, why, and how to permit it: of the last start.
+  /// What the system refused at the last start, why, and how to permit it.
   const std::vector<std::string>& warnings() const noexcept { return warnings_; }
 
  private:
@@ -51,9 +52,9 @@ class ServoThread final : public ServoClock {
   std::thread thread_;
 };
 
-/// Gives the calling thread, one of a backend's own that carries samples or forces, a real-time priority of 1 to 99,
-/// below the servo loop's; 0 changes nothing. Returns what the system does not permit, with what to do:
-/// HapticDevice::warnings(). @throws ValueError naming the priority when it is another number
+/// Gives the calling thread a real-time priority from 1 to 99; 0 changes nothing. For a backend's own threads that
+/// carry samples or forces; choose a priority below the servo loop's. Returns what the system refused, with a remedy,
+/// for HapticDevice::warnings(). @throws ValueError naming the priority when it is out of range
 std::vector<std::string> set_real_time_priority(int priority);
 
 }  // namespace calligraphy

@@ -1,4 +1,4 @@
-// Where a virtual wall is stable, by simulation, beside what theory says.
+// Stability maps: the wall stiffness up to which a virtual wall is stable, simulated and compared with theory.
 #pragma once
 
 #include <functional>
@@ -9,44 +9,45 @@
 
 namespace calligraphy {
 
-/// How the pen meets the wall in a simulation. It is let go above the paper, at rest, and a steady force pushes it
-/// down; a grip, if any, holds it towards the paper's surface. The wall never pulls.
-struct WallEncounter {
-  double push = 1.0;        ///< steady force towards the wall, not limited by the device [N]
-  double height = 0.00025;  ///< from which the pen falls [m]: with 45 g alone it meets the wall at 0.1 m/s
-  double seconds = 12.0;    ///< of virtual time
-  bool controlled = false;  ///< a PassivityController at its usable damping follows the wall
-  double lost = 0.0;        ///< share of the samples that do not arrive: the last one is used again
-  double reordered = 0.0;   ///< share of the samples that change places with the next one
+/// The contact of the pen with the wall in a simulation. The pen is released at rest above the paper and pushed down by
+/// a constant force; a grip, if any, pulls it towards the surface of the paper. The wall never pulls.
+struct WallContact {
+  double push = 1.0;        ///< constant force towards the wall, not limited by the device [N]
+  double height = 0.00025;  ///< initial height of the pen; with 45 g alone it hits the wall at 0.1 m/s [m]
+  double seconds = 12.0;    ///< duration, in virtual time [s]
+  bool controlled = false;  ///< a PassivityController with its usable damping follows the wall
+  double lost = 0.0;        ///< share of the samples that are lost: the last one is used again
+  double reordered = 0.0;   ///< share of the samples that are swapped with the next one
 };
 
-struct WallOutcome {
-  /// The pen comes to rest: its swing from peak to peak falls below 0.1 um, or becomes smaller in each sixteenth of the
-  /// second half of the time, by 5 % or more in all and by 1 % or more in the last quarter.
-  bool settles = false;
-  double swing = 0.0;          ///< from peak to peak, in the last sixteenth that was simulated [m]
-  double largest_force = 0.0;  ///< sent [N]
-  double last_force = 0.0;     ///< largest sent in the last sixteenth that was simulated [N]
+struct WallContactResult {
+  /// The pen comes to rest: its peak-to-peak amplitude drops below 0.1 um, or decreases in each sixteenth of the second
+  /// half of the time, by at least 5 % in total and at least 1 % in the last quarter.
+  bool stable = false;
+  double peak_to_peak = 0.0;  ///< amplitude in the last simulated sixteenth [m]
+  double max_force = 0.0;     ///< maximum force sent [N]
+  double last_force = 0.0;    ///< maximum force sent in the last simulated sixteenth [N]
 };
 
-/// One pen on one wall of this stiffness [N/m], in virtual time. The wall's force is cut off at the device's peak.
-/// @throws ValueError naming the value when the loop, its device's peak force, the stiffness or the encounter is
+/// Simulates one pen on a wall of this stiffness [N/m], in virtual time. The wall force is clipped at the peak force of
+/// the device.
+/// @throws ValueError naming the value when the loop, its device's peak force, the stiffness or the contact is
 /// out of its domain
-WallOutcome meet_wall(const SampledLoop& loop, double stiffness, const WallEncounter& encounter = {});
+WallContactResult simulate_wall_contact(const SampledLoop& loop, double stiffness, const WallContact& contact = {});
 
-/// Every stiffness against one loop.
+/// The results for one loop at every stiffness of the map.
 struct StabilityLine {
   SampledLoop loop;
   double passive = 0.0, quantised = 0.0, stable = 0.0, approximate = 0.0;  ///< the bounds of advise_stiffness() [N/m]
-  std::vector<bool> settles;             ///< for each stiffness of the map, the controller off
-  std::vector<bool> controlled_settles;  ///< the same, on
-  /// Largest below which no stiffness that was tried is unstable, to 2 % [N/m]; 0 if the softest is not, the map's
-  /// largest if all are.
-  double largest = 0.0, controlled_largest = 0.0;
-  double controlled_within_peak = 0.0;  ///< likewise, where moreover the force never comes to the device's peak [N/m]
+  std::vector<bool> stable_at;             ///< per stiffness of the map, without the controller
+  std::vector<bool> controlled_stable_at;  ///< likewise, with the controller
+  /// Maximum stiffness below which every simulated one is stable, to 2 %; 0 if the lowest is unstable, the map's
+  /// maximum if all are stable [N/m].
+  double max_stable = 0.0, controlled_max_stable = 0.0;
+  double controlled_max_stable_below_peak = 0.0;  ///< likewise, with the force staying below the peak [N/m]
 };
 
-/// One property of the loop varied, all others kept.
+/// Variation of one property of the loop, all others kept constant.
 struct StabilitySweep {
   std::string name;                 ///< "damping"
   std::string label;                ///< with its unit, for people
@@ -56,37 +57,38 @@ struct StabilitySweep {
 
 struct StabilityMapOptions {
   Capabilities device = point_mass();
-  WallEncounter encounter;         ///< `controlled` does not count: both are tried
-  int per_decade = 8;              ///< stiffnesses that are tried
-  double softest = 10.0;           ///< [N/m]
-  double stiffest = 1e5;           ///< [N/m]
-  double coulomb_friction = 0.06;  ///< of the loops whose positions are rounded; the others have none [N]
-  std::vector<double> dampings = {0.05, 0.1, 0.5, 2.0};     ///< of the grid [N s/m]
+  WallContact contact;             ///< `controlled` is ignored: both are simulated
+  int per_decade = 8;              ///< number of stiffnesses per decade
+  double min_stiffness = 10.0;     ///< [N/m]
+  double max_stiffness = 1e5;      ///< [N/m]
+  double coulomb_friction = 0.06;  ///< of loops with quantised positions; the others have none [N]
+  std::vector<double> dampings = {0.05, 0.1, 0.5, 2.0};     ///< viscous, of the grid [N s/m]
   std::vector<double> rates = {500.0, 1000.0, 4000.0};      ///< [Hz]
   std::vector<int> delays = {0, 1, 2, 5};                   ///< [ticks]
   std::vector<double> encoder_steps = {0.0, 23e-6, 55e-6};  ///< [m]
   std::vector<double> wall_dampings = {0.0, 1.0};           ///< [N s/m]
-  std::vector<Hand> grips = {{0.0, 0.0, 0.0}, {0.1, 3.0, 300.0}};
-  bool with_sweeps = true, with_grid = true;       ///< what to try
-  std::function<void(double)> progress = nullptr;  ///< called now and then with the share that is done
+  std::vector<GripImpedance> grips = {{0.0, 0.0, 0.0}, {0.1, 3.0, 300.0}};
+  bool with_sweeps = true, with_grid = true;       ///< which parts to simulate
+  std::function<void(double)> progress = nullptr;  ///< called from time to time with the share completed
 
-  /// 45 g, 0.1 N s/m, the Desktop's peak of 7.9 N; no dry friction, rounding or delay.
+  /// 45 g, 0.1 N s/m, the Desktop's peak force of 7.9 N; no Coulomb friction, quantisation or delay.
   static Capabilities point_mass();
 };
 
 struct StabilityMap {
   Capabilities device;
-  WallEncounter encounter;
-  std::vector<double> stiffnesses;     ///< that every line was tried at [N/m]
-  std::vector<StabilitySweep> sweeps;  ///< one property of the device, held by nobody at 1 kHz, varied
+  WallContact contact;
+  std::vector<double> stiffnesses;     ///< simulated for every line [N/m]
+  std::vector<StabilitySweep> sweeps;  ///< variations of the device, free (no grip) and at 1 kHz
   std::vector<StabilityLine> grid;     ///< every combination of the options' lists
 };
 
-/// The map, on every core. The same in every run.
+/// Computes the map on all cores. The result is the same in every run.
 /// @throws ValueError naming the value when an option is out of its domain
 StabilityMap stability_map(const StabilityMapOptions& options = {});
 
-/// SVG by gnuplot: for each sweep, where the pen settles without and with the controller, and the bounds of theory.
+/// SVG plot by gnuplot: for each sweep, the stable stiffnesses without and with the controller, and the theoretical
+/// bounds.
 /// @throws ValueError when there is no sweep, Error with gnuplot's message when it cannot be started or fails
 std::string stability_map_plot(const StabilityMap& map);
 

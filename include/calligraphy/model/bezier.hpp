@@ -10,7 +10,7 @@ namespace calligraphy {
 /// Bezier curve of the given degree with Degree + 1 control points.
 ///
 /// Wang 2006, eq. (1) calls itself "third order" but sums to 4 with 4!, a quartic: that curve is Bezier<4>.
-/// Table 3's counts come out with cubics, so Bezier<3> is what the stroke model uses by default.
+/// The counts in Table 3 require cubics, so the stroke model uses Bezier<3> by default.
 template <int Degree>
 struct Bezier {
   static_assert(Degree >= 1);
@@ -26,7 +26,7 @@ struct Bezier {
     return row[0];
   }
 
-  /// Control points of the first derivative, a curve of one degree less.
+  /// Control points of the first derivative, a curve one degree lower.
   Bezier<Degree - 1> hodograph() const requires(Degree >= 2) {
     Bezier<Degree - 1> result;
     for (int i = 0; i < Degree; ++i) result.control_points[i] = Degree * (control_points[i + 1] - control_points[i]);
@@ -42,7 +42,7 @@ struct Bezier {
     }
   }
 
-  /// The same curve as a pair of curves, [0, t] and [t, 1].
+  /// Splits the curve at t into two curves, over [0, t] and [t, 1].
   std::array<Bezier, 2> split(double t) const {
     std::array<Bezier, 2> halves;
     auto row = control_points;
@@ -54,7 +54,7 @@ struct Bezier {
     return halves;
   }
 
-  /// The same curve written with one degree more.
+  /// The same curve one degree higher (exact degree elevation).
   Bezier<Degree + 1> elevated() const {
     Bezier<Degree + 1> result;
     result.control_points.front() = control_points.front();

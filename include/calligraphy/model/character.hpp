@@ -16,18 +16,18 @@ struct StructuralData {
   std::vector<Point> control_points;
 };
 
-/// Order: which typical stroke is written when, and which control points are feature points.
+/// Order: the typical strokes in writing order, and which control points are feature points.
 struct SequenceData {
   std::vector<int> stroke_ids;      ///< typical stroke ids, in writing order
   std::vector<int> feature_points;  ///< indices into StructuralData::control_points, in writing order
 };
 
-/// Feel: the force attraction factor at each feature point, a multiple of the guidance stiffness [1].
+/// Force: the attraction factor at each feature point, a multiple of the guidance stiffness [1].
 struct PhysicalData {
   std::vector<double> attraction_factors;  ///< one per feature point
 };
 
-/// One stroke of a character, as a view that lives as long as the character.
+/// One stroke of a character: a view, valid as long as the character.
 struct Stroke {
   const TypicalStroke* type;
   int curve_degree;
@@ -35,11 +35,11 @@ struct Stroke {
   std::span<const double> attraction_factors;  ///< one per feature point [1]
 };
 
-/// A character: structural, sequence and physical data apart from each other. Frame: em square, y up.
+/// A character, with structural, sequence and physical data kept separate. Frame: em square, y up.
 struct Character {
   char32_t code = 0;     ///< Unicode code point
   std::string order;     ///< name of an alternate stroke order; empty for the standard one
-  int curve_degree = 3;  ///< degree of every CSE: 3, or 4 as eq. (1) prints
+  int curve_degree = 3;  ///< degree of every CSE: 3, or 4 as printed in eq. (1)
   StructuralData structure;
   SequenceData sequence;
   PhysicalData physics;
@@ -47,7 +47,7 @@ struct Character {
   int stroke_count() const { return static_cast<int>(sequence.stroke_ids.size()); }
 };
 
-/// A stroke as input to make_character: control points [em], and a factor per feature point (none: all 1).
+/// A stroke as input to make_character(): control points [em], and one factor per feature point (empty: all 1).
 struct StrokeInput {
   int id;
   std::vector<Point> control_points;
@@ -55,24 +55,24 @@ struct StrokeInput {
 };
 
 /// Builds a character from its strokes in writing order.
-/// @throws ValueError naming the stroke when an id, a count, a coordinate or a factor is out of its domain
+/// @throws ValueError naming the stroke if an id, a count, a coordinate or a factor is outside its domain
 Character make_character(char32_t code, std::span<const StrokeInput> strokes, int curve_degree = 3);
 
-/// The strokes of a valid character in writing order; the views point into it. O(strokes).
+/// The strokes of a valid character in writing order, as views into it. O(strokes).
 std::vector<Stroke> strokes(const Character& character);
 
-/// The same shape with quartic curves, as eq. (1) prints (exact degree elevation).
+/// The same shape with quartic curves, as printed in eq. (1) (exact degree elevation).
 Character with_quartic_curves(const Character& character);
 
-/// What a validator has to say: where (stroke, counted from 1; 0 for the character as a whole) and what.
-struct Problem {
+/// A finding of validate(): the stroke, counted from 1 (0: the whole character), and what is wrong.
+struct ValidationIssue {
   int stroke;
   std::string what;
 };
 
-/// Everything that makes a character unusable: counts, ids, indices, non-finite or far-off points, missing factors,
-/// elements without length (but a stroke of a single LSE may be a point), a joint that its typical stroke calls smooth
-/// and that bends by more than 15 degrees. Empty when the character is valid.
-std::vector<Problem> validate(const Character& character);
+/// Everything that makes a character unusable: wrong counts, ids or indices, points that are not finite or far outside
+/// the em square, missing factors, elements of zero length (except that a stroke of a single LSE may be a point), and
+/// joints that bend by more than 15 degrees although smooth in their typical stroke. Empty if the character is valid.
+std::vector<ValidationIssue> validate(const Character& character);
 
 }  // namespace calligraphy

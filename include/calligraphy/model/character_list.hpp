@@ -1,4 +1,4 @@
-// Characters in memory, as they are drawn, imported or edited, and the text format for them.
+// Characters in memory, for drawing, importing and editing, and their text format.
 #pragma once
 
 #include <iosfwd>
@@ -11,32 +11,32 @@
 
 namespace calligraphy {
 
-/// Characters with where they come from.
+/// Characters and their provenance.
 struct CharacterList {
   Provenance provenance;
   std::vector<Character> characters;
 
-  /// The character in the standard order or in the one of this name, or null. O(characters).
+  /// The character in the stroke order of this name (empty: the standard one), or null. O(characters).
   const Character* find(char32_t code, std::string_view order = {}) const noexcept;
 };
 
-/// The characters drawn for this library, at least one for every typical stroke. Parsed once, on first use.
+/// The characters drawn for this library; every typical stroke occurs in at least one. Parsed once, on first use.
 const CharacterList& built_in_characters();
 
 /// The five-stroke character of Table 3, verbatim: ids 2, 1, 10, 31, 4; 15 control points, 13 feature points. It is 北
-/// with the pie last; built_in_characters() has 北 in the standard order.
+/// with the pie written last; built_in_characters() has 北 in the standard order.
 const Character& paper_example();
 
 /// Reads the text format of docs/character-format.md. `name` is used in messages.
-/// @throws FormatError naming the line and the value; nothing is returned in part
+/// @throws FormatError naming the line and the value
 CharacterList read_characters(std::istream& in, std::string_view name);
-/// @throws FileError when the file cannot be opened, FormatError as above
+/// @throws FileError if the file cannot be opened; FormatError as above
 CharacterList read_characters(const std::string& path);
 
-/// Writes the text format; read_characters gives back the same set (numbers in the shortest form that reads back the
-/// same).
-/// @throws ValueError when source, licence or attribution is more than one line, when the licence text has a carriage
-/// return, or when an order's name is not fit to be one
+/// Writes the text format. read_characters() restores the same list: numbers are written in their shortest form that
+/// round-trips.
+/// @throws ValueError if source, licence or attribution has more than one line, the licence text contains a carriage
+/// return, or the name of a stroke order is invalid
 void write_characters(std::ostream& out, const CharacterList& set);
 
 }  // namespace calligraphy

@@ -1,4 +1,4 @@
-// Characters by the thousand in a few bytes each, found and decoded without allocation.
+// Compact sets of many thousands of characters, with lookup and decoding without allocation.
 #pragma once
 
 #include <array>
@@ -20,10 +20,10 @@ namespace calligraphy {
 
 class SetFile;
 
-/// How the coordinates of control points are kept.
-struct CoordinateCoding {
-  std::uint32_t steps_per_em = 0;  ///< 0: doubles as they are
-  std::int32_t x_origin = 0;       ///< what is kept as 0 [steps]
+/// Encoding of control point coordinates.
+struct CoordinateEncoding {
+  std::uint32_t steps_per_em = 0;  ///< 0: unquantised doubles
+  std::int32_t x_origin = 0;       ///< coordinate that is stored as 0 [steps]
   std::int32_t y_origin = 0;
   std::uint8_t x_bits = 64;
   std::uint8_t y_bits = 64;
@@ -37,32 +37,32 @@ struct StoredStroke {
   std::array<double, max_elements_per_stroke + 1> factors;  ///< one per feature point [1]
   std::size_t point_count;
 
-  /// A view that lives as long as this.
+  /// A view, valid as long as this object.
   Stroke stroke() const noexcept {
     return {type, curve_degree, std::span(points).first(point_count),
             std::span(factors).first(type->elements.size() + 1)};
   }
 };
 
-/// A character of a set: a view that keeps the set's bytes alive. Nothing of it is decoded before it is asked for. One
-/// that was made of nothing has no strokes, like a damaged one.
+/// A character of a set: a view that keeps the bytes of the set alive and decodes on request. A default-constructed one
+/// has no strokes, and neither has a damaged one.
 class StoredCharacter {
  public:
   char32_t code() const noexcept { return code_; }
   /// Name of an alternate stroke order; empty for the standard one.
   std::string_view order() const noexcept { return order_; }
   int curve_degree() const noexcept { return curve_degree_; }
-  /// 0 when the place where it is kept is damaged.
+  /// 0 if the record is damaged.
   int stroke_count() const noexcept { return stroke_count_; }
-  /// Typical stroke id of the stroke with this index; 0 when there is no such stroke or it is damaged. O(index).
+  /// Typical stroke id of the stroke with this index; 0 if there is no such stroke or it is damaged. O(index).
   int stroke_id(int index) const noexcept;
-  /// The stroke with this index; none when there is no such stroke or it is damaged. For the loop: no allocation, lock
-  /// or throw; O(index). It is in its domain (count, ids, finite, within 16 em), but only character() tells whether
-  /// its elements have lengths and its joints are smooth.
+  /// The stroke with this index; empty if there is no such stroke or it is damaged. Safe in the servo loop: does not
+  /// allocate, lock or throw; O(index). Counts, ids and coordinates (finite, within 16 em) are valid, but only
+  /// character() checks for elements of zero length and for joints that are not smooth.
   std::optional<StoredStroke> stroke(int index) const noexcept;
-  /// @throws FormatError naming the file and the character when it is damaged
+  /// The whole character, validated. @throws FormatError naming the file and the character if it is damaged
   Character character() const;
-  /// Where it comes from, for as long as this lives.
+  /// Its provenance; the reference is valid as long as this object.
   const Provenance& provenance() const noexcept;
 
  private:
@@ -74,53 +74,53 @@ class StoredCharacter {
   int curve_degree_ = 3;
   int stroke_count_ = 0;
   bool has_factors_ = false;
-  CoordinateCoding coding_;
+  CoordinateEncoding coding_;
   std::uint64_t first_bit_ = 0;  // in the file: ids, points, factors
   std::uint64_t end_bit_ = 0;
 };
 
-/// A set of characters: a set file, mapped, or characters in memory, or several sets one over the other. A cheap value,
-/// that never changes: copies share the bytes, and any number of threads may use them.
+/// An immutable set of characters: a memory-mapped set file, characters in memory, or several layered sets. Cheap to
+/// copy: copies share the bytes. Any number of threads may use a set.
 class CharacterSet {
  public:
-  /// No character.
+  /// An empty set.
   CharacterSet();
-  /// The characters as they are, encoded in memory. @throws ValueError as encode_character_set
+  /// Encodes the characters in memory, without loss. @throws ValueError as encode_character_set()
   explicit CharacterSet(const CharacterList& list);
-  /// A set file, of which only the index is read now, or a file in the text format.
-  /// @throws FileError when it cannot be opened, FormatError when it is not what it should be; each names the file
+  /// Opens a set file, reading only its index, or a file in the text format.
+  /// @throws FileError if it cannot be opened, FormatError if it is malformed; each names the file
   static CharacterSet open(const std::string& path);
-  /// The bytes of a set file. `name` is used in messages. @throws FormatError
+  /// A set from the bytes of a set file. `name` is used in messages. @throws FormatError
   static CharacterSet from_bytes(std::vector<std::byte> bytes, std::string name);
-  /// One set over the other: of what several have, the first one's is found.
+  /// Several sets as one. If several have a character, the one of the first set is found.
   static CharacterSet layered(std::span<const CharacterSet> sets);
 
-  /// The character in the order of this name; without a name in the standard order, or else the first that there is.
-  /// For the loop: no allocation, lock or throw. The first use of 64 neighbouring code points checks their checksum; a
-  /// character that is damaged is found, but has no strokes.
+  /// The character in the stroke order of this name; if that is empty, in the standard order or else the first one
+  /// available. Safe in the servo loop: does not allocate, lock or throw. The first use of each group of 64
+  /// neighbouring code points verifies its checksum; a damaged character is found, but has no strokes.
   std::optional<StoredCharacter> find(char32_t code, std::string_view order = {}) const noexcept;
-  /// Names of all stroke orders of a character; the standard one's is empty.
+  /// Names of all stroke orders of a character; that of the standard one is empty.
   std::vector<std::string> orders(char32_t code) const;
-  /// The first character from this code point on; none when there is no more.
+  /// The first character at or after this code point, if any.
   std::optional<char32_t> next(char32_t from) const noexcept;
 
   class Iterator;
-  /// Every character once, as find(code) gives it, by rising code point.
+  /// Every character once, as returned by find(code), in ascending code point order.
   Iterator begin() const noexcept;
   Iterator end() const noexcept;
 
   /// Number of characters. O(index) for one set, O(characters) for layered ones.
   std::size_t size() const noexcept;
-  /// Of all layers together.
+  /// Size of all layers together [byte].
   std::size_t bytes() const noexcept;
-  /// Of each layer.
+  /// Provenance of each layer.
   std::vector<Provenance> provenances() const;
-  /// Largest distance between a stored control point and the one that was encoded [em].
+  /// Maximum distance between a stored control point and the original one [em].
   double coordinate_error() const noexcept;
-  /// Every character in every order, that of the first layer's provenance; what is hidden by another layer, too, does
-  /// not count. @throws FormatError naming the file and what is damaged
+  /// Every character in every order, without those hidden by another layer; the provenance is that of the first layer.
+  /// @throws FormatError naming the file and the damage
   CharacterList list() const;
-  /// Decodes everything in every order. @throws FormatError naming the file and what is damaged
+  /// Verifies the set by decoding every character in every order. @throws FormatError naming the file and the damage
   void check() const;
 
  private:
@@ -132,7 +132,7 @@ class CharacterSet {
   std::shared_ptr<const Layers> layers_;
 };
 
-/// Goes through a set, for as long as the set lives.
+/// Input iterator over a set; valid as long as the set.
 class CharacterSet::Iterator {
  public:
   using iterator_category = std::input_iterator_tag;

@@ -1,4 +1,4 @@
-// A point or vector of the plane.
+// A point or vector in the plane.
 #pragma once
 
 #include <Eigen/Core>

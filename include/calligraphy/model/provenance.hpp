@@ -1,4 +1,4 @@
-// Where characters come from, and how they may be used.
+// Source and licence of characters.
 #pragma once
 
 #include <string>
@@ -6,10 +6,10 @@
 namespace calligraphy {
 
 struct Provenance {
-  std::string source;        ///< who drew them, one line
-  std::string licence;       ///< under which terms they may be used, one line
-  std::string attribution;   ///< whom to name, one line
-  std::string licence_text;  ///< the licence itself, where its terms ask that it goes along; any number of lines
+  std::string source;        ///< origin of the drawings, one line
+  std::string licence;       ///< name of the licence, one line
+  std::string attribution;   ///< who must be credited, one line
+  std::string licence_text;  ///< text of the licence, where its terms require that it is included; any number of lines
 
   bool operator==(const Provenance&) const = default;
 };

@@ -1,4 +1,4 @@
-// Characters to the bytes of a set file (docs/set-file.md).
+// Encoding of characters as a set file (docs/set-file.md).
 #pragma once
 
 #include <cstddef>
@@ -8,23 +8,24 @@
 
 namespace calligraphy {
 
-/// How finely a set file keeps control points. Whatever the precision, a character that is valid stays valid: one that
-/// rounding would break, or that lies far outside the em square, is kept more finely than the others.
+/// Precision of the control points in a set file. At any precision a valid character stays valid: one that rounding
+/// would invalidate, or that lies far outside the em square, is stored more precisely than the others.
 enum class CoordinatePrecision {
-  coarse,    ///< steps of 1/200 em: 8 bits a coordinate
+  coarse,    ///< steps of 1/200 em: 8 bits per coordinate
   standard,  ///< steps of 1/800 em: 10 bits
   fine,      ///< steps of 1/12800 em: 14 bits
-  exact      ///< as they are: 64 bits
+  exact      ///< unquantised: 64 bits
 };
 
-/// How far a stored control point may be from what it was, and so a stroke too, as a curve lies no farther from another
-/// than their control points do: half a diagonal of a step, and what the arithmetic of doubles adds [em].
+/// Maximum distance between a stored control point and the original one [em]: half the diagonal of a step, plus
+/// rounding of doubles. It bounds the error of strokes too, as two curves are no farther apart than their control
+/// points.
 double coordinate_error_bound(CoordinatePrecision precision) noexcept;
 
-/// The set as the bytes of a set file. The same characters give the same bytes.
-/// @throws ValueError naming the character when one is not valid, is no Unicode character, has more than 4096 strokes
-/// or 255 orders, or stands there twice in the same order, when an order's name is not fit to be one, when a text is
-/// not UTF-8, or when the file would be larger than 4 GiB
+/// Encodes characters as the bytes of a set file. The same characters give the same bytes.
+/// @throws ValueError naming the character if one is invalid, is not a Unicode character, has more than 4096 strokes or
+/// 255 orders, or occurs twice in the same order; if the name of an order is invalid, a text is not UTF-8, or the file
+/// would be larger than 4 GiB
 std::vector<std::byte> encode_character_set(const CharacterList& set,
                                             CoordinatePrecision precision = CoordinatePrecision::standard);
 

@@ -12,7 +12,7 @@ namespace calligraphy {
 
 inline constexpr int typical_stroke_count = 39;
 
-/// Bounds over all typical strokes, so that a stroke being written fits in fixed storage (quartic curves included).
+/// Maxima over all typical strokes, quartic curves included, so that a stroke fits in fixed storage.
 inline constexpr int max_elements_per_stroke = 5;
 inline constexpr int max_curve_degree = 4;
 inline constexpr int max_control_points_per_stroke = 17;
@@ -20,22 +20,22 @@ inline constexpr int max_control_points_per_stroke = 17;
 /// Kind of a stroke element (Wang 2006, sec. 3.2): line segment (LSE) or Bezier curve segment (CSE).
 enum class ElementKind : char { line = 'L', curve = 'C' };
 
-/// One entry of the stroke library. The id depends neither on the size nor on the place of a stroke.
+/// One entry of the stroke library. The id is independent of the size and position of a stroke.
 ///
-/// Ids 1, 2, 4, 10, 16, 20 and 31 are the paper's own, by inference from Table 3 and Figs. 11 and 12; Fig. 7 is lost,
-/// so the other ids are this project's.
+/// Ids 1, 2, 4, 10, 16, 20 and 31 are the paper's, inferred from Table 3 and Figs. 11 and 12. Fig. 7 is lost, so the
+/// other ids are this library's.
 struct TypicalStroke {
   int id;                     ///< 1 to 39
   std::string_view name;      ///< Chinese name
   std::string_view pinyin;    ///< romanised name
   std::string_view code;      ///< letter code as used for CJK strokes
-  std::string_view unicode;   ///< code point of the CJK stroke, in hexadecimal, "var" where it is a variant of it
+  std::string_view unicode;   ///< code point of the CJK stroke in hexadecimal, with "var" if it is a variant
   std::string_view elements;  ///< 'L' (LSE) or 'C' (CSE) per element, in writing order
-  std::string_view joints;    ///< one per inner feature point: 'c' a corner, 's' smooth (tangent continuous)
+  std::string_view joints;    ///< one per inner feature point: 'c' corner, 's' smooth (tangent continuous)
   std::string_view example;   ///< characters that contain it
   std::span<const std::array<double, 2>> shape;  ///< typical control points, cubic curves [em]
 
-  /// Number of control points when curves have the given degree (3 by default, 4 as eq. (1) prints).
+  /// Number of control points for curves of the given degree (3 by default, 4 as printed in eq. (1)).
   int control_point_count(int curve_degree = 3) const;
   /// Number of feature points: one more than elements.
   int feature_point_count() const { return static_cast<int>(elements.size()) + 1; }
@@ -43,10 +43,10 @@ struct TypicalStroke {
   std::vector<int> feature_points(int curve_degree = 3) const;
 };
 
-/// All typical strokes, in order of id.
+/// All typical strokes, by id.
 std::span<const TypicalStroke> typical_strokes() noexcept;
 
-/// The typical stroke with this id. @throws ValueError when id is not in 1..39
+/// The typical stroke with this id. @throws ValueError if id is not in 1..39
 const TypicalStroke& typical_stroke(int id);
 
 }  // namespace calligraphy

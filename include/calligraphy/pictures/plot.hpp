@@ -7,11 +7,11 @@
 
 namespace calligraphy {
 
-/// Whether the program gnuplot can be started.
-bool can_plot();
+/// Whether gnuplot can be started.
+bool gnuplot_available();
 
-/// SVG of the in-plane force components and size, and of the normal force, over time, for the samples in which
-/// character `character` is active; bands mark the writing state of each stroke.
+/// SVG plot of the in-plane force (components and magnitude) and the normal force over time, for the samples in which
+/// `character` (index) is active; shaded bands mark the writing state of each stroke.
 /// @throws ValueError when there is no such sample, FormatError when the title is not UTF-8, Error with gnuplot's
 /// message when it cannot be started or fails
 std::string force_plot(const Recording& recording, int character, const std::string& title);

@@ -1,20 +1,20 @@
-// A person's writing beside its template, and what became of it under guidance, as SVG text.
+// SVG picture of a person's writing over its template, beside the same writing under guidance.
 #pragma once
 
 #include <span>
 #include <string>
 
 #include <calligraphy/practice/pen_path.hpp>
-#include <calligraphy/practice/stroke_verdict.hpp>
+#include <calligraphy/practice/stroke_matching.hpp>
 
 namespace calligraphy {
 
-/// Two squares. Left: the pen-downs over the template, laid on it by the verdict's fit, with an arrow and the number in
-/// which each was drawn; the template's own numbers are blue; red is what is out of turn, backwards, extra or missing,
-/// orange what was joined or has another shape. Right: where the pen of the device went (pen-downs in the same square
-/// of the character). Below: the remarks. 190 mm wide.
-/// @throws ValueError when the verdict is not of these paths, FormatError when the title is not UTF-8
-std::string replay_picture(const Character& character, std::span<const PenPath> paths, const StrokeVerdict& verdict,
+/// Draws two squares, 190 mm wide in all. Left: the pen-downs over the template, aligned with it by the match's fit,
+/// each with an arrow and its number in writing order; the template's own numbers are blue; red marks what is out of
+/// order, backwards, extra or missing, orange what was joined or has another shape. Right: the path of the device's pen
+/// (pen-downs in the square of the same character). Below: the remarks.
+/// @throws ValueError when the match does not belong to these paths, FormatError when the title is not UTF-8
+std::string replay_picture(const Character& character, std::span<const PenPath> paths, const MatchResult& match,
                            std::span<const PenPath> guided, const std::string& title);
 
 }  // namespace calligraphy

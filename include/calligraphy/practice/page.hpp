@@ -1,4 +1,4 @@
-// Characters laid out in rows on pages that fit a device's workspace.
+// Pages of characters, laid out in rows to fit the workspace of a device.
 #pragma once
 
 #include <span>
@@ -11,18 +11,18 @@ namespace calligraphy {
 struct PageLayout {
   double width = 0.16;   ///< [m]
   double height = 0.12;  ///< [m]
-  double em = 0.04;      ///< edge of a character's square [m]
-  double gap = 0.008;    ///< between squares, and round them [m]
+  double em = 0.04;      ///< edge length of a character's square [m]
+  double gap = 0.008;    ///< between and around the squares [m]
 };
 
-struct Page {
+struct PracticePage {
   double width = 0.0;   ///< [m]
   double height = 0.0;  ///< [m]
   std::vector<PlacedCharacter> characters;
 };
 
-/// Left to right, top to bottom, as many pages as it takes, the rows centred on each page.
-/// @throws ValueError when a length is not a positive number or not one square fits
-std::vector<Page> lay_out(std::span<const Character> characters, const PageLayout& layout = {});
+/// Lays the characters out from left to right and top to bottom on as many pages as needed, the rows centred on each.
+/// @throws ValueError when a length is not a positive number or no square fits
+std::vector<PracticePage> lay_out(std::span<const Character> characters, const PageLayout& layout = {});
 
 }  // namespace calligraphy

@@ -1,4 +1,4 @@
-// How well a page was written: a score per perceptible element, and every mistake with its reason (Wang 2006,
+// Scores of a written page: one criterion per perceptible element, and every mistake with its reason (Wang 2006,
 // sec. 2.2).
 #pragma once
 
@@ -10,34 +10,34 @@
 
 namespace calligraphy {
 
-enum class MistakeKind {
-  order,     ///< external sequence: a stroke was written out of turn
+enum class WritingMistakeKind {
+  order,     ///< external sequence: a stroke was written out of order
   direction  ///< internal sequence: a stroke was written backwards
 };
 
-struct Mistake {
-  MistakeKind kind;
-  int stroke;          ///< the stroke that was due, from 0
-  double time;         ///< when the pen was put down [s]
-  std::string reason;  ///< one line for a person
+struct WritingMistake {
+  WritingMistakeKind kind;
+  int stroke;          ///< the expected stroke, from 0
+  double time;         ///< of the pen-down [s]
+  std::string reason;  ///< one line of explanation for people
 };
 
 struct CharacterScore {
   char32_t character = 0;
   double time =
-      0.0;  ///< from the first pen-down (or the end of the character before) to the end of the last stroke [s]
-  double rms_error = 0.0;  ///< lateral, over the arc length of the strokes completed [m]
+      0.0;  ///< from the first pen-down (or the end of the previous character) to the end of the last stroke [s]
+  double rms_error = 0.0;  ///< lateral, over the arc length of the completed strokes [m]
   double max_error = 0.0;  ///< lateral [m]
   int stroke_count = 0;
   int strokes_completed = 0;
   double peak_force = 0.0;      ///< [N]
   double max_force_step = 0.0;  ///< from one tick to the next [N]
-  std::vector<Mistake> mistakes;
+  std::vector<WritingMistake> mistakes;
 
   /// The perceptible elements of Fig. 2, each in [0, 1].
   double contour = 0.0;            ///< exp(-rms error / 5 % of the em), 0 for strokes not completed
-  double external_sequence = 0.0;  ///< share of pen-downs that wrote the stroke that was due
-  double internal_sequence = 0.0;  ///< share of strokes written without going backwards
+  double external_sequence = 0.0;  ///< completed strokes / (completed + order mistakes)
+  double internal_sequence = 0.0;  ///< completed strokes / (completed + direction mistakes)
   double fidelity = 0.0;           ///< geometric mean of the three
 
   int order_mistakes() const noexcept;
@@ -45,6 +45,6 @@ struct CharacterScore {
 };
 
 /// One score per character of the page.
-std::vector<CharacterScore> score(const Page& page, const Recording& recording);
+std::vector<CharacterScore> score_page(const PracticePage& page, const Recording& recording);
 
 }  // namespace calligraphy

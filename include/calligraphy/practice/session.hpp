@@ -1,4 +1,4 @@
-// A writer, a device and a renderer in closed loop, in virtual time.
+// Sessions in virtual time: a writer, a device and a renderer in closed loop.
 #pragma once
 
 #include <cstdint>
@@ -16,43 +16,47 @@
 namespace calligraphy {
 
 /// The two modes of the paper's experiment (sec. 7.1).
-enum class Mode {
-  vision,  ///< the force stays at the renderer: the device is told zero
+enum class FeedbackMode {
+  vision,  ///< vision alone: the device receives zero instead of the renderer's force
   force    ///< vision and force
 };
 
+/// "vision", "force".
+const char* to_string(FeedbackMode mode) noexcept;
+
 struct SessionOptions {
-  Mode mode = Mode::force;
+  FeedbackMode mode = FeedbackMode::force;
   Capabilities device;
   RendererOptions renderer;
   WriterSkill skill;
   std::uint64_t seed = 1;
-  bool measure_ticks = false;      ///< reads the clock round every tick of the renderer
-  double longest_character = 120;  ///< virtual time after which a character is given up, per character [s]
-  /// Called now and then with the share of characters written. What it throws ends the session.
+  bool measure_ticks = false;      ///< measure the execution time of the renderer in every tick
+  double character_timeout = 120;  ///< virtual time after which a character is abandoned, per character [s]
+  /// Called from time to time with the share of characters written. An exception that it throws ends the session.
   std::function<void(double)> progress = nullptr;
 };
 
-/// Says after each tick how the pen is meant to move on the page in the `seconds` until the next one; nothing ends the
-/// session.
+/// Returns, after each tick, the intended motion of the pen on the page during the `seconds` until the next one;
+/// std::nullopt ends the session.
 using PenMotion = std::function<std::optional<Intention>(const HapticTick& tick, double seconds)>;
 
-/// The loop: device.read, renderer.update, device.write, `motion`, device.advance. The hand that holds the device is
-/// that of the skill; it starts above the middle of the page.
+/// Runs the loop: device.read, renderer.update, device.write, `motion`, device.advance. The grip of the skill holds the
+/// device; it starts above the centre of the page.
 /// @throws ValueError when an option is out of its domain
-Recording run_session(const Page& page, const SessionOptions& options, const PenMotion& motion);
+Recording run_session(const PracticePage& page, const SessionOptions& options, const PenMotion& motion);
 
-/// Writes the page once. Deterministic per seed, measured times aside.
+/// Writes the page once. Deterministic per seed, except for measured times.
 /// @throws ValueError when an option is out of its domain
-Recording write_page(const Page& page, const SessionOptions& options);
+Recording write_page(const PracticePage& page, const SessionOptions& options);
 
-/// A hand that moves as a person's pen did, TraceHand, on a page of one character. Of the skill only the hand counts.
+/// A session in which a simulated hand follows a person's recorded pen, on a page of one character. Of the skill only the
+/// grip is used.
 /// @throws ValueError when an option is out of its domain, or the page has not exactly one character
-Recording follow_trace(const Page& page, const PenTrace& trace, const SessionOptions& options);
+Recording follow_trace(const PracticePage& page, const PenTrace& trace, const SessionOptions& options);
 
-/// The renderer on recorded samples, as fast as it goes and felt by nobody: what it would have done. Of the options the
-/// mode, the renderer, the measuring and the progress count.
+/// Runs the renderer on recorded samples, as fast as possible and with no hand in the loop: what it would have
+/// rendered. Of the options only `mode`, `renderer`, `measure_ticks` and `progress` are used.
 /// @throws ValueError when an option is out of its domain
-Recording replay_page(const Page& page, ReplayDevice& device, const SessionOptions& options);
+Recording replay_page(const PracticePage& page, ReplayDevice& device, const SessionOptions& options);
 
 }  // namespace calligraphy

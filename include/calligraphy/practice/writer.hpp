@@ -1,5 +1,5 @@
-// A simulated person who writes: plans each stroke as they believe it to be, sees their error late, corrects it, and
-// slows when it is large.
+// A simulated writer: plans each stroke from a belief about its shape, sees the error with a delay, corrects it, and
+// slows down when it is large.
 #pragma once
 
 #include <array>
@@ -14,55 +14,55 @@
 
 namespace calligraphy {
 
-/// How well a person writes. Lengths in em are relative to the character's square. Spreads are standard deviations,
+/// Skill of a simulated writer. Lengths in em are relative to the character's square. Spreads are standard deviations,
 /// drawn anew for each character, stroke or attempt.
 struct WriterSkill {
-  Hand hand;                     ///< impedance between the plan and the device
-  double offset = 0.0;           ///< of the believed character [em]
-  double bias = 0.0;             ///< length of one more offset, in a direction drawn for each character; no spread [em]
-  double scale = 0.0;            ///< of the believed character [1]
-  double tilt = 0.0;             ///< of the believed character [rad]
-  double shape = 0.0;            ///< of each stroke's believed place within the character [em]
-  double drift = 0.0;            ///< slow wandering off the plan while writing, per square root of a second [em/s^0.5]
+  GripImpedance grip;            ///< impedance between the plan and the device
+  double offset = 0.0;           ///< spread of the position of the believed character [em]
+  double bias = 0.0;             ///< length of an additional offset, its direction drawn for each character [em]
+  double scale = 0.0;            ///< spread of the scale of the believed character [1]
+  double tilt = 0.0;             ///< spread of the tilt of the believed character [rad]
+  double shape = 0.0;            ///< spread of the believed position of each stroke within the character [em]
+  double drift = 0.0;            ///< slow random walk off the plan while writing [em/s^0.5]
   double tremor = 0.0;           ///< amplitude of an 8 to 12 Hz tremor [m]
-  double aim = 0.0;              ///< of where a stroke is begun [em]
-  double wrong_order = 0.0;      ///< share of strokes begun with another one [1]
+  double aim = 0.0;              ///< spread of the initial placement of a stroke [em]
+  double wrong_order = 0.0;      ///< share of strokes for which another one is begun instead [1]
   double wrong_direction = 0.0;  ///< share of strokes begun at their end [1]
-  double speed = 0.8;            ///< mean speed along a stroke when nothing is wrong [em/s]
+  double speed = 0.8;            ///< mean speed along a stroke without perceived error [em/s]
   double pause = 0.25;           ///< before the pen moves to a stroke [s]
-  double sight_delay = 0.18;     ///< age of what is seen [s]
-  double correction = 2.0;       ///< share of the error seen that is corrected per second [1/s]
-  double caution = 0.025;        ///< error seen at which the pace is halved [em]
+  double visual_delay = 0.18;    ///< delay of visual perception [s]
+  double correction = 2.0;       ///< share of the perceived error corrected per second [1/s]
+  double caution = 0.025;        ///< perceived lateral error at which the speed is halved [em]
 
   static WriterSkill novice();
   static WriterSkill skilled();
 };
 
-/// What the display shows: nothing of forces, nothing of the mode.
-struct Sight {
+/// What the display shows. It reveals neither forces nor the mode.
+struct VisualFeedback {
   Eigen::Vector3d pen_tip = Eigen::Vector3d::Zero();  ///< page [m]
-  int character = 0;                                  ///< the yellow one
-  int stroke = 0;                                     ///< the one whose start has the red ellipse
+  int character = 0;                                  ///< index of the active character, shown in yellow
+  int stroke = 0;                                     ///< index of the active stroke, whose start has the red ellipse
   bool writing = false;                               ///< a green trace grows from the pen
 };
 
 /// Moves a hand through the strokes of a page.
 ///
-/// Each stroke is planned as the writer believes it to be, at minimum-jerk speed from corner to corner (Flash and Hogan
-/// 1985). What the display shows is seen late; the error seen shifts the plan and slows the pace. A stroke that the
-/// display does not take is tried again with half the misbelief.
+/// Each stroke is planned as the writer believes it to be, with minimum jerk from corner to corner (Flash and Hogan
+/// 1985). The display is perceived with a delay; the perceived error shifts the plan and slows the writer down. A
+/// stroke that is not accepted is retried with half the error of the belief.
 ///
-/// Deterministic per seed: the beliefs and mistakes of an attempt depend on the seed, the character, the stroke and the
-/// number of the attempt alone, so that two runs in different modes are a fair pair.
+/// Deterministic per seed: the beliefs and mistakes of an attempt depend only on the seed, the character, the stroke
+/// and the number of the attempt, so that runs in different modes can be compared in pairs.
 class SimulatedWriter {
  public:
-  /// @throws ValueError when the page is empty or a number of the skill is out of its domain
-  SimulatedWriter(const Page& page, const WriterSkill& skill, std::uint64_t seed);
+  /// @throws ValueError when the page is empty or a parameter of the skill is out of its domain
+  SimulatedWriter(const PracticePage& page, const WriterSkill& skill, std::uint64_t seed);
 
-  /// Sees the display, lets `seconds` pass and says how the pen is meant to move in that time, on the page.
-  Intention update(const Sight& sight, double seconds);
+  /// Sees the display, advances time by `seconds` and returns the intended motion of the pen in that time, on the page.
+  Intention update(const VisualFeedback& sight, double seconds);
 
-  /// All characters are written, or given up, and the pen is off the paper.
+  /// All characters are written, or the writer gave up, and the pen is off the paper.
   bool done() const noexcept { return phase_ == Phase::done; }
   /// The same stroke failed ten times.
   bool gave_up() const noexcept { return gave_up_; }
@@ -78,20 +78,20 @@ class SimulatedWriter {
   struct PlannedElement {
     StrokeElement truth;  ///< as drawn on the page
     bool backwards;       ///< written from its end to its start
-    double duration;      ///< at full pace [s]
+    double duration;      ///< at full speed [s]
     Point at(double share) const { return truth.point(backwards ? 1.0 - share : share); }
   };
   struct Seen {
     double time;
-    Sight sight;
+    VisualFeedback sight;
     std::size_t element;
-    Point planned;  ///< where the template is at that moment's progress
+    Point planned;  ///< point of the template at the progress of that moment
     bool on_paper;  ///< a stroke was being written
   };
 
   void plan_attempt();
   void plan_elements(int stroke, bool backwards);
-  void see(const Sight& sight);
+  void see(const VisualFeedback& sight);
   void think(double seconds);
   void follow_plan(double seconds);
   void leave_element();
@@ -105,34 +105,34 @@ class SimulatedWriter {
   std::vector<PlacedCharacter> page_;
   WriterSkill skill_;
   std::uint64_t seed_;
-  Random random_{0};  ///< of the attempt
+  Random random_{0};  ///< draws of the attempt
 
   Phase phase_ = Phase::pause;
   double time_ = 0.0;        ///< [s]
   double phase_time_ = 0.0;  ///< since the phase began [s]
   bool gave_up_ = false;
-  int character_ = 0;  ///< to be written next, as far as the writer has seen
+  int character_ = 0;  ///< the next to be written, as far as the writer has seen
   int stroke_ = 0;
   int attempt_ = 0;
 
   std::vector<PlannedElement> plan_;
   Belief belief_ = {};
   Point aim_error_ = Point::Zero();
-  std::size_t element_ = 0;  ///< of the plan
-  double progress_ = 0.0;    ///< time at full pace within the element [s]
+  std::size_t element_ = 0;  ///< index into the plan
+  double progress_ = 0.0;    ///< time within the element, at full speed [s]
   Point correction_ = Point::Zero();
   Point drift_ = Point::Zero();
   Point tremor_ = Point::Zero();
   std::array<double, 6> tremor_phases_ = {};
-  double untaken_ = 0.0;  ///< for how long no green trace was seen while writing [s]
+  double untaken_ = 0.0;  ///< time without a green trace while writing [s]
 
   std::deque<Seen> sights_;      ///< from oldest to newest
-  Seen seen_ = {};               ///< the newest that is old enough to be known
-  double lateral_ = 0.0;         ///< distance from the template seen [m]
-  Point error_ = Point::Zero();  ///< from the pen to where the template is, as seen [m]
+  Seen seen_ = {};               ///< the newest one older than the visual delay
+  double lateral_ = 0.0;         ///< perceived distance from the template [m]
+  Point error_ = Point::Zero();  ///< perceived vector from the pen to the template [m]
 
-  Eigen::Vector3d from_ = Eigen::Vector3d::Zero();  ///< where the phase began
-  Eigen::Vector3d now_ = Eigen::Vector3d::Zero();   ///< where the pen is meant to be
+  Eigen::Vector3d from_ = Eigen::Vector3d::Zero();  ///< position at the beginning of the phase
+  Eigen::Vector3d now_ = Eigen::Vector3d::Zero();   ///< intended position of the pen
 };
 
 }  // namespace calligraphy

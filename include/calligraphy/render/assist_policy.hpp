@@ -1,23 +1,23 @@
-// Help as needed: it fades as the writer improves and returns when errors grow.
+// Assistance as needed: it fades as the writer improves and returns when errors grow.
 #pragma once
 
 #include <algorithm>
 
 namespace calligraphy {
 
-/// From stroke to stroke the share of the guidance is  a <- retention a + (1 - retention) error / full_help_error,
-/// within [least, 1]: the law of Emken, Bobrow and Reinkensmeyer 2005 ("Robotic movement training as an optimization
-/// problem"), which is what a trainer does who minimises both the error and the help. With perfect writing help decays
-/// as retention^n; with an error held at e it settles at e / full_help_error. A stroke that was given up counts as one
-/// with full_help_error.
+/// After each stroke the assistance, a factor a on the guidance, becomes a <- retention a + (1 - retention) error /
+/// full_assistance_error, clamped to [min_assistance, 1]: the law of Emken, Bobrow and Reinkensmeyer 2005 ("Robotic
+/// movement training as an optimization problem"), the optimum for a trainer that minimises both error and assistance.
+/// With perfect strokes the assistance decays as retention^n; with a constant error e it converges to e /
+/// full_assistance_error. An abandoned stroke counts as an error of at least full_assistance_error.
 struct AssistPolicy {
-  bool enabled = false;            ///< false: full help always
-  double retention = 0.8;          ///< of the last stroke's help [1]
-  double full_help_error = 0.002;  ///< RMS lateral error of a stroke that keeps help at full [m]
-  double least = 0.1;              ///< help never falls below [1]
+  bool enabled = false;                  ///< false: full assistance always
+  double retention = 0.8;                ///< share of the previous assistance that is retained [1]
+  double full_assistance_error = 0.002;  ///< RMS lateral error of a stroke that keeps the assistance at 1 [m]
+  double min_assistance = 0.1;           ///< lower bound of the assistance [1]
 
-  double next(double help, double error) const noexcept {
-    return std::clamp(retention * help + (1.0 - retention) * error / full_help_error, least, 1.0);
+  double next(double assistance, double error) const noexcept {
+    return std::clamp(retention * assistance + (1.0 - retention) * error / full_assistance_error, min_assistance, 1.0);
   }
 };
 

@@ -1,4 +1,4 @@
-// One tick from the device's sample to the force (Wang 2006, sec. 4.1, Figs. 14 and 15).
+// Renders guided writing, once per tick: device sample in, force out (Wang 2006, sec. 4.1, Figs. 14 and 15).
 #pragma once
 
 #include <cstddef>
@@ -9,49 +9,51 @@
 
 #include <calligraphy/collision/active_stroke.hpp>
 #include <calligraphy/devices/device_state.hpp>
-#include <calligraphy/render/force_limiter.hpp>
+#include <calligraphy/render/detail/force_limiter.hpp>
+#include <calligraphy/render/detail/thermal_budget.hpp>
 #include <calligraphy/render/haptic_tick.hpp>
 #include <calligraphy/render/motion_mapping.hpp>
 #include <calligraphy/render/paper_friction.hpp>
 #include <calligraphy/render/passivity_controller.hpp>
 #include <calligraphy/render/renderer_options.hpp>
-#include <calligraphy/render/thermal_budget.hpp>
 
 namespace calligraphy {
 
-/// Guides a pen through the characters of a page, one after the other, stroke by stroke in the right order and
+/// Guides a pen through the characters of a page, one after the other, stroke by stroke in the correct order and
 /// direction.
 ///
 /// update() neither allocates, locks, throws nor logs, and its work is bounded. Use one renderer per device.
 class HapticRenderer {
  public:
-  /// @throws ValueError when an option, the mapping, a character or its place is invalid; the message names it
+  /// @throws ValueError naming the option, the mapping, the character or its placement that is invalid
   HapticRenderer(std::vector<PlacedCharacter> page, const MotionMapping& mapping, const Capabilities& capabilities,
                  const RendererOptions& options = {});
 
   HapticRenderer(HapticRenderer&&) noexcept = default;
   HapticRenderer& operator=(HapticRenderer&&) noexcept = default;
 
-  /// Sample in, force out. Read `force` of the result and give it to the device.
+  /// Processes one sample. Write `force` of the result to the device.
   const HapticTick& update(const DeviceState& state) noexcept;
 
-  /// The page as new: nothing written, force zero at once.
+  /// Starts the page again: nothing written, force zero immediately.
   void restart() noexcept;
 
+  /// What the last update() returned. For the thread that calls update() alone: for a display, publish it through a
+  /// LatestValue.
   const HapticTick& last() const noexcept { return tick_; }
-  /// As they are at work: with StiffnessCheck::clip, stiffnesses may be smaller than asked for.
+  /// Effective options: with StiffnessCheck::clip, stiffnesses may be lower than requested.
   const RendererOptions& options() const noexcept { return options_; }
-  /// What was clipped, each with its value and the reason.
+  /// What was clipped, one line per value, with the reason.
   const std::vector<std::string>& clipped() const noexcept { return clipped_; }
   const MotionMapping& mapping() const noexcept { return mapping_; }
   const std::vector<PlacedCharacter>& page() const noexcept { return page_; }
-  /// Largest change of force from one tick to the next [N]; infinite when the rate is not limited.
+  /// Maximum change of the force per tick [N]; infinite when the rate is not limited.
   double max_force_step() const noexcept;
 
  private:
   struct PreparedCharacter {
     std::vector<Stroke> strokes;
-    Eigen::AlignedBox2d box;  ///< margin included [m]
+    Eigen::AlignedBox2d box;  ///< including the margin [m]
   };
 
   TickStatus map_sample(const DeviceState& state) noexcept;
@@ -60,11 +62,11 @@ class HapticRenderer {
   void follow(const TransitionInput& input) noexcept;
   void finish_stroke() noexcept;
   void measure_error() noexcept;
-  void adapt_help(bool abandoned) noexcept;
+  void adapt_assistance(bool abandoned) noexcept;
   void activate(int character, int stroke) noexcept;
   Eigen::Vector3d sum_forces() noexcept;
-  Point guide() noexcept;
-  Point rub() noexcept;
+  Point guidance_force() noexcept;
+  Point friction_force() noexcept;
   Point fade(const Point& force) noexcept;
   void send(const Eigen::Vector3d& wanted) noexcept;
   Eigen::Vector3d control_passivity(const Eigen::Vector3d& wanted) noexcept;
@@ -83,24 +85,24 @@ class HapticRenderer {
   double fade_step_ = 1.0;  ///< per tick
   bool observes_energy_ = false;
   PassivityController passivity_;
-  ThermalBudget thermal_;  ///< peak 0: none
+  ThermalBudget thermal_;  ///< peak 0: disabled
   PaperFriction friction_;
 
   ActiveStroke active_;
   HapticTick tick_;
-  Point fade_from_ = Point::Zero();  ///< in-plane force at the last leap of the foot [N, page]
-  double faded_ = 0.0;               ///< 0 at that leap, 1 after the fade-in
-  double error_square_ = 0.0;        ///< lateral error squared, over the way on the active stroke [m^3]
-  double error_way_ = 0.0;           ///< [m]
-  Point error_tip_ = Point::Zero();  ///< where it was last measured [m]
+  Point fade_from_ = Point::Zero();  ///< in-plane force at the last jump of the closest point [N, page]
+  double faded_ = 0.0;               ///< progress of the fade-in since that jump, 0 to 1
+  double error_square_ = 0.0;        ///< squared lateral error, integrated along the path on the active stroke [m^3]
+  double error_way_ = 0.0;           ///< length of that path [m]
+  Point error_tip_ = Point::Zero();  ///< pen tip at the last measurement [m]
   bool inside_box_ = false;
-  bool lifted_ = true;           ///< since the last stroke was finished
-  bool character_done_ = false;  ///< its last stroke is finished, the pen still down
+  bool lifted_ = true;           ///< the pen was lifted since the last stroke was finished
+  bool character_done_ = false;  ///< its last stroke is finished, and the pen is still down
 
-  bool has_sample_ = false;  ///< last_position_ and last_time_ are those of the last good sample
+  bool has_sample_ = false;  ///< last_position_ and last_time_ are those of the last accepted sample
   Eigen::Vector3d last_position_ = Eigen::Vector3d::Zero();
   double last_time_ = 0.0;
-  bool has_rejected_ = false;  ///< rejected_position_ is that of the tick before, refused as too far away
+  bool has_rejected_ = false;  ///< rejected_position_ is that of a sample just rejected as too far away
   Eigen::Vector3d rejected_position_ = Eigen::Vector3d::Zero();
 };
 

@@ -1,4 +1,4 @@
-// All that one servo tick found and did, for recorders, displays and tests.
+// The result of one servo tick, for recorders, displays and tests.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace calligraphy {
 
-/// What happened in a tick; a set of bits.
+/// What happened in a tick; bit flags.
 enum class TickEvent : std::uint16_t {
   none = 0,
   contact = 1 << 0,  ///< the pen touched the paper
@@ -17,7 +17,7 @@ enum class TickEvent : std::uint16_t {
   stroke_started = 1 << 2,
   feature_passed = 1 << 3,
   stroke_finished = 1 << 4,
-  stroke_abandoned = 1 << 5,  ///< given up before its end; its trace is to be cleared
+  stroke_abandoned = 1 << 5,  ///< left before its end; its trace is to be cleared
   character_finished = 1 << 6,
   page_finished = 1 << 7
 };
@@ -26,38 +26,41 @@ constexpr TickEvent operator|(TickEvent a, TickEvent b) noexcept {
   return static_cast<TickEvent>(static_cast<std::uint16_t>(a) | static_cast<std::uint16_t>(b));
 }
 constexpr TickEvent& operator|=(TickEvent& a, TickEvent b) noexcept { return a = a | b; }
-constexpr bool has(TickEvent events, TickEvent event) noexcept {
+constexpr bool has_event(TickEvent events, TickEvent event) noexcept {
   return (static_cast<std::uint16_t>(events) & static_cast<std::uint16_t>(event)) != 0;
 }
 
-/// Whether the sample of this tick could be used.
+/// Whether the sample of this tick was usable.
 enum class TickStatus : std::uint8_t {
   ok,
-  bad_sample,   ///< not finite, or further away than a pen can have moved: the force goes to zero
-  device_fault  ///< the device said so itself: the force goes to zero
+  bad_sample,   ///< not finite, or farther away than a pen can have moved: the force ramps down to zero
+  device_fault  ///< reported by the device: the force ramps down to zero
 };
 
+/// "ok", "bad_sample", "device_fault".
+const char* to_string(TickStatus status) noexcept;
+
 struct HapticTick {
-  double time = 0.0;  ///< of the sample [s]
+  double time = 0.0;  ///< sample time [s]
   TickStatus status = TickStatus::ok;
   InteractionState state = InteractionState::separation;
   TickEvent events = TickEvent::none;
-  int character = 0;  ///< index of the active character; their number once all are written
-  int stroke = 0;     ///< index of the active stroke within it; their number from the end of the last until the lift
+  int character = 0;  ///< index of the active character; the number of characters once all are written
+  int stroke = 0;     ///< index of the active stroke; the number of strokes from the end of the last one until the lift
   Eigen::Vector3d device_point = Eigen::Vector3d::Zero();  ///< haptic interface point, page frame [m]
   Eigen::Vector3d pen_tip = Eigen::Vector3d::Zero();       ///< virtual pen tip, page frame [m]
   double penetration = 0.0;                                ///< of the device point into the paper [m]
-  StrokeContact contact;             ///< meaningful in the writing state and on the tick that leaves it
-  Point attraction = Point::Zero();  ///< force term, help included, before fade-in and limits [N, page]
+  StrokeContact contact;             ///< valid in the writing state and in the tick that leaves it
+  Point attraction = Point::Zero();  ///< force term, including assistance, before fade-in and limits [N, page]
   Point wrong_way = Point::Zero();   ///< force term, before fade-in and limits [N, page]
   Point friction = Point::Zero();    ///< force term, before limits [N, page]
   double normal = 0.0;               ///< force term, before limits [N, out of the paper]
-  Eigen::Vector3d damping = Eigen::Vector3d::Zero();  ///< of the passivity controller, before limits [N, page]
-  double help = 1.0;                                  ///< share of the guidance that the assist policy gives
-  double energy_given = 0.0;  ///< net, to the hand, as the passivity observer has it; 0 without one [J]
-  double heat = 0.0;          ///< of the motors; 1: that of the continuous force; 0 without a thermal budget
-  Eigen::Vector3d page_force = Eigen::Vector3d::Zero();  ///< sent, page axes [N]
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();       ///< sent, device axes [N]
+  Eigen::Vector3d damping = Eigen::Vector3d::Zero();  ///< by the passivity controller, before limits [N, page]
+  double assistance = 1.0;                            ///< factor on the guidance, from the assist policy [1]
+  double energy_given = 0.0;  ///< net energy delivered to the hand, as observed; 0 without observer [J]
+  double heat = 0.0;  ///< of the motors; 1: in equilibrium at the continuous force; 0 without thermal budget [1]
+  Eigen::Vector3d page_force = Eigen::Vector3d::Zero();  ///< as sent, page axes [N]
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();       ///< as sent, device axes [N]
 };
 
 static_assert(std::is_trivially_destructible_v<HapticTick>);

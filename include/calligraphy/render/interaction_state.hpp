@@ -7,36 +7,36 @@ namespace calligraphy {
 
 enum class InteractionState : std::uint8_t {
   separation,   ///< SS: the pen does not touch the paper
-  adjusting,    ///< AS: it touches outside the active character's box
-  calibration,  ///< CS: it touches inside the box, not at the start of the active stroke
+  adjusting,    ///< AS: the pen touches the paper outside the active character's box
+  calibration,  ///< CS: the pen touches the paper inside the box, but not at the start of the active stroke
   writing       ///< WS: the active stroke is being written
 };
 
 /// "SS", "AS", "CS" or "WS".
-const char* short_name(InteractionState state) noexcept;
+const char* to_string(InteractionState state) noexcept;
 
-/// Everything a transition depends on, hysteresis already applied.
+/// The inputs of a transition, with hysteresis already applied.
 struct TransitionInput {
   bool contact = false;          ///< the pen touches the paper
-  bool inside_box = false;       ///< within the active character's box
+  bool inside_box = false;       ///< inside the active character's box
   bool at_start = false;         ///< within the neighbourhood of the active stroke's start
-  bool may_start = false;        ///< there is an active stroke and, if asked for, the pen was lifted since the last one
+  bool may_start = false;        ///< there is an active stroke and, if required, the pen was lifted since the last one
   bool stroke_finished = false;  ///< the active stroke's last feature point has just been passed
 };
 
 /// The state graph as a pure function:
 ///
-/// | from | condition, the first that holds           | to |
+/// | from | first condition that holds                 | to |
 /// |------|--------------------------------------------|----|
 /// | any  | no contact                                 | SS |
 /// | WS   | stroke finished                            | CS |
 /// | WS   | outside the box                            | AS |
 /// | WS   | otherwise                                  | WS |
-/// | SS, AS, CS | at the start of a stroke that may start, inside the box | WS |
+/// | SS, AS, CS | inside the box, at the start of a stroke that may start | WS |
 /// | SS, AS, CS | inside the box                       | CS |
 /// | SS, AS, CS | outside the box                      | AS |
 ///
-/// Leaving WS other than by finishing gives the stroke up: its stack is loaded again (sec. 4.3).
+/// Leaving WS without finishing abandons the stroke: its stack of feature points is refilled (sec. 4.3).
 InteractionState next_state(InteractionState state, const TransitionInput& input) noexcept;
 
 }  // namespace calligraphy

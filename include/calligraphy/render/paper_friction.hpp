@@ -1,4 +1,4 @@
-// Friction between pen and paper, which the paper lacks: "slippery" (Wang 2006, sec. 7.3).
+// Friction between pen and paper. The paper's own pen is frictionless, "slippery" (Wang 2006, sec. 7.3).
 #pragma once
 
 #include <calligraphy/model/point.hpp>
@@ -6,33 +6,33 @@
 namespace calligraphy {
 
 enum class FrictionModel {
-  /// Hard break-away: the pen hangs on a spring from a point w of the paper, which it draws along once the spring is
+  /// Hard break-away: a spring connects the pen to an anchor w on the paper, and drags the anchor along once it is
   /// stretched by mu N / stiffness. Below that w does not move at all: no drift. The force depends on the path alone,
   /// not on the rate. The limit of Hayward and Armstrong 2000 for an infinitely steep alpha.
   breakaway,
-  /// Hayward and Armstrong 2000, "A new computational model of friction applied to haptic rendering", with
-  /// alpha(z) = z^8 / (z_stick^8 + z^8) / z_max: w creeps below break-away too, smoothly. Drifts under vibration.
+  /// Hayward and Armstrong 2000, "A new computational model of friction applied to haptic rendering", with alpha(z) =
+  /// z^8 / (z_stick^8 + z^8) / z_max: w also creeps below break-away, smoothly. Drifts under vibration.
   hayward_armstrong,
-  /// Karnopp 1985, with the spring of Richard and Cutkosky 2002 while it sticks: below `stick_speed` the pen holds to
-  /// where it stopped, up to `static_ratio` mu N; above it mu N opposes the motion.
+  /// Karnopp 1985, with the spring of Richard and Cutkosky 2002 while sticking: below `stick_speed` the spring holds
+  /// the pen where it stopped, up to `static_ratio` mu N; above it mu N opposes the motion.
   karnopp
 };
 
 struct FrictionOptions {
   FrictionModel model = FrictionModel::breakaway;
-  double coefficient = 0.0;    ///< mu, force within the paper over the force along its normal; 0: no friction [1]
-  double stiffness = 500.0;    ///< of the pen's hold on the paper [N/m]
+  double coefficient = 0.0;    ///< mu, tangential over normal force; 0: no friction [1]
+  double stiffness = 500.0;    ///< of the spring between pen and anchor [N/m]
   double static_ratio = 1.2;   ///< karnopp: break-away over sliding friction, at least 1 [1]
   double stick_speed = 0.002;  ///< karnopp [m/s]
 };
 
-/// The pen's hold on the paper. Never allocates.
+/// Computes the friction force on the pen. Never allocates.
 class PaperFriction {
  public:
-  /// The force on a pen at `tip` [m, page] that is pressed on by `normal` [N], after `seconds` since the last call; the
-  /// first call after release() takes hold, without force.
+  /// Friction force on a pen at `tip` [m, page] that presses with `normal` [N], `seconds` after the last call; the
+  /// first call after release() sets the anchor and returns zero.
   Point update(const FrictionOptions& options, const Point& tip, double normal, double seconds) noexcept;
-  /// The pen is off the paper.
+  /// Call this when the pen leaves the paper.
   void release() noexcept { holds_ = false; }
 
  private:

@@ -1,4 +1,4 @@
-// How stiff a sampled wall may be: what a device, its servo loop and a grip allow.
+// How stiff a sampled virtual wall may be, given a device, its servo loop and a grip.
 #pragma once
 
 #include <string>
@@ -8,56 +8,56 @@
 
 namespace calligraphy {
 
-/// A point mass held against a wall that is computed once a tick: the force -K x - B (x - x_before) / T from the
-/// newest sample, held until the next. One axis; all that a stiffness has to be judged by.
+/// A point mass held against a sampled virtual wall: the force -K x - B (x - x_before) / T is computed once per tick
+/// from the newest sample and held until the next. One axis; everything that the stiffness bounds depend on.
 struct SampledLoop {
-  Capabilities device;          ///< m, b, f_c, D and d: mass, frictions, encoder step and sample delay
-  double rate = 1000.0;         ///< 1 / T: of the servo loop, which need not be the device's own [Hz]
-  Hand grip = {0.0, 0.0, 0.0};  ///< moves with the device; by default nobody holds it
-  double wall_damping = 0.0;    ///< B: of the wall, by the backward difference of the samples [N s/m]
+  Capabilities device;                   ///< m, b, f_c, D, d: mass, viscous and Coulomb friction, encoder step, delay
+  double rate = 1000.0;                  ///< 1 / T: of the servo loop, which may differ from the device's own [Hz]
+  GripImpedance grip = {0.0, 0.0, 0.0};  ///< moves with the device; by default nobody holds it
+  double wall_damping = 0.0;             ///< B: of the wall, on the backward difference of the samples [N s/m]
 };
 
-/// @throws ValueError naming the field and its value: one that is not finite, negative or above 1e9; a rate that is not
-/// in [1, 1e6] Hz, an apparent mass below 1e-9 kg (0 is "not known"), a sample delay that is not in [0, 1000] ticks
+/// @throws ValueError naming the field and its value: not finite, negative or above 1e9; a rate outside [1, 1e6] Hz, an
+/// apparent mass below 1e-9 kg (0 means "unknown"), a sample delay outside [0, 1000] ticks
 void validate(const SampledLoop& loop);
 
-/// Smallest stiffness of a bilateral wall at which a linear motion of device and grip no longer dies away, without dry
-/// friction and rounding [N/m]. Exact: the motion from sample to sample under a force that is held. 0 when the loop
-/// keeps swinging however soft the wall: when neither device nor wall damps it, when only the wall does and the grip is
-/// a spring, and when the wall's damping is so large that it feeds a swing by itself.
+/// Minimum stiffness of a bilateral wall at which a linear motion of device and grip no longer decays, without Coulomb
+/// friction and quantisation [N/m]. Exact: uses the discrete motion under a zero-order hold of the force. 0 when the
+/// loop oscillates however soft the wall: when neither device nor wall is damped, when only the wall is damped and the
+/// grip has a spring, and when the wall's damping is so large that it drives an oscillation by itself.
 ///
-/// Derived here. With G(z) the sampled motion, a swing is kept up where K = -z^d / G(z) - B (1 - 1/z) / T is real on
-/// the unit circle.
+/// Derived here: with G(z) the sampled motion, an oscillation is sustained where K = -z^d / G(z) - B (1 - 1/z) / T is
+/// real on the unit circle.
 /// @throws ValueError as validate()
 double critical_stiffness(const SampledLoop& loop);
 
-/// A bound of the wall's stiffness, and what it is worth.
+/// A bound on the stiffness of the wall, with its validity.
 struct StiffnessBound {
   double value = 0.0;    ///< [N/m]
-  std::string formula;   ///< as text, in the letters of SampledLoop
-  std::string validity;  ///< one line: where it holds and what it does not see
+  std::string formula;   ///< as text, in the symbols of SampledLoop
+  std::string validity;  ///< one line: where it holds and what it does not model
 };
 
 struct StiffnessAdvice {
-  StiffnessBound passive;      ///< the wall never gives out energy, whoever holds the device
-  StiffnessBound quantised;    ///< passive, and no rounding of the positions can keep up a swing either
-  StiffnessBound stable;       ///< critical_stiffness(): the linear motion in this grip dies away below it
-  StiffnessBound approximate;  ///< a rule of thumb for `stable`, to compare
+  StiffnessBound passive;      ///< the wall generates no energy, whoever holds the device
+  StiffnessBound quantised;    ///< passive, and the quantisation of positions cannot sustain an oscillation either
+  StiffnessBound stable;       ///< critical_stiffness(): below it the linear motion in this grip decays
+  StiffnessBound approximate;  ///< a rule of thumb for `stable`, for comparison
 };
 
-/// The bounds of a loop. Both verdicts are worth having: a device may run well while not passive (Diolaiti et al.
-/// 2006).
+/// The stiffness bounds of a loop. Both passivity and stability are reported, because a device may work well while not
+/// passive (Diolaiti et al. 2006).
 ///
-/// The passive bounds count the device's own damping alone: they promise that the wall is passive towards any hand, so
-/// that none need be there. The stable one holds for this grip and no other.
+/// The passive bounds count only the device's own damping: the wall is passive towards any hand, and stable without
+/// one. The stable bound holds for the given grip only.
 /// @throws ValueError as validate()
 StiffnessAdvice advise_stiffness(const SampledLoop& loop);
 
-/// Largest damping that a PassivityController may inject into this loop [N s/m]: what the device's mass bears at its
-/// rate and delay, less the wall's own, and no more than f_c T / D, so that the force on one step of the encoder within
-/// a tick is held by dry friction. Above that the steps themselves keep up a swing (found by the stability map: a
-/// controller without the last limit settles less stiffness at 4 kHz than none). Where no dry friction is stated,
-/// 0.04 N are presumed.
+/// Maximum damping that a PassivityController may inject into this loop [N s/m]: what the device's mass tolerates at
+/// its rate and delay, less the wall's own, and at most f_c T / D, so that Coulomb friction can hold the force of one
+/// encoder step within a tick. Above that, quantisation sustains a limit cycle (found by the stability map: at 4 kHz a
+/// controller without the last limit allows less stiffness than no controller). If no Coulomb friction is stated, 0.04
+/// N are assumed.
 /// @throws ValueError as validate()
 double injectable_damping(const SampledLoop& loop);
 

@@ -1,4 +1,4 @@
-// What the error codes of the vendor's runtime mean for a device.
+// Maps the error codes of the vendor's runtime to device status and fault.
 #pragma once
 
 #include <calligraphy/devices/device_state.hpp>
@@ -12,10 +12,10 @@ struct Judgement {
   DeviceFault fault = DeviceFault::none;
 };
 
-/// A code that is not known counts as a fault.
+/// An unknown code counts as a fault.
 Judgement judge(ErrorCode code) noexcept;
 
-/// The graver one; of equals the first.
+/// The more severe one; the first if equal.
 Judgement graver(const Judgement& a, const Judgement& b) noexcept;
 
 }  // namespace calligraphy::hdapi

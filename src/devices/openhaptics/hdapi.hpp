@@ -1,4 +1,4 @@
-// The part of the vendor's HDAPI that is used here, declared from its public interface: types, numbers, functions.
+// The types, constants and functions of the vendor's HDAPI used here, declared from its public interface.
 #pragma once
 
 #include <cstdint>
@@ -54,7 +54,7 @@ inline constexpr ErrorCode comm_config_error = 0x0303;
 inline constexpr ErrorCode timer_error = 0x0304;
 inline constexpr ErrorCode frame_error = 0x0402;
 
-/// One pointer a function, named as in the library.
+/// Function pointers, named as in the library.
 struct Functions {
   Handle (*hdInitDevice)(const char* name);
   void (*hdMakeCurrentDevice)(Handle);

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/device_profiles.hpp>
 
+#include "base/monotonic_clock.hpp"
 #include "errors.hpp"
 #include "scheduler_clock.hpp"
 
@@ -18,20 +18,16 @@ namespace {
 using namespace hdapi;
 
 constexpr double millimetre = 1e-3;  // [m]
-constexpr int most_errors = 16;      // taken in one tick
+constexpr int max_errors = 16;       // fetched per tick
 
-/// How often calibration is looked at: often enough for a person, seldom enough to cost nothing [ticks].
+/// Interval of calibration checks: short for a person, long enough to cost nothing [ticks].
 constexpr int calibration_interval = 50;
-
-double monotonic_seconds() noexcept {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 std::string text(const char* string) { return string != nullptr ? string : ""; }
 
 bool holds(const std::string& name, const char* part) { return name.find(part) != std::string::npos; }
 
-/// For what the runtime does not say: the shipped profile that is closest, the weakest one where none is.
+/// For values that the runtime does not provide: the closest built-in profile, or the weakest one if none matches.
 const Capabilities& closest_profile(const std::string& model) {
   if (holds(model, "Premium")) return device_profile("premium-1.5");
   if (holds(model, "Desktop") || holds(model, "Touch X")) return device_profile("desktop");
@@ -55,7 +51,7 @@ bool within(double value, double smallest, double largest) noexcept {
   return std::isfinite(value) && value >= smallest && value <= largest;
 }
 
-/// Scaled by its largest component first, so that no square overflows.
+/// Limits the magnitude. Scales by the largest component first, so that no square overflows.
 Eigen::Vector3d shortened(const Eigen::Vector3d& force, double limit) noexcept {
   const double largest = force.cwiseAbs().maxCoeff();
   if (largest == 0.0) return force;
@@ -96,7 +92,7 @@ class OpenHapticsDevice::Implementation {
   double opened_ = 0.0;  ///< [s]
   DeviceState state_;
   int until_calibration_ = 0;                       ///< [ticks]
-  std::atomic<Enum> calibration_ = calibration_ok;  ///< as last seen
+  std::atomic<Enum> calibration_ = calibration_ok;  ///< as of the last check
 };
 
 OpenHapticsDevice::Implementation::Implementation(const OpenHapticsOptions& options)
@@ -111,7 +107,7 @@ OpenHapticsDevice::Implementation::Implementation(const OpenHapticsOptions& opti
   open_ = true;
   capabilities = ask_capabilities();
   calibration_ = hd().hdCheckCalibration();
-  runtime->take_errors();  // of questions that a model does not answer
+  runtime->take_errors();  // discards those of queries that a model does not support
   clock = std::make_unique<SchedulerClock>(runtime, device_, time_);
   opened_ = time_();
   state_.status = DeviceStatus::stale;
@@ -121,7 +117,7 @@ Handle OpenHapticsDevice::Implementation::open_device(const OpenHapticsOptions& 
   runtime->take_errors();
   const Handle device = hd().hdInitDevice(options.device.empty() ? nullptr : options.device.c_str());
   const std::string errors = runtime->take_errors();
-  // Warm motors and the like come with a device that is there.
+  // Errors such as warm motors may be reported for a device that did open.
   if (device != invalid_handle) {
     hd().hdMakeCurrentDevice(device);
     return device;
@@ -138,13 +134,13 @@ Capabilities OpenHapticsDevice::Implementation::ask_capabilities() {
   Capabilities result = closest_profile(model);
   if (!model.empty()) result.model = model;
 
-  // Larger than what is asked for, should a model say more.
+  // Larger than needed, in case a model returns more values.
   double box[16] = {};
   hd().hdGetDoublev(usable_workspace, box);
   Eigen::Vector3d extent;
   bool has_extent = true;
   for (int axis = 0; axis < 3; ++axis) {
-    // The largest box round the origin: the runtime's need not be centred there.
+    // The largest box centred on the origin; the runtime's need not be.
     extent[axis] = 2.0 * std::min(-box[axis], box[axis + 3]) * millimetre;
     has_extent = has_extent && within(extent[axis], 0.01, 3.0);
   }
@@ -201,7 +197,7 @@ void OpenHapticsDevice::Implementation::look_at_calibration() noexcept {
 
 Judgement OpenHapticsDevice::Implementation::take_errors() noexcept {
   Judgement result;
-  for (int i = 0; i < most_errors; ++i) {
+  for (int i = 0; i < max_errors; ++i) {
     const ErrorInfo error = hd().hdGetError();
     if (error.code == no_error) break;
     last_error.store(error.code, std::memory_order_relaxed);
@@ -233,9 +229,9 @@ std::string OpenHapticsDevice::Implementation::advice() const {
   if (calibration == calibration_ok) return {};
   if (calibration_style_ == calibration_inkwell) return "needs calibration: put the pen into the inkwell";
   if (calibration_style_ == calibration_encoder_reset) {
-    return "needs calibration: hold the pen as the vendor's manual says for a reset of the encoders";
+    return "needs calibration: hold the pen in the pose that the vendor's manual prescribes for an encoder reset";
   }
-  return "needs calibration: move the pen slowly through the whole workspace";
+  return "needs calibration: move the pen slowly through the entire workspace";
 }
 
 OpenHapticsDevice::OpenHapticsDevice(const OpenHapticsOptions& options)

@@ -13,14 +13,13 @@
 namespace calligraphy::hdapi {
 namespace {
 
-constexpr int most_errors = 64;  // held by a runtime at once: a bound, should it never say that there are no more
+constexpr int max_errors = 64;  // bounds the loop if a runtime never reports that there are no more
 
-/// The runtime is one for the whole process by its own nature: devices opened in several places must share the
-/// scheduler that it has.
+/// The vendor's runtime is inherently global to the process: devices opened in several places share its scheduler.
 std::mutex registry_mutex;
 std::vector<std::pair<void*, std::weak_ptr<Runtime>>> registry;
 
-/// The scheduler's users, of any runtime.
+/// Guards the user counts of all schedulers.
 std::mutex scheduler_mutex;
 
 std::vector<std::string> names_to_try(const std::string& name) {
@@ -76,7 +75,7 @@ std::shared_ptr<Runtime> Runtime::load(const std::string& name) {
     for (const auto& [known, runtime] : registry) {
       if (known != file) continue;
       if (std::shared_ptr<Runtime> shared = runtime.lock()) {
-        dlclose(file);  // the loader counts; one is enough
+        dlclose(file);  // the loader counts references; one is enough
         return shared;
       }
     }
@@ -85,8 +84,8 @@ std::shared_ptr<Runtime> Runtime::load(const std::string& name) {
     return runtime;
   }
   throw DeviceError("the vendor's runtime libHD cannot be loaded (" + tried +
-                    "): install OpenHaptics and the device's driver from the vendor, or name the file in the "
-                    "environment variable CALLIGRAPHY_LIBHD");
+                    "): install OpenHaptics and the device driver from the vendor, or set the environment "
+                    "variable CALLIGRAPHY_LIBHD to the file");
 }
 
 Runtime::Runtime(void* file, std::string library) : file_(file), library_(std::move(library)) {
@@ -94,8 +93,8 @@ Runtime::Runtime(void* file, std::string library) : file_(file), library_(std::m
   if (missing.empty()) return;
   dlclose(file_);
   throw DeviceError(library_ + " lacks " + missing +
-                    ": it is not the vendor's HDAPI, or too old. Install OpenHaptics from the vendor, or name another "
-                    "file in the environment variable CALLIGRAPHY_LIBHD");
+                    ": it is not the vendor's HDAPI, or too old. Install OpenHaptics from the vendor, or set the "
+                    "environment variable CALLIGRAPHY_LIBHD to another file");
 }
 
 Runtime::~Runtime() { dlclose(file_); }
@@ -126,7 +125,7 @@ bool Runtime::scheduler_runs() const {
 
 std::string Runtime::take_errors() const {
   std::string result;
-  for (int i = 0; i < most_errors; ++i) {
+  for (int i = 0; i < max_errors; ++i) {
     const ErrorInfo error = functions_.hdGetError();
     if (error.code == no_error) break;
     char code[32];

@@ -1,4 +1,4 @@
-// The vendor's runtime: one for all devices of a process, loaded while one is open.
+// The vendor's runtime, shared by all devices of a process and loaded while one is open.
 #pragma once
 
 #include <memory>
@@ -10,11 +10,11 @@ namespace calligraphy::hdapi {
 
 class Runtime {
  public:
-  /// The runtime that is loaded already, or loads it. An empty name: see OpenHapticsOptions::library.
-  /// @throws DeviceError naming what was tried or what is missing, and what to do
+  /// Returns the runtime if it is already loaded, otherwise loads it. Empty name: see OpenHapticsOptions::library.
+  /// @throws DeviceError naming what was tried or what is missing, with a remedy
   static std::shared_ptr<Runtime> load(const std::string& name);
 
-  /// With the handle of its file.
+  /// Takes the handle returned by dlopen().
   Runtime(void* file, std::string library);
   ~Runtime();
   Runtime(const Runtime&) = delete;
@@ -28,7 +28,7 @@ class Runtime {
   void leave_scheduler() noexcept;
   bool scheduler_runs() const;
 
-  /// "HD error 0x0301: text": takes all errors that the runtime holds; empty when there is none.
+  /// Fetches all pending errors, such as "HD error 0x0301: text"; empty if there are none.
   std::string take_errors() const;
 
  private:

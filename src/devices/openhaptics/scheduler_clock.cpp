@@ -9,9 +9,9 @@
 namespace calligraphy::hdapi {
 namespace {
 
-constexpr unsigned short priority = 0x7FFF;  // in the middle: neither before nor behind what else a program schedules
+constexpr unsigned short priority = 0x7FFF;  // mid-range, relative to a program's other callbacks
 
-/// The clock whose tick this thread is in.
+/// The clock whose tick this thread is executing.
 thread_local const SchedulerClock* current_tick = nullptr;
 
 void wait_a_little() { std::this_thread::sleep_for(std::chrono::milliseconds(1)); }
@@ -24,11 +24,11 @@ SchedulerClock::SchedulerClock(std::shared_ptr<Runtime> runtime, Handle device, 
 SchedulerClock::~SchedulerClock() { stop(); }
 
 void SchedulerClock::start(std::function<void(double now)> tick) {
-  if (running_) throw ValueError("the device's clock runs already: stop it before it is started again");
+  if (running_) throw ValueError("the device's clock is already running: stop it before starting it again");
   if (!tick) throw ValueError("the tick of the device's clock is empty");
   tick_ = std::move(tick);
   stopping_ = finished_ = output_on_ = false;
-  if (!runtime_->scheduler_runs()) runtime_->take_errors();  // old ones say nothing of what comes now
+  if (!runtime_->scheduler_runs()) runtime_->take_errors();  // discards errors from before
   callback_ = runtime_->functions().hdScheduleAsynchronous(&SchedulerClock::call, this, priority);
   try {
     runtime_->use_scheduler();
@@ -42,9 +42,9 @@ void SchedulerClock::start(std::function<void(double now)> tick) {
 void SchedulerClock::stop() noexcept {
   if (!running_) return;
   stopping_ = true;
-  // The callback ends itself with a last frame of no force. A scheduler that calls it no more is not waited for long.
-  constexpr int longest_wait = 100;  // [ms]
-  for (int i = 0; i < longest_wait && !finished_; ++i) wait_a_little();
+  // The callback finishes with a zero-force frame. A scheduler that no longer calls it is not waited for long.
+  constexpr int max_wait = 100;  // [ms]
+  for (int i = 0; i < max_wait && !finished_; ++i) wait_a_little();
   while (inside_) wait_a_little();
   if (!finished_) {
     cut_force();
@@ -58,7 +58,7 @@ bool SchedulerClock::within_tick() const noexcept { return current_tick == this;
 
 void SchedulerClock::cut_force() noexcept {
   if (!output_on_.exchange(false)) return;
-  // Whether the current device is one per thread is not public: it is set before each use.
+  // Whether the current device is per thread is not documented, so it is set before each use.
   runtime_->functions().hdMakeCurrentDevice(device_);
   runtime_->functions().hdDisable(force_output);
 }
@@ -73,7 +73,7 @@ void SchedulerClock::set_force(const double (&force)[3]) noexcept {
 CallbackCode SchedulerClock::call(void* clock) noexcept { return static_cast<SchedulerClock*>(clock)->frame(); }
 
 CallbackCode SchedulerClock::frame() noexcept {
-  // In this order, and read by stop() in the other: either stop() sees the frame, or the frame sees the stop.
+  // stop() accesses these two in the opposite order: either it sees the frame, or the frame sees the stop.
   inside_ = true;
   const bool last = stopping_;
   const Functions& hd = runtime_->functions();

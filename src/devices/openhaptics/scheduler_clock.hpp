@@ -1,4 +1,4 @@
-// The vendor's scheduler as the clock of a servo loop: one frame of one device a tick.
+// The vendor's scheduler as the clock of a servo loop: one frame of one device per tick.
 #pragma once
 
 #include <atomic>
@@ -20,12 +20,12 @@ class SchedulerClock final : public ServoClock {
   void stop() noexcept override;
   bool running() const noexcept override { return running_; }
 
-  /// Whether the caller is within a tick of this clock: the one place from which a frame may be touched.
+  /// Whether the caller is within a tick of this clock, the only place where a frame is open.
   bool within_tick() const noexcept;
 
-  /// Ends all force from outside a tick; the next frame that sets one switches the output on again.
+  /// Switches the force output off from outside a tick; the next frame that sets a force switches it on again.
   void cut_force() noexcept;
-  /// Within a tick.
+  /// Call within a tick only.
   void set_force(const double (&force)[3]) noexcept;
 
  private:
@@ -41,8 +41,8 @@ class SchedulerClock final : public ServoClock {
 
   std::atomic<bool> output_on_ = false;  ///< the device's force output
   std::atomic<bool> stopping_ = false;
-  std::atomic<bool> inside_ = false;    ///< a frame runs
-  std::atomic<bool> finished_ = false;  ///< the callback has seen the end and will not be called again
+  std::atomic<bool> inside_ = false;    ///< a frame is open
+  std::atomic<bool> finished_ = false;  ///< the last frame is done; the callback will not be called again
 };
 
 }  // namespace calligraphy::hdapi

@@ -9,9 +9,9 @@ namespace calligraphy::phantom {
 namespace {
 
 constexpr double fastest = 60.0;          // [rad/s]
-constexpr double largest_change = 20.0;   // of the speed, from report to report [rad/s]
-constexpr double rounding = 3.0;          // counts by which a change of speed may be wrong
-constexpr double compared_within = 5e-3;  // a longer interval says nothing of a change of speed [s]
+constexpr double max_change = 20.0;       // of the speed between reports [rad/s]
+constexpr double rounding = 3.0;          // error of a change of speed [counts]
+constexpr double compared_within = 5e-3;  // over a longer interval, changes of speed are not checked [s]
 constexpr int leaps_to_give_up = 5;
 constexpr double travel_step = 0.01;        // [rad]
 constexpr double travel_while_stuck = 2.5;  // [rad]
@@ -31,7 +31,7 @@ EncoderWatch::Answer EncoderWatch::judge(const PerJoint<std::int64_t>& shown, do
   PerJoint<std::int64_t> steps{};
   Eigen::Vector3d moved;
   for (std::size_t joint = 0; joint < 3; ++joint) {
-    steps[joint] = shortest_step(shown_[joint], shown[joint], bits_[joint]);
+    steps[joint] = min_step(shown_[joint], shown[joint], bits_[joint]);
     const auto index = static_cast<Eigen::Index>(joint);
     moved[index] = static_cast<double>(steps[joint]) / counts_per_radian_[index];
   }
@@ -68,7 +68,7 @@ void EncoderWatch::restart() noexcept {
 }
 
 void EncoderWatch::interrupt() noexcept {
-  since_used_ = 1.0;  // whatever it was: time enough for any movement
+  since_used_ = 1.0;  // long enough for any movement
 }
 
 Eigen::Vector3d EncoderWatch::angles() const noexcept {
@@ -80,7 +80,7 @@ bool EncoderWatch::leaps(const Eigen::Vector3d& velocity, double interval, bool 
   if (velocity.cwiseAbs().maxCoeff() > fastest) return true;
   if (!even || !has_velocity_ || interval > compared_within) return false;
   const Eigen::Vector3d rounded = rounding / interval * counts_per_radian_.cwiseAbs().cwiseInverse();
-  return ((velocity - velocity_).cwiseAbs() - rounded).maxCoeff() > largest_change;
+  return ((velocity - velocity_).cwiseAbs() - rounded).maxCoeff() > max_change;
 }
 
 bool EncoderWatch::stuck(const Eigen::Vector3d& moved) noexcept {
@@ -91,7 +91,7 @@ bool EncoderWatch::stuck(const Eigen::Vector3d& moved) noexcept {
     travel_[joint] += way;
     anchor_[joint] = at[joint];
   }
-  double longest = 0.0;  // way of one joint while another stood
+  double longest = 0.0;  // travel of one joint while another was stationary
   for (Eigen::Index joint = 0; joint < 3; ++joint) {
     if (moved[joint] != 0.0) travel_when_moved_.col(joint) = travel_;
     longest = std::max(longest, (travel_ - travel_when_moved_.col(joint)).maxCoeff());

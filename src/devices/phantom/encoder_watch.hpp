@@ -1,4 +1,4 @@
-// Follows the encoders over their wraps and judges whether an arm can have moved so.
+// Unwraps encoder counts and checks them for physically impossible motion.
 #pragma once
 
 #include <cstdint>
@@ -10,40 +10,40 @@
 
 namespace calligraphy::phantom {
 
-/// A joint leaps when it turns faster than 60 rad/s (8 m/s at the tip of an Omni), or changes its speed by 20 rad/s
-/// from one report to the next (2.7 m/s within a millisecond: neither a hand nor a motor nor a stop does that). A
-/// report that leaps is not used, so that one flipped bit of 8 counts or more moves nothing; after five in a row the
-/// counts are taken to be lost, and with them the calibration.
+/// A joint jumps if it turns faster than 60 rad/s (8 m/s at the tip of an Omni), or if its speed changes by 20 rad/s
+/// from one report to the next (2.7 m/s within a millisecond, which no hand, motor or end stop causes). A report with a
+/// jump is not used, so a single flipped bit of 64 counts or more (of 2425 per radian) has no effect. After five in a
+/// row the counts, and with them the calibration, are considered lost.
 ///
-/// A joint is stuck when another has travelled 2.5 rad (a third of a metre at the tip of an Omni) and it has not
-/// changed by a single count. Travel is counted in steps of 0.01 rad, so that the flicker of an encoder adds nothing
-/// and a hand that holds still gives no alarm, for however long. No joint can stand still that long under a hand that
-/// writes; only the way from the inkwell and a few strokes, drawn by a machine in the plane of the arm, turn the waist
-/// as little. That all three joints stand still is a hand that holds still.
+/// A joint is stuck if it has not changed by a single count while another travelled 2.5 rad (a third of a metre at the
+/// tip of an Omni). Travel is counted in steps of 0.01 rad, so encoder flicker adds nothing and a still hand never
+/// raises an alarm. No joint stays still for that long while a person writes; only the path from the inkwell and a few
+/// strokes drawn by a machine in the plane of the arm turn the waist so little. If all three joints are stationary, the
+/// hand is considered still.
 class EncoderWatch {
  public:
   struct Answer {
     bool used = true;
-    bool lost_count = false;  ///< the angles have begun anew
+    bool lost_count = false;  ///< the angles have restarted from zero
     DeviceFault fault = DeviceFault::none;
   };
 
   EncoderWatch(const PerJoint<Field>& fields, const Eigen::Vector3d& counts_per_radian);
 
-  /// `elapsed`: since the last call [s]; `even`: by the device's own count and not by the time of arrival, whose jitter
-  /// would look like a change of speed.
+  /// `elapsed`: time since the last call [s]. `even`: that time comes from the device's sequence number, not from the
+  /// arrival time, whose jitter would look like a change of speed.
   Answer judge(const PerJoint<std::int64_t>& shown, double elapsed, bool even) noexcept;
 
-  /// The next counts are right whatever they are, and the angles begin at zero.
+  /// Accepts any next counts; the angles restart from zero.
   void restart() noexcept;
-  /// Reports were missing for long, but the encoders have gone on counting: the next movement is no leap.
+  /// Reports were missing for a long time, but the encoders kept counting: the next change is not a jump.
   void interrupt() noexcept;
 
-  /// Turned since the first report [rad].
+  /// Angles turned since the first report [rad].
   Eigen::Vector3d angles() const noexcept;
-  /// Mean over the time since the last report that was used [rad/s]; zero when there was none.
+  /// Mean velocity since the last used report [rad/s]; zero if there was none.
   const Eigen::Vector3d& velocity() const noexcept { return velocity_; }
-  /// That time [s].
+  /// The time over which velocity() is the mean [s].
   double interval() const noexcept { return interval_; }
 
  private:
@@ -54,15 +54,15 @@ class EncoderWatch {
   Eigen::Vector3d counts_per_radian_;
   bool started_ = false;
   bool has_velocity_ = false;
-  int leaps_ = 0;  ///< in a row
+  int leaps_ = 0;  ///< consecutive
   PerJoint<std::int64_t> shown_{};
   PerJoint<std::int64_t> total_{};
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
   double interval_ = 0.0;
   double since_used_ = 0.0;
-  Eigen::Vector3d anchor_ = Eigen::Vector3d::Zero();             ///< where the last step of travel was counted [rad]
+  Eigen::Vector3d anchor_ = Eigen::Vector3d::Zero();             ///< angles at the last counted step of travel [rad]
   Eigen::Vector3d travel_ = Eigen::Vector3d::Zero();             ///< of each joint [rad]
-  Eigen::Matrix3d travel_when_moved_ = Eigen::Matrix3d::Zero();  ///< column j: when joint j moved last [rad]
+  Eigen::Matrix3d travel_when_moved_ = Eigen::Matrix3d::Zero();  ///< column j: travel when joint j last moved [rad]
 };
 
 }  // namespace calligraphy::phantom

@@ -6,7 +6,7 @@
 namespace calligraphy::phantom {
 namespace {
 
-/// Torques that some force of this length asks for, per joint, with the tip in the middle of the workspace [N m].
+/// Maximum torque per joint for forces of this magnitude, with the tip at the centre of the workspace [N m].
 Eigen::Vector3d torque_of(const Linkage& linkage, double force) {
   const Joints middle = inverse_kinematics(linkage, linkage.centre).joints;
   return force * tip_jacobian(linkage, middle).colwise().norm().transpose();
@@ -34,7 +34,7 @@ Eigen::Vector3d ForceOutput::shortened(const Eigen::Vector3d& force) const noexc
   if (!force.allFinite()) return Eigen::Vector3d::Zero();
   const double length = force.stableNorm();
   if (length <= peak_force_) return force;
-  // Scaled first: near the largest double the length overflows.
+  // Scaled first, because the length of forces near the largest double overflows.
   const Eigen::Vector3d scaled = force / force.cwiseAbs().maxCoeff();
   return scaled * (peak_force_ / scaled.norm());
 }

@@ -1,4 +1,4 @@
-// From a force at the tip to the counts of the motors: clamp, heat, rounding.
+// Converts a force at the tip to motor counts: force limit, thermal limit, rounding.
 #pragma once
 
 #include <atomic>
@@ -16,25 +16,25 @@ namespace calligraphy::phantom {
 
 class ForceOutput {
  public:
-  /// The linkage must outlive this. A profile that says nothing of continuous torque is taken to bear, at the middle of
-  /// the workspace, the continuous force of the model along every axis.
+  /// The linkage must outlive this. Without a continuous torque in the profile, the motors are assumed to sustain the
+  /// model's continuous force along any axis at the centre of the workspace.
   ForceOutput(const PacketCodec& codec, const Linkage& linkage, const Capabilities& capabilities,
               const PhantomOptions& options);
 
-  /// No longer than the peak force; zero when it is not finite.
+  /// Limits the magnitude to the peak force; zero if the force is not finite.
   Eigen::Vector3d shortened(const Eigen::Vector3d& force) const noexcept;
 
-  /// The motors have held the last command for so long [s].
+  /// Advances the thermal model by the time for which the motors have held the last command [s].
   void pass_time(double seconds) noexcept;
 
-  /// Torque for the force, shortened in one piece to what every DAC can give and every motor can bear, so that its
-  /// direction stays. `gain` 0 is no force at all: motors off; it is the share of the weight that is borne, too.
+  /// Torques for the force, scaled as a whole to what every DAC can output and every motor can sustain, so that the
+  /// direction is preserved. `gain` scales the gravity compensation; 0 switches the motors off.
   RawCommand command(const Joints& joints, const Eigen::Vector3d& force, double gain) noexcept;
 
   double warmest() const noexcept { return temperature_.warmest(); }
-  /// Only without `limit_heat`: a motor got to 1 and is not below `warm` again.
+  /// Only without `limit_heat`: a motor has reached 1 and is not yet below `warm` again.
   bool overheated() const noexcept { return overheated_; }
-  /// warmest(), for any thread.
+  /// warmest(), thread-safe.
   double published_warmest() const noexcept { return published_warmest_.load(std::memory_order_relaxed); }
 
  private:
@@ -43,7 +43,7 @@ class ForceOutput {
   bool limit_heat_;
   Eigen::Vector2d gravity_ = Eigen::Vector2d::Zero();           ///< [N m]
   Eigen::Vector3d torque_per_count_ = Eigen::Vector3d::Ones();  ///< [N m]
-  Eigen::Vector3d counts_;                                      ///< that each DAC can give both ways
+  Eigen::Vector3d counts_;                                      ///< range of each DAC in both directions
   MotorTemperature temperature_;
   Eigen::Vector3d held_ = Eigen::Vector3d::Zero();  ///< torque of the last command [N m]
   bool overheated_ = false;

@@ -16,7 +16,7 @@ Linkage omni() {
   linkage.forearm = 0.13335;
   linkage.waist_sense = -1.0;
   linkage.limits = {0.98, 0.0, 1.75, -0.81, 1.25};
-  linkage.centre = {0.0, 0.160, 0.050};  // 160 x 120 x 70 mm around it leaves 0.35 rad to every limit
+  linkage.centre = {0.0, 0.160, 0.050};  // 160 x 120 x 70 mm around it stays 0.35 rad away from every limit
   return linkage;
 }
 
@@ -26,11 +26,11 @@ Linkage premium() {
   linkage.forearm = 0.169545;
   linkage.waist_sense = 1.0;
   linkage.limits.waist = std::numbers::pi / 2.0;
-  linkage.centre = {0.0, 0.170, -0.010};  // 381 x 267 x 191 mm around it stays furthest from the singular set
+  linkage.centre = {0.0, 0.170, -0.010};  // 381 x 267 x 191 mm around it stays farthest from singularities
   return linkage;
 }
 
-/// Cosine of an angle of a triangle with sides a and b on it and c across; beyond 1 where there is no such triangle.
+/// Cosine of the angle between sides a and b of a triangle, opposite side c; beyond 1 if there is no such triangle.
 double cosine(double a, double b, double c) noexcept { return (a * a + b * b - c * c) / (2.0 * a * b); }
 
 }  // namespace
@@ -39,7 +39,7 @@ const Linkage& linkage(std::string_view model) {
   static const Linkage of_omni = omni(), of_premium = premium();
   if (model == "omni" || model == "touch") return of_omni;
   if (model == "premium-1.5") return of_premium;
-  throw ValueError("the arm of \"" + std::string(model) + "\" is not known; there are omni, touch, premium-1.5");
+  throw ValueError("linkage \"" + std::string(model) + "\" does not exist; available: omni, touch, premium-1.5");
 }
 
 Eigen::Vector3d tip_position(const Linkage& linkage, const Joints& joints) noexcept {
@@ -69,7 +69,7 @@ InverseKinematics inverse_kinematics(const Linkage& linkage, const Eigen::Vector
   const double forward = position.z() + l1, up = position.y() - l2;
   const double radius = std::hypot(position.x(), forward);
   const double whole = std::hypot(radius, up);
-  // Folded on the shoulder or stretched out: no further. Ten roundings of slack, so that the edge itself is reachable.
+  // The limits are the folded and the stretched arm. Ten ulps of slack keep the boundary itself reachable.
   const double least = std::abs(l1 - l2), most = l1 + l2;
   const double slack = 10.0 * std::numeric_limits<double>::epsilon() * most;
   if (!(l1 > 0.0 && l2 > 0.0)) return result;  // no arm
@@ -86,12 +86,12 @@ InverseKinematics inverse_kinematics(const Linkage& linkage, const Eigen::Vector
 bool within_limits(const Linkage& linkage, const Joints& joints, double margin) noexcept {
   const JointLimits& limits = linkage.limits;
   const double elbow = joints[2] - joints[1];
-  return std::abs(joints[0]) <= limits.waist + margin && joints[1] >= limits.shoulder_least - margin &&
-         joints[1] <= limits.shoulder_most + margin && elbow >= limits.elbow_least - margin &&
-         elbow <= limits.elbow_most + margin;
+  return std::abs(joints[0]) <= limits.waist + margin && joints[1] >= limits.shoulder_min - margin &&
+         joints[1] <= limits.shoulder_max + margin && elbow >= limits.elbow_min - margin &&
+         elbow <= limits.elbow_max + margin;
 }
 
-double dexterity(const Linkage& linkage, const Joints& joints) noexcept {
+double manipulability(const Linkage& linkage, const Joints& joints) noexcept {
   const double r = linkage.upper_arm * std::cos(joints[1]) + linkage.forearm * std::sin(joints[2]);
   return r * std::cos(joints[1] - joints[2]) / (linkage.upper_arm + linkage.forearm);
 }

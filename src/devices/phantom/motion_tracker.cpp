@@ -9,8 +9,7 @@ namespace {
 
 constexpr int settled_after = 20;        // reports in the inkwell
 constexpr double settled_within = 2e-3;  // [rad]
-// By how far the joints may seem to be beyond their published limits before that is impossible: stops are soft, and a
-// calibration is a little wrong [rad].
+// Tolerance beyond the published joint limits: stops are soft, and a calibration is never exact [rad].
 constexpr double limit_margin = 0.15;
 
 }  // namespace
@@ -43,7 +42,7 @@ MotionTracker::Judgement MotionTracker::take(const RawSample& sample, double now
   if (encoders.fault != DeviceFault::none) judgement.fault = encoders.fault;
   if (!encoders.used) return judgement;
   if (encoders.lost_count) {
-    offset_ = motion_.joints;  // the best guess there is
+    offset_ = motion_.joints;  // the best available estimate
     motion_.calibrated = false;
     docked_for_ = 0;
   }

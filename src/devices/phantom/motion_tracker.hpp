@@ -1,4 +1,4 @@
-// From decoded reports to where the tip is: sequence, encoders, calibration, kinematics, velocity.
+// Computes the motion of the tip from decoded reports: sequence, encoders, calibration, kinematics, velocity.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,9 +12,9 @@
 
 namespace calligraphy::phantom {
 
-/// Where the arm is.
+/// State of the arm.
 struct Motion {
-  double time = 0.0;                                   ///< of arrival [s]
+  double time = 0.0;                                   ///< time of arrival [s]
   Joints joints = Joints::Zero();                      ///< [rad]
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< device axes [m]
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< device axes [m/s]
@@ -23,8 +23,8 @@ struct Motion {
   bool calibrated = false;
 };
 
-/// Takes reports one by one. Not calibrated until the pen has stood in the inkwell for 20 reports; until then the first
-/// report is taken for one from the inkwell, so that motions can be seen.
+/// Processes reports one by one. Calibrated once the pen has been at rest in the inkwell for 20 reports; until then the
+/// first report is assumed to come from the inkwell, so that relative motion is visible.
 class MotionTracker {
  public:
   struct Judgement {
@@ -34,15 +34,17 @@ class MotionTracker {
     bool repeated = false;
   };
 
-  /// `velocity_cutoff`: of the first-order filter [Hz]. The profile has what a position needs.
+  /// `velocity_cutoff`: cut-off frequency of the first-order filter [Hz]. missing_for_position() of the profile must be
+  /// empty.
   MotionTracker(const WireProfile& profile, const Linkage& linkage, double velocity_cutoff);
 
   Judgement take(const RawSample& sample, double now) noexcept;
   const Motion& motion() const noexcept { return motion_; }
 
-  /// The link was interrupted. The encoders are relative: unless they are known to go on counting, they begin anew.
+  /// The link was interrupted. Unless the encoders are known to have kept counting, calibration is lost, because they
+  /// are incremental.
   void restart(bool keep_calibration) noexcept;
-  /// The joints are at these angles now.
+  /// Sets the current joint angles [rad].
   void calibrate(const Joints& joints) noexcept;
 
  private:
@@ -55,10 +57,10 @@ class MotionTracker {
   bool has_sequence_;
   SequenceWatch sequence_;
   EncoderWatch encoders_;
-  Joints offset_;  ///< of the joints where the encoders began [rad]
+  Joints offset_;  ///< joint angles at zero encoder counts [rad]
   Eigen::Vector3d joint_velocity_ = Eigen::Vector3d::Zero();
   double last_time_ = 0.0;
-  int docked_for_ = 0;  ///< reports, at rest
+  int docked_for_ = 0;  ///< consecutive reports at rest
   Joints docked_at_ = Joints::Zero();
   Motion motion_;
 };

@@ -1,4 +1,4 @@
-// A Phantom found on the bus: the one place where device and bus meet.
+// Opens a Phantom found on the bus: the only place where device and bus are connected.
 #include <calligraphy/devices/phantom/phantom_device.hpp>
 
 #include "devices/phantom/link/link.hpp"
@@ -8,7 +8,7 @@ namespace calligraphy {
 
 namespace {
 
-/// What is wrong with the options is told whether or not the device is there.
+/// Validates the options first, so that their errors are reported even without a device.
 std::unique_ptr<phantom::Link> link_for(const PhantomOptions& options) {
   validate(options);
   phantom::LinkOptions link;

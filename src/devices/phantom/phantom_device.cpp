@@ -2,21 +2,22 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cmath>
-#include <sstream>
 #include <thread>
 #include <utility>
 
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/devices/detail/force_guard.hpp>
+#include <calligraphy/devices/servo.hpp>
 #include <calligraphy/devices/device_profiles.hpp>
-#include <calligraphy/devices/force_guard.hpp>
+#include <calligraphy/devices/latest_value.hpp>
 
+#include "base/monotonic_clock.hpp"
+#include "base/require.hpp"
 #include "devices/phantom/link/link.hpp"
 #include "devices/phantom/wire/packet_codec.hpp"
 #include "devices/phantom/wire/report_frames.hpp"
 #include "force_output.hpp"
-#include "latest_value.hpp"
 #include "motion_tracker.hpp"
 #include "motor_temperature.hpp"
 
@@ -25,17 +26,17 @@ namespace {
 
 using namespace phantom;
 
-constexpr double fault_time = 20e-3;      // for which a fault is told: longer than any fall of the force [s]
-constexpr double silence = 8e-3;          // without a report: three times the longest pause of a real device [s]
-constexpr double write_patience = 20e-3;  // without a command [s]
-constexpr double fall_time = 10e-3;       // [s]
-constexpr double rise_time = 0.1;         // [s]
+constexpr double fault_time = 20e-3;      // for which a fault is reported: longer than any ramp-down [s]
+constexpr double silence = 8e-3;          // time without a report: three times the longest pause of a real device [s]
+constexpr double write_patience = 20e-3;  // time without a command [s]
+constexpr double ramp_down = 10e-3;       // [s]
+constexpr double ramp_up = 0.1;           // [s]
 
 WireProfile profile_of(const PhantomOptions& options) {
   if (options.wire_profile.empty()) {
     throw ValueError(
-        "no wire profile is given. How a Touch reports its motion is not public: describe it in a file as "
-        "docs/wire-profile.md tells (\"calligraphy devices probe\" captures what is needed), and name that file");
+        "no wire profile is given. The packets of a Touch are not public: describe them in a file as explained in "
+        "docs/wire-profile.md (\"calligraphy devices probe\" captures them), and specify that file");
   }
   const std::vector<std::string> shipped = wire_profile_names();
   const bool is_shipped = std::ranges::find(shipped, options.wire_profile) != shipped.end();
@@ -45,28 +46,18 @@ WireProfile profile_of(const PhantomOptions& options) {
   std::string lines;
   for (const std::string& line : missing) lines += (lines.empty() ? "" : ", ") + line;
   throw ValueError("wire profile \"" + profile.name + "\" gives no " + (options.drive ? "force" : "position") +
-                   ": it lacks " + lines + ". Calibrate them on your device and add the lines to a copy of it");
+                   ": it lacks " + lines + ". Calibrate your device and add these lines to a copy of the profile");
 }
 
 const PhantomOptions& checked(const PhantomOptions& options) {
-  if (!(options.velocity_cutoff >= 1.0 && options.velocity_cutoff <= 1000.0)) {
-    std::ostringstream message;
-    message << "velocity cutoff is " << options.velocity_cutoff << ", must be 1 to 1000 Hz";
-    throw ValueError(message.str());
-  }
-  if (options.priority < 0 || options.priority > 99) {
-    throw ValueError("priority is " + std::to_string(options.priority) +
-                     ", must be from 1 to 99, or 0 for ordinary threads");
-  }
+  require_within("velocity_cutoff", options.velocity_cutoff, "Hz", 1.0, 1000.0);
+  require(options.priority >= 0 && options.priority <= 99, "priority", options.priority, "",
+          "from 1 to 99, or 0 for normal threads");
   return options;
 }
 
-double seconds_of_steady_clock() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-std::function<double()> clock_or_steady(std::function<double()> clock) {
-  return clock ? std::move(clock) : std::function<double()>(seconds_of_steady_clock);
+std::function<double()> clock_or_monotonic(std::function<double()> clock) {
+  return clock ? std::move(clock) : std::function<double()>(monotonic_seconds);
 }
 
 }  // namespace
@@ -77,18 +68,18 @@ void validate(const PhantomOptions& options) {
   linkage(options.model);
 }
 
-/// What the two threads share, and what belongs to each of them.
+/// State of the link's thread and of the servo loop, and what they share.
 class PhantomDevice::Core final : public LinkListener {
  public:
   Core(std::unique_ptr<Link> link, const PhantomOptions& options, std::function<double()> clock)
       : options_(checked(options)),
-        clock_(clock_or_steady(std::move(clock))),
+        clock_(clock_or_monotonic(std::move(clock))),
         codec_(profile_of(options)),
         linkage_(linkage(options.model)),
         capabilities_(device_profile(options.model)),
         frames_(codec_),
         tracker_(codec_.profile(), linkage_, options.velocity_cutoff),
-        guard_(fall_time, rise_time),
+        guard_(ramp_down, ramp_up),
         output_(codec_, linkage_, capabilities_, options),
         bus_(link.get()),
         link_(std::move(link)) {
@@ -103,7 +94,7 @@ class PhantomDevice::Core final : public LinkListener {
     warnings_ = link_->warnings();
   }
 
-  // The link's thread.
+  // Called by the link's thread.
 
   void received(std::span<const std::byte> bytes) noexcept override {
     const double now = clock_();
@@ -117,14 +108,13 @@ class PhantomDevice::Core final : public LinkListener {
     const DeviceFault before = link_fault_.load(std::memory_order_relaxed);
     if (fault != DeviceFault::none) {
       tell(fault, clock_());
-      start_due_ = start_due_ || fault != DeviceFault::overlong_frame;  // whose link was never down
+      start_due_ = start_due_ || fault != DeviceFault::overlong_frame;  // which leaves the link up
     } else if (!started_ || before == DeviceFault::unplugged) {
       frames_.reset();
       tracker_.restart(started_ && options_.keep_calibration);
       started_ = true;
     }
-    // A device that has reset itself without leaving the bus waits for its start commands, and may be silent until it
-    // gets them.
+    // A device that has reset itself without leaving the bus may be silent until it receives its start commands.
     if (start_due_ && !closing_.load(std::memory_order_acquire) &&
         (fault == DeviceFault::none || fault == DeviceFault::timed_out)) {
       const bool taken = send_all(codec_.profile().start);
@@ -139,7 +129,7 @@ class PhantomDevice::Core final : public LinkListener {
     link_fault_.store(fault, std::memory_order_release);
   }
 
-  // The servo loop.
+  // Called by the servo loop.
 
   DeviceState read() noexcept {
     const bool fresh = latest_.take(motion_);
@@ -176,7 +166,7 @@ class PhantomDevice::Core final : public LinkListener {
     double elapsed = std::max(now - last_write_.load(std::memory_order_relaxed), 0.0);
     last_write_.store(now, std::memory_order_release);
     output_.pass_time(elapsed);
-    if (elapsed > write_patience) {  // the motors have been switched off meanwhile
+    if (elapsed > write_patience) {  // the motors have been switched off in the meantime
       guard_.reset();
       elapsed = 0.0;
     }
@@ -190,7 +180,7 @@ class PhantomDevice::Core final : public LinkListener {
       good_joints_ = motion_.joints;
     } else {
       allowed = guard_.fall(fault, elapsed, 2.0 / capabilities_.update_rate);
-      // A servo loop that lets its force fall faster may.
+      // A servo loop may ramp down faster.
       if (wanted.norm() < allowed.norm()) allowed *= wanted.norm() / allowed.norm();
     }
     const double gain = guard_.phase() == ServoPhase::zero ? 0.0 : guard_.gain();
@@ -200,14 +190,14 @@ class PhantomDevice::Core final : public LinkListener {
   void close() noexcept {
     if (!open_) return;
     open_ = false;
-    closing_.store(true, std::memory_order_release);  // who is about to be stopped is not started again
+    closing_.store(true, std::memory_order_release);  // no start commands from here on
     switch_off();
     send_all(codec_.profile().stop);
     closed_counts_ = link_->counts();
     link_.reset();
   }
 
-  // Set-up and any thread.
+  // Called during set-up or by any thread.
 
   void calibrate(const Joints& joints) noexcept {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -244,7 +234,7 @@ class PhantomDevice::Core final : public LinkListener {
     latest_.publish(tracker_.motion());
   }
 
-  /// A fault of this moment, for both threads.
+  /// Reports a momentary fault to both threads.
   void tell(DeviceFault fault, double now) noexcept {
     count(counts_.faults[static_cast<std::size_t>(fault)]);
     told_fault_.store(fault, std::memory_order_relaxed);
@@ -252,7 +242,7 @@ class PhantomDevice::Core final : public LinkListener {
     told_.fetch_add(1, std::memory_order_release);
   }
 
-  /// What stands in the way of a force now, for the thread of the servo loop.
+  /// The fault that currently prevents a force; for the thread of the servo loop.
   DeviceFault fault_now(double now) noexcept {
     const DeviceFault link_fault = link_fault_.load(std::memory_order_acquire);
     if (link_fault != DeviceFault::none) return link_fault;
@@ -277,7 +267,7 @@ class PhantomDevice::Core final : public LinkListener {
     tracker_.calibrate(joints);
   }
 
-  /// The servo loop no longer calls write(), and the motors would keep what it asked for last.
+  /// Switches the motors off when the servo loop no longer calls write(); they would otherwise hold the last command.
   void release_if_forgotten(double now) noexcept {
     if (!motors_on_.load(std::memory_order_relaxed)) return;
     if (now - last_write_.load(std::memory_order_acquire) <= write_patience) return;
@@ -286,8 +276,8 @@ class PhantomDevice::Core final : public LinkListener {
 
   enum class Sender : std::uint8_t { servo_loop, link_thread };
 
-  /// From both threads: the one that finds the other at it lets it be. Only the servo loop's commands move the dead
-  /// man's bit, and the other thread sends nothing that the servo loop has overtaken.
+  /// Called by both threads; gives up if the other one is sending. Only commands of the servo loop change the dead-man
+  /// bit, and the other thread sends nothing once the servo loop has written again.
   bool send(RawCommand command, Sender sender) noexcept {
     if (codec_.profile().command_size == 0 || sending_.test_and_set(std::memory_order_acquire)) return false;
     bool sent = false;
@@ -303,23 +293,23 @@ class PhantomDevice::Core final : public LinkListener {
     return sent;
   }
 
-  /// The last packet of all: replaces one that waits, then goes out where nothing may overtake it.
+  /// Sends the final packet: it replaces a pending one, then is sent as a command, which nothing can overtake.
   void switch_off() noexcept {
     if (codec_.profile().command_size == 0) return;
-    while (sending_.test_and_set(std::memory_order_acquire)) std::this_thread::yield();  // and never cleared
+    while (sending_.test_and_set(std::memory_order_acquire)) std::this_thread::yield();  // never cleared
     RawCommand off;
     off.toggle = toggle_;
     const std::span<const std::byte> packet = frames_.wrap(off, packet_);
     bus_->send(packet);
     try {
       bus_->command(packet);
-    } catch (...) {  // a device that is gone has no motors to switch off
+    } catch (...) {  // the device is gone
     }
   }
 
   bool send_all(const std::vector<std::vector<std::byte>>& commands) noexcept {
     try {
-      std::array<std::byte, largest_packet> packet;
+      std::array<std::byte, max_framed_bytes> packet;
       for (const std::vector<std::byte>& bytes : commands) bus_->command(frames_.wrap(bytes, packet));
       return true;
     } catch (...) {
@@ -336,7 +326,7 @@ class PhantomDevice::Core final : public LinkListener {
   std::string description_;
   std::vector<std::string> warnings_;
 
-  // Of the link's thread.
+  // Used only by the link's thread.
   ReportFrames frames_;
   MotionTracker tracker_;
   bool started_ = false;
@@ -344,10 +334,10 @@ class PhantomDevice::Core final : public LinkListener {
 
   // From the link's thread to the servo loop.
   LatestValue<Motion> latest_;
-  std::atomic<DeviceFault> link_fault_ = DeviceFault::none;  ///< as long as it lasts
-  std::atomic<DeviceFault> told_fault_ = DeviceFault::none;  ///< of a moment
+  std::atomic<DeviceFault> link_fault_ = DeviceFault::none;  ///< persistent
+  std::atomic<DeviceFault> told_fault_ = DeviceFault::none;  ///< momentary
   std::atomic<double> told_until_ = 0.0;
-  std::atomic<std::uint64_t> told_ = 0;  ///< how often
+  std::atomic<std::uint64_t> told_ = 0;  ///< number of reports
 
   // From the servo loop to the link's thread.
   std::atomic<double> last_write_ = 0.0;
@@ -355,26 +345,26 @@ class PhantomDevice::Core final : public LinkListener {
   std::array<std::atomic<double>, 3> asked_joints_{};
   std::atomic<bool> calibration_asked_ = false;
 
-  // Of whoever holds `sending_`.
+  // Used only by the thread that holds `sending_`.
   std::atomic_flag sending_;
   bool toggle_ = false;
-  std::array<std::byte, largest_packet> packet_{};
+  std::array<std::byte, max_framed_bytes> packet_{};
 
-  // Of the servo loop.
+  // Used only by the servo loop.
   bool open_ = true;
   Motion motion_;
   double last_report_ = 0.0;
   double silent_until_ = 0.0;
   std::uint64_t told_seen_ = 0;
-  Joints good_joints_ = Joints::Zero();  ///< where a force was given last; with a fault the newest may be wrong
+  Joints good_joints_ = Joints::Zero();  ///< at the last good force; during a fault the newest may be wrong
   ForceGuard guard_;
   ForceOutput output_;
 
   Counts counts_;
   LinkCounts closed_counts_;
   std::atomic<bool> closing_ = false;
-  Link* const bus_;             ///< the link, for its own thread too, which runs until the link has ended
-  std::unique_ptr<Link> link_;  ///< last: gone before anything that its thread uses
+  Link* const bus_;             ///< the link, also for its own thread, which runs while link_ is being destroyed
+  std::unique_ptr<Link> link_;  ///< last, so that it is destroyed before anything that its thread uses
 };
 
 PhantomStatistics PhantomDevice::Core::statistics() const noexcept {
@@ -398,7 +388,7 @@ PhantomStatistics PhantomDevice::Core::statistics() const noexcept {
 }
 
 PhantomDevice::PhantomDevice(std::unique_ptr<Link> link, const PhantomOptions& options, std::function<double()> clock) {
-  if (!link) throw ValueError("a phantom without a link");
+  if (!link) throw ValueError("PhantomDevice: the link is null");
   core_ = std::make_unique<Core>(std::move(link), options, std::move(clock));
 }
 
@@ -410,11 +400,7 @@ void PhantomDevice::write(const Eigen::Vector3d& force) noexcept { core_->write(
 void PhantomDevice::close() noexcept { core_->close(); }
 
 void PhantomDevice::calibrate(const Joints& joints) {
-  if (!joints.allFinite()) {
-    std::ostringstream message;
-    message << "joints are (" << joints.transpose() << ") rad, must be finite";
-    throw ValueError(message.str());
-  }
+  for (const double joint : joints) require(std::isfinite(joint), "joint", joint, "rad", "finite");
   core_->calibrate(joints);
 }
 

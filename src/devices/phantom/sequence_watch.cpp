@@ -7,7 +7,7 @@
 namespace calligraphy::phantom {
 
 SequenceWatch::Answer SequenceWatch::judge(std::uint32_t shown) noexcept {
-  const std::int64_t steps = started_ ? shortest_step(last_, shown, bits_) : 1;
+  const std::int64_t steps = started_ ? min_step(last_, shown, bits_) : 1;
   started_ = true;
   last_ = shown;
   if (steps == 0) {
@@ -17,8 +17,8 @@ SequenceWatch::Answer SequenceWatch::judge(std::uint32_t shown) noexcept {
   repeats_ = 0;
   if (steps < 0) return {0, false, DeviceFault::repeated_frames};
   const std::int64_t lost = steps - 1;
-  debt_ = std::min(std::max(debt_ - forgiven, 0.0) + static_cast<double>(lost), most_debt + 1.0);
-  const bool too_many = lost >= lost_in_a_row || debt_ > most_debt;
+  debt_ = std::min(std::max(debt_ - forgiven, 0.0) + static_cast<double>(lost), max_debt + 1.0);
+  const bool too_many = lost >= lost_in_a_row || debt_ > max_debt;
   return {steps, true, too_many ? DeviceFault::lost_frames : DeviceFault::none};
 }
 

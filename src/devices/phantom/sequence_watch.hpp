@@ -1,4 +1,4 @@
-// Judges the sequence numbers of reports.
+// Checks the sequence numbers of reports.
 #pragma once
 
 #include <cstdint>
@@ -7,13 +7,13 @@
 
 namespace calligraphy::phantom {
 
-/// One or two reports lost in a row are made good by the next: the gap is that of an ordinary pause of a real device.
-/// More in a row is a fault, and so is a link that loses more than one in fifty all the time. A report that comes twice
-/// is dropped; from the third time on the device is taken to stand still.
+/// One or two consecutive lost reports are tolerated: the gap is no longer than a normal pause of a real device. More
+/// are a fault, as is a link that persistently loses more than one report in fifty. A repeated report is dropped; from
+/// the third repetition on it is a fault.
 class SequenceWatch {
  public:
   struct Answer {
-    std::int64_t steps = 1;  ///< reports since the last one that was fresh, this one included
+    std::int64_t steps = 1;  ///< reports since the last fresh one, including this one
     bool fresh = true;       ///< to be used
     DeviceFault fault = DeviceFault::none;
   };
@@ -21,20 +21,20 @@ class SequenceWatch {
   explicit SequenceWatch(int bits) noexcept : bits_(bits) {}
 
   Answer judge(std::uint32_t shown) noexcept;
-  /// The next number is right whatever it is.
+  /// Accepts any next number.
   void restart() noexcept { started_ = false; }
 
  private:
   static constexpr std::int64_t lost_in_a_row = 3;
   static constexpr int repeats_in_a_row = 3;
-  static constexpr double forgiven = 0.02;  ///< of a lost report, by each that arrives
-  static constexpr double most_debt = 10.0;
+  static constexpr double forgiven = 0.02;  ///< fraction of a lost report, per report that arrives
+  static constexpr double max_debt = 10.0;
 
   int bits_;
   bool started_ = false;
   std::uint32_t last_ = 0;
   int repeats_ = 0;
-  double debt_ = 0.0;  ///< lost reports that are not forgiven yet
+  double debt_ = 0.0;  ///< lost reports not yet forgiven
 };
 
 }  // namespace calligraphy::phantom

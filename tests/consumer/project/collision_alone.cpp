@@ -1,4 +1,4 @@
-// Finds the nearest point on a stroke with nothing but the collision room.
+// Finds the nearest point on a stroke with nothing but the collision component.
 #include <cstdio>
 
 #include <calligraphy/collision/active_stroke.hpp>
@@ -9,7 +9,7 @@ int main() {
   if (one == nullptr) return 1;
   calligraphy::ActiveStroke stroke;
   stroke.load(calligraphy::strokes(*one)[0], {});
-  const auto foot = calligraphy::nearest_point(stroke.element(0), stroke.start());
-  std::printf("%g m\n", foot.distance);
-  return foot.distance < 1e-12 ? 0 : 1;
+  const auto closest = calligraphy::nearest_point(stroke.element(0), stroke.start());
+  std::printf("%g m\n", closest.distance);
+  return closest.distance < 1e-12 ? 0 : 1;
 }

@@ -7,7 +7,7 @@
 int main() {
   calligraphy::SimulatedDevice device(calligraphy::device_profile("desktop"));
   const calligraphy::DeviceState state = device.read();
-  std::printf("%s: %s\n", device.capabilities().model.c_str(), calligraphy::status_name(state.status));
+  std::printf("%s: %s\n", device.capabilities().model.c_str(), calligraphy::to_string(state.status));
   device.close();
   return state.status == calligraphy::DeviceStatus::ok ? 0 : 1;
 }

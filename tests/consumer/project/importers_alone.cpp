@@ -1,15 +1,12 @@
-// Reads a drawing with nothing but the importers and the model, which refuse what is none.
+// Fits a stroke to a path with only the importers and the components below them.
 #include <cstdio>
+#include <vector>
 
-#include <calligraphy/base/error.hpp>
-#include <calligraphy/importers/kanjivg.hpp>
+#include <calligraphy/importers/stroke_fit.hpp>
 
 int main() {
-  try {
-    calligraphy::parse_kanjivg("<html/>", "x.svg");
-  } catch (const calligraphy::FormatError& error) {
-    std::printf("%s\n", error.what());
-    return 0;
-  }
-  return 1;
+  const std::vector<calligraphy::Point> path{{0.1, 0.5}, {0.5, 0.51}, {0.9, 0.52}};
+  const calligraphy::FittedStroke fitted = calligraphy::fit_stroke(path, {.drawing_tool = calligraphy::DrawingTool::pen});
+  std::printf("typical stroke %d, error %g em\n", fitted.stroke.id, fitted.error);
+  return fitted.error < 0.02 ? 0 : 1;
 }

@@ -9,10 +9,10 @@
 int main() {
   try {
     for (const calligraphy::PluggedDevice& device : calligraphy::plugged_devices()) {
-      std::printf("%s\n", calligraphy::describe(device).c_str());
+      std::printf("%s\n", calligraphy::describe_device(device).c_str());
     }
   } catch (const calligraphy::DeviceError& error) {
     std::printf("%s\n", error.what());  // a machine without USB
   }
-  return std::string(calligraphy::fault_name(calligraphy::DeviceFault::unplugged)) == "unplugged" ? 0 : 1;
+  return std::string(calligraphy::to_string(calligraphy::DeviceFault::unplugged)) == "unplugged" ? 0 : 1;
 }

@@ -7,7 +7,7 @@
 
 int main() {
   using namespace calligraphy;
-  const std::string name = fault_name(DeviceFault::unplugged);
+  const std::string name = to_string(DeviceFault::unplugged);
   Capabilities device;
   device.peak_force = 3.3;
   device.usable_stiffness = 1000.0;

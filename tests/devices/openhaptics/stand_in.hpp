@@ -1,4 +1,4 @@
-// How a test speaks to the stand-in for the vendor's runtime, behind the runtime's own functions.
+// Interface through which a test controls the stub of the vendor's runtime.
 #pragma once
 
 #include <dlfcn.h>
@@ -10,19 +10,19 @@ namespace calligraphy_test {
 
 /// Filled in by `stand_in_control` of the library. Devices are numbered in the order in which they were plugged in.
 struct StandInControl {
-  /// Everything as new: no device, no error, stepped by the test.
+  /// Resets everything: no device, no error, stepped by the test.
   void (*reset)();
   /// "Default Device" is what a null name opens.
   void (*plug_in)(const char* name, const char* model, const char* profile);
-  /// With a thread of its own from the next start of the scheduler on, a tick a millisecond; else stepped.
+  /// From the next start of the scheduler, run in its own thread with one tick per ms; otherwise stepped.
   void (*run_in_real_time)(bool);
-  /// One tick: every callback, then a millisecond of physics. Nothing unless the scheduler runs.
+  /// One tick: every callback, then 1 ms of physics. Does nothing unless the scheduler runs.
   void (*step)();
   double (*time)();  ///< virtual [s]
 
-  /// The error comes `count` times, one for each frame of the device.
+  /// The error occurs `count` times, once per frame of the device.
   void (*inject)(int device, unsigned code, int count);
-  /// One error at once.
+  /// One error, immediately.
   void (*report)(unsigned code);
   /// The next call of this function, by its name, leaves the error behind ("hdStartScheduler").
   void (*fail)(const char* function, unsigned code);
@@ -37,11 +37,11 @@ struct StandInControl {
   bool (*output_enabled)(int device);
   bool (*scheduler_runs)();
   int (*callbacks)();
-  /// Calls that the vendor's rules do not allow (a frame's value outside a frame, a frame left open), since the reset.
+  /// Number of calls since the reset that violate the vendor's rules (a value outside a frame, a frame left open).
   int (*broken_rules)();
 };
 
-/// Keeps the library loaded for as long as it lives.
+/// Keeps the library loaded during its lifetime.
 class StandIn {
  public:
   explicit StandIn(const std::string& library) : file_(dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL)) {

@@ -62,7 +62,7 @@ struct Lab {
   StandIn runtime{STAND_IN_LIBHD};
 };
 
-/// A servo that the device's own clock runs.
+/// A servo clocked by the device's own clock.
 struct Driven {
   explicit Driven(
       OpenHapticsDevice& driven, ForceLaw law = [](const DeviceState&) { return Eigen::Vector3d(1.0, 0.0, 0.0); })
@@ -125,7 +125,7 @@ TEST_CASE("a pen rests on a wall through the vendor's runtime, in metres and new
   CHECK(lab.runtime->broken_rules() == 0);
 }
 
-TEST_CASE("velocity is in metres per second and buttons are the runtime's four", "[openhaptics]") {
+TEST_CASE("velocity is in metres per second, and the buttons are the runtime's four", "[openhaptics]") {
   Lab lab;
   OpenHapticsDevice device(lab.options());
   const double position[3] = {0.0, 0.0, 0.0};
@@ -142,7 +142,7 @@ TEST_CASE("velocity is in metres per second and buttons are the runtime's four",
   CHECK(last.buttons == 0x5);
 }
 
-TEST_CASE("capabilities are the runtime's where it says them, the closest profile's where it does not",
+TEST_CASE("capabilities come from the runtime where it provides them, otherwise from the closest profile",
           "[openhaptics]") {
   StandIn runtime(STAND_IN_LIBHD);
   clock_of_stand_in = &runtime;
@@ -159,7 +159,7 @@ TEST_CASE("capabilities are the runtime's where it says them, the closest profil
   OpenHapticsDevice device(options);
   const Capabilities& expected = device_profile(row.profile);
   CHECK(device.capabilities().model == row.model);
-  CHECK(device.capabilities().workspace.isApprox(expected.workspace));  // the stand-in's box is not centred
+  CHECK(device.capabilities().workspace.isApprox(expected.workspace));  // the stub's box is not centred
   CHECK(device.capabilities().peak_force == expected.peak_force);
   CHECK(device.capabilities().continuous_force == expected.continuous_force);
   CHECK(device.capabilities().usable_stiffness == expected.usable_stiffness);
@@ -168,7 +168,7 @@ TEST_CASE("capabilities are the runtime's where it says them, the closest profil
   CHECK(device.library() == STAND_IN_LIBHD);
 }
 
-TEST_CASE("each error of the runtime is told as a status and a fault, and the force comes back after it",
+TEST_CASE("each error of the runtime is reported as status and fault, and the force returns after it",
           "[openhaptics]") {
   struct Row {
     unsigned code;
@@ -220,7 +220,7 @@ TEST_CASE("each error of the runtime is told as a status and a fault, and the fo
   CHECK(lab.runtime->broken_rules() == 0);
 }
 
-TEST_CASE("warm motors are told, and the force goes on", "[openhaptics]") {
+TEST_CASE("warm motors are reported, and the force continues", "[openhaptics]") {
   Lab lab;
   OpenHapticsDevice device(lab.options());
   Driven loop(device);
@@ -233,7 +233,7 @@ TEST_CASE("warm motors are told, and the force goes on", "[openhaptics]") {
   CHECK(loop.servo.status().device == DeviceStatus::ok);
 }
 
-TEST_CASE("of several errors in one tick the gravest counts, whatever their order", "[openhaptics]") {
+TEST_CASE("of several errors in one tick the most severe counts, whatever their order", "[openhaptics]") {
   std::vector<unsigned> codes = {0x0200, 0x0302, 0x0204};
   std::rotate(codes.begin(), codes.begin() + GENERATE(0, 1, 2), codes.end());
   Lab lab;
@@ -248,7 +248,7 @@ TEST_CASE("of several errors in one tick the gravest counts, whatever their orde
   CHECK(loop.servo.status().device == DeviceStatus::ok);  // all were taken
 }
 
-TEST_CASE("a missing runtime is named with what to install", "[openhaptics]") {
+TEST_CASE("a missing runtime is named, with what to install", "[openhaptics]") {
   OpenHapticsOptions options;
   options.library = "/nowhere/libHD.so";
   const std::string message = message_of([&] { OpenHapticsDevice device(options); });
@@ -269,7 +269,7 @@ TEST_CASE("every function that a runtime lacks is named", "[openhaptics]") {
   CHECK_FALSE(openhaptics_runtime(INCOMPLETE_LIBHD).found);
 }
 
-TEST_CASE("the runtime is found by the environment's word when no file is named", "[openhaptics]") {
+TEST_CASE("without a file name the runtime is located by the environment variable", "[openhaptics]") {
   Lab lab;
   setenv("CALLIGRAPHY_LIBHD", STAND_IN_LIBHD, 1);
   const OpenHapticsRuntime found = openhaptics_runtime();
@@ -287,7 +287,7 @@ TEST_CASE("the runtime is found by the environment's word when no file is named"
   if (!usual.found) CHECK(contains(usual.advice, "libHD.so.3"));
 }
 
-TEST_CASE("a device that is not there is refused with the runtime's reason and what to do", "[openhaptics]") {
+TEST_CASE("a missing device is rejected with the runtime's reason and a remedy", "[openhaptics]") {
   Lab lab;
   const std::string message = message_of([&] { OpenHapticsDevice device(lab.options("Left")); });
   CHECK(contains(message, "the device \"Left\""));
@@ -297,7 +297,7 @@ TEST_CASE("a device that is not there is refused with the runtime's reason and w
   CHECK(contains(message_of([&] { OpenHapticsDevice again(lab.options()); }), "its default device"));
 }
 
-TEST_CASE("a device asks to be calibrated in the inkwell, gives no force until it is, and then rises",
+TEST_CASE("a device requests calibration in the inkwell, gives no force before it, and ramps up after it",
           "[openhaptics]") {
   Lab lab;
   lab.runtime->set_calibration(0, 0x5002);
@@ -323,7 +323,7 @@ TEST_CASE("a device asks to be calibrated in the inkwell, gives no force until i
   CHECK(lab.runtime->broken_rules() == 0);
 }
 
-TEST_CASE("a device that calibrates by itself does so by its style alone", "[openhaptics]") {
+TEST_CASE("a device is calibrated by the selected style only", "[openhaptics]") {
   const CalibrationStyle style = GENERATE(CalibrationStyle::automatic, CalibrationStyle::encoder_reset);
   Lab lab;
   lab.runtime->set_calibration(0, 0x5001);
@@ -338,7 +338,7 @@ TEST_CASE("a device that calibrates by itself does so by its style alone", "[ope
   CHECK(device.advice().empty());
 }
 
-TEST_CASE("the force output is on only while a loop runs, and everything is let go in order", "[openhaptics]") {
+TEST_CASE("the force output is on only while a loop runs, and everything is released in order", "[openhaptics]") {
   Lab lab;
   {
     OpenHapticsDevice device(lab.options());
@@ -367,7 +367,7 @@ TEST_CASE("the force output is on only while a loop runs, and everything is let 
   CHECK(lab.runtime->broken_rules() == 0);
 }
 
-TEST_CASE("a closed device says so, takes no force and can be opened anew", "[openhaptics]") {
+TEST_CASE("a closed device reports it, accepts no force and can be reopened", "[openhaptics]") {
   Lab lab;
   OpenHapticsDevice device(lab.options());
   {
@@ -387,7 +387,7 @@ TEST_CASE("a closed device says so, takes no force and can be opened anew", "[op
   CHECK(lab.runtime->broken_rules() == 0);
 }
 
-TEST_CASE("outside a tick reading gives the last sample as stale and a force is ignored", "[openhaptics]") {
+TEST_CASE("outside a tick read() returns the last sample as stale, and a force is ignored", "[openhaptics]") {
   Lab lab;
   OpenHapticsDevice device(lab.options());
   lab.intend({0.02, 0.0, 0.0});
@@ -404,7 +404,7 @@ TEST_CASE("outside a tick reading gives the last sample as stale and a force is 
   CHECK(lab.runtime->broken_rules() == 0);
 }
 
-TEST_CASE("a watchdog in another thread switches the output off, and the next tick of force on again",
+TEST_CASE("a watchdog in another thread switches the output off, and the next tick with a force switches it on again",
           "[openhaptics]") {
   Lab lab;
   OpenHapticsDevice device(lab.options());
@@ -427,7 +427,7 @@ TEST_CASE("a watchdog in another thread switches the output off, and the next ti
   CHECK(lab.runtime->broken_rules() == 0);
 }
 
-TEST_CASE("a law that hangs within the vendor's frame loses the force all the same", "[openhaptics]") {
+TEST_CASE("a force law that hangs within the vendor's frame still loses its force", "[openhaptics]") {
   Lab lab;
   OpenHapticsDevice device(lab.options());
   Servo* servo = nullptr;
@@ -456,7 +456,7 @@ TEST_CASE("a law that hangs within the vendor's frame loses the force all the sa
   CHECK(lab.runtime->broken_rules() == 0);
 }
 
-TEST_CASE("a force beyond the peak is shortened, one that is not finite is none", "[openhaptics]") {
+TEST_CASE("a force above the peak is limited, and one that is not finite counts as zero", "[openhaptics]") {
   Lab lab;
   OpenHapticsDevice device(lab.options());
   Eigen::Vector3d wanted(30.0, 40.0, 0.0);
@@ -464,7 +464,7 @@ TEST_CASE("a force beyond the peak is shortened, one that is not finite is none"
     device.read();
     device.write(wanted);
   });
-  const auto commanded = [&] {  // what the runtime is told, before any limit of its own
+  const auto commanded = [&] {  // the force passed to the runtime, before its own limit
     Eigen::Vector3d result;
     lab.runtime->commanded_force(0, result.data());
     return result;
@@ -480,7 +480,7 @@ TEST_CASE("a force beyond the peak is shortened, one that is not finite is none"
   device.clock()->stop();
 }
 
-TEST_CASE("two devices share the scheduler, which ends with the last loop", "[openhaptics]") {
+TEST_CASE("two devices share the scheduler, which stops with the last loop", "[openhaptics]") {
   Lab lab;
   lab.runtime->plug_in("Left", "Touch", "touch");
   OpenHapticsDevice right(lab.options());
@@ -509,7 +509,7 @@ TEST_CASE("two devices share the scheduler, which ends with the last loop", "[op
   CHECK(lab.runtime->broken_rules() == 0);
 }
 
-TEST_CASE("a scheduler that does not start is refused, and a later start may succeed", "[openhaptics]") {
+TEST_CASE("a scheduler that does not start is an error, and a later start may succeed", "[openhaptics]") {
   Lab lab;
   OpenHapticsDevice device(lab.options());
   lab.runtime->fail("hdStartScheduler", 0x0304);
@@ -522,7 +522,7 @@ TEST_CASE("a scheduler that does not start is refused, and a later start may suc
   CHECK(lab.force().x() == Approx(1.0));
 }
 
-TEST_CASE("a tick through the runtime takes nothing from the heap", "[openhaptics]") {
+TEST_CASE("a tick through the runtime does not allocate", "[openhaptics]") {
   Lab lab;
   OpenHapticsDevice device(lab.options());
   std::size_t taken = 0;
@@ -544,8 +544,8 @@ TEST_CASE("a servo loop runs on the vendor's own thread and leaves no force behi
   options.time = nullptr;
   OpenHapticsDevice device(options);
   ServoLoopOptions patient;
-  patient.servo.patience = 1.0;  // for a machine under load
-  patient.servo.rise_time = 0.0;
+  patient.servo.timeout = 1.0;  // for a machine under load
+  patient.servo.ramp_up = 0.0;
   patient.thread.priority = 0;
   patient.thread.lock_memory = false;
   ServoLoop loop(
@@ -562,7 +562,7 @@ TEST_CASE("a servo loop runs on the vendor's own thread and leaves no force behi
   CHECK(lab.runtime->broken_rules() == 0);
 }
 
-TEST_CASE("a clock on the vendor's own thread that is stopped leaves the output off by itself", "[openhaptics]") {
+TEST_CASE("stopping a clock on the vendor's own thread leaves the output off", "[openhaptics]") {
   Lab lab;
   lab.runtime->run_in_real_time(true);
   OpenHapticsDevice device(lab.options());

@@ -1,4 +1,4 @@
-// The far end of a link for tests in virtual time: the arm of a Phantom with the simulated device's physics in its tip,
+// The far end of a link for tests in virtual time: the arm of a Phantom with the simulated device's physics at its tip,
 // behind the bytes of a wire profile, and a link in memory between it and the host.
 #pragma once
 
@@ -29,17 +29,17 @@ using namespace calligraphy::phantom;
 
 using Bytes = std::vector<std::byte>;
 
-/// What the two ends of a link in memory share; the test holds it.
+/// State shared by the two ends of an in-memory link; owned by the test.
 struct Wire {
   LinkListener* listener = nullptr;
-  Bytes newest;                 ///< as the device sees it: the last packet sent
-  std::vector<Bytes> commands;  ///< in their order
+  Bytes newest;                 ///< last packet sent, as seen by the device
+  std::vector<Bytes> commands;  ///< in order
   std::atomic<std::uint64_t> sent = 0;
   bool takes_packets = true;
   bool fails_commands = false;
-  std::string refusal;  ///< not empty: open() throws it
+  std::string refusal;  ///< if not empty, open() throws it
   std::vector<std::string> warnings;
-  std::function<void(LinkListener&)> at_the_end;  ///< what a link tells until its thread has ended
+  std::function<void(LinkListener&)> at_the_end;  ///< events that a link reports until its thread has ended
 };
 
 class MemoryLink final : public Link {
@@ -57,7 +57,7 @@ class MemoryLink final : public Link {
   }
   bool send(std::span<const std::byte> packet) noexcept override {
     if (!wire_->takes_packets) return false;
-    wire_->newest.assign(packet.begin(), packet.end());  // within what is reserved
+    wire_->newest.assign(packet.begin(), packet.end());  // within the reserved capacity
     ++wire_->sent;
     return true;
   }
@@ -75,14 +75,15 @@ class MemoryLink final : public Link {
   std::string description_ = "a link in memory";
 };
 
-/// An arm on a wire. One step() is one report.
+/// An emulated arm on a link; each step() sends one report.
 class EmulatedArm {
  public:
-  EmulatedArm(const WireProfile& profile, const std::string& model, const Capabilities& physics, const Hand& hand)
+  EmulatedArm(const WireProfile& profile, const std::string& model, const Capabilities& physics,
+              const GripImpedance& grip)
       : codec(profile),
         arm(linkage(model)),
         wire(std::make_shared<Wire>()),
-        tip(physics, hand, tip_position(arm, *profile.docked_angles) - arm.centre),
+        tip(physics, grip, tip_position(arm, *profile.docked_angles) - arm.centre),
         model_(model) {}
 
   PacketCodec codec;
@@ -94,16 +95,16 @@ class EmulatedArm {
   std::uint32_t buttons = 0;
   DeviceFault own_fault = DeviceFault::none;
   std::uint32_t sequence = 0;
-  PerJoint<std::int64_t> count_offset{};  ///< what the encoders showed in the inkwell
-  /// Changes a frame before it is sent; false: it is not sent at all.
+  PerJoint<std::int64_t> count_offset{};  ///< encoder counts in the inkwell
+  /// May change a frame before it is sent; if it returns false, the frame is not sent.
   std::function<bool(Bytes&)> tamper;
 
-  /// Carries the hand to a place on the next steps.
+  /// Moves the hand to a position during the next steps.
   void move_hand(const Eigen::Vector3d& position) { tip.set_intention({position, Eigen::Vector3d::Zero()}); }
 
   Joints joints() const { return inverse_kinematics(arm, tip.true_position() + arm.centre).joints; }
 
-  /// What the motors do now: nothing when they are off, or when the dead man's bit has not moved for 20 ms.
+  /// Present torque of the motors: zero if they are off, or if the dead-man bit has not changed for 20 ms.
   Eigen::Vector3d motor_force() {
     const RawCommand command = last_command();
     if (!started || !command.motors_on || still_for_ > 20) return Eigen::Vector3d::Zero();

@@ -22,7 +22,7 @@ inline PhantomOptions simulated_options(const std::string& model = "touch") {
   return options;
 }
 
-/// Path of a file, gone with the program.
+/// Path of a file that is deleted at exit.
 inline std::string changed_profile(const std::string& line, const std::string& by) {
   static const TemporaryDirectory directory;
   static int files = 0;
@@ -42,26 +42,26 @@ inline const PhantomOptions& with_profile(PhantomOptions& options, const std::st
 struct HeldPhantom {
   explicit HeldPhantom(const PhantomOptions& options = simulated_options(),
                        const std::optional<WireProfile>& profile = wire_profile("simulated"),
-                       const Hand& hand = {0.1, 3.0, 300.0})
+                       const GripImpedance& grip = {0.1, 3.0, 300.0})
       : arm(profile ? *profile : read_wire_profile(options.wire_profile), options.model, device_profile(options.model),
-            hand),
+            grip),
         device(std::make_unique<MemoryLink>(arm.wire), options, [this] { return now; }) {}
 
   /// The simulated profile with one line changed.
   HeldPhantom(const std::string& line, const std::string& by, PhantomOptions options = simulated_options())
       : HeldPhantom(with_profile(options, changed_profile(line, by)), std::nullopt) {}
 
-  double now = 100.0;  ///< [s]; a clock begins anywhere
+  double now = 100.0;  ///< [s]; a clock starts at an arbitrary time
   EmulatedArm arm;
   PhantomDevice device;
 
-  /// A millisecond of the device, its report, and the time until the host looks.
+  /// One millisecond of the device, its report, and the delay until the host reads it.
   void tick() {
     now += 1e-3;
     arm.step();
   }
 
-  /// One turn of a plain loop: no guard but the device's own.
+  /// One iteration of a plain loop without a guard other than the device's own.
   template <class Law>
   DeviceState turn(Law&& law) {
     tick();
@@ -74,7 +74,7 @@ struct HeldPhantom {
     return turn([](const DeviceState&) { return Eigen::Vector3d(Eigen::Vector3d::Zero()); });
   }
 
-  /// The hand takes the tip there in a straight line, without force.
+  /// The hand moves the tip there in a straight line, without force.
   void carry(const Eigen::Vector3d& to, double seconds = 1.0) {
     const Eigen::Vector3d from = arm.tip.true_position();
     arm.tip.set_intention({from, (to - from) / seconds});
@@ -84,7 +84,7 @@ struct HeldPhantom {
     for (int i = 0; i < 300; ++i) turn();
   }
 
-  /// 50 ms in the inkwell, then out of it and to a place near the middle of the workspace.
+  /// 50 ms in the inkwell, then to a position near the centre of the workspace.
   void bring_up(const Eigen::Vector3d& to = {0.01, 0.02, 0.01}) {
     for (int i = 0; i < 50; ++i) turn();
     arm.docked = false;

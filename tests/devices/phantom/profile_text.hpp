@@ -9,7 +9,7 @@
 
 namespace calligraphy_test {
 
-inline const std::string smallest_profile =
+inline const std::string minimal_profile =
     "calligraphy wire profile 1\n"
     "name small\n"
     "report 8\n"

@@ -11,9 +11,9 @@ using namespace calligraphy::phantom;
 
 namespace {
 
-/// 1000 counts a radian, 16 bits, the third joint counting backwards; a report every millisecond.
+/// 1000 counts per radian, 16 bits, the third joint counting backwards; one report per millisecond.
 struct Watched {
-  EncoderWatch watch{calligraphy_test::parsed(calligraphy_test::smallest_profile).encoders, {1000.0, 1000.0, -1000.0}};
+  EncoderWatch watch{calligraphy_test::parsed(calligraphy_test::minimal_profile).encoders, {1000.0, 1000.0, -1000.0}};
   PerJoint<std::int64_t> counts{65000, 0, 30000};
 
   EncoderWatch::Answer move(std::int64_t a, std::int64_t b, std::int64_t c, bool even = true, double elapsed = 1e-3) {
@@ -26,7 +26,7 @@ struct Watched {
 
 }  // namespace
 
-TEST_CASE("angles begin at zero and follow the counts over their wraps with their signs", "[phantom][encoders]") {
+TEST_CASE("angles start at zero and follow the counts across wraps, with their signs", "[phantom][encoders]") {
   Watched held;
   CHECK(held.move(0, 0, 0).used);
   CHECK(held.watch.angles() == Eigen::Vector3d::Zero());
@@ -39,7 +39,7 @@ TEST_CASE("angles begin at zero and follow the counts over their wraps with thei
   CHECK(held.watch.velocity().isApprox(Eigen::Vector3d(7.0, -3.0, -5.0)));
 }
 
-TEST_CASE("a joint may turn at 59 rad/s and not at 61, whatever the clock of the reports", "[phantom][encoders]") {
+TEST_CASE("a joint may turn at 59 rad/s but not at 61, whatever the clock of the reports", "[phantom][encoders]") {
   for (const bool even : {false, true}) {
     Watched held;
     held.move(0, 0, 0, even);
@@ -52,14 +52,14 @@ TEST_CASE("a joint may turn at 59 rad/s and not at 61, whatever the clock of the
     CHECK(answer.fault == DeviceFault::leaping_encoder);
     CHECK_FALSE(answer.used);
     CHECK(held.watch.angles() == before);
-    // The next report within reason takes it up again, from the last that was used.
+    // The next plausible report is used again, relative to the last used one.
     CHECK(held.move(0, 40, 0, even).used);
     CHECK(held.watch.angles().y() == Approx(before.y() + 0.101));
     CHECK(held.watch.interval() == Approx(2e-3));
   }
 }
 
-TEST_CASE("a speed may change by 20 rad/s and its rounding from report to report, but only even time can tell",
+TEST_CASE("a speed may change by 20 rad/s plus rounding between reports, checked only with evenly spaced times",
           "[phantom][encoders]") {
   for (const bool even : {false, true}) {
     Watched held;
@@ -71,10 +71,10 @@ TEST_CASE("a speed may change by 20 rad/s and its rounding from report to report
   Watched late;
   late.move(0, 0, 0);
   late.move(1, 0, 0);
-  CHECK(late.move(200, 0, 0, true, 6e-3).used);  // 33 rad/s on the average of 6 ms: a hand may do that
+  CHECK(late.move(200, 0, 0, true, 6e-3).used);  // 33 rad/s on average over 6 ms is possible for a hand
 }
 
-TEST_CASE("after five leaps in a row the counts are taken for lost", "[phantom][encoders]") {
+TEST_CASE("after five jumps in a row the counts are considered lost", "[phantom][encoders]") {
   Watched held;
   held.move(0, 0, 0);
   held.move(5, 5, 5);
@@ -89,9 +89,9 @@ TEST_CASE("after five leaps in a row the counts are taken for lost", "[phantom][
   CHECK(held.watch.angles().x() == Approx(3e-3));
 }
 
-TEST_CASE("a joint is stuck once another has travelled 2.5 rad, to and fro or on, and not before",
+TEST_CASE("a joint is stuck once another has travelled 2.5 rad in either direction, and not before",
           "[phantom][encoders]") {
-  for (const int turn : {1'000'000, 300}) {  // reports until it turns round
+  for (const int turn : {1'000'000, 300}) {  // reports until it reverses
     Watched held;
     held.move(0, 0, 0);
     int travelled = 0;
@@ -103,12 +103,12 @@ TEST_CASE("a joint is stuck once another has travelled 2.5 rad, to and fro or on
     CHECK(fault == DeviceFault::stuck_encoder);
     CHECK(travelled > 2500);
     CHECK(travelled < 2700);
-    CHECK(held.move(1, 0, 0).fault == DeviceFault::none);  // it moves: all is forgotten
+    CHECK(held.move(1, 0, 0).fault == DeviceFault::none);  // it moves, which resets the watch
     CHECK(held.move(0, 1, 0).fault == DeviceFault::none);
   }
 }
 
-TEST_CASE("an interruption forgives a movement, a restart forgets it", "[phantom][encoders]") {
+TEST_CASE("after an interruption any movement is accepted, after a restart it is discarded", "[phantom][encoders]") {
   Watched held;
   held.move(0, 0, 0);
   held.move(5, 5, 5);
@@ -120,10 +120,10 @@ TEST_CASE("an interruption forgives a movement, a restart forgets it", "[phantom
   CHECK(held.watch.angles() == Eigen::Vector3d::Zero());
 }
 
-TEST_CASE("a watch that was restarted judges as a new one does", "[phantom][encoders]") {
+TEST_CASE("a restarted watch behaves like a new one", "[phantom][encoders]") {
   Watched used, fresh;
   used.move(0, 0, 0);
-  for (int i = 0; i < 240; ++i) used.move(0, 10, 1);  // nearly long enough to call the first joint stuck
+  for (int i = 0; i < 240; ++i) used.move(0, 10, 1);  // almost long enough for the first joint to count as stuck
   used.move(0, 20, 0);
   for (int i = 0; i < 4; ++i) CHECK_FALSE(used.move(i == 0 ? 5000 : 0, 0, 0).used);
   used.watch.restart();
@@ -138,8 +138,8 @@ TEST_CASE("a watch that was restarted judges as a new one does", "[phantom][enco
            used.watch.angles() == fresh.watch.angles();
   };
   REQUIRE(same(0, 0, 0));
-  REQUIRE(same(0, 5000, 0));   // one leap
-  REQUIRE(same(0, -4940, 0));  // and back; the first speed may be any
+  REQUIRE(same(0, 5000, 0));   // one jump
+  REQUIRE(same(0, -4940, 0));  // and back; the first speed is arbitrary
   for (int i = 0; i < 400; ++i) REQUIRE(same(i % 2, 10, 0));
   CHECK(used.move(0, 10, 0).fault == DeviceFault::stuck_encoder);
 }

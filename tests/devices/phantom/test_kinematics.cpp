@@ -20,7 +20,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// Within the limits of the Omni, which the Premium bears too.
+/// Within the limits of the Omni, and of the Premium as well.
 Joints random_joints(Random& random) {
   const double shoulder = random.between(0.0, 1.75);
   return {random.between(-0.98, 0.98), shoulder, shoulder + random.between(-0.81, 1.25)};
@@ -38,15 +38,16 @@ TEST_CASE("an arm without lengths reaches nothing", "[phantom][kinematics]") {
   }
 }
 
-TEST_CASE("the tip is at zero when every joint is, and moves as the published formulas say", "[phantom][kinematics]") {
+TEST_CASE("the tip is at zero when all joints are, and moves according to the published formulas",
+          "[phantom][kinematics]") {
   const Linkage& omni = linkage("omni");
   CHECK(tip_position(omni, Joints::Zero()).norm() == 0.0);
   CHECK(tip_position(linkage("premium-1.5"), Joints::Zero()).norm() == 0.0);
   CHECK(&linkage("touch") == &omni);
   const double l = 0.13335;
-  // Waist turned by a right angle: the arm, which reached l to the user, now reaches l to the left.
+  // Waist turned by a right angle: the arm, which reached l towards the user, now reaches l to the left.
   CHECK((tip_position(omni, {pi / 2.0, 0.0, 0.0}) - Eigen::Vector3d(-l, 0.0, -l)).norm() < 1e-15);
-  // Upper arm upright, forearm hanging: above the waist.
+  // Upper arm vertical, forearm hanging down: above the waist.
   CHECK((tip_position(omni, {0.0, pi / 2.0, 0.0}) - Eigen::Vector3d(0.0, l, -l)).norm() < 1e-15);
   // Forearm level as well as the upper arm.
   CHECK((tip_position(omni, {0.0, 0.0, pi / 2.0}) - Eigen::Vector3d(0.0, l, l)).norm() < 1e-15);
@@ -77,7 +78,7 @@ TEST_CASE("the Jacobian is the derivative of the tip", "[phantom][kinematics]") 
   }
 }
 
-TEST_CASE("the inverse leads back to the joints", "[phantom][kinematics]") {
+TEST_CASE("inverse kinematics recovers the joint angles", "[phantom][kinematics]") {
   for (const std::string model : {"omni", "premium-1.5"}) {
     const Linkage& arm = linkage(model);
     Random random(2);
@@ -87,13 +88,13 @@ TEST_CASE("the inverse leads back to the joints", "[phantom][kinematics]") {
       if (arm.upper_arm * std::cos(joints[1]) + arm.forearm * std::sin(joints[2]) < 0.01) continue;
       const InverseKinematics inverse = inverse_kinematics(arm, tip_position(arm, joints));
       REQUIRE(inverse.reachable);
-      // The reference found 3e-15 with the arms of the Omni; a rounding near the fold counts more than one elsewhere.
+      // The reference found 3e-15 with the arm of the Omni; rounding errors are amplified near the folded pose.
       REQUIRE((inverse.joints - joints).cwiseAbs().maxCoeff() < 1e-14);
     }
   }
 }
 
-TEST_CASE("a place out of reach is told, and the joints lead as near as the arm can", "[phantom][kinematics]") {
+TEST_CASE("an unreachable position is reported, with the nearest pose of the arm", "[phantom][kinematics]") {
   const Linkage& omni = linkage("omni");
   const Eigen::Vector3d shoulder(0.0, 0.13335, -0.13335);
   Random random(3);
@@ -107,7 +108,7 @@ TEST_CASE("a place out of reach is told, and the joints lead as near as the arm 
     REQUIRE(inverse_kinematics(omni, shoulder + 0.2666 * ray).reachable);
   }
   const Linkage& premium = linkage("premium-1.5");
-  CHECK_FALSE(inverse_kinematics(premium, {0.0, 0.169545, -0.20955}).reachable);  // too near: the links differ
+  CHECK_FALSE(inverse_kinematics(premium, {0.0, 0.169545, -0.20955}).reachable);  // too close: unequal links
   const double nan = std::numeric_limits<double>::quiet_NaN();
   CHECK_FALSE(inverse_kinematics(omni, {0.0, nan, 0.0}).reachable);
   CHECK(inverse_kinematics(omni, {0.0, nan, 0.0}).joints == Joints::Zero());
@@ -115,7 +116,7 @@ TEST_CASE("a place out of reach is told, and the joints lead as near as the arm 
   CHECK(inverse_kinematics(omni, {1e300, -1e300, 1e300}).joints.allFinite());
 }
 
-TEST_CASE("the arm is singular stretched, folded and above the waist, and only there", "[phantom][kinematics]") {
+TEST_CASE("the arm is singular when stretched, folded or above the waist, and only there", "[phantom][kinematics]") {
   for (const std::string model : {"omni", "premium-1.5"}) {
     const Linkage& arm = linkage(model);
     const double l1 = arm.upper_arm, l2 = arm.forearm;
@@ -128,20 +129,20 @@ TEST_CASE("the arm is singular stretched, folded and above the waist, and only t
       const double planar = l1 * l2 * std::cos(joints[1] - joints[2]);
       REQUIRE(std::abs(plane.determinant()) == Approx(std::abs(planar)).epsilon(1e-12));
       REQUIRE(std::abs(tip_jacobian(arm, joints).determinant()) == Approx(std::abs(r * planar)).epsilon(1e-10));
-      REQUIRE(dexterity(arm, joints) == Approx(r * planar / (l1 * l2 * (l1 + l2))).epsilon(1e-12));
+      REQUIRE(manipulability(arm, joints) == Approx(r * planar / (l1 * l2 * (l1 + l2))).epsilon(1e-12));
     }
-    CHECK(std::abs(dexterity(arm, {0.2, 0.4, 0.4 + pi / 2.0})) < 1e-15);
-    CHECK(std::abs(dexterity(arm, {0.2, 0.4, 0.4 - pi / 2.0})) < 1e-15);
-    CHECK(dexterity(arm, {0.2, 0.0, pi / 2.0 - 0.1}) > 0.05);
+    CHECK(std::abs(manipulability(arm, {0.2, 0.4, 0.4 + pi / 2.0})) < 1e-15);
+    CHECK(std::abs(manipulability(arm, {0.2, 0.4, 0.4 - pi / 2.0})) < 1e-15);
+    CHECK(manipulability(arm, {0.2, 0.0, pi / 2.0 - 0.1}) > 0.05);
   }
 }
 
-TEST_CASE("torque does the work of the force and stays bounded where the arm is singular", "[phantom][kinematics]") {
+TEST_CASE("torque does the work of the force and stays bounded in singular poses", "[phantom][kinematics]") {
   const Linkage& omni = linkage("omni");
   Random random(5);
   const auto any = [&] { return random.between(-4.0, 4.0); };
   for (int i = 0; i < 2000; ++i) {
-    // Anywhere, the singular set included at every fourth.
+    // Arbitrary poses, every fourth one singular.
     Joints joints{any(), any(), any()};
     if (i % 4 == 0) joints[2] = joints[1] + pi / 2.0;
     const Eigen::Vector3d force{any(), any(), any()};
@@ -153,7 +154,7 @@ TEST_CASE("torque does the work of the force and stays bounded where the arm is 
   }
 }
 
-TEST_CASE("the workspace of each model lies within the limits of its joints", "[phantom][kinematics]") {
+TEST_CASE("the workspace of each model lies within its joint limits", "[phantom][kinematics]") {
   for (const std::string model : {"omni", "touch", "premium-1.5"}) {
     const Linkage& arm = linkage(model);
     const Eigen::Vector3d half = device_profile(model).workspace / 2.0;
@@ -167,7 +168,7 @@ TEST_CASE("the workspace of each model lies within the limits of its joints", "[
   }
 }
 
-TEST_CASE("each limit of a joint is kept on both sides", "[phantom][kinematics]") {
+TEST_CASE("each joint limit is checked on both sides", "[phantom][kinematics]") {
   const Linkage& omni = linkage("omni");
   const auto within = [&](double waist, double shoulder, double elbow_less_shoulder) {
     return within_limits(omni, {waist, shoulder, shoulder + elbow_less_shoulder});
@@ -183,7 +184,7 @@ TEST_CASE("each limit of a joint is kept on both sides", "[phantom][kinematics]"
   CHECK_FALSE(within_limits(omni, {std::nan(""), 1.0, 1.0}));
 }
 
-TEST_CASE("gravity is held by the slope of the weight's potential", "[phantom][kinematics]") {
+TEST_CASE("gravity torque is the gradient of the potential energy", "[phantom][kinematics]") {
   // Weights at part of each link: V = a sin q2 - b cos q3, and the torque that holds them is its gradient.
   const Eigen::Vector2d gravity(0.07, -0.03);
   Random random(6);

@@ -1,4 +1,4 @@
-// What the tracker makes of reports one by one, without a link; through a device it is in test_phantom_device.cpp.
+// The tracker with single reports, without a link; test_phantom_device.cpp tests it through a device.
 #include <cmath>
 #include <cstdint>
 #include <initializer_list>
@@ -14,12 +14,12 @@ using namespace calligraphy::phantom;
 namespace {
 
 WireProfile profile_with(bool sequence) {
-  WireProfile profile = wire_profile("simulated");  // 2425 counts a radian, the second joint's the other way
+  WireProfile profile = wire_profile("simulated");  // 2425 counts per radian, the second joint counting backwards
   if (!sequence) profile.sequence.reset();
   return profile;
 }
 
-/// Reports a millisecond apart unless said otherwise, of an arm whose counts the test moves.
+/// Reports of an arm whose counts are set by the test, 1 ms apart by default.
 struct Tracked {
   explicit Tracked(bool sequence = true, double velocity_cutoff = 1000.0)
       : profile(profile_with(sequence)), tracker(profile, linkage("touch"), velocity_cutoff) {}
@@ -88,14 +88,13 @@ TEST_CASE("a pen that moves in the inkwell, or leaves it, is not at rest there",
   }
 }
 
-TEST_CASE("rest in the inkwell from before counts no longer when counts are lost or the link was",
-          "[phantom][tracker]") {
+TEST_CASE("rest in the inkwell before lost counts or a lost link does not count", "[phantom][tracker]") {
   Tracked held;
   held.sample.docked = true;
   held.rest(15);
   SECTION("lost counts") {
-    held.report(1000);  // a leap
-    held.rest(4);       // and the counts do not come back: the fifth report begins anew, and is the first at rest
+    held.report(1000);  // a jump
+    held.rest(4);       // the counts do not return: the fifth report restarts the counts, and is the first at rest
   }
   SECTION("lost link") {
     held.tracker.restart(GENERATE(false, true));
@@ -115,7 +114,7 @@ TEST_CASE("a pen that stays in the inkwell is calibrated once and moves from the
   CHECK(held.tracker.motion().joints.x() == Approx((*held.profile.docked_angles)[0] + 2.0 / 2425.0));
 }
 
-TEST_CASE("joints that are told count from there, wherever the encoders are", "[phantom][tracker]") {
+TEST_CASE("given joint angles apply from there, wherever the encoders are", "[phantom][tracker]") {
   Tracked held;
   held.rest(1);
   for (int i = 0; i < 30; ++i) held.report(20, -10, 5);
@@ -126,7 +125,7 @@ TEST_CASE("joints that are told count from there, wherever the encoders are", "[
   CHECK(held.tracker.motion().joints.isApprox(Joints(told + Joints(0, 24.0 / 2425.0, 0))));
 }
 
-TEST_CASE("joints may seem 0.1 rad beyond their limits, and not 0.2", "[phantom][tracker]") {
+TEST_CASE("joints may read 0.1 rad beyond their limits, but not 0.2", "[phantom][tracker]") {
   for (const double beyond : {0.1, 0.2}) {
     Tracked held;
     held.calibrate_in_the_inkwell();
@@ -136,7 +135,7 @@ TEST_CASE("joints may seem 0.1 rad beyond their limits, and not 0.2", "[phantom]
   }
 }
 
-TEST_CASE("a pose is impossible once it is calibrated, and less urgent than what the link lost", "[phantom][tracker]") {
+TEST_CASE("an impossible pose is reported only when calibrated, and after faults of the link", "[phantom][tracker]") {
   Tracked held;
   held.rest(1);
   for (int i = 0; i < 200; ++i) REQUIRE(held.report(20).fault == DeviceFault::none);  // 1.65 rad, if it were known
@@ -146,7 +145,7 @@ TEST_CASE("a pose is impossible once it is calibrated, and less urgent than what
   CHECK(held.report().fault == DeviceFault::lost_frames);
 }
 
-TEST_CASE("where reports have no number the time of their arrival counts", "[phantom][tracker]") {
+TEST_CASE("without sequence numbers the arrival time of reports counts", "[phantom][tracker]") {
   for (const bool sequence : {false, true}) {
     Tracked held(sequence);
     held.rest(5);
@@ -159,7 +158,8 @@ TEST_CASE("where reports have no number the time of their arrival counts", "[pha
   }
 }
 
-TEST_CASE("without numbers neither reports at once nor an uneven clock look like a leap", "[phantom][tracker]") {
+TEST_CASE("without sequence numbers neither simultaneous reports nor an uneven clock look like a jump",
+          "[phantom][tracker]") {
   Tracked held(false);
   held.rest(5);
   held.report(5);
@@ -172,7 +172,7 @@ TEST_CASE("without numbers neither reports at once nor an uneven clock look like
   }
 }
 
-TEST_CASE("after an interruption nothing of before is left, unless the encoders have gone on counting",
+TEST_CASE("after an interruption no earlier state is left, unless the encoders have kept counting",
           "[phantom][tracker]") {
   const bool keep = GENERATE(false, true);
   Tracked held;
@@ -182,7 +182,7 @@ TEST_CASE("after an interruption nothing of before is left, unless the encoders 
   const Joints before = held.tracker.motion().joints;
   held.sample.docked = true;
   held.rest(10);
-  held.sample.sequence = 7;  // the device counts from anew
+  held.sample.sequence = 7;  // the device restarts its count
   held.tracker.restart(keep);
   CHECK(held.calibrated() == keep);
   const MotionTracker::Judgement first = held.report(1000);
@@ -192,7 +192,7 @@ TEST_CASE("after an interruption nothing of before is left, unless the encoders 
                                                    : *held.profile.docked_angles));
   if (keep) return;
   CHECK(held.tracker.motion().velocity.isZero(0.0));
-  held.rest(18);  // with the ten of before they would be more than enough
+  held.rest(18);  // together with the previous ten they would be more than enough
   CHECK_FALSE(held.calibrated());
   held.rest(1);
   CHECK(held.calibrated());

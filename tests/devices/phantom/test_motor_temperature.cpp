@@ -13,7 +13,7 @@ const Eigen::Vector3d peak(0.4, 0.8, 1.2);
 
 }  // namespace
 
-TEST_CASE("a motor warms with the square of its torque, winding first, and cools again", "[phantom][heat]") {
+TEST_CASE("a motor heats with the square of its torque, winding first, and cools again", "[phantom][heat]") {
   MotorTemperature motors(continuous, peak);
   CHECK(motors.warmest() == 0.0);
   const Eigen::Vector3d torque(0.1, -0.4, 0.0);
@@ -34,7 +34,7 @@ TEST_CASE("a motor warms with the square of its torque, winding first, and cools
   CHECK(for_ever.warmest() == Approx(1.0).epsilon(1e-12));
 }
 
-TEST_CASE("a motor asked for its peak for hours never gets to 1, and keeps its continuous torque to 1 %",
+TEST_CASE("a motor commanded at its peak for hours never reaches 1, and keeps its continuous torque to 1 %",
           "[phantom][heat]") {
   MotorTemperature motors(continuous, peak);
   CHECK(motors.allowed_share(peak) == 1.0);
@@ -48,7 +48,7 @@ TEST_CASE("a motor asked for its peak for hours never gets to 1, and keeps its c
   CHECK(motors.warmest() > 0.98);
 }
 
-TEST_CASE("the share is that of the warmest motor and grows no torque", "[phantom][heat]") {
+TEST_CASE("the permitted fraction is that of the warmest motor and never increases a torque", "[phantom][heat]") {
   MotorTemperature motors(continuous, peak);
   motors.advance({0.1, 0.0, 0.0}, 1400.0);
   REQUIRE(motors.of_motors().x() > MotorTemperature::warm);

@@ -16,8 +16,8 @@
 
 using namespace calligraphy;
 using namespace calligraphy::phantom;
+using calligraphy_test::minimal_profile;
 using calligraphy_test::parsed;
-using calligraphy_test::smallest_profile;
 
 namespace {
 
@@ -27,7 +27,7 @@ std::vector<std::byte> bytes(std::initializer_list<int> values) {
   return result;
 }
 
-/// A report as the public description of the Omni has it, put together by hand from 16-bit little-endian words.
+/// A report according to the public description of the Omni, assembled by hand from 16-bit little-endian words.
 std::vector<std::byte> omni_report(std::array<int, 3> encoders, std::array<int, 3> gimbal, int word_9,
                                    std::uint32_t sequence) {
   std::vector<std::byte> frame(44);
@@ -67,7 +67,7 @@ bool same(const RawSample& a, const RawSample& b) {
 
 }  // namespace
 
-TEST_CASE("a report in the published layout of the Omni says what its words say", "[phantom][codec]") {
+TEST_CASE("a report in the published layout of the Omni is decoded to its values", "[phantom][codec]") {
   const PacketCodec codec(wire_profile("omni"));
   // The lower five bits of a gimbal word and of its copy are noise; buttons and inkwell are active low.
   std::vector<std::byte> frame = omni_report({0x1234, 0xFFFF, 1}, {0x8000 | 7, 0x0020, 0xFFE0}, 0xF9 << 8, 0x89ABCDEF);
@@ -83,7 +83,7 @@ TEST_CASE("a report in the published layout of the Omni says what its words say"
   CHECK_FALSE(codec.decode_report(omni_report({}, {}, 0xFF << 8, 0)).docked);
 }
 
-TEST_CASE("a command in the published layout of the Omni is the bytes that stand there", "[phantom][codec]") {
+TEST_CASE("a command in the published layout of the Omni is encoded to its bytes", "[phantom][codec]") {
   const PacketCodec codec(wire_profile("omni"));
   std::array<std::byte, 16> frame{};
   RawCommand command;
@@ -98,7 +98,7 @@ TEST_CASE("a command in the published layout of the Omni is the bytes that stand
         bytes({0x00, 0x08, 0xFE, 0x07, 0x00, 0x00, 0xC9, 0x53, 0, 0, 0, 0, 0, 0, 0, 0}));
 }
 
-TEST_CASE("torque beyond the range of the DAC is cut to it and never wraps", "[phantom][codec]") {
+TEST_CASE("torque beyond the range of the DAC is clamped and never wraps", "[phantom][codec]") {
   const PacketCodec codec(wire_profile("omni"));
   std::array<std::byte, 16> frame{};
   for (const std::int64_t torque : {std::int64_t{2048}, std::int64_t{4096}, std::int64_t{1} << 40}) {
@@ -107,7 +107,7 @@ TEST_CASE("torque beyond the range of the DAC is cut to it and never wraps", "[p
   }
 }
 
-TEST_CASE("what is encoded is decoded again, in both directions and for every shipped profile", "[phantom][codec]") {
+TEST_CASE("encoding and decoding round-trip in both directions for every built-in profile", "[phantom][codec]") {
   for (const std::string& name : wire_profile_names()) {
     const PacketCodec codec(wire_profile(name));
     std::mt19937 random(7);
@@ -133,7 +133,7 @@ TEST_CASE("what is encoded is decoded again, in both directions and for every sh
   }
 }
 
-TEST_CASE("a frame of another size is empty, short or overlong", "[phantom][codec]") {
+TEST_CASE("a frame of the wrong size is empty, short or overlong", "[phantom][codec]") {
   const PacketCodec codec(wire_profile("simulated"));
   std::vector<std::byte> frame(60);
   REQUIRE(codec.encode_report({}, frame) == 44);
@@ -150,7 +150,7 @@ TEST_CASE("a frame of another size is empty, short or overlong", "[phantom][code
   CHECK(codec.encode_command({}, std::span(frame).first(15)) == 0);
 }
 
-TEST_CASE("no flipped bit of a simulated report goes unseen", "[phantom][codec]") {
+TEST_CASE("every flipped bit of a simulated report is detected", "[phantom][codec]") {
   const PacketCodec codec(wire_profile("simulated"));
   std::mt19937 random(3);
   std::vector<std::byte> frame(44);
@@ -163,7 +163,7 @@ TEST_CASE("no flipped bit of a simulated report goes unseen", "[phantom][codec]"
   }
 }
 
-TEST_CASE("no flipped bit of a simulated command goes unseen", "[phantom][codec]") {
+TEST_CASE("every flipped bit of a simulated command is detected", "[phantom][codec]") {
   const PacketCodec codec(wire_profile("simulated"));
   std::array<std::byte, 16> frame{};
   codec.encode_command({{5, -6, 7}, true, true, false, DeviceFault::none}, frame);
@@ -176,7 +176,7 @@ TEST_CASE("no flipped bit of a simulated command goes unseen", "[phantom][codec]
   }
 }
 
-TEST_CASE("the copies of the gimbal show corruption in the layout of the Omni", "[phantom][codec]") {
+TEST_CASE("the gimbal copies reveal corruption in the layout of the Omni", "[phantom][codec]") {
   const PacketCodec codec(wire_profile("omni"));
   const std::vector<std::byte> good = omni_report({1, 2, 3}, {0x100, 0x200, 0x300}, 0xFF << 8, 5);
   REQUIRE(codec.decode_report(good).fault == DeviceFault::none);
@@ -185,12 +185,12 @@ TEST_CASE("the copies of the gimbal show corruption in the layout of the Omni", 
     bad[byte] ^= std::byte{0x10};
     CHECK(codec.decode_report(bad).fault == DeviceFault::corrupted_frame);
   }
-  // A dead link shows one level on every line: a copy that is inverted cannot then be right.
+  // A dead link shows one level on every line, so an inverted copy cannot match.
   CHECK(codec.decode_report(std::vector<std::byte>(44)).fault == DeviceFault::corrupted_frame);
   CHECK(codec.decode_report(std::vector<std::byte>(44, std::byte{0xFF})).fault == DeviceFault::corrupted_frame);
 }
 
-TEST_CASE("fields of any width, place, order and sign are read and written alike", "[phantom][codec]") {
+TEST_CASE("fields of any width, offset, byte order and sign round-trip", "[phantom][codec]") {
   const std::vector<std::byte> frame = bytes({0x12, 0x34, 0x56, 0x78, 0x9A, 0xBC});
   const auto field = [](int offset, int width, int low, int bits, bool big, bool is_signed, bool inverted) {
     return Field{offset, width, low, bits, big, is_signed, inverted};
@@ -221,21 +221,21 @@ TEST_CASE("fields of any width, place, order and sign are read and written alike
     write_field(any, value, target);
     REQUIRE(read_field(any, target) == value);
     write_field(any, read_field(any, before), target);
-    REQUIRE(target == before);  // no other bit was touched
+    REQUIRE(target == before);  // no other bit has changed
   }
 }
 
-TEST_CASE("a count that wraps goes on", "[phantom][codec]") {
-  CHECK(shortest_step(0xFFFF, 0, 16) == 1);
-  CHECK(shortest_step(0, 0xFFFF, 16) == -1);
-  CHECK(shortest_step(5, 5, 16) == 0);
-  CHECK(shortest_step(0, 0x7FFF, 16) == 0x7FFF);
-  CHECK(shortest_step(0, 0x8000, 16) == -0x8000);
-  CHECK(shortest_step(0xFFFFFFFF, 1, 32) == 2);
-  CHECK(shortest_step(-0x8000, 0x7FFF, 16) == -1);  // a signed field wraps as well
+TEST_CASE("a count continues across a wrap", "[phantom][codec]") {
+  CHECK(min_step(0xFFFF, 0, 16) == 1);
+  CHECK(min_step(0, 0xFFFF, 16) == -1);
+  CHECK(min_step(5, 5, 16) == 0);
+  CHECK(min_step(0, 0x7FFF, 16) == 0x7FFF);
+  CHECK(min_step(0, 0x8000, 16) == -0x8000);
+  CHECK(min_step(0xFFFFFFFF, 1, 32) == 2);
+  CHECK(min_step(-0x8000, 0x7FFF, 16) == -1);  // a signed field wraps as well
 }
 
-TEST_CASE("decoding and encoding take nothing from the heap", "[phantom][codec]") {
+TEST_CASE("decoding and encoding do not allocate", "[phantom][codec]") {
   const PacketCodec codec(wire_profile("simulated"));
   std::array<std::byte, 44> frame{};
   const std::size_t before = calligraphy_test::allocations();
@@ -248,8 +248,8 @@ TEST_CASE("decoding and encoding take nothing from the heap", "[phantom][codec]"
   CHECK(calligraphy_test::allocations() == before);
 }
 
-TEST_CASE("a profile without a command has an empty one", "[phantom][codec]") {
-  const PacketCodec codec(parsed(smallest_profile));
+TEST_CASE("a profile without a command encodes an empty one", "[phantom][codec]") {
+  const PacketCodec codec(parsed(minimal_profile));
   std::array<std::byte, 8> frame{};
   CHECK(codec.encode_command({{1, 2, 3}, true, true, true, DeviceFault::none}, frame) == 0);
   CHECK(codec.torque_range() == PerJoint<std::int64_t>{0, 0, 0});

@@ -32,9 +32,10 @@ std::string refusal(const PhantomOptions& options) {
 
 }  // namespace
 
-TEST_CASE("a phantom needs its inkwell before its positions count, and then they are the tip's", "[phantom][device]") {
+TEST_CASE("a phantom needs its inkwell before positions are valid, and then they are those of the tip",
+          "[phantom][device]") {
   HeldPhantom held;
-  held.arm.count_offset = {60000, 7, 40000};  // encoders begin anywhere
+  held.arm.count_offset = {60000, 7, 40000};  // encoders start at arbitrary counts
   CHECK(held.device.read().status == DeviceStatus::needs_calibration);
   const DeviceState first = held.turn();
   CHECK(first.status == DeviceStatus::needs_calibration);
@@ -54,7 +55,7 @@ TEST_CASE("a phantom needs its inkwell before its positions count, and then they
   }
 }
 
-TEST_CASE("a phantom tells buttons, docking and the time of its reports", "[phantom][device]") {
+TEST_CASE("a phantom reports buttons, docking and the time of its reports", "[phantom][device]") {
   HeldPhantom held;
   held.bring_up();
   held.arm.buttons = 2;
@@ -68,7 +69,7 @@ TEST_CASE("a phantom tells buttons, docking and the time of its reports", "[phan
   CHECK(held.device.docked());
 }
 
-TEST_CASE("a sample is given once and then called stale", "[phantom][device]") {
+TEST_CASE("a sample is returned once and then as stale", "[phantom][device]") {
   HeldPhantom held;
   held.bring_up();
   const DeviceState fresh = held.turn();
@@ -79,7 +80,7 @@ TEST_CASE("a sample is given once and then called stale", "[phantom][device]") {
   CHECK(again.time == fresh.time);
 }
 
-TEST_CASE("of several reports between two reads the newest wins, and none of their motion is lost",
+TEST_CASE("of several reports between two reads the newest is returned, and none of their motion is lost",
           "[phantom][device]") {
   HeldPhantom held;
   held.bring_up();
@@ -90,7 +91,7 @@ TEST_CASE("of several reports between two reads the newest wins, and none of the
   }
 }
 
-TEST_CASE("the velocity is that of the tip, as far as the filter lets it through", "[phantom][device]") {
+TEST_CASE("the velocity is that of the tip after the filter", "[phantom][device]") {
   PhantomOptions options = simulated_options();
   options.velocity_cutoff = 20.0;
   HeldPhantom held(options);
@@ -101,7 +102,7 @@ TEST_CASE("the velocity is that of the tip, as far as the filter lets it through
   for (int i = 0; i < 50; ++i) {
     const DeviceState state = held.turn();
     mean += state.velocity / 50.0;
-    // One count a millisecond is 0.055 m/s; a filter of 20 Hz passes an eighth of it.
+    // One count per millisecond is 0.055 m/s; a 20 Hz filter passes an eighth of it.
     REQUIRE((state.velocity - held.arm.tip.true_velocity()).norm() < 0.03);
   }
   CHECK((mean - held.arm.tip.true_velocity()).norm() < 0.005);
@@ -121,7 +122,7 @@ TEST_CASE("a lost report does not show in the velocity", "[phantom][device]") {
   CHECK(held.device.statistics().lost_reports > 4);
 }
 
-TEST_CASE("a force comes back at the tip to within the steps of the converters", "[phantom][device]") {
+TEST_CASE("a force acts at the tip to within the resolution of the DACs", "[phantom][device]") {
   for (const std::string model : {"omni", "premium-1.5"}) {
     Random random(21);
     const auto unit = [&] { return random.between(-1.0, 1.0); };
@@ -132,7 +133,7 @@ TEST_CASE("a force comes back at the tip to within the steps of the converters",
       held.bring_up(place);
       const Eigen::Vector3d force{unit(), unit(), unit()};
       for (int i = 0; i < 400; ++i) held.turn([&](const DeviceState&) { return force; });
-      // Half a step of torque at each joint is J^-T of it at the tip; the angles are known to half a count.
+      // Half a torque step at each joint maps to the tip by J^-T; the angles are known to half a count.
       const Eigen::Matrix3d to_tip = tip_jacobian(held.arm.arm, held.arm.joints()).transpose().inverse();
       const double step = 0.5 * 4e-4 * to_tip.cwiseAbs().rowwise().sum().maxCoeff() + 2e-3 * force.norm();
       CAPTURE(model, place.transpose(), force.transpose(), held.arm.motor_force().transpose());
@@ -142,7 +143,7 @@ TEST_CASE("a force comes back at the tip to within the steps of the converters",
   }
 }
 
-TEST_CASE("a force beyond the peak or beyond the converters is shortened and keeps its direction",
+TEST_CASE("a force above the peak or the range of the DACs is limited, with its direction preserved",
           "[phantom][device]") {
   HeldPhantom held;
   held.bring_up();
@@ -152,7 +153,7 @@ TEST_CASE("a force beyond the peak or beyond the converters is shortened and kee
   CHECK(given.norm() == Approx(3.3).epsilon(0.01));
   CHECK(given.normalized().dot(wanted.normalized()) > 0.9999);
 
-  // Converters that give 0.2 N m at the most: less than 3.3 N anywhere.
+  // DACs that output at most 0.2 N m: less than 3.3 N at any pose.
   HeldPhantom weak("torque-per-count 4e-4 4e-4 -4e-4", "torque-per-count 1e-4 1e-4 -1e-4");
   weak.bring_up();
   for (int i = 0; i < 200; ++i) weak.turn([&](const DeviceState&) { return wanted; });
@@ -165,7 +166,7 @@ TEST_CASE("a force beyond the peak or beyond the converters is shortened and kee
   CHECK(most == 2047);
 }
 
-TEST_CASE("a force that is no number, or too large for one, never reaches the motors", "[phantom][device]") {
+TEST_CASE("a force that is NaN or overflows never reaches the motors", "[phantom][device]") {
   HeldPhantom held;
   held.bring_up();
   const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
@@ -217,7 +218,7 @@ TEST_CASE("a device may be calibrated by angles instead of the inkwell", "[phant
   CHECK_THROWS_AS(held.device.calibrate({0.0, std::nan(""), 0.0}), ValueError);
 }
 
-TEST_CASE("every docking calibrates anew", "[phantom][device]") {
+TEST_CASE("every docking recalibrates", "[phantom][device]") {
   HeldPhantom held;
   const Eigen::Vector3d inkwell = held.arm.tip.true_position();
   held.bring_up();
@@ -226,14 +227,14 @@ TEST_CASE("every docking calibrates anew", "[phantom][device]") {
     held.turn();
   }
   CHECK((held.turn().position - held.arm.tip.true_position()).norm() > 3e-3);
-  held.arm.tip.set_hand({0.1, 20.0, 20000.0});  // the inkwell guides the pen into its place
+  held.arm.tip.set_grip({0.1, 20.0, 20000.0});  // the inkwell guides the pen into its place
   held.carry(inkwell);
   held.arm.docked = true;
   for (int i = 0; i < 30; ++i) held.turn();
   CHECK((held.turn().position - held.arm.tip.true_position()).norm() < 3e-4);
 }
 
-TEST_CASE("encoders wrap around and the tip does not notice", "[phantom][device]") {
+TEST_CASE("a wrap of the encoders does not move the tip", "[phantom][device]") {
   HeldPhantom held;
   held.arm.count_offset = {65535, 3, 65500};
   held.bring_up();
@@ -245,7 +246,7 @@ TEST_CASE("encoders wrap around and the tip does not notice", "[phantom][device]
   CHECK(held.device.statistics().faults[static_cast<std::size_t>(DeviceFault::leaping_encoder)] == 0);
 }
 
-TEST_CASE("a hand that holds still, or draws in the plane of the arm, gives no alarm", "[phantom][device]") {
+TEST_CASE("a hand that holds still or draws in the plane of the arm raises no alarm", "[phantom][device]") {
   HeldPhantom held;
   held.bring_up({0.0, 0.0, 0.0});  // the waist never turns
   for (int i = 0; i < 20000; ++i) REQUIRE(held.turn().status == DeviceStatus::ok);
@@ -265,7 +266,7 @@ TEST_CASE("a hand that holds still, or draws in the plane of the arm, gives no a
   for (int i = 0; i < 60000; ++i) REQUIRE(held.turn().status == DeviceStatus::ok);
 }
 
-TEST_CASE("one or two lost reports, or one repeated, are counted and borne", "[phantom][device]") {
+TEST_CASE("one or two lost reports, or a repeated one, are counted and tolerated", "[phantom][device]") {
   HeldPhantom held;
   held.bring_up();
   held.arm.move_hand({0.03, 0.0, 0.0});
@@ -290,7 +291,7 @@ TEST_CASE("one or two lost reports, or one repeated, are counted and borne", "[p
   CHECK(held.turn().status == DeviceStatus::ok);
 }
 
-TEST_CASE("the dead man's bit moves with each write and not by itself", "[phantom][device]") {
+TEST_CASE("the dead-man bit changes with each write and not by itself", "[phantom][device]") {
   HeldPhantom held;
   held.bring_up();
   bool last = held.arm.last_command().toggle;
@@ -303,8 +304,9 @@ TEST_CASE("the dead man's bit moves with each write and not by itself", "[phanto
   CHECK(held.arm.last_command().toggle == last);
 }
 
-TEST_CASE("motors that the servo loop has forgotten are switched off by the link, and come back gently",
-          "[phantom][device]") {
+TEST_CASE(
+    "without writes from the servo loop the link switches the motors off, and the force ramps up again afterwards",
+    "[phantom][device]") {
   HeldPhantom held;
   held.bring_up();
   const auto push = [](const DeviceState&) { return Eigen::Vector3d(0.0, 0.8, 0.0); };
@@ -324,7 +326,7 @@ TEST_CASE("motors that the servo loop has forgotten are switched off by the link
   CHECK(before > 0.7);
 }
 
-TEST_CASE("closing switches the motors off and sends what the profile says", "[phantom][device]") {
+TEST_CASE("closing switches the motors off and sends the profile's stop commands", "[phantom][device]") {
   HeldPhantom held;
   held.bring_up();
   const WireProfile& profile = held.arm.codec.profile();
@@ -343,10 +345,10 @@ TEST_CASE("closing switches the motors off and sends what the profile says", "[p
   CHECK(held.arm.wire->sent == sent);
   CHECK(held.device.read().status == DeviceStatus::disconnected);
   CHECK(held.device.read().position == position);
-  held.device.close();  // once more does nothing
+  held.device.close();  // a second call does nothing
 }
 
-TEST_CASE("a phantom that ends leaves the motors off, even when the link fails", "[phantom][device]") {
+TEST_CASE("a destroyed phantom leaves the motors off, even if the link fails", "[phantom][device]") {
   std::shared_ptr<Wire> wire;
   {
     HeldPhantom held;
@@ -358,7 +360,7 @@ TEST_CASE("a phantom that ends leaves the motors off, even when the link fails",
   CHECK_FALSE(PacketCodec(wire_profile("simulated")).decode_command(wire->newest).motors_on);
 }
 
-TEST_CASE("warm motors get less torque, are called warm, and never get too warm", "[phantom][device]") {
+TEST_CASE("warm motors get less torque, are reported, and never overheat", "[phantom][device]") {
   HeldPhantom held;
   held.bring_up();
   const auto push = [](const DeviceState&) { return Eigen::Vector3d(2.5, 0.0, 0.0); };
@@ -378,8 +380,7 @@ TEST_CASE("warm motors get less torque, are called warm, and never get too warm"
   CHECK(held.device.statistics().warmest_motor > 0.8);
 }
 
-TEST_CASE("without the limit of heat the motors are cut when they are too warm, until they have cooled",
-          "[phantom][device]") {
+TEST_CASE("without the thermal limit overheated motors are cut off until they have cooled", "[phantom][device]") {
   PhantomOptions options = simulated_options();
   options.limit_heat = false;
   HeldPhantom held(options);
@@ -400,7 +401,7 @@ TEST_CASE("without the limit of heat the motors are cut when they are too warm, 
   CHECK(held.device.statistics().warmest_motor == Approx(MotorTemperature::warm).epsilon(0.001));
 }
 
-TEST_CASE("gravity is borne when it is asked for", "[phantom][device]") {
+TEST_CASE("gravity is compensated on request", "[phantom][device]") {
   PhantomOptions options = simulated_options();
   options.gravity = true;
   HeldPhantom held(options);
@@ -417,7 +418,7 @@ TEST_CASE("gravity is borne when it is asked for", "[phantom][device]") {
   CHECK(light.arm.last_command().torque == PerJoint<std::int64_t>{});
 }
 
-TEST_CASE("two phantoms at once do not know of each other", "[phantom][device]") {
+TEST_CASE("two phantoms at once are independent", "[phantom][device]") {
   HeldPhantom left, right(simulated_options("premium-1.5"));
   left.bring_up({-0.05, 0.0, 0.0});
   right.bring_up({0.1, 0.05, 0.0});
@@ -433,7 +434,7 @@ TEST_CASE("two phantoms at once do not know of each other", "[phantom][device]")
   CHECK(right.turn().status == DeviceStatus::ok);
 }
 
-TEST_CASE("a serial stream drives a phantom as packets do, however it is cut", "[phantom][device]") {
+TEST_CASE("a serial stream drives a phantom as packets do, however it is split", "[phantom][device]") {
   HeldPhantom held("framing packet", "framing serial 0x20 0x21");
   REQUIRE(held.arm.wire->commands[0].size() == 4 + 4);  // the first byte of the five is the code
   CHECK(held.arm.wire->commands[0][2] == std::byte{0x53});
@@ -459,7 +460,7 @@ TEST_CASE("a serial stream drives a phantom as packets do, however it is cut", "
   CHECK(held.device.statistics().skipped_bytes > 1000);
 }
 
-TEST_CASE("reading and writing take nothing from the heap, nor does a report, good or bad", "[phantom][device]") {
+TEST_CASE("reading, writing and reports, good or bad, do not allocate", "[phantom][device]") {
   HeldPhantom held;
   held.bring_up();
   std::vector<Bytes> reports;
@@ -480,7 +481,7 @@ TEST_CASE("reading and writing take nothing from the heap, nor does a report, go
   CHECK(allocations() == before);
 }
 
-TEST_CASE("a phantom that cannot be driven is refused, and the message says what is missing", "[phantom][device]") {
+TEST_CASE("a phantom that cannot be driven is rejected, and the message says what is missing", "[phantom][device]") {
   PhantomOptions options;
   CHECK_THAT(refusal<ValueError>(options), Contains("no wire profile") && Contains("docs/wire-profile.md"));
   options.wire_profile = "omni";
@@ -495,11 +496,11 @@ TEST_CASE("a phantom that cannot be driven is refused, and the message says what
   CHECK_THAT(refusal<ValueError>(simulated_options("desktop")), Contains("desktop"));
   options = simulated_options();
   options.velocity_cutoff = 0.0;
-  CHECK_THAT(refusal<ValueError>(options), Contains("velocity cutoff is 0"));
+  CHECK_THAT(refusal<ValueError>(options), Contains("velocity_cutoff = 0 Hz"));
   for (const int priority : {-1, 100}) {
     options = simulated_options();
     options.priority = priority;
-    CHECK_THAT(refusal<ValueError>(options), Contains("priority is " + std::to_string(priority)));
+    CHECK_THAT(refusal<ValueError>(options), Contains("priority = " + std::to_string(priority)));
   }
   CHECK_THROWS_AS(PhantomDevice(nullptr, simulated_options()), ValueError);
   auto wire = std::make_shared<Wire>();
@@ -508,7 +509,7 @@ TEST_CASE("a phantom that cannot be driven is refused, and the message says what
                     Contains("permission denied"));
 }
 
-TEST_CASE("a device that refuses its start commands says so and gets no force", "[phantom][device]") {
+TEST_CASE("a device that refuses its start commands reports it and gets no force", "[phantom][device]") {
   auto wire = std::make_shared<Wire>();
   wire->fails_commands = true;
   double now = 0.0;
@@ -519,8 +520,7 @@ TEST_CASE("a device that refuses its start commands says so and gets no force", 
   CHECK(state.fault == DeviceFault::link_error);
 }
 
-TEST_CASE("what the system does not permit to a phantom's threads is told by the servo loop, once",
-          "[phantom][device]") {
+TEST_CASE("a privilege refused to a phantom's threads is reported once by the servo loop", "[phantom][device]") {
   auto wire = std::make_shared<Wire>();
   wire->warnings = {"no priority: ask for one"};
   PhantomDevice device(std::make_unique<MemoryLink>(wire), simulated_options());
@@ -540,7 +540,7 @@ TEST_CASE("what the system does not permit to a phantom's threads is told by the
   CHECK(ServoLoop(pinned_too, none, options).start() == of_core);
 }
 
-TEST_CASE("a device that comes back while it is closed is not started again", "[phantom][device]") {
+TEST_CASE("a device that comes back while it is being closed is not started again", "[phantom][device]") {
   HeldPhantom held;
   held.bring_up();
   held.arm.wire->at_the_end = [](LinkListener& listener) {
@@ -552,7 +552,7 @@ TEST_CASE("a device that comes back while it is closed is not started again", "[
   CHECK(held.arm.wire->commands.back() == held.arm.codec.profile().stop.back());
 }
 
-TEST_CASE("a device is started whenever its link was down, and while it is silent", "[phantom][device]") {
+TEST_CASE("start commands are sent whenever the link was down, and while the device is silent", "[phantom][device]") {
   HeldPhantom held;
   Wire& wire = *held.arm.wire;
   const auto starts = [&] {
@@ -575,7 +575,7 @@ TEST_CASE("a device is started whenever its link was down, and while it is silen
   }
   wire.listener->changed(DeviceFault::none);
   CHECK(starts() == ++expected);
-  // A start that was refused is made up for at the next occasion.
+  // Refused start commands are sent again at the next opportunity.
   wire.listener->changed(DeviceFault::stalled);
   wire.fails_commands = true;
   wire.listener->changed(DeviceFault::none);

@@ -14,19 +14,19 @@ using namespace calligraphy_test;
 
 namespace {
 
-/// What a person leans on while the faults come: a spring to a point that the hand stays off.
+/// The force during the faults: a spring to a point away from the hand.
 Eigen::Vector3d spring(const DeviceState& state) {
   return 150.0 * (Eigen::Vector3d(0.02, 0.02, 0.015) - state.position);
 }
 
 ServoOptions in_virtual_time() {
   ServoOptions options;
-  options.work_clock = []() noexcept { return 0.0; };  // however busy the machine is
+  options.work_clock = []() noexcept { return 0.0; };  // independent of machine load
   return options;
 }
 
-/// A phantom that feels the spring, with the library's servo loop over it or, to see what the device does by itself,
-/// with a law that goes on whatever the status is.
+/// A phantom with the spring, driven by the library's servo loop or, to test the device on its own, by a force law that
+/// ignores every status.
 struct Loop {
   explicit Loop(bool with_servo, const PhantomOptions& options = simulated_options())
       : held(options), uses_servo(with_servo), servo(held.device, spring, in_virtual_time()) {
@@ -38,7 +38,7 @@ struct Loop {
   bool uses_servo;
   Servo servo;
   DeviceState state;
-  double largest_step = 0.0;  ///< of the force from one millisecond to the next [N]
+  double max_step = 0.0;  ///< maximum force change per millisecond [N]
   Eigen::Vector3d last_force = Eigen::Vector3d::Zero();
 
   void turn() {
@@ -50,7 +50,7 @@ struct Loop {
       held.device.write(spring(state));
     }
     const Eigen::Vector3d force = held.arm.motor_force();
-    largest_step = std::max(largest_step, (force - last_force).norm());
+    max_step = std::max(max_step, (force - last_force).norm());
     last_force = force;
   }
   void run(int ticks) {
@@ -60,19 +60,19 @@ struct Loop {
   DeviceFault fault() const { return uses_servo ? servo.status().fault : state.fault; }
 };
 
-/// How a fault is made, and ended.
+/// How a fault is injected and cleared.
 struct Failure {
   std::string name;
   DeviceFault fault;
   std::function<void(Loop&)> begin;
   std::function<void(Loop&)> end;
-  int found_within = 1;  ///< reports until it is told
+  int found_within = 1;  ///< reports until it is detected
 };
 
 void spoil(Loop& loop, std::function<bool(Bytes&)> tamper) { loop.held.arm.tamper = std::move(tamper); }
 void mend(Loop& loop) { loop.held.arm.tamper = nullptr; }
 
-/// Changes what the report says and makes it a good one again.
+/// Changes the contents of the report and makes it valid again.
 void rewrite(Loop& loop, std::function<void(RawSample&)> change) {
   PacketCodec& codec = loop.held.arm.codec;
   spoil(loop, [&codec, change = std::move(change)](Bytes& frame) {
@@ -135,7 +135,7 @@ std::vector<Failure> failures() {
       of_frames(
           "no frames at all", DeviceFault::silent, [](Bytes&) { return false; }, 9),
       {"a device that answers late", DeviceFault::silent,
-       [](Loop& loop) {  // the next report of a device that counts on, but 15 ms after the last
+       [](Loop& loop) {  // the next report of a device that keeps counting, but 15 ms after the last
          PacketCodec& codec = loop.held.arm.codec;
          spoil(loop, [&codec, ticks = 0u, last = loop.held.arm.sequence](Bytes& frame) mutable {
            if (++ticks % 15 != 0) return false;
@@ -179,7 +179,7 @@ std::vector<Failure> failures() {
 
 }  // namespace
 
-TEST_CASE("every failure takes the force to zero within 20 ms, is named, and ends without a jump",
+TEST_CASE("every fault brings the force to zero within 20 ms, is reported by name, and clears without a force step",
           "[phantom][faults]") {
   for (const bool with_servo : {true, false}) {
     for (const Failure& failure : failures()) {
@@ -187,7 +187,7 @@ TEST_CASE("every failure takes the force to zero within 20 ms, is named, and end
       Loop loop(with_servo);
       REQUIRE(loop.fault() == DeviceFault::none);
       REQUIRE(loop.last_force.norm() > 0.7);
-      loop.largest_step = 0.0;
+      loop.max_step = 0.0;
 
       failure.begin(loop);
       int found = 0;
@@ -195,13 +195,13 @@ TEST_CASE("every failure takes the force to zero within 20 ms, is named, and end
       while (!named && found < failure.found_within) {
         loop.turn();
         ++found;
-        // The servo loop's own patience with silence is shorter than the device's; both call it by the same name.
+        // The servo loop's timeout for silence is shorter than the device's; both report it by the same name.
         named = loop.fault() == failure.fault;
       }
       REQUIRE(named);
       for (int i = 0; i < 10; ++i) loop.turn();
       REQUIRE(loop.last_force.norm() == 0.0);
-      // Failures that are seen at once: 11 ms after they began. The others: 20 ms, but for those that need a history.
+      // Faults detected immediately: 11 ms after onset. The others: 20 ms, except for those that need a history.
       if (failure.found_within <= 10) REQUIRE(found + 10 <= 20);
       for (int i = 0; i < 60; ++i) {
         loop.turn();
@@ -214,20 +214,20 @@ TEST_CASE("every failure takes the force to zero within 20 ms, is named, and end
       loop.run(600);
       REQUIRE(loop.fault() == DeviceFault::none);
       REQUIRE(loop.last_force.norm() > 0.7);
-      // It falls by a tenth of itself a millisecond, and never faster, neither on its way down nor when it returns.
-      CHECK(loop.largest_step < 0.15);
+      // It changes by at most a tenth of the force per millisecond, both in the ramp-down and when it returns.
+      CHECK(loop.max_step < 0.15);
       CHECK(loop.held.device.statistics().faults[static_cast<std::size_t>(failure.fault)] > 0);
     }
   }
 }
 
-TEST_CASE("a failure of a single report is told, and takes the force down as well", "[phantom][faults]") {
+TEST_CASE("a fault in a single report is reported and ramps the force down, too", "[phantom][faults]") {
   for (const bool with_servo : {true, false}) {
     for (const Failure& failure : failures()) {
       if (failure.found_within > 1) continue;
       CAPTURE(failure.name, with_servo);
       Loop loop(with_servo);
-      loop.largest_step = 0.0;
+      loop.max_step = 0.0;
       failure.begin(loop);
       loop.turn();
       failure.end(loop);
@@ -242,17 +242,17 @@ TEST_CASE("a failure of a single report is told, and takes the force down as wel
       loop.run(600);
       CHECK(loop.fault() == DeviceFault::none);
       CHECK(loop.last_force.norm() > 0.7);
-      CHECK(loop.largest_step < 0.15);
+      CHECK(loop.max_step < 0.15);
     }
   }
 }
 
-TEST_CASE("a fault between two reads is told by the next one", "[phantom][faults]") {
+TEST_CASE("a fault between two reads is reported by the next one", "[phantom][faults]") {
   HeldPhantom held;
   held.bring_up();
   held.arm.wire->listener->changed(DeviceFault::timed_out);
   held.arm.wire->listener->changed(DeviceFault::none);
-  for (int i = 0; i < 50; ++i) held.tick();  // a slow reader: 50 ms later, all is well again
+  for (int i = 0; i < 50; ++i) held.tick();  // a slow reader: 50 ms later there is no fault any more
   const DeviceState state = held.device.read();
   CHECK(state.status == DeviceStatus::fault);
   CHECK(state.fault == DeviceFault::timed_out);
@@ -260,7 +260,8 @@ TEST_CASE("a fault between two reads is told by the next one", "[phantom][faults
   CHECK(held.device.read().status == DeviceStatus::ok);
 }
 
-TEST_CASE("after an unplug the device is disconnected, and back it needs its inkwell", "[phantom][faults]") {
+TEST_CASE("after an unplug the device is disconnected, and must be docked in the inkwell when it is back",
+          "[phantom][faults]") {
   for (const bool with_servo : {true, false}) {
     CAPTURE(with_servo);
     Loop loop(with_servo);
@@ -273,15 +274,15 @@ TEST_CASE("after an unplug the device is disconnected, and back it needs its ink
     CHECK(loop.held.device.read().status == DeviceStatus::disconnected);
     loop.run(3000);
     CHECK(loop.fault() == DeviceFault::unplugged);
-    loop.largest_step = 0.0;  // what a device does that has lost its host is its own affair
+    loop.max_step = 0.0;  // the behaviour of a device without a host is not tested here
 
-    // Somewhere else on the bus, its encoders at some other count.
+    // At another port, its encoders at other counts.
     loop.held.arm.count_offset = {111, 2222, 33333};
     loop.held.arm.sequence = 5;
     wire.takes_packets = true;
     const std::size_t commands = wire.commands.size();
     wire.listener->changed(DeviceFault::none);
-    CHECK(wire.commands.size() == commands + 1);  // started anew
+    CHECK(wire.commands.size() == commands + 1);  // started again
     mend(loop);
     loop.run(500);
     CHECK(loop.held.device.read().status == DeviceStatus::needs_calibration);
@@ -296,31 +297,31 @@ TEST_CASE("after an unplug the device is disconnected, and back it needs its ink
       loop.held.arm.move_hand(to);
       loop.run(500);
     };
-    // Friction leaves the tip a little off the inkwell: the inkwell itself guides the pen into place.
-    loop.held.arm.tip.set_hand({0.1, 20.0, 20000.0});
+    // Friction leaves the tip slightly off the inkwell; the inkwell itself guides the pen into place.
+    loop.held.arm.tip.set_grip({0.1, 20.0, 20000.0});
     carry(inkwell);
     loop.held.arm.docked = true;
     loop.run(50);
     loop.held.arm.docked = false;
-    loop.held.arm.tip.set_hand({0.1, 3.0, 300.0});
+    loop.held.arm.tip.set_grip({0.1, 3.0, 300.0});
     carry({0.01, 0.02, 0.01});
     CHECK(loop.fault() == DeviceFault::none);
     CHECK((loop.held.device.read().position - loop.held.arm.tip.true_position()).norm() < 3e-4);
     CHECK(loop.last_force.norm() > 0.7);
-    CHECK(loop.largest_step < 0.15);
+    CHECK(loop.max_step < 0.15);
   }
 }
 
-TEST_CASE("encoders that are known to go on counting need no inkwell after an unplug", "[phantom][faults]") {
+TEST_CASE("encoders known to keep counting need no inkwell after an unplug", "[phantom][faults]") {
   PhantomOptions options = simulated_options();
   options.keep_calibration = true;
   Loop loop(true, options);
-  loop.largest_step = 0.0;
+  loop.max_step = 0.0;
   Wire& wire = *loop.held.arm.wire;
   wire.listener->changed(DeviceFault::unplugged);
   loop.held.arm.tamper = [](Bytes&) { return false; };
   loop.held.arm.tip.set_intention({loop.held.arm.tip.true_position(), {-0.02, 0.01, 0.0}});
-  loop.run(1000);  // the arm moves meanwhile
+  loop.run(1000);  // the arm moves in the meantime
   wire.listener->changed(DeviceFault::none);
   mend(loop);
   loop.held.arm.move_hand(loop.held.arm.tip.true_position());
@@ -328,10 +329,10 @@ TEST_CASE("encoders that are known to go on counting need no inkwell after an un
   CHECK(loop.fault() == DeviceFault::none);
   CHECK((loop.held.device.read().position - loop.held.arm.tip.true_position()).norm() < 2e-4);
   CHECK(loop.last_force.norm() > 0.7);
-  CHECK(loop.largest_step < 0.15);
+  CHECK(loop.max_step < 0.15);
 }
 
-TEST_CASE("an encoder that stands while the others move is found, and its name is told", "[phantom][faults]") {
+TEST_CASE("an encoder that is stationary while the others move is reported as stuck", "[phantom][faults]") {
   for (const std::size_t joint : {0u, 1u, 2u}) {
     CAPTURE(joint);
     Loop loop(true);
@@ -366,7 +367,7 @@ TEST_CASE("an encoder that stands while the others move is found, and its name i
   }
 }
 
-TEST_CASE("a leap that stays means that counts were lost: the inkwell is needed", "[phantom][faults]") {
+TEST_CASE("a persistent jump means that counts were lost and the inkwell is needed", "[phantom][faults]") {
   HeldPhantom held;
   held.bring_up();
   const Eigen::Vector3d before = held.turn().position;
@@ -375,13 +376,13 @@ TEST_CASE("a leap that stays means that counts were lost: the inkwell is needed"
   for (int i = 0; i < 30; ++i) {
     const DeviceState state = held.turn();
     named = named || state.fault == DeviceFault::leaping_encoder;
-    REQUIRE((state.position - before).norm() < 1e-3);  // the leap itself is never given as a position
+    REQUIRE((state.position - before).norm() < 1e-3);  // the jump itself is never returned as a position
   }
   CHECK(named);
   CHECK(held.turn().status == DeviceStatus::needs_calibration);
 }
 
-TEST_CASE("one flipped bit of an encoder moves nothing, even where no checksum sees it", "[phantom][faults]") {
+TEST_CASE("one flipped bit of an encoder has no effect, even where no checksum detects it", "[phantom][faults]") {
   HeldPhantom held;
   held.bring_up();
   held.arm.tip.set_intention({held.arm.tip.true_position(), {0.1, 0.0, 0.0}});
@@ -407,7 +408,7 @@ TEST_CASE("one flipped bit of an encoder moves nothing, even where no checksum s
   }
 }
 
-TEST_CASE("a link that takes no packets is counted, and nothing blocks", "[phantom][faults]") {
+TEST_CASE("refused packets are counted, and nothing blocks", "[phantom][faults]") {
   HeldPhantom held;
   held.bring_up();
   held.arm.wire->takes_packets = false;
@@ -418,7 +419,7 @@ TEST_CASE("a link that takes no packets is counted, and nothing blocks", "[phant
   CHECK(held.device.statistics().refused_commands == 10);
 }
 
-TEST_CASE("any bytes at all leave a phantom whole", "[phantom][faults]") {
+TEST_CASE("arbitrary bytes do no harm to a phantom", "[phantom][faults]") {
   for (const bool is_serial : {false, true}) {
     HeldPhantom held(is_serial ? "framing packet" : "rate 1000", is_serial ? "framing serial 0x20 0x21" : "rate 1000");
     held.bring_up();

@@ -7,7 +7,7 @@
 using namespace calligraphy;
 using namespace calligraphy::phantom;
 
-TEST_CASE("a sequence counts on over its wrap", "[phantom][sequence]") {
+TEST_CASE("a sequence continues across its wrap", "[phantom][sequence]") {
   SequenceWatch watch(8);
   for (unsigned i = 250; i < 1000; ++i) {
     const SequenceWatch::Answer answer = watch.judge(i & 0xFF);
@@ -17,7 +17,7 @@ TEST_CASE("a sequence counts on over its wrap", "[phantom][sequence]") {
   }
 }
 
-TEST_CASE("two lost reports in a row are borne, three are a fault", "[phantom][sequence]") {
+TEST_CASE("two lost reports in a row are tolerated, three are a fault", "[phantom][sequence]") {
   for (const unsigned lost : {0u, 1u, 2u, 3u, 100u}) {
     SequenceWatch watch(32);
     watch.judge(7);
@@ -29,7 +29,7 @@ TEST_CASE("two lost reports in a row are borne, three are a fault", "[phantom][s
   }
 }
 
-TEST_CASE("one in sixty may be lost for ever, one in forty not", "[phantom][sequence]") {
+TEST_CASE("losing one in sixty is tolerated indefinitely, one in forty is not", "[phantom][sequence]") {
   const auto faults = [](unsigned period) {
     SequenceWatch watch(32);
     int found = 0;
@@ -42,7 +42,7 @@ TEST_CASE("one in sixty may be lost for ever, one in forty not", "[phantom][sequ
   CHECK(faults(40) > 0);
 }
 
-TEST_CASE("a repeated report is dropped, the third in a row is a fault, and one that runs back too",
+TEST_CASE("a repeated report is dropped, and the third in a row or one that runs backwards is a fault",
           "[phantom][sequence]") {
   SequenceWatch watch(16);
   watch.judge(100);

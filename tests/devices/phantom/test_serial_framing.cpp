@@ -56,7 +56,7 @@ const Seen seen_empty{0x0F, {}};
 
 }  // namespace
 
-TEST_CASE("frames are found however the transfers cut them", "[phantom][framing]") {
+TEST_CASE("frames are found however the transfers split them", "[phantom][framing]") {
   const Bytes stream = frame_a + frame_b + frame_empty + frame_a;
   for (std::size_t part = 1; part <= stream.size(); ++part) {
     CAPTURE(part);
@@ -64,21 +64,20 @@ TEST_CASE("frames are found however the transfers cut them", "[phantom][framing]
   }
 }
 
-TEST_CASE("garbage between frames is passed over and counted", "[phantom][framing]") {
+TEST_CASE("garbage between frames is skipped and counted", "[phantom][framing]") {
   SerialFrames frames;
-  CHECK(feed(frames, frame_bytes({0, 0xFF, 0x5A}) + frame_a + frame_bytes({7, 7}) + frame_b) ==
-        std::vector<Seen>{seen_a, seen_b});
+  CHECK(feed(frames, frame_bytes({0, 0xFF, 0x5A}) + frame_a + frame_bytes({7, 7}) + frame_b) == std::vector<Seen>{seen_a, seen_b});
   CHECK(frames.skipped() == 5);
   CHECK(frames.frames() == 2);
 }
 
-TEST_CASE("the first mark before a frame is not taken for the frame's own", "[phantom][framing]") {
+TEST_CASE("a stray first marker byte before a frame is not mistaken for the frame's own", "[phantom][framing]") {
   CHECK(seen_in(frame_bytes({0xA5}) + frame_a) == std::vector<Seen>{seen_a});
   CHECK(seen_in(frame_bytes({0xA5, 0xA5, 0xA5}) + frame_a) == std::vector<Seen>{seen_a});
   CHECK(seen_in(frame_bytes({0xA5, 0x00}) + frame_a) == std::vector<Seen>{seen_a});
 }
 
-TEST_CASE("marks inside a payload begin no frame", "[phantom][framing]") {
+TEST_CASE("markers inside a payload start no frame", "[phantom][framing]") {
   const Bytes payload = frame_bytes({0xA5, 0x5A, 0x01, 0x00, 0xA5});
   std::array<std::byte, 16> frame{};
   const std::size_t size = write_serial_frame(0x30, payload, frame);
@@ -86,7 +85,7 @@ TEST_CASE("marks inside a payload begin no frame", "[phantom][framing]") {
   CHECK(seen_in(stream + frame_b) == std::vector<Seen>{{0x30, payload}, seen_b});
 }
 
-TEST_CASE("a truncated frame costs no more than the frame that it runs into", "[phantom][framing]") {
+TEST_CASE("a truncated frame costs at most the frame after it", "[phantom][framing]") {
   SerialFrames frames(SerialFrames::Expected{0x04, 3});
   const Bytes truncated(frame_a.begin(), frame_a.end() - 2);
   for (int cut = 1; cut < 7; ++cut) {
@@ -99,8 +98,7 @@ TEST_CASE("a truncated frame costs no more than the frame that it runs into", "[
   }
 }
 
-TEST_CASE("who waits for one kind of frame is not held up by what looks like a header of another",
-          "[phantom][framing]") {
+TEST_CASE("a reader of one kind of frame is not delayed by apparent headers of another kind", "[phantom][framing]") {
   SerialFrames frames(SerialFrames::Expected{0x04, 3});
   CHECK(feed(frames, frame_bytes({0xA5, 0x5A, 0x77, 0xFF}) + frame_a) == std::vector<Seen>{seen_a});
   CHECK(feed(frames, frame_bytes({0xA5, 0x5A, 0x04, 0x04}) + frame_a) == std::vector<Seen>{seen_a});
@@ -110,7 +108,7 @@ TEST_CASE("who waits for one kind of frame is not held up by what looks like a h
   CHECK(feed(frames, frame_b + frame_empty).empty());
 }
 
-TEST_CASE("the longest frame fits and every byte of a stream is a frame's or counted", "[phantom][framing]") {
+TEST_CASE("the longest frame fits, and every byte of a stream belongs to a frame or is counted", "[phantom][framing]") {
   Bytes payload(255);
   for (std::size_t i = 0; i < payload.size(); ++i) payload[i] = static_cast<std::byte>(i);
   std::array<std::byte, 259> frame{};
@@ -133,7 +131,7 @@ TEST_CASE("the longest frame fits and every byte of a stream is a frame's or cou
   CHECK(in_frames + frames.skipped() == fed);
 }
 
-TEST_CASE("an interrupted stream begins anew", "[phantom][framing]") {
+TEST_CASE("an interrupted stream starts afresh", "[phantom][framing]") {
   SerialFrames frames;
   feed(frames, frame_bytes({0xA5, 0x5A, 0x04, 0x03, 1}));
   frames.reset();
@@ -141,7 +139,7 @@ TEST_CASE("an interrupted stream begins anew", "[phantom][framing]") {
   CHECK(feed(frames, frame_b) == std::vector<Seen>{seen_b});
 }
 
-TEST_CASE("finding frames takes nothing from the heap", "[phantom][framing]") {
+TEST_CASE("finding frames does not allocate", "[phantom][framing]") {
   SerialFrames frames;
   std::size_t found = 0;
   const Bytes stream = frame_bytes({3, 0xA5}) + frame_a + frame_b;

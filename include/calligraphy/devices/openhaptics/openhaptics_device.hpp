@@ -1,4 +1,4 @@
-// A Touch, Phantom or Omni by way of the vendor's own runtime, HDAPI, when it is installed.
+// A Touch, Phantom or Omni, driven through the vendor's runtime (OpenHaptics HDAPI) if it is installed.
 #pragma once
 
 #include <cstdint>
@@ -9,42 +9,42 @@
 
 namespace calligraphy {
 
-/// How the runtime brings joint encoders to absolute angles.
+/// How the runtime calibrates the joint encoders to absolute angles.
 enum class CalibrationStyle : std::uint8_t {
-  encoder_reset,  ///< the pen is held in a known pose
-  automatic,      ///< the device does it by itself
-  inkwell         ///< the pen is put into the inkwell
+  encoder_reset,  ///< the user holds the pen in a known pose
+  automatic,      ///< the device calibrates itself
+  inkwell         ///< the user puts the pen into the inkwell
 };
 
 struct OpenHapticsOptions {
-  /// File of the runtime; empty: the environment's CALLIGRAPHY_LIBHD, else libHD.so where the system looks for
-  /// libraries.
+  /// File name of the runtime; empty: the environment variable CALLIGRAPHY_LIBHD, otherwise libHD.so on the system's
+  /// library path.
   std::string library;
-  /// As the vendor's setup program calls the device; empty: the runtime's default device.
+  /// Name given to the device in the vendor's setup program; empty: the runtime's default device.
   std::string device;
   CalibrationStyle calibration = CalibrationStyle::inkwell;
-  double (*time)() noexcept = nullptr;  ///< never runs back [s]; null: the system's monotonic clock
+  double (*time)() noexcept = nullptr;  ///< a monotonic clock [s]; null: the system's
 };
 
-/// The runtime is loaded while a device is open, never linked; nothing of the vendor's is part of this library.
+/// The runtime is loaded while a device is open and never linked; this library contains no vendor code.
 ///
-/// The vendor's scheduler is the clock: clock() must be what runs a ServoLoop (which it is by itself), and read() and
-/// write() reach the device only from within its ticks. While no loop runs, read() gives the last sample as `stale`;
-/// write() of a zero force switches the force output off, so that a watchdog in another thread can end a force, and any
-/// other force is ignored. The output is on only while a loop runs. Open all devices before the first loop starts: they
-/// share the one scheduler of the runtime.
+/// The servo loop must be clocked by the vendor's scheduler, clock(), which ServoLoop uses automatically; read() and
+/// write() reach the device only from within its ticks. While no loop runs, read() returns the last sample as `stale`;
+/// writing a zero force switches the force output off, so that a watchdog in another thread can remove a force, and any
+/// other force is ignored. The output is on only while a loop runs. Open all devices before the first loop starts,
+/// because they share the runtime's single scheduler.
 ///
-/// Never run on hardware: written from the public interface, tested against a stand-in.
+/// Never run on hardware: written from the public interface and tested against a stub.
 class OpenHapticsDevice final : public HapticDevice {
  public:
   /// @throws DeviceError when the runtime is missing or incomplete, when it has no such device, or while a loop runs on
-  /// another device of it; the message says what to do
+  /// another of its devices; the message says what to do
   explicit OpenHapticsDevice(const OpenHapticsOptions& options = {});
-  /// Stops the clock and closes. A ServoLoop on this device must have ended before.
+  /// Stops the clock and closes. End any ServoLoop on this device first.
   ~OpenHapticsDevice() override;
 
-  /// Workspace, peak and continuous force and rate as the runtime has them, where they make sense; the rest, the
-  /// stiffness above all, from the device profile that is closest to the model.
+  /// Workspace, peak and continuous force and rate are those of the runtime if plausible; everything else, in
+  /// particular the stiffness, comes from the built-in profile closest to the model.
   const Capabilities& capabilities() const noexcept override;
   DeviceState read() noexcept override;
   void write(const Eigen::Vector3d& force) noexcept override;
@@ -52,11 +52,12 @@ class OpenHapticsDevice final : public HapticDevice {
   ServoClock* clock() noexcept override;
 
   const std::string& serial() const noexcept;
-  /// The file of the runtime.
+  /// File name of the runtime.
   const std::string& library() const noexcept;
-  /// The newest error code of the runtime; 0: none so far. Any thread.
+  /// Most recent error code of the runtime; 0: none so far. Thread-safe.
   std::uint32_t last_error() const noexcept;
-  /// "needs calibration: put the pen into the inkwell", or empty: what a person has to do. Any thread.
+  /// What the user has to do, for example "needs calibration: put the pen into the inkwell"; otherwise empty.
+  /// Thread-safe.
   std::string advice() const;
 
  private:
@@ -64,14 +65,14 @@ class OpenHapticsDevice final : public HapticDevice {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// "warm motors" for 0x0200; "error 0x1234" for a code that is not known.
+/// Display text: "warm motors" for 0x0200; "error 0x1234" for an unknown code.
 std::string openhaptics_error_name(std::uint32_t code);
 
-/// Whether the runtime is there and complete, without opening a device.
+/// Whether the runtime is installed and complete, determined without opening a device.
 struct OpenHapticsRuntime {
   bool found = false;
-  std::string library;  ///< its file
-  std::string advice;   ///< what to do when it is not found
+  std::string library;  ///< file name
+  std::string advice;   ///< what to do if it was not found
 };
 OpenHapticsRuntime openhaptics_runtime(const std::string& library = {});
 

@@ -42,7 +42,7 @@ std::string words(const Fields& at) {
              std::to_string(at.byte(17)) + " configuration(s)";
     case 2:
       return "configuration " + std::to_string(at.byte(5)) + ", " + std::to_string(at.byte(4)) + " interface(s), " +
-             std::to_string(at.word(2)) + " bytes in all, " + std::to_string(2 * at.byte(8)) + " mA";
+             std::to_string(at.word(2)) + " bytes in total, " + std::to_string(2 * at.byte(8)) + " mA";
     case 4:
       return "interface " + std::to_string(at.byte(2)) + ", setting " + std::to_string(at.byte(3)) + ", class " +
              hex(at.byte(5), 2) + ", subclass " + hex(at.byte(6), 2) + ", protocol " + hex(at.byte(7), 2) + ", " +
@@ -52,7 +52,7 @@ std::string words(const Fields& at) {
     case 0x21:
       return "HID " + decimal_version(at.word(2)) + ", report descriptor of " + std::to_string(at.word(7)) + " bytes";
     case 0x24:
-      return "class-specific, of an interface";
+      return "class-specific interface descriptor";
     default:
       return "type " + hex(at.byte(1), 2);
   }
@@ -65,7 +65,7 @@ std::string descriptor_text(std::span<const std::byte> descriptors) {
   while (!descriptors.empty()) {
     const auto length = std::to_integer<std::size_t>(descriptors[0]);
     if (length < 2 || length > descriptors.size()) {
-      return text + "cut off: " + hexadecimal(descriptors) + "\n";
+      return text + "truncated: " + hexadecimal(descriptors) + "\n";
     }
     const std::span<const std::byte> descriptor = descriptors.first(length);
     text += words(Fields(descriptor)) + "\n  " + hexadecimal(descriptor) + "\n";

@@ -1,4 +1,4 @@
-// Descriptors of a USB device in words.
+// Decodes the descriptors of a USB device into text.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,8 @@
 
 namespace calligraphy::phantom {
 
-/// A descriptor a paragraph: its bytes in hexadecimal, then what its fields say. One of a class that is not known here
-/// is given by its bytes; a cut or impossible length ends the text, saying so.
+/// One paragraph per descriptor: its decoded fields, then its bytes in hexadecimal. A descriptor of an unknown class is
+/// shown as bytes only; a truncated one or an impossible length ends the text with a note.
 std::string descriptor_text(std::span<const std::byte> descriptors);
 
 }  // namespace calligraphy::phantom

@@ -1,4 +1,4 @@
-// libusb lists every device of the bus without opening it; the hidraw nodes of a HID come from the system.
+// libusb lists all devices on the bus without opening them; the hidraw nodes of a HID come from the system.
 #include <calligraphy/devices/phantom/device_list.hpp>
 
 #include <algorithm>
@@ -22,9 +22,9 @@ namespace calligraphy {
 
 using namespace phantom;
 
-const char* link_name(LinkKind link) noexcept { return link == LinkKind::hid ? "hid" : "usb"; }
+const char* to_string(LinkKind link) noexcept { return link == LinkKind::hid ? "hid" : "usb"; }
 
-std::string describe(const PluggedDevice& device) {
+std::string describe_device(const PluggedDevice& device) {
   char ids[10];
   std::snprintf(ids, sizeof ids, "%04x:%04x", device.vendor_id, device.product_id);
   std::string text = ids;
@@ -36,7 +36,7 @@ std::vector<PluggedDevice> phantom::devices_on_bus(libusb_context* context) {
   libusb_device** list = nullptr;
   const ssize_t count = libusb_get_device_list(context, &list);
   if (count < 0) {
-    throw DeviceError(std::string("the USB cannot be read: ") + libusb_strerror(static_cast<libusb_error>(count)));
+    throw DeviceError(std::string("cannot list the USB devices: ") + libusb_strerror(static_cast<libusb_error>(count)));
   }
   std::vector<PluggedDevice> devices;
   for (ssize_t i = 0; i < count; ++i) {
@@ -64,7 +64,7 @@ std::vector<PluggedDevice> plugged_devices() {
   for (PluggedDevice& device : devices) {
     std::string opened = device.nodes.front();
     if (device.link == LinkKind::hid) {
-      const std::string path = hid_path(device);  // hidapi-libusb names a place on the bus instead of a node
+      const std::string path = hid_path(device);  // hidapi-libusb returns a bus address, not a node
       if (path.rfind("/dev/", 0) == 0) opened = path;
     }
     device.may_open = may_open(opened);
@@ -76,12 +76,12 @@ std::vector<PluggedDevice> plugged_devices() {
 std::string dump_descriptors(const PluggedDevice& device) {
   const std::string place = usb_place(device.bus, device.port);
   const std::vector<std::byte> descriptors = descriptors_at(place);
-  std::string text = describe(device) + "\n";
-  if (descriptors.empty()) return text + "descriptors: the system does not tell them\n";
+  std::string text = describe_device(device) + "\n";
+  if (descriptors.empty()) return text + "descriptors: not provided by the system\n";
   text += descriptor_text(descriptors);
   if (device.link != LinkKind::hid) return text;
   const std::vector<std::byte> report = report_descriptor_at(place);
-  if (report.empty()) return text + "report descriptor: not told while a program has the device open\n";
+  if (report.empty()) return text + "report descriptor: not available while a program has the device open\n";
   return text + "report descriptor, " + std::to_string(report.size()) + " bytes\n" + report_descriptor_text(report);
 }
 

@@ -1,4 +1,4 @@
-// Keeps two programs from one device where its driver does not.
+// Prevents two programs from driving one device where its driver does not.
 #pragma once
 
 #include <vector>
@@ -7,10 +7,10 @@
 
 namespace calligraphy::phantom {
 
-/// An advisory lock on every node of a device that this user may open: the one on the bus, which both forms of hidapi
-/// have in common, and those of hidraw. The system takes it back when the process ends, however it ends; a device that
-/// is plugged in anew has new nodes, and no lock from before. It holds between users, and in a container as far as that
-/// shares the nodes; a node that a container made for itself is another one.
+/// An advisory lock on every node of a device that this user may open: the bus node, which both variants of hidapi
+/// share, and the hidraw nodes. The system releases it when the process ends for any reason, and a replugged device has
+/// new, unlocked nodes. The lock works across users, and across containers that share the nodes; a node created by a
+/// container itself is a different one.
 class DeviceLock {
  public:
   DeviceLock() = default;
@@ -18,7 +18,8 @@ class DeviceLock {
   DeviceLock(const DeviceLock&) = delete;
   DeviceLock& operator=(const DeviceLock&) = delete;
 
-  /// Lets go of what it had. @throws DeviceError naming the device when somebody else has it, and holds nothing then
+  /// Releases any previous lock first. @throws DeviceError naming the device when it is locked elsewhere; nothing is
+  /// locked then
   void take(const PluggedDevice& device);
   void release() noexcept;
 

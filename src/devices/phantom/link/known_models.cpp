@@ -1,4 +1,4 @@
-// Sources: the drivers' page of jhu-saw/sawSensablePhantom; Geomagic_Touch_ROS_Drivers, issues 2, 17 and 18.
+// Sources: the drivers page of jhu-saw/sawSensablePhantom; Geomagic_Touch_ROS_Drivers, issues 2, 17 and 18.
 #include "known_models.hpp"
 
 #include <algorithm>
@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::array<KnownModel, 3> models{{
     {0x2988, 0x0302, LinkKind::usb, "Touch (USB serial)"},
-    {0x0301, 0x2988, LinkKind::usb, "Touch (USB serial, an early unit whose ids are swapped)"},
+    {0x0301, 0x2988, LinkKind::usb, "Touch (USB serial, early unit with swapped ids)"},
     {0x2988, 0x0304, LinkKind::hid, "Touch or Touch X (USB HID)"},
 }};
 

@@ -1,4 +1,4 @@
-// The USB ids of Phantoms and Touches that are public.
+// Publicly known USB ids of Phantom and Touch devices.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct KnownModel {
 
 std::span<const KnownModel> known_models() noexcept;
 
-/// Null when these ids are none of a Phantom.
+/// Null if these are not the ids of a Phantom.
 const KnownModel* known_model(std::uint16_t vendor, std::uint16_t product) noexcept;
 
 }  // namespace calligraphy::phantom

@@ -1,4 +1,4 @@
-// The bytes between the host and a device: what a codec stands on, whatever the bus.
+// Interface for transferring bytes between the host and a device, independent of the bus.
 #pragma once
 
 #include <cstddef>
@@ -11,16 +11,16 @@
 
 namespace calligraphy::phantom {
 
-/// Who is told what a link sees. Called from one thread of the link's own; may neither block nor throw.
+/// Receives the events of a link. Called from one of the link's own threads; must neither block nor throw.
 class LinkListener {
  public:
   virtual ~LinkListener() = default;
 
-  /// One transfer as it came, an empty one too: a packet, or the next part of a stream. Valid during the call alone.
+  /// One transfer, possibly empty: a packet, or the next part of a stream. Valid only during the call.
   virtual void received(std::span<const std::byte> bytes) noexcept = 0;
 
-  /// The link is up for the first time or again, perhaps in another place: `none`; or what has gone wrong with it.
-  /// `timed_out` is told again and again as long as it lasts, a second or so apart.
+  /// `none`: the link has come up, for the first time or again, possibly at another port. Otherwise the cause of a
+  /// failure; `timed_out` is repeated about once a second while it persists.
   virtual void changed(DeviceFault fault) noexcept = 0;
 };
 
@@ -28,35 +28,36 @@ class LinkListener {
 struct LinkCounts {
   std::uint64_t received = 0;
   std::uint64_t sent = 0;
-  std::uint64_t replaced = 0;  ///< packets to send that a newer one overtook
+  std::uint64_t replaced = 0;  ///< outgoing packets superseded by a newer one
   std::uint64_t failed = 0;    ///< transfers that ended in an error
-  std::uint64_t opened = 0;    ///< times that the device was found, the first included
+  std::uint64_t opened = 0;    ///< times that the device was found, including the first
 };
 
-/// A device on a bus, served by one thread of its own. It goes on when the device is unplugged, finds it by its serial
-/// number wherever it is plugged in again, and tells its listener of both.
+/// Connection to a device on a bus, served by its own thread. It survives unplugging, finds the device by its serial
+/// number at any port, and reports both to its listener.
 class Link {
  public:
-  /// Stops the thread; the listener hears nothing afterwards.
+  /// Stops the thread; the listener is not called afterwards.
   virtual ~Link() = default;
 
-  /// The listener must outlive the link. @throws DeviceError naming device, reason and what can be done
+  /// The listener must outlive the link. @throws DeviceError naming device, cause and remedy
   virtual void open(LinkListener& listener) = 0;
 
-  /// Sends a packet as soon as the bus takes one; one that still waits is replaced: the newest wins. Copies the bytes;
-  /// neither blocks nor allocates. False, and nothing is sent, when the packet is longer than the link can hold.
+  /// Sends a packet as soon as the bus accepts one; it replaces a packet that is still pending. Copies the bytes and
+  /// neither blocks nor allocates. Returns false and sends nothing if the packet is too long for the link.
   virtual bool send(std::span<const std::byte> packet) noexcept = 0;
 
-  /// Sends a packet that no later one may overtake (enabling the servo, asking for a serial number), and waits for its
-  /// end; from set-up or the listener's `changed`, never from the servo loop. @throws DeviceError
+  /// Sends a packet that no later one may overtake (such as enabling the servo or requesting a serial number) and waits
+  /// for its completion. Call it during set-up or from the listener's `changed`, never from the servo loop.
+  /// @throws DeviceError
   virtual void command(std::span<const std::byte> packet) = 0;
 
   virtual LinkCounts counts() const noexcept = 0;
 
-  /// What the system did not permit to the link's threads, each with what to do; once it is open.
+  /// Privileges that the system refused to the link's threads, each with a remedy; valid once the link is open.
   virtual const std::vector<std::string>& warnings() const noexcept = 0;
 
-  /// "2988:0302 on bus 1, port 2, serial 540-12345": for messages.
+  /// For messages: "2988:0302 on bus 1, port 2, serial 540-12345".
   virtual const std::string& description() const noexcept = 0;
   virtual const std::string& serial() const noexcept = 0;
 };

@@ -1,15 +1,15 @@
-// How long a link waits before it says that nothing comes, and how urgent its threads are.
+// Time-outs of a link and the priority of its threads.
 #pragma once
 
 namespace calligraphy::phantom {
 
-/// In the clock of the machine: far above the few milliseconds after which a servo loop calls a device silent, so that
-/// a link speaks of it only when the bus is at fault.
+/// In wall-clock time: far above the few milliseconds after which a servo loop reports a device as silent, so that a
+/// link reports a time-out only when the bus is at fault.
 struct LinkOptions {
-  double silence = 1.0;  ///< without a transfer from the device before `timed_out`, and before that is told again [s]
-  double answer = 0.25;  ///< until the device has taken a packet, before `timed_out` [s]
-  double search = 0.1;   ///< between two looks for a device that is gone, where the system does not tell of it [s]
-  int priority = 0;      ///< real-time priority of its threads, 1 to 99; 0: ordinary ones
+  double silence = 1.0;  ///< time without a transfer from the device until `timed_out`, and until that is repeated [s]
+  double answer = 0.25;  ///< time for the device to accept a packet, until `timed_out` [s]
+  double search = 0.1;   ///< interval of searches for a missing device if the system reports no hot-plug events [s]
+  int priority = 0;      ///< real-time priority of its threads, 1 to 99; 0: normal threads
 };
 
 }  // namespace calligraphy::phantom

@@ -1,4 +1,4 @@
-// A device is chosen by its serial number, never by its node: nodes change with every plug.
+// A device is selected by its serial number, not by its node, because nodes change whenever it is plugged in.
 #include "make_link.hpp"
 
 #include <algorithm>
@@ -15,15 +15,15 @@ namespace {
 
 std::string listed(const std::vector<PluggedDevice>& devices) {
   std::string text;
-  for (const PluggedDevice& device : devices) text += (text.empty() ? "" : "; ") + describe(device);
+  for (const PluggedDevice& device : devices) text += (text.empty() ? "" : "; ") + describe_device(device);
   return text;
 }
 
 PluggedDevice chosen(const std::string& serial) {
   const std::vector<PluggedDevice> devices = plugged_devices();
   if (devices.empty()) {
-    throw DeviceError("no Phantom is plugged in" + (serial.empty() ? "" : " (serial " + serial + " was asked for)") +
-                      ": check the cable and the power, then type \"calligraphy devices\"");
+    throw DeviceError("no Phantom is plugged in" + (serial.empty() ? "" : " (serial " + serial + " was requested)") +
+                      ": check the cable and the power, then run \"calligraphy devices\"");
   }
   std::vector<PluggedDevice> matching;
   std::copy_if(devices.begin(), devices.end(), std::back_inserter(matching),
@@ -33,7 +33,7 @@ PluggedDevice chosen(const std::string& serial) {
   }
   if (matching.size() > 1) {
     throw DeviceError(std::to_string(matching.size()) + " devices" +
-                      (serial.empty() ? "; choose one by its serial number: " : " have that serial number: ") +
+                      (serial.empty() ? "; select one by its serial number: " : " have that serial number: ") +
                       listed(matching));
   }
   return matching.front();

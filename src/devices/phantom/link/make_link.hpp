@@ -1,4 +1,4 @@
-// Finds a device and makes the link that its bus needs.
+// Finds a device and creates the link for its bus.
 #pragma once
 
 #include <memory>
@@ -11,11 +11,12 @@
 
 namespace calligraphy::phantom {
 
-/// Not open yet. @throws DeviceError when libusb cannot start
+/// Returns a link that is not yet open. @throws DeviceError when libusb cannot be initialised
 std::unique_ptr<Link> make_link(const PluggedDevice& device, const LinkOptions& options = {});
 
-/// The device of this serial number, or for an empty one the only device there is. @throws DeviceError when there is no
-/// such device or, without a serial number, several (all are listed), or it may not be opened (the udev rule is named)
+/// For the device with this serial number, or the only device if it is empty. @throws DeviceError when there is no such
+/// device, when there are several without a serial number to select one (all are listed), or when it may not be opened
+/// (the udev rule is named)
 std::unique_ptr<Link> make_link(const std::string& serial, const LinkOptions& options = {});
 
 }  // namespace calligraphy::phantom

@@ -1,4 +1,4 @@
-// The newest packet of one thread for another: wait-free on both sides, and an older one that nobody took is lost.
+// Hands the newest packet from one thread to another, wait-free on both sides; an older one not yet taken is dropped.
 #pragma once
 
 #include <algorithm>
@@ -10,11 +10,11 @@
 
 namespace calligraphy::phantom {
 
-/// Longer than any packet of a full-speed device, with room for the profile of an unknown one.
-constexpr std::size_t longest_packet = 512;
+/// Longer than any packet of a full-speed device, with a margin for unknown ones.
+constexpr std::size_t max_packet_bytes = 512;
 
 struct Packet {
-  std::array<std::byte, longest_packet> bytes = {};
+  std::array<std::byte, max_packet_bytes> bytes = {};
   std::size_t size = 0;
 
   std::span<const std::byte> content() const noexcept { return {bytes.data(), size}; }
@@ -24,11 +24,11 @@ struct Packet {
   }
 };
 
-/// A triple buffer: the writer fills its own packet, then exchanges it for the one in the middle; the reader does the
-/// same when the middle is fresh. One thread may put, one may take.
+/// A triple buffer: the writer fills its own packet, then exchanges it for the middle one; the reader does the same if
+/// the middle one is fresh. One thread may put, one may take.
 class NewestPacket {
  public:
-  /// True when it replaced a packet that had not been taken. A packet longer than longest_packet is cut.
+  /// Returns true if it replaced a packet not yet taken. Truncates a packet longer than max_packet_bytes.
   bool put(std::span<const std::byte> packet) noexcept {
     packets_[writing_].assign(packet);
     const std::uint8_t before =
@@ -39,7 +39,7 @@ class NewestPacket {
 
   bool waiting() const noexcept { return (middle_.load(std::memory_order_acquire) & fresh) != 0; }
 
-  /// The newest packet, valid until the next call; null when none has come since the last one.
+  /// The newest packet, valid until the next call; null if there is none since the last call.
   const Packet* take() noexcept {
     if (!waiting()) return nullptr;
     reading_ = middle_.exchange(reading_, std::memory_order_acq_rel) & index;

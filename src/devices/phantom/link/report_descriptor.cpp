@@ -23,7 +23,7 @@ constexpr std::uint8_t report_number = 0x84;
 constexpr std::uint8_t collection = 0xa0;
 constexpr std::uint8_t end_collection = 0xc0;
 
-/// An item that is cut off ends the list.
+/// A truncated item ends the list.
 std::vector<Item> items_of(std::span<const std::byte> descriptor) {
   std::vector<Item> items;
   while (!descriptor.empty()) {
@@ -78,7 +78,7 @@ constexpr std::array<ItemName, 22> item_names{{
     {0x78, "string index"},
 }};
 
-/// Bits of an input, output or feature.
+/// Flags of an input, output or feature item.
 std::string kind(std::uint32_t bits) {
   std::string text = (bits & 1u) != 0 ? "constant" : "data";
   text += (bits & 2u) != 0 ? ", variable" : ", array";

@@ -1,4 +1,4 @@
-// The report descriptor of a human interface device: what its reports hold.
+// Decodes the report descriptor of a human interface device, which describes its reports.
 #pragma once
 
 #include <cstddef>
@@ -7,10 +7,10 @@
 
 namespace calligraphy::phantom {
 
-/// Whether each report begins with its number.
+/// Whether each report begins with a report number.
 bool has_numbered_reports(std::span<const std::byte> descriptor) noexcept;
 
-/// One line for each item: its bytes and what they mean, indented by collection.
+/// One line per item: its bytes and their meaning, indented by collection.
 std::string report_descriptor_text(std::span<const std::byte> descriptor);
 
 }  // namespace calligraphy::phantom

@@ -1,4 +1,4 @@
-// Linux: files under /sys/bus/usb/devices, which everybody may read.
+// Linux: files under /sys/bus/usb/devices, which are readable by all users.
 #include "sysfs.hpp"
 
 #include <dirent.h>

@@ -22,7 +22,7 @@ constexpr unsigned request_to_send = 0x2;
 constexpr unsigned control_timeout = 500;  // [ms]
 
 std::string port_of(libusb_device* device) {
-  std::array<std::uint8_t, 7> ports{};  // the deepest tree that USB allows
+  std::array<std::uint8_t, 7> ports{};  // the maximum depth of a USB tree
   const int depth = libusb_get_port_numbers(device, ports.data(), static_cast<int>(ports.size()));
   std::string text;
   for (int i = 0; i < depth; ++i) {
@@ -42,7 +42,7 @@ std::string asked_serial(libusb_device* device, std::uint8_t index) {
 
 std::string words(int result) { return libusb_strerror(static_cast<libusb_error>(result)); }
 
-/// Referenced, so that it outlives the list that it was found in.
+/// Referenced, so that it outlives the list in which it was found.
 using FoundDevice = std::unique_ptr<libusb_device, void (*)(libusb_device*)>;
 
 FoundDevice find(libusb_context* context, const PluggedDevice& wanted, PluggedDevice& place) {
@@ -67,12 +67,12 @@ FoundDevice find(libusb_context* context, const PluggedDevice& wanted, PluggedDe
 std::string permission_advice(const std::string& node) {
   return "no permission to open " + node +
          ": install the udev rule 60-calligraphy.rules (sudo cp lib/udev/rules.d/60-calligraphy.rules "
-         "/etc/udev/rules.d/), type \"sudo udevadm control --reload && sudo udevadm trigger\" and plug the device in "
+         "/etc/udev/rules.d/), run \"sudo udevadm control --reload && sudo udevadm trigger\" and plug the device in "
          "again";
 }
 
 void refuse(const PluggedDevice& device, const std::string& reason) {
-  throw DeviceError(describe(device) + ": " + reason);
+  throw DeviceError(describe_device(device) + ": " + reason);
 }
 
 PluggedDevice identify(libusb_device* device) {
@@ -115,7 +115,7 @@ void UsbDevice::open(libusb_context* context, const PluggedDevice& wanted) {
   }
 }
 
-/// The data interface of a serial device, or else the first interface with a bulk endpoint each way.
+/// Finds the data interface of a serial device: the first interface with bulk endpoints in both directions.
 void UsbDevice::find_endpoints() {
   libusb_config_descriptor* configuration = nullptr;
   const int result = libusb_get_active_config_descriptor(libusb_get_device(handle_), &configuration);
@@ -143,11 +143,11 @@ void UsbDevice::find_endpoints() {
     packet_size_ = packet_size;
   }
   libusb_free_config_descriptor(configuration);
-  if (data_ < 0) refuse(place_, "it has no interface with a bulk endpoint each way: it is no serial device");
+  if (data_ < 0) refuse(place_, "it is not a serial device: no interface has bulk endpoints in both directions");
 }
 
 void UsbDevice::claim_interfaces() {
-  libusb_set_auto_detach_kernel_driver(handle_, 1);  // not supported everywhere: claiming then says so
+  libusb_set_auto_detach_kernel_driver(handle_, 1);  // not supported everywhere; claiming then fails
   for (const int interface : {communications_, data_}) {
     if (interface < 0 || std::find(claimed_.begin(), claimed_.end(), interface) != claimed_.end()) continue;
     const int result = libusb_claim_interface(handle_, interface);
@@ -161,7 +161,7 @@ void UsbDevice::claim_interfaces() {
   }
 }
 
-/// A device that refuses the request has no line to set, and does without.
+/// A stall is accepted: a device without a serial line to configure rejects the request.
 bool UsbDevice::control(unsigned char request, unsigned value, unsigned char* data, int size) {
   const int result = libusb_control_transfer(
       handle_, class_request_to_interface, request, static_cast<std::uint16_t>(value),

@@ -1,4 +1,4 @@
-// libusb's descriptors change when a device is opened or closed: they are listed again then, and only then.
+// libusb's descriptors change only when a device is opened or closed; only then are they listed again.
 #include "usb_events.hpp"
 
 #include <cmath>
@@ -11,7 +11,7 @@ namespace calligraphy::phantom {
 UsbEvents::UsbEvents() {
   const int result = libusb_init(&context_);
   if (result != LIBUSB_SUCCESS) {
-    throw DeviceError(std::string("libusb cannot start: ") + libusb_strerror(static_cast<libusb_error>(result)));
+    throw DeviceError(std::string("cannot initialise libusb: ") + libusb_strerror(static_cast<libusb_error>(result)));
   }
   libusb_set_pollfd_notifiers(
       context_, [](int, short, void* self) { static_cast<UsbEvents*>(self)->descriptors_changed_ = true; },

@@ -1,4 +1,4 @@
-// libusb's events and a bell of one's own, waited for together.
+// Waits for libusb events and for its own wake-up signal at the same time.
 #pragma once
 
 #include <atomic>
@@ -11,11 +11,11 @@
 
 namespace calligraphy::phantom {
 
-/// A libusb context served by one thread. libusb's own way to interrupt that thread takes a lock, which a servo loop
-/// must not: here both are polled for instead.
+/// A libusb context served by one thread. libusb's own way of interrupting that thread takes a lock, which a servo loop
+/// must not do; here both are polled instead.
 class UsbEvents {
  public:
-  /// @throws DeviceError when libusb cannot start
+  /// @throws DeviceError when libusb cannot be initialised
   UsbEvents();
   ~UsbEvents();
   UsbEvents(const UsbEvents&) = delete;
@@ -23,10 +23,10 @@ class UsbEvents {
 
   libusb_context* context() const noexcept { return context_; }
 
-  /// Runs the callbacks that are due, waiting for the first one, the bell or the end of the time [s].
+  /// Waits for the first event, ring() or the time [s], then runs the callbacks that are due.
   void wait(double seconds) noexcept;
 
-  /// From any thread; neither blocks nor allocates.
+  /// Callable from any thread; neither blocks nor allocates.
   void ring() noexcept { bell_.ring(); }
 
  private:

@@ -1,4 +1,4 @@
-// A callback of libusb only notes; everything that may open, close, wait or tell happens between two rounds of events.
+// libusb callbacks only record events; opening, closing, waiting and notifying happen between two rounds of events.
 #include "usb_link.hpp"
 
 #include <algorithm>
@@ -7,26 +7,26 @@
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/servo_thread.hpp>
 
+#include "base/monotonic_clock.hpp"
+
 namespace calligraphy::phantom {
 namespace {
 
-using namespace std::chrono_literals;
-
-constexpr auto pause_after_error = 10ms;       // a device that is being unplugged fails at once, again and again
-constexpr auto oldest_repeated_packet = 20ms;  // a force from before that is no longer the one that is meant
-constexpr double longest_cancel = 1.0;         // [s]
-constexpr double longest_flush = 0.1;          // [s]
+constexpr double pause_after_error = 0.01;       // while a device is being unplugged, transfers fail immediately [s]
+constexpr double oldest_repeated_packet = 0.02;  // an older force is outdated [s]
+constexpr double max_cancel = 1.0;               // [s]
+constexpr double max_flush = 0.1;                // [s]
 
 unsigned milliseconds(double seconds) { return static_cast<unsigned>(std::max(1.0, seconds * 1e3)); }
 
-const char* name_of(libusb_transfer_status status) {
+const char* to_string(libusb_transfer_status status) {
   switch (status) {
     case LIBUSB_TRANSFER_TIMED_OUT:
-      return "it did not take it in time";
+      return "the device did not accept it in time";
     case LIBUSB_TRANSFER_STALL:
-      return "its endpoint is stalled";
+      return "the endpoint is stalled";
     case LIBUSB_TRANSFER_NO_DEVICE:
-      return "it was unplugged";
+      return "the device was unplugged";
     default:
       return "the transfer failed";
   }
@@ -34,41 +34,14 @@ const char* name_of(libusb_transfer_status status) {
 
 }  // namespace
 
-UsbLink::UsbLink(const PluggedDevice& device, const LinkOptions& options) : wanted_(device), options_(options) {
-  descriptions_.push_back(describe(device));
-  description_ = &descriptions_.back();
+UsbLink::UsbLink(const PluggedDevice& device, const LinkOptions& options) : ThreadedLink(device, options) {
   for (Inward& inward : inward_) inward.link = this;
 }
 
-UsbLink::~UsbLink() {
-  stopping_ = true;
-  events_.ring();
-  if (thread_.joinable()) thread_.join();
-}
-
-void UsbLink::open(LinkListener& listener) {
-  if (thread_.joinable()) throw DeviceError(description() + ": this link is open already");
-  listener_ = &listener;
-  std::promise<void> opened;
-  std::future<void> outcome = opened.get_future();
-  thread_ = std::thread(&UsbLink::run, this, std::move(opened));
-  try {
-    outcome.get();
-  } catch (...) {
-    thread_.join();
-    throw;
-  }
-}
-
-bool UsbLink::send(std::span<const std::byte> packet) noexcept {
-  if (packet.size() > longest_packet) return false;
-  if (newest_.put(packet)) replaced_.fetch_add(1, std::memory_order_relaxed);
-  events_.ring();
-  return true;
-}
+UsbLink::~UsbLink() { join(); }
 
 void UsbLink::command(std::span<const std::byte> packet) {
-  if (packet.size() > longest_packet) refuse(wanted_, "a command of " + std::to_string(packet.size()) + " bytes");
+  check_command(packet);
   if (std::this_thread::get_id() == thread_id_) {
     transmit(packet);
     return;
@@ -83,8 +56,6 @@ void UsbLink::command(std::span<const std::byte> packet) {
   done.get();
 }
 
-LinkCounts UsbLink::counts() const noexcept { return {received_, sent_, replaced_, failed_, opened_}; }
-
 void UsbLink::run(std::promise<void> opened) noexcept {
   thread_id_ = std::this_thread::get_id();
   warnings_ = set_real_time_priority(options_.priority);
@@ -98,7 +69,7 @@ void UsbLink::run(std::promise<void> opened) noexcept {
     opened.set_value();
     while (!stopping_) {
       serve();
-      events_.wait(longest_wait());
+      events_.wait(max_wait());
     }
     flush();
   } catch (...) {
@@ -111,15 +82,14 @@ void UsbLink::run(std::promise<void> opened) noexcept {
 void UsbLink::serve() noexcept {
   if (gone_) {
     disconnect();
-    tell(DeviceFault::unplugged);
+    tell_listener(DeviceFault::unplugged);
   }
-  if (device_.handle() == nullptr && Clock::now() >= look_again_) {
-    look_again_ =
-        Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options_.search));
+  if (device_.handle() == nullptr && monotonic_seconds() >= look_again_) {
+    look_again_ = monotonic_seconds() + options_.search;
     try {
       connect();
     } catch (const std::exception&) {
-      // Not there yet, or the system has not set its permissions yet: it is looked for again.
+      // Not connected, or the system has not set its permissions yet: search again later.
       disconnect();
     }
   }
@@ -131,7 +101,7 @@ void UsbLink::serve() noexcept {
   send_newest();
 }
 
-double UsbLink::longest_wait() const noexcept {
+double UsbLink::max_wait() const noexcept {
   if (gone_ || in_stalled_ || out_stalled_) return 0.0;
   if (device_.handle() == nullptr) return 0.05;
   return in_fault_ != DeviceFault::none || out_fault_ != DeviceFault::none ? 0.005 : 0.1;
@@ -141,27 +111,23 @@ void UsbLink::connect() {
   device_.open(events_.context(), wanted_);
   gone_ = holding_ = in_stalled_ = out_stalled_ = in_flows_ = false;
   in_fault_ = out_fault_ = told_ = DeviceFault::none;
-  retry_in_ = retry_out_ = {};
+  retry_in_ = retry_out_ = 0.0;
   kept_count_ = 0;
   for (Inward& inward : inward_) {
     inward.transfer = libusb_alloc_transfer(0);
     if (inward.transfer == nullptr) throw std::bad_alloc();
-    // One packet a transfer: a longer one would wait until a short packet ends it.
+    // One packet per transfer: a longer transfer would not complete before a short packet ends it.
     libusb_fill_bulk_transfer(inward.transfer, device_.handle(), device_.in_endpoint(), inward.buffer.data(),
                               std::min(device_.packet_size(), static_cast<int>(inward.buffer.size())), inward_done,
                               &inward, milliseconds(options_.silence));
   }
   outward_.transfer = libusb_alloc_transfer(0);
   if (outward_.transfer == nullptr) throw std::bad_alloc();
-  const std::string place = describe(device_.place());
-  auto known = std::find(descriptions_.begin(), descriptions_.end(), place);
-  if (known == descriptions_.end()) known = descriptions_.insert(known, place);
-  description_ = &*known;
-  opened_.fetch_add(1, std::memory_order_relaxed);
+  found_at(device_.place());
   telling_ = true;
   listener_->changed(DeviceFault::none);
   telling_ = false;
-  last_received_ = Clock::now();
+  last_received_ = monotonic_seconds();
   for (Inward& inward : inward_) submit(inward);
 }
 
@@ -169,9 +135,9 @@ void UsbLink::disconnect() noexcept {
   if (device_.handle() == nullptr) return;
   cancel_inward();
   if (outward_.flying) libusb_cancel_transfer(outward_.transfer);
-  pump_until(&UsbLink::outward_idle, longest_cancel);
+  pump_until(&UsbLink::outward_idle, max_cancel);
   device_.close(!gone_);
-  // A transfer that has not come back by now was taken from libusb's list when the device was closed.
+  // Closing the device has removed any transfer that has not completed from libusb's list.
   for (Inward& inward : inward_) {
     libusb_free_transfer(inward.transfer);
     inward.transfer = nullptr;
@@ -180,27 +146,27 @@ void UsbLink::disconnect() noexcept {
   libusb_free_transfer(outward_.transfer);
   outward_ = {};
   gone_ = false;
-  look_again_ = {};
+  look_again_ = 0.0;
 }
 
 void UsbLink::recover() noexcept {
   if (in_stalled_) {
-    // The system wants no transfer in the queue of an endpoint whose halt is cleared.
+    // The system requires that no transfers are queued on an endpoint when its halt is cleared.
     cancel_inward();
     holding_ = false;
     clear_halt(device_.in_endpoint());
-    if (in_fault_ == DeviceFault::stalled) retry_in_ = Clock::now() + pause_after_error;
+    if (in_fault_ == DeviceFault::stalled) retry_in_ = monotonic_seconds() + pause_after_error;
     in_stalled_ = false;
     in_fault_ = DeviceFault::stalled;
     in_flows_ = false;
   }
   if (out_stalled_) {
     clear_halt(device_.out_endpoint());
-    if (out_fault_ == DeviceFault::stalled) retry_out_ = Clock::now() + pause_after_error;
+    if (out_fault_ == DeviceFault::stalled) retry_out_ = monotonic_seconds() + pause_after_error;
     out_stalled_ = false;
     out_fault_ = DeviceFault::stalled;
   }
-  if (gone_ || Clock::now() < retry_in_) return;
+  if (gone_ || monotonic_seconds() < retry_in_) return;
   for (Inward& inward : inward_) {
     if (!inward.flying && !inward.kept) submit(inward);
   }
@@ -210,14 +176,14 @@ void UsbLink::clear_halt(unsigned char endpoint) noexcept {
   if (libusb_clear_halt(device_.handle(), endpoint) == LIBUSB_ERROR_NO_DEVICE) gone_ = true;
 }
 
-/// The listener hears of a fault even when packets flow again by now, and only afterwards gets those packets.
+/// Notifies the listener of a fault even if packets are arriving again, and delivers those packets only afterwards.
 void UsbLink::tell_where_it_stands() noexcept {
   if (gone_) return;
-  tell(in_fault_ != DeviceFault::none ? in_fault_ : out_fault_);
+  tell_listener(in_fault_ != DeviceFault::none ? in_fault_ : out_fault_);
   if (in_fault_ != DeviceFault::none && in_flows_) {
     in_fault_ = DeviceFault::none;
     in_flows_ = false;
-    tell(out_fault_);
+    tell_listener(out_fault_);
   }
   if (in_fault_ != DeviceFault::none) return;
   for (std::size_t i = 0; i < kept_count_; ++i) {
@@ -228,15 +194,9 @@ void UsbLink::tell_where_it_stands() noexcept {
   kept_count_ = 0;
 }
 
-void UsbLink::tell(DeviceFault fault) noexcept {
-  const Clock::time_point now = Clock::now();
-  const bool again =
-      fault == DeviceFault::timed_out && now - told_at_ >= std::chrono::duration<double>(options_.silence);
-  if (fault == told_ && !again) return;
-  told_ = fault;
-  told_at_ = now;
+void UsbLink::tell_listener(DeviceFault fault) noexcept {
   telling_ = true;
-  listener_->changed(fault);
+  tell(fault);
   telling_ = false;
 }
 
@@ -257,7 +217,7 @@ void UsbLink::submit(Inward& inward) noexcept {
   } else if (result != LIBUSB_SUCCESS) {
     failed_.fetch_add(1, std::memory_order_relaxed);
     inward_failed(DeviceFault::link_error);
-    retry_in_ = Clock::now() + pause_after_error;
+    retry_in_ = monotonic_seconds() + pause_after_error;
   }
 }
 
@@ -275,7 +235,7 @@ void UsbLink::inward_done(libusb_transfer* transfer) noexcept {
   }
   switch (transfer->status) {
     case LIBUSB_TRANSFER_COMPLETED:
-      link.last_received_ = Clock::now();
+      link.last_received_ = monotonic_seconds();
       link.in_flows_ = link.in_fault_ != DeviceFault::none;
       if (link.telling_ || link.in_fault_ != DeviceFault::none || link.in_stalled_ || link.kept_count_ > 0) {
         inward.kept = true;
@@ -294,8 +254,8 @@ void UsbLink::inward_done(libusb_transfer* transfer) noexcept {
       link.in_stalled_ = true;
       return;
     case LIBUSB_TRANSFER_TIMED_OUT:
-      // When packets are rare, each of the four waits longer than the time between two of them.
-      if (Clock::now() - link.last_received_ >= std::chrono::duration<double>(link.options_.silence)) {
+      // If packets are rare, a transfer may time out although another one has received a packet.
+      if (monotonic_seconds() - link.last_received_ >= link.options_.silence) {
         link.inward_failed(DeviceFault::timed_out);
       }
       link.submit(inward);
@@ -307,10 +267,10 @@ void UsbLink::inward_done(libusb_transfer* transfer) noexcept {
     default:
       break;
   }
-  // The first sign of an unplugged device is often such an error: the next transfer tells which of the two it is.
+  // Such an error is often the first sign of an unplugged device: the next transfer shows which of the two it is.
   const bool again = link.in_fault_ == DeviceFault::link_error;
   link.inward_failed(DeviceFault::link_error);
-  link.retry_in_ = Clock::now() + pause_after_error;
+  link.retry_in_ = monotonic_seconds() + pause_after_error;
   if (!again) link.submit(inward);
 }
 
@@ -319,7 +279,7 @@ void UsbLink::cancel_inward() noexcept {
   for (Inward& inward : inward_) {
     if (inward.flying) libusb_cancel_transfer(inward.transfer);
   }
-  pump_until(&UsbLink::inward_idle, longest_cancel);
+  pump_until(&UsbLink::inward_idle, max_cancel);
 }
 
 bool UsbLink::inward_idle() const noexcept {
@@ -329,13 +289,14 @@ bool UsbLink::inward_idle() const noexcept {
 // ---- to the device
 
 void UsbLink::send_newest() noexcept {
-  if (device_.handle() == nullptr || gone_ || outward_.flying || out_stalled_ || Clock::now() < retry_out_) return;
+  if (device_.handle() == nullptr || gone_ || outward_.flying || out_stalled_ || monotonic_seconds() < retry_out_)
+    return;
   if (const Packet* packet = newest_.take()) {
     std::copy_n(reinterpret_cast<const unsigned char*>(packet->bytes.data()), packet->size, outward_.buffer.data());
     outward_.size = packet->size;
-    outward_.filled = Clock::now();
+    outward_.filled = monotonic_seconds();
     submit_outward();
-  } else if (outward_.refused && Clock::now() - outward_.filled < oldest_repeated_packet) {
+  } else if (outward_.refused && monotonic_seconds() - outward_.filled < oldest_repeated_packet) {
     submit_outward();
   } else {
     outward_.refused = false;
@@ -355,7 +316,7 @@ void UsbLink::submit_outward() noexcept {
     failed_.fetch_add(1, std::memory_order_relaxed);
     outward_.ended = LIBUSB_TRANSFER_ERROR;
     out_fault_ = DeviceFault::link_error;
-    retry_out_ = Clock::now() + pause_after_error;
+    retry_out_ = monotonic_seconds() + pause_after_error;
   }
 }
 
@@ -378,7 +339,7 @@ void UsbLink::outward_done(libusb_transfer* transfer) noexcept {
   } else {
     const bool late = transfer->status == LIBUSB_TRANSFER_TIMED_OUT;
     link.out_fault_ = late ? DeviceFault::timed_out : DeviceFault::link_error;
-    link.retry_out_ = Clock::now() + pause_after_error;
+    link.retry_out_ = monotonic_seconds() + pause_after_error;
   }
 }
 
@@ -396,36 +357,37 @@ void UsbLink::run_request() noexcept {
 void UsbLink::transmit(std::span<const std::byte> packet) {
   pump_until(&UsbLink::outward_idle, options_.answer);
   if (device_.handle() == nullptr || gone_) refuse(wanted_, "the command was not sent: it is not plugged in");
-  if (outward_.flying) refuse(device_.place(), "the command was not sent: it has not taken the packet before it");
+  if (outward_.flying)
+    refuse(device_.place(), "the command was not sent: the device has not accepted the previous packet");
   std::copy_n(reinterpret_cast<const unsigned char*>(packet.data()), packet.size(), outward_.buffer.data());
   outward_.size = packet.size();
   submit_outward();
   pump_until(&UsbLink::outward_idle, 2.0 * options_.answer);
-  outward_.refused = false;  // a command is the caller's to repeat
+  outward_.refused = false;  // repeating a command is up to the caller
   if (outward_.flying || outward_.ended != LIBUSB_TRANSFER_COMPLETED) {
-    refuse(device_.place(), std::string("the command was not taken: ") +
-                                (outward_.flying ? "it did not take it in time" : name_of(outward_.ended)));
+    refuse(device_.place(), std::string("the command was not accepted: ") +
+                                (outward_.flying ? "the device did not accept it in time" : to_string(outward_.ended)));
   }
 }
 
-/// The last packet of a servo loop is the one that sets the force to zero.
+/// Sends the last packet of a servo loop, which sets the force to zero.
 void UsbLink::flush() noexcept {
-  const auto end = Clock::now() + std::chrono::duration<double>(longest_flush);
-  while ((newest_.waiting() || outward_.flying) && device_.handle() != nullptr && !gone_ && Clock::now() < end) {
+  const auto end = monotonic_seconds() + max_flush;
+  while ((newest_.waiting() || outward_.flying) && device_.handle() != nullptr && !gone_ && monotonic_seconds() < end) {
     send_newest();
     events_.wait(0.005);
   }
 }
 
 void UsbLink::pump_until(bool (UsbLink::*reached)() const noexcept, double seconds) noexcept {
-  const auto end = Clock::now() + std::chrono::duration<double>(seconds);
-  while (!(this->*reached)() && Clock::now() < end) events_.wait(0.005);
+  const auto end = monotonic_seconds() + seconds;
+  while (!(this->*reached)() && monotonic_seconds() < end) events_.wait(0.005);
 }
 
 int UsbLink::plugged(libusb_context*, libusb_device* device, libusb_hotplug_event event, void* self) noexcept {
   UsbLink& link = *static_cast<UsbLink*>(self);
   if (event == LIBUSB_HOTPLUG_EVENT_DEVICE_ARRIVED) {
-    link.look_again_ = {};
+    link.look_again_ = 0.0;
   } else if (link.device_.handle() != nullptr && libusb_get_device(link.device_.handle()) == device) {
     link.gone_ = true;
   }

@@ -1,4 +1,4 @@
-// Linux: an event descriptor.
+// Linux: eventfd().
 #include "wake_up.hpp"
 
 #include <poll.h>
@@ -16,14 +16,14 @@
 namespace calligraphy::phantom {
 
 WakeUp::WakeUp() : descriptor_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
-  if (descriptor_ < 0) throw DeviceError(std::string("no event descriptor for a device's thread: ") + strerror(errno));
+  if (descriptor_ < 0) throw DeviceError(std::string("no event descriptor for a link's thread: ") + strerror(errno));
 }
 
 WakeUp::~WakeUp() { close(descriptor_); }
 
 void WakeUp::ring() noexcept {
   const std::uint64_t one = 1;
-  // It can only fail when the counter is full: then it was rung already.
+  // It fails only if the counter is full, that is, already rung.
   [[maybe_unused]] const ssize_t written = write(descriptor_, &one, sizeof one);
 }
 

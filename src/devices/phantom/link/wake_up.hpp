@@ -1,11 +1,11 @@
-// Wakes a thread that waits, from one that must not.
+// Wakes a waiting thread from a thread that must not block.
 #pragma once
 
 namespace calligraphy::phantom {
 
 class WakeUp {
  public:
-  /// @throws DeviceError when the system has no descriptor left
+  /// @throws DeviceError when the system cannot provide a descriptor
   WakeUp();
   ~WakeUp();
   WakeUp(const WakeUp&) = delete;
@@ -14,12 +14,12 @@ class WakeUp {
   /// Neither blocks nor allocates; several calls before a wait count as one.
   void ring() noexcept;
 
-  /// Until it is rung or the time is over [s].
+  /// Waits until it is rung or the time [s] has elapsed.
   void wait(double seconds) noexcept;
 
-  /// For a poll of one's own: readable once it was rung.
+  /// For your own poll(): readable once it was rung.
   int descriptor() const noexcept { return descriptor_; }
-  /// Forgets that it was rung.
+  /// Resets it.
   void clear() noexcept;
 
  private:

@@ -1,4 +1,4 @@
-// Texts of data/profiles/, compiled in.
+// The files of data/profiles/, compiled into the library.
 #pragma once
 
 namespace calligraphy::built_in {

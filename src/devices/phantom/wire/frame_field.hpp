@@ -1,4 +1,4 @@
-// A field of a frame, read and written: the same description serves both directions.
+// Reads and writes a field of a frame, from the same description.
 #pragma once
 
 #include <algorithm>
@@ -11,27 +11,27 @@
 
 namespace calligraphy::phantom {
 
-/// Of either direction, framing not counted [bytes].
-inline constexpr std::size_t largest_frame = 512;
+/// In either direction, without framing [bytes].
+inline constexpr std::size_t max_frame_bytes = 512;
 
 inline std::uint32_t field_mask(const Field& field) noexcept {
   return field.bits >= 32 ? ~std::uint32_t{0} : (std::uint32_t{1} << field.bits) - 1;
 }
 
-/// Least and greatest value.
+/// Minimum and maximum value.
 inline std::pair<std::int64_t, std::int64_t> range(const Field& field) noexcept {
   const std::int64_t values = std::int64_t{1} << field.bits;
   if (field.is_signed) return {-values / 2, values / 2 - 1};
   return {0, values - 1};
 }
 
-/// Counts of torque that a DAC can give both ways.
+/// Torque that a DAC can output in both directions [counts].
 inline std::int64_t torque_range(const DacField& dac) noexcept {
   const auto [least, most] = range(dac.field);
   return std::min(dac.zero - least, most - dac.zero);
 }
 
-/// The integer that the field is a part of. Field and frame belong together: validate() has seen them.
+/// The integer that contains the field. validate() has checked that the field lies in the frame.
 inline std::uint32_t read_integer(const Field& field, std::span<const std::byte> frame) noexcept {
   std::uint32_t value = 0;
   for (int i = 0; i < field.bytes; ++i) {
@@ -50,7 +50,7 @@ inline std::int64_t read_field(const Field& field, std::span<const std::byte> fr
   return value;
 }
 
-/// Writes the lowest bits of the value and leaves all others of the frame as they are.
+/// Writes the lowest bits of the value and leaves all other bits of the frame unchanged.
 inline void write_field(const Field& field, std::int64_t number, std::span<std::byte> frame) noexcept {
   const std::uint32_t mask = field_mask(field);
   std::uint32_t value = static_cast<std::uint32_t>(static_cast<std::uint64_t>(number)) & mask;

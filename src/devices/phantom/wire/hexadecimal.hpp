@@ -1,4 +1,4 @@
-// Bytes as text: "2988 0302" of the vendor's papers is "88 29 02 03" here, in the order of the bus.
+// Bytes as text, in the order of the bus: the ids 2988:0302 read "88 29 02 03".
 #pragma once
 
 #include <cstddef>

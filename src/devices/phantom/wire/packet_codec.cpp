@@ -23,7 +23,7 @@ std::int64_t sum_of(const Checksum& checksum, std::span<const std::byte> frame) 
   return sum & field_mask(checksum.field);
 }
 
-/// A signed field compares by its bits too.
+/// Compares signed fields by their bits, too.
 bool is_right(const Checksum& checksum, std::span<const std::byte> frame) noexcept {
   const auto found = static_cast<std::uint32_t>(static_cast<std::uint64_t>(read_field(checksum.field, frame)));
   return (found & field_mask(checksum.field)) == static_cast<std::uint32_t>(sum_of(checksum, frame));

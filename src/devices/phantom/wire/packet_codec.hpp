@@ -1,4 +1,4 @@
-// Frames to numbers and back, for the host and for the emulated device alike.
+// Decodes and encodes frames, for the host and for emulated devices.
 #pragma once
 
 #include <cstddef>
@@ -9,47 +9,47 @@
 
 namespace calligraphy::phantom {
 
-/// What a report says, in counts of the device.
+/// Contents of a report, in counts.
 struct RawSample {
-  PerJoint<std::int64_t> encoders{};  ///< as wide as their fields: they wrap
-  PerJoint<std::int64_t> gimbal{};    ///< 0 where the profile has none
+  PerJoint<std::int64_t> encoders{};  ///< wrap at the width of their fields
+  PerJoint<std::int64_t> gimbal{};    ///< 0 if the profile has none
   std::uint32_t buttons = 0;          ///< one bit per button
   bool docked = false;
-  std::uint32_t sequence = 0;  ///< 0 when the profile has none
-  /// corrupted_frame, short_frame, overlong_frame or empty_frame: nothing else of this sample counts; or what the
-  /// device says of itself, the sample being good.
+  std::uint32_t sequence = 0;  ///< 0 if the profile has none
+  /// corrupted_frame, short_frame, overlong_frame or empty_frame: the sample is invalid. Any other fault was reported
+  /// by the device in a valid sample.
   DeviceFault fault = DeviceFault::none;
 };
 
-/// What a command says.
+/// Contents of a command.
 struct RawCommand {
   PerJoint<std::int64_t> torque{};  ///< counts above and below the DAC's zero
   bool motors_on = false;
   bool toggle = false;
   bool dock_light = false;
-  DeviceFault fault = DeviceFault::none;  ///< of a frame that was decoded: no command at all
+  DeviceFault fault = DeviceFault::none;  ///< set by decoding an invalid frame
 };
 
-/// Whether the frame was one: the fault is then none or the device's own.
+/// Whether the frame was valid: there is no fault, or only one reported by the device.
 bool is_readable(DeviceFault fault) noexcept;
 
-/// Both directions of a profile. Never allocates after construction, and takes any bytes.
+/// Codec for both directions of a profile. Accepts arbitrary bytes and does not allocate after construction.
 class PacketCodec {
  public:
-  /// @throws ValueError when the profile is not valid
+  /// @throws ValueError when the profile is invalid
   explicit PacketCodec(WireProfile profile);
 
   const WireProfile& profile() const noexcept { return profile_; }
 
   RawSample decode_report(std::span<const std::byte> frame) const noexcept;
-  /// Torque beyond the range of a DAC is cut to it. The number of bytes; 0 when `frame` is too small for them.
+  /// Clamps each torque to the range of its DAC. Returns the number of bytes; 0 if `frame` is too small.
   std::size_t encode_command(const RawCommand& command, std::span<std::byte> frame) const noexcept;
 
-  /// The device's side, for emulators.
+  /// The device side, for emulators.
   RawCommand decode_command(std::span<const std::byte> frame) const noexcept;
   std::size_t encode_report(const RawSample& sample, std::span<std::byte> frame) const noexcept;
 
-  /// Torque that every DAC can give both ways, per joint [counts]; 0 without a DAC.
+  /// Torque that each DAC can output in both directions [counts]; 0 without a DAC.
   PerJoint<std::int64_t> torque_range() const noexcept;
 
  private:

@@ -1,4 +1,4 @@
-// What a transfer holds by the framing of the profile: reports taken out of it, commands put into it.
+// Unpacks reports from transfers and packs commands into packets, by the framing of the profile.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace calligraphy::phantom {
 
-inline constexpr std::size_t largest_packet = largest_frame + 4;
+inline constexpr std::size_t max_framed_bytes = max_frame_bytes + 4;
 
 class ReportFrames {
  public:
@@ -24,8 +24,8 @@ class ReportFrames {
         serial_(SerialFrames::Expected{codec.profile().report_code,
                                        static_cast<std::uint8_t>(codec.profile().report_size)}) {}
 
-  /// Calls `take(const RawSample&)` for each report. A stream has no short or overlong frames, an empty transfer is
-  /// one in either framing.
+  /// Calls `take(const RawSample&)` for each report. A stream has no short or overlong frames; an empty transfer is an
+  /// empty frame with either framing.
   template <class Take>
   void feed(std::span<const std::byte> bytes, Take&& take) noexcept {
     if (!is_serial_ || bytes.empty()) {
@@ -40,16 +40,16 @@ class ReportFrames {
 
   /// The packet of a command.
   std::span<const std::byte> wrap(const RawCommand& command,
-                                  std::span<std::byte, largest_packet> packet) const noexcept {
+                                  std::span<std::byte, max_framed_bytes> packet) const noexcept {
     if (!is_serial_) return packet.first(codec_.encode_command(command, packet));
-    std::array<std::byte, largest_frame> payload;
+    std::array<std::byte, max_frame_bytes> payload;
     const std::size_t size = codec_.encode_command(command, payload);
     return packet.first(write_serial_frame(codec_.profile().command_code, std::span(payload).first(size), packet));
   }
 
-  /// The packet of a start or stop command: in a stream its first byte is the frame's code.
+  /// The packet of a start or stop command; in a stream its first byte is the code of the frame.
   std::span<const std::byte> wrap(std::span<const std::byte> bytes,
-                                  std::span<std::byte, largest_packet> packet) const noexcept {
+                                  std::span<std::byte, max_framed_bytes> packet) const noexcept {
     if (is_serial_) {
       return packet.first(write_serial_frame(std::to_integer<std::uint8_t>(bytes[0]), bytes.subspan(1), packet));
     }

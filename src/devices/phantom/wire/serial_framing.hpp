@@ -1,4 +1,4 @@
-// The frames of a serial Touch, A5 5A command length payload, found in a stream of bytes.
+// Finds the frames of a serial Touch, A5 5A code length payload, in a stream of bytes.
 #pragma once
 
 #include <array>
@@ -9,19 +9,19 @@
 
 namespace calligraphy::phantom {
 
-/// Read at the time of the call alone.
+/// Valid only during the call.
 struct SerialFrame {
   std::uint8_t code = 0;
   std::span<const std::byte> payload;
 };
 
-/// Finds frames wherever a transfer begins or ends, in 259 bytes of memory. There is no checksum: what looks like a
-/// header is one. So a reader that waits for one kind of frame names it, and any other header is passed over: garbage
-/// between frames then costs nothing, a truncated frame at most the frame that it runs into. What such a mixed frame
-/// holds is for the codec to refuse.
+/// Finds frames regardless of transfer boundaries, in 259 bytes of memory. There is no checksum, so anything that looks
+/// like a header is one. A reader that expects one kind of frame specifies it, and all other headers are skipped: then
+/// garbage between frames costs nothing, and a truncated frame costs at most the frame after it. The codec must reject
+/// the contents of such a mixed frame.
 class SerialFrames {
  public:
-  /// The one frame to be let through.
+  /// The only kind of frame to accept.
   struct Expected {
     std::uint8_t code = 0;
     std::uint8_t length = 0;
@@ -42,7 +42,7 @@ class SerialFrames {
     }
   }
 
-  /// Forgets a frame that has begun: the stream was interrupted.
+  /// Discards an incomplete frame after the stream was interrupted.
   void reset() noexcept;
 
   std::uint64_t frames() const noexcept { return frames_; }
@@ -54,7 +54,7 @@ class SerialFrames {
 
   /// Whether a frame is complete.
   bool add(std::byte byte) noexcept;
-  /// Drops bytes from the front until what is left may begin a frame.
+  /// Drops bytes from the front until the rest may be the start of a frame.
   void resynchronise() noexcept;
   bool may_begin_frame() const noexcept;
 
@@ -65,8 +65,8 @@ class SerialFrames {
   std::uint64_t skipped_ = 0;
 };
 
-/// Writes the frame of a payload. The number of bytes; 0 when the payload is longer than 255 bytes or `frame` too
-/// small.
+/// Writes the frame of a payload. Returns the number of bytes; 0 if the payload is longer than 255 bytes or `frame` is
+/// too small.
 std::size_t write_serial_frame(std::uint8_t code, std::span<const std::byte> payload,
                                std::span<std::byte> frame) noexcept;
 

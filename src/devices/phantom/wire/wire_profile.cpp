@@ -2,11 +2,11 @@
 
 #include <array>
 #include <cmath>
-#include <sstream>
 #include <utility>
 
 #include <calligraphy/base/error.hpp>
 
+#include "base/require.hpp"
 #include "built_in.hpp"
 #include "frame_field.hpp"
 
@@ -19,57 +19,51 @@ std::string numbered(const char* name, std::size_t index) {
   return std::string(name) + " " + std::to_string(index + 1);
 }
 
-/// The fields of one frame: each inside it, none on another.
+/// Checks that the fields of a frame lie inside it and do not overlap.
 class FrameCheck {
  public:
   FrameCheck(const char* frame, std::size_t size) : frame_(frame), size_(size), taken_(8 * size) {
     const std::string name = std::string(frame) + " size";
-    if (size < 1 || size > largest_frame) {
-      refuse(name + " is " + std::to_string(size) + ", must be 1 to " + std::to_string(largest_frame) + " bytes");
-    }
+    require_within(name, static_cast<double>(size), "bytes", 1, max_frame_bytes);
   }
 
   void inside(const Field& field, const std::string& name) const {
-    const auto number = [&](const char* what, std::int64_t value, const std::string& domain) {
-      refuse(name + ": " + what + " is " + std::to_string(value) + ", must be " + domain);
-    };
-    if (field.bytes < 1 || field.bytes > 4) number("width", field.bytes, "1 to 4 bytes");
-    if (field.bits < 1) number("number of bits", field.bits, "at least 1");
-    if (field.low_bit < 0) number("lowest bit", field.low_bit, "at least 0");
-    if (field.low_bit > 8 * field.bytes - field.bits) {
-      number("highest bit", std::int64_t{field.low_bit} + field.bits - 1, "below " + std::to_string(8 * field.bytes));
-    }
-    if (field.offset < 0 || static_cast<std::size_t>(field.offset) + static_cast<std::size_t>(field.bytes) > size_) {
-      number("offset", field.offset, "such that its bytes lie in the " + std::to_string(size_) + " of the " + frame_);
-    }
+    require_within(name + ": width", field.bytes, "bytes", 1, 4);
+    require(field.bits >= 1, name + ": number of bits", field.bits, "", "at least 1");
+    require(field.low_bit >= 0, name + ": lowest bit", field.low_bit, "", "at least 0");
+    require(field.low_bit <= 8 * field.bytes - field.bits, name + ": highest bit", field.low_bit + (field.bits - 1.0),
+            "", "below " + std::to_string(8 * field.bytes));
+    const bool is_inside =
+        field.offset >= 0 && static_cast<std::size_t>(field.offset) + static_cast<std::size_t>(field.bytes) <= size_;
+    require(is_inside, name + ": offset", field.offset, "",
+            "such that the field fits into the " + std::to_string(size_) + " bytes of the " + frame_);
   }
 
   void alone(const Field& field, const std::string& name) {
     inside(field, name);
     for (int bit = field.low_bit; bit < field.low_bit + field.bits; ++bit) {
       std::string& owner = taken_[bit_of_frame(field, bit)];
-      if (!owner.empty()) refuse(name + " lies on " + owner + " in the " + frame_);
+      if (!owner.empty()) refuse(name + " overlaps " + owner + " in the " + frame_);
       owner = name;
     }
   }
 
-  /// Stands alone, and every value of it can be told from the next.
+  /// Overlaps no other field and has one bit.
   void flag(const Field& field, const std::string& name) {
     alone(field, name);
-    if (field.bits != 1) refuse(name + ": number of bits is " + std::to_string(field.bits) + ", must be 1");
+    require(field.bits == 1, name + ": number of bits", field.bits, "", "1");
   }
 
   void checksum(const Checksum& checksum, const std::string& name) {
     alone(checksum.field, name);
     if (checksum.first < 0 || checksum.last < checksum.first || static_cast<std::size_t>(checksum.last) >= size_) {
       refuse(name + ": bytes " + std::to_string(checksum.first) + ".." + std::to_string(checksum.last) +
-             " do not lie in the " + frame_);
+             " are outside the " + frame_);
     }
     const int first = checksum.field.offset, last = first + checksum.field.bytes - 1;
-    if (first <= checksum.last && last >= checksum.first) refuse(name + " counts its own bytes");
-    if (checksum.kind == ChecksumKind::exclusive_or && checksum.field.bits != 8) {
-      refuse(name + ": number of bits is " + std::to_string(checksum.field.bits) + ", must be 8 for xor");
-    }
+    if (first <= checksum.last && last >= checksum.first) refuse(name + " covers its own bytes");
+    require(checksum.kind != ChecksumKind::exclusive_or || checksum.field.bits == 8, name + ": number of bits",
+            checksum.field.bits, "", "8 for xor");
   }
 
   void constant(const Constant& constant, const std::string& name) const {
@@ -79,10 +73,7 @@ class FrameCheck {
 
   static void in_range(const Field& field, std::int64_t value, const std::string& name) {
     const auto [least, most] = range(field);
-    if (value < least || value > most) {
-      refuse(name + " is " + std::to_string(value) + ", must be " + std::to_string(least) + " to " +
-             std::to_string(most));
-    }
+    require_within(name, static_cast<double>(value), "", static_cast<double>(least), static_cast<double>(most));
   }
 
  private:
@@ -102,13 +93,13 @@ void validate_report(const WireProfile& profile) {
     const Field& encoder = profile.encoders[joint];
     const std::string name = numbered("encoder", joint);
     check.alone(encoder, name);
-    if (encoder.bits < 8) refuse(name + ": number of bits is " + std::to_string(encoder.bits) + ", must be at least 8");
+    require(encoder.bits >= 8, name + ": number of bits", encoder.bits, "", "at least 8");
     const auto pair = [&](const std::optional<Field>& copy, const Field* of, const std::string& copy_name) {
       if (!copy) return;
       check.alone(*copy, copy_name);
-      if (of == nullptr) refuse(copy_name + " is a copy of nothing");
+      if (of == nullptr) refuse(copy_name + " copies a field that is not defined");
       if (copy->bits != of->bits || copy->is_signed != of->is_signed) {
-        refuse(copy_name + ": number of bits or sign is not that of what it copies");
+        refuse(copy_name + ": number of bits or signedness differs from that of the field it copies");
       }
     };
     pair(profile.encoder_copies[joint], &encoder, numbered("encoder-copy", joint));
@@ -116,18 +107,16 @@ void validate_report(const WireProfile& profile) {
     if (gimbal) check.alone(*gimbal, numbered("gimbal", joint));
     pair(profile.gimbal_copies[joint], gimbal ? &*gimbal : nullptr, numbered("gimbal-copy", joint));
   }
-  if (profile.buttons.size() > 32) refuse("buttons are " + std::to_string(profile.buttons.size()) + ", at most 32");
+  require(profile.buttons.size() <= 32, "buttons", static_cast<double>(profile.buttons.size()), "", "at most 32");
   for (std::size_t i = 0; i < profile.buttons.size(); ++i) check.flag(profile.buttons[i], numbered("button", i));
   if (profile.docked) check.flag(*profile.docked, "docked");
   if (profile.sequence) {
     check.alone(*profile.sequence, "sequence");
-    if (profile.sequence->bits < 4) {
-      refuse("sequence: number of bits is " + std::to_string(profile.sequence->bits) + ", must be at least 4");
-    }
+    require(profile.sequence->bits >= 4, "sequence: number of bits", profile.sequence->bits, "", "at least 4");
   }
   for (std::size_t i = 0; i < profile.faults.size(); ++i) {
     const FaultBit& bit = profile.faults[i];
-    check.flag(bit.field, numbered("fault", i) + " (" + fault_name(bit.fault) + ")");
+    check.flag(bit.field, numbered("fault", i) + " (" + to_string(bit.fault) + ")");
   }
   for (std::size_t i = 0; i < profile.expected.size(); ++i) {
     check.alone(profile.expected[i].field, numbered("expect", i));
@@ -138,10 +127,10 @@ void validate_report(const WireProfile& profile) {
 
 void validate_command(const WireProfile& profile) {
   const bool has_dac = profile.dac[0] || profile.dac[1] || profile.dac[2];
-  if (profile.command_size == 0) {  // a device that is only listened to
+  if (profile.command_size == 0) {  // a read-only device
     if (has_dac || profile.motors_on || profile.toggle || profile.dock_light || !profile.constants.empty() ||
         profile.command_checksum) {
-      refuse("command size is 0, but there are fields of a command");
+      refuse("command size is 0, but command fields are defined");
     }
     return;
   }
@@ -152,7 +141,7 @@ void validate_command(const WireProfile& profile) {
     const std::string name = numbered("dac", joint);
     check.alone(dac.field, name);
     FrameCheck::in_range(dac.field, dac.zero, name + ": zero");
-    if (torque_range(dac) < 1) refuse(name + ": zero leaves no room for torque both ways");
+    if (torque_range(dac) < 1) refuse(name + ": zero leaves no range for torque in both directions");
   }
   for (std::size_t i = 0; i < profile.constants.size(); ++i) {
     check.constant(profile.constants[i], numbered("constant", i));
@@ -163,38 +152,28 @@ void validate_command(const WireProfile& profile) {
   if (profile.command_checksum) check.checksum(*profile.command_checksum, "command-checksum");
 }
 
-/// Each of the values, if there are any. What is not a number fails too.
-template <class Values, class Judge>
-void validate_each(const std::optional<Values>& values, const char* name, const char* domain, Judge is_good) {
+/// Checks each of the values, if there are any; NaN fails too.
+template <class Values>
+void require_sizes(const std::optional<Values>& values, const char* name, const char* unit, double least, double most,
+                   const char* domain) {
   if (!values) return;
   for (const double value : *values) {
-    if (is_good(value)) continue;
-    std::ostringstream message;
-    message << name << " is " << value << ", " << domain;
-    throw ValueError(message.str());
+    require(std::abs(value) >= least && std::abs(value) <= most, name, value, unit, domain);
   }
-}
-
-auto has_size(double least, double most) {
-  return [=](double value) { return std::abs(value) >= least && std::abs(value) <= most; };
 }
 
 }  // namespace
 
 void validate(const WireProfile& profile) {
   if (profile.name.empty()) refuse("a wire profile needs a name");
-  if (!(profile.rate >= 1.0 && profile.rate <= 100e3)) {
-    std::ostringstream message;
-    message << "rate is " << profile.rate << ", must be 1 to 100000 Hz";
-    throw ValueError(message.str());
-  }
+  require_within("rate", profile.rate, "Hz", 1.0, 100e3);
   validate_report(profile);
   validate_command(profile);
   if (profile.framing == Framing::serial && (profile.report_size > 255 || profile.command_size > 255)) {
     refuse("serial frames hold at most 255 bytes; the report has " + std::to_string(profile.report_size) +
            ", the command " + std::to_string(profile.command_size));
   }
-  const std::size_t most = profile.framing == Framing::serial ? 256 : largest_frame;
+  const std::size_t most = profile.framing == Framing::serial ? 256 : max_frame_bytes;
   for (const bool is_start : {true, false}) {
     const auto& packets = is_start ? profile.start : profile.stop;
     for (std::size_t i = 0; i < packets.size(); ++i) {
@@ -203,13 +182,14 @@ void validate(const WireProfile& profile) {
              " bytes, must have 1 to " + std::to_string(most));
     }
   }
-  validate_each(profile.counts_per_radian, "counts-per-radian", "its size must be 1 to 1e+09", has_size(1.0, 1e9));
-  validate_each(profile.docked_angles, "docked-angles", "its size must be at most 6.3 rad", has_size(0.0, 6.3));
-  validate_each(profile.torque_per_count, "torque-per-count", "its size must be 1e-12 to 10 N m",
-                has_size(1e-12, 10.0));
-  validate_each(profile.continuous_torque, "continuous-torque", "must be 1e-06 to 100 N m",
-                [](double torque) { return torque >= 1e-6 && torque <= 100.0; });
-  validate_each(profile.gravity, "gravity", "its size must be at most 10 N m", has_size(0.0, 10.0));
+  require_sizes(profile.counts_per_radian, "counts-per-radian", "", 1.0, 1e9, "from 1 to 1e+09 in size");
+  require_sizes(profile.docked_angles, "docked-angles", "rad", 0.0, 6.3, "at most 6.3 in size");
+  require_sizes(profile.torque_per_count, "torque-per-count", "N m", 1e-12, 10.0, "from 1e-12 to 10 in size");
+  if (profile.continuous_torque) {
+    for (const double torque : *profile.continuous_torque)
+      require_within("continuous-torque", torque, "N m", 1e-6, 100);
+  }
+  require_sizes(profile.gravity, "gravity", "N m", 0.0, 10.0, "at most 10 in size");
 }
 
 std::vector<std::string> missing_for_position(const WireProfile& profile) {
@@ -236,7 +216,7 @@ std::string_view wire_profile_text(std::string_view name) {
   if (name == "simulated") return built_in::wire_profile_simulated;
   std::string known;
   for (const std::string& other : wire_profile_names()) known += (known.empty() ? "" : ", ") + other;
-  throw ValueError("wire profile \"" + std::string(name) + "\" does not exist; there are " + known);
+  throw ValueError("wire profile \"" + std::string(name) + "\" does not exist; available: " + known);
 }
 
 const WireProfile& wire_profile(std::string_view name) {
@@ -246,7 +226,7 @@ const WireProfile& wire_profile(std::string_view name) {
   };
   static const WireProfile omni = parsed("omni");
   static const WireProfile simulated = parsed("simulated");
-  wire_profile_text(name);  // knows which names there are
+  wire_profile_text(name);  // throws for an unknown name
   return name == "omni" ? omni : simulated;
 }
 

@@ -1,9 +1,5 @@
 // The text format of wire profiles; docs/wire-profile.md describes it.
 #include <algorithm>
-#include <cerrno>
-#include <charconv>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <set>
@@ -11,97 +7,69 @@
 #include <tuple>
 #include <utility>
 
-#include <utf8.h>
-
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/base/file.hpp>
+#include <calligraphy/base/text.hpp>
 #include <calligraphy/devices/phantom/wire_profile.hpp>
+
+#include "base/charconv.hpp"
+#include "base/line_reader.hpp"
 
 namespace calligraphy::phantom {
 namespace {
 
 constexpr std::string_view first_line = "calligraphy wire profile 1";
-constexpr std::size_t longest_text = 1 << 20;  // a profile is a page; more is another file [bytes]
-constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+constexpr std::size_t max_text = 1 << 20;  // a profile is about one page; anything longer is another file [bytes]
 
-/// What was found, as a message shows it.
-std::string in_quotes(std::string_view text) {
-  if (text.empty()) return "the end of the line";
-  constexpr std::size_t most = 60;
-  return "'" + std::string(text.substr(0, most)) + (text.size() > most ? "..." : "") + "'";
+LineKind kind_of(std::string_view key) {
+  return key == "name" || key == "source" || key == "licence" ? LineKind::text : LineKind::words;
 }
 
-/// Statements whose text goes to the end of the line, '#' and all.
-bool is_free_text(std::string_view key) { return key == "name" || key == "source" || key == "licence"; }
-
-/// "link-error" for DeviceFault::link_error; none: no such fault.
+/// "link-error" for DeviceFault::link_error; none if there is no such fault.
 std::optional<DeviceFault> fault_of(std::string_view word) {
   for (auto fault = DeviceFault::unplugged; fault <= DeviceFault::late_clock;
        fault = static_cast<DeviceFault>(static_cast<int>(fault) + 1)) {
-    std::string name = fault_name(fault);
+    std::string name = to_string(fault);
     std::ranges::replace(name, ' ', '-');
     if (name == word) return fault;
   }
   return std::nullopt;
 }
 
-class Parser {
+class Parser : private LineReader {
  public:
-  Parser(std::istream& in, std::string_view name) : in_(in), name_(name) {}
+  Parser(std::istream& in, std::string_view name) : LineReader(in, name, max_text) {}
 
   WireProfile parse() {
-    while (next_line()) {
+    while (next_statement([this](std::string_view key) { return checked_kind_of(key); })) {
       if (!seen_first_line_) {
-        if (line_ != first_line) fail("expected " + in_quotes(first_line) + ", found " + in_quotes(line_));
+        if (line() != first_line) fail("expected " + in_quotes(first_line) + ", found " + in_quotes(line()));
         seen_first_line_ = true;
         continue;
       }
       statement();
     }
-    if (in_.bad()) throw FileError(name_ + ": cannot be read");
-    if (!seen_first_line_) throw FormatError(name_ + ": empty; expected " + in_quotes(first_line));
+    if (!seen_first_line_) throw FormatError(name() + ": empty; expected " + in_quotes(first_line));
     for (const char* key : {"name", "report", "encoder 1", "encoder 2", "encoder 3"}) {
-      if (!lines_.contains(key)) throw FormatError(name_ + ": the line '" + key + "' is missing");
+      if (!lines_.contains(key)) throw FormatError(name() + ": the line '" + key + "' is missing");
     }
     if (!button_numbers_.empty() && *button_numbers_.rbegin() != static_cast<int>(button_numbers_.size())) {
-      throw FormatError(name_ + ": button " + std::to_string(*button_numbers_.rbegin()) + " of " +
+      throw FormatError(name() + ": button " + std::to_string(*button_numbers_.rbegin()) + " of " +
                         std::to_string(button_numbers_.size()) + ": buttons are numbered from 1 without a gap");
     }
     try {
       validate(profile_);
     } catch (const ValueError& error) {
-      throw FormatError(name_ + line_of(error.what()) + ": " + error.what());
+      throw FormatError(name() + line_of(error.what()) + ": " + error.what());
     }
     return std::move(profile_);
   }
 
  private:
-  [[noreturn]] void fail(const std::string& what) const {
-    throw FormatError(name_ + ":" + std::to_string(number_) + ": " + what);
-  }
-
-  /// The next line that says something, without comment and trailing blanks.
-  bool next_line() {
-    while (std::getline(in_, line_)) {
-      ++number_;
-      read_ += line_.size() + 1;
-      if (read_ > longest_text) fail("this is no wire profile: it is longer than 1 MB");
-      if (!utf8::is_valid(line_.begin(), line_.end())) fail("this is no wire profile: it is not UTF-8");
-      if (number_ == 1 && line_.starts_with(byte_order_mark)) line_.erase(0, byte_order_mark.size());
-      left_ = line_;
-      if (!is_free_text(word())) line_.erase(std::min(line_.find('#'), line_.size()));
-      line_.erase(line_.find_last_not_of(" \t\r") + 1);
-      left_ = line_;
-      if (!line_.empty()) return true;
-    }
-    return false;
-  }
-
-  std::string_view word() {
-    left_.remove_prefix(std::min(left_.find_first_not_of(" \t"), left_.size()));
-    const auto end = std::min(left_.find_first_of(" \t"), left_.size());
-    const std::string_view found = left_.substr(0, end);
-    left_.remove_prefix(end);
-    return found;
+  /// Comments must be UTF-8, too.
+  LineKind checked_kind_of(std::string_view key) const {
+    if (!is_utf8(line())) fail("not a wire profile: it is not valid UTF-8");
+    return kind_of(key);
   }
 
   void statement() {
@@ -114,7 +82,7 @@ class Parser {
     fail("unknown keyword " + in_quotes(key));
   }
 
-  /// ":7", where what the complaint begins with stands on line 7; empty: it is about no single line.
+  /// ":7" if the message begins with the name of a statement on line 7; empty if it concerns no single line.
   std::string line_of(std::string_view complaint) const {
     for (const auto& [key, line] : lines_) {
       const bool is_named = complaint.starts_with(key) && complaint.size() > key.size();
@@ -123,24 +91,23 @@ class Parser {
     return {};
   }
 
-  /// Most lines stand once.
+  /// For statements that may appear only once.
   void once(std::string key) {
-    if (const auto [it, is_new] = lines_.emplace(std::move(key), number_); !is_new)
-      fail(in_quotes(it->first) + " stands here a second time");
+    if (const auto [it, is_new] = lines_.emplace(std::move(key), number()); !is_new)
+      fail(in_quotes(it->first) + " is already defined");
   }
 
-  /// Others are counted, as validate() counts them.
+  /// For repeatable statements, numbered as in validate().
   void counted(std::string_view key, std::size_t before) {
-    lines_.emplace(std::string(key) + " " + std::to_string(before + 1), number_);
+    lines_.emplace(std::string(key) + " " + std::to_string(before + 1), number());
   }
 
   bool text(std::string_view key) {
-    if (!is_free_text(key)) return false;
+    if (kind_of(key) != LineKind::text) return false;
     once(std::string(key));
-    left_.remove_prefix(std::min(left_.find_first_not_of(" \t"), left_.size()));
-    if (left_.empty()) fail(in_quotes(key) + " is empty");
-    (key == "name" ? profile_.name : key == "source" ? profile_.source : profile_.licence) = left_;
-    left_ = {};
+    const std::string_view text = rest();
+    if (text.empty()) fail(in_quotes(key) + " is empty");
+    (key == "name" ? profile_.name : key == "source" ? profile_.source : profile_.licence) = text;
     return true;
   }
 
@@ -197,7 +164,7 @@ class Parser {
     } else if (key == "fault") {
       const std::string_view name = word();
       const std::optional<DeviceFault> fault = fault_of(name);
-      if (!fault) fail(in_quotes(name) + " is not the name of a fault");
+      if (!fault) fail(in_quotes(name) + " is not a fault name");
       counted(key, profile_.faults.size());
       profile_.faults.push_back({*fault, field()});
     } else if (key == "expect") {
@@ -262,14 +229,14 @@ class Parser {
     const bool known = type.size() >= 2 && (type[0] == 'u' || type[0] == 's');
     const std::string_view width = known ? type.substr(1) : std::string_view();
     if (width != "8" && width != "16" && width != "24" && width != "32") {
-      fail(in_quotes(type) + " is not a type: u8, u16, u24, u32, s8, s16, s24, s32");
+      fail(in_quotes(type) + " is not a field type (u8, u16, u24, u32, s8, s16, s24, s32)");
     }
     field.is_signed = type[0] == 's';
     field.bits = width == "8" ? 8 : width == "16" ? 16 : width == "24" ? 24 : 32;
     field.bytes = field.bits / 8;
     if (const std::string_view at = word(); at != "at") fail("expected 'at', found " + in_quotes(at));
     field.offset = static_cast<int>(integer(0, 4095));
-    for (std::string_view rest = left_; !rest.empty(); rest = left_) {
+    for (std::string_view rest = left(); !rest.empty(); rest = left()) {
       const std::string_view option = word();
       if (option == "bits") {
         const auto [low, high] = span(8 * field.bytes - 1, "bits");
@@ -283,7 +250,7 @@ class Parser {
       } else if (option == "inverted") {
         field.inverted = true;
       } else {
-        left_ = rest;  // of the statement, not of the field
+        set_left(rest);  // of the statement, not of the field
         break;
       }
     }
@@ -300,7 +267,7 @@ class Parser {
   Checksum checksum() {
     Checksum checksum;
     const std::string_view kind = word();
-    if (kind != "sum" && kind != "xor") fail(in_quotes(kind) + " is not a checksum: sum, xor");
+    if (kind != "sum" && kind != "xor") fail(in_quotes(kind) + " is not a checksum type (sum, xor)");
     checksum.kind = kind == "sum" ? ChecksumKind::sum : ChecksumKind::exclusive_or;
     std::tie(checksum.first, checksum.last) = span(4095, "bytes");
     checksum.field = field();
@@ -311,7 +278,7 @@ class Parser {
   std::pair<int, int> span(int most, const char* what) {
     const std::string_view text = word();
     const auto dots = text.find("..");
-    if (dots == std::string_view::npos) fail(in_quotes(text) + " are not " + what + ": FIRST..LAST");
+    if (dots == std::string_view::npos) fail(in_quotes(text) + " is not a range of " + what + ", FIRST..LAST");
     const auto low = to_integer(text.substr(0, dots), 0, most);
     return {static_cast<int>(low), static_cast<int>(to_integer(text.substr(dots + 2), low, most))};
   }
@@ -325,12 +292,11 @@ class Parser {
     const bool hexadecimal = text.starts_with("0x");
     const std::string_view digits = hexadecimal ? text.substr(2) : text;
     std::int64_t value = 0;
-    const auto [end, error] =
-        std::from_chars(digits.data(), digits.data() + digits.size(), value, hexadecimal ? 16 : 10);
+    const auto [end, error] = from_chars(digits.data(), digits.data() + digits.size(), value, hexadecimal ? 16 : 10);
     const bool whole = error == std::errc() && end == digits.data() + digits.size();
-    if (!whole || (hexadecimal && value < 0)) fail(in_quotes(text) + " is not a whole number");
+    if (!whole || (hexadecimal && value < 0)) fail(in_quotes(text) + " is not an integer");
     if (value < least || value > most) {
-      fail(std::string(text) + " must be " + std::to_string(least) + " to " + std::to_string(most));
+      fail(std::string(text) + " is out of range, must be " + std::to_string(least) + " to " + std::to_string(most));
     }
     return value;
   }
@@ -338,7 +304,7 @@ class Parser {
   double real() {
     const std::string_view text = word();
     double value = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const auto [end, error] = from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size()) fail(in_quotes(text) + " is not a number");
     return value;
   }
@@ -353,24 +319,18 @@ class Parser {
     std::vector<std::byte> bytes;
     for (std::string_view text = word(); !text.empty(); text = word()) {
       int value = 0;
-      const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, 16);
+      const auto [end, error] = from_chars(text.data(), text.data() + text.size(), value, 16);
       if (text.size() != 2 || text[0] == '-' || error != std::errc() || end != text.data() + text.size()) {
-        fail(in_quotes(text) + " is not a byte of two hexadecimal digits");
+        fail(in_quotes(text) + " is not a byte (two hexadecimal digits)");
       }
       bytes.push_back(static_cast<std::byte>(value));
     }
-    if (bytes.empty()) fail("expected bytes of two hexadecimal digits each, found none");
+    if (bytes.empty()) fail("expected bytes (two hexadecimal digits each), found none");
     return bytes;
   }
 
-  std::istream& in_;
-  std::string name_;
-  std::string line_;
-  std::string_view left_;
-  int number_ = 0;
-  std::size_t read_ = 0;
   bool seen_first_line_ = false;
-  std::map<std::string, int> lines_;  ///< of what was said, by its name in validate()'s messages
+  std::map<std::string, int> lines_;  ///< line numbers of statements, by their names in validate()'s messages
   std::set<int> button_numbers_;
   WireProfile profile_;
 };
@@ -380,15 +340,7 @@ class Parser {
 WireProfile read_wire_profile(std::istream& in, std::string_view name) { return Parser(in, name).parse(); }
 
 WireProfile read_wire_profile(const std::string& path) {
-  std::error_code error;
-  if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error)) {
-    throw FileError(path + ": is not a regular file");
-  }
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (!error && size > longest_text) throw FormatError(path + ": this is no wire profile: it is longer than 1 MB");
-  errno = 0;
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw FileError(path + ": cannot be opened: " + std::generic_category().message(errno));
+  std::ifstream in = open_file(path);
   return read_wire_profile(in, path);
 }
 

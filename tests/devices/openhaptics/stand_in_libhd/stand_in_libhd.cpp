@@ -1,5 +1,5 @@
-// A stand-in for the vendor's runtime, written from the same public facts as the backend: a library with the functions
-// of HDAPI and simulated devices inside. Built whole; with functions left out (the macros WITHOUT_...); and with
+// A stub of the vendor's runtime, written from the same public facts as the backend: a library with the functions
+// of HDAPI and simulated devices inside. Three variants: complete; without some functions (WITHOUT_...); and with
 // STAND_IN_IS_HELD, for programs that know nothing of it: a device held by a hand that writes STAND_IN_TEXT, in real
 // time.
 #include <algorithm>
@@ -49,7 +49,7 @@ constexpr unsigned needs_manual_input = 0x5002;
 constexpr double period = 1e-3;  // [s]
 
 struct Device {
-  Device(const char* device_name, const char* device_model, const char* profile, const Hand& grip = {},
+  Device(const char* device_name, const char* device_model, const char* profile, const GripImpedance& grip = {},
          const Eigen::Vector3d& position = Eigen::Vector3d::Zero())
       : name(device_name), model(device_model), physics(device_profile(profile), grip, position) {}
 
@@ -61,10 +61,10 @@ struct Device {
   bool in_inkwell = false;
   int buttons = 0;
   unsigned calibration = calibration_ok;
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();        ///< as set last
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();        ///< last one set
   DeviceState frame;                                      ///< the sample of the open frame
   std::function<Intention(const Eigen::Vector3d&)> hand;  ///< where it pulls to from this tip [m]; may be empty
-  std::deque<unsigned> errors;                            ///< to come, one a frame
+  std::deque<unsigned> errors;                            ///< pending, one per frame
 };
 
 struct Scheduled {
@@ -188,10 +188,10 @@ void give(const Eigen::Vector3d& values, double result[3]) { std::copy(values.be
   const Capabilities profile = device_profile("touch");
   const WriterSkill skill = WriterSkill::skilled();
   const char* const text = std::getenv("STAND_IN_TEXT");
-  const Page page =
+  const PracticePage page =
       calligraphy_test::page_to_write(text == nullptr ? "永" : text, CharacterSet(built_in_characters()), profile);
   const auto writer = std::make_shared<calligraphy_test::WritingHand>(page, profile, skill, 1);
-  auto device = std::make_unique<Device>("Default Device", "PHANTOM Touch", "touch", skill.hand, writer->start());
+  auto device = std::make_unique<Device>("Default Device", "PHANTOM Touch", "touch", skill.grip, writer->start());
   device->hand = [writer](const Eigen::Vector3d& tip) { return writer->next(tip, period); };
   world().devices.push_back(std::move(device));
   world().real_time = true;
@@ -277,7 +277,7 @@ void hdDisable(unsigned capability) {
   Device* device = open_device(current);
   if (device == nullptr || capability != 0x4000) return break_rule();
   device->output = false;
-  device->physics.write(Eigen::Vector3d::Zero());  // at once, tick or no tick
+  device->physics.write(Eigen::Vector3d::Zero());  // immediately, even outside a tick
 }
 
 void hdGetDoublev(unsigned what, double* values) {
@@ -292,7 +292,7 @@ void hdGetDoublev(unsigned what, double* values) {
   if (device == nullptr) return break_rule();
   const Capabilities& capabilities = device->physics.capabilities();
   if (what == 0x2551) {
-    // Not centred: 10 mm more to the right, above and to the user.
+    // Not centred: 10 mm more to the right, upwards and towards the user.
     const Eigen::Vector3d half = 0.5e3 * capabilities.workspace;
     give(-half, values);
     give(half + Eigen::Vector3d::Constant(10.0), values + 3);

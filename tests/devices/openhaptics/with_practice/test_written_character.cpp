@@ -1,4 +1,4 @@
-// A whole character through the vendor's runtime: the simulated writer holds the stand-in's pen.
+// A complete character through the vendor's runtime: the simulated writer holds the pen of the stub.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -14,38 +14,36 @@
 #include "../../../catch.hpp"
 #include "../stand_in.hpp"
 
-namespace written_character_tests {
-
 using namespace calligraphy;
 using calligraphy_test::StandIn;
 
 namespace {
 
-const StandIn* clock_of_stand_in = nullptr;
-double virtual_time() noexcept { return (*clock_of_stand_in)->time(); }
+const StandIn* stand_in_of_page = nullptr;
+double time_of_page() noexcept { return (*stand_in_of_page)->time(); }
 
 }  // namespace
 
-TEST_CASE("a whole character is written through the vendor's runtime, faults on the way included", "[openhaptics]") {
+TEST_CASE("a complete character is written through the vendor's runtime despite faults", "[openhaptics]") {
   const bool with_faults = GENERATE(false, true);
   StandIn runtime(STAND_IN_LIBHD);
-  clock_of_stand_in = &runtime;
+  stand_in_of_page = &runtime;
   runtime->plug_in("Default Device", "PHANTOM Desktop", "desktop");
   OpenHapticsOptions options;
   options.library = STAND_IN_LIBHD;
-  options.time = virtual_time;
+  options.time = time_of_page;
   OpenHapticsDevice device(options);
 
-  const Page page = lay_out(std::vector{*built_in_characters().find(U'永')}).front();
+  const PracticePage page = lay_out(std::vector{*built_in_characters().find(U'永')}).front();
   const MotionMapping mapping = upright_page(page.width, page.height);
   HapticRenderer renderer(page.characters, mapping, device.capabilities(),
                           RendererOptions::for_device(device.capabilities()));
   SimulatedWriter writer(page, WriterSkill::skilled(), 1);
   ServoOptions servo_options;
-  servo_options.work_clock = virtual_time;
+  servo_options.work_clock = time_of_page;
   double largest = 0.0;
   double last = 0.0;
-  double largest_step = 0.0;
+  double max_step = 0.0;
   Servo servo(
       device, [&](const DeviceState& state) { return renderer.update(state).force; }, servo_options);
   device.clock()->start([&](double now) { servo.step(now); });
@@ -56,7 +54,7 @@ TEST_CASE("a whole character is written through the vendor's runtime, faults on 
     if (with_faults && tick % 3000 == 2999) runtime->inject(0, tick % 2000 == 999 ? 0x0302 : 0x0204, 15);
     runtime->step();
     const HapticTick& seen = renderer.last();
-    const Sight sight{seen.pen_tip, seen.character, seen.stroke, seen.state == InteractionState::writing};
+    const VisualFeedback sight{seen.pen_tip, seen.character, seen.stroke, seen.state == InteractionState::writing};
     const Intention intention = writer.update(sight, period);
     const Eigen::Vector3d position = mapping.to_device(intention.position);
     const Eigen::Vector3d velocity = mapping.rotation.transpose() * intention.velocity / mapping.scale;
@@ -65,7 +63,7 @@ TEST_CASE("a whole character is written through the vendor's runtime, faults on 
     runtime->applied_force(0, force.data());
     REQUIRE(force.allFinite());
     largest = std::max(largest, force.norm());
-    largest_step = std::max(largest_step, std::abs(force.norm() - last));
+    max_step = std::max(max_step, std::abs(force.norm() - last));
     last = force.norm();
     finished = seen.character;
   }
@@ -75,9 +73,7 @@ TEST_CASE("a whole character is written through the vendor's runtime, faults on 
   CHECK(finished == 1);
   CHECK(largest > 0.1);
   CHECK(largest <= device.capabilities().peak_force);
-  CHECK(largest_step <= 0.2 * device.capabilities().peak_force);
+  CHECK(max_step <= 0.2 * device.capabilities().peak_force);
   CHECK((servo.statistics().fault_count(DeviceFault::link_error) > 0) == with_faults);
   CHECK(runtime->broken_rules() == 0);
 }
-
-}  // namespace written_character_tests

@@ -1,4 +1,4 @@
-// A user without rights for a while.
+// Temporarily drops the rights of root.
 #pragma once
 
 #include <unistd.h>
@@ -8,7 +8,7 @@
 
 namespace calligraphy_test {
 
-/// Root may open everything: the tests of what is refused run as somebody else.
+/// Root may open everything, so tests of refused access run as another user.
 class AsNobody {
  public:
   AsNobody() {

@@ -11,9 +11,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::size_t most_waiting = 16;
+constexpr std::size_t max_waiting = 16;
 constexpr std::size_t kept_plugs = 4;
-constexpr auto longest_wait = 60s;
+constexpr auto max_wait = 60s;
 
 std::string formatted(const char* format, int first, int second) {
   char text[64];
@@ -26,7 +26,7 @@ struct Place {
   std::string name;  ///< 1-2
 };
 
-/// The root of the bus, the hubs on the way and the device itself: 1-1.4 hangs below 1-1.
+/// The root of the bus, the hubs on the path and the device itself: 1-1.4 is below 1-1.
 std::vector<Place> way_to(int bus, const std::string& port) {
   const std::string number = std::to_string(bus);
   std::vector<Place> way{{"/devices/pci0000:00/0000:00:14.0/usb" + number, "usb" + number}};
@@ -130,7 +130,7 @@ void EmulatedDevice::plug_in(int bus, const std::string& port) {
     hidraw_ = std::move(hidraw);
     system_paths_ = {paths.rbegin(), paths.rend()};
   }
-  bed_.add(text);  // umockdev announces it with that: everything else is in place by now
+  bed_.add(text);  // this makes umockdev announce it, so everything else must be in place
 }
 
 /// A node that a program has open, or is about to, still answers it: that the device is gone.
@@ -185,7 +185,7 @@ void EmulatedDevice::queue(Waiting packet) {
   const std::lock_guard<std::mutex> alone(mutex_);
   if (!usbfs_) return;
   waiting_.push_back(std::move(packet));
-  if (waiting_.size() > most_waiting) waiting_.pop_front();
+  if (waiting_.size() > max_waiting) waiting_.pop_front();
   usbfs_->deliver();
   if (hidraw_) hidraw_->show_state();
 }
@@ -212,12 +212,12 @@ std::uint64_t EmulatedDevice::packets_taken() const {
 
 bool EmulatedDevice::wait(const std::function<bool(const HostActions&)>& reached) const {
   std::unique_lock<std::mutex> lock(mutex_);
-  return happened_.wait_for(lock, longest_wait, [&] { return reached(host_); });
+  return happened_.wait_for(lock, max_wait, [&] { return reached(host_); });
 }
 
 bool EmulatedDevice::wait_for_packets(std::uint64_t count) const {
   std::unique_lock<std::mutex> lock(mutex_);
-  return happened_.wait_for(lock, longest_wait, [&] { return taken_ >= count; });
+  return happened_.wait_for(lock, max_wait, [&] { return taken_ >= count; });
 }
 
 std::vector<std::string> EmulatedDevice::node_files() const {

@@ -1,4 +1,4 @@
-// A USB device that is plugged into a test bed: the bus as a driver sees it, with its faults at call.
+// A USB device plugged into a test bed: the bus as a driver sees it, with injected faults.
 #pragma once
 
 #include <condition_variable>
@@ -22,24 +22,24 @@ namespace calligraphy_test {
 class HidrawNode;
 class UsbfsNode;
 
-/// In which order a host hears that a device is gone. Both are seen with real hosts.
+/// Order in which a host learns that a device is gone. Both occur with real hosts.
 enum class UnplugOrder {
   error_first,  ///< the transfers under way end in an error, and only the next one says that there is no device
   gone_first    ///< the transfers under way say that there is no device
 };
 
-/// How the device answers packets from the host.
+/// How the device responds to packets from the host.
 enum class Taking { at_once, never, stalls };
 
-/// What the host has done to the device.
+/// State of the device as set by the host.
 struct HostActions {
   int control_line = 0;       ///< bit 0: DTR
   Octets line_coding;         ///< as sent
   std::set<int> claimed;      ///< interfaces that a program has
   std::set<int> with_driver;  ///< interfaces that the system's own driver has
   int cleared_halts = 0;
-  int flying = 0;      ///< transfers from the device that the host waits with
-  int held = 0;        ///< transfers to the device that it has not taken
+  int flying = 0;      ///< pending transfers from the device
+  int held = 0;        ///< transfers to the device that it has not accepted
   int open_nodes = 0;  ///< programs that have the hidraw node open
 };
 
@@ -74,7 +74,7 @@ class EmulatedDevice {
   HostActions host() const;
   std::uint64_t packets_taken() const;
 
-  /// For at most ten seconds; false when it did not come to that.
+  /// Waits at most ten seconds; false if the condition was not met.
   bool wait(const std::function<bool(const HostActions&)>& reached) const;
   bool wait_for_packets(std::uint64_t count) const;
 

@@ -1,4 +1,4 @@
-// A Phantom on an emulated bus: the arm with the simulated device's physics in its tip, and its firmware.
+// A Phantom on an emulated bus: the arm with the simulated device's physics at its tip, and its firmware.
 #pragma once
 
 #include <algorithm>
@@ -11,13 +11,14 @@
 
 namespace calligraphy_test {
 
-/// Speaks the wire profile `simulated`. The motors are off until the profile's start command has come, while the enable
-/// bit of the newest command is clear, when the dead man's bit has not moved for 20 ms, and as soon as the device is
-/// unplugged.
+/// Uses the wire profile `simulated`. The motors are off until the profile's start command has arrived, while the
+/// enable bit of the newest command is clear, when the dead-man bit has not changed for 20 ms, and as soon as the
+/// device is unplugged.
 class EmulatedPhantom {
  public:
-  EmulatedPhantom(TestBed& bed, const UsbIdentity& identity, const Hand& hand, const std::string& model = "touch")
-      : bus(bed, identity), arm(wire_profile("simulated"), model, device_profile(model), hand) {
+  EmulatedPhantom(TestBed& bed, const UsbIdentity& identity, const GripImpedance& grip,
+                  const std::string& model = "touch")
+      : bus(bed, identity), arm(wire_profile("simulated"), model, device_profile(model), grip) {
     arm.started = false;
     bus.on_packet([this](std::span<const std::byte> packet) {
       const std::lock_guard<std::mutex> alone(mutex);
@@ -33,7 +34,7 @@ class EmulatedPhantom {
   std::mutex mutex;  ///< of the arm: packets come in the test bed's thread
   EmulatedArm arm;
 
-  /// One millisecond of the physics, and the report of its end; `tamper` of the arm may change it or keep it back.
+  /// One millisecond of physics, then a report, which `tamper` of the arm may change or drop.
   void step() {
     Bytes report;
     {
@@ -55,7 +56,7 @@ class EmulatedPhantom {
     reset_itself();
   }
 
-  /// As a watchdog of its own or a dip of its power does: it stays on the bus, and its encoders count on.
+  /// Resets the device as its own watchdog or a power dip does: it stays on the bus, and its encoders keep counting.
   void reset_itself() {
     const std::lock_guard<std::mutex> alone(mutex);
     arm.wire->newest.clear();

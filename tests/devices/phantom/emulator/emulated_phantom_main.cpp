@@ -86,7 +86,7 @@ WriterSkill skill_of(const Options& options) {
   return options.skilled ? WriterSkill::skilled() : WriterSkill::novice();
 }
 
-Hand hand_of_skill(const Options& options) { return skill_of(options).hand; }
+GripImpedance grip_of_skill(const Options& options) { return skill_of(options).grip; }
 
 std::unique_ptr<HandMotion> hand_of(const Options& options) {
   if (options.text.empty()) return std::make_unique<CirclingHand>();
@@ -97,15 +97,15 @@ std::unique_ptr<HandMotion> hand_of(const Options& options) {
                                        options.seed);
 }
 
-/// Where the pen is in the course of a run.
+/// Phase of a run.
 enum class Stage { docked, carried, resting, moving };
 
-/// The device and its hand, a millisecond at a time: the pen stays in the inkwell until a program has sent commands for
-/// a while, is carried to where the motion begins, and then moves.
+/// Steps the device and its hand by 1 ms: the pen stays in the inkwell until a program has sent commands for
+/// a while, is carried to the start of the motion, and then moves.
 class Run {
  public:
   Run(const Options& options, HandMotion& hand)
-      : phantom_(bed_, options.hid ? hid_touch(options.serial) : serial_touch(options.serial), hand_of_skill(options),
+      : phantom_(bed_, options.hid ? hid_touch(options.serial) : serial_touch(options.serial), grip_of_skill(options),
                  model),
         hand_(hand) {
     phantom_.bus.plug_in(1, "2");
@@ -159,8 +159,8 @@ pid_t started(const Options& options) {
   return child;
 }
 
-/// At 1 kHz until the command has ended. After a pause of the machine the steps that are due follow at once, a few at a
-/// time: a device does not wait.
+/// Runs at 1 kHz until the command has ended. After a pause of the machine the overdue steps follow immediately, a few
+/// at a time: a device does not wait.
 int run_beside(Run& run, pid_t child) {
   constexpr long period = 1'000'000;  // [ns]
   timespec due{};
@@ -189,12 +189,12 @@ int main(int argc, char** argv) try {
     std::cerr << "emulated_phantom: umockdev-wrapper cannot be run: install umockdev\n";
     return 77;
   }
-  prctl(PR_SET_TIMERSLACK, 1);  // else every answer of the test bed comes 50 us later
+  prctl(PR_SET_TIMERSLACK, 1);  // otherwise every answer of the test bed is delayed by 50 us
   setenv("CALLIGRAPHY_WIRE_PROFILE", "simulated", 0);
   const std::unique_ptr<HandMotion> hand = hand_of(options);
   Run run(options, *hand);
   const pid_t child = started(options);
-  signal(SIGINT, SIG_IGN);  // it is the command's, which ends and thereby ends this
+  signal(SIGINT, SIG_IGN);  // handled by the command, whose exit ends this program
   const int status = run_beside(run, child);
   std::cerr << "emulated_phantom: " << run.reports() << " reports sent, " << run.commands() << " commands taken\n";
   return status;

@@ -13,14 +13,14 @@ class HandMotion {
  public:
   virtual ~HandMotion() = default;
 
-  /// Where the hand takes the device first [m], device axes.
+  /// Start position, device axes [m].
   virtual Eigen::Vector3d start() const = 0;
 
-  /// Sees where the tip is and says where the hand means it to be during the next `seconds`.
+  /// Receives the position of the tip and returns the intended motion for the next `seconds`.
   virtual calligraphy::Intention next(const Eigen::Vector3d& tip, double seconds) = 0;
 };
 
-/// Round and round in the x-y plane, twice in a second, 20 mm from the middle.
+/// Circles in the x-y plane with a radius of 20 mm, twice per second.
 class CirclingHand final : public HandMotion {
  public:
   Eigen::Vector3d start() const override { return at(0.0); }

@@ -43,7 +43,7 @@ void HidrawNode::connected(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpoi
   const std::lock_guard<std::mutex> alone(node.device_.mutex_);
   node.clients_.add(client);
   if (node.gone_) return;
-  if (node.clients_.count() == 1) node.device_.waiting_.clear();  // a report that nobody waited for is not kept
+  if (node.clients_.count() == 1) node.device_.waiting_.clear();  // a report that nobody waited for is dropped
   node.device_.host_.open_nodes = node.clients_.count();
   node.show_state();
 }
@@ -117,7 +117,7 @@ gboolean HidrawNode::writes(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpo
       error = ETIMEDOUT;
     }
   }
-  // The first byte is the report's number, 0 where there is none: it does not go over the bus then.
+  // The first byte is the report number; 0 means none, and it is not transferred then.
   if (error == 0 && size > 0) {
     node.device_.took(std::as_bytes(std::span(data->data, static_cast<std::size_t>(size)).subspan(1)));
   }

@@ -16,7 +16,7 @@ class HidrawNode {
   HidrawNode(const HidrawNode&) = delete;
   HidrawNode& operator=(const HidrawNode&) = delete;
 
-  /// Readable while reports wait, and when the device is gone: a read says so then. The mutex is held here and below.
+  /// Readable while reports are pending, and when the device is gone, which a read reports. Call with the mutex locked.
   void show_state();
   void unplug();
   bool closed() { return clients_.count() == 0; }

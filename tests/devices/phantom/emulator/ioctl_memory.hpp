@@ -1,4 +1,4 @@
-// The memory of a program that has an emulated device open, as umockdev lends it.
+// Access to the memory of a program that has an emulated device open, through umockdev.
 #pragma once
 
 #include <cstring>
@@ -12,10 +12,10 @@ namespace calligraphy_test {
 struct ReleaseIoctlData {
   void operator()(UMockdevIoctlData* data) const noexcept { umockdev_ioctl_data_unref(data); }
 };
-/// A copy of a piece of the program's memory; what is put into it goes back when the call is answered.
+/// A copy of part of the program's memory; changes are written back when the call is answered.
 using IoctlMemory = std::unique_ptr<UMockdevIoctlData, ReleaseIoctlData>;
 
-/// What the pointer at an offset of `from` points to; null for a null pointer or no bytes.
+/// Target of the pointer at an offset of `from`; null for a null pointer or no bytes.
 inline IoctlMemory pointed_to(UMockdevIoctlData* from, std::size_t offset, std::size_t size) {
   if (size == 0) return nullptr;
   GError* error = nullptr;

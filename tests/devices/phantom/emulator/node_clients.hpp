@@ -1,4 +1,4 @@
-// The programs that have a node of a test bed open.
+// Tracks the programs that have a node of a test bed open.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace calligraphy_test {
 
-/// umockdev 0.17.16 tells when one opens a node; that it has closed it has to be asked for.
+/// umockdev 0.17.16 reports when one opens a node, but not when it closes it, which must be polled.
 class NodeClients {
  public:
   void add(UMockdevIoctlClient* client) {

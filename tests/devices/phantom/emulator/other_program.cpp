@@ -13,7 +13,7 @@
 namespace calligraphy_test {
 namespace {
 
-constexpr int longest_answer = 60'000;  // [ms]
+constexpr int max_answer = 60'000;  // [ms]
 
 }  // namespace
 
@@ -47,7 +47,7 @@ std::string OtherProgram::heard() {
   while (true) {
     pollfd waiting{from_, POLLIN, 0};
     char letter = 0;
-    if (poll(&waiting, 1, longest_answer) != 1 || read(from_, &letter, 1) != 1) return line + " (and no more)";
+    if (poll(&waiting, 1, max_answer) != 1 || read(from_, &letter, 1) != 1) return line + " (and no more)";
     if (letter == '\n') return line;
     line += letter;
   }
@@ -77,7 +77,7 @@ void say(const std::string& line) {
 
 void wait_for_the_end() {
   char letter = 0;
-  [[maybe_unused]] const ssize_t got = read(STDIN_FILENO, &letter, 1);  // 0 when the test has gone: an end as well
+  [[maybe_unused]] const ssize_t got = read(STDIN_FILENO, &letter, 1);  // 0 if the test has exited: ends as well
 }
 
 }  // namespace calligraphy_test

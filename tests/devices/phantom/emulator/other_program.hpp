@@ -1,4 +1,4 @@
-// Another program on the same test bed: this one, started a second time to do what one hidden test case says.
+// Another program on the same test bed: this program, started again to run one hidden test case.
 #pragma once
 
 #include <string>
@@ -9,18 +9,18 @@ namespace calligraphy_test {
 
 class OtherProgram {
  public:
-  /// Runs the test case of that name in a process of its own.
+  /// Runs the test case of that name in its own process.
   explicit OtherProgram(const std::string& test_case);
-  /// Kills it when it still runs.
+  /// Kills it if it is still running.
   ~OtherProgram();
   OtherProgram(const OtherProgram&) = delete;
   OtherProgram& operator=(const OtherProgram&) = delete;
 
-  /// The next line that it has said, waited for at most ten seconds.
+  /// Waits at most ten seconds for its next line of output.
   std::string heard();
-  /// Lets it end, and waits for that.
+  /// Tells it to end and waits for that.
   void end();
-  /// As kill -9 does, and waits for it.
+  /// Kills it as kill -9 does, and waits for that.
   void kill();
 
  private:
@@ -30,9 +30,9 @@ class OtherProgram {
   int to_ = -1, from_ = -1;
 };
 
-/// Of the other program: says a line.
+/// For the other program: writes a line.
 void say(const std::string& line);
-/// Of the other program: until it is told to end.
+/// For the other program: waits until it is told to end.
 void wait_for_the_end();
 
 }  // namespace calligraphy_test

@@ -1,4 +1,4 @@
-// A link to an emulated device on a test bed, and what comes through it.
+// A link to an emulated device on a test bed, and the events that it reports.
 #pragma once
 
 #include <memory>
@@ -16,16 +16,16 @@ namespace calligraphy_test {
 
 using Faults = std::vector<calligraphy::DeviceFault>;
 
-/// hidapi-libusb goes on listening to the test bed that it was started in: it is ended with it.
+/// hidapi-libusb keeps listening to the test bed in which it was started, so it is shut down with it.
 class FreshBed : public TestBed {
  public:
   ~FreshBed() { hid_exit(); }
 };
 
-/// A program waits with transfers, or has the hidraw node open.
+/// Whether a program has pending transfers or the hidraw node open.
 inline bool listens(const HostActions& host) { return host.flying + host.open_nodes > 0; }
 
-/// Long enough that a busy machine never takes it for a fault; a device that comes back is found at once.
+/// Time-outs long enough to avoid false faults on a busy machine; a device that comes back is found immediately.
 constexpr calligraphy::phantom::LinkOptions patient{60.0, 60.0, 0.005};
 
 inline std::span<const std::byte> as_packet(const Octets& bytes) { return std::as_bytes(std::span(bytes)); }
@@ -49,7 +49,7 @@ struct PluggedTouch {
     REQUIRE(device.wait(listens));
   }
 
-  /// Pushes one packet and waits until the link has handed it on.
+  /// Pushes one packet and waits until the link has delivered it.
   void exchange(const Octets& packet) {
     const std::size_t before = listener.packets().size();
     device.push(packet);

@@ -1,4 +1,4 @@
-// The node of an emulated device, as one that a program can wait on.
+// The node of an emulated device, made pollable.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Remembers what a link tells, for a test to wait for.
+// Records the events of a link, for a test to wait for.
 #pragma once
 
 #include <algorithm>
@@ -31,7 +31,7 @@ class RecordingListener final : public calligraphy::phantom::LinkListener {
     happened_.notify_all();
   }
 
-  /// For at most a minute; false when they did not come.
+  /// Waits at most a minute; false if they did not arrive.
   bool wait_for_packets(std::size_t count) const {
     return wait([&] { return packets_.size() >= count; });
   }
@@ -41,7 +41,7 @@ class RecordingListener final : public calligraphy::phantom::LinkListener {
   bool wait_for(Fault fault) const {
     return wait([&] { return std::find(changes_.begin(), changes_.end(), fault) != changes_.end(); });
   }
-  /// Of the changes from that one on.
+  /// Among the changes from that one on.
   bool wait_for_none_after(std::size_t first) const {
     return wait(
         [&] { return std::count(changes_.begin() + static_cast<long>(first), changes_.end(), Fault::none) > 0; });

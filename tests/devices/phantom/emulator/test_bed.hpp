@@ -1,4 +1,4 @@
-// umockdev's test bed: a /sys and a /dev of one's own, and uevents.
+// umockdev's test bed: its own /sys, /dev and uevents.
 #pragma once
 
 #include <map>
@@ -12,7 +12,7 @@ namespace calligraphy_test {
 /// Whether this program runs under umockdev-wrapper, without which there is no test bed.
 bool in_test_bed();
 
-/// One at a time in a program.
+/// Only one at a time per program.
 class TestBed {
  public:
   TestBed();
@@ -20,7 +20,7 @@ class TestBed {
   TestBed(const TestBed&) = delete;
   TestBed& operator=(const TestBed&) = delete;
 
-  /// Answers what programs do with a node that is added afterwards.
+  /// Handles the requests of programs on a node that is added afterwards.
   void attach(const std::string& node, UMockdevIoctlBase* handler);
   void detach(const std::string& node);
 
@@ -29,7 +29,7 @@ class TestBed {
   void announce(const std::string& system_path, const char* action);
   void remove(const std::string& system_path);
 
-  /// Where a path of the test bed really is.
+  /// Real path of a path in the test bed.
   std::string real_path(const std::string& path) const;
 
   /// The number that the next device on a bus gets: 1 for its root, then 2 to 127 and round again, as the kernel does.
@@ -37,7 +37,7 @@ class TestBed {
     const int before = addresses_[bus]++;
     return before == 0 ? 1 : 2 + (before - 1) % 126;
   }
-  /// True the first time that it is asked about a path: roots of buses and hubs stay once they are there.
+  /// True on the first call for a path: bus roots and hubs stay once they exist.
   bool is_new(const std::string& path) { return known_.insert(path).second; }
   int next_hidraw() { return next_hidraw_++; }
 

@@ -1,11 +1,11 @@
-// What is plugged in, read from an emulated bus, and which of several devices is opened.
+// The list of connected devices of an emulated bus, and which of several is opened.
 #include <sys/stat.h>
 
 #include <cerrno>
 #include <sstream>
 
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/devices/phantom/capture.hpp>
+#include <calligraphy/devices/phantom/packet_capture.hpp>
 
 #include "as_nobody.hpp"
 #include "plugged_touch.hpp"
@@ -23,7 +23,7 @@ UsbIdentity any_touch(const std::string& serial = "540-00001") {
 
 }  // namespace
 
-TEST_CASE("every Phantom on the bus is listed by place, other devices are not", "[list]") {
+TEST_CASE("every Phantom on the bus is listed by bus and port, other devices are not", "[list]") {
   FreshBed bed;
   EmulatedDevice hid(bed, hid_touch("H1")), usb(bed, serial_touch("U1")), swapped(bed, swapped_touch("S1"));
   EmulatedDevice mouse(bed, {0x046d, 0xc077, LinkKind::hid, "M1"});
@@ -34,9 +34,9 @@ TEST_CASE("every Phantom on the bus is listed by place, other devices are not", 
   mouse.plug_in(1, "1");
   const std::vector<PluggedDevice> devices = plugged_devices();
   REQUIRE(devices.size() == 3);
-  CHECK(describe(devices[0]) == "2988:0302 on bus 1, port 2, serial U1");
-  CHECK(describe(devices[1]) == "2988:0304 on bus 2, port 1.4, serial H1");
-  CHECK(describe(devices[2]) == "0301:2988 on bus 2, port 3, serial S1");
+  CHECK(describe_device(devices[0]) == "2988:0302 on bus 1, port 2, serial U1");
+  CHECK(describe_device(devices[1]) == "2988:0304 on bus 2, port 1.4, serial H1");
+  CHECK(describe_device(devices[2]) == "0301:2988 on bus 2, port 3, serial S1");
   CHECK(devices[0].link == LinkKind::usb);
   CHECK(devices[1].link == LinkKind::hid);
   CHECK(devices[2].link == LinkKind::usb);
@@ -72,7 +72,7 @@ TEST_CASE("a device that may not be opened is listed, and the message names the 
   CHECK_NOTHROW(link->open(listener));
 }
 
-TEST_CASE("of two identical devices each is opened by its serial number, both at once", "[list]") {
+TEST_CASE("two identical devices are opened by their serial numbers at the same time", "[list]") {
   FreshBed bed;
   EmulatedDevice first(bed, any_touch("A1")),
       second(bed, {first.identity().vendor, first.identity().product, first.identity().link, "B2"});
@@ -98,13 +98,13 @@ TEST_CASE("of two identical devices each is opened by its serial number, both at
   CHECK(second.packets_taken() == 0);
 }
 
-TEST_CASE("with nothing plugged in the message says so", "[list]") {
+TEST_CASE("without a connected device the message says so", "[list]") {
   FreshBed bed;
   CHECK_THROWS_WITH(make_link(""), Catch::Contains("no Phantom is plugged in"));
   CHECK_THROWS_WITH(make_link("A1"), Catch::Contains("A1"));
 }
 
-TEST_CASE("descriptors are dumped in words and bytes without opening the device", "[list]") {
+TEST_CASE("descriptors are dumped as text and bytes without opening the device", "[list]") {
   FreshBed bed;
   EmulatedDevice usb(bed, serial_touch("U1")), hid(bed, hid_touch("H1"));
   usb.plug_in(1, "2");
@@ -117,7 +117,7 @@ TEST_CASE("descriptors are dumped in words and bytes without opening the device"
   REQUIRE(devices.size() == 2);
   const std::string serial = dump_descriptors(devices[0]);
   CHECK_THAT(serial, Catch::Contains("device 2988:0302, USB 2.00") && Catch::Contains("88 29 02 03") &&
-                         Catch::Contains("67 bytes in all") && Catch::Contains("interface 1, setting 0, class 0a") &&
+                         Catch::Contains("67 bytes in total") && Catch::Contains("interface 1, setting 0, class 0a") &&
                          Catch::Contains("endpoint 1 to the host, bulk, packets of 64 bytes") &&
                          Catch::Contains("endpoint 2 to the device, bulk, packets of 64 bytes"));
   const std::string reports = dump_descriptors(devices[1]);
@@ -127,19 +127,19 @@ TEST_CASE("descriptors are dumped in words and bytes without opening the device"
                           Catch::Contains("end collection"));
 }
 
-TEST_CASE("a capture holds the transfers with their times, and its text can be read back", "[list]") {
+TEST_CASE("a capture has all transfers with their times, and its text can be read back", "[list]") {
   FreshBed bed;
   EmulatedDevice touch(bed, serial_touch("U1"));
   touch.plug_in(1, "2");
   const PluggedDevice device = plugged_devices().front();
-  CHECK_THROWS_AS(capture(device, {0, 1.0}), ValueError);
-  CHECK_THROWS_AS(capture(device, {1, -1.0}), ValueError);
+  CHECK_THROWS_AS(capture_packets(device, {0, 1.0}), ValueError);
+  CHECK_THROWS_AS(capture_packets(device, {1, -1.0}), ValueError);
   for (std::uint8_t i = 0; i < 3; ++i) touch.push(numbered(i, 2));
   touch.push({});
-  const Capture got = capture(device, {4, 10.0});
+  const PacketCapture got = capture_packets(device, {4, 10.0});
   REQUIRE(got.transfers.size() == 4);
   std::ostringstream text;
-  write_capture(text, got);
+  write_packet_capture(text, got);
   std::istringstream lines(text.str());
   std::string line;
   std::getline(lines, line);

@@ -9,12 +9,12 @@ using namespace calligraphy_test;
 
 namespace {
 
-/// What hidapi-hidraw and hidapi-libusb pass on differs: the second swallows errors of reports.
+/// hidapi-hidraw and hidapi-libusb report different events: the latter ignores errors of reports.
 constexpr bool through_hidraw = CALLIGRAPHY_TEST_HIDRAW;
 
 }  // namespace
 
-TEST_CASE("reports of a HID are handed on as they came and in order", "[hid]") {
+TEST_CASE("reports of a HID are delivered unchanged and in order", "[hid]") {
   PluggedTouch touch(hid_touch());
   touch.open();
   std::vector<Octets> sent;
@@ -46,7 +46,7 @@ TEST_CASE("a report to a HID without numbers reaches it unchanged", "[hid]") {
   CHECK_FALSE(touch.link->send(as_packet(Octets(4096))));
 }
 
-TEST_CASE("an unplugged HID is told once, comes back elsewhere by its serial number, and writes again", "[hid]") {
+TEST_CASE("an unplugged HID is reported once, found again elsewhere by its serial number, and writes again", "[hid]") {
   PluggedTouch touch(hid_touch());
   EmulatedDevice stranger(touch.bed, hid_touch("540-99999"));
   touch.open();
@@ -67,7 +67,7 @@ TEST_CASE("an unplugged HID is told once, comes back elsewhere by its serial num
   CHECK_FALSE(listens(stranger.host()));
 }
 
-TEST_CASE("a report that a HID refuses is a link error, and the device is opened anew", "[hid]") {
+TEST_CASE("a report that a HID refuses is a link error, and the device is reopened", "[hid]") {
   PluggedTouch touch(hid_touch());
   touch.open();
   touch.device.set_taking(Taking::stalls);
@@ -81,7 +81,7 @@ TEST_CASE("a report that a HID refuses is a link error, and the device is opened
   CHECK(touch.link->counts().failed >= 1);
 }
 
-TEST_CASE("an error of a report from a HID ends in reports again, told or swallowed as hidapi does", "[hid]") {
+TEST_CASE("after a failed report from a HID reports resume, whether or not hidapi reports the error", "[hid]") {
   PluggedTouch touch(hid_touch());
   touch.open();
   touch.exchange(numbered(1, report_size));
@@ -94,10 +94,10 @@ TEST_CASE("an error of a report from a HID ends in reports again, told or swallo
   touch.exchange(numbered(2, report_size));
 }
 
-TEST_CASE("a HID that is silent is told as timed out until it answers", "[hid]") {
+TEST_CASE("a silent HID is reported as timed out until it answers", "[hid]") {
   PluggedTouch touch(hid_touch(), {0.02, 0.02, 0.005});
   touch.link->open(touch.listener);
-  REQUIRE(touch.listener.wait_for_changes(4));  // told again as long as it lasts
+  REQUIRE(touch.listener.wait_for_changes(4));  // repeated while it persists
   const Faults silent = touch.listener.changes();
   CHECK(Faults(silent.begin(), silent.begin() + 4) ==
         Faults{DeviceFault::none, DeviceFault::timed_out, DeviceFault::timed_out, DeviceFault::timed_out});

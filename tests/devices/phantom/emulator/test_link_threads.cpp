@@ -1,4 +1,4 @@
-// The threads between a device and the servo loop run at the priority that is asked for, as far as the system permits.
+// The threads between a device and the servo loop run at the requested priority, as far as the system permits.
 #include <pthread.h>
 #include <sched.h>
 
@@ -15,7 +15,7 @@ using namespace calligraphy_test;
 
 namespace {
 
-constexpr int priority = 37;  // that of nobody else
+constexpr int priority = 37;  // used by no other thread
 
 phantom::LinkOptions urgent(int asked) {
   phantom::LinkOptions options = patient;
@@ -50,7 +50,7 @@ UsbIdentity touch_of_this_program() {
   return CALLIGRAPHY_TEST_HIDRAW && GENERATE(true, false) ? serial_touch() : hid_touch();
 }
 
-/// A report each way: every thread of the link has done its part.
+/// One report each way, so that every thread of the link has run.
 void exchange_both_ways(PluggedTouch& touch) {
   touch.exchange(numbered(1, report_size));
   touch.link->send(as_packet(numbered(2, 16)));
@@ -59,22 +59,22 @@ void exchange_both_ways(PluggedTouch& touch) {
 
 }  // namespace
 
-TEST_CASE("every thread of a link has the priority asked for, where that is permitted", "[threads]") {
-  if (!permitted()) return;  // the next test's case
+TEST_CASE("every thread of a link has the requested priority where permitted", "[threads]") {
+  if (!permitted()) return;  // covered by the next test
   const UsbIdentity identity = touch_of_this_program();
   PluggedTouch touch(identity, urgent(priority));
   touch.open();
   exchange_both_ways(touch);
   CHECK(touch.link->warnings().empty());
-  // One thread serves a serial device; one reads and one writes a HID, and hidapi-libusb has one of its own besides.
+  // One thread serves a serial device; one reads and one writes a HID, and hidapi-libusb adds its own.
   CHECK(threads_at(priority) == (identity.link == LinkKind::usb ? 1 : CALLIGRAPHY_TEST_HIDRAW ? 2 : 3));
 }
 
-TEST_CASE("a link whose priority is not permitted says so once and works", "[threads]") {
+TEST_CASE("a link whose priority is refused reports it once and works", "[threads]") {
   PluggedTouch touch(touch_of_this_program(), urgent(priority));
   for (const std::string& file : touch.device.node_files()) REQUIRE(chmod(file.c_str(), 0666) == 0);
   const AsNobody nobody;
-  if (permitted()) return;  // whoever runs this may
+  if (permitted()) return;  // permitted here
   touch.open();
   exchange_both_ways(touch);
   REQUIRE(touch.link->warnings().size() == 1);
@@ -83,7 +83,7 @@ TEST_CASE("a link whose priority is not permitted says so once and works", "[thr
   CHECK(threads_at(priority) == 0);
 }
 
-TEST_CASE("a link that is asked for no priority has ordinary threads and nothing to say", "[threads]") {
+TEST_CASE("a link without a priority has normal threads and no warnings", "[threads]") {
   PluggedTouch touch(touch_of_this_program(), urgent(0));
   touch.open();
   exchange_both_ways(touch);

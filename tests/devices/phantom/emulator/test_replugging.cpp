@@ -1,4 +1,4 @@
-// 250 times unplugged and plugged in again, without a leak of descriptors; memory is the address sanitizer's.
+// 250 replugs without leaking descriptors; memory is checked by the address sanitizer.
 #include <filesystem>
 #include <iterator>
 
@@ -15,7 +15,7 @@ std::ptrdiff_t open_descriptors() {
 
 }  // namespace
 
-TEST_CASE("a link survives 250 plugs and leaves no descriptor behind", "[plugs]") {
+TEST_CASE("a link survives 250 replugs without leaking a descriptor", "[plugs]") {
   // One on a serial line has nothing to do with the form of hidapi: once is enough.
   const bool hid = CALLIGRAPHY_TEST_HIDRAW ? GENERATE(true, false) : true;
   PluggedTouch touch(hid ? hid_touch() : serial_touch());

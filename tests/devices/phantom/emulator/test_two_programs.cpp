@@ -1,4 +1,4 @@
-// One device and two who want it: hidraw would give its reports to both, and take forces from both.
+// One device and two users: hidraw would deliver its reports to both, and accept forces from both.
 #include <filesystem>
 #include <system_error>
 
@@ -30,7 +30,7 @@ int open_nodes() {
   return count;
 }
 
-/// Whether the device can be opened, and what is said if not.
+/// Whether the device can be opened, otherwise the error message.
 std::string opened_for_a_moment() {
   RecordingListener listener;
   const std::unique_ptr<Link> link = make_link("", patient);
@@ -54,14 +54,14 @@ TEST_CASE("other program: has the device until it is told to end", "[.]") {
 
 TEST_CASE("other program: tries to open the device", "[.]") { say(opened_for_a_moment()); }
 
-TEST_CASE("a HID that this program has open cannot be opened a second time until it is closed", "[hid]") {
+TEST_CASE("a HID that this program has open cannot be opened again until it is closed", "[hid]") {
   PluggedTouch touch(hid_touch());
   touch.open();
   RecordingListener second;
   const std::unique_ptr<Link> link = make_link("", patient);
   CHECK_THROWS_WITH(link->open(second), in_use);
   CHECK(second.changes().empty());
-  touch.exchange(numbered(1, report_size));  // the first loses nothing by that
+  touch.exchange(numbered(1, report_size));  // the first user is not affected
   touch.link->command(as_packet(numbered(2, 16)));
   CHECK(touch.listener.changes() == Faults{DeviceFault::none});
   touch.link.reset();
@@ -69,7 +69,7 @@ TEST_CASE("a HID that this program has open cannot be opened a second time until
   CHECK(second.changes() == Faults{DeviceFault::none});
 }
 
-TEST_CASE("a HID that this program has open is refused to another program", "[hid]") {
+TEST_CASE("a HID that this program has open cannot be opened by another program", "[hid]") {
   PluggedTouch touch(hid_touch());
   touch.open();
   CHECK_THAT(OtherProgram("other program: tries to open the device").heard(), in_use);
@@ -78,7 +78,7 @@ TEST_CASE("a HID that this program has open is refused to another program", "[hi
   CHECK(OtherProgram("other program: tries to open the device").heard() == "open");
 }
 
-TEST_CASE("a HID that another program has open is free again when that has ended or was killed", "[hid]") {
+TEST_CASE("a HID that another program has open is free again when that program ends or is killed", "[hid]") {
   PluggedTouch touch(hid_touch());
   OtherProgram other("other program: has the device until it is told to end");
   REQUIRE(other.heard() == "open");
@@ -89,14 +89,14 @@ TEST_CASE("a HID that another program has open is free again when that has ended
   touch.exchange(numbered(1, report_size));
 }
 
-TEST_CASE("a HID that comes back is taken by whoever is first, and free when that one loses it", "[hid]") {
+TEST_CASE("a reconnected HID goes to the first program that opens it, and is free when that one loses it", "[hid]") {
   PluggedTouch touch(hid_touch());
   const int before = open_nodes();  // the test bed's own
   touch.open();
   CHECK(open_nodes() > before);
   touch.device.unplug(UnplugOrder::gone_first);
   REQUIRE(touch.listener.wait_for(DeviceFault::unplugged));
-  CHECK(open_nodes() <= before);  // a lock on what is no longer there is none
+  CHECK(open_nodes() <= before);  // no lock is left on a device that is gone
   touch.device.plug_in(2, "1.4");
   REQUIRE(touch.listener.wait_for_changes(3));
   CHECK_THAT(opened_for_a_moment(), Catch::Contains("on bus 2, port 1.4") && Catch::Contains("in use"));
@@ -104,7 +104,7 @@ TEST_CASE("a HID that comes back is taken by whoever is first, and free when tha
   CHECK(opened_for_a_moment() == "open");
 }
 
-TEST_CASE("of two identical HIDs each is kept by whoever has it, and neither keeps the other", "[hid]") {
+TEST_CASE("two identical HIDs are locked independently", "[hid]") {
   FreshBed bed;
   EmulatedDevice first(bed, hid_touch("A1")), second(bed, hid_touch("B2"));
   first.plug_in(1, "1");

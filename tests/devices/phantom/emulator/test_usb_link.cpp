@@ -7,7 +7,7 @@
 using namespace calligraphy;
 using namespace calligraphy_test;
 
-TEST_CASE("a serial device is taken from the system's driver, set up as a line, and given back", "[usb]") {
+TEST_CASE("a serial device is claimed from the system's driver, set up as a line, and returned", "[usb]") {
   const bool swapped = GENERATE(false, true);
   PluggedTouch touch(swapped ? swapped_touch() : serial_touch());
   CHECK(touch.device.host().with_driver == std::set<int>{0, 1});
@@ -28,7 +28,7 @@ TEST_CASE("a serial device is taken from the system's driver, set up as a line, 
   CHECK(closed.control_line == 0);
 }
 
-TEST_CASE("every packet is handed on as it came and in order, an empty one too", "[usb]") {
+TEST_CASE("every packet is delivered unchanged and in order, including an empty one", "[usb]") {
   PluggedTouch touch;
   touch.open();
   std::vector<Octets> sent;
@@ -42,7 +42,7 @@ TEST_CASE("every packet is handed on as it came and in order, an empty one too",
   CHECK(touch.listener.changes() == Faults{DeviceFault::none});
 }
 
-TEST_CASE("a packet reaches the device unchanged, and one that is too long is refused", "[usb]") {
+TEST_CASE("a packet reaches the device unchanged, and one that is too long is rejected", "[usb]") {
   PluggedTouch touch;
   std::vector<Octets> taken;
   touch.device.on_packet([&](std::span<const std::byte> packet) {
@@ -59,7 +59,7 @@ TEST_CASE("a packet reaches the device unchanged, and one that is too long is re
   CHECK_FALSE(touch.link->send(as_packet(Octets(4096))));
 }
 
-TEST_CASE("while the device is busy the newest packet replaces those that wait", "[usb]") {
+TEST_CASE("while the device is busy, the newest packet replaces pending ones", "[usb]") {
   PluggedTouch touch;
   std::vector<std::uint8_t> taken;
   touch.device.on_packet(
@@ -75,7 +75,7 @@ TEST_CASE("while the device is busy the newest packet replaces those that wait",
   CHECK(touch.link->counts().replaced == 7);
 }
 
-TEST_CASE("a command is waited for, also from within a change", "[usb]") {
+TEST_CASE("a command blocks until it is sent, also from within changed()", "[usb]") {
   PluggedTouch touch;
   std::vector<std::uint8_t> taken;
   touch.device.on_packet(
@@ -89,7 +89,7 @@ TEST_CASE("a command is waited for, also from within a change", "[usb]") {
   CHECK(taken == std::vector<std::uint8_t>{7, 8});
 }
 
-TEST_CASE("a stalled endpoint is told, cleared and used again", "[usb]") {
+TEST_CASE("a stalled endpoint is reported, cleared and used again", "[usb]") {
   PluggedTouch touch;
   touch.open();
   touch.exchange(numbered(1));
@@ -114,7 +114,7 @@ TEST_CASE("a stalled endpoint is told, cleared and used again", "[usb]") {
   CHECK(touch.link->counts().opened == 1);
 }
 
-TEST_CASE("an error of a transfer from the device is told by name and lasts until a packet comes", "[usb]") {
+TEST_CASE("a failed transfer from the device is reported by name until a packet arrives", "[usb]") {
   struct Case {
     int error;
     DeviceFault fault;
@@ -142,11 +142,11 @@ TEST_CASE("a packet longer than the endpoint allows is an overlong frame", "[usb
   CHECK(touch.listener.packets() == std::vector<Octets>{numbered(1)});
 }
 
-TEST_CASE("a device that is silent or takes nothing is told as timed out until it answers", "[usb]") {
+TEST_CASE("a device that is silent or accepts nothing is reported as timed out until it answers", "[usb]") {
   PluggedTouch touch(serial_touch(), {0.02, 0.02, 0.005});
   touch.link->open(touch.listener);
   SECTION("it sends nothing") {
-    REQUIRE(touch.listener.wait_for_changes(4));  // told again as long as it lasts
+    REQUIRE(touch.listener.wait_for_changes(4));  // repeated while it persists
     const Faults silent = touch.listener.changes();
     CHECK(Faults(silent.begin(), silent.begin() + 4) ==
           Faults{DeviceFault::none, DeviceFault::timed_out, DeviceFault::timed_out, DeviceFault::timed_out});
@@ -162,7 +162,7 @@ TEST_CASE("a device that is silent or takes nothing is told as timed out until i
   }
 }
 
-TEST_CASE("an unplugged device is told once, in whichever order the system says so", "[usb]") {
+TEST_CASE("an unplugged device is reported once, in whichever order the system reports it", "[usb]") {
   const UnplugOrder order = GENERATE(UnplugOrder::error_first, UnplugOrder::gone_first);
   const bool sending = GENERATE(false, true);
   PluggedTouch touch;
@@ -180,7 +180,7 @@ TEST_CASE("an unplugged device is told once, in whichever order the system says 
   CHECK(touch.listener.changes() == Faults{DeviceFault::none, DeviceFault::unplugged});
 }
 
-TEST_CASE("a device comes back wherever it is plugged in, told as none, by its serial number", "[usb]") {
+TEST_CASE("a device is found again at any port by its serial number, and reported as none", "[usb]") {
   const UnplugOrder order = GENERATE(UnplugOrder::error_first, UnplugOrder::gone_first);
   PluggedTouch touch;
   EmulatedDevice stranger(touch.bed, serial_touch("540-99999"));
@@ -188,7 +188,7 @@ TEST_CASE("a device comes back wherever it is plugged in, told as none, by its s
   touch.exchange(numbered(1));
   touch.device.unplug(order);
   REQUIRE(touch.listener.wait_for_changes(2));
-  stranger.plug_in(1, "2");  // another one in its place is not taken for it
+  stranger.plug_in(1, "2");  // another one at its port is not mistaken for it
   touch.device.plug_in(2, "1.4");
   REQUIRE(touch.listener.wait_for_changes(3));
   REQUIRE(touch.device.wait(listens));

@@ -1,5 +1,5 @@
 // PhantomDevice and the servo loop on an emulated Phantom, through libusb or hidapi: in virtual time, which stands
-// still until each report has come through the bus and each command has been taken.
+// still until each report has passed through the bus and each command has been accepted.
 #include <atomic>
 #include <cerrno>
 #include <chrono>
@@ -21,11 +21,11 @@ namespace {
 PhantomOptions options_of_touch() {
   PhantomOptions options;
   options.wire_profile = "simulated";
-  options.keep_calibration = true;  // the emulated encoders count on
+  options.keep_calibration = true;  // the emulated encoders keep counting
   return options;
 }
 
-/// What a person leans on while the faults come.
+/// The force during the faults.
 Eigen::Vector3d spring(const DeviceState& state) {
   return 150.0 * (Eigen::Vector3d(0.02, 0.02, 0.015) - state.position);
 }
@@ -54,11 +54,11 @@ struct Stack {
   EmulatedPhantom phantom;
   PhantomDevice device;
   Servo servo;
-  double largest_step = 0.0;  ///< of the force from one millisecond to the next [N]
+  double max_step = 0.0;  ///< maximum force change per millisecond [N]
   Eigen::Vector3d last_force = Eigen::Vector3d::Zero();
   std::uint64_t expected_reports = 0;
 
-  /// For at most ten seconds of the machine.
+  /// Waits at most ten seconds of real time.
   static bool reached(const std::function<bool()>& condition) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
     while (!condition()) {
@@ -70,7 +70,7 @@ struct Stack {
 
   bool told(DeviceFault fault) const { return device.statistics().faults[static_cast<std::size_t>(fault)] > 0; }
 
-  /// A millisecond: physics, report, servo, command. While the bus is at fault nothing is waited for.
+  /// One millisecond: physics, report, servo, command. Does not wait while the bus has a fault.
   void turn(bool reports = true, bool commands = true) {
     now = now + 1e-3;
     const std::uint64_t before = phantom.pushed;
@@ -86,7 +86,7 @@ struct Stack {
       REQUIRE(reached([&] { return phantom.bus.packets_taken() > taken; }));
     }
     const Eigen::Vector3d force = phantom.motor_force();
-    largest_step = std::max(largest_step, (force - last_force).norm());
+    max_step = std::max(max_step, (force - last_force).norm());
     last_force = force;
   }
   void run(int ticks) {
@@ -103,7 +103,7 @@ void require_return_without_a_jump(Stack& stack) {
   stack.run(600);
   REQUIRE(stack.servo.status().fault == DeviceFault::none);
   CHECK(stack.last_force.norm() > 0.7);
-  CHECK(stack.largest_step < 0.15);
+  CHECK(stack.max_step < 0.15);
 }
 
 UsbIdentity touch_of_the_stack() {
@@ -112,7 +112,7 @@ UsbIdentity touch_of_the_stack() {
 
 }  // namespace
 
-TEST_CASE("the tip is where the hand holds it and the force is the one asked for, through the whole stack", "[stack]") {
+TEST_CASE("through the whole stack the tip is where the hand holds it, and the force is the one requested", "[stack]") {
   Stack stack(touch_of_the_stack());
   CHECK(stack.servo.status().fault == DeviceFault::none);
   // 0.055 mm a count and the friction of the joints' rounding.
@@ -124,9 +124,9 @@ TEST_CASE("the tip is where the hand holds it and the force is the one asked for
   CHECK_FALSE(stack.phantom.arm.last_command().motors_on);
 }
 
-TEST_CASE("a device that is unplugged lets go, and resumes elsewhere without a jump", "[stack]") {
+TEST_CASE("an unplugged device loses its force, and resumes elsewhere without a force step", "[stack]") {
   Stack stack(touch_of_the_stack());
-  stack.largest_step = 0.0;
+  stack.max_step = 0.0;
   stack.phantom.unplug(GENERATE(UnplugOrder::error_first, UnplugOrder::gone_first));
   REQUIRE(Stack::reached([&] { return stack.told(DeviceFault::unplugged); }));
   require_zero_within_20_ms(stack, false, false);
@@ -136,11 +136,11 @@ TEST_CASE("a device that is unplugged lets go, and resumes elsewhere without a j
   stack.phantom.bus.plug_in(2, "1.4");
   REQUIRE(Stack::reached([&] { return stack.device.statistics().opened == 2; }));
   REQUIRE(stack.phantom.bus.wait(listens));
-  stack.largest_step = 0.0;  // the motors of a device that is unplugged are off at once
+  stack.max_step = 0.0;  // the motors of an unplugged device are off immediately
   require_return_without_a_jump(stack);
 }
 
-TEST_CASE("a device that has reset itself without leaving the bus is started again, and its force returns", "[stack]") {
+TEST_CASE("a device that resets itself without leaving the bus is restarted, and its force returns", "[stack]") {
   Stack stack(touch_of_the_stack());
   CHECK(stack.phantom.times_started() == 1);
   stack.phantom.reset_itself();
@@ -158,12 +158,12 @@ TEST_CASE("a device that has reset itself without leaving the bus is started aga
   }));
   REQUIRE(stack.phantom.bus.wait(listens));
   for (int i = 0; i < 30; ++i) stack.turn(false, false);
-  stack.largest_step = 0.0;
+  stack.max_step = 0.0;
   require_return_without_a_jump(stack);
   CHECK(stack.phantom.times_started() == 2);
 }
 
-TEST_CASE("a device that has reset itself and is silent until it is started is started", "[stack]") {
+TEST_CASE("a device that resets itself and is silent until started is restarted", "[stack]") {
   FreshBed bed;
   EmulatedPhantom phantom(bed, touch_of_the_stack(), {0.1, 3.0, 300.0});
   phantom.silent_until_started = true;
@@ -177,7 +177,7 @@ TEST_CASE("a device that has reset itself and is silent until it is started is s
     });
   };
   REQUIRE(reports_come());
-  phantom.bus.set_taking(Taking::never);  // what is sent while it restarts is lost on it
+  phantom.bus.set_taking(Taking::never);  // packets sent while it restarts are lost
   phantom.reset_itself();
   REQUIRE(
       Stack::reached([&] { return device.statistics().faults[static_cast<std::size_t>(DeviceFault::timed_out)] > 0; }));
@@ -186,7 +186,7 @@ TEST_CASE("a device that has reset itself and is silent until it is started is s
   CHECK(reports_come());
 }
 
-TEST_CASE("frames that are short, empty, overlong, spoilt or missing take the force to zero in 20 ms", "[stack]") {
+TEST_CASE("short, empty, overlong, corrupted or missing frames bring the force to zero within 20 ms", "[stack]") {
   struct Case {
     const char* name;
     DeviceFault fault;
@@ -205,7 +205,7 @@ TEST_CASE("frames that are short, empty, overlong, spoilt or missing take the fo
                              return true;
                            }},
                           {"missing", DeviceFault::silent, [](Bytes&) { return false; }, false}};
-  if (identity.link == LinkKind::usb) {  // hidapi gives no empty report, and no more bytes than a report has
+  if (identity.link == LinkKind::usb) {  // hidapi returns neither empty nor overlong reports
     cases.push_back({"empty", DeviceFault::empty_frame, [](Bytes& frame) {
                        frame.clear();
                        return true;
@@ -218,7 +218,7 @@ TEST_CASE("frames that are short, empty, overlong, spoilt or missing take the fo
   Stack stack(identity);
   for (const Case& failure : cases) {
     CAPTURE(failure.name);
-    stack.largest_step = 0.0;
+    stack.max_step = 0.0;
     stack.phantom.arm.tamper = failure.tamper;
     require_zero_within_20_ms(stack, failure.reports, true);
     CHECK(stack.servo.status().fault == failure.fault);
@@ -229,9 +229,9 @@ TEST_CASE("frames that are short, empty, overlong, spoilt or missing take the fo
   }
 }
 
-TEST_CASE("a device that answers 15 ms late loses its force and gets it back", "[stack]") {
+TEST_CASE("a device that answers 15 ms late loses its force and recovers it", "[stack]") {
   Stack stack(touch_of_the_stack());
-  stack.largest_step = 0.0;
+  stack.max_step = 0.0;
   int tick = 0;
   stack.phantom.arm.tamper = [&tick](Bytes&) { return ++tick % 15 == 0; };
   require_zero_within_20_ms(stack, true, true);
@@ -241,7 +241,7 @@ TEST_CASE("a device that answers 15 ms late loses its force and gets it back", "
 }
 
 #if CALLIGRAPHY_TEST_HIDRAW
-TEST_CASE("an endpoint that fails is named, and the force falls and comes back", "[stack]") {
+TEST_CASE("a failing endpoint is named, and the force ramps down and returns", "[stack]") {
   struct Case {
     int error;
     DeviceFault fault;
@@ -250,11 +250,11 @@ TEST_CASE("an endpoint that fails is named, and the force falls and comes back",
   for (const Case failure : {Case{EPIPE, DeviceFault::stalled}, Case{EPROTO, DeviceFault::link_error},
                              Case{EOVERFLOW, DeviceFault::overlong_frame}}) {
     CAPTURE(failure.error);
-    stack.largest_step = 0.0;
+    stack.max_step = 0.0;
     stack.phantom.bus.fail_next(failure.error);
     REQUIRE(Stack::reached([&] { return stack.told(failure.fault); }));
     REQUIRE(stack.phantom.bus.wait(listens));
-    // The endpoint works again at once: the fault is told all the same, and the force gets to zero.
+    // The endpoint works again immediately; the fault is still reported, and the force reaches zero.
     bool named = false, zero = false;
     for (int i = 0; i < 20; ++i) {
       stack.turn();
@@ -267,12 +267,12 @@ TEST_CASE("an endpoint that fails is named, and the force falls and comes back",
   }
 }
 
-TEST_CASE("a device that refuses commands is told as stalled, and takes them again", "[stack]") {
+TEST_CASE("a device that refuses commands is reported as stalled, and recovers", "[stack]") {
   Stack stack(serial_touch());
   stack.phantom.bus.set_taking(Taking::stalls);
   stack.turn(true, false);
   REQUIRE(Stack::reached([&] { return stack.told(DeviceFault::stalled); }));
-  // No command reaches it: what takes its force is its own watchdog, 20 ms after the last one.
+  // No command reaches it: its own watchdog removes the force, 20 ms after the last one.
   for (int i = 0; i < 22; ++i) stack.turn(true, false);
   CHECK(stack.last_force.norm() == 0.0);
   CHECK(stack.servo.status().fault == DeviceFault::stalled);
@@ -282,7 +282,7 @@ TEST_CASE("a device that refuses commands is told as stalled, and takes them aga
     stack.turn(true, false);
     return stack.phantom.bus.packets_taken() > taken + 2;
   }));
-  stack.largest_step = 0.0;
+  stack.max_step = 0.0;
   require_return_without_a_jump(stack);
 }
 #endif

@@ -1,4 +1,4 @@
-// What an emulated device says of itself on the bus.
+// Descriptors of an emulated device.
 #pragma once
 
 #include <cstdint>

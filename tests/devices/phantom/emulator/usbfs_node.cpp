@@ -1,4 +1,4 @@
-// Requests: linux/usbdevice_fs.h; what each answers: the kernel's usbfs as libusb 1.0 relies on it.
+// Requests: linux/usbdevice_fs.h; answers: those of the kernel's usbfs on which libusb 1.0 relies.
 #include "usbfs_node.hpp"
 
 #include <algorithm>
@@ -30,7 +30,7 @@ UsbfsNode::UsbfsNode(EmulatedDevice& device, TestBed& bed, std::string node)
   bed_.attach(node_, handler_);
   const int interfaces = device.identity().link == calligraphy::LinkKind::usb ? 2 : 1;
   for (int i = 0; i < interfaces; ++i) with_driver_.insert(i);
-  pollable_.set_filled(true);  // no transfer has ended
+  pollable_.set_filled(true);  // no transfer is complete
 }
 
 UsbfsNode::~UsbfsNode() {
@@ -91,7 +91,7 @@ void UsbfsNode::unplug(UnplugOrder order) {
   show_state();
 }
 
-/// A packet to the device: true when the transfer has ended, with its status in it.
+/// Passes a packet to the device; true if the transfer is complete and has its status.
 bool UsbfsNode::takes(Transfer& transfer) {
   if (device_.out_halted_ || device_.taking_ == Taking::stalls) {
     device_.out_halted_ = true;
@@ -112,7 +112,7 @@ void UsbfsNode::finish(Transfer&& transfer, int status) {
   done_.push_back(std::move(transfer));
 }
 
-/// The node is ready as long as a transfer has ended that nobody has reaped.
+/// The node is ready while a completed transfer has not been reaped.
 void UsbfsNode::show_state() {
   pollable_.set_filled(done_.empty());
   if (gone_) return;  // what the host does with a device that was replugged is the next node's to say
@@ -140,7 +140,7 @@ void UsbfsNode::connected(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpoin
   node.forget_closed();
 }
 
-/// What a program had under way and claimed ends when it closes the node.
+/// Closing the node cancels a program's transfers and releases its claims.
 void UsbfsNode::forget_closed() {
   const auto closed = [this](const Transfer& transfer) { return !clients_.has(transfer.client); };
   std::erase_if(flying_, closed);
@@ -229,7 +229,7 @@ UsbfsNode::Reply UsbfsNode::release(UMockdevIoctlClient* client, int interface) 
   return {};
 }
 
-/// Takes an interface from the system's driver, or gives it back.
+/// Detaches an interface from the system's driver, or reattaches it.
 UsbfsNode::Reply UsbfsNode::drive(const usbdevfs_ioctl& request) {
   if (request.ioctl_code == static_cast<int>(USBDEVFS_DISCONNECT)) {
     if (with_driver_.erase(request.ifno) == 0) return {-1, ENODATA};

@@ -1,4 +1,4 @@
-// The node under /dev/bus/usb of an emulated device: what libusb asks of the kernel, answered.
+// The node under /dev/bus/usb of an emulated device: answers libusb's requests to the kernel.
 #pragma once
 
 #include <linux/usbdevice_fs.h>
@@ -14,7 +14,7 @@
 
 namespace calligraphy_test {
 
-/// Works in umockdev's own thread, on the queues of its device and under that one's mutex. It outlives the unplugging
+/// Runs in umockdev's own thread, on the queues of its device and under its mutex. It outlives the unplugging
 /// until the last program has closed it.
 class UsbfsNode {
  public:
@@ -24,7 +24,7 @@ class UsbfsNode {
   UsbfsNode(const UsbfsNode&) = delete;
   UsbfsNode& operator=(const UsbfsNode&) = delete;
 
-  /// Hands packets that wait to transfers that wait. The device's mutex is held here and below.
+  /// Matches waiting packets with waiting transfers. Call this and the following with the device's mutex locked.
   void deliver();
   void take_held();
   void unplug(UnplugOrder order);
@@ -79,7 +79,7 @@ class UsbfsNode {
   std::set<int> with_driver_;
   NodeClients clients_;
   bool gone_ = false;
-  std::vector<Octets> taken_;  ///< packets to be told once the mutex is free
+  std::vector<Octets> taken_;  ///< packets to report once the mutex is unlocked
 };
 
 }  // namespace calligraphy_test

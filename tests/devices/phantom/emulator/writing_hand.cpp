@@ -15,7 +15,7 @@ constexpr double resting_height = 0.02;
 
 }  // namespace
 
-Page page_to_write(const std::string& text, const CharacterSet& set, const Capabilities& capabilities) {
+PracticePage page_to_write(const std::string& text, const CharacterSet& set, const Capabilities& capabilities) {
   std::vector<Character> characters;
   for (const char32_t code : decode_utf8(text)) {
     const auto found = set.find(code);
@@ -25,12 +25,12 @@ Page page_to_write(const std::string& text, const CharacterSet& set, const Capab
   PageLayout layout;
   layout.width = capabilities.workspace.x();
   layout.height = capabilities.workspace.y();
-  const std::vector<Page> pages = lay_out(characters, layout);
+  const std::vector<PracticePage> pages = lay_out(characters, layout);
   if (pages.size() != 1) throw std::runtime_error("\"" + text + "\" is not one page");
   return pages.front();
 }
 
-WritingHand::WritingHand(const Page& page, const Capabilities& capabilities, const WriterSkill& skill,
+WritingHand::WritingHand(const PracticePage& page, const Capabilities& capabilities, const WriterSkill& skill,
                          std::uint64_t seed)
     : page_(page),
       mapping_(upright_page(page.width, page.height)),

@@ -12,21 +12,21 @@ namespace calligraphy_test {
 
 /// The page that `calligraphy write` lays out for a device.
 /// @throws std::runtime_error when a character is not in the set, or the text is more than one page
-calligraphy::Page page_to_write(const std::string& text, const calligraphy::CharacterSet& set,
-                                const calligraphy::Capabilities& capabilities);
+calligraphy::PracticePage page_to_write(const std::string& text, const calligraphy::CharacterSet& set,
+                                        const calligraphy::Capabilities& capabilities);
 
-/// Its eyes are a renderer of its own on the tip's true position: the display of the program under test is not seen
-/// from here, and both go by the same strokes.
+/// It sees its own renderer at the true position of the tip, since the display of the program under test is not visible
+/// here; both use the same strokes.
 class WritingHand final : public HandMotion {
  public:
-  WritingHand(const calligraphy::Page& page, const calligraphy::Capabilities& capabilities,
+  WritingHand(const calligraphy::PracticePage& page, const calligraphy::Capabilities& capabilities,
               const calligraphy::WriterSkill& skill, std::uint64_t seed);
 
   Eigen::Vector3d start() const override;
   calligraphy::Intention next(const Eigen::Vector3d& tip, double seconds) override;
 
  private:
-  calligraphy::Page page_;
+  calligraphy::PracticePage page_;
   calligraphy::MotionMapping mapping_;
   calligraphy::HapticRenderer eyes_;
   calligraphy::SimulatedWriter writer_;

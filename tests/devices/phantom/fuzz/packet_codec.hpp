@@ -1,4 +1,4 @@
-// What must hold of the packet codec whatever bytes it is given.
+// Properties of the packet codec that must hold for arbitrary bytes.
 #pragma once
 
 #include <algorithm>
@@ -14,12 +14,12 @@
 
 namespace calligraphy_test {
 
-/// Ends the program where a claim does not hold: a fuzzer and a test see that alike.
+/// Aborts the program if a claim does not hold, which both a fuzzer and a test detect.
 inline void claim(bool holds) {
   if (!holds) std::abort();
 }
 
-/// The first byte chooses the profile and the direction, the rest is the frame.
+/// The first byte selects the profile and the direction, the rest is the frame.
 inline void try_packet_codec(std::span<const std::byte> input) {
   using namespace calligraphy::phantom;
   static const std::array<PacketCodec, 2> codecs = {PacketCodec(wire_profile("omni")),
@@ -28,7 +28,7 @@ inline void try_packet_codec(std::span<const std::byte> input) {
   const auto choice = std::to_integer<unsigned>(input[0]);
   const PacketCodec& codec = codecs[choice % 2];
   const std::span<const std::byte> frame = input.subspan(1);
-  std::array<std::byte, largest_frame> again{};
+  std::array<std::byte, max_frame_bytes> again{};
   if ((choice & 2) != 0) {
     const RawSample sample = codec.decode_report(frame);
     claim(is_readable(sample.fault) ==
@@ -44,7 +44,7 @@ inline void try_packet_codec(std::span<const std::byte> input) {
     if (command.fault != calligraphy::DeviceFault::none) return;
     const std::size_t size = codec.encode_command(command, again);
     const RawCommand back = codec.decode_command(std::span(again).first(size));
-    // The one count that only one direction has is cut off.
+    // The single count that exists in only one direction is clamped.
     for (std::size_t i = 0; i < 3; ++i) claim(back.torque[i] == command.torque[i] || command.torque[i] == 2048);
     claim(back.motors_on == command.motors_on && back.toggle == command.toggle);
   }

@@ -1,4 +1,4 @@
-// What must hold of the serial framing whatever bytes it is given, however they are cut.
+// Properties of the serial framing that must hold for arbitrary bytes, however they are split.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace calligraphy_test {
 
-/// The first byte says how the rest is cut, and whether one kind of frame is waited for.
+/// The first byte determines how the rest is split, and whether one kind of frame is expected.
 inline void try_serial_framing(std::span<const std::byte> input) {
   using namespace calligraphy::phantom;
   if (input.empty()) return;
@@ -34,7 +34,7 @@ inline void try_serial_framing(std::span<const std::byte> input) {
     claim(in_frames + frames.skipped() == stream.size());  // no byte is lost or counted twice
     return seen;
   };
-  claim(read(1 + choice / 2) == read(stream.size() + 1));  // how it is cut makes no difference
+  claim(read(1 + choice / 2) == read(stream.size() + 1));  // how it is split makes no difference
 }
 
 }  // namespace calligraphy_test

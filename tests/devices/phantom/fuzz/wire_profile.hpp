@@ -1,4 +1,4 @@
-// What must hold of the reader of wire profiles whatever text it is given.
+// Properties of the wire profile reader that must hold for arbitrary text.
 #pragma once
 
 #include <sstream>
@@ -16,10 +16,10 @@ inline void try_wire_profile(std::span<const std::byte> input) {
   for (const std::byte byte : input) text += static_cast<char>(byte);
   std::istringstream in(text);
   try {
-    const PacketCodec codec(read_wire_profile(in, "fuzz.txt"));  // what is read is valid
+    const PacketCodec codec(read_wire_profile(in, "fuzz.txt"));  // a profile that is read is valid
     missing_for_force(codec.profile());
-    // And any field of it can be read and written in its frame.
-    std::array<std::byte, largest_frame> frame{};
+    // Each of its fields can be read and written in its frame.
+    std::array<std::byte, max_frame_bytes> frame{};
     const std::span<std::byte> report = std::span(frame).first(codec.profile().report_size);
     for (const int byte : {0x00, 0xFF, 0xA5}) {
       std::ranges::fill(report, static_cast<std::byte>(byte));

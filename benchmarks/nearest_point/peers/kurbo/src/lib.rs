@@ -1,4 +1,4 @@
-//! kurbo's nearest points for the benchmark: parameter, point and squared distance of each.
+//! kurbo's nearest points for the benchmark: the parameter, point and squared distance of each.
 
 use kurbo::{CubicBez, Line, ParamCurve, ParamCurveNearest, Point};
 
@@ -10,7 +10,7 @@ fn write(curve: impl ParamCurveNearest + ParamCurve, x: f64, y: f64, accuracy: f
 }
 
 /// # Safety
-/// `control_points` has 4 numbers, `answer` room for 4.
+/// `control_points` holds 4 numbers, `answer` has space for 4.
 #[no_mangle]
 pub unsafe extern "C" fn calligraphy_kurbo_line(
     control_points: *const f64,
@@ -24,7 +24,7 @@ pub unsafe extern "C" fn calligraphy_kurbo_line(
 }
 
 /// # Safety
-/// `control_points` has 8 numbers, `answer` room for 4.
+/// `control_points` holds 8 numbers, `answer` has space for 4.
 #[no_mangle]
 pub unsafe extern "C" fn calligraphy_kurbo_cubic(
     control_points: *const f64,

@@ -1,0 +1,74 @@
+"""What the structs of the extension share: keyword arguments, comparison, representation, copies and pickling."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+
+def equal(one: Any, other: Any) -> bool:
+    """NaN equals NaN, and arrays and lists are compared as a whole."""
+    if isinstance(one, np.ndarray):
+        return np.array_equal(one, other, equal_nan=one.dtype.kind == "f")
+    if isinstance(one, list) and isinstance(other, list):
+        return len(one) == len(other) and all(map(equal, one, other))
+    return bool(one == other or (one != one and other != other))
+
+
+def shown(value: Any) -> str:
+    """As it would be written; of much the beginning, and how much there is."""
+    if isinstance(value, np.ndarray):
+        return repr(value.tolist()) if value.size <= 16 else f"array{value.shape}"
+    if isinstance(value, list):
+        more = f", ... {len(value)} in all" if len(value) > 8 else ""
+        return f"[{', '.join(map(shown, value[:3] if more else value))}{more}]"
+    if isinstance(value, str) and len(value) > 80:
+        return f"{value[:40]!r}... {len(value)} letters in all"
+    return repr(value)
+
+
+class Struct:
+    """Mixed into every class that names its parts."""
+
+    __match_args__: tuple[str, ...]
+
+    def __eq__(self, other: object) -> Any:
+        if type(self) is not type(other):
+            return NotImplemented
+        return all(equal(getattr(self, name), getattr(other, name)) for name in self.__match_args__)
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({', '.join(f'{n}={shown(getattr(self, n))}' for n in self.__match_args__)})"
+
+    def __reduce__(self) -> Any:
+        values = {name: getattr(self, name) for name in self.__match_args__}
+        return partial(type(self), **{k: v.copy() if isinstance(v, np.ndarray) else v for k, v in values.items()}), ()
+
+    def __copy__(self, memo: object = None) -> Any:
+        return self.__reduce__()[0]()  # C++ copies whatever it is given
+
+    __deepcopy__ = __copy__
+
+
+def finish(kind: Any) -> None:
+    """Gives a class of the extension what it lacks."""
+    own, made = dict(vars(kind)), kind.__init__
+
+    def with_keywords(self: Any, **values: Any) -> None:
+        made(self)
+        for name, value in values.items():
+            if name not in self.fields:
+                raise TypeError(f"{type(self).__name__} has no field {name!r}; it has {', '.join(self.fields)}")
+            setattr(self, name, value)
+
+    if "fields" in own:
+        kind.__init__ = with_keywords
+        setattr(kind, "__match_args__", kind.fields)
+    if hasattr(kind, "__match_args__"):
+        for name in {"__eq__", "__repr__", "__reduce__", "__copy__", "__deepcopy__"} - ({"__repr__"} & set(own)):
+            setattr(kind, name, vars(Struct)[name])
+        kind.__hash__ = None
+    # The two oldest protocols of pickle bypass __new__, which pybind11 answers by abort().
+    kind.__reduce_ex__ = lambda self, protocol: object.__reduce_ex__(self, max(protocol, 2))

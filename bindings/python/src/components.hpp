@@ -1,0 +1,41 @@
+// What all sources of the extension module include, and its components, in the order in which their types depend on
+// each other. They are compiled as one unit, since the headers cost more than the sources.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <sstream>
+#include <thread>
+#include <variant>
+
+#include <pybind11/functional.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "callbacks.hpp"
+#include "fields.hpp"
+
+namespace calligraphy::python {
+
+void add_model(py::module_& module);
+void add_collision(py::module_& module);
+void add_devices(py::module_& module);
+void add_kinematics(py::module_& module);
+void add_phantom(py::module_& module);
+void add_openhaptics(py::module_& module);
+void add_render(py::module_& module);
+void add_practice(py::module_& module);
+void add_live(py::module_& module);
+void add_experiments(py::module_& module);
+
+/// How often each fault began, by DeviceFault.
+py::dict fault_counts(const std::array<std::uint64_t, device_fault_count>& faults);
+py::dict servo_statistics(const ServoStatistics& statistics);
+
+}  // namespace calligraphy::python

@@ -1,0 +1,82 @@
+# calligraphy_component(name [EXPORT set] [FOLDER folder] [SUBFOLDERS ...] [SOURCES ...] [WITHOUT ...] DEPENDS ...
+# [NEEDS package ...]): a component as the target calligraphy::name: every source file of src/folder (by default
+# src/name) and of its subfolders except those of WITHOUT, and the generated ones, SOURCES. NEEDS: what find_package()
+# must find beside an installed copy before the target can be linked; DEPENDS are components, or needed by all of them.
+function(calligraphy_component name)
+  cmake_parse_arguments(COMPONENT "" "EXPORT;FOLDER" "SUBFOLDERS;SOURCES;WITHOUT;DEPENDS;NEEDS" ${ARGN})
+  if(NOT COMPONENT_EXPORT)
+    set(COMPONENT_EXPORT calligraphyTargets)
+  endif()
+  if(NOT COMPONENT_FOLDER)
+    set(COMPONENT_FOLDER ${name})
+  endif()
+  set(patterns src/${COMPONENT_FOLDER}/*.cpp)
+  foreach(subfolder ${COMPONENT_SUBFOLDERS})
+    list(APPEND patterns src/${COMPONENT_FOLDER}/${subfolder}/*.cpp)
+  endforeach()
+  file(GLOB sources CONFIGURE_DEPENDS ${patterns})
+  foreach(file ${COMPONENT_WITHOUT})
+    list(REMOVE_ITEM sources ${PROJECT_SOURCE_DIR}/src/${COMPONENT_FOLDER}/${file})
+  endforeach()
+  set(target calligraphy_${name})
+  add_library(${target} ${sources} ${COMPONENT_SOURCES})
+  add_library(calligraphy::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
+                                              $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
+                                       PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  target_link_libraries(${target} PUBLIC ${COMPONENT_DEPENDS})
+  # The same bits on every processor: no contraction into fused operations.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-ffp-contract=off>)
+  calligraphy_warnings(${target})
+  calligraphy_unity(${target} 8)
+  set(components ${COMPONENT_DEPENDS})
+  list(FILTER components INCLUDE REGEX "^calligraphy_")
+  list(TRANSFORM components REPLACE "^calligraphy_" "")
+  set_property(GLOBAL APPEND PROPERTY CALLIGRAPHY_COMPONENTS ${name})
+  set_property(GLOBAL PROPERTY CALLIGRAPHY_${name}_DEPENDS "${components}")
+  set_property(GLOBAL PROPERTY CALLIGRAPHY_${name}_NEEDS "${COMPONENT_NEEDS}")
+  install(TARGETS ${target} EXPORT ${COMPONENT_EXPORT})
+  set(without "")
+  if(name STREQUAL "devices")  # its backends install their own; a pattern would match these folders themselves
+    set(without PATTERN phantom EXCLUDE PATTERN openhaptics EXCLUDE)
+  endif()
+  set(include_directory ${CMAKE_INSTALL_INCLUDEDIR}/calligraphy/${COMPONENT_FOLDER})
+  install(DIRECTORY include/calligraphy/${COMPONENT_FOLDER}/ DESTINATION ${include_directory} ${without})
+endfunction()
+
+function(calligraphy_warnings target)
+  target_compile_options(${target} PRIVATE
+    $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Wall -Wextra -Wpedantic -Wconversion -Wshadow>
+    # g++ leaves these out of -Wconversion; indices into Eigen and the standard library mix signs everywhere.
+    $<$<CXX_COMPILER_ID:Clang,AppleClang>:-Wno-sign-conversion>
+    # g++ 12 warns of std::string's own operator+ (GCC bug 105651).
+    $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict>)
+endfunction()
+
+# calligraphy_call_foreign_code(target): it calls functions of a library that it loads, whose types clang's sanitizer
+# cannot know to be the same.
+function(calligraphy_call_foreign_code target)
+  if(CALLIGRAPHY_SANITIZE MATCHES "undefined" AND CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    target_compile_options(${target} PRIVATE -fno-sanitize=function)
+  endif()
+endfunction()
+
+# calligraphy_embed(variable folder name file ...): a source file that holds each text file as
+# calligraphy::built_in::name, which src/folder/built_in.hpp declares.
+function(calligraphy_embed variable folder)
+  string(REPLACE "/" "_" name ${folder})
+  set(source ${PROJECT_BINARY_DIR}/built_in_${name}.cpp)
+  set(content "#include <${PROJECT_SOURCE_DIR}/src/${folder}/built_in.hpp>\n\nnamespace calligraphy::built_in {\n")
+  set(pairs ${ARGN})
+  while(pairs)
+    list(POP_FRONT pairs name file)
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+    file(READ ${file} text)
+    string(APPEND content "\nconst char* const ${name} = R\"calligraphy(${text})calligraphy\";\n")
+  endwhile()
+  string(APPEND content "\n}  // namespace calligraphy::built_in\n")
+  file(CONFIGURE OUTPUT ${source} CONTENT "@content@" @ONLY)
+  set(${variable} ${source} PARENT_SCOPE)
+endfunction()

@@ -1,0 +1,38 @@
+"""Unit tests of your own force law on the simulated device, in virtual time. Copy this file and replace wall()."""
+
+import numpy as np
+import pytest
+
+import calligraphy as cal
+
+DESKTOP = cal.device_profile("desktop")
+
+
+def wall(state: cal.DeviceState) -> tuple[float, float, float]:
+    """The law under test: a wall below z = 0 [N]."""
+    return 0.0, 0.0, max(0.0, -800.0 * state.position[2])
+
+
+def simulate(grip: cal.GripImpedance, target: tuple[float, float, float]) -> tuple[np.ndarray, float]:
+    """Position after two seconds at 1 kHz, held by a hand that aims at `target` [m], and the maximum force [N]."""
+    device = cal.SimulatedDevice(DESKTOP, grip, (0.0, 0.0, 0.01))
+    device.set_intention(cal.Intention(position=target))
+    servo = cal.Servo(device, wall)
+    max_force = 0.0
+    for tick in range(2000):
+        servo.step(1e-3 * tick)
+        max_force = max(max_force, float(np.linalg.norm(device.applied_force)))
+        device.advance(1e-3)
+    return np.array(device.true_position), max_force
+
+
+def test_a_pressed_pen_comes_to_rest_where_hand_and_wall_balance() -> None:
+    position, max_force = simulate(cal.GripImpedance(mass=0.15, damping=5.0, stiffness=500.0), (0.0, 0.0, -0.005))
+    # Two springs; dry friction may stop the pen slightly short of it.
+    assert position[2] == pytest.approx(-0.005 * 500.0 / (500.0 + 800.0), abs=2e-4)
+    assert max_force < DESKTOP.peak_force
+
+
+def test_above_the_wall_nothing_is_felt() -> None:
+    _, max_force = simulate(cal.GripImpedance(mass=0.1, damping=3.0, stiffness=300.0), (0.02, 0.0, 0.01))
+    assert max_force == 0.0

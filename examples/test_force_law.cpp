@@ -1,0 +1,51 @@
+// Unit tests of your own force law on the simulated device, in virtual time. Copy this file and replace wall(). Link
+// calligraphy::devices and Catch2::Catch2WithMain (Catch2 2: Catch2::Catch2, and define CATCH_CONFIG_MAIN).
+#include <algorithm>
+#include <cmath>
+
+#if __has_include(<catch2/catch_all.hpp>)
+#include <catch2/catch_all.hpp>
+#else
+#include <catch2/catch.hpp>
+#endif
+
+#include <calligraphy/devices/device_profiles.hpp>
+#include <calligraphy/devices/servo.hpp>
+#include <calligraphy/devices/simulated_device.hpp>
+
+using namespace calligraphy;
+
+namespace {
+
+/// The law under test: a wall below z = 0 [N].
+Eigen::Vector3d wall(const DeviceState& state) { return {0.0, 0.0, std::max(0.0, -800.0 * state.position.z())}; }
+
+/// Position of the pen after two seconds at 1 kHz, held by a hand that aims at `target` [m], and the maximum force [N].
+Eigen::Vector3d pen_at_rest(const GripImpedance& hand, const Eigen::Vector3d& target, double& max_force) {
+  SimulatedDevice device(device_profile("desktop"), hand, {0.0, 0.0, 0.01});
+  device.set_intention({target, Eigen::Vector3d::Zero()});
+  Servo servo(device, wall);
+  for (int tick = 0; tick < 2000; ++tick) {
+    servo.step(1e-3 * tick);
+    max_force = std::max(max_force, device.applied_force().norm());
+    device.advance(1e-3);
+  }
+  return device.true_position();
+}
+
+}  // namespace
+
+TEST_CASE("a pressed pen comes to rest where hand and wall balance") {
+  const GripImpedance firm{0.15, 5.0, 500.0};
+  double max_force = 0.0;
+  const Eigen::Vector3d pen = pen_at_rest(firm, {0.0, 0.0, -0.005}, max_force);
+  CHECK(std::abs(pen.z() + 0.005 * 500.0 / (500.0 + 800.0)) <
+        2e-4);  // two springs; dry friction may stop it slightly short
+  CHECK(max_force < device_profile("desktop").peak_force);
+}
+
+TEST_CASE("above the wall nothing is felt") {
+  double max_force = 0.0;
+  pen_at_rest({0.1, 3.0, 300.0}, {0.02, 0.0, 0.01}, max_force);
+  CHECK(max_force == 0.0);
+}

@@ -1,0 +1,75 @@
+// Stroke matching: which stroke each pen-down wrote, in which order and direction, from geometry alone.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include <calligraphy/model/character.hpp>
+#include <calligraphy/practice/pen_path.hpp>
+
+namespace calligraphy {
+
+/// Direction of a pen-down along what it wrote.
+enum class WritingDirection {
+  forwards,
+  backwards,
+  neither,  ///< it was drawn as another shape
+  unknown   ///< a tap has no direction
+};
+
+/// "forwards", "backwards", "neither", "unknown".
+const char* to_string(WritingDirection direction) noexcept;
+
+/// One pen-down.
+struct DrawnStroke {
+  int stroke = -1;         ///< the stroke it wrote, or the first of several, from 0; -1: none
+  int stroke_count = 0;    ///< strokes that it wrote; above 1: joined, as in connected writing
+  bool continues = false;  ///< it continues the stroke that the previous pen-down began
+  bool in_turn = true;     ///< written in order, as far as the order can be determined
+  bool tap = false;        ///< shorter than tap_length
+  WritingDirection direction = WritingDirection::unknown;
+  double distance = 0.0;  ///< mean distance from what it wrote, once both are aligned [em]
+};
+
+enum class StrokeRemarkKind {
+  order,      ///< a stroke out of order
+  direction,  ///< a stroke written backwards
+  shape,      ///< a stroke drawn as another shape, so that its direction is undetermined
+  joined,     ///< strokes written without lifting the pen: connected writing, no mistake of order
+  broken,     ///< a stroke written in two pen-downs
+  missing,    ///< a stroke that was not written
+  extra       ///< a pen-down that matches no stroke of the character
+};
+
+/// "order", "direction", "shape", "joined", "broken", "missing", "extra".
+const char* to_string(StrokeRemarkKind kind) noexcept;
+
+struct StrokeRemark {
+  StrokeRemarkKind kind;
+  int path;            ///< the pen-down, from 0; -1: none
+  int stroke;          ///< the stroke of the character, from 0; -1: none
+  std::string reason;  ///< one sentence for people
+};
+
+struct MatchResult {
+  std::vector<DrawnStroke> drawn;     ///< one per pen-down, in the order of writing
+  std::vector<StrokeRemark> remarks;  ///< by pen-down, then missing strokes
+  BoxMap fit;                         ///< maps the pen-downs onto the character
+
+  int count(StrokeRemarkKind kind) const noexcept;
+};
+
+/// Matches pen-downs with strokes at the minimum total cost. The pen-downs are first aligned with the character as a
+/// whole, by translation and scaling: an error of position or size is not a mistake. The cost of a pair is then the
+/// mean distance of points at equal arc length, forwards or backwards, plus a penalty for the rotation between them. A
+/// pen-down that resembles no stroke is extra; a stroke that no pen-down resembles is missing; a pen-down that
+/// resembles several consecutive strokes has joined them. An order other than the standard one is accepted only where
+/// it fits better by 5 % of the em or twice as well. For the steps and the bounds see docs/practice.md.
+/// O(refits paths strokes).
+///
+/// `paths` are in the square of the character; writing from elsewhere is mapped there by fit_box.
+/// @throws ValueError when the character is invalid, there are more than 1000 paths, or one is empty or not finite
+MatchResult match_strokes(const Character& character, std::span<const PenPath> paths);
+
+}  // namespace calligraphy

@@ -1,0 +1,20 @@
+// Checks of arguments and options: every number out of its domain is reported in the same words.
+#pragma once
+
+#include <limits>
+#include <string_view>
+
+namespace calligraphy {
+
+inline constexpr double unlimited = std::numeric_limits<double>::max();
+
+/// @throws ValueError "NAME = VALUE UNIT, must be DOMAIN" unless `in_domain`; the value has as many digits as it takes
+/// to read it back. No unit: an empty one.
+void require(bool in_domain, std::string_view name, double value, std::string_view unit, std::string_view domain);
+
+/// The domains of most numbers, all of them finite. @throws ValueError as above
+void require_above_zero(std::string_view name, double value, std::string_view unit, double most = unlimited);
+void require_not_negative(std::string_view name, double value, std::string_view unit);
+void require_within(std::string_view name, double value, std::string_view unit, double least, double most);
+
+}  // namespace calligraphy

@@ -1,0 +1,66 @@
+#include "threaded_link.hpp"
+
+#include <algorithm>
+
+#include <calligraphy/base/error.hpp>
+
+#include "base/monotonic_clock.hpp"
+#include "usb_device.hpp"
+
+namespace calligraphy::phantom {
+
+ThreadedLink::ThreadedLink(const PluggedDevice& device, const LinkOptions& options)
+    : wanted_(device), options_(options) {
+  descriptions_.push_back(describe_device(device));
+  description_ = &descriptions_.back();
+}
+
+void ThreadedLink::open(LinkListener& listener) {
+  if (thread_.joinable()) throw DeviceError(description() + ": this link is open already");
+  listener_ = &listener;
+  std::promise<void> opened;
+  std::future<void> outcome = opened.get_future();
+  thread_ = std::thread(&ThreadedLink::run, this, std::move(opened));
+  try {
+    outcome.get();
+  } catch (...) {
+    thread_.join();
+    throw;
+  }
+}
+
+bool ThreadedLink::send(std::span<const std::byte> packet) noexcept {
+  if (packet.size() > max_packet_bytes) return false;
+  if (newest_.put(packet)) replaced_.fetch_add(1, std::memory_order_relaxed);
+  wake();
+  return true;
+}
+
+void ThreadedLink::join() {
+  stopping_ = true;
+  wake();
+  if (thread_.joinable()) thread_.join();
+}
+
+void ThreadedLink::found_at(const PluggedDevice& place) {
+  const std::string text = describe_device(place);
+  auto known = std::find(descriptions_.begin(), descriptions_.end(), text);
+  if (known == descriptions_.end()) known = descriptions_.insert(known, text);
+  description_ = &*known;
+  opened_.fetch_add(1, std::memory_order_relaxed);
+}
+
+void ThreadedLink::tell(DeviceFault fault) noexcept {
+  const double now = monotonic_seconds();
+  const bool again = fault == DeviceFault::timed_out && now - told_at_ >= options_.silence;
+  if (fault == told_ && !again) return;
+  told_ = fault;
+  told_at_ = now;
+  listener_->changed(fault);
+}
+
+void ThreadedLink::check_command(std::span<const std::byte> packet) const {
+  if (packet.size() > max_packet_bytes) refuse(wanted_, "a command of " + std::to_string(packet.size()) + " bytes");
+}
+
+}  // namespace calligraphy::phantom

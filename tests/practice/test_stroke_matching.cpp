@@ -1,0 +1,425 @@
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/practice/stroke_matching.hpp>
+
+#include "../catch.hpp"
+#include "../hard_cases.hpp"
+#include "pages.hpp"
+#include "pen_traces.hpp"
+
+using namespace calligraphy;
+using calligraphy_test::copy_of;
+using calligraphy_test::Sequence;
+
+namespace {
+
+#if defined(__SANITIZE_ADDRESS__)
+constexpr int rounds = 1;
+constexpr std::size_t trace_stride = 4;  // over people's traces
+#else
+constexpr int rounds = 5;
+constexpr std::size_t trace_stride = 1;
+#endif
+
+Character character_of(std::string_view text) { return calligraphy_test::characters(text).front(); }
+
+/// A straight line in steps of 1 % of the em.
+PenPath line(const Point& from, const Point& to) {
+  const int steps = std::max(1, static_cast<int>((to - from).norm() / 0.01));
+  PenPath path;
+  for (int i = 0; i <= steps; ++i) path.push_back(from + (to - from) * i / steps);
+  return path;
+}
+
+void reverse(PenPath& path) { std::reverse(path.begin(), path.end()); }
+
+void append(PenPath& path, const PenPath& more) {
+  for (const Point& point : line(path.back(), more.front())) path.push_back(point);
+  path.insert(path.end(), more.begin(), more.end());
+}
+
+std::vector<std::size_t> shuffled(std::size_t count, Sequence& random) {
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  for (std::size_t i = count; i > 1; --i)
+    std::swap(order[i - 1], order[static_cast<std::size_t>(random.next() * static_cast<double>(i))]);
+  return order;
+}
+
+/// Minimum number of strokes to remove so that the others ascend.
+int out_of_turn(const std::vector<std::size_t>& order) {
+  std::vector<std::size_t> tails;
+  for (const std::size_t stroke : order) {
+    const auto at = std::lower_bound(tails.begin(), tails.end(), stroke);
+    if (at == tails.end()) {
+      tails.push_back(stroke);
+    } else {
+      *at = stroke;
+    }
+  }
+  return static_cast<int>(order.size() - tails.size());
+}
+
+std::string told(const MatchResult& match) {
+  std::string text;
+  for (const StrokeRemark& remark : match.remarks)
+    text += std::string(to_string(remark.kind)) + ": " + remark.reason + "\n";
+  return text;
+}
+
+/// Draws strokes in another order, some of them backwards, and checks that each is identified.
+void check_told(const Character& character, const std::vector<PenPath>& paths, Sequence& random) {
+  const auto order = shuffled(paths.size(), random);
+  std::vector<PenPath> drawn;
+  std::vector<bool> backwards;
+  for (const std::size_t stroke : order) {
+    drawn.push_back(paths[stroke]);
+    const double apart = (paths[stroke].front() - paths[stroke].back()).norm();
+    backwards.push_back(random.next() < 0.3 && apart > 0.5 * path_length(paths[stroke]));
+    if (backwards.back()) reverse(drawn.back());
+  }
+  const MatchResult match = match_strokes(character, drawn);
+  CAPTURE(encode_utf8(character.code), told(match));
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    CAPTURE(i, order[i], static_cast<bool>(backwards[i]));
+    CHECK(match.drawn[i].stroke == static_cast<int>(order[i]));
+    CHECK(match.drawn[i].stroke_count == 1);
+    if (match.drawn[i].tap) continue;
+    CHECK(match.drawn[i].direction == (backwards[i] ? WritingDirection::backwards : WritingDirection::forwards));
+  }
+  CHECK(match.count(StrokeRemarkKind::order) == out_of_turn(order));
+  CHECK(match.count(StrokeRemarkKind::missing) + match.count(StrokeRemarkKind::extra) == 0);
+}
+
+}  // namespace
+
+TEST_CASE("a copy of any built-in character is in order and forwards throughout", "[practice]") {
+  for (const Character& character : built_in_characters().characters) {
+    const MatchResult match = match_strokes(character, copy_of(character));
+    CAPTURE(encode_utf8(character.code), told(match));
+    CHECK(match.remarks.empty());
+    for (std::size_t i = 0; i < match.drawn.size(); ++i) {
+      CHECK(match.drawn[i].stroke == static_cast<int>(i));
+      CHECK(match.drawn[i].in_turn);
+      CHECK(match.drawn[i].direction == WritingDirection::forwards);
+      CHECK(match.drawn[i].distance < 0.01);
+    }
+  }
+}
+
+TEST_CASE("any order and any direction is identified stroke by stroke", "[practice]") {
+  Sequence random(17);
+  for (const Character& character : built_in_characters().characters) {
+    for (int i = 0; i < rounds; ++i) check_told(character, copy_of(character), random);
+  }
+}
+
+TEST_CASE("a character written elsewhere, larger, narrower and with a shaking hand is matched as if in its place",
+          "[practice]") {
+  Sequence random(18);
+  for (const Character& character : built_in_characters().characters) {
+    for (int i = 0; i < rounds; ++i) {
+      const Point offset = random.point(-0.24, 0.24);
+      const Point scale = random.between(0.7, 1.3) * Point(random.between(0.9, 1.1), 1.0);
+      std::vector<PenPath> paths = copy_of(character);
+      for (PenPath& path : paths) {
+        for (Point& point : path) {
+          point = Point(0.5, 0.5) + scale.cwiseProduct(point - Point(0.5, 0.5)) + offset + random.point(-0.004, 0.004);
+        }
+      }
+      const MatchResult match = match_strokes(character, paths);
+      CAPTURE(encode_utf8(character.code), offset, scale, told(match));
+      CHECK(match.remarks.empty());
+    }
+  }
+}
+
+TEST_CASE("three parallel lines are identified by their positions", "[practice]") {
+  const Character three = character_of("三");
+  const std::vector<PenPath> lines = copy_of(three);
+  SECTION("the second last") {
+    const MatchResult match = match_strokes(three, std::vector<PenPath>{lines[0], lines[2], lines[1]});
+    REQUIRE(match.remarks.size() == 1);
+    CHECK(match.remarks[0].kind == StrokeRemarkKind::order);
+    CHECK(match.remarks[0].path == 1);
+    CHECK(match.remarks[0].stroke == 2);
+    CHECK(match.remarks[0].reason == "stroke 3 (héng) was written where stroke 2 (héng) was due");
+  }
+  SECTION("the first last") {
+    const MatchResult match = match_strokes(three, std::vector<PenPath>{lines[1], lines[2], lines[0]});
+    REQUIRE(match.remarks.size() == 1);
+    CHECK(match.remarks[0].reason == "stroke 1 (héng) was written only after stroke 3 (héng)");
+  }
+  SECTION("from the bottom up") {
+    const MatchResult match = match_strokes(three, std::vector<PenPath>{lines[2], lines[1], lines[0]});
+    CHECK(match.count(StrokeRemarkKind::order) == 2);
+    CHECK(match.remarks.size() == 2);
+  }
+  SECTION("one of them, in its place") {
+    for (int stroke = 0; stroke < 3; ++stroke) {
+      const MatchResult match = match_strokes(three, std::vector<PenPath>{lines[static_cast<std::size_t>(stroke)]});
+      CAPTURE(stroke, told(match));
+      CHECK(match.drawn[0].stroke == stroke);
+      CHECK(match.count(StrokeRemarkKind::missing) == 2);
+      CHECK(match.remarks.size() == 2);
+    }
+  }
+  SECTION("backwards") {
+    std::vector<PenPath> drawn = lines;
+    reverse(drawn[1]);
+    const MatchResult match = match_strokes(three, drawn);
+    REQUIRE(match.remarks.size() == 1);
+    CHECK(match.remarks[0].kind == StrokeRemarkKind::direction);
+    CHECK(match.remarks[0].reason == "stroke 2 (héng) was written from its end");
+  }
+}
+
+TEST_CASE("crossing strokes are identified by their orientation", "[practice]") {
+  const Character ten = character_of("十");
+  std::vector<PenPath> drawn = copy_of(ten);
+  std::swap(drawn[0], drawn[1]);
+  const MatchResult match = match_strokes(ten, drawn);
+  REQUIRE(match.remarks.size() == 1);
+  CHECK(match.remarks[0].reason == "stroke 2 (shù) was written where stroke 1 (héng) was due");
+}
+
+TEST_CASE("strokes written without lifting the pen are joined, not an order mistake", "[practice]") {
+  int told_so = 0;
+  for (const Character& character : built_in_characters().characters) {
+    const std::vector<PenPath> paths = copy_of(character);
+    for (std::size_t first = 0; first + 1 < paths.size(); ++first) {
+      std::vector<PenPath> drawn = paths;
+      append(drawn[first], paths[first + 1]);
+      drawn.erase(drawn.begin() + static_cast<std::ptrdiff_t>(first) + 1);
+      const MatchResult match = match_strokes(character, drawn);
+      CAPTURE(encode_utf8(character.code), first, told(match));
+      CHECK(match.count(StrokeRemarkKind::order) == 0);
+      REQUIRE(match.count(StrokeRemarkKind::joined) == 1);
+      CHECK(match.drawn[first].stroke == static_cast<int>(first));
+      CHECK(match.drawn[first].stroke_count == 2);
+      CHECK(match.remarks.size() == 1);
+      ++told_so;
+    }
+  }
+  CHECK(told_so > 40);
+}
+
+TEST_CASE("an omitted stroke is missing, not an order mistake", "[practice]") {
+  for (const Character& character : built_in_characters().characters) {
+    const std::vector<PenPath> paths = copy_of(character);
+    for (std::size_t left_out = 0; left_out < paths.size() && paths.size() > 1; ++left_out) {
+      std::vector<PenPath> drawn = paths;
+      drawn.erase(drawn.begin() + static_cast<std::ptrdiff_t>(left_out));
+      const MatchResult match = match_strokes(character, drawn);
+      CAPTURE(encode_utf8(character.code), left_out, told(match));
+      REQUIRE(match.remarks.size() == 1);
+      CHECK(match.remarks[0].kind == StrokeRemarkKind::missing);
+      CHECK(match.remarks[0].stroke == static_cast<int>(left_out));
+      CHECK(match.remarks[0].path == -1);
+    }
+  }
+}
+
+TEST_CASE("an additional pen-down is extra, and a bounce is ignored", "[practice]") {
+  const Character ten = character_of("十");
+  std::vector<PenPath> drawn = copy_of(ten);
+  SECTION("a line far from any stroke") {
+    drawn.push_back(line({0.05, 0.95}, {0.3, 0.95}));
+    const MatchResult match = match_strokes(ten, drawn);
+    REQUIRE(match.remarks.size() == 1);
+    CHECK(match.remarks[0].kind == StrokeRemarkKind::extra);
+    CHECK(match.remarks[0].path == 2);
+    CHECK(match.remarks[0].stroke == -1);
+  }
+  SECTION("a stroke written again") {
+    drawn.push_back(drawn[0]);
+    const MatchResult match = match_strokes(ten, drawn);
+    CHECK(match.count(StrokeRemarkKind::extra) == 1);
+    CHECK(match.count(StrokeRemarkKind::order) + match.count(StrokeRemarkKind::missing) == 0);
+  }
+  SECTION("a bounce beside the page") {
+    drawn.insert(drawn.begin() + 1, PenPath{{1.3, 1.2}, {1.305, 1.2}});
+    const MatchResult match = match_strokes(ten, drawn);
+    CHECK(match.remarks.empty());
+    CHECK(match.drawn[1].tap);
+    CHECK(match.drawn[1].stroke == -1);
+    CHECK(match.drawn[1].direction == WritingDirection::unknown);
+  }
+}
+
+TEST_CASE("a dot written as a tap is a dot without a direction", "[practice]") {
+  const Character eternal = character_of("永");
+  std::vector<PenPath> drawn = copy_of(eternal);
+  const Point middle = 0.5 * (drawn[0].front() + drawn[0].back());
+  drawn[0] = {middle};
+  const MatchResult match = match_strokes(eternal, drawn);
+  CAPTURE(told(match));
+  CHECK(match.remarks.empty());
+  CHECK(match.drawn[0].stroke == 0);
+  CHECK(match.drawn[0].direction == WritingDirection::unknown);
+}
+
+TEST_CASE("a stroke written in two pen-downs is broken, neither missing nor extra", "[practice]") {
+  const Character ten = character_of("十");
+  std::vector<PenPath> drawn = copy_of(ten);
+  const PenPath whole = drawn[1];
+  const auto middle = static_cast<std::ptrdiff_t>(whole.size() / 2);
+  drawn[1] = PenPath(whole.begin(), whole.begin() + middle);
+  drawn.emplace_back(whole.begin() + middle, whole.end());
+  const MatchResult match = match_strokes(ten, drawn);
+  CAPTURE(told(match));
+  REQUIRE(match.remarks.size() == 1);
+  CHECK(match.remarks[0].kind == StrokeRemarkKind::broken);
+  CHECK(match.drawn[2].continues);
+}
+
+TEST_CASE("a stroke drawn across its direction has another shape and is not reported as backwards", "[practice]") {
+  const Character eternal = character_of("永");  // its first stroke is a dot
+  std::vector<PenPath> drawn = copy_of(eternal);
+  const Point middle = 0.5 * (drawn[0].front() + drawn[0].back());
+  const Point half = 0.5 * (drawn[0].back() - drawn[0].front());
+  const auto turned = [&](double degrees) {
+    const double angle = degrees * std::numbers::pi / 180.0;
+    const Point arm(std::cos(angle) * half.x() - std::sin(angle) * half.y(),
+                    std::sin(angle) * half.x() + std::cos(angle) * half.y());
+    drawn[0] = line(middle - arm, middle + arm);
+    const MatchResult match = match_strokes(eternal, drawn);
+    CHECK(match.drawn[0].stroke == 0);
+    return match.drawn[0].direction;
+  };
+  for (const double sign : {1.0, -1.0}) {
+    CHECK(turned(sign * 45.0) == WritingDirection::forwards);
+    CHECK(turned(sign * 75.0) == WritingDirection::neither);
+    CHECK(turned(sign * 120.0) == WritingDirection::neither);
+    CHECK(turned(sign * 150.0) == WritingDirection::backwards);
+  }
+}
+
+TEST_CASE("without pen-downs every stroke is missing", "[practice]") {
+  const Character ten = character_of("十");
+  const MatchResult match = match_strokes(ten, {});
+  CHECK(match.drawn.empty());
+  CHECK(match.count(StrokeRemarkKind::missing) == 2);
+}
+
+TEST_CASE("invalid paths are rejected by number", "[practice]") {
+  const Character ten = character_of("十");
+  std::vector<PenPath> drawn = copy_of(ten);
+  const auto refusal = [&]() -> std::string {
+    try {
+      match_strokes(ten, drawn);
+    } catch (const ValueError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  drawn[1].clear();
+  CHECK(refusal() == "pen-down 2 has no point");
+  drawn[1] = {Point(0.5, std::nan(""))};
+  CHECK(refusal() == "pen-down 2 has a point that is not finite");
+  drawn.assign(1001, PenPath{{0.5, 0.5}});
+  CHECK(refusal().find("1001 pen-downs") == 0);
+}
+
+TEST_CASE("scribbles, points and distant paths give a consistent result", "[practice]") {
+  Sequence random(23);
+  for (const Character& character : built_in_characters().characters) {
+    std::vector<PenPath> drawn;
+    const int count = static_cast<int>(random.between(0, 30));
+    for (int i = 0; i < count; ++i) {
+      PenPath& path = drawn.emplace_back();
+      const double reach = random.next() < 0.1 ? 1e6 : 1.0;
+      const int points = static_cast<int>(random.between(1, 40));
+      for (int k = 0; k < points; ++k)
+        path.push_back(random.next() < 0.2 ? Point(0.5, 0.5) : random.point(-reach, reach));
+    }
+    const MatchResult match = match_strokes(character, drawn);
+    REQUIRE(match.drawn.size() == drawn.size());
+    CHECK(match.fit.scale.allFinite());
+    CHECK(match.fit.offset.allFinite());
+    std::map<int, int> written;
+    for (const DrawnStroke& each : match.drawn) {
+      for (int i = 0; i < each.stroke_count && !each.continues; ++i) ++written[each.stroke + i];
+    }
+    for (const auto& [stroke, times] : written) CHECK(times == 1);
+    CHECK(static_cast<int>(written.size()) + match.count(StrokeRemarkKind::missing) == character.stroke_count());
+  }
+}
+
+TEST_CASE("every order and direction of a real pen's own strokes is identified", "[practice][corpus]") {
+  Sequence random(29);
+  const auto traces = calligraphy_test::traces_of_people();
+  for (std::size_t at = 0; at < traces.size(); at += trace_stride) {
+    const Character character = calligraphy_test::own_character(traces[at]);
+    std::vector<PenPath> paths = pen_paths(traces[at]);
+    std::erase_if(paths, [](const PenPath& path) { return path_length(path) < tap_length; });
+    CHECK(match_strokes(character, paths).remarks.empty());
+    for (int i = 0; i < rounds; ++i) check_told(character, paths, random);
+  }
+}
+
+TEST_CASE("on a corpus of people's writing the result agrees with visual inspection", "[practice][corpus]") {
+  const auto set = calligraphy_test::imported_characters();
+  if (!set) return;
+  // By visual inspection of each picture; 21 of the 39 characters have no template.
+  const std::map<std::string, std::vector<std::string>> seen = {
+      {"冘", {}}, {"夌", {}},
+      {"犮", {}}, {"疌", {}},
+      {"肙", {}}, {"辯", {}},
+      {"雚", {}}, {"禸", {"joined 3"}},            // its third and fourth stroke in one pen-down
+      {"卄", {}}, {"卌", {"missing 5"}},           // three verticals instead of four
+      {"卬", {}}, {"甪", {"missing 6"}},           // without the vertical in the middle
+      {"內", {}}, {"戶", {"shape 1", "order 4"}},  // a pie in place of the dot, and the long pie before the box
+      {"匭", {}}, {"匽", {}},
+      {"囪", {}}, {"圇", {}},
+  };
+  int compared = 0;
+  for (const PenTrace& trace : calligraphy_test::traces_of_people()) {
+    const std::string character = encode_utf8(trace.character);
+    const auto expected = seen.find(character);
+    const auto stored = set->find(trace.character);
+    if (trace.set != "zh_TW-train" || expected == seen.end() || !stored) continue;
+    std::vector<std::string> remarks;
+    for (const StrokeRemark& remark : match_strokes(stored->character(), pen_paths(trace)).remarks) {
+      remarks.push_back(std::string(to_string(remark.kind)) + " " + std::to_string(remark.stroke + 1));
+    }
+    CAPTURE(character);
+    CHECK(remarks == expected->second);
+    ++compared;
+  }
+  WARN(compared << " characters compared with visual inspection");
+}
+
+TEST_CASE("every order and direction of real pens that wrote every stroke of the standard is identified",
+          "[practice][corpus]") {
+  const auto set = calligraphy_test::imported_characters();
+  if (!set) return;
+  Sequence random(31);
+  int compared = 0;
+  for (const PenTrace& trace : calligraphy_test::traces_of_people()) {
+    const auto stored = set->find(trace.character);
+    if (!stored) continue;
+    const Character character = stored->character();
+    const std::vector<PenPath> paths = pen_paths(trace);
+    if (!match_strokes(character, paths).remarks.empty()) continue;
+    ++compared;
+    for (int i = 0; i < rounds; ++i) {
+      const Point offset = random.point(-0.24, 0.24);
+      const double scale = random.between(0.7, 1.3);
+      std::vector<PenPath> elsewhere = paths;
+      for (PenPath& path : elsewhere) {
+        for (Point& point : path) point = Point(0.5, 0.5) + scale * (point - Point(0.5, 0.5)) + offset;
+      }
+      check_told(character, elsewhere, random);
+    }
+  }
+  WARN(compared << " characters that people wrote according to the standard");
+}

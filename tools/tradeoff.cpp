@@ -1,0 +1,144 @@
+// calligraphy tradeoff: cost against accuracy, side by side in one run.
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <CLI/CLI.hpp>
+
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/experiments/force_field.hpp>
+#include <calligraphy/experiments/tradeoff.hpp>
+#include <calligraphy/pictures/plot.hpp>
+
+#include "character_source.hpp"
+#include "commands.hpp"
+#include "experiments/nearest_point_workload.hpp"
+#include "interrupt.hpp"
+#include "options.hpp"
+#include "output_directory.hpp"
+#include "progress.hpp"
+#include "tradeoff_report.hpp"
+
+namespace calligraphy::tools {
+namespace {
+
+/// Number of characters written at every servo rate.
+constexpr std::size_t max_written = 2;
+
+struct TradeoffArguments {
+  std::string text = "永北京航空天大学和年书法";
+  std::vector<std::string> characters;
+  std::optional<std::string> out;
+  std::uint64_t seed = 1;
+  std::optional<int> queries;
+  bool quick = false;
+  bool json = false;
+};
+
+TradeoffReport asked_for(const TradeoffArguments& options) {
+  TradeoffReport report;
+  for (const char32_t code : characters_of(options.text)) {
+    if (report.text.find(code) == std::u32string::npos) report.text += code;
+  }
+  report.written = report.text.substr(0, options.quick ? 1 : max_written);
+  report.seed = report.nearest_options.seed = report.servo_options.seed = options.seed;
+  if (options.quick) {
+    report.nearest_options.queries = 400;
+    report.nearest_options.rounds = 5;
+    report.servo_options.rates = {250.0, 1000.0, 4000.0};
+    report.servo_options.seeds = 1;
+  }
+  if (options.queries) report.nearest_options.queries = *options.queries;
+  return report;
+}
+
+void measure(TradeoffReport& report, const std::vector<Character>& characters, const Interrupt& interrupt) {
+  Progress progress;
+  const auto part = [&](double begin, double end) {
+    return [&, begin, end](double share) {
+      interrupt.check();
+      progress.show(begin + share * (end - begin));
+    };
+  };
+  report.nearest_options.progress = part(0.0, 0.6);
+  report.nearest_point = nearest_point_tradeoff(characters, report.nearest_options);
+  report.servo_options.progress = part(0.6, 0.95);
+  report.servo_rate = servo_rate_tradeoff(std::span(characters).first(report.written.size()), report.servo_options);
+  report.coordinate_width = coordinate_width_tradeoff(characters, part(0.95, 1.0));
+  progress.show(1.0);
+}
+
+void draw(const TradeoffReport& report, const OutputDirectory& out, const Interrupt& interrupt) {
+  out.write("tradeoff.json", json(report));
+  for (const ForceFieldFigure& figure : ambiguity_figures()) {
+    out.write("field-" + figure.name + ".svg", force_field_picture(figure));
+  }
+  const bool plots = gnuplot_available();
+  interrupt.check();  // Ctrl-C also reaches gnuplot, which then seems unavailable
+  if (!plots) {
+    spdlog::warn("gnuplot is not available: tradeoffs are not plotted");
+    return;
+  }
+  out.write("tradeoff.svg", nearest_point_tradeoff_plot(report.nearest_point));
+  out.write("servo_rate.svg", servo_rate_tradeoff_plot(report.servo_rate));
+  out.write("coordinate_width.svg", coordinate_width_tradeoff_plot(report.coordinate_width));
+}
+
+void run(const TradeoffArguments& options) {
+  if (options.out && options.out->empty()) throw UsageError("--out: the name is empty");
+  TradeoffReport report = asked_for(options);
+  const CharacterSet set = open_characters(options.characters, report.text);
+  const std::vector<Character> characters = characters_of(set, report.text);
+  if (curve_control_points(characters).empty()) {
+    throw Error("TEXT has no stroke with a curve to measure the nearest point on");
+  }
+  const Interrupt interrupt;
+  std::optional<OutputDirectory> out;
+  if (options.out) out.emplace(*options.out);
+  measure(report, characters, interrupt);
+  fmt::print("{}", options.json ? json(report) : tables(report));
+  std::fflush(stdout);  // results are printed even if plotting fails
+  if (!out) return;
+  try {
+    draw(report, *out, interrupt);
+  } catch (const Error&) {
+    interrupt.check();
+    throw;
+  }
+}
+
+}  // namespace
+
+void add_tradeoff(CLI::App& program) {
+  CLI::App* const command =
+      program.add_subcommand("tradeoff",
+                             "Measure cost against accuracy: nearest-point methods, servo rate and width of stored "
+                             "coordinates. With --out DIR, "
+                             "also write plots, tradeoff.json and the force fields of Figs. 25 to 28.");
+  const auto options = std::make_shared<TradeoffArguments>();
+  command->add_option("TEXT", options->text, "Characters to measure; the first two are written at every servo rate")
+      ->capture_default_str();
+  add_characters_option(*command, options->characters);
+  command->add_option("--out", options->out, "Directory for plots and JSON, created if missing")->type_name("DIR");
+  command->add_option("--seed", options->seed, "Seed of all random draws")
+      ->check(integer(0, std::numeric_limits<std::uint64_t>::max()))
+      ->type_name("N")
+      ->capture_default_str();
+  command
+      ->add_option("--queries", options->queries,
+                   "Queries in each of the 19 workloads (default: 4000; with --quick: 400)")
+      ->check(integer(1, 1000000))
+      ->type_name("N");
+  command->add_flag("--quick", options->quick, "Coarse results in a few seconds")->disable_flag_override();
+  command->add_flag("--json", options->json, "Print JSON instead of the tables")->disable_flag_override();
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace calligraphy::tools
