@@ -16,9 +16,9 @@
 namespace calligraphy {
 namespace {
 
-constexpr int plot_width = 900, plot_height = 620;  // [px]
-constexpr double left = 0.095, right = 0.975;       // of the panels, share of the width
-constexpr std::size_t buckets = 2000;               // two points each
+constexpr int plot_width = 900, plot_height = 620;         // [px]
+constexpr double panel_left = 0.095, panel_right = 0.975;  // of the panels, share of the width
+constexpr std::size_t buckets = 2000;                      // two points each
 
 /// A time during which a stroke was being written [s].
 struct Band {
@@ -98,7 +98,7 @@ std::string band_objects(const std::vector<Band>& bands) {
 
 /// Stroke numbers above the bands, but not one on another.
 std::string band_labels(const std::vector<Band>& bands, double begin, double end) {
-  const double needed = 20.0 / (plot_width * (right - left)) * (end - begin);
+  const double needed = 20.0 / (plot_width * (panel_right - panel_left)) * (end - begin);
   double last = -std::numeric_limits<double>::infinity();
   std::string text;
   for (const Band& band : bands) {
@@ -133,9 +133,9 @@ std::string script(const Signals& signals) {
   const double end = std::max(signals.time.back(), begin + 1e-3);
   std::string text = gnuplot::svg_terminal(plot_width, plot_height);
   for (const Signal& signal : signals.curves) text += data_block(signals.time, signal);
-  text += "set lmargin at screen " + gnuplot::numeral(left) + "\nset rmargin at screen " + gnuplot::numeral(right) +
-          "\n" + "set xrange [" + gnuplot::numeral(begin) + ":" + gnuplot::numeral(end) + "]\n" +
-          band_objects(signals.bands) +
+  text += "set lmargin at screen " + gnuplot::numeral(panel_left) + "\nset rmargin at screen " +
+          gnuplot::numeral(panel_right) + "\n" + "set xrange [" + gnuplot::numeral(begin) + ":" +
+          gnuplot::numeral(end) + "]\n" + band_objects(signals.bands) +
           "set grid back linetype 1 linecolor rgb '#dcdcdc' linewidth 0.5\n"
           "set border 3 linecolor rgb '#666666'\nset tics nomirror out\n"
           "set xzeroaxis linetype 1 linecolor rgb '#999999'\n";
@@ -184,8 +184,9 @@ std::string force_plot(const Recording& recording, int character, const std::str
   pugi::xml_node root = document.child("svg");
   root.child("title").text() = heading.c_str();
   const double size = std::min(17.0, 0.9 * plot_width / svg::text_width(heading + ".", 1.0));
-  svg::add_text(root, left * plot_width, 26.0, size, heading, {{"font-family", "sans-serif"}, {"fill", "#222222"}});
-  svg::add_text(root, left * plot_width, 46.0, 12.0, band_caption(signals.bands),
+  svg::add_text(root, panel_left * plot_width, 26.0, size, heading,
+                {{"font-family", "sans-serif"}, {"fill", "#222222"}});
+  svg::add_text(root, panel_left * plot_width, 46.0, 12.0, band_caption(signals.bands),
                 {{"font-family", "sans-serif"}, {"fill", "#666666"}});
   return svg::to_string(document);
 }
