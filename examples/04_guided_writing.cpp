@@ -36,7 +36,7 @@ class User {
 }  // namespace
 
 int main() {
-  const PracticePage page = lay_out(std::vector{*built_in_characters().find(U'十')}).front();
+  const PracticePage page = lay_out(std::vector{built_in_characters().at(U'十')}).front();
   const MotionMapping mapping = upright_page(page.width, page.height);
 
   // A simulated device that a mouse or tablet moves. With a real one: OpenHapticsDevice device;

@@ -53,8 +53,8 @@ std::string reduction(const char* what, const char* unit, const std::vector<std:
   const double standard_error = std::sqrt(squares / (count - 1.0) / count);
   const boost::math::students_t distribution(count - 1.0);
   const double margin = boost::math::quantile(distribution, 0.975) * standard_error;
-  const std::string relative = vision > 0.0 ? fmt::format(" ({:.1f} % of vision only)", 100.0 * reduced / vision) : "";
-  return fmt::format("{:<10} {:.3f} {} less with force{}, 95 % interval {:.3f} to {:.3f} {}\n", what, reduced, unit,
+  const std::string relative = vision > 0.0 ? fmt::format(" ({:.1f} %)", 100.0 * reduced / vision) : "";
+  return fmt::format("{:<10} {:.3f} {}{} less with force, 95 % interval {:.3f} to {:.3f} {}\n", what, reduced, unit,
                      relative, reduced - margin, reduced + margin, unit);
 }
 

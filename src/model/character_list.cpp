@@ -211,6 +211,12 @@ const Character* CharacterList::find(char32_t code, std::string_view order) cons
   return found == characters.end() ? nullptr : &*found;
 }
 
+const Character& CharacterList::at(char32_t code, std::string_view order) const {
+  if (const Character* const found = find(code, order)) return *found;
+  throw ValueError(character_label(code, order) + " is not in the list of " + std::to_string(characters.size()) +
+                   " characters");
+}
+
 const CharacterList& built_in_characters() {
   static const CharacterList set = parse_embedded(built_in::characters, "built-in characters");
   return set;

@@ -63,6 +63,13 @@ struct CommaNumbers : std::numpunct<char> {
 
 }  // namespace
 
+TEST_CASE("a character that a list does not have is an error that names it", "[model]") {
+  CHECK(built_in_characters().at(U'永').code == U'永');
+  CHECK_THROWS_WITH(read(head).at(U'八'), "character 八 is not in the list of 0 characters");
+  CHECK_THROWS_WITH(built_in_characters().at(U'永', "x"),
+                    "character 永 order x is not in the list of 65 characters");
+}
+
 TEST_CASE("a written list reads back identically, including quartics and attraction factors", "[model]") {
   CharacterList set = built_in_characters();
   set.characters.push_back(with_quartic_curves(*set.find(U'永')));

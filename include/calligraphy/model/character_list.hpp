@@ -18,6 +18,8 @@ struct CharacterList {
 
   /// The character in the stroke order of this name (empty: the standard one), or null. O(characters).
   const Character* find(char32_t code, std::string_view order = {}) const noexcept;
+  /// The same. @throws ValueError naming the character and the number of characters in the list if it has none
+  const Character& at(char32_t code, std::string_view order = {}) const;
 };
 
 /// The characters drawn for this library; every typical stroke occurs in at least one. Parsed once, on first use.
