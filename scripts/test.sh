@@ -90,9 +90,12 @@ test_build() {
 # for the network.
 begin_python_environment() {
   export PYTHON=$build/python-environment/bin/python
+  export PATH=$build/pyright/node_modules/.bin:$PATH
   mkdir -p "$build"
   (python3 -m venv "$build/python-environment" &&
-    "$PYTHON" -m pip install -q --disable-pip-version-check -r bindings/python/requirements-test.txt) &
+    "$PYTHON" -m pip install -q --disable-pip-version-check -r bindings/python/requirements-test.txt &&
+    { npm install --silent --no-fund --no-audit --prefix "$build/pyright" pyright@1.1.414 ||
+      echo "== pyright could not be had by npm: its test is skipped" >&2; }) &
   python_environment=$!
 }
 
