@@ -59,7 +59,8 @@ def main(module: pathlib.Path, stub: pathlib.Path) -> None:
         package.mkdir()
         (package / "__init__.py").touch()
         shutil.copy(module, package)
-        run = {"check": True, "env": {**os.environ, "PYTHONPATH": directory}, "cwd": directory, "text": True}
+        paths = os.pathsep.join([directory, *filter(None, sys.path)])  # NumPy may be of an isolated build alone
+        run = {"check": True, "env": {**os.environ, "PYTHONPATH": paths}, "cwd": directory, "text": True}
         told = subprocess.run([sys.executable, "-c", MEMBERS], stdout=subprocess.PIPE, **run).stdout
         words = ["-m", "pybind11_stubgen", "calligraphy._calligraphy", "-o", ".", "--enum-class-locations", ".*:calligraphy._calligraphy"]
         subprocess.run([sys.executable, *words], stderr=subprocess.DEVNULL, **run)
