@@ -10,6 +10,7 @@
 #include <calligraphy/render/stiffness_advice.hpp>
 
 #include "base/require.hpp"
+#include "collision/length.hpp"
 
 namespace calligraphy {
 namespace {
