@@ -1,8 +1,6 @@
 #include "motion_tracker.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 namespace calligraphy::phantom {
 namespace {
@@ -18,10 +16,10 @@ MotionTracker::MotionTracker(const WireProfile& profile, const Linkage& linkage,
     : linkage_(linkage),
       docked_angles_(*profile.docked_angles),
       period_(1.0 / profile.rate),
-      velocity_cutoff_(velocity_cutoff),
       has_sequence_(profile.sequence.has_value()),
       sequence_(has_sequence_ ? profile.sequence->bits : 32),
       encoders_(profile.encoders, *profile.counts_per_radian),
+      joint_velocity_(velocity_cutoff),
       offset_(docked_angles_) {}
 
 MotionTracker::Judgement MotionTracker::take(const RawSample& sample, double now) noexcept {
@@ -45,16 +43,16 @@ MotionTracker::Judgement MotionTracker::take(const RawSample& sample, double now
     offset_ = motion_.joints;  // the best available estimate
     motion_.calibrated = false;
     docked_for_ = 0;
+    joint_velocity_.restart();  // the angles have restarted from zero
   }
 
   motion_.time = now;
   motion_.buttons = sample.buttons;
   follow_docking(sample.docked);
   motion_.joints = offset_ + encoders_.angles();
-  const double passed = 1.0 - std::exp(-2.0 * std::numbers::pi * velocity_cutoff_ * encoders_.interval());
-  joint_velocity_ += passed * (encoders_.velocity() - joint_velocity_);
   motion_.position = tip_position(linkage_, motion_.joints) - linkage_.centre;
-  motion_.velocity = tip_jacobian(linkage_, motion_.joints) * joint_velocity_;
+  motion_.velocity = tip_jacobian(linkage_, motion_.joints) *
+                     joint_velocity_.update(encoders_.angles(), encoders_.interval());
   if (motion_.calibrated && !within_limits(linkage_, motion_.joints, limit_margin) &&
       judgement.fault == DeviceFault::none) {
     judgement.fault = DeviceFault::outside_workspace;
@@ -83,7 +81,7 @@ void MotionTracker::follow_docking(bool docked) noexcept {
 
 void MotionTracker::restart(bool keep_calibration) noexcept {
   sequence_.restart();
-  joint_velocity_.setZero();
+  joint_velocity_.restart();
   docked_for_ = 0;
   if (keep_calibration) {
     encoders_.interrupt();

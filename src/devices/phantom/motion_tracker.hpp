@@ -5,6 +5,7 @@
 
 #include <calligraphy/devices/phantom/kinematics.hpp>
 #include <calligraphy/devices/phantom/wire_profile.hpp>
+#include <calligraphy/devices/velocity_estimator.hpp>
 
 #include "devices/phantom/wire/packet_codec.hpp"
 #include "encoder_watch.hpp"
@@ -53,12 +54,11 @@ class MotionTracker {
   const Linkage& linkage_;
   Joints docked_angles_;
   double period_;  ///< [s]
-  double velocity_cutoff_;
   bool has_sequence_;
   SequenceWatch sequence_;
   EncoderWatch encoders_;
-  Joints offset_;  ///< joint angles at zero encoder counts [rad]
-  Eigen::Vector3d joint_velocity_ = Eigen::Vector3d::Zero();
+  VelocityEstimator joint_velocity_;  ///< [rad/s]
+  Joints offset_;                     ///< joint angles at zero encoder counts [rad]
   double last_time_ = 0.0;
   int docked_for_ = 0;  ///< consecutive reports at rest
   Joints docked_at_ = Joints::Zero();

@@ -1,0 +1,40 @@
+// Velocity of a point from its sampled positions.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace calligraphy {
+
+/// Backward differences of successive positions, smoothed by a first-order low-pass: what a device without a
+/// tachometer can say of its velocity. The filter delays the estimate by about 1 / (2 pi cutoff), 3.2 ms at 50 Hz; for
+/// positions in steps D sampled at intervals T, the estimate is itself in steps of about 2 pi cutoff D.
+///
+/// Any coordinates will do (device or page axes, joint angles). No call allocates or throws but the constructor.
+class VelocityEstimator {
+ public:
+  static constexpr double default_cutoff = 50.0;  ///< [Hz]
+
+  /// `cutoff`: cut-off frequency of the low-pass [Hz]. @throws ValueError unless it is finite and above 0
+  explicit VelocityEstimator(double cutoff = default_cutoff);
+
+  /// Takes the next position [m], sampled `elapsed` [s] after the previous call, and returns the estimate [m/s]. The
+  /// first call after construction or restart() gives zero, whatever its `elapsed`. From then on an `elapsed` that is not
+  /// above 0 and finite, or a position that is not finite, leaves the estimate; the next difference is then taken from
+  /// the last good position, over all of the time since.
+  const Eigen::Vector3d& update(const Eigen::Vector3d& position, double elapsed) noexcept;
+
+  /// The last estimate [m/s].
+  const Eigen::Vector3d& velocity() const noexcept { return velocity_; }
+
+  /// Forgets the position and the estimate: after a gap, or when the origin has moved.
+  void restart() noexcept;
+
+ private:
+  double cutoff_;  ///< angular [rad/s]
+  bool has_position_ = false;
+  double since_position_ = 0.0;  ///< [s]
+  Eigen::Vector3d position_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
+};
+
+}  // namespace calligraphy
