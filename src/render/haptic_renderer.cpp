@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -23,6 +25,26 @@ constexpr double min_scale = 1e-6;
 
 /// Maximum time over which eq. (3) integrates in one tick [s].
 constexpr double max_tick = 0.1;
+
+/// For how long the force is held while samples are stale, as a servo does [s].
+constexpr double max_hold = 4e-3;
+
+/// Faster pens, and larger changes of their velocity in a tick, are faults rather than motions of a hand: the force does
+/// not follow them at once [m/s].
+constexpr double fastest_followed = 2.0, largest_kick = 0.2;
+
+/// Force of passivity control for one step of the encoder within a tick [N].
+constexpr double largest_click = 0.1;
+
+/// Depth over which the damping of the paper sets in, so that a touch is no step [m].
+constexpr double damped_depth = 2e-4;
+
+/// What is left of the guidance's damping where no spring acts, as long as the pen touches the paper: a pen that nobody
+/// holds does not coast on.
+constexpr double free_share = 0.15;
+
+/// A closest point counts as an end of the stroke where the pen is this far from its normal, as a share of the distance.
+constexpr double oblique_share = 0.2, oblique_slack = 1e-5;
 
 void require_valid(const PlacedCharacter& placed, std::size_t index) {
   const std::string place = "character " + std::to_string(index + 1) + " of the page: ";
@@ -51,17 +73,24 @@ void require_valid(const MotionMapping& mapping) {
 /// (MotionMapping).
 PassivityController passivity_controller(const RendererOptions& options, const Capabilities& capabilities,
                                          double scale) {
-  const double period = 1.0 / options.servo_rate;
   PassivityOptions passivity;
   passivity.delay = capabilities.sample_delay;
   if (options.passivity_control) {
-    passivity.max_damping = injectable_damping({capabilities, options.servo_rate}) / (scale * scale);
+    SampledLoop loop{capabilities, options.servo_rate};
+    loop.wall_damping = scale * scale * std::max(options.paper_damping, options.guidance_damping);
+    passivity.max_damping = injectable_damping(loop);
+    // A single step of the encoder must not be felt as a click.
+    if (capabilities.encoder_step > 0.0) {
+      passivity.max_damping =
+          std::min(passivity.max_damping, largest_click / (capabilities.encoder_step * options.servo_rate));
+    }
+    passivity.max_damping /= scale * scale;
   }
   passivity.energy_budget = options.energy_budget;
-  if (options.limit_force_rate) {
-    passivity.force_rate = std::min(options.in_plane_force_rate, options.normal_force_rate) / scale;
-  }
-  return PassivityController(passivity, period);
+  if (capabilities.apparent_mass > 0.0) passivity.mass = capabilities.apparent_mass / (scale * scale);
+  passivity.hand_speed *= scale;
+  passivity.max_gap = options.max_gap;
+  return PassivityController(passivity, 1.0 / options.servo_rate);
 }
 
 }  // namespace
@@ -70,11 +99,10 @@ HapticRenderer::HapticRenderer(std::vector<PlacedCharacter> page, const MotionMa
                                const Capabilities& capabilities, const RendererOptions& options)
     : page_(std::move(page)), mapping_(mapping), options_(options) {
   if (page_.empty()) throw ValueError("the page has no character");
-  double max_attraction = 1.0;
   for (std::size_t i = 0; i < page_.size(); ++i) {
     require_valid(page_[i], i);
     const auto& factors = page_[i].character.physics.attraction_factors;
-    max_attraction = std::max(max_attraction, *std::max_element(factors.begin(), factors.end()));
+    max_attraction_ = std::max(max_attraction_, *std::max_element(factors.begin(), factors.end()));
     Eigen::AlignedBox2d box = bounding_box(page_[i]);
     box.min().array() -= options.box_margin;
     box.max().array() += options.box_margin;
@@ -82,9 +110,10 @@ HapticRenderer::HapticRenderer(std::vector<PlacedCharacter> page, const MotionMa
   }
   require_valid(mapping);
   if (options_.stiffness_check == StiffnessCheck::clip) {
-    clipped_ = clip_stiffness(options_, capabilities, max_attraction, mapping.scale);
+    clipped_ = clip_stiffness(options_, capabilities, mapping.scale);
   }
-  validate(options_, capabilities, max_attraction, mapping.scale);
+  validate(options_, capabilities, mapping.scale);
+  limit_attraction(capabilities);
   require_translations(capabilities, "the renderer");
   require(capabilities.peak_force > 0.0, "peak force of the device", capabilities.peak_force, "N", "above 0");
   fade_step_ = options.guidance_fade_in > 0.0 ? 1.0 / (options.guidance_fade_in * options.servo_rate) : 1.0;
@@ -92,8 +121,9 @@ HapticRenderer::HapticRenderer(std::vector<PlacedCharacter> page, const MotionMa
   limiter_.normal_step = options.normal_force_rate / options.servo_rate / mapping.scale;
   limiter_.peak = capabilities.peak_force / mapping.scale;
   limiter_.limit_rate = options.limit_force_rate;
-  const double period = 1.0 / options.servo_rate;
-  limiter_.jerk = options.force_jerk * period * period / mapping.scale;
+  period_ = 1.0 / options.servo_rate;
+  velocity_ = VelocityEstimator(options.velocity_cutoff);
+  rate_filter_ = -std::expm1(-2.0 * std::numbers::pi * options.velocity_cutoff * period_);
   observes_energy_ = options.passivity_control || std::isfinite(options.energy_budget);
   if (observes_energy_) passivity_ = passivity_controller(options, capabilities, mapping.scale);
   if (options.thermal_time_constant > 0.0) {
@@ -104,41 +134,87 @@ HapticRenderer::HapticRenderer(std::vector<PlacedCharacter> page, const MotionMa
   restart();
 }
 
+/// Where strokes attract more than others, guidance is limited there, not on the whole page.
+void HapticRenderer::limit_attraction(const Capabilities& capabilities) {
+  max_guidance_ = max_guidance_stiffness(options_, capabilities, mapping_.scale);
+  const double most = options_.guidance_stiffness * max_attraction_;
+  if (most <= max_guidance_) return;
+  std::ostringstream message;
+  message << "guidance_stiffness = " << options_.guidance_stiffness << " N/m times the maximum attraction factor "
+          << max_attraction_ << " is above " << max_guidance_ << " N/m, the maximum on the device "
+          << device_label(capabilities);
+  if (options_.stiffness_check != StiffnessCheck::clip) throw ValueError(message.str());
+  clipped_.push_back(message.str());
+}
+
 void HapticRenderer::restart() noexcept {
   tick_ = {};
   inside_box_ = false;
   lifted_ = true;
   has_sample_ = false;
   has_rejected_ = false;
-  limiter_.last_step.setZero();
+  unseen_ = 0;
+  velocity_.restart();
+  last_velocity_ = motion_ = Eigen::Vector3d::Zero();
+  friction_spring_ = friction_rate_ = Point::Zero();
+  above_for_ = 0.0;
   passivity_.restart();
   thermal_.heat = 0.0;
   friction_.release();
   activate(0, 0);
 }
 
-double HapticRenderer::max_force_step() const noexcept { return limiter_.max_step() * mapping_.scale; }
+double HapticRenderer::max_force_step() const noexcept {
+  if (!limiter_.limit_rate) return ForceLimiter::no_limit;
+  const double fastest = fastest_followed * mapping_.scale, furthest = fastest * period_;
+  const double hardest = largest_kick * mapping_.scale;
+  const ForceAllowance most = allowance_for({furthest, furthest}, {hardest, hardest}, fastest);
+  const Eigen::Vector2d step(limiter_.in_plane_step + most.in_plane, limiter_.normal_step + most.normal);
+  return step.norm() * mapping_.scale;
+}
 
 const HapticTick& HapticRenderer::update(const DeviceState& state) noexcept {
   tick_.events = TickEvent::none;
   tick_.time = state.time;
+  if (observes_energy_) hear_force(state);
   tick_.status = map_sample(state);
   if (tick_.status == TickStatus::ok) {
+    unseen_ = 0;
     follow(sense());
     send(sum_forces());
-  } else {
-    tick_.attraction = tick_.wrong_way = tick_.friction = Point::Zero();
-    tick_.normal = 0.0;
-    friction_.release();
-    send(Eigen::Vector3d::Zero());
+    return tick_;
   }
+  ++unseen_;
+  if (tick_.status == TickStatus::stale && unseen_ * period_ <= max_hold) {
+    send(tick_.page_force);
+    return tick_;
+  }
+  tick_.attraction = tick_.wrong_way = tick_.friction = Point::Zero();
+  tick_.viscous.setZero();
+  tick_.normal = 0.0;
+  friction_.release();
+  send(Eigen::Vector3d::Zero());
   return tick_;
+}
+
+/// The account of energy sees the force at work and for how long: behind a servo it may be less than the one sent, and a
+/// loop may have paused.
+void HapticRenderer::hear_force(const DeviceState& state) noexcept {
+  int ticks = 1;
+  if (has_sample_ && state.status == DeviceStatus::ok) {
+    const double passed = (state.time - last_time_) / period_ - unseen_;  // NaN compares false below
+    constexpr double longest = 1e6;
+    if (passed > 1.75) ticks = static_cast<int>(std::min(passed + 0.5, longest));
+  }
+  const bool as_sent = state.force == tick_.force || !state.force.allFinite();
+  passivity_.acted(as_sent ? tick_.page_force : mapping_.force_to_page(state.force), ticks);
 }
 
 TickStatus HapticRenderer::map_sample(const DeviceState& state) noexcept {
   const bool usable = state.status == DeviceStatus::ok || state.status == DeviceStatus::stale ||
                       state.status == DeviceStatus::warm_motors;
   if (!usable) return TickStatus::device_fault;
+  if (state.status == DeviceStatus::stale) return TickStatus::stale;
   if (!state.position.allFinite() || !std::isfinite(state.time)) return TickStatus::bad_sample;
   const Eigen::Vector3d mapped = mapping_.to_page(state.position);
   if (!(mapped.cwiseAbs().maxCoeff() <= furthest_point)) return TickStatus::bad_sample;
@@ -146,6 +222,10 @@ TickStatus HapticRenderer::map_sample(const DeviceState& state) noexcept {
     has_rejected_ = true;
     rejected_position_ = mapped;
     return TickStatus::bad_sample;
+  }
+  if (has_rejected_) {
+    velocity_.restart();  // it is elsewhere, and did not move there
+    has_sample_ = false;
   }
 
   if (options_.motion == MotionMappingRule::wang2006 && has_sample_) {
@@ -156,6 +236,12 @@ TickStatus HapticRenderer::map_sample(const DeviceState& state) noexcept {
   } else {
     tick_.device_point = mapped;
   }
+  // A clock that stands or runs backwards must not turn a small motion into a fast one.
+  const double elapsed = has_sample_ ? std::max(state.time - last_time_, period_) : period_;
+  last_velocity_ = velocity_.velocity();
+  velocity_.update(mapped, elapsed);
+  motion_ = has_sample_ ? Eigen::Vector3d(mapped - last_position_) : Eigen::Vector3d(0.0, 0.0, 0.0);
+  above_for_ += elapsed;
   has_sample_ = true;
   has_rejected_ = false;
   last_position_ = mapped;
@@ -175,10 +261,9 @@ bool HapticRenderer::plausible(const Eigen::Vector3d& position, double time) con
 
 TransitionInput HapticRenderer::sense() noexcept {
   const Eigen::Vector3d& point = tick_.device_point;
-  const bool was_in_contact = tick_.state != InteractionState::separation;
   const bool writing = tick_.state == InteractionState::writing;
   TransitionInput input;
-  input.contact = point.z() <= (was_in_contact ? options_.lift_height : 0.0);
+  input.contact = touches();
 
   tick_.penetration = std::max(0.0, -point.z());
   tick_.pen_tip = point;
@@ -199,6 +284,20 @@ TransitionInput HapticRenderer::sense() noexcept {
     input.at_start = active_.begins_at(tip, options_.start_radius);
   }
   return input;
+}
+
+/// A pen that bounces on the paper has not been lifted.
+bool HapticRenderer::touches() noexcept {
+  const double height = tick_.device_point.z();
+  if (tick_.state == InteractionState::separation) {
+    above_for_ = 0.0;
+    return height <= 0.0;
+  }
+  if (height <= options_.lift_height) {
+    above_for_ = 0.0;
+    return true;
+  }
+  return height <= options_.lift_clearance && above_for_ < options_.lift_time;
 }
 
 void HapticRenderer::follow(const TransitionInput& input) noexcept {
@@ -279,46 +378,88 @@ void HapticRenderer::adapt_assistance(bool abandoned) noexcept {
 
 Eigen::Vector3d HapticRenderer::sum_forces() noexcept {
   tick_.attraction = tick_.wrong_way = Point::Zero();
-  tick_.normal = 0.0;
+  tick_.viscous.setZero();
   const bool solid = tick_.state == InteractionState::calibration || tick_.state == InteractionState::writing ||
                      (tick_.state == InteractionState::adjusting && options_.solid_paper);
-  if (solid) tick_.normal = normal_force(options_.paper_stiffness, tick_.penetration, options_.force_sign);
+  tick_.normal = solid ? paper_force() : 0.0;
   Point in_plane = guidance_force();
   if (options_.friction.coefficient > 0.0) in_plane += friction_force();
   return {in_plane.x(), in_plane.y(), tick_.normal};
 }
 
+/// Eq. (9) and a damper. Paper does not pull, however fast the pen is lifted.
+double HapticRenderer::paper_force() noexcept {
+  const double spring = normal_force(options_.paper_stiffness, tick_.penetration, options_.force_sign);
+  if (!(tick_.penetration > 0.0)) return spring;
+  const double share = std::min(1.0, tick_.penetration / damped_depth);
+  const double damping = -share * options_.paper_damping * velocity_.velocity().z();
+  tick_.viscous.z() = spring >= 0.0 ? std::max(damping, -spring) : damping;
+  return spring + tick_.viscous.z();
+}
+
 Point HapticRenderer::guidance_force() noexcept {
   const Point tip = tick_.pen_tip.head<2>();
-  const double stiffness = options_.guidance_stiffness * tick_.assistance;
   const bool saturating = options_.guidance == GuidanceLaw::saturating;
   const bool writing = tick_.state == InteractionState::writing;
+  double share = 1.0;  // of guidance, in the stiffness and the damping
   if (writing) {
     const StrokeContact& contact = tick_.contact;
-    const double share = saturating ? contact.attraction : contact.attraction * contact.weight;
+    const double stiffness = std::min(options_.guidance_stiffness * contact.attraction, max_guidance_);
+    share = saturating ? tick_.assistance : tick_.assistance * contact.weight;
     tick_.attraction = attraction_force(stiffness * share, tip, contact.closest.point, options_.force_sign);
     tick_.wrong_way =
         contact.weight * wrong_way_force(options_.wrong_way_stiffness, options_.wrong_way_limit,
                                          options_.wrong_way_slack, contact.backwards, contact.closest.tangent);
+    if (contact.attraction < 1.0) share *= contact.attraction;
     if (options_.assist.enabled) measure_error();
   } else if (options_.guide_to_start && tick_.state == InteractionState::calibration && may_start()) {
-    tick_.attraction = attraction_force(stiffness, tip, active_.start(), options_.force_sign);
-  } else {
+    share = tick_.assistance;
+    tick_.attraction =
+        attraction_force(options_.guidance_stiffness * share, tip, active_.start(), options_.force_sign);
+  } else if (tick_.state == InteractionState::separation) {
     return Point::Zero();
+  } else {
+    share = 0.0;
   }
-  if (saturating) tick_.attraction = saturated_force(tick_.attraction, options_.guidance_limit);
-  return fade(tick_.attraction + tick_.wrong_way);
+  if (saturating) {
+    const double linear = tick_.attraction.norm();
+    tick_.attraction = saturated_force(tick_.attraction, options_.guidance_limit);
+    if (linear > 0.0) share *= tick_.attraction.norm() / linear;
+  }
+  const Point velocity = velocity_.velocity().head<2>();
+  const Point across = share * damped(velocity);
+  tick_.viscous.head<2>() =
+      -options_.guidance_damping * (across + free_share * (velocity - across));
+  return fade(tick_.attraction + tick_.wrong_way + tick_.viscous.head<2>());
+}
+
+/// The part of a velocity that guidance damps: across the stroke. Along it the pen is free, except where a spring acts
+/// in that direction too: beyond an end, back along the stroke, and before its start.
+Point HapticRenderer::damped(const Point& velocity) const noexcept {
+  if (tick_.state != InteractionState::writing) return velocity;
+  const StrokeContact& contact = tick_.contact;
+  if (contact.backwards > options_.wrong_way_slack) return velocity;
+  const Point& tangent = contact.closest.tangent;
+  const double along = std::abs((contact.closest.point - tick_.pen_tip.head<2>()).dot(tangent));
+  const double oblique = std::min(1.0, along / (oblique_share * contact.closest.distance + oblique_slack));
+  return velocity - (1.0 - oblique) * velocity.dot(tangent) * tangent;
 }
 
 Point HapticRenderer::friction_force() noexcept {
-  if (tick_.normal > 0.0) {
-    const double normal = std::max(0.0, tick_.page_force.z());  // the actual contact force of the hand
-    tick_.friction =
-        friction_.update(options_.friction, tick_.device_point.head<2>(), normal, 1.0 / options_.servo_rate);
-  } else {
-    tick_.friction = Point::Zero();
+  if (!(tick_.normal > 0.0)) {
+    tick_.friction = friction_spring_ = friction_rate_ = Point::Zero();
     friction_.release();
+    return tick_.friction;
   }
+  const FrictionOptions& friction = options_.friction;
+  const double normal = std::max(0.0, tick_.page_force.z());  // the actual contact force of the hand
+  const Point spring = friction_.update(friction, tick_.device_point.head<2>(), normal, period_);
+  // Damps the spring, not the pen: while the anchor slides along, the spring does not change.
+  friction_rate_ += rate_filter_ * ((spring - friction_spring_) / period_ - friction_rate_);
+  friction_spring_ = spring;
+  const Point damping = friction.damping / friction.stiffness * friction_rate_;
+  tick_.viscous.head<2>() += damping;
+  tick_.friction = spring + damping;
   return tick_.friction;
 }
 
@@ -336,26 +477,49 @@ Point HapticRenderer::fade(const Point& force) noexcept {
   return fade_from_ + share * (force - fade_from_);
 }
 
-/// The last stages, in this order: passivity, direction-preserving saturation, rate and jerk, energy and heat of the
-/// force sent.
+/// The last stages, in this order: passivity, direction-preserving saturation, rate, energy and heat of the force sent.
 void HapticRenderer::send(const Eigen::Vector3d& wanted) noexcept {
   const Eigen::Vector3d force = observes_energy_ ? control_passivity(wanted) : wanted;
   double longest = observes_energy_ ? passivity_.max_force() : ForceLimiter::no_limit;
   if (thermal_.peak > 0.0) longest = std::min(longest, thermal_.max_force());
-  const bool trusted = tick_.status == TickStatus::ok;
-  tick_.page_force = trusted ? limiter_.next(tick_.page_force, force, longest) : limiter_.release(tick_.page_force);
+  const bool trusted = tick_.status == TickStatus::ok || (tick_.status == TickStatus::stale && norm(wanted) > 0.0);
+  tick_.page_force = trusted ? limiter_.next(tick_.page_force, force, allowance(), longest) : limiter_.release(tick_.page_force);
   if (observes_energy_) passivity_.sent(tick_.page_force);
   if (thermal_.peak > 0.0) {
-    thermal_.held(norm(tick_.page_force), 1.0 / options_.servo_rate);
+    thermal_.held(norm(tick_.page_force), period_);
     tick_.heat = thermal_.heat;
   }
   tick_.force = mapping_.force_to_device(tick_.page_force);
 }
 
+/// What springs and dampers change because the pen has moved by `motion` and its velocity changed by `kick`; the damper
+/// of the paper sets in with depth.
+ForceAllowance HapticRenderer::allowance_for(const Point& motion, const Point& kick, double speed) const noexcept {
+  const double guidance = std::min(options_.guidance_stiffness * max_attraction_, max_guidance_);
+  const FrictionOptions& friction = options_.friction;
+  const bool rubs = friction.coefficient > 0.0;
+  const double stiffness = guidance + options_.wrong_way_stiffness + (rubs ? friction.stiffness : 0.0);
+  const double damping = options_.guidance_damping + (rubs ? friction.damping : 0.0);
+  const double entered = std::min(1.0, motion.y() / damped_depth);
+  return {stiffness * motion.x() + damping * kick.x(),
+          options_.paper_stiffness * motion.y() + options_.paper_damping * (kick.y() + entered * speed)};
+}
+
+ForceAllowance HapticRenderer::allowance() const noexcept {
+  const double fastest = fastest_followed * mapping_.scale, furthest = fastest * period_;
+  const double hardest = largest_kick * mapping_.scale;
+  const Eigen::Vector3d kick = velocity_.velocity() - last_velocity_;
+  return allowance_for(
+      {std::min(motion_.head<2>().norm(), furthest), std::min(std::abs(motion_.z()), furthest)},
+      {std::min(kick.head<2>().norm(), hardest), std::min(std::abs(kick.z()), hardest)},
+      std::min(std::abs(velocity_.velocity().z()), fastest));
+}
+
 Eigen::Vector3d HapticRenderer::control_passivity(const Eigen::Vector3d& wanted) noexcept {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   const bool known = tick_.status == TickStatus::ok;
-  Eigen::Vector3d force = passivity_.next(known ? last_position_ : Eigen::Vector3d(unknown, unknown, unknown), wanted);
+  Eigen::Vector3d force = 
+      passivity_.next(known ? last_position_ : Eigen::Vector3d(unknown, unknown, unknown), wanted, tick_.viscous);
   // Paper does not pull, however fast the pen is lifted.
   if (wanted.z() >= 0.0) force.z() = std::max(0.0, force.z());
   tick_.damping = passivity_.damping();

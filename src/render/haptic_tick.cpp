@@ -6,6 +6,8 @@ const char* to_string(TickStatus status) noexcept {
   switch (status) {
     case TickStatus::ok:
       return "ok";
+    case TickStatus::stale:
+      return "stale";
     case TickStatus::bad_sample:
       return "bad_sample";
     case TickStatus::device_fault:

@@ -10,15 +10,14 @@
 namespace calligraphy {
 namespace {
 
-/// How much a pen may speed up while a force is being removed [m/s].
-constexpr double sudden_speed = 0.25;
-
 /// A sample that implies a faster pen is not a motion: the pen is elsewhere [m/s].
 constexpr double fastest_pen = 10.0;
 
-constexpr double empty_share = 1e-3;     ///< of the budget
 constexpr double strongest_brake = 0.1;  ///< with an exhausted budget [N]
+constexpr double faintest_brake = 0.01;  ///< with an overdrawn one [N]
 constexpr double slow_pen = 0.01;        ///< speed at which half of the brake acts [m/s]
+
+constexpr double viscous_share = 0.15;   ///< of a force that the budget limits, for damping
 
 /// Damping [N s/m] that dissipates `surplus` [J] within one period; `square` is the squared step of that period [m^2].
 double damping_for(double surplus, double square, double period, double most) noexcept {
@@ -35,12 +34,16 @@ double PassivityController::usable_damping(double mass, double period, int delay
 PassivityController::PassivityController(const PassivityOptions& options, double period)
     : max_damping_(options.max_damping),
       budget_(options.energy_budget),
-      force_rate_(options.force_rate),
+      mass_(options.mass),
+      hand_speed_(options.hand_speed),
+      max_gap_(options.max_gap),
       period_(period),
       delay_(static_cast<std::size_t>(std::max(0, options.delay))) {
   require_not_negative("passivity: max_damping", max_damping_, "N s/m");
   require(budget_ >= 0.0, "passivity: energy_budget", budget_, "J", "at least 0");
-  require(force_rate_ > 0.0, "passivity: force_rate", force_rate_, "N/s", "above 0");
+  require(mass_ > 0.0, "passivity: mass", mass_, "kg", "above 0");
+  require_above_zero("passivity: hand_speed", hand_speed_, "m/s");
+  require_not_negative("passivity: max_gap", max_gap_, "s");
   require_above_zero("passivity: period", period, "s");
   require_within("passivity: delay", options.delay, "ticks", 0, max_delay);
   restart();
@@ -49,84 +52,96 @@ PassivityController::PassivityController(const PassivityOptions& options, double
 void PassivityController::restart() noexcept {
   sent_.fill(Eigen::Vector3d::Zero());
   has_position_ = false;
-  wanted_ = damping_ = velocity_ = Eigen::Vector3d::Zero();
-  lost_ = 0;
-  speed_ = presumed_way_ = force_while_lost_ = surplus_in_plane_ = surplus_normal_ = given_ = 0.0;
+  wanted_ = damping_ = held_ = Eigen::Vector3d::Zero();
+  unseen_ = 0;
+  speed_ = unseen_force_ = unseen_change_ = surplus_in_plane_ = surplus_normal_ = given_ = 0.0;
   max_force_ = std::numeric_limits<double>::infinity();
   left_ = budget_;
 }
 
-Eigen::Vector3d PassivityController::next(const Eigen::Vector3d& position, const Eigen::Vector3d& wanted) noexcept {
+void PassivityController::acted(const Eigen::Vector3d& force, int ticks) noexcept {
+  const Eigen::Vector3d before = sent_[newest_];
+  // In a longer gap the rest is of no interest: the budget is exhausted anyway, or the pen has not moved.
+  constexpr int longest = 100'000;
+  for (int missed = std::min(ticks, longest); missed > 1; --missed) {
+    // What acted meanwhile is unknown if it is not what acts now: at most the force of before.
+    pass_unseen(force != before);
+    sent(before);
+  }
+  sent_[newest_] = force;
+}
+
+Eigen::Vector3d PassivityController::next(const Eigen::Vector3d& position, const Eigen::Vector3d& wanted,
+                                          const Eigen::Vector3d& viscous) noexcept {
   damping_.setZero();
-  if (!position.allFinite()) {
-    presume();
-  } else if (lost_ > 0) {
-    find_again(position);
+  if (position.allFinite()) {
+    move(position, wanted);
   } else {
-    Eigen::Vector3d step = has_position_ ? Eigen::Vector3d(position - position_) : Eigen::Vector3d(0.0, 0.0, 0.0);
-    if (norm(step) > fastest_pen * period_) {
-      pay(norm(force_at_work()) * (speed_ + sudden_speed) * period_);  // it is elsewhere, but did not move there
-      step.setZero();
-    } else if (has_position_) {
-      observe(step, wanted);
-    }
-    has_position_ = true;
-    position_ = position;
-    velocity_ = step / period_;
-    speed_ = norm(velocity_);
-    const double in_plane = damping_for(surplus_in_plane_, step.head<2>().squaredNorm(), period_, max_damping_);
-    const double normal = damping_for(surplus_normal_, step.z() * step.z(), period_, max_damping_);
-    damping_.head<2>() = -in_plane / period_ * step.head<2>();
-    damping_.z() = -normal / period_ * step.z();
+    pass_unseen(false);
   }
   wanted_ = wanted;
   const Eigen::Vector3d force = wanted + damping_;
-  return std::isfinite(budget_) ? within_budget(force) : force;
+  return std::isfinite(budget_) ? within_budget(force, viscous + damping_) : force;
 }
 
-/// When the budget is nearly exhausted, or overdrawn because lost samples were charged, a moving pen is braked lightly,
-/// so that it returns energy. Otherwise an exhausted budget would stay exhausted forever, because zero force does no
-/// work.
-Eigen::Vector3d PassivityController::within_budget(const Eigen::Vector3d& force) noexcept {
-  max_force_ = max_payable_force(speed_ + sudden_speed);
-  if (left_ < empty_share * budget_) {
-    max_force_ = left_ > 0.0 ? std::min(max_force_, strongest_brake) : strongest_brake;
-    return -max_force_ / (speed_ + slow_pen) * velocity_;
+/// The pen is where this sample says: observes and damps the step to it.
+void PassivityController::move(const Eigen::Vector3d& position, const Eigen::Vector3d& wanted) noexcept {
+  const Eigen::Vector3d step = has_position_ ? Eigen::Vector3d(position - position_) : Eigen::Vector3d(0.0, 0.0, 0.0);
+  const double way = norm(step), seconds = (unseen_ + 1) * period_;
+  const Eigen::Vector3d at_work = force_at_work();
+  const bool jumped = way > fastest_pen * seconds;
+  if (!has_position_) {
+    // Without a first position nothing is known of the work: the force was zero then, or is charged from now on.
+  } else if (jumped) {
+    pay((unseen_force_ + norm(at_work)) * std::max(hand_speed_, speed_) * period_);  // did not move there
+  } else if (unseen_ == 0) {
+    pay(dot(at_work, step));
+    const Eigen::Vector3d beyond = at_work - 0.5 * (wanted_ + wanted);
+    surplus_in_plane_ = std::max(0.0, surplus_in_plane_ + beyond.head<2>().dot(step.head<2>()));
+    surplus_normal_ = std::max(0.0, surplus_normal_ + beyond.z() * step.z());
+  } else {
+    // Exact if the force was held; otherwise it is unknown how far the pen moved under which.
+    const double speed = std::max({hand_speed_, speed_, way / seconds});
+    const double change = unseen_change_ + norm(Eigen::Vector3d(at_work - held_));
+    pay(std::min(dot(held_, step) + change * speed * period_, (unseen_force_ + norm(at_work)) * speed * period_));
   }
-  const double size = norm(force);
-  return size > max_force_ ? Eigen::Vector3d(force * (max_force_ / size)) : force;
-}
-
-/// The motion of the pen is unknown: charge for one that keeps its speed, and some more, along the force.
-void PassivityController::presume() noexcept {
-  velocity_.setZero();
-  const double way = (speed_ + sudden_speed) * period_;
-  const double force = norm(force_at_work());
-  pay(force * way);
-  presumed_way_ += way;
-  force_while_lost_ = std::max(force_while_lost_, force);
-  ++lost_;
-}
-
-/// The period that ends with this sample is unknown too. A pen that moved farther than presumed is charged for up to
-/// twice the presumed path: beyond that it was moved elsewhere, or the sample is wrong.
-void PassivityController::find_again(const Eigen::Vector3d& position) noexcept {
-  presume();
-  const double way = has_position_ ? norm(position - position_) : 0.0;
-  pay(force_while_lost_ * std::clamp(way - presumed_way_, 0.0, presumed_way_));
-  speed_ = std::min(way / (static_cast<double>(lost_) * period_), fastest_pen);
+  const bool seen = has_position_ && !jumped && unseen_ == 0;
+  speed_ = has_position_ && !jumped ? way / seconds : 0.0;
   has_position_ = true;
   position_ = position;
-  lost_ = 0;
-  presumed_way_ = force_while_lost_ = 0.0;
+  unseen_ = 0;
+  unseen_force_ = unseen_change_ = 0.0;
+  if (!seen) return;
+  const double in_plane = damping_for(surplus_in_plane_, step.head<2>().squaredNorm(), period_, max_damping_);
+  const double normal = damping_for(surplus_normal_, step.z() * step.z(), period_, max_damping_);
+  damping_.head<2>() = -in_plane / period_ * step.head<2>();
+  damping_.z() = -normal / period_ * step.z();
+  velocity_ = step / period_;
 }
 
-void PassivityController::observe(const Eigen::Vector3d& step, const Eigen::Vector3d& wanted) noexcept {
-  const Eigen::Vector3d& at_work = force_at_work();
-  pay(dot(at_work, step));
-  const Eigen::Vector3d beyond = at_work - 0.5 * (wanted_ + wanted);
-  surplus_in_plane_ = std::max(0.0, surplus_in_plane_ + beyond.head<2>().dot(step.head<2>()));
-  surplus_normal_ = std::max(0.0, surplus_normal_ + beyond.z() * step.z());
+/// A period passes at whose end the position is not known. `changed`: the force was at most this one, not all the time.
+void PassivityController::pass_unseen(bool changed) noexcept {
+  velocity_.setZero();
+  if (!has_position_) return;
+  const Eigen::Vector3d& force = force_at_work();
+  if (unseen_ == 0) held_ = force;
+  ++unseen_;
+  unseen_force_ += norm(force);
+  unseen_change_ += changed ? norm(force) : norm(Eigen::Vector3d(force - held_));
+}
+
+/// When the budget is nearly exhausted, a moving pen is braked lightly, so that it returns energy. Otherwise an
+/// exhausted budget would stay exhausted forever, because zero force does no work.
+Eigen::Vector3d PassivityController::within_budget(const Eigen::Vector3d& force,
+                                                   const Eigen::Vector3d& viscous) noexcept {
+  max_force_ = max_payable_force();
+  if (max_force_ < strongest_brake) {
+    max_force_ = std::max(max_force_, faintest_brake);
+    return -max_force_ / (norm(velocity_) + slow_pen) * velocity_;
+  }
+  if (!(norm(force) > max_force_)) return force;
+  const Eigen::Vector3d kept = shortened(viscous, viscous_share * max_force_);
+  return shortened(force - viscous, max_force_ - norm(kept)) + kept;
 }
 
 void PassivityController::pay(double energy) noexcept {
@@ -134,17 +149,18 @@ void PassivityController::pay(double energy) noexcept {
   left_ = std::min(budget_, left_ - energy);
 }
 
-/// Maximum F with F^2 v / (2 rate) + F v T <= E, where E is what remains after the forces sent whose work no sample has
-/// shown yet.
-double PassivityController::max_payable_force(double speed) const noexcept {
-  const double way = speed * period_;
-  double remaining = left_;
+/// Maximum F with F v t + (F t)^2 / (2 m) <= E, where E is what remains after the forces whose work no sample has shown
+/// yet. While samples are missing, the gap foreseen for this force shrinks by what has passed of it.
+double PassivityController::max_payable_force() const noexcept {
+  const double speed = std::max(hand_speed_, speed_);
+  double remaining = left_ - unseen_force_ * speed * period_;
   for (std::size_t age = 0; age < delay_; ++age) {
-    remaining -= norm(sent_[(newest_ + sent_.size() - age) % sent_.size()]) * way;
+    remaining -= norm(sent_[(newest_ + sent_.size() - age) % sent_.size()]) * speed * period_;
   }
   if (!(remaining > 0.0)) return 0.0;
-  const double braking = 0.5 * speed / force_rate_;
-  return 2.0 * remaining / (way + std::sqrt(way * way + 4.0 * braking * remaining));
+  const double time = std::max(max_gap_ - unseen_ * period_, period_) + period_;
+  const double way = speed * time, accelerated = 0.5 * time * time / mass_;
+  return 2.0 * remaining / (way + std::sqrt(way * way + 4.0 * accelerated * remaining));
 }
 
 void PassivityController::sent(const Eigen::Vector3d& force) noexcept {

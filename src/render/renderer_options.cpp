@@ -18,11 +18,17 @@ namespace {
 /// For a device that states no limit; keeps every force finite [N/m].
 constexpr double stiffest = 1e6;
 
+/// Of a damping [N s/m].
+constexpr double strongest = 1e6;
+
 /// Keeps every force step finite [N/s].
 constexpr double fastest_force = 1e12;
 
-/// Fraction of the critical stiffness, a margin for what a rigid mass does not model.
-constexpr double stable_share = 0.9;
+/// Of a device that states none, with a margin: the lightest of the shipped profiles weighs 45 g [kg].
+constexpr double presumed_mass = 0.02;
+
+/// Of what guidance and friction may be together, friction has at least this share if it asks for it.
+constexpr double friction_share = 0.35;
 
 struct StiffnessLimit {
   double value;  ///< [N/m]
@@ -41,35 +47,66 @@ StiffnessLimit usable_stiffness(const Capabilities& capabilities) {
 /// Rounded to single precision: the last bits, which differ between implementations of libm, reach no force.
 double without_last_bits(double stiffness) { return static_cast<float>(stiffness); }
 
-/// A pen that hits the paper requires the force to change at K times its speed v. A limiter that is slower, or reaches
-/// this rate too slowly for the oscillation of mass and spring, lags behind and throws the pen back, again and again.
-/// An empirical result of simulation (docs/stability.md): this does not happen where K v <= rate and where K v / jerk,
-/// the time to reach that rate, is at most two fifths of sqrt(m / K).
-StiffnessLimit followed_stiffness(const RendererOptions& options, const Capabilities& capabilities) {
-  constexpr double meeting_speed = 0.2;  // [m/s]
-  if (!options.limit_force_rate || !(capabilities.apparent_mass > 0.0)) {
-    return {std::numeric_limits<double>::infinity(), ""};
+/// What the springs of a page may be, given the loop that renders them.
+class Limits {
+ public:
+  Limits(const RendererOptions& options, const Capabilities& capabilities, double scale)
+      : square_(scale * scale), is_off_(options.stiffness_check == StiffnessCheck::off),
+        cutoff_(options.velocity_cutoff), usable_(usable_stiffness(is_off_ ? Capabilities() : capabilities)) {
+    loop_.device = capabilities;
+    loop_.device.apparent_mass = capabilities.apparent_mass > 0.0 ? capabilities.apparent_mass : presumed_mass;
+    loop_.rate = options.servo_rate;
+    if (scale != 1.0) {
+      std::ostringstream enlarged;
+      enlarged << " times the square of the motion scale " << scale;
+      enlarged_ = enlarged.str();
+    }
   }
-  const double mass = capabilities.apparent_mass + options.softest_grip.mass;
-  const double by_rate = options.normal_force_rate / meeting_speed;
-  const double by_jerk = std::pow(0.4 * options.force_jerk * std::sqrt(mass) / meeting_speed, 2.0 / 3.0);
-  const double followed = without_last_bits(std::min(by_rate, by_jerk));
-  std::ostringstream reason;
-  reason << ": with normal_force_rate = " << options.normal_force_rate << " N/s and force_jerk = " << options.force_jerk
-         << " N/s^2 the force can follow a pen at " << meeting_speed << " m/s up to " << followed << " N/m";
-  return {followed, reason.str()};
-}
 
-StiffnessLimit stable_stiffness(const RendererOptions& options, const Capabilities& capabilities) {
-  if (!(capabilities.apparent_mass > 0.0)) return {std::numeric_limits<double>::infinity(), ""};
-  const double critical =
-      without_last_bits(critical_stiffness({capabilities, options.servo_rate, options.softest_grip}));
-  std::ostringstream reason;
-  reason << "in the softest grip at " << options.servo_rate << " Hz the device " << capabilities.model
-         << " is stable below " << critical << " N/m (critical_stiffness); the limit is nine tenths of that, "
-         << stable_share * critical << " N/m";
-  return {stable_share * critical, reason.str()};
-}
+  /// Of a stiffness on the page beside `damping` on the page [N/m].
+  StiffnessLimit usable() const { return {usable_.value / square_, enlarged_ + ": " + usable_.reason}; }
+  StiffnessLimit stable(double damping) const {
+    if (is_off_) return {std::numeric_limits<double>::infinity(), ""};
+    const double value = stable_on_device(damping * square_);
+    std::ostringstream reason;
+    reason << enlarged_ << ": with a damping of " << damping * square_ << " N s/m at " << loop_.rate << " Hz";
+    if (loop_.device.sample_delay > 0) reason << " and a delay of " << loop_.device.sample_delay << " ticks";
+    reason << " the device " << device_label(loop_.device) << " is stable in any hand up to " << value
+           << " N/m (stiffness_for_any_hand)";
+    return {value / square_, reason.str()};
+  }
+  StiffnessLimit both(double damping) const {
+    const StiffnessLimit one = usable(), other = stable(damping);
+    return one.value < other.value ? one : other;
+  }
+  /// The damping, at most that wanted, that permits the highest stiffness in addition to a damping `beside`, if the one
+  /// wanted does not permit `stiffness` [N s/m, page].
+  double best_damping(double wanted, double stiffness, double beside) const {
+    if (is_off_ || stable(wanted + beside).value >= std::min(stiffness, usable().value)) return wanted;
+    double best = wanted, most = stable(wanted + beside).value;
+    for (const double share : {0.75, 0.5, 0.35, 0.25, 0.15}) {
+      const double value = stable(share * wanted + beside).value;
+      if (value <= most) continue;
+      most = value;
+      best = share * wanted;
+    }
+    return best;
+  }
+
+ private:
+  double stable_on_device(double damping) const {
+    SampledLoop loop = loop_;
+    loop.wall_damping = damping;
+    return without_last_bits(stiffness_for_any_hand(loop, cutoff_, stiffest));
+  }
+
+  double square_;  ///< of the motion scale
+  bool is_off_;
+  double cutoff_;
+  StiffnessLimit usable_;
+  SampledLoop loop_;
+  std::string enlarged_;
+};
 
 }  // namespace
 
@@ -88,12 +125,16 @@ RendererOptions RendererOptions::wang2006() {
   options.guidance_fade_in = 0.0;
   options.pen_tip = PenTipRule::wang2006;
   options.motion = MotionMappingRule::wang2006;
+  options.lift_time = 0.0;
+  options.paper_damping = options.guidance_damping = options.friction.damping = 0.0;
+  options.stiffness_check = StiffnessCheck::off;
   return options;
 }
 
 RendererOptions RendererOptions::for_device(const Capabilities& capabilities) {
   RendererOptions options;
   options.servo_rate = capabilities.update_rate;
+  options.stiffness_check = StiffnessCheck::clip;
   clip_stiffness(options, capabilities);
   return options;
 }
@@ -107,7 +148,6 @@ RendererOptions RendererOptions::everything(const Capabilities& capabilities) {
   options.assist.enabled = true;
   options.friction.coefficient = 0.15;
   clip_stiffness(options, capabilities);
-  options.force_jerk = 1e5;
   const bool is_modelled =
       capabilities.apparent_mass > 0.0 && capabilities.sample_delay <= PassivityController::max_delay;
   options.passivity_control = is_modelled;
@@ -117,57 +157,68 @@ RendererOptions RendererOptions::everything(const Capabilities& capabilities) {
   return options;
 }
 
-std::vector<std::string> clip_stiffness(RendererOptions& options, const Capabilities& capabilities,
-                                        double max_attraction, double scale) {
+std::vector<std::string> clip_stiffness(RendererOptions& options, const Capabilities& capabilities, double scale) {
   require_above_zero("servo_rate", options.servo_rate, "Hz", 1e6);
-  require_not_negative("max_attraction", max_attraction, "");
+  require_above_zero("velocity_cutoff", options.velocity_cutoff, "Hz", 1e6);
   require_above_zero("scale", scale, "");
-  const Capabilities unknown;  // states no limit
-  const Capabilities& known = options.stiffness_check == StiffnessCheck::off ? unknown : capabilities;
-  StiffnessLimit usable = usable_stiffness(known), stable = stable_stiffness(options, known);
-  if (scale != 1.0) {
-    // Motion is enlarged on the page, and so is force: the device renders K K_S^2.
-    std::ostringstream enlarged;
-    enlarged << " times the square of the motion scale " << scale << ": ";
-    for (StiffnessLimit* limit : {&usable, &stable})
-      *limit = {limit->value / (scale * scale), enlarged.str() + limit->reason};
-  } else {
-    for (StiffnessLimit* limit : {&usable, &stable}) limit->reason = ": " + limit->reason;
-  }
+  const Limits limits(options, capabilities, scale);
   std::vector<std::string> clipped;
-  const auto clip = [&](const char* name, double& stiffness, double most, const std::string& reason) {
+  const auto clip = [&](const char* name, double& stiffness, const StiffnessLimit& limit) {
     require_not_negative(name, stiffness, "N/m");
-    if (stiffness <= most) return;
+    if (stiffness <= limit.value) return;
     std::ostringstream message;
-    message << name << " = " << stiffness << " N/m" << reason;
+    message << name << " = " << stiffness << " N/m" << limit.reason;
     clipped.push_back(message.str());
-    stiffness = most;
+    stiffness = limit.value;
   };
-  const StiffnessLimit& limit = usable.value < stable.value ? usable : stable;
-  std::ostringstream attraction;
-  if (max_attraction != 1.0) attraction << " times the maximum attraction factor " << max_attraction;
-  clip("paper_stiffness", options.paper_stiffness, limit.value, limit.reason);
-  const StiffnessLimit followed = followed_stiffness(options, known);
-  clip("paper_stiffness", options.paper_stiffness, followed.value / (scale * scale), followed.reason);
-  clip("guidance_stiffness", options.guidance_stiffness, limit.value / max_attraction, attraction.str() + limit.reason);
-  clip("wrong_way_stiffness", options.wrong_way_stiffness, limit.value, limit.reason);
+  const auto clip_damping = [&](const char* name, double& damping, double stiffness, double beside = 0.0) {
+    require_within(name, damping, "N s/m", 0.0, strongest);
+    const double best = limits.best_damping(damping, stiffness, beside);
+    if (best == damping) return;
+    std::ostringstream message;
+    message << name << " = " << damping << " N s/m: at the lag of this loop " << best << " N s/m permit a higher stiffness";
+    clipped.push_back(message.str());
+    damping = best;
+  };
+  clip_damping("paper_damping", options.paper_damping, options.paper_stiffness);
+  clip("paper_stiffness", options.paper_stiffness, limits.both(options.paper_damping));
+  clip_damping("guidance_damping", options.guidance_damping, options.guidance_stiffness);
+  const StiffnessLimit guidance = limits.both(options.guidance_damping);
+  clip("guidance_stiffness", options.guidance_stiffness, guidance);
+  clip("wrong_way_stiffness", options.wrong_way_stiffness, guidance);
   if (options.friction.coefficient > 0.0) {
+    FrictionOptions& friction = options.friction;
     // `usable_stiffness` applies to each of the two springs, one along the stroke and one across; stability requires
     // counting both.
-    clip("friction.stiffness", options.friction.stiffness, limit.value, limit.reason);
-    const double guidance = options.guidance_stiffness * max_attraction;
-    std::ostringstream beside;
-    beside << " in addition to " << guidance << " N/m of guidance";
-    clip("friction.stiffness", options.friction.stiffness, std::max(0.1 * stable.value, stable.value - guidance),
-         beside.str() + stable.reason);
+    const double both = options.guidance_stiffness + friction.stiffness;
+    clip_damping("friction.damping", friction.damping, both, options.guidance_damping);
+    clip("friction.stiffness", friction.stiffness, limits.both(friction.damping));
+    const StiffnessLimit sum = limits.stable(options.guidance_damping + friction.damping);
+    std::ostringstream reason;
+    reason << " in addition to " << options.guidance_stiffness << " N/m of guidance" << sum.reason;
+    clip("friction.stiffness", friction.stiffness,
+         {std::max(sum.value - options.guidance_stiffness, friction_share * sum.value), reason.str()});
+    reason.str("");
+    reason << " in addition to " << friction.stiffness << " N/m of friction" << sum.reason;
+    clip("guidance_stiffness", options.guidance_stiffness, {sum.value - friction.stiffness, reason.str()});
   }
   return clipped;
 }
 
-void validate(const RendererOptions& options, const Capabilities& capabilities, double max_attraction, double scale) {
+double max_guidance_stiffness(const RendererOptions& options, const Capabilities& capabilities, double scale) {
+  const Limits limits(options, capabilities, scale);
+  double most = limits.both(options.guidance_damping).value;
+  if (options.friction.coefficient > 0.0) {
+    const double sum = limits.stable(options.guidance_damping + options.friction.damping).value;
+    most = std::min(most, sum - options.friction.stiffness);
+  }
+  return most;
+}
+
+void validate(const RendererOptions& options, const Capabilities& capabilities, double scale) {
   require_above_zero("servo_rate", options.servo_rate, "Hz", 1e6);
   RendererOptions stable = options;
-  const std::vector<std::string> too_stiff = clip_stiffness(stable, capabilities, max_attraction, scale);
+  const std::vector<std::string> too_stiff = clip_stiffness(stable, capabilities, scale);
   if (!too_stiff.empty()) throw ValueError(too_stiff.front());
   require_not_negative("guidance_fade_in", options.guidance_fade_in, "s");
   require_not_negative("wrong_way_limit", options.wrong_way_limit, "N");
@@ -192,15 +243,16 @@ void validate(const RendererOptions& options, const Capabilities& capabilities, 
   require_above_zero("start_radius", options.start_radius, "m");
   require_not_negative("box_margin", options.box_margin, "m");
   require_not_negative("lift_height", options.lift_height, "m");
+  require_not_negative("lift_time", options.lift_time, "s");
+  require_not_negative("lift_clearance", options.lift_clearance, "m");
   require_not_negative("box_hysteresis", options.box_hysteresis, "m");
   require_above_zero("in_plane_force_rate", options.in_plane_force_rate, "N/s", fastest_force);
   require_above_zero("normal_force_rate", options.normal_force_rate, "N/s", fastest_force);
-  if (!(options.force_jerk == std::numeric_limits<double>::infinity())) {
-    require_above_zero("force_jerk", options.force_jerk, "N/s^2", 1e3 * fastest_force);
-  }
   if (!(options.energy_budget == std::numeric_limits<double>::infinity())) {
     require_not_negative("energy_budget", options.energy_budget, "J");
+    require_above_zero("apparent_mass of the device, for energy_budget", capabilities.apparent_mass, "kg");
   }
+  require_not_negative("max_gap", options.max_gap, "s");
   require_not_negative("thermal_time_constant", options.thermal_time_constant, "s");
   if (options.thermal_time_constant > 0.0) {
     require_above_zero("continuous_force of the device, for thermal_time_constant", capabilities.continuous_force, "N");

@@ -141,6 +141,52 @@ double first_crossing(int delay, Gain gain) {
   return smallest;
 }
 
+constexpr double heaviest_hand = 0.3;  // [kg]
+constexpr double least_phase = 0.15;   // [rad]
+constexpr double least_decay = 3.0;    // of the lightest pen [1/s]
+
+/// A unit spring and a unit damper at one frequency, as the pen feels them.
+struct Felt {
+  double frequency;  ///< w [rad/s]
+  Complex spring;    ///< per N/m of stiffness
+  Complex damper;    ///< per N s/m
+};
+
+std::vector<Felt> felt_spring(const SampledLoop& loop, double velocity_cutoff) {
+  constexpr double slowest = 0.5;  // [rad/s]: softer springs than 0.1 N/m are not looked at
+  constexpr double ratio = 1.06;
+  const double period = 1.0 / loop.rate;
+  const double passed = -std::expm1(-2.0 * std::numbers::pi * velocity_cutoff * period);
+  std::vector<Felt> all;
+  for (double w = slowest; w * period < std::numbers::pi; w *= ratio) {
+    const double angle = w * period;
+    const Complex before = std::polar(1.0, -angle);  // one sample earlier
+    const Complex held = std::polar(std::sin(0.5 * angle) / (0.5 * angle), -angle * (0.5 + loop.device.sample_delay));
+    const Complex velocity = (1.0 - before) / period * passed / (1.0 - (1.0 - passed) * before);
+    all.push_back({w, held, held * velocity});
+  }
+  return all;
+}
+
+/// Whether the spring has the phase required at every frequency at which a hand can make the pen resonate with it, that
+/// is, from where (m + heaviest_hand) w^2 = Re H to where m w^2 = Re H; and at the frequency above, so that no such
+/// range is missed between two.
+bool is_damped(const SampledLoop& loop, const std::vector<Felt>& felt, double stiffness) {
+  const double mass = loop.device.apparent_mass;
+  bool was_stiff = true;
+  for (const Felt& at : felt) {
+    const Complex force = stiffness * at.spring + loop.wall_damping * at.damper;
+    const double inertia = at.frequency * at.frequency;
+    const bool is_stiff = mass * inertia <= force.real();
+    const bool can_resonate = (is_stiff || was_stiff) && (mass + heaviest_hand) * inertia >= force.real();
+    was_stiff = is_stiff;
+    const double damping = force.imag() + loop.device.viscous_friction * at.frequency;
+    const double needed = std::max(least_phase * force.real(), 2.0 * least_decay * mass * at.frequency);
+    if (can_resonate && damping < needed) return false;
+  }
+  return true;
+}
+
 StiffnessBound passive_bound(const SampledLoop& loop) {
   const double spare = std::max(0.0, loop.device.viscous_friction - loop.wall_damping);
   const char* of_delay = loop.device.sample_delay == 0 ? "exact (Colgate & Brown 1994)"
@@ -202,6 +248,19 @@ double critical_stiffness(const SampledLoop& sampled) {
       first_crossing(sampled.device.sample_delay, [&](double angle) { return loop.stiffness_at(angle); });
   // An infinitely stiff wall is never stable, so finding no crossing means that the damping is lost in rounding errors.
   return std::isfinite(first) ? first * loop.unit() : 0.0;
+}
+
+double stiffness_for_any_hand(const SampledLoop& loop, double velocity_cutoff, double most) {
+  validate(loop);
+  require_above_zero("velocity_cutoff", velocity_cutoff, "Hz");
+  const std::vector<Felt> felt = felt_spring(loop, velocity_cutoff);
+  if (is_damped(loop, felt, most)) return most;
+  double low = 0.0, high = most;
+  for (int halving = 0; halving < 30; ++halving) {
+    const double middle = 0.5 * (low + high);
+    (is_damped(loop, felt, middle) ? low : high) = middle;
+  }
+  return low;
 }
 
 StiffnessAdvice advise_stiffness(const SampledLoop& loop) {

@@ -9,6 +9,7 @@
 
 #include <calligraphy/collision/active_stroke.hpp>
 #include <calligraphy/devices/device_state.hpp>
+#include <calligraphy/devices/velocity_estimator.hpp>
 #include <calligraphy/render/detail/force_limiter.hpp>
 #include <calligraphy/render/detail/thermal_budget.hpp>
 #include <calligraphy/render/haptic_tick.hpp>
@@ -47,7 +48,7 @@ class HapticRenderer {
   const std::vector<std::string>& clipped() const noexcept { return clipped_; }
   const MotionMapping& mapping() const noexcept { return mapping_; }
   const std::vector<PlacedCharacter>& page() const noexcept { return page_; }
-  /// Maximum change of the force per tick [N]; infinite when the rate is not limited.
+  /// Maximum change of the force per tick [N], in the hand of the fastest pen; infinite when the rate is not limited.
   double max_force_step() const noexcept;
 
  private:
@@ -64,11 +65,18 @@ class HapticRenderer {
   void measure_error() noexcept;
   void adapt_assistance(bool abandoned) noexcept;
   void activate(int character, int stroke) noexcept;
+  void limit_attraction(const Capabilities& capabilities);
+  void hear_force(const DeviceState& state) noexcept;
+  bool touches() noexcept;
   Eigen::Vector3d sum_forces() noexcept;
+  double paper_force() noexcept;
   Point guidance_force() noexcept;
+  Point damped(const Point& velocity) const noexcept;
   Point friction_force() noexcept;
   Point fade(const Point& force) noexcept;
   void send(const Eigen::Vector3d& wanted) noexcept;
+  ForceAllowance allowance_for(const Point& motion, const Point& kick, double speed) const noexcept;
+  ForceAllowance allowance() const noexcept;
   Eigen::Vector3d control_passivity(const Eigen::Vector3d& wanted) noexcept;
   bool may_start() const noexcept { return !character_done_ && (lifted_ || !options_.lift_between_strokes); }
   bool all_written() const noexcept { return tick_.character >= static_cast<int>(page_.size()); }
@@ -81,6 +89,10 @@ class HapticRenderer {
   MotionMapping mapping_;
   RendererOptions options_;
   std::vector<std::string> clipped_;
+  double period_ = 0.001;         ///< [s]
+  double max_guidance_ = 0.0;     ///< stiffness, attraction factor included [N/m, page]
+  double max_attraction_ = 1.0;   ///< on the page
+  double rate_filter_ = 1.0;      ///< coefficient of the low-pass on the rate of the friction spring
   ForceLimiter limiter_;
   double fade_step_ = 1.0;  ///< per tick
   bool observes_energy_ = false;
@@ -90,16 +102,23 @@ class HapticRenderer {
 
   ActiveStroke active_;
   HapticTick tick_;
+  VelocityEstimator velocity_;                                  ///< of the pen [m/s, page]
+  Eigen::Vector3d last_velocity_ = Eigen::Vector3d::Zero();     ///< estimate of the tick before [m/s, page]
+  Eigen::Vector3d motion_ = Eigen::Vector3d::Zero();            ///< since the sample before [m, page]
+  Point friction_spring_ = Point::Zero();                       ///< force of the tick before [N, page]
+  Point friction_rate_ = Point::Zero();                         ///< its filtered change [N/s, page]
   Point fade_from_ = Point::Zero();  ///< in-plane force at the last jump of the closest point [N, page]
   double faded_ = 0.0;               ///< progress of the fade-in since that jump, 0 to 1
   double error_square_ = 0.0;        ///< squared lateral error, integrated along the path on the active stroke [m^3]
   double error_way_ = 0.0;           ///< length of that path [m]
   Point error_tip_ = Point::Zero();  ///< pen tip at the last measurement [m]
   bool inside_box_ = false;
+  double above_for_ = 0.0;       ///< how long a pen in contact has been above the paper [s]
   bool lifted_ = true;           ///< the pen was lifted since the last stroke was finished
   bool character_done_ = false;  ///< its last stroke is finished, and the pen is still down
 
   bool has_sample_ = false;  ///< last_position_ and last_time_ are those of the last accepted sample
+  int unseen_ = 0;           ///< updates since then, without a fresh sample
   Eigen::Vector3d last_position_ = Eigen::Vector3d::Zero();
   double last_time_ = 0.0;
   bool has_rejected_ = false;  ///< rejected_position_ is that of a sample just rejected as too far away

@@ -33,11 +33,12 @@ constexpr bool has_event(TickEvent events, TickEvent event) noexcept {
 /// Whether the sample of this tick was usable.
 enum class TickStatus : std::uint8_t {
   ok,
+  stale,        ///< the sample before again: the force is held for 4 ms, then ramps down to zero
   bad_sample,   ///< not finite, or farther away than a pen can have moved: the force ramps down to zero
   device_fault  ///< reported by the device: the force ramps down to zero
 };
 
-/// "ok", "bad_sample", "device_fault".
+/// "ok", "stale", "bad_sample", "device_fault".
 const char* to_string(TickStatus status) noexcept;
 
 struct HapticTick {
@@ -54,7 +55,9 @@ struct HapticTick {
   Point attraction = Point::Zero();  ///< force term, including assistance, before fade-in and limits [N, page]
   Point wrong_way = Point::Zero();   ///< force term, before fade-in and limits [N, page]
   Point friction = Point::Zero();    ///< force term, before limits [N, page]
-  double normal = 0.0;               ///< force term, before limits [N, out of the paper]
+  double normal = 0.0;               ///< force term, damping included, before limits [N, out of the paper]
+  /// Damping by guidance, after fade-in, by friction and by the paper, before limits [N, page].
+  Eigen::Vector3d viscous = Eigen::Vector3d::Zero();
   Eigen::Vector3d damping = Eigen::Vector3d::Zero();  ///< by the passivity controller, before limits [N, page]
   double assistance = 1.0;                            ///< factor on the guidance, from the assist policy [1]
   double energy_given = 0.0;  ///< net energy delivered to the hand, as observed; 0 without observer [J]

@@ -27,6 +27,9 @@ struct MotionMapping {
   Eigen::Vector3d force_to_device(const Eigen::Vector3d& page) const noexcept {
     return scale * turned(rotation.transpose(), page);
   }
+  Eigen::Vector3d force_to_page(const Eigen::Vector3d& device) const noexcept {
+    return turned(rotation, device) / scale;
+  }
 
  private:
   /// Column by column: Eigen's own product adds in an order that depends on the processor, and fuses on some.

@@ -22,6 +22,7 @@ struct FrictionOptions {
   FrictionModel model = FrictionModel::breakaway;
   double coefficient = 0.0;    ///< mu, tangential over normal force; 0: no friction [1]
   double stiffness = 500.0;    ///< of the spring between pen and anchor [N/m]
+  double damping = 2.5;        ///< of that spring: none while the anchor slides along with the pen [N s/m]
   double static_ratio = 1.2;   ///< karnopp: break-away over sliding friction, at least 1 [1]
   double stick_speed = 0.002;  ///< karnopp [m/s]
 };

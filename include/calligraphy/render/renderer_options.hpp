@@ -31,21 +31,22 @@ enum class GuidanceLaw {
 enum class StiffnessCheck {
   reject,  ///< the constructor throws a ValueError
   clip,    ///< use the maximum permitted value; HapticRenderer::clipped() gives the reasons
-  off      ///< accept it, up to 1e6 N/m: for experiments that look for the limit itself
+  off      ///< accept it, up to 1e6 N/m: for experiments on simulated devices that look for the limit itself
 };
 
 struct RendererOptions {
   double servo_rate = 1000.0;          ///< [Hz]
   double paper_stiffness = 600.0;      ///< K_en of eq. (9) [N/m]
+  double paper_damping = 4.0;          ///< against motion in the paper, along its normal [N s/m]
   double guidance_stiffness = 600.0;   ///< K_et of eq. (8) where the attraction factor is 1 [N/m]
+  double guidance_damping = 4.0;       ///< where guidance acts, against motion across the stroke, not along it [N s/m]
+  double velocity_cutoff = 50.0;       ///< of the low-pass on the velocity for both (VelocityEstimator) [Hz]
   double guidance_fade_in = 0.15;      ///< fade-in time of guidance after a stroke's start and each feature point [s]
   double wrong_way_stiffness = 200.0;  ///< resistance to writing backwards; 0: none [N/m]
   double wrong_way_limit = 1.0;        ///< maximum force of that resistance [N]
   double wrong_way_slack = 0.002;      ///< dead band: a pen may move back this far without resistance [m]
 
   StiffnessCheck stiffness_check = StiffnessCheck::reject;
-  /// Softest grip in which the loop must be stable, where the device states its mass (critical_stiffness()).
-  GripImpedance softest_grip = {0.05, 1.0, 100.0};
 
   GuidanceLaw guidance = GuidanceLaw::linear;
   double guidance_limit = 2.0;  ///< saturating: maximum guidance force [N]
@@ -57,21 +58,23 @@ struct RendererOptions {
 
   double start_radius = 0.008;       ///< a stroke begins within this distance of its start [m]
   double box_margin = 0.008;         ///< added to the bounding box of the active character on every side [m]
-  double lift_height = 0.0005;       ///< hysteresis: the pen counts as lifted once it is this far above the paper [m]
+  double lift_height = 0.0005;       ///< hysteresis: the pen is above the paper once it is this far above it [m]
+  double lift_time = 0.05;           ///< it counts as lifted once it has been above the paper for this time [s],
+  double lift_clearance = 0.003;     ///< or at once this far above the paper; until then it may bounce [m]
   double box_hysteresis = 0.002;     ///< the box is left this far outside its edge, 3 times as far while writing [m]
   bool lift_between_strokes = true;  ///< the next stroke begins with a new contact, not by sliding into its start
   bool solid_paper = false;          ///< normal force also in the adjusting state; Table 2 has none there
 
-  double in_plane_force_rate = 100.0;  ///< maximum rate of change of the force in the paper plane [N/s]
-  double normal_force_rate = 400.0;    ///< maximum rate of change of the force along its normal [N/s]
-  bool limit_force_rate = true;        ///< false: `wang2006`, force steps at every transition
-
-  /// Maximum jerk of the force; infinite: no limit [N/s^2].
-  double force_jerk = std::numeric_limits<double>::infinity();
+  /// Maximum rate of change of the force in the paper plane, beyond what the springs and dampers change because the pen
+  /// moves: that follows the pen without lag [N/s].
+  double in_plane_force_rate = 100.0;
+  double normal_force_rate = 400.0;  ///< likewise along its normal [N/s]
+  bool limit_force_rate = true;      ///< false: `wang2006`, force steps at every transition
 
   bool passivity_control = false;  ///< dissipates the energy that sampling, delay and limits generate
   /// Maximum net energy delivered to the hand since the start; infinite: no limit [J].
   double energy_budget = std::numeric_limits<double>::infinity();
+  double max_gap = 0.016;  ///< with a budget: longest time without a fresh sample, by default that of Servo [s]
   /// Thermal time constant of the motors: as they warm, the permitted force falls from the device's peak to its
   /// continuous force; 0: no limit [s].
   double thermal_time_constant = 0.0;
@@ -83,31 +86,35 @@ struct RendererOptions {
   MotionMappingRule motion = MotionMappingRule::affine;
 
   /// Every rule as printed, except the signs of eq. (8) and (9), which the available text may have lost: with the signs
-  /// as printed nothing can be written (set force_sign to see it). Widths and stiffnesses are the defaults.
+  /// as printed nothing can be written (set force_sign to see it). Widths and stiffnesses are the defaults. Without
+  /// damping no stiffness is stable in every hand, so stiffness_check is off.
   static RendererOptions wang2006();
 
-  /// The defaults at the device's update rate, with stiffnesses clipped to what is usable and stable on it.
+  /// The defaults at the device's update rate, with stiffnesses clipped to what is usable and stable on it, for any page:
+  /// stiffness_check is clip.
   static RendererOptions for_device(const Capabilities& capabilities);
 
-  /// for_device() with all optional stages enabled: friction, guidance for large deviations, assistance as needed, jerk
-  /// limit; passivity control and an energy budget where the device states its mass and a delay of at most 15 ticks; a
-  /// thermal budget where it states a continuous force below its peak.
+  /// for_device() with all optional stages enabled: friction, guidance for large deviations, assistance as needed;
+  /// passivity control and an energy budget where the device states its mass and a delay of at most 15 ticks; a thermal
+  /// budget where it states a continuous force below its peak.
   static RendererOptions everything(const Capabilities& capabilities);
 };
 
-/// Clips the stiffnesses to nine tenths of what is stable in the softest grip, at the options' rate and the device's
-/// sample delay, where the device states its mass; and to its usable stiffness, where it states one. Guidance counts
-/// with the maximum attraction factor on the page, and the friction spring is added to it; paper_stiffness is also
-/// clipped to what normal_force_rate and force_jerk can follow at 0.2 m/s. With a motion scale K_S (MotionMapping) each
-/// counts K_S^2 times, which is what the device renders.
+/// Clips the stiffnesses to the device's usable stiffness, where it states one, and to what is stable in any hand on it at
+/// the options' rate, damping and filter and the device's sample delay (stiffness_for_any_hand()); a damping that is too
+/// strong for that lag is lowered too. A device of unknown mass is taken to weigh 20 g. The friction spring counts in
+/// addition to guidance. With a motion scale K_S (MotionMapping) a stiffness counts K_S^2 times, which is what the device
+/// renders, and so does a damping.
 /// @return what was clipped, each with its reason
-/// @throws ValueError naming the option when a stiffness is negative or not finite, or the rate is not above 0
-std::vector<std::string> clip_stiffness(RendererOptions& options, const Capabilities& capabilities,
-                                        double max_attraction = 1.0, double scale = 1.0);
+/// @throws ValueError naming the option when a stiffness or a damping is negative or not finite, or the rate or the
+/// cut-off frequency is not above 0
+std::vector<std::string> clip_stiffness(RendererOptions& options, const Capabilities& capabilities, double scale = 1.0);
+
+/// Maximum stiffness of guidance that clip_stiffness() permits, attraction factor included [N/m].
+double max_guidance_stiffness(const RendererOptions& options, const Capabilities& capabilities, double scale = 1.0);
 
 /// @throws ValueError naming the option and its value: not finite, out of range, or a stiffness that clip_stiffness()
 /// would clip
-void validate(const RendererOptions& options, const Capabilities& capabilities, double max_attraction = 1.0,
-              double scale = 1.0);
+void validate(const RendererOptions& options, const Capabilities& capabilities, double scale = 1.0);
 
 }  // namespace calligraphy
