@@ -56,6 +56,7 @@ SimulatedDevice::SimulatedDevice(const Capabilities& device, const GripImpedance
 DeviceState SimulatedDevice::read() noexcept {
   // The slot after the newest is the oldest; initially every slot holds the first sample.
   DeviceState state = samples_[(newest_ + 1) % samples_.size()];
+  state.force = force_;
   if (!open_) state.status = DeviceStatus::disconnected;
   return state;
 }

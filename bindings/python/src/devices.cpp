@@ -102,13 +102,17 @@ void add_devices(py::module_& module) {
   add_struct<PenOrientation>(module, "PenOrientation", "Orientation of the pen in device axes; NaN if not measured.",
                              &PenOrientation::tilt, "tilt: from the z axis, 0 to pi [rad]", &PenOrientation::azimuth,
                              "azimuth: from the x axis towards the y axis, -pi to pi [rad]");
-  add_struct<DeviceState>(module, "DeviceState", "One sample of a device.", &DeviceState::time,
-                          "time: since the device was opened [s]", &DeviceState::position,
-                          "position: (3,), device axes [m]", &DeviceState::velocity,
-                          "velocity: (3,); NaN if the device does not measure it [m/s]", &DeviceState::buttons,
-                          "buttons: one bit per button", &DeviceState::status, "status: DeviceStatus",
-                          &DeviceState::fault, "fault: DeviceFault: cause of a status other than ok, if known",
-                          &DeviceState::orientation, "orientation: PenOrientation");
+  add_struct<DeviceState>(
+      module, "DeviceState", "One sample of a device.", &DeviceState::time, "time: since the device was opened [s]",
+      &DeviceState::position, "position: (3,), device axes [m]", &DeviceState::velocity,
+      "velocity: (3,); NaN only if the device neither measures nor estimates it; a Servo fills it "
+      "in [m/s]",
+      &DeviceState::velocity_estimated, "velocity_estimated: from positions, not measured", &DeviceState::force,
+      "force: (3,), the force at work when the sample is read, after every limit, guard and ramp; "
+      "NaN if the device does not say; a Servo fills it in [N]",
+      &DeviceState::buttons, "buttons: one bit per button", &DeviceState::status, "status: DeviceStatus",
+      &DeviceState::fault, "fault: DeviceFault: cause of a status other than ok, if known", &DeviceState::orientation,
+      "orientation: PenOrientation");
   add_struct<DeviceAxes>(
       module, "DeviceAxes", "Degrees of freedom of a device.", &DeviceAxes::x, "x: translation along this device axis",
       &DeviceAxes::y, "y: translation along this device axis", &DeviceAxes::z, "z: translation along this device axis",

@@ -8,8 +8,8 @@
 
 namespace calligraphy {
 
-/// Returns the recorded samples in order, then `disconnected` at the last position forever. Forces are stored and have
-/// no effect. close() ends playback.
+/// Returns the recorded samples in order, then `disconnected` at the last position forever. A velocity that was not
+/// recorded (NaN) is estimated from the positions. Forces are stored and have no effect. close() ends playback.
 class ReplayDevice final : public HapticDevice {
  public:
   /// @throws ValueError when there are no samples or their times do not increase

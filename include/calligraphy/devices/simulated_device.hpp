@@ -24,7 +24,8 @@ class SimulatedDevice final : public HapticDevice {
                            const Eigen::Vector3d& position = Eigen::Vector3d::Zero());
 
   const Capabilities& capabilities() const noexcept override { return device_; }
-  /// The sample taken `sample_delay` ticks ago; its velocity is the true one at that time.
+  /// The sample taken `sample_delay` ticks ago; its velocity is the true one at that time, its force the one applied
+  /// now.
   DeviceState read() noexcept override;
   /// A force above the peak is limited to it, its direction preserved.
   void write(const Eigen::Vector3d& force) noexcept override;
