@@ -29,8 +29,8 @@ std::vector<DeviceState> checked(std::vector<DeviceState> samples) {
 
 /// Velocities that were not recorded, as a device that estimates them would have given them. An infinite one is a
 /// recorded fault.
-std::vector<DeviceState> with_velocities(std::vector<DeviceState> samples) {
-  VelocityEstimator estimator;
+std::vector<DeviceState> with_velocities(std::vector<DeviceState> samples, double cutoff) {
+  VelocityEstimator estimator(cutoff);
   double last_time = 0.0;  // of the last sample that was fresh [s]
   for (DeviceState& sample : samples) {
     const bool repeated = sample.status == DeviceStatus::stale;
@@ -47,7 +47,8 @@ std::vector<DeviceState> with_velocities(std::vector<DeviceState> samples) {
 }  // namespace
 
 ReplayDevice::ReplayDevice(std::vector<DeviceState> samples, Capabilities capabilities)
-    : samples_(with_velocities(checked(std::move(samples)))), capabilities_(std::move(capabilities)) {}
+    : samples_(with_velocities(checked(std::move(samples)), capabilities.velocity_cutoff)),
+      capabilities_(std::move(capabilities)) {}
 
 DeviceState ReplayDevice::read() noexcept {
   if (!finished()) return samples_[next_++];

@@ -71,7 +71,11 @@ const char* to_string(ServoPhase phase) noexcept {
 }
 
 Servo::Servo(HapticDevice& device, ForceLaw law, const ServoOptions& options)
-    : device_(device), law_(std::move(law)), options_(checked(options)), guard_(options.ramp_down, options.ramp_up) {
+    : device_(device),
+      law_(std::move(law)),
+      options_(checked(options)),
+      guard_(options.ramp_down, options.ramp_up),
+      velocity_(device.capabilities().velocity_cutoff) {
   const double peak = device.capabilities().peak_force;
   if (peak > 0.0) peak_force_ = peak;  // 0 means unknown
   if (!law_) throw ValueError("servo loop: the force law is empty");

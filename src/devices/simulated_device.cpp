@@ -35,22 +35,12 @@ const Eigen::Vector3d& checked(const Eigen::Vector3d& position) {
   return position;
 }
 
-/// Limits the magnitude. Scales by the largest component first, so that no square overflows.
-Eigen::Vector3d shortened(const Eigen::Vector3d& force, double limit) noexcept {
-  const double largest = force.cwiseAbs().maxCoeff();
-  if (largest == 0.0) return force;
-  const Eigen::Vector3d scaled = force / largest;
-  const double length = scaled.norm();
-  if (largest * length <= limit) return force;
-  return scaled * (limit / length);
-}
-
 }  // namespace
 
 SimulatedDevice::SimulatedDevice(const Capabilities& device, const GripImpedance& grip, const Eigen::Vector3d& position)
-    : device_(checked(device)), grip_(checked(grip)), position_(checked(position)) {
+    : device_(checked(device)), grip_(checked(grip)), position_(checked(position)), estimator_(device.velocity_cutoff) {
   intention_.position = position;  // by default the hand holds still
-  samples_.assign(static_cast<std::size_t>(device_.sample_delay) + 1, sample());
+  samples_.assign(static_cast<std::size_t>(device_.sample_delay) + 1, sample(0.0));
 }
 
 DeviceState SimulatedDevice::read() noexcept {
@@ -62,9 +52,7 @@ DeviceState SimulatedDevice::read() noexcept {
 }
 
 void SimulatedDevice::write(const Eigen::Vector3d& force) noexcept {
-  if (!open_) return;
-  force_.setZero();
-  if (force.allFinite()) force_ = shortened(force, device_.peak_force);
+  if (open_) force_ = output_force(device_, force);
 }
 
 void SimulatedDevice::close() noexcept {
@@ -99,10 +87,11 @@ void SimulatedDevice::advance(double seconds) noexcept {
   intention_.position += intention_.velocity * seconds;
   time_ += seconds;
   newest_ = (newest_ + 1) % samples_.size();
-  samples_[newest_] = sample();
+  samples_[newest_] = sample(seconds);
 }
 
-DeviceState SimulatedDevice::sample() const noexcept {
+/// `elapsed`: since the previous sample [s].
+DeviceState SimulatedDevice::sample(double elapsed) noexcept {
   DeviceState state;
   state.time = time_;
   state.position = position_;
@@ -111,7 +100,8 @@ DeviceState SimulatedDevice::sample() const noexcept {
       coordinate = std::round(coordinate / device_.encoder_step) * device_.encoder_step;
     }
   }
-  state.velocity = velocity_;
+  state.velocity_estimated = device_.velocity == VelocitySource::estimated;
+  state.velocity = state.velocity_estimated ? estimator_.update(state.position, elapsed) : velocity_;
   state.buttons = buttons_;
   return state;
 }

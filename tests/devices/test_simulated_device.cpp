@@ -2,10 +2,12 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <string>
 #include <vector>
 
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/base/random.hpp>
 #include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
 
@@ -455,6 +457,7 @@ TEST_CASE("a delayed device returns the state of that many ticks ago", "[devices
     const DeviceState state = device.read();
     REQUIRE(same_bits(state.position, positions[static_cast<std::size_t>(expected)]));
     REQUIRE(same_bits(state.velocity, velocities[static_cast<std::size_t>(expected)]));
+    REQUIRE_FALSE(state.velocity_estimated);
     REQUIRE(state.time == Approx(expected * 1e-3));
     REQUIRE(state.buttons == (expected > 3 ? 1u : 0u));
     REQUIRE(state.status == DeviceStatus::ok);
@@ -463,6 +466,33 @@ TEST_CASE("a delayed device returns the state of that many ticks ago", "[devices
     positions.push_back(device.true_position());
     velocities.push_back(device.true_velocity());
   }
+}
+
+TEST_CASE("a device that does not measure velocity estimates it from its quantised samples, one per advance",
+          "[devices]") {
+  Capabilities profile = device_profile("omni");
+  profile.sample_delay = GENERATE(0, 3);
+  profile.velocity_cutoff = GENERATE(50.0, 20.0);
+  constexpr double period = 1e-3;
+  SimulatedDevice device(profile, {0.1, 3.0, 300.0});
+  device.set_intention({Eigen::Vector3d::Zero(), {0.2, -0.05, 0.0}});
+  // Differences of the positions that are read, behind a first-order low-pass.
+  const double share = 1.0 - std::exp(-2.0 * std::numbers::pi * profile.velocity_cutoff * period);
+  Eigen::Vector3d last = device.read().position, expected = Eigen::Vector3d::Zero(), mean = Eigen::Vector3d::Zero();
+  double ripple = 0.0;
+  for (int tick = 0; tick < 1000; ++tick) {
+    device.advance(period);
+    const DeviceState state = device.read();
+    expected += share * ((state.position - last) / period - expected);
+    last = state.position;
+    REQUIRE(state.velocity_estimated);
+    REQUIRE((state.velocity - expected).norm() < 1e-12);
+    if (tick < 500) continue;
+    mean += state.velocity / 500.0;
+    ripple = std::max(ripple, (state.velocity - device.true_velocity()).norm());
+  }
+  CHECK((mean - device.true_velocity()).norm() < 1e-3);
+  CHECK(ripple > 0.1 * share * profile.encoder_step / period);  // it is not the true one
 }
 
 TEST_CASE("the encoder rounds positions to its nearest step and does not affect the motion", "[devices]") {
@@ -486,7 +516,9 @@ TEST_CASE("the encoder rounds positions to its nearest step and does not affect 
 }
 
 TEST_CASE("a force above the peak is limited to it, with its direction preserved", "[devices]") {
-  SimulatedDevice device(device_profile("omni"));
+  Capabilities omni = device_profile("omni");
+  omni.force_step = 0.0;
+  SimulatedDevice device(omni);
   const double size = GENERATE(3.3000001, 5.0, 1e10, 1e200, 1e308);
   const Eigen::Vector3d direction = Eigen::Vector3d(1.0, -0.9, 0.5).normalized();
   device.write(direction * size);
@@ -497,12 +529,50 @@ TEST_CASE("a force above the peak is limited to it, with its direction preserved
 TEST_CASE("a force up to the peak is applied unchanged", "[devices]") {
   const Eigen::Vector3d force = GENERATE(Eigen::Vector3d(1.0, -2.0, 2.0), Eigen::Vector3d(0.0, 3.3, 0.0),
                                          Eigen::Vector3d(5e-324, 0.0, -1e-310), Eigen::Vector3d(0.0, 0.0, 0.0));
-  SimulatedDevice device(device_profile("omni"));
+  Capabilities omni = device_profile("omni");
+  omni.force_step = 0.0;
+  SimulatedDevice device(omni);
   device.write(force);
   CHECK(same_bits(device.applied_force(), force));
   SimulatedDevice unlimited(device_profile("ideal"));
   unlimited.write(force * 1e300);
   CHECK(same_bits(unlimited.applied_force(), force * 1e300));
+}
+
+TEST_CASE("the DAC rounds each component of a force to its nearest step", "[devices]") {
+  Capabilities coarse = point_mass(0.045);
+  coarse.force_step = 0.25;
+  SimulatedDevice device(coarse);
+  device.write({0.30, -0.40, 0.12});
+  CHECK(device.applied_force() == Eigen::Vector3d(0.25, -0.5, 0.0));
+  CHECK(device.read().force == Eigen::Vector3d(0.25, -0.5, 0.0));
+  device.advance(0.1);
+  CHECK(device.true_velocity().isApprox(0.1 / 0.045 * Eigen::Vector3d(0.25, -0.5, 0.0)));
+}
+
+TEST_CASE("a rounded force never exceeds the peak, in whatever direction it is commanded", "[devices]") {
+  for (const Capabilities& profile : device_profiles()) {
+    if (profile.force_step == 0.0) continue;
+    CAPTURE(profile.name);
+    SimulatedDevice device(profile);
+    Random random(5);
+    const auto unit = [&] { return random.between(-1.0, 1.0); };
+    double worst = 0.0;
+    for (int i = 0; i < 5000; ++i) {
+      const Eigen::Vector3d direction = Eigen::Vector3d(unit(), unit(), unit()).normalized();
+      const double size = profile.peak_force * (i % 2 == 0 ? 1.0 + i : unit());
+      const Eigen::Vector3d force = size * direction;
+      device.write(force);
+      REQUIRE(device.applied_force().norm() <= profile.peak_force);
+      const Eigen::Vector3d wanted = std::abs(size) > profile.peak_force ? profile.peak_force * direction : force;
+      worst = std::max(worst, (device.applied_force() - wanted).cwiseAbs().maxCoeff());
+      if (size < 0.9 * profile.peak_force)
+        REQUIRE((device.applied_force() - force).cwiseAbs().maxCoeff() <= 0.5001 * profile.force_step);
+    }
+    CHECK(worst <= 1.0001 * profile.force_step);
+    device.write({0.0, profile.peak_force, 0.0});
+    CHECK(device.applied_force().y() == Approx(profile.peak_force));
+  }
 }
 
 TEST_CASE("a force that is not finite counts as zero", "[devices]") {
@@ -654,12 +724,12 @@ TEST_CASE("the built-in profiles have the values of their sources", "[devices]")
     const char* name;
     double peak, stiffness, continuous, resolution_mm;
     Eigen::Vector3d workspace_mm;
-    double coulomb, mass;
+    double coulomb, mass, force_step_mn;
   };
-  const Row row = GENERATE(Row{"omni", 3.3, 700.0, 0.88, 0.055, {160.0, 120.0, 70.0}, 0.26, 0.045},
-                           Row{"touch", 3.3, 400.0, 0.88, 0.055, {160.0, 120.0, 70.0}, 0.26, 0.045},
-                           Row{"desktop", 7.9, 1000.0, 1.75, 0.023, {160.0, 120.0, 120.0}, 0.06, 0.045},
-                           Row{"premium-1.5", 8.5, 800.0, 1.4, 0.03, {381.0, 267.0, 191.0}, 0.04, 0.075});
+  const Row row = GENERATE(Row{"omni", 3.3, 700.0, 0.88, 0.055, {160.0, 120.0, 70.0}, 0.26, 0.045, 1.61},
+                           Row{"touch", 3.3, 400.0, 0.88, 0.055, {160.0, 120.0, 70.0}, 0.26, 0.045, 1.61},
+                           Row{"desktop", 7.9, 1000.0, 1.75, 0.023, {160.0, 120.0, 120.0}, 0.06, 0.045, 3.86},
+                           Row{"premium-1.5", 8.5, 800.0, 1.4, 0.03, {381.0, 267.0, 191.0}, 0.04, 0.075, 4.15});
   const Capabilities& profile = device_profile(row.name);
   CAPTURE(row.name);
   CHECK(profile.peak_force == row.peak);
@@ -670,6 +740,9 @@ TEST_CASE("the built-in profiles have the values of their sources", "[devices]")
   CHECK(profile.update_rate == 1000.0);
   CHECK(profile.coulomb_friction == row.coulomb);
   CHECK(profile.apparent_mass == row.mass);
+  CHECK(1e3 * profile.force_step == Approx(row.force_step_mn).epsilon(0.003));  // 12 bits for both directions
+  CHECK(profile.velocity == VelocitySource::estimated);
+  CHECK(profile.velocity_cutoff == 50.0);
   CHECK(profile.viscous_friction >= 0.05);
   CHECK(profile.viscous_friction <= 0.5);
   CHECK(profile.sample_delay == 0);
@@ -680,6 +753,8 @@ TEST_CASE("the ideal profile adds nothing to a point mass", "[devices]") {
   CHECK(profile.viscous_friction == 0.0);
   CHECK(profile.coulomb_friction == 0.0);
   CHECK(profile.encoder_step == 0.0);
+  CHECK(profile.force_step == 0.0);
+  CHECK(profile.velocity == VelocitySource::measured);
   CHECK(profile.sample_delay == 0);
   CHECK(profile.peak_force == infinity);
 }
@@ -722,9 +797,15 @@ TEST_CASE("an unphysical profile or grip is rejected with name and value", "[dev
     CHECK(contains(profile_error([&](Capabilities& p) { p.viscous_friction = bad; }), "viscous friction"));
     CHECK(contains(profile_error([&](Capabilities& p) { p.coulomb_friction = bad; }), "Coulomb friction"));
     CHECK(contains(profile_error([&](Capabilities& p) { p.encoder_step = bad; }), "encoder step"));
+    CHECK(contains(profile_error([&](Capabilities& p) { p.force_step = bad; }), "force step"));
     CHECK(contains(error_of(device_profile("omni"), {bad, 1.0, 1.0}), "mass of the grip"));
     CHECK(contains(error_of(device_profile("omni"), {1.0, bad, 1.0}), "damping of the grip"));
     CHECK(contains(error_of(device_profile("omni"), {1.0, 1.0, bad}), "stiffness of the grip"));
+  }
+  CHECK(
+      contains(profile_error([](Capabilities& p) { p.force_step = 3.4; }), "force step = 3.4 N, must be at most the"));
+  for (const double bad : {0.0, -1.0, infinity, not_a_number}) {
+    CHECK(contains(profile_error([&](Capabilities& p) { p.velocity_cutoff = bad; }), "velocity cut-off"));
   }
   for (const double bad : {0.0, -1.0, not_a_number}) {
     CHECK(contains(profile_error([&](Capabilities& p) { p.peak_force = bad; }), "peak force"));

@@ -12,7 +12,7 @@ namespace calligraphy {
 /// recorded (NaN) is estimated from the positions. Forces are stored and have no effect. close() ends playback.
 class ReplayDevice final : public HapticDevice {
  public:
-  /// @throws ValueError when there are no samples or their times do not increase
+  /// @throws ValueError when there are no samples, their times do not increase, or the velocity cut-off is not above 0
   ReplayDevice(std::vector<DeviceState> samples, Capabilities capabilities);
 
   const Capabilities& capabilities() const noexcept override { return capabilities_; }

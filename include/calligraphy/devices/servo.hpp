@@ -69,8 +69,8 @@ struct ServoStatus {
 /// step() and supervise() are wait-free with respect to each other and neither allocate, lock, log nor throw.
 class Servo {
  public:
-  /// The device must outlive the servo. @throws ValueError naming the value when an option is out of range or the force
-  /// law is empty
+  /// The device must outlive the servo. @throws ValueError naming the value when an option or the device's velocity
+  /// cut-off is out of range, or the force law is empty
   Servo(HapticDevice& device, ForceLaw law, const ServoOptions& options = {});
 
   /// Runs one tick at time `now` [s] of a clock that should not run backwards. Call from one thread at a time; a

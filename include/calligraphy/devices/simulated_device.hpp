@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <calligraphy/devices/haptic_device.hpp>
+#include <calligraphy/devices/velocity_estimator.hpp>
 
 namespace calligraphy {
 
@@ -24,10 +25,10 @@ class SimulatedDevice final : public HapticDevice {
                            const Eigen::Vector3d& position = Eigen::Vector3d::Zero());
 
   const Capabilities& capabilities() const noexcept override { return device_; }
-  /// The sample taken `sample_delay` ticks ago; its velocity is the true one at that time, its force the one applied
-  /// now.
+  /// The sample taken `sample_delay` ticks ago. Its velocity is had as the device has it: the true one at that time, or
+  /// estimated from the quantised positions of the samples, one per advance(). Its force is the one applied now.
   DeviceState read() noexcept override;
-  /// A force above the peak is limited to it, its direction preserved.
+  /// Applies the device's output_force() for this one.
   void write(const Eigen::Vector3d& force) noexcept override;
   void close() noexcept override;
 
@@ -50,7 +51,7 @@ class SimulatedDevice final : public HapticDevice {
   double time() const noexcept { return time_; }
 
  private:
-  DeviceState sample() const noexcept;
+  DeviceState sample(double elapsed) noexcept;
 
   Capabilities device_;
   GripImpedance grip_;
@@ -58,6 +59,7 @@ class SimulatedDevice final : public HapticDevice {
   Eigen::Vector3d position_;
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
+  VelocityEstimator estimator_;
   double time_ = 0.0;
   std::uint32_t buttons_ = 0;
   bool open_ = true;

@@ -95,6 +95,8 @@ TEST_CASE("the velocity is that of the tip after the filter", "[phantom][device]
   PhantomOptions options = simulated_options();
   options.velocity_cutoff = 20.0;
   HeldPhantom held(options);
+  CHECK(held.device.capabilities().velocity == VelocitySource::estimated);
+  CHECK(held.device.capabilities().velocity_cutoff == 20.0);
   held.bring_up();
   held.arm.tip.set_intention({held.arm.tip.true_position(), {0.15, -0.1, 0.05}});
   for (int i = 0; i < 250; ++i) held.turn();
@@ -102,6 +104,7 @@ TEST_CASE("the velocity is that of the tip after the filter", "[phantom][device]
   for (int i = 0; i < 50; ++i) {
     const DeviceState state = held.turn();
     mean += state.velocity / 50.0;
+    REQUIRE(state.velocity_estimated);
     // One count per millisecond is 0.055 m/s; a 20 Hz filter passes an eighth of it.
     REQUIRE((state.velocity - held.arm.tip.true_velocity()).norm() < 0.03);
   }
