@@ -20,10 +20,11 @@ NearestPoint unanswered() {
 
 }  // namespace
 
-StrokeTracker::StrokeTracker(std::span<const StrokeElement> elements, double tolerance) noexcept
+StrokeTracker::StrokeTracker(std::span<const StrokeElement> elements, double tolerance)
     : elements_(elements.first(std::min(elements.size(), std::size_t{max_elements_per_stroke}))) {
   options_.method = NearestPointMethod::tracked;
   options_.tolerance = tolerance;
+  validate(options_);
 }
 
 NearestPoint StrokeTracker::look(int element, const Point& query) noexcept {

@@ -1,5 +1,7 @@
 #include <calligraphy/devices/capabilities.hpp>
 
+#include <cmath>
+
 #include <calligraphy/base/error.hpp>
 
 #include "base/require.hpp"
@@ -10,7 +12,27 @@ namespace {
 /// Prefix of error messages.
 std::string device_text(const Capabilities& capabilities) { return "device \"" + device_label(capabilities) + "\": "; }
 
+/// Limits the magnitude. Scales by the largest component first, so that no square overflows.
+Eigen::Vector3d shortened(const Eigen::Vector3d& force, double limit) noexcept {
+  const double largest = force.cwiseAbs().maxCoeff();
+  if (largest == 0.0) return force;
+  const Eigen::Vector3d scaled = force / largest;
+  const double length = scaled.norm();
+  if (largest * length <= limit) return force;
+  return scaled * (limit / length);
+}
+
 }  // namespace
+
+const char* to_string(VelocitySource source) noexcept {
+  switch (source) {
+    case VelocitySource::measured:
+      return "measured";
+    case VelocitySource::estimated:
+      return "estimated";
+  }
+  return "unknown";
+}
 
 std::string axes_text(const DeviceAxes& axes) {
   std::string text;
@@ -37,7 +59,12 @@ void validate(const Capabilities& capabilities) {
   may_be_infinite("peak force", capabilities.peak_force, "N");
   may_be_infinite("continuous force", capabilities.continuous_force, "N");
   may_be_infinite("usable stiffness", capabilities.usable_stiffness, "N/m");
+  require_not_negative(device + "force step", capabilities.force_step, "N");
+  const double peak = capabilities.peak_force;
+  require(peak == 0.0 || capabilities.force_step <= peak, device + "force step", capabilities.force_step, "N",
+          "at most the peak force: a larger one would round every force to zero");
   require_not_negative(device + "encoder step", capabilities.encoder_step, "m");
+  require_above_zero(device + "velocity cut-off", capabilities.velocity_cutoff, "Hz");
   require_not_negative(device + "update rate", capabilities.update_rate, "Hz");
   require_not_negative(device + "apparent mass", capabilities.apparent_mass, "kg");
   require_not_negative(device + "viscous friction", capabilities.viscous_friction, "N s/m");
@@ -52,9 +79,19 @@ void validate(const Capabilities& capabilities) {
   const DeviceAxes blind{driven.x && !sensed.x, driven.y && !sensed.y, driven.z && !sensed.z,
                          driven.rotations && !sensed.rotations};
   if (blind.x || blind.y || blind.z || blind.rotations) {
-    throw ValueError(device + "driven axes are " + axes_text(driven) + ", sensed axes are " +
-                     axes_text(sensed) + "; driven but not sensed: " + axes_text(blind));
+    throw ValueError(device + "driven axes are " + axes_text(driven) + ", sensed axes are " + axes_text(sensed) +
+                     "; driven but not sensed: " + axes_text(blind));
   }
+}
+
+Eigen::Vector3d output_force(const Capabilities& capabilities, const Eigen::Vector3d& commanded) noexcept {
+  if (!commanded.allFinite()) return Eigen::Vector3d::Zero();
+  const double peak = capabilities.peak_force, step = capabilities.force_step;
+  const Eigen::Vector3d limited = peak > 0.0 ? shortened(commanded, peak) : commanded;
+  if (!(step > 0.0)) return limited;
+  const Eigen::Vector3d rounded = step * (limited / step).array().round();
+  if (!(peak > 0.0 && rounded.stableNorm() > peak)) return rounded;
+  return step * (limited / step).unaryExpr([](double steps) { return std::trunc(steps); });
 }
 
 void require_translations(const Capabilities& capabilities, const char* user) {

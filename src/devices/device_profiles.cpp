@@ -25,6 +25,11 @@ Capabilities profile(const char* name, const char* model, const Eigen::Vector3d&
 
 Capabilities physical(Capabilities profile, double encoder_step, double mass, double coulomb_friction) {
   profile.encoder_step = encoder_step;
+  // As the Phantom backend has it.
+  profile.velocity = VelocitySource::estimated;
+  // The Omni's packets and the PCI card have 12 bits for both directions. That full scale is the peak force is an
+  // estimate.
+  profile.force_step = profile.peak_force / 2047.0;
   profile.apparent_mass = mass;
   // An estimate for every real device, at the low end of the plausible range, so that the simulation favours no
   // controller.
@@ -37,6 +42,7 @@ std::array<Capabilities, 5> make_profiles() {
   constexpr double unlimited = std::numeric_limits<double>::infinity();
   Capabilities ideal = profile("ideal", "Ideal point mass", {0.160, 0.120, 0.070}, unlimited, unlimited, unlimited);
   ideal.apparent_mass = 0.045;
+  ideal.velocity = VelocitySource::measured;
   return {
       physical(profile("omni", "Phantom Omni", {0.160, 0.120, 0.070}, 3.3, 0.88, 700.0), 55e-6, 0.045, 0.26),
       physical(profile("touch", "Touch", {0.160, 0.120, 0.070}, 3.3, 0.88, 400.0), 55e-6, 0.045, 0.26),

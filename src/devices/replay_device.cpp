@@ -5,6 +5,7 @@
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/replay_device.hpp>
+#include <calligraphy/devices/velocity_estimator.hpp>
 
 namespace calligraphy {
 namespace {
@@ -26,10 +27,28 @@ std::vector<DeviceState> checked(std::vector<DeviceState> samples) {
   return samples;
 }
 
+/// Velocities that were not recorded, as a device that estimates them would have given them. An infinite one is a
+/// recorded fault.
+std::vector<DeviceState> with_velocities(std::vector<DeviceState> samples, double cutoff) {
+  VelocityEstimator estimator(cutoff);
+  double last_time = 0.0;  // of the last sample that was fresh [s]
+  for (DeviceState& sample : samples) {
+    const bool repeated = sample.status == DeviceStatus::stale;
+    const bool usable = sample.status == DeviceStatus::ok || sample.status == DeviceStatus::warm_motors;
+    if (usable) estimator.update(sample.position, sample.time - std::exchange(last_time, sample.time));
+    if (!usable && !repeated) estimator.restart();
+    if (!sample.velocity.array().isNaN().any() || sample.velocity.array().isInf().any()) continue;
+    sample.velocity = estimator.velocity();
+    sample.velocity_estimated = true;
+  }
+  return samples;
+}
+
 }  // namespace
 
 ReplayDevice::ReplayDevice(std::vector<DeviceState> samples, Capabilities capabilities)
-    : samples_(checked(std::move(samples))), capabilities_(std::move(capabilities)) {}
+    : samples_(with_velocities(checked(std::move(samples)), capabilities.velocity_cutoff)),
+      capabilities_(std::move(capabilities)) {}
 
 DeviceState ReplayDevice::read() noexcept {
   if (!finished()) return samples_[next_++];

@@ -71,7 +71,11 @@ const char* to_string(ServoPhase phase) noexcept {
 }
 
 Servo::Servo(HapticDevice& device, ForceLaw law, const ServoOptions& options)
-    : device_(device), law_(std::move(law)), options_(checked(options)), guard_(options.ramp_down, options.ramp_up) {
+    : device_(device),
+      law_(std::move(law)),
+      options_(checked(options)),
+      guard_(options.ramp_down, options.ramp_up),
+      velocity_(device.capabilities().velocity_cutoff) {
   const double peak = device.capabilities().peak_force;
   if (peak > 0.0) peak_force_ = peak;  // 0 means unknown
   if (!law_) throw ValueError("servo loop: the force law is empty");
@@ -88,10 +92,11 @@ void Servo::step(double now) noexcept {
   const double period = 1.0 / options_.rate;
   const double begun = options_.work_clock();
   const double elapsed = elapsed_since_last_tick(now);
-  const DeviceState sample = device_.read();
+  DeviceState sample = device_.read();
   device_status_ = sample.status;
   const bool released = released_.load(std::memory_order_relaxed);
   DeviceFault fault = judge(sample, elapsed);
+  complete(sample, fault, elapsed);
 
   if (fault == DeviceFault::none && !released && sample.status != DeviceStatus::stale) {
     hand_over(owner, Owner::law);
@@ -158,7 +163,7 @@ DeviceFault Servo::judge(const DeviceState& sample, double elapsed) noexcept {
   switch (sample.status) {
     case DeviceStatus::ok:
     case DeviceStatus::warm_motors:
-      // NaN is valid: a velocity that the device does not measure. Infinity is not.
+      // NaN is valid: a velocity that the device does not measure, which is estimated. Infinity is not.
       if (!sample.position.allFinite() || sample.velocity.array().isInf().any()) return DeviceFault::corrupted_frame;
       break;
     case DeviceStatus::stale:
@@ -168,6 +173,17 @@ DeviceFault Servo::judge(const DeviceState& sample, double elapsed) noexcept {
       return named;
   }
   return gap ? DeviceFault::late_clock : DeviceFault::none;
+}
+
+/// Fills in what the device does not say.
+void Servo::complete(DeviceState& sample, DeviceFault fault, double elapsed) noexcept {
+  if (!sample.force.allFinite()) sample.force = guard_.force();
+  since_estimate_ += elapsed;
+  if (fault != DeviceFault::none || elapsed > options_.timeout) velocity_.restart();
+  const bool fresh = fault == DeviceFault::none && sample.status != DeviceStatus::stale;
+  if (!fresh || sample.velocity.allFinite()) return;
+  sample.velocity = velocity_.update(sample.position, std::exchange(since_estimate_, 0.0));
+  sample.velocity_estimated = true;
 }
 
 bool Servo::ask(const DeviceState& sample, Eigen::Vector3d& force) noexcept {
@@ -251,6 +267,7 @@ void Servo::reset() noexcept {
   last_fault_ = reason_ = DeviceFault::none;
   has_time_ = watch_has_time_ = false;
   stale_for_ = unchanged_for_ = 0.0;
+  velocity_.restart();
   watched_owner_ = dealt_with_ = 0;
 }
 

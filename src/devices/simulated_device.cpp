@@ -1,4 +1,7 @@
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include <calligraphy/devices/simulated_device.hpp>
 
@@ -9,6 +12,8 @@ namespace calligraphy {
 namespace {
 
 constexpr int max_delay = 100'000;  // 100 s at 1 kHz; more is a mistake and would only use memory
+constexpr int max_late = 1000;      // beyond the delay
+constexpr double same_time = 1e-9;  // sums of ticks are that close to the times of a schedule [s]
 
 const Capabilities& checked(const Capabilities& device) {
   validate(device);
@@ -35,35 +40,92 @@ const Eigen::Vector3d& checked(const Eigen::Vector3d& position) {
   return position;
 }
 
-/// Limits the magnitude. Scales by the largest component first, so that no square overflows.
-Eigen::Vector3d shortened(const Eigen::Vector3d& force, double limit) noexcept {
-  const double largest = force.cwiseAbs().maxCoeff();
-  if (largest == 0.0) return force;
-  const Eigen::Vector3d scaled = force / largest;
-  const double length = scaled.norm();
-  if (largest * length <= limit) return force;
-  return scaled * (limit / length);
+const std::vector<SimulatedFault>& checked(const std::vector<SimulatedFault>& faults) {
+  for (std::size_t i = 0; i < faults.size(); ++i) {
+    const std::string of_fault = "scheduled fault " + std::to_string(i) + ": ";
+    require(std::isfinite(faults[i].begin), of_fault + "begin", faults[i].begin, "s", "finite");
+    require(faults[i].duration > 0.0, of_fault + "duration", faults[i].duration, "s", "above 0");
+    require_within(of_fault + "ticks", faults[i].ticks, "", 1, max_late);
+  }
+  return faults;
+}
+
+constexpr SimulatedFault no_fault = {.kind = SimulatedFaultKind::reported, .status = DeviceStatus::ok};
+
+void apply(const SimulatedFault& fault, DeviceState& state) noexcept {
+  switch (fault.kind) {
+    case SimulatedFaultKind::stale:
+      state.status = DeviceStatus::stale;
+      state.fault = fault.fault;
+      break;
+    case SimulatedFaultKind::late:
+      break;  // by the choice of the sample
+    case SimulatedFaultKind::garbage:
+      state.position.setConstant(std::numeric_limits<double>::quiet_NaN());
+      state.velocity.setConstant(std::numeric_limits<double>::quiet_NaN());
+      break;
+    case SimulatedFaultKind::unplugged:
+      state.status = DeviceStatus::disconnected;
+      state.fault = DeviceFault::unplugged;
+      break;
+    case SimulatedFaultKind::reported:
+      state.status = fault.status;
+      state.fault = fault.fault;
+      break;
+  }
 }
 
 }  // namespace
 
 SimulatedDevice::SimulatedDevice(const Capabilities& device, const GripImpedance& grip, const Eigen::Vector3d& position)
-    : device_(checked(device)), grip_(checked(grip)), position_(checked(position)) {
+    : device_(checked(device)), grip_(checked(grip)), position_(checked(position)), estimator_(device.velocity_cutoff) {
   intention_.position = position;  // by default the hand holds still
-  samples_.assign(static_cast<std::size_t>(device_.sample_delay) + 1, sample());
+  samples_.assign(static_cast<std::size_t>(device_.sample_delay) + 1, sample(0.0));
+  last_read_ = samples_.front();
 }
 
+void SimulatedDevice::schedule(std::vector<SimulatedFault> faults) {
+  std::size_t latest = 0;
+  for (const SimulatedFault& fault : checked(faults)) {
+    if (fault.kind == SimulatedFaultKind::late) latest = std::max(latest, static_cast<std::size_t>(fault.ticks));
+  }
+  const std::size_t needed = static_cast<std::size_t>(device_.sample_delay) + latest + 1;
+  if (needed > samples_.size()) {
+    // In order of age, with the oldest repeated in front, as if the device had been at rest before.
+    std::rotate(samples_.begin(), samples_.begin() + static_cast<std::ptrdiff_t>(newest_ + 1), samples_.end());
+    samples_.insert(samples_.begin(), needed - samples_.size(), DeviceState(samples_.front()));
+    newest_ = samples_.size() - 1;
+  }
+  faults_ = std::move(faults);
+  if (unplugged()) force_.setZero();
+}
+
+const SimulatedFault& SimulatedDevice::current_fault() const noexcept {
+  for (const SimulatedFault& fault : faults_) {
+    const double since = time_ - fault.begin;
+    if (since > -same_time && since < fault.duration - same_time) return fault;
+  }
+  return no_fault;
+}
+
+bool SimulatedDevice::unplugged() const noexcept { return current_fault().kind == SimulatedFaultKind::unplugged; }
+
 DeviceState SimulatedDevice::read() noexcept {
-  // The slot after the newest is the oldest; initially every slot holds the first sample.
-  DeviceState state = samples_[(newest_ + 1) % samples_.size()];
+  const SimulatedFault& fault = current_fault();
+  if (fault.kind != SimulatedFaultKind::stale && fault.kind != SimulatedFaultKind::unplugged) {
+    const int age = device_.sample_delay + (fault.kind == SimulatedFaultKind::late ? fault.ticks : 0);
+    last_read_ = samples_[(newest_ + samples_.size() - static_cast<std::size_t>(age)) % samples_.size()];
+  }
+  DeviceState state = last_read_;
+  state.force = force_;
+  apply(fault, state);
   if (!open_) state.status = DeviceStatus::disconnected;
   return state;
 }
 
 void SimulatedDevice::write(const Eigen::Vector3d& force) noexcept {
-  if (!open_) return;
-  force_.setZero();
-  if (force.allFinite()) force_ = shortened(force, device_.peak_force);
+  if (!force.allFinite()) ++refused_forces_;
+  if (open_ && !unplugged()) force_ = output_force(device_, force);
 }
 
 void SimulatedDevice::close() noexcept {
@@ -77,8 +139,9 @@ void SimulatedDevice::set_intention(const Intention& intention) noexcept {
   if (intention.position.allFinite() && intention.velocity.allFinite()) intention_ = intention;
 }
 
-void SimulatedDevice::advance(double seconds) noexcept {
-  if (!(std::isfinite(seconds) && seconds > 0.0)) return;
+void SimulatedDevice::advance(double seconds) {
+  require_not_negative("advance: seconds", seconds, "s");
+  if (seconds == 0.0) return;
   const Oscillator oscillator(device_.apparent_mass + grip_.mass, device_.viscous_friction + grip_.damping,
                               grip_.stiffness);
   const ImpulseResponse whole_step = oscillator.impulse_response(seconds);
@@ -98,10 +161,12 @@ void SimulatedDevice::advance(double seconds) noexcept {
   intention_.position += intention_.velocity * seconds;
   time_ += seconds;
   newest_ = (newest_ + 1) % samples_.size();
-  samples_[newest_] = sample();
+  samples_[newest_] = sample(seconds);
+  if (unplugged()) force_.setZero();
 }
 
-DeviceState SimulatedDevice::sample() const noexcept {
+/// `elapsed`: since the previous sample [s].
+DeviceState SimulatedDevice::sample(double elapsed) noexcept {
   DeviceState state;
   state.time = time_;
   state.position = position_;
@@ -110,7 +175,8 @@ DeviceState SimulatedDevice::sample() const noexcept {
       coordinate = std::round(coordinate / device_.encoder_step) * device_.encoder_step;
     }
   }
-  state.velocity = velocity_;
+  state.velocity_estimated = device_.velocity == VelocitySource::estimated;
+  state.velocity = state.velocity_estimated ? estimator_.update(state.position, elapsed) : velocity_;
   state.buttons = buttons_;
   return state;
 }

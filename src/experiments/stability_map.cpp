@@ -37,7 +37,9 @@ void validate(const WallContact& contact) {
 }
 
 Capabilities pushed(Capabilities device) {
-  device.peak_force = std::numeric_limits<double>::infinity();  // the push is the hand's, not its own
+  // The push is the hand's: it is neither limited nor rounded.
+  device.peak_force = std::numeric_limits<double>::infinity();
+  device.force_step = 0.0;
   return device;
 }
 
@@ -120,7 +122,7 @@ WallContactResult simulate_wall_contact(const SampledLoop& loop, double stiffnes
       const double position = line.receive(device.read().position[wall_normal]);
       Eigen::Vector3d wanted(0.0, 0.0, wall.force(position));
       if (contact.controlled) wanted = controller.next({0.0, 0.0, position}, wanted);
-      const double sent = std::clamp(wanted[wall_normal], -loop.device.peak_force, loop.device.peak_force);
+      const double sent = output_force(loop.device, {0.0, 0.0, wanted[wall_normal]})[wall_normal];
       controller.sent({0.0, 0.0, sent});
       device.write({0.0, 0.0, sent - contact.push});
       device.advance(period);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/collision/placed_character.hpp>
 #include <calligraphy/collision/stroke_tracker.hpp>
 #include <calligraphy/model/character_list.hpp>
@@ -39,6 +40,15 @@ std::vector<Point> path_along(const std::vector<StrokeElement>& elements, Sequen
 }
 
 }  // namespace
+
+TEST_CASE("a tracker names a tolerance that is out of range", "[collision]") {
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), 0.0, -1e-9, 1.5}) {
+    CAPTURE(bad);
+    CHECK_THROWS_AS(StrokeTracker(std::span<const StrokeElement>(), bad), ValueError);
+  }
+  CHECK_THROWS_WITH(StrokeTracker(std::span<const StrokeElement>(), 1.5),
+                    "tolerance = 1.5, must be above 0 and at most 1");
+}
 
 TEST_CASE("the tracker finds the nearest point of the whole stroke at every tick", "[collision]") {
   Sequence random(5);

@@ -40,18 +40,53 @@ std::string replay_error(const std::vector<DeviceState>& samples) {
 TEST_CASE("a replay returns its samples in order and unchanged", "[devices]") {
   Capabilities capabilities;
   capabilities.model = "recorded";
-  ReplayDevice device(trace({-1.0, 0.5, 0.75}), capabilities);
+  std::vector<DeviceState> samples = trace({-1.0, 0.5, 0.75});
+  for (DeviceState& sample : samples) {
+    sample.velocity = {sample.time, 0.1, 0.2};
+    sample.force = {0.0, sample.time, 0.3};
+  }
+  ReplayDevice device(samples, capabilities);
   CHECK(device.capabilities().model == "recorded");
   for (const double time : {-1.0, 0.5, 0.75}) {
     CHECK_FALSE(device.finished());
     const DeviceState state = device.read();
     CHECK(state.time == time);
     CHECK(state.position == Eigen::Vector3d(time, 2.0 * time, -time));
-    CHECK(state.velocity.array().isNaN().all());
+    CHECK(state.velocity == Eigen::Vector3d(time, 0.1, 0.2));
+    CHECK_FALSE(state.velocity_estimated);
+    CHECK(state.force == Eigen::Vector3d(0.0, time, 0.3));
     CHECK(state.buttons == 5);
     CHECK(state.status == DeviceStatus::warm_motors);
   }
   CHECK(device.finished());
+}
+
+TEST_CASE("a replay estimates velocities that were not recorded, across stale samples but not across faults",
+          "[devices]") {
+  const Eigen::Vector3d velocity(1.0, 2.0, -1.0);  // of the trace
+  std::vector<double> times(200);
+  for (std::size_t i = 0; i < times.size(); ++i) times[i] = 5.0 + 1e-3 * static_cast<double>(i);
+  std::vector<DeviceState> samples = trace(times);
+  samples[100].status = samples[101].status = DeviceStatus::stale;
+  samples[100].position = samples[101].position = samples[99].position;
+  samples[102].position.x() = std::numeric_limits<double>::quiet_NaN();
+  samples[110].velocity.x() = std::numeric_limits<double>::infinity();  // a fault, and NaN along the other axes
+  for (std::size_t i = 150; i < samples.size(); ++i) samples[i].position.y() += 1.0;  // while it was unplugged
+  samples[149].status = DeviceStatus::disconnected;
+  ReplayDevice device(samples, {});
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const DeviceState state = device.read();
+    CAPTURE(i, state.velocity.transpose());
+    if (i == 110) {
+      CHECK(std::isinf(state.velocity.x()));
+      continue;
+    }
+    REQUIRE(state.velocity.allFinite());
+    REQUIRE(state.velocity_estimated);
+    if (i == 0 || i == 149 || i == 150) REQUIRE(state.velocity.isZero(0.0));
+    if (i >= 50 && i < 149) REQUIRE(state.velocity.isApprox(velocity, 1e-6));
+    if (i > 150) REQUIRE(state.velocity.norm() < velocity.norm() + 1e-9);
+  }
 }
 
 TEST_CASE("a replay that has ended reports disconnected at the last position forever", "[devices]") {

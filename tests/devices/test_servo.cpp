@@ -2,6 +2,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -264,6 +265,126 @@ TEST_CASE("an unmeasured velocity is not a fault, an infinite one is", "[servo]"
   bench.device.state.velocity.x() = infinity;
   bench.ticks(10);
   CHECK(bench.device.last() == 0.0);
+}
+
+TEST_CASE("a velocity that is not measured is estimated, one that is measured is passed on", "[servo]") {
+  constexpr double speed = 0.2;
+  Bench bench;
+  std::vector<DeviceState> seen;
+  bench.law = [&seen](const DeviceState& state) -> Eigen::Vector3d {
+    seen.push_back(state);
+    return {0.0, 0.0, 0.0};
+  };
+  for (int i = 0; i < 100; ++i) {
+    bench.device.state.position.y() += speed * period;
+    bench.tick();
+  }
+  REQUIRE(seen.size() == 100);
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const double risen = 1.0 - std::exp(-2.0 * std::numbers::pi * 50.0 * period * static_cast<double>(i));
+    REQUIRE(seen[i].velocity.y() == Approx(speed * risen).margin(1e-12));
+    REQUIRE(seen[i].velocity_estimated);
+  }
+  bench.device.state.velocity = {1.0, 2.0, 3.0};
+  bench.tick();
+  CHECK(seen.back().velocity == Eigen::Vector3d(1.0, 2.0, 3.0));
+  CHECK_FALSE(seen.back().velocity_estimated);
+}
+
+TEST_CASE("stale samples do not show in an estimated velocity", "[servo]") {
+  constexpr double speed = 0.2;
+  Bench bench;
+  double last = 0.0;
+  bench.law = [&last](const DeviceState& state) -> Eigen::Vector3d {
+    last = state.velocity.x();
+    return {0.0, 0.0, 0.0};
+  };
+  for (int i = 0; i < 200; ++i) {
+    const bool fresh = i < 100 || i % 3 == 0;
+    bench.device.state.status = fresh ? DeviceStatus::ok : DeviceStatus::stale;
+    if (fresh) bench.device.state.position.x() = speed * period * i;
+    bench.tick();
+    if (i >= 99) REQUIRE(last == Approx(speed));
+  }
+}
+
+TEST_CASE("after a fault, a gap or a reset an estimated velocity starts from zero, wherever the pen is by then",
+          "[servo]") {
+  const int what = GENERATE(0, 1, 2, 3);
+  CAPTURE(what);
+  Bench bench;
+  double last = 0.0, largest = 0.0;
+  bench.law = [&](const DeviceState& state) -> Eigen::Vector3d {
+    last = state.velocity.x();
+    largest = std::max(largest, std::abs(last));
+    return {wanted, 0.0, 0.0};
+  };
+  const auto move = [&](int ticks) {
+    for (int i = 0; i < ticks; ++i) {
+      bench.device.state.position.x() += 1e-4;
+      bench.tick();
+    }
+  };
+  move(100);
+  REQUIRE(last == Approx(0.1));
+  if (what == 0) {
+    bench.device.state.status = DeviceStatus::disconnected;
+    bench.tick();
+    bench.device.state.status = DeviceStatus::ok;
+  } else if (what == 1) {
+    bench.wait(200);  // the force is zero by then, so that this gap is no fault
+  } else if (what == 2) {
+    virtual_time += 5e-3;
+  } else {
+    bench.servo.reset();
+  }
+  bench.device.state.position.x() += 0.5;
+  bench.tick();
+  bench.tick();
+  CHECK(last == 0.0);
+  move(100);
+  CHECK(last == Approx(0.1));
+  CHECK(largest < 0.1001);
+}
+
+TEST_CASE("the force law sees the force at work: the last one written, whoever wrote it", "[servo]") {
+  ServoOptions options;
+  Bench bench(options);
+  long calls = 0, nonzero = 0;
+  bench.law = [&](const DeviceState& state) -> Eigen::Vector3d {
+    const Eigen::Vector3d written =
+        bench.device.forces.empty() ? Eigen::Vector3d(0.0, 0.0, 0.0) : bench.device.forces.back();
+    ++calls;
+    if (!written.isZero(0.0)) ++nonzero;
+    REQUIRE(state.force == written);
+    return {wanted + 1e-3 * static_cast<double>(calls % 7), 0.5, 0.0};
+  };
+  bench.ticks(250);  // ramps up, and runs
+  bench.device.state.position.z() = not_a_number;
+  bench.tick();
+  bench.device.state.position.z() = 0.0;
+  bench.ticks(5);  // ramps down, although the fault has cleared
+  CHECK(bench.servo.status().phase == ServoPhase::falling);
+  bench.ticks(250);
+  CHECK(calls == 505);
+  bench.wait(100);  // the watchdog ramps down
+  REQUIRE(bench.servo.statistics().watchdog_takeovers == 1);
+  REQUIRE(bench.device.forces.back().isZero(0.0));
+  bench.tick();
+  CHECK(calls == 506);
+  CHECK(nonzero > 490);
+}
+
+TEST_CASE("a force that the device reports itself is passed on", "[servo]") {
+  Bench bench;
+  bench.device.state.force = {0.25, 0.5, -1.0};  // its motors are warm, say
+  Eigen::Vector3d seen(0.0, 0.0, 0.0);
+  bench.law = [&seen](const DeviceState& state) {
+    seen = state.force;
+    return Eigen::Vector3d(wanted, 0.0, 0.0);
+  };
+  bench.ticks(10);
+  CHECK(seen == bench.device.state.force);
 }
 
 TEST_CASE("a force law that throws or returns NaN is counted, and the last good force ramps down", "[servo]") {
@@ -785,4 +906,45 @@ TEST_CASE("a simulated pen rests on a wall with the servo as it does without", "
     device.advance(period);
   }
   CHECK(-device.true_position().z() == Approx(0.005 * 500.0 / 1300.0).margin(2e-4));
+}
+
+namespace {
+
+/// A backend whose device does not measure velocity, and whose author has filled in nothing else either.
+class NoVelocity final : public HapticDevice {
+ public:
+  explicit NoVelocity(SimulatedDevice& physics) : physics_(physics) {}
+
+  const Capabilities& capabilities() const noexcept override { return physics_.capabilities(); }
+  DeviceState read() noexcept override {
+    DeviceState state;
+    state.position = physics_.read().position;
+    return state;
+  }
+  void write(const Eigen::Vector3d& force) noexcept override { physics_.write(force); }
+  void close() noexcept override { physics_.close(); }
+
+ private:
+  SimulatedDevice& physics_;
+};
+
+}  // namespace
+
+TEST_CASE("a damped wall does not vanish on a device that does not measure velocity", "[servo]") {
+  SimulatedDevice physics(device_profile("desktop"), {0.15, 5.0, 500.0}, {0.0, 0.0, 0.01});
+  physics.set_intention({{0.0, 0.0, -0.005}, Eigen::Vector3d::Zero()});
+  NoVelocity device(physics);
+  REQUIRE(device.read().velocity.array().isNaN().all());
+  // As examples/02_own_force_law.cpp has it: std::max(0.0, NaN) is 0.
+  Servo servo(device, [](const DeviceState& state) -> Eigen::Vector3d {
+    const double penetration = -state.position.z();
+    if (penetration <= 0.0) return {0.0, 0.0, 0.0};
+    return {0.0, 0.0, std::max(0.0, 800.0 * penetration - 2.0 * state.velocity.z())};
+  });
+  for (int tick = 0; tick < 2000; ++tick) {
+    servo.step(physics.time());
+    physics.advance(period);
+  }
+  CHECK(-physics.true_position().z() == Approx(0.005 * 500.0 / 1300.0).margin(2e-4));
+  CHECK(physics.applied_force().z() == Approx(800.0 * 0.005 * 500.0 / 1300.0).margin(0.16));
 }

@@ -2,11 +2,14 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <string>
 #include <vector>
 
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/base/random.hpp>
 #include <calligraphy/devices/device_profiles.hpp>
+#include <calligraphy/devices/servo.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
 
 #include "../allocation_counter.hpp"
@@ -455,6 +458,7 @@ TEST_CASE("a delayed device returns the state of that many ticks ago", "[devices
     const DeviceState state = device.read();
     REQUIRE(same_bits(state.position, positions[static_cast<std::size_t>(expected)]));
     REQUIRE(same_bits(state.velocity, velocities[static_cast<std::size_t>(expected)]));
+    REQUIRE_FALSE(state.velocity_estimated);
     REQUIRE(state.time == Approx(expected * 1e-3));
     REQUIRE(state.buttons == (expected > 3 ? 1u : 0u));
     REQUIRE(state.status == DeviceStatus::ok);
@@ -463,6 +467,33 @@ TEST_CASE("a delayed device returns the state of that many ticks ago", "[devices
     positions.push_back(device.true_position());
     velocities.push_back(device.true_velocity());
   }
+}
+
+TEST_CASE("a device that does not measure velocity estimates it from its quantised samples, one per advance",
+          "[devices]") {
+  Capabilities profile = device_profile("omni");
+  profile.sample_delay = GENERATE(0, 3);
+  profile.velocity_cutoff = GENERATE(50.0, 20.0);
+  constexpr double period = 1e-3;
+  SimulatedDevice device(profile, {0.1, 3.0, 300.0});
+  device.set_intention({Eigen::Vector3d::Zero(), {0.2, -0.05, 0.0}});
+  // Differences of the positions that are read, behind a first-order low-pass.
+  const double share = 1.0 - std::exp(-2.0 * std::numbers::pi * profile.velocity_cutoff * period);
+  Eigen::Vector3d last = device.read().position, expected = Eigen::Vector3d::Zero(), mean = Eigen::Vector3d::Zero();
+  double ripple = 0.0;
+  for (int tick = 0; tick < 1000; ++tick) {
+    device.advance(period);
+    const DeviceState state = device.read();
+    expected += share * ((state.position - last) / period - expected);
+    last = state.position;
+    REQUIRE(state.velocity_estimated);
+    REQUIRE((state.velocity - expected).norm() < 1e-12);
+    if (tick < 500) continue;
+    mean += state.velocity / 500.0;
+    ripple = std::max(ripple, (state.velocity - device.true_velocity()).norm());
+  }
+  CHECK((mean - device.true_velocity()).norm() < 1e-3);
+  CHECK(ripple > 0.1 * share * profile.encoder_step / period);  // it is not the true one
 }
 
 TEST_CASE("the encoder rounds positions to its nearest step and does not affect the motion", "[devices]") {
@@ -486,7 +517,9 @@ TEST_CASE("the encoder rounds positions to its nearest step and does not affect 
 }
 
 TEST_CASE("a force above the peak is limited to it, with its direction preserved", "[devices]") {
-  SimulatedDevice device(device_profile("omni"));
+  Capabilities omni = device_profile("omni");
+  omni.force_step = 0.0;
+  SimulatedDevice device(omni);
   const double size = GENERATE(3.3000001, 5.0, 1e10, 1e200, 1e308);
   const Eigen::Vector3d direction = Eigen::Vector3d(1.0, -0.9, 0.5).normalized();
   device.write(direction * size);
@@ -497,12 +530,50 @@ TEST_CASE("a force above the peak is limited to it, with its direction preserved
 TEST_CASE("a force up to the peak is applied unchanged", "[devices]") {
   const Eigen::Vector3d force = GENERATE(Eigen::Vector3d(1.0, -2.0, 2.0), Eigen::Vector3d(0.0, 3.3, 0.0),
                                          Eigen::Vector3d(5e-324, 0.0, -1e-310), Eigen::Vector3d(0.0, 0.0, 0.0));
-  SimulatedDevice device(device_profile("omni"));
+  Capabilities omni = device_profile("omni");
+  omni.force_step = 0.0;
+  SimulatedDevice device(omni);
   device.write(force);
   CHECK(same_bits(device.applied_force(), force));
   SimulatedDevice unlimited(device_profile("ideal"));
   unlimited.write(force * 1e300);
   CHECK(same_bits(unlimited.applied_force(), force * 1e300));
+}
+
+TEST_CASE("the DAC rounds each component of a force to its nearest step", "[devices]") {
+  Capabilities coarse = point_mass(0.045);
+  coarse.force_step = 0.25;
+  SimulatedDevice device(coarse);
+  device.write({0.30, -0.40, 0.12});
+  CHECK(device.applied_force() == Eigen::Vector3d(0.25, -0.5, 0.0));
+  CHECK(device.read().force == Eigen::Vector3d(0.25, -0.5, 0.0));
+  device.advance(0.1);
+  CHECK(device.true_velocity().isApprox(0.1 / 0.045 * Eigen::Vector3d(0.25, -0.5, 0.0)));
+}
+
+TEST_CASE("a rounded force never exceeds the peak, in whatever direction it is commanded", "[devices]") {
+  for (const Capabilities& profile : device_profiles()) {
+    if (profile.force_step == 0.0) continue;
+    CAPTURE(profile.name);
+    SimulatedDevice device(profile);
+    Random random(5);
+    const auto unit = [&] { return random.between(-1.0, 1.0); };
+    double worst = 0.0;
+    for (int i = 0; i < 5000; ++i) {
+      const Eigen::Vector3d direction = Eigen::Vector3d(unit(), unit(), unit()).normalized();
+      const double size = profile.peak_force * (i % 2 == 0 ? 1.0 + i : unit());
+      const Eigen::Vector3d force = size * direction;
+      device.write(force);
+      REQUIRE(device.applied_force().norm() <= profile.peak_force);
+      const Eigen::Vector3d wanted = std::abs(size) > profile.peak_force ? profile.peak_force * direction : force;
+      worst = std::max(worst, (device.applied_force() - wanted).cwiseAbs().maxCoeff());
+      if (size < 0.9 * profile.peak_force)
+        REQUIRE((device.applied_force() - force).cwiseAbs().maxCoeff() <= 0.5001 * profile.force_step);
+    }
+    CHECK(worst <= 1.0001 * profile.force_step);
+    device.write({0.0, profile.peak_force, 0.0});
+    CHECK(device.applied_force().y() == Approx(profile.peak_force));
+  }
 }
 
 TEST_CASE("a force that is not finite counts as zero", "[devices]") {
@@ -513,6 +584,7 @@ TEST_CASE("a force that is not finite counts as zero", "[devices]") {
   device.write({1.0, bad, 1.0});
   CAPTURE(bad, name);
   CHECK(device.applied_force().isZero(0.0));
+  CHECK(device.refused_forces() == 1);
 }
 
 TEST_CASE("a force is held until the next one", "[devices]") {
@@ -539,16 +611,211 @@ TEST_CASE("a closed device has no force and reports disconnected", "[devices]") 
   CHECK(device.read().status == DeviceStatus::disconnected);
 }
 
+// ---- faults on schedule
+
+namespace {
+
+/// A device dragged at 0.1 m/s along x, with its velocity measured, so that a sample tells when it was taken.
+SimulatedDevice dragged(int delay = 0) {
+  Capabilities profile = point_mass(0.045);
+  profile.sample_delay = delay;
+  SimulatedDevice device(profile, {1.0, 10.0, 1000.0});
+  device.set_intention({Eigen::Vector3d::Zero(), {0.1, 0.0, 0.0}});
+  return device;
+}
+
+constexpr double tick = 1e-3;  // [s]
+
+}  // namespace
+
+TEST_CASE("a stale fault repeats the last sample, and is over at its end", "[devices][faults]") {
+  SimulatedDevice device = dragged();
+  device.schedule({{.begin = 0.05, .duration = 0.01, .kind = SimulatedFaultKind::stale, .fault = DeviceFault::silent}});
+  DeviceState before;
+  int stale = 0;
+  for (int i = 0; i < 100; ++i) {
+    const DeviceState state = device.read();
+    CAPTURE(i);
+    if (i < 50 || i >= 60) {
+      REQUIRE(state.status == DeviceStatus::ok);
+      REQUIRE(state.position == device.true_position());
+      before = state;
+    } else {
+      ++stale;
+      REQUIRE(state.status == DeviceStatus::stale);
+      REQUIRE(state.fault == DeviceFault::silent);
+      REQUIRE(state.position == before.position);
+      REQUIRE(state.time == before.time);
+    }
+    device.advance(tick);
+  }
+  CHECK(stale == 10);
+}
+
+TEST_CASE("late samples are as many ticks older as the fault says, on top of the device's delay", "[devices][faults]") {
+  const int delay = GENERATE(0, 2), late = GENERATE(1, 7);
+  const bool midway = GENERATE(false, true);  // scheduled while the device runs
+  CAPTURE(delay, late, midway);
+  SimulatedDevice device = dragged(delay);
+  const std::vector<SimulatedFault> faults = {
+      {.begin = 0.02, .duration = 0.02, .kind = SimulatedFaultKind::late, .ticks = late}};
+  if (!midway) device.schedule(faults);
+  std::vector<Eigen::Vector3d> positions;
+  for (int i = 0; i < 60; ++i) {
+    if (midway && i == 15) device.schedule(faults);
+    positions.push_back(device.true_position());
+    const int age = delay + (i >= 20 && i < 40 ? late : 0);
+    const DeviceState state = device.read();
+    CAPTURE(i);
+    REQUIRE(state.status == DeviceStatus::ok);
+    // A schedule midway repeats the oldest sample that the device had kept.
+    const int taken = std::max(i - age, midway && i >= 20 ? 15 - delay : 0);
+    REQUIRE(state.position == positions[static_cast<std::size_t>(taken)]);
+    REQUIRE(state.time == Approx(taken * tick).margin(1e-12));
+    device.advance(tick);
+  }
+}
+
+TEST_CASE("garbage has no position although its status is ok", "[devices][faults]") {
+  SimulatedDevice device = dragged();
+  device.schedule({{.begin = 0.0, .duration = tick, .kind = SimulatedFaultKind::garbage}});
+  const DeviceState state = device.read();
+  CHECK(state.status == DeviceStatus::ok);
+  CHECK(state.position.array().isNaN().all());
+  CHECK(state.velocity.array().isNaN().all());
+  device.advance(tick);
+  CHECK(device.read().position == device.true_position());
+}
+
+TEST_CASE("an unplugged device has no force, takes none, and has none when it returns", "[devices][faults]") {
+  SimulatedDevice device(point_mass(0.045));
+  device.schedule({{.begin = 0.01, .duration = 0.02, .kind = SimulatedFaultKind::unplugged}});
+  for (int i = 0; i < 10; ++i) {
+    CHECK(device.read().status == DeviceStatus::ok);
+    device.write({1.0, 0.0, 0.0});
+    device.advance(tick);
+  }
+  const Eigen::Vector3d velocity = device.true_velocity(), position = device.true_position();
+  CHECK(velocity.x() == Approx(0.01 / 0.045));
+  CHECK(device.applied_force().isZero(0.0));
+  for (int i = 0; i < 20; ++i) {
+    const DeviceState state = device.read();
+    REQUIRE(state.status == DeviceStatus::disconnected);
+    REQUIRE(state.fault == DeviceFault::unplugged);
+    REQUIRE(state.force.isZero(0.0));
+    device.write({1.0, 0.0, 0.0});
+    device.advance(tick);
+  }
+  CHECK(device.true_velocity().isApprox(velocity));
+  CHECK(device.read().status == DeviceStatus::ok);
+  CHECK(device.read().position.x() == Approx(position.x() + 0.02 * velocity.x()));
+  CHECK(device.applied_force().isZero(0.0));
+  device.write({1.0, 0.0, 0.0});
+  CHECK(device.applied_force().x() == 1.0);
+}
+
+TEST_CASE("any status and fault can be reported on demand, and the first of several at once counts",
+          "[devices][faults]") {
+  SimulatedDevice device = dragged();
+  device.schedule(
+      {{.begin = 0.002, .duration = 0.002, .kind = SimulatedFaultKind::reported, .status = DeviceStatus::warm_motors},
+       {.begin = 0.0,
+        .duration = infinity,
+        .kind = SimulatedFaultKind::reported,
+        .status = DeviceStatus::fault,
+        .fault = DeviceFault::overheated}});
+  for (int i = 0; i < 100; ++i) {
+    const DeviceState state = device.read();
+    const bool warm = i == 2 || i == 3;
+    CAPTURE(i);
+    REQUIRE(state.status == (warm ? DeviceStatus::warm_motors : DeviceStatus::fault));
+    REQUIRE(state.fault == (warm ? DeviceFault::none : DeviceFault::overheated));
+    REQUIRE(state.position == device.true_position());
+    device.advance(tick);
+  }
+  device.schedule({});
+  CHECK(device.read().status == DeviceStatus::ok);
+}
+
+TEST_CASE("a schedule is refused by the number of its fault and the value", "[devices][faults]") {
+  SimulatedDevice device = dragged();
+  const auto complaint = [&device](const SimulatedFault& fault) -> std::string {
+    try {
+      device.schedule({{.duration = 1.0}, fault});
+    } catch (const ValueError& error) {
+      return error.what();
+    }
+    return {};
+  };
+  CHECK(complaint({.duration = 1.0}).empty());
+  CHECK(complaint({.duration = infinity}).empty());
+  CHECK(complaint({.begin = not_a_number, .duration = 1.0}) == "scheduled fault 1: begin = nan s, must be finite");
+  CHECK(complaint({.duration = 0.0}) == "scheduled fault 1: duration = 0 s, must be above 0");
+  CHECK(contains(complaint({.duration = not_a_number}), "duration = nan"));
+  CHECK(contains(complaint({.duration = 1.0, .kind = SimulatedFaultKind::late, .ticks = 0}), "ticks = 0"));
+  CHECK(contains(complaint({.duration = 1.0, .kind = SimulatedFaultKind::late, .ticks = 1001}), "ticks = 1001"));
+}
+
+TEST_CASE("a servo survives a schedule of every fault: the force falls, and returns after each", "[devices][faults]") {
+  using Kind = SimulatedFaultKind;
+  SimulatedDevice device(device_profile("desktop"), {0.15, 5.0, 500.0}, {0.0, 0.0, -0.002});
+  device.schedule({{.begin = 1.0, .duration = 0.05, .kind = Kind::stale},
+                   {.begin = 2.0, .duration = 0.05, .kind = Kind::garbage},
+                   {.begin = 3.0, .duration = 0.05, .kind = Kind::unplugged},
+                   {.begin = 4.0, .duration = 0.05, .kind = Kind::reported, .fault = DeviceFault::overheated}});
+  bool finite = true;
+  Servo servo(device, [&finite](const DeviceState& state) -> Eigen::Vector3d {
+    finite = finite && state.position.allFinite() && state.velocity.allFinite() && state.force.allFinite();
+    return {0.0, 0.0, std::max(0.0, -500.0 * state.position.z() - 2.0 * state.velocity.z())};
+  });
+  for (int i = 0; i < 5000; ++i) {
+    servo.step(tick * i);
+    const int after = i % 1000;  // of the last fault
+    CAPTURE(i);
+    if (i >= 1000 && after >= 15 && after < 50) REQUIRE(device.applied_force().isZero(0.0));
+    if (after > 400) REQUIRE(device.applied_force().z() > 0.3);
+    device.advance(tick);
+  }
+  CHECK(finite);
+  const ServoStatistics statistics = servo.statistics();
+  for (const DeviceFault fault :
+       {DeviceFault::silent, DeviceFault::corrupted_frame, DeviceFault::unplugged, DeviceFault::overheated}) {
+    CAPTURE(to_string(fault));
+    CHECK(statistics.fault_count(fault) == 1);
+  }
+}
+
+TEST_CASE("reading and writing on schedule do not allocate", "[devices][faults]") {
+  SimulatedDevice device = dragged();
+  std::vector<SimulatedFault> faults;
+  for (int kind = 0; kind < 5; ++kind) {
+    faults.push_back({.begin = 0.01 * kind, .duration = 0.005, .kind = static_cast<SimulatedFaultKind>(kind)});
+  }
+  device.schedule(faults);
+  const std::size_t before = calligraphy_test::allocations();
+  for (int i = 0; i < 60; ++i) {
+    device.write(device.read().position);
+    device.advance(tick);
+  }
+  const std::size_t after = calligraphy_test::allocations();
+  CHECK(after == before);
+}
+
 // ---- hostile and extreme input
 
-TEST_CASE("advancing by an invalid time changes nothing", "[devices]") {
+TEST_CASE("advancing by zero changes nothing, by an impossible time it is refused by its value", "[devices]") {
   SimulatedDevice device(device_profile("omni"), {0.1, 3.0, 300.0});
   device.set_intention({{0.01, 0.0, 0.0}, {1.0, 0.0, 0.0}});
   device.write({1.0, 2.0, 0.0});
   device.advance(1e-3);
   const Eigen::Vector3d position = device.true_position();
   const double time = device.time();
-  for (const double seconds : {0.0, -0.0, -1e-3, not_a_number, infinity, -infinity}) device.advance(seconds);
+  for (const double seconds : {0.0, -0.0}) device.advance(seconds);
+  for (const double seconds : {-1e-3, not_a_number, infinity, -infinity}) {
+    CAPTURE(seconds);
+    CHECK_THROWS_AS(device.advance(seconds), ValueError);
+  }
+  CHECK_THROWS_WITH(device.advance(-0.5), "advance: seconds = -0.5 s, must be finite and at least 0");
   CHECK(same_bits(device.true_position(), position));
   CHECK(device.time() == time);
 }
@@ -654,12 +921,12 @@ TEST_CASE("the built-in profiles have the values of their sources", "[devices]")
     const char* name;
     double peak, stiffness, continuous, resolution_mm;
     Eigen::Vector3d workspace_mm;
-    double coulomb, mass;
+    double coulomb, mass, force_step_mn;
   };
-  const Row row = GENERATE(Row{"omni", 3.3, 700.0, 0.88, 0.055, {160.0, 120.0, 70.0}, 0.26, 0.045},
-                           Row{"touch", 3.3, 400.0, 0.88, 0.055, {160.0, 120.0, 70.0}, 0.26, 0.045},
-                           Row{"desktop", 7.9, 1000.0, 1.75, 0.023, {160.0, 120.0, 120.0}, 0.06, 0.045},
-                           Row{"premium-1.5", 8.5, 800.0, 1.4, 0.03, {381.0, 267.0, 191.0}, 0.04, 0.075});
+  const Row row = GENERATE(Row{"omni", 3.3, 700.0, 0.88, 0.055, {160.0, 120.0, 70.0}, 0.26, 0.045, 1.61},
+                           Row{"touch", 3.3, 400.0, 0.88, 0.055, {160.0, 120.0, 70.0}, 0.26, 0.045, 1.61},
+                           Row{"desktop", 7.9, 1000.0, 1.75, 0.023, {160.0, 120.0, 120.0}, 0.06, 0.045, 3.86},
+                           Row{"premium-1.5", 8.5, 800.0, 1.4, 0.03, {381.0, 267.0, 191.0}, 0.04, 0.075, 4.15});
   const Capabilities& profile = device_profile(row.name);
   CAPTURE(row.name);
   CHECK(profile.peak_force == row.peak);
@@ -670,6 +937,9 @@ TEST_CASE("the built-in profiles have the values of their sources", "[devices]")
   CHECK(profile.update_rate == 1000.0);
   CHECK(profile.coulomb_friction == row.coulomb);
   CHECK(profile.apparent_mass == row.mass);
+  CHECK(1e3 * profile.force_step == Approx(row.force_step_mn).epsilon(0.003));  // 12 bits for both directions
+  CHECK(profile.velocity == VelocitySource::estimated);
+  CHECK(profile.velocity_cutoff == 50.0);
   CHECK(profile.viscous_friction >= 0.05);
   CHECK(profile.viscous_friction <= 0.5);
   CHECK(profile.sample_delay == 0);
@@ -680,6 +950,8 @@ TEST_CASE("the ideal profile adds nothing to a point mass", "[devices]") {
   CHECK(profile.viscous_friction == 0.0);
   CHECK(profile.coulomb_friction == 0.0);
   CHECK(profile.encoder_step == 0.0);
+  CHECK(profile.force_step == 0.0);
+  CHECK(profile.velocity == VelocitySource::measured);
   CHECK(profile.sample_delay == 0);
   CHECK(profile.peak_force == infinity);
 }
@@ -722,9 +994,15 @@ TEST_CASE("an unphysical profile or grip is rejected with name and value", "[dev
     CHECK(contains(profile_error([&](Capabilities& p) { p.viscous_friction = bad; }), "viscous friction"));
     CHECK(contains(profile_error([&](Capabilities& p) { p.coulomb_friction = bad; }), "Coulomb friction"));
     CHECK(contains(profile_error([&](Capabilities& p) { p.encoder_step = bad; }), "encoder step"));
+    CHECK(contains(profile_error([&](Capabilities& p) { p.force_step = bad; }), "force step"));
     CHECK(contains(error_of(device_profile("omni"), {bad, 1.0, 1.0}), "mass of the grip"));
     CHECK(contains(error_of(device_profile("omni"), {1.0, bad, 1.0}), "damping of the grip"));
     CHECK(contains(error_of(device_profile("omni"), {1.0, 1.0, bad}), "stiffness of the grip"));
+  }
+  CHECK(
+      contains(profile_error([](Capabilities& p) { p.force_step = 3.4; }), "force step = 3.4 N, must be at most the"));
+  for (const double bad : {0.0, -1.0, infinity, not_a_number}) {
+    CHECK(contains(profile_error([&](Capabilities& p) { p.velocity_cutoff = bad; }), "velocity cut-off"));
   }
   for (const double bad : {0.0, -1.0, not_a_number}) {
     CHECK(contains(profile_error([&](Capabilities& p) { p.peak_force = bad; }), "peak force"));

@@ -247,8 +247,24 @@ TEST_CASE("the wall force is clipped at the peak force of the device", "[stabili
   SampledLoop loop = loop_of(1000.0, 5.0);
   loop.device.peak_force = 2.0;
   CHECK(simulate_wall_contact(loop, 5000.0, contact).max_force == 2.0);
+  loop.device.force_step = 0.3;
+  CHECK(simulate_wall_contact(loop, 5000.0, contact).max_force == Approx(1.8));  // the largest multiple below it
   loop.device.peak_force = 50.0;
   CHECK(simulate_wall_contact(loop, 5000.0, contact).max_force > 2.0);
+}
+
+TEST_CASE("the wall force is rounded to the force steps of the device, the push of the hand is not",
+          "[stability map]") {
+  WallContact contact;
+  contact.push = 0.5;
+  SampledLoop loop = loop_of(1000.0, 5.0);
+  loop.device.force_step = 0.2;
+  // No multiple of 0.2 N balances 0.5 N: the pen goes to and fro between two of them.
+  const WallContactResult outcome = simulate_wall_contact(loop, 500.0, contact);
+  CHECK_FALSE(outcome.stable);
+  CHECK(outcome.last_force == Approx(0.6));
+  contact.push = 0.4;
+  CHECK(simulate_wall_contact(loop, 500.0, contact).stable);
 }
 
 TEST_CASE("on a wall without stiffness the pen does not settle", "[stability map]") {

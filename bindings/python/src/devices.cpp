@@ -102,13 +102,21 @@ void add_devices(py::module_& module) {
   add_struct<PenOrientation>(module, "PenOrientation", "Orientation of the pen in device axes; NaN if not measured.",
                              &PenOrientation::tilt, "tilt: from the z axis, 0 to pi [rad]", &PenOrientation::azimuth,
                              "azimuth: from the x axis towards the y axis, -pi to pi [rad]");
-  add_struct<DeviceState>(module, "DeviceState", "One sample of a device.", &DeviceState::time,
-                          "time: since the device was opened [s]", &DeviceState::position,
-                          "position: (3,), device axes [m]", &DeviceState::velocity,
-                          "velocity: (3,); NaN if the device does not measure it [m/s]", &DeviceState::buttons,
-                          "buttons: one bit per button", &DeviceState::status, "status: DeviceStatus",
-                          &DeviceState::fault, "fault: DeviceFault: cause of a status other than ok, if known",
-                          &DeviceState::orientation, "orientation: PenOrientation");
+  add_struct<DeviceState>(
+      module, "DeviceState", "One sample of a device.", &DeviceState::time, "time: since the device was opened [s]",
+      &DeviceState::position, "position: (3,), device axes [m]", &DeviceState::velocity,
+      "velocity: (3,); NaN only if the device neither measures nor estimates it; a Servo fills it "
+      "in [m/s]",
+      &DeviceState::velocity_estimated, "velocity_estimated: from positions, not measured", &DeviceState::force,
+      "force: (3,), the force at work when the sample is read, after every limit, guard and ramp; "
+      "NaN if the device does not say; a Servo fills it in [N]",
+      &DeviceState::buttons, "buttons: one bit per button", &DeviceState::status, "status: DeviceStatus",
+      &DeviceState::fault, "fault: DeviceFault: cause of a status other than ok, if known", &DeviceState::orientation,
+      "orientation: PenOrientation");
+  add_enum(
+      module, "VelocitySource",
+      "How a device has DeviceState.velocity: true at the time of the sample, or filtered differences of positions.",
+      VelocitySource::estimated, "measured estimated");
   add_struct<DeviceAxes>(
       module, "DeviceAxes", "Degrees of freedom of a device.", &DeviceAxes::x, "x: translation along this device axis",
       &DeviceAxes::y, "y: translation along this device axis", &DeviceAxes::z, "z: translation along this device axis",
@@ -121,11 +129,14 @@ void add_devices(py::module_& module) {
       "driven: DeviceAxes: axes that write() drives", &Capabilities::workspace,
       "workspace: extent along each device axis, centred on zero, (3,) [m]", &Capabilities::peak_force,
       "peak_force [N]", &Capabilities::continuous_force, "continuous_force [N]", &Capabilities::usable_stiffness,
-      "usable_stiffness: maximum stiffness reported by users [N/m]", &Capabilities::encoder_step,
-      "encoder_step: 0: unknown, or not quantised [m]", &Capabilities::update_rate, "update_rate [Hz]",
-      &Capabilities::apparent_mass, "apparent_mass: at the tip; 0: unknown [kg]", &Capabilities::viscous_friction,
-      "viscous_friction [N s/m]", &Capabilities::coulomb_friction, "coulomb_friction: back-drive friction [N]",
-      &Capabilities::sample_delay, "sample_delay: age of a sample when it is read [ticks]");
+      "usable_stiffness: maximum stiffness reported by users [N/m]", &Capabilities::force_step,
+      "force_step: of the DAC; 0: unknown, or not quantised [N]", &Capabilities::encoder_step,
+      "encoder_step: 0: unknown, or not quantised [m]", &Capabilities::velocity, "velocity: VelocitySource",
+      &Capabilities::velocity_cutoff, "velocity_cutoff: of the filter of an estimated velocity [Hz]",
+      &Capabilities::update_rate, "update_rate [Hz]", &Capabilities::apparent_mass,
+      "apparent_mass: at the tip; 0: unknown [kg]", &Capabilities::viscous_friction, "viscous_friction [N s/m]",
+      &Capabilities::coulomb_friction, "coulomb_friction: back-drive friction [N]", &Capabilities::sample_delay,
+      "sample_delay: age of a sample when it is read [ticks]");
   add_struct<GripImpedance>(module, "GripImpedance",
                             "Impedance of the grip. Soft (0.05, 1, 100), normal (0.1, 3, 300), firm (0.15, 5, 500).",
                             &GripImpedance::mass, "mass [kg]", &GripImpedance::damping, "damping [N s/m]",

@@ -21,7 +21,8 @@ struct StrokePoint {
 class StrokeTracker {
  public:
   /// Keeps a view of the elements, of the first 5 if there are more. `tolerance` is as in NearestPointOptions.
-  explicit StrokeTracker(std::span<const StrokeElement> elements, double tolerance = 1e-9) noexcept;
+  /// @throws ValueError naming the tolerance unless it is above 0 and at most 1
+  explicit StrokeTracker(std::span<const StrokeElement> elements, double tolerance = 1e-9);
   StrokeTracker(std::vector<StrokeElement>&&, double = 0.0) = delete;  // would dangle before the first update
 
   /// For a query that is not finite, returns the start of the element that was nearest last, with status not_finite,

@@ -1,6 +1,7 @@
 // Description of a haptic device: its axes, its limits and its physical properties.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include <Eigen/Core>
@@ -18,6 +19,15 @@ struct DeviceAxes {
 /// For example "x, y, z, rotations" or "none".
 std::string axes_text(const DeviceAxes& axes);
 
+/// How a device has DeviceState::velocity.
+enum class VelocitySource : std::uint8_t {
+  measured,  ///< true at the time of the sample: a tachometer, or an ideal device
+  estimated  ///< filtered differences of its quantised positions, as a VelocityEstimator gives them: late and in steps
+};
+
+/// "measured", "estimated".
+const char* to_string(VelocitySource source) noexcept;
+
 /// Limits of a device, and its properties as a point mass, equal along all axes. The simulation, the stiffness bounds
 /// and the renderer all use this struct.
 struct Capabilities {
@@ -29,7 +39,10 @@ struct Capabilities {
   double peak_force = 0.0;                              ///< [N]
   double continuous_force = 0.0;                        ///< [N]
   double usable_stiffness = 0.0;                        ///< maximum stiffness reported by users of the device [N/m]
-  double encoder_step = 0.0;      ///< positions are rounded to multiples of it; 0: unknown, or not quantised [m]
+  double force_step = 0.0;    ///< forces are rounded to multiples of it (DAC); 0: unknown, or not quantised [N]
+  double encoder_step = 0.0;  ///< positions are rounded to multiples of it; 0: unknown, or not quantised [m]
+  VelocitySource velocity = VelocitySource::estimated;
+  double velocity_cutoff = 50.0;  ///< cut-off frequency of the filter of an estimated velocity [Hz]
   double update_rate = 1000.0;    ///< [Hz]
   double apparent_mass = 0.0;     ///< at the tip; 0: unknown [kg]
   double viscous_friction = 0.0;  ///< [N s/m]
@@ -44,6 +57,11 @@ const std::string& device_label(const Capabilities& capabilities) noexcept;
 /// @throws ValueError naming the field that is negative or not a number, or an axis that is driven but not sensed; also
 /// when no axis is sensed
 void validate(const Capabilities& capabilities);
+
+/// The force that the device outputs when a force is commanded, both in device axes [N]: limited in magnitude to the
+/// peak force (0: unknown, no limit), then rounded per axis to the nearest force step, or towards zero where that would
+/// exceed the peak. A force that is not finite counts as zero.
+Eigen::Vector3d output_force(const Capabilities& capabilities, const Eigen::Vector3d& commanded) noexcept;
 
 /// @throws ValueError naming `user` and the axes unless x, y and z are both sensed and driven
 void require_translations(const Capabilities& capabilities, const char* user);

@@ -68,8 +68,12 @@ struct PenOrientation {
 struct DeviceState {
   double time = 0.0;                                   ///< since the device was opened [s]
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< haptic interface point, device axes [m]
-  Eigen::Vector3d velocity =                           ///< [m/s]; NaN if the device does not measure it
-      Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  /// [m/s]; NaN only if the device neither measures nor estimates it. A force law never sees that: Servo fills it in.
+  Eigen::Vector3d velocity = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  bool velocity_estimated = false;  ///< from positions, by a VelocityEstimator or the vendor's filter: late and noisy
+  /// The force at work when the sample is read, device axes [N]: the last one written, after every limit, guard and
+  /// ramp. NaN if the device does not say; Servo then fills in what it wrote.
+  Eigen::Vector3d force = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   std::uint32_t buttons = 0;  ///< one bit per button
   DeviceStatus status = DeviceStatus::ok;
   DeviceFault fault = DeviceFault::none;  ///< the cause of a status other than ok, if known

@@ -8,11 +8,11 @@
 
 namespace calligraphy {
 
-/// Returns the recorded samples in order, then `disconnected` at the last position forever. Forces are stored and have
-/// no effect. close() ends playback.
+/// Returns the recorded samples in order, then `disconnected` at the last position forever. A velocity that was not
+/// recorded (NaN) is estimated from the positions. Forces are stored and have no effect. close() ends playback.
 class ReplayDevice final : public HapticDevice {
  public:
-  /// @throws ValueError when there are no samples or their times do not increase
+  /// @throws ValueError when there are no samples, their times do not increase, or the velocity cut-off is not above 0
   ReplayDevice(std::vector<DeviceState> samples, Capabilities capabilities);
 
   const Capabilities& capabilities() const noexcept override { return capabilities_; }

@@ -11,12 +11,14 @@
 #include <calligraphy/devices/detail/force_guard.hpp>
 #include <calligraphy/devices/haptic_device.hpp>
 #include <calligraphy/devices/servo_statistics.hpp>
+#include <calligraphy/devices/velocity_estimator.hpp>
 
 namespace calligraphy {
 
 /// Maps a sample to the force in device axes [N]. Called once per fresh sample, never with one that is stale,
-/// uncalibrated, faulty or not finite. It must neither allocate, lock, log nor throw. A servo survives a force law that
-/// does, but ramps the force down when it throws or takes too long.
+/// uncalibrated, faulty or not finite: position, velocity and force of the sample are numbers, whatever the device
+/// measures. It must neither allocate, lock, log nor throw. A servo survives a force law that does, but ramps the force
+/// down when it throws or takes too long.
 using ForceLaw = std::function<Eigen::Vector3d(const DeviceState&)>;
 
 struct ServoOptions {
@@ -49,7 +51,9 @@ struct ServoStatus {
 
 /// Reads the device, calls the force law, guards and writes the force, and keeps statistics.
 ///
-/// A force above the device's peak is limited to it, its direction preserved.
+/// A force above the device's peak is limited to it, its direction preserved. What the device does not say is filled in
+/// before the force law is called: a velocity that is NaN by a VelocityEstimator, which starts anew after a fault or a
+/// gap longer than `timeout`, and a force that is NaN by the last one that the servo or its watchdog wrote.
 ///
 /// The force ramps down to zero when the device is disconnected, uncalibrated or at fault; when its samples are not
 /// finite or stay stale for longer than `timeout`; when the force law throws, returns a force that is not finite or
@@ -65,8 +69,8 @@ struct ServoStatus {
 /// step() and supervise() are wait-free with respect to each other and neither allocate, lock, log nor throw.
 class Servo {
  public:
-  /// The device must outlive the servo. @throws ValueError naming the value when an option is out of range or the force
-  /// law is empty
+  /// The device must outlive the servo. @throws ValueError naming the value when an option or the device's velocity
+  /// cut-off is out of range, or the force law is empty
   Servo(HapticDevice& device, ForceLaw law, const ServoOptions& options = {});
 
   /// Runs one tick at time `now` [s] of a clock that should not run backwards. Call from one thread at a time; a
@@ -99,6 +103,7 @@ class Servo {
   bool hand_over(std::uint64_t& owner, Owner to) noexcept;
   double elapsed_since_last_tick(double now) noexcept;
   DeviceFault judge(const DeviceState& sample, double elapsed) noexcept;
+  void complete(DeviceState& sample, DeviceFault fault, double elapsed) noexcept;
   bool ask(const DeviceState& sample, Eigen::Vector3d& force) noexcept;
   void let_fall(std::uint64_t owner, double elapsed) noexcept;
   void give_back(std::uint64_t owner) noexcept;
@@ -124,6 +129,8 @@ class Servo {
   bool has_time_ = false;
   double last_time_ = 0.0;  ///< [s]
   double stale_for_ = 0.0;  ///< [s]
+  VelocityEstimator velocity_;
+  double since_estimate_ = 0.0;  ///< [s]
 
   // Used only by the thread that calls supervise().
   bool watch_has_time_ = false;

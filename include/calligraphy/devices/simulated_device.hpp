@@ -1,9 +1,12 @@
 // A simulated device and the hand that holds it, integrated exactly between samples.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include <calligraphy/devices/haptic_device.hpp>
+#include <calligraphy/devices/simulated_fault.hpp>
+#include <calligraphy/devices/velocity_estimator.hpp>
 
 namespace calligraphy {
 
@@ -24,9 +27,11 @@ class SimulatedDevice final : public HapticDevice {
                            const Eigen::Vector3d& position = Eigen::Vector3d::Zero());
 
   const Capabilities& capabilities() const noexcept override { return device_; }
-  /// The sample taken `sample_delay` ticks ago; its velocity is the true one at that time.
+  /// The sample taken `sample_delay` ticks ago. Its velocity is had as the device has it: the true one at that time, or
+  /// estimated from the quantised positions of the samples, one per advance(). Its force is the one applied now.
   DeviceState read() noexcept override;
-  /// A force above the peak is limited to it, its direction preserved.
+  /// Applies the device's output_force() for this one. A force that is not finite counts as zero, as on every device;
+  /// refused_forces() counts them, so that a test of a force law can tell.
   void write(const Eigen::Vector3d& force) noexcept override;
   void close() noexcept override;
 
@@ -38,18 +43,27 @@ class SimulatedDevice final : public HapticDevice {
   /// Takes effect with the next advance().
   void set_buttons(std::uint32_t buttons) noexcept { buttons_ = buttons; }
 
-  /// Advances virtual time by `seconds` and takes a sample. Does nothing unless `seconds` is finite and above 0. One
-  /// call follows at most 256 stops along an axis; then the axis stays at rest until its end.
-  void advance(double seconds) noexcept;
+  /// Replaces the schedule of faults, by default empty. Of several that are active at once the first counts. Allocates:
+  /// not for a running servo loop. @throws ValueError naming the fault and the value that is out of range
+  void schedule(std::vector<SimulatedFault> faults);
+
+  /// Advances virtual time by `seconds` and takes a sample; by 0 it does nothing. One call follows at most 256 stops
+  /// along an axis; then the axis stays at rest until its end. @throws ValueError naming a time that is negative or not
+  /// finite
+  void advance(double seconds);
 
   /// The unquantised motion and the force applied.
   const Eigen::Vector3d& true_position() const noexcept { return position_; }
   const Eigen::Vector3d& true_velocity() const noexcept { return velocity_; }
   const Eigen::Vector3d& applied_force() const noexcept { return force_; }
+  /// Forces written so far that were not finite.
+  std::uint64_t refused_forces() const noexcept { return refused_forces_; }
   double time() const noexcept { return time_; }
 
  private:
-  DeviceState sample() const noexcept;
+  DeviceState sample(double elapsed) noexcept;
+  const SimulatedFault& current_fault() const noexcept;
+  bool unplugged() const noexcept;
 
   Capabilities device_;
   GripImpedance grip_;
@@ -57,11 +71,15 @@ class SimulatedDevice final : public HapticDevice {
   Eigen::Vector3d position_;
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
+  VelocityEstimator estimator_;
   double time_ = 0.0;
   std::uint32_t buttons_ = 0;
   bool open_ = true;
-  std::vector<DeviceState> samples_;  ///< ring buffer of the last sample_delay + 1 samples
+  std::uint64_t refused_forces_ = 0;
+  std::vector<DeviceState> samples_;  ///< ring buffer, long enough for the sample delay and the latest fault
   std::size_t newest_ = 0;
+  std::vector<SimulatedFault> faults_;
+  DeviceState last_read_;  ///< as it was before the current fault
 };
 
 }  // namespace calligraphy

@@ -18,9 +18,9 @@ class VelocityEstimator {
   explicit VelocityEstimator(double cutoff = default_cutoff);
 
   /// Takes the next position [m], sampled `elapsed` [s] after the previous call, and returns the estimate [m/s]. The
-  /// first call after construction or restart() gives zero, whatever its `elapsed`. From then on an `elapsed` that is not
-  /// above 0 and finite, or a position that is not finite, leaves the estimate; the next difference is then taken from
-  /// the last good position, over all of the time since.
+  /// first call after construction or restart() gives zero, whatever its `elapsed`. From then on an `elapsed` that is
+  /// not above 0 and finite, or a position that is not finite, leaves the estimate; the next difference is then taken
+  /// from the last good position, over all of the time since.
   const Eigen::Vector3d& update(const Eigen::Vector3d& position, double elapsed) noexcept;
 
   /// The last estimate [m/s].

@@ -110,6 +110,8 @@ OpenHapticsDevice::Implementation::Implementation(const OpenHapticsOptions& opti
   runtime->take_errors();  // discards those of queries that a model does not support
   clock = std::make_unique<SchedulerClock>(runtime, device_, time_);
   opened_ = time_();
+  state_.velocity.setZero();
+  state_.velocity_estimated = true;  // by the runtime
   state_.status = DeviceStatus::stale;
 }
 

@@ -49,13 +49,16 @@ void ForceOutput::pass_time(double seconds) noexcept {
 RawCommand ForceOutput::command(const Joints& joints, const Eigen::Vector3d& force, double gain) noexcept {
   RawCommand command;
   held_.setZero();
+  force_.setZero();
   if (!(gain > 0.0)) return command;
   Eigen::Vector3d torque = joint_torque(linkage_, joints, force) + gain * gravity_torque(gravity_, joints);
-  if (limit_heat_) torque *= temperature_.allowed_share(torque);
+  const double share = limit_heat_ ? temperature_.allowed_share(torque) : 1.0;
+  torque *= share;
   Eigen::Vector3d counts = torque.cwiseQuotient(torque_per_count_);
   const double most = counts.cwiseAbs().cwiseQuotient(counts_).maxCoeff();
   if (!std::isfinite(most)) return command;  // joints that are not finite, or a profile without a DAC
   if (most > 1.0) counts /= most;
+  force_ = share / std::max(most, 1.0) * force;
   for (Eigen::Index joint = 0; joint < 3; ++joint) {
     const std::int64_t whole = std::llround(counts[joint]);
     command.torque[static_cast<std::size_t>(joint)] = whole;

@@ -31,6 +31,9 @@ class ForceOutput {
   /// direction is preserved. `gain` scales the gravity compensation; 0 switches the motors off.
   RawCommand command(const Joints& joints, const Eigen::Vector3d& force, double gain) noexcept;
 
+  /// The force at the tip of the last command, after these limits, before it was rounded to counts [N].
+  const Eigen::Vector3d& force() const noexcept { return force_; }
+
   double warmest() const noexcept { return temperature_.warmest(); }
   /// Only without `limit_heat`: a motor has reached 1 and is not yet below `warm` again.
   bool overheated() const noexcept { return overheated_; }
@@ -46,6 +49,7 @@ class ForceOutput {
   Eigen::Vector3d counts_;                                      ///< range of each DAC in both directions
   MotorTemperature temperature_;
   Eigen::Vector3d held_ = Eigen::Vector3d::Zero();  ///< torque of the last command [N m]
+  Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
   bool overheated_ = false;
   std::atomic<double> published_warmest_ = 0.0;
 };

@@ -8,9 +8,9 @@
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/detail/force_guard.hpp>
-#include <calligraphy/devices/servo.hpp>
 #include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/devices/latest_value.hpp>
+#include <calligraphy/devices/servo.hpp>
 
 #include "base/monotonic_clock.hpp"
 #include "base/require.hpp"
@@ -36,7 +36,8 @@ WireProfile profile_of(const PhantomOptions& options) {
   if (options.wire_profile.empty()) {
     throw ValueError(
         "no wire profile is given. The packets of a Touch are not public: describe them in a file as explained in "
-        "docs/wire-profile.md (\"calligraphy devices probe\" captures them), and pass that file (--wire-profile, PhantomOptions::wire_profile)");
+        "docs/wire-profile.md (\"calligraphy devices probe\" captures them), and pass that file (--wire-profile, "
+        "PhantomOptions::wire_profile)");
   }
   const std::vector<std::string> shipped = wire_profile_names();
   const bool is_shipped = std::ranges::find(shipped, options.wire_profile) != shipped.end();
@@ -84,6 +85,7 @@ class PhantomDevice::Core final : public LinkListener {
         bus_(link.get()),
         link_(std::move(link)) {
     capabilities_.update_rate = codec_.profile().rate;
+    capabilities_.velocity_cutoff = options_.velocity_cutoff;
     opened_at_ = clock_();
     last_report_ = opened_at_;
     silent_until_ = opened_at_;
@@ -139,6 +141,8 @@ class PhantomDevice::Core final : public LinkListener {
     state.time = last_report_ - opened_at_;
     state.position = motion_.position;
     state.velocity = motion_.velocity;
+    state.velocity_estimated = true;
+    state.force = motors_on_.load(std::memory_order_relaxed) ? sent_force_ : Eigen::Vector3d::Zero();
     state.buttons = motion_.buttons;
     state.fault = fault_now(now);
     const std::uint64_t told = told_.load(std::memory_order_acquire);
@@ -184,7 +188,7 @@ class PhantomDevice::Core final : public LinkListener {
       if (wanted.norm() < allowed.norm()) allowed *= wanted.norm() / allowed.norm();
     }
     const double gain = guard_.phase() == ServoPhase::zero ? 0.0 : guard_.gain();
-    send(output_.command(good_joints_, allowed, gain), Sender::servo_loop);
+    if (send(output_.command(good_joints_, allowed, gain), Sender::servo_loop)) sent_force_ = output_.force();
   }
 
   void close() noexcept {
@@ -359,6 +363,7 @@ class PhantomDevice::Core final : public LinkListener {
   Joints good_joints_ = Joints::Zero();  ///< at the last good force; during a fault the newest may be wrong
   ForceGuard guard_;
   ForceOutput output_;
+  Eigen::Vector3d sent_force_ = Eigen::Vector3d::Zero();  ///< of the last command that was sent [N]
 
   Counts counts_;
   LinkCounts closed_counts_;

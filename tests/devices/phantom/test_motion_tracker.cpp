@@ -158,6 +158,20 @@ TEST_CASE("without sequence numbers the arrival time of reports counts", "[phant
   }
 }
 
+TEST_CASE("counts that were lost do not look like a velocity", "[phantom][tracker]") {
+  Tracked held(true, 50.0);
+  held.rest(1);
+  held.tracker.calibrate({0.2, 0.5, 0.3});
+  for (int i = 0; i < 100; ++i) held.report(10);
+  REQUIRE(held.tracker.motion().velocity.norm() > 0.1);
+  held.report(5000);  // a jump
+  held.rest(4);       // the counts do not return: the fifth report restarts them from zero
+  REQUIRE_FALSE(held.calibrated());
+  CHECK(held.tracker.motion().velocity.isZero(0.0));
+  held.rest(1);
+  CHECK(held.tracker.motion().velocity.isZero(0.0));
+}
+
 TEST_CASE("without sequence numbers neither simultaneous reports nor an uneven clock look like a jump",
           "[phantom][tracker]") {
   Tracked held(false);

@@ -95,6 +95,8 @@ TEST_CASE("the velocity is that of the tip after the filter", "[phantom][device]
   PhantomOptions options = simulated_options();
   options.velocity_cutoff = 20.0;
   HeldPhantom held(options);
+  CHECK(held.device.capabilities().velocity == VelocitySource::estimated);
+  CHECK(held.device.capabilities().velocity_cutoff == 20.0);
   held.bring_up();
   held.arm.tip.set_intention({held.arm.tip.true_position(), {0.15, -0.1, 0.05}});
   for (int i = 0; i < 250; ++i) held.turn();
@@ -102,6 +104,7 @@ TEST_CASE("the velocity is that of the tip after the filter", "[phantom][device]
   for (int i = 0; i < 50; ++i) {
     const DeviceState state = held.turn();
     mean += state.velocity / 50.0;
+    REQUIRE(state.velocity_estimated);
     // One count per millisecond is 0.055 m/s; a 20 Hz filter passes an eighth of it.
     REQUIRE((state.velocity - held.arm.tip.true_velocity()).norm() < 0.03);
   }
@@ -152,6 +155,7 @@ TEST_CASE("a force above the peak or the range of the DACs is limited, with its 
   Eigen::Vector3d given = held.arm.motor_force();
   CHECK(given.norm() == Approx(3.3).epsilon(0.01));
   CHECK(given.normalized().dot(wanted.normalized()) > 0.9999);
+  CHECK((held.device.read().force - given).norm() < 0.02);  // rounded to counts
 
   // DACs that output at most 0.2 N m: less than 3.3 N at any pose.
   HeldPhantom weak("torque-per-count 4e-4 4e-4 -4e-4", "torque-per-count 1e-4 1e-4 -1e-4");
@@ -160,6 +164,7 @@ TEST_CASE("a force above the peak or the range of the DACs is limited, with its 
   given = weak.arm.motor_force();
   CHECK(given.norm() < 1.7);
   CHECK(given.norm() > 0.8);
+  CHECK((weak.device.read().force - given).norm() < 0.02);
   CHECK(given.normalized().dot(wanted.normalized()) > 0.9999);
   std::int64_t most = 0;
   for (const std::int64_t torque : weak.arm.last_command().torque) most = std::max(most, std::abs(torque));
@@ -316,6 +321,7 @@ TEST_CASE(
   CHECK_FALSE(held.arm.last_command().motors_on);
   for (int i = 0; i < 100; ++i) held.tick();
   CHECK(held.device.statistics().released == 1);
+  CHECK(held.device.read().force.isZero(0.0));
   double before = 0.0;
   for (int i = 0; i < 300; ++i) {
     held.turn(push);
@@ -374,6 +380,7 @@ TEST_CASE("warm motors get less torque, are reported, and never overheat", "[pha
   }
   last_force = held.arm.motor_force().norm();
   CHECK(was_warm);
+  CHECK((held.device.read().force - held.arm.motor_force()).norm() < 0.02);  // not the 2.5 N that were asked for
   CHECK(last_force < 2.0);
   CHECK(last_force > 0.6);
   CHECK(held.device.statistics().warmest_motor < 1.0);

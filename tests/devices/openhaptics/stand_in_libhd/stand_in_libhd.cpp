@@ -48,10 +48,17 @@ constexpr unsigned needs_update = 0x5001;
 constexpr unsigned needs_manual_input = 0x5002;
 constexpr double period = 1e-3;  // [s]
 
+/// The tests compare forces with those that were set, and velocities with true ones.
+Capabilities exact(Capabilities profile) {
+  profile.force_step = 0.0;
+  profile.velocity = VelocitySource::measured;
+  return profile;
+}
+
 struct Device {
   Device(const char* device_name, const char* device_model, const char* profile, const GripImpedance& grip = {},
          const Eigen::Vector3d& position = Eigen::Vector3d::Zero())
-      : name(device_name), model(device_model), physics(device_profile(profile), grip, position) {}
+      : name(device_name), model(device_model), physics(exact(device_profile(profile)), grip, position) {}
 
   std::string name, model;
   SimulatedDevice physics;
