@@ -67,7 +67,7 @@ HandFigures run_hand(const HandRun& run) {
       if (speed.norm() > 2.0) speed.setZero();  // a leap
       action.force = grip_force(run.grip, to, speed, mapping.to_page(position), velocity);
     }
-    if (run.force) action.force += run.force(time);
+    if (run.force) action.force += run.force(time, mapping.to_page(position));
     action.force = mapping.force_to_device(action.force);
     return action;
   };
@@ -137,21 +137,22 @@ HandRun pressed(const std::string& profile, double force) {
   run.device = device_profile(profile);
   run.options = RendererOptions::for_device(run.device);
   run.grip = nobody;
-  constexpr double speed = 0.2;  // [m/s]
-  const double height = 0.5 * run.device.apparent_mass * speed * speed / force;
-  run.start = on_page(first_stroke(run.character).at(0.002), height);
-  run.force = [force](double) { return Vector3d(0.0, 0.0, -force); };
+  run.start = on_page(first_stroke(run.character).at(0.002), 0.0001);
+  run.force = [force](double, const Vector3d& position) {
+    return Vector3d(0.0, 0.0, -force * std::clamp((position.z() + 0.015) / 0.005, 0.0, 1.0));
+  };
   run.window = 1.6;
   run.end = 2.6;
   return run;
 }
 
-HandRun pulled_aside() {
+HandRun pulled_aside(double force) {
   HandRun run = jogged("desktop", light, 0.0);
   run.options.guidance = GuidanceLaw::linear;
-  run.force = [](double time) { return Vector3d(0.0, time >= 1.0 && time < 1.5 ? 1.0 : 0.0, 0.0); };
-  run.window = 3.5;
-  run.end = 4.5;
+  run.force = [force](double time, const Vector3d&) {
+    const double press = std::clamp((time - 0.2) / 0.1, 0.0, 1.0);
+    return Vector3d(0.0, time >= 1.0 && time < 1.04 ? force : 0.0, -press);
+  };
   return run;
 }
 
@@ -172,7 +173,7 @@ HandRun writing(const std::string& profile, char32_t character, const GripImpeda
   for (int i = 0; i < placed.character.stroke_count(); ++i) {
     Part part{StrokePath(placed, static_cast<std::size_t>(i)), time, 0.0, 0.0, 0.0};
     part.lowered = part.begins + (i > 0 ? 0.4 : 0.0) + 0.2;
-    part.written = part.lowered + 0.1 + std::max(0.12, part.path.length() / speed) + 0.2;
+    part.written = part.lowered + std::max(0.12, part.path.length() / speed) + 0.2;
     part.ends = part.written + 0.12;
     time = part.ends;
     parts.push_back(part);
@@ -184,8 +185,8 @@ HandRun writing(const std::string& profile, char32_t character, const GripImpeda
     const Part& part = parts[i];
     const double lowering = smooth_step((at - part.lowered + 0.2) / 0.2), raising = smooth_step((at - part.written) / 0.12);
     const double z = raised_pen - (raised_pen + pressed_pen) * (lowering - raising);
-    const double span = part.written - part.lowered - 0.3;
-    Point to = part.path.at(part.path.length() * smooth_step((at - part.lowered - 0.1) / span));
+    const double span = part.written - part.lowered - 0.2;
+    Point to = part.path.at(part.path.length() * smooth_step((at - part.lowered) / span));
     if (i > 0) {
       const Point from = parts[i - 1].path.at(parts[i - 1].path.length());
       to = from + smooth_step((at - part.begins) / 0.4) * (to - from);
@@ -274,10 +275,11 @@ std::vector<IssueFigure> issue_figures(int threads, int grips) {
   delayed.device.sample_delay = 1;
   delayed.options = RendererOptions::for_device(delayed.device);
   rows.push_back(swings("Desktop, bare pen pressed with 1 N, one tick of delay", "bounces", delayed));
-  HandRun touching = jogged("desktop", light, 0.0);
-  touching.start.z() = 0.0;
-  rows.push_back(swings("Desktop, light grip on the paper", "7.9 mm", touching));
-  rows.push_back(swings("Desktop, light grip, linear law, pulled aside", "170 mm", pulled_aside()));
+  rows.push_back(swings("Desktop, light grip on the paper", "7.9 mm", pulled_aside(0.0)));
+  for (const double force : {1.0, 2.0}) {
+    rows.push_back(swings(text("Desktop, light grip, linear law, pulled aside with %.0f N", force), "170 mm",
+                          pulled_aside(force)));
+  }
 
   for (const auto* profile : {"desktop", "ideal"}) {
     HandRun run = writing(profile, U'美', soft);

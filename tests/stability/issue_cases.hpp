@@ -22,7 +22,7 @@ struct HandRun {
   GripImpedance grip;       ///< mass 0: nobody holds the pen
   Vector3d start = Vector3d::Zero();
   std::function<Vector3d(double time)> intention;  ///< empty: `start`; its velocity is its slope over 0.1 ms
-  std::function<Vector3d(double time)> force;      ///< beside the grip's; may be empty [N]
+  std::function<Vector3d(double time, const Vector3d& position)> force;  ///< beside the grip's; may be empty [N]
   double window = 0.0, end = 0.0;                  ///< where motion and force are measured [s]
 };
 
@@ -49,11 +49,12 @@ HandRun jogged(const std::string& profile, const GripImpedance& grip, double dis
 /// The pen touches down beside 一 and, half a second later, comes to the stroke in 50 ms.
 HandRun returning(const GripImpedance& grip, double beside = 0.0057);
 
-/// Nobody holds the pen, which falls on the paper at 0.2 m/s under a constant force.
+/// Nobody holds the pen, which falls on the paper from 0.1 mm under a constant force; it rests 15 mm below if the paper
+/// gives way.
 HandRun pressed(const std::string& profile, double force);
 
-/// A light grip, (0.02, 0.3, 30), with the linear law, pulled aside by 1 N for half a second.
-HandRun pulled_aside();
+/// A light grip, (0.02, 0.3, 30), with the linear law, that presses with 1 N and is pulled aside for 40 ms.
+HandRun pulled_aside(double force);
 
 /// All strokes of a character at 0.8 em/s, 2.5 mm into the paper.
 HandRun writing(const std::string& profile, char32_t character, const GripImpedance& grip);

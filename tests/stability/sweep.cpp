@@ -309,6 +309,8 @@ SweepCase draw_case(std::uint64_t seed, int index) {
   const double depth = random.between(0.0005, 0.002);
   const bool presses = drawn.bare || random.next() < 0.5;
   drawn.press = presses ? press : 0.0;
+  // Motors that warm up give way, slowly and on purpose.
+  if (drawn.press > 0.8 * drawn.device.continuous_force) drawn.options.thermal_time_constant = 0.0;
   drawn.depth = presses ? 0.0 : depth;
 
   draw_disturbance(drawn, random);
