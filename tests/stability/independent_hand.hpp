@@ -48,8 +48,8 @@ double force_step_of(const AnyCapabilities& device) {
 }
 
 /// A point mass with the device's mass, viscous friction, and Coulomb friction along each device axis, which holds up to
-/// its full value at rest. Semi-implicit Euler; along each axis a step never passes through a stop, and the axis breaks
-/// away in the next one.
+/// its full value at rest. Each step is exact under the held force, takes the hand's force at its midpoint (a spring
+/// neither gains nor loses energy), and never passes through a stop: the axis breaks away in the next one.
 ///
 /// A fresh sample is taken at the end of each advance(), rounded to the encoder step; read() returns the one of
 /// `sample_delay` samples ago. The device does not report the force at work.
@@ -94,7 +94,7 @@ class IndependentDevice final : public calligraphy::HapticDevice {
     const int steps = std::max(1, static_cast<int>(std::ceil(seconds / longest_step * (1.0 - 1e-9))));
     const double step = seconds / steps;
     for (int i = 0; i < steps; ++i) {
-      move(hand(time_, position_, velocity_), step);
+      move(hand(time_ + 0.5 * step, position_ + 0.5 * step * velocity_, velocity_), step);
       time_ += step;
     }
     newest_ = (newest_ + 1) % samples_.size();
@@ -132,8 +132,9 @@ class IndependentDevice final : public calligraphy::HapticDevice {
         if (holding > 0.0 && speed * old < 0.0) speed = 0.0;
       }
       velocity_[i] = speed;
-      position_[i] += speed * step;
-      work += force_[i] * speed * step;
+      const double way = 0.5 * (old + speed) * step;
+      position_[i] += way;
+      work += force_[i] * way;
     }
     energy_given_ += work;
     most_energy_given_ = std::max(most_energy_given_, energy_given_);

@@ -370,6 +370,8 @@ SweepResult run_case(const SweepCase& drawn, const std::function<void(const Swee
       motion.add(pen);
       twin_motion.add(other);
       force.add(felt_force);
+      result.speed = std::max(result.speed, device.velocity().norm());
+      result.twin_speed = std::max(result.twin_speed, twin.velocity().norm());
       if (device.force().norm() > 1e-3) result.acted = true;
     }
     if (watch) watch({time, pen, other, felt_force, felt.state});
@@ -426,8 +428,9 @@ std::string describe(const SweepResult& result) {
   if (result.refused) return "refused: " + result.refusal;
   char text[512];
   std::snprintf(text, sizeof text,
-                "motion %.2f mm (twin %.2f, excess %.2f), force %.2f N (forgiven %.2f), peak %.2f N, K %.0f/%.0f N/m%s%s",
-                1e3 * result.motion, 1e3 * result.twin_motion, 1e3 * result.motion_excess, result.force,
+                "motion %.2f mm (twin %.2f, excess %.2f), speed %.3f m/s (twin %.3f), force %.2f N (forgiven %.2f), peak %.2f N, K %.0f/%.0f N/m%s%s",
+                1e3 * result.motion, 1e3 * result.twin_motion, 1e3 * result.motion_excess, result.speed,
+                result.twin_speed, result.force,
                 std::max(0.0, result.forgiven_force), result.peak_force, result.guidance_stiffness,
                 result.paper_stiffness, result.began ? ", writing" : "", result.acted ? "" : ", no force");
   return text;

@@ -67,6 +67,7 @@ struct SweepResult {
   double motion = 0.0;          ///< peak to peak in the window [m], largest of the axes
   double twin_motion = 0.0;     ///< of the twin
   double motion_excess = 0.0;   ///< largest over the axes of motion - twin's motion [m]
+  double speed = 0.0, twin_speed = 0.0;  ///< highest in the window [m/s]
   double force = 0.0;           ///< peak to peak in the window [N], largest of the axes
   double forgiven_force = 0.0;  ///< the same beyond the stiffness times the twin's own motion [N]
   double peak_force = 0.0;      ///< of the whole run [N]
@@ -75,11 +76,16 @@ struct SweepResult {
   static constexpr double most_motion = 0.5e-3;  ///< [m]
   static constexpr double most_force = 0.2;      ///< [N]
 
+  /// Faster than the twin by far: a pen that swings in place may move less than a twin that coasts away, and yet be
+  /// driven. Whatever the same disturbance left of a swing is not.
+  bool driven() const { return acted && speed > 3.0 * twin_speed + 0.05; }
   /// By the letter: beyond the twin's motion, or a force that swings.
-  bool fails() const { return !refused && (motion_excess > most_motion || force > most_force); }
+  bool fails_by_letter() const {
+    return !refused && (motion_excess > most_motion || force > most_force || driven());
+  }
   /// A hand that still swings by itself may move the spring, and a pen that coasts without any force is not driven.
-  bool fails_forgivingly() const {
-    return !refused && ((acted && motion_excess > most_motion) || forgiven_force > most_force);
+  bool fails() const {
+    return !refused && ((acted && motion_excess > most_motion) || forgiven_force > most_force || driven());
   }
   bool clipped_soft() const { return !refused && (guidance_stiffness < 150.0 || paper_stiffness < 150.0); }
 };
