@@ -23,7 +23,8 @@ class Arguments {
     for (std::size_t i = 0; i + 1 < given_.size(); ++i) {
       if (given_[i] != name) continue;
       const std::string value = given_[i + 1];
-      given_.erase(given_.begin() + static_cast<std::ptrdiff_t>(i), given_.begin() + static_cast<std::ptrdiff_t>(i + 2));
+      given_.erase(given_.begin() + static_cast<std::ptrdiff_t>(i),
+                   given_.begin() + static_cast<std::ptrdiff_t>(i + 2));
       return value;
     }
     return otherwise;

@@ -106,7 +106,8 @@ class TryingHand {
       action.force = 5.0 * (to - position);  // it does not drift away
       action.force.z() = 0.0;
     }
-    if (kind_ == EnergyHand::resonance && velocity.norm() > 1e-4) action.force += strength_ / velocity.norm() * velocity;
+    if (kind_ == EnergyHand::resonance && velocity.norm() > 1e-4)
+      action.force += strength_ / velocity.norm() * velocity;
     if (time < knocked_until_) action.force += knock_;
     action.force.z() -= press_;
     // The end of the workspace.
@@ -276,7 +277,8 @@ EnergyResult run_energy(const EnergyRun& run) {
   servo_options.rate = rate;
   servo_options.timeout = std::max(servo_options.timeout, 2.0 * period);
   servo_options.work_clock = no_time;
-  Servo servo(device, [&](const DeviceState& state) { return renderer.update(state).force; }, servo_options);
+  Servo servo(
+      device, [&](const DeviceState& state) { return renderer.update(state).force; }, servo_options);
 
   const bool jitters = run.timing == Timing::jitter || run.timing == Timing::everything;
   const bool gaps = run.timing == Timing::gaps || run.timing == Timing::everything;
@@ -314,8 +316,8 @@ EnergyResult run_energy(const EnergyRun& run) {
     if (gaps && random.next() < gap_share) {
       // Half of them so short that the watchdog of a Servo does not ramp down.
       const int longest = random.next() < 0.5 ? std::min(run.longest_gap, run.shortest_gap + 2) : run.longest_gap;
-      pieces = run.shortest_gap + static_cast<int>(random.index(static_cast<std::uint64_t>(
-                                      std::max(1, longest - run.shortest_gap + 1))));
+      pieces = run.shortest_gap +
+               static_cast<int>(random.index(static_cast<std::uint64_t>(std::max(1, longest - run.shortest_gap + 1))));
       elapsed = pieces * period;
     }
     const bool long_gap = elapsed > max_gap * (1.0 + 1e-9);

@@ -23,9 +23,9 @@ enum class EnergyHand {
   pushes,            ///< a normal grip that is hit with 10 N for 10 to 50 ms
   greedy             ///< goes where the force pulls, at 1.5 m/s, and comes back slowly
 };
-inline constexpr std::array energy_hand_names = {"bare",         "soft",             "normal",    "firm",
-                                                 "light",        "negative damping", "square waves",
-                                                 "hold and release", "resonance",    "pushes",    "greedy"};
+inline constexpr std::array energy_hand_names = {
+    "bare",      "soft",   "normal", "firm", "light", "negative damping", "square waves", "hold and release",
+    "resonance", "pushes", "greedy"};
 
 enum class Timing {
   perfect,
@@ -44,13 +44,13 @@ struct EnergyRun {
   std::int64_t ticks = 100000;
   int shortest_gap = 2, longest_gap = 20;  ///< [ticks]
   double gap_share = 0.05;  ///< of the ticks that begin with a gap, at most; for half a second it may be a twentieth
-  double budget = 0.1;                     ///< [J]
+  double budget = 0.1;      ///< [J]
   std::uint64_t seed = 1;
 };
 
 struct EnergyResult {
-  std::string refusal;       ///< of the renderer
-  double most_given = 0.0;   ///< maximum over time of the net energy given [J]
+  std::string refusal;      ///< of the renderer
+  double most_given = 0.0;  ///< maximum over time of the net energy given [J]
   /// The same beyond the budget and what gaps longer than `max_gap` allow: the sum of F v t in such a gap, until it is
   /// repaid [J].
   double most_excess = -1.0;

@@ -45,8 +45,8 @@ struct Group {
     writing += result.writing > 0;
   }
   void print(const std::string& name) const {
-    std::printf("%-40s %5d %5d %9.3f %9.3f %9.3f %9.3f %8.2f %8.2f\n", name.c_str(), runs, over, given, excess, rise, claimed, peak,
-                writing > 0 ? mean_force / writing : 0.0);
+    std::printf("%-40s %5d %5d %9.3f %9.3f %9.3f %9.3f %8.2f %8.2f\n", name.c_str(), runs, over, given, excess, rise,
+                claimed, peak, writing > 0 ? mean_force / writing : 0.0);
   }
 };
 
@@ -113,20 +113,23 @@ int main(int argc, char** argv) {
     hands[std::string(named_hand) + at].add(result);
     all.add(result);
     if (list || result.over()) {
-      std::printf("%s --profile %s --delay %d --hand '%s' --timing '%s' --%s: given %.4f J (end %.4f), excess %.4f, rise "
-                  "%.4f, claimed %.4f, peak %.2f N, %d strokes %s\n",
-                  result.over() ? "over " : "", run.device.name.c_str(), run.device.sample_delay, named_hand,
-                  named_timing, run.servo ? "servo" : "alone", result.most_given, result.given_at_end,
-                  result.most_excess, result.most_rise, result.most_claimed, result.peak_force, result.strokes, result.refusal.c_str());
+      std::printf(
+          "%s --profile %s --delay %d --hand '%s' --timing '%s' --%s: given %.4f J (end %.4f), excess %.4f, rise "
+          "%.4f, claimed %.4f, peak %.2f N, %d strokes %s\n",
+          result.over() ? "over " : "", run.device.name.c_str(), run.device.sample_delay, named_hand, named_timing,
+          run.servo ? "servo" : "alone", result.most_given, result.given_at_end, result.most_excess, result.most_rise,
+          result.most_claimed, result.peak_force, result.strokes, result.refusal.c_str());
     }
   }
   std::printf("\n%lld ticks each, budget %.3f J\n%-40s %5s %5s %9s %9s %9s %9s %8s %8s\n",
-              static_cast<long long>(base.ticks), base.budget, "", "runs", "over", "given J", "excess J", "rise J", "claimed J",
-              "peak N", "mean N");
+              static_cast<long long>(base.ticks), base.budget, "", "runs", "over", "given J", "excess J", "rise J",
+              "claimed J", "peak N", "mean N");
   for (const auto& [name, group] : profiles) group.print(name);
   for (const auto& [name, group] : hands) group.print(name);
   all.print("all");
-  std::printf("given: maximum over time of the net work of the force at work; excess: of that beyond the budget and what "
-              "gaps longer\nthan max_gap allow; rise: above the least ever given; claimed: by the renderer's own account; mean: of the force while writing\n");
+  std::printf(
+      "given: maximum over time of the net work of the force at work; excess: of that beyond the budget and what "
+      "gaps longer\nthan max_gap allow; rise: above the least ever given; claimed: by the renderer's own account; "
+      "mean: of the force while writing\n");
   return all.over > 0 ? 1 : 0;
 }

@@ -18,7 +18,8 @@ namespace {
 using namespace calligraphy_test;
 
 constexpr const char* usage =
-    "usage: guidance_sweep [--cases N] [--seed S] [--threads T] [--json FILE]   a sweep; exit code 1 if any case fails\n"
+    "usage: guidance_sweep [--cases N] [--seed S] [--threads T] [--json FILE]   a sweep; exit code 1 if any case "
+    "fails\n"
     "       guidance_sweep --seed S --case K > FILE                             one case, its motion as CSV\n"
     "       guidance_sweep --issue                                              named cases that were once unstable\n";
 
@@ -75,8 +76,8 @@ void write_json(const std::string& path, std::uint64_t seed, const std::map<std:
   for (std::size_t i = 0; i < results.size(); ++i) {
     if (!results[i].fails_by_letter() && !results[i].refused) continue;
     std::fprintf(file, "%s\n  {\"case\": %zu, \"fails\": %s, \"drawn\": %s, \"result\": %s}", comma, i,
-                 results[i].fails() ? "true" : "false",
-                 quoted(describe(draw_case(seed, static_cast<int>(i)))).c_str(), quoted(describe(results[i])).c_str());
+                 results[i].fails() ? "true" : "false", quoted(describe(draw_case(seed, static_cast<int>(i)))).c_str(),
+                 quoted(describe(results[i])).c_str());
     comma = ",";
   }
   std::fprintf(file, "\n]}\n");
@@ -108,7 +109,7 @@ int sweep(std::uint64_t seed, int count, int threads, const std::string& json) {
   for (std::size_t i = 0; i < results.size(); ++i) {
     const SweepCase drawn = draw_case(seed, static_cast<int>(i));
     groups[drawn.device.name + ", " + composition_names[static_cast<std::size_t>(drawn.composition)]].add(drawn,
-                                                                                                       results[i]);
+                                                                                                          results[i]);
     disturbances[disturbance_names[static_cast<std::size_t>(drawn.disturbance)]].add(drawn, results[i]);
     hands[drawn.bare ? "bare pen" : "grip"].add(drawn, results[i]);
     all.add(drawn, results[i]);
@@ -125,7 +126,8 @@ int sweep(std::uint64_t seed, int count, int threads, const std::string& json) {
   print_row("all", all);
   std::printf(
       "by letter: beyond the twin by 0.5 mm or 0.2 N peak to peak, 1.5 to 2.5 s after the disturbance, or much faster; "
-      "failed:\nthe force beyond the stiffness times the twin's motion, and motion only where any force acts; quick: delay "
+      "failed:\nthe force beyond the stiffness times the twin's motion, and motion only where any force acts; quick: "
+      "delay "
       "at most 1 and\nrate at least 1 kHz; soft: of these, refused or clipped below 150 N/m\n");
   if (!json.empty()) write_json(json, seed, groups, results);
   return all.failed + all.refused > 0 ? 1 : 0;

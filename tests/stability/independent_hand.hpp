@@ -1,5 +1,5 @@
-// A simulated pen and the hand that holds it, written independently of the library's own simulation so that it can judge
-// the library: a point mass integrated at 20 us, and the energy that its force has given to the hand.
+// A simulated pen and the hand that holds it, written independently of the library's own simulation so that it can
+// judge the library: a point mass integrated at 20 us, and the energy that its force has given to the hand.
 #pragma once
 
 #include <algorithm>
@@ -47,8 +47,8 @@ double force_step_of(const AnyCapabilities& device) {
   }
 }
 
-/// A point mass with the device's mass, viscous friction, and Coulomb friction along each device axis, which holds up to
-/// its full value at rest. Each step is exact under the held force, takes the hand's force at its midpoint (a spring
+/// A point mass with the device's mass, viscous friction, and Coulomb friction along each device axis, which holds up
+/// to its full value at rest. Each step is exact under the held force, takes the hand's force at its midpoint (a spring
 /// neither gains nor loses energy), and never passes through a stop: the axis breaks away in the next one.
 ///
 /// A fresh sample is taken at the end of each advance(), rounded to the encoder step; read() returns the one of
@@ -87,8 +87,8 @@ class IndependentDevice final : public calligraphy::HapticDevice {
 
   void close() noexcept override { force_.setZero(); }
 
-  /// Moves on by `seconds` under the force last written and takes a sample. `hand(time, position, velocity)` returns the
-  /// HandAction in device axes.
+  /// Moves on by `seconds` under the force last written and takes a sample. `hand(time, position, velocity)` returns
+  /// the HandAction in device axes.
   template <typename Hand>
   void advance(double seconds, Hand&& hand) {
     const int steps = std::max(1, static_cast<int>(std::ceil(seconds / longest_step * (1.0 - 1e-9))));

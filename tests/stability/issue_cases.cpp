@@ -183,7 +183,8 @@ HandRun writing(const std::string& profile, char32_t character, const GripImpeda
     std::size_t i = 0;
     while (i + 1 < parts.size() && at >= parts[i].ends) ++i;
     const Part& part = parts[i];
-    const double lowering = smooth_step((at - part.lowered + 0.2) / 0.2), raising = smooth_step((at - part.written) / 0.12);
+    const double lowering = smooth_step((at - part.lowered + 0.2) / 0.2),
+                 raising = smooth_step((at - part.written) / 0.12);
     const double z = raised_pen - (raised_pen + pressed_pen) * (lowering - raising);
     const double span = part.written - part.lowered - 0.2;
     Point to = part.path.at(part.path.length() * smooth_step((at - part.lowered) / span));
@@ -201,17 +202,19 @@ HandRun writing(const std::string& profile, char32_t character, const GripImpeda
 int count_swinging(const std::string& profile, const std::function<void(RendererOptions&)>& change, int count,
                    int threads, bool everything, std::uint64_t seed) {
   std::atomic<int> swinging = 0;
-  parallel_for(static_cast<std::size_t>(count), threads, [](double) {}, [&](std::size_t i) {
-    Random random(seed, {static_cast<int>(i)});
-    GripImpedance grip;
-    grip.mass = random.between(0.05, 0.15);
-    grip.damping = random.between(1.0, 5.0);
-    grip.stiffness = random.between(100.0, 500.0);
-    HandRun run = jogged(profile, grip, 0.01, random.between(0.02, 0.06));
-    if (everything) run.options = RendererOptions::everything(run.device);
-    if (change) change(run.options);
-    if (!run_hand(run).at_rest()) ++swinging;
-  });
+  parallel_for(
+      static_cast<std::size_t>(count), threads, [](double) {},
+      [&](std::size_t i) {
+        Random random(seed, {static_cast<int>(i)});
+        GripImpedance grip;
+        grip.mass = random.between(0.05, 0.15);
+        grip.damping = random.between(1.0, 5.0);
+        grip.stiffness = random.between(100.0, 500.0);
+        HandRun run = jogged(profile, grip, 0.01, random.between(0.02, 0.06));
+        if (everything) run.options = RendererOptions::everything(run.device);
+        if (change) change(run.options);
+        if (!run_hand(run).at_rest()) ++swinging;
+      });
   return swinging;
 }
 
@@ -234,8 +237,8 @@ std::vector<IssueFigure> issue_figures(int threads, int grips) {
                          const std::function<void(RendererOptions&)>& change, bool everything = false) {
     try {
       const int swinging = count_swinging(profile, change, of, threads, everything);
-      rows.push_back({profile + ", random grips jogged, " + name, reported, text("%d of %d", swinging, of),
-                      swinging == 0});
+      rows.push_back(
+          {profile + ", random grips jogged, " + name, reported, text("%d of %d", swinging, of), swinging == 0});
     } catch (const Error& error) {
       rows.push_back({profile + ", random grips jogged, " + name, reported, error.what(), false});
     }
@@ -249,27 +252,25 @@ std::vector<IssueFigure> issue_figures(int threads, int grips) {
                   {"touch", "6 of 150", "0 of 150"}};
   for (const auto& [profile, reported, controlled] : profiles) {
     count("for_device()", reported, profile, grips, {});
-    count("passivity control", controlled, profile, grips, [](RendererOptions& options) {
-      options.passivity_control = true;
-    });
+    count("passivity control", controlled, profile, grips,
+          [](RendererOptions& options) { options.passivity_control = true; });
     count("everything()", "0", profile, grips, {}, true);
   }
-  count("400 N/s in the plane", "0 of 400", "desktop", grips, [](RendererOptions& options) {
-    options.in_plane_force_rate = 400.0;
-  });
-  count("guidance of 500 N/m", "54 of 150", "desktop", grips, [](RendererOptions& options) {
-    options.guidance_stiffness = std::min(500.0, options.guidance_stiffness);
-  });
-  count("20 N/s in the plane", "46 of 60", "desktop", std::min(grips, 60), [](RendererOptions& options) {
-    options.in_plane_force_rate = 20.0;
-  });
+  count("400 N/s in the plane", "0 of 400", "desktop", grips,
+        [](RendererOptions& options) { options.in_plane_force_rate = 400.0; });
+  count("guidance of 500 N/m", "54 of 150", "desktop", grips,
+        [](RendererOptions& options) { options.guidance_stiffness = std::min(500.0, options.guidance_stiffness); });
+  count("20 N/s in the plane", "46 of 60", "desktop", std::min(grips, 60),
+        [](RendererOptions& options) { options.in_plane_force_rate = 20.0; });
 
-  HandRun stiff = jogged("ideal", normal);
+  count("guidance of 1500 N/m", "accepted, 5 N", "ideal", grips,
+        [](RendererOptions& options) { options.guidance_stiffness = 1500.0; });
+  HandRun stiff = jogged("ideal", soft);
   stiff.options.guidance_stiffness = 1500.0;
-  rows.push_back(swings("ideal, guidance of 1500 N/m, jogged", "accepted; forces of 5 N", stiff));
+  rows.push_back(swings("ideal, guidance of 1500 N/m, jogged in a soft grip", "forces of 5 N", stiff));
   for (const double force : {0.3, 1.0, 3.0}) {
-    rows.push_back(swings(text("Desktop, bare pen pressed with %.1f N", force),
-                          force == 3.0 ? "bounces to 7.9 N" : "", pressed("desktop", force)));
+    rows.push_back(swings(text("Desktop, bare pen pressed with %.1f N", force), force == 3.0 ? "bounces to 7.9 N" : "",
+                          pressed("desktop", force)));
   }
   HandRun delayed = pressed("desktop", 1.0);
   delayed.device.sample_delay = 1;

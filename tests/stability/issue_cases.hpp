@@ -23,7 +23,7 @@ struct HandRun {
   Vector3d start = Vector3d::Zero();
   std::function<Vector3d(double time)> intention;  ///< empty: `start`; its velocity is its slope over 0.1 ms
   std::function<Vector3d(double time, const Vector3d& position)> force;  ///< beside the grip's; may be empty [N]
-  double window = 0.0, end = 0.0;                  ///< where motion and force are measured [s]
+  double window = 0.0, end = 0.0;                                        ///< where motion and force are measured [s]
 };
 
 struct HandFigures {
@@ -43,7 +43,8 @@ HandFigures run_hand(const HandRun& run);
 /// The path of the first stroke of a character in the middle of the page.
 StrokePath first_stroke(char32_t character);
 
-/// The pen on 一, 40 % along it; from 1 s on the arm is elsewhere for `duration`. Motion is measured 1.5 to 2.5 s later.
+/// The pen on 一, 40 % along it; from 1 s on the arm is elsewhere for `duration`. Motion is measured 1.5 to 2.5 s
+/// later.
 HandRun jogged(const std::string& profile, const GripImpedance& grip, double distance = 0.01, double duration = 0.04);
 
 /// The pen touches down beside 一 and, half a second later, comes to the stroke in 50 ms.

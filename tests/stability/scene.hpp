@@ -67,9 +67,7 @@ struct Extent {
     low = low.cwiseMin(value);
     high = high.cwiseMax(value);
   }
-  Vector3d size() const {
-    return high.x() < low.x() ? Vector3d(Vector3d::Zero()) : Vector3d(high - low);
-  }
+  Vector3d size() const { return high.x() < low.x() ? Vector3d(Vector3d::Zero()) : Vector3d(high - low); }
 };
 
 }  // namespace calligraphy_test

@@ -16,10 +16,10 @@ namespace {
 
 using namespace calligraphy;
 
-constexpr double settle_time = 1.5;   // from the end of the disturbance to the window [s]
-constexpr double window_time = 1.0;   // [s]
-constexpr double raised = 0.005;      // where the pen comes from [m]
-constexpr double lowering = 0.15;     // [s]
+constexpr double settle_time = 1.5;  // from the end of the disturbance to the window [s]
+constexpr double window_time = 1.0;  // [s]
+constexpr double raised = 0.005;     // where the pen comes from [m]
+constexpr double lowering = 0.15;    // [s]
 constexpr GripImpedance carrier = {0.1, 3.0, 300.0};
 
 double log_between(Random& random, double low, double high) {
@@ -66,8 +66,7 @@ void draw_options(SweepCase& drawn, Random& random) {
   const bool other_law = random.next() < 0.5, controlled = random.next() < 0.25;
   if (drawn.composition == Composition::force_rates || drawn.composition == Composition::stiffness) {
     if (other_law) {
-      options.guidance =
-          options.guidance == GuidanceLaw::linear ? GuidanceLaw::saturating : GuidanceLaw::linear;
+      options.guidance = options.guidance == GuidanceLaw::linear ? GuidanceLaw::saturating : GuidanceLaw::linear;
     }
     if (controlled) options.passivity_control = !options.passivity_control;
   }
@@ -321,8 +320,7 @@ SweepResult run_case(const SweepCase& drawn, const std::function<void(const Swee
   SweepResult result;
   const Character& character = built_in_characters().characters[static_cast<std::size_t>(drawn.character)];
   const PlacedCharacter placed = in_the_middle(character, drawn.attraction);
-  const MotionMapping mapping =
-      drawn.flat ? desk_page(page_width, page_height) : upright_page(page_width, page_height);
+  const MotionMapping mapping = drawn.flat ? desk_page(page_width, page_height) : upright_page(page_width, page_height);
   std::optional<HapticRenderer> made;
   try {
     if (!drawn.refusal.empty()) throw ValueError(drawn.refusal);
@@ -392,8 +390,9 @@ SweepResult run_case(const SweepCase& drawn, const std::function<void(const Swee
 std::vector<SweepResult> run_sweep(std::uint64_t seed, int count, int threads,
                                    const std::function<void(double)>& progress) {
   std::vector<SweepResult> results(static_cast<std::size_t>(count));
-  parallel_for(results.size(), threads, progress ? progress : [](double) {},
-               [&](std::size_t i) { results[i] = run_case(draw_case(seed, static_cast<int>(i))); });
+  parallel_for(
+      results.size(), threads, progress ? progress : [](double) {},
+      [&](std::size_t i) { results[i] = run_case(draw_case(seed, static_cast<int>(i))); });
   return results;
 }
 
@@ -404,7 +403,8 @@ std::string describe(const SweepCase& drawn) {
   const RendererOptions& options = drawn.options;
   std::snprintf(
       text, sizeof text,
-      "--seed %llu --case %d: %s, %.0f Hz, delay %d, %s, K %.0f/%.0f N/m, %s, %.0f/%.0f N/s, passivity %d, friction %.2f "
+      "--seed %llu --case %d: %s, %.0f Hz, delay %d, %s, K %.0f/%.0f N/m, %s, %.0f/%.0f N/s, passivity %d, friction "
+      "%.2f "
       "(model %d), factor %.2f, %s, velocity %s; %s x %s (%.4g kg, %.3g N s/m, %.4g N/m), beside (%.1f, %.1f) mm%s, "
       "writes %.2f at %.3f m/s, press %.2f N, depth %.2f mm; %s towards (%.2f, %.2f, %.0f): %.1f mm, %.0f ms, %.1f N, "
       "%.2f m/s%s",
@@ -428,11 +428,12 @@ std::string describe(const SweepResult& result) {
   if (result.refused) return "refused: " + result.refusal;
   char text[512];
   std::snprintf(text, sizeof text,
-                "motion %.2f mm (twin %.2f, excess %.2f), speed %.3f m/s (twin %.3f), force %.2f N (forgiven %.2f), peak %.2f N, K %.0f/%.0f N/m%s%s",
+                "motion %.2f mm (twin %.2f, excess %.2f), speed %.3f m/s (twin %.3f), force %.2f N (forgiven %.2f), "
+                "peak %.2f N, K %.0f/%.0f N/m%s%s",
                 1e3 * result.motion, 1e3 * result.twin_motion, 1e3 * result.motion_excess, result.speed,
-                result.twin_speed, result.force,
-                std::max(0.0, result.forgiven_force), result.peak_force, result.guidance_stiffness,
-                result.paper_stiffness, result.began ? ", writing" : "", result.acted ? "" : ", no force");
+                result.twin_speed, result.force, std::max(0.0, result.forgiven_force), result.peak_force,
+                result.guidance_stiffness, result.paper_stiffness, result.began ? ", writing" : "",
+                result.acted ? "" : ", no force");
   return text;
 }
 

@@ -31,7 +31,7 @@ inline constexpr std::array disturbance_names = {"jog", "comeback", "tap", "pull
 struct SweepCase {
   std::uint64_t seed = 0;
   int index = 0;
-  calligraphy::Capabilities device;     ///< with the rate, the delay and the friction drawn
+  calligraphy::Capabilities device;      ///< with the rate, the delay and the friction drawn
   calligraphy::RendererOptions options;  ///< as requested
   std::string refusal;                   ///< what for_device() or everything() threw
   Composition composition = Composition::for_device;
@@ -52,23 +52,23 @@ struct SweepCase {
 
   Disturbance disturbance = Disturbance::jog;
   Vector3d direction = Vector3d::Zero();
-  double distance = 0.0;      ///< jog, comeback [m]
-  double duration = 0.0;      ///< jog, pull, push [s]
-  double strength = 0.0;      ///< pull, push [N]
-  double hit_speed = 0.0;     ///< tap; of a bare pen that is jogged [m/s]
-  bool keeps_press = false;   ///< release
+  double distance = 0.0;     ///< jog, comeback [m]
+  double duration = 0.0;     ///< jog, pull, push [s]
+  double strength = 0.0;     ///< pull, push [N]
+  double hit_speed = 0.0;    ///< tap; of a bare pen that is jogged [m/s]
+  bool keeps_press = false;  ///< release
 };
 
 struct SweepResult {
   bool refused = false;
   std::string refusal;
   double guidance_stiffness = 0.0, paper_stiffness = 0.0;  ///< in effect, with the highest attraction factor [N/m]
-  bool began = false;           ///< the stroke had begun when the disturbance came
-  double motion = 0.0;          ///< peak to peak in the window [m], largest of the axes
-  double twin_motion = 0.0;     ///< of the twin
-  double motion_excess = 0.0;   ///< largest over the axes of motion - twin's motion [m]
-  double speed = 0.0, twin_speed = 0.0;  ///< highest in the window [m/s]
-  double force = 0.0;           ///< peak to peak in the window [N], largest of the axes
+  bool began = false;                                      ///< the stroke had begun when the disturbance came
+  double motion = 0.0;                                     ///< peak to peak in the window [m], largest of the axes
+  double twin_motion = 0.0;                                ///< of the twin
+  double motion_excess = 0.0;                              ///< largest over the axes of motion - twin's motion [m]
+  double speed = 0.0, twin_speed = 0.0;                    ///< highest in the window [m/s]
+  double force = 0.0;                                      ///< peak to peak in the window [N], largest of the axes
   double forgiven_force = 0.0;  ///< the same beyond the stiffness times the twin's own motion [N]
   double peak_force = 0.0;      ///< of the whole run [N]
   bool acted = false;           ///< the force in the window was ever other than zero
@@ -80,9 +80,7 @@ struct SweepResult {
   /// driven. Whatever the same disturbance left of a swing is not.
   bool driven() const { return acted && speed > 3.0 * twin_speed + 0.05; }
   /// By the letter: beyond the twin's motion, or a force that swings.
-  bool fails_by_letter() const {
-    return !refused && (motion_excess > most_motion || force > most_force || driven());
-  }
+  bool fails_by_letter() const { return !refused && (motion_excess > most_motion || force > most_force || driven()); }
   /// A hand that still swings by itself may move the spring, and a pen that coasts without any force is not driven.
   bool fails() const {
     return !refused && ((acted && motion_excess > most_motion) || forgiven_force > most_force || driven());

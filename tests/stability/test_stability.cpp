@@ -66,12 +66,11 @@ double growth(double stiffness, double damping, double period, int delay) {
 
 TEST_CASE("the judge: a sampled wall becomes unstable where the exact solution says", "[stability]") {
   // Critical stiffness of 45 g: damping, period, delay, K.
-  const auto [damping, period, delay, critical] =
-      GENERATE(table<double, double, int, double>({{0.1, 1e-3, 0, 200.1},
-                                                   {0.5, 1e-3, 0, 1001.9},
-                                                   {0.5, 10e-3, 0, 101.9},
-                                                   {0.5, 1e-3, 1, 334.4},
-                                                   {0.5, 1e-3, 5, 91.8}}));
+  const auto [damping, period, delay, critical] = GENERATE(table<double, double, int, double>({{0.1, 1e-3, 0, 200.1},
+                                                                                               {0.5, 1e-3, 0, 1001.9},
+                                                                                               {0.5, 10e-3, 0, 101.9},
+                                                                                               {0.5, 1e-3, 1, 334.4},
+                                                                                               {0.5, 1e-3, 5, 91.8}}));
   CAPTURE(damping, period, delay);
   CHECK(growth(1.02 * critical, damping, period, delay) > 1.02);
   CHECK(growth(0.98 * critical, damping, period, delay) < 0.98);
@@ -133,7 +132,9 @@ TEST_CASE("the judge: a sample is as old as the device says, rounded to its enco
   CHECK(state.position.x() == Approx(0.045).margin(1e-9));
 }
 
-TEST_CASE("hands drawn at random come to rest beside their twins after a disturbance", "[stability]") { check_sweep(1); }
+TEST_CASE("hands drawn at random come to rest beside their twins after a disturbance", "[stability]") {
+  check_sweep(1);
+}
 
 TEST_CASE("hands drawn from another seed come to rest too", "[stability]") { check_sweep(20260); }
 
