@@ -479,9 +479,12 @@ Point HapticRenderer::fade(const Point& force) noexcept {
 
 /// The last stages, in this order: passivity, direction-preserving saturation, rate, energy and heat of the force sent.
 void HapticRenderer::send(const Eigen::Vector3d& wanted) noexcept {
-  const Eigen::Vector3d force = observes_energy_ ? control_passivity(wanted) : wanted;
-  double longest = observes_energy_ ? passivity_.max_force() : ForceLimiter::no_limit;
-  if (thermal_.peak > 0.0) longest = std::min(longest, thermal_.max_force());
+  double longest = thermal_.peak > 0.0 ? thermal_.max_force() : ForceLimiter::no_limit;
+  Eigen::Vector3d force = wanted;
+  if (observes_energy_) {
+    force = control_passivity(shortened(wanted, std::min(limiter_.peak, longest)));
+    longest = std::min(longest, passivity_.max_force());
+  }
   const bool trusted = tick_.status == TickStatus::ok || (tick_.status == TickStatus::stale && norm(wanted) > 0.0);
   tick_.page_force = trusted ? limiter_.next(tick_.page_force, force, allowance(), longest) : limiter_.release(tick_.page_force);
   if (observes_energy_) passivity_.sent(tick_.page_force);

@@ -74,12 +74,14 @@ void PassivityController::acted(const Eigen::Vector3d& force, int ticks) noexcep
 Eigen::Vector3d PassivityController::next(const Eigen::Vector3d& position, const Eigen::Vector3d& wanted,
                                           const Eigen::Vector3d& viscous) noexcept {
   damping_.setZero();
+  // What the budget takes away on purpose is not generated.
+  const Eigen::Vector3d field = shortened(wanted, max_force_);
   if (position.allFinite()) {
-    move(position, wanted);
+    move(position, field);
   } else {
     pass_unseen(false);
   }
-  wanted_ = wanted;
+  wanted_ = field;
   const Eigen::Vector3d force = wanted + damping_;
   return std::isfinite(budget_) ? within_budget(force, viscous + damping_) : force;
 }

@@ -37,7 +37,7 @@ GripImpedance draw_grip(Random& random, double device_mass) {
     GripImpedance grip;
     grip.mass = log_between(random, 0.01, 0.3);
     grip.damping = log_between(random, 0.1, 10.0);
-    grip.stiffness = log_between(random, 10.0, 1000.0);
+    grip.stiffness = log_between(random, 30.0, 1000.0);
     if (grip.damping >= 0.2 * std::sqrt(grip.stiffness * (grip.mass + device_mass))) return grip;
   }
 }
