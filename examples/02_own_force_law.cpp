@@ -8,7 +8,8 @@
 
 namespace {
 
-/// A wall below z = 0: a spring and a damper that never pull [N].
+/// A wall below z = 0: a spring and a damper that never pull [N]. The velocity is an estimate, as on most devices; a
+/// Servo also estimates that of a backend which has none, so that it is never NaN.
 Eigen::Vector3d wall(const calligraphy::DeviceState& state) {
   const double penetration = -state.position.z();
   if (penetration <= 0.0) return Eigen::Vector3d::Zero();

@@ -44,6 +44,23 @@ TEST_CASE("a pressed pen comes to rest where hand and wall balance") {
   CHECK(max_force < device_profile("desktop").peak_force);
 }
 
+TEST_CASE("a device that is unplugged has no force, and gets it back by a ramp") {
+  SimulatedDevice device(device_profile("desktop"), {0.15, 5.0, 500.0}, {0.0, 0.0, -0.002});
+  device.schedule({{.begin = 0.5, .duration = 0.1, .kind = SimulatedFaultKind::unplugged}});
+  Servo servo(device, wall);
+  double last = 0.0, max_rise = 0.0;
+  for (int tick = 0; tick < 1000; ++tick) {
+    servo.step(1e-3 * tick);
+    const double force = device.applied_force().z();
+    if (tick >= 500 && tick < 600) CHECK(force == 0.0);
+    max_rise = std::max(max_rise, force - last);
+    last = force;
+    device.advance(1e-3);
+  }
+  CHECK(last > 0.5);
+  CHECK(max_rise < 0.05);
+}
+
 TEST_CASE("above the wall nothing is felt") {
   double max_force = 0.0;
   pen_at_rest({0.1, 3.0, 300.0}, {0.02, 0.0, 0.01}, max_force);

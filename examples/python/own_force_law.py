@@ -13,7 +13,10 @@ PROFILE = cal.device_profile("desktop")
 
 
 class Groove:
-    """Pulls the pen into the plane y = 0: a spring of limited range and a damper [N, m]."""
+    """Pulls the pen into the plane y = 0: a spring of limited range and a damper [N, m].
+
+    The velocity is an estimate, as on most devices; the Servo estimates that of a backend which has none.
+    """
 
     def __init__(self, stiffness: float = 400.0, damping: float = 1.0, reach: float = 0.01) -> None:
         self.stiffness, self.damping, self.reach = stiffness, damping, reach

@@ -33,6 +33,19 @@ def test_a_pressed_pen_comes_to_rest_where_hand_and_wall_balance() -> None:
     assert max_force < DESKTOP.peak_force
 
 
+def test_a_device_that_is_unplugged_has_no_force_and_gets_it_back_by_a_ramp() -> None:
+    device = cal.SimulatedDevice(DESKTOP, cal.GripImpedance(mass=0.15, damping=5.0, stiffness=500.0), (0.0, 0.0, -0.002))
+    device.schedule([cal.SimulatedFault(begin=0.5, duration=0.1, kind=cal.SimulatedFaultKind.unplugged)])
+    servo = cal.Servo(device, wall)
+    force = np.zeros(1000)
+    for tick in range(1000):
+        servo.step(1e-3 * tick)
+        force[tick] = device.applied_force[2]
+        device.advance(1e-3)
+    assert not force[500:600].any() and force[-1] > 0.5
+    assert np.diff(force).max() < 0.05
+
+
 def test_there_is_no_force_above_the_wall() -> None:
     _, max_force = simulate(cal.GripImpedance(mass=0.1, damping=3.0, stiffness=300.0), (0.02, 0.0, 0.01))
     assert max_force == 0.0

@@ -115,6 +115,5 @@ TEST_CASE("a cut-off frequency that is not finite and above zero is refused by i
     CAPTURE(cutoff);
     CHECK_THROWS_AS(VelocityEstimator(cutoff), ValueError);
   }
-  CHECK_THROWS_WITH(VelocityEstimator(-1.0),
-                    "cut-off frequency of the velocity = -1 Hz, must be finite and above 0");
+  CHECK_THROWS_WITH(VelocityEstimator(-1.0), "cut-off frequency of the velocity = -1 Hz, must be finite and above 0");
 }

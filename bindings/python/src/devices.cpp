@@ -4,6 +4,7 @@
 #include <calligraphy/devices/replay_device.hpp>
 #include <calligraphy/devices/servo_loop.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
+#include <calligraphy/devices/velocity_estimator.hpp>
 
 #include "components.hpp"
 
@@ -11,6 +12,14 @@ namespace calligraphy::python {
 namespace {
 
 double no_time() noexcept { return 0.0; }
+
+/// A force that is not finite counts as zero in C++, where a servo loop must not throw; here the author is told.
+void write(HapticDevice& device, const Eigen::Vector3d& force) {
+  device.write(force);
+  if (force.allFinite()) return;
+  throw ValueError("force: got " + py::str(array_of(force)).cast<std::string>() +
+                   " N, expected finite numbers; the force is now zero");
+}
 
 /// A servo in virtual time: the force law takes no virtual time, however slow Python is.
 class VirtualServo {
@@ -143,6 +152,30 @@ void add_devices(py::module_& module) {
                             &GripImpedance::stiffness, "stiffness [N/m]");
   add_struct<Intention>(module, "Intention", "Intended position and velocity of the pen, in device axes.",
                         &Intention::position, "position: (3,) [m]", &Intention::velocity, "velocity: (3,) [m/s]");
+  add_enum(module, "SimulatedFaultKind",
+           "What happens: no new sample; samples older by `ticks`; position and velocity NaN; disconnected, without "
+           "force; `status` and `fault` reported with fresh samples.",
+           SimulatedFaultKind::reported, "stale late garbage unplugged reported");
+  add_struct<SimulatedFault>(
+      module, "SimulatedFault", "A fault that a simulated device shows for a while.", &SimulatedFault::begin,
+      "begin: virtual time [s]", &SimulatedFault::duration, "duration: infinity: for good [s]", &SimulatedFault::kind,
+      "kind: SimulatedFaultKind", &SimulatedFault::ticks, "ticks: late: 1 to 1000", &SimulatedFault::status,
+      "status: DeviceStatus: reported", &SimulatedFault::fault, "fault: DeviceFault: stale, reported");
+  py::class_<VelocityEstimator>(module, "VelocityEstimator",
+                                "Velocity from sampled positions: backward differences, smoothed by a first-order "
+                                "low-pass; what built-in devices and Servo do without a measured velocity.")
+      .def(py::init<double>(), "cutoff"_a = VelocityEstimator::default_cutoff)
+      .def(
+          "update",
+          [](VelocityEstimator& self, const ArrayLike& position, double elapsed) {
+            return array_of(self.update(vector(position, "position"), elapsed));
+          },
+          "position"_a, "elapsed"_a,
+          "Takes the next position (3,) [m], `elapsed` [s] after the previous one; returns the estimate (3,) [m/s].")
+      .def_property_readonly(
+          "velocity", [](const VelocityEstimator& self) { return array_of(self.velocity()); },
+          "(3,), the last estimate [m/s]")
+      .def("restart", &VelocityEstimator::restart, "Forgets the position and the estimate.");
   module.def(
       "device_profiles",
       [] {
@@ -164,8 +197,10 @@ void add_devices(py::module_& module) {
       .def(
           "read", [](HapticDevice& self) { return idle(self).read(); }, "The newest sample.")
       .def(
-          "write", [](HapticDevice& self, const ArrayLike& force) { idle(self).write(vector(force, "force")); },
-          "force"_a, "Commands a force in device axes (3,) [N], held until the next call.")
+          "write", [](HapticDevice& self, const ArrayLike& force) { write(idle(self), vector(force, "force")); },
+          "force"_a,
+          "Commands a force in device axes (3,) [N], held until the next call. If it is not finite, commands zero and "
+          "raises InvalidValue.")
       .def("close", when_idle(&HapticDevice::close), "Sets the force to zero; later reads return `disconnected`.")
       .def("__enter__", [](const py::object& self) { return self; })
       .def("__exit__", [](const py::object& self, const py::args&) { self.attr("close")(); });
@@ -182,10 +217,15 @@ void add_devices(py::module_& module) {
       .def("set_grip", when_idle(&SimulatedDevice::set_grip), "grip"_a,
            "Sets the grip of the hand that holds the device.")
       .def("set_buttons", when_idle(&SimulatedDevice::set_buttons), "buttons"_a, "One bit per pressed button.")
-      .def("advance", when_idle(&SimulatedDevice::advance), "seconds"_a, "Advances virtual time [s]; takes a sample.")
+      .def("advance", when_idle(&SimulatedDevice::advance), "seconds"_a,
+           "Advances virtual time [s]; takes a sample. Raises InvalidValue for a time that is negative or not finite.")
+      .def("schedule", when_idle(&SimulatedDevice::schedule), "faults"_a,
+           "Replaces the list of SimulatedFault; of several that are active at once the first counts.")
       .def_property_readonly("true_position", when_idle(&SimulatedDevice::true_position), "(3,), not quantised [m]")
       .def_property_readonly("true_velocity", when_idle(&SimulatedDevice::true_velocity), "(3,) [m/s]")
       .def_property_readonly("applied_force", when_idle(&SimulatedDevice::applied_force), "(3,) [N]")
+      .def_property_readonly("refused_forces", when_idle(&SimulatedDevice::refused_forces),
+                             "number of forces written that were not finite")
       .def_property_readonly("time", when_idle(&SimulatedDevice::time), "[s]");
 
   py::class_<ReplayDevice, HapticDevice>(module, "ReplayDevice", py::is_final(),

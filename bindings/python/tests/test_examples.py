@@ -90,7 +90,7 @@ def test_the_unit_tests_of_a_force_law_pass():
     program = ROOT / "examples" / "python" / "test_force_law.py"
     command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", str(program)]
     done = subprocess.run(command, capture_output=True, text=True, cwd=program.parent)
-    assert done.returncode == 0 and "2 passed" in done.stdout, done.stdout + done.stderr
+    assert done.returncode == 0 and "3 passed" in done.stdout, done.stdout + done.stderr
 
 
 @pytest.mark.parametrize("page", PAGES)

@@ -1,5 +1,7 @@
 """Arguments reach C++: every option of a call has its effect, and none are swapped."""
 
+import copy
+
 import numpy as np
 import pytest
 
@@ -118,7 +120,7 @@ def test_a_servo_ramps_down_in_the_given_time():
             device.advance(1e-3)
             servo.step(tick * 1e-3)
             sent.append(device.applied_force[2])
-        assert sent[49] == 1.0 and sent[-1] == 0.0
+        assert sent[49] == pytest.approx(1.0, abs=PROFILE.force_step) and sent[-1] == 0.0
         return sum(force > 0 for force in sent[50:])
 
     assert fall(5e-3) <= 6 < 20 <= fall(30e-3) <= 31
@@ -144,7 +146,8 @@ def test_a_slow_law_takes_no_virtual_time():
         return (0, 0, 1.0)
 
     sent, servo = stepped(0.02, law=slow, ramp_up=0.0)
-    assert servo.statistics["work"]["worst"] == 0.0 and servo.status.fault == cal.DeviceFault.none and sent[-1] == 1.0
+    assert servo.statistics["work"]["worst"] == 0.0 and servo.status.fault == cal.DeviceFault.none
+    assert sent[-1] == pytest.approx(1.0, abs=PROFILE.force_step)
 
 
 def test_a_reset_servo_starts_again():
@@ -175,6 +178,78 @@ def test_a_simulated_device_has_the_given_position_grip_and_buttons():
     assert np.allclose(let_go.true_position, (0.01, 0.02, 0.03))
     device.close()
     assert device.read().status == cal.DeviceStatus.disconnected
+
+
+def test_a_force_that_is_not_finite_is_refused_and_leaves_none_behind():
+    device = cal.SimulatedDevice(PROFILE)
+    device.write((1.0, 0.0, 0.0))
+    with pytest.raises(cal.InvalidValue, match=r"force: got \[.*nan.*\] N, expected finite numbers"):
+        device.write((0.0, float("nan"), 0.0))
+    assert not device.applied_force.any() and device.refused_forces == 1
+
+
+def test_time_does_not_run_backwards():
+    device = cal.SimulatedDevice(PROFILE)
+    for seconds in (-1.0, float("nan"), float("inf")):
+        with pytest.raises(cal.InvalidValue, match="seconds = "):
+            device.advance(seconds)
+    device.advance(0.0)
+    assert device.time == 0.0
+
+
+def test_a_simulated_device_shows_faults_on_schedule():
+    device = cal.SimulatedDevice(PROFILE)
+    kinds = cal.SimulatedFaultKind
+    device.schedule([
+        cal.SimulatedFault(begin=0.001, duration=0.001, kind=kinds.garbage),
+        cal.SimulatedFault(begin=0.002, duration=0.001, kind=kinds.unplugged),
+        cal.SimulatedFault(begin=0.003, duration=float("inf"), kind=kinds.reported, status=cal.DeviceStatus.warm_motors),
+    ])
+    seen = []
+    for _ in range(5):
+        seen.append(device.read())
+        device.advance(0.001)
+    assert [np.isnan(state.position).all() for state in seen] == [False, True, False, False, False]
+    assert [state.status.name for state in seen] == ["ok", "ok", "disconnected", "warm_motors", "warm_motors"]
+    assert seen[2].fault == cal.DeviceFault.unplugged
+    with pytest.raises(cal.InvalidValue, match="scheduled fault 0: duration = 0 s"):
+        device.schedule([cal.SimulatedFault(duration=0.0)])
+
+
+def test_velocity_is_measured_or_estimated_as_the_profile_says():
+    for name, estimated in (("desktop", True), ("ideal", False)):
+        profile = cal.device_profile(name)
+        assert (profile.velocity == cal.VelocitySource.estimated) == estimated
+        device = cal.SimulatedDevice(profile, cal.GripImpedance(mass=0.1, damping=3.0, stiffness=300.0))
+        device.set_intention(cal.Intention(velocity=(0.1, 0.0, 0.0)))
+        estimator = cal.VelocityEstimator(profile.velocity_cutoff)
+        estimator.update(device.read().position, 0.0)
+        for _ in range(100):
+            device.advance(1e-3)
+            state = device.read()
+            estimate = estimator.update(state.position, 1e-3)
+            assert state.velocity_estimated == estimated
+            assert np.array_equal(state.velocity, estimate if estimated else device.true_velocity)
+        estimator.restart()
+        assert not estimator.velocity.any()
+    with pytest.raises(cal.InvalidValue, match="cut-off frequency of the velocity = 0 Hz"):
+        cal.VelocityEstimator(0.0)
+
+
+def test_a_force_law_sees_a_velocity_and_the_force_at_work_of_a_device_that_has_neither():
+    seen = []
+
+    class Silent(Weak):
+        def read(self):
+            self.reads += 1
+            return cal.DeviceState(position=(1e-4 * self.reads, 0, 0))
+
+    device = Silent()
+    servo = cal.Servo(device, lambda state: seen.append(copy.deepcopy(state)) or (0.4, 0, 0), ramp_up=0.01)
+    for tick in range(100):
+        servo.step(1e-3 * tick)
+    assert seen[-1].velocity == pytest.approx((0.1, 0, 0)) and seen[-1].velocity_estimated
+    assert [state.force[0] for state in seen[1:]] == [force[0] for force in device.forces[:-1]]
 
 
 def test_a_replayed_device_keeps_the_last_force():

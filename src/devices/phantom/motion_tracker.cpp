@@ -51,8 +51,8 @@ MotionTracker::Judgement MotionTracker::take(const RawSample& sample, double now
   follow_docking(sample.docked);
   motion_.joints = offset_ + encoders_.angles();
   motion_.position = tip_position(linkage_, motion_.joints) - linkage_.centre;
-  motion_.velocity = tip_jacobian(linkage_, motion_.joints) *
-                     joint_velocity_.update(encoders_.angles(), encoders_.interval());
+  motion_.velocity =
+      tip_jacobian(linkage_, motion_.joints) * joint_velocity_.update(encoders_.angles(), encoders_.interval());
   if (motion_.calibrated && !within_limits(linkage_, motion_.joints, limit_margin) &&
       judgement.fault == DeviceFault::none) {
     judgement.fault = DeviceFault::outside_workspace;
