@@ -146,14 +146,9 @@ void friction_hayward_armstrong(RendererOptions& options) {
   friction(options);
   options.friction.model = FrictionModel::hayward_armstrong;
 }
-void friction_karnopp(RendererOptions& options) {
-  friction(options);
-  options.friction.model = FrictionModel::karnopp;
-}
 void saturating_guidance(RendererOptions& options) { options.guidance = GuidanceLaw::saturating; }
 void guidance_to_start(RendererOptions& options) { options.guide_to_start = true; }
 void assist_policy(RendererOptions& options) { options.assist.enabled = true; }
-void jerk_limit(RendererOptions& options) { options.force_jerk = 1e5; }
 void passivity_control(RendererOptions& options) { options.passivity_control = true; }
 void energy_budget(RendererOptions& options) {
   passivity_control(options);
@@ -164,11 +159,9 @@ void everything(RendererOptions& options) { options = RendererOptions::everythin
 BENCHMARK_CAPTURE(tick_with, nothing_added, nothing);
 BENCHMARK_CAPTURE(tick_with, friction_breakaway, friction);
 BENCHMARK_CAPTURE(tick_with, friction_hayward_armstrong, friction_hayward_armstrong);
-BENCHMARK_CAPTURE(tick_with, friction_karnopp, friction_karnopp);
 BENCHMARK_CAPTURE(tick_with, saturating_guidance, saturating_guidance);
 BENCHMARK_CAPTURE(tick_with, guidance_to_start, guidance_to_start);
 BENCHMARK_CAPTURE(tick_with, assist_policy, assist_policy);
-BENCHMARK_CAPTURE(tick_with, jerk_limit, jerk_limit);
 BENCHMARK_CAPTURE(tick_with, passivity_control, passivity_control);
 BENCHMARK_CAPTURE(tick_with, passivity_control_and_budget, energy_budget);
 BENCHMARK_CAPTURE(tick_with, thermal_budget, thermal_budget);

@@ -19,6 +19,7 @@ using calligraphy::HapticTick;
 inline calligraphy::Capabilities test_device() {
   calligraphy::Capabilities device;
   device.model = "test device";
+  device.simulated = true;
   device.peak_force = 3.3;
   device.usable_stiffness = 1000.0;
   return device;

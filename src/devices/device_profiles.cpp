@@ -16,6 +16,7 @@ Capabilities profile(const char* name, const char* model, const Eigen::Vector3d&
   Capabilities result;
   result.name = name;
   result.model = model;
+  result.simulated = true;
   result.workspace = workspace;
   result.peak_force = peak;
   result.continuous_force = continuous;

@@ -79,6 +79,7 @@ void apply(const SimulatedFault& fault, DeviceState& state) noexcept {
 
 SimulatedDevice::SimulatedDevice(const Capabilities& device, const GripImpedance& grip, const Eigen::Vector3d& position)
     : device_(checked(device)), grip_(checked(grip)), position_(checked(position)), estimator_(device.velocity_cutoff) {
+  device_.simulated = true;
   intention_.position = position;  // by default the hand holds still
   samples_.assign(static_cast<std::size_t>(device_.sample_delay) + 1, sample(0.0));
   last_read_ = samples_.front();

@@ -453,7 +453,7 @@ Point HapticRenderer::friction_force() noexcept {
   }
   const FrictionOptions& friction = options_.friction;
   const double normal = std::max(0.0, tick_.page_force.z());  // the actual contact force of the hand
-  const Point spring = friction_.update(friction, tick_.device_point.head<2>(), normal, period_);
+  const Point spring = friction_.update(friction, tick_.device_point.head<2>(), normal);
   // Damps the spring, not the pen: while the anchor slides along, the spring does not change.
   friction_rate_ += rate_filter_ * ((spring - friction_spring_) / period_ - friction_rate_);
   friction_spring_ = spring;

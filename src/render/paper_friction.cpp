@@ -24,18 +24,13 @@ Point no_longer_than(const Point& vector, double longest) noexcept {
 
 }  // namespace
 
-Point PaperFriction::update(const FrictionOptions& options, const Point& tip, double normal, double seconds) noexcept {
+Point PaperFriction::update(const FrictionOptions& options, const Point& tip, double normal) noexcept {
   const double most = options.coefficient * std::max(0.0, normal);
   if (!holds_) {
     anchor_ = tip_ = tip;
-    holds_ = sticks_ = true;
+    holds_ = true;
   }
-  Point force;
-  if (options.model == FrictionModel::karnopp) {
-    force = karnopp(options, tip, most, seconds);
-  } else {
-    force = -options.stiffness * stretch(options, tip, most / options.stiffness);
-  }
+  const Point force = -options.stiffness * stretch(options, tip, most / options.stiffness);
   tip_ = tip;
   return force;
 }
@@ -52,29 +47,6 @@ Point PaperFriction::stretch(const FrictionOptions& options, const Point& tip, d
   const Point held = no_longer_than(tip - anchor_, longest);
   if (held != tip - anchor_) anchor_ = tip - held;
   return held;
-}
-
-Point PaperFriction::karnopp(const FrictionOptions& options, const Point& tip, double most, double seconds) noexcept {
-  const Point motion = tip - tip_;
-  const double way = motion.norm();
-  const bool slow = way <= options.stick_speed * seconds;
-  if (slow && !sticks_) {
-    // Sticks with the force of sliding: no force step.
-    sticks_ = true;
-    anchor_ = tip + no_longer_than(anchor_ - tip, most / options.stiffness);
-  }
-  if (sticks_) {
-    const Point pull = options.stiffness * (anchor_ - tip);
-    if (pull.norm() <= options.static_ratio * most) return pull;
-    // Slips in the direction in which it was pulled, whatever its motion in this tick: a pen at rest slips when the
-    // normal force drops.
-    sticks_ = false;
-    anchor_ = tip + no_longer_than(anchor_ - tip, most / options.stiffness);
-    return options.stiffness * (anchor_ - tip);
-  }
-  const Point direction = motion / way;  // faster than stick_speed, so not zero
-  anchor_ = tip - direction * (most / options.stiffness);
-  return -most * direction;
 }
 
 }  // namespace calligraphy

@@ -13,6 +13,9 @@ namespace {
 /// A sample that implies a faster pen is not a motion: the pen is elsewhere [m/s].
 constexpr double fastest_pen = 10.0;
 
+/// A pen that bounces is back on the paper within this time [s].
+constexpr double longest_flight = 0.05;
+
 constexpr double strongest_brake = 0.1;  ///< with an exhausted budget [N]
 constexpr double faintest_brake = 0.01;  ///< with an overdrawn one [N]
 constexpr double slow_pen = 0.01;        ///< speed at which half of the brake acts [m/s]
@@ -54,6 +57,7 @@ void PassivityController::restart() noexcept {
   has_position_ = false;
   wanted_ = damping_ = held_ = Eigen::Vector3d::Zero();
   unseen_ = 0;
+  free_for_ = 0.0;
   speed_ = unseen_force_ = unseen_change_ = surplus_in_plane_ = surplus_normal_ = given_ = 0.0;
   max_force_ = std::numeric_limits<double>::infinity();
   left_ = budget_;
@@ -81,6 +85,10 @@ Eigen::Vector3d PassivityController::next(const Eigen::Vector3d& position, const
   } else {
     pass_unseen(false);
   }
+  // Without a field nothing can swing: a pen that is lifted is not held back for what happened on the paper.
+  const bool is_free = norm(field) == 0.0 && norm(wanted_) == 0.0;
+  free_for_ = is_free ? free_for_ + period_ : 0.0;
+  if (free_for_ > longest_flight) surplus_in_plane_ = surplus_normal_ = 0.0;
   wanted_ = field;
   const Eigen::Vector3d force = wanted + damping_;
   return std::isfinite(budget_) ? within_budget(force, viscous + damping_) : force;

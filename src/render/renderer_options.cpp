@@ -217,6 +217,10 @@ double max_guidance_stiffness(const RendererOptions& options, const Capabilities
 
 void validate(const RendererOptions& options, const Capabilities& capabilities, double scale) {
   require_above_zero("servo_rate", options.servo_rate, "Hz", 1e6);
+  if (options.stiffness_check == StiffnessCheck::off && !capabilities.simulated) {
+    throw ValueError("stiffness_check = off, must be reject or clip on the device " + device_label(capabilities) +
+                     ": only simulated devices may be unstable");
+  }
   RendererOptions stable = options;
   const std::vector<std::string> too_stiff = clip_stiffness(stable, capabilities, scale);
   if (!too_stiff.empty()) throw ValueError(too_stiff.front());
@@ -229,8 +233,6 @@ void validate(const RendererOptions& options, const Capabilities& capabilities, 
   require_within("min_assistance", options.assist.min_assistance, "", 0.0, 1.0);
   require_within("friction.coefficient", options.friction.coefficient, "", 0.0, 10.0);
   require_above_zero("friction.stiffness", options.friction.stiffness, "N/m", stiffest);
-  require_within("friction.static_ratio", options.friction.static_ratio, "", 1.0, 10.0);
-  require_not_negative("friction.stick_speed", options.friction.stick_speed, "m/s");
   try {
     validate(options.stroke.nearest);
   } catch (const ValueError& error) {

@@ -79,10 +79,8 @@ void draw_options(SweepCase& drawn, Random& random) {
     draw_damping(options, random);
   } else if (drawn.composition == Composition::friction) {
     options.friction.coefficient = random.between(0.05, 0.5);
-    const double model = random.next();
-    options.friction.model = model < 0.6   ? FrictionModel::breakaway
-                             : model < 0.8 ? FrictionModel::hayward_armstrong
-                                           : FrictionModel::karnopp;
+    const bool smooth = random.next() < 0.3;
+    options.friction.model = smooth ? FrictionModel::hayward_armstrong : FrictionModel::breakaway;
   }
 }
 

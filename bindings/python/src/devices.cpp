@@ -133,7 +133,8 @@ void add_devices(py::module_& module) {
   add_struct<Capabilities>(
       module, "Capabilities", "Limits and physics of a device.", &Capabilities::name,
       "name: name of the built-in profile; may be empty", &Capabilities::model,
-      "model: display name, such as Phantom Omni", &Capabilities::sensed,
+      "model: display name, such as Phantom Omni", &Capabilities::simulated,
+      "simulated: unstable stiffnesses may be tried (StiffnessCheck.off)", &Capabilities::sensed,
       "sensed: DeviceAxes: axes that read() measures", &Capabilities::driven,
       "driven: DeviceAxes: axes that write() drives", &Capabilities::workspace,
       "workspace: extent along each device axis, centred on zero, (3,) [m]", &Capabilities::peak_force,

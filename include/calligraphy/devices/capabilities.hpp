@@ -33,6 +33,7 @@ const char* to_string(VelocitySource source) noexcept;
 struct Capabilities {
   std::string name;                                     ///< name of the built-in profile; may be empty
   std::string model;                                    ///< display name: "Phantom Omni"
+  bool simulated = false;  ///< nobody can be hurt: unstable stiffnesses may be tried (StiffnessCheck::off)
   DeviceAxes sensed;                                    ///< axes that read() measures
   DeviceAxes driven;                                    ///< axes along which write() exerts a force
   Eigen::Vector3d workspace = Eigen::Vector3d::Zero();  ///< extent along each device axis, centred on zero [m]

@@ -12,10 +12,7 @@ enum class FrictionModel {
   breakaway,
   /// Hayward and Armstrong 2000, "A new computational model of friction applied to haptic rendering", with alpha(z) =
   /// z^8 / (z_stick^8 + z^8) / z_max: w also creeps below break-away, smoothly. Drifts under vibration.
-  hayward_armstrong,
-  /// Karnopp 1985, with the spring of Richard and Cutkosky 2002 while sticking: below `stick_speed` the spring holds
-  /// the pen where it stopped, up to `static_ratio` mu N; above it mu N opposes the motion.
-  karnopp
+  hayward_armstrong
 };
 
 struct FrictionOptions {
@@ -23,25 +20,21 @@ struct FrictionOptions {
   double coefficient = 0.0;    ///< mu, tangential over normal force; 0: no friction [1]
   double stiffness = 500.0;    ///< of the spring between pen and anchor [N/m]
   double damping = 2.5;        ///< of that spring: none while the anchor slides along with the pen [N s/m]
-  double static_ratio = 1.2;   ///< karnopp: break-away over sliding friction, at least 1 [1]
-  double stick_speed = 0.002;  ///< karnopp [m/s]
 };
 
 /// Computes the friction force on the pen. Never allocates.
 class PaperFriction {
  public:
-  /// Friction force on a pen at `tip` [m, page] that presses with `normal` [N], `seconds` after the last call; the
-  /// first call after release() sets the anchor and returns zero.
-  Point update(const FrictionOptions& options, const Point& tip, double normal, double seconds) noexcept;
+  /// Friction force on a pen at `tip` [m, page] that presses with `normal` [N]; the first call after release() sets the
+  /// anchor and returns zero.
+  Point update(const FrictionOptions& options, const Point& tip, double normal) noexcept;
   /// Call this when the pen leaves the paper.
   void release() noexcept { holds_ = false; }
 
  private:
   Point stretch(const FrictionOptions& options, const Point& tip, double longest) noexcept;
-  Point karnopp(const FrictionOptions& options, const Point& tip, double most, double seconds) noexcept;
 
   bool holds_ = false;
-  bool sticks_ = false;           ///< karnopp
   Point anchor_ = Point::Zero();  ///< w [m]
   Point tip_ = Point::Zero();     ///< of the last call [m]
 };

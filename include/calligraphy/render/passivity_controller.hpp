@@ -115,6 +115,7 @@ class PassivityController {
   double max_force_ = std::numeric_limits<double>::infinity();
   double surplus_in_plane_ = 0.0;  ///< not yet dissipated [J]
   double surplus_normal_ = 0.0;    ///< [J]
+  double free_for_ = 0.0;          ///< how long no force has been desired [s]
   double given_ = 0.0;
   double left_ = std::numeric_limits<double>::infinity();
 };

@@ -134,6 +134,7 @@ Capabilities OpenHapticsDevice::Implementation::ask_capabilities() {
   const std::string model = text(hd().hdGetString(device_model));
   serial = text(hd().hdGetString(device_serial));
   Capabilities result = closest_profile(model);
+  result.simulated = false;
   if (!model.empty()) result.model = model;
 
   // Larger than needed, in case a model returns more values.

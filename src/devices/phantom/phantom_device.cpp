@@ -85,6 +85,7 @@ class PhantomDevice::Core final : public LinkListener {
         bus_(link.get()),
         link_(std::move(link)) {
     capabilities_.update_rate = codec_.profile().rate;
+    capabilities_.simulated = false;
     capabilities_.velocity_cutoff = options_.velocity_cutoff;
     opened_at_ = clock_();
     last_report_ = opened_at_;
