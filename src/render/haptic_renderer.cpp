@@ -36,9 +36,6 @@ constexpr double fastest_followed = 2.0, largest_kick = 0.2;
 /// Force of passivity control for one step of the encoder within a tick [N].
 constexpr double largest_click = 0.1;
 
-/// Depth over which the damping of the paper sets in, so that a touch is no step [m].
-constexpr double damped_depth = 2e-4;
-
 /// What is left of the guidance's damping where no spring acts, as long as the pen touches the paper: a pen that nobody
 /// holds does not coast on.
 constexpr double free_share = 0.15;
@@ -387,11 +384,15 @@ Eigen::Vector3d HapticRenderer::sum_forces() noexcept {
   return {in_plane.x(), in_plane.y(), tick_.normal};
 }
 
-/// Eq. (9) and a damper. Paper does not pull, however fast the pen is lifted.
+/// Eq. (9) and a damper, both of which set in over the first depth: the damper, because a touch would be a step; the
+/// spring, so that it is never stiffer than the damper at that depth is good for. Paper does not pull, however fast the
+/// pen is lifted.
 double HapticRenderer::paper_force() noexcept {
-  const double spring = normal_force(options_.paper_stiffness, tick_.penetration, options_.force_sign);
-  if (!(tick_.penetration > 0.0)) return spring;
-  const double share = std::min(1.0, tick_.penetration / damped_depth);
+  const double depth = tick_.penetration, onset = options_.paper_onset;
+  const double share = depth < onset ? depth / onset : 1.0;
+  const double strained = depth < onset ? 0.5 * depth * share : depth - 0.5 * onset;
+  const double spring = normal_force(options_.paper_stiffness, strained, options_.force_sign);
+  if (!(depth > 0.0)) return spring;
   const double damping = -share * options_.paper_damping * velocity_.velocity().z();
   tick_.viscous.z() = spring >= 0.0 ? std::max(damping, -spring) : damping;
   return spring + tick_.viscous.z();
@@ -503,7 +504,7 @@ ForceAllowance HapticRenderer::allowance_for(const Point& motion, const Point& k
   const bool rubs = friction.coefficient > 0.0;
   const double stiffness = guidance + options_.wrong_way_stiffness + (rubs ? friction.stiffness : 0.0);
   const double damping = options_.guidance_damping + (rubs ? friction.damping : 0.0);
-  const double entered = std::min(1.0, motion.y() / damped_depth);
+  const double entered = motion.y() < options_.paper_onset ? motion.y() / options_.paper_onset : 1.0;
   return {stiffness * motion.x() + damping * kick.x(),
           options_.paper_stiffness * motion.y() + options_.paper_damping * (kick.y() + entered * speed)};
 }

@@ -126,6 +126,7 @@ RendererOptions RendererOptions::wang2006() {
   options.pen_tip = PenTipRule::wang2006;
   options.motion = MotionMappingRule::wang2006;
   options.lift_time = 0.0;
+  options.paper_onset = 0.0;
   options.paper_damping = options.guidance_damping = options.friction.damping = 0.0;
   options.stiffness_check = StiffnessCheck::off;
   return options;
@@ -150,7 +151,6 @@ RendererOptions RendererOptions::everything(const Capabilities& capabilities) {
   clip_stiffness(options, capabilities);
   const bool is_modelled =
       capabilities.apparent_mass > 0.0 && capabilities.sample_delay <= PassivityController::max_delay;
-  options.passivity_control = is_modelled;
   if (is_modelled) options.energy_budget = 0.1;
   const bool warms = capabilities.continuous_force > 0.0 && capabilities.continuous_force < capabilities.peak_force;
   options.thermal_time_constant = warms ? 10.0 : 0.0;
@@ -224,6 +224,7 @@ void validate(const RendererOptions& options, const Capabilities& capabilities, 
   RendererOptions stable = options;
   const std::vector<std::string> too_stiff = clip_stiffness(stable, capabilities, scale);
   if (!too_stiff.empty()) throw ValueError(too_stiff.front());
+  require_not_negative("paper_onset", options.paper_onset, "m");
   require_not_negative("guidance_fade_in", options.guidance_fade_in, "s");
   require_not_negative("wrong_way_limit", options.wrong_way_limit, "N");
   require_not_negative("wrong_way_slack", options.wrong_way_slack, "m");

@@ -102,7 +102,8 @@ void add_render(py::module_& module) {
   using O = RendererOptions;
   add_struct<O>(module, "RendererOptions", "Options of the haptic renderer.", &O::servo_rate, "servo_rate [Hz]",
                 &O::paper_stiffness, "paper_stiffness: K_en of eq. (9) [N/m]", &O::guidance_stiffness,
-                "guidance_stiffness: K_et of eq. (8) [N/m]", &O::paper_damping,
+                "guidance_stiffness: K_et of eq. (8) [N/m]", &O::paper_onset,
+                "paper_onset: depth over which the paper sets in [m]", &O::paper_damping,
                 "paper_damping: along the normal of the paper [N s/m]", &O::guidance_damping,
                 "guidance_damping: across the stroke [N s/m]", &O::velocity_cutoff,
                 "velocity_cutoff: of the low-pass on the velocity for both [Hz]", &O::guidance_fade_in, "guidance_fade_in: time [s]",

@@ -37,6 +37,7 @@ enum class StiffnessCheck {
 struct RendererOptions {
   double servo_rate = 1000.0;          ///< [Hz]
   double paper_stiffness = 600.0;      ///< K_en of eq. (9) [N/m]
+  double paper_onset = 0.0005;         ///< depth over which the paper becomes as stiff and as damped as that [m]
   double paper_damping = 4.0;          ///< against motion in the paper, along its normal [N s/m]
   double guidance_stiffness = 600.0;   ///< K_et of eq. (8) where the attraction factor is 1 [N/m]
   double guidance_damping = 4.0;       ///< where guidance acts, against motion across the stroke, not along it [N s/m]
@@ -94,9 +95,9 @@ struct RendererOptions {
   /// stiffness_check is clip.
   static RendererOptions for_device(const Capabilities& capabilities);
 
-  /// for_device() with all optional stages enabled: friction, guidance for large deviations, assistance as needed;
-  /// passivity control and an energy budget where the device states its mass and a delay of at most 15 ticks; a thermal
-  /// budget where it states a continuous force below its peak.
+  /// for_device() with the optional stages: friction, guidance for large deviations, assistance as needed; an energy
+  /// budget where the device states its mass and a delay of at most 15 ticks; a thermal budget where it states a
+  /// continuous force below its peak. Not passivity control: the springs are damped already, and what it adds is drag.
   static RendererOptions everything(const Capabilities& capabilities);
 };
 
