@@ -8,6 +8,7 @@
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/detail/force_guard.hpp>
+#include <calligraphy/devices/emergency_stop.hpp>
 #include <calligraphy/devices/servo.hpp>
 #include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/devices/latest_value.hpp>
@@ -88,6 +89,7 @@ class PhantomDevice::Core final : public LinkListener {
     last_report_ = opened_at_;
     silent_until_ = opened_at_;
     last_write_.store(opened_at_, std::memory_order_relaxed);
+    if (codec_.profile().command_size > 0) stop_packet_size_ = frames_.wrap(RawCommand{}, stop_packet_).size();
     description_ = link_->description();
     link_->open(*this);
     description_ = link_->description();
@@ -127,6 +129,10 @@ class PhantomDevice::Core final : public LinkListener {
       }
     }
     link_fault_.store(fault, std::memory_order_release);
+  }
+
+  std::span<const std::byte> stop_packet() const noexcept override {
+    return std::span(stop_packet_).first(stop_packet_size_);
   }
 
   // Called by the servo loop.
@@ -187,15 +193,23 @@ class PhantomDevice::Core final : public LinkListener {
     send(output_.command(good_joints_, allowed, gain), Sender::servo_loop);
   }
 
-  void close() noexcept {
+  void switch_off() noexcept {
     if (!open_) return;
     open_ = false;
     closing_.store(true, std::memory_order_release);  // no start commands from here on
-    switch_off();
+    send_off();
     send_all(codec_.profile().stop);
+  }
+
+  /// After switch_off().
+  void close_link() noexcept {
+    if (!link_) return;
     closed_counts_ = link_->counts();
     link_.reset();
   }
+
+  /// Async-signal-safe, until close_link().
+  void cut_force() noexcept { bus_->cut_force(); }
 
   // Called during set-up or by any thread.
 
@@ -283,6 +297,7 @@ class PhantomDevice::Core final : public LinkListener {
     bool sent = false;
     const bool of_servo = sender == Sender::servo_loop;
     if (of_servo || clock_() - last_write_.load(std::memory_order_acquire) > write_patience) {
+      if (emergency_stopped()) command = {};
       if (of_servo) toggle_ = !toggle_;
       command.toggle = toggle_;
       sent = bus_->send(frames_.wrap(command, packet_));
@@ -294,7 +309,7 @@ class PhantomDevice::Core final : public LinkListener {
   }
 
   /// Sends the final packet: it replaces a pending one, then is sent as a command, which nothing can overtake.
-  void switch_off() noexcept {
+  void send_off() noexcept {
     if (codec_.profile().command_size == 0) return;
     while (sending_.test_and_set(std::memory_order_acquire)) std::this_thread::yield();  // never cleared
     RawCommand off;
@@ -350,6 +365,10 @@ class PhantomDevice::Core final : public LinkListener {
   bool toggle_ = false;
   std::array<std::byte, max_framed_bytes> packet_{};
 
+  // Constant once the device is open.
+  std::array<std::byte, max_framed_bytes> stop_packet_{};
+  std::size_t stop_packet_size_ = 0;
+
   // Used only by the servo loop.
   bool open_ = true;
   Motion motion_;
@@ -390,14 +409,21 @@ PhantomStatistics PhantomDevice::Core::statistics() const noexcept {
 PhantomDevice::PhantomDevice(std::unique_ptr<Link> link, const PhantomOptions& options, std::function<double()> clock) {
   if (!link) throw ValueError("PhantomDevice: the link is null");
   core_ = std::make_unique<Core>(std::move(link), options, std::move(clock));
+  if (options.drive) entry_.emplace(*this);
 }
 
-PhantomDevice::~PhantomDevice() { core_->close(); }
+PhantomDevice::~PhantomDevice() { close(); }
 
 const Capabilities& PhantomDevice::capabilities() const noexcept { return core_->capabilities(); }
 DeviceState PhantomDevice::read() noexcept { return core_->read(); }
 void PhantomDevice::write(const Eigen::Vector3d& force) noexcept { core_->write(force); }
-void PhantomDevice::close() noexcept { core_->close(); }
+void PhantomDevice::cut_force() noexcept { core_->cut_force(); }
+
+void PhantomDevice::close() noexcept {
+  core_->switch_off();
+  entry_.reset();
+  core_->close_link();
+}
 
 void PhantomDevice::calibrate(const Joints& joints) {
   for (const double joint : joints) require(std::isfinite(joint), "joint", joint, "rad", "finite");

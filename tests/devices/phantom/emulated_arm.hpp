@@ -65,6 +65,10 @@ class MemoryLink final : public Link {
     if (wire_->fails_commands) throw DeviceError("command refused");
     wire_->commands.emplace_back(packet.begin(), packet.end());
   }
+  void cut_force() noexcept override {
+    const std::span<const std::byte> packet = wire_->listener->stop_packet();
+    if (!packet.empty()) send(packet);
+  }
   LinkCounts counts() const noexcept override { return {0, wire_->sent, 0, 0, 1}; }
   const std::vector<std::string>& warnings() const noexcept override { return wire_->warnings; }
   const std::string& description() const noexcept override { return description_; }

@@ -5,9 +5,11 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include <calligraphy/devices/emergency_stop.hpp>
 #include <calligraphy/devices/haptic_device.hpp>
 #include <calligraphy/devices/phantom/kinematics.hpp>
 
@@ -84,6 +86,9 @@ class PhantomDevice final : public HapticDevice {
   void write(const Eigen::Vector3d& force) noexcept override;
   /// Switches the motors off and sends the profile's stop commands. Blocks until they are sent.
   void close() noexcept override;
+  /// Sends a packet with zero torques and the motors off. The link's own thread transfers it; if that thread does not
+  /// answer, it is written directly to the node, which is not possible with hidapi-libusb.
+  void cut_force() noexcept override;
 
   /// Calibrates without the inkwell: the joints are at these angles [rad] at the next report.
   /// @throws ValueError when an angle is not finite
@@ -103,6 +108,7 @@ class PhantomDevice final : public HapticDevice {
  private:
   class Core;
   std::unique_ptr<Core> core_;
+  std::optional<EmergencyStopEntry> entry_;  ///< while it is open
 };
 
 }  // namespace calligraphy
