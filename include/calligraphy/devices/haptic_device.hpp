@@ -40,8 +40,9 @@ class HapticDevice {
   /// The device's own scheduler, if the servo loop must be clocked by it; null: any clock will do.
   virtual ServoClock* clock() noexcept { return nullptr; }
 
-  /// Privileges that the system refused to the device's own threads, each with a remedy. ServoLoop::start() returns
-  /// them.
+  /// Privileges that the system refused to the device's own threads, each with a remedy. Also that the device is not known
+  /// to have a watchdog, which alone removes the force when the program is killed (SIGKILL) or the computer fails.
+  /// ServoLoop::start() returns them.
   virtual std::vector<std::string> warnings() const { return {}; }
 };
 

@@ -94,6 +94,7 @@ class PhantomDevice::Core final : public LinkListener {
     link_->open(*this);
     description_ = link_->description();
     warnings_ = link_->warnings();
+    if (options_.drive) warn_of_profile();
   }
 
   // Called by the link's thread.
@@ -232,6 +233,20 @@ class PhantomDevice::Core final : public LinkListener {
     std::atomic<std::uint64_t> commands = 0, refused = 0, released = 0;
     std::array<std::atomic<std::uint64_t>, device_fault_count> faults{};
   };
+
+  /// What protects nobody once this program has been killed.
+  void warn_of_profile() {
+    const WireProfile& profile = codec_.profile();
+    const std::string start = "wire profile \"" + profile.name + "\" has no line \"";
+    if (!profile.toggle) {
+      warnings_.push_back(start +
+                          "toggle\": whether the device switches its motors off when this program is killed (SIGKILL) "
+                          "or the computer fails is not known. Keep a hand at the device's switch");
+    }
+    if (!profile.motors_on) {
+      warnings_.push_back(start + "motors-on\": the motors get a torque of zero, but cannot be switched off");
+    }
+  }
 
   static void count(std::atomic<std::uint64_t>& counter, std::uint64_t more = 1) noexcept {
     counter.fetch_add(more, std::memory_order_relaxed);

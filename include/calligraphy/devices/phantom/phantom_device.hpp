@@ -102,7 +102,8 @@ class PhantomDevice final : public HapticDevice {
   PhantomStatistics statistics() const noexcept;
   /// For example "2988:0302 on bus 1, port 2, serial 540-12345".
   const std::string& description() const noexcept;
-  /// Reports a refused real-time priority, with a remedy.
+  /// Reports a refused real-time priority, with a remedy, and a wire profile without the dead-man bit (`toggle`) or the
+  /// enable bit (`motors-on`).
   std::vector<std::string> warnings() const override;
 
  private:
