@@ -24,10 +24,20 @@ void (*to_call)() noexcept = nullptr;
 
 namespace {
 
-constexpr std::array ending_signals = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
+constexpr std::array ending_signals = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGTSTP,
+                                       SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 
 /// Dispositions before ours.
 std::array<struct sigaction, ending_signals.size()> before;
+
+extern "C" void calligraphy_at_ending_signal(int signal, siginfo_t* info, void* context);
+
+void install(int signal, const struct sigaction& old) noexcept {
+  struct sigaction ours = old;
+  ours.sa_sigaction = calligraphy_at_ending_signal;
+  ours.sa_flags = (old.sa_flags | SA_SIGINFO | SA_ONSTACK) & ~static_cast<int>(SA_RESETHAND);
+  sigaction(signal, &ours, nullptr);
+}
 
 void restore_default(int signal) noexcept {
   struct sigaction action = {};
@@ -43,7 +53,14 @@ bool is_own_fault(int signal, const siginfo_t& info) noexcept {
 void do_as_before(const struct sigaction& action, int signal, siginfo_t* info, void* context) noexcept {
   const bool by_default = (action.sa_flags & SA_SIGINFO) == 0 && action.sa_handler == SIG_DFL;
   if (by_default || (action.sa_flags & SA_RESETHAND) != 0) restore_default(signal);
-  if (by_default) {
+  if (by_default && signal == SIGTSTP) {
+    raise(signal);
+    sigset_t blocked;
+    sigemptyset(&blocked);
+    sigaddset(&blocked, signal);
+    pthread_sigmask(SIG_UNBLOCK, &blocked, nullptr);  // the program is suspended here, and goes on from here
+    install(signal, action);
+  } else if (by_default) {
     // The instruction is executed again on return, so that a core dump shows where and why it failed; any other signal
     // is sent again, and arrives on return.
     if (!is_own_fault(signal, *info)) raise(signal);
@@ -72,10 +89,7 @@ void call_at_ending_signals(void (*action)() noexcept) noexcept {
     struct sigaction& old = before[i];
     if (sigaction(ending_signals[i], nullptr, &old) != 0) continue;
     if ((old.sa_flags & SA_SIGINFO) == 0 && old.sa_handler == SIG_IGN) continue;  // as nohup requires
-    struct sigaction ours = old;
-    ours.sa_sigaction = calligraphy_at_ending_signal;
-    ours.sa_flags = (old.sa_flags | SA_SIGINFO | SA_ONSTACK) & ~static_cast<int>(SA_RESETHAND);
-    sigaction(ending_signals[i], &ours, nullptr);
+    install(ending_signals[i], old);
   }
 }
 

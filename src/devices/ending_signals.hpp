@@ -5,8 +5,8 @@
 
 namespace calligraphy {
 
-/// From here on calls `action` first at every signal that ends a program and is not ignored, then does what the signal
-/// did before. Call it once.
+/// From here on calls `action` first at every signal that ends or suspends (Ctrl-Z) a program and is not ignored, then
+/// does what the signal did before. Call it once.
 void call_at_ending_signals(void (*action)() noexcept) noexcept;
 
 /// Waits for about a millisecond. Async-signal-safe.

@@ -271,6 +271,34 @@ TEST_CASE("a signal that is ignored stays ignored, and stops nothing", "[emergen
   CHECK(shared.remains->force == 3.0);
 }
 
+TEST_CASE("a program that is suspended by Ctrl-Z has no force while it stands still, each time", "[emergency]") {
+  const SharedRemains shared;
+  const pid_t child = fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    forget_handlers();
+    std::signal(SIGTSTP, SIG_DFL);
+    setpgid(0, 0);  // nobody could continue an orphan, so the system does not suspend it
+    install_emergency_stop();
+    push<SharedDevice>(*shared.remains);
+    raise(SIGTSTP);
+    clear_emergency_stop();
+    while (shared.remains->force != 3.0) std::this_thread::yield();
+    raise(SIGTSTP);
+    std::_Exit(7);
+  }
+  int status = 0;
+  for (int i = 0; i < 2; ++i) {
+    REQUIRE(waitpid(child, &status, WUNTRACED) == child);
+    REQUIRE(WIFSTOPPED(status));
+    CHECK(WSTOPSIG(status) == SIGTSTP);
+    CHECK(shared.remains->force == 0.0);
+    kill(child, SIGCONT);
+  }
+  REQUIRE(waitpid(child, &status, 0) == child);
+  CHECK(exited(status, 7));
+}
+
 TEST_CASE("terminate handlers installed before are called after the stop", "[emergency]") {
   const SharedRemains shared;
   const int status = status_of_child([&] {
