@@ -305,7 +305,7 @@ void add_write(CLI::App& program) {
                              "plot and a trace of the first repetition.");
   const auto options = std::make_shared<WriteArguments>();
   command->add_option("TEXT", options->text, "Characters to write; white space is ignored")->required();
-  command->add_option("--out", options->out, "Directory for the results, created if missing")
+  command->add_option("--out", options->out, std::string("Directory for the results") + out_directory_rules)
       ->required()
       ->type_name("DIR");
   add_characters_option(*command, options->characters);
