@@ -3,8 +3,8 @@
 
 namespace calligraphy::tools {
 
-/// During its lifetime SIGINT, SIGTERM and SIGHUP take the force from every device and set a flag; the third one terminates
-/// the program, because people press Ctrl-C twice. A signal that was ignored stays ignored. One at a time.
+/// During its lifetime SIGINT, SIGTERM and SIGHUP take the force from every device and set a flag; the third one
+/// terminates the program, because people press Ctrl-C twice. A signal that was ignored stays ignored. One at a time.
 class Interrupt {
  public:
   Interrupt();

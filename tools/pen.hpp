@@ -42,8 +42,8 @@ class Pen {
 
   /// Whether space and Esc stop the run as Ctrl-C does.
   bool has_stop_key() const noexcept { return stop_key_ && stop_key_->available(); }
-  /// True if Ctrl-C or the stop key was pressed since the device was opened. write() then throws an Error for a simulated writer or a
-  /// trace, and returns what was written so far for a person.
+  /// True if Ctrl-C or the stop key was pressed since the device was opened. write() then throws an Error for a
+  /// simulated writer or a trace, and returns what was written so far for a person.
   bool interrupted() const noexcept { return interrupt_->asked() || (stop_key_ && stop_key_->pressed()); }
   /// Servo loop statistics per page; empty unless a person writes.
   const std::vector<ServoStatistics>& statistics() const noexcept { return statistics_; }

@@ -10,8 +10,8 @@
 namespace calligraphy::tools {
 
 /// While it lives, the terminal on standard input passes keys on as they are pressed and does not show them. The
-/// destructor restores it, as does an emergency stop, with which every other way out begins. Without a terminal, or in the
-/// background, it does nothing.
+/// destructor restores it, as does an emergency stop, with which every other way out begins. Without a terminal, or in
+/// the background, it does nothing.
 class StopKey {
  public:
   StopKey();

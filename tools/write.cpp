@@ -301,7 +301,8 @@ void add_write(CLI::App& program) {
   CLI::App* const command =
       program.add_subcommand("write",
                              "Write a text in closed loop: by a simulated writer on a simulated device, or by a person "
-                             "on a real one, where space, Esc and Ctrl-C take the force away at once and stop. DIR receives summary.json and, per character and mode, a picture, a force "
+                             "on a real one, where space, Esc and Ctrl-C take the force away at once and stop. DIR "
+                             "receives summary.json and, per character and mode, a picture, a force "
                              "plot and a trace of the first repetition.");
   const auto options = std::make_shared<WriteArguments>();
   command->add_option("TEXT", options->text, "Characters to write; white space is ignored")->required();

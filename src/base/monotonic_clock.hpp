@@ -14,7 +14,8 @@ namespace calligraphy {
 inline double monotonic_seconds() noexcept {
 #if defined(__linux__)
   std::timespec time = {};
-  clock_gettime(CLOCK_BOOTTIME, &time);  // CLOCK_MONOTONIC, and with it std::chrono::steady_clock, stands still meanwhile
+  clock_gettime(CLOCK_BOOTTIME,
+                &time);  // CLOCK_MONOTONIC, and with it std::chrono::steady_clock, stands still meanwhile
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 #else
   // Windows and macOS count it here.

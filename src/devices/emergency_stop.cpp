@@ -17,7 +17,8 @@ namespace {
 struct Slot {
   std::atomic<bool> taken = false;
   std::atomic<EmergencyStopEntry::Stop> stop = nullptr;
-  void* object = nullptr;  ///< constant while `stop` is not null
+  void* object = nullptr;  ///< constant while `stop` is not null, as is the next
+  long process = 0;        ///< that has the device open: a forked child that ends takes no force from its parent
 };
 
 // Initialised before any constructor and never destroyed: a signal may arrive at any time.
@@ -44,8 +45,10 @@ void emergency_stop() noexcept {
   stopped.store(true);
   // remove() accesses these in the opposite order: either it waits for this call, or this call sees the entry gone.
   under_way.fetch_add(1);
+  const long process = this_process();
   for (Slot& slot : slots) {
-    if (const EmergencyStopEntry::Stop stop = slot.stop.load()) stop(slot.object);
+    const EmergencyStopEntry::Stop stop = slot.stop.load();
+    if (stop != nullptr && slot.process == process) stop(slot.object);
   }
   under_way.fetch_sub(1);
 }
@@ -74,6 +77,7 @@ EmergencyStopEntry::EmergencyStopEntry(void* object, Stop stop) {
   for (std::size_t i = 0; i < slots.size(); ++i) {
     if (slots[i].taken.exchange(true)) continue;
     slots[i].object = object;
+    slots[i].process = this_process();
     slots[i].stop.store(stop);
     slot_ = i;
     return;

@@ -6,6 +6,7 @@
 #if defined(__unix__) || defined(__APPLE__)
 #include <poll.h>
 #include <signal.h>
+#include <unistd.h>
 
 #include <cerrno>
 #else
@@ -24,8 +25,8 @@ void (*to_call)() noexcept = nullptr;
 
 namespace {
 
-constexpr std::array ending_signals = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGTSTP,
-                                       SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
+constexpr std::array ending_signals = {SIGINT,  SIGTERM, SIGHUP, SIGQUIT, SIGTSTP,
+                                       SIGSEGV, SIGBUS,  SIGFPE, SIGILL,  SIGABRT};
 
 /// Dispositions before ours.
 std::array<struct sigaction, ending_signals.size()> before;
@@ -93,6 +94,8 @@ void call_at_ending_signals(void (*action)() noexcept) noexcept {
   }
 }
 
+long this_process() noexcept { return getpid(); }
+
 void pause_in_signal_handler() noexcept { poll(nullptr, 0, 1); }
 
 #else
@@ -121,6 +124,8 @@ void call_at_ending_signals(void (*action)() noexcept) noexcept {
     if (before[i] == SIG_IGN || before[i] == SIG_ERR) std::signal(ending_signals[i], SIG_IGN);
   }
 }
+
+long this_process() noexcept { return 0; }
 
 void pause_in_signal_handler() noexcept { std::this_thread::sleep_for(std::chrono::milliseconds(1)); }
 

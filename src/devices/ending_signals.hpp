@@ -9,6 +9,9 @@ namespace calligraphy {
 /// does what the signal did before. Call it once.
 void call_at_ending_signals(void (*action)() noexcept) noexcept;
 
+/// Number of this process, which a forked child has not inherited; 0 where processes are not forked. Async-signal-safe.
+long this_process() noexcept;
+
 /// Waits for about a millisecond. Async-signal-safe.
 void pause_in_signal_handler() noexcept;
 

@@ -26,8 +26,8 @@ ServoThreadOptions for_watchdog(ServoThreadOptions options, double rate) {
   return options;
 }
 
-/// Waits for the zero that the next tick writes, or the watchdog if that tick does not come. Whatever force the loop was
-/// about to write has been written by then. Async-signal-safe.
+/// Waits for the zero that the next tick writes, or the watchdog if that tick does not come. Whatever force the loop
+/// was about to write has been written by then. Async-signal-safe.
 void wait_for_zero(void* servo) noexcept {
   constexpr int max_wait = 20;  // [ms]
   for (int i = 0; i < max_wait && !static_cast<const Servo*>(servo)->halted(); ++i) pause_in_signal_handler();

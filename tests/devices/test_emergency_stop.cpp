@@ -37,8 +37,7 @@ struct Remains {
 };
 
 struct SharedRemains {
-  SharedRemains()
-      : memory(mmap(nullptr, sizeof(Remains), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0)) {
+  SharedRemains() : memory(mmap(nullptr, sizeof(Remains), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0)) {
     REQUIRE(memory != MAP_FAILED);
     remains = new (memory) Remains;
   }
@@ -170,7 +169,8 @@ std::vector<Ending> endings() {
       {"an access to no memory", [] { read_nothing(); }, -1, SIGSEGV},
       {"an endless recursion", [] { overflow_stack(0); }, -1, SIGSEGV},
   };
-  for (const int signal : signals) all.push_back({"a signal", [signal] { kill(getpid(), signal), pause(); }, -1, signal});
+  for (const int signal : signals)
+    all.push_back({"a signal", [signal] { kill(getpid(), signal), pause(); }, -1, signal});
   return all;
 }
 
@@ -221,7 +221,8 @@ TEST_CASE("a force law that crashes in the servo's own thread leaves no force be
   CHECK(shared.remains->force == 0.0);
 }
 
-TEST_CASE("without the emergency stop, and at SIGKILL, the last force stays: that is what devices' watchdogs are for", "[emergency]") {
+TEST_CASE("without the emergency stop, and at SIGKILL, the last force stays: that is what devices' watchdogs are for",
+          "[emergency]") {
   const SharedRemains shared;
   CHECK(exited(status_of_child([&] { push<SharedDevice>(*shared.remains), std::_Exit(0); }), 0));
   CHECK(shared.remains->force == 3.0);
@@ -366,7 +367,8 @@ TEST_CASE("an emergency stop between the decision on a force and its writing is 
   device.state.velocity.setZero();
   ServoOptions options;
   options.ramp_up = 0.0;
-  Servo servo(device, [](const DeviceState&) { return Eigen::Vector3d(3.0, 0.0, 0.0); }, options);
+  Servo servo(
+      device, [](const DeviceState&) { return Eigen::Vector3d(3.0, 0.0, 0.0); }, options);
   servo.step(0.001);
   device.while_writing = [] { emergency_stop(); };
   servo.step(0.002);
@@ -380,7 +382,8 @@ TEST_CASE("the watchdog's ramp-down is cut as well", "[emergency]") {
   device.state.velocity.setZero();
   ServoOptions options;
   options.ramp_up = 0.0;
-  Servo servo(device, [](const DeviceState&) { return Eigen::Vector3d(3.0, 0.0, 0.0); }, options);
+  Servo servo(
+      device, [](const DeviceState&) { return Eigen::Vector3d(3.0, 0.0, 0.0); }, options);
   servo.step(0.001);
   for (int i = 0; i < 7; ++i) servo.supervise(0.001 * i);
   REQUIRE((device.last() > 0.0 && device.last() < 3.0));
@@ -392,13 +395,22 @@ TEST_CASE("the watchdog's ramp-down is cut as well", "[emergency]") {
 TEST_CASE("a servo loop cannot be started after an emergency stop that was not cleared", "[emergency]") {
   const Permitted at_the_end;
   WatchedDevice device;
-  ServoLoop loop(device, [](const DeviceState&) { return Eigen::Vector3d(3.0, 0.0, 0.0); }, quickly());
+  ServoLoop loop(
+      device, [](const DeviceState&) { return Eigen::Vector3d(3.0, 0.0, 0.0); }, quickly());
   emergency_stop();
   CHECK_THROWS_WITH(loop.start(), Catch::Contains("clear_emergency_stop"));
   CHECK_FALSE(loop.running());
   clear_emergency_stop();
   loop.start();
   loop.stop();
+}
+
+TEST_CASE("a forked child that ends takes no force from the devices of its parent", "[emergency]") {
+  const SharedRemains shared;
+  StoppableDevice device(*shared.remains);
+  device.write({3.0, 0.0, 0.0});
+  CHECK(killed(status_of_child([] { install_emergency_stop(), raise(SIGTERM); }), SIGTERM));
+  CHECK(shared.remains->force == 3.0);
 }
 
 TEST_CASE("a device that is destroyed is stopped no more, and its place is free again", "[emergency]") {

@@ -9,18 +9,18 @@ namespace calligraphy {
 class HapticDevice;
 
 /// Calls emergency_stop() when the program ends: at exit() and quick_exit(), at std::terminate() (an uncaught
-/// exception), and at SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGTSTP (Ctrl-Z), SIGSEGV, SIGBUS, SIGFPE, SIGILL and SIGABRT, as
-/// far as the system has them. What was installed before is called afterwards, and a signal without a handler still ends (or suspends) the program: exit
-/// codes and core dumps stay as they were. A signal that is ignored stays ignored.
+/// exception), and at SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGTSTP (Ctrl-Z), SIGSEGV, SIGBUS, SIGFPE, SIGILL and SIGABRT,
+/// as far as the system has them. What was installed before is called afterwards, and a signal without a handler still
+/// ends (or suspends) the program: exit codes and core dumps stay as they were. A signal that is ignored stays ignored.
 ///
 /// Call it once, at the start of main() and after the program has installed its own handlers; further calls do nothing.
 /// A handler that is installed later replaces it and should call emergency_stop() itself. Nothing can run at SIGKILL,
 /// SIGSTOP, _exit() or a power failure: only the device's own watchdog remains (HapticDevice::warnings()).
 void install_emergency_stop();
 
-/// Takes the force from every open device at once, without a ramp, and keeps it at zero: from here on every Servo writes
-/// zero. Returns when the devices have it, after a few milliseconds at most; up to 20 ms for each device or loop whose
-/// own thread does not answer. Async-signal-safe; callable from any thread.
+/// Takes the force from every open device at once, without a ramp, and keeps it at zero: from here on every Servo
+/// writes zero. Returns when the devices have it, after a few milliseconds at most; up to 20 ms for each device or loop
+/// whose own thread does not answer. Async-signal-safe; callable from any thread.
 void emergency_stop() noexcept;
 
 /// Whether emergency_stop() was called and the force has not been permitted again.

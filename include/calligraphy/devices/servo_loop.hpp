@@ -30,8 +30,8 @@ class ServoLoop {
   ~ServoLoop();
 
   /// Starts with zero force and ramps it up. Returns the privileges that the system refused, each with a remedy.
-  /// @throws DeviceError when the clock cannot be started or after an emergency stop, ValueError when the loop is already
-  /// running
+  /// @throws DeviceError when the clock cannot be started or after an emergency stop, ValueError when the loop is
+  /// already running
   std::vector<std::string> start();
 
   /// Ramps the force down to zero, stops the clock and leaves the force at zero. Waits for a force law that has not

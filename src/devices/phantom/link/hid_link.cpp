@@ -62,7 +62,8 @@ hid_device* opened(const std::string& path) {
 /// A report as hidapi and hidraw expect it: the report number first, 0 if there is none.
 struct NumberedReport {
   NumberedReport(std::span<const std::byte> packet, bool numbered) noexcept : size(packet.size() + (numbered ? 0 : 1)) {
-    std::copy_n(reinterpret_cast<const unsigned char*>(packet.data()), packet.size(), bytes.data() + size - packet.size());
+    std::copy_n(reinterpret_cast<const unsigned char*>(packet.data()), packet.size(),
+                bytes.data() + size - packet.size());
   }
   std::array<unsigned char, max_packet_bytes + 1> bytes{};
   std::size_t size;

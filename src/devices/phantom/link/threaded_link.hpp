@@ -38,8 +38,8 @@ class ThreadedLink : public Link {
   /// A packet waits. From any thread; neither blocks nor allocates.
   virtual void wake() noexcept = 0;
 
-  /// Writes the packet by the lowest call of the system, if the bus permits it: for a link whose thread does not answer,
-  /// because it is the one that crashed. Async-signal-safe.
+  /// Writes the packet by the lowest call of the system, if the bus permits it: for a link whose thread does not
+  /// answer, because it is the one that crashed. Async-signal-safe.
   virtual void write_directly(std::span<const std::byte> packet) noexcept = 0;
 
   /// The packet to be written next: the newest, or the stop packet in an emergency stop; null if there is none. For the

@@ -14,7 +14,8 @@
 namespace calligraphy::phantom {
 
 /// Four transfers are pending at any time, so the host never misses a packet of the device. libusb is called only from
-/// the link's own thread (in an emergency stop in which that thread does not answer, its descriptor is used directly); its callbacks record what happened, and the thread acts on it between callbacks.
+/// the link's own thread (in an emergency stop in which that thread does not answer, its descriptor is used directly);
+/// its callbacks record what happened, and the thread acts on it between callbacks.
 class UsbLink final : public ThreadedLink {
  public:
   /// @throws DeviceError when libusb cannot be initialised
@@ -85,7 +86,7 @@ class UsbLink final : public ThreadedLink {
   std::thread::id thread_id_ = {};
 
   UsbDevice device_;
-  std::atomic<int> raw_node_{-1};       ///< the device's descriptor, for write_directly(); -1: none
+  std::atomic<int> raw_node_{-1};  ///< the device's descriptor, for write_directly(); -1: none
   std::atomic<unsigned> raw_endpoint_{0};
   std::array<Inward, 4> inward_;
   std::array<Inward*, 4> kept_ = {};  ///< in order of arrival

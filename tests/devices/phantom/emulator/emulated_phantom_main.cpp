@@ -205,8 +205,8 @@ int main(int argc, char** argv) try {
   const pid_t child = started(options);
   signal(SIGINT, SIG_IGN);  // handled by the command, whose exit ends this program
   const int status = run_beside(run, child, options.signal);
-  std::cerr << "emulated_phantom: " << run.reports() << " reports sent, " << run.commands() << " commands taken, the last for "
-            << run.commanded_force() << " N\n";
+  std::cerr << "emulated_phantom: " << run.reports() << " reports sent, " << run.commands()
+            << " commands taken, the last for " << run.commanded_force() << " N\n";
   return status;
 } catch (const UsageError& error) {
   std::cerr << "emulated_phantom: " << error.what() << "\n" << usage;

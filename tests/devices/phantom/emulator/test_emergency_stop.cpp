@@ -1,4 +1,5 @@
-// The emergency stop over the bus: the device's last packet is the stop packet, whichever thread is the one that crashed.
+// The emergency stop over the bus: the device's last packet is the stop packet, whichever thread is the one that
+// crashed.
 #include <signal.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -20,16 +21,13 @@ using namespace calligraphy_test;
 
 namespace {
 
-UsbIdentity touch_to_stop() {
-  return CALLIGRAPHY_TEST_HIDRAW && GENERATE(true, false) ? serial_touch() : hid_touch();
-}
+UsbIdentity touch_to_stop() { return CALLIGRAPHY_TEST_HIDRAW && GENERATE(true, false) ? serial_touch() : hid_touch(); }
 
 /// A link in use, its stop packet full of zeros.
 struct StoppedTouch {
   explicit StoppedTouch(const UsbIdentity& identity)
-      : touch(identity), entry(touch.link.get(), [](void* link) noexcept {
-          static_cast<phantom::Link*>(link)->cut_force();
-        }) {
+      : touch(identity),
+        entry(touch.link.get(), [](void* link) noexcept { static_cast<phantom::Link*>(link)->cut_force(); }) {
     touch.device.on_packet([this](std::span<const std::byte> packet) {
       const std::lock_guard<std::mutex> alone(mutex);
       taken.emplace_back();
@@ -62,8 +60,9 @@ struct StoppedTouch {
 
 }  // namespace
 
-TEST_CASE("when an emergency stop returns, the device has taken the stop packet, and takes no force until it is cleared",
-          "[emergency]") {
+TEST_CASE(
+    "when an emergency stop returns, the device has taken the stop packet, and takes no force until it is cleared",
+    "[emergency]") {
   StoppedTouch stopped(touch_to_stop());
   stopped.open();
   emergency_stop();
