@@ -128,6 +128,7 @@ def why_no_phantom():
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGSEGV])
 def test_no_force_is_left_at_a_phantom(number):
     program = """
+import time
 import calligraphy as cal
 
 cal.install_emergency_stop()
@@ -136,7 +137,7 @@ options = cal.ServoLoopOptions(servo=cal.ServoOptions(timeout=0.5))
 loop = cal.ServoLoop(device, lambda state: (0.5, 0.0, 0.0), options)
 loop.start()
 while True:
-    pass
+    time.sleep(0.01)
 """
     environment = {**os.environ, "PYTHONPATH": str(pathlib.Path(cal.__file__).parents[1])}
     done = subprocess.run(
