@@ -60,7 +60,7 @@ void clear_emergency_stop() noexcept { stopped.store(false); }
 void install_emergency_stop() {
   static const bool installed = [] {
     std::atexit(calligraphy_emergency_stop);
-#if !defined(__APPLE__)  // which has no quick_exit()
+#if !defined(__APPLE__) && !defined(__EMSCRIPTEN__)  // which have no quick_exit()
     std::at_quick_exit(calligraphy_emergency_stop);
 #endif
     terminated_before = std::set_terminate(stop_and_terminate);

@@ -3,7 +3,12 @@
 #include <array>
 #include <csignal>
 
-#if defined(__unix__) || defined(__APPLE__)
+// Emscripten has no devices and only some of the functions.
+#if (defined(__unix__) || defined(__APPLE__)) && !defined(__EMSCRIPTEN__)
+#define CALLIGRAPHY_POSIX_SIGNALS
+#endif
+
+#if defined(CALLIGRAPHY_POSIX_SIGNALS)
 #include <poll.h>
 #include <signal.h>
 #include <unistd.h>
@@ -21,7 +26,7 @@ void (*to_call)() noexcept = nullptr;
 
 }  // namespace
 
-#if defined(__unix__) || defined(__APPLE__)
+#if defined(CALLIGRAPHY_POSIX_SIGNALS)
 
 namespace {
 
@@ -98,6 +103,25 @@ long this_process() noexcept { return getpid(); }
 
 void pause_in_signal_handler() noexcept { poll(nullptr, 0, 1); }
 
+SignalStack::SignalStack() noexcept {
+  stack_t present = {};
+  if (sigaltstack(nullptr, &present) != 0 || (present.ss_flags & SS_DISABLE) == 0) return;
+  stack_t ours = {};
+  ours.ss_sp = memory_;
+  ours.ss_size = size;
+  used_ = sigaltstack(&ours, nullptr) == 0;
+}
+
+SignalStack::~SignalStack() {
+  if (!used_) return;
+  stack_t present = {};
+  if (sigaltstack(nullptr, &present) != 0 || present.ss_sp != memory_) return;
+  stack_t off = {};
+  off.ss_flags = SS_DISABLE;
+  off.ss_size = size;  // which macOS requires
+  sigaltstack(&off, nullptr);
+}
+
 #else
 
 namespace {
@@ -121,38 +145,13 @@ void call_at_ending_signals(void (*action)() noexcept) noexcept {
   to_call = action;
   for (std::size_t i = 0; i < ending_signals.size(); ++i) {
     before[i] = std::signal(ending_signals[i], calligraphy_at_ending_signal);
-    if (before[i] == SIG_IGN || before[i] == SIG_ERR) std::signal(ending_signals[i], SIG_IGN);
+    if (before[i] == SIG_IGN) std::signal(ending_signals[i], SIG_IGN);
   }
 }
 
 long this_process() noexcept { return 0; }
 
 void pause_in_signal_handler() noexcept { std::this_thread::sleep_for(std::chrono::milliseconds(1)); }
-
-#endif
-
-#if (defined(__unix__) || defined(__APPLE__)) && !defined(__EMSCRIPTEN__)
-
-SignalStack::SignalStack() noexcept {
-  stack_t present = {};
-  if (sigaltstack(nullptr, &present) != 0 || (present.ss_flags & SS_DISABLE) == 0) return;
-  stack_t ours = {};
-  ours.ss_sp = memory_;
-  ours.ss_size = size;
-  used_ = sigaltstack(&ours, nullptr) == 0;
-}
-
-SignalStack::~SignalStack() {
-  if (!used_) return;
-  stack_t present = {};
-  if (sigaltstack(nullptr, &present) != 0 || present.ss_sp != memory_) return;
-  stack_t off = {};
-  off.ss_flags = SS_DISABLE;
-  off.ss_size = size;  // which macOS requires
-  sigaltstack(&off, nullptr);
-}
-
-#else
 
 SignalStack::SignalStack() noexcept = default;
 SignalStack::~SignalStack() = default;

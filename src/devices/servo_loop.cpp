@@ -29,7 +29,7 @@ ServoThreadOptions for_watchdog(ServoThreadOptions options, double rate) {
 /// Waits for the zero that the next tick writes, or the watchdog if that tick does not come. Whatever force the loop
 /// was about to write has been written by then. Async-signal-safe.
 void wait_for_zero(void* servo) noexcept {
-  constexpr int max_wait = 20;  // [ms]
+  constexpr int max_wait = 100;  // [ms]
   for (int i = 0; i < max_wait && !static_cast<const Servo*>(servo)->halted(); ++i) pause_in_signal_handler();
 }
 
@@ -49,13 +49,13 @@ std::vector<std::string> ServoLoop::start() {
     throw DeviceError("the servo loop cannot be started after an emergency stop: call clear_emergency_stop() first");
   }
   servo_.reset();
-  entry_.emplace(&servo_, wait_for_zero);
   watchdog_.start([this](double now) { servo_.supervise(now); });
   clock_ = device_.clock();
   const bool own = clock_ == nullptr;
   if (own) clock_ = &thread_;
   running_ = true;  // before the first tick, whose force law may query it
   try {
+    entry_.emplace(&servo_, wait_for_zero);
     clock_->start([this](double now) { servo_.step(now); });
   } catch (...) {
     running_ = false;

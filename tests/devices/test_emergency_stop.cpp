@@ -6,6 +6,7 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <functional>
@@ -108,10 +109,10 @@ int status_of_child(const std::function<void()>& ends) {
 bool exited(int status, int code) { return WIFEXITED(status) && WEXITSTATUS(status) == code; }
 bool killed(int status, int signal) { return WIFSIGNALED(status) && WTERMSIG(status) == signal; }
 
-ServoLoopOptions quickly() {
+ServoLoopOptions quickly(double timeout = 0.5) {  // by default a busy machine is no fault
   ServoLoopOptions options;
   options.servo.ramp_up = 0.0;
-  options.servo.timeout = 0.1;  // a busy machine is no fault here
+  options.servo.timeout = timeout;
   options.thread.priority = 0;
   options.thread.lock_memory = false;
   return options;
@@ -128,14 +129,14 @@ Value& immortal(Arguments&&... arguments) {
 
 /// Writes 3 N in real time until the program ends.
 template <class Device>
-void push(Remains& remains, const std::function<void()>& fault = nullptr) {
+void push(Remains& remains, const std::function<void()>& fault = nullptr, double timeout = 0.5) {
   ServoLoop& loop = immortal<ServoLoop>(
       immortal<Device>(remains),
       [fault](const DeviceState&) -> Eigen::Vector3d {
         if (law_fails && fault) fault();
         return {3.0, 0.0, 0.0};
       },
-      quickly());
+      quickly(timeout));
   loop.start();
   while (remains.force != 3.0) std::this_thread::yield();
 }
@@ -209,11 +210,16 @@ TEST_CASE("a device with an entry is stopped without a servo loop", "[emergency]
 }
 
 TEST_CASE("a force law that crashes in the servo's own thread leaves no force behind", "[emergency]") {
-  const bool overflows = GENERATE(false, true);
+  const bool overflows = GENERATE(false, true), has_entry = GENERATE(false, true);
+  const auto crash = [overflows] { overflows ? void(overflow_stack(0)) : read_nothing(); };
   const SharedRemains shared;
   const int status = status_of_child([&] {
     install_emergency_stop();
-    push<StoppableDevice>(*shared.remains, [overflows] { overflows ? void(overflow_stack(0)) : read_nothing(); });
+    if (has_entry) {
+      push<StoppableDevice>(*shared.remains, crash);
+    } else {
+      push<SharedDevice>(*shared.remains, crash, 4e-3);  // it is the watchdog that writes zero
+    }
     law_fails = true;
     pause();
   });
@@ -413,23 +419,47 @@ TEST_CASE("a forked child that ends takes no force from the devices of its paren
   CHECK(shared.remains->force == 3.0);
 }
 
-TEST_CASE("a device that is destroyed is stopped no more, and its place is free again", "[emergency]") {
+TEST_CASE("what is removed or destroyed is stopped no more, and its place is free again", "[emergency]") {
   const Permitted at_the_end;
-  Remains remains;
+  int stops = 0;
+  const auto count = [](void* object) noexcept { ++*static_cast<int*>(object); };
   {
-    const StoppableDevice device(remains);
+    const EmergencyStopEntry destroyed(&stops, count);
+    EmergencyStopEntry removed(&stops, count);
     emergency_stop();
-    CHECK(remains.cuts == 1);
+    CHECK(stops == 2);
+    removed.remove();
+    removed.remove();
+    emergency_stop();
+    CHECK(stops == 3);
   }
   emergency_stop();
-  CHECK(remains.cuts == 1);
-  for (std::size_t i = 0; i < 2 * EmergencyStopEntry::max_entries; ++i) const StoppableDevice device(remains);
-  std::vector<std::unique_ptr<StoppableDevice>> devices;
+  CHECK(stops == 3);
+  for (std::size_t i = 0; i < 2 * EmergencyStopEntry::max_entries; ++i) const EmergencyStopEntry entry(&stops, count);
+  std::vector<std::unique_ptr<EmergencyStopEntry>> entries;
   for (std::size_t i = 0; i < EmergencyStopEntry::max_entries; ++i) {
-    devices.push_back(std::make_unique<StoppableDevice>(remains));
+    entries.push_back(std::make_unique<EmergencyStopEntry>(&stops, count));
   }
-  CHECK_THROWS_AS(StoppableDevice(remains), DeviceError);
-  remains.cuts = 0;
+  CHECK_THROWS_AS(EmergencyStopEntry(&stops, count), DeviceError);
+  stops = 0;
   emergency_stop();
-  CHECK(remains.cuts == EmergencyStopEntry::max_entries);
+  CHECK(stops == static_cast<int>(EmergencyStopEntry::max_entries));
+}
+
+TEST_CASE("an entry is not removed while it is being stopped in another thread", "[emergency]") {
+  const Permitted at_the_end;
+  struct Object {
+    std::atomic<bool> entered = false, left = false;
+  } object;
+  EmergencyStopEntry entry(&object, [](void* self) noexcept {
+    auto& object = *static_cast<Object*>(self);
+    object.entered = true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    object.left = true;
+  });
+  std::thread stopping([] { emergency_stop(); });
+  while (!object.entered) std::this_thread::yield();
+  entry.remove();
+  CHECK(object.left);
+  stopping.join();
 }

@@ -105,6 +105,8 @@ class Devices(ProgramTest):
                 done = self.run_on_emulated_phantom("write", "永", "--device", "phantom", "--out", f"out{code}", code=code,
                                                     hand=["--write", "永", "--signal", str(int(number))])
                 self.assertRegex(done.stderr, r"the last for 0 N\n")
+                if code == 1:  # at once, without a ramp
+                    self.assertIn("emergency stop: 1", done.stdout)
 
     def test_space_and_esc_take_the_force_away_and_stop(self):
         for key in (b" ", b"\x1b"):

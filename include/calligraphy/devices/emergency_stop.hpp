@@ -18,9 +18,9 @@ class HapticDevice;
 /// SIGSTOP, _exit() or a power failure: only the device's own watchdog remains (HapticDevice::warnings()).
 void install_emergency_stop();
 
-/// Takes the force from every open device at once, without a ramp, and keeps it at zero: from here on every Servo
-/// writes zero. Returns when the devices have it, after a few milliseconds at most; up to 20 ms for each device or loop
-/// whose own thread does not answer. Async-signal-safe; callable from any thread.
+/// Takes the force from every open device at once, without a ramp, and keeps it at zero: from here on every Servo writes
+/// zero. Returns when the devices have it: after a few milliseconds, at most 0.1 s more for each device or loop whose own
+/// thread does not answer. Async-signal-safe; callable from any thread.
 void emergency_stop() noexcept;
 
 /// Whether emergency_stop() was called and the force has not been permitted again.
@@ -41,7 +41,7 @@ class EmergencyStopEntry {
   /// Calls HapticDevice::cut_force(). Make it the last member of the device's class, so that it is removed first.
   /// @throws DeviceError when there are `max_entries` already
   explicit EmergencyStopEntry(HapticDevice& device);
-  /// `stop` must be async-signal-safe and return within 20 ms. @throws as above
+  /// `stop` must be async-signal-safe and return within 0.1 s. @throws as above
   EmergencyStopEntry(void* object, Stop stop);
   ~EmergencyStopEntry() { remove(); }
   EmergencyStopEntry(const EmergencyStopEntry&) = delete;

@@ -33,7 +33,7 @@ class HapticDevice {
 
   /// Takes the force from the device in an emergency stop: called from a signal handler, in any thread, possibly while
   /// another function of the device runs in this or another thread. Must be async-signal-safe (a write() of a prepared
-  /// packet, an atomic flag; no allocation, lock or library that may use them) and return within 20 ms. Called only for
+  /// packet, an atomic flag; no allocation, lock or library that may use them) and return within 0.1 s. Called only for
   /// a device with an EmergencyStopEntry. Without one, the servo loop's next tick writes zero, if its thread still
   /// runs.
   virtual void cut_force() noexcept {}

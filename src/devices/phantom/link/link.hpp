@@ -56,7 +56,7 @@ class Link {
   /// @throws DeviceError
   virtual void command(std::span<const std::byte> packet) = 0;
 
-  /// Sends the listener's stop packet in an emergency stop and waits until it is transferred, for 20 ms at most; while
+  /// Sends the listener's stop packet in an emergency stop and waits until it is transferred, for 0.1 s at most; while
   /// emergency_stopped() no other packet of send() follows. Async-signal-safe.
   virtual void cut_force() noexcept = 0;
 

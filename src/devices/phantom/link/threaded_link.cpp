@@ -44,12 +44,11 @@ void ThreadedLink::cut_force() noexcept {
   const std::uint32_t before = cuts_.load();
   cut_wanted_.store(true);
   wake();
-  constexpr int max_wait = 20;  // [ms]
-  for (int i = 0; i < max_wait; ++i) {
-    if (cuts_.load() != before) return;
+  constexpr int patience = 20, max_wait = 100;  // [ms]
+  for (int i = 0; i < max_wait && cuts_.load() == before; ++i) {
+    if (i == patience) write_directly(listener_->stop_packet());
     pause_in_signal_handler();
   }
-  write_directly(listener_->stop_packet());
 }
 
 const Packet* ThreadedLink::next_packet() noexcept {
