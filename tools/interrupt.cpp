@@ -1,6 +1,8 @@
 #include "interrupt.hpp"
 
+#include <array>
 #include <csignal>
+#include <cstddef>
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/emergency_stop.hpp>

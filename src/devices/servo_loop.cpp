@@ -31,6 +31,7 @@ ServoThreadOptions for_watchdog(ServoThreadOptions options, double rate) {
 void wait_for_zero(void* servo) noexcept {
   constexpr int max_wait = 100;  // [ms]
   for (int i = 0; i < max_wait && !static_cast<const Servo*>(servo)->halted(); ++i) pause_in_signal_handler();
+  pause_in_signal_handler();  // a vendor's frame passes the force on when the tick has returned
 }
 
 }  // namespace
