@@ -2,8 +2,10 @@
 #include <calligraphy/devices/emergency_stop.hpp>
 
 #include <array>
+#include <atomic>
 #include <cstdlib>
 #include <exception>
+#include <string>
 #include <thread>
 
 #include <calligraphy/base/error.hpp>

@@ -23,7 +23,7 @@ constexpr std::array<std::string_view, 16> column_names = {
     "force_y_N", "force_z_N",  "state",      "events",     "status",  "character", "stroke",  "tick_ns"};
 constexpr std::string_view rate_comment = "# rate_Hz=";
 constexpr std::size_t max_recording_bytes = 1 << 30;  ///< more than an hour at 1 kHz
-constexpr std::size_t max_row_bytes = 4096;     ///< sixteen values of any length that is written
+constexpr std::size_t max_row_bytes = 4096;           ///< sixteen values of any length that is written
 constexpr std::size_t chunk = 1 << 16;  ///< bytes given to the stream at a time
 
 constexpr std::array states = {InteractionState::separation, InteractionState::adjusting, InteractionState::calibration,

@@ -102,7 +102,7 @@ class Devices(ProgramTest):
         """Sent while a force is on; 128 is added to a signal that ended the program."""
         for number, code in ((signal.SIGINT, 1), (signal.SIGQUIT, 131), (signal.SIGSEGV, 139)):
             with self.subTest(signal=number.name):
-                done = self.run_on_emulated_phantom("write", "永", "--device", "phantom", "--out", f"out{code}", code=code,
+                done = self.run_on_emulated_phantom("write", "永", "--device", "phantom", "--out", "out", code=code,
                                                     hand=["--write", "永", "--signal", str(int(number))])
                 self.assertRegex(done.stderr, r"the last for 0 N\n")
                 if code == 1:  # at once, without a ramp

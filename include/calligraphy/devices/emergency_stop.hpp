@@ -1,7 +1,6 @@
 // Emergency stop: zero force on every open device when the program ends, however it ends.
 #pragma once
 
-#include <atomic>
 #include <cstddef>
 
 namespace calligraphy {
@@ -18,9 +17,9 @@ class HapticDevice;
 /// SIGSTOP, _exit() or a power failure: only the device's own watchdog remains (HapticDevice::warnings()).
 void install_emergency_stop();
 
-/// Takes the force from every open device at once, without a ramp, and keeps it at zero: from here on every Servo writes
-/// zero. Returns when the devices have it: after a few milliseconds, at most 0.1 s more for each device or loop whose own
-/// thread does not answer. Async-signal-safe; callable from any thread.
+/// Takes the force from every open device at once, without a ramp, and keeps it at zero: from here on every Servo
+/// writes zero. Returns when the devices have it: after a few milliseconds, at most 0.1 s more for each device or loop
+/// whose own thread does not answer. Async-signal-safe; callable from any thread.
 void emergency_stop() noexcept;
 
 /// Whether emergency_stop() was called and the force has not been permitted again.
