@@ -36,6 +36,7 @@ class User {
 }  // namespace
 
 int main() {
+  install_emergency_stop();  // no force is left behind when this program ends, however it ends
   const PracticePage page = lay_out(std::vector{built_in_characters().at(U'十')}).front();
   const MotionMapping mapping = upright_page(page.width, page.height);
 

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/devices/emergency_stop.hpp>
 #include <calligraphy/devices/servo_loop.hpp>
 
 namespace {
@@ -22,7 +23,8 @@ struct Knob {
   }
   void push(double newtons) { force_ = newtons; }
 
-  double place_ = 0.0, speed_ = 0.0, force_ = 0.0;
+  double place_ = 0.0, speed_ = 0.0;
+  std::atomic<double> force_ = 0.0;
 };
 
 class KnobDevice final : public calligraphy::HapticDevice {
@@ -35,6 +37,7 @@ class KnobDevice final : public calligraphy::HapticDevice {
     capabilities_.peak_force = 2.0;             // [N]
     capabilities_.usable_stiffness = 300.0;     // [N/m]
   }
+  ~KnobDevice() override { close(); }
   const calligraphy::Capabilities& capabilities() const noexcept override { return capabilities_; }
   // Called once a millisecond. Must not allocate, lock, throw or log: errors are reported as a status.
   calligraphy::DeviceState read() noexcept override {
@@ -50,18 +53,22 @@ class KnobDevice final : public calligraphy::HapticDevice {
     knob_.push(0.0);
     open_ = false;
   }
+  // Called in a signal handler: nothing but an atomic variable or a write() of prepared bytes.
+  void cut_force() noexcept override { knob_.push(0.0); }
 
  private:
   Knob knob_;
   calligraphy::Capabilities capabilities_;
   calligraphy::DeviceState state_;
   bool open_ = true;
+  calligraphy::EmergencyStopEntry entry_{*this};  // last, so that it is removed first
 };
 
 }  // namespace
 
 int main() {
   using namespace calligraphy;
+  install_emergency_stop();  // no force is left behind when this program ends, however it ends
   KnobDevice device;
   std::atomic<double> place = 0.0;
   // This spring pulls the knob to 20 mm, the knob's own spring pulls it to zero.

@@ -1,8 +1,11 @@
 #include "interrupt.hpp"
 
+#include <array>
 #include <csignal>
+#include <cstddef>
 
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/devices/emergency_stop.hpp>
 
 namespace calligraphy::tools {
 namespace {
@@ -12,10 +15,19 @@ constexpr int last_straw = 3;
 
 volatile std::sig_atomic_t signalled = 0;
 
+/// Dispositions before; for one Interrupt at a time.
+std::array<struct sigaction, signals.size()> before;
+
+void restore(std::size_t i) noexcept { sigaction(signals[i], &before[i], nullptr); }
+
 extern "C" void remember(int signal) {
+  emergency_stop();  // the person wants no more of it, whatever the program still has to write
   const int count = signalled + 1;
   signalled = count;
-  if (count + 1 >= last_straw) std::signal(signal, SIG_DFL);
+  if (count + 1 < last_straw) return;
+  for (std::size_t i = 0; i < signals.size(); ++i) {
+    if (signals[i] == signal) restore(i);
+  }
 }
 
 }  // namespace
@@ -23,13 +35,17 @@ extern "C" void remember(int signal) {
 Interrupt::Interrupt() {
   signalled = 0;
   for (std::size_t i = 0; i < signals.size(); ++i) {
-    before_[i] = std::signal(signals[i], remember);
-    if (before_[i] == SIG_IGN) std::signal(signals[i], SIG_IGN);  // as nohup requires
+    struct sigaction ours = {};
+    ours.sa_handler = remember;
+    ours.sa_flags = SA_RESTART;
+    sigaction(signals[i], &ours, &before[i]);
+    const bool ignored = (before[i].sa_flags & SA_SIGINFO) == 0 && before[i].sa_handler == SIG_IGN;
+    if (ignored) restore(i);  // as nohup requires
   }
 }
 
 Interrupt::~Interrupt() {
-  for (std::size_t i = 0; i < signals.size(); ++i) std::signal(signals[i], before_[i]);
+  for (std::size_t i = 0; i < signals.size(); ++i) restore(i);
 }
 
 bool Interrupt::asked() const noexcept { return signalled != 0; }

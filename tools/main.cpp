@@ -12,6 +12,8 @@
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
+#include <calligraphy/devices/emergency_stop.hpp>
+
 #include "commands.hpp"
 
 namespace {
@@ -31,6 +33,7 @@ int flush() noexcept {
 }
 
 int run(int argc, char** argv) {
+  calligraphy::install_emergency_stop();
   std::signal(SIGXFSZ, SIG_IGN);  // exceeding the file size limit is a write error
   spdlog::set_default_logger(spdlog::stderr_logger_st("calligraphy"));
   spdlog::set_pattern("%n: %l: %v");

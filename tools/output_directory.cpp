@@ -1,5 +1,10 @@
 #include "output_directory.hpp"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
 #include <system_error>
 
 #include <calligraphy/base/error.hpp>
@@ -31,21 +36,35 @@ OutputDirectory::OutputDirectory(const fs::path& path) : path_(plain(path)), fir
     if (!fs::is_directory(path_)) {
       throw FileError(path.string() + ": cannot create directory" + (failure ? ": " + failure.message() : ""));
     }
+    lock(path);
     const fs::path probe = path_ / ".calligraphy-probe";
     write_file(probe, "");
     fs::remove(probe);
   } catch (const fs::filesystem_error& error) {
-    remove_empty();
+    release();
     throw FileError(path.string() + ": " + error.code().message());
   } catch (const std::exception&) {
-    remove_empty();
+    release();
     throw;
   }
 }
 
-OutputDirectory::~OutputDirectory() { remove_empty(); }
+OutputDirectory::~OutputDirectory() { release(); }
+
+void OutputDirectory::lock(const fs::path& path) {
+  lock_ = open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (lock_ < 0 || flock(lock_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+  first_created_.clear();  // it is the other run's
+  throw FileError(path.string() + ": another run is writing there: wait for its end, or choose another directory");
+}
 
 void OutputDirectory::write(const fs::path& name, std::string_view content) const { write_file(path_ / name, content); }
+
+void OutputDirectory::release() noexcept {
+  remove_empty();
+  if (lock_ >= 0) close(lock_);
+  lock_ = -1;
+}
 
 void OutputDirectory::remove_empty() noexcept {
   if (first_created_.empty()) return;

@@ -6,10 +6,16 @@
 
 namespace calligraphy::tools {
 
-/// Creates the directory and its parents if missing; the destructor removes those it created that are still empty.
+/// Ends the help of every --out DIR.
+inline constexpr const char* out_directory_rules =
+    ", created if missing. Files of an earlier run are replaced if they have the same name, and otherwise stay";
+
+/// Creates the directory and its parents if missing; the destructor removes those it created that are still empty. No
+/// other run may use it in the meantime: the system's lock on the directory goes with the process, however it ends.
+/// Where there are no such locks (some network file systems) it is not locked.
 class OutputDirectory {
  public:
-  /// @throws FileError naming the directory if no file can be written into it
+  /// @throws FileError naming the directory if no file can be written into it, or another run uses it
   explicit OutputDirectory(const std::filesystem::path& path);
   ~OutputDirectory();
   OutputDirectory(const OutputDirectory&) = delete;
@@ -19,10 +25,13 @@ class OutputDirectory {
   void write(const std::filesystem::path& name, std::string_view content) const;
 
  private:
+  void lock(const std::filesystem::path& path);
   void remove_empty() noexcept;
+  void release() noexcept;
 
   std::filesystem::path path_;
   std::filesystem::path first_created_;  ///< empty: nothing was created
+  int lock_ = -1;                        ///< descriptor of the locked directory; -1: not locked
 };
 
 }  // namespace calligraphy::tools

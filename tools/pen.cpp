@@ -31,6 +31,7 @@ Pen::Pen(const PenOptions& options) : options_(options) {
   }
   capabilities_ = with_peak_force(capabilities_, options.peak_force);
   interrupt_.emplace();
+  if (is_person()) stop_key_.emplace();
 }
 
 Recording Pen::write(const PracticePage& page, const SessionOptions& session) {
@@ -70,7 +71,8 @@ Recording Pen::live(const PracticePage& page, const SessionOptions& session) {
       spdlog::warn("force ramped down to zero: {}", to_string(view.servo.fault));
     }
     told = view.servo.fault;
-    return !interrupt_->asked();
+    stop_key_->look();
+    return !interrupted();
   };
   LiveResult result = write_with_device(page, *device_, options);
   for (const std::string& warning : result.warnings) {

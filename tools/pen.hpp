@@ -13,6 +13,7 @@
 
 #include "device_choice.hpp"
 #include "interrupt.hpp"
+#include "stop_key.hpp"
 
 namespace calligraphy::tools {
 
@@ -39,9 +40,11 @@ class Pen {
   /// writer. @throws FileError, FormatError, DeviceError
   Recording write(const PracticePage& page, const SessionOptions& session);
 
-  /// True if Ctrl-C was pressed since the device was opened. write() then throws an Error for a simulated writer or a
-  /// trace, and returns what was written so far for a person.
-  bool interrupted() const noexcept { return interrupt_->asked(); }
+  /// Whether space and Esc stop the run as Ctrl-C does.
+  bool has_stop_key() const noexcept { return stop_key_ && stop_key_->available(); }
+  /// True if Ctrl-C or the stop key was pressed since the device was opened. write() then throws an Error for a
+  /// simulated writer or a trace, and returns what was written so far for a person.
+  bool interrupted() const noexcept { return interrupt_->asked() || (stop_key_ && stop_key_->pressed()); }
   /// Servo loop statistics per page; empty unless a person writes.
   const std::vector<ServoStatistics>& statistics() const noexcept { return statistics_; }
 
@@ -53,6 +56,7 @@ class Pen {
   Capabilities capabilities_;
   std::unique_ptr<HapticDevice> device_;  ///< null unless a person writes
   std::optional<Interrupt> interrupt_;    ///< from opening the device until the results are written
+  std::optional<StopKey> stop_key_;       ///< while a person writes
   std::vector<std::string> warnings_;     ///< already reported
   std::vector<ServoStatistics> statistics_;
 };

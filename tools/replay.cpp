@@ -162,7 +162,8 @@ void add_replay(CLI::App& program) {
       ->required()
       ->type_name("FILE");
   add_characters_option(*command, options->characters);
-  command->add_option("--out", options->out, "Directory for pictures and JSON, created if missing")->type_name("DIR");
+  command->add_option("--out", options->out, std::string("Directory for pictures and JSON") + out_directory_rules)
+      ->type_name("DIR");
   command->add_option("--only", options->only, "Replay only traces of these characters")->type_name("TEXT");
   add_device_option(*command, options->device);
   command->add_option("--renderer", options->renderer, "Default stages, or all optional stages enabled")

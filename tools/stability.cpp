@@ -149,7 +149,10 @@ void add_stability(CLI::App& program) {
       ->check(integer(0, 1000));
   add_number("--wall-damping", options->wall_damping, "Damping of the wall (default: 0)", "N_S/M");
   add("--grip", options->grip, "Grip: soft, normal, firm or m,b,k [kg, N s/m, N/m] (default: none)", "GRIP");
-  add("--out", options->out, "Directory for stability.json and stability.svg, created if missing", "DIR");
+  command
+      ->add_option("--out", options->out,
+                   std::string("Directory for stability.json and stability.svg") + out_directory_rules)
+      ->type_name("DIR");
   command->add_flag("--quick", options->quick, "Only the sweeps of the map, on a coarser grid")
       ->disable_flag_override();
   command->add_flag("--json", options->json, "Print JSON instead of the tables")->disable_flag_override();

@@ -126,7 +126,8 @@ void add_tradeoff(CLI::App& program) {
   command->add_option("TEXT", options->text, "Characters to measure; the first two are written at every servo rate")
       ->capture_default_str();
   add_characters_option(*command, options->characters);
-  command->add_option("--out", options->out, "Directory for plots and JSON, created if missing")->type_name("DIR");
+  command->add_option("--out", options->out, std::string("Directory for plots and JSON") + out_directory_rules)
+      ->type_name("DIR");
   command->add_option("--seed", options->seed, "Seed of all random draws")
       ->check(integer(0, std::numeric_limits<std::uint64_t>::max()))
       ->type_name("N")

@@ -233,8 +233,9 @@ class WriteRun {
   void write_sheet(std::size_t number, int repetition, const OutputDirectory& out) {
     const Sheet& sheet = sheets_[number];
     if (pen_.is_person()) {
-      spdlog::info("page {} of {}, {}: hold the pen above the paper and write; Ctrl-C stops", number + 1,
-                   sheets_.size(), session_.mode == FeedbackMode::vision ? "vision only" : "with force");
+      spdlog::info("page {} of {}, {}: hold the pen above the paper and write; {} takes the force away and stops",
+                   number + 1, sheets_.size(), session_.mode == FeedbackMode::vision ? "vision only" : "with force",
+                   pen_.has_stop_key() ? "space, Esc or Ctrl-C" : "Ctrl-C");
     }
     const Recording recording = pen_.write(sheet.page, session_);
     if (pen_.is_person()) {  // readable by replay:FILE
@@ -300,11 +301,12 @@ void add_write(CLI::App& program) {
   CLI::App* const command =
       program.add_subcommand("write",
                              "Write a text in closed loop: by a simulated writer on a simulated device, or by a person "
-                             "on a real one. DIR receives summary.json and, per character and mode, a picture, a force "
+                             "on a real one, where space, Esc and Ctrl-C take the force away at once and stop. DIR "
+                             "receives summary.json and, per character and mode, a picture, a force "
                              "plot and a trace of the first repetition.");
   const auto options = std::make_shared<WriteArguments>();
   command->add_option("TEXT", options->text, "Characters to write; white space is ignored")->required();
-  command->add_option("--out", options->out, "Directory for the results, created if missing")
+  command->add_option("--out", options->out, std::string("Directory for the results") + out_directory_rules)
       ->required()
       ->type_name("DIR");
   add_characters_option(*command, options->characters);

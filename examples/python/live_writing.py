@@ -66,6 +66,7 @@ def main() -> None:
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out"), help="output directory [out]")
     arguments = parser.parse_args()
     arguments.out.mkdir(parents=True, exist_ok=True)
+    cal.install_emergency_stop()  # no force is left behind when this program ends, however it ends
 
     with open_device(arguments.wire_profile) as device:
         able = cal.with_peak_force(device.capabilities(), arguments.peak_force)

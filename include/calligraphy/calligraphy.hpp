@@ -14,6 +14,7 @@
 #include <calligraphy/devices/capabilities.hpp>
 #include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/devices/device_state.hpp>
+#include <calligraphy/devices/emergency_stop.hpp>
 #include <calligraphy/devices/haptic_device.hpp>
 #include <calligraphy/devices/latest_value.hpp>
 #include <calligraphy/devices/pointer_device.hpp>

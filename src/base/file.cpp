@@ -19,6 +19,10 @@ namespace fs = std::filesystem;
   throw FileError(path.string() + ": cannot be written: " + reason);
 }
 
+[[noreturn]] void fail_as_too_large(const fs::path& path, std::uintmax_t max_bytes) {
+  throw FormatError(path.string() + ": larger than the limit of " + std::to_string(max_bytes) + " bytes");
+}
+
 std::string reason_of(int error) { return std::generic_category().message(error); }
 
 struct CloseFile {
@@ -101,11 +105,13 @@ void write_file(const fs::path& path, std::string_view content) {
 
 void check_can_write(const fs::path& path) { TemporaryFile(target_of(path)).write(""); }
 
-std::ifstream open_file(const fs::path& path) {
+std::ifstream open_file(const fs::path& path, std::uintmax_t max_bytes) {
   std::error_code failure;
   if (fs::exists(path, failure) && !fs::is_regular_file(path, failure)) {
     throw FileError(path.string() + ": is not a regular file");
   }
+  const std::uintmax_t size = fs::file_size(path, failure);
+  if (!failure && size > max_bytes) fail_as_too_large(path, max_bytes);
   errno = 0;
   std::ifstream in(path, std::ios::binary);
   if (!in) throw FileError(path.string() + ": cannot be opened: " + reason_of(errno));
@@ -113,7 +119,7 @@ std::ifstream open_file(const fs::path& path) {
 }
 
 std::string read_file(const fs::path& path, std::size_t max_bytes) {
-  std::ifstream in = open_file(path);
+  std::ifstream in = open_file(path, max_bytes);
   std::string text;
   constexpr std::size_t chunk = 1 << 16;  // most files are small, so memory grows as needed
   while (in && text.size() <= max_bytes) {
@@ -123,9 +129,7 @@ std::string read_file(const fs::path& path, std::size_t max_bytes) {
     text.resize(before + static_cast<std::size_t>(in.gcount()));
   }
   if (in.bad()) throw FileError(path.string() + ": cannot be read");
-  if (text.size() > max_bytes) {
-    throw FormatError(path.string() + ": larger than the limit of " + std::to_string(max_bytes) + " bytes");
-  }
+  if (text.size() > max_bytes) fail_as_too_large(path, max_bytes);  // it has grown meanwhile
   return text;
 }
 

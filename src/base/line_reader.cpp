@@ -30,6 +30,10 @@ bool LineReader::next() {
     if (read_ > max_bytes_) fail("longer than the " + std::to_string(max_bytes_) + " bytes that are read");
     const bool has_end = !in_.eof() && !in_.fail();
     line_.append(chunk, has_end ? count - 1 : count);
+    if (line_.size() > max_line_bytes_) {
+      fail("the line is longer than " + std::to_string(max_line_bytes_) + " bytes: it begins with " +
+           calligraphy::in_quotes(line_));
+    }
     if (has_end || in_.eof() || count + 1 < sizeof chunk) break;
     in_.clear();  // only the chunk was full
   }

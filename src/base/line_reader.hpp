@@ -23,12 +23,13 @@ std::string in_quotes(std::string_view text);
 /// Base of the parsers of text formats: reads lines that end with "\n" or "\r\n"; a byte order mark is skipped.
 class LineReader {
  public:
-  /// `name` begins every message. No more than `max_bytes` are read.
-  LineReader(std::istream& in, std::string_view name, std::size_t max_bytes = std::numeric_limits<std::size_t>::max())
-      : in_(in), name_(name), max_bytes_(max_bytes) {}
+  /// `name` begins every message. No more than `max_bytes` are read, and of a line no more than `max_line_bytes`.
+  LineReader(std::istream& in, std::string_view name, std::size_t max_bytes = std::numeric_limits<std::size_t>::max(),
+             std::size_t max_line_bytes = std::numeric_limits<std::size_t>::max())
+      : in_(in), name_(name), max_bytes_(max_bytes), max_line_bytes_(max_line_bytes) {}
 
   /// The next line. False: there are no more, and line() is empty.
-  /// @throws FileError when the stream fails; FormatError when the text is longer than it may be
+  /// @throws FileError when the stream fails; FormatError when the text or the line is longer than it may be
   bool next();
 
   /// The next line, which must have its end: without it, its last number may have been cut in two.
@@ -72,6 +73,7 @@ class LineReader {
   std::istream& in_;
   std::string name_;
   std::size_t max_bytes_;
+  std::size_t max_line_bytes_;
   std::size_t read_ = 0;  ///< [bytes]
   std::string line_;
   std::string_view left_;  ///< of line_

@@ -62,6 +62,8 @@ const char* to_string(DeviceFault fault) noexcept {
       return "bad force";
     case DeviceFault::late_clock:
       return "late clock";
+    case DeviceFault::emergency_stop:
+      return "emergency stop";
     case DeviceFault::uncalibrated:
       return "not calibrated";
     case DeviceFault::device_error:

@@ -61,9 +61,11 @@ const Eigen::Vector3d& ForceGuard::fall(DeviceFault fault, double elapsed, doubl
   return hold(std::min(elapsed, max_first_step));
 }
 
-void ForceGuard::reset() noexcept {
+void ForceGuard::reset() noexcept { cut(DeviceFault::none); }
+
+void ForceGuard::cut(DeviceFault fault) noexcept {
   phase_ = ServoPhase::zero;
-  fault_ = DeviceFault::none;
+  fault_ = fault;
   gain_ = 0.0;
   force_.setZero();
 }

@@ -66,7 +66,7 @@ void sleep_until(double deadline) noexcept {
   const double whole = std::floor(deadline);
   time.tv_sec = static_cast<time_t>(whole);
   time.tv_nsec = static_cast<long>((deadline - whole) / nanosecond);
-  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &time, nullptr) == EINTR) {
+  while (clock_nanosleep(CLOCK_BOOTTIME, TIMER_ABSTIME, &time, nullptr) == EINTR) {
   }
 }
 

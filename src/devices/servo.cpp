@@ -7,6 +7,7 @@
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/detail/flush_denormals.hpp>
+#include <calligraphy/devices/emergency_stop.hpp>
 
 #include "base/monotonic_clock.hpp"
 #include "base/require.hpp"
@@ -96,6 +97,7 @@ void Servo::step(double now) noexcept {
   device_status_ = sample.status;
   const bool released = released_.load(std::memory_order_relaxed);
   DeviceFault fault = judge(sample, elapsed);
+  if (emergency_stopped()) fault = DeviceFault::emergency_stop;
   complete(sample, fault, elapsed);
 
   if (fault == DeviceFault::none && !released && sample.status != DeviceStatus::stale) {
@@ -124,7 +126,7 @@ void Servo::step(double now) noexcept {
   if (fault != DeviceFault::none && fault != last_fault_) count_fault(fault);
   last_fault_ = fault;
 
-  device_.write(guard_.force());
+  write_force();
   publish();
   increment(ticks_);
   work_.add(options_.work_clock() - begun);
@@ -247,10 +249,22 @@ void Servo::supervise(double now) noexcept {
 /// The watchdog's tick while it owns the device: the same ramp-down as the servo's.
 void Servo::let_fall(std::uint64_t owner, double elapsed) noexcept {
   guard_.fall(reason_, elapsed, 1.0 / options_.rate);
-  device_.write(guard_.force());
+  write_force();
   publish();
   if (guard_.phase() != ServoPhase::zero) return;
   give_back(owner);
+}
+
+/// The only place that writes a force. It looks at the emergency stop again afterwards, which may have happened in
+/// between.
+void Servo::write_force() noexcept {
+  bool stopped = false;
+  do {
+    stopped = emergency_stopped();
+    if (stopped) guard_.cut(DeviceFault::emergency_stop);
+    device_.write(guard_.force());
+    halted_.store(stopped, std::memory_order_release);
+  } while (!stopped && emergency_stopped());
 }
 
 void Servo::give_back(std::uint64_t owner) noexcept {
@@ -264,6 +278,7 @@ void Servo::reset() noexcept {
   publish();
   owner_.store(0, std::memory_order_release);
   released_.store(false, std::memory_order_relaxed);
+  halted_.store(false, std::memory_order_relaxed);
   last_fault_ = reason_ = DeviceFault::none;
   has_time_ = watch_has_time_ = false;
   stale_for_ = unchanged_for_ = 0.0;

@@ -7,6 +7,8 @@
 
 #include <calligraphy/base/error.hpp>
 
+#include "ending_signals.hpp"
+
 namespace calligraphy {
 namespace {
 
@@ -24,6 +26,14 @@ ServoThreadOptions for_watchdog(ServoThreadOptions options, double rate) {
   return options;
 }
 
+/// Waits for the zero that the next tick writes, or the watchdog if that tick does not come. Whatever force the loop
+/// was about to write has been written by then. Async-signal-safe.
+void wait_for_zero(void* servo) noexcept {
+  constexpr int max_wait = 100;  // [ms]
+  for (int i = 0; i < max_wait && !static_cast<const Servo*>(servo)->halted(); ++i) pause_in_signal_handler();
+  pause_in_signal_handler();  // a vendor's frame passes the force on when the tick has returned
+}
+
 }  // namespace
 
 ServoLoop::ServoLoop(HapticDevice& device, ForceLaw law, const ServoLoopOptions& options)
@@ -36,6 +46,9 @@ ServoLoop::~ServoLoop() { stop(); }
 
 std::vector<std::string> ServoLoop::start() {
   if (running_) throw ValueError("the servo loop is already running: stop it before starting it again");
+  if (emergency_stopped()) {
+    throw DeviceError("the servo loop cannot be started after an emergency stop: call clear_emergency_stop() first");
+  }
   servo_.reset();
   watchdog_.start([this](double now) { servo_.supervise(now); });
   clock_ = device_.clock();
@@ -43,10 +56,12 @@ std::vector<std::string> ServoLoop::start() {
   if (own) clock_ = &thread_;
   running_ = true;  // before the first tick, whose force law may query it
   try {
+    entry_.emplace(&servo_, wait_for_zero);
     clock_->start([this](double now) { servo_.step(now); });
   } catch (...) {
     running_ = false;
     watchdog_.stop();
+    entry_.reset();
     throw;
   }
   std::vector<std::string> warnings = watchdog_.warnings();
@@ -75,6 +90,7 @@ void ServoLoop::stop() noexcept {
   }
   clock_->stop();
   watchdog_.stop();
+  entry_.reset();
   servo_.reset();
   running_ = false;
 }

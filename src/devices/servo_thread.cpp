@@ -10,6 +10,7 @@
 
 #include "base/monotonic_clock.hpp"
 #include "base/require.hpp"
+#include "ending_signals.hpp"
 #include "real_time_thread.hpp"
 
 namespace calligraphy {
@@ -78,6 +79,7 @@ void ServoThread::stop() noexcept {
 }
 
 void ServoThread::run(const std::function<void(double now)>& tick) noexcept {
+  const SignalStack stack;  // a force law that recurses without end must not keep its force
   const double period = 1.0 / options_.rate;
   double deadline = monotonic_seconds();
   while (!stopping_.load(std::memory_order_relaxed)) {

@@ -21,6 +21,8 @@ namespace calligraphy {
 namespace {
 
 // Limits that no person's pen exceeds: a file beyond them is rejected.
+constexpr std::size_t max_traces_bytes = 256 << 20;  // some fifty thousand characters
+constexpr std::size_t max_stroke_bytes = 64 << 20;   // more than a stroke of `max_stroke_points`
 constexpr std::size_t max_traces = 1000000;
 constexpr std::size_t max_trace_strokes = 1000;
 constexpr std::size_t max_stroke_points = 1000000;  // of a stroke: a quarter of an hour at 1 kHz
@@ -59,7 +61,7 @@ bool is_character(char32_t code) {
 
 class TraceParser : private LineReader {
  public:
-  TraceParser(std::istream& in, std::string_view name) : LineReader(in, name) {}
+  TraceParser(std::istream& in, std::string_view name) : LineReader(in, name, max_traces_bytes, max_stroke_bytes) {}
 
   std::vector<PenTrace> parse() {
     std::vector<PenTrace> traces;
@@ -228,7 +230,7 @@ void append_notice(std::string& text, std::string_view notice) {
 std::vector<PenTrace> read_pen_traces(std::istream& in, std::string_view name) { return TraceParser(in, name).parse(); }
 
 std::vector<PenTrace> read_pen_traces(const std::string& path) {
-  std::ifstream in = open_file(path);
+  std::ifstream in = open_file(path, max_traces_bytes);
   return read_pen_traces(in, path);
 }
 

@@ -22,6 +22,8 @@ constexpr std::array<std::string_view, 16> column_names = {
     "time_s",    "device_x_m", "device_y_m", "device_z_m", "tip_x_m", "tip_y_m",   "tip_z_m", "force_x_N",
     "force_y_N", "force_z_N",  "state",      "events",     "status",  "character", "stroke",  "tick_ns"};
 constexpr std::string_view rate_comment = "# rate_Hz=";
+constexpr std::size_t max_recording_bytes = 1 << 30;  ///< more than an hour at 1 kHz
+constexpr std::size_t max_row_bytes = 4096;           ///< sixteen values of any length that is written
 constexpr std::size_t chunk = 1 << 16;  ///< bytes given to the stream at a time
 
 constexpr std::array states = {InteractionState::separation, InteractionState::adjusting, InteractionState::calibration,
@@ -58,14 +60,14 @@ void append_row(std::string& text, const RecordedSample& sample) {
 /// Reads what write_recording writes, and nothing else but line ends of either kind.
 class RecordingParser : private LineReader {
  public:
-  RecordingParser(std::istream& in, std::string_view name) : LineReader(in, name) {}
+  RecordingParser(std::istream& in, std::string_view name) : LineReader(in, name, max_recording_bytes, max_row_bytes) {}
 
   Recording parse() {
     next_whole();
-    if (line() != header()) fail("expected '" + header() + "', found '" + line() + "'");
+    if (line() != header()) fail("expected '" + header() + "', found " + calligraphy::in_quotes(line()));
     next_whole();
     if (!line().starts_with(rate_comment)) {
-      fail("expected '" + std::string(rate_comment) + "...', found '" + line() + "'");
+      fail("expected '" + std::string(rate_comment) + "...', found " + calligraphy::in_quotes(line()));
     }
     Recording recording;
     recording.rate = number<double>("rate_Hz", std::string_view(line()).substr(rate_comment.size()));
@@ -170,7 +172,7 @@ void write_recording(std::ostream& out, const Recording& recording) {
 Recording read_recording(std::istream& in, std::string_view name) { return RecordingParser(in, name).parse(); }
 
 Recording read_recording(const std::filesystem::path& path) {
-  std::ifstream in = open_file(path);
+  std::ifstream in = open_file(path, max_recording_bytes);
   return read_recording(in, path.string());
 }
 

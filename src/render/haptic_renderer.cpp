@@ -425,7 +425,8 @@ Point HapticRenderer::guidance_force() noexcept {
   if (saturating) {
     const double linear = tick_.attraction.norm();
     tick_.attraction = saturated_force(tick_.attraction, options_.guidance_limit);
-    if (linear > 0.0) share *= tick_.attraction.norm() / linear;
+    // Less than the stiffness falls towards the stroke, as much as it falls around it.
+    if (linear > 0.0) share *= std::sqrt(tick_.attraction.norm() / linear);
   }
   const Point velocity = velocity_.velocity().head<2>();
   const Point across = share * damped(velocity);

@@ -73,6 +73,15 @@ TEST_CASE("a text longer than it may be is refused before it is in memory", "[ba
   CHECK(message([&] { cut.next(); }) == "a.txt:2: longer than the 6 bytes that are read");
 }
 
+TEST_CASE("a line longer than it may be is refused, and its beginning quoted", "[base]") {
+  const std::string long_line(100'000, 'x');
+  std::istringstream in("1234\n" + long_line + "\n");
+  LineReader reader(in, "a.txt", 1 << 20, 4);
+  CHECK(reader.next());
+  CHECK(message([&] { reader.next(); }) ==
+        "a.txt:2: the line is longer than 4 bytes: it begins with '" + std::string(60, 'x') + "...'");
+}
+
 TEST_CASE("a last line that was cut off is refused where a line must have its end", "[base]") {
   std::istringstream in("a\n1.2");
   LineReader reader(in, "a.csv");

@@ -7,6 +7,8 @@
 #include <calligraphy/practice/pen_trace.hpp>
 
 #include "../catch.hpp"
+#include "../temporary_directory.hpp"
+#include "endless_text.hpp"
 #include "pen_traces.hpp"
 
 using namespace calligraphy;
@@ -165,6 +167,33 @@ TEST_CASE("a file with a random byte is either read or rejected with FormatError
     } catch (const FormatError&) {
     }
   }
+}
+
+TEST_CASE("a pen trace file beyond its limit is refused by its size, unread", "[practice]") {
+  const TemporaryDirectory directory;
+  const std::string path = (directory.path() / "large.txt").string();
+  calligraphy_test::make_sparse_file(path, (256ull << 20) + 1);
+  const std::size_t before = calligraphy_test::bytes_read_so_far();
+  CHECK_THROWS_WITH(read_pen_traces(path), path + ": larger than the limit of 268435456 bytes");
+  CHECK(calligraphy_test::bytes_read_so_far() - before < 100'000);
+}
+
+TEST_CASE("a stroke without an end is refused before it fills the memory", "[practice]") {
+  calligraphy_test::EndlessText text("C 一 4E00 made-up 1000 1\nS 9", '9');
+  CHECK_THROWS_WITH(read_pen_traces(text.in, "pens.txt"),
+                    Catch::Contains("pens.txt:2: the line is longer than 67108864 bytes"));
+  CHECK(text.bytes_read < 68'000'000);
+}
+
+TEST_CASE("the longest stroke that may be written is not beyond the limit of a line", "[practice]") {
+  constexpr std::size_t max_points = 1'000'000, max_line = 67'108'864;
+  PenTrace trace;
+  trace.character = U'一';
+  trace.set = "made-up";
+  trace.em = 1e9;
+  trace.strokes.emplace_back(10, TimedPoint{{-10.0 + 1e-16, 11.0 - 1e-16}, 86399.123456789});
+  const std::string text = written({trace});
+  CHECK((text.size() - text.find("\nS")) * (max_points / 10) < max_line);
 }
 
 TEST_CASE("a pen trace that could not be read back is not written", "[practice]") {

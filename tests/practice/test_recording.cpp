@@ -14,6 +14,8 @@
 
 #include "../catch.hpp"
 #include "../special_values.hpp"
+#include "../temporary_directory.hpp"
+#include "endless_text.hpp"
 
 using namespace calligraphy;
 
@@ -122,6 +124,29 @@ struct GermanNumbers : std::numpunct<char> {
 TEST_CASE("a recording is read only from a regular file, and the error names any other", "[practice]") {
   CHECK_THROWS_WITH(read_recording("/dev/zero"), "/dev/zero: is not a regular file");
   CHECK_THROWS_WITH(read_recording("none.csv"), "none.csv: cannot be opened: No such file or directory");
+}
+
+TEST_CASE("a recording beyond its limit is refused by its size, unread", "[practice]") {
+  const TemporaryDirectory directory;
+  const std::filesystem::path path = directory.path() / "large.csv";
+  calligraphy_test::make_sparse_file(path, 3ull << 30);
+  const std::size_t before = calligraphy_test::bytes_read_so_far();
+  CHECK_THROWS_WITH(read_recording(path), path.string() + ": larger than the limit of 1073741824 bytes");
+  CHECK(calligraphy_test::bytes_read_so_far() - before < 100'000);
+}
+
+TEST_CASE("a row without an end is refused after a few kilobytes, and quoted in part", "[practice]") {
+  for (const std::string& beginning : {std::string(), header, header + "# rate_Hz=1000\n0.5"}) {
+    calligraphy_test::EndlessText text(beginning, '1');
+    try {
+      read_recording(text.in, "trace.csv");
+      FAIL("read");
+    } catch (const FormatError& error) {
+      CHECK_THAT(error.what(), Catch::Contains("the line is longer than 4096 bytes: it begins with '"));
+      CHECK(std::string(error.what()).size() < 200);
+    }
+    CHECK(text.bytes_read < 100'000);
+  }
 }
 
 TEST_CASE("a recording read back is identical to the last bit", "[practice]") {

@@ -379,7 +379,8 @@ SweepResult run_case(const SweepCase& drawn, const std::function<void(const Swee
   if (open) twin_size.z() = 0.0;  // a pen that rests on the paper: the twin has none, and nothing else to hold it
   result.motion = motion.size().maxCoeff();
   result.twin_motion = twin_size.maxCoeff();
-  result.motion_excess = (motion.size() - twin_size).maxCoeff();
+  // The stroke may turn the swing of a hand into another direction.
+  result.motion_excess = motion.size().maxCoeff() - twin_size.norm();
   result.force = force.size().maxCoeff();
   result.forgiven_force = result.force - stiffest * twin_size.norm();
   return result;

@@ -66,7 +66,7 @@ struct SweepResult {
   bool began = false;                                      ///< the stroke had begun when the disturbance came
   double motion = 0.0;                                     ///< peak to peak in the window [m], largest of the axes
   double twin_motion = 0.0;                                ///< of the twin
-  double motion_excess = 0.0;                              ///< largest over the axes of motion - twin's motion [m]
+  double motion_excess = 0.0;                              ///< of the motion beyond the twin's, of all axes [m]
   double speed = 0.0, twin_speed = 0.0;                    ///< highest in the window [m/s]
   double force = 0.0;                                      ///< peak to peak in the window [N], largest of the axes
   double forgiven_force = 0.0;  ///< the same beyond the stiffness times the twin's own motion [N]

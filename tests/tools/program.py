@@ -1,9 +1,12 @@
 """Runs the program as a user would."""
+import fcntl
 import os
+import pty
 import shutil
 import signal
 import subprocess
 import tempfile
+import termios
 import time
 import unittest
 from pathlib import Path
@@ -41,6 +44,37 @@ class ProgramTest(unittest.TestCase):
                               cwd=self.directory, capture_output=True, text=True, stdin=subprocess.DEVNULL, timeout=600)
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
         return done
+
+    def on_emulated_phantom_in_terminal(self, *arguments, hand=(), once="", key=b""):
+        """The program on an emulated device in a terminal of its own, in which `key` is pressed once its output contains
+        `once`. Returns exit code, output, and the terminal's settings before, during and after."""
+        emulated = os.environ.get("CALLIGRAPHY_EMULATED_PHANTOM")
+        if not emulated or shutil.which("umockdev-wrapper") is None:
+            self.skipTest("no emulated Phantom: umockdev is missing")
+        ours, theirs = pty.openpty()
+        self.addCleanup(os.close, ours)
+        self.addCleanup(os.close, theirs)
+
+        def in_its_own_session():
+            os.setsid()
+            fcntl.ioctl(theirs, termios.TIOCSCTTY, 0)
+
+        settings = [termios.tcgetattr(theirs)]
+        running = subprocess.Popen([emulated, *hand, "--", os.environ["CALLIGRAPHY_PROGRAM"], *arguments],
+                                   cwd=self.directory, stdin=theirs, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                                   preexec_fn=in_its_own_session)
+        told = b""
+        while once.encode() not in told or len(settings) > 1:
+            line = running.stderr.readline()
+            if not line:
+                break
+            told += line
+            if once.encode() in told and len(settings) == 1:
+                settings.append(termios.tcgetattr(theirs))
+                os.write(ours, key)
+        code = running.wait(timeout=600)
+        running.stderr.close()
+        return code, told.decode(errors="replace"), [*settings, termios.tcgetattr(theirs)]
 
     def assert_refused(self, code, arguments, *words, environment=None):
         """Expects this exit code, a one-line message that contains `words`, and no files left behind."""

@@ -2,6 +2,8 @@ import json
 import math
 import os
 import re
+import signal
+import termios
 
 from program import ProgramTest
 
@@ -95,6 +97,42 @@ class Devices(ProgramTest):
         self.run_program("write", "十", "--device", "replay:out/page-1-force-1.csv", "--like", "touch", "--out", "again")
         again, = json.loads((self.directory / "again" / "summary.json").read_text())
         self.assertEqual(again["strokes_completed"], row["strokes_completed"])
+
+    def test_no_force_is_left_behind_by_a_signal_to_the_program(self):
+        """Sent while a force is on; 128 is added to a signal that ended the program."""
+        for number, code in ((signal.SIGINT, 1), (signal.SIGQUIT, 131), (signal.SIGSEGV, 139)):
+            with self.subTest(signal=number.name):
+                done = self.run_on_emulated_phantom("write", "永", "--device", "phantom", "--out", "out", code=code,
+                                                    hand=["--write", "永", "--signal", str(int(number))])
+                self.assertRegex(done.stderr, r"the last for 0 N\n")
+                if code == 1:  # at once, without a ramp
+                    self.assertIn("emergency stop: 1", done.stdout)
+
+    def test_space_and_esc_take_the_force_away_and_stop(self):
+        for key in (b" ", b"\x1b"):
+            with self.subTest(key=key):
+                code, told, (before, during, after) = self.on_emulated_phantom_in_terminal(
+                    "write", "永", "--device", "phantom", "--out", "out", hand=["--write", "永"],
+                    once="space, Esc or Ctrl-C takes the force away and stops", key=b"x" + key)
+                self.assertEqual(code, 1, told)
+                self.assertIn("interrupted; results so far are in out", told)
+                self.assertIn("the last for 0 N", told)
+                self.assertEqual(before[3] & termios.ICANON, termios.ICANON)
+                self.assertEqual(during[3] & (termios.ICANON | termios.ECHO), 0)
+                self.assertEqual(after, before)
+
+    def test_a_terminal_is_restored_when_the_program_crashes(self):
+        code, told, (before, during, after) = self.on_emulated_phantom_in_terminal(
+            "write", "永", "--device", "phantom", "--out", "out", once="space, Esc or Ctrl-C",
+            hand=["--write", "永", "--signal", str(int(signal.SIGSEGV))])
+        self.assertEqual(code, 139, told)
+        self.assertNotEqual(during, before)
+        self.assertEqual(after, before)
+
+    def test_without_a_terminal_no_key_is_offered(self):
+        done = self.run_on_emulated_phantom("write", "永", "--device", "phantom", "--out", "out", code=1,
+                                            hand=["--write", "永", "--signal", str(int(signal.SIGINT))])
+        self.assertIn("; Ctrl-C takes the force away and stops", done.stderr)
 
     def test_a_shipped_profile_is_printed_in_the_file_format(self):
         for name in ("omni", "simulated"):

@@ -49,6 +49,36 @@ class Write(ProgramTest):
         self.assertGreater(written, 0)
         self.assertLess(written, 100000)
 
+    def test_a_directory_in_use_by_another_run_is_refused_until_that_run_ends_or_is_killed(self):
+        run = ["write", "一", "--mode", "force", "--out", "out"]
+        for ending in (signal.SIGINT, signal.SIGKILL):
+            with self.subTest(ending=ending.name):
+                running = subprocess.Popen([os.environ["CALLIGRAPHY_PROGRAM"], *run, "--repeat", "100000"],
+                                           cwd=self.directory, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+                while running.poll() is None and not (self.directory / "out/01-一-force.csv").exists():
+                    time.sleep(0.001)
+                running.send_signal(signal.SIGSTOP)  # it changes nothing while we look
+                os.waitpid(running.pid, os.WUNTRACED)
+                traces = self.directory / "trace.txt"
+                traces.write_text("C 一 4E00 test 100 1\nS 2 10 50 0 90 50 500\n")
+                for other in (run, ["stability", "--quick", "--out", "./out/"], ["tradeoff", "--quick", "--out", "out"],
+                              ["replay", "trace.txt", "--out", str(self.directory / "out")]):
+                    self.assert_refused(1, other, "out", "another run is writing there")
+                running.send_signal(signal.SIGCONT)
+                running.send_signal(ending)
+                running.wait(600)
+                self.run_program(*run)
+                self.assertEqual(len(self.summary()), 1)
+                shutil.rmtree(self.directory / "out")
+
+    def test_files_of_an_earlier_run_are_replaced_by_name_and_otherwise_stay(self):
+        self.run_program("write", "十一", "--mode", "force", "--out", "out")
+        (self.directory / "out" / "summary.json").write_text("old")
+        self.run_program("write", "十", "--mode", "force", "--out", "out")
+        self.assertEqual(len(self.summary()), 1)
+        self.assertTrue((self.directory / "out" / "02-一-force.csv").exists())
+        self.assertIn("Files of an earlier run", " ".join(self.run_program("write", "--help").stdout.split()))
+
     def summary(self, out="out"):
         return json.loads((self.directory / out / "summary.json").read_text())
 

@@ -1,5 +1,6 @@
 // Samples, simulated devices and devices written in Python, servo loops in virtual time.
 #include <calligraphy/devices/device_profiles.hpp>
+#include <calligraphy/devices/emergency_stop.hpp>
 #include <calligraphy/devices/pointer_device.hpp>
 #include <calligraphy/devices/replay_device.hpp>
 #include <calligraphy/devices/servo_loop.hpp>
@@ -74,6 +75,19 @@ std::unique_ptr<VirtualServo> make_servo(HapticDevice& device, Law law, double r
   options.ramp_up = ramp_up;
   options.work_clock = no_time;
   return std::make_unique<VirtualServo>(device, std::move(law), options);
+}
+
+/// At the end of Python too, before its threads are: a device written in Python can still be told.
+void install_for_python() {
+  install_emergency_stop();
+  static const bool registered = [] {
+    py::module_::import("atexit").attr("register")(py::cpp_function([] {
+      const py::gil_scoped_release release;
+      emergency_stop();
+    }));
+    return true;
+  }();
+  static_cast<void>(registered);
 }
 
 py::dict as_dict(const DurationSummary& figures) {
@@ -253,6 +267,18 @@ void add_devices(py::module_& module) {
            "Sets the position of the pointer on the paper [m] and its pressure, from 0 (not pressed) to 1.")
       .def_property_readonly("intention", when_idle(&PointerDevice::intention),
                              "Intention: intended position of the hand, in device axes, copied");
+
+  module.def(
+      "install_emergency_stop", &install_for_python,
+      "Takes the force from every open device when the program ends: at exit, at SIGINT, SIGTERM, SIGHUP, SIGQUIT, "
+      "at Ctrl-Z and at a crash. What was installed before follows, so that Ctrl-C still raises KeyboardInterrupt. "
+      "Call it once, in the main thread, after any signal.signal(). At a signal a device written in Python gets "
+      "its zero only from the next tick of its loop, if there is one.");
+  module.def("emergency_stop", &emergency_stop, py::call_guard<py::gil_scoped_release>(),
+             "Takes the force from every open device at once and keeps it at zero.");
+  module.def("emergency_stopped", &emergency_stopped,
+             "Whether emergency_stop() was called and the force has not been permitted again.");
+  module.def("clear_emergency_stop", &clear_emergency_stop, "Permits forces again; a running loop ramps up from zero.");
 
   using T = ServoThreadOptions;
   add_struct<ServoOptions>(

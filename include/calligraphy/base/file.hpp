@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -18,11 +20,11 @@ void write_file(const std::filesystem::path& path, std::string_view content);
 void check_can_write(const std::filesystem::path& path);
 
 /// Opens a regular file for reading. Pipes and devices are rejected: they may block, or never end.
-/// @throws FileError naming the path and the reason
-std::ifstream open_file(const std::filesystem::path& path);
+/// @throws FileError naming the path and the reason; FormatError naming a file of more than `max_bytes` bytes
+std::ifstream open_file(const std::filesystem::path& path,
+                        std::uintmax_t max_bytes = std::numeric_limits<std::uintmax_t>::max());
 
-/// Content of a regular file. @throws FileError as open_file(); FormatError naming a file of more than `max_bytes`
-/// bytes
+/// Content of a regular file. @throws as open_file()
 std::string read_file(const std::filesystem::path& path, std::size_t max_bytes);
 
 }  // namespace calligraphy

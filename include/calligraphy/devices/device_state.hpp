@@ -45,6 +45,7 @@ enum class DeviceFault : std::uint8_t {
   slow_force_law,     ///< the force law took longer than the timeout
   bad_force,          ///< the force law threw or returned a force that is not finite
   late_clock,         ///< no tick within the timeout
+  emergency_stop,     ///< emergency_stop() was called
   uncalibrated,       ///< positions are not yet absolute
   device_error        ///< the device cannot continue and gives no reason
 };

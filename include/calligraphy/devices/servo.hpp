@@ -66,6 +66,8 @@ struct ServoStatus {
 /// exception is a device whose own read() or write() hangs, because nothing else may touch it then: the status is
 /// `timed_out`, and only the device's own watchdog remains.
 ///
+/// After emergency_stop() it writes zero, without a ramp, until clear_emergency_stop(); then it ramps up again.
+///
 /// step() and supervise() are wait-free with respect to each other and neither allocate, lock, log nor throw.
 class Servo {
  public:
@@ -90,6 +92,9 @@ class Servo {
   /// supervise() runs.
   void reset() noexcept;
 
+  /// Whether the last force written is the zero of an emergency stop. Thread-safe, async-signal-safe.
+  bool halted() const noexcept { return halted_.load(std::memory_order_acquire); }
+
   /// Thread-safe.
   ServoStatus status() const noexcept;
   ServoStatistics statistics() const noexcept;
@@ -107,6 +112,7 @@ class Servo {
   bool ask(const DeviceState& sample, Eigen::Vector3d& force) noexcept;
   void let_fall(std::uint64_t owner, double elapsed) noexcept;
   void give_back(std::uint64_t owner) noexcept;
+  void write_force() noexcept;
   void count_fault(DeviceFault fault) noexcept;
   void publish() noexcept;
 
@@ -117,6 +123,7 @@ class Servo {
 
   std::atomic<std::uint64_t> owner_ = 0;
   std::atomic<bool> released_ = false;
+  std::atomic<bool> halted_ = false;
   std::atomic<bool> begun_ = false;        ///< the first tick has arrived
   std::atomic<std::uint64_t> status_ = 0;  ///< packed
 

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <atomic>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include <calligraphy/devices/emergency_stop.hpp>
 #include <calligraphy/devices/servo.hpp>
 #include <calligraphy/devices/servo_thread.hpp>
 
@@ -28,7 +30,8 @@ class ServoLoop {
   ~ServoLoop();
 
   /// Starts with zero force and ramps it up. Returns the privileges that the system refused, each with a remedy.
-  /// @throws DeviceError when the clock cannot be started, ValueError when the loop is already running
+  /// @throws DeviceError when the clock cannot be started or after an emergency stop, ValueError when the loop is
+  /// already running
   std::vector<std::string> start();
 
   /// Ramps the force down to zero, stops the clock and leaves the force at zero. Waits for a force law that has not
@@ -48,6 +51,7 @@ class ServoLoop {
   ServoThread watchdog_;
   ServoClock* clock_ = nullptr;  ///< null while stopped
   std::atomic<bool> running_ = false;
+  std::optional<EmergencyStopEntry> entry_;  ///< while the clock runs
 };
 
 }  // namespace calligraphy

@@ -34,7 +34,8 @@ class ServoThread final : public ServoClock {
   explicit ServoThread(const ServoThreadOptions& options = {});
   ~ServoThread() override;
 
-  /// `now` is the time of the system's monotonic clock when the tick is called. An exception from the tick terminates
+  /// `now` is the time of the system's monotonic clock when the tick is called; it goes on while the machine is
+  /// suspended. An exception from the tick terminates
   /// the program.
   void start(std::function<void(double now)> tick) override;
   void stop() noexcept override;

@@ -246,6 +246,11 @@ const Capabilities& OpenHapticsDevice::capabilities() const noexcept { return im
 DeviceState OpenHapticsDevice::read() noexcept { return implementation_->read(); }
 void OpenHapticsDevice::write(const Eigen::Vector3d& force) noexcept { implementation_->write(force); }
 void OpenHapticsDevice::close() noexcept { implementation_->close(); }
+std::vector<std::string> OpenHapticsDevice::warnings() const {
+  return {
+      "the vendor documents no watchdog: whether the device switches its motors off when this program is killed "
+      "(SIGKILL) or the computer fails is not known. Keep a hand at the device's switch"};
+}
 ServoClock* OpenHapticsDevice::clock() noexcept { return implementation_->clock.get(); }
 const std::string& OpenHapticsDevice::serial() const noexcept { return implementation_->serial; }
 const std::string& OpenHapticsDevice::library() const noexcept { return implementation_->runtime->library(); }

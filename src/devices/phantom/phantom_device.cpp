@@ -9,6 +9,7 @@
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/detail/force_guard.hpp>
 #include <calligraphy/devices/device_profiles.hpp>
+#include <calligraphy/devices/emergency_stop.hpp>
 #include <calligraphy/devices/latest_value.hpp>
 #include <calligraphy/devices/servo.hpp>
 
@@ -91,10 +92,12 @@ class PhantomDevice::Core final : public LinkListener {
     last_report_ = opened_at_;
     silent_until_ = opened_at_;
     last_write_.store(opened_at_, std::memory_order_relaxed);
+    if (codec_.profile().command_size > 0) stop_packet_size_ = frames_.wrap(RawCommand{}, stop_packet_).size();
     description_ = link_->description();
     link_->open(*this);
     description_ = link_->description();
     warnings_ = link_->warnings();
+    if (options_.drive) warn_of_profile();
   }
 
   // Called by the link's thread.
@@ -130,6 +133,10 @@ class PhantomDevice::Core final : public LinkListener {
       }
     }
     link_fault_.store(fault, std::memory_order_release);
+  }
+
+  std::span<const std::byte> stop_packet() const noexcept override {
+    return std::span(stop_packet_).first(stop_packet_size_);
   }
 
   // Called by the servo loop.
@@ -192,15 +199,23 @@ class PhantomDevice::Core final : public LinkListener {
     if (send(output_.command(good_joints_, allowed, gain), Sender::servo_loop)) sent_force_ = output_.force();
   }
 
-  void close() noexcept {
+  void switch_off() noexcept {
     if (!open_) return;
     open_ = false;
     closing_.store(true, std::memory_order_release);  // no start commands from here on
-    switch_off();
+    send_off();
     send_all(codec_.profile().stop);
+  }
+
+  /// After switch_off().
+  void close_link() noexcept {
+    if (!link_) return;
     closed_counts_ = link_->counts();
     link_.reset();
   }
+
+  /// Async-signal-safe, until close_link().
+  void cut_force() noexcept { bus_->cut_force(); }
 
   // Called during set-up or by any thread.
 
@@ -223,6 +238,20 @@ class PhantomDevice::Core final : public LinkListener {
     std::atomic<std::uint64_t> commands = 0, refused = 0, released = 0;
     std::array<std::atomic<std::uint64_t>, device_fault_count> faults{};
   };
+
+  /// What protects nobody once this program has been killed.
+  void warn_of_profile() {
+    const WireProfile& profile = codec_.profile();
+    const std::string start = "wire profile \"" + profile.name + "\" has no line \"";
+    if (!profile.toggle) {
+      warnings_.push_back(start +
+                          "toggle\": whether the device switches its motors off when this program is killed (SIGKILL) "
+                          "or the computer fails is not known. Keep a hand at the device's switch");
+    }
+    if (!profile.motors_on) {
+      warnings_.push_back(start + "motors-on\": the motors get a torque of zero, but cannot be switched off");
+    }
+  }
 
   static void count(std::atomic<std::uint64_t>& counter, std::uint64_t more = 1) noexcept {
     counter.fetch_add(more, std::memory_order_relaxed);
@@ -288,6 +317,7 @@ class PhantomDevice::Core final : public LinkListener {
     bool sent = false;
     const bool of_servo = sender == Sender::servo_loop;
     if (of_servo || clock_() - last_write_.load(std::memory_order_acquire) > write_patience) {
+      if (emergency_stopped()) command = {};
       if (of_servo) toggle_ = !toggle_;
       command.toggle = toggle_;
       sent = bus_->send(frames_.wrap(command, packet_));
@@ -299,7 +329,7 @@ class PhantomDevice::Core final : public LinkListener {
   }
 
   /// Sends the final packet: it replaces a pending one, then is sent as a command, which nothing can overtake.
-  void switch_off() noexcept {
+  void send_off() noexcept {
     if (codec_.profile().command_size == 0) return;
     while (sending_.test_and_set(std::memory_order_acquire)) std::this_thread::yield();  // never cleared
     RawCommand off;
@@ -355,6 +385,10 @@ class PhantomDevice::Core final : public LinkListener {
   bool toggle_ = false;
   std::array<std::byte, max_framed_bytes> packet_{};
 
+  // Constant once the device is open.
+  std::array<std::byte, max_framed_bytes> stop_packet_{};
+  std::size_t stop_packet_size_ = 0;
+
   // Used only by the servo loop.
   bool open_ = true;
   Motion motion_;
@@ -396,14 +430,21 @@ PhantomStatistics PhantomDevice::Core::statistics() const noexcept {
 PhantomDevice::PhantomDevice(std::unique_ptr<Link> link, const PhantomOptions& options, std::function<double()> clock) {
   if (!link) throw ValueError("PhantomDevice: the link is null");
   core_ = std::make_unique<Core>(std::move(link), options, std::move(clock));
+  if (options.drive) entry_.emplace(*this);
 }
 
-PhantomDevice::~PhantomDevice() { core_->close(); }
+PhantomDevice::~PhantomDevice() { close(); }
 
 const Capabilities& PhantomDevice::capabilities() const noexcept { return core_->capabilities(); }
 DeviceState PhantomDevice::read() noexcept { return core_->read(); }
 void PhantomDevice::write(const Eigen::Vector3d& force) noexcept { core_->write(force); }
-void PhantomDevice::close() noexcept { core_->close(); }
+void PhantomDevice::cut_force() noexcept { core_->cut_force(); }
+
+void PhantomDevice::close() noexcept {
+  core_->switch_off();
+  entry_.reset();
+  core_->close_link();
+}
 
 void PhantomDevice::calibrate(const Joints& joints) {
   for (const double joint : joints) require(std::isfinite(joint), "joint", joint, "rad", "finite");

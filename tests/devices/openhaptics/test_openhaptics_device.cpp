@@ -11,6 +11,7 @@
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/device_profiles.hpp>
+#include <calligraphy/devices/emergency_stop.hpp>
 #include <calligraphy/devices/openhaptics/openhaptics_device.hpp>
 #include <calligraphy/devices/servo_loop.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
@@ -425,6 +426,27 @@ TEST_CASE("a watchdog in another thread switches the output off, and the next ti
   lab.steps(300);
   CHECK(lab.force().x() == Approx(1.0));
   CHECK(lab.runtime->broken_rules() == 0);
+}
+
+TEST_CASE("after an emergency stop the scheduler's next tick writes zero, and the handler calls nothing of the runtime",
+          "[openhaptics]") {
+  Lab lab;
+  OpenHapticsDevice device(lab.options());
+  Driven loop(device);
+  lab.steps(300);
+  REQUIRE(lab.force().x() == Approx(1.0));
+  emergency_stop();
+  CHECK(lab.force().x() == Approx(1.0));
+  lab.steps(1);
+  CHECK(lab.force().isZero(0.0));
+  lab.steps(300);
+  CHECK(lab.force().isZero(0.0));
+  clear_emergency_stop();
+  lab.steps(300);
+  CHECK(lab.force().x() == Approx(1.0));
+  CHECK(lab.runtime->broken_rules() == 0);
+  REQUIRE(device.warnings().size() == 1);
+  CHECK(device.warnings().front().find("SIGKILL") != std::string::npos);
 }
 
 TEST_CASE("a force law that hangs within the vendor's frame still loses its force", "[openhaptics]") {

@@ -65,6 +65,10 @@ class MemoryLink final : public Link {
     if (wire_->fails_commands) throw DeviceError("command refused");
     wire_->commands.emplace_back(packet.begin(), packet.end());
   }
+  void cut_force() noexcept override {
+    const std::span<const std::byte> packet = wire_->listener->stop_packet();
+    if (!packet.empty()) send(packet);
+  }
   LinkCounts counts() const noexcept override { return {0, wire_->sent, 0, 0, 1}; }
   const std::vector<std::string>& warnings() const noexcept override { return wire_->warnings; }
   const std::string& description() const noexcept override { return description_; }
@@ -106,8 +110,13 @@ class EmulatedArm {
 
   /// Present torque of the motors: zero if they are off, or if the dead-man bit has not changed for 20 ms.
   Eigen::Vector3d motor_force() {
+    return started && still_for_ <= 20 ? commanded_force() : Eigen::Vector3d(Eigen::Vector3d::Zero());
+  }
+
+  /// What the motors would do without these two precautions: zero if they are off.
+  Eigen::Vector3d commanded_force() {
     const RawCommand command = last_command();
-    if (!started || !command.motors_on || still_for_ > 20) return Eigen::Vector3d::Zero();
+    if (!command.motors_on) return Eigen::Vector3d::Zero();
     Eigen::Vector3d torque;
     for (std::size_t i = 0; i < 3; ++i) {
       torque[static_cast<Eigen::Index>(i)] = static_cast<double>(command.torque[i]);

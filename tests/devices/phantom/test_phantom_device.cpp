@@ -547,6 +547,55 @@ TEST_CASE("a privilege refused to a phantom's threads is reported once by the se
   CHECK(ServoLoop(pinned_too, none, options).start() == of_core);
 }
 
+TEST_CASE("a wire profile without a dead-man bit or an enable bit is warned of, by the loop too", "[phantom][device]") {
+  const auto warnings = [](const std::string& line) {
+    HeldPhantom held(line, "");
+    ServoLoopOptions options;
+    options.thread.priority = 0;
+    options.thread.lock_memory = false;
+    ServoLoop loop(
+        held.device, [](const DeviceState&) { return Eigen::Vector3d(Eigen::Vector3d::Zero()); }, options);
+    CHECK(loop.start() == held.device.warnings());
+    return held.device.warnings();
+  };
+  CHECK(HeldPhantom().device.warnings().empty());
+  const std::vector<std::string> of_toggle = warnings("toggle u16 at 6 bit 4");
+  REQUIRE(of_toggle.size() == 1);
+  CHECK_THAT(of_toggle.front(), Contains("\"toggle\"") && Contains("SIGKILL"));
+  const std::vector<std::string> of_enable = warnings("motors-on u16 at 6 bit 3");
+  REQUIRE(of_enable.size() == 1);
+  CHECK_THAT(of_enable.front(), Contains("\"motors-on\""));
+  PhantomOptions idle = simulated_options();
+  idle.drive = false;
+  CHECK(HeldPhantom("toggle u16 at 6 bit 4", "", idle).device.warnings().empty());
+}
+
+TEST_CASE("an emergency stop switches a phantom's motors off, and they stay off until it is cleared",
+          "[phantom][device]") {
+  const struct Permitted {
+    ~Permitted() { clear_emergency_stop(); }
+  } at_the_end;
+  HeldPhantom held;
+  held.bring_up();
+  const auto push = [](const DeviceState&) { return Eigen::Vector3d(1.0, 0.0, 0.0); };
+  for (int i = 0; i < 200; ++i) held.turn(push);
+  REQUIRE(held.arm.commanded_force().norm() > 0.9);
+  emergency_stop();
+  CHECK_FALSE(held.arm.last_command().motors_on);
+  CHECK(held.arm.commanded_force().norm() == 0.0);
+  for (int i = 0; i < 200; ++i) {
+    held.turn(push);
+    REQUIRE(held.arm.commanded_force().norm() == 0.0);
+  }
+  clear_emergency_stop();
+  for (int i = 0; i < 200; ++i) held.turn(push);
+  CHECK(held.arm.commanded_force().norm() > 0.9);
+  held.device.close();
+  held.arm.wire->newest.clear();
+  emergency_stop();  // a closed device is not touched
+  CHECK(held.arm.wire->newest.empty());
+}
+
 TEST_CASE("a device that comes back while it is being closed is not started again", "[phantom][device]") {
   HeldPhantom held;
   held.bring_up();

@@ -31,6 +31,9 @@ class ForceGuard {
   const Eigen::Vector3d& fall(DeviceFault fault, double elapsed, double max_first_step) noexcept;
 
   /// Sets the force to zero immediately; the next one ramps up from there.
+  /// Zero at once, for this reason.
+  void cut(DeviceFault fault) noexcept;
+
   void reset() noexcept;
 
   ServoPhase phase() const noexcept { return phase_; }

@@ -34,6 +34,9 @@ struct OpenHapticsOptions {
 /// other force is ignored. The output is on only while a loop runs. Open all devices before the first loop starts,
 /// because they share the runtime's single scheduler.
 ///
+/// No function of the runtime may be called from a signal handler: in an emergency stop it is the next tick of the
+/// scheduler, whose thread still runs then, that writes zero.
+///
 /// Never run on hardware: written from the public interface and tested against a stub.
 class OpenHapticsDevice final : public HapticDevice {
  public:
@@ -50,6 +53,8 @@ class OpenHapticsDevice final : public HapticDevice {
   void write(const Eigen::Vector3d& force) noexcept override;
   void close() noexcept override;
   ServoClock* clock() noexcept override;
+  /// That the vendor documents no watchdog.
+  std::vector<std::string> warnings() const override;
 
   const std::string& serial() const noexcept;
   /// File name of the runtime.

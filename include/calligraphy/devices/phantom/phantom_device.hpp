@@ -5,9 +5,11 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include <calligraphy/devices/emergency_stop.hpp>
 #include <calligraphy/devices/haptic_device.hpp>
 #include <calligraphy/devices/phantom/kinematics.hpp>
 
@@ -84,6 +86,9 @@ class PhantomDevice final : public HapticDevice {
   void write(const Eigen::Vector3d& force) noexcept override;
   /// Switches the motors off and sends the profile's stop commands. Blocks until they are sent.
   void close() noexcept override;
+  /// Sends a packet with zero torques and the motors off. The link's own thread transfers it; if that thread does not
+  /// answer, it is written directly to the node, which is not possible with hidapi-libusb.
+  void cut_force() noexcept override;
 
   /// Calibrates without the inkwell: the joints are at these angles [rad] at the next report.
   /// @throws ValueError when an angle is not finite
@@ -97,12 +102,14 @@ class PhantomDevice final : public HapticDevice {
   PhantomStatistics statistics() const noexcept;
   /// For example "2988:0302 on bus 1, port 2, serial 540-12345".
   const std::string& description() const noexcept;
-  /// Reports a refused real-time priority, with a remedy.
+  /// Reports a refused real-time priority, with a remedy, and a wire profile without the dead-man bit (`toggle`) or the
+  /// enable bit (`motors-on`).
   std::vector<std::string> warnings() const override;
 
  private:
   class Core;
   std::unique_ptr<Core> core_;
+  std::optional<EmergencyStopEntry> entry_;  ///< while it is open
 };
 
 }  // namespace calligraphy

@@ -14,11 +14,12 @@ namespace calligraphy::phantom {
 
 void DeviceLock::take(const PluggedDevice& device) {
   release();
-  descriptors_.reserve(device.nodes.size());
+  nodes_.reserve(device.nodes.size());
   for (const std::string& node : device.nodes) {
-    const int descriptor = open(node.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    int descriptor = open(node.c_str(), O_RDWR | O_CLOEXEC | O_NONBLOCK);
+    if (descriptor < 0) descriptor = open(node.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (descriptor < 0) continue;  // a user who may not read it cannot drive the device through it either
-    descriptors_.push_back(descriptor);
+    nodes_.push_back({node, descriptor});
     if (flock(descriptor, LOCK_EX | LOCK_NB) == 0) continue;
     const int error = errno;
     release();
@@ -32,11 +33,18 @@ void DeviceLock::take(const PluggedDevice& device) {
 }
 
 void DeviceLock::release() noexcept {
-  for (const int descriptor : descriptors_) {
-    flock(descriptor, LOCK_UN);  // a forked process may hold the descriptor too
-    close(descriptor);
+  for (const LockedNode& locked : nodes_) {
+    flock(locked.descriptor, LOCK_UN);  // a forked process may hold the descriptor too
+    close(locked.descriptor);
   }
-  descriptors_.clear();
+  nodes_.clear();
+}
+
+int DeviceLock::descriptor_of(const std::string& node) const noexcept {
+  for (const LockedNode& locked : nodes_) {
+    if (locked.node == node) return locked.descriptor;
+  }
+  return -1;
 }
 
 }  // namespace calligraphy::phantom

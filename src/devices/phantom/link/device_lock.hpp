@@ -1,6 +1,7 @@
 // Prevents two programs from driving one device where its driver does not.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include <calligraphy/devices/phantom/device_list.hpp>
@@ -23,8 +24,15 @@ class DeviceLock {
   void take(const PluggedDevice& device);
   void release() noexcept;
 
+  /// The open descriptor of a locked node, for writing to it if this user may; -1 if it is not locked.
+  int descriptor_of(const std::string& node) const noexcept;
+
  private:
-  std::vector<int> descriptors_;
+  struct LockedNode {
+    std::string node;
+    int descriptor;
+  };
+  std::vector<LockedNode> nodes_;
 };
 
 }  // namespace calligraphy::phantom

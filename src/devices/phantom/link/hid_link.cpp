@@ -3,6 +3,7 @@
 #include "hid_link.hpp"
 
 #include <hidapi.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -58,6 +59,16 @@ hid_device* opened(const std::string& path) {
   return hid_open_path(path.c_str());
 }
 
+/// A report as hidapi and hidraw expect it: the report number first, 0 if there is none.
+struct NumberedReport {
+  NumberedReport(std::span<const std::byte> packet, bool numbered) noexcept : size(packet.size() + (numbered ? 0 : 1)) {
+    std::copy_n(reinterpret_cast<const unsigned char*>(packet.data()), packet.size(),
+                bytes.data() + size - packet.size());
+  }
+  std::array<unsigned char, max_packet_bytes + 1> bytes{};
+  std::size_t size;
+};
+
 PluggedDevice found(libusb_context* context, const PluggedDevice& wanted) {
   for (PluggedDevice& device : devices_on_bus(context)) {
     const bool same_ids = device.vendor_id == wanted.vendor_id && device.product_id == wanted.product_id;
@@ -112,6 +123,7 @@ void HidLink::connect() {
     device_ = device;
     numbered_ = numbered;
     write_failed_ = false;
+    if (through_hidraw_) raw_node_ = lock_.descriptor_of(path);
   }
   found_at(place);
   opened_at_ = monotonic_seconds();
@@ -127,6 +139,7 @@ void HidLink::disconnect() noexcept {
   const std::lock_guard<std::mutex> alone(device_mutex_);
   if (device_ != nullptr) hid_close(device_);
   device_ = nullptr;
+  raw_node_ = -1;
   lock_.release();
 }
 
@@ -195,27 +208,33 @@ void HidLink::write_packets() noexcept {
   set_real_time_priority(options_.priority);  // the reader reports a refusal
   while (true) {
     const bool last = writer_stops_;
-    if (const Packet* packet = newest_.take()) {
+    if (const Packet* packet = next_packet()) {
       const std::lock_guard<std::mutex> alone(device_mutex_);
-      if (device_ != nullptr && !write_failed_) write_report(packet->content());
+      if (device_ != nullptr && !write_failed_ && write_report(packet->content())) packet_written(*packet);
     }
     if (last) return;
-    if (!newest_.waiting()) bell_.wait(writer_pause);
+    if (!packet_waits()) bell_.wait(writer_pause);
   }
 }
 
-/// Requires device_mutex_. hidapi expects the report number first, 0 if there is none.
+/// Requires device_mutex_.
 bool HidLink::write_report(std::span<const std::byte> packet) noexcept {
-  std::array<unsigned char, max_packet_bytes + 1> report{};
-  const std::size_t start = numbered_ ? 0 : 1;
-  std::copy_n(reinterpret_cast<const unsigned char*>(packet.data()), packet.size(), report.data() + start);
-  if (hid_write(device_, report.data(), packet.size() + start) < 0) {
+  const NumberedReport report(packet, numbered_);
+  if (hid_write(device_, report.bytes.data(), report.size) < 0) {
     failed_.fetch_add(1, std::memory_order_relaxed);
     write_failed_ = true;
     return false;
   }
   sent_.fetch_add(1, std::memory_order_relaxed);
   return true;
+}
+
+/// write() to a hidraw node returns when the device has taken the report, after 5 s at the latest.
+void HidLink::write_directly(std::span<const std::byte> packet) noexcept {
+  const int node = raw_node_;
+  if (node < 0) return;
+  const NumberedReport report(packet, numbered_);
+  [[maybe_unused]] const ssize_t written = write(node, report.bytes.data(), report.size);
 }
 
 }  // namespace calligraphy::phantom

@@ -40,6 +40,7 @@ class HidLink final : public ThreadedLink {
   void reopen() noexcept;
   void write_packets() noexcept;
   bool write_report(std::span<const std::byte> packet) noexcept;
+  void write_directly(std::span<const std::byte> packet) noexcept override;
   void connect();
   void start() noexcept;
   void disconnect() noexcept;
@@ -53,8 +54,10 @@ class HidLink final : public ThreadedLink {
   std::mutex device_mutex_;
   DeviceLock lock_;  ///< held while the device is open: hidraw itself would let several programs open it
   hid_device_* device_ = nullptr;
+  /// The hidraw node once more, for write_directly(); -1: not open, or hidapi-libusb, which hides its descriptor.
+  std::atomic<int> raw_node_{-1};
   bool through_hidraw_ = false;            ///< this program is linked to hidapi-hidraw
-  bool numbered_ = false;                  ///< reports begin with a report number
+  std::atomic<bool> numbered_{false};      ///< reports begin with a report number
   std::atomic<bool> write_failed_{false};  ///< nothing more is written until the reader has reopened the device
   WakeUp bell_;
   double opened_at_ = 0.0;  ///< by monotonic_seconds()

@@ -22,6 +22,10 @@ class LinkListener {
   /// `none`: the link has come up, for the first time or again, possibly at another port. Otherwise the cause of a
   /// failure; `timed_out` is repeated about once a second while it persists.
   virtual void changed(DeviceFault fault) noexcept = 0;
+
+  /// The packet that takes the force from the motors, constant while the link is open: Link::cut_force() sends it. Also
+  /// called from signal handlers. Empty: there is none.
+  virtual std::span<const std::byte> stop_packet() const noexcept { return {}; }
 };
 
 /// Transfers since the link was opened.
@@ -51,6 +55,10 @@ class Link {
   /// for its completion. Call it during set-up or from the listener's `changed`, never from the servo loop.
   /// @throws DeviceError
   virtual void command(std::span<const std::byte> packet) = 0;
+
+  /// Sends the listener's stop packet in an emergency stop and waits until it is transferred, for 0.1 s at most; while
+  /// emergency_stopped() no other packet of send() follows. Async-signal-safe.
+  virtual void cut_force() noexcept = 0;
 
   virtual LinkCounts counts() const noexcept = 0;
 

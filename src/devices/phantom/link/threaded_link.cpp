@@ -3,8 +3,10 @@
 #include <algorithm>
 
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/devices/emergency_stop.hpp>
 
 #include "base/monotonic_clock.hpp"
+#include "devices/ending_signals.hpp"
 #include "usb_device.hpp"
 
 namespace calligraphy::phantom {
@@ -34,6 +36,32 @@ bool ThreadedLink::send(std::span<const std::byte> packet) noexcept {
   if (newest_.put(packet)) replaced_.fetch_add(1, std::memory_order_relaxed);
   wake();
   return true;
+}
+
+/// A stop packet that the link's own thread writes follows every packet that it was writing.
+void ThreadedLink::cut_force() noexcept {
+  if (listener_ == nullptr || listener_->stop_packet().empty()) return;
+  const std::uint32_t before = cuts_.load();
+  cut_wanted_.store(true);
+  wake();
+  constexpr int patience = 20, max_wait = 100;  // [ms]
+  for (int i = 0; i < max_wait && cuts_.load() == before; ++i) {
+    if (i == patience) write_directly(listener_->stop_packet());
+    pause_in_signal_handler();
+  }
+}
+
+const Packet* ThreadedLink::next_packet() noexcept {
+  const bool cut = cut_wanted_.exchange(false);
+  const Packet* const packet = newest_.take();
+  if (!emergency_stopped()) return packet;
+  if (packet == nullptr && !cut) return nullptr;
+  stop_packet_.assign(listener_->stop_packet());
+  return stop_packet_.size > 0 ? &stop_packet_ : nullptr;
+}
+
+void ThreadedLink::packet_written(const Packet& packet) noexcept {
+  if (&packet == &stop_packet_) cuts_.fetch_add(1);
 }
 
 void ThreadedLink::join() {

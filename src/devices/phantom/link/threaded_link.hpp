@@ -24,6 +24,7 @@ class ThreadedLink : public Link {
 
   void open(LinkListener& listener) override;
   bool send(std::span<const std::byte> packet) noexcept override;
+  void cut_force() noexcept override;
   LinkCounts counts() const noexcept override { return {received_, sent_, replaced_, failed_, opened_}; }
   const std::vector<std::string>& warnings() const noexcept override { return warnings_; }
   const std::string& description() const noexcept override { return *description_.load(); }
@@ -36,6 +37,17 @@ class ThreadedLink : public Link {
 
   /// A packet waits. From any thread; neither blocks nor allocates.
   virtual void wake() noexcept = 0;
+
+  /// Writes the packet by the lowest call of the system, if the bus permits it: for a link whose thread does not
+  /// answer, because it is the one that crashed. Async-signal-safe.
+  virtual void write_directly(std::span<const std::byte> packet) noexcept = 0;
+
+  /// The packet to be written next: the newest, or the stop packet in an emergency stop; null if there is none. For the
+  /// thread that writes.
+  const Packet* next_packet() noexcept;
+  bool packet_waits() const noexcept { return newest_.waiting() || cut_wanted_.load(std::memory_order_relaxed); }
+  /// That thread has written what next_packet() returned.
+  void packet_written(const Packet& packet) noexcept;
 
   void join();
 
@@ -54,12 +66,15 @@ class ThreadedLink : public Link {
   std::vector<std::string> warnings_;
   std::thread thread_;
   std::atomic<bool> stopping_{false};
-  NewestPacket newest_;
   DeviceFault told_ = DeviceFault::none;
   double last_received_ = 0.0;  ///< by monotonic_seconds()
   std::atomic<std::uint64_t> received_{0}, sent_{0}, replaced_{0}, failed_{0}, opened_{0};
 
  private:
+  NewestPacket newest_;
+  Packet stop_packet_;  ///< used by the thread that writes
+  std::atomic<bool> cut_wanted_{false};
+  std::atomic<std::uint32_t> cuts_{0};   ///< stop packets written
   double told_at_ = 0.0;                 ///< by monotonic_seconds()
   std::list<std::string> descriptions_;  ///< of every place it was found at, kept for those who hold one
   std::atomic<const std::string*> description_{nullptr};

@@ -33,6 +33,18 @@ void UsbEvents::list_descriptors() noexcept {
   libusb_free_pollfds(list);
 }
 
+/// libusb polls the descriptor of a device for output, all others for input.
+int UsbEvents::device_descriptor() const noexcept {
+  int found = -1;
+  const libusb_pollfd** const list = libusb_get_pollfds(context_);
+  if (list == nullptr) return found;
+  for (const libusb_pollfd** entry = list; *entry != nullptr; ++entry) {
+    if (((*entry)->events & POLLOUT) != 0) found = (*entry)->fd;
+  }
+  libusb_free_pollfds(list);
+  return found;
+}
+
 void UsbEvents::wait(double seconds) noexcept {
   if (descriptors_changed_.exchange(false)) list_descriptors();
   timeval next{};

@@ -26,6 +26,9 @@ class UsbEvents {
   /// Waits for the first event, ring() or the time [s], then runs the callbacks that are due.
   void wait(double seconds) noexcept;
 
+  /// The descriptor of the one open device, -1 if the system has none. Call it from the thread that serves the context.
+  int device_descriptor() const noexcept;
+
   /// Callable from any thread; neither blocks nor allocates.
   void ring() noexcept { bell_.ring(); }
 

@@ -1,6 +1,11 @@
 // libusb callbacks only record events; opening, closing, waiting and notifying happen between two rounds of events.
 #include "usb_link.hpp"
 
+#if defined(__linux__)
+#include <linux/usbdevice_fs.h>
+#include <sys/ioctl.h>
+#endif
+
 #include <algorithm>
 #include <memory>
 
@@ -123,6 +128,8 @@ void UsbLink::connect() {
   }
   outward_.transfer = libusb_alloc_transfer(0);
   if (outward_.transfer == nullptr) throw std::bad_alloc();
+  raw_endpoint_ = device_.out_endpoint();
+  raw_node_ = events_.device_descriptor();
   found_at(device_.place());
   telling_ = true;
   listener_->changed(DeviceFault::none);
@@ -133,6 +140,7 @@ void UsbLink::connect() {
 
 void UsbLink::disconnect() noexcept {
   if (device_.handle() == nullptr) return;
+  raw_node_ = -1;
   cancel_inward();
   if (outward_.flying) libusb_cancel_transfer(outward_.transfer);
   pump_until(&UsbLink::outward_idle, max_cancel);
@@ -291,8 +299,9 @@ bool UsbLink::inward_idle() const noexcept {
 void UsbLink::send_newest() noexcept {
   if (device_.handle() == nullptr || gone_ || outward_.flying || out_stalled_ || monotonic_seconds() < retry_out_)
     return;
-  if (const Packet* packet = newest_.take()) {
+  if (const Packet* packet = next_packet()) {
     std::copy_n(reinterpret_cast<const unsigned char*>(packet->bytes.data()), packet->size, outward_.buffer.data());
+    outward_.packet = packet;
     outward_.size = packet->size;
     outward_.filled = monotonic_seconds();
     submit_outward();
@@ -328,6 +337,7 @@ void UsbLink::outward_done(libusb_transfer* transfer) noexcept {
     link.sent_.fetch_add(1, std::memory_order_relaxed);
     link.outward_.refused = false;
     link.out_fault_ = DeviceFault::none;
+    if (link.outward_.packet != nullptr) link.packet_written(*link.outward_.packet);
     return;
   }
   if (transfer->status == LIBUSB_TRANSFER_CANCELLED) return;
@@ -360,6 +370,7 @@ void UsbLink::transmit(std::span<const std::byte> packet) {
   if (outward_.flying)
     refuse(device_.place(), "the command was not sent: the device has not accepted the previous packet");
   std::copy_n(reinterpret_cast<const unsigned char*>(packet.data()), packet.size(), outward_.buffer.data());
+  outward_.packet = nullptr;
   outward_.size = packet.size();
   submit_outward();
   pump_until(&UsbLink::outward_idle, 2.0 * options_.answer);
@@ -370,10 +381,26 @@ void UsbLink::transmit(std::span<const std::byte> packet) {
   }
 }
 
+/// Follows a transfer that is pending.
+void UsbLink::write_directly(std::span<const std::byte> packet) noexcept {
+  const int node = raw_node_;
+  if (node < 0) return;
+#if defined(__linux__)
+  usbdevfs_bulktransfer transfer{};
+  transfer.ep = raw_endpoint_;
+  transfer.len = static_cast<unsigned>(packet.size());
+  transfer.timeout = 20;  // [ms]
+  transfer.data = const_cast<std::byte*>(packet.data());
+  ioctl(node, USBDEVFS_BULK, &transfer);
+#else
+  static_cast<void>(packet);
+#endif
+}
+
 /// Sends the last packet of a servo loop, which sets the force to zero.
 void UsbLink::flush() noexcept {
   const auto end = monotonic_seconds() + max_flush;
-  while ((newest_.waiting() || outward_.flying) && device_.handle() != nullptr && !gone_ && monotonic_seconds() < end) {
+  while ((packet_waits() || outward_.flying) && device_.handle() != nullptr && !gone_ && monotonic_seconds() < end) {
     send_newest();
     events_.wait(0.005);
   }

@@ -14,7 +14,8 @@
 namespace calligraphy::phantom {
 
 /// Four transfers are pending at any time, so the host never misses a packet of the device. libusb is called only from
-/// the link's own thread; its callbacks record what happened, and the thread acts on it between callbacks.
+/// the link's own thread (in an emergency stop in which that thread does not answer, its descriptor is used directly);
+/// its callbacks record what happened, and the thread acts on it between callbacks.
 class UsbLink final : public ThreadedLink {
  public:
   /// @throws DeviceError when libusb cannot be initialised
@@ -38,6 +39,7 @@ class UsbLink final : public ThreadedLink {
     libusb_transfer* transfer = nullptr;
     bool flying = false;
     libusb_transfer_status ended = LIBUSB_TRANSFER_COMPLETED;
+    const Packet* packet = nullptr;  ///< that next_packet() returned; null for a command
     std::size_t size = 0;
     double filled = 0.0;   ///< when its packet was taken from the queue [s]
     bool refused = false;  ///< its packet has not been transferred yet
@@ -51,6 +53,7 @@ class UsbLink final : public ThreadedLink {
 
   void run(std::promise<void> opened) noexcept override;
   void wake() noexcept override { events_.ring(); }
+  void write_directly(std::span<const std::byte> packet) noexcept override;
   void serve() noexcept;
   void connect();
   void disconnect() noexcept;
@@ -83,6 +86,8 @@ class UsbLink final : public ThreadedLink {
   std::thread::id thread_id_ = {};
 
   UsbDevice device_;
+  std::atomic<int> raw_node_{-1};  ///< the device's descriptor, for write_directly(); -1: none
+  std::atomic<unsigned> raw_endpoint_{0};
   std::array<Inward, 4> inward_;
   std::array<Inward*, 4> kept_ = {};  ///< in order of arrival
   std::size_t kept_count_ = 0;

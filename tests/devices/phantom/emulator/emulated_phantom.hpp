@@ -73,6 +73,11 @@ class EmulatedPhantom {
     return arm.motor_force();
   }
 
+  Eigen::Vector3d commanded_force() {
+    const std::lock_guard<std::mutex> alone(mutex);
+    return arm.commanded_force();
+  }
+
   std::uint64_t pushed = 0;
   bool silent_until_started = false;
 

@@ -12,6 +12,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "emulated_phantom.hpp"
@@ -29,11 +30,12 @@ using namespace calligraphy_test;
 namespace {
 
 constexpr char model[] = "touch";
+constexpr double push_at_signal = 0.2;  // [N]
 
 constexpr char usage[] =
     "usage: emulated_phantom [--kind usb|hid] [--serial NUMBER] [--write TEXT] [--characters SET] [--skill "
     "novice|skilled]\n"
-    "                        [--seed N] -- COMMAND...\n";
+    "                        [--seed N] [--signal N] -- COMMAND...\n";
 
 struct Options {
   bool hid = false;
@@ -42,6 +44,7 @@ struct Options {
   std::string characters;  ///< a set file; empty: the built-in set
   bool skilled = false;
   std::uint64_t seed = 1;
+  int signal = 0;  ///< sent to the command once its force is above `push_at_signal`; 0: none
   std::vector<char*> command;
 };
 
@@ -72,6 +75,8 @@ Options options_of(int argc, char** argv) {
       options.skilled = value == "skilled";
     } else if (name == "--seed") {
       options.seed = std::stoull(value);
+    } else if (name == "--signal") {
+      options.signal = std::stoi(value);
     } else {
       throw UsageError(name + " " + value + ": not understood");
     }
@@ -127,6 +132,9 @@ class Run {
     phantom_.step();
   }
 
+  /// Of the command that the device received last, its own watchdog aside [N].
+  double commanded_force() { return phantom_.commanded_force().norm(); }
+
   std::uint64_t reports() const { return phantom_.pushed; }
   std::uint64_t commands() const { return phantom_.bus.packets_taken(); }
 
@@ -161,13 +169,14 @@ pid_t started(const Options& options) {
 
 /// Runs at 1 kHz until the command has ended. After a pause of the machine the overdue steps follow immediately, a few
 /// at a time: a device does not wait.
-int run_beside(Run& run, pid_t child) {
+int run_beside(Run& run, pid_t child, int signal) {
   constexpr long period = 1'000'000;  // [ns]
   timespec due{};
   clock_gettime(CLOCK_MONOTONIC, &due);
   int status = 0;
   while (waitpid(child, &status, WNOHANG) == 0) {
     run.step();
+    if (signal != 0 && run.commanded_force() > push_at_signal) kill(child, std::exchange(signal, 0));
     due.tv_nsec += period;
     if (due.tv_nsec >= 1'000'000'000) {
       due.tv_nsec -= 1'000'000'000;
@@ -195,8 +204,9 @@ int main(int argc, char** argv) try {
   Run run(options, *hand);
   const pid_t child = started(options);
   signal(SIGINT, SIG_IGN);  // handled by the command, whose exit ends this program
-  const int status = run_beside(run, child);
-  std::cerr << "emulated_phantom: " << run.reports() << " reports sent, " << run.commands() << " commands taken\n";
+  const int status = run_beside(run, child, options.signal);
+  std::cerr << "emulated_phantom: " << run.reports() << " reports sent, " << run.commands()
+            << " commands taken, the last for " << run.commanded_force() << " N\n";
   return status;
 } catch (const UsageError& error) {
   std::cerr << "emulated_phantom: " << error.what() << "\n" << usage;

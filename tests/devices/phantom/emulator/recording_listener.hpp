@@ -17,7 +17,10 @@ class RecordingListener final : public calligraphy::phantom::LinkListener {
  public:
   using Fault = calligraphy::DeviceFault;
 
+  std::span<const std::byte> stop_packet() const noexcept override { return std::as_bytes(std::span(to_stop)); }
+
   void received(std::span<const std::byte> bytes) noexcept override {
+    if (on_packet) on_packet();
     const std::lock_guard<std::mutex> alone(mutex_);
     packets_.emplace_back();
     for (const std::byte byte : bytes) packets_.back().push_back(std::to_integer<std::uint8_t>(byte));
@@ -56,7 +59,9 @@ class RecordingListener final : public calligraphy::phantom::LinkListener {
     return changes_;
   }
 
-  std::function<void(Fault)> on_change;  ///< set before the link is opened
+  std::function<void(Fault)> on_change;  ///< set before the link is opened, as are the following
+  std::function<void()> on_packet;
+  Octets to_stop;  ///< the stop packet
 
  private:
   bool wait(const std::function<bool()>& reached) const {

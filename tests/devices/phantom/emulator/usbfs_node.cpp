@@ -185,6 +185,8 @@ UsbfsNode::Reply UsbfsNode::answer(UMockdevIoctlClient* client) {
       return release(client, static_cast<int>(read_as<unsigned>(data.get())));
     case USBDEVFS_IOCTL:
       return drive(read_as<usbdevfs_ioctl>(data.get()));
+    case USBDEVFS_BULK:
+      return transfer(data.get());
     case USBDEVFS_SETINTERFACE:
     case USBDEVFS_SETCONFIGURATION:
       return {};
@@ -269,6 +271,17 @@ UsbfsNode::Reply UsbfsNode::submit(UMockdevIoctlClient* client) {
   finish(std::move(transfer), status);
   show_state();
   return {};
+}
+
+/// A transfer to the device that the caller waits for.
+UsbfsNode::Reply UsbfsNode::transfer(UMockdevIoctlData* data) {
+  const auto request = read_as<usbdevfs_bulktransfer>(data);
+  Transfer transfer;
+  transfer.request = {USBDEVFS_URB_TYPE_BULK, static_cast<unsigned char>(request.ep), static_cast<int>(request.len)};
+  transfer.buffer = pointed_to(data, offsetof(usbdevfs_bulktransfer, data), request.len);
+  if (inward(transfer.request.type, transfer.request.endpoint)) return {-1, EINVAL};
+  if (!takes(transfer)) return {-1, ETIMEDOUT};
+  return transfer.status == 0 ? Reply{transfer.length, 0} : Reply{-1, -transfer.status};
 }
 
 void UsbfsNode::control(Transfer& transfer) {

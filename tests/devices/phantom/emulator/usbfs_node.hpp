@@ -61,6 +61,7 @@ class UsbfsNode {
   Reply claim(UMockdevIoctlClient* client, int interface, bool take_from_driver);
   Reply release(UMockdevIoctlClient* client, int interface);
   Reply drive(const usbdevfs_ioctl& request);
+  Reply transfer(UMockdevIoctlData* data);
   void control(Transfer& transfer);
   bool device_request(Transfer& transfer, const Octets& setup);
   bool takes(Transfer& transfer);

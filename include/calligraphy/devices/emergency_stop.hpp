@@ -1,0 +1,58 @@
+// Emergency stop: zero force on every open device when the program ends, however it ends.
+#pragma once
+
+#include <cstddef>
+
+namespace calligraphy {
+
+class HapticDevice;
+
+/// Calls emergency_stop() when the program ends: at exit() and quick_exit(), at std::terminate() (an uncaught
+/// exception), and at SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGTSTP (Ctrl-Z), SIGSEGV, SIGBUS, SIGFPE, SIGILL and SIGABRT,
+/// as far as the system has them. What was installed before is called afterwards, and a signal without a handler still
+/// ends (or suspends) the program: exit codes and core dumps stay as they were. A signal that is ignored stays ignored.
+///
+/// Call it once, at the start of main() and after the program has installed its own handlers; further calls do nothing.
+/// A handler that is installed later replaces it and should call emergency_stop() itself. Nothing can run at SIGKILL,
+/// SIGSTOP, _exit() or a power failure: only the device's own watchdog remains (HapticDevice::warnings()).
+void install_emergency_stop();
+
+/// Takes the force from every open device at once, without a ramp, and keeps it at zero: from here on every Servo
+/// writes zero. Returns when the devices have it: after a few milliseconds, at most 0.1 s more for each device or loop
+/// whose own thread does not answer. Async-signal-safe; callable from any thread.
+void emergency_stop() noexcept;
+
+/// Whether emergency_stop() was called and the force has not been permitted again.
+bool emergency_stopped() noexcept;
+
+/// Permits forces again; a running servo loop ramps up from zero. Not for use in a signal handler.
+void clear_emergency_stop() noexcept;
+
+/// Enters an object into the table of what emergency_stop() stops, for as long as the entry lives. Constructing and
+/// removing it must not be done in a signal handler; both are thread-safe.
+class EmergencyStopEntry {
+ public:
+  using Stop = void (*)(void* object) noexcept;
+
+  /// Entries at a time, in the whole program.
+  static constexpr std::size_t max_entries = 256;
+
+  /// Calls HapticDevice::cut_force(). Make it the last member of the device's class, so that it is removed first.
+  /// @throws DeviceError when there are `max_entries` already
+  explicit EmergencyStopEntry(HapticDevice& device);
+  /// `stop` must be async-signal-safe and return within 0.1 s. @throws as above
+  EmergencyStopEntry(void* object, Stop stop);
+  ~EmergencyStopEntry() { remove(); }
+  EmergencyStopEntry(const EmergencyStopEntry&) = delete;
+  EmergencyStopEntry& operator=(const EmergencyStopEntry&) = delete;
+
+  /// Afterwards the object is not stopped any more; waits for an emergency stop that is under way in another thread.
+  void remove() noexcept;
+
+ private:
+  static constexpr std::size_t none = max_entries;
+
+  std::size_t slot_ = none;
+};
+
+}  // namespace calligraphy

@@ -1,0 +1,44 @@
+#include "stop_key.hpp"
+
+#include <poll.h>
+#include <unistd.h>
+
+namespace calligraphy::tools {
+namespace {
+
+constexpr char escape = 0x1B;
+
+}  // namespace
+
+StopKey::StopKey() {
+  // A program in the background would be stopped if it changed the terminal.
+  if (tcgetattr(STDIN_FILENO, &before_) != 0 || tcgetpgrp(STDIN_FILENO) != getpgrp()) return;
+  termios keys = before_;
+  keys.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
+  keys.c_cc[VMIN] = 1;
+  keys.c_cc[VTIME] = 0;
+  entry_.emplace(this, restore);
+  if (tcsetattr(STDIN_FILENO, TCSANOW, &keys) != 0) entry_.reset();
+}
+
+StopKey::~StopKey() {
+  if (entry_) restore(this);
+}
+
+void StopKey::look() noexcept {
+  if (!entry_) return;
+  pollfd terminal{STDIN_FILENO, POLLIN, 0};
+  char key = 0;
+  while (poll(&terminal, 1, 0) == 1 && (terminal.revents & POLLIN) != 0 && read(STDIN_FILENO, &key, 1) == 1) {
+    if (key != ' ' && key != escape) continue;
+    emergency_stop();
+    pressed_ = true;
+  }
+}
+
+/// Async-signal-safe: tcsetattr() is.
+void StopKey::restore(void* self) noexcept {
+  tcsetattr(STDIN_FILENO, TCSANOW, &static_cast<const StopKey*>(self)->before_);
+}
+
+}  // namespace calligraphy::tools
