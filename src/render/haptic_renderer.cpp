@@ -29,8 +29,8 @@ constexpr double max_tick = 0.1;
 /// For how long the force is held while samples are stale, as a servo does [s].
 constexpr double max_hold = 4e-3;
 
-/// Faster pens, and larger changes of their velocity in a tick, are faults rather than motions of a hand: the force does
-/// not follow them at once [m/s].
+/// Faster pens, and larger changes of their velocity in a tick, are faults rather than motions of a hand: the force
+/// does not follow them at once [m/s].
 constexpr double fastest_followed = 2.0, largest_kick = 0.2;
 
 /// Force of passivity control for one step of the encoder within a tick [N].
@@ -40,7 +40,8 @@ constexpr double largest_click = 0.1;
 /// holds does not coast on.
 constexpr double free_share = 0.15;
 
-/// A closest point counts as an end of the stroke where the pen is this far from its normal, as a share of the distance.
+/// A closest point counts as an end of the stroke where the pen is this far from its normal, as a share of the
+/// distance.
 constexpr double oblique_share = 0.2, oblique_slack = 1e-5;
 
 void require_valid(const PlacedCharacter& placed, std::size_t index) {
@@ -194,8 +195,8 @@ const HapticTick& HapticRenderer::update(const DeviceState& state) noexcept {
   return tick_;
 }
 
-/// The account of energy sees the force at work and for how long: behind a servo it may be less than the one sent, and a
-/// loop may have paused.
+/// The account of energy sees the force at work and for how long: behind a servo it may be less than the one sent, and
+/// a loop may have paused.
 void HapticRenderer::hear_force(const DeviceState& state) noexcept {
   int ticks = 1;
   if (has_sample_ && state.status == DeviceStatus::ok) {
@@ -415,8 +416,7 @@ Point HapticRenderer::guidance_force() noexcept {
     if (options_.assist.enabled) measure_error();
   } else if (options_.guide_to_start && tick_.state == InteractionState::calibration && may_start()) {
     share = tick_.assistance;
-    tick_.attraction =
-        attraction_force(options_.guidance_stiffness * share, tip, active_.start(), options_.force_sign);
+    tick_.attraction = attraction_force(options_.guidance_stiffness * share, tip, active_.start(), options_.force_sign);
   } else if (tick_.state == InteractionState::separation) {
     return Point::Zero();
   } else {
@@ -430,8 +430,7 @@ Point HapticRenderer::guidance_force() noexcept {
   }
   const Point velocity = velocity_.velocity().head<2>();
   const Point across = share * damped(velocity);
-  tick_.viscous.head<2>() =
-      -options_.guidance_damping * (across + free_share * (velocity - across));
+  tick_.viscous.head<2>() = -options_.guidance_damping * (across + free_share * (velocity - across));
   return fade(tick_.attraction + tick_.wrong_way + tick_.viscous.head<2>());
 }
 
@@ -488,7 +487,8 @@ void HapticRenderer::send(const Eigen::Vector3d& wanted) noexcept {
     longest = std::min(longest, passivity_.max_force());
   }
   const bool trusted = tick_.status == TickStatus::ok || (tick_.status == TickStatus::stale && norm(wanted) > 0.0);
-  tick_.page_force = trusted ? limiter_.next(tick_.page_force, force, allowance(), longest) : limiter_.release(tick_.page_force);
+  tick_.page_force =
+      trusted ? limiter_.next(tick_.page_force, force, allowance(), longest) : limiter_.release(tick_.page_force);
   if (observes_energy_) passivity_.sent(tick_.page_force);
   if (thermal_.peak > 0.0) {
     thermal_.held(norm(tick_.page_force), period_);
@@ -514,16 +514,15 @@ ForceAllowance HapticRenderer::allowance() const noexcept {
   const double fastest = fastest_followed * mapping_.scale, furthest = fastest * period_;
   const double hardest = largest_kick * mapping_.scale;
   const Eigen::Vector3d kick = velocity_.velocity() - last_velocity_;
-  return allowance_for(
-      {std::min(motion_.head<2>().norm(), furthest), std::min(std::abs(motion_.z()), furthest)},
-      {std::min(kick.head<2>().norm(), hardest), std::min(std::abs(kick.z()), hardest)},
-      std::min(std::abs(velocity_.velocity().z()), fastest));
+  return allowance_for({std::min(motion_.head<2>().norm(), furthest), std::min(std::abs(motion_.z()), furthest)},
+                       {std::min(kick.head<2>().norm(), hardest), std::min(std::abs(kick.z()), hardest)},
+                       std::min(std::abs(velocity_.velocity().z()), fastest));
 }
 
 Eigen::Vector3d HapticRenderer::control_passivity(const Eigen::Vector3d& wanted) noexcept {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   const bool known = tick_.status == TickStatus::ok;
-  Eigen::Vector3d force = 
+  Eigen::Vector3d force =
       passivity_.next(known ? last_position_ : Eigen::Vector3d(unknown, unknown, unknown), wanted, tick_.viscous);
   // Paper does not pull, however fast the pen is lifted.
   if (wanted.z() >= 0.0) force.z() = std::max(0.0, force.z());

@@ -20,7 +20,7 @@ constexpr double strongest_brake = 0.1;  ///< with an exhausted budget [N]
 constexpr double faintest_brake = 0.01;  ///< with an overdrawn one [N]
 constexpr double slow_pen = 0.01;        ///< speed at which half of the brake acts [m/s]
 
-constexpr double viscous_share = 0.15;   ///< of a force that the budget limits, for damping
+constexpr double viscous_share = 0.15;  ///< of a force that the budget limits, for damping
 
 /// Damping [N s/m] that dissipates `surplus` [J] within one period; `square` is the squared step of that period [m^2].
 double damping_for(double surplus, double square, double period, double most) noexcept {

@@ -51,8 +51,10 @@ double without_last_bits(double stiffness) { return static_cast<float>(stiffness
 class Limits {
  public:
   Limits(const RendererOptions& options, const Capabilities& capabilities, double scale)
-      : square_(scale * scale), is_off_(options.stiffness_check == StiffnessCheck::off),
-        cutoff_(options.velocity_cutoff), usable_(usable_stiffness(is_off_ ? Capabilities() : capabilities)) {
+      : square_(scale * scale),
+        is_off_(options.stiffness_check == StiffnessCheck::off),
+        cutoff_(options.velocity_cutoff),
+        usable_(usable_stiffness(is_off_ ? Capabilities() : capabilities)) {
     loop_.device = capabilities;
     loop_.device.apparent_mass = capabilities.apparent_mass > 0.0 ? capabilities.apparent_mass : presumed_mass;
     loop_.rate = options.servo_rate;
@@ -176,7 +178,8 @@ std::vector<std::string> clip_stiffness(RendererOptions& options, const Capabili
     const double best = limits.best_damping(damping, stiffness, beside);
     if (best == damping) return;
     std::ostringstream message;
-    message << name << " = " << damping << " N s/m: at the lag of this loop " << best << " N s/m permit a higher stiffness";
+    message << name << " = " << damping << " N s/m: at the lag of this loop " << best
+            << " N s/m permit a higher stiffness";
     clipped.push_back(message.str());
     damping = best;
   };

@@ -24,7 +24,7 @@ constexpr const char* usage =
     "       guidance_sweep --issue                                              named cases that were once unstable\n";
 
 struct Group {
-  int cases = 0, refused = 0, failed = 0, failed_by_letter = 0;
+  int cases = 0, refused = 0, failed = 0, later = 0, failed_by_letter = 0;
   int quick = 0, soft = 0;  ///< with delay <= 1 and rate >= 1 kHz: all, and those refused or clipped below 150 N/m
   double motion_excess = 0.0, force = 0.0;
 
@@ -32,6 +32,7 @@ struct Group {
     ++cases;
     refused += result.refused;
     failed += result.fails();
+    later += result.fails_later;
     failed_by_letter += result.fails_by_letter();
     if (drawn.device.sample_delay <= 1 && drawn.device.update_rate >= 1000.0) {
       ++quick;
@@ -43,8 +44,9 @@ struct Group {
 };
 
 void print_row(const std::string& name, const Group& group) {
-  std::printf("%-26s %6d %7d %6d %10d %6d %6d %9.2f %7.2f\n", name.c_str(), group.cases, group.refused, group.failed,
-              group.failed_by_letter, group.quick, group.soft, 1e3 * group.motion_excess, group.force);
+  std::printf("%-26s %6d %7d %6d %6d %10d %6d %6d %9.2f %7.2f\n", name.c_str(), group.cases, group.refused,
+              group.failed, group.later, group.failed_by_letter, group.quick, group.soft, 1e3 * group.motion_excess,
+              group.force);
 }
 
 std::string quoted(const std::string& text) {
@@ -65,10 +67,11 @@ void write_json(const std::string& path, std::uint64_t seed, const std::map<std:
   const char* comma = "";
   for (const auto& [name, group] : groups) {
     std::fprintf(file,
-                 "%s\n  %s: {\"cases\": %d, \"refused\": %d, \"failed\": %d, \"failed_by_letter\": %d, \"quick\": %d, "
+                 "%s\n  %s: {\"cases\": %d, \"refused\": %d, \"failed\": %d, \"failed_later\": %d, "
+                 "\"failed_by_letter\": %d, \"quick\": %d, "
                  "\"soft\": %d, \"motion_excess\": %.6g, \"force\": %.6g}",
-                 comma, quoted(name).c_str(), group.cases, group.refused, group.failed, group.failed_by_letter,
-                 group.quick, group.soft, group.motion_excess, group.force);
+                 comma, quoted(name).c_str(), group.cases, group.refused, group.failed, group.later,
+                 group.failed_by_letter, group.quick, group.soft, group.motion_excess, group.force);
     comma = ",";
   }
   std::fprintf(file, "\n},\n\"failures\": [");
@@ -118,15 +121,16 @@ int sweep(std::uint64_t seed, int count, int threads, const std::string& json) {
                   describe(drawn).c_str(), describe(results[i]).c_str());
     }
   }
-  std::printf("\n%-26s %6s %7s %6s %10s %6s %6s %9s %7s\n", "", "cases", "refused", "failed", "by letter", "quick",
-              "soft", "worst mm", "worst N");
+  std::printf("\n%-26s %6s %7s %6s %6s %10s %6s %6s %9s %7s\n", "", "cases", "refused", "failed", "later", "by letter",
+              "quick", "soft", "worst mm", "worst N");
   for (const auto& [name, group] : groups) print_row(name, group);
   for (const auto& [name, group] : disturbances) print_row(name, group);
   for (const auto& [name, group] : hands) print_row(name, group);
   print_row("all", all);
   std::printf(
       "by letter: beyond the twin by 0.5 mm or 0.2 N peak to peak, 1.5 to 2.5 s after the disturbance, or much faster; "
-      "failed:\nthe force beyond the stiffness times the twin's motion, and motion only where any force acts; quick: "
+      "failed:\nthe force beyond the stiffness times the twin's motion, and motion only where any force acts; later: "
+      "of these, 5 to 6 s after too; quick: "
       "delay "
       "at most 1 and\nrate at least 1 kHz; soft: of these, refused or clipped below 150 N/m\n");
   if (!json.empty()) write_json(json, seed, groups, results);

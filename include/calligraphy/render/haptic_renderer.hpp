@@ -89,10 +89,10 @@ class HapticRenderer {
   MotionMapping mapping_;
   RendererOptions options_;
   std::vector<std::string> clipped_;
-  double period_ = 0.001;         ///< [s]
-  double max_guidance_ = 0.0;     ///< stiffness, attraction factor included [N/m, page]
-  double max_attraction_ = 1.0;   ///< on the page
-  double rate_filter_ = 1.0;      ///< coefficient of the low-pass on the rate of the friction spring
+  double period_ = 0.001;        ///< [s]
+  double max_guidance_ = 0.0;    ///< stiffness, attraction factor included [N/m, page]
+  double max_attraction_ = 1.0;  ///< on the page
+  double rate_filter_ = 1.0;     ///< coefficient of the low-pass on the rate of the friction spring
   ForceLimiter limiter_;
   double fade_step_ = 1.0;  ///< per tick
   bool observes_energy_ = false;
@@ -102,11 +102,11 @@ class HapticRenderer {
 
   ActiveStroke active_;
   HapticTick tick_;
-  VelocityEstimator velocity_;                                  ///< of the pen [m/s, page]
-  Eigen::Vector3d last_velocity_ = Eigen::Vector3d::Zero();     ///< estimate of the tick before [m/s, page]
-  Eigen::Vector3d motion_ = Eigen::Vector3d::Zero();            ///< since the sample before [m, page]
-  Point friction_spring_ = Point::Zero();                       ///< force of the tick before [N, page]
-  Point friction_rate_ = Point::Zero();                         ///< its filtered change [N/s, page]
+  VelocityEstimator velocity_;                               ///< of the pen [m/s, page]
+  Eigen::Vector3d last_velocity_ = Eigen::Vector3d::Zero();  ///< estimate of the tick before [m/s, page]
+  Eigen::Vector3d motion_ = Eigen::Vector3d::Zero();         ///< since the sample before [m, page]
+  Point friction_spring_ = Point::Zero();                    ///< force of the tick before [N, page]
+  Point friction_rate_ = Point::Zero();                      ///< its filtered change [N/s, page]
   Point fade_from_ = Point::Zero();  ///< in-plane force at the last jump of the closest point [N, page]
   double faded_ = 0.0;               ///< progress of the fade-in since that jump, 0 to 1
   double error_square_ = 0.0;        ///< squared lateral error, integrated along the path on the active stroke [m^3]

@@ -17,9 +17,9 @@ enum class FrictionModel {
 
 struct FrictionOptions {
   FrictionModel model = FrictionModel::breakaway;
-  double coefficient = 0.0;    ///< mu, tangential over normal force; 0: no friction [1]
-  double stiffness = 500.0;    ///< of the spring between pen and anchor [N/m]
-  double damping = 2.5;        ///< of that spring: none while the anchor slides along with the pen [N s/m]
+  double coefficient = 0.0;  ///< mu, tangential over normal force; 0: no friction [1]
+  double stiffness = 500.0;  ///< of the spring between pen and anchor [N/m]
+  double damping = 2.5;      ///< of that spring: none while the anchor slides along with the pen [N s/m]
 };
 
 /// Computes the friction force on the pen. Never allocates.

@@ -35,13 +35,14 @@ struct PassivityOptions {
 /// Budget: with E of the budget left, a force is limited to what cannot use up E before the next sample is known:
 /// F v t + (F t)^2 / (2 m) <= E, with v = hand_speed, or the pen's own speed if that is higher, and t = max_gap plus a
 /// period; for the path of a pen that the hand moves at v while the force accelerates it for that time. Forces whose
-/// work no sample has shown yet are charged likewise. Energy that the hand returns is added to E, up to the budget. Where
-/// less than 0.1 N is left by this rule, that is a brake against the motion, of 0.01 N at least, so that the pen returns
-/// energy. The true net energy never exceeds the budget, whatever the field, as long as
+/// work no sample has shown yet are charged likewise. Energy that the hand returns is added to E, up to the budget.
+/// Where less than 0.1 N is left by this rule, that is a brake against the motion, of 0.01 N at least, so that the pen
+/// returns energy. The true net energy never exceeds the budget, whatever the field, as long as
 /// - a downstream stage does not lengthen a force, and reports the one that it changes (acted());
 /// - no hand moves the pen faster than `hand_speed`, and no gap is longer than `max_gap`: a longer one of t seconds may
 ///   deliver |F| v t, which is repaid before more is given;
-/// - each sample is `delay` ticks old, or known to be lost, or more than 10 m/s away (then the pen is elsewhere). With an
+/// - each sample is `delay` ticks old, or known to be lost, or more than 10 m/s away (then the pen is elsewhere). With
+/// an
 ///   encoder of resolution D, at most D / 2 times the sum of all changes of the force is not observed.
 class PassivityController {
  public:

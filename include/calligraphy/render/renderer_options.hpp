@@ -91,8 +91,8 @@ struct RendererOptions {
   /// damping no stiffness is stable in every hand, so stiffness_check is off.
   static RendererOptions wang2006();
 
-  /// The defaults at the device's update rate, with stiffnesses clipped to what is usable and stable on it, for any page:
-  /// stiffness_check is clip.
+  /// The defaults at the device's update rate, with stiffnesses clipped to what is usable and stable on it, for any
+  /// page: stiffness_check is clip.
   static RendererOptions for_device(const Capabilities& capabilities);
 
   /// for_device() with the optional stages: friction, guidance for large deviations, assistance as needed; an energy
@@ -101,11 +101,11 @@ struct RendererOptions {
   static RendererOptions everything(const Capabilities& capabilities);
 };
 
-/// Clips the stiffnesses to the device's usable stiffness, where it states one, and to what is stable in any hand on it at
-/// the options' rate, damping and filter and the device's sample delay (stiffness_for_any_hand()); a damping that is too
-/// strong for that lag is lowered too. A device of unknown mass is taken to weigh 20 g. The friction spring counts in
-/// addition to guidance. With a motion scale K_S (MotionMapping) a stiffness counts K_S^2 times, which is what the device
-/// renders, and so does a damping.
+/// Clips the stiffnesses to the device's usable stiffness, where it states one, and to what is stable in any hand on it
+/// at the options' rate, damping and filter and the device's sample delay (stiffness_for_any_hand()); a damping that is
+/// too strong for that lag is lowered too. A device of unknown mass is taken to weigh 20 g. The friction spring counts
+/// in addition to guidance. With a motion scale K_S (MotionMapping) a stiffness counts K_S^2 times, which is what the
+/// device renders, and so does a damping.
 /// @return what was clipped, each with its reason
 /// @throws ValueError naming the option when a stiffness or a damping is negative or not finite, or the rate or the
 /// cut-off frequency is not above 0

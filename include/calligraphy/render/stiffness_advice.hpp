@@ -32,15 +32,15 @@ void validate(const SampledLoop& loop);
 double critical_stiffness(const SampledLoop& loop);
 
 /// Maximum stiffness, up to `most` [N/m], of a spring with `loop.wall_damping` that keeps the pen damped in every hand:
-/// nobody, or any mass up to 0.3 kg, with any damping and a stiffness of up to 1,000 N/m. The damper acts on the backward
-/// difference of the samples behind a first-order low-pass at `velocity_cutoff` [Hz] (VelocityEstimator). `loop.grip` is
-/// not used. 0 when the damper alone is too strong for the loop's lag, or too weak.
+/// nobody, or any mass up to 0.3 kg, with any damping and a stiffness of up to 1,000 N/m. The damper acts on the
+/// backward difference of the samples behind a first-order low-pass at `velocity_cutoff` [Hz] (VelocityEstimator).
+/// `loop.grip` is not used. 0 when the damper alone is too strong for the loop's lag, or too weak.
 ///
-/// The criterion, derived in docs/stability.md: H(jw), the spring and the damper as the pen feels them through sampling,
-/// delay, filter and zero-order hold, plus the device's own b jw, has a phase of at least 0.15 rad at every frequency w at
-/// which a mass from the device's to 0.3 kg more resonates with it, m w^2 = Re H: the damping ratio is then at least
-/// 0.075. It also makes an oscillation of the device alone decay at 3 /s or faster. The spring may be weakened at any
-/// time (saturation, fading, assistance).
+/// The criterion, derived in docs/stability.md: H(jw), the spring and the damper as the pen feels them through
+/// sampling, delay, filter and zero-order hold, plus the device's own b jw, has a phase of at least 0.15 rad at every
+/// frequency w at which a mass from the device's to 0.3 kg more resonates with it, m w^2 = Re H: the damping ratio is
+/// then at least 0.075. It also makes an oscillation of the device alone decay at 3 /s or faster. The spring may be
+/// weakened at any time (saturation, fading, assistance).
 /// @throws ValueError as validate(), or naming velocity_cutoff unless it is above 0
 double stiffness_for_any_hand(const SampledLoop& loop, double velocity_cutoff, double most);
 

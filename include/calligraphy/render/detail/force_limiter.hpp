@@ -18,9 +18,9 @@ struct ForceAllowance {
 /// The target is scaled down to `peak`, preserving its direction. In each tick the force moves towards it by at most
 /// `in_plane_step` in the paper plane and `normal_step` along z, and further by the allowance: what the springs and
 /// dampers change because the pen has moved. While nothing but the pen moves, the distance from the target therefore
-/// never grows, and it shrinks by the steps: a target that jumps is approached at the limited rate, and followed without
-/// lag once it is reached. A limiter without the allowance lags behind a spring, and a lagging spring drives the pen
-/// (docs/stability.md).
+/// never grows, and it shrinks by the steps: a target that jumps is approached at the limited rate, and followed
+/// without lag once it is reached. A limiter without the allowance lags behind a spring, and a lagging spring drives
+/// the pen (docs/stability.md).
 ///
 /// An earlier stage may request a limit below `peak` for one tick; it takes effect at once.
 struct ForceLimiter {
@@ -33,7 +33,8 @@ struct ForceLimiter {
 
   /// Of a pen at rest [N].
   double max_step() const noexcept;
-  /// The next force from `previous` towards `target`, at most `max_length` long [N, page axes]. `target` must be finite.
+  /// The next force from `previous` towards `target`, at most `max_length` long [N, page axes]. `target` must be
+  /// finite.
   Eigen::Vector3d next(const Eigen::Vector3d& previous, const Eigen::Vector3d& target,
                        const ForceAllowance& allowance = {}, double max_length = no_limit) const noexcept;
   /// The next force from `previous` straight to zero, by max_step() per tick: for when the device cannot be trusted.
