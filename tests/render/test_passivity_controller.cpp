@@ -79,13 +79,13 @@ struct Setting {
   int delay = 0;
   double budget = 0.01;
   bool limited = true;         ///< a force limiter follows
-  double share_of_lost = 0.0;  ///< fraction of the samples, at most 4 ms in a row; the force is released meanwhile
-  double share_of_stale = 0.0; ///< likewise, and the force is held meanwhile
+  double share_of_lost = 0.0;  ///< fraction of the samples, at most 16 ms in a row; the force is released meanwhile
+  double share_of_stale = 0.0;  ///< likewise, while the field asks for more of the last force
   double share_of_gaps = 0.0;  ///< fraction of the ticks after which the loop pauses for up to max_gap
   bool guarded = false;        ///< a later stage scales the force down at random, in the midst of gaps too
 };
 
-constexpr double force_rate = 100.0, peak = 3.3, hand_speed = 2.0, max_gap = 0.016, unseen_for = 0.004;
+constexpr double force_rate = 100.0, peak = 3.3, hand_speed = 2.0, max_gap = 0.016;
 
 /// Maximum energy that the force has delivered at any tick to a pen on a prescribed path, relative to the budget: true
 /// work of the force that acts, whatever the controller was told.
@@ -114,12 +114,12 @@ double max_given(const Setting& setting, const Pen& pen, const Field& field, dou
   for (int i = 0; i < static_cast<int>(seconds * setting.rate); i += passed) {
     if (i > 0) passivity.acted(acted, passed);
     const double kind = random.next();
-    const bool may_fail = (unseen + 1) * period <= unseen_for && i > 0;
+    const bool may_fail = (unseen + 1) * period <= max_gap && i > 0;
     const bool is_lost = may_fail && kind < setting.share_of_lost;
     const bool is_stale = may_fail && !is_lost && kind < setting.share_of_lost + setting.share_of_stale;
     if (is_lost || is_stale) {
       ++unseen;
-      const Vector3d wanted = passivity.next(lost, is_stale ? sent : Vector3d(0, 0, 0));
+      const Vector3d wanted = passivity.next(lost, is_stale ? Vector3d(3.0 * sent) : Vector3d(0, 0, 0));
       sent = is_stale ? limiter.next(sent, wanted, {}, passivity.max_force()) : limiter.release(sent);
     } else {
       unseen = 0;
