@@ -324,6 +324,13 @@ TEST_CASE("every spring is held to what is stable in any hand, rejected above wi
   CHECK(max_guidance_stiffness(options, device) < 0.9 * most);
 }
 
+TEST_CASE("on a page with a motion scale stiffness and damping count as the device renders them", "[render]") {
+  const Capabilities device = light_device(0.045, 1);
+  RendererOptions options;
+  options.guidance_damping = 1.0;
+  CHECK(max_guidance_stiffness(options, device, 2.0) == Approx(bound(device, 4.0) / 4.0).epsilon(1e-6));
+}
+
 TEST_CASE("a device of unknown mass is taken to weigh 20 g", "[render]") {
   for (const int delay : {0, 2}) {
     const double unknown = max_guidance_stiffness({}, light_device(0.0, delay));
@@ -533,8 +540,8 @@ TEST_CASE("however a pen at rest came there, its force changes by at most 0.41 N
         pen.go(calligraphy_test::at(start, 0.01));
         pen.go(calligraphy_test::at(start, -depth));
         pen.go(calligraphy_test::at(start + Point(0.003, 0.004), -depth));
-        // At rest from here on; after 20 ticks the velocity filter has forgotten that it moved.
-        for (int i = 0; i < 20; ++i) pen.at(calligraphy_test::at(start + Point(0.003, 0.004), -depth));
+        // At rest from here on; after 60 ticks the velocity filter has forgotten that it moved.
+        for (int i = 0; i < 60; ++i) pen.at(calligraphy_test::at(start + Point(0.003, 0.004), -depth));
         pen.max_step = 0.0;
         DeviceState faulty;
         faulty.status = DeviceStatus::fault;
