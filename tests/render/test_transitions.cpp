@@ -57,6 +57,93 @@ TEST_CASE("a pen that chatters at the paper surface changes its state once", "[r
   CHECK(result.max_unexplained <= 1e-12);
 }
 
+namespace {
+
+/// A pen in the middle of the first stroke of 三.
+struct InStroke {
+  HapticRenderer renderer;
+  ScriptedPen pen;
+  Point place;
+  int abandoned = 0, lifts = 0;
+
+  explicit InStroke(const RendererOptions& options = {})
+      : renderer({placed(U'三')}, {}, test_device(), options), pen(renderer, options.servo_rate) {
+    const Stroke first = strokes(renderer.page()[0].character)[0];
+    const Placement& page = renderer.page()[0].placement;
+    const Point start = page.to_page(first.control_points[0]);
+    place = start + 0.4 * (page.to_page(first.control_points[1]) - start);
+    pen.go(at(start, 0.005));
+    pen.go(at(start, -0.002));
+    pen.go(at(place, -0.002));
+    pen.on_tick = [this](const HapticTick& tick) {
+      abandoned += has_event(tick.events, TickEvent::stroke_abandoned);
+      lifts += has_event(tick.events, TickEvent::lift);
+    };
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a pen that bounces on the paper, 1 mm high for 20 ms, keeps its stroke", "[render]") {
+  InStroke test;
+  for (int bounce = 0; bounce < 20; ++bounce) {
+    for (int i = 0; i < 20; ++i) test.pen.at(at(test.place, 0.001));
+    CHECK(test.renderer.last().state == InteractionState::writing);
+    CHECK(test.renderer.last().normal == 0.0);
+    for (int i = 0; i < 5; ++i) test.pen.at(at(test.place, -0.001));
+  }
+  CHECK(test.lifts == 0);
+  CHECK(test.abandoned == 0);
+  CHECK(test.renderer.last().state == InteractionState::writing);
+}
+
+TEST_CASE("a pen 5 mm above the paper is lifted at once", "[render]") {
+  InStroke test;
+  int too_early = 0, too_late = 0;
+  test.pen.on_tick = [&](const HapticTick& tick) {
+    const bool lifted = tick.state == InteractionState::separation;
+    too_early += lifted && tick.device_point.z() < 0.003 - 1e-9;
+    too_late += !lifted && tick.device_point.z() > 0.003 + 1e-9;
+    test.abandoned += has_event(tick.events, TickEvent::stroke_abandoned);
+  };
+  test.pen.speed = 0.5;  // 10 ms from the paper to 5 mm above it
+  test.pen.go(at(test.place, 0.005));
+  CHECK(test.renderer.last().state == InteractionState::separation);
+  CHECK(too_early == 0);
+  CHECK(too_late == 0);
+  CHECK(test.abandoned == 1);
+}
+
+TEST_CASE("a pen that hovers 1 mm above the paper is lifted after 50 ms, at any rate", "[render]") {
+  for (const double rate : {500.0, 1000.0, 4000.0}) {
+    RendererOptions options;
+    options.servo_rate = rate;
+    options.stiffness_check = StiffnessCheck::clip;
+    InStroke test(options);
+    int ticks = 0;
+    while (test.lifts == 0 && ticks < 10'000) {
+      test.pen.at(at(test.place, 0.001));
+      ++ticks;
+    }
+    CAPTURE(rate);
+    CHECK(ticks / rate == Approx(0.05).margin(1.5 / rate));
+    CHECK(test.abandoned == 1);
+    // One that touches the paper again, however slightly, has not been lifted; the time begins anew.
+    InStroke again(options);
+    for (int bounce = 0; bounce < 5; ++bounce) {
+      for (int i = 0; i < static_cast<int>(0.045 * rate); ++i) again.pen.at(at(again.place, 0.001));
+      again.pen.at(at(again.place, 0.0004));  // within lift_height
+    }
+    CHECK(again.lifts == 0);
+  }
+}
+
+TEST_CASE("as printed, a pen above the paper is lifted at once, however little", "[render]") {
+  InStroke test(RendererOptions::wang2006());
+  REQUIRE(test.renderer.last().state == InteractionState::writing);
+  CHECK(test.pen.at(at(test.place, 1e-6)).state == InteractionState::separation);
+}
+
 TEST_CASE("a pen that chatters at the border of the box changes its state once", "[render]") {
   HapticRenderer renderer({placed(U'三')}, {}, test_device());
   const RendererOptions& options = renderer.options();
