@@ -588,7 +588,7 @@ TEST_CASE("behind a guard that halves the force, and pauses, no more than the bu
     most = std::max(most, given);
     place = state.position;
     const HapticTick& tick = renderer.update(state);
-    if (i > 1000) strongest = std::max(strongest, tick.force.norm());
+    strongest = std::max(strongest, tick.force.norm());
     at_work = (random.next() < 0.5 ? 0.5 : 1.0) * tick.force;
   }
   CHECK(most <= options.energy_budget + 0.01 * 2.0 * 0.017);  // and what the faintest brake may give in a pause
