@@ -25,7 +25,8 @@ struct OnStroke {
   Point start, along, left;
   Vector3d place = {0, 0, 0}, place_before = {0, 0, 0};
 
-  explicit OnStroke(const RendererOptions& options = {}) : renderer({placed(U'三')}, {}, test_device(), options) {
+  explicit OnStroke(const RendererOptions& options = {}, const PlacedCharacter& character = placed(U'三'))
+      : renderer({character}, {}, test_device(), options) {
     const Stroke stroke = strokes(renderer.page()[0].character)[0];
     const Placement& place = renderer.page()[0].placement;
     start = place.to_page(stroke.control_points[0]);
@@ -134,6 +135,18 @@ TEST_CASE("the damping of guidance fades with assistance as its spring does", "[
   CHECK(test.against(left) == Approx((assistance + free_share * (1.0 - assistance)) * damping * test.speed()).epsilon(1e-3));
 }
 
+TEST_CASE("a stroke that attracts less damps less, and one that attracts more damps no more", "[render]") {
+  RendererOptions options;
+  options.stiffness_check = StiffnessCheck::clip;
+  for (const double factor : {0.4, 1.5}) {
+    OnStroke test(options, {calligraphy_test::typical_character(1, {factor, factor}), {{0.02, 0.02}, 0.04}});
+    test.go(0.010, 0.004);
+    const double share = std::min(1.0, factor);
+    CHECK(test.against(test.left) ==
+          Approx((share + free_share * (1.0 - share)) * damping * test.speed()).epsilon(1e-3));
+  }
+}
+
 TEST_CASE("the damper of the paper acts along its normal, within the normal force of the tick", "[render]") {
   OnStroke test;
   test.pen.speed = 0.02;
@@ -192,4 +205,17 @@ TEST_CASE("friction is damped where its spring changes, and not where the anchor
   CHECK(test.against(test.along) == Approx(-(free_share * damping + 2.5) * test.speed()).epsilon(1e-3));
   CHECK(test.renderer.last().friction.dot(test.along) ==
         Approx(-0.2 * 1.2 + 500.0 * 0.0006 + 2.5 * test.speed()).epsilon(1e-3));
+}
+
+TEST_CASE("the damping of friction is filtered as that of guidance is", "[render]") {
+  RendererOptions options;
+  options.friction.coefficient = 0.2;
+  OnStroke test(options);
+  test.pen.speed = 0.01;
+  test.go(0.016, 0.0);
+  // A reversal: in its first tick a low-pass at 50 Hz passes 1 - exp(-2 pi 50 Hz 1 ms) of the change.
+  const double speed = test.speed(), passed = 1.0 - std::exp(-0.1 * 3.14159265);
+  test.pen.at(at(test.start + (0.016 - 0.001 * speed) * test.along, -0.002));
+  const double guidance = free_share * damping * (1.0 - 2.0 * passed) * speed;
+  CHECK(test.against(test.along) == Approx(guidance - 2.5 * passed * speed).epsilon(1e-3));
 }
