@@ -89,15 +89,15 @@ class ScriptedPen {
     }
   }
 
-  double max_step = 0.0;   ///< maximum change of the force per tick [N]
+  double max_step = 0.0;  ///< maximum change of the force per tick [N]
   /// By how much that was beyond the rate limits and what springs and dampers change because the pen moves [N].
   double max_unexplained = -std::numeric_limits<double>::infinity();
   double max_force = 0.0;  ///< [N]
   bool finite = true;
 
  private:
-  /// How far the force may change in this tick: K |dx| + B |dv| beyond the rate limits, in the paper plane and along its
-  /// normal, for pens of up to 2 m/s that are kicked by up to 0.2 m/s [N, device].
+  /// How far the force may change in this tick: K |dx| + B |dv| beyond the rate limits, in the paper plane and along
+  /// its normal, for pens of up to 2 m/s that are kicked by up to 0.2 m/s [N, device].
   double explained_step(const HapticTick& tick) {
     const calligraphy::RendererOptions& options = renderer_.options();
     const double scale = renderer_.mapping().scale, period = 1.0 / options.servo_rate;
@@ -122,12 +122,12 @@ class ScriptedPen {
                           (rubs ? options.friction.stiffness : 0.0);
     const double damper = options.guidance_damping + (rubs ? options.friction.damping : 0.0);
     const double furthest = 2.0 * scale * period, hardest = 0.2 * scale;
-    const double in_plane = spring * capped(way.head<2>().norm(), furthest) +
-                            damper * capped(kick.head<2>().norm(), hardest);
+    const double in_plane =
+        spring * capped(way.head<2>().norm(), furthest) + damper * capped(kick.head<2>().norm(), hardest);
     const double entered = std::min(1.0, capped(way.z(), furthest) / 2e-4);  // the depth over which the damper sets in
-    const double normal = options.paper_stiffness * capped(way.z(), furthest) +
-                          options.paper_damping * (capped(kick.z(), hardest) +
-                                                   entered * capped(velocity_.velocity().z(), 2.0 * scale));
+    const double normal =
+        options.paper_stiffness * capped(way.z(), furthest) +
+        options.paper_damping * (capped(kick.z(), hardest) + entered * capped(velocity_.velocity().z(), 2.0 * scale));
     return std::hypot(options.in_plane_force_rate * period + scale * in_plane,
                       options.normal_force_rate * period + scale * normal);
   }

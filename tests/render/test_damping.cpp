@@ -132,7 +132,8 @@ TEST_CASE("the damping of guidance fades with assistance as its spring does", "[
   test.pen.go(at(start, -0.002));
   test.pen.go(at(start + 0.008 * along, -0.002));
   test.pen.go(at(start + 0.008 * along + 0.004 * left, -0.002));
-  CHECK(test.against(left) == Approx((assistance + free_share * (1.0 - assistance)) * damping * test.speed()).epsilon(1e-3));
+  CHECK(test.against(left) ==
+        Approx((assistance + free_share * (1.0 - assistance)) * damping * test.speed()).epsilon(1e-3));
 }
 
 TEST_CASE("a stroke that attracts less damps less, and one that attracts more damps no more", "[render]") {

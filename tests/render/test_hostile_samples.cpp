@@ -214,7 +214,8 @@ TEST_CASE("on a moving pen clocks that stop, run backwards or jump change no sta
         options.guidance_damping = options.paper_damping = 0.0;
         options.stiffness_check = StiffnessCheck::off;
       }
-      HapticRenderer renderer({placed(U'三')}, {}, test_device(), options), other({placed(U'三')}, {}, test_device(), options);
+      HapticRenderer renderer({placed(U'三')}, {}, test_device(), options),
+          other({placed(U'三')}, {}, test_device(), options);
       ScriptedPen pen(renderer);
       double clock = 0.0, difference = 0.0, springs = 0.0, damped = 0.0;
       int states = 0, written = 0;

@@ -179,8 +179,7 @@ TEST_CASE("on a curved path the rates converge, and differ by far less than a ha
     std::vector<Point> forces;
     for (int i = 0; i <= rate; ++i) {
       const double angle = 2.0 * std::numbers::pi * i / rate;
-      const Point force =
-          friction.update(options, {0.005 * std::sin(angle), 0.005 * std::sin(2.0 * angle)}, pressed);
+      const Point force = friction.update(options, {0.005 * std::sin(angle), 0.005 * std::sin(2.0 * angle)}, pressed);
       if (i > 0 && i % (rate / 20) == 0) forces.push_back(force);
     }
     return forces;

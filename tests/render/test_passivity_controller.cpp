@@ -78,11 +78,11 @@ struct Setting {
   double rate = 1000.0;
   int delay = 0;
   double budget = 0.01;
-  bool limited = true;         ///< a force limiter follows
-  double share_of_lost = 0.0;  ///< fraction of the samples, at most 16 ms in a row; the force is released meanwhile
+  bool limited = true;          ///< a force limiter follows
+  double share_of_lost = 0.0;   ///< fraction of the samples, at most 16 ms in a row; the force is released meanwhile
   double share_of_stale = 0.0;  ///< likewise, while the field asks for more of the last force
-  double share_of_gaps = 0.0;  ///< fraction of the ticks after which the loop pauses for up to max_gap
-  bool guarded = false;        ///< a later stage scales the force down at random, in the midst of gaps too
+  double share_of_gaps = 0.0;   ///< fraction of the ticks after which the loop pauses for up to max_gap
+  bool guarded = false;         ///< a later stage scales the force down at random, in the midst of gaps too
 };
 
 constexpr double force_rate = 100.0, peak = 3.3, hand_speed = 2.0, max_gap = 0.016;
@@ -358,7 +358,8 @@ TEST_CASE("the budget holds over gaps of up to max_gap in which the force is hel
   }
 }
 
-TEST_CASE("the budget holds when a later stage weakens the force and reports it, in gaps and between them", "[render]") {
+TEST_CASE("the budget holds when a later stage weakens the force and reports it, in gaps and between them",
+          "[render]") {
   for (const double share_of_gaps : {0.0, 0.2}) {
     for (const int delay : {0, 2, 5}) {
       for (const auto& [name, field] : hostile_fields) {

@@ -346,9 +346,8 @@ TEST_CASE("a damping too strong for the loop's lag is lowered when clipping, and
   CHECK(bound(slow, 20.0) == 0.0);
   CHECK(contains(complaint(options, slow), "paper_damping = 20 N s/m"));
   const std::vector<std::string> clipped = clip_stiffness(options, slow);
-  CHECK(std::count_if(clipped.begin(), clipped.end(), [](const std::string& line) {
-          return contains(line, "_damping = 20 N s/m");
-        }) == 2);
+  CHECK(std::count_if(clipped.begin(), clipped.end(),
+                      [](const std::string& line) { return contains(line, "_damping = 20 N s/m"); }) == 2);
   for (const double damping : {options.paper_damping, options.guidance_damping}) {
     CHECK(damping < 10.0);
     CHECK(bound(slow, damping) > 100.0);

@@ -231,8 +231,8 @@ Eigen::Matrix3d exponential(Eigen::Matrix3d matrix) {
 Eigen::MatrixXd loop_matrix(const SampledLoop& loop, double stiffness, const GripImpedance& hand) {
   const double period = 1.0 / loop.rate, mass = loop.device.apparent_mass + hand.mass;
   const int delay = loop.device.sample_delay;
-  Eigen::Matrix3d motion;  // of position, speed and force
-  motion << 0.0, 1.0, 0.0,                                                                         //
+  Eigen::Matrix3d motion;   // of position, speed and force
+  motion << 0.0, 1.0, 0.0,  //
       -hand.stiffness / mass, -(loop.device.viscous_friction + hand.damping) / mass, 1.0 / mass,  //
       0.0, 0.0, 0.0;
   const Eigen::Matrix3d held = exponential(motion * period);

@@ -16,9 +16,9 @@ using Eigen::Vector3d;
 namespace {
 
 struct Chatter {
-  int changes = 0;   ///< of state
-  int features = 0;  ///< passed
-  int strokes = 0;   ///< started
+  int changes = 0;               ///< of state
+  int features = 0;              ///< passed
+  int strokes = 0;               ///< started
   double max_unexplained = 0.0;  ///< step of the force, beyond what the pen's motion explains [N]
 };
 
