@@ -119,8 +119,9 @@ TEST_CASE("on a missing or faulty device the force ramps down to zero, and does 
       CHECK(test.pen.sample(state_with(test.place, status)).status == TickStatus::device_fault);
     }
     CHECK(test.renderer.last().force == Vector3d(0, 0, 0));
-    test.place += Vector3d(0.003, -0.001, -0.001);
+    test.pen.max_step = 0.0;
     test.rest(100);
+    CHECK(test.pen.max_step <= std::hypot(0.1, 0.4) + 1e-9);  // the pen has not moved meanwhile
     CHECK(test.renderer.last().status == TickStatus::ok);
     CHECK(test.renderer.last().force.norm() > 1.0);
     CHECK(test.pen.max_unexplained <= 1e-12);
