@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <vector>
 
+#include <calligraphy/devices/velocity_estimator.hpp>
 #include <calligraphy/model/character_list.hpp>
 #include <calligraphy/render/haptic_renderer.hpp>
 
@@ -35,7 +37,7 @@ inline Eigen::Vector3d at(const Point& point, double z) { return {point.x(), poi
 class ScriptedPen {
  public:
   explicit ScriptedPen(calligraphy::HapticRenderer& renderer, double rate = 1000.0)
-      : renderer_(renderer), period_(1.0 / rate) {}
+      : renderer_(renderer), period_(1.0 / rate), velocity_(renderer.options().velocity_cutoff) {}
 
   std::function<void(const HapticTick&)> on_tick = [](const HapticTick&) {};
   double speed = 0.1;  ///< [m/s]
@@ -51,10 +53,13 @@ class ScriptedPen {
   const HapticTick& sample(calligraphy::DeviceState state) {
     state.time = time_;
     time_ += period_;
+    sampled_ = state.position;
     const Eigen::Vector3d last = force_;
     const HapticTick& tick = renderer_.update(state);
     force_ = tick.force;
-    max_step = std::max(max_step, (force_ - last).norm());
+    const double step = (force_ - last).norm();
+    max_step = std::max(max_step, step);
+    max_unexplained = std::max(max_unexplained, step - explained_step(tick));
     max_force = std::max(max_force, force_.norm());
     finite = finite && force_.allFinite();
     if (tick.status == calligraphy::TickStatus::ok) position_ = renderer_.mapping().to_page(state.position);
@@ -84,13 +89,56 @@ class ScriptedPen {
     }
   }
 
-  double max_step = 0.0;   ///< maximum change of the force per tick [N]
+  double max_step = 0.0;  ///< maximum change of the force per tick [N]
+  /// By how much that was beyond the rate limits and what springs and dampers change because the pen moves [N].
+  double max_unexplained = -std::numeric_limits<double>::infinity();
   double max_force = 0.0;  ///< [N]
   bool finite = true;
 
  private:
+  /// How far the force may change in this tick: K |dx| + B |dv| beyond the rate limits, in the paper plane and along
+  /// its normal, for pens of up to 2 m/s that are kicked by up to 0.2 m/s [N, device].
+  double explained_step(const HapticTick& tick) {
+    const calligraphy::RendererOptions& options = renderer_.options();
+    const double scale = renderer_.mapping().scale, period = 1.0 / options.servo_rate;
+    Eigen::Vector3d way(0, 0, 0), kick(0, 0, 0);
+    if (tick.status == calligraphy::TickStatus::ok) {
+      const Eigen::Vector3d place = renderer_.mapping().to_page(sampled_), before = velocity_.velocity();
+      velocity_.update(place, seen_ ? std::max(tick.time - seen_at_, period) : period);
+      if (seen_) way = place - seen_place_;
+      kick = velocity_.velocity() - before;
+      seen_ = true;
+      seen_at_ = tick.time;
+      seen_place_ = place;
+    }
+    const auto capped = [](double value, double most) { return std::min(std::abs(value), most); };
+    double attraction = 1.0;
+    for (const calligraphy::PlacedCharacter& placed : renderer_.page()) {
+      const auto& factors = placed.character.physics.attraction_factors;
+      attraction = std::max(attraction, *std::max_element(factors.begin(), factors.end()));
+    }
+    const bool rubs = options.friction.coefficient > 0.0;
+    const double spring = options.guidance_stiffness * attraction + options.wrong_way_stiffness +
+                          (rubs ? options.friction.stiffness : 0.0);
+    const double damper = options.guidance_damping + (rubs ? options.friction.damping : 0.0);
+    const double furthest = 2.0 * scale * period, hardest = 0.2 * scale;
+    const double in_plane =
+        spring * capped(way.head<2>().norm(), furthest) + damper * capped(kick.head<2>().norm(), hardest);
+    const double entered = std::min(1.0, capped(way.z(), furthest) / 2e-4);  // the depth over which the damper sets in
+    const double normal =
+        options.paper_stiffness * capped(way.z(), furthest) +
+        options.paper_damping * (capped(kick.z(), hardest) + entered * capped(velocity_.velocity().z(), 2.0 * scale));
+    return std::hypot(options.in_plane_force_rate * period + scale * in_plane,
+                      options.normal_force_rate * period + scale * normal);
+  }
+
   calligraphy::HapticRenderer& renderer_;
   double period_;
+  calligraphy::VelocityEstimator velocity_;
+  Eigen::Vector3d sampled_ = Eigen::Vector3d::Zero();  ///< position of this sample, as the device returns it
+  bool seen_ = false;
+  double seen_at_ = 0.0;
+  Eigen::Vector3d seen_place_ = Eigen::Vector3d::Zero();
   double time_ = 0.0;
   bool started_ = false;
   Eigen::Vector3d position_ = Eigen::Vector3d::Zero();

@@ -9,6 +9,7 @@
 #include <calligraphy/model/character_set.hpp>
 #include <calligraphy/model/set_encoding.hpp>
 #include <calligraphy/practice/score.hpp>
+#include <calligraphy/render/stiffness_advice.hpp>
 
 #include "../catch.hpp"
 #include "../hard_cases.hpp"
@@ -40,10 +41,11 @@ double max_step(const Recording& recording) {
 
 }  // namespace
 
-TEST_CASE("with all stiffness at zero, force mode equals vision mode to the last digit", "[practice]") {
+TEST_CASE("with all stiffness and damping at zero, force mode equals vision mode to the last digit", "[practice]") {
   const PracticePage page = page_of("永北");
   SessionOptions with = session(WriterSkill::novice(), FeedbackMode::force, 7);
   with.renderer.paper_stiffness = with.renderer.guidance_stiffness = with.renderer.wrong_way_stiffness = 0.0;
+  with.renderer.paper_damping = with.renderer.guidance_damping = 0.0;
   SessionOptions without = session(WriterSkill::novice(), FeedbackMode::vision, 7);
   const Recording felt = write_page(page, with);
   CHECK(same(felt, write_page(page, without)));
@@ -70,7 +72,10 @@ TEST_CASE("the simulated device and the stiffness advice use the same sample del
   Capabilities late = device_profile("desktop");
   late.sample_delay = 15;
   const RendererOptions advised = RendererOptions::for_device(late);
-  CHECK(std::round(advised.paper_stiffness) == 68.0);
+  SampledLoop loop{late, late.update_rate};
+  loop.wall_damping = advised.paper_damping;
+  CHECK(advised.paper_stiffness == Approx(stiffness_for_any_hand(loop, advised.velocity_cutoff, 1e6)));
+  CHECK(advised.paper_stiffness < 100.0);
 
   const PracticePage page = page_of("永");
   const auto strokes_written = [&page](const Capabilities& device, const RendererOptions& renderer) {
@@ -83,6 +88,7 @@ TEST_CASE("the simulated device and the stiffness advice use the same sample del
   // A stiffness that ignores the delay is rejected: the loop oscillates, and at most one stroke is written.
   RendererOptions careless = RendererOptions::for_device(device_profile("desktop"));
   CHECK(careless.paper_stiffness == 600.0);
+  careless.stiffness_check = StiffnessCheck::reject;
   CHECK_THROWS_AS(strokes_written(late, careless), ValueError);
   careless.stiffness_check = StiffnessCheck::off;
   CHECK(strokes_written(late, careless) <= 1);

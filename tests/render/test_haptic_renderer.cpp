@@ -95,7 +95,7 @@ TEST_CASE("each built-in character can be written, exactly and with an offset of
       pen.write(renderer.page()[0], offset);
       INFO("U+" << std::hex << static_cast<unsigned>(character.code) << ", " << offset << " m: " << log.letters);
       CHECK(renderer.last().character == 1);
-      CHECK(pen.max_step <= renderer.max_force_step());
+      CHECK(pen.max_unexplained <= 1e-12);
     }
   }
 }
@@ -185,7 +185,7 @@ TEST_CASE("Table 2: the force of each state and where it keeps the pen tip", "[r
 
   settle(middle, 0.01);
   CHECK(settle({0.15, 0.15}, -0.002).state == InteractionState::adjusting);
-  CHECK(renderer.last().force == Vector3d(0, 0, 0));
+  CHECK(renderer.last().force.norm() < 1e-9);
 
   settle({0.15, 0.15}, 0.01);
   settle(start, 0.01);
@@ -207,7 +207,7 @@ TEST_CASE("solid paper is felt outside the character too", "[render]") {
   ScriptedPen pen(renderer);
   pen.go({0.15, 0.15, 0.01});
   pen.go({0.15, 0.15, -0.002});
-  for (int i = 0; i < 10; ++i) pen.at({0.15, 0.15, -0.002});
+  for (int i = 0; i < 100; ++i) pen.at({0.15, 0.15, -0.002});
   CHECK(renderer.last().state == InteractionState::adjusting);
   CHECK(renderer.last().force.isApprox(Vector3d(0, 0, 0.002 * renderer.options().paper_stiffness)));
 }

@@ -3,6 +3,10 @@
 #include <complex>
 #include <numbers>
 #include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/render/stiffness_advice.hpp>
@@ -201,6 +205,211 @@ TEST_CASE("the rule of thumb is right for small wall damping and a factor of two
   CHECK(ratio(0.2) == Approx(1.0).epsilon(0.01));
   CHECK(ratio(30.0) == Approx(2.0).epsilon(0.01));
   CHECK(advise_stiffness(loop_of(1000.0, 0.5, 2)).approximate.value == Approx(0.5 / 0.0025));
+}
+
+namespace {
+
+constexpr double cutoff = 50.0;       // [Hz]
+constexpr double stiffest = 1e6;      // [N/m]
+constexpr double longest_lag = 6e-3;  // [s]
+
+/// exp(matrix), by squaring a Taylor series.
+Eigen::Matrix3d exponential(Eigen::Matrix3d matrix) {
+  int squarings = 0;
+  for (; matrix.cwiseAbs().maxCoeff() > 0.1; ++squarings) matrix *= 0.5;
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Identity(), term = sum;
+  for (int n = 1; n < 15; ++n) {
+    term = term * matrix / n;
+    sum += term;
+  }
+  for (; squarings > 0; --squarings) sum = sum * sum;
+  return sum;
+}
+
+/// The closed loop as a matrix that maps one tick to the next: the device and the hand under a held force, the samples
+/// that are still under way, and the filtered velocity.
+Eigen::MatrixXd loop_matrix(const SampledLoop& loop, double stiffness, const GripImpedance& hand) {
+  const double period = 1.0 / loop.rate, mass = loop.device.apparent_mass + hand.mass;
+  const int delay = loop.device.sample_delay;
+  Eigen::Matrix3d motion;   // of position, speed and force
+  motion << 0.0, 1.0, 0.0,  //
+      -hand.stiffness / mass, -(loop.device.viscous_friction + hand.damping) / mass, 1.0 / mass,  //
+      0.0, 0.0, 0.0;
+  const Eigen::Matrix3d held = exponential(motion * period);
+  // x(n), v(n), x(n-1) to x(n-delay-1), and the estimate of the tick before.
+  const int size = delay + 4, estimate = size - 1;
+  const auto place = [](int age) { return age == 0 ? 0 : age + 1; };
+  const double passed = 1.0 - std::exp(-2.0 * std::numbers::pi * cutoff * period);
+  Eigen::RowVectorXd velocity = Eigen::RowVectorXd::Zero(size);
+  velocity(estimate) = 1.0 - passed;
+  velocity(place(delay)) += passed / period;
+  velocity(place(delay + 1)) -= passed / period;
+  Eigen::RowVectorXd force = -loop.wall_damping * velocity;
+  force(place(delay)) -= stiffness;
+  Eigen::MatrixXd next = Eigen::MatrixXd::Zero(size, size);
+  for (int row = 0; row < 2; ++row) {
+    next.block(row, 0, 1, 2) = held.block(row, 0, 1, 2);
+    next.row(row) += held(row, 2) * force;
+  }
+  for (int age = 1; age <= delay + 1; ++age) next(place(age), place(age - 1)) = 1.0;
+  next.row(estimate) = velocity;
+  return next;
+}
+
+/// Damping ratio of the least damped mode of the loop; below 0 when it grows.
+double damping_ratio(const SampledLoop& loop, double stiffness, const GripImpedance& hand) {
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(loop_matrix(loop, stiffness, hand), false);
+  double least = 1.0;
+  for (const std::complex<double>& root : solver.eigenvalues()) {
+    if (std::abs(root) < 1e-6) continue;
+    const std::complex<double> exponent = std::log(root);
+    least = std::min(least, -exponent.real() / std::abs(exponent));
+  }
+  return least;
+}
+
+/// Nobody, or a hand that is a mass only: of the least damped one.
+double least_damping_of_masses(const SampledLoop& loop, double stiffness) {
+  double least = 1.0;
+  for (const double mass : {0.0, 0.01, 0.03, 0.06, 0.1, 0.2, 0.3}) {
+    least = std::min(least, damping_ratio(loop, stiffness, {mass, 0.0, 0.0}));
+  }
+  return least;
+}
+
+/// Hands with a spring, that swing with the device at a damping ratio of 0.1: of the least damped one.
+double least_damping_of_grips(const SampledLoop& loop, double stiffness) {
+  double least = 1.0;
+  for (const double mass : {0.01, 0.05, 0.3}) {
+    for (const double spring : {100.0, 1000.0}) {
+      const double damping = 2.0 * 0.1 * std::sqrt(spring * (mass + loop.device.apparent_mass));
+      least = std::min(least, damping_ratio(loop, stiffness, {mass, damping, spring}));
+    }
+  }
+  return least;
+}
+
+SampledLoop damped_loop(double mass, double friction, int delay, double rate, double damping) {
+  SampledLoop loop = loop_of(rate, friction, delay, damping);
+  loop.device.apparent_mass = mass;
+  return loop;
+}
+
+std::vector<SampledLoop> many_loops() {
+  std::vector<SampledLoop> all;
+#ifdef __SANITIZE_ADDRESS__
+  const std::vector<int> delays = {0, 5};
+#else
+  const std::vector<int> delays = {0, 1, 2, 5};
+#endif
+  for (const double mass : {0.02, 0.045, 0.075}) {
+    for (const double friction : {0.0, 0.1}) {
+      for (const int delay : delays) {
+        for (const double rate : {500.0, 1000.0, 10'000.0}) {
+          for (const double damping : {1.0, 4.0, 8.0}) {
+            all.push_back(damped_loop(mass, friction, delay, rate, damping));
+          }
+        }
+      }
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("the closed loop of the tests has the roots that are known without filter and spring of the hand",
+          "[stiffness advice]") {
+  // A check of the check: undamped, unsampled it swings with sqrt(K / m); at 1 MHz that is all but so.
+  const SampledLoop loop = damped_loop(0.05, 0.0, 0, 1e6, 0.0);
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(loop_matrix(loop, 500.0, {0.05, 0.0, 500.0}), false);
+  double frequency = 0.0;
+  for (const std::complex<double>& root : solver.eigenvalues()) {
+    if (std::abs(root) > 0.999) frequency = std::max(frequency, std::abs(std::arg(root)) * 1e6);
+  }
+  CHECK(frequency == Approx(100.0).epsilon(1e-3));
+  // Colgate and Schenkel: without a damper, at the critical stiffness the ratio changes its sign.
+  const SampledLoop sampled = damped_loop(0.045, 0.1, 2, 1000.0, 0.0);
+  const double critical = critical_stiffness(sampled);
+  CHECK(damping_ratio(sampled, 0.99 * critical, nobody) > 0.0);
+  CHECK(damping_ratio(sampled, 1.01 * critical, nobody) < 0.0);
+}
+
+TEST_CASE("up to the stiffness for any hand the loop decays in every hand", "[stiffness advice]") {
+  for (const SampledLoop& loop : many_loops()) {
+    const double most = stiffness_for_any_hand(loop, cutoff, stiffest);
+    CAPTURE(loop.device.apparent_mass, loop.device.viscous_friction, loop.device.sample_delay, loop.rate,
+            loop.wall_damping, most);
+    if (most == 0.0) continue;
+    CHECK(least_damping_of_masses(loop, most) > 0.04);
+    CHECK(least_damping_of_masses(loop, 0.3 * most) > 0.04);
+    if ((loop.device.sample_delay + 0.5) / loop.rate > longest_lag) continue;
+    CHECK(least_damping_of_grips(loop, most) > 0.0);
+    CHECK(least_damping_of_grips(loop, 0.3 * most) > 0.0);
+  }
+}
+
+TEST_CASE("above the stiffness for any hand some hand is not damped as promised, and far above it one swings up",
+          "[stiffness advice]") {
+  for (const SampledLoop& loop : many_loops()) {
+    const double most = stiffness_for_any_hand(loop, cutoff, stiffest);
+    CAPTURE(loop.device.apparent_mass, loop.device.viscous_friction, loop.device.sample_delay, loop.rate,
+            loop.wall_damping, most);
+    CHECK(least_damping_of_masses(loop, std::max(1.0, 1.5 * most)) < 0.075);
+    if (most > 50.0 && loop.rate <= 1000.0) CHECK(least_damping_of_masses(loop, 30.0 * most) < 0.0);
+  }
+  // With the default damping at 1 kHz a factor of two to three suffices.
+  for (const double mass : {0.02, 0.045, 0.075}) {
+    for (const int delay : {1, 2}) {
+      const SampledLoop loop = damped_loop(mass, 0.1, delay, 1000.0, 4.0);
+      CAPTURE(mass, delay);
+      CHECK(least_damping_of_masses(loop, 2.5 * stiffness_for_any_hand(loop, cutoff, stiffest)) < 0.0);
+    }
+  }
+}
+
+TEST_CASE("the stiffness for any hand falls with the delay, and rises with the rate and the device's friction",
+          "[stiffness advice]") {
+  const auto bound = [](double friction, int delay, double rate) {
+    return stiffness_for_any_hand(damped_loop(0.045, friction, delay, rate, 4.0), cutoff, stiffest);
+  };
+  for (const double rate : {500.0, 1000.0, 2000.0, 4000.0}) {
+    for (int delay = 0; delay < 5; ++delay) {
+      CAPTURE(rate, delay);
+      CHECK(bound(0.1, delay + 1, rate) < bound(0.1, delay, rate));
+      CHECK(bound(0.1, delay, 2.0 * rate) > bound(0.1, delay, rate));
+      CHECK(bound(0.2, delay, rate) >= bound(0.1, delay, rate));
+      if (delay < 2) CHECK(bound(0.2, delay, rate) > bound(0.1, delay, rate));
+    }
+  }
+}
+
+TEST_CASE("without damping, or with a damper too strong for the lag, no stiffness is for any hand",
+          "[stiffness advice]") {
+  const auto bound = [](double friction, int delay, double damping) {
+    return stiffness_for_any_hand(damped_loop(0.045, friction, delay, 1000.0, damping), cutoff, stiffest);
+  };
+  for (const int delay : {0, 1, 5}) {
+    CHECK(bound(0.0, delay, 0.0) < 1e-3);
+    CHECK(bound(0.1, delay, 0.0) < 2.0);  // (b / 0.15)^2 / (m + 0.3 kg) = 1.3 N/m
+  }
+  CHECK(bound(0.1, 5, 20.0) == 0.0);
+  CHECK(bound(0.1, 0, 1000.0) == 0.0);
+}
+
+TEST_CASE("the stiffness for any hand is at most the one asked for and does not depend on the grip",
+          "[stiffness advice]") {
+  SampledLoop loop = damped_loop(0.045, 0.1, 0, 1000.0, 4.0);
+  const double most = stiffness_for_any_hand(loop, cutoff, stiffest);
+  CHECK(stiffness_for_any_hand(loop, cutoff, 0.5 * most) == 0.5 * most);
+  CHECK(stiffness_for_any_hand(loop, cutoff, 2.0 * most) == Approx(most));
+  loop.grip = {0.1, 3.0, 300.0};
+  CHECK(stiffness_for_any_hand(loop, cutoff, stiffest) == most);
+  for (const double bad : {0.0, -1.0, not_a_number, infinity}) {
+    CHECK_THROWS_WITH(stiffness_for_any_hand(loop, bad, stiffest), Catch::Matchers::Contains("velocity_cutoff"));
+  }
+  loop.device.apparent_mass = 0.0;
+  CHECK_THROWS_WITH(stiffness_for_any_hand(loop, cutoff, stiffest), Catch::Matchers::Contains("device.apparent_mass"));
 }
 
 TEST_CASE("every bound states its formula and, in one line, its validity", "[stiffness advice]") {

@@ -18,13 +18,15 @@ namespace {
 
 constexpr double stiffness = 400.0;
 
-/// The defaults with the raw force: no rate limit, no fade-in.
+/// The defaults with the raw force of the springs: no rate limit, no fade-in, no damping.
 RendererOptions direct() {
   RendererOptions options;
   options.paper_stiffness = options.guidance_stiffness = stiffness;
   options.wrong_way_stiffness = 0.0;
   options.guidance_fade_in = 0.0;
   options.limit_force_rate = false;
+  options.paper_damping = options.guidance_damping = 0.0;
+  options.stiffness_check = StiffnessCheck::off;
   return options;
 }
 
@@ -110,6 +112,7 @@ TEST_CASE("as printed, crossing the edge of the box while pressing steps the nor
     const Eigen::AlignedBox2d box = bounding_box(renderer.page()[0]);
     pen.go({box.min().x() - 0.012, 0.03, 0.005});
     pen.go({box.min().x() - 0.012, 0.03, -0.003});
+    for (int i = 0; i < 100; ++i) pen.at({box.min().x() - 0.012, 0.03, -0.003});
     pen.max_step = 0.0;
     pen.go({box.min().x() + 0.002, 0.03, -0.003});
     return pen.max_step;
@@ -118,8 +121,8 @@ TEST_CASE("as printed, crossing the edge of the box while pressing steps the nor
   printed.paper_stiffness = limited.paper_stiffness = solid.paper_stiffness = stiffness;
   solid.solid_paper = true;
   CHECK(crossing(printed) == Approx(stiffness * 0.003).epsilon(1e-9));  // 1.2 N
-  CHECK(crossing(limited) <= 0.4 * (1.0 + 1e-12));                      // 400 N/s at 1 kHz
-  CHECK(crossing(solid) < 1e-9);
+  CHECK(crossing(limited) <= std::hypot(0.4, 0.02));                    // 400 N/s at 1 kHz, and the slight
+  CHECK(crossing(solid) <= 0.02);                                       // damping along the paper
 }
 
 TEST_CASE("the signs as printed push away from the stroke and into the paper", "[render]") {
@@ -149,15 +152,16 @@ TEST_CASE("eq. (5) moves the pen tip into the paper, Table 2 keeps it on the sur
   }
 }
 
-TEST_CASE("with every rule as printed the same pen feels steps above the default's limit", "[render]") {
+TEST_CASE("with every rule as printed the same pen feels steps that its motion does not explain", "[render]") {
   HapticRenderer usual({placed(U'永')}, {}, test_device());
   HapticRenderer printed({placed(U'永')}, {}, test_device(), RendererOptions::wang2006());
   ScriptedPen pen(usual), other(printed);
   pen.write(usual.page()[0], 0.002);
   other.write(printed.page()[0], 0.002);
   CHECK(usual.last().character == 1);
-  CHECK(pen.max_step <= usual.max_force_step() * (1.0 + 1e-12));
-  CHECK(other.max_step > 2.0 * usual.max_force_step());
+  CHECK(pen.max_unexplained <= 1e-12);
+  CHECK(other.max_step > 2.0 * pen.max_step);
+  CHECK(other.max_unexplained > 1.0);
   CHECK(std::isinf(printed.max_force_step()));
 }
 
@@ -171,6 +175,10 @@ TEST_CASE("wang2006() selects every printed rule except the signs", "[render]") 
   CHECK(options.pen_tip == PenTipRule::wang2006);
   CHECK(options.motion == MotionMappingRule::wang2006);
   CHECK_FALSE(options.limit_force_rate);
+  CHECK(options.lift_time == 0.0);
+  CHECK(options.paper_damping == 0.0);
+  CHECK(options.guidance_damping == 0.0);
+  CHECK(options.stiffness_check == StiffnessCheck::off);
   CHECK_FALSE(options.solid_paper);
   CHECK(options.force_sign == ForceSign::attracting);
   CHECK_NOTHROW(validate(options, test_device()));
