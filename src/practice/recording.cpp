@@ -24,11 +24,11 @@ constexpr std::array<std::string_view, 16> column_names = {
 constexpr std::string_view rate_comment = "# rate_Hz=";
 constexpr std::size_t max_recording_bytes = 1 << 30;  ///< more than an hour at 1 kHz
 constexpr std::size_t max_row_bytes = 4096;           ///< sixteen values of any length that is written
-constexpr std::size_t chunk = 1 << 16;  ///< bytes given to the stream at a time
+constexpr std::size_t chunk = 1 << 16;                ///< bytes given to the stream at a time
 
 constexpr std::array states = {InteractionState::separation, InteractionState::adjusting, InteractionState::calibration,
                                InteractionState::writing};
-constexpr std::array statuses = {TickStatus::ok, TickStatus::bad_sample, TickStatus::device_fault};
+constexpr std::array statuses = {TickStatus::ok, TickStatus::stale, TickStatus::bad_sample, TickStatus::device_fault};
 constexpr int all_events = 2 * static_cast<int>(TickEvent::page_finished) - 1;
 
 std::string header() {
@@ -91,7 +91,7 @@ class RecordingParser : private LineReader {
         states, [](auto each) { return to_string(each); }, "SS, AS, CS or WS");
     sample.events = static_cast<TickEvent>(next_integer(all_events));
     sample.status = next_of(
-        statuses, [](auto each) { return to_string(each); }, "ok, bad_sample or device_fault");
+        statuses, [](auto each) { return to_string(each); }, "ok, stale, bad_sample or device_fault");
     sample.character = next_integer(std::numeric_limits<int>::max());
     sample.stroke = next_integer(std::numeric_limits<int>::max());
     sample.tick_ns = next_number<float>();
@@ -108,8 +108,8 @@ class RecordingParser : private LineReader {
       if (more) rest.remove_prefix(comma + 1);
     }
     if (count != column_names.size()) {
-      fail("expected " + std::to_string(column_names.size()) + " values, found " + std::to_string(count) + " in '" + line() +
-           "'");
+      fail("expected " + std::to_string(column_names.size()) + " values, found " + std::to_string(count) + " in '" +
+           line() + "'");
     }
   }
 
@@ -151,7 +151,7 @@ class RecordingParser : private LineReader {
   }
 
   std::array<std::string_view, column_names.size()> values_;  ///< of the line
-  std::size_t column_ = 0;                               ///< the next one
+  std::size_t column_ = 0;                                    ///< the next one
 };
 
 }  // namespace
@@ -185,6 +185,7 @@ std::vector<DeviceState> device_states(const Recording& recording, const MotionM
     state.position = mapping.to_device(sample.device_point);
     // A fault is replayed as a fault: the sample holds the last good point.
     if (sample.status == TickStatus::bad_sample) state.position.setConstant(std::numeric_limits<double>::quiet_NaN());
+    if (sample.status == TickStatus::stale) state.status = DeviceStatus::stale;
     if (sample.status == TickStatus::device_fault) state.status = DeviceStatus::fault;
     result.push_back(state);
   }

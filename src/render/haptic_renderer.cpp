@@ -238,7 +238,12 @@ TickStatus HapticRenderer::map_sample(const DeviceState& state) noexcept {
   const double elapsed = has_sample_ ? std::max(state.time - last_time_, period_) : period_;
   last_velocity_ = velocity_.velocity();
   velocity_.update(mapped, elapsed);
-  motion_ = has_sample_ ? Eigen::Vector3d(mapped - last_position_) : Eigen::Vector3d(0.0, 0.0, 0.0);
+  motion_ = mapped - last_position_;
+  if (!has_sample_ || unseen_ > 0) {
+    // The force has not followed the pen meanwhile, and must not jump to where it would be.
+    last_velocity_ = velocity_.velocity();
+    motion_.setZero();
+  }
   above_for_ += elapsed;
   has_sample_ = true;
   has_rejected_ = false;

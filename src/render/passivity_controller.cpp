@@ -17,7 +17,7 @@ constexpr double fastest_pen = 10.0;
 constexpr double longest_flight = 0.05;
 
 constexpr double strongest_brake = 0.1;  ///< with an exhausted budget [N]
-constexpr double faintest_brake = 0.01;  ///< with an overdrawn one [N]
+constexpr double oldest_sample = 0.01;   ///< an older velocity says less, and brakes less [s]
 constexpr double slow_pen = 0.01;        ///< speed at which half of the brake acts [m/s]
 
 constexpr double viscous_share = 0.15;  ///< of a force that the budget limits, for damping
@@ -49,6 +49,8 @@ PassivityController::PassivityController(const PassivityOptions& options, double
   require_not_negative("passivity: max_gap", max_gap_, "s");
   require_above_zero("passivity: period", period, "s");
   require_within("passivity: delay", options.delay, "ticks", 0, max_delay);
+  brake_ = strongest_brake * std::min(1.0, oldest_sample / ((options.delay + 1) * period));
+  reserve_ = std::min(0.5 * budget_, brake_ * hand_speed_ * (max_gap_ + period));
   restart();
 }
 
@@ -145,8 +147,8 @@ void PassivityController::pass_unseen(bool changed) noexcept {
 Eigen::Vector3d PassivityController::within_budget(const Eigen::Vector3d& force,
                                                    const Eigen::Vector3d& viscous) noexcept {
   max_force_ = max_payable_force();
-  if (max_force_ < strongest_brake) {
-    max_force_ = std::max(max_force_, faintest_brake);
+  if (max_force_ < brake_) {
+    max_force_ = brake_;
     return -max_force_ / (norm(velocity_) + slow_pen) * velocity_;
   }
   if (!(norm(force) > max_force_)) return force;
@@ -160,10 +162,11 @@ void PassivityController::pay(double energy) noexcept {
 }
 
 /// Maximum F with F v t + (F t)^2 / (2 m) <= E, where E is what remains after the forces whose work no sample has shown
-/// yet. While samples are missing, the gap foreseen for this force shrinks by what has passed of it.
+/// yet, and after the reserve of the brake. While samples are missing, the gap foreseen for this force shrinks by what
+/// has passed of it.
 double PassivityController::max_payable_force() const noexcept {
   const double speed = std::max(hand_speed_, speed_);
-  double remaining = left_ - unseen_force_ * speed * period_;
+  double remaining = left_ - reserve_ - unseen_force_ * speed * period_;
   for (std::size_t age = 0; age < delay_; ++age) {
     remaining -= norm(sent_[(newest_ + sent_.size() - age) % sent_.size()]) * speed * period_;
   }

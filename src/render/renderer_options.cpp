@@ -29,6 +29,7 @@ constexpr double presumed_mass = 0.02;
 
 /// Of what guidance and friction may be together, friction has at least this share if it asks for it.
 constexpr double friction_share = 0.35;
+constexpr double softest_friction = 1.0;  ///< with less there is none [N/m]
 
 struct StiffnessLimit {
   double value;  ///< [N/m]
@@ -197,6 +198,13 @@ std::vector<std::string> clip_stiffness(RendererOptions& options, const Capabili
     clip_damping("friction.damping", friction.damping, both, options.guidance_damping);
     clip("friction.stiffness", friction.stiffness, limits.both(friction.damping));
     const StiffnessLimit sum = limits.stable(options.guidance_damping + friction.damping);
+    if (friction_share * sum.value < softest_friction) {
+      std::ostringstream message;
+      message << "friction.coefficient = " << friction.coefficient << sum.reason << ", too soft for friction";
+      clipped.push_back(message.str());
+      friction.coefficient = 0.0;
+      return clipped;
+    }
     std::ostringstream reason;
     reason << " in addition to " << options.guidance_stiffness << " N/m of guidance" << sum.reason;
     clip("friction.stiffness", friction.stiffness,

@@ -142,6 +142,7 @@ double first_crossing(int delay, Gain gain) {
 }
 
 constexpr double heaviest_hand = 0.3;  // [kg]
+constexpr double least_ratio = 0.1;    ///< damping ratio of a hand with a spring
 constexpr double least_phase = 0.15;   // [rad]
 constexpr double least_decay = 3.0;    // of the lightest pen [1/s]
 
@@ -154,7 +155,7 @@ struct Felt {
 
 std::vector<Felt> felt_spring(const SampledLoop& loop, double velocity_cutoff) {
   constexpr double slowest = 0.5;  // [rad/s]: softer springs than 0.1 N/m are not looked at
-  constexpr double ratio = 1.06;
+  constexpr double ratio = 1.03;
   const double period = 1.0 / loop.rate;
   const double passed = -std::expm1(-2.0 * std::numbers::pi * velocity_cutoff * period);
   std::vector<Felt> all;
@@ -168,23 +169,35 @@ std::vector<Felt> felt_spring(const SampledLoop& loop, double velocity_cutoff) {
   return all;
 }
 
-/// Whether the spring has the phase required at every frequency at which a hand can make the pen resonate with it, that
-/// is, from where (m + heaviest_hand) w^2 = Re H to where m w^2 = Re H; and at the frequency above, so that no such
-/// range is missed between two.
-bool is_damped(const SampledLoop& loop, const std::vector<Felt>& felt, double stiffness) {
+/// Whether spring and damper keep every hand damped at one frequency. A hand with a spring has a damping ratio of at
+/// least least_ratio by itself, whatever mass moves with it.
+bool is_damped(const SampledLoop& loop, const Felt& at, const Complex& force, bool was_stiff) {
   const double mass = loop.device.apparent_mass;
+  const double inertia = at.frequency * at.frequency;
+  const double damping = force.imag() + loop.device.viscous_friction * at.frequency;
+  for (const double hand : {0.0, 30.0, 100.0, 300.0, 1000.0}) {
+    const double stiffness = hand + force.real();
+    const bool can_resonate =
+        (mass * inertia <= stiffness || (was_stiff && hand == 0.0)) && (mass + heaviest_hand) * inertia >= stiffness;
+    if (!can_resonate) continue;
+    const double own = hand > 0.0 ? 2.0 * least_ratio * std::sqrt(hand * std::max(0.0, stiffness)) : 0.0;
+    const double phase = hand > 0.0 ? least_ratio : least_phase;
+    const double needed = std::max(phase * stiffness, hand > 0.0 ? 0.0 : 2.0 * least_decay * mass * at.frequency);
+    if (damping + own < needed) return false;
+  }
+  return true;
+}
+
+/// At every frequency at which a hand can make the pen resonate with the spring, and at the frequency above, so that no
+/// such range is missed between two.
+bool is_damped(const SampledLoop& loop, const std::vector<Felt>& felt, double stiffness) {
   bool was_stiff = true;
   for (const Felt& at : felt) {
     const Complex force = stiffness * at.spring + loop.wall_damping * at.damper;
-    const double inertia = at.frequency * at.frequency;
-    const bool is_stiff = mass * inertia <= force.real();
-    const bool can_resonate = (is_stiff || was_stiff) && (mass + heaviest_hand) * inertia >= force.real();
-    was_stiff = is_stiff;
-    const double damping = force.imag() + loop.device.viscous_friction * at.frequency;
-    const double needed = std::max(least_phase * force.real(), 2.0 * least_decay * mass * at.frequency);
-    if (can_resonate && damping < needed) return false;
+    if (!is_damped(loop, at, force, was_stiff)) return false;
+    was_stiff = loop.device.apparent_mass * at.frequency * at.frequency <= force.real();
   }
-  return true;
+  return !was_stiff;  // otherwise it resonates above half of the rate
 }
 
 StiffnessBound passive_bound(const SampledLoop& loop) {

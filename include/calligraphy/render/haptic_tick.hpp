@@ -56,7 +56,7 @@ struct HapticTick {
   Point wrong_way = Point::Zero();   ///< force term, before fade-in and limits [N, page]
   Point friction = Point::Zero();    ///< force term, before limits [N, page]
   double normal = 0.0;               ///< force term, damping included, before limits [N, out of the paper]
-  /// Damping by guidance, after fade-in, by friction and by the paper, before limits [N, page].
+  /// Damping by guidance, before fade-in, by friction and by the paper, before limits [N, page].
   Eigen::Vector3d viscous = Eigen::Vector3d::Zero();
   Eigen::Vector3d damping = Eigen::Vector3d::Zero();  ///< by the passivity controller, before limits [N, page]
   double assistance = 1.0;                            ///< factor on the guidance, from the assist policy [1]

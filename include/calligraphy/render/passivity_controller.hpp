@@ -96,6 +96,8 @@ class PassivityController {
   double hand_speed_ = 2.0;
   double max_gap_ = 0.016;
   double period_ = 0.001;
+  double brake_ = 0.1;    ///< with an exhausted budget [N]
+  double reserve_ = 0.0;  ///< of the budget, for the brake [J]
   std::size_t delay_ = 0;
 
   std::array<Eigen::Vector3d, max_delay + 1> sent_ = {};  ///< ring buffer

@@ -32,9 +32,10 @@ void validate(const SampledLoop& loop);
 double critical_stiffness(const SampledLoop& loop);
 
 /// Maximum stiffness, up to `most` [N/m], of a spring with `loop.wall_damping` that keeps the pen damped in every hand:
-/// nobody, or any mass up to 0.3 kg, with any damping and a stiffness of up to 1,000 N/m. The damper acts on the
-/// backward difference of the samples behind a first-order low-pass at `velocity_cutoff` [Hz] (VelocityEstimator).
-/// `loop.grip` is not used. 0 when the damper alone is too strong for the loop's lag, or too weak.
+/// nobody, or any mass up to 0.3 kg, with any damping, and with a spring of up to 1,000 N/m in a hand whose own damping
+/// ratio is at least 0.1. The damper acts on the backward difference of the samples behind a first-order low-pass at
+/// `velocity_cutoff` [Hz] (VelocityEstimator). `loop.grip` is not used. 0 when the damper alone is too strong for the
+/// loop's lag, or too weak.
 ///
 /// The criterion, derived in docs/stability.md: H(jw), the spring and the damper as the pen feels them through
 /// sampling, delay, filter and zero-order hold, plus the device's own b jw, has a phase of at least 0.15 rad at every
