@@ -31,7 +31,7 @@ constexpr double max_hold = 4e-3;
 
 /// Faster pens, and larger changes of their velocity in a tick, are faults rather than motions of a hand: the force
 /// does not follow them at once [m/s].
-constexpr double fastest_followed = 2.0, largest_kick = 0.2;
+constexpr double fastest_followed = 1.0, largest_kick = 0.3;
 
 /// Force of passivity control for one step of the encoder within a tick [N].
 constexpr double largest_click = 0.1;
@@ -74,9 +74,9 @@ PassivityController passivity_controller(const RendererOptions& options, const C
   PassivityOptions passivity;
   passivity.delay = capabilities.sample_delay;
   if (options.passivity_control) {
-    SampledLoop loop{capabilities, options.servo_rate};
-    loop.wall_damping = scale * scale * std::max(options.paper_damping, options.guidance_damping);
-    passivity.max_damping = injectable_damping(loop);
+    // Half of what the mass tolerates alone, less what guidance and paper damp already: a hand has a spring.
+    const double damped = scale * scale * std::max(options.paper_damping, options.guidance_damping);
+    passivity.max_damping = std::max(0.0, 0.5 * injectable_damping({capabilities, options.servo_rate}) - damped);
     // A single step of the encoder must not be felt as a click.
     if (capabilities.encoder_step > 0.0) {
       passivity.max_damping =
@@ -164,9 +164,8 @@ void HapticRenderer::restart() noexcept {
 
 double HapticRenderer::max_force_step() const noexcept {
   if (!limiter_.limit_rate) return ForceLimiter::no_limit;
-  const double fastest = fastest_followed * mapping_.scale, furthest = fastest * period_;
-  const double hardest = largest_kick * mapping_.scale;
-  const ForceAllowance most = allowance_for({furthest, furthest}, {hardest, hardest}, fastest);
+  constexpr double any = std::numeric_limits<double>::max();
+  const ForceAllowance most = allowance_for({any, any}, {any, any});
   const Eigen::Vector2d step(limiter_.in_plane_step + most.in_plane, limiter_.normal_step + most.normal);
   return step.norm() * mapping_.scale;
 }
@@ -502,26 +501,29 @@ void HapticRenderer::send(const Eigen::Vector3d& wanted) noexcept {
   tick_.force = mapping_.force_to_device(tick_.page_force);
 }
 
-/// What springs and dampers change because the pen has moved by `motion` and its velocity changed by `kick`; the damper
-/// of the paper sets in with depth.
-ForceAllowance HapticRenderer::allowance_for(const Point& motion, const Point& kick, double speed) const noexcept {
+/// What springs and dampers change because the pen has moved by `way` and its velocity changed by `kick`, each in the
+/// plane and along the normal.
+ForceAllowance HapticRenderer::allowance_for(Point way, Point kick) const noexcept {
+  const double fastest = fastest_followed * mapping_.scale;
+  way = way.cwiseMin(fastest * period_);
+  kick = kick.cwiseMin(largest_kick * mapping_.scale);
   const double guidance = std::min(options_.guidance_stiffness * max_attraction_, max_guidance_);
   const FrictionOptions& friction = options_.friction;
   const bool rubs = friction.coefficient > 0.0;
   const double stiffness = guidance + options_.wrong_way_stiffness + (rubs ? friction.stiffness : 0.0);
   const double damping = options_.guidance_damping + (rubs ? friction.damping : 0.0);
-  const double entered = motion.y() < options_.paper_onset ? motion.y() / options_.paper_onset : 1.0;
-  return {stiffness * motion.x() + damping * kick.x(),
-          options_.paper_stiffness * motion.y() + options_.paper_damping * (kick.y() + entered * speed)};
+  return {stiffness * way.x() + damping * kick.x(),
+          options_.paper_stiffness * way.y() + options_.paper_damping * kick.y()};
 }
 
 ForceAllowance HapticRenderer::allowance() const noexcept {
-  const double fastest = fastest_followed * mapping_.scale, furthest = fastest * period_;
-  const double hardest = largest_kick * mapping_.scale;
-  const Eigen::Vector3d kick = velocity_.velocity() - last_velocity_;
-  return allowance_for({std::min(motion_.head<2>().norm(), furthest), std::min(std::abs(motion_.z()), furthest)},
-                       {std::min(kick.head<2>().norm(), hardest), std::min(std::abs(kick.z()), hardest)},
-                       std::min(std::abs(velocity_.velocity().z()), fastest));
+  const Eigen::Vector3d& velocity = velocity_.velocity();
+  const Eigen::Vector3d kick = velocity - last_velocity_;
+  const double way = std::abs(motion_.z());
+  // The damper of the paper sets in with depth.
+  const double entered = way < options_.paper_onset ? way / options_.paper_onset : 1.0;
+  return allowance_for({motion_.head<2>().norm(), way},
+                       {kick.head<2>().norm(), std::abs(kick.z()) + entered * std::abs(velocity.z())});
 }
 
 Eigen::Vector3d HapticRenderer::control_passivity(const Eigen::Vector3d& wanted) noexcept {

@@ -17,10 +17,14 @@ constexpr double fastest_pen = 10.0;
 constexpr double longest_flight = 0.05;
 
 constexpr double strongest_brake = 0.1;  ///< with an exhausted budget [N]
+constexpr double faintest_share = 0.2;   ///< of the brake with an overdrawn budget
 constexpr double oldest_sample = 0.01;   ///< an older velocity says less, and brakes less [s]
 constexpr double slow_pen = 0.01;        ///< speed at which half of the brake acts [m/s]
 
 constexpr double viscous_share = 0.15;  ///< of a force that the budget limits, for damping
+
+/// A device that renders a force so nearly has held it: it rounds to its resolution [N].
+constexpr double finest_force = 0.01;
 
 /// Damping [N s/m] that dissipates `surplus` [J] within one period; `square` is the squared step of that period [m^2].
 double damping_for(double surplus, double square, double period, double most) noexcept {
@@ -66,13 +70,16 @@ void PassivityController::restart() noexcept {
 }
 
 void PassivityController::acted(const Eigen::Vector3d& force, int ticks) noexcept {
-  const Eigen::Vector3d before = sent_[newest_];
   // In a longer gap the rest is of no interest: the budget is exhausted anyway, or the pen has not moved.
   constexpr int longest = 100'000;
+  const Eigen::Vector3d before = sent_[newest_];
+  const double change = norm(Eigen::Vector3d(force - before));
+  const bool held = change <= finest_force;
+  if (held) sent_[newest_] = force;
   for (int missed = std::min(ticks, longest); missed > 1; --missed) {
-    // What acted meanwhile is unknown if it is not what acts now: at most the force of before.
-    pass_unseen(force != before);
-    sent(before);
+    // A force that was reduced meanwhile has been between the two, it is not known when.
+    pass_unseen(held ? 0.0 : change);
+    sent(held ? force : before);
   }
   sent_[newest_] = force;
 }
@@ -85,7 +92,7 @@ Eigen::Vector3d PassivityController::next(const Eigen::Vector3d& position, const
   if (position.allFinite()) {
     move(position, field);
   } else {
-    pass_unseen(false);
+    pass_unseen(0.0);
   }
   // Without a field nothing can swing: a pen that is lifted is not held back for what happened on the paper.
   const bool is_free = norm(field) == 0.0 && norm(wanted_) == 0.0;
@@ -131,15 +138,15 @@ void PassivityController::move(const Eigen::Vector3d& position, const Eigen::Vec
   velocity_ = step / period_;
 }
 
-/// A period passes at whose end the position is not known. `changed`: the force was at most this one, not all the time.
-void PassivityController::pass_unseen(bool changed) noexcept {
+/// A period passes at whose end the position is not known; the force was this one up to a `change` [N].
+void PassivityController::pass_unseen(double change) noexcept {
   velocity_.setZero();
   if (!has_position_) return;
   const Eigen::Vector3d& force = force_at_work();
   if (unseen_ == 0) held_ = force;
   ++unseen_;
   unseen_force_ += norm(force);
-  unseen_change_ += changed ? norm(force) : norm(Eigen::Vector3d(force - held_));
+  unseen_change_ += norm(Eigen::Vector3d(force - held_)) + change;
 }
 
 /// When the budget is nearly exhausted, a moving pen is braked lightly, so that it returns energy. Otherwise an
@@ -148,7 +155,7 @@ Eigen::Vector3d PassivityController::within_budget(const Eigen::Vector3d& force,
                                                    const Eigen::Vector3d& viscous) noexcept {
   max_force_ = max_payable_force();
   if (max_force_ < brake_) {
-    max_force_ = brake_;
+    max_force_ = brake_ * std::clamp(left_ / reserve_, faintest_share, 1.0);
     return -max_force_ / (norm(velocity_) + slow_pen) * velocity_;
   }
   if (!(norm(force) > max_force_)) return force;

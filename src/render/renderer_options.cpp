@@ -83,11 +83,11 @@ class Limits {
     return one.value < other.value ? one : other;
   }
   /// The damping, at most that wanted, that permits the highest stiffness in addition to a damping `beside`, if the one
-  /// wanted does not permit `stiffness` [N s/m, page].
+  /// wanted does not permit `stiffness`; 0 if none permits any: it would drive the pen by itself [N s/m, page].
   double best_damping(double wanted, double stiffness, double beside) const {
-    if (is_off_ || stable(wanted + beside).value >= std::min(stiffness, usable().value)) return wanted;
-    double best = wanted, most = stable(wanted + beside).value;
-    for (const double share : {0.75, 0.5, 0.35, 0.25, 0.15}) {
+    if (is_off_ || wanted == 0.0 || stable(wanted + beside).value >= std::min(stiffness, usable().value)) return wanted;
+    double best = 0.0, most = stable(beside).value;
+    for (const double share : {1.0, 0.75, 0.5, 0.35, 0.25, 0.15, 0.08, 0.04}) {
       const double value = stable(share * wanted + beside).value;
       if (value <= most) continue;
       most = value;
@@ -196,15 +196,16 @@ std::vector<std::string> clip_stiffness(RendererOptions& options, const Capabili
     // counting both.
     const double both = options.guidance_stiffness + friction.stiffness;
     clip_damping("friction.damping", friction.damping, both, options.guidance_damping);
-    clip("friction.stiffness", friction.stiffness, limits.both(friction.damping));
+    const StiffnessLimit alone = limits.both(friction.damping);
     const StiffnessLimit sum = limits.stable(options.guidance_damping + friction.damping);
-    if (friction_share * sum.value < softest_friction) {
+    if (std::min(alone.value, friction_share * sum.value) < softest_friction) {
       std::ostringstream message;
       message << "friction.coefficient = " << friction.coefficient << sum.reason << ", too soft for friction";
       clipped.push_back(message.str());
       friction.coefficient = 0.0;
       return clipped;
     }
+    clip("friction.stiffness", friction.stiffness, alone);
     std::ostringstream reason;
     reason << " in addition to " << options.guidance_stiffness << " N/m of guidance" << sum.reason;
     clip("friction.stiffness", friction.stiffness,

@@ -23,8 +23,8 @@ BELOW = {
 }
 BACKENDS = ["phantom", "openhaptics"]  # folders beneath devices
 
-# From devices, render may include only plain structs: no device, no loop.
-PLAIN_DEVICE_HEADERS = {"capabilities", "device_state"}
+# From devices, render may include only plain structs and the arithmetic of one estimator: no device, no loop.
+PLAIN_DEVICE_HEADERS = {"capabilities", "device_state", "velocity_estimator"}
 
 
 def component_of(parts):

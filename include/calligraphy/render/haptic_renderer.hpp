@@ -75,7 +75,7 @@ class HapticRenderer {
   Point friction_force() noexcept;
   Point fade(const Point& force) noexcept;
   void send(const Eigen::Vector3d& wanted) noexcept;
-  ForceAllowance allowance_for(const Point& motion, const Point& kick, double speed) const noexcept;
+  ForceAllowance allowance_for(Point way, Point kick) const noexcept;
   ForceAllowance allowance() const noexcept;
   Eigen::Vector3d control_passivity(const Eigen::Vector3d& wanted) noexcept;
   bool may_start() const noexcept { return !character_done_ && (lifted_ || !options_.lift_between_strokes); }

@@ -86,7 +86,7 @@ class PassivityController {
   }
   Eigen::Vector3d within_budget(const Eigen::Vector3d& force, const Eigen::Vector3d& viscous) noexcept;
   void move(const Eigen::Vector3d& position, const Eigen::Vector3d& wanted) noexcept;
-  void pass_unseen(bool changed) noexcept;
+  void pass_unseen(double change) noexcept;
   void pay(double energy) noexcept;
   double max_payable_force() const noexcept;
 
