@@ -190,8 +190,8 @@ void add_render(py::module_& module) {
   py::class_<HapticRenderer>(
       module, "HapticRenderer", py::is_final(),
       "Guides a pen through the characters of a page, stroke by stroke in the correct order and direction. Use one per "
-      "device and thread: one that a running ServoLoop or another thread uses raises Error. update() takes about 0.5 "
-      "us, trace() 0.1 us per sample. Raises InvalidValue naming the option, the character or its placement.")
+      "device and thread: one that a running ServoLoop or another thread uses raises Error. Raises InvalidValue naming "
+      "the option, the character or its placement.")
       .def(py::init<std::vector<PlacedCharacter>, const MotionMapping&, const Capabilities&, const RendererOptions&>(),
            "page"_a, "mapping"_a, "capabilities"_a, "options"_a = RendererOptions{})
       .def(
