@@ -52,8 +52,9 @@ class Grid:
 
     characters: looked up in `source`, a CharacterSet or CharacterList; by default the built-in characters.
     writers: names ("novice", "skilled") or a dict from name to WriterSkill.
-    stiffness: guidance and paper stiffness [N/m], clipped to nine tenths of the stable maximum as RendererOptions does;
-    the columns guidance_stiffness and paper_stiffness contain the effective values.
+    stiffness: guidance and paper stiffness [N/m], clipped by clip_stiffness() to what is usable on the device and
+    stable in any hand, unless the stiffness_check of `options` is off; the columns guidance_stiffness and
+    paper_stiffness contain the effective values, that of guidance where the attraction factor is 1.
     """
 
     def __init__(
@@ -168,11 +169,12 @@ def trial(grid: Grid, condition: Condition) -> Row:
     renderer = options.renderer
     renderer.servo_rate = condition.rate
     renderer.paper_stiffness = renderer.guidance_stiffness = condition.stiffness
-    renderer.stiffness_check = cal.StiffnessCheck.clip
+    if renderer.stiffness_check == cal.StiffnessCheck.reject:
+        renderer.stiffness_check = cal.StiffnessCheck.clip
     renderer.stroke.nearest.method = getattr(cal.NearestPointMethod, condition.method)
     renderer.stroke.nearest.tolerance = condition.tolerance
     # Clipped here as the session's renderer would, which does not report the effective values.
-    cal.clip_stiffness(renderer, grid.device, max(1.0, *character.attraction_factors))
+    cal.clip_stiffness(renderer, grid.device)
     workspace = grid.device.workspace
     page = cal.lay_out([character], cal.PageLayout(width=workspace[0], height=workspace[1]))[0]
     recording = cal.write_page(page, options)

@@ -594,3 +594,13 @@ def test_the_table_has_the_effective_stiffness(factor):
             assert table[name][row] == getattr(renderer.options, name)
         assert table[name][3] < 1e5
     assert table["paper_stiffness"][1] == 600.0 < table["paper_stiffness"][3]
+
+
+def test_the_rules_of_the_paper_are_tried_with_their_stiffness():
+    """Without dampers no stiffness is stable in any hand: clipped, the pen would feel nothing."""
+    usual, undamped = cal.RendererOptions.for_device(cal.device_profile("desktop")), cal.RendererOptions.wang2006()
+    usual.guidance_damping = usual.paper_damping = 0.0
+    for options, effective in ((usual, 0.0), (undamped, 600.0)):
+        grid = experiment.Grid("一", modes=["force"], options=options)
+        table = columns(experiment.run(grid, progress=False))
+        assert (table["guidance_stiffness"], table["paper_stiffness"]) == ([effective], [effective])

@@ -314,6 +314,7 @@ def test_a_tick_of_a_trace_equals_that_of_update_in_every_column():
     page = cal.lay_out([CHARACTERS["十"] if "十" in CHARACTERS else CHARACTERS["人"]])[0]
     mapping = cal.MotionMapping(rotation=[[0, 1, 0], [0, 0, 1], [1, 0, 0]], offset=(0.01, 0.02, 0.0), scale=0.8)
     options = cal.RendererOptions.everything(PROFILE)
+    options.passivity_control = True
     session = cal.SessionOptions(device=PROFILE, renderer=options, skill=cal.WriterSkill.novice())
     written = cal.write_page(page, session)
     states = cal.device_states(written, mapping)
@@ -323,7 +324,7 @@ def test_a_tick_of_a_trace_equals_that_of_update_in_every_column():
     for name in rows.dtype.names:
         values = np.array([getattr(tick, name) for tick in ticks])
         assert np.array_equal(rows[name], values, equal_nan=True), name
-    for name in ("attraction", "friction", "damping", "page_force", "force", "heat", "energy_given"):
+    for name in ("attraction", "friction", "damping", "viscous", "page_force", "force", "heat", "energy_given"):
         assert np.abs(rows[name]).max() > 0, name
     turned = (np.asarray(mapping.rotation).T @ rows["page_force"].T).T
     assert np.allclose(turned * np.abs(rows["force"]).max() / np.abs(turned).max(), rows["force"], atol=1e-9)
