@@ -38,8 +38,8 @@ double share_written(const PracticePage& page, int character, int stroke) noexce
 Recording run_session(const PracticePage& page, const SessionOptions& options, const PenMotion& motion) {
   require_above_zero("character_timeout", options.character_timeout, "s");
   const MotionMapping mapping = upright_page(page.width, page.height);
-  HapticRenderer renderer(page.characters, mapping, options.device, options.renderer);
   SimulatedDevice device(options.device, options.skill.grip, mapping.to_device(resting_point(page)));
+  HapticRenderer renderer(page.characters, mapping, device.capabilities(), options.renderer);
 
   const FlushDenormals as_a_servo_thread;
   SessionTick session(renderer, options.mode, options.measure_ticks);

@@ -243,7 +243,8 @@ void validate(const RendererOptions& options, const Capabilities& capabilities, 
   require_above_zero("guidance_limit", options.guidance_limit, "N");
   require_within("assist.retention", options.assist.retention, "", 0.0, 1.0);
   require_above_zero("assist.full_assistance_error", options.assist.full_assistance_error, "m");
-  require_within("min_assistance", options.assist.min_assistance, "", 0.0, 1.0);
+  require_within("assist.min_assistance", options.assist.min_assistance, "", 0.0, 1.0);
+  require_within("friction.damping", options.friction.damping, "N s/m", 0.0, strongest);
   require_within("friction.coefficient", options.friction.coefficient, "", 0.0, 10.0);
   require_above_zero("friction.stiffness", options.friction.stiffness, "N/m", stiffest);
   try {
