@@ -97,7 +97,8 @@ class ScriptedPen {
 
  private:
   /// How far the force may change in this tick: K |dx| + B |dv| beyond the rate limits, in the paper plane and along
-  /// its normal, for pens of up to 2 m/s that are kicked by up to 0.2 m/s [N, device].
+  /// its normal, for pens of up to 2 m/s that are kicked by up to 0.2 m/s [N, device]. What the pen did while no sample
+  /// showed it explains nothing, because the force did not follow then.
   double explained_step(const HapticTick& tick) {
     const calligraphy::RendererOptions& options = renderer_.options();
     const double scale = renderer_.mapping().scale, period = 1.0 / options.servo_rate;
@@ -105,12 +106,15 @@ class ScriptedPen {
     if (tick.status == calligraphy::TickStatus::ok) {
       const Eigen::Vector3d place = renderer_.mapping().to_page(sampled_), before = velocity_.velocity();
       velocity_.update(place, seen_ ? std::max(tick.time - seen_at_, period) : period);
-      if (seen_) way = place - seen_place_;
-      kick = velocity_.velocity() - before;
+      if (followed_) {
+        way = place - seen_place_;
+        kick = velocity_.velocity() - before;
+      }
       seen_ = true;
       seen_at_ = tick.time;
       seen_place_ = place;
     }
+    followed_ = tick.status == calligraphy::TickStatus::ok;
     const auto capped = [](double value, double most) { return std::min(std::abs(value), most); };
     double attraction = 1.0;
     for (const calligraphy::PlacedCharacter& placed : renderer_.page()) {
@@ -124,9 +128,10 @@ class ScriptedPen {
     const double furthest = 2.0 * scale * period, hardest = 0.2 * scale;
     const double in_plane =
         spring * capped(way.head<2>().norm(), furthest) + damper * capped(kick.head<2>().norm(), hardest);
-    const double entered = std::min(1.0, capped(way.z(), furthest) / 2e-4);  // the depth over which the damper sets in
+    const double down = capped(way.z(), furthest);
+    const double entered = down < options.paper_onset ? down / options.paper_onset : 1.0;
     const double normal =
-        options.paper_stiffness * capped(way.z(), furthest) +
+        options.paper_stiffness * down +
         options.paper_damping * (capped(kick.z(), hardest) + entered * capped(velocity_.velocity().z(), 2.0 * scale));
     return std::hypot(options.in_plane_force_rate * period + scale * in_plane,
                       options.normal_force_rate * period + scale * normal);
@@ -137,6 +142,7 @@ class ScriptedPen {
   calligraphy::VelocityEstimator velocity_;
   Eigen::Vector3d sampled_ = Eigen::Vector3d::Zero();  ///< position of this sample, as the device returns it
   bool seen_ = false;
+  bool followed_ = false;  ///< the last sample was good
   double seen_at_ = 0.0;
   Eigen::Vector3d seen_place_ = Eigen::Vector3d::Zero();
   double time_ = 0.0;

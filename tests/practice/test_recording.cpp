@@ -53,7 +53,7 @@ Recording hard_recording() {
     sample.force = {next(7), next(8), next(9)};
     sample.state = static_cast<InteractionState>(i % 4);
     sample.events = static_cast<TickEvent>(i == 8 ? 255 : 1 << (i % 8));
-    sample.status = static_cast<TickStatus>(i % 3);
+    sample.status = static_cast<TickStatus>(i / 2 % 4);
     sample.character = i == 0 ? std::numeric_limits<int>::max() : static_cast<int>(i);
     sample.stroke = static_cast<int>(3 * i);
     sample.tick_ns = i == 1 ? std::numeric_limits<float>::denorm_min() : 0.1F * static_cast<float>(i);
@@ -197,7 +197,7 @@ TEST_CASE("malformed CSV is an error naming the line and the value", "[practice]
   CHECK(second("WS", "ws") == "trace.csv:4: state is 'ws': expected SS, AS, CS or WS");
   CHECK(second("WS,4", "WS,256") == "trace.csv:4: events is '256': expected 0 to 255");
   CHECK(second("WS,4", "WS,1.5") == "trace.csv:4: events is '1.5': expected a number");
-  CHECK(second("ok", "fine") == "trace.csv:4: status is 'fine': expected ok, bad_sample or device_fault");
+  CHECK(second("ok", "fine") == "trace.csv:4: status is 'fine': expected ok, stale, bad_sample or device_fault");
   CHECK(second("ok,0", "ok,-1") == "trace.csv:4: character is '-1': expected 0 to 2147483647");
   CHECK(second("ok,0,1", "ok,0,2147483648") == "trace.csv:4: stroke is '2147483648': out of range");
   CHECK(second("250", "x") == "trace.csv:4: tick_ns is 'x': expected a number");
@@ -276,11 +276,12 @@ TEST_CASE("CSV does not depend on the locale of the C library", "[practice]") {
   check_same(again, hard_recording());
 }
 
-TEST_CASE("device states are the device points in device axes, and faults stay faults", "[practice]") {
+TEST_CASE("device states are the device points in device axes, and faults and stale samples stay what they are",
+          "[practice]") {
   MotionMapping mapping = desk_page(0.16, 0.12);
   mapping.scale = 2.0;
   Recording recording;
-  for (int i = 0; i < 4; ++i) {
+  for (int i = 0; i < 5; ++i) {
     RecordedSample sample;
     sample.time = 0.25 * i;
     sample.device_point = {0.1 * i, 0.05, -0.001 * i};
@@ -289,14 +290,15 @@ TEST_CASE("device states are the device points in device axes, and faults stay f
   }
   recording.samples[1].status = TickStatus::bad_sample;
   recording.samples[2].status = TickStatus::device_fault;
+  recording.samples[3].status = TickStatus::stale;
   const std::vector<DeviceState> states = device_states(recording, mapping);
-  REQUIRE(states.size() == 4);
-  for (std::size_t i = 0; i < 4; ++i) {
+  REQUIRE(states.size() == 5);
+  for (std::size_t i = 0; i < 5; ++i) {
     CAPTURE(i);
     const RecordedSample& sample = recording.samples[i];
     CHECK(states[i].time == sample.time);
     CHECK(states[i].velocity.array().isNaN().all());
-    CHECK(states[i].status == (i == 2 ? DeviceStatus::fault : DeviceStatus::ok));
+    CHECK(states[i].status == (i == 2 ? DeviceStatus::fault : i == 3 ? DeviceStatus::stale : DeviceStatus::ok));
     if (i == 1) {
       CHECK(states[i].position.array().isNaN().all());
     } else {

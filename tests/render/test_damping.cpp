@@ -18,6 +18,11 @@ namespace {
 constexpr double damping = 4.0;      // of guidance and of the paper, by default [N s/m]
 constexpr double free_share = 0.15;  // of it, where the pen is free to move
 
+/// Eq. (9) with the stiffness setting in over the first `onset`: the integral of K min(1, depth / onset).
+double paper_spring(double depth, double onset = 0.0005) {
+  return 600.0 * (depth < onset ? depth * depth / (2.0 * onset) : depth - 0.5 * onset);
+}
+
 /// A pen on the first, straight stroke of 三, 10 mm from its start and pressed in by 2 mm.
 struct OnStroke {
   HapticRenderer renderer;
@@ -153,28 +158,77 @@ TEST_CASE("the damper of the paper acts along its normal, within the normal forc
   test.pen.speed = 0.02;
   test.go(0.010, 0.0, -0.004);
   CHECK(test.renderer.last().viscous.z() == Approx(damping * test.speed()).epsilon(1e-3));
-  CHECK(test.renderer.last().normal == Approx(600.0 * 0.004 + damping * test.speed()).epsilon(1e-4));
+  CHECK(test.renderer.last().normal == Approx(paper_spring(0.004) + damping * test.speed()).epsilon(1e-4));
   test.go(0.010, 0.0, -0.001);
   CHECK(test.renderer.last().viscous.z() == Approx(-damping * test.speed()).epsilon(1e-3));
-  CHECK(test.renderer.last().normal == Approx(600.0 * 0.001 - damping * test.speed()).epsilon(1e-3));
+  CHECK(test.renderer.last().normal == Approx(paper_spring(0.001) - damping * test.speed()).epsilon(1e-3));
 }
 
-TEST_CASE("the damper of the paper sets in over 0.2 mm, so that a touch is no step", "[render]") {
+TEST_CASE("spring and damper of the paper set in over paper_onset, so that a touch is no step", "[render]") {
+  for (const double onset : {RendererOptions{}.paper_onset, 0.002, 0.0}) {
+    RendererOptions options;
+    options.paper_onset = onset;
+    OnStroke test(options);
+    test.go(0.010, 0.0, 0.0002);
+    test.pen.speed = 0.002;  // 2 um per tick
+    double off = 0.0, spring_off = 0.0, stiffest = 0.0, before = 0.0;
+    int seen = 0;
+    test.pen.on_tick = [&](const HapticTick& tick) {
+      test.note(tick);
+      if (tick.device_point.z() > 0.0) return;
+      const double share = tick.penetration < onset ? tick.penetration / onset : 1.0;
+      const double spring = tick.normal - tick.viscous.z(), way = test.place_before.z() - test.place.z();
+      off = std::max(off, std::abs(tick.viscous.z() - share * damping * test.speed()));
+      spring_off = std::max(spring_off, std::abs(spring - paper_spring(tick.penetration, onset)));
+      // Relative to the damper, the spring is at no depth stiffer than both are in full.
+      if (seen > 0) stiffest = std::max(stiffest, (spring - before) / way / (tick.viscous.z() / test.speed()));
+      before = spring;
+      ++seen;
+    };
+    test.go(0.010, 0.0, -1.5 * onset - 0.0004);
+    CAPTURE(onset);
+    CHECK(seen > 150);
+    CHECK(off < 1e-4 * damping * 0.002);
+    CHECK(spring_off < 1e-12);
+    CHECK(stiffest == Approx(600.0 / damping).epsilon(1e-3));
+  }
+  CHECK(RendererOptions{}.paper_onset == 0.0005);
+}
+
+TEST_CASE("a pen at rest in the paper feels K d^2 / (2 onset) up to the onset and K (d - onset / 2) beyond",
+          "[render]") {
   OnStroke test;
-  test.go(0.010, 0.0, 0.0002);
-  test.pen.speed = 0.002;  // 2 um per tick
-  double off = 0.0;
-  int seen = 0;
-  test.pen.on_tick = [&](const HapticTick& tick) {
-    test.note(tick);
-    if (tick.device_point.z() > 0.0) return;
-    const double share = std::min(1.0, tick.penetration / 2e-4);
-    off = std::max(off, std::abs(tick.viscous.z() - share * damping * test.speed()));
-    ++seen;
-  };
-  test.go(0.010, 0.0, -0.0004);
-  CHECK(seen > 150);
-  CHECK(off < 1e-4 * damping * 0.002);
+  for (const auto& [depth, force] :
+       {std::pair{0.0001, 0.006}, {0.00025, 0.0375}, {0.0005, 0.15}, {0.001, 0.45}, {0.002, 1.05}}) {
+    test.go(0.010, 0.0, -depth);
+    for (int i = 0; i < 100; ++i) test.go(0.010, 0.0, -depth);
+    CAPTURE(depth);
+    CHECK(test.renderer.last().page_force.z() == Approx(force));
+  }
+}
+
+TEST_CASE("where the saturating law is softer, its damping falls by the square root of that", "[render]") {
+  RendererOptions options;
+  options.guidance = GuidanceLaw::saturating;
+  options.guidance_limit = 1.2;
+  options.box_margin = 0.06;
+  for (const double distance : {0.015, 0.03}) {
+    OnStroke test(options);
+    test.go(0.010, distance);
+    REQUIRE(test.renderer.last().state == InteractionState::writing);
+    // The force is K d / sqrt(1 + (K d / limit)^2).
+    const double share = std::pow(1.0 + std::pow(600.0 * distance / 1.2, 2.0), -0.25);
+    CHECK(share < 0.4);
+    CAPTURE(distance, share);
+    CHECK(test.against(test.left) ==
+          Approx((share + free_share * (1.0 - share)) * damping * test.speed()).epsilon(1e-3));
+  }
+  // Near the stroke it is as stiff as the linear one.
+  OnStroke near(options);
+  near.pen.speed = 0.01;
+  near.go(0.010, -0.0005);
+  near.go(0.010, 0.0001);
+  CHECK(near.against(near.left) == Approx(damping * near.speed()).epsilon(2e-3));
 }
 
 TEST_CASE("paper never pulls, however fast the pen is lifted", "[render]") {
@@ -182,7 +236,7 @@ TEST_CASE("paper never pulls, however fast the pen is lifted", "[render]") {
   double least = 1.0, braked = 0.0;
   test.pen.on_tick = [&](const HapticTick& tick) {
     least = std::min({least, tick.normal, tick.page_force.z()});
-    braked = std::min(braked, tick.viscous.z() + 600.0 * tick.penetration);
+    braked = std::min(braked, tick.viscous.z() + paper_spring(tick.penetration));
   };
   for (const double speed : {0.2, 1.0, 3.0}) {
     test.pen.speed = speed;
@@ -191,7 +245,7 @@ TEST_CASE("paper never pulls, however fast the pen is lifted", "[render]") {
     test.go(0.010, 0.0, -0.006);
   }
   CHECK(least == 0.0);
-  CHECK(braked == 0.0);  // what is reported as viscous is what the tick renders
+  CHECK(braked > -1e-12);  // what is reported as viscous is what the tick renders
 }
 
 TEST_CASE("friction is damped where its spring changes, and not where the anchor slides along", "[render]") {
@@ -199,13 +253,13 @@ TEST_CASE("friction is damped where its spring changes, and not where the anchor
   options.friction.coefficient = 0.2;
   OnStroke test(options);
   test.pen.speed = 0.01;
-  test.go(0.016, 0.0);  // mu N / k = 0.48 mm: it slides
+  test.go(0.016, 0.0);  // N = 1.05 N, mu N / k = 0.42 mm: it slides
   CHECK(test.against(test.along) == Approx(free_share * damping * test.speed()).epsilon(1e-3));
-  CHECK(test.renderer.last().friction.dot(test.along) == Approx(-0.2 * 1.2).epsilon(1e-3));
+  CHECK(test.renderer.last().friction.dot(test.along) == Approx(-0.2 * 1.05).epsilon(1e-3));
   test.go(0.0154, 0.0);  // back by less than twice that: it sticks
   CHECK(test.against(test.along) == Approx(-(free_share * damping + 2.5) * test.speed()).epsilon(1e-3));
   CHECK(test.renderer.last().friction.dot(test.along) ==
-        Approx(-0.2 * 1.2 + 500.0 * 0.0006 + 2.5 * test.speed()).epsilon(1e-3));
+        Approx(-0.2 * 1.05 + 500.0 * 0.0006 + 2.5 * test.speed()).epsilon(1e-3));
 }
 
 TEST_CASE("the damping of friction is filtered as that of guidance is", "[render]") {

@@ -164,7 +164,9 @@ TEST_CASE("the next stroke begins with a new contact, or by sliding where that i
 }
 
 TEST_CASE("Table 2: the force of each state and where it keeps the pen tip", "[render]") {
-  HapticRenderer renderer = renderer_of(U"三");
+  RendererOptions options;
+  options.paper_onset = 0.0;  // eq. (9) as it is
+  HapticRenderer renderer = renderer_of(U"三", options);
   ScriptedPen pen(renderer);
   const Placement place = renderer.page()[0].placement;
   const Stroke first = strokes(renderer.page()[0].character)[0];
@@ -203,6 +205,7 @@ TEST_CASE("Table 2: the force of each state and where it keeps the pen tip", "[r
 TEST_CASE("solid paper is felt outside the character too", "[render]") {
   RendererOptions options;
   options.solid_paper = true;
+  options.paper_onset = 0.0;
   HapticRenderer renderer = renderer_of(U"三", options);
   ScriptedPen pen(renderer);
   pen.go({0.15, 0.15, 0.01});

@@ -128,6 +128,35 @@ TEST_CASE("on a missing or faulty device the force ramps down to zero, and does 
   }
 }
 
+TEST_CASE("a pen that is moved while no good sample arrives feels no step on its return", "[render]") {
+  for (const DeviceStatus status : {DeviceStatus::ok, DeviceStatus::stale, DeviceStatus::fault}) {
+    for (const int missed : {1, 3, 10, 100}) {
+      for (const bool moves_on : {false, true}) {
+        InStroke test;
+        const Vector3d unknown(not_a_number, 0.0, 0.0);  // with status ok: a bad sample
+        for (int i = 0; i < missed; ++i) test.pen.sample(state_with(unknown, status));
+        // 4 mm deeper in the paper, at 1 mm/ms at most: as fast as it may be, faster than the force may follow.
+        const double way = std::min(0.004, 0.001 * missed);
+        test.place += Vector3d(0.0, way, -way);
+        const Vector3d before = test.renderer.last().force;
+        test.pen.at(test.place);
+        CAPTURE(static_cast<int>(status), missed, moves_on);
+        REQUIRE(test.renderer.last().status == TickStatus::ok);
+        const Vector3d step = test.renderer.last().force - before;
+        CHECK(step.head<2>().norm() <= 0.1 + 1e-12);
+        CHECK(std::abs(step.z()) <= 0.4 + 1e-12);
+        for (int i = 0; i < 200; ++i) {
+          if (moves_on) test.place.x() += 1e-5;
+          test.pen.at(test.place);
+        }
+        CHECK(test.renderer.last().state == InteractionState::writing);
+        CHECK(test.renderer.last().force.norm() > before.norm());
+        CHECK(test.pen.max_unexplained <= 1e-12);
+      }
+    }
+  }
+}
+
 TEST_CASE("warm motors are no fault", "[render]") {
   InStroke test;
   const Vector3d before = test.renderer.last().force;

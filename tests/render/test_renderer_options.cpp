@@ -48,6 +48,7 @@ struct Domain {
 const Domain domains[] = {
     {"servo_rate", [](RendererOptions& o) -> double& { return o.servo_rate; }, false},
     {"paper_stiffness", [](RendererOptions& o) -> double& { return o.paper_stiffness; }, true},
+    {"paper_onset", [](RendererOptions& o) -> double& { return o.paper_onset; }, true},
     {"paper_damping", [](RendererOptions& o) -> double& { return o.paper_damping; }, true},
     {"guidance_stiffness", [](RendererOptions& o) -> double& { return o.guidance_stiffness; }, true},
     {"guidance_damping", [](RendererOptions& o) -> double& { return o.guidance_damping; }, true},
@@ -233,7 +234,7 @@ TEST_CASE("a renderer needs a device that senses and drives three translations",
   CHECK(contains(complaint_of(plane, plane), "sensed axes are x, y, driven axes are x, y; the renderer"));
 }
 
-TEST_CASE("everything() is valid for the shipped devices, and every stage is enabled", "[render]") {
+TEST_CASE("everything() is valid for the shipped devices, and enables every stage but passivity control", "[render]") {
   struct Shipped {
     double peak, continuous, stiffness, mass;
     int delay;
@@ -258,7 +259,7 @@ TEST_CASE("everything() is valid for the shipped devices, and every stage is ena
       CHECK(options.guide_to_start);
       CHECK(options.assist.enabled);
       CHECK(options.friction.coefficient > 0.0);
-      CHECK(options.passivity_control);
+      CHECK_FALSE(options.passivity_control);  // the springs are damped already
       CHECK(std::isfinite(options.energy_budget));
       const bool warms = shipped.continuous > 0.0 && shipped.continuous < shipped.peak;
       CHECK((options.thermal_time_constant > 0.0) == warms);
@@ -332,7 +333,7 @@ TEST_CASE("on a page with a motion scale stiffness and damping count as the devi
 }
 
 TEST_CASE("a device of unknown mass is taken to weigh 20 g", "[render]") {
-  for (const int delay : {0, 2}) {
+  for (const int delay : {1, 2}) {
     const double unknown = max_guidance_stiffness({}, light_device(0.0, delay));
     CHECK(unknown == max_guidance_stiffness({}, light_device(0.02, delay)));
     CHECK(unknown != max_guidance_stiffness({}, light_device(0.03, delay)));
@@ -369,11 +370,51 @@ TEST_CASE("guidance and friction together are held to what is stable with both d
     CAPTURE(delay, both, options.guidance_stiffness, options.friction.stiffness);
     CHECK(options.guidance_stiffness + options.friction.stiffness <= both * (1.0 + 1e-6));
     CHECK(options.guidance_stiffness > 0.1 * both);
-    CHECK(options.friction.stiffness > 0.2 * both);
+    // A share of 35 %, unless so little damping is left to friction that its spring would be unstable alone.
+    CHECK(options.friction.stiffness >= std::min(0.35 * both, bound(device, options.friction.damping)) * (1.0 - 1e-6));
     CHECK(complaint(options, device).empty());
     CHECK(max_guidance_stiffness(options, device) + options.friction.stiffness <= both * (1.0 + 1e-6));
     options.guidance_stiffness = options.friction.stiffness = 0.51 * both;
     CHECK_FALSE(complaint(options, device).empty());
+  }
+}
+
+TEST_CASE("friction that would be softer than 1 N/m is left out, with a line that says so", "[render]") {
+  for (const auto& [delay, rate] : {std::pair{15, 100.0}, {5, 100.0}, {15, 500.0}}) {
+    const Capabilities device = light_device(0.045, delay, rate);
+    RendererOptions options;
+    options.servo_rate = rate;
+    options.friction.coefficient = 0.2;
+    CAPTURE(delay, rate);
+    CHECK_FALSE(complaint(options, device).empty());
+    const std::vector<std::string> clipped = clip_stiffness(options, device);
+    CHECK(options.friction.coefficient == 0.0);
+    CHECK(std::count_if(clipped.begin(), clipped.end(), [](const std::string& line) {
+            return contains(line, "friction.coefficient = 0.2") && contains(line, "too soft for friction");
+          }) == 1);
+    CHECK(complaint(options, device) == "");
+    CHECK(clip_stiffness(options, device).empty());
+    const RendererOptions all = RendererOptions::everything(device);
+    CHECK(all.friction.coefficient == 0.0);
+    CHECK(complaint(all, device) == "");
+  }
+  // Without a damper friction alone would be that soft, whatever guidance has.
+  Capabilities undamped = light_device(0.045);
+  undamped.viscous_friction = 0.0;
+  RendererOptions bare;
+  bare.friction.coefficient = 0.2;
+  bare.friction.damping = 0.0;
+  CHECK(clip_stiffness(bare, undamped).size() >= 1);
+  CHECK(bare.friction.coefficient == 0.0);
+  CHECK(complaint(bare, undamped) == "");
+  // Where 1 N/m or more remains, friction remains.
+  for (const int delay : {0, 1, 2, 3, 5}) {
+    RendererOptions options;
+    options.friction.coefficient = 0.2;
+    clip_stiffness(options, light_device(0.045, delay));
+    CAPTURE(delay);
+    CHECK(options.friction.coefficient == 0.2);
+    CHECK(options.friction.stiffness >= 1.0);
   }
 }
 
@@ -513,11 +554,16 @@ TEST_CASE("the maximum force step is that of the fastest pen that is followed, i
     options.stiffness_check = StiffnessCheck::off;
     const HapticRenderer renderer({placed(U'永')}, mapping, test_device(), options);
     // 100 and 400 N/s at 500 Hz; 2 m/s against springs of 600 + 200 and 600 N/m, and kicks of 0.2 m/s against dampers
-    // of 4 N s/m; in that tick the pen enters the paper, whose damper acts in full from 0.2 mm on.
+    // of 4 N s/m; in that tick the pen enters the paper, whose damper acts in full from the onset on.
     const double square = scale * scale;
     const double in_plane = 0.2 + square * (800.0 * 2.0 * 0.002 + 4.0 * 0.2);
     const double normal = 0.8 + square * (600.0 * 2.0 * 0.002 + 4.0 * (0.2 + 2.0));
     CHECK(renderer.max_force_step() == Approx(std::hypot(in_plane, normal)));
+    // In a tick the pen enters 4 mm: with an onset of twice that, half of the damper.
+    options.paper_onset = 0.008 * scale;
+    const double gentle = 0.8 + square * (600.0 * 2.0 * 0.002 + 4.0 * (0.2 + 0.5 * 2.0));
+    const HapticRenderer soft({placed(U'永')}, mapping, test_device(), options);
+    CHECK(soft.max_force_step() == Approx(std::hypot(in_plane, gentle)));
   }
 }
 

@@ -209,9 +209,10 @@ TEST_CASE("the rule of thumb is right for small wall damping and a factor of two
 
 namespace {
 
-constexpr double cutoff = 50.0;       // [Hz]
-constexpr double stiffest = 1e6;      // [N/m]
-constexpr double longest_lag = 6e-3;  // [s]
+constexpr double cutoff = 50.0;         // [Hz]
+constexpr double stiffest = 1e6;        // [N/m]
+constexpr double promised = 0.075;      // damping ratio of masses: half of the phase of 0.15 rad
+constexpr double promised_grip = 0.05;  // of a hand with a spring: half of 0.1 rad
 
 /// exp(matrix), by squaring a Taylor series.
 Eigen::Matrix3d exponential(Eigen::Matrix3d matrix) {
@@ -280,8 +281,8 @@ double least_damping_of_masses(const SampledLoop& loop, double stiffness) {
 /// Hands with a spring, that swing with the device at a damping ratio of 0.1: of the least damped one.
 double least_damping_of_grips(const SampledLoop& loop, double stiffness) {
   double least = 1.0;
-  for (const double mass : {0.01, 0.05, 0.3}) {
-    for (const double spring : {100.0, 1000.0}) {
+  for (const double mass : {0.0, 0.003, 0.03, 0.3}) {
+    for (const double spring : {30.0, 100.0, 300.0, 1000.0}) {
       const double damping = 2.0 * 0.1 * std::sqrt(spring * (mass + loop.device.apparent_mass));
       least = std::min(least, damping_ratio(loop, stiffness, {mass, damping, spring}));
     }
@@ -305,7 +306,7 @@ std::vector<SampledLoop> many_loops() {
   for (const double mass : {0.02, 0.045, 0.075}) {
     for (const double friction : {0.0, 0.1}) {
       for (const int delay : delays) {
-        for (const double rate : {500.0, 1000.0, 10'000.0}) {
+        for (const double rate : {100.0, 500.0, 1000.0, 10'000.0}) {
           for (const double damping : {1.0, 4.0, 8.0}) {
             all.push_back(damped_loop(mass, friction, delay, rate, damping));
           }
@@ -341,11 +342,11 @@ TEST_CASE("up to the stiffness for any hand the loop decays in every hand", "[st
     CAPTURE(loop.device.apparent_mass, loop.device.viscous_friction, loop.device.sample_delay, loop.rate,
             loop.wall_damping, most);
     if (most == 0.0) continue;
-    CHECK(least_damping_of_masses(loop, most) > 0.04);
-    CHECK(least_damping_of_masses(loop, 0.3 * most) > 0.04);
-    if ((loop.device.sample_delay + 0.5) / loop.rate > longest_lag) continue;
-    CHECK(least_damping_of_grips(loop, most) > 0.0);
-    CHECK(least_damping_of_grips(loop, 0.3 * most) > 0.0);
+    for (const double share : {1.0, 0.3}) {
+      CHECK(least_damping_of_masses(loop, share * most) > 0.97 * promised);
+      // Where the lag of the damper turns with frequency, the phase says less about the ratio.
+      CHECK(least_damping_of_grips(loop, share * most) > 0.6 * promised_grip);
+    }
   }
 }
 
@@ -355,17 +356,44 @@ TEST_CASE("above the stiffness for any hand some hand is not damped as promised,
     const double most = stiffness_for_any_hand(loop, cutoff, stiffest);
     CAPTURE(loop.device.apparent_mass, loop.device.viscous_friction, loop.device.sample_delay, loop.rate,
             loop.wall_damping, most);
-    CHECK(least_damping_of_masses(loop, std::max(1.0, 1.5 * most)) < 0.075);
+    const double above = std::max(1.0, 1.5 * most);
+    const double masses = least_damping_of_masses(loop, above), grips = least_damping_of_grips(loop, above);
+    CAPTURE(masses, grips);
+    CHECK((masses < promised || grips < promised_grip));
     if (most > 50.0 && loop.rate <= 1000.0) CHECK(least_damping_of_masses(loop, 30.0 * most) < 0.0);
   }
-  // With the default damping at 1 kHz a factor of two to three suffices.
+  // With the default damping at 1 kHz a factor of two to three suffices, but for 20 g, which the damper holds longer.
   for (const double mass : {0.02, 0.045, 0.075}) {
     for (const int delay : {1, 2}) {
       const SampledLoop loop = damped_loop(mass, 0.1, delay, 1000.0, 4.0);
       CAPTURE(mass, delay);
-      CHECK(least_damping_of_masses(loop, 2.5 * stiffness_for_any_hand(loop, cutoff, stiffest)) < 0.0);
+      const double factor = mass < 0.03 && delay == 2 ? 4.0 : 2.5;
+      CHECK(least_damping_of_masses(loop, factor * stiffness_for_any_hand(loop, cutoff, stiffest)) < 0.0);
     }
   }
+}
+
+TEST_CASE("at low rates too, down to 1 Hz, the stiffness for any hand is one that decays, not the one asked for",
+          "[stiffness advice]") {
+  int usable = 0;
+  for (const double rate : {1.0, 5.0, 20.0, 50.0, 100.0}) {
+    for (const double mass : {0.02, 0.045, 0.075}) {
+      for (const int delay : {0, 1, 5}) {
+        for (const double damping : {0.0, 0.3, 1.0, 4.0, 8.0}) {
+          const SampledLoop loop = damped_loop(mass, 0.1, delay, rate, damping);
+          const double most = stiffness_for_any_hand(loop, cutoff, stiffest);
+          CAPTURE(rate, mass, delay, damping, most);
+          CHECK(least_damping_of_masses(loop, stiffest) < 0.0);
+          CHECK(most < 300.0);
+          if (most < 0.2) continue;  // springs softer than 0.1 N/m are not looked at
+          CHECK(least_damping_of_masses(loop, most) > 0.97 * promised);
+          CHECK(least_damping_of_grips(loop, most) > 0.0);
+          ++usable;
+        }
+      }
+    }
+  }
+  CHECK(usable >= 15);
 }
 
 TEST_CASE("the stiffness for any hand falls with the delay, and rises with the rate and the device's friction",
@@ -376,7 +404,9 @@ TEST_CASE("the stiffness for any hand falls with the delay, and rises with the r
   for (const double rate : {500.0, 1000.0, 2000.0, 4000.0}) {
     for (int delay = 0; delay < 5; ++delay) {
       CAPTURE(rate, delay);
-      CHECK(bound(0.1, delay + 1, rate) < bound(0.1, delay, rate));
+      const double now = bound(0.1, delay, rate), later = bound(0.1, delay + 1, rate);
+      CHECK((later < now || (later == 0.0 && now == 0.0)));
+      if (delay < 2) CHECK(later > 0.0);
       CHECK(bound(0.1, delay, 2.0 * rate) > bound(0.1, delay, rate));
       CHECK(bound(0.2, delay, rate) >= bound(0.1, delay, rate));
       if (delay < 2) CHECK(bound(0.2, delay, rate) > bound(0.1, delay, rate));
@@ -402,7 +432,7 @@ TEST_CASE("the stiffness for any hand is at most the one asked for and does not 
   SampledLoop loop = damped_loop(0.045, 0.1, 0, 1000.0, 4.0);
   const double most = stiffness_for_any_hand(loop, cutoff, stiffest);
   CHECK(stiffness_for_any_hand(loop, cutoff, 0.5 * most) == 0.5 * most);
-  CHECK(stiffness_for_any_hand(loop, cutoff, 2.0 * most) == Approx(most));
+  CHECK(stiffness_for_any_hand(loop, cutoff, 2.0 * most) == Approx(most).epsilon(0.03));  // the step in frequency
   loop.grip = {0.1, 3.0, 300.0};
   CHECK(stiffness_for_any_hand(loop, cutoff, stiffest) == most);
   for (const double bad : {0.0, -1.0, not_a_number, infinity}) {

@@ -18,13 +18,14 @@ namespace {
 
 constexpr double stiffness = 400.0;
 
-/// The defaults with the raw force of the springs: no rate limit, no fade-in, no damping.
+/// The defaults with the raw force of the springs: no rate limit, no fade-in, no onset, no damping.
 RendererOptions direct() {
   RendererOptions options;
   options.paper_stiffness = options.guidance_stiffness = stiffness;
   options.wrong_way_stiffness = 0.0;
   options.guidance_fade_in = 0.0;
   options.limit_force_rate = false;
+  options.paper_onset = 0.0;
   options.paper_damping = options.guidance_damping = 0.0;
   options.stiffness_check = StiffnessCheck::off;
   return options;
@@ -176,6 +177,7 @@ TEST_CASE("wang2006() selects every printed rule except the signs", "[render]") 
   CHECK(options.motion == MotionMappingRule::wang2006);
   CHECK_FALSE(options.limit_force_rate);
   CHECK(options.lift_time == 0.0);
+  CHECK(options.paper_onset == 0.0);
   CHECK(options.paper_damping == 0.0);
   CHECK(options.guidance_damping == 0.0);
   CHECK(options.stiffness_check == StiffnessCheck::off);
