@@ -97,7 +97,7 @@ class ScriptedPen {
 
  private:
   /// How far the force may change in this tick: K |dx| + B |dv| beyond the rate limits, in the paper plane and along
-  /// its normal, for pens of up to 2 m/s that are kicked by up to 0.2 m/s [N, device]. What the pen did while no sample
+  /// its normal, for pens of up to 1 m/s that are kicked by up to 0.3 m/s [N, device]. What the pen did while no sample
   /// showed it explains nothing, because the force did not follow then.
   double explained_step(const HapticTick& tick) {
     const calligraphy::RendererOptions& options = renderer_.options();
@@ -125,14 +125,14 @@ class ScriptedPen {
     const double spring = options.guidance_stiffness * attraction + options.wrong_way_stiffness +
                           (rubs ? options.friction.stiffness : 0.0);
     const double damper = options.guidance_damping + (rubs ? options.friction.damping : 0.0);
-    const double furthest = 2.0 * scale * period, hardest = 0.2 * scale;
+    const double furthest = 1.0 * scale * period, hardest = 0.3 * scale;
     const double in_plane =
         spring * capped(way.head<2>().norm(), furthest) + damper * capped(kick.head<2>().norm(), hardest);
-    const double down = capped(way.z(), furthest);
+    const double down = std::abs(way.z());
     const double entered = down < options.paper_onset ? down / options.paper_onset : 1.0;
+    const double shoved = std::abs(kick.z()) + entered * std::abs(velocity_.velocity().z());
     const double normal =
-        options.paper_stiffness * down +
-        options.paper_damping * (capped(kick.z(), hardest) + entered * capped(velocity_.velocity().z(), 2.0 * scale));
+        options.paper_stiffness * capped(down, furthest) + options.paper_damping * capped(shoved, hardest);
     return std::hypot(options.in_plane_force_rate * period + scale * in_plane,
                       options.normal_force_rate * period + scale * normal);
   }

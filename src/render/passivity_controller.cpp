@@ -155,7 +155,7 @@ Eigen::Vector3d PassivityController::within_budget(const Eigen::Vector3d& force,
                                                    const Eigen::Vector3d& viscous) noexcept {
   max_force_ = max_payable_force();
   if (max_force_ < brake_) {
-    max_force_ = brake_ * std::clamp(left_ / reserve_, faintest_share, 1.0);
+    max_force_ = brake_ * (left_ > faintest_share * reserve_ ? std::min(left_ / reserve_, 1.0) : faintest_share);
     return -max_force_ / (norm(velocity_) + slow_pen) * velocity_;
   }
   if (!(norm(force) > max_force_)) return force;

@@ -400,11 +400,11 @@ TEST_CASE("with every stage disabled the force is the plain composition: terms, 
     // K |dx| + B |dv|, and the damper of the paper where the pen enters.
     const Vector3d way = first ? Vector3d(0, 0, 0) : Vector3d(tick.device_point - last), before = velocity.velocity();
     const Vector3d kick = velocity.update(tick.device_point, 0.001) - before;
-    const double depth = std::min(std::abs(way.z()), 0.002), speed = std::abs(velocity.velocity().z());
+    const double down = std::abs(way.z()), speed = std::abs(velocity.velocity().z());
+    const double shoved = std::abs(kick.z()) + std::min(1.0, down / onset) * speed;
     const ForceAllowance allowance{
-        800.0 * std::min(way.head<2>().norm(), 0.002) + 4.0 * std::min(kick.head<2>().norm(), 0.2),
-        600.0 * depth +
-            4.0 * (std::min(std::abs(kick.z()), 0.2) + std::min(1.0, depth / onset) * std::min(speed, 2.0))};
+        800.0 * std::min(way.head<2>().norm(), 0.001) + 4.0 * std::min(kick.head<2>().norm(), 0.3),
+        600.0 * std::min(down, 0.001) + 4.0 * std::min(shoved, 0.3)};
     force = limiter.next(force, sum, allowance);
     max_difference = std::max(max_difference, (force - tick.force).norm());
     max_force = std::max(max_force, force.norm());
