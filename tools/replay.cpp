@@ -166,7 +166,7 @@ void add_replay(CLI::App& program) {
       ->type_name("DIR");
   command->add_option("--only", options->only, "Replay only traces of these characters")->type_name("TEXT");
   add_device_option(*command, options->device);
-  command->add_option("--renderer", options->renderer, "Default stages, or all optional stages enabled")
+  command->add_option("--renderer", options->renderer, "Default stages, or the optional stages enabled too")
       ->check(CLI::IsMember({"default", "everything"}))
       ->capture_default_str();
   command->add_flag("--json", options->json, "Print JSON instead of the table")->disable_flag_override();

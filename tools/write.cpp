@@ -354,7 +354,7 @@ void add_write(CLI::App& program) {
   command->add_option("--rules", options->rules, "Default rules, or the rules as printed in the paper")
       ->check(CLI::IsMember({"default", "wang2006"}))
       ->capture_default_str();
-  command->add_option("--renderer", options->renderer, "Default stages, or all optional stages enabled")
+  command->add_option("--renderer", options->renderer, "Default stages, or the optional stages enabled too")
       ->check(CLI::IsMember({"default", "everything"}))
       ->capture_default_str();
   command->add_option("--method", options->method, "Nearest-point method on curves (default: that of the rules)")

@@ -74,12 +74,12 @@ void PassivityController::acted(const Eigen::Vector3d& force, int ticks) noexcep
   constexpr int longest = 100'000;
   const Eigen::Vector3d before = sent_[newest_];
   const double change = norm(Eigen::Vector3d(force - before));
-  const bool held = change <= finest_force;
-  if (held) sent_[newest_] = force;
-  for (int missed = std::min(ticks, longest); missed > 1; --missed) {
-    // A force that was reduced meanwhile has been between the two, it is not known when.
-    pass_unseen(held ? 0.0 : change);
-    sent(held ? force : before);
+  // A force that was reduced meanwhile has been between the two, it is not known when: within max_gap.
+  int unsure = change <= finest_force ? 0 : static_cast<int>(std::min(std::ceil(max_gap_ / period_), 1.0 * longest));
+  if (unsure == 0) sent_[newest_] = force;
+  for (int missed = std::min(ticks, longest); missed > 1; --missed, --unsure) {
+    pass_unseen(unsure > 0 ? change : 0.0);
+    sent(unsure > 0 ? before : force);
   }
   sent_[newest_] = force;
 }

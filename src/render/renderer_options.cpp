@@ -75,25 +75,35 @@ class Limits {
     reason << enlarged_ << ": with a damping of " << damping * square_ << " N s/m at " << loop_.rate << " Hz";
     if (loop_.device.sample_delay > 0) reason << " and a delay of " << loop_.device.sample_delay << " ticks";
     reason << " the device " << device_label(loop_.device) << " is stable in any hand up to " << value
-           << " N/m (stiffness_for_any_hand)";
+           << " N/m (stiffness_for_any_hand)" << (damping > 0.0 ? "" : ": without damping no spring is");
     return {value / square_, reason.str()};
   }
   StiffnessLimit both(double damping) const {
     const StiffnessLimit one = usable(), other = stable(damping);
     return one.value < other.value ? one : other;
   }
-  /// The damping, at most that wanted, that permits the highest stiffness in addition to a damping `beside`, if the one
-  /// wanted does not permit `stiffness`; 0 if none permits any: it would drive the pen by itself [N s/m, page].
+  /// The highest damping, at most that wanted, that permits `stiffness` in addition to a damping `beside`; if none
+  /// does, the one that permits most, or 0 if none permits any: it would drive the pen by itself [N s/m, page].
   double best_damping(double wanted, double stiffness, double beside) const {
-    if (is_off_ || wanted == 0.0 || stable(wanted + beside).value >= std::min(stiffness, usable().value)) return wanted;
-    double best = 0.0, most = stable(beside).value;
+    const double needed = std::min(stiffness, usable().value);
+    const auto permitted = [&](double damping) { return stable(damping + beside).value; };
+    if (is_off_ || wanted == 0.0 || permitted(wanted) >= needed) return wanted;
+    double best = 0.0, most = permitted(0.0), too_strong = wanted;
     for (const double share : {1.0, 0.75, 0.5, 0.35, 0.25, 0.15, 0.08, 0.04}) {
-      const double value = stable(share * wanted + beside).value;
-      if (value <= most) continue;
-      most = value;
-      best = share * wanted;
+      const double value = permitted(share * wanted);
+      if (value > most) {
+        most = value;
+        best = share * wanted;
+      }
+      if (value >= needed) break;
+      too_strong = share * wanted;
     }
-    return best;
+    if (most < needed) return best;
+    for (int halving = 0; halving < 8; ++halving) {
+      const double middle = 0.5 * (best + too_strong);
+      (permitted(middle) >= needed ? best : too_strong) = middle;
+    }
+    return without_last_bits(best);
   }
 
  private:
@@ -179,8 +189,8 @@ std::vector<std::string> clip_stiffness(RendererOptions& options, const Capabili
     const double best = limits.best_damping(damping, stiffness, beside);
     if (best == damping) return;
     std::ostringstream message;
-    message << name << " = " << damping << " N s/m: at the lag of this loop " << best
-            << " N s/m permit a higher stiffness";
+    message << name << " = " << damping << " N s/m: too strong for the lag of this loop, at most " << best
+            << " N s/m beside " << stiffness << " N/m";
     clipped.push_back(message.str());
     damping = best;
   };

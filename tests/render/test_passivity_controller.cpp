@@ -513,6 +513,21 @@ TEST_CASE("with the budget of everything() guidance keeps at least 1 N on every 
   }
 }
 
+TEST_CASE("a force that was removed in a pause is charged for max_gap, however long the pause", "[render]") {
+  for (const int missed : {30, 1000, 100'000}) {
+    PassivityController passivity(budget_of(0.1, 0.045), 0.001);
+    passivity.next({0, 0, 0}, {0, 0, 0});
+    passivity.sent({1.0, 0, 0});
+    passivity.acted({0, 0, 0}, missed);
+    passivity.next({0, 0, 0}, {1.0, 0, 0});
+    CAPTURE(missed);
+    // At most 17 ticks of 1 N at 2 m/s.
+    CHECK(passivity.energy_given() <= 0.034 * (1.0 + 1e-9));
+    CHECK(passivity.energy_given() > 0.030);
+    CHECK(passivity.max_force() > 1.0);
+  }
+}
+
 TEST_CASE("a gap longer than foreseen gives at most |F| v t, and until that is repaid nothing more", "[render]") {
   for (const int missed : {50, 200}) {
     PassivityController passivity(budget_of(0.1, 0.045), 0.001);

@@ -17,8 +17,9 @@ class HapticDevice;
 /// SIGSTOP, _exit() or a power failure: only the device's own watchdog remains (HapticDevice::warnings()).
 void install_emergency_stop();
 
-/// Takes the force from every open device at once, without a ramp, and keeps it at zero: from here on every Servo
-/// writes zero. Returns when the devices have it: after a few milliseconds, at most 0.1 s more for each device or loop
+/// Takes the force at once, without a ramp, from every device that has an entry (the built-in backends; your own by one
+/// line) and from every device behind a Servo, and keeps it at zero. A device that a program writes to by itself, without
+/// either, keeps its force. Returns when the devices have it: after a few milliseconds, at most 0.1 s more for each device or loop
 /// whose own thread does not answer. Async-signal-safe; callable from any thread.
 void emergency_stop() noexcept;
 
