@@ -87,6 +87,7 @@ PassivityController passivity_controller(const RendererOptions& options, const C
   passivity.energy_budget = options.energy_budget;
   if (capabilities.apparent_mass > 0.0) passivity.mass = capabilities.apparent_mass / (scale * scale);
   passivity.hand_speed *= scale;
+  passivity.scale = scale;
   passivity.max_gap = options.max_gap;
   return PassivityController(passivity, 1.0 / options.servo_rate);
 }
@@ -228,7 +229,7 @@ TickStatus HapticRenderer::map_sample(const DeviceState& state) noexcept {
   if (options_.motion == MotionMappingRule::wang2006 && has_sample_) {
     const double elapsed = std::clamp(state.time - last_time_, 0.0, max_tick);
     const Eigen::Vector3d velocity = mapping_.velocity_to_page(state.velocity);
-    const bool measured = norm(velocity) <= options_.max_speed;  // false for NaN too
+    const bool measured = norm(velocity) <= options_.max_speed * mapping_.scale;  // false for NaN too
     tick_.device_point += measured ? Eigen::Vector3d(velocity * elapsed) : Eigen::Vector3d(mapped - last_position_);
   } else {
     tick_.device_point = mapped;
@@ -256,9 +257,9 @@ TickStatus HapticRenderer::map_sample(const DeviceState& state) noexcept {
 bool HapticRenderer::plausible(const Eigen::Vector3d& position, double time) const noexcept {
   if (!has_sample_) return true;
   const double period = 1.0 / options_.servo_rate;
-  const double reach = options_.max_speed * std::max(time - last_time_, period);
+  const double reach = options_.max_speed * mapping_.scale * std::max(time - last_time_, period);
   if (norm(position - last_position_) <= reach) return true;
-  return has_rejected_ && norm(position - rejected_position_) <= options_.max_speed * period;
+  return has_rejected_ && norm(position - rejected_position_) <= options_.max_speed * mapping_.scale * period;
 }
 
 TransitionInput HapticRenderer::sense() noexcept {
@@ -433,7 +434,9 @@ Point HapticRenderer::guidance_force() noexcept {
     if (linear > 0.0) share *= std::sqrt(tick_.attraction.norm() / linear);
   }
   const Point velocity = velocity_.velocity().head<2>();
-  const Point across = share * damped(velocity);
+  // Resistance to writing backwards is not weakened by assistance, nor is its damper.
+  const bool resisted = writing && tick_.contact.backwards > options_.wrong_way_slack;
+  const Point across = (resisted ? std::max(share, tick_.contact.weight) : share) * damped(velocity);
   tick_.viscous.head<2>() = -options_.guidance_damping * (across + free_share * (velocity - across));
   return fade(tick_.attraction + tick_.wrong_way + tick_.viscous.head<2>());
 }

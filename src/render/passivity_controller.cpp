@@ -44,6 +44,7 @@ PassivityController::PassivityController(const PassivityOptions& options, double
       mass_(options.mass),
       hand_speed_(options.hand_speed),
       max_gap_(options.max_gap),
+      scale_(options.scale),
       period_(period),
       delay_(static_cast<std::size_t>(std::max(0, options.delay))) {
   require_not_negative("passivity: max_damping", max_damping_, "N s/m");
@@ -51,9 +52,10 @@ PassivityController::PassivityController(const PassivityOptions& options, double
   require(mass_ > 0.0, "passivity: mass", mass_, "kg", "above 0");
   require_above_zero("passivity: hand_speed", hand_speed_, "m/s");
   require_not_negative("passivity: max_gap", max_gap_, "s");
+  require_above_zero("passivity: scale", scale_, "");
   require_above_zero("passivity: period", period, "s");
   require_within("passivity: delay", options.delay, "ticks", 0, max_delay);
-  brake_ = strongest_brake * std::min(1.0, oldest_sample / ((options.delay + 1) * period));
+  brake_ = strongest_brake / scale_ * std::min(1.0, oldest_sample / ((options.delay + 1) * period));
   reserve_ = std::min(0.5 * budget_, brake_ * hand_speed_ * (max_gap_ + period));
   restart();
 }
@@ -75,7 +77,8 @@ void PassivityController::acted(const Eigen::Vector3d& force, int ticks) noexcep
   const Eigen::Vector3d before = sent_[newest_];
   const double change = norm(Eigen::Vector3d(force - before));
   // A force that was reduced meanwhile has been between the two, it is not known when: within max_gap.
-  int unsure = change <= finest_force ? 0 : static_cast<int>(std::min(std::ceil(max_gap_ / period_), 1.0 * longest));
+  int unsure =
+      change <= finest_force / scale_ ? 0 : static_cast<int>(std::min(std::ceil(max_gap_ / period_), 1.0 * longest));
   if (unsure == 0) sent_[newest_] = force;
   for (int missed = std::min(ticks, longest); missed > 1; --missed, --unsure) {
     pass_unseen(unsure > 0 ? change : 0.0);
@@ -108,7 +111,7 @@ void PassivityController::move(const Eigen::Vector3d& position, const Eigen::Vec
   const Eigen::Vector3d step = has_position_ ? Eigen::Vector3d(position - position_) : Eigen::Vector3d(0.0, 0.0, 0.0);
   const double way = norm(step), seconds = (unseen_ + 1) * period_;
   const Eigen::Vector3d at_work = force_at_work();
-  const bool jumped = way > fastest_pen * seconds;
+  const bool jumped = way > fastest_pen * scale_ * seconds;
   if (!has_position_) {
     // Without a first position nothing is known of the work: the force was zero then, or is charged from now on.
   } else if (jumped) {
@@ -156,7 +159,7 @@ Eigen::Vector3d PassivityController::within_budget(const Eigen::Vector3d& force,
   max_force_ = max_payable_force();
   if (max_force_ < brake_) {
     max_force_ = brake_ * (left_ > faintest_share * reserve_ ? std::min(left_ / reserve_, 1.0) : faintest_share);
-    return -max_force_ / (norm(velocity_) + slow_pen) * velocity_;
+    return -max_force_ / (norm(velocity_) + slow_pen * scale_) * velocity_;
   }
   if (!(norm(force) > max_force_)) return force;
   const Eigen::Vector3d kept = shortened(viscous, viscous_share * max_force_);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <sstream>
 #include <string>
 
@@ -30,6 +31,12 @@ constexpr double presumed_mass = 0.02;
 /// Of what guidance and friction may be together, friction has at least this share if it asks for it.
 constexpr double friction_share = 0.35;
 constexpr double softest_friction = 1.0;  ///< with less there is none [N/m]
+
+/// Relative: what has been clipped must not be clipped again for a rounding error.
+constexpr double slack = 1e-9;
+
+/// Force of a damper for one step of the encoder, where Coulomb friction does not hold more [N].
+constexpr double harmless_click = 0.1;
 
 struct StiffnessLimit {
   double value;  ///< [N/m]
@@ -86,9 +93,9 @@ class Limits {
   /// does, the one that permits most, or 0 if none permits any: it would drive the pen by itself [N s/m, page].
   double best_damping(double wanted, double stiffness, double beside) const {
     const double needed = std::min(stiffness, usable().value);
-    const auto permitted = [&](double damping) { return stable(damping + beside).value; };
-    if (is_off_ || wanted == 0.0 || permitted(wanted) >= needed) return wanted;
-    double best = 0.0, most = permitted(0.0), too_strong = wanted;
+    const auto permitted = [&](double damping) { return is_safe(damping) ? stable(damping + beside).value : -1.0; };
+    if (is_off_ || wanted == 0.0 || permitted(wanted) >= (1.0 - slack) * needed) return wanted;
+    double best = 0.0, most = stable(beside).value, too_strong = wanted;
     for (const double share : {1.0, 0.75, 0.5, 0.35, 0.25, 0.15, 0.08, 0.04}) {
       const double value = permitted(share * wanted);
       if (value > most) {
@@ -98,7 +105,7 @@ class Limits {
       if (value >= needed) break;
       too_strong = share * wanted;
     }
-    if (most < needed) return best;
+    if (most < needed || best == 0.0) return best;
     for (int halving = 0; halving < 8; ++halving) {
       const double middle = 0.5 * (best + too_strong);
       (permitted(middle) >= needed ? best : too_strong) = middle;
@@ -107,6 +114,16 @@ class Limits {
   }
 
  private:
+  /// Whether the damper drives nothing by itself, with the loop's lag or with the steps of the encoder.
+  bool is_safe(double damping) const {
+    constexpr double almost_nothing = 1e-3;  // [N/m]
+    SampledLoop loop = loop_;
+    loop.wall_damping = damping * square_;
+    const double passed = -std::expm1(-2.0 * std::numbers::pi * cutoff_ / loop.rate);
+    const double click = loop.wall_damping * loop.device.encoder_step * passed * loop.rate;
+    return click <= std::max(harmless_click, loop.device.coulomb_friction) &&
+           stiffness_for_any_hand(loop, cutoff_, almost_nothing) >= almost_nothing;
+  }
   double stable_on_device(double damping) const {
     SampledLoop loop = loop_;
     loop.wall_damping = damping;
@@ -178,7 +195,7 @@ std::vector<std::string> clip_stiffness(RendererOptions& options, const Capabili
   std::vector<std::string> clipped;
   const auto clip = [&](const char* name, double& stiffness, const StiffnessLimit& limit) {
     require_not_negative(name, stiffness, "N/m");
-    if (stiffness <= limit.value) return;
+    if (stiffness <= limit.value * (1.0 + slack)) return;
     std::ostringstream message;
     message << name << " = " << stiffness << " N/m" << limit.reason;
     clipped.push_back(message.str());
@@ -189,8 +206,8 @@ std::vector<std::string> clip_stiffness(RendererOptions& options, const Capabili
     const double best = limits.best_damping(damping, stiffness, beside);
     if (best == damping) return;
     std::ostringstream message;
-    message << name << " = " << damping << " N s/m: too strong for the lag of this loop, at most " << best
-            << " N s/m beside " << stiffness << " N/m";
+    message << name << " = " << damping << " N s/m: too strong for the lag or the encoder of this loop, at most "
+            << best << " N s/m beside " << stiffness << " N/m";
     clipped.push_back(message.str());
     damping = best;
   };

@@ -191,7 +191,8 @@ bool is_damped(const SampledLoop& loop, const Felt& at, const Complex& force, bo
 /// At every frequency at which a hand can make the pen resonate with the spring, and at the frequency above, so that no
 /// such range is missed between two.
 bool is_damped(const SampledLoop& loop, const std::vector<Felt>& felt, double stiffness) {
-  bool was_stiff = true;
+  // A spring so soft that nothing swings on it at the lowest frequency is only a damper.
+  bool was_stiff = stiffness >= loop.device.apparent_mass * felt.front().frequency * felt.front().frequency;
   for (const Felt& at : felt) {
     const Complex force = stiffness * at.spring + loop.wall_damping * at.damper;
     if (!is_damped(loop, at, force, was_stiff)) return false;

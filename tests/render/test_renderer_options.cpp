@@ -10,6 +10,7 @@
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/render/stiffness_advice.hpp>
 
+#include "../hard_cases.hpp"
 #include "../scripted_pen.hpp"
 #include "../special_values.hpp"
 
@@ -543,6 +544,59 @@ TEST_CASE("for_device takes the device's rate and stays within its stiffness", "
   CHECK(options.wrong_way_stiffness == 150.0);
   CHECK(complaint(options, device).empty());
   CHECK(RendererOptions::for_device(test_device()).paper_stiffness == RendererOptions{}.paper_stiffness);
+}
+
+TEST_CASE("a damper that drives the pen by itself is refused beside no spring too", "[render]") {
+  Capabilities device = test_device();
+  device.apparent_mass = 0.045;
+  device.sample_delay = 2;
+  RendererOptions options;
+  options.guidance_stiffness = options.wrong_way_stiffness = 0.0;
+  options.guidance_damping = 300.0;
+  CHECK(contains(complaint(options, device), "guidance_damping = 300"));
+  clip_stiffness(options, device);
+  CHECK(options.guidance_damping < 30.0);
+  CHECK(options.guidance_damping > 4.0);
+  CHECK(complaint(options, device).empty());
+  // As is one that turns the steps of a coarse encoder into clicks.
+  device.sample_delay = 0;
+  device.encoder_step = 1e-4;
+  options.guidance_damping = 8.0;
+  options.paper_damping = 3.0;
+  CHECK(contains(complaint(options, device), "guidance_damping = 8"));
+  device.coulomb_friction = 0.26;  // holds them
+  CHECK(complaint(options, device).empty());
+}
+
+TEST_CASE("what has been clipped is not clipped again, with any scale", "[render]") {
+  calligraphy_test::Sequence random(77);
+  for (int i = 0; i < 300; ++i) {
+    Capabilities device = test_device();
+    device.apparent_mass = random.between(0.02, 0.3);
+    device.viscous_friction = random.between(0.0, 0.5);
+    device.usable_stiffness = 0.0;
+    device.sample_delay = static_cast<int>(random.between(0.0, 5.99));
+    RendererOptions options;
+    options.servo_rate = random.between(300.0, 5000.0);
+    options.friction.coefficient = 0.2;
+    const double scale = random.between(0.3, 3.0);
+    clip_stiffness(options, device, scale);
+    CHECK(clip_stiffness(options, device, scale).empty());
+  }
+}
+
+TEST_CASE("a pen that is fast on an enlarged page, not in the hand, is no fault", "[render]") {
+  MotionMapping mapping;
+  mapping.scale = 3.0;
+  RendererOptions options;
+  options.stiffness_check = StiffnessCheck::clip;
+  HapticRenderer renderer({placed(U'永')}, mapping, test_device(), options);
+  DeviceState state;
+  for (int i = 0; i < 20; ++i) {
+    state.time = 0.001 * i;
+    state.position.x() = 0.004 * i;  // 4 m/s
+    CHECK(renderer.update(state).status == TickStatus::ok);
+  }
 }
 
 TEST_CASE("the maximum force step is that of the fastest pen that is followed, in newtons at the device", "[render]") {

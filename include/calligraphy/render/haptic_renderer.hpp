@@ -48,8 +48,8 @@ class HapticRenderer {
   const std::vector<std::string>& clipped() const noexcept { return clipped_; }
   const MotionMapping& mapping() const noexcept { return mapping_; }
   const std::vector<PlacedCharacter>& page() const noexcept { return page_; }
-  /// Maximum change of the force per tick [N], that on a pen as fast as the force follows at once (1 m/s); infinite when
-  /// the rate is not limited.
+  /// Maximum change of the force per tick [N], that on a pen as fast as the force follows at once (1 m/s); infinite
+  /// when the rate is not limited.
   double max_force_step() const noexcept;
 
  private:

@@ -16,6 +16,7 @@ struct PassivityOptions {
   double mass = std::numeric_limits<double>::infinity();  ///< with a budget: of the device, the lightest pen [kg]
   double hand_speed = 2.0;  ///< with a budget: maximum speed at which a hand moves the pen [m/s]
   double max_gap = 0.016;   ///< with a budget: longest time for which a force is held without a fresh sample [s]
+  double scale = 1.0;       ///< K_S (MotionMapping): forces are 1 / scale, speeds scale times those of the device
   int delay = 0;            ///< age of a sample when it is read, at most PassivityController::max_delay [ticks]
 };
 
@@ -57,8 +58,8 @@ class PassivityController {
   PassivityController(const PassivityOptions& options, double period);
 
   /// Reports, before next(), the force that really acted in the last tick [N], and the ticks that have passed since:
-  /// more than one when the loop paused, through which that force was held, or reduced within max_gap. Without a call it
-  /// was the force of sent(), for one tick.
+  /// more than one when the loop paused, through which that force was held, or reduced within max_gap. Without a call
+  /// it was the force of sent(), for one tick.
   void acted(const Eigen::Vector3d& force, int ticks) noexcept;
   /// The force to send for a desired one [N], at the device position of this tick [m]; limits may follow. A position
   /// with NaN means that the sample of this tick is lost or stale: nothing is damped. `viscous` is the part of `wanted`
@@ -95,6 +96,7 @@ class PassivityController {
   double mass_ = std::numeric_limits<double>::infinity();
   double hand_speed_ = 2.0;
   double max_gap_ = 0.016;
+  double scale_ = 1.0;
   double period_ = 0.001;
   double brake_ = 0.1;    ///< with an exhausted budget [N]
   double reserve_ = 0.0;  ///< of the budget, for the brake [J]

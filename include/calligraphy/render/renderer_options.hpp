@@ -80,7 +80,7 @@ struct RendererOptions {
   /// continuous force; 0: no limit [s].
   double thermal_time_constant = 0.0;
 
-  double max_speed = 5.0;  ///< a sample that implies a faster pen is a fault, not a motion [m/s, page]
+  double max_speed = 5.0;  ///< a sample that implies a faster pen is a fault, not a motion [m/s, device]
 
   ForceSign force_sign = ForceSign::attracting;
   PenTipRule pen_tip = PenTipRule::projected;
