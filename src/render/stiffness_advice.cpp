@@ -274,7 +274,9 @@ double stiffness_for_any_hand(const SampledLoop& loop, double velocity_cutoff, d
     const double middle = 0.5 * (low + high);
     (is_damped(loop, felt, middle) ? low : high) = middle;
   }
-  return low;
+  // So soft a spring that nothing swings on it at the lowest frequency looked at.
+  const double softest = loop.device.apparent_mass * felt.front().frequency * felt.front().frequency;
+  return low > softest * (1.0 + 1e-6) ? low : 0.0;
 }
 
 StiffnessAdvice advise_stiffness(const SampledLoop& loop) {

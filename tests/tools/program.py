@@ -12,8 +12,11 @@ import unittest
 from pathlib import Path
 
 
-# A background job ignores Ctrl-C, and so would the programs that it starts.
+# A background job ignores both, and so would the programs that it starts.
 signal.signal(signal.SIGINT, signal.default_int_handler)
+signal.signal(signal.SIGQUIT, signal.SIG_DFL)
+# A program under AddressSanitizer ends at a crash as it does without.
+os.environ["ASAN_OPTIONS"] = os.environ.get("ASAN_OPTIONS", "") + ":handle_segv=0"
 
 
 class ProgramTest(unittest.TestCase):

@@ -17,7 +17,8 @@ PUSHING = """
 import os, signal, sys, threading, time
 import calligraphy as cal
 
-signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored if the tests run in the background
+signal.signal(signal.SIGINT, signal.default_int_handler)  # both are ignored if the tests run in the background
+signal.signal(signal.SIGQUIT, signal.SIG_DFL)
 cal.install_emergency_stop()
 device = cal.PointerDevice(cal.device_profile("desktop"))
 options = cal.ServoLoopOptions(
