@@ -155,11 +155,10 @@ void HapticRenderer::restart() noexcept {
   unseen_ = 0;
   velocity_.restart();
   last_velocity_ = motion_ = Eigen::Vector3d::Zero();
-  friction_spring_ = friction_rate_ = Point::Zero();
   above_for_ = 0.0;
   passivity_.restart();
   thermal_.heat = 0.0;
-  friction_.release();
+  release_friction();
   activate(0, 0);
 }
 
@@ -183,14 +182,14 @@ const HapticTick& HapticRenderer::update(const DeviceState& state) noexcept {
     return tick_;
   }
   ++unseen_;
-  if (tick_.status == TickStatus::stale && unseen_ * period_ <= max_hold) {
+  if (tick_.status == TickStatus::stale && static_cast<double>(unseen_) * period_ <= max_hold) {
     send(tick_.page_force);
     return tick_;
   }
-  tick_.attraction = tick_.wrong_way = tick_.friction = Point::Zero();
+  tick_.attraction = tick_.wrong_way = Point::Zero();
   tick_.viscous.setZero();
   tick_.normal = 0.0;
-  friction_.release();
+  release_friction();
   send(Eigen::Vector3d::Zero());
   return tick_;
 }
@@ -199,10 +198,13 @@ const HapticTick& HapticRenderer::update(const DeviceState& state) noexcept {
 /// a loop may have paused.
 void HapticRenderer::hear_force(const DeviceState& state) noexcept {
   int ticks = 1;
-  if (has_sample_ && state.status == DeviceStatus::ok) {
-    const double passed = (state.time - last_time_) / period_ - unseen_;  // NaN compares false below
+  const bool fresh = state.status == DeviceStatus::ok || state.status == DeviceStatus::warm_motors;
+  if (has_sample_ && fresh) {
+    // NaN compares false below
+    const double passed = (state.time - last_time_) / period_ - static_cast<double>(unseen_);
     constexpr double longest = 1e6;
     if (passed > 1.75) ticks = static_cast<int>(std::min(passed + 0.5, longest));
+    unseen_ += ticks - 1;  // counted once, if this sample turns out to be bad
   }
   const bool as_sent = state.force == tick_.force || !state.force.allFinite();
   passivity_.acted(as_sent ? tick_.page_force : mapping_.force_to_page(state.force), ticks);
@@ -256,10 +258,10 @@ TickStatus HapticRenderer::map_sample(const DeviceState& state) noexcept {
 /// device really is elsewhere.
 bool HapticRenderer::plausible(const Eigen::Vector3d& position, double time) const noexcept {
   if (!has_sample_) return true;
-  const double period = 1.0 / options_.servo_rate;
-  const double reach = options_.max_speed * mapping_.scale * std::max(time - last_time_, period);
+  const double fastest = options_.max_speed * mapping_.scale;
+  const double reach = fastest * std::max(time - last_time_, period_);
   if (norm(position - last_position_) <= reach) return true;
-  return has_rejected_ && norm(position - rejected_position_) <= options_.max_speed * mapping_.scale * period;
+  return has_rejected_ && norm(position - rejected_position_) <= fastest * period_;
 }
 
 TransitionInput HapticRenderer::sense() noexcept {
@@ -453,11 +455,15 @@ Point HapticRenderer::damped(const Point& velocity) const noexcept {
   return velocity - (1.0 - oblique) * velocity.dot(tangent) * tangent;
 }
 
+void HapticRenderer::release_friction() noexcept {
+  tick_.friction = friction_spring_ = friction_rate_ = Point::Zero();
+  friction_.release();
+}
+
 Point HapticRenderer::friction_force() noexcept {
   if (!(tick_.normal > 0.0)) {
-    tick_.friction = friction_spring_ = friction_rate_ = Point::Zero();
-    friction_.release();
-    return tick_.friction;
+    release_friction();
+    return Point::Zero();
   }
   const FrictionOptions& friction = options_.friction;
   const double normal = std::max(0.0, tick_.page_force.z());  // the actual contact force of the hand

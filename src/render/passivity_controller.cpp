@@ -72,19 +72,30 @@ void PassivityController::restart() noexcept {
 }
 
 void PassivityController::acted(const Eigen::Vector3d& force, int ticks) noexcept {
-  // In a longer gap the rest is of no interest: the budget is exhausted anyway, or the pen has not moved.
-  constexpr int longest = 100'000;
   const Eigen::Vector3d before = sent_[newest_];
   const double change = norm(Eigen::Vector3d(force - before));
   // A force that was reduced meanwhile has been between the two, it is not known when: within max_gap.
-  int unsure =
-      change <= finest_force / scale_ ? 0 : static_cast<int>(std::min(std::ceil(max_gap_ / period_), 1.0 * longest));
+  const int missed = std::max(0, ticks - 1);
+  const double longest = std::ceil(max_gap_ / period_);
+  const int unsure = change <= finest_force / scale_ ? 0 : static_cast<int>(std::min(longest, 1.0 * missed));
+  pass_unseen(before, unsure, change);
   if (unsure == 0) sent_[newest_] = force;
-  for (int missed = std::min(ticks, longest); missed > 1; --missed, --unsure) {
-    pass_unseen(unsure > 0 ? change : 0.0);
-    sent(unsure > 0 ? before : force);
-  }
+  pass_unseen(force, missed - unsure, 0.0);
   sent_[newest_] = force;
+}
+
+/// `count` periods in which `force` is held pass like that, in bounded time: once it fills the ring, all are alike.
+void PassivityController::pass_unseen(const Eigen::Vector3d& force, int count, double change) noexcept {
+  const int first = std::min(count, static_cast<int>(sent_.size()));
+  for (int i = 0; i < first; ++i) {
+    pass_unseen(change);
+    sent(force);
+  }
+  if (!has_position_) return;
+  const int rest = count - first;
+  unseen_ += rest;
+  unseen_force_ += rest * norm(force);
+  unseen_change_ += rest * (norm(Eigen::Vector3d(force - held_)) + change);
 }
 
 Eigen::Vector3d PassivityController::next(const Eigen::Vector3d& position, const Eigen::Vector3d& wanted,
@@ -109,7 +120,7 @@ Eigen::Vector3d PassivityController::next(const Eigen::Vector3d& position, const
 /// The pen is where this sample says: observes and damps the step to it.
 void PassivityController::move(const Eigen::Vector3d& position, const Eigen::Vector3d& wanted) noexcept {
   const Eigen::Vector3d step = has_position_ ? Eigen::Vector3d(position - position_) : Eigen::Vector3d(0.0, 0.0, 0.0);
-  const double way = norm(step), seconds = (unseen_ + 1) * period_;
+  const double way = norm(step), seconds = static_cast<double>(unseen_ + 1) * period_;
   const Eigen::Vector3d at_work = force_at_work();
   const bool jumped = way > fastest_pen * scale_ * seconds;
   if (!has_position_) {
@@ -181,7 +192,7 @@ double PassivityController::max_payable_force() const noexcept {
     remaining -= norm(sent_[(newest_ + sent_.size() - age) % sent_.size()]) * speed * period_;
   }
   if (!(remaining > 0.0)) return 0.0;
-  const double time = std::max(max_gap_ - unseen_ * period_, period_) + period_;
+  const double time = std::max(max_gap_ - static_cast<double>(unseen_) * period_, period_) + period_;
   const double way = speed * time, accelerated = 0.5 * time * time / mass_;
   return 2.0 * remaining / (way + std::sqrt(way * way + 4.0 * accelerated * remaining));
 }

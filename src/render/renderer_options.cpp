@@ -95,7 +95,7 @@ class Limits {
     const double needed = std::min(stiffness, usable().value);
     const auto permitted = [&](double damping) { return is_safe(damping) ? stable(damping + beside).value : -1.0; };
     if (is_off_ || wanted == 0.0 || permitted(wanted) >= (1.0 - slack) * needed) return wanted;
-    double best = 0.0, most = stable(beside).value, too_strong = wanted;
+    double best = 0.0, most = 0.0, too_strong = wanted;
     for (const double share : {1.0, 0.75, 0.5, 0.35, 0.25, 0.15, 0.08, 0.04}) {
       const double value = permitted(share * wanted);
       if (value > most) {

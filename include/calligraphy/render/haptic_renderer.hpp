@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -74,6 +75,7 @@ class HapticRenderer {
   Point guidance_force() noexcept;
   Point damped(const Point& velocity) const noexcept;
   Point friction_force() noexcept;
+  void release_friction() noexcept;
   Point fade(const Point& force) noexcept;
   void send(const Eigen::Vector3d& wanted) noexcept;
   ForceAllowance allowance_for(Point way, Point kick) const noexcept;
@@ -119,7 +121,7 @@ class HapticRenderer {
   bool character_done_ = false;  ///< its last stroke is finished, and the pen is still down
 
   bool has_sample_ = false;  ///< last_position_ and last_time_ are those of the last accepted sample
-  int unseen_ = 0;           ///< updates since then, without a fresh sample
+  std::int64_t unseen_ = 0;  ///< ticks since then, without a fresh sample
   Eigen::Vector3d last_position_ = Eigen::Vector3d::Zero();
   double last_time_ = 0.0;
   bool has_rejected_ = false;  ///< rejected_position_ is that of a sample just rejected as too far away

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 
 #include <Eigen/Core>
@@ -88,6 +89,7 @@ class PassivityController {
   Eigen::Vector3d within_budget(const Eigen::Vector3d& force, const Eigen::Vector3d& viscous) noexcept;
   void move(const Eigen::Vector3d& position, const Eigen::Vector3d& wanted) noexcept;
   void pass_unseen(double change) noexcept;
+  void pass_unseen(const Eigen::Vector3d& force, int count, double change) noexcept;
   void pay(double energy) noexcept;
   double max_payable_force() const noexcept;
 
@@ -112,7 +114,7 @@ class PassivityController {
   double speed_ = 0.0;                                  ///< over the last known step [m/s]
 
   // Periods that have passed since the last known position, the one that ends with the next sample not counted.
-  int unseen_ = 0;
+  std::int64_t unseen_ = 0;
   Eigen::Vector3d held_ = Eigen::Vector3d::Zero();  ///< force of the first of them [N]
   double unseen_force_ = 0.0;                       ///< sum of |F| over them [N]
   double unseen_change_ = 0.0;                      ///< sum of |F - held_| over them [N]
