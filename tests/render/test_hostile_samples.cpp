@@ -334,3 +334,33 @@ TEST_CASE("a page and a device far from their origins behave like those nearby",
   CHECK(renderer.last().character == 1);
   CHECK(pen.max_unexplained <= 1e-12);
 }
+
+TEST_CASE("a pause before bad samples is charged once, not with each of them", "[render]") {
+  Capabilities device = calligraphy_test::test_device();
+  device.apparent_mass = 0.045;
+  RendererOptions options;
+  options.energy_budget = 0.1;
+  options.stiffness_check = StiffnessCheck::clip;
+  const auto given = [&](int bad) {
+    HapticRenderer renderer({calligraphy_test::placed(U'永')}, {}, device, options);
+    DeviceState state;
+    state.position = {0.04, 0.04, -0.002};
+    for (int i = 0; i < 100; ++i) {
+      state.time = 0.001 * i;
+      renderer.update(state);
+    }
+    state.time += 0.05;  // 49 ticks missed, in which the force fell to zero
+    state.force.setZero();
+    const Eigen::Vector3d place = state.position;
+    state.position.setConstant(std::numeric_limits<double>::quiet_NaN());
+    for (int i = 0; i < bad; ++i) {
+      renderer.update(state);
+      state.time += 0.001;
+    }
+    state.position = place;
+    renderer.update(state);
+    return renderer.last().energy_given;
+  };
+  REQUIRE(given(1) > 0.01);
+  CHECK(given(10) == Approx(given(1)).epsilon(1e-9));
+}

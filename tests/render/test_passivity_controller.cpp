@@ -546,8 +546,13 @@ TEST_CASE("a pause counts like as many ticks without a sample, whatever the dela
         one_by_one.next(lost, held);
         one_by_one.sent(held);
       }
-      for (PassivityController* each : {&at_once, &one_by_one}) each->next({place + 0.003, 0, 0}, {0.0, 0, 0});
       CAPTURE(delay, missed);
+      for (PassivityController* each : {&at_once, &one_by_one}) {
+        each->next(lost, held);
+        each->sent(held);
+      }
+      CHECK(at_once.max_force() == Approx(one_by_one.max_force()).epsilon(1e-12));
+      for (PassivityController* each : {&at_once, &one_by_one}) each->next({place + 0.003, 0, 0}, {0.0, 0, 0});
       CHECK(at_once.energy_given() == Approx(one_by_one.energy_given()).epsilon(1e-12));
       CHECK(at_once.max_force() == Approx(one_by_one.max_force()).epsilon(1e-12));
     }
