@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 
 namespace calligraphy {
 namespace {
@@ -13,6 +14,7 @@ constexpr double min_weight = 0.5;
 
 void ActiveStroke::load(const Stroke& stroke, const Placement& placement) noexcept {
   element_count_ = static_cast<int>(stroke.type->elements.size());
+  em_ = placement.em;
   std::array<Point, max_curve_degree + 1> points;
   std::size_t first = 0;
   for (std::size_t i = 0; i < stroke.type->elements.size(); ++i) {
@@ -33,11 +35,35 @@ void ActiveStroke::reload() noexcept {
   arc_ = 0.0;
   parameter_ = 0.0;
   furthest_ = 0.0;
+  misplaced_ = 0.0;
 }
 
-bool ActiveStroke::begins_at(const Point& tip, double radius) const noexcept {
-  const double from_start = (tip - start()).norm();
-  return from_start <= radius && from_start <= (tip - planes_[0].point).norm();
+void ActiveStroke::begin(const Point& tip) noexcept {
+  reload();
+  misplaced_ = (tip - start()).norm();
+}
+
+StrokeContact ActiveStroke::nearest(const Point& tip, const StrokeRules& rules) const noexcept {
+  StrokeContact contact;
+  contact.closest.distance = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < element_count_; ++i) {
+    const StrokeElement& element = elements_[static_cast<std::size_t>(i)];
+    const NearestPoint closest = nearest_point(element, tip, rules.nearest);
+    if (!(closest.distance < contact.closest.distance)) continue;
+    contact.element = i;
+    contact.closest = closest;
+    contact.weight = guidance_weight(rules.space, em_, element, tip, closest);
+    contact.arc = first_arc_[static_cast<std::size_t>(i)] + element.arc_length(closest.parameter);
+  }
+  return contact;
+}
+
+void ActiveStroke::rest(const StrokeContact& nearest) noexcept {
+  active_ = nearest.element;
+  arc_ = nearest.arc - first_arc_[static_cast<std::size_t>(active_)];
+  parameter_ = nearest.closest.parameter;
+  furthest_ = nearest.arc;
+  misplaced_ = 0.0;
 }
 
 StrokeContact ActiveStroke::update(const Point& tip, const StrokeRules& rules) noexcept {
@@ -70,12 +96,13 @@ StrokeContact ActiveStroke::locate(const Point& tip, const StrokeRules& rules) c
 
   ParameterRange range;
   if (rules.window > 0.0) {
-    range = {element.parameter_at(arc_ - rules.window), element.parameter_at(arc_ + rules.window)};
+    const double window = rules.window * em_;
+    range = {element.parameter_at(arc_ - window), element.parameter_at(arc_ + window)};
   }
   StrokeContact contact;
   contact.element = index;
   contact.closest = nearest_point(element, tip, rules.nearest, range, parameter_);
-  contact.weight = guidance_weight(rules.space, element, tip, contact.closest);
+  contact.weight = guidance_weight(rules.space, em_, element, tip, contact.closest);
   const double arc = element.arc_length(contact.closest.parameter);
   contact.arc = first_arc_[i] + arc;
   contact.attraction = attraction_[i];
@@ -91,18 +118,18 @@ bool ActiveStroke::passes(const Point& tip, const StrokeContact& contact, const 
   const double beyond = planes_[i].signed_distance(tip);
   if (rules.plane == FeaturePlaneRule::wang2006) return beyond > 0.0;
   const double length = elements_[i].length();
-  const double tolerance = std::min(rules.plane_tolerance, 0.3 * length);
+  const double tolerance = std::min(rules.plane_tolerance * em_, 0.3 * length);
   const double left = first_arc_[i + 1] - contact.arc;
   // Near the feature point along the stroke too: a plane also crosses other parts of the same stroke. On a curve the
   // closest point may lag behind the plane by more than the tolerance, but not by more than twice the tolerance unless
   // the pen is far away.
-  if (contact.weight < min_weight || left > 2.0 * tolerance + 1e-6 * length) return false;
+  if (contact.weight < min_weight || left > 2.0 * tolerance + misplaced_ + 1e-6 * length) return false;
   if (beyond >= -tolerance) return true;
   // A pen that stays on the inside of a corner never reaches the plane: it passes on the bisector, where both elements
   // attract it equally.
   if (contact.element + 1 == element_count_) return false;
   const StrokeElement& next = elements_[i + 1];
-  const ParameterRange range = {0.0, rules.window > 0.0 ? next.parameter_at(rules.window) : 1.0};
+  const ParameterRange range = {0.0, rules.window > 0.0 ? next.parameter_at(rules.window * em_) : 1.0};
   return nearest_point(next, tip, rules.nearest, range, 0.0).distance < contact.closest.distance;
 }
 

@@ -16,13 +16,14 @@ double printed_share(const StrokeElement& element, const Point& query, const Nea
 
 }  // namespace
 
-double guidance_weight(const ConstraintSpace& space, const StrokeElement& element, const Point& query,
+double guidance_weight(const ConstraintSpace& space, double em, const StrokeElement& element, const Point& query,
                        const NearestPoint& closest) noexcept {
   if (space.rule == ConstraintSpaceRule::wang2006) return printed_share(element, query, closest);
-  if (!(closest.distance < space.radius)) return 0.0;
-  const double depth = space.radius - closest.distance;  // > 0: inside the edge of the tube
-  if (depth >= space.fade_width) return 1.0;
-  const double x = depth / space.fade_width;
+  const double radius = space.radius * em, fade_width = space.fade_width * em;
+  if (!(closest.distance < radius)) return 0.0;
+  const double depth = radius - closest.distance;  // > 0: inside the edge of the tube
+  if (depth >= fade_width) return 1.0;
+  const double x = depth / fade_width;
   return x * x * (3.0 - 2.0 * x);
 }
 

@@ -75,7 +75,7 @@ Field nearest_stroke_field(const PlacedCharacter& placed, const ForceFieldOption
       candidates.push_back({elements[i], first, linear ? stroke.attraction_factors[i + 1] : first});
     }
   }
-  return [candidates, options](const Point& tip) {
+  return [candidates, options, em = placed.placement.em](const Point& tip) {
     const Candidate* nearest = nullptr;
     NearestPoint closest;
     for (const Candidate& candidate : candidates) {
@@ -86,7 +86,7 @@ Field nearest_stroke_field(const PlacedCharacter& placed, const ForceFieldOption
     }
     StrokeContact contact;
     contact.closest = closest;
-    contact.weight = guidance_weight(options.rules.space, nearest->element, tip, closest);
+    contact.weight = guidance_weight(options.rules.space, em, nearest->element, tip, closest);
     const double length = nearest->element.length();
     const double along = length > 0.0 ? nearest->element.arc_length(closest.parameter) / length : 0.0;
     contact.attraction = nearest->first_factor + along * (nearest->last_factor - nearest->first_factor);

@@ -128,9 +128,8 @@ class CharacterScorer {
       due_ = static_cast<std::size_t>(sample.stroke);
       finished_while_down_ = false;
     }
-    if (has_event(sample.events, TickEvent::stroke_started)) started_ = i;
-    if (has_event(sample.events, TickEvent::stroke_finished)) {
-      finish(samples_.subspan(started_, i + 1 - started_));
+    if (has_event(sample.events, TickEvent::stroke_finished) && down_ != none) {
+      finish(samples_.subspan(down_, i + 1 - down_));
       finished_while_down_ = true;
       last_finish_ = i;
     }
@@ -221,7 +220,6 @@ class CharacterScorer {
   double contour_ = 0.0;
   std::size_t down_ = none;
   std::size_t due_ = 0;
-  std::size_t started_ = 0;
   std::size_t last_finish_ = none;
   bool finished_while_down_ = false;
 };

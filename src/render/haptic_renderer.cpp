@@ -40,6 +40,15 @@ constexpr double largest_click = 0.1;
 /// holds does not coast on.
 constexpr double free_share = 0.15;
 
+/// Where guidance lets go of a pen: the tube's weight has fallen to this.
+constexpr double slipping_weight = 0.5;
+
+/// guide_to_start leads a pen as near to the start along the stroke as this, as a share of the tolerance.
+constexpr double unguided_start = 0.5;
+
+/// A pen put down on the stroke this far along it is at its end.
+constexpr double late_share = 0.75;
+
 /// A closest point counts as an end of the stroke where the pen is this far from its normal, as a share of the
 /// distance.
 constexpr double oblique_share = 0.2, oblique_slack = 1e-5;
@@ -102,10 +111,11 @@ HapticRenderer::HapticRenderer(std::vector<PlacedCharacter> page, const MotionMa
     require_valid(page_[i], i);
     const auto& factors = page_[i].character.physics.attraction_factors;
     max_attraction_ = std::max(max_attraction_, *std::max_element(factors.begin(), factors.end()));
+    const double em = page_[i].placement.em;
     Eigen::AlignedBox2d box = bounding_box(page_[i]);
-    box.min().array() -= options.box_margin;
-    box.max().array() += options.box_margin;
-    prepared_.push_back({strokes(page_[i].character), box});
+    box.min().array() -= options.box_margin * em;
+    box.max().array() += options.box_margin * em;
+    prepared_.push_back({strokes(page_[i].character), stroke_starts(page_[i], options.tolerances), box, em});
   }
   require_valid(mapping);
   if (options_.stiffness_check == StiffnessCheck::clip) {
@@ -159,6 +169,9 @@ void HapticRenderer::restart() noexcept {
   passivity_.restart();
   thermal_.heat = 0.0;
   release_friction();
+  released_.clear();
+  capture_.restart();
+  held_ = false;
   activate(0, 0);
 }
 
@@ -189,6 +202,7 @@ const HapticTick& HapticRenderer::update(const DeviceState& state) noexcept {
   tick_.attraction = tick_.wrong_way = Point::Zero();
   tick_.viscous.setZero();
   tick_.normal = 0.0;
+  released_.clear();
   release_friction();
   send(Eigen::Vector3d::Zero());
   return tick_;
@@ -276,19 +290,69 @@ TransitionInput HapticRenderer::sense() noexcept {
   if (all_written()) return input;
 
   const Point tip = tick_.pen_tip.head<2>();
-  const double slack = inside_box_ ? options_.box_hysteresis * (writing ? 3.0 : 1.0) : 0.0;
+  tick_.to_start = active_.start() - tip;
+  const double em = active_character().em;
+  const double slack = inside_box_ ? options_.box_hysteresis * em * (writing ? 3.0 : 1.0) : 0.0;
   inside_box_ = active_character().box.exteriorDistance(tip) <= slack;
   input.inside_box = inside_box_;
   input.may_start = may_start();
-  if (!input.contact) return input;
   if (writing) {
-    tick_.contact = active_.update(tip, options_.stroke);
-    input.stroke_finished = tick_.contact.finished;
-    if (tick_.contact.passed_feature) tick_.events |= TickEvent::feature_passed;
-  } else if (input.may_start) {
-    input.at_start = active_.begins_at(tip, options_.start_radius);
+    write_on(tip, input);
+  } else if (input.contact && input.may_start) {
+    if (tick_.state == InteractionState::separation) put_down(tip);
+    input.at_start = begins(tip);
   }
   return input;
+}
+
+void HapticRenderer::write_on(const Point& tip, TransitionInput& input) noexcept {
+  const StrokeTolerances& tolerances = options_.tolerances;
+  if (input.contact) {
+    tick_.contact = active_.update(tip, options_.stroke);
+    if (tick_.contact.passed_feature) tick_.events |= TickEvent::feature_passed;
+    const bool on_paper = tick_.device_point.z() <= options_.lift_height;
+    if (on_paper) coverage_.update(tip, tick_.contact, active_.length(), tolerances.corridor * active_character().em);
+    tick_.covered = coverage_.share(active_.length());
+  }
+  double needed = tolerances.coverage;
+  if (tick_.contact.finished) {
+    needed *= 1.0 - std::min(tolerances.late_start, coverage_.late() / active_.length());
+  }
+  const bool is_covered = tick_.covered >= needed;
+  const bool leaves = !input.contact || !input.inside_box;
+  input.stroke_finished = leaves ? is_covered && tolerances.coverage > 0.0 : is_covered && tick_.contact.finished;
+}
+
+void HapticRenderer::put_down(const Point& tip) noexcept {
+  capture_.put_down(tip, active_character().starts, static_cast<std::size_t>(tick_.stroke));
+  if (options_.tolerances.coverage == 0.0) return;
+  const StrokeContact nearest = active_.nearest(tip, options_.stroke);
+  resting_ = nearest.closest.distance <= options_.tolerances.corridor * active_character().em;
+  if (resting_) active_.rest(nearest);
+}
+
+bool HapticRenderer::begins(const Point& tip) noexcept {
+  const PreparedCharacter& character = active_character();
+  const CaptureVerdict verdict =
+      capture_.update(tip, character.starts, static_cast<std::size_t>(tick_.stroke), character.em, options_.tolerances);
+  if (verdict == CaptureVerdict::begun) return true;
+  if (verdict == CaptureVerdict::another_stroke) resting_ = false;
+  if (resting_) rest_ = active_.update(tip, options_.stroke);
+  return false;
+}
+
+WritingHint HapticRenderer::hint() const noexcept {
+  if (tick_.state == InteractionState::separation || all_written()) return WritingHint::none;
+  if (tick_.state == InteractionState::writing) return held_ ? WritingHint::none : WritingHint::too_far;
+  if (!may_start()) return WritingHint::lift_first;
+  if (capture_.verdict() == CaptureVerdict::another_stroke) return WritingHint::another_stroke;
+  const double from_start = tick_.to_start.norm();
+  const bool is_late = resting_ && rest_.arc > late_share * active_.length();
+  if (is_late && (tick_.pen_tip.head<2>() - active_.end()).norm() < from_start) return WritingHint::at_end;
+  if (from_start <= options_.tolerances.start_distance * active_character().em) {
+    return capture_.verdict() == CaptureVerdict::wrong_direction ? WritingHint::wrong_direction : WritingHint::write;
+  }
+  return resting_ ? WritingHint::in_middle : WritingHint::too_far;
 }
 
 /// A pen that bounces on the paper has not been lifted.
@@ -320,21 +384,31 @@ void HapticRenderer::follow(const TransitionInput& input) noexcept {
       active_.reload();
       tick_.events |= TickEvent::stroke_abandoned;
     }
+    if (!character_done_ && !all_written()) put_down(tick_.pen_tip.head<2>());
+    resting_ = false;
   }
   if (after == InteractionState::writing && before != InteractionState::writing) {
     tick_.events |= TickEvent::stroke_started;
-    tick_.contact = active_.update(tick_.pen_tip.head<2>(), options_.stroke);
-    if (tick_.contact.passed_feature) tick_.events |= TickEvent::feature_passed;
+    active_.begin(capture_.begin());
+    const StrokeStart& start = start_of_stroke();
+    coverage_.restart(capture_.begin(), capture_.begin() - start.point, start.direction);
+    tick_.covered = 0.0;
+    resting_ = false;
+    TransitionInput written;
+    written.contact = written.inside_box = true;
+    write_on(tick_.pen_tip.head<2>(), written);
   }
   if (after == InteractionState::separation && before != InteractionState::separation) {
     tick_.events |= TickEvent::lift;
     lifted_ = true;
     if (character_done_) activate(tick_.character + 1, 0);
   }
+  tick_.hint = hint();
 }
 
 void HapticRenderer::finish_stroke() noexcept {
   tick_.events |= TickEvent::stroke_finished;
+  capture_.written(active_.start());
   lifted_ = false;
   const int next = tick_.stroke + 1;
   if (next < static_cast<int>(active_character().strokes.size())) {
@@ -354,10 +428,14 @@ void HapticRenderer::finish_stroke() noexcept {
 }
 
 void HapticRenderer::activate(int character, int stroke) noexcept {
-  if (character != tick_.character) inside_box_ = false;
+  if (character != tick_.character) {
+    inside_box_ = false;
+    capture_.restart();
+  }
   tick_.character = character;
   tick_.stroke = stroke;
-  character_done_ = false;
+  tick_.covered = 0.0;
+  character_done_ = resting_ = false;
   if (all_written()) return;
   active_.load(active_character().strokes[static_cast<std::size_t>(stroke)],
                page_[static_cast<std::size_t>(character)].placement);
@@ -377,7 +455,7 @@ void HapticRenderer::measure_error() noexcept {
 
 void HapticRenderer::adapt_assistance(bool abandoned) noexcept {
   const AssistPolicy& policy = options_.assist;
-  const double error = error_way_ > 0.0 ? std::sqrt(error_square_ / error_way_) : 0.0;
+  const double error = error_way_ > 0.0 ? std::sqrt(error_square_ / error_way_) / active_character().em : 0.0;
   tick_.assistance = policy.next(tick_.assistance, abandoned ? std::max(error, policy.full_assistance_error) : error);
 }
 
@@ -407,27 +485,38 @@ double HapticRenderer::paper_force() noexcept {
 }
 
 Point HapticRenderer::guidance_force() noexcept {
+  const bool guides = is_guided();
+  regrips_ = guides != held_;
+  held_ = guides;
+  if (tick_.state == InteractionState::separation || all_written()) return fade(Point::Zero());
   const Point tip = tick_.pen_tip.head<2>();
   const bool saturating = options_.guidance == GuidanceLaw::saturating;
   const bool writing = tick_.state == InteractionState::writing;
-  double share = 1.0;  // of guidance, in the stiffness and the damping
+  const StrokeContact& contact = writing ? tick_.contact : rest_;
+  Point way = Point::Zero();  // where guidance leads
+  double share = 0.0;         // of guidance, in the stiffness and the damping
+  double resistance = 0.0;    // to writing backwards, likewise
   if (writing) {
-    const StrokeContact& contact = tick_.contact;
-    const double stiffness = std::min(options_.guidance_stiffness * contact.attraction, max_guidance_);
-    share = saturating ? tick_.assistance : tick_.assistance * contact.weight;
-    tick_.attraction = attraction_force(stiffness * share, tip, contact.closest.point, options_.force_sign);
-    tick_.wrong_way =
-        contact.weight * wrong_way_force(options_.wrong_way_stiffness, options_.wrong_way_limit,
-                                         options_.wrong_way_slack, contact.backwards, contact.closest.tangent);
-    if (contact.attraction < 1.0) share *= contact.attraction;
+    way = contact.closest.point - tip;
+    // A writer who began the stroke beyond its start may end it as far beyond its end.
+    if (contact.finished) way -= std::min(0.0, way.dot(contact.closest.tangent)) * contact.closest.tangent;
+    resistance = held_ ? contact.weight : 0.0;
+    share = tick_.assistance * (saturating ? 1.0 : resistance);
     if (options_.assist.enabled) measure_error();
-  } else if (options_.guide_to_start && tick_.state == InteractionState::calibration && may_start()) {
-    share = tick_.assistance;
-    tick_.attraction = attraction_force(options_.guidance_stiffness * share, tip, active_.start(), options_.force_sign);
-  } else if (tick_.state == InteractionState::separation) {
-    return Point::Zero();
   } else {
-    share = 0.0;
+    if (held_) way = way_to_begin();
+    if (held_) share = tick_.assistance;
+    if (resting_ && may_start()) resistance = contact.weight;
+  }
+  const double factor = writing ? contact.attraction : active_.first_attraction();
+  const double stiffness = std::min(options_.guidance_stiffness * factor, max_guidance_);
+  tick_.attraction = attraction_force(stiffness * share, tip, tip + way, options_.force_sign);
+  if (factor < 1.0) share *= factor;
+  const double slack = options_.wrong_way_slack * active_character().em;
+  const bool resisted = resistance > 0.0 && contact.backwards > slack;
+  if (resisted) {
+    tick_.wrong_way = resistance * wrong_way_force(options_.wrong_way_stiffness, options_.wrong_way_limit, slack,
+                                                   contact.backwards, contact.closest.tangent);
   }
   if (saturating) {
     const double linear = tick_.attraction.norm();
@@ -436,22 +525,46 @@ Point HapticRenderer::guidance_force() noexcept {
     if (linear > 0.0) share *= std::sqrt(tick_.attraction.norm() / linear);
   }
   const Point velocity = velocity_.velocity().head<2>();
+  const Point tangent = writing ? contact.closest.tangent : held_ ? start_of_stroke().direction : Point(Point::Zero());
   // Resistance to writing backwards is not weakened by assistance, nor is its damper.
-  const bool resisted = writing && tick_.contact.backwards > options_.wrong_way_slack;
-  const Point across = (resisted ? std::max(share, tick_.contact.weight) : share) * damped(velocity);
-  tick_.viscous.head<2>() = -options_.guidance_damping * (across + free_share * (velocity - across));
+  const Point guided =
+      resisted ? Point(std::max(share, resistance) * velocity) : Point(share * damped(velocity, way, tangent));
+  tick_.viscous.head<2>() = -options_.guidance_damping * (guided + free_share * (velocity - guided));
   return fade(tick_.attraction + tick_.wrong_way + tick_.viscous.head<2>());
 }
 
-/// The part of a velocity that guidance damps: across the stroke. Along it the pen is free, except where a spring acts
-/// in that direction too: beyond an end, back along the stroke, and before its start.
-Point HapticRenderer::damped(const Point& velocity) const noexcept {
-  if (tick_.state != InteractionState::writing) return velocity;
-  const StrokeContact& contact = tick_.contact;
-  if (contact.backwards > options_.wrong_way_slack) return velocity;
-  const Point& tangent = contact.closest.tangent;
-  const double along = std::abs((contact.closest.point - tick_.pen_tip.head<2>()).dot(tangent));
-  const double oblique = std::min(1.0, along / (oblique_share * contact.closest.distance + oblique_slack));
+/// Far from the stroke guidance lets go, in time, and it takes hold again where the pen makes progress: a pen that
+/// slipped out of the tube would be thrown. Before the stroke it leads a pen that is likely to begin it.
+bool HapticRenderer::is_guided() const noexcept {
+  if (tick_.state == InteractionState::writing) {
+    if (options_.stroke.space.rule != ConstraintSpaceRule::tube || options_.guidance == GuidanceLaw::saturating)
+      return true;
+    if (has_event(tick_.events, TickEvent::stroke_started)) return true;
+    const double distance = tick_.contact.closest.distance;
+    return held_ ? tick_.contact.weight >= slipping_weight
+                 : distance <= options_.tolerances.corridor * active_character().em;
+  }
+  if (tick_.state != InteractionState::calibration || !may_start()) return false;
+  if (options_.guide_to_start) return capture_.verdict() != CaptureVerdict::another_stroke;
+  return tick_.hint == WritingHint::write && capture_.is_nearest();
+}
+
+/// Until the first stretch has shown its direction, guidance acts across that direction only, so that it does not hide
+/// it; with guide_to_start also along it, though not up to the start itself, which the pen is about to leave.
+Point HapticRenderer::way_to_begin() const noexcept {
+  const Point& direction = start_of_stroke().direction;
+  const double along = tick_.to_start.dot(direction);
+  const Point across = tick_.to_start - along * direction;
+  if (!options_.guide_to_start) return across;
+  const double free = unguided_start * options_.tolerances.start_distance * active_character().em;
+  return across + std::copysign(std::max(0.0, std::abs(along) - free), along) * direction;
+}
+
+/// The part of a velocity that guidance damps: across the stroke. Along it the pen is free, except where guidance leads
+/// that way too: before the start and at a corner that is not passed.
+Point HapticRenderer::damped(const Point& velocity, const Point& way, const Point& tangent) const noexcept {
+  const double along = std::abs(way.dot(tangent));
+  const double oblique = std::min(1.0, along / (oblique_share * way.norm() + oblique_slack));
   return velocity - (1.0 - oblique) * velocity.dot(tangent) * tangent;
 }
 
@@ -478,17 +591,24 @@ Point HapticRenderer::friction_force() noexcept {
 }
 
 /// Where the closest point jumps, at the start of a stroke and at a feature point, a spring that appears at once would
-/// throw the pen: during the fade-in the force passes from its previous value to the new one.
+/// throw the pen, and so would one that vanishes at once where guidance ends: the old one is withdrawn in time while
+/// the new one sets in.
 Point HapticRenderer::fade(const Point& force) noexcept {
-  constexpr TickEvent leaps =
-      TickEvent::stroke_started | TickEvent::feature_passed | TickEvent::contact | TickEvent::stroke_abandoned;
-  if (has_event(tick_.events, leaps)) {
-    fade_from_ = tick_.page_force.head<2>() - tick_.friction - tick_.damping.head<2>();
+  constexpr TickEvent leaps = TickEvent::stroke_started | TickEvent::feature_passed | TickEvent::contact;
+  constexpr TickEvent ends = TickEvent::stroke_finished | TickEvent::stroke_abandoned | TickEvent::lift;
+  const bool lets_go = has_event(tick_.events, ends) || (regrips_ && !held_);
+  const Point tip = tick_.pen_tip.head<2>(), velocity = velocity_.velocity().head<2>();
+  if (lets_go || regrips_ || has_event(tick_.events, leaps)) {
+    const double seconds = lets_go ? options_.guidance_fade_out : options_.guidance_fade_in;
+    released_.take_over(tick_.page_force.head<2>() - tick_.friction - tick_.damping.head<2>(), tip, velocity,
+                        std::min(options_.guidance_stiffness, max_guidance_), options_.guidance_damping,
+                        seconds / period_);
     faded_ = 0.0;
   }
+  regrips_ = false;
   faded_ = std::min(1.0, faded_ + fade_step_);
   const double share = faded_ * faded_ * (3.0 - 2.0 * faded_);
-  return fade_from_ + share * (force - fade_from_);
+  return released_.next(tip, velocity) + share * force;
 }
 
 /// The last stages, in this order: passivity, direction-preserving saturation, rate, energy and heat of the force sent.

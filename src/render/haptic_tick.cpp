@@ -16,4 +16,26 @@ const char* to_string(TickStatus status) noexcept {
   return "";
 }
 
+const char* to_string(WritingHint hint) noexcept {
+  switch (hint) {
+    case WritingHint::none:
+      return "";
+    case WritingHint::write:
+      return "write on";
+    case WritingHint::too_far:
+      return "too far from the start";
+    case WritingHint::at_end:
+      return "at the stroke's end";
+    case WritingHint::in_middle:
+      return "in the middle of the stroke";
+    case WritingHint::wrong_direction:
+      return "wrong direction";
+    case WritingHint::another_stroke:
+      return "another stroke's start";
+    case WritingHint::lift_first:
+      return "lift the pen first";
+  }
+  return "";
+}
+
 }  // namespace calligraphy

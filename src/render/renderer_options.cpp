@@ -52,6 +52,10 @@ StiffnessLimit usable_stiffness(const Capabilities& capabilities) {
   return {capabilities.usable_stiffness, reason.str()};
 }
 
+/// Friction between pen and paper, of which everything() renders what the device does not have itself.
+constexpr double paper_friction_coefficient = 0.15;
+constexpr double usual_pressure = 1.0;  ///< of a pen on paper [N]
+
 /// Rounded to single precision: the last bits, which differ between implementations of libm, reach no force.
 double without_last_bits(double stiffness) { return static_cast<float>(stiffness); }
 
@@ -138,6 +142,16 @@ class Limits {
   std::string enlarged_;
 };
 
+void validate(const StrokeTolerances& tolerances) {
+  require_above_zero("tolerances.start_distance", tolerances.start_distance, "em");
+  require_within("tolerances.direction", tolerances.direction, "rad", 0.0, std::numbers::pi);
+  require_not_negative("tolerances.first_stretch", tolerances.first_stretch, "em");
+  require(tolerances.distinction >= 1.0, "tolerances.distinction", tolerances.distinction, "", "at least 1");
+  require_above_zero("tolerances.corridor", tolerances.corridor, "em");
+  require_within("tolerances.coverage", tolerances.coverage, "", 0.0, 1.0);
+  require_within("tolerances.late_start", tolerances.late_start, "", 0.0, 0.5);
+}
+
 }  // namespace
 
 RendererOptions RendererOptions::wang2006() {
@@ -148,11 +162,15 @@ RendererOptions RendererOptions::wang2006() {
   options.stroke.attraction = AttractionRule::wang2006;
   options.stroke.window = 0.0;
   options.box_margin = 0.0;
+  options.tolerances.direction = std::numbers::pi;
+  options.tolerances.first_stretch = 0.0;
+  options.tolerances.distinction = std::numeric_limits<double>::infinity();
+  options.tolerances.coverage = 0.0;
   options.lift_height = 0.0;
   options.box_hysteresis = 0.0;
   options.lift_between_strokes = false;
   options.limit_force_rate = false;
-  options.guidance_fade_in = 0.0;
+  options.guidance_fade_in = options.guidance_fade_out = 0.0;
   options.pen_tip = PenTipRule::wang2006;
   options.motion = MotionMappingRule::wang2006;
   options.lift_time = 0.0;
@@ -175,9 +193,10 @@ RendererOptions RendererOptions::everything(const Capabilities& capabilities) {
   options.guidance = GuidanceLaw::saturating;
   options.guidance_limit = std::min(options.guidance_limit, 0.5 * capabilities.peak_force);
   options.guide_to_start = true;
-  options.box_margin = 0.02;
-  options.assist.enabled = true;
-  options.friction.coefficient = 0.15;
+  options.box_margin = 0.5;
+  const double own_friction = capabilities.coulomb_friction / usual_pressure;
+  if (own_friction < paper_friction_coefficient)
+    options.friction.coefficient = paper_friction_coefficient - own_friction;
   clip_stiffness(options, capabilities);
   const bool is_modelled =
       capabilities.apparent_mass > 0.0 && capabilities.sample_delay <= PassivityController::max_delay;
@@ -265,11 +284,12 @@ void validate(const RendererOptions& options, const Capabilities& capabilities, 
   if (!too_stiff.empty()) throw ValueError(too_stiff.front());
   require_not_negative("paper_onset", options.paper_onset, "m");
   require_not_negative("guidance_fade_in", options.guidance_fade_in, "s");
+  require_not_negative("guidance_fade_out", options.guidance_fade_out, "s");
   require_not_negative("wrong_way_limit", options.wrong_way_limit, "N");
-  require_not_negative("wrong_way_slack", options.wrong_way_slack, "m");
+  require_not_negative("wrong_way_slack", options.wrong_way_slack, "em");
   require_above_zero("guidance_limit", options.guidance_limit, "N");
   require_within("assist.retention", options.assist.retention, "", 0.0, 1.0);
-  require_above_zero("assist.full_assistance_error", options.assist.full_assistance_error, "m");
+  require_above_zero("assist.full_assistance_error", options.assist.full_assistance_error, "em");
   require_within("assist.min_assistance", options.assist.min_assistance, "", 0.0, 1.0);
   require_within("friction.damping", options.friction.damping, "N s/m", 0.0, strongest);
   require_within("friction.coefficient", options.friction.coefficient, "", 0.0, 10.0);
@@ -279,16 +299,16 @@ void validate(const RendererOptions& options, const Capabilities& capabilities, 
   } catch (const ValueError& error) {
     throw ValueError(std::string("stroke.nearest.") + error.what());
   }
-  require_above_zero("stroke.space.radius", options.stroke.space.radius, "m");
-  require_above_zero("stroke.space.fade_width", options.stroke.space.fade_width, "m", options.stroke.space.radius);
-  require_not_negative("stroke.plane_tolerance", options.stroke.plane_tolerance, "m");
-  require_not_negative("stroke.window", options.stroke.window, "m");
-  require_above_zero("start_radius", options.start_radius, "m");
-  require_not_negative("box_margin", options.box_margin, "m");
+  require_above_zero("stroke.space.radius", options.stroke.space.radius, "em");
+  require_above_zero("stroke.space.fade_width", options.stroke.space.fade_width, "em", options.stroke.space.radius);
+  require_not_negative("stroke.plane_tolerance", options.stroke.plane_tolerance, "em");
+  require_not_negative("stroke.window", options.stroke.window, "em");
+  validate(options.tolerances);
+  require_not_negative("box_margin", options.box_margin, "em");
   require_not_negative("lift_height", options.lift_height, "m");
   require_not_negative("lift_time", options.lift_time, "s");
   require_not_negative("lift_clearance", options.lift_clearance, "m");
-  require_not_negative("box_hysteresis", options.box_hysteresis, "m");
+  require_not_negative("box_hysteresis", options.box_hysteresis, "em");
   require_above_zero("in_plane_force_rate", options.in_plane_force_rate, "N/s", fastest_force);
   require_above_zero("normal_force_rate", options.normal_force_rate, "N/s", fastest_force);
   if (!(options.energy_budget == std::numeric_limits<double>::infinity())) {

@@ -27,11 +27,11 @@ struct StrokeRules {
   ConstraintSpace space;
   FeaturePlaneRule plane = FeaturePlaneRule::bounded;
   AttractionRule attraction = AttractionRule::interpolated;
-  /// A bounded plane counts as crossed this far before it is reached, at most 0.3 of the element's length [m].
-  double plane_tolerance = 0.0015;
+  /// A bounded plane counts as crossed this far before it is reached, at most 0.3 of the element's length [em].
+  double plane_tolerance = 0.0375;
   /// The closest point is searched within this arc length of the last one, so that a sharp bend, a loop or a nearby
-  /// part of the stroke cannot attract the pen out of order; 0: on the whole element, as printed [m].
-  double window = 0.008;
+  /// part of the stroke cannot attract the pen out of order; 0: on the whole element, as printed [em].
+  double window = 0.2;
 };
 
 /// Position of the pen relative to the active stroke.
@@ -55,14 +55,24 @@ class ActiveStroke {
   /// Refills the stack of feature points: the pen was lifted before the end (sec. 4.3).
   void reload() noexcept;
 
+  /// Refills it for a pen put down at `tip` [m, page]. A writer who begins beside the start may turn as far from each
+  /// feature point.
+  void begin(const Point& tip) noexcept;
+
+  /// Follows a pen that was put down where nearest() found it, without having written what comes before.
+  void rest(const StrokeContact& nearest) noexcept;
+
   /// Tracks the pen tip at `tip` [m, page]. At most one feature point is passed per call.
   StrokeContact update(const Point& tip, const StrokeRules& rules) noexcept;
 
-  /// Whether a pen at `tip` [m, page] begins the stroke: within `radius` [m] of its start and not nearer to the next
-  /// feature point, so that a short stroke is not finished before it is written.
-  bool begins_at(const Point& tip, double radius) const noexcept;
+  /// Position of a pen at `tip` [m, page] that is not writing the stroke: its nearest point on the whole of it, without
+  /// effect on its progress.
+  StrokeContact nearest(const Point& tip, const StrokeRules& rules) const noexcept;
 
   Point start() const noexcept { return elements_[0].origin(); }
+  Point end() const noexcept { return planes_[static_cast<std::size_t>(element_count_ - 1)].point; }
+  /// Attraction factor at the start.
+  double first_attraction() const noexcept { return attraction_[0]; }
   double length() const noexcept { return first_arc_[static_cast<std::size_t>(element_count_)]; }
   /// Feature points not yet passed; 0 once the stroke is finished.
   int features_remaining() const noexcept { return element_count_ - active_; }
@@ -78,6 +88,8 @@ class ActiveStroke {
   std::array<double, max_elements_per_stroke + 1> attraction_ = {};  ///< per feature point
   std::array<double, max_elements_per_stroke + 1> first_arc_ = {};   ///< arc length at each feature point
   int element_count_ = 0;
+  double em_ = 0.0;         ///< [m]
+  double misplaced_ = 0.0;  ///< distance from the start at which the stroke was begun [m]
   int active_ = 0;          ///< element being written; element_count_ once finished
   double arc_ = 0.0;        ///< arc length of the last closest point, within the active element
   double parameter_ = 0.0;  ///< of the last closest point

@@ -12,13 +12,13 @@ enum class ConstraintSpaceRule {
 
 struct ConstraintSpace {
   ConstraintSpaceRule rule = ConstraintSpaceRule::tube;
-  double radius = 0.012;      ///< [m]
-  double fade_width = 0.008;  ///< at most `radius`; a narrow one lets the force drop steeply, a negative stiffness [m]
+  double radius = 0.3;      ///< [em]
+  double fade_width = 0.2;  ///< at most `radius`; a narrow one lets the force drop steeply, a negative stiffness [em]
 };
 
 /// Factor on the guidance force at `query`: 1 inside, 0 outside, continuously differentiable in between, at the edge of
-/// the tube. `closest` is the nearest point of the same element to the same query.
-double guidance_weight(const ConstraintSpace& space, const StrokeElement& element, const Point& query,
+/// the tube. `closest` is the nearest point of the same element to the same query, `em` the edge of the em square [m].
+double guidance_weight(const ConstraintSpace& space, double em, const StrokeElement& element, const Point& query,
                        const NearestPoint& closest) noexcept;
 
 }  // namespace calligraphy

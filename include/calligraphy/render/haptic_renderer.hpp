@@ -12,6 +12,9 @@
 #include <calligraphy/devices/device_state.hpp>
 #include <calligraphy/devices/velocity_estimator.hpp>
 #include <calligraphy/render/detail/force_limiter.hpp>
+#include <calligraphy/render/detail/released_spring.hpp>
+#include <calligraphy/render/detail/stroke_capture.hpp>
+#include <calligraphy/render/detail/stroke_coverage.hpp>
 #include <calligraphy/render/detail/thermal_budget.hpp>
 #include <calligraphy/render/haptic_tick.hpp>
 #include <calligraphy/render/motion_mapping.hpp>
@@ -56,12 +59,18 @@ class HapticRenderer {
  private:
   struct PreparedCharacter {
     std::vector<Stroke> strokes;
+    std::vector<StrokeStart> starts;
     Eigen::AlignedBox2d box;  ///< including the margin [m]
+    double em = 0.0;          ///< [m]
   };
 
   TickStatus map_sample(const DeviceState& state) noexcept;
   bool plausible(const Eigen::Vector3d& position, double time) const noexcept;
   TransitionInput sense() noexcept;
+  void write_on(const Point& tip, TransitionInput& input) noexcept;
+  void put_down(const Point& tip) noexcept;
+  bool begins(const Point& tip) noexcept;
+  WritingHint hint() const noexcept;
   void follow(const TransitionInput& input) noexcept;
   void finish_stroke() noexcept;
   void measure_error() noexcept;
@@ -73,7 +82,9 @@ class HapticRenderer {
   Eigen::Vector3d sum_forces() noexcept;
   double paper_force() noexcept;
   Point guidance_force() noexcept;
-  Point damped(const Point& velocity) const noexcept;
+  bool is_guided() const noexcept;
+  Point way_to_begin() const noexcept;
+  Point damped(const Point& velocity, const Point& way, const Point& tangent) const noexcept;
   Point friction_force() noexcept;
   void release_friction() noexcept;
   Point fade(const Point& force) noexcept;
@@ -83,6 +94,10 @@ class HapticRenderer {
   Eigen::Vector3d control_passivity(const Eigen::Vector3d& wanted) noexcept;
   bool may_start() const noexcept { return !character_done_ && (lifted_ || !options_.lift_between_strokes); }
   bool all_written() const noexcept { return tick_.character >= static_cast<int>(page_.size()); }
+  /// Of the active stroke.
+  const StrokeStart& start_of_stroke() const noexcept {
+    return active_character().starts[static_cast<std::size_t>(tick_.stroke)];
+  }
   const PreparedCharacter& active_character() const noexcept {
     return prepared_[static_cast<std::size_t>(tick_.character)];
   }
@@ -104,14 +119,20 @@ class HapticRenderer {
   PaperFriction friction_;
 
   ActiveStroke active_;
+  StrokeCapture capture_;
+  StrokeCoverage coverage_;
+  StrokeContact rest_;    ///< of a pen on the active stroke that is not writing it
+  bool resting_ = false;  ///< it was put down on that stroke, near enough for `rest_`
+  bool held_ = false;     ///< guidance acts
+  bool regrips_ = false;  ///< that has changed in this tick
   HapticTick tick_;
   VelocityEstimator velocity_;                               ///< of the pen [m/s, page]
   Eigen::Vector3d last_velocity_ = Eigen::Vector3d::Zero();  ///< estimate of the tick before [m/s, page]
   Eigen::Vector3d motion_ = Eigen::Vector3d::Zero();         ///< since the sample before [m, page]
   Point friction_spring_ = Point::Zero();                    ///< force of the tick before [N, page]
   Point friction_rate_ = Point::Zero();                      ///< its filtered change [N/s, page]
-  Point fade_from_ = Point::Zero();  ///< in-plane force at the last jump of the closest point [N, page]
-  double faded_ = 0.0;               ///< progress of the fade-in since that jump, 0 to 1
+  ReleasedSpring released_;                                  ///< what guided before the last jump of the closest point
+  double faded_ = 0.0;                                       ///< progress of the fade-in since that jump, 0 to 1
   double error_square_ = 0.0;        ///< squared lateral error, integrated along the path on the active stroke [m^3]
   double error_way_ = 0.0;           ///< length of that path [m]
   Point error_tip_ = Point::Zero();  ///< pen tip at the last measurement [m]

@@ -41,6 +41,22 @@ enum class TickStatus : std::uint8_t {
 /// "ok", "stale", "bad_sample", "device_fault".
 const char* to_string(TickStatus status) noexcept;
 
+/// Why a pen on the paper is not guided, for a display to show.
+enum class WritingHint : std::uint8_t {
+  none,             ///< it is guided, or not on the paper
+  write,            ///< at the start of the stroke that is due: write on
+  too_far,          ///< too far from the start, or from the stroke: `to_start` says where it is
+  at_end,           ///< at the stroke's end
+  in_middle,        ///< in the middle of the stroke
+  wrong_direction,  ///< at the start, but moving another way
+  another_stroke,   ///< at the start of another stroke
+  lift_first        ///< lift the pen first: the stroke before has just been finished
+};
+
+/// "", "write on", "too far from the start", "at the stroke's end", "in the middle of the stroke", "wrong direction",
+/// "another stroke's start", "lift the pen first".
+const char* to_string(WritingHint hint) noexcept;
+
 struct HapticTick {
   double time = 0.0;  ///< sample time [s]
   TickStatus status = TickStatus::ok;
@@ -51,7 +67,10 @@ struct HapticTick {
   Eigen::Vector3d device_point = Eigen::Vector3d::Zero();  ///< haptic interface point, page frame [m]
   Eigen::Vector3d pen_tip = Eigen::Vector3d::Zero();       ///< virtual pen tip, page frame [m]
   double penetration = 0.0;                                ///< of the device point into the paper [m]
-  StrokeContact contact;             ///< valid in the writing state and in the tick that leaves it
+  StrokeContact contact;  ///< valid in the writing state and in the tick that leaves it
+  double covered = 0.0;   ///< share of the active stroke that has been written in order [1]
+  WritingHint hint = WritingHint::none;
+  Point to_start = Point::Zero();    ///< from the pen tip to the start of the active stroke [m, page]
   Point attraction = Point::Zero();  ///< force term, including assistance, before fade-in and limits [N, page]
   Point wrong_way = Point::Zero();   ///< force term, before fade-in and limits [N, page]
   Point friction = Point::Zero();    ///< force term, before limits [N, page]

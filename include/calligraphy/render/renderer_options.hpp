@@ -12,6 +12,7 @@
 #include <calligraphy/render/force_terms.hpp>
 #include <calligraphy/render/motion_mapping.hpp>
 #include <calligraphy/render/paper_friction.hpp>
+#include <calligraphy/render/stroke_tolerances.hpp>
 
 namespace calligraphy {
 
@@ -43,9 +44,10 @@ struct RendererOptions {
   double guidance_damping = 4.0;       ///< where guidance acts, against motion across the stroke, not along it [N s/m]
   double velocity_cutoff = 50.0;       ///< of the low-pass on the velocity for both (VelocityEstimator) [Hz]
   double guidance_fade_in = 0.15;      ///< fade-in time of guidance after a stroke's start and each feature point [s]
+  double guidance_fade_out = 0.3;      ///< fade-out time when guidance lets go: a pulled hand must not be thrown [s]
   double wrong_way_stiffness = 200.0;  ///< resistance to writing backwards; 0: none [N/m]
   double wrong_way_limit = 1.0;        ///< maximum force of that resistance [N]
-  double wrong_way_slack = 0.002;      ///< dead band: a pen may move back this far without resistance [m]
+  double wrong_way_slack = 0.05;       ///< dead band: a pen may move back this far without resistance [em]
 
   StiffnessCheck stiffness_check = StiffnessCheck::reject;
 
@@ -55,14 +57,14 @@ struct RendererOptions {
   AssistPolicy assist;          ///< off by default: full assistance
   FrictionOptions friction;     ///< off by default
 
-  StrokeRules stroke;  ///< nearest point, constraint space, feature planes, attraction factors
+  StrokeTolerances tolerances;  ///< which pen-down begins the stroke that is due, and when it is finished
+  StrokeRules stroke;           ///< nearest point, constraint space, feature planes, attraction factors
 
-  double start_radius = 0.008;       ///< a stroke begins within this distance of its start [m]
-  double box_margin = 0.008;         ///< added to the bounding box of the active character on every side [m]
+  double box_margin = 0.2;           ///< added to the bounding box of the active character on every side [em]
   double lift_height = 0.0005;       ///< hysteresis: the pen is above the paper once it is this far above it [m]
   double lift_time = 0.05;           ///< it counts as lifted once it has been above the paper for this time [s],
   double lift_clearance = 0.003;     ///< or at once this far above the paper; until then it may bounce [m]
-  double box_hysteresis = 0.002;     ///< the box is left this far outside its edge, 3 times as far while writing [m]
+  double box_hysteresis = 0.05;      ///< the box is left this far outside its edge, 3 times as far while writing [em]
   bool lift_between_strokes = true;  ///< the next stroke begins with a new contact, not by sliding into its start
   bool solid_paper = false;          ///< normal force also in the adjusting state; Table 2 has none there
 
@@ -95,9 +97,10 @@ struct RendererOptions {
   /// page: stiffness_check is clip.
   static RendererOptions for_device(const Capabilities& capabilities);
 
-  /// for_device() with the optional stages: friction, guidance for large deviations, assistance as needed; an energy
-  /// budget where the device states its mass and a delay of at most 15 ticks; a thermal budget where it states a
-  /// continuous force below its peak. Not passivity control: the springs are damped already, and what it adds is drag.
+  /// for_device() with the optional stages that serve every writer: guidance for large deviations and to the start; the
+  /// friction of paper, less the device's own; an energy budget where the device states its mass and a delay of at most
+  /// 15 ticks; a thermal budget where it states a continuous force below its peak. Not passivity control: the springs
+  /// are damped already, and what it adds is drag. Not assistance as needed, which withdraws guidance by intent.
   static RendererOptions everything(const Capabilities& capabilities);
 };
 

@@ -1,0 +1,62 @@
+// Decides whether a pen-down begins the stroke that is due: by its place, its first direction, and the other strokes.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <calligraphy/collision/placed_character.hpp>
+#include <calligraphy/render/stroke_tolerances.hpp>
+
+namespace calligraphy {
+
+/// The first stretch of a stroke on the page.
+struct StrokeStart {
+  Point point = Point::Zero();
+  Point direction = Point::Zero();  ///< unit vector; zero for a stroke without length
+  double stretch = 0.0;             ///< length over which the direction is judged [m]
+};
+
+/// Those of every stroke of a character.
+std::vector<StrokeStart> stroke_starts(const PlacedCharacter& placed, const StrokeTolerances& tolerances);
+
+enum class CaptureVerdict {
+  undecided,        ///< the pen has not moved far enough, or is too far from the start
+  begun,            ///< it writes the stroke that is due
+  wrong_direction,  ///< near the start, but going another way; it may still turn
+  another_stroke    ///< it writes another one, until it is lifted
+};
+
+/// One pen-down after the other within a character. Never allocates.
+class StrokeCapture {
+ public:
+  /// A new character: nothing is known of where the writer sees it.
+  void restart() noexcept { *this = {}; }
+
+  /// The pen was put down at `tip` [m, page], with stroke `due` of `starts` to be written.
+  void put_down(const Point& tip, std::span<const StrokeStart> starts, std::size_t due) noexcept;
+
+  /// The pen is at `tip`, and stroke `due` of `starts` is to be written; `em` [m].
+  CaptureVerdict update(const Point& tip, std::span<const StrokeStart> starts, std::size_t due, double em,
+                        const StrokeTolerances& tolerances) noexcept;
+
+  CaptureVerdict verdict() const noexcept { return verdict_; }
+  /// Whether the start of the due stroke was the nearest of those to come when the pen was put down.
+  bool is_nearest() const noexcept { return is_nearest_; }
+
+  /// Where the stroke was begun [m, page].
+  const Point& begin() const noexcept { return anchor_; }
+
+  /// The stroke that begins at `start` was written to its end: writers misplace the strokes of a character alike.
+  void written(const Point& start) noexcept;
+
+ private:
+  Point anchor_ = Point::Zero();  ///< follows the pen at the length of the first stretch
+  CaptureVerdict verdict_ = CaptureVerdict::undecided;
+  bool is_nearest_ = false;
+  bool is_first_ = true;             ///< the pen has not yet gone as far since it was put down
+  Point misplaced_ = Point::Zero();  ///< sum over the strokes written so far [m]
+  int count_ = 0;
+};
+
+}  // namespace calligraphy

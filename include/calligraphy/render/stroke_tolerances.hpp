@@ -1,0 +1,41 @@
+// How exactly a stroke must be written to count as the one that is due.
+#pragma once
+
+#include <numbers>
+
+namespace calligraphy {
+
+/// Tolerances of the renderer and of match_strokes(), relative to the character's square and to the stroke, so that
+/// they mean the same at every size. The default is normal().
+struct StrokeTolerances {
+  /// A stroke begins within this distance of its start [em].
+  double start_distance = 0.2;
+  /// Its first stretch runs within this angle of the stroke's own [rad].
+  double direction = std::numbers::pi / 3.0;
+  /// Length over which that direction is judged, at most a quarter of the stroke [em]. Until then nothing guides the
+  /// pen, so that it cannot be led into a stroke that it was not to write. 0: only the place counts, as printed.
+  double first_stretch = 0.04;
+  /// A later stroke of the character is meant when its start fits better by this factor; infinite: no other stroke is
+  /// considered, as printed.
+  double distinction = 2.0;
+  /// Greatest lateral deviation at which the pen makes progress, beyond that at its start [em].
+  double corridor = 0.08;
+  /// Share of the length that must be covered in order before the stroke is finished: at its end, or where the pen is
+  /// lifted. 0: the feature planes alone finish it, as printed.
+  double coverage = 0.9;
+  /// Share of the length that may be missing at its beginning, and is not counted, where the stroke was begun beyond
+  /// its start and is written to its very end.
+  double late_start = 0.2;
+
+  /// For beginners and for large devices held loosely.
+  static constexpr StrokeTolerances lenient() noexcept {
+    return {0.25, std::numbers::pi / 2.5, 0.04, 3.0, 0.12, 0.8, 0.3};
+  }
+  static constexpr StrokeTolerances normal() noexcept { return {}; }
+  /// For examinations.
+  static constexpr StrokeTolerances strict() noexcept {
+    return {0.1, std::numbers::pi / 4.0, 0.04, 1.5, 0.05, 0.95, 0.05};
+  }
+};
+
+}  // namespace calligraphy

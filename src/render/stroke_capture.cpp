@@ -1,0 +1,107 @@
+#include <calligraphy/render/detail/stroke_capture.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace calligraphy {
+namespace {
+
+/// Longest share of a stroke over which its direction is judged.
+constexpr double max_stretch_share = 0.25;
+
+/// Starts that differ by less than this cannot be told apart, as a share of both tolerances.
+constexpr double indistinct = 0.05;
+
+/// How badly a first stretch fits a stroke, as shares of the tolerances.
+struct Misfit {
+  double place, direction;
+  double size() const { return std::hypot(place, direction); }
+  bool tolerable() const { return place <= 1.0 && direction <= 1.0; }
+};
+
+Misfit misfit(const StrokeStart& start, const Point& from, const Point& way, double em,
+              const StrokeTolerances& tolerances) {
+  const double sine = start.direction.x() * way.y() - start.direction.y() * way.x();
+  const double angle = std::abs(std::atan2(sine, start.direction.dot(way)));
+  return {(from - start.point).norm() / (tolerances.start_distance * em), angle / tolerances.direction};
+}
+
+/// A pen that was put down beside a stroke may approach it, by itself or led by guidance: what remains of its way from
+/// there `to` where it is says what it writes.
+Point own_way(const StrokeStart& start, const Point& from, const Point& to) {
+  const Point normal(-start.direction.y(), start.direction.x());
+  const double before = normal.dot(from - start.point), after = normal.dot(to - start.point);
+  const double left = before >= 0.0 ? std::clamp(after, 0.0, before) : std::clamp(after, before, 0.0);
+  return to - from + (before - left) * normal;
+}
+
+/// Point of a stroke at an arc length [m].
+Point point_at(const std::vector<StrokeElement>& elements, double arc) {
+  for (const StrokeElement& element : elements) {
+    if (arc <= element.length()) return element.point(element.parameter_at(arc));
+    arc -= element.length();
+  }
+  return elements.back().point(1.0);
+}
+
+}  // namespace
+
+std::vector<StrokeStart> stroke_starts(const PlacedCharacter& placed, const StrokeTolerances& tolerances) {
+  std::vector<StrokeStart> starts;
+  for (const Stroke& stroke : strokes(placed.character)) {
+    const std::vector<StrokeElement> elements = place_elements(stroke, placed.placement);
+    double length = 0.0;
+    for (const StrokeElement& element : elements) length += element.length();
+    StrokeStart start;
+    start.point = elements.front().origin();
+    start.stretch = std::min(tolerances.first_stretch * placed.placement.em, max_stretch_share * length);
+    start.direction = point_at(elements, start.stretch) - start.point;
+    const double chord = start.direction.norm();
+    start.direction = chord > 0.0 ? Point(start.direction / chord) : elements.front().tangent(0.0);
+    starts.push_back(start);
+  }
+  return starts;
+}
+
+void StrokeCapture::put_down(const Point& tip, std::span<const StrokeStart> starts, std::size_t due) noexcept {
+  anchor_ = tip;
+  const Point seen = tip - misplaced_ / (count_ + 1);
+  const auto distance = [&](const StrokeStart& start) { return (seen - start.point).squaredNorm(); };
+  is_nearest_ = std::all_of(starts.begin() + static_cast<std::ptrdiff_t>(due), starts.end(),
+                            [&](const StrokeStart& start) { return distance(start) >= distance(starts[due]); });
+  verdict_ = CaptureVerdict::undecided;
+  is_first_ = true;
+}
+
+CaptureVerdict StrokeCapture::update(const Point& tip, std::span<const StrokeStart> starts, std::size_t due, double em,
+                                     const StrokeTolerances& tolerances) noexcept {
+  if (verdict_ == CaptureVerdict::another_stroke) return verdict_;
+  const double stretch = starts[due].stretch;
+  const Point way = own_way(starts[due], anchor_, tip);
+  const double moved = way.norm();
+  if (!(moved >= stretch)) return verdict_;
+
+  const Misfit own = misfit(starts[due], anchor_, way, em, tolerances);
+  // Of the strokes written before, the writer was off by about as much.
+  const Point seen = anchor_ - misplaced_ / (count_ + 1);
+  const double expected = misfit(starts[due], seen, way, em, tolerances).size();
+  bool is_other = false;
+  for (std::size_t later = due + 1; later < starts.size() && std::isfinite(tolerances.distinction); ++later) {
+    const Misfit other = misfit(starts[later], seen, way, em, tolerances);
+    is_other = is_other || (other.tolerable() && expected > tolerances.distinction * (other.size() + indistinct));
+  }
+  if (own.tolerable() && !is_other) return verdict_ = CaptureVerdict::begun;
+  verdict_ = is_other && is_first_ ? CaptureVerdict::another_stroke
+             : own.place <= 1.0    ? CaptureVerdict::wrong_direction
+                                   : CaptureVerdict::undecided;
+  is_first_ = false;
+  anchor_ = tip - way * (stretch / moved);
+  return verdict_;
+}
+
+void StrokeCapture::written(const Point& start) noexcept {
+  misplaced_ += anchor_ - start;
+  ++count_;
+}
+
+}  // namespace calligraphy
