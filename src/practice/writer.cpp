@@ -266,6 +266,7 @@ void SimulatedWriter::plan_attempt() {
 
 void SimulatedWriter::plan_elements(int stroke, bool backwards) {
   const PlacedCharacter& placed = page_[static_cast<std::size_t>(character_)];
+  intended_ = stroke;
   plan_.clear();
   const Stroke drawn = strokes(placed.character)[static_cast<std::size_t>(stroke)];
   for (const StrokeElement& truth : place_elements(drawn, placed.placement)) {

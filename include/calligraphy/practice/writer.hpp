@@ -66,6 +66,8 @@ class SimulatedWriter {
   bool done() const noexcept { return phase_ == Phase::done; }
   /// The same stroke failed ten times.
   bool gave_up() const noexcept { return gave_up_; }
+  /// Index of the stroke that the present attempt means to write; out of order, not the one that is due.
+  int intended_stroke() const noexcept { return intended_; }
 
  private:
   enum class Phase { pause, approach, lower, write, settle, raise, done };
@@ -115,6 +117,7 @@ class SimulatedWriter {
   int stroke_ = 0;
   int attempt_ = 0;
 
+  int intended_ = 0;  ///< the stroke of the plan
   std::vector<PlannedElement> plan_;
   Belief belief_ = {};
   Point aim_error_ = Point::Zero();

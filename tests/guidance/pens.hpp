@@ -1,0 +1,79 @@
+// Pens that draw given lines on a page without seeing it: one that is exactly where it is meant to be, and one that a
+// hand holds on a simulated device.
+#pragma once
+
+#include <calligraphy/devices/simulated_device.hpp>
+#include <calligraphy/render/haptic_renderer.hpp>
+
+#include "stroke_line.hpp"
+
+namespace calligraphy_test {
+
+inline constexpr double people_speed = 0.66;  ///< mean, along a stroke [em/s]
+
+/// What became of one line that was drawn, from the touch to the lift.
+struct Drawn {
+  bool started = false;   ///< a stroke
+  bool finished = false;  ///< a stroke
+};
+
+/// A pen and the renderer that it writes on.
+class Pen {
+ public:
+  virtual ~Pen() = default;
+
+  /// Brings the pen over the start, lowers it, draws with minimum jerk from corner to corner, and raises it: in the air
+  /// for at least 0.3 s, 8 mm above the paper.
+  Drawn draw(const StrokeLine& line, double em);
+
+  const calligraphy::HapticTick& last() const { return renderer_.last(); }
+  int due() const { return last().stroke; }
+
+ protected:
+  Pen(const calligraphy::PracticePage& page, const calligraphy::Capabilities& device,
+      const calligraphy::RendererOptions& options);
+
+  static constexpr double raised = 0.008;  ///< [m]
+
+  /// Means to be at `to` after one tick.
+  virtual void step(const Eigen::Vector3d& to) = 0;
+
+  calligraphy::HapticRenderer renderer_;
+  double period_;                              ///< [s]
+  double pressed_ = 0.001;                     ///< how far below the paper the pen is meant to be [m]
+  Eigen::Vector3d intended_ = {0, 0, raised};  ///< [m, page]
+
+ private:
+  void go(const Eigen::Vector3d& to, double seconds);
+  void step_and_see(const Eigen::Vector3d& to);
+
+  Drawn drawn_;
+};
+
+/// Is where it is meant to be, whatever the force.
+class KinematicPen final : public Pen {
+ public:
+  KinematicPen(const calligraphy::PracticePage& page, const calligraphy::Capabilities& device,
+               const calligraphy::RendererOptions& options)
+      : Pen(page, device, options) {}
+
+ private:
+  void step(const Eigen::Vector3d& to) override;
+
+  double time_ = 0.0;
+};
+
+/// On a device, in a hand that feels the force, or not.
+class HeldPen final : public Pen {
+ public:
+  HeldPen(const calligraphy::PracticePage& page, const calligraphy::Capabilities& device,
+          const calligraphy::RendererOptions& options, const calligraphy::GripImpedance& grip, bool feels);
+
+ private:
+  void step(const Eigen::Vector3d& to) override;
+
+  calligraphy::SimulatedDevice device_;
+  bool feels_;
+};
+
+}  // namespace calligraphy_test
