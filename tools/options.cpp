@@ -75,8 +75,9 @@ void add_page_options(CLI::App& command, PageChoice& page) {
       ->check(CLI::IsMember({"upright", "desk"}))
       ->capture_default_str();
   command
-      .add_option("--motion-scale", page.scale,
-                  "The pen on the page moves K times as far as the hand, which feels K^2 times its stiffness; 0.1 to 10")
+      .add_option(
+          "--motion-scale", page.scale,
+          "The pen on the page moves K times as far as the hand, which feels K^2 times its stiffness; 0.1 to 10")
       ->check(number(0.1, 10.0))
       ->capture_default_str()
       ->type_name("K");

@@ -158,9 +158,10 @@ std::string reductions(const std::vector<Result>& results) {
   } else {
     text = reduction("RMS error", "mm", both, [](const Result& r) { return r.score.rms_error * millimetres; }) +
            reduction("time", "s", both, [](const Result& r) { return r.score.time; }) +
-           fmt::format("{} characters in n = {} pairs of runs, by which they are clustered; mean +/- t(0.975, n - 1) "
-                       "standard errors\n",
-                       both.size(), runs.size());
+           fmt::format(
+               "{} characters in n = {} pairs of runs, by which they are clustered; mean +/- t(0.975, n - 1) "
+               "standard errors\n",
+               both.size(), runs.size());
   }
   if (both.size() < all) text += fmt::format("{} pairs omitted: not every stroke was completed\n", all - both.size());
   return text;

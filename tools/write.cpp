@@ -347,9 +347,10 @@ void add_write(CLI::App& program) {
       ->check(number(10.0, 20000.0))
       ->type_name("HZ");
   command
-      ->add_option("--repeat", options->repeat,
-                   "Number of repetitions, each with beliefs of its own; pictures and traces show the first. An effect of "
-                   "force is reported from 10 on")
+      ->add_option(
+          "--repeat", options->repeat,
+          "Number of repetitions, each with beliefs of its own; pictures and traces show the first. An effect of "
+          "force is reported from 10 on")
       ->check(integer(1, 100000))
       ->type_name("N")
       ->capture_default_str();

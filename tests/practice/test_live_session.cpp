@@ -31,8 +31,8 @@ class HeldDevice final : public HapticDevice, public ServoClock {
  public:
   explicit HeldDevice(const PracticePage& page, const WriterSkill& skill = WriterSkill::skilled(), double rate = 1000.0)
       : HeldDevice(page, upright_page(page.width, page.height), skill, rate) {}
-  HeldDevice(const PracticePage& page, const MotionMapping& mapping,
-             const WriterSkill& skill = WriterSkill::skilled(), double rate = 1000.0)
+  HeldDevice(const PracticePage& page, const MotionMapping& mapping, const WriterSkill& skill = WriterSkill::skilled(),
+             double rate = 1000.0)
       : period_(1.0 / rate),
         mapping_(mapping),
         device_(device_profile("desktop"), skill.grip, mapping_.to_device({0.5 * page.width, 0.5 * page.height, 0.02})),
@@ -89,7 +89,8 @@ class HeldDevice final : public HapticDevice, public ServoClock {
     const HapticTick& tick = eyes_.update(device_.read());
     const VisualFeedback sight{tick.pen_tip, tick.character, tick.stroke, tick.state == InteractionState::writing};
     const Intention next = writer_.update(sight, period_);
-    device_.set_intention({mapping_.to_device(next.position), mapping_.rotation.transpose() * next.velocity / mapping_.scale});
+    device_.set_intention(
+        {mapping_.to_device(next.position), mapping_.rotation.transpose() * next.velocity / mapping_.scale});
     device_.advance(period_);
   }
   void wait() const {

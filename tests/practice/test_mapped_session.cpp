@@ -40,13 +40,14 @@ bool same(const Recording& a, const Recording& b) {
   return std::equal(a.samples.begin(), a.samples.end(), b.samples.begin(), b.samples.end(),
                     [](const RecordedSample& x, const RecordedSample& y) {
                       return x.time == y.time && x.device_point == y.device_point && x.pen_tip == y.pen_tip &&
-                             x.force == y.force && x.state == y.state && x.events == y.events &&
-                             x.status == y.status && x.character == y.character && x.stroke == y.stroke;
+                             x.force == y.force && x.state == y.state && x.events == y.events && x.status == y.status &&
+                             x.character == y.character && x.stroke == y.stroke;
                     });
 }
 
 /// A session at a motion scale that is similar to `at_one`: the device and the grip, seen from the page, are the same.
-/// With v_page = K v and f_page = f / K, impedances are K^2 times as large on the device, forces K times, lengths 1 / K.
+/// With v_page = K v and f_page = f / K, impedances are K^2 times as large on the device, forces K times, lengths 1 /
+/// K.
 SessionOptions similar(SessionOptions at_one, double scale) {
   const double square = scale * scale;
   Capabilities& device = at_one.device;

@@ -14,7 +14,7 @@ TEST_CASE("the quantile of Student's t is that of the printed tables", "[practic
   const struct {
     std::size_t dof;
     double value;
-  } printed[] = {{1, 12.706}, {2, 4.303}, {3, 3.182},  {4, 2.776},  {5, 2.571},  {9, 2.262},
+  } printed[] = {{1, 12.706}, {2, 4.303},  {3, 3.182},  {4, 2.776},  {5, 2.571},  {9, 2.262},
                  {10, 2.228}, {19, 2.093}, {30, 2.042}, {60, 2.000}, {120, 1.980}};
   for (const auto& each : printed) {
     CAPTURE(each.dof);
@@ -74,7 +74,9 @@ TEST_CASE("of intervals of clustered values 95 % contain the true mean", "[pract
         separate.push_back({values.back().value, values.size()});
       }
     }
-    const auto contains = [](const MeanInterval& interval) { return std::abs(interval.mean - 1.0) < interval.half_width; };
+    const auto contains = [](const MeanInterval& interval) {
+      return std::abs(interval.mean - 1.0) < interval.half_width;
+    };
     clustered += contains(mean_interval(values));
     as_if_independent += contains(mean_interval(separate));
   }

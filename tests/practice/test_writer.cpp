@@ -33,8 +33,8 @@ WriterSkill misses_by(double WriterSkill::*spread) {
 }  // namespace
 
 TEST_CASE("characters alone on their pages draw their own beliefs from one seed", "[practice]") {
-  // Sums of squares of normal deviates: within four standard deviations of chi-square. Were the beliefs of a seed shared,
-  // the squares of the means would be 20 times as large.
+  // Sums of squares of normal deviates: within four standard deviations of chi-square. Were the beliefs of a seed
+  // shared, the squares of the means would be 20 times as large.
   constexpr int seeds = 50;
   for (double WriterSkill::*spread : {&WriterSkill::offset, &WriterSkill::shape, &WriterSkill::aim}) {
     double of_each = 0.0, of_means = 0.0;

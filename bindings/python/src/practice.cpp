@@ -169,10 +169,11 @@ void add_practice(py::module_& module) {
   add_struct<SessionOptions>(
       module, "SessionOptions", "Options of a writer, a device and a renderer in closed loop.", &SessionOptions::mode,
       "mode: FeedbackMode", &SessionOptions::device, "device: Capabilities", &SessionOptions::renderer,
-      "renderer: RendererOptions", &SessionOptions::mapping,
-      "mapping: MotionMapping; None: upright_page() of the page", &SessionOptions::skill, "skill: WriterSkill",
-      &SessionOptions::seed, "seed: of the writer's beliefs and mistakes; each character draws its own", &SessionOptions::measure_ticks, "measure_ticks: measure execution times",
-      &SessionOptions::character_timeout, "character_timeout: virtual time until a character is aborted [s]");
+      "renderer: RendererOptions", &SessionOptions::mapping, "mapping: MotionMapping; None: upright_page() of the page",
+      &SessionOptions::skill, "skill: WriterSkill", &SessionOptions::seed,
+      "seed: of the writer's beliefs and mistakes; each character draws its own", &SessionOptions::measure_ticks,
+      "measure_ticks: measure execution times", &SessionOptions::character_timeout,
+      "character_timeout: virtual time until a character is aborted [s]");
   const auto with = [](SessionOptions options, const Progress& progress) {
     options.progress = interruptible(progress);
     return options;

@@ -26,7 +26,7 @@ struct LiveView {
 
 struct LiveOptions {
   FeedbackMode mode = FeedbackMode::force;
-  RendererOptions renderer;                                     ///< its servo rate applies to the loop as well
+  RendererOptions renderer;  ///< its servo rate applies to the loop as well
   /// Device axes to page axes; by default upright_page() of the page. On a desk: desk_page().
   std::optional<MotionMapping> mapping = std::nullopt;
   ServoLoopOptions servo;                                       ///< its rate is ignored

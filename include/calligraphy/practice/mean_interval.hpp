@@ -20,9 +20,9 @@ struct MeanInterval {
   std::size_t draws = 0;  ///< independent ones
 };
 
-/// The mean of values in clusters, by draw. With S_g the sum of a cluster's deviations from the mean of all n values, the
-/// standard error is sqrt(G / (G - 1) sum S_g^2) / n: that of the mean of the G clusters if they are of one size (Liang
-/// and Zeger 1986, for a mean). The interval uses Student's t with G - 1 degrees of freedom.
+/// The mean of values in clusters, by draw. With S_g the sum of a cluster's deviations from the mean of all n values,
+/// the standard error is sqrt(G / (G - 1) sum S_g^2) / n: that of the mean of the G clusters if they are of one size
+/// (Liang and Zeger 1986, for a mean). The interval uses Student's t with G - 1 degrees of freedom.
 MeanInterval mean_interval(std::span<const DrawnValue> values);
 
 /// The value that Student's t with these degrees of freedom exceeds with a probability of 2.5 %, half of what remains

@@ -17,9 +17,9 @@ struct PageLayout {
   double gap = 0.008;    ///< between and around the squares [m]
 };
 
-/// The layout that fills the workspace of a device, given the rotation and the scale K_S of a mapping: the extents of the
-/// workspace along the page's axes, that is along x and y of the device if the page is upright, along x and z on a desk,
-/// times K_S. Squares are of the usual size, or smaller where not one of them would fit.
+/// The layout that fills the workspace of a device, given the rotation and the scale K_S of a mapping: the extents of
+/// the workspace along the page's axes, that is along x and y of the device if the page is upright, along x and z on a
+/// desk, times K_S. Squares are of the usual size, or smaller where not one of them would fit.
 PageLayout workspace_layout(const Capabilities& device, const MotionMapping& mapping = {});
 
 struct PracticePage {

@@ -53,8 +53,8 @@ Recording run_session(const PracticePage& page, const SessionOptions& options, c
 /// @throws ValueError when an option is out of its domain
 Recording write_page(const PracticePage& page, const SessionOptions& options);
 
-/// A session in which a simulated hand follows a person's recorded pen, on a page of one character. Of the skill only the
-/// grip is used.
+/// A session in which a simulated hand follows a person's recorded pen, on a page of one character. Of the skill only
+/// the grip is used.
 /// @throws ValueError when an option is out of its domain, or the page has not exactly one character
 Recording follow_trace(const PracticePage& page, const PenTrace& trace, const SessionOptions& options);
 
