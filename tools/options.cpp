@@ -70,6 +70,19 @@ std::string name_in_file(char32_t code) {
   return good ? encode_utf8(code) : fmt::format("U+{:04X}", static_cast<unsigned>(code));
 }
 
+void add_page_options(CLI::App& command, PageChoice& page) {
+  command.add_option("--page", page.plane, "Page upright in front of the user, or flat on the desk")
+      ->check(CLI::IsMember({"upright", "desk"}))
+      ->capture_default_str();
+  command
+      .add_option(
+          "--motion-scale", page.scale,
+          "The pen on the page moves K times as far as the hand, which feels K^2 times its stiffness; 0.1 to 10")
+      ->check(number(0.1, 10.0))
+      ->capture_default_str()
+      ->type_name("K");
+}
+
 std::string device_names() {
   std::string names;
   for (const Capabilities& profile : device_profiles()) names += (names.empty() ? "" : ", ") + profile.name;

@@ -6,6 +6,8 @@
 #include <CLI/CLI.hpp>
 
 #include <calligraphy/devices/capabilities.hpp>
+#include <calligraphy/practice/page.hpp>
+#include <calligraphy/render/motion_mapping.hpp>
 
 namespace calligraphy::tools {
 
@@ -26,6 +28,20 @@ std::string name_in_file(char32_t code);
 
 /// Adds --device [simulated:]NAME, whose default is the initial value of `device`.
 CLI::Option* add_device_option(CLI::App& command, std::string& device);
+
+/// How the page lies in the workspace of a device.
+struct PageChoice {
+  std::string plane = "upright";
+  double scale = 1.0;  ///< K_S
+
+  MotionMapping mapping(double width, double height) const {
+    return plane == "desk" ? desk_page(width, height, scale) : upright_page(width, height, scale);
+  }
+  PageLayout layout(const Capabilities& device) const { return workspace_layout(device, mapping(0.0, 0.0)); }
+};
+
+/// Adds --page upright|desk and --motion-scale K.
+void add_page_options(CLI::App& command, PageChoice& page);
 
 /// Names of all device profiles, as in "desktop, ideal".
 std::string device_names();

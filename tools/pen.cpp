@@ -8,7 +8,6 @@
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/practice/live_session.hpp>
 #include <calligraphy/practice/recording.hpp>
-#include <calligraphy/render/motion_mapping.hpp>
 
 #include "interrupt.hpp"
 #include "options.hpp"
@@ -48,7 +47,7 @@ Recording Pen::replay(const PracticePage& page, const SessionOptions& session) c
   const Recording trace = read_recording(options_.device.which);
   auto device = [&] {
     try {
-      return ReplayDevice(device_states(trace, upright_page(page.width, page.height)), capabilities_);
+      return ReplayDevice(device_states(trace, *session.mapping), capabilities_);
     } catch (const ValueError& error) {
       throw FormatError(options_.device.which + ": " + error.what());
     }
@@ -63,6 +62,7 @@ Recording Pen::live(const PracticePage& page, const SessionOptions& session) {
   LiveOptions options;
   options.mode = session.mode;
   options.renderer = session.renderer;
+  options.mapping = session.mapping;
   options.peak_force = options_.peak_force;
   options.timeout = options_.timeout;
   options.watch = [&](const LiveView& view) {

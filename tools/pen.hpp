@@ -36,8 +36,8 @@ class Pen {
   bool is_person() const noexcept { return device_ != nullptr; }
   bool is_replay() const noexcept { return options_.device.kind == DeviceKind::replay; }
 
-  /// Writes a page. Mode, renderer and progress of the session apply to every kind of pen, the rest to the simulated
-  /// writer. @throws FileError, FormatError, DeviceError
+  /// Writes a page. Mode, renderer, mapping and progress of the session apply to every kind of pen, the rest to the
+  /// simulated writer. @throws FileError, FormatError, DeviceError
   Recording write(const PracticePage& page, const SessionOptions& session);
 
   /// Whether space and Esc stop the run as Ctrl-C does.

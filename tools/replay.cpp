@@ -34,6 +34,7 @@ struct ReplayArguments {
   std::optional<std::string> only;
   std::string device = "simulated:desktop";
   std::string renderer = "default";
+  PageChoice page;
   bool json = false;
 };
 
@@ -79,6 +80,9 @@ class ReplayRun {
     session_.device = chosen_device(options.device);
     session_.renderer = options.renderer == "everything" ? RendererOptions::everything(session_.device)
                                                          : RendererOptions::for_device(session_.device);
+    layout_ = options.page.layout(session_.device);
+    session_.mapping = options.page.mapping(layout_.width, layout_.height);
+    clip_stiffness(session_.renderer, session_.device, options.page.scale);
     report_.renderer = options.renderer;
     report_.device = session_.device.model;
     report_.peak_force = session_.device.peak_force;
@@ -116,12 +120,8 @@ class ReplayRun {
 
  private:
   void replay_one(const Chosen& chosen, const Character& character, const std::optional<OutputDirectory>& out) {
-    PageLayout layout;
-    layout.width = session_.device.workspace.x();
-    layout.height = session_.device.workspace.y();
-    const PracticePage page = lay_out({&character, 1}, layout).front();
-    const HapticRenderer renderer(page.characters, upright_page(page.width, page.height), session_.device,
-                                  session_.renderer);
+    const PracticePage page = lay_out({&character, 1}, layout_).front();
+    const HapticRenderer renderer(page.characters, *session_.mapping, session_.device, session_.renderer);
     report_.max_force_step = renderer.max_force_step();
 
     const Recording recording = follow_trace(page, chosen.trace, session_);
@@ -131,6 +131,8 @@ class ReplayRun {
     result.set = chosen.trace.set;
     result.match = match_strokes(character, paths);
     result.guided = score_page(page, recording).front();
+    result.guided.peak_force *= options_.page.scale;  // as the hand feels it
+    result.guided.max_force_step *= options_.page.scale;
     result.faults =
         static_cast<int>(std::count_if(recording.samples.begin(), recording.samples.end(),
                                        [](const RecordedSample& sample) { return sample.status != TickStatus::ok; }));
@@ -146,6 +148,7 @@ class ReplayRun {
 
   const ReplayArguments& options_;
   SessionOptions session_;
+  PageLayout layout_;
   ReplayReport report_;
 };
 
@@ -166,6 +169,7 @@ void add_replay(CLI::App& program) {
       ->type_name("DIR");
   command->add_option("--only", options->only, "Replay only traces of these characters")->type_name("TEXT");
   add_device_option(*command, options->device);
+  add_page_options(*command, options->page);
   command->add_option("--renderer", options->renderer, "Default stages, or the optional stages enabled too")
       ->check(CLI::IsMember({"default", "everything"}))
       ->capture_default_str();

@@ -4,13 +4,14 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
-#include <boost/math/distributions/students_t.hpp>
 #include <nlohmann/json.hpp>
 
 #include <calligraphy/base/text.hpp>
+#include <calligraphy/practice/mean_interval.hpp>
 
 namespace calligraphy::tools {
 namespace {
@@ -26,36 +27,42 @@ double mean(const std::vector<Result>& results, std::size_t begin, std::size_t e
   return sum / static_cast<double>(end - begin);
 }
 
-/// Values without and with force, one pair per character and repetition that has both.
-std::vector<std::pair<double, double>> pairs(const std::vector<Result>& results, const Quantity& quantity) {
-  std::map<std::pair<int, int>, double> vision;
+/// Fewer independent pairs of runs vary too much to show an effect of force.
+constexpr std::size_t least_runs = 10;
+
+/// A character written without and with force, with the beliefs of one seed.
+struct Pair {
+  const Result* vision;
+  const Result* force;
+};
+
+bool is_complete(const Result& result) { return result.score.strokes_completed >= result.score.stroke_count; }
+
+/// One pair per character and repetition that has both modes.
+std::vector<Pair> pairs(const std::vector<Result>& results) {
+  std::map<std::pair<int, int>, const Result*> vision;
   for (const Result& result : results) {
-    if (result.mode == FeedbackMode::vision) vision[{result.position, result.repetition}] = quantity(result);
+    if (result.mode == FeedbackMode::vision) vision[{result.position, result.repetition}] = &result;
   }
-  std::vector<std::pair<double, double>> both;
+  std::vector<Pair> both;
   for (const Result& result : results) {
     const auto found = vision.find({result.position, result.repetition});
-    if (result.mode == FeedbackMode::force && found != vision.end()) both.emplace_back(found->second, quantity(result));
+    if (result.mode == FeedbackMode::force && found != vision.end()) both.push_back({found->second, &result});
   }
   return both;
 }
 
-std::string reduction(const char* what, const char* unit, const std::vector<std::pair<double, double>>& both) {
-  const auto count = static_cast<double>(both.size());
+std::string reduction(const char* what, const char* unit, const std::vector<Pair>& both, const Quantity& quantity) {
   double vision = 0.0;
-  double reduced = 0.0;
-  for (const auto& [without, with] : both) {
-    vision += without / count;
-    reduced += (without - with) / count;
+  std::vector<DrawnValue> reduced;
+  for (const Pair& pair : both) {
+    vision += quantity(*pair.vision) / static_cast<double>(both.size());
+    reduced.push_back({quantity(*pair.vision) - quantity(*pair.force), pair.vision->seed});
   }
-  double squares = 0.0;
-  for (const auto& [without, with] : both) squares += std::pow(without - with - reduced, 2);
-  const double standard_error = std::sqrt(squares / (count - 1.0) / count);
-  const boost::math::students_t distribution(count - 1.0);
-  const double margin = boost::math::quantile(distribution, 0.975) * standard_error;
-  const std::string relative = vision > 0.0 ? fmt::format(" ({:.1f} %)", 100.0 * reduced / vision) : "";
-  return fmt::format("{:<10} {:.3f} {}{} less with force, 95 % interval {:.3f} to {:.3f} {}\n", what, reduced, unit,
-                     relative, reduced - margin, reduced + margin, unit);
+  const MeanInterval interval = mean_interval(reduced);
+  const std::string relative = vision > 0.0 ? fmt::format(" ({:.1f} %)", 100.0 * interval.mean / vision) : "";
+  return fmt::format("{:<10} {:.3f} {}{} less with force, 95 % interval {:.3f} to {:.3f} {}\n", what, interval.mean,
+                     unit, relative, interval.mean - interval.half_width, interval.mean + interval.half_width, unit);
 }
 
 }  // namespace
@@ -136,23 +143,27 @@ std::string json(const std::vector<Result>& results) {
   return list.dump(2) + "\n";
 }
 
-std::string reductions(const std::vector<Result>& all) {
-  std::vector<Result> results;  // completed in both modes: an aborted character has no meaningful error or time
-  for (const Result& result : all) {
-    const bool complete = std::none_of(all.begin(), all.end(), [&](const Result& other) {
-      return other.position == result.position && other.repetition == result.repetition &&
-             other.score.strokes_completed < other.score.stroke_count;
-    });
-    if (complete) results.push_back(result);
+std::string reductions(const std::vector<Result>& results) {
+  std::vector<Pair> both = pairs(results);
+  if (both.empty()) return "";
+  const std::size_t all = both.size();
+  // An aborted character has no meaningful error or time.
+  std::erase_if(both, [](const Pair& pair) { return !is_complete(*pair.vision) || !is_complete(*pair.force); });
+  std::set<std::uint64_t> runs;
+  for (const Pair& pair : both) runs.insert(pair.vision->seed);
+  std::string text;
+  if (runs.size() < least_runs) {
+    text = fmt::format("n = {} {} of runs: too few to show an effect of force; try --repeat 20\n", runs.size(),
+                       runs.size() == 1 ? "pair" : "pairs");
+  } else {
+    text = reduction("RMS error", "mm", both, [](const Result& r) { return r.score.rms_error * millimetres; }) +
+           reduction("time", "s", both, [](const Result& r) { return r.score.time; }) +
+           fmt::format(
+               "{} characters in n = {} pairs of runs, by which they are clustered; mean +/- t(0.975, n - 1) "
+               "standard errors\n",
+               both.size(), runs.size());
   }
-  const auto errors = pairs(results, [](const Result& r) { return r.score.rms_error * millimetres; });
-  const auto times = pairs(results, [](const Result& r) { return r.score.time; });
-  if (errors.size() < 2) return "";
-  std::string text = reduction("RMS error", "mm", errors) + reduction("time", "s", times) +
-                     fmt::format("mean over n = {} pairs of character and seed; mean +/- t(0.975, n - 1) s / sqrt(n)\n",
-                                 errors.size());
-  const std::size_t left_out = (all.size() - results.size()) / 2;
-  if (left_out > 0) text += fmt::format("{} pairs omitted: not every stroke was completed\n", left_out);
+  if (both.size() < all) text += fmt::format("{} pairs omitted: not every stroke was completed\n", all - both.size());
   return text;
 }
 

@@ -30,8 +30,11 @@ std::string table(const std::vector<Result>& results);
 /// A list with one object per result.
 std::string json(const std::vector<Result>& results);
 
-/// Reduction of error and time with force: mean and 95 % interval (Student's t) over the pairs of character and
-/// repetition that are complete in both modes. Empty if there are fewer than two such pairs.
-std::string reductions(const std::vector<Result>& all);
+/// Reduction of error and time with force: mean and 95 % interval over the pairs of character and repetition that are
+/// complete in both modes; with fewer than 10 pairs of runs, that they are too few. Empty without a pair.
+///
+/// Clustered by run, that is by page and seed: its characters draw their own beliefs, but one renderer renders them,
+/// whose assistance and thermal budget carry over, and a run that stops early loses all that follow.
+std::string reductions(const std::vector<Result>& results);
 
 }  // namespace calligraphy::tools

@@ -52,6 +52,7 @@ struct WriteArguments {
   std::uint64_t seed = 1;
   std::string rules = "default";
   std::string renderer = "default";
+  PageChoice page;
   std::optional<std::string> method;
   std::optional<double> tolerance;
   bool json = false;
@@ -113,6 +114,8 @@ SessionOptions chosen_session(const WriteArguments& options, const Capabilities&
   SessionOptions session;
   session.device = device;
   session.renderer = chosen_renderer(options, device);
+  const PageLayout layout = options.page.layout(device);
+  session.mapping = options.page.mapping(layout.width, layout.height);
   session.skill = options.writer == "skilled" ? WriterSkill::skilled() : WriterSkill::novice();
   session.measure_ticks = true;
   return session;
@@ -124,10 +127,7 @@ std::vector<FeedbackMode> chosen_modes(const std::optional<std::string>& mode, b
   return {FeedbackMode::vision, FeedbackMode::force};
 }
 
-std::vector<Sheet> sheets(const std::vector<Character>& characters, const Capabilities& capabilities) {
-  PageLayout layout;
-  layout.width = capabilities.workspace.x();
-  layout.height = capabilities.workspace.y();
+std::vector<Sheet> sheets(const std::vector<Character>& characters, const PageLayout& layout) {
   std::vector<Sheet> result;
   int position = 1;
   for (PracticePage& page : lay_out(characters, layout)) {
@@ -172,10 +172,10 @@ class WriteRun {
         modes_(chosen_modes(options.mode, !pen_.is_person() && !pen_.is_replay())) {
     try {
       // The stable stiffness is lower at a rate below the device's own.
-      for (const std::string& reason : clip_stiffness(session_.renderer, session_.device)) {
+      for (const std::string& reason : clip_stiffness(session_.renderer, session_.device, options.page.scale)) {
         spdlog::warn("clipped: {}", reason);
       }
-      validate(session_.renderer, session_.device);
+      validate(session_.renderer, session_.device, options.page.scale);
     } catch (const ValueError& error) {
       throw UsageError(error.what());
     }
@@ -183,7 +183,7 @@ class WriteRun {
 
   void write() {
     const CharacterSet set = open_characters(options_.characters, text_, options_.order);
-    sheets_ = sheets(characters_of(set, text_, options_.order), session_.device);
+    sheets_ = sheets(characters_of(set, text_, options_.order), options_.page.layout(session_.device));
     if (pen_.is_replay() && sheets_.size() > 1)
       throw UsageError("TEXT: does not fit on one page, as a replay requires");
     const OutputDirectory out(options_.out);
@@ -248,6 +248,8 @@ class WriteRun {
       const int index = static_cast<int>(i);
       const Recording own = part(recording, index);
       Result result = measure(scores[i], own);
+      result.score.peak_force *= options_.page.scale;  // as the hand feels it
+      result.score.max_force_step *= options_.page.scale;
       result.position = sheet.first_position + index;
       result.mode = session_.mode;
       result.repetition = repetition;
@@ -340,10 +342,15 @@ void add_write(CLI::App& program) {
                    "Device profile that supplies limits and workspace for a replay (default: desktop)")
       ->type_name("NAME");
   add_phantom_options(*command, options->wire_profile, options->model);
+  add_page_options(*command, options->page);
   command->add_option("--rate", options->rate, "Servo rate, 10 to 20000 (default: the device's)")
       ->check(number(10.0, 20000.0))
       ->type_name("HZ");
-  command->add_option("--repeat", options->repeat, "Number of repetitions; pictures and traces show the first")
+  command
+      ->add_option(
+          "--repeat", options->repeat,
+          "Number of repetitions, each with beliefs of its own; pictures and traces show the first. An effect of "
+          "force is reported from 10 on")
       ->check(integer(1, 100000))
       ->type_name("N")
       ->capture_default_str();

@@ -70,8 +70,7 @@ def main() -> None:
 
     with open_device(arguments.wire_profile) as device:
         able = cal.with_peak_force(device.capabilities(), arguments.peak_force)
-        layout = cal.PageLayout(width=able.workspace[0], height=able.workspace[1])
-        page = cal.lay_out([cal.built_in_characters()[arguments.character]], layout)[0]
+        page = cal.lay_out([cal.built_in_characters()[arguments.character]], cal.workspace_layout(able))[0]
         options = cal.LiveOptions(renderer=cal.RendererOptions.for_device(able), peak_force=arguments.peak_force)
         watch: Optional[Watch] = LedPointer(device, page) if isinstance(device, cal.PointerDevice) else None
         name = ("simulated " if isinstance(device, cal.PointerDevice) else "") + able.model

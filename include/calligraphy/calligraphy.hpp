@@ -35,6 +35,7 @@
 #include <calligraphy/model/set_encoding.hpp>
 #include <calligraphy/model/typical_stroke.hpp>
 #include <calligraphy/practice/live_session.hpp>
+#include <calligraphy/practice/mean_interval.hpp>
 #include <calligraphy/practice/page.hpp>
 #include <calligraphy/practice/pen_path.hpp>
 #include <calligraphy/practice/pen_trace.hpp>

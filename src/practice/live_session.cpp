@@ -36,7 +36,7 @@ Capabilities with_peak_force(Capabilities capabilities, double peak_force) {
 LiveResult write_with_device(const PracticePage& page, HapticDevice& device, const LiveOptions& options) {
   require_above_zero("timeout", options.timeout, "s");
   validate(device.capabilities());
-  const MotionMapping mapping = upright_page(page.width, page.height);
+  const MotionMapping mapping = options.mapping.value_or(upright_page(page.width, page.height));
   HapticRenderer renderer(page.characters, mapping, with_peak_force(device.capabilities(), options.peak_force),
                           options.renderer);
   SessionTick session(renderer, options.mode, true);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include <calligraphy/base/error.hpp>
@@ -9,6 +10,28 @@
 #include "base/require.hpp"
 
 namespace calligraphy {
+
+PageLayout workspace_layout(const Capabilities& device, const MotionMapping& mapping) {
+  // Along a page axis the workspace ends at the first of its faces.
+  const auto extent = [&](Eigen::Index axis) {
+    const Eigen::Vector3d direction = mapping.rotation.row(axis).cwiseAbs();
+    double least = std::numeric_limits<double>::infinity();
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      if (direction[i] > 0.0) least = std::min(least, device.workspace[i] / direction[i]);
+    }
+    return mapping.scale * least;
+  };
+  constexpr double room = 1.5;  // for one square and the gaps around it [em]
+  PageLayout layout;
+  layout.width = extent(0);
+  layout.height = extent(1);
+  const double most = std::min(layout.width, layout.height) / room;
+  if (most < layout.em) {
+    layout.gap *= most / layout.em;
+    layout.em = most;
+  }
+  return layout;
+}
 
 std::vector<PracticePage> lay_out(std::span<const Character> characters, const PageLayout& layout) {
   require_above_zero("page layout: width", layout.width, "m");

@@ -37,9 +37,12 @@ double share_written(const PracticePage& page, int character, int stroke) noexce
 
 Recording run_session(const PracticePage& page, const SessionOptions& options, const PenMotion& motion) {
   require_above_zero("character_timeout", options.character_timeout, "s");
-  const MotionMapping mapping = upright_page(page.width, page.height);
-  SimulatedDevice device(options.device, options.skill.grip, mapping.to_device(resting_point(page)));
-  HapticRenderer renderer(page.characters, mapping, device.capabilities(), options.renderer);
+  const MotionMapping mapping = options.mapping.value_or(upright_page(page.width, page.height));
+  Capabilities capabilities = options.device;
+  capabilities.simulated = true;
+  // First, because it refuses a wrong mapping, which would give the device no position.
+  HapticRenderer renderer(page.characters, mapping, capabilities, options.renderer);
+  SimulatedDevice device(capabilities, options.skill.grip, mapping.to_device(resting_point(page)));
 
   const FlushDenormals as_a_servo_thread;
   SessionTick session(renderer, options.mode, options.measure_ticks);
@@ -91,8 +94,8 @@ Recording follow_trace(const PracticePage& page, const PenTrace& trace, const Se
 }
 
 Recording replay_page(const PracticePage& page, ReplayDevice& device, const SessionOptions& options) {
-  HapticRenderer renderer(page.characters, upright_page(page.width, page.height), device.capabilities(),
-                          options.renderer);
+  const MotionMapping mapping = options.mapping.value_or(upright_page(page.width, page.height));
+  HapticRenderer renderer(page.characters, mapping, device.capabilities(), options.renderer);
   const FlushDenormals as_a_servo_thread;
   SessionTick session(renderer, options.mode, options.measure_ticks);
   Recording recording;

@@ -234,19 +234,21 @@ void SimulatedWriter::plan_attempt() {
   const double em = placed.placement.em;
   const double misbelief = std::pow(0.5, attempt_);
 
-  // A sequence of its own for each question, so that no answer depends on how many were asked before.
-  Random of_character(seed_, {character_});
+  // A sequence of its own for each question, so that no answer depends on how many were asked before. The code point is
+  // in every key, because characters alone on their pages all have index 0.
+  const int code = static_cast<int>(placed.character.code);
+  Random of_character(seed_, {code, character_});
   const Point offset = skill_.offset * em * normal_point(of_character);
   const double scale = skill_.scale * of_character.normal();
   const double tilt = misbelief * skill_.tilt * of_character.normal();
   const double direction = 2.0 * std::numbers::pi * of_character.next();
   const Point bias = skill_.bias * em * Point(std::cos(direction), std::sin(direction));
-  Random of_stroke(seed_, {character_, stroke_});
+  Random of_stroke(seed_, {code, character_, stroke_});
   const Point shape = skill_.shape * em * normal_point(of_stroke);
   belief_ = {placed.placement.to_page(Point(0.5, 0.5)), misbelief * (offset + bias + shape), 1.0 + misbelief * scale,
              std::cos(tilt), std::sin(tilt)};
 
-  random_ = Random(seed_, {character_, stroke_, attempt_});
+  random_ = Random(seed_, {code, character_, stroke_, attempt_});
   aim_error_ = misbelief * skill_.aim * em * normal_point(random_);
   for (double& phase : tremor_phases_) phase = 2.0 * std::numbers::pi * random_.next();
   const int later = placed.character.stroke_count() - stroke_ - 1;

@@ -30,8 +30,11 @@ constexpr double period = 1e-3;  // [s]
 class HeldDevice final : public HapticDevice, public ServoClock {
  public:
   explicit HeldDevice(const PracticePage& page, const WriterSkill& skill = WriterSkill::skilled(), double rate = 1000.0)
+      : HeldDevice(page, upright_page(page.width, page.height), skill, rate) {}
+  HeldDevice(const PracticePage& page, const MotionMapping& mapping, const WriterSkill& skill = WriterSkill::skilled(),
+             double rate = 1000.0)
       : period_(1.0 / rate),
-        mapping_(upright_page(page.width, page.height)),
+        mapping_(mapping),
         device_(device_profile("desktop"), skill.grip, mapping_.to_device({0.5 * page.width, 0.5 * page.height, 0.02})),
         eyes_(page.characters, mapping_, device_.capabilities(), RendererOptions::for_device(device_.capabilities())),
         writer_(page, skill, 1) {}
@@ -86,7 +89,8 @@ class HeldDevice final : public HapticDevice, public ServoClock {
     const HapticTick& tick = eyes_.update(device_.read());
     const VisualFeedback sight{tick.pen_tip, tick.character, tick.stroke, tick.state == InteractionState::writing};
     const Intention next = writer_.update(sight, period_);
-    device_.set_intention({mapping_.to_device(next.position), mapping_.rotation.transpose() * next.velocity});
+    device_.set_intention(
+        {mapping_.to_device(next.position), mapping_.rotation.transpose() * next.velocity / mapping_.scale});
     device_.advance(period_);
   }
   void wait() const {
@@ -118,6 +122,18 @@ LiveOptions watched(HeldDevice& device, std::vector<LiveView>* views = nullptr) 
 }
 
 }  // namespace
+
+TEST_CASE("a page is written on a desk, at twice the motion of the hand") {
+  const PracticePage page = page_of("十");
+  const MotionMapping mapping = desk_page(page.width, page.height, 2.0);
+  HeldDevice device(page, mapping);
+  LiveOptions options = watched(device);
+  options.mapping = mapping;
+  const LiveResult result = write_with_device(page, device, options);
+  const CharacterScore written = score_page(page, result.recording).front();
+  CHECK(written.strokes_completed == 2);
+  CHECK(written.rms_error < 0.001);
+}
 
 TEST_CASE("a page is written on a device with its own clock, and every tick is recorded") {
   const PracticePage page = page_of("十");

@@ -44,6 +44,42 @@ TEST_CASE("a single character is centred on its page", "[practice]") {
   CHECK(place.origin.y() + 0.5 * place.em == Approx(0.5 * page.height));
 }
 
+TEST_CASE("a page fills the workspace along the axes that its mapping uses, times the motion scale", "[practice]") {
+  const Capabilities& omni = device_profile("omni");  // 160 x 120 x 70 mm
+  const PageLayout upright = workspace_layout(omni);
+  CHECK(upright.width == 0.16);
+  CHECK(upright.height == 0.12);
+  CHECK(upright.em == PageLayout().em);
+  CHECK(upright.gap == PageLayout().gap);
+  const PageLayout twice = workspace_layout(omni, upright_page(1.0, 1.0, 2.0));
+  CHECK(twice.width == 0.32);
+  CHECK(twice.height == 0.24);
+  const PageLayout flat = workspace_layout(omni, desk_page(1.0, 1.0));
+  CHECK(flat.width == 0.16);
+  CHECK(flat.height == 0.07);
+  CHECK(flat.em == PageLayout().em);
+}
+
+TEST_CASE("every corner of a page that fills the workspace lies on its faces", "[practice]") {
+  const Capabilities& omni = device_profile("omni");
+  for (const double scale : {0.5, 1.0, 3.0}) {
+    for (MotionMapping (*page)(double, double, double) : {upright_page, desk_page}) {
+      const PageLayout layout = workspace_layout(omni, page(0.0, 0.0, scale));
+      const Eigen::Vector3d corner = page(layout.width, layout.height, scale).to_device({layout.width, 0.0, 0.0});
+      CHECK(corner.x() == Approx(0.5 * omni.workspace.x()));
+      if (page == upright_page) CHECK(corner.y() == Approx(-0.5 * omni.workspace.y()));
+      if (page == desk_page) CHECK(corner.z() == Approx(0.5 * omni.workspace.z()));  // towards the user
+    }
+  }
+}
+
+TEST_CASE("where no square of the usual size fits, one smaller square does", "[practice]") {
+  const PageLayout layout = workspace_layout(device_profile("omni"), desk_page(0.0, 0.0, 0.5));  // 80 x 35 mm
+  CHECK(layout.em < PageLayout().em);
+  CHECK(layout.em > 0.02);
+  CHECK(lay_out(characters("永"), layout).size() == 1);
+}
+
 TEST_CASE("an empty text gives no page", "[practice]") { CHECK(lay_out({}).empty()); }
 
 TEST_CASE("a layout that cannot hold a character is rejected", "[practice]") {

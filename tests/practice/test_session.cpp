@@ -98,7 +98,7 @@ TEST_CASE("a device that lacks an axis needed for writing is rejected by name", 
   SessionOptions options = session(WriterSkill::novice(), FeedbackMode::force);
   options.device.driven.z = false;
   CHECK_THROWS_WITH(write_page(page_of("永"), options),
-                    "device \"desktop\": sensed axes are x, y, z, driven axes are x, y; the simulation needs x, y and z "
+                    "device \"desktop\": sensed axes are x, y, z, driven axes are x, y; the renderer needs x, y and z "
                     "to be sensed and driven");
 }
 

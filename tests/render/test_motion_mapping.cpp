@@ -94,6 +94,18 @@ TEST_CASE("an upright page lies in the x-y plane of the device, a desk page flat
   for (const MotionMapping& mapping : {upright, flat}) CHECK(mapping.rotation.determinant() == Approx(1.0));
 }
 
+TEST_CASE("the centre of a page lies at the device origin for every motion scale", "[render]") {
+  for (const double scale : {0.25, 1.0, 2.0}) {
+    for (const MotionMapping& mapping : {upright_page(0.16, 0.12, scale), desk_page(0.16, 0.12, scale)}) {
+      CHECK(mapping.to_page(Eigen::Vector3d::Zero()).isApprox(Eigen::Vector3d(0.08, 0.06, 0.0)));
+      CHECK(mapping.scale == scale);
+    }
+    CHECK(upright_page(0.16, 0.12, scale).to_page({0.01, 0.0, 0.0}).x() == Approx(0.08 + 0.01 * scale));
+    CHECK(desk_page(0.16, 0.12, scale).to_page({0.0, 0.0, -0.01}).y() == Approx(0.06 + 0.01 * scale));
+    CHECK(desk_page(0.16, 0.12, scale).to_page({0.0, 0.01, 0.0}).z() == Approx(0.01 * scale));
+  }
+}
+
 TEST_CASE("eq. (3) as printed depends on the rate and misses the position, the affine map does not", "[render]") {
   // Rectangle rule for the velocity on a circle: after half a turn the error is |v| dt = 2 pi r / rate, to first order.
   const double at_100 = error_on_a_circle(MotionMappingRule::wang2006, 100.0);

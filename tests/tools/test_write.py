@@ -1,9 +1,11 @@
 import csv
 import json
+import math
 import os
 import resource
 import shutil
 import signal
+import statistics
 import subprocess
 import time
 import xml.etree.ElementTree as xml
@@ -125,18 +127,59 @@ class Write(ProgramTest):
         self.assertAlmostEqual(max(steps), 0.002, places=6)
 
     def test_the_table_has_units_and_compares_the_modes(self):
-        text = self.run_program("write", "十人", "--out", "out").stdout
+        text = self.run_program("write", "十人", "--out", "out", "--repeat", "10").stdout
         lines = text.splitlines()
-        for word in ("[s]", "[mm]", "[N]", "[ns]", "95 % interval"):
+        for word in ("[s]", "[mm]", "[N]", "[ns]", "95 % interval", "20 characters in n = 10 pairs of runs"):
             self.assertIn(word, text)
         rows = [line for line in lines if line.startswith(("十", "人"))]
         self.assertEqual([row.split()[1] for row in rows], ["vision", "force", "vision", "force"])
-        by_mode = {}
+        by_run = {}  # one page and seed: its two characters are one draw
         for row in self.summary():
-            by_mode.setdefault(row["mode"], []).append(row["rms_error_mm"])
-        reduction = (sum(by_mode["vision"]) - sum(by_mode["force"])) / 2
-        line = next(line for line in lines if line.startswith("RMS error"))
-        self.assertAlmostEqual(float(line.split()[2]), reduction, places=3)
+            sign = 1.0 if row["mode"] == "vision" else -1.0
+            by_run[row["seed"]] = by_run.get(row["seed"], 0.0) + sign * row["rms_error_mm"] / 2
+        reduced = list(by_run.values())
+        half_width = 2.262157 * statistics.stdev(reduced) / math.sqrt(10)  # Student's t, 9 degrees of freedom
+        words = next(line for line in lines if line.startswith("RMS error")).split()
+        mean = statistics.mean(reduced)
+        for word, value in ((words[2], mean), (words[-4], mean - half_width), (words[-2], mean + half_width)):
+            self.assertAlmostEqual(float(word), value, delta=0.00051)
+
+    def test_too_few_runs_to_show_an_effect_are_said_to_be_too_few(self):
+        for repeat, words in (("1", "n = 1 pair of runs: too few to show an effect of force; try --repeat 20"),
+                              ("9", "n = 9 pairs of runs: too few")):
+            text = self.run_program("write", "一", "--out", "out", "--repeat", repeat).stdout
+            self.assertIn(words, text.splitlines()[-1])
+            self.assertNotIn("less with force", text)
+        text = self.run_program("write", "一", "--out", "out", "--mode", "force").stdout
+        self.assertNotIn("too few", text, "there is nothing to compare")
+
+    def test_a_page_on_a_desk_is_written_as_one_upright(self):
+        for page in ("upright", "desk"):
+            self.run_program("write", "永", "--out", page, "--page", page)
+        self.assertEqual(self.without_ticks("upright"), self.without_ticks("desk"))
+
+    def test_a_page_holds_what_the_workspace_times_the_motion_scale_can_hold(self):
+        for options, pages in (([], 2), (["--page", "desk"], 3), (["--motion-scale", "2"], 1)):
+            with self.subTest(options=options):
+                self.run_program("write", "一一一一一一一", "--device", "omni", "--mode", "force", "--out", "out", *options)
+                rows = self.summary()
+                self.assertEqual(len({row["seed"] for row in rows}), pages, "one seed per page")
+
+    def test_characters_are_written_at_other_motion_scales(self):
+        for scale in ("0.5", "2"):
+            self.run_program("write", "永", "--out", scale, "--page", "desk", "--motion-scale", scale)
+            for row in self.summary(scale):
+                self.assertEqual(row["strokes_completed"], 5)
+        self.run_program("write", "永", "--out", "weak", "--motion-scale", "2", "--peak-force", "0.3")
+        self.assertLessEqual(max(row["peak_force_N"] for row in self.summary("weak")), 0.3 + 1e-9)
+
+    def test_a_trace_written_on_a_desk_is_replayed_there(self):
+        page = ["--page", "desk", "--motion-scale", "2"]
+        self.run_program("write", "十", "--out", "first", "--mode", "force", *page)
+        self.run_program("write", "十", "--out", "again", "--device", "replay:first/01-十-force.csv", *page)
+        first, again = self.summary("first")[0], self.summary("again")[0]
+        for field in ("strokes_completed", "rms_error_mm", "time_s", "peak_force_N"):
+            self.assertAlmostEqual(again[field], first[field], places=5)
 
     def test_repetitions_are_paired_by_their_seeds(self):
         done = self.run_program("write", "一十", "--out", "out", "--repeat", "3", "--seed", "5", "--json")
@@ -275,16 +318,17 @@ class Refusals(ProgramTest):
                 (["write", "北", "--out", "out", "--mode", "blind"], ["--mode", "blind"]),
                 (["write", "北", "--out", "out", "--method", "guess"], ["--method", "guess"]),
                 (["write", "北", "--out", "out", "--rules", "none"], ["--rules", "none"]),
+                (["write", "北", "--out", "out", "--page", "wall"], ["--page", "wall", "desk"]),
                 (["write", "北", "--out", "out", "--unknown"], ["--unknown"])):
             with self.subTest(arguments=arguments):
                 self.assert_refused(2, arguments, *words)
 
     def test_invalid_numbers_are_named(self):
-        for option in ("--rate", "--tolerance", "--repeat", "--seed", "--peak-force", "--timeout"):
+        for option in ("--rate", "--tolerance", "--repeat", "--seed", "--peak-force", "--timeout", "--motion-scale"):
             for value in ("nan", "inf", "1e999", "-1", "x", "", "1x", "0x10", "18446744073709551616"):
                 with self.subTest(option=option, value=value):
                     self.assert_refused(2, ["write", "北", "--out", "out", f"{option}={value}"], option, value)
-        for option in ("--rate", "--tolerance", "--repeat"):
+        for option in ("--rate", "--tolerance", "--repeat", "--motion-scale"):
             with self.subTest(option=option):
                 self.assert_refused(2, ["write", "北", "--out", "out", option, "0"], option, "0")
 

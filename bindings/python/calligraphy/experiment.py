@@ -21,7 +21,19 @@ import numpy.typing as npt
 
 import calligraphy as cal
 
-__all__ = ["Condition", "Grid", "TrialsLost", "conditions", "novice_and_skilled", "run", "to_table", "trial", "write"]
+__all__ = [
+    "Condition",
+    "Grid",
+    "Reduction",
+    "TrialsLost",
+    "conditions",
+    "novice_and_skilled",
+    "reduction",
+    "run",
+    "to_table",
+    "trial",
+    "write",
+]
 
 Row = dict[str, Any]
 _Value = TypeVar("_Value")
@@ -55,6 +67,8 @@ class Grid:
     stiffness: guidance and paper stiffness [N/m], clipped by clip_stiffness() to what is usable on the device and
     stable in any hand, unless the stiffness_check of `options` is off; the columns guidance_stiffness and
     paper_stiffness contain the effective values, that of guidance where the attraction factor is 1.
+    page: "upright" or on the "desk", filling the device's workspace.
+    motion_scale: K_S; the pen on the page moves this many times as far as the hand, which feels stiffnesses K_S^2 times.
     """
 
     def __init__(
@@ -72,6 +86,8 @@ class Grid:
         options: cal.RendererOptions | None = None,
         source: cal.CharacterSet | cal.CharacterList | None = None,
         character_timeout: float = 120.0,
+        page: str = "upright",
+        motion_scale: float = 1.0,
     ) -> None:
         codes = _axis("characters", characters, _text)
         self.characters = {code: _character(source, code) for code in codes}
@@ -89,6 +105,12 @@ class Grid:
         usual = cal.RendererOptions.for_device(self.device)
         self.options = usual if options is None else _one("options", options, cal.RendererOptions)
         self.character_timeout = _positive("character_timeout", character_timeout)
+        self.motion_scale = _positive("motion_scale", motion_scale)
+        if page not in _PAGES:
+            raise cal.InvalidValue(f"page: expected one of {', '.join(_PAGES)}, got {page!r}")
+        self.page = page
+        self.layout = cal.workspace_layout(self.device, _PAGES[page](0.0, 0.0, self.motion_scale))
+        self.mapping = _PAGES[page](self.layout.width, self.layout.height, self.motion_scale)
 
     def __repr__(self) -> str:
         axes = ("characters", "writers", "modes", "stiffness", "rate", "method", "tolerance", "seeds")
@@ -115,6 +137,8 @@ class Grid:
             ),
         )
 
+
+_PAGES = {"upright": cal.upright_page, "desk": cal.desk_page}
 
 #: The columns of a table and their types, those of Condition first.
 _COLUMNS: dict[str, type] = {
@@ -162,6 +186,7 @@ def trial(grid: Grid, condition: Condition) -> Row:
         mode=getattr(cal.FeedbackMode, condition.mode),
         device=grid.device,
         renderer=grid.options,
+        mapping=grid.mapping,
         skill=grid.writers[condition.writer],
         seed=condition.seed,
         character_timeout=grid.character_timeout,
@@ -174,9 +199,8 @@ def trial(grid: Grid, condition: Condition) -> Row:
     renderer.stroke.nearest.method = getattr(cal.NearestPointMethod, condition.method)
     renderer.stroke.nearest.tolerance = condition.tolerance
     # Clipped here as the session's renderer would, which does not report the effective values.
-    cal.clip_stiffness(renderer, grid.device)
-    workspace = grid.device.workspace
-    page = cal.lay_out([character], cal.PageLayout(width=workspace[0], height=workspace[1]))[0]
+    cal.clip_stiffness(renderer, grid.device, grid.motion_scale)
+    page = cal.lay_out([character], grid.layout)[0]
     recording = cal.write_page(page, options)
     score = cal.score_page(page, recording)[0]
     return {
@@ -240,6 +264,45 @@ def to_table(rows: Sequence[Row]) -> Any:
         return _structured(rows)
     table = pandas.DataFrame(list(rows), columns=_columns(rows))
     return table if rows else table.astype(_COLUMNS)  # pandas cannot infer the types of empty columns
+
+
+class Reduction(NamedTuple):
+    """By how much force makes a quantity smaller, relative to vision alone: 1 - force / vision, mean over the pairs."""
+
+    mean: float  #: NaN without a pair
+    half_width: float  #: of the 95 % confidence interval; NaN with fewer than two draws
+    pairs: int  #: trials in both modes that completed every stroke
+    draws: int  #: independent ones
+    omitted: int  #: pairs that did not complete every stroke in both modes
+
+
+def reduction(table: Any, column: str = "rms_error") -> Reduction:
+    """The reduction of a column of a table of run() with force, over pairs of trials that differ only in the mode.
+
+    A seed and a character are one draw: trials of other writers, stiffnesses, rates or methods with the same ones share
+    what the writer believes. The interval is clustered by draw, and uses Student's t (mean_interval).
+    Raises InvalidValue when the table lacks a column or a mode.
+    """
+    columns = _columns_of(table)
+    for name in (*Condition._fields, "strokes_completed", "stroke_count", column):
+        if name not in columns:
+            raise cal.InvalidValue(f"the table has no column {name!r}")
+    values = np.asarray(columns[column], dtype=float)
+    complete = np.asarray(columns["strokes_completed"]) >= np.asarray(columns["stroke_count"])
+    others = [np.asarray(columns[name]).tolist() for name in Condition._fields if name != "mode"]
+    rows: dict[str, dict[tuple[Any, ...], int]] = {"vision": {}, "force": {}}
+    for row, (mode, *condition) in enumerate(zip(np.asarray(columns["mode"]).tolist(), *others)):
+        rows[mode][tuple(condition)] = row
+    for mode, found in rows.items():
+        if not found:
+            raise cal.InvalidValue(f"the table has no trial with mode {mode!r}")
+    both = [(rows["vision"][condition], row) for condition, row in rows["force"].items() if condition in rows["vision"]]
+    pairs = np.array([pair for pair in both if complete[list(pair)].all()], dtype=int).reshape(-1, 2)
+    vision, force = values[pairs].T
+    drawn = zip(np.asarray(columns["seed"])[pairs[:, 0]], np.asarray(columns["character"])[pairs[:, 0]])
+    numbers: dict[Any, int] = {}
+    interval = cal.mean_interval(1.0 - force / vision, [numbers.setdefault(draw, len(numbers)) for draw in drawn])
+    return Reduction(interval.mean, interval.half_width, len(pairs), interval.draws, len(both) - len(pairs))
 
 
 def write(table: Any, path: str | os.PathLike[str]) -> None:

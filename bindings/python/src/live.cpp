@@ -242,7 +242,8 @@ void add_live(py::module_& module) {
   add_struct<LiveOptions>(
       module, "LiveOptions", "Options of a person writing on a device.", &LiveOptions::mode, "mode: FeedbackMode",
       &LiveOptions::renderer, "renderer: RendererOptions; its servo rate applies to the loop as well",
-      &LiveOptions::servo, "servo: ServoLoopOptions; its rate is ignored", &LiveOptions::peak_force,
+      &LiveOptions::mapping, "mapping: MotionMapping; None: upright_page() of the page", &LiveOptions::servo,
+      "servo: ServoLoopOptions; its rate is ignored", &LiveOptions::peak_force,
       "peak_force: upper bound, besides the device's own [N]", &LiveOptions::timeout, "timeout: of the session [s]");
   py::class_<LiveResult>(module, "LiveResult", "Result of write_with_device.")
       .def_readonly("recording", &LiveResult::recording, "Recording")

@@ -3,6 +3,7 @@
 #include <calligraphy/base/text.hpp>
 #include <calligraphy/devices/replay_device.hpp>
 #include <calligraphy/importers/character_import.hpp>
+#include <calligraphy/practice/mean_interval.hpp>
 #include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/session.hpp>
 
@@ -117,6 +118,9 @@ void add_practice(py::module_& module) {
   add_struct<PracticePage>(module, "PracticePage", "A page of placed characters.", &PracticePage::width, "width [m]",
                            &PracticePage::height, "height [m]", &PracticePage::characters,
                            "characters: list of PlacedCharacter, copied");
+  module.def("workspace_layout", &workspace_layout, "device"_a, "mapping"_a = MotionMapping{},
+             "The PageLayout that fills the workspace of a device (Capabilities) along the axes that the rotation of a "
+             "MotionMapping uses, times its scale.");
   module.def(
       "lay_out",
       [](const std::vector<Character>& characters, const PageLayout& layout) { return lay_out(characters, layout); },
@@ -165,9 +169,11 @@ void add_practice(py::module_& module) {
   add_struct<SessionOptions>(
       module, "SessionOptions", "Options of a writer, a device and a renderer in closed loop.", &SessionOptions::mode,
       "mode: FeedbackMode", &SessionOptions::device, "device: Capabilities", &SessionOptions::renderer,
-      "renderer: RendererOptions", &SessionOptions::skill, "skill: WriterSkill", &SessionOptions::seed,
-      "seed: seed of the writer", &SessionOptions::measure_ticks, "measure_ticks: measure execution times",
-      &SessionOptions::character_timeout, "character_timeout: virtual time until a character is aborted [s]");
+      "renderer: RendererOptions", &SessionOptions::mapping, "mapping: MotionMapping; None: upright_page() of the page",
+      &SessionOptions::skill, "skill: WriterSkill", &SessionOptions::seed,
+      "seed: of the writer's beliefs and mistakes; each character draws its own", &SessionOptions::measure_ticks,
+      "measure_ticks: measure execution times", &SessionOptions::character_timeout,
+      "character_timeout: virtual time until a character is aborted [s]");
   const auto with = [](SessionOptions options, const Progress& progress) {
     options.progress = interruptible(progress);
     return options;
@@ -224,6 +230,25 @@ void add_practice(py::module_& module) {
       .def("order_mistakes", &S::order_mistakes, "Number of order mistakes.")
       .def("direction_mistakes", &S::direction_mistakes, "Number of direction mistakes.");
   module.def("score_page", released(&score_page), "page"_a, "recording"_a, "One score per character of the page.");
+
+  add_struct<MeanInterval>(module, "MeanInterval", "A mean with its 95 % confidence interval.", &MeanInterval::mean,
+                           "mean: of the values; NaN if there are none", &MeanInterval::half_width,
+                           "half_width: of the interval; NaN with fewer than two draws", &MeanInterval::values,
+                           "values: number of values", &MeanInterval::draws, "draws: number of independent draws");
+  module.def(
+      "mean_interval",
+      [](const ArrayLike& values, const std::vector<std::uint64_t>& draws) {
+        const Doubles numbers = doubles(values, "values");
+        if (static_cast<std::size_t>(numbers.size()) != draws.size()) {
+          throw ValueError(told("draws: expected one for each of {} values, got {}", numbers.size(), draws.size()));
+        }
+        std::vector<DrawnValue> drawn(draws.size());
+        for (std::size_t i = 0; i < drawn.size(); ++i) drawn[i] = {numbers.data()[i], draws[i]};
+        return mean_interval(drawn);
+      },
+      "values"_a, "draws"_a,
+      "The MeanInterval of values (n,), clustered by the independent draw that each belongs to, an integer (n,): "
+      "Student's t with one degree of freedom less than there are draws.");
 
   module.def(
       "import_characters",

@@ -151,9 +151,10 @@ void add_render(py::module_& module) {
       .def("to_page", mapped(&MotionMapping::to_page, "device"), "device"_a, "(3,) [m] to (3,) [m].")
       .def("to_device", mapped(&MotionMapping::to_device, "page"), "page"_a, "(3,) [m] to (3,) [m].")
       .def("force_to_device", mapped(&MotionMapping::force_to_device, "page"), "page"_a, "(3,) [N] to (3,) [N].");
-  module.def("upright_page", &upright_page, "width"_a, "height"_a,
-             "Upright page in the x-y plane of the device, centred on its origin [m].");
-  module.def("desk_page", &desk_page, "width"_a, "height"_a, "Page flat on the desk [m].");
+  module.def("upright_page", &upright_page, "width"_a, "height"_a, "scale"_a = 1.0,
+             "Upright page in the x-y plane of the device [m], centred on its origin for every motion scale K_S.");
+  module.def("desk_page", &desk_page, "width"_a, "height"_a, "scale"_a = 1.0,
+             "Page flat on the desk [m]; page y points away from the user. Otherwise as upright_page.");
 
   add_enum(module, "InteractionState", "SS, AS, CS, WS of Fig. 6.", InteractionState::writing,
            "separation adjusting calibration writing");

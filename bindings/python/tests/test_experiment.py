@@ -604,3 +604,91 @@ def test_the_rules_of_the_paper_are_tried_with_their_stiffness():
         grid = experiment.Grid("一", modes=["force"], options=options)
         table = columns(experiment.run(grid, progress=False))
         assert (table["guidance_stiffness"], table["paper_stiffness"]) == ([effective], [effective])
+
+
+def rows(*trials, **others):
+    """A table of run() with these (character, seed, mode, RMS error, strokes completed of 5) and usual conditions."""
+    usual = {"writer": "novice", "stiffness": 600.0, "rate": 1000.0, "method": "tracked", "tolerance": 1e-9, **others}
+    names = ("character", "seed", "mode", "rms_error", "strokes_completed")
+    return [{**dict(zip(names, trial)), "stroke_count": 5, **usual} for trial in trials]
+
+
+def test_a_reduction_is_clustered_by_character_and_seed():
+    """By hand: reductions of 0.5 and 0.1 in one draw, 0.2 in a second, 0.6 in a third: mean 0.35, sums of deviations
+    -0.1, -0.15 and 0.25; sqrt(3 / 2 * 0.095) / 4 times t(2) = 4.30265."""
+    table = experiment.to_table(
+        rows(("一", 1, "vision", 2.0, 5), ("一", 1, "force", 1.0, 5))
+        + rows(("一", 1, "vision", 2.0, 5), ("一", 1, "force", 1.8, 5), stiffness=300.0)
+        + rows(("一", 2, "force", 0.8, 5), ("人", 1, "vision", 4.0, 5), ("一", 2, "vision", 1.0, 5))
+        + rows(("人", 1, "force", 1.6, 5), ("人", 2, "vision", 1.0, 4), ("人", 2, "force", 0.1, 5))
+    )
+    reduced = experiment.reduction(table)
+    assert reduced.mean == pytest.approx(0.35)
+    assert reduced.half_width == pytest.approx(4.30265 * np.sqrt(1.5 * 0.095) / 4, rel=1e-5)
+    assert (reduced.pairs, reduced.draws, reduced.omitted) == (4, 3, 1)
+
+
+def test_one_draw_has_no_interval_and_no_pair_no_mean():
+    pair = rows(("一", 1, "vision", 2.0, 5), ("一", 1, "force", 1.0, 5))
+    assert np.isnan(experiment.reduction(experiment.to_table(pair)).half_width)
+    unfinished = rows(("一", 1, "vision", 2.0, 5), ("一", 1, "force", 1.0, 4))
+    nothing = experiment.reduction(experiment.to_table(unfinished))
+    assert np.isnan(nothing.mean) and nothing.omitted == 1
+
+
+def test_a_table_that_cannot_show_a_reduction_is_refused_by_name():
+    table = experiment.to_table(rows(("一", 1, "force", 1.0, 5)))
+    with pytest.raises(cal.InvalidValue, match="vision"):
+        experiment.reduction(table)
+    with pytest.raises(cal.InvalidValue, match="'speed'"):
+        experiment.reduction(table, "speed")
+
+
+def test_mean_interval_needs_a_draw_for_each_value():
+    with pytest.raises(cal.InvalidValue, match="draws: expected one for each of 2 values, got 1"):
+        cal.mean_interval([1.0, 2.0], [1])
+
+
+def test_the_reduction_of_an_experiment_is_that_of_its_rows():
+    table = experiment.run(experiment.Grid("一人", seeds=3), progress=False)
+    every = columns(table)
+    errors = dict(zip(zip(every["character"], every["seed"], every["mode"]), every["rms_error"]))
+    reduced = [1 - errors[c, s, "force"] / errors[c, s, "vision"] for c in "一人" for s in (1, 2, 3)]
+    found = experiment.reduction(table)
+    assert found.mean == pytest.approx(np.mean(reduced))
+    assert found.half_width == pytest.approx(2.570582 * np.std(reduced, ddof=1) / np.sqrt(6), rel=1e-6)  # t(5)
+
+
+def test_a_page_on_a_desk_gives_the_same_rows_as_one_upright():
+    upright, desk = (
+        columns(experiment.run(experiment.Grid("一人", page=page), progress=False)) for page in ("upright", "desk")
+    )
+    assert upright == desk
+
+
+def test_the_motion_scale_sets_page_and_stiffness():
+    grid = experiment.Grid("一", page="desk", motion_scale=2.0, device="omni")
+    assert (grid.layout.width, grid.layout.height) == (0.32, 0.14)
+    assert grid.mapping == cal.desk_page(0.32, 0.14, 2.0)
+    row = experiment.trial(grid, experiment.conditions(grid)[0])
+    assert row["guidance_stiffness"] == 700.0 / 4  # usable on the device, counted K_S^2 times
+    for wrong in ({"page": "wall"}, {"motion_scale": 0.0}):
+        with pytest.raises(cal.InvalidValue, match=next(iter(wrong))):
+            experiment.Grid("一", **wrong)
+
+
+def test_a_session_takes_a_mapping_and_refuses_a_wrong_one():
+    page = cal.lay_out([cal.built_in_characters()["一"]])[0]
+    device = cal.device_profile("desktop")
+    options = cal.SessionOptions(device=device, renderer=cal.RendererOptions.for_device(device))
+    assert options.mapping is None
+    upright = cal.write_page(page, options)
+    options.mapping = cal.desk_page(page.width, page.height)
+    assert options.mapping == cal.desk_page(page.width, page.height)
+    assert np.array_equal(cal.write_page(page, options).samples, upright.samples)
+    options.mapping = cal.desk_page(page.width, page.height, 0.0)
+    with pytest.raises(cal.InvalidValue, match="motion mapping: scale"):
+        cal.write_page(page, options)
+    live = cal.LiveOptions(mapping=cal.desk_page(page.width, page.height, -1.0))
+    with pytest.raises(cal.InvalidValue, match="motion mapping: scale"):
+        cal.write_with_device(page, cal.SimulatedDevice(device), live)

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,9 @@ struct LiveView {
 
 struct LiveOptions {
   FeedbackMode mode = FeedbackMode::force;
-  RendererOptions renderer;                                     ///< its servo rate applies to the loop as well
+  RendererOptions renderer;  ///< its servo rate applies to the loop as well
+  /// Device axes to page axes; by default upright_page() of the page. On a desk: desk_page().
+  std::optional<MotionMapping> mapping = std::nullopt;
   ServoLoopOptions servo;                                       ///< its rate is ignored
   double peak_force = std::numeric_limits<double>::infinity();  ///< upper bound, besides the device's own [N]
   double timeout = 600.0;                                       ///< the session ends after this time [s]

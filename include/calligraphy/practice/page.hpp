@@ -5,6 +5,8 @@
 #include <vector>
 
 #include <calligraphy/collision/placed_character.hpp>
+#include <calligraphy/devices/capabilities.hpp>
+#include <calligraphy/render/motion_mapping.hpp>
 
 namespace calligraphy {
 
@@ -14,6 +16,11 @@ struct PageLayout {
   double em = 0.04;      ///< edge length of a character's square [m]
   double gap = 0.008;    ///< between and around the squares [m]
 };
+
+/// The layout that fills the workspace of a device, given the rotation and the scale K_S of a mapping: the extents of
+/// the workspace along the page's axes, that is along x and y of the device if the page is upright, along x and z on a
+/// desk, times K_S. Squares are of the usual size, or smaller where not one of them would fit.
+PageLayout workspace_layout(const Capabilities& device, const MotionMapping& mapping = {});
 
 struct PracticePage {
   double width = 0.0;   ///< [m]

@@ -17,7 +17,8 @@ struct RecordedSample {
   double time = 0.0;                                       ///< [s]
   Eigen::Vector3d device_point = Eigen::Vector3d::Zero();  ///< page frame [m]
   Eigen::Vector3d pen_tip = Eigen::Vector3d::Zero();       ///< page frame [m]
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();         ///< applied to the hand, page axes [N]
+  /// Applied to the pen on the page, page axes [N]; with a motion scale K_S the hand feels K_S times as much.
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();
   InteractionState state = InteractionState::separation;
   TickEvent events = TickEvent::none;
   TickStatus status = TickStatus::ok;

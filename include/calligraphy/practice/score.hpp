@@ -30,8 +30,8 @@ struct CharacterScore {
   double max_error = 0.0;  ///< lateral [m]
   int stroke_count = 0;
   int strokes_completed = 0;
-  double peak_force = 0.0;      ///< [N]
-  double max_force_step = 0.0;  ///< from one tick to the next [N]
+  double peak_force = 0.0;      ///< on the page (RecordedSample::force) [N]
+  double max_force_step = 0.0;  ///< of that, from one tick to the next [N]
   std::vector<WritingMistake> mistakes;
 
   /// The perceptible elements of Fig. 2, each in [0, 1].

@@ -12,6 +12,7 @@
 #include <calligraphy/practice/recording.hpp>
 #include <calligraphy/practice/writer.hpp>
 #include <calligraphy/render/haptic_renderer.hpp>
+#include <calligraphy/render/motion_mapping.hpp>
 
 namespace calligraphy {
 
@@ -28,8 +29,11 @@ struct SessionOptions {
   FeedbackMode mode = FeedbackMode::force;
   Capabilities device;
   RendererOptions renderer;
+  /// Device axes to page axes; by default upright_page() of the page. On a desk: desk_page(). With a motion scale K_S
+  /// the hand moves 1 / K_S times as far as the pen on the page, and feels K_S^2 times its stiffness.
+  std::optional<MotionMapping> mapping = std::nullopt;
   WriterSkill skill;
-  std::uint64_t seed = 1;
+  std::uint64_t seed = 1;          ///< of the writer's beliefs and mistakes (SimulatedWriter)
   bool measure_ticks = false;      ///< measure the execution time of the renderer in every tick
   double character_timeout = 120;  ///< virtual time after which a character is abandoned, per character [s]
   /// Called from time to time with the share of characters written. An exception that it throws ends the session.
@@ -49,13 +53,13 @@ Recording run_session(const PracticePage& page, const SessionOptions& options, c
 /// @throws ValueError when an option is out of its domain
 Recording write_page(const PracticePage& page, const SessionOptions& options);
 
-/// A session in which a simulated hand follows a person's recorded pen, on a page of one character. Of the skill only the
-/// grip is used.
+/// A session in which a simulated hand follows a person's recorded pen, on a page of one character. Of the skill only
+/// the grip is used.
 /// @throws ValueError when an option is out of its domain, or the page has not exactly one character
 Recording follow_trace(const PracticePage& page, const PenTrace& trace, const SessionOptions& options);
 
 /// Runs the renderer on recorded samples, as fast as possible and with no hand in the loop: what it would have
-/// rendered. Of the options only `mode`, `renderer`, `measure_ticks` and `progress` are used.
+/// rendered. Of the options only `mode`, `renderer`, `mapping`, `measure_ticks` and `progress` are used.
 /// @throws ValueError when an option is out of its domain
 Recording replay_page(const PracticePage& page, ReplayDevice& device, const SessionOptions& options);
 

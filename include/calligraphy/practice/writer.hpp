@@ -52,8 +52,10 @@ struct VisualFeedback {
 /// 1985). The display is perceived with a delay; the perceived error shifts the plan and slows the writer down. A
 /// stroke that is not accepted is retried with half the error of the belief.
 ///
-/// Deterministic per seed: the beliefs and mistakes of an attempt depend only on the seed, the character, the stroke
-/// and the number of the attempt, so that runs in different modes can be compared in pairs.
+/// Deterministic per seed: the beliefs and mistakes of an attempt depend only on the seed, the character (its code
+/// point and its index on the page), the stroke and the number of the attempt, so that runs in different modes can be
+/// compared in pairs. Any two characters are drawn independently, also with the same seed and also alone on their
+/// pages; the same character at the same index with the same seed is the same draw.
 class SimulatedWriter {
  public:
   /// @throws ValueError when the page is empty or a parameter of the skill is out of its domain

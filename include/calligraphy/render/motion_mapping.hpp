@@ -38,11 +38,13 @@ struct MotionMapping {
   }
 };
 
-/// Upright page in the x-y plane of the device, as in the paper's experiments (sec. 7.2), centred on the device origin.
-MotionMapping upright_page(double width, double height);
+/// Upright page [m] in the x-y plane of the device, as in the paper's experiments (sec. 7.2). The centre of the page
+/// lies at the device origin for every scale K_S; with K_S = 2 the pen on the page moves twice as far as the device. A
+/// wrong scale is refused by what uses the mapping (HapticRenderer).
+MotionMapping upright_page(double width, double height, double scale = 1.0);
 
-/// Page flat on the desk: page y points away from the user (-z of the device), page z up.
-MotionMapping desk_page(double width, double height);
+/// Page flat on the desk: page y points away from the user (-z of the device), page z up. Otherwise as upright_page().
+MotionMapping desk_page(double width, double height, double scale = 1.0);
 
 enum class MotionMappingRule {
   affine,   ///< MotionMapping::to_page

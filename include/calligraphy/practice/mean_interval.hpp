@@ -1,0 +1,32 @@
+// A mean with a confidence interval that counts as independent only what was drawn independently.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace calligraphy {
+
+/// For example by how much force reduced the error of a character in one pair of runs.
+struct DrawnValue {
+  double value = 0.0;
+  std::uint64_t draw = 0;  ///< values that share a draw, as those of one run (page and seed), have the same number
+};
+
+struct MeanInterval {
+  double mean = 0.0;        ///< of the values; NaN if there are none
+  double half_width = 0.0;  ///< of the 95 % confidence interval of the mean; NaN with fewer than two draws
+  std::size_t values = 0;
+  std::size_t draws = 0;  ///< independent ones
+};
+
+/// The mean of values in clusters, by draw. With S_g the sum of a cluster's deviations from the mean of all n values,
+/// the standard error is sqrt(G / (G - 1) sum S_g^2) / n: that of the mean of the G clusters if they are of one size
+/// (Liang and Zeger 1986, for a mean). The interval uses Student's t with G - 1 degrees of freedom.
+MeanInterval mean_interval(std::span<const DrawnValue> values);
+
+/// The value that Student's t with these degrees of freedom exceeds with a probability of 2.5 %, half of what remains
+/// outside a 95 % interval; NaN for 0.
+double student_t(std::size_t degrees_of_freedom);
+
+}  // namespace calligraphy
