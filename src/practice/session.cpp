@@ -69,10 +69,7 @@ Recording run_session(const PracticePage& page, const SessionOptions& options, c
 Recording write_page(const PracticePage& page, const SessionOptions& options) {
   SimulatedWriter writer(page, options.skill, options.seed);
   return run_session(page, options, [&writer](const HapticTick& tick, double seconds) -> std::optional<Intention> {
-    // Ink grows from the pen at once, and the display takes it back where it is the wrong stroke.
-    const bool inked = tick.state == InteractionState::writing || tick.hint == WritingHint::write;
-    const VisualFeedback sight{tick.pen_tip, tick.character, tick.stroke, inked};
-    const Intention next = writer.update(sight, seconds);
+    const Intention next = writer.update(visual_feedback(tick), seconds);
     if (writer.done()) return std::nullopt;
     return next;
   });

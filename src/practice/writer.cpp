@@ -47,6 +47,11 @@ void validate(const WriterSkill& skill) {
 
 }  // namespace
 
+VisualFeedback visual_feedback(const HapticTick& tick) noexcept {
+  const bool inked = tick.state == InteractionState::writing || tick.hint == WritingHint::write;
+  return {tick.pen_tip, tick.character, tick.stroke, inked};
+}
+
 WriterSkill WriterSkill::novice() {
   WriterSkill skill;
   skill.offset = 0.04;

@@ -30,8 +30,13 @@ void StrokeCoverage::update(const Point& tip, const StrokeContact& contact, doub
   tolerated_ += (still - kept) * normal;
 
   if (!(arc > furthest_)) return;  // false for NaN too
-  if (off <= corridor) covered_ = std::min(covered_ + (arc - furthest_), way_);
+  if (off <= corridor) passed_ += arc - furthest_;
   furthest_ = arc;
+}
+
+double StrokeCoverage::share(double length) const noexcept {
+  const double covered = std::min(passed_, way_);
+  return covered < length ? covered / length : 1.0;
 }
 
 }  // namespace calligraphy

@@ -59,7 +59,7 @@ CharacterRun write_character(const PracticePage& page, const SessionOptions& opt
   const auto motion = [&](const HapticTick& tick, double seconds) -> std::optional<Intention> {
     observer.see(tick, writer.intended_stroke());
     const Intention next =
-        writer.update({tick.pen_tip, tick.character, tick.stroke, tick.state == InteractionState::writing}, seconds);
+        writer.update(calligraphy::visual_feedback(tick), seconds);
     if (writer.done()) return std::nullopt;
     return next;
   };

@@ -87,7 +87,7 @@ class HeldDevice final : public HapticDevice, public ServoClock {
  private:
   void move() {
     const HapticTick& tick = eyes_.update(device_.read());
-    const VisualFeedback sight{tick.pen_tip, tick.character, tick.stroke, tick.state == InteractionState::writing};
+    const VisualFeedback sight = visual_feedback(tick);
     const Intention next = writer_.update(sight, period_);
     device_.set_intention(
         {mapping_.to_device(next.position), mapping_.rotation.transpose() * next.velocity / mapping_.scale});

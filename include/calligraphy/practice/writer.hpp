@@ -11,6 +11,7 @@
 #include <calligraphy/collision/stroke_element.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
 #include <calligraphy/practice/page.hpp>
+#include <calligraphy/render/haptic_tick.hpp>
 
 namespace calligraphy {
 
@@ -45,6 +46,10 @@ struct VisualFeedback {
   int stroke = 0;                                     ///< index of the active stroke, whose start has the red ellipse
   bool writing = false;                               ///< a green trace grows from the pen
 };
+
+/// What a display shows at a tick: ink grows from the pen as soon as it stands at the start of the stroke that is due,
+/// and goes when it turns out to write something else.
+VisualFeedback visual_feedback(const HapticTick& tick) noexcept;
 
 /// Moves a hand through the strokes of a page.
 ///

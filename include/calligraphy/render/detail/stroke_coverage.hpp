@@ -16,7 +16,7 @@ class StrokeCoverage {
   void update(const Point& tip, const StrokeContact& contact, double length, double corridor) noexcept;
 
   /// Share of `length` [m] that is covered.
-  double share(double length) const noexcept { return covered_ < length ? covered_ / length : 1.0; }
+  double share(double length) const noexcept;
 
   /// How far beyond its start the stroke was begun [m].
   double late() const noexcept { return late_; }
@@ -25,9 +25,9 @@ class StrokeCoverage {
   Point offset_ = Point::Zero();     ///< [m]
   Point tolerated_ = Point::Zero();  ///< what is left of it across the stroke [m]
   Point last_ = Point::Zero();       ///< pen tip [m]
-  double way_ = 0.0;                 ///< of the pen; it cannot have covered more [m]
+  double way_ = 0.0;                 ///< of the pen: what it skipped, it has not covered [m]
   double furthest_ = 0.0;            ///< arc length, the offset removed [m]
-  double covered_ = 0.0;             ///< [m]
+  double passed_ = 0.0;              ///< arc length passed near enough [m]
   double late_ = 0.0;                ///< [m]
 };
 

@@ -54,7 +54,7 @@ TEST_CASE("a complete character is written through the vendor's runtime despite 
     if (with_faults && tick % 3000 == 2999) runtime->inject(0, tick % 2000 == 999 ? 0x0302 : 0x0204, 15);
     runtime->step();
     const HapticTick& seen = renderer.last();
-    const VisualFeedback sight{seen.pen_tip, seen.character, seen.stroke, seen.state == InteractionState::writing};
+    const VisualFeedback sight = visual_feedback(seen);
     const Intention intention = writer.update(sight, period);
     const Eigen::Vector3d position = mapping.to_device(intention.position);
     const Eigen::Vector3d velocity = mapping.rotation.transpose() * intention.velocity / mapping.scale;
