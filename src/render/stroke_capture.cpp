@@ -78,22 +78,25 @@ CaptureVerdict StrokeCapture::update(const Point& tip, std::span<const StrokeSta
   if (verdict_ == CaptureVerdict::another_stroke) return verdict_;
   const double stretch = starts[due].stretch;
   const Point way = own_way(starts[due], anchor_, tip);
-  const double moved = way.norm();
-  if (!(moved >= stretch)) return verdict_;
+  // Guidance leads a pen towards the due stroke where it is the likely one: that says nothing of the others.
+  const Point shown = is_nearest_ ? way : Point(tip - anchor_);
+  if (!(shown.norm() >= stretch)) return verdict_;
 
-  const Misfit own = misfit(starts[due], anchor_, way, em, tolerances);
   // Of the strokes written before, the writer was off by about as much.
   const Point seen = anchor_ - misplaced_ / (count_ + 1);
-  const double expected = misfit(starts[due], seen, way, em, tolerances).size();
-  bool is_other = false;
-  for (std::size_t later = due + 1; later < starts.size() && std::isfinite(tolerances.distinction); ++later) {
-    const Misfit other = misfit(starts[later], seen, way, em, tolerances);
-    is_other = is_other || (other.tolerable() && expected > tolerances.distinction * (other.size() + indistinct));
-  }
+  const double expected = misfit(starts[due], seen, shown, em, tolerances).size();
+  const bool is_other =
+      std::isfinite(tolerances.distinction) &&
+      std::any_of(starts.begin() + static_cast<std::ptrdiff_t>(due) + 1, starts.end(), [&](const StrokeStart& later) {
+        const Misfit other = misfit(later, seen, shown, em, tolerances);
+        return other.tolerable() && expected > tolerances.distinction * (other.size() + indistinct);
+      });
+  if (is_other && is_first_) return verdict_ = CaptureVerdict::another_stroke;
+  const double moved = way.norm();
+  if (!(moved >= stretch)) return verdict_;
+  const Misfit own = misfit(starts[due], anchor_, way, em, tolerances);
   if (own.tolerable() && !is_other) return verdict_ = CaptureVerdict::begun;
-  verdict_ = is_other && is_first_ ? CaptureVerdict::another_stroke
-             : own.place <= 1.0    ? CaptureVerdict::wrong_direction
-                                   : CaptureVerdict::undecided;
+  verdict_ = own.place <= 1.0 ? CaptureVerdict::wrong_direction : CaptureVerdict::undecided;
   is_first_ = false;
   anchor_ = tip - way * (stretch / moved);
   return verdict_;

@@ -3,16 +3,25 @@
 #include <algorithm>
 
 namespace calligraphy {
+namespace {
+
+/// The nearest point on the inside of a bend is faster than the pen by at most this; what it skips is not covered.
+constexpr double max_lead = 3.0;
+
+/// At a corner, which is passed before it is reached, it leaps by at most this, in corridors.
+constexpr double max_corner = 2.5;
+
+}  // namespace
 
 void StrokeCoverage::restart(const Point& begin, const Point& offset, const Point& direction) noexcept {
   *this = {};
   offset_ = tolerated_ = offset;
-  late_ = std::max(0.0, offset.dot(direction));
+  ahead_ = offset.dot(direction);
   last_ = begin;
 }
 
 void StrokeCoverage::update(const Point& tip, const StrokeContact& contact, double length, double corridor) noexcept {
-  way_ += (tip - last_).norm();
+  const double step = (tip - last_).norm();
   last_ = tip;
 
   const Point& tangent = contact.closest.tangent;
@@ -21,7 +30,9 @@ void StrokeCoverage::update(const Point& tip, const StrokeContact& contact, doub
   // The nearest point stays at an end of the stroke that the pen goes beyond.
   const double beyond = deviation.dot(tangent);
   const bool is_beyond = (contact.finished && beyond > 0.0) || (!(contact.arc > 0.0) && beyond < 0.0);
-  const double arc = std::min(contact.arc, length) + (is_beyond ? beyond : 0.0) - offset_.dot(tangent);
+  // Past a corner the offset has another share along the stroke: as much of it is believed as across.
+  const double turned = std::clamp(offset_.dot(tangent) - ahead_, -corridor, corridor);
+  const double arc = std::min(contact.arc, length) + (is_beyond ? beyond : 0.0) - ahead_ - turned;
 
   const double across = deviation.dot(normal);
   const double kept = tolerated_.dot(normal);
@@ -29,14 +40,20 @@ void StrokeCoverage::update(const Point& tip, const StrokeContact& contact, doub
   const double still = kept >= 0.0 ? std::clamp(across, 0.0, kept) : std::clamp(across, kept, 0.0);
   tolerated_ += (still - kept) * normal;
 
-  if (!(arc > furthest_)) return;  // false for NaN too
-  if (off <= corridor) passed_ += arc - furthest_;
+  const double gained = arc - furthest_;
+  is_turning_ = is_turning_ || contact.passed_feature;
+  if (off > corridor) {
+    // The nearest point leaps at a corner, maybe to where the pen has yet to go: nothing is lost.
+    if (gained > 0.0 && !is_turning_) furthest_ = arc;
+    return;
+  }
+  if (!(gained > 0.0)) return;  // NaN too
+  const double leap = is_turning_ ? max_corner * corridor : max_lead * step;
+  if (gained <= leap) covered_ += gained;
   furthest_ = arc;
+  is_turning_ = false;
 }
 
-double StrokeCoverage::share(double length) const noexcept {
-  const double covered = std::min(passed_, way_);
-  return covered < length ? covered / length : 1.0;
-}
+double StrokeCoverage::share(double length) const noexcept { return covered_ < length ? covered_ / length : 1.0; }
 
 }  // namespace calligraphy

@@ -19,7 +19,7 @@ struct StrokeTolerances {
   /// considered, as printed.
   double distinction = 2.0;
   /// Greatest lateral deviation at which the pen makes progress, beyond that at its start [em].
-  double corridor = 0.08;
+  double corridor = 0.06;
   /// Share of the length that must be covered in order before the stroke is finished: at its end, or where the pen is
   /// lifted. 0: the feature planes alone finish it, as printed.
   double coverage = 0.9;

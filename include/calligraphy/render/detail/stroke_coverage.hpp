@@ -19,16 +19,16 @@ class StrokeCoverage {
   double share(double length) const noexcept;
 
   /// How far beyond its start the stroke was begun [m].
-  double late() const noexcept { return late_; }
+  double late() const noexcept { return ahead_ > 0.0 ? ahead_ : 0.0; }
 
  private:
   Point offset_ = Point::Zero();     ///< [m]
   Point tolerated_ = Point::Zero();  ///< what is left of it across the stroke [m]
   Point last_ = Point::Zero();       ///< pen tip [m]
-  double way_ = 0.0;                 ///< of the pen: what it skipped, it has not covered [m]
   double furthest_ = 0.0;            ///< arc length, the offset removed [m]
-  double passed_ = 0.0;              ///< arc length passed near enough [m]
-  double late_ = 0.0;                ///< [m]
+  double covered_ = 0.0;             ///< arc length [m]
+  bool is_turning_ = false;          ///< a corner was passed, and not yet counted
+  double ahead_ = 0.0;               ///< offset along the stroke at its beginning [m]
 };
 
 }  // namespace calligraphy
