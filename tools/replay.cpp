@@ -82,7 +82,6 @@ class ReplayRun {
                                                          : RendererOptions::for_device(session_.device);
     layout_ = options.page.layout(session_.device);
     session_.mapping = options.page.mapping(layout_.width, layout_.height);
-    clip_stiffness(session_.renderer, session_.device, options.page.scale);
     report_.renderer = options.renderer;
     report_.device = session_.device.model;
     report_.peak_force = session_.device.peak_force;

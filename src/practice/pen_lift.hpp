@@ -1,4 +1,4 @@
-// How a simulated hand raises, carries and lowers a pen.
+// How a simulated hand raises, carries and lowers a pen, in metres of the page.
 #pragma once
 
 namespace calligraphy {

@@ -49,6 +49,21 @@ class Replay(ReplayTest):
             self.assertEqual([d["strokes"] for d in trace["drawn"]], [[i + 1] for i in range(trace["strokes"])])
             self.assertEqual({d["course"] for d in trace["drawn"]}, {"forwards"})
 
+    def test_a_trace_on_a_desk_gives_the_report_of_one_upright(self):
+        trace = character("十", TEN)
+        self.assertEqual(self.replay(trace, options=("--page", "desk")), self.replay(trace))
+
+    def test_the_limits_of_the_device_hold_at_other_motion_scales(self):
+        trace = character("三", THREE)
+        for scale in ("0.5", "2"):
+            with self.subTest(scale=scale):
+                report = self.replay(trace, options=("--motion-scale", scale))
+                for each in report["traces"]:
+                    self.assertGreater(each["peak_force_N"], 0.0)
+                    self.assertLessEqual(each["peak_force_N"], report["peak_force_limit_N"] + 1e-9)
+                    self.assertLessEqual(each["max_force_step_N"], report["force_step_limit_N"] + 1e-9)
+        self.assert_refused(2, ["replay", "pens.txt", "--motion-scale", "0"], "--motion-scale", "0")
+
     def test_a_wrong_order_names_the_written_and_the_expected_stroke(self):
         one, two, three = THREE
         self.assertEqual(self.remarks(character("三", [one, three, two])), [[("order", 2, 3)]])
