@@ -318,7 +318,7 @@ void HapticRenderer::write_on(const Point& tip, TransitionInput& input) noexcept
   if (tick_.contact.finished) {
     needed *= 1.0 - std::min(tolerances.late_start, coverage_.late() / active_.length());
   }
-  const bool is_covered = tick_.covered >= needed;
+  const bool is_covered = tick_.covered >= needed && coverage_.keeps_to(tolerances.corridor * active_character().em);
   const bool leaves = !input.contact || !input.inside_box;
   input.stroke_finished = leaves ? is_covered && tolerances.coverage > 0.0 : is_covered && tick_.contact.finished;
 }

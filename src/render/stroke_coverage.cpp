@@ -8,8 +8,12 @@ namespace {
 /// The nearest point on the inside of a bend is faster than the pen by at most this; what it skips is not covered.
 constexpr double max_lead = 3.0;
 
-/// At a corner, which is passed before it is reached, it leaps by at most this, in corridors.
-constexpr double max_corner = 2.5;
+/// A corner is passed before it is reached: the nearest point leaps by at most this, in corridors, and counts once the
+/// pen is there.
+constexpr double max_corner = 2.0;
+
+/// RMS deviation of a pen that keeps to the corridor: a wave about the stroke is inside it for part of the way.
+constexpr double usual_share = 0.75;
 
 }  // namespace
 
@@ -40,18 +44,25 @@ void StrokeCoverage::update(const Point& tip, const StrokeContact& contact, doub
   const double still = kept >= 0.0 ? std::clamp(across, 0.0, kept) : std::clamp(across, kept, 0.0);
   tolerated_ += (still - kept) * normal;
 
+  way_ += step;
+  squares_ += step * off * off;
+
   const double gained = arc - furthest_;
-  is_turning_ = is_turning_ || contact.passed_feature;
-  if (off > corridor) {
-    // The nearest point leaps at a corner, maybe to where the pen has yet to go: nothing is lost.
-    if (gained > 0.0 && !is_turning_) furthest_ = arc;
-    return;
+  if (contact.passed_feature) {
+    owed_ = std::clamp(gained, 0.0, max_corner * corridor);
+  } else if (gained > 0.0 && gained <= max_lead * step && off <= corridor) {
+    covered_ += gained;
   }
-  if (!(gained > 0.0)) return;  // NaN too
-  const double leap = is_turning_ ? max_corner * corridor : max_lead * step;
-  if (gained <= leap) covered_ += gained;
-  furthest_ = arc;
-  is_turning_ = false;
+  if (off <= corridor) {
+    covered_ += owed_;
+    owed_ = 0.0;
+  }
+  if (gained > 0.0) furthest_ = arc;
+}
+
+bool StrokeCoverage::keeps_to(double corridor) const noexcept {
+  const double most = usual_share * corridor;
+  return squares_ <= most * most * way_;
 }
 
 double StrokeCoverage::share(double length) const noexcept { return covered_ < length ? covered_ / length : 1.0; }

@@ -18,6 +18,9 @@ class StrokeCoverage {
   /// Share of `length` [m] that is covered.
   double share(double length) const noexcept;
 
+  /// Whether the deviation was within a corridor [m] for most of the way.
+  bool keeps_to(double corridor) const noexcept;
+
   /// How far beyond its start the stroke was begun [m].
   double late() const noexcept { return ahead_ > 0.0 ? ahead_ : 0.0; }
 
@@ -27,7 +30,9 @@ class StrokeCoverage {
   Point last_ = Point::Zero();       ///< pen tip [m]
   double furthest_ = 0.0;            ///< arc length, the offset removed [m]
   double covered_ = 0.0;             ///< arc length [m]
-  bool is_turning_ = false;          ///< a corner was passed, and not yet counted
+  double owed_ = 0.0;                ///< of the corner that was passed [m]
+  double way_ = 0.0;                 ///< length of the pen's path [m]
+  double squares_ = 0.0;             ///< squared deviation, integrated along it [m^3]
   double ahead_ = 0.0;               ///< offset along the stroke at its beginning [m]
 };
 
