@@ -108,6 +108,14 @@ Attempts part_of_stroke(double from, double to) {
   };
 }
 
+Attempts displaced_sideways(double distance) {
+  return [=](const std::vector<StrokeLine>& lines, std::size_t due) {
+    const Point along = (lines[due].at(lines[due].length()) - lines[due].at(0.0)).normalized();
+    const Point way = distance * Point(-along.y(), along.x());
+    return std::vector<Attempt>{{lines[due].moved([&](const Point& point, double) { return Point(point + way); }), {}}};
+  };
+}
+
 StrokeLine zigzag_about(const StrokeLine& line, const Zigzag& zigzag, double em) {
   const double length = line.length(), wave = std::min(zigzag.wavelength * em, length);
   const int steps = std::max(64, static_cast<int>(48.0 * length / wave));

@@ -24,8 +24,8 @@ struct SequenceOptions {
 /// One stroke that was taken although it must not be, or was not although it must.
 struct Finding {
   char32_t character = 0;
-  int stroke = 0;    ///< that was due, from 0
-  int other = -1;    ///< what was drawn for it
+  int stroke = 0;     ///< that was due, from 0
+  int other = -1;     ///< what was drawn for it
   double figure = 0;  ///< how different it was, or how long the due stroke is [em]
 };
 
@@ -55,6 +55,9 @@ Attempts later_strokes(double em, double different = 0.05);
 
 /// The part between two shares of the length.
 Attempts part_of_stroke(double from, double to);
+
+/// The stroke, displaced across the line from its start to its end; to the left if `distance` is above 0 [m].
+Attempts displaced_sideways(double distance);
 
 /// A wave of this amplitude about the stroke, on a wavelength, or the stroke's length if that is shorter: at least one
 /// whole period. [em]
