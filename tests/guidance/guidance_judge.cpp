@@ -36,7 +36,8 @@ constexpr const char* usage =
     "NAME|all]\n"
     "                               [--renderer default|everything] [--character C] [--seed S]\n"
     "           what is taken for the due stroke: of the set CALLIGRAPHY_CHARACTER_FILE, or else of the built-in\n"
-    "           characters; zigzag --held: also in a hand\n"
+    "           characters; zigzag --held: also in a hand; shifted --naive: by a hand that leaves the device's\n"
+    "           friction to the spring of its grip\n"
     "       guidance_judge everything [--times N] [--device NAME|all] [--text CHARACTERS|all] [--em MM]\n"
     "           vision, the default and everything()\n"
     "each with --threads T (0: one per core)\n";
@@ -233,6 +234,7 @@ class SequenceProgram {
         device_(arguments.text("--device", what_ == "shifted" ? "all" : "desktop")),
         renderer_(arguments.text("--renderer", "default")),
         held_(arguments.flag("--held")),
+        naive_(arguments.flag("--naive")),
         em_(arguments.number("--em", 0.0)) {
     const int count = static_cast<int>(arguments.number("--characters", 100));
     const std::string text = arguments.text("--character");
@@ -320,6 +322,7 @@ class SequenceProgram {
         {"shifted, each stroke distorted by 2 %, scaled by up to 3 %", {0.05, Noise::distortion, 0.02, 0.03}},
     };
     options_.held = true;
+    options_.arm = naive_ ? Arm::naive : Arm::skilled;
     for (const Variant& variant : variants) {
       for (const bool feels : {true, false}) {
         options_.feels = feels;
@@ -330,7 +333,7 @@ class SequenceProgram {
   }
 
   std::string what_, device_, renderer_;
-  bool held_;
+  bool held_, naive_;
   double em_;
   SequenceOptions options_;
   std::vector<Character> characters_;

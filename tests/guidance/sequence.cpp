@@ -15,7 +15,7 @@ namespace {
 
 std::unique_ptr<Pen> pen_for(const PracticePage& page, const SequenceOptions& options) {
   if (!options.held) return std::make_unique<KinematicPen>(page, options.device, options.renderer);
-  return std::make_unique<HeldPen>(page, options.device, options.renderer, GripImpedance{}, options.feels);
+  return std::make_unique<HeldPen>(page, options.device, options.renderer, GripImpedance{}, options.arm, options.feels);
 }
 
 /// Judges each character by itself, in parallel.

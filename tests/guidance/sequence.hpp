@@ -16,7 +16,8 @@ struct SequenceOptions {
   calligraphy::RendererOptions renderer;
   double em = 0.04;        ///< [m]
   bool held = false;       ///< by a normal grip under force; or else the pen is where it is meant to be
-  bool feels = true;       ///< a held pen
+  Arm arm = Arm::skilled;  ///< of a held pen
+  bool feels = true;       ///< likewise
   std::uint64_t seed = 1;  ///< of what is drawn at random
   int threads = 0;
 };
