@@ -102,7 +102,8 @@ def test_a_pen_on_another_stroke_is_told_so():
 def test_a_stroke_that_is_finished_asks_for_a_lift():
     pen = Pen("十")
     ticks = pen.write(0.0, 1.0)
-    assert has(ticks, cal.TickEvent.stroke_finished) and hints(ticks)[0] == "write" and hints(ticks)[-2:] == ["lift_first", "none"]
+    assert has(ticks, cal.TickEvent.stroke_finished)
+    assert hints(ticks)[0] == "write" and hints(ticks)[-2:] == ["lift_first", "none"]
     assert ticks["stroke"][-1] == 1 and ticks["covered"][-1] == 0.0
 
 
