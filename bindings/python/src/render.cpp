@@ -149,8 +149,10 @@ void add_render(py::module_& module) {
       .def_static("wang2006", &O::wang2006, "Every rule as printed, except the signs of eq. (8) and (9).")
       .def_static("for_device", &O::for_device, "capabilities"_a,
                   "The defaults at the device's rate, stiffnesses clipped to what is usable and stable.")
-      .def_static("everything", &O::everything, "capabilities"_a,
-                  "for_device() with the optional stages that the device permits, but without passivity control.");
+      .def_static(
+          "everything", &O::everything, "capabilities"_a,
+          "for_device() with the optional stages that serve every writer on the device: neither passivity control nor "
+          "assistance as needed.");
   module.def(
       "clip_stiffness", &clip_stiffness, "options"_a, "capabilities"_a, "scale"_a = 1.0,
       "Clips stiffnesses and dampings in place to what is usable, and stable in any hand; `scale` is that of the "
