@@ -40,8 +40,11 @@ constexpr double largest_click = 0.1;
 /// holds does not coast on.
 constexpr double free_share = 0.15;
 
-/// Where guidance lets go of a pen: the tube's weight has fallen to this.
-constexpr double slipping_weight = 0.5;
+/// Stiffness of a grip on a pen, about which people's vary [N/m].
+constexpr double usual_grip = 300.0;
+
+/// Where guidance lets go of a pen: the tube's weight has fallen to this, or the hand is this far across [em].
+constexpr double slipping_weight = 0.5, slipping_detour = 0.08;
 
 /// guide_to_start leads a pen as near to the start along the stroke as this, as a share of the tolerance.
 constexpr double unguided_start = 0.5;
@@ -186,6 +189,7 @@ double HapticRenderer::max_force_step() const noexcept {
 const HapticTick& HapticRenderer::update(const DeviceState& state) noexcept {
   tick_.events = TickEvent::none;
   tick_.time = state.time;
+  works_ = state.force;
   if (observes_energy_) hear_force(state);
   tick_.status = map_sample(state);
   if (tick_.status == TickStatus::ok) {
@@ -290,7 +294,6 @@ TransitionInput HapticRenderer::sense() noexcept {
   if (all_written()) return input;
 
   const Point tip = tick_.pen_tip.head<2>();
-  tick_.to_start = active_.start() - tip;
   const double em = active_character().em;
   const double slack = inside_box_ ? options_.box_hysteresis * em * (writing ? 3.0 : 1.0) : 0.0;
   inside_box_ = active_character().box.exteriorDistance(tip) <= slack;
@@ -324,6 +327,7 @@ void HapticRenderer::write_on(const Point& tip, TransitionInput& input) noexcept
 }
 
 void HapticRenderer::put_down(const Point& tip) noexcept {
+  if (!has_event(tick_.events, TickEvent::stroke_finished)) tick_.covered = 0.0;
   capture_.put_down(tip, active_character().starts, static_cast<std::size_t>(tick_.stroke));
   if (options_.tolerances.coverage == 0.0) return;
   const StrokeContact nearest = active_.nearest(tip, options_.stroke);
@@ -343,10 +347,15 @@ bool HapticRenderer::begins(const Point& tip) noexcept {
 
 WritingHint HapticRenderer::hint() const noexcept {
   if (tick_.state == InteractionState::separation || all_written()) return WritingHint::none;
-  if (tick_.state == InteractionState::writing) return held_ ? WritingHint::none : WritingHint::too_far;
+  if (tick_.state == InteractionState::writing) {
+    const bool guided = held_ || has_event(tick_.events, TickEvent::stroke_started);
+    return guided ? WritingHint::none : WritingHint::off_stroke;
+  }
   if (!may_start()) return WritingHint::lift_first;
   if (capture_.verdict() == CaptureVerdict::another_stroke) return WritingHint::another_stroke;
-  const double from_start = tick_.to_start.norm();
+  // The first stretch leads away from the start.
+  const double put_down = (capture_.begin() - active_.start()).norm();
+  const double from_start = std::min(tick_.to_start.norm(), put_down);
   const bool is_late = resting_ && rest_.arc > late_share * active_.length();
   if (is_late && (tick_.pen_tip.head<2>() - active_.end()).norm() < from_start) return WritingHint::at_end;
   if (from_start <= options_.tolerances.start_distance * active_character().em) {
@@ -402,6 +411,7 @@ void HapticRenderer::follow(const TransitionInput& input) noexcept {
     lifted_ = true;
     if (character_done_) activate(tick_.character + 1, 0);
   }
+  tick_.to_start = all_written() ? Point(Point::Zero()) : Point(active_.start() - tick_.pen_tip.head<2>());
   tick_.hint = hint();
 }
 
@@ -433,7 +443,6 @@ void HapticRenderer::activate(int character, int stroke) noexcept {
   }
   tick_.character = character;
   tick_.stroke = stroke;
-  tick_.covered = 0.0;
   character_done_ = resting_ = false;
   if (all_written()) return;
   active_.load(active_character().strokes[static_cast<std::size_t>(stroke)],
@@ -532,20 +541,29 @@ Point HapticRenderer::guidance_force() noexcept {
   return fade(tick_.attraction + tick_.wrong_way + tick_.viscous.head<2>());
 }
 
-/// Far from the stroke guidance lets go, in time, and it takes hold again where the pen makes progress: a pen that
-/// slipped out of the tube would be thrown. Before the stroke it leads a pen that is likely to begin it.
+/// Guidance lets go, in time, of a pen that is far from the stroke or that the hand pulls elsewhere, and takes hold
+/// again where both are back: a pen that slipped out of the tube would be thrown, and one that another stroke was meant
+/// for would be dragged along. Before the stroke it leads a pen that is likely to begin it.
 bool HapticRenderer::is_guided() const noexcept {
   if (tick_.state == InteractionState::writing) {
     if (options_.stroke.space.rule != ConstraintSpaceRule::tube || options_.guidance == GuidanceLaw::saturating)
       return true;
     if (has_event(tick_.events, TickEvent::stroke_started)) return true;
-    const double distance = tick_.contact.closest.distance;
-    return held_ ? tick_.contact.weight >= slipping_weight
-                 : distance <= options_.tolerances.corridor * active_character().em;
+    const StrokeContact& contact = tick_.contact;
+    const double em = active_character().em;
+    const double astray = coverage_.astray(hand(), contact);
+    if (held_) return contact.weight >= slipping_weight && astray <= slipping_detour * em;
+    return contact.closest.distance <= options_.tolerances.corridor * em && astray <= 0.5 * slipping_detour * em;
   }
   if (tick_.state != InteractionState::calibration || !may_start()) return false;
   if (options_.guide_to_start) return capture_.verdict() != CaptureVerdict::another_stroke;
   return tick_.hint == WritingHint::write && capture_.is_nearest();
+}
+
+/// Where the hand means to be, as far as the force against which it holds the pen shows [m, page].
+Point HapticRenderer::hand() const noexcept {
+  const Eigen::Vector3d force = works_.allFinite() ? mapping_.force_to_page(works_) : tick_.page_force;
+  return tick_.pen_tip.head<2>() - force.head<2>() * (mapping_.scale * mapping_.scale / usual_grip);
 }
 
 /// Until the first stretch has shown its direction, guidance acts across that direction only, so that it does not hide

@@ -32,6 +32,8 @@ const char* to_string(WritingHint hint) noexcept {
       return "wrong direction";
     case WritingHint::another_stroke:
       return "another stroke's start";
+    case WritingHint::off_stroke:
+      return "too far from the stroke";
     case WritingHint::lift_first:
       return "lift the pen first";
   }

@@ -84,13 +84,13 @@ CaptureVerdict StrokeCapture::update(const Point& tip, std::span<const StrokeSta
 
   // Of the strokes written before, the writer was off by about as much.
   const Point seen = anchor_ - misplaced_ / (count_ + 1);
-  const double expected = misfit(starts[due], seen, shown, em, tolerances).size();
-  const bool is_other =
-      std::isfinite(tolerances.distinction) &&
-      std::any_of(starts.begin() + static_cast<std::ptrdiff_t>(due) + 1, starts.end(), [&](const StrokeStart& later) {
-        const Misfit other = misfit(later, seen, shown, em, tolerances);
-        return other.tolerable() && expected > tolerances.distinction * (other.size() + indistinct);
-      });
+  const Misfit expected = misfit(starts[due], seen, shown, em, tolerances);
+  bool is_other = false;
+  for (std::size_t later = due + 1; later < starts.size() && std::isfinite(tolerances.distinction); ++later) {
+    const Misfit other = misfit(starts[later], seen, shown, em, tolerances);
+    is_other =
+        is_other || (other.tolerable() && expected.size() > tolerances.distinction * (other.size() + indistinct));
+  }
   if (is_other && is_first_) return verdict_ = CaptureVerdict::another_stroke;
   const double moved = way.norm();
   if (!(moved >= stretch)) return verdict_;

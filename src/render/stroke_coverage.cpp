@@ -15,6 +15,11 @@ constexpr double max_corner = 1.5;
 /// A pen that keeps to the corridor is outside for at most this share of its way.
 constexpr double max_outside = 0.1;
 
+/// Distance of `value` from the range between 0 and `end`.
+double beyond_range(double value, double end) {
+  return end >= 0.0 ? std::max({value - end, -value, 0.0}) : std::max({end - value, value, 0.0});
+}
+
 }  // namespace
 
 void StrokeCoverage::restart(const Point& begin, const StrokeStart& start) noexcept {
@@ -41,7 +46,7 @@ void StrokeCoverage::update(const Point& tip, const StrokeContact& contact, doub
 
   const double across = deviation.dot(normal);
   const double kept = tolerated_.dot(normal);
-  const double off = kept >= 0.0 ? std::max({across - kept, -across, 0.0}) : std::max({kept - across, across, 0.0});
+  const double off = beyond_range(across, kept);
   const double still = kept >= 0.0 ? std::clamp(across, 0.0, kept) : std::clamp(across, kept, 0.0);
   tolerated_ += (still - kept) * normal;
 
@@ -59,6 +64,11 @@ void StrokeCoverage::update(const Point& tip, const StrokeContact& contact, doub
     owed_ = 0.0;
   }
   if (gained > 0.0) furthest_ = arc;
+}
+
+double StrokeCoverage::astray(const Point& hand, const StrokeContact& contact) const noexcept {
+  const Point normal(-contact.closest.tangent.y(), contact.closest.tangent.x());
+  return beyond_range((hand - contact.closest.point).dot(normal), offset_.dot(normal));
 }
 
 bool StrokeCoverage::keeps_in_corridor() const noexcept { return outside_ <= max_outside * way_; }

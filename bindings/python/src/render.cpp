@@ -182,7 +182,8 @@ void add_render(py::module_& module) {
   add_enum(module, "TickStatus", "Whether a sample was usable.", TickStatus::device_fault,
            "ok stale bad_sample device_fault");
   add_enum(module, "WritingHint", "Why a pen on the paper is not guided; to_string() gives the words for a display.",
-           WritingHint::lift_first, "none write too_far at_end in_middle wrong_direction another_stroke lift_first");
+           WritingHint::lift_first,
+           "none write too_far at_end in_middle wrong_direction another_stroke off_stroke lift_first");
   module.def("to_string", py::overload_cast<WritingHint>(&to_string), "hint"_a,
              "The words of a hint, such as \"too far from the start\"; \"\" for `none`.");
   TickColumns columns(module);

@@ -83,6 +83,7 @@ class HapticRenderer {
   double paper_force() noexcept;
   Point guidance_force() noexcept;
   bool is_guided() const noexcept;
+  Point hand() const noexcept;
   Point way_to_begin() const noexcept;
   Point damped(const Point& velocity, const Point& way, const Point& tangent) const noexcept;
   Point friction_force() noexcept;
@@ -121,10 +122,11 @@ class HapticRenderer {
   ActiveStroke active_;
   StrokeCapture capture_;
   StrokeCoverage coverage_;
-  StrokeContact rest_;    ///< of a pen on the active stroke that is not writing it
-  bool resting_ = false;  ///< it was put down on that stroke, near enough for `rest_`
-  bool held_ = false;     ///< guidance acts
-  bool regrips_ = false;  ///< that has changed in this tick
+  Eigen::Vector3d works_ = Eigen::Vector3d::Zero();  ///< force at work, if the device says so [N, device axes]
+  StrokeContact rest_;                               ///< of a pen on the active stroke that is not writing it
+  bool resting_ = false;                             ///< it was put down on that stroke, near enough for `rest_`
+  bool held_ = false;                                ///< guidance acts
+  bool regrips_ = false;                             ///< that has changed in this tick
   HapticTick tick_;
   VelocityEstimator velocity_;                               ///< of the pen [m/s, page]
   Eigen::Vector3d last_velocity_ = Eigen::Vector3d::Zero();  ///< estimate of the tick before [m/s, page]

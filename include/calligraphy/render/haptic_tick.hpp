@@ -45,16 +45,17 @@ const char* to_string(TickStatus status) noexcept;
 enum class WritingHint : std::uint8_t {
   none,             ///< it is guided, or not on the paper
   write,            ///< at the start of the stroke that is due: write on
-  too_far,          ///< too far from the start, or from the stroke: `to_start` says where it is
+  too_far,          ///< too far from the start: `to_start` says where it is
   at_end,           ///< at the stroke's end
   in_middle,        ///< in the middle of the stroke
   wrong_direction,  ///< at the start, but moving another way
   another_stroke,   ///< at the start of another stroke
+  off_stroke,       ///< writing, but too far from the stroke: `contact.closest` is where to return
   lift_first        ///< lift the pen first: the stroke before has just been finished
 };
 
 /// "", "write on", "too far from the start", "at the stroke's end", "in the middle of the stroke", "wrong direction",
-/// "another stroke's start", "lift the pen first".
+/// "another stroke's start", "too far from the stroke", "lift the pen first".
 const char* to_string(WritingHint hint) noexcept;
 
 struct HapticTick {
@@ -68,7 +69,7 @@ struct HapticTick {
   Eigen::Vector3d pen_tip = Eigen::Vector3d::Zero();       ///< virtual pen tip, page frame [m]
   double penetration = 0.0;                                ///< of the device point into the paper [m]
   StrokeContact contact;  ///< valid in the writing state and in the tick that leaves it
-  double covered = 0.0;   ///< share of the active stroke that has been written in order [1]
+  double covered = 0.0;   ///< share of the stroke written last that was covered in order [1]
   WritingHint hint = WritingHint::none;
   Point to_start = Point::Zero();    ///< from the pen tip to the start of the active stroke [m, page]
   Point attraction = Point::Zero();  ///< force term, including assistance, before fade-in and limits [N, page]

@@ -7,8 +7,9 @@
 
 namespace calligraphy {
 
-/// A spring and a damper along the force that was at work, which never exceed it and never push the other way: a pen
-/// that nobody holds is not driven on, and a hand that has been let go of finds less and less.
+/// A spring and a damper along the force that was at work: the spring never exceeds it and never pushes the other way,
+/// and vanishes before the damper does. A hand that has been let go of finds less and less, and a pen that nobody holds
+/// is not driven on.
 class ReleasedSpring {
  public:
   void clear() noexcept { *this = {}; }
@@ -17,30 +18,33 @@ class ReleasedSpring {
   /// `damping` [N s/m], and withdraws it in `ticks`.
   void take_over(const Point& force, const Point& tip, const Point& velocity, double stiffness, double damping,
                  double ticks) noexcept {
-    size_ = force.norm();
-    direction_ = size_ > 0.0 ? Point(force / size_) : Point(Point::Zero());
+    const double size = force.norm();
+    direction_ = size > 0.0 ? Point(force / size) : Point(Point::Zero());
     stiffness_ = stiffness;
     damping_ = damping;
-    unstrained_ = size_ + direction_.dot(stiffness * tip + damping * velocity);
+    tip_ = tip;
+    strained_ = std::max(0.0, size + damping * direction_.dot(velocity));
     step_ = ticks > 1.0 ? 1.0 / ticks : 1.0;
     passed_ = 0.0;
+    acts_ = size > 0.0;
   }
 
   /// Force of the next tick [N].
   Point next(const Point& tip, const Point& velocity) noexcept {
-    if (size_ == 0.0) return Point::Zero();
+    if (!acts_) return Point::Zero();
     passed_ = std::min(1.0, passed_ + step_);
+    acts_ = passed_ < 1.0;
     const double left = 1.0 - passed_ * passed_ * (3.0 - 2.0 * passed_);
-    const double force = unstrained_ - direction_.dot(stiffness_ * tip + damping_ * velocity);
-    const double size = size_;
-    if (passed_ == 1.0) size_ = 0.0;
-    return left * std::clamp(force, 0.0, size) * direction_;
+    const double spring = std::clamp(strained_ - stiffness_ * direction_.dot(tip - tip_), 0.0, strained_);
+    const double damping = (1.0 - passed_ * passed_ * passed_) * damping_ * direction_.dot(velocity);
+    return (left * spring - damping) * direction_;
   }
 
  private:
-  double size_ = 0.0;  ///< most that it may be [N]; 0: none
+  bool acts_ = false;
   Point direction_ = Point::Zero();
-  double unstrained_ = 0.0;  ///< force at a pen at rest in the origin [N]
+  Point tip_ = Point::Zero();
+  double strained_ = 0.0;  ///< of the spring, at most [N]
   double stiffness_ = 0.0, damping_ = 0.0;
   double step_ = 1.0, passed_ = 0.0;  ///< share of the time
 };

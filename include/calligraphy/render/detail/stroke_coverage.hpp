@@ -16,6 +16,9 @@ class StrokeCoverage {
   /// The pen is at `tip`; progress counts while it deviates by at most `corridor` [m].
   void update(const Point& tip, const StrokeContact& contact, double length, double corridor) noexcept;
 
+  /// Distance across the stroke of a hand that is at `hand`, beyond that at its beginning [m].
+  double astray(const Point& hand, const StrokeContact& contact) const noexcept;
+
   /// Share of `length` [m] that is covered.
   double share(double length) const noexcept;
 
