@@ -43,6 +43,9 @@ constexpr double free_share = 0.15;
 /// Stiffness of a grip on a pen, about which people's vary [N/m].
 constexpr double usual_grip = 300.0;
 
+/// Least share of a stroke that finishes it, however much the device's friction hides: more than half.
+constexpr double min_coverage = 0.6;
+
 /// Where guidance lets go of a pen: the tube's weight has fallen to this, or the hand is this far across [em].
 constexpr double slipping_weight = 0.5, slipping_detour = 0.08;
 
@@ -134,6 +137,7 @@ HapticRenderer::HapticRenderer(std::vector<PlacedCharacter> page, const MotionMa
   limiter_.peak = capabilities.peak_force / mapping.scale;
   limiter_.limit_rate = options.limit_force_rate;
   period_ = 1.0 / options.servo_rate;
+  hidden_way_ = mapping.scale * capabilities.coulomb_friction / usual_grip;
   velocity_ = VelocityEstimator(options.velocity_cutoff);
   rate_filter_ = -std::expm1(-2.0 * std::numbers::pi * options.velocity_cutoff * period_);
   observes_energy_ = options.passivity_control || std::isfinite(options.energy_budget);
@@ -317,13 +321,18 @@ void HapticRenderer::write_on(const Point& tip, TransitionInput& input) noexcept
     if (on_paper) coverage_.update(tip, tick_.contact, active_.length(), tolerances.corridor * active_character().em);
     tick_.covered = coverage_.share(active_.length());
   }
-  double needed = tolerances.coverage;
-  if (tick_.contact.finished) {
-    needed *= 1.0 - std::min(tolerances.late_start, coverage_.late() / active_.length());
-  }
-  const bool is_covered = tick_.covered >= needed && coverage_.keeps_in_corridor();
+  const bool is_covered = tick_.covered >= needed_coverage() && coverage_.keeps_in_corridor();
   const bool leaves = !input.contact || !input.inside_box;
   input.stroke_finished = leaves ? is_covered && tolerances.coverage > 0.0 : is_covered && tick_.contact.finished;
+}
+
+/// A hand cannot feel what the device's own friction hides, at the beginning of a stroke and at its end.
+double HapticRenderer::needed_coverage() const noexcept {
+  const StrokeTolerances& tolerances = options_.tolerances;
+  const double length = active_.length();
+  const double late = tick_.contact.finished ? std::min(tolerances.late_start, coverage_.late() / length) : 0.0;
+  const double needed = tolerances.coverage * (1.0 - late);
+  return std::max(needed - 2.0 * hidden_way_ / length, std::min(needed, min_coverage));
 }
 
 void HapticRenderer::put_down(const Point& tip) noexcept {

@@ -68,6 +68,7 @@ class HapticRenderer {
   bool plausible(const Eigen::Vector3d& position, double time) const noexcept;
   TransitionInput sense() noexcept;
   void write_on(const Point& tip, TransitionInput& input) noexcept;
+  double needed_coverage() const noexcept;
   void put_down(const Point& tip) noexcept;
   bool begins(const Point& tip) noexcept;
   WritingHint hint() const noexcept;
@@ -111,6 +112,7 @@ class HapticRenderer {
   double period_ = 0.001;        ///< [s]
   double max_guidance_ = 0.0;    ///< stiffness, attraction factor included [N/m, page]
   double max_attraction_ = 1.0;  ///< on the page
+  double hidden_way_ = 0.0;      ///< by which the device's dry friction holds the pen back from a usual hand [m, page]
   double rate_filter_ = 1.0;     ///< coefficient of the low-pass on the rate of the friction spring
   ForceLimiter limiter_;
   double fade_step_ = 1.0;  ///< per tick
