@@ -94,7 +94,7 @@ TEST_CASE("before its start guidance damps along the stroke fully, where the spr
   // And a pen astray that is led to the start.
   RendererOptions options;
   options.guide_to_start = true;
-  options.box_margin = 0.03;
+  options.box_margin = 0.75;
   OnStroke led(options);
   led.go(0.010, 0.0, 0.005);
   led.go(0.010, 0.015, 0.005);
@@ -211,7 +211,7 @@ TEST_CASE("where the saturating law is softer, its damping falls by the square r
   RendererOptions options;
   options.guidance = GuidanceLaw::saturating;
   options.guidance_limit = 1.2;
-  options.box_margin = 0.06;
+  options.box_margin = 1.5;
   for (const double distance : {0.015, 0.03}) {
     OnStroke test(options);
     test.go(0.010, distance);

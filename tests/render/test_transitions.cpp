@@ -150,7 +150,8 @@ TEST_CASE("a pen that chatters at the border of the box changes its state once",
   const Eigen::AlignedBox2d box = bounding_box(renderer.page()[0]);
   const double y = box.center().y();
   for (const double border :
-       {box.min().x() - options.box_margin, box.min().x() - options.box_margin - options.box_hysteresis}) {
+       {box.min().x() - 0.04 * options.box_margin,
+        box.min().x() - 0.04 * (options.box_margin + options.box_hysteresis)}) {
     renderer.restart();
     ScriptedPen pen(renderer);
     pen.go({0.0, y, 0.005});
@@ -167,7 +168,7 @@ TEST_CASE("a pen that chatters at the start circle begins the stroke once", "[re
   ScriptedPen pen(renderer);
   const Stroke first = strokes(renderer.page()[0].character)[0];
   const Point start = renderer.page()[0].placement.to_page(first.control_points[0]);
-  const Point rim = start + Point(0.0, -renderer.options().start_radius);
+  const Point rim = start + Point(0.0, -0.04 * renderer.options().tolerances.start_distance);
   pen.go(at(rim + Point(0.0, -0.002), 0.005));
   pen.go(at(rim + Point(0.0, -0.002), -0.001));
   CHECK(renderer.last().state == InteractionState::calibration);

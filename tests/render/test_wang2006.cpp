@@ -88,8 +88,8 @@ TEST_CASE("entering a stroke steps the force by K d as printed, within the rate 
   };
   RendererOptions printed = RendererOptions::wang2006(), limited;
   printed.guidance_stiffness = limited.guidance_stiffness = stiffness;
-  printed.start_radius = limited.start_radius = 0.004;
-  printed.box_margin = 0.01;
+  printed.tolerances.start_distance = limited.tolerances.start_distance = 0.1;  // 4 mm
+  printed.box_margin = 0.25;
   const double deviation = std::sqrt(0.004 * 0.004 - 0.001 * 0.001);        // where the pen crosses the start circle
   CHECK(entering(printed) == Approx(stiffness * deviation).epsilon(0.03));  // 1.55 N
   CHECK(entering(limited) <= 0.1);
