@@ -169,6 +169,27 @@ TEST_CASE("crossing a feature plane back and forth passes one feature point", "[
   CHECK(passed == 1);
 }
 
+TEST_CASE("a pen that is put down anywhere on a stroke is found there, and followed from there", "[collision]") {
+  const Character character = typical_character(18);
+  const Stroke stroke = strokes(character)[0];
+  const std::vector<Point> path = path_of(stroke, place, pen_step);
+  ActiveStroke active;
+  active.load(stroke, place);
+  double way = 0.0, worst = 0.0, worst_back = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    way += (path[i] - path[i - 1]).norm();
+    const StrokeContact found = active.nearest(path[i], {});
+    worst = std::max({worst, std::abs(found.arc - way), found.closest.distance});
+    CHECK(active.features_remaining() == 3);  // it has no effect on the progress
+    active.rest(found);
+    worst_back = std::max(worst_back, active.update(path[i], {}).backwards);
+    if (i >= 20) CHECK(active.update(path[i - 10], {}).backwards > 0.0);
+    active.reload();
+  }
+  CHECK(worst < 1e-4 * active.length());  // of the arc length on curves
+  CHECK(worst_back < 1e-9);
+}
+
 TEST_CASE("the attraction factor is linear in arc length, and as printed it steps at each feature point",
           "[collision]") {
   const Character character = typical_character(16, {1.0, 2.0, 0.5});

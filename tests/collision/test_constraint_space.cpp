@@ -103,6 +103,18 @@ TEST_CASE("the tube is the same on both sides of a stroke and around both of its
   }
 }
 
+TEST_CASE("the tube is as wide as the square that is written in says", "[collision]") {
+  const ConstraintSpace tube;
+  for (const double size : {0.01, 0.02, 0.2}) {
+    const StrokeElement element = element_of({{0.0, 0.0}, {size, 0.0}});
+    for (const double offset : {0.05, 0.15, 0.2, 0.25, 0.31}) {  // [em]
+      const Point query = size * Point(0.5, offset), in_40_mm = horizontal.point(0.5) + em * Point(0.0, offset);
+      const double weight = guidance_weight(tube, size, element, query, nearest_point(element, query));
+      CHECK(weight == Approx(share_at(tube, horizontal, in_40_mm)).margin(1e-12));
+    }
+  }
+}
+
 TEST_CASE("the fade may fill the whole tube, and a query that is not finite is outside", "[collision]") {
   const ConstraintSpace tube{ConstraintSpaceRule::tube, 0.2, 0.2};
   CHECK(share_at(tube, horizontal, {0.03, 0.02}) == 1.0);

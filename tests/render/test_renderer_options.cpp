@@ -250,7 +250,10 @@ TEST_CASE("a renderer needs a device that senses and drives three translations",
   CHECK(contains(complaint_of(plane, plane), "sensed axes are x, y, driven axes are x, y; the renderer"));
 }
 
-TEST_CASE("everything() is valid for the shipped devices, and enables every stage but passivity control and assistance as needed", "[render]") {
+TEST_CASE(
+    "everything() is valid for the shipped devices, and enables every stage but passivity control and assistance as "
+    "needed",
+    "[render]") {
   struct Shipped {
     double peak, continuous, stiffness, mass;
     int delay;
@@ -273,7 +276,7 @@ TEST_CASE("everything() is valid for the shipped devices, and enables every stag
       CHECK(options.servo_rate == rate);
       CHECK(options.guidance == GuidanceLaw::saturating);
       CHECK(options.guide_to_start);
-      CHECK_FALSE(options.assist.enabled);      // it withdraws guidance by intent
+      CHECK_FALSE(options.assist.enabled);  // it withdraws guidance by intent
       CHECK(options.friction.coefficient == 0.15);
       CHECK_FALSE(options.passivity_control);  // the springs are damped already
       CHECK(std::isfinite(options.energy_budget));

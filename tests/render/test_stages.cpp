@@ -444,8 +444,11 @@ TEST_CASE("with every stage enabled strokes are written exactly, beside and shif
   };
   // Beside a stroke that turns by any angle, the pen deviates from a shift by up to twice the offset: 2 mm, within the
   // corridor.
-  std::vector<Deviation> deviations = {{U'永', 0.0, {0, 0}}, {U'永', 0.001, {0, 0}}, {U'永', -0.001, {0, 0}},
-                                       {U'三', 0.003, {0, 0}}, {U'三', -0.003, {0, 0}}};
+  std::vector<Deviation> deviations = {{U'永', 0.0, {0, 0}},
+                                       {U'永', 0.001, {0, 0}},
+                                       {U'永', -0.001, {0, 0}},
+                                       {U'三', 0.003, {0, 0}},
+                                       {U'三', -0.003, {0, 0}}};
   for (int eighth = 0; eighth < 8; ++eighth) {
     const double angle = eighth * std::acos(-1.0) / 4.0;
     deviations.push_back({U'永', 0.0, 0.002 * Point(std::cos(angle), std::sin(angle))});  // 5 % of the em
@@ -511,8 +514,9 @@ TEST_CASE("a finished stroke stays finished, and a pen back on it changes no sta
   }
 }
 
-TEST_CASE("a pen lifted after one sample begins no stroke, after the first stretch it abandons it, without a force step",
-          "[render]") {
+TEST_CASE(
+    "a pen lifted after one sample begins no stroke, after the first stretch it abandons it, without a force step",
+    "[render]") {
   for (const RendererOptions& options : {RendererOptions{}, everything()}) {
     HapticRenderer renderer = renderer_of(U'三', options);
     ScriptedPen pen(renderer);
