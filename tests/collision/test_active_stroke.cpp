@@ -183,7 +183,11 @@ TEST_CASE("a pen that is put down anywhere on a stroke is found there, and follo
     CHECK(active.features_remaining() == 3);  // it has no effect on the progress
     active.rest(found);
     worst_back = std::max(worst_back, active.update(path[i], {}).backwards);
-    if (i >= 20) CHECK(active.update(path[i - 10], {}).backwards > 0.0);
+    // Unless it is so near to the end of an element that it counts as past it.
+    if (i >= 20 && active.features_remaining() == 3 - found.element &&
+        found.element == active.nearest(path[i - 10], {}).element) {
+      CHECK(active.update(path[i - 10], {}).backwards == Approx(10.0 * pen_step).epsilon(0.2));
+    }
     active.reload();
   }
   CHECK(worst < 1e-4 * active.length());  // of the arc length on curves

@@ -84,8 +84,9 @@ TEST_CASE("a stroke is begun within the tolerated angle of its direction, whiche
        {StrokeTolerances::lenient(), StrokeTolerances::normal(), StrokeTolerances::strict()}) {
     for (const double angle : {-179.0, -90.0, 0.0, 37.0, 135.0}) {
       for (const double side : {-1.0, 1.0}) {
-        Pen pen{{{{0, 0}, towards(angle * degree), stretch}}, tolerances};
-        const auto off_by = [&](double off) { return 0.002 * towards(angle * degree + side * off); };
+        const StrokeStart start{{0, 0}, towards(angle * degree), stretch};
+        Pen pen{{start}, tolerances};
+        const auto off_by = [&](double off) -> Point { return 0.002 * towards(angle * degree + side * off); };
         CAPTURE(tolerances.direction, angle, side);
         CHECK(pen.draw({0, 0}, off_by(tolerances.direction - degree)) == CaptureVerdict::begun);
         CHECK(pen.draw({0, 0}, off_by(tolerances.direction + degree)) == CaptureVerdict::wrong_direction);

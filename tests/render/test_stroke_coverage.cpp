@@ -173,10 +173,6 @@ TEST_CASE("what a pen skips is not covered, however it gets past it", "[render]"
                                              on_line(0.02, aside), on_line(0.02, 0), on_line(length, 0)}));
     CHECK(gap.share == Approx(2.0 / 3.0).margin(1e-6));
   }
-  std::vector<Point> leap = through({on_line(0, 0), on_line(0.01, 0)});
-  for (const Point& point : through({on_line(0.02, 0), on_line(length, 0)})) leap.push_back(point);
-  // A leap along the stroke is as good as fast writing.
-  CHECK(write(line, leap).share == Approx(1.0).margin(1e-6));
 }
 
 TEST_CASE("going over the same part twice covers it once", "[render]") {
