@@ -1,7 +1,9 @@
 // Which pen-down begins the stroke that is due: its place, its first direction, and the other strokes.
 #include "../catch.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -109,6 +111,10 @@ TEST_CASE("a pen that approaches the stroke from the side neither begins it nor 
     Pen pen{alone, {}};
     CHECK(pen.draw({0, 0.005 * side}, {0, -0.005 * side}) == CaptureVerdict::undecided);
     CHECK(pen.go({0.003, 0}) == CaptureVerdict::begun);
+    // Nor does the approach count towards the first stretch, with another start nearby either.
+    Pen near_another{{alone[0], {{0, 0.008 * side}, {0, side}, stretch}}, {}};
+    CHECK(near_another.draw({0, 0.005 * side}, {0.0012, -0.005 * side}) == CaptureVerdict::undecided);
+    CHECK(near_another.go({0.001, 0}) == CaptureVerdict::begun);
     // One that crosses it or moves off does.
     CHECK(pen.draw({0, 0.005 * side}, {0, -0.007 * side}) == CaptureVerdict::wrong_direction);
     CHECK(pen.draw({0, 0.005 * side}, {0, 0.002 * side}) == CaptureVerdict::wrong_direction);
@@ -120,7 +126,8 @@ TEST_CASE("a pen that approaches the stroke from the side neither begins it nor 
 TEST_CASE("who writes another stroke of the character writes that one until the pen is lifted", "[render]") {
   const Point other(0.012, 0);
   Pen pen{{alone[0], {other, {0, 1}, stretch}}, {}};
-  CHECK(pen.draw(other, {0, 0.003}) == CaptureVerdict::another_stroke);
+  CHECK(pen.draw(other, {0, 0.0015}) == CaptureVerdict::undecided);
+  CHECK(pen.go({0, 0.0015}) == CaptureVerdict::another_stroke);
   CHECK_FALSE(pen.capture.is_nearest());
   CHECK(pen.go(Point(-0.004, 0) - pen.tip) == CaptureVerdict::another_stroke);
   CHECK(pen.go({0.01, 0}) == CaptureVerdict::another_stroke);  // through the start of the stroke that is due
@@ -143,6 +150,7 @@ TEST_CASE("a later stroke is meant where it fits clearly better, not where the t
   Pen pen{{alone[0], {{0, 0}, towards(40.0 * degree), stretch}}, {}};
   CHECK(pen.draw({0, 0}, 0.002 * towards(0.0)) == CaptureVerdict::begun);
   CHECK(pen.draw({0, 0}, 0.002 * towards(20.0 * degree)) == CaptureVerdict::begun);
+  CHECK(pen.draw({0, 0}, 0.002 * towards(25.0 * degree)) == CaptureVerdict::begun);  // 1.7 times as far off
   CHECK(pen.draw({0, 0}, 0.002 * towards(40.0 * degree)) == CaptureVerdict::another_stroke);
   // And 4 mm apart; both tolerate 8 mm.
   pen.starts[1] = {{0, 0.004}, {1, 0}, stretch};

@@ -15,6 +15,7 @@ namespace stroke_coverage_tests {
 
 using namespace calligraphy;
 using calligraphy_test::draw_line;
+using calligraphy_test::path_of;
 
 namespace {
 
