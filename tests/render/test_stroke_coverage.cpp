@@ -176,6 +176,28 @@ TEST_CASE("what a pen skips is not covered, however it gets past it", "[render]"
   }
 }
 
+TEST_CASE("a closest point that leaps ahead of the pen covers what a bend or a corner explains, and no more",
+          "[render]") {
+  const auto after_leap = [](double leap, bool passes_feature) {
+    StrokeCoverage coverage;
+    coverage.restart({0, 0}, {0, 0}, {1, 0});
+    StrokeContact contact;
+    contact.closest.tangent = {1, 0};
+    for (const double arc : {leap, leap + step}) {  // the pen moves by one step each time, and is on the stroke
+      const Point tip = contact.closest.point + Point(step, 0);
+      contact.closest.point = tip;
+      contact.arc = arc;
+      contact.passed_feature = passes_feature && arc == leap;
+      coverage.update(tip, contact, length, corridor);
+    }
+    return length * coverage.share(length);
+  };
+  CHECK(after_leap(2.9 * step, false) == Approx(3.9 * step));
+  CHECK(after_leap(3.1 * step, false) == Approx(step));  // the leap is not covered, what follows is
+  CHECK(after_leap(1.9 * corridor, true) == Approx(1.9 * corridor + step));
+  CHECK(after_leap(2.1 * corridor, true) == Approx(2.0 * corridor + step));
+}
+
 TEST_CASE("going over the same part twice covers it once", "[render]") {
   CHECK(write(line, through({on_line(0, 0), on_line(0.015, 0), on_line(0.002, 0), on_line(0.015, 0)})).share ==
         Approx(0.5).margin(1e-6));
