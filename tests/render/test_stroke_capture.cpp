@@ -33,7 +33,7 @@ struct Pen {
   std::vector<StrokeStart> starts;
   StrokeTolerances tolerances;
   std::size_t due = 0;
-  StrokeCapture capture;
+  StrokeCapture capture = {};
   Point tip = {0, 0};
 
   CaptureVerdict down(const Point& place) {
