@@ -10,6 +10,9 @@ namespace {
 /// A pen with less than this fraction of the guidance is not writing the stroke: it may be on a nearby stroke.
 constexpr double min_weight = 0.5;
 
+/// Most that an offset at the start may bring a corner forward [em].
+constexpr double earliest_turn = 0.05;
+
 }  // namespace
 
 void ActiveStroke::load(const Stroke& stroke, const Placement& placement) noexcept {
@@ -35,12 +38,12 @@ void ActiveStroke::reload() noexcept {
   arc_ = 0.0;
   parameter_ = 0.0;
   furthest_ = 0.0;
-  misplaced_ = 0.0;
+  misplaced_ = Point::Zero();
 }
 
 void ActiveStroke::begin(const Point& tip) noexcept {
   reload();
-  misplaced_ = (tip - start()).norm();
+  misplaced_ = tip - start();
 }
 
 StrokeContact ActiveStroke::nearest(const Point& tip, const StrokeRules& rules) const noexcept {
@@ -63,7 +66,7 @@ void ActiveStroke::rest(const StrokeContact& nearest) noexcept {
   arc_ = nearest.arc - first_arc_[static_cast<std::size_t>(active_)];
   parameter_ = nearest.closest.parameter;
   furthest_ = nearest.arc;
-  misplaced_ = 0.0;
+  misplaced_ = Point::Zero();
 }
 
 StrokeContact ActiveStroke::update(const Point& tip, const StrokeRules& rules) noexcept {
@@ -123,8 +126,10 @@ bool ActiveStroke::passes(const Point& tip, const StrokeContact& contact, const 
   // Near the feature point along the stroke too: a plane also crosses other parts of the same stroke. On a curve the
   // closest point may lag behind the plane by more than the tolerance, but not by more than twice the tolerance unless
   // the pen is far away.
-  if (contact.weight < min_weight || left > 2.0 * tolerance + misplaced_ + 1e-6 * length) return false;
-  if (beyond >= -tolerance) return true;
+  if (contact.weight < min_weight || left > 2.0 * tolerance + misplaced_.norm() + 1e-6 * length) return false;
+  // One who began the stroke before its start may turn as much before the corner.
+  const double early = std::clamp(-planes_[i].normal.dot(misplaced_), 0.0, earliest_turn * em_);
+  if (beyond >= -tolerance - early) return true;
   // A pen that stays on the inside of a corner never reaches the plane: it passes on the bisector, where both elements
   // attract it equally.
   if (contact.element + 1 == element_count_) return false;

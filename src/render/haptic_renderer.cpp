@@ -318,7 +318,7 @@ void HapticRenderer::write_on(const Point& tip, TransitionInput& input) noexcept
   if (tick_.contact.finished) {
     needed *= 1.0 - std::min(tolerances.late_start, coverage_.late() / active_.length());
   }
-  const bool is_covered = tick_.covered >= needed && coverage_.keeps_to(tolerances.corridor * active_character().em);
+  const bool is_covered = tick_.covered >= needed && coverage_.keeps_in_corridor();
   const bool leaves = !input.contact || !input.inside_box;
   input.stroke_finished = leaves ? is_covered && tolerances.coverage > 0.0 : is_covered && tick_.contact.finished;
 }
@@ -390,8 +390,7 @@ void HapticRenderer::follow(const TransitionInput& input) noexcept {
   if (after == InteractionState::writing && before != InteractionState::writing) {
     tick_.events |= TickEvent::stroke_started;
     active_.begin(capture_.begin());
-    const StrokeStart& start = start_of_stroke();
-    coverage_.restart(capture_.begin(), capture_.begin() - start.point, start.direction);
+    coverage_.restart(capture_.begin(), start_of_stroke());
     tick_.covered = 0.0;
     resting_ = false;
     TransitionInput written;

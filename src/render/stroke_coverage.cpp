@@ -10,17 +10,18 @@ constexpr double max_lead = 3.0;
 
 /// A corner is passed before it is reached: the nearest point leaps by at most this, in corridors, and counts once the
 /// pen is there.
-constexpr double max_corner = 2.0;
+constexpr double max_corner = 1.5;
 
-/// RMS deviation of a pen that keeps to the corridor: a wave about the stroke is inside it for part of the way.
-constexpr double usual_share = 0.75;
+/// A pen that keeps to the corridor is outside for at most this share of its way.
+constexpr double max_outside = 0.1;
 
 }  // namespace
 
-void StrokeCoverage::restart(const Point& begin, const Point& offset, const Point& direction) noexcept {
+void StrokeCoverage::restart(const Point& begin, const StrokeStart& start) noexcept {
   *this = {};
-  offset_ = tolerated_ = offset;
-  ahead_ = offset.dot(direction);
+  start_ = start;
+  offset_ = tolerated_ = begin - start.point;
+  ahead_ = offset_.dot(start.direction);
   last_ = begin;
 }
 
@@ -28,7 +29,7 @@ void StrokeCoverage::update(const Point& tip, const StrokeContact& contact, doub
   const double step = (tip - last_).norm();
   last_ = tip;
 
-  const Point& tangent = contact.closest.tangent;
+  const Point& tangent = contact.arc < start_.stretch ? start_.direction : contact.closest.tangent;
   const Point normal(-tangent.y(), tangent.x());
   const Point deviation = tip - contact.closest.point;
   // The nearest point stays at an end of the stroke that the pen goes beyond.
@@ -45,7 +46,7 @@ void StrokeCoverage::update(const Point& tip, const StrokeContact& contact, doub
   tolerated_ += (still - kept) * normal;
 
   way_ += step;
-  squares_ += step * off * off;
+  if (off > corridor) outside_ += step;
 
   const double gained = arc - furthest_;
   if (contact.passed_feature) {
@@ -60,10 +61,7 @@ void StrokeCoverage::update(const Point& tip, const StrokeContact& contact, doub
   if (gained > 0.0) furthest_ = arc;
 }
 
-bool StrokeCoverage::keeps_to(double corridor) const noexcept {
-  const double most = usual_share * corridor;
-  return squares_ <= most * most * way_;
-}
+bool StrokeCoverage::keeps_in_corridor() const noexcept { return outside_ <= max_outside * way_; }
 
 double StrokeCoverage::share(double length) const noexcept { return covered_ < length ? covered_ / length : 1.0; }
 

@@ -28,15 +28,17 @@ using namespace calligraphy;
 
 constexpr const char* usage =
     "usage: guidance_judge pairs [--cases N] [--device NAME] [--renderer default|everything] [--em MM]\n"
-    "                            [--character C] [--seed S]\n"
-    "           strokes by the novice, with vision alone and with force; C, S: that one alone\n"
+    "                            [--character C [--seed S]]\n"
+    "           strokes by the novice, with vision alone and with force; C, S: that page alone\n"
     "       guidance_judge releases [--cases N] [--seed S] [--case K]\n"
     "           pens that the guidance lets go of; --case: one of them, its motion as CSV\n"
-    "       guidance_judge sequence [--what later|half|zigzag|shifted] [--characters N] [--em MM] [--device NAME|all]\n"
+    "       guidance_judge sequence [--what later|half|sideways|zigzag|shifted] [--characters N] [--em MM] [--device "
+    "NAME|all]\n"
     "                               [--renderer default|everything] [--character C] [--seed S]\n"
     "           what is taken for the due stroke: of the set CALLIGRAPHY_CHARACTER_FILE, or else of the built-in\n"
-    "           characters; zigzag --held: also in a hand\n"
-    "       guidance_judge everything [--seeds N] [--device NAME|all] [--text CHARACTERS]\n"
+    "           characters; zigzag --held: also in a hand; shifted --naive: by a hand that leaves the device's\n"
+    "           friction to the spring of its grip\n"
+    "       guidance_judge everything [--times N] [--device NAME|all] [--text CHARACTERS|all] [--em MM]\n"
     "           vision, the default and everything()\n"
     "each with --threads T (0: one per core)\n";
 
@@ -100,25 +102,26 @@ void print_pairs(const std::vector<CharacterPair>& characters, std::size_t most)
   std::sort(pairs.begin(), pairs.end(), [](const auto& a, const auto& b) { return a.excess() > b.excess(); });
   for (std::size_t i = 0; i < pairs.size() && (i < most || (i < 4 * most && pairs[i].fails())); ++i) {
     const StrokePair& pair = pairs[i];
-    std::printf("--character %s --seed %llu, stroke %d: largest error %.1f mm with force in %d contacts, %.1f mm with "
-                "vision in %d\n",
-                name_of(pair.character).c_str(), static_cast<unsigned long long>(pair.seed), pair.stroke + 1,
-                1e3 * pair.force.largest_error, pair.force.contacts, 1e3 * pair.vision.largest_error,
-                pair.vision.contacts);
+    std::printf(
+        "--character %s --seed %llu, stroke %d: largest error %.1f mm with force in %d contacts, %.1f mm with "
+        "vision in %d\n",
+        name_of(pair.character).c_str(), static_cast<unsigned long long>(pair.seed), pair.stroke + 1,
+        1e3 * pair.force.largest_error, pair.force.contacts, 1e3 * pair.vision.largest_error, pair.vision.contacts);
   }
   std::printf("%zu characters, %d strokes, %zu pairs\n", characters.size(), strokes, pairs.size());
-  std::printf("largest error with force beyond that with vision: > 2 mm in %d of %d (%.3f %%), > 4 mm in %d; median "
-              "%.2f, 95 %% %.2f, largest %.2f mm\n",
-              failed.count, failed.of, failed.percent(), grave.count, 1e3 * quantile(excess, 0.5),
-              1e3 * quantile(excess, 0.95), 1e3 * quantile(excess, 1.0));
+  std::printf(
+      "largest error with force beyond that with vision: > 2 mm in %d of %d (%.3f %%), > 4 mm in %d; median "
+      "%.2f, 95 %% %.2f, largest %.2f mm\n",
+      failed.count, failed.of, failed.percent(), grave.count, 1e3 * quantile(excess, 0.5), 1e3 * quantile(excess, 0.95),
+      1e3 * quantile(excess, 1.0));
   const char* const modes[] = {"vision", "force"};
   for (int i = 0; i < 2; ++i) {
-    std::printf("%s: finished at the first touch, if that was meant for the due stroke: %d of %d (%.2f %%); "
-                "characters unfinished: %d\n",
-                modes[i], at_once[i].count, at_once[i].of, at_once[i].percent(), unfinished[i]);
+    std::printf(
+        "%s: finished at the first touch, if that was meant for the due stroke: %d of %d (%.2f %%); "
+        "characters unfinished: %d\n",
+        modes[i], at_once[i].count, at_once[i].of, at_once[i].percent(), unfinished[i]);
   }
-  std::printf("force changes the RMS error by %+.1f +- %.1f %%, the time by %+.1f +- %.1f %% (95 %%, clustered by "
-              "seed)\n",
+  std::printf("force changes the RMS error by %+.1f +- %.1f %%, the time by %+.1f +- %.1f %% (95 %%)\n",
               -100.0 * error.mean(), 100.0 * error.half_width(), -100.0 * time.mean(), 100.0 * time.half_width());
 }
 
@@ -133,11 +136,13 @@ int pairs(Arguments& arguments) {
   const int seed = static_cast<int>(arguments.number("--seed", 0));
   if (!arguments.understood()) return 2;
   const std::vector<Character> characters = text.empty() ? built_in_characters().characters : built_in(text);
-  int strokes = 0;
-  for (const Character& character : characters) strokes += character.stroke_count();
-  const int seeds = seed > 0 ? 1 : (cases + strokes - 1) / strokes;
+  int pages = 0;
+  for (int strokes = 0; strokes < cases; ++pages) {
+    strokes += characters[static_cast<std::size_t>(pages) % characters.size()].stroke_count();
+  }
+  if (seed > 0) pages = static_cast<int>(characters.size());
   const auto first = static_cast<std::uint64_t>(std::max(1, seed));
-  print_pairs(write_pairs(characters, first, seeds, options, progress()), worst_shown);
+  print_pairs(write_pairs(characters, first, pages, options, progress()), worst_shown);
   return 0;
 }
 
@@ -145,8 +150,9 @@ int pairs(Arguments& arguments) {
 
 int replay_release(const ReleaseCase& drawn) {
   std::fprintf(stderr, "%s\n", describe(drawn).c_str());
-  std::printf("time_s,state,events,weight,x_mm,y_mm,z_mm,intended_x_mm,intended_y_mm,intended_z_mm,speed_mps,"
-              "twin_mps,force_x_N,force_y_N,force_z_N\n");
+  std::printf(
+      "time_s,state,events,weight,x_mm,y_mm,z_mm,intended_x_mm,intended_y_mm,intended_z_mm,speed_mps,"
+      "twin_mps,force_x_N,force_y_N,force_z_N\n");
   const auto events = run_release(drawn, [](const ReleaseSample& sample) {
     const Vector3d pen = 1e3 * sample.pen, intended = 1e3 * sample.intended, force = sample.tick.page_force;
     std::printf("%.4f,%s,%d,%.3f,%.3f,%.3f,%.3f,%.3f,%.3f,%.3f,%.4f,%.4f,%.3f,%.3f,%.3f\n", sample.time,
@@ -180,7 +186,8 @@ int releases(Arguments& arguments) {
     for (const ReleaseEvent& event : events[i]) {
       const std::string kind = release_names[static_cast<std::size_t>(event.kind)];
       for (const std::string& row :
-           {std::string("all"), "release " + kind, std::string("hand: ") + strain_names[static_cast<std::size_t>(drawn.strain)],
+           {std::string("all"), "release " + kind,
+            std::string("hand: ") + strain_names[static_cast<std::size_t>(drawn.strain)],
             std::string(drawn.everything ? "everything" : "for_device") + ", " + drawn.device.name}) {
         rows[row].failed.add(event.fails());
         rows[row].excess.push_back(event.excess);
@@ -193,7 +200,8 @@ int releases(Arguments& arguments) {
   }
   std::sort(worst.begin(), worst.end(), std::greater<>());
   for (std::size_t i = 0; i < std::min(worst_shown, worst.size()); ++i) std::printf("%s\n", worst[i].second.c_str());
-  std::printf("%-26s %8s %8s %8s %8s %8s   [m/s beyond the twin]\n", "", "releases", "failed", "median", "95 %", "worst");
+  std::printf("%-26s %8s %8s %8s %8s %8s   [m/s beyond the twin]\n", "", "releases", "failed", "median", "95 %",
+              "worst");
   for (const auto& [name, row] : rows) {
     std::printf("%-26s %8d %8d %8.3f %8.3f %8.3f\n", name.c_str(), row.failed.of, row.failed.count,
                 quantile(row.excess, 0.5), quantile(row.excess, 0.95), quantile(row.excess, 1.0));
@@ -226,6 +234,7 @@ class SequenceProgram {
         device_(arguments.text("--device", what_ == "shifted" ? "all" : "desktop")),
         renderer_(arguments.text("--renderer", "default")),
         held_(arguments.flag("--held")),
+        naive_(arguments.flag("--naive")),
         em_(arguments.number("--em", 0.0)) {
     const int count = static_cast<int>(arguments.number("--characters", 100));
     const std::string text = arguments.text("--character");
@@ -261,12 +270,18 @@ class SequenceProgram {
       judge("the second half was taken", part_of_stroke(0.5, 1.0));
       judge("the middle half was taken", part_of_stroke(0.25, 0.75));
       judge("the first 80 % were taken (for information)", part_of_stroke(0.0, 0.8));
+    } else if (what_ == "sideways") {
+      for (const double share : {0.05, -0.05, 0.1, -0.1, 0.15, -0.15, 0.1875, -0.1875}) {
+        char name[96];
+        std::snprintf(name, sizeof name, "displaced sideways by %+.2f %% of the em, it was taken", 100.0 * share);
+        judge(name, displaced_sideways(share * options_.em));
+      }
     } else if (what_ == "zigzag") {
       run_zigzags();
     } else if (what_ == "shifted") {
       run_people();
     } else {
-      throw ValueError("--what " + what_ + ": expected later, half, zigzag or shifted");
+      throw ValueError("--what " + what_ + ": expected later, half, sideways, zigzag or shifted");
     }
   }
 
@@ -307,6 +322,7 @@ class SequenceProgram {
         {"shifted, each stroke distorted by 2 %, scaled by up to 3 %", {0.05, Noise::distortion, 0.02, 0.03}},
     };
     options_.held = true;
+    options_.arm = naive_ ? Arm::naive : Arm::skilled;
     for (const Variant& variant : variants) {
       for (const bool feels : {true, false}) {
         options_.feels = feels;
@@ -317,7 +333,7 @@ class SequenceProgram {
   }
 
   std::string what_, device_, renderer_;
-  bool held_;
+  bool held_, naive_;
   double em_;
   SequenceOptions options_;
   std::vector<Character> characters_;
@@ -326,7 +342,8 @@ class SequenceProgram {
 // everything
 
 int everything(Arguments& arguments) {
-  const int seeds = static_cast<int>(arguments.number("--seeds", 20));
+  const int times = static_cast<int>(arguments.number("--times", 20));
+  const double em = 1e-3 * arguments.number("--em", 40.0);
   const std::string device_name = arguments.text("--device", "all");
   const std::string text = arguments.text("--text", "永北京航空和人三十大学中国文字");
   const int threads = static_cast<int>(arguments.number("--threads", 0));
@@ -335,14 +352,16 @@ int everything(Arguments& arguments) {
   std::printf("%-12s %-28s %-36s %s\n", "", "characters unfinished of", "RMS error, default / everything [%]",
               "time, default / everything [%]");
   for (const Capabilities& device : devices_of(device_name)) {
-    const auto runs = write_with_stages(characters, seeds, device, threads, progress());
+    const auto runs = write_with_stages(characters, times, device, em, threads, progress());
     int unfinished[3] = {};
     ClusteredMean error[2], time[2];
     Share at_once[3];
+    double rms[3] = {};
     for (const StagesRun& run : runs) {
       const std::array modes = {&run.vision, &run.standard, &run.everything};
       for (std::size_t i = 0; i < modes.size(); ++i) {
         unfinished[i] += !modes[i]->finished();
+        rms[i] += 1e3 * modes[i]->score.rms_error / static_cast<double>(runs.size());
         for (const StrokeRun& stroke : modes[i]->strokes) {
           if (stroke.meant_at_first) at_once[i].add(stroke.at_once);
         }
@@ -351,13 +370,15 @@ int everything(Arguments& arguments) {
         time[i - 1].add(run.seed, modes[i]->score.time / run.vision.score.time - 1.0);
       }
     }
-    std::printf("%-12s %4zu: vision %2d, %2d, %2d     %+6.1f +- %.1f  %+6.1f +- %.1f     %+6.1f +- %.1f  %+6.1f +- %.1f\n",
-                device.name.c_str(), runs.size(), unfinished[0], unfinished[1], unfinished[2], 100.0 * error[0].mean(),
-                100.0 * error[0].half_width(), 100.0 * error[1].mean(), 100.0 * error[1].half_width(),
-                100.0 * time[0].mean(), 100.0 * time[0].half_width(), 100.0 * time[1].mean(),
-                100.0 * time[1].half_width());
-    std::printf("             finished at the first touch: vision %.2f %%, default %.2f %%, everything %.2f %%\n",
-                at_once[0].percent(), at_once[1].percent(), at_once[2].percent());
+    std::printf(
+        "%-12s %5zu: vision %3d, %3d, %3d     %+6.1f +- %.1f  %+6.1f +- %.1f     %+6.1f +- %.1f  %+6.1f +- %.1f\n",
+        device.name.c_str(), runs.size(), unfinished[0], unfinished[1], unfinished[2], 100.0 * error[0].mean(),
+        100.0 * error[0].half_width(), 100.0 * error[1].mean(), 100.0 * error[1].half_width(), 100.0 * time[0].mean(),
+        100.0 * time[0].half_width(), 100.0 * time[1].mean(), 100.0 * time[1].half_width());
+    std::printf(
+        "             finished at the first touch: vision %.2f %%, default %.2f %%, everything %.2f %%; mean "
+        "RMS error %.3f, %.3f, %.3f mm\n",
+        at_once[0].percent(), at_once[1].percent(), at_once[2].percent(), rms[0], rms[1], rms[2]);
   }
   return 0;
 }
@@ -376,6 +397,7 @@ int run(const std::string& command, Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);  // minutes pass between lines
   const std::string command = argc > 1 ? argv[1] : "";
   Arguments arguments(argc > 1 ? argc - 1 : argc, argc > 1 ? argv + 1 : argv);
   try {

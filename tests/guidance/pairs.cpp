@@ -76,16 +76,16 @@ std::vector<StrokePair> CharacterPair::strokes() const {
   return pairs;
 }
 
-std::vector<CharacterPair> write_pairs(const std::vector<Character>& characters, std::uint64_t first_seed, int seeds,
+std::vector<CharacterPair> write_pairs(const std::vector<Character>& characters, std::uint64_t first_seed, int count,
                                        const PairOptions& options, const std::function<void(double)>& progress) {
-  std::vector<CharacterPair> pairs(characters.size() * static_cast<std::size_t>(seeds));
+  std::vector<CharacterPair> pairs(static_cast<std::size_t>(count));
   parallel_for(
       pairs.size(), options.threads, progress ? progress : [](double) {},
       [&](std::size_t i) {
         const Character& character = characters[i % characters.size()];
         CharacterPair& pair = pairs[i];
         pair.character = character.code;
-        pair.seed = first_seed + i / characters.size();
+        pair.seed = first_seed + i;
         SessionOptions session;
         session.device = options.device;
         session.renderer = options.renderer;

@@ -11,7 +11,7 @@
 
 namespace calligraphy_test {
 
-inline constexpr double settling = 0.1;           ///< of each contact, not judged [s]
+inline constexpr double settling = 0.1;            ///< of each contact, not judged [s]
 inline constexpr double tolerated_excess = 0.002;  ///< of the largest error with force beyond that with vision [m]
 
 /// A due stroke, from the first contact made for it until the first one made for the next.
@@ -67,9 +67,10 @@ struct PairOptions {
   int threads = 0;
 };
 
-/// Each character with each seed from `first_seed`, each alone on its page.
+/// `count` characters in turn, each alone on its page and with a seed of its own, the first one with `first_seed`:
+/// characters of one seed would share the writer's beliefs.
 std::vector<CharacterPair> write_pairs(const std::vector<calligraphy::Character>& characters, std::uint64_t first_seed,
-                                       int seeds, const PairOptions& options,
+                                       int count, const PairOptions& options,
                                        const std::function<void(double)>& progress = nullptr);
 
 }  // namespace calligraphy_test

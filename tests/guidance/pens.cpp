@@ -60,15 +60,34 @@ void KinematicPen::step(const Eigen::Vector3d& to) {
 }
 
 HeldPen::HeldPen(const PracticePage& page, const Capabilities& device, const RendererOptions& options,
-                 const GripImpedance& grip, bool feels)
-    : Pen(page, device, options), device_(device, grip, renderer_.mapping().to_device(intended_)), feels_(feels) {
+                 const GripImpedance& grip, Arm arm, bool feels)
+    : Pen(page, device, options),
+      device_(device, grip, renderer_.mapping().to_device(intended_)),
+      grip_(grip),
+      arm_(arm),
+      feels_(feels),
+      meant_(renderer_.mapping().to_device(intended_)) {
   pressed_ = 0.0025;
+}
+
+/// How far the hand means to be ahead, so that its spring exerts what moves the pen.
+Eigen::Vector3d HeldPen::lead(const Eigen::Vector3d& velocity, const Eigen::Vector3d& acceleration) const {
+  if (arm_ == Arm::naive) return Eigen::Vector3d::Zero();
+  constexpr double slow = 0.002;  // friction sets in over this speed [m/s]
+  const Capabilities& device = device_.capabilities();
+  const Eigen::Vector3d friction = (velocity / slow).array().max(-1.0).min(1.0) * device.coulomb_friction;
+  return ((device.apparent_mass + grip_.mass) * acceleration + device.viscous_friction * velocity + friction) /
+         grip_.stiffness;
 }
 
 void HeldPen::step(const Eigen::Vector3d& to) {
   const MotionMapping& mapping = renderer_.mapping();
-  device_.set_intention(
-      {mapping.to_device(intended_), mapping.to_device(to) / period_ - mapping.to_device(intended_) / period_});
+  const Eigen::Vector3d at = mapping.to_device(to);
+  const Eigen::Vector3d velocity = (at - mapping.to_device(intended_)) / period_;
+  const Eigen::Vector3d meant = at + lead(velocity, (velocity - velocity_) / period_);
+  device_.set_intention({meant_, (meant - meant_) / period_});
+  meant_ = meant;
+  velocity_ = velocity;
   device_.advance(period_);
   const HapticTick& tick = renderer_.update(device_.read());
   device_.write(feels_ ? tick.force : Eigen::Vector3d(Eigen::Vector3d::Zero()));

@@ -24,7 +24,7 @@ namespace {
 
 constexpr double raised = 0.008, depth = 0.0025;  // of the intention [m]
 constexpr double lowering = 0.2, waiting = 0.15;  // before the hand moves on [s]
-constexpr double fastest_aside = 0.06;             // [m/s]
+constexpr double fastest_aside = 0.06;            // [m/s]
 constexpr double full_weight = 0.95;
 constexpr double felt = 0.02;  // a weaker guidance is not missed [N]
 
@@ -198,9 +198,9 @@ std::vector<ReleaseEvent> run_release(const ReleaseCase& drawn,
   const StrokeLine line = stroke_lines(page.characters.front()).front();
   const StrainedHand hand(drawn, line);
   const MotionMapping mapping = upright_page(page.width, page.height);  // axes of the page are those of the device
-  HapticRenderer renderer(page.characters, mapping, drawn.device,
-                          drawn.everything ? RendererOptions::everything(drawn.device)
-                                           : RendererOptions::for_device(drawn.device));
+  HapticRenderer renderer(
+      page.characters, mapping, drawn.device,
+      drawn.everything ? RendererOptions::everything(drawn.device) : RendererOptions::for_device(drawn.device));
   IndependentDevice device(drawn.device, mapping.to_device(hand.intended(0.0)));
   const auto act = [&](double time, const Vector3d& position, const Vector3d& velocity) {
     return hand.act(time, mapping.to_page(position), velocity);
@@ -220,8 +220,8 @@ std::vector<ReleaseEvent> run_release(const ReleaseCase& drawn,
     device.advance(period, act);
     for (Twin& twin : twins) {
       const double since = twin.device.time() - twin.event.time;
-      const Point force =
-          twin.guidance.force(mapping.to_page(twin.device.position()).head<2>(), twin.device.velocity().head<2>(), since);
+      const Point force = twin.guidance.force(mapping.to_page(twin.device.position()).head<2>(),
+                                              twin.device.velocity().head<2>(), since);
       twin.device.write({force.x(), force.y(), tick.force.z()});
       twin.device.advance(period, act);
       const double excess = device.velocity().head<2>().norm() - twin.device.velocity().head<2>().norm();

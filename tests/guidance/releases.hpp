@@ -13,7 +13,7 @@
 
 namespace calligraphy_test {
 
-inline constexpr double release_window = 0.2;   ///< [s]
+inline constexpr double release_window = 0.2;    ///< [s]
 inline constexpr double tolerated_speed = 0.15;  ///< of the released pen beyond its twin [m/s]
 
 enum class Strain {
@@ -53,9 +53,9 @@ struct ReleaseCase {
 
 struct ReleaseEvent {
   Release kind = Release::finished;
-  double time = 0.0;    ///< [s]
-  double force = 0.0;   ///< of the guidance just before [N]
-  double excess = 0.0;  ///< largest speed of the pen in the plane beyond its twin's at the same time [m/s]
+  double time = 0.0;       ///< [s]
+  double force = 0.0;      ///< of the guidance just before [N]
+  double excess = 0.0;     ///< largest speed of the pen in the plane beyond its twin's at the same time [m/s]
   double excess_at = 0.0;  ///< after the release [s]
 
   bool fails() const { return excess > tolerated_speed; }

@@ -15,7 +15,7 @@ namespace {
 
 std::unique_ptr<Pen> pen_for(const PracticePage& page, const SequenceOptions& options) {
   if (!options.held) return std::make_unique<KinematicPen>(page, options.device, options.renderer);
-  return std::make_unique<HeldPen>(page, options.device, options.renderer, GripImpedance{}, options.feels);
+  return std::make_unique<HeldPen>(page, options.device, options.renderer, GripImpedance{}, options.arm, options.feels);
 }
 
 /// Judges each character by itself, in parallel.
@@ -105,6 +105,14 @@ Attempts later_strokes(double em, double different) {
 Attempts part_of_stroke(double from, double to) {
   return [=](const std::vector<StrokeLine>& lines, std::size_t due) {
     return std::vector<Attempt>{{lines[due].part(from, to), {}}};
+  };
+}
+
+Attempts displaced_sideways(double distance) {
+  return [=](const std::vector<StrokeLine>& lines, std::size_t due) {
+    const Point along = (lines[due].at(lines[due].length()) - lines[due].at(0.0)).normalized();
+    const Point way = distance * Point(-along.y(), along.x());
+    return std::vector<Attempt>{{lines[due].moved([&](const Point& point, double) { return Point(point + way); }), {}}};
   };
 }
 

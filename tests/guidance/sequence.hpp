@@ -16,7 +16,8 @@ struct SequenceOptions {
   calligraphy::RendererOptions renderer;
   double em = 0.04;        ///< [m]
   bool held = false;       ///< by a normal grip under force; or else the pen is where it is meant to be
-  bool feels = true;       ///< a held pen
+  Arm arm = Arm::skilled;  ///< of a held pen
+  bool feels = true;       ///< likewise
   std::uint64_t seed = 1;  ///< of what is drawn at random
   int threads = 0;
 };
@@ -24,8 +25,8 @@ struct SequenceOptions {
 /// One stroke that was taken although it must not be, or was not although it must.
 struct Finding {
   char32_t character = 0;
-  int stroke = 0;    ///< that was due, from 0
-  int other = -1;    ///< what was drawn for it
+  int stroke = 0;     ///< that was due, from 0
+  int other = -1;     ///< what was drawn for it
   double figure = 0;  ///< how different it was, or how long the due stroke is [em]
 };
 
@@ -55,6 +56,9 @@ Attempts later_strokes(double em, double different = 0.05);
 
 /// The part between two shares of the length.
 Attempts part_of_stroke(double from, double to);
+
+/// The stroke, displaced across the line from its start to its end; to the left if `distance` is above 0 [m].
+Attempts displaced_sideways(double distance);
 
 /// A wave of this amplitude about the stroke, on a wavelength, or the stroke's length if that is shorter: at least one
 /// whole period. [em]

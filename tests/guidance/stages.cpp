@@ -7,10 +7,10 @@ namespace calligraphy_test {
 
 using namespace calligraphy;
 
-std::vector<StagesRun> write_with_stages(const std::vector<Character>& characters, int seeds,
-                                         const Capabilities& device, int threads,
+std::vector<StagesRun> write_with_stages(const std::vector<Character>& characters, int times,
+                                         const Capabilities& device, double em, int threads,
                                          const std::function<void(double)>& progress) {
-  std::vector<StagesRun> runs(characters.size() * static_cast<std::size_t>(seeds));
+  std::vector<StagesRun> runs(characters.size() * static_cast<std::size_t>(times));
   SessionOptions standard;
   standard.device = device;
   standard.skill = WriterSkill::novice();
@@ -24,8 +24,8 @@ std::vector<StagesRun> write_with_stages(const std::vector<Character>& character
         StagesRun& run = runs[i];
         const Character& character = characters[i % characters.size()];
         run.character = character.code;
-        run.seed = 1 + i / characters.size();
-        const PracticePage page = page_of(character, 0.04);
+        run.seed = 1 + i;
+        const PracticePage page = page_of(character, em);
         const auto write = [&](SessionOptions options) {
           options.seed = run.seed;
           return write_character(page, options);

@@ -12,9 +12,9 @@ struct StagesRun {
   CharacterRun vision, standard, everything;
 };
 
-/// The novice writes each character with each seed from 1, alone on its page.
-std::vector<StagesRun> write_with_stages(const std::vector<calligraphy::Character>& characters, int seeds,
-                                         const calligraphy::Capabilities& device, int threads,
+/// The novice writes each character so many times, alone on its page, with a seed of its own each time.
+std::vector<StagesRun> write_with_stages(const std::vector<calligraphy::Character>& characters, int times,
+                                         const calligraphy::Capabilities& device, double em, int threads,
                                          const std::function<void(double)>& progress = nullptr);
 
 }  // namespace calligraphy_test

@@ -1,1 +1,204 @@
+// What the guidance does to a pen, and what it takes for the due stroke: a few of the cases of guidance_judge, which
+// runs thousands.
+#include <algorithm>
+#include <numeric>
+
+#include <calligraphy/base/text.hpp>
+#include <calligraphy/devices/device_profiles.hpp>
+#include <calligraphy/model/character_list.hpp>
+
 #include "catch.hpp"
+#include "pairs.hpp"
+#include "releases.hpp"
+#include "sequence.hpp"
+#include "stages.hpp"
+#include "stroke_line.hpp"
+
+namespace calligraphy_test {
+namespace {
+
+using namespace calligraphy;
+
+// Sanitizer builds check memory only.
+#ifdef __SANITIZE_ADDRESS__
+constexpr std::size_t most_characters = 3;
+constexpr int pair_count = 3, release_count = 10;
+const std::vector<double> sizes = {0.04};
+#else
+constexpr std::size_t most_characters = 1000;
+constexpr int pair_count = 160, release_count = 400;
+const std::vector<double> sizes = {0.01, 0.02, 0.04};
+#endif
+
+std::vector<Character> characters() {
+  std::vector<Character> all = built_in_characters().characters;
+  all.resize(std::min(all.size(), most_characters));
+  return all;
+}
+
+SequenceOptions on(const std::string& device, double em) {
+  SequenceOptions options;
+  options.device = device_profile(device);
+  options.renderer = RendererOptions::for_device(options.device);
+  options.em = em;
+  return options;
+}
+
+std::string list(const SequenceResult& result) {
+  std::string text = std::to_string(result.taken.count) + " of " + std::to_string(result.taken.of) + " taken; ";
+  for (std::size_t i = 0; i < std::min<std::size_t>(8, result.findings.size()); ++i) {
+    const Finding& finding = result.findings[i];
+    text += encode_utf8(finding.character) + " stroke " + std::to_string(finding.stroke + 1) +
+            (finding.other >= 0 ? " attempt " + std::to_string(finding.other + 1) : "") + ", ";
+  }
+  return text;
+}
+
+/// None of the attempts is taken for a due stroke, and each due stroke itself is.
+void check_none_taken(double em, const Attempts& attempts) {
+  const SequenceResult result = judge_attempts(characters(), on("desktop", em), attempts);
+  INFO("em " << 1e3 * em << " mm: " << list(result));
+  CHECK(result.taken.of > 0);
+  CHECK(result.taken.count == 0);
+  CHECK(result.not_finished_exactly == 0);
+}
+
+double quarter_circle_error(double x, double y) {
+  // 4/3 (sqrt 2 - 1): the cubic is within 3e-4 of the circle.
+  constexpr double k = 0.5522847498;
+  StrokeInput input{7, {}, {}};
+  for (const TypicalStroke& type : typical_strokes()) {
+    if (type.elements == "C") input.id = type.id;
+  }
+  input.control_points = {{0.0, 1.0}, {k, 1.0}, {1.0, k}, {1.0, 0.0}};
+  const PlacedCharacter placed{make_character(U'一', std::span(&input, 1)), {Point::Zero(), 1.0}};
+  return stroke_lines(placed).front().distance(Point(x, y));
+}
+
+}  // namespace
+
+TEST_CASE("the judge: the distance from a quarter of a circle is that of geometry, beyond its ends too", "[guidance]") {
+  CHECK(quarter_circle_error(0.0, 0.0) == Approx(1.0).epsilon(1e-3));
+  CHECK(quarter_circle_error(0.9, 1.2) == Approx(0.5).epsilon(1e-3));
+  CHECK(quarter_circle_error(1.3, -0.4) == Approx(0.5).epsilon(1e-3));
+  CHECK(quarter_circle_error(-0.4, 1.3) == Approx(0.5).epsilon(1e-3));
+}
+
+TEST_CASE("the judge: parts and zigzags of a line are where they should be", "[guidance]") {
+  const StrokeLine line({{0.0, 0.0}, {0.03, 0.0}, {0.03, 0.01}}, {0, 1, 2});
+  CHECK(line.part(0.5, 1.0).length() == Approx(0.02));
+  CHECK(line.part(0.5, 1.0).corners().size() == 3);
+  CHECK(line.part(0.25, 0.75).at(0.0).x() == Approx(0.01));
+  CHECK(mean_distance(line, line.moved([](const Point& point, double) { return Point(point + Point(3e-3, 4e-3)); })) ==
+        Approx(0.005));
+  const StrokeLine straight({{0.0, 0.0}, {0.03, 0.0}}, {0, 1});
+  for (const bool sine : {false, true}) {
+    const StrokeLine zigzag = zigzag_about(straight, {0.1, 0.2, sine, true}, 0.04);
+    double lowest = 0.0, highest = 0.0;
+    for (const Point& point : zigzag.points()) {
+      lowest = std::min(lowest, point.y());
+      highest = std::max(highest, point.y());
+    }
+    CHECK(zigzag.at(0.0).y() == Approx(0.004));
+    CHECK(lowest == Approx(-0.004).epsilon(0.01));
+    CHECK(highest == Approx(0.004).epsilon(0.01));
+  }
+}
+
+TEST_CASE("force never takes a pen more than 2 mm farther from the stroke that the writer means than vision does",
+          "[guidance]") {
+  for (const std::string device : {"desktop", "omni"}) {
+    PairOptions options;
+    options.device = device_profile(device);
+    options.renderer = RendererOptions::for_device(options.device);
+    for (const CharacterPair& character : write_pairs(characters(), 1, pair_count, options)) {
+      for (const StrokePair& pair : character.strokes()) {
+        INFO(device << ": " << encode_utf8(pair.character) << " seed " << pair.seed << " stroke " << pair.stroke + 1
+                    << ": " << 1e3 * pair.force.largest_error << " mm, with vision "
+                    << 1e3 * pair.vision.largest_error);
+        CHECK_FALSE(pair.fails());
+      }
+    }
+  }
+}
+
+TEST_CASE("guidance that lets go of a pen gives it no speed that its twin, still held, has not", "[guidance]") {
+  std::size_t released = 0;
+  const auto events = run_releases(1, release_count, 0);
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    for (const ReleaseEvent& event : events[i]) {
+      INFO(describe(draw_release(1, static_cast<int>(i))) << ": " << release_names[static_cast<std::size_t>(event.kind)]
+                                                          << " at " << event.force << " N: " << event.excess << " m/s");
+      CHECK_FALSE(event.fails());
+      ++released;
+    }
+  }
+  CHECK(released > static_cast<std::size_t>(release_count) / 5);
+}
+
+TEST_CASE("a later stroke is not taken for the due one where they differ", "[guidance]") {
+  for (const double em : sizes) {
+    const SequenceResult result = judge_attempts(characters(), on("desktop", em), later_strokes(em));
+    INFO("em " << 1e3 * em << " mm: " << list(result));
+    CHECK(result.taken.of > 0);
+    CHECK(result.taken.percent() <= 0.5);
+    CHECK(result.not_finished_exactly == 0);
+  }
+}
+
+TEST_CASE("half a stroke does not finish it, whichever half", "[guidance]") {
+  for (const double em : sizes) {
+    check_none_taken(em, part_of_stroke(0.0, 0.5));
+    check_none_taken(em, part_of_stroke(0.5, 1.0));
+    check_none_taken(em, part_of_stroke(0.25, 0.75));
+  }
+}
+
+TEST_CASE("a zigzag of 10 % of the em about a stroke does not finish it", "[guidance]") {
+  std::vector<Zigzag> all;
+  for (const double wavelength : {0.1, 0.2, 0.3, 0.5}) {
+    for (const bool sine : {false, true}) {
+      for (const bool at_extreme : {false, true}) all.push_back({0.1, wavelength, sine, at_extreme});
+    }
+  }
+  for (const double em : sizes) check_none_taken(em, zigzags(em, all));
+}
+
+TEST_CASE("strokes as people draw them finish at the first touch on every device, with force and without",
+          "[guidance]") {
+  const PeopleDraw people{0.05, Noise::distortion, 0.02, 0.0};
+  for (const Capabilities& device : device_profiles()) {
+    for (const double em : sizes) {
+      for (const bool feels : {true, false}) {
+        SequenceOptions options = on(device.name, em);
+        options.held = true;
+        options.feels = feels;
+        const SequenceResult result = judge_people(characters(), options, people);
+        CAPTURE(device.name, em, feels, result.taken.count, result.taken.of);
+        CHECK(result.taken.percent() >= 99.0);
+      }
+    }
+  }
+}
+
+TEST_CASE("everything() finishes as many characters as vision and reduces the error as much as the default",
+          "[guidance]") {
+  for (const std::string name : {"desktop", "omni"}) {
+    for (const double em : sizes) {
+      if (em < 0.02) continue;
+      int vision = 0, everything = 0;
+      double standard_error = 0.0, everything_error = 0.0;
+      for (const StagesRun& run : write_with_stages(characters(), 1, device_profile(name), em, 0)) {
+        vision += run.vision.finished();
+        everything += run.everything.finished();
+        standard_error += run.standard.score.rms_error;
+        everything_error += run.everything.score.rms_error;
+      }
+      CAPTURE(name, em, vision, everything);
+      CHECK(everything >= vision);
+      CHECK(everything_error <= standard_error);
+    }
+  }
+}
+
+}  // namespace calligraphy_test

@@ -164,15 +164,15 @@ void add_collision(py::module_& module) {
   add_enum(module, "AttractionRule", "Which attraction factor applies between two feature points.",
            AttractionRule::wang2006, "interpolated wang2006");
   add_struct<ConstraintSpace>(module, "ConstraintSpace", "Region of attraction of an element.", &ConstraintSpace::rule,
-                              "rule: ConstraintSpaceRule", &ConstraintSpace::radius, "radius [m]",
+                              "rule: ConstraintSpaceRule", &ConstraintSpace::radius, "radius [em]",
                               &ConstraintSpace::fade_width,
-                              "fade_width: outermost part, where attraction fades out [m]");
+                              "fade_width: outermost part, where attraction fades out [em]");
   add_struct<StrokeRules>(module, "StrokeRules", "How the pen is tracked along the active stroke.",
                           &StrokeRules::nearest, "nearest: NearestPointOptions", &StrokeRules::space,
                           "space: ConstraintSpace", &StrokeRules::plane, "plane: FeaturePlaneRule",
                           &StrokeRules::attraction, "attraction: AttractionRule", &StrokeRules::plane_tolerance,
-                          "plane_tolerance: a plane counts as crossed this far before it [m]", &StrokeRules::window,
-                          "window: arc length to search for the closest point; 0: the whole element [m]");
+                          "plane_tolerance: a plane counts as crossed this far before it [em]", &StrokeRules::window,
+                          "window: arc length to search for the closest point; 0: the whole element [em]");
   add_struct<Placement>(module, "Placement", "em coordinates to metres: page point = origin + em * point.",
                         &Placement::origin, "origin: lower left corner of the em square, (2,) [m]", &Placement::em,
                         "em: edge of the em square [m]")

@@ -93,13 +93,27 @@ void add_render(py::module_& module) {
   add_struct<AssistPolicy>(
       module, "AssistPolicy", "Assistance as needed.", &AssistPolicy::enabled, "enabled: False: full assistance always",
       &AssistPolicy::retention, "retention: share of the previous assistance retained [1]",
-      &AssistPolicy::full_assistance_error, "full_assistance_error: RMS lateral error that keeps assistance at 1 [m]",
+      &AssistPolicy::full_assistance_error, "full_assistance_error: RMS lateral error that keeps assistance at 1 [em]",
       &AssistPolicy::min_assistance, "min_assistance: lower bound of the assistance [1]");
   add_struct<FrictionOptions>(module, "FrictionOptions", "Friction between pen and paper.", &FrictionOptions::model,
                               "model: FrictionModel", &FrictionOptions::coefficient,
                               "coefficient: mu; 0: no friction [1]", &FrictionOptions::stiffness,
                               "stiffness: of the spring between pen and anchor [N/m]", &FrictionOptions::damping,
                               "damping: of that spring, not of the sliding pen [N s/m]");
+  using T = StrokeTolerances;
+  add_struct<T>(module, "StrokeTolerances", "How exactly a stroke must be written to count as the one that is due.",
+                &T::start_distance, "start_distance: it begins within this distance of its start [em]", &T::direction,
+                "direction: its first stretch runs within this angle of the stroke's own [rad]", &T::first_stretch,
+                "first_stretch: length over which that is judged, at most a quarter of the stroke; 0: place only [em]",
+                &T::distinction,
+                "distinction: a later stroke is meant if its start fits better by this factor; infinite: never [1]",
+                &T::corridor, "corridor: maximum lateral deviation at which the pen makes progress [em]", &T::coverage,
+                "coverage: share of the length to be covered in order; 0: the feature planes alone finish it [1]",
+                &T::late_start,
+                "late_start: share that may be missing at the beginning of a stroke written to its end [1]")
+      .def_static("lenient", &T::lenient, "For beginners and for large devices held loosely.")
+      .def_static("normal", &T::normal, "The default.")
+      .def_static("strict", &T::strict, "For examinations.");
   using O = RendererOptions;
   add_struct<O>(
       module, "RendererOptions", "Options of the haptic renderer.", &O::servo_rate, "servo_rate [Hz]",
@@ -109,19 +123,20 @@ void add_render(py::module_& module) {
       "guidance_stiffness: K_et of eq. (8) where the attraction factor is 1 [N/m]", &O::guidance_damping,
       "guidance_damping: where guidance acts, against motion across the stroke [N s/m]", &O::velocity_cutoff,
       "velocity_cutoff: of the low-pass on the velocity for both [Hz]", &O::guidance_fade_in,
-      "guidance_fade_in: time [s]", &O::wrong_way_stiffness,
-      "wrong_way_stiffness: against writing backwards; 0: none [N/m]", &O::wrong_way_limit,
-      "wrong_way_limit: maximum force [N]", &O::wrong_way_slack, "wrong_way_slack: dead band [m]", &O::stiffness_check,
+      "guidance_fade_in: time [s]", &O::guidance_fade_out, "guidance_fade_out: time when guidance lets go [s]",
+      &O::wrong_way_stiffness, "wrong_way_stiffness: against writing backwards; 0: none [N/m]", &O::wrong_way_limit,
+      "wrong_way_limit: maximum force [N]", &O::wrong_way_slack, "wrong_way_slack: dead band [em]", &O::stiffness_check,
       "stiffness_check: StiffnessCheck", &O::guidance, "guidance: GuidanceLaw", &O::guidance_limit,
       "guidance_limit: saturating: maximum guidance force [N]", &O::guide_to_start,
       "guide_to_start: before a stroke, pull the pen to its start", &O::assist, "assist: AssistPolicy", &O::friction,
-      "friction: FrictionOptions", &O::stroke, "stroke: StrokeRules", &O::start_radius,
-      "start_radius: a stroke begins this near to its start [m]", &O::box_margin, "box_margin [m]", &O::lift_height,
+      "friction: FrictionOptions", &O::tolerances, "tolerances: StrokeTolerances", &O::stroke, "stroke: StrokeRules",
+      &O::box_margin, "box_margin: around the active character [em]", &O::lift_height,
       "lift_height: hysteresis of the contact [m]", &O::lift_time,
       "lift_time: the pen counts as lifted once it has been above the paper for this time [s]", &O::lift_clearance,
       "lift_clearance: or at once this far above it; until then it may bounce [m]", &O::box_hysteresis,
-      "box_hysteresis [m]", &O::lift_between_strokes, "lift_between_strokes: the next stroke begins with a new contact",
-      &O::solid_paper, "solid_paper: normal force in the adjusting state too", &O::in_plane_force_rate,
+      "box_hysteresis: the box is left this far outside its edge [em]", &O::lift_between_strokes,
+      "lift_between_strokes: the next stroke begins with a new contact", &O::solid_paper,
+      "solid_paper: normal force in the adjusting state too", &O::in_plane_force_rate,
       "in_plane_force_rate: in the paper plane, beyond what springs and dampers change as the pen moves [N/s]",
       &O::normal_force_rate, "normal_force_rate: likewise along the normal [N/s]", &O::limit_force_rate,
       "limit_force_rate: False: forces step at every transition", &O::passivity_control,
@@ -134,8 +149,10 @@ void add_render(py::module_& module) {
       .def_static("wang2006", &O::wang2006, "Every rule as printed, except the signs of eq. (8) and (9).")
       .def_static("for_device", &O::for_device, "capabilities"_a,
                   "The defaults at the device's rate, stiffnesses clipped to what is usable and stable.")
-      .def_static("everything", &O::everything, "capabilities"_a,
-                  "for_device() with the optional stages that the device permits, but without passivity control.");
+      .def_static(
+          "everything", &O::everything, "capabilities"_a,
+          "for_device() with the optional stages that serve every writer on the device: neither passivity control nor "
+          "assistance as needed.");
   module.def(
       "clip_stiffness", &clip_stiffness, "options"_a, "capabilities"_a, "scale"_a = 1.0,
       "Clips stiffnesses and dampings in place to what is usable, and stable in any hand; `scale` is that of the "
@@ -164,6 +181,10 @@ void add_render(py::module_& module) {
       true);
   add_enum(module, "TickStatus", "Whether a sample was usable.", TickStatus::device_fault,
            "ok stale bad_sample device_fault");
+  add_enum(module, "WritingHint", "Why a pen on the paper is not guided; to_string() gives the words for a display.",
+           WritingHint::lift_first, "none write too_far at_end in_middle wrong_direction another_stroke lift_first");
+  module.def("to_string", py::overload_cast<WritingHint>(&to_string), "hint"_a,
+             "The words of a hint, such as \"too far from the start\"; \"\" for `none`.");
   TickColumns columns(module);
   const HapticTick& t = columns.tick;
   columns.add(t.time, "time: sample time [s]", t.status, "status: TickStatus", t.state, "state: InteractionState",
@@ -177,7 +198,9 @@ void add_render(py::module_& module) {
               "closest: writing: closest point on the active element, (2,) [m]", t.contact.closest.distance,
               "distance: writing: from the pen tip to the closest point [m]", t.contact.weight,
               "weight: writing: of the guidance force, 0 outside the constraint space", t.contact.arc,
-              "arc: writing: of the closest point from the start of the stroke [m]", t.attraction,
+              "arc: writing: of the closest point from the start of the stroke [m]", t.covered,
+              "covered: share of the active stroke written in order [1]", t.hint, "hint: WritingHint", t.to_start,
+              "to_start: from the pen tip to the start of the active stroke (2,) [m]", t.attraction,
               "attraction: force term (2,) [N]", t.wrong_way, "wrong_way: force term (2,) [N]", t.friction,
               "friction: force term (2,) [N]", t.normal, "normal: force term, out of the page [N]", t.damping,
               "damping: by the passivity controller (3,) [N]", t.viscous,

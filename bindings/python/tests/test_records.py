@@ -36,6 +36,8 @@ def values(kind, name):
         return hnp.arrays(float, default.shape, elements=st.floats())
     if isinstance(default, list):
         return st.lists(LISTS[kind, name](), max_size=3)
+    if default is None:
+        return st.none() | OPTIONAL[name]()
     if default == "\0":  # a single character
         return st.sampled_from("永一\U00020000")
     return {
@@ -57,6 +59,7 @@ def placed():
     )
 
 
+OPTIONAL = {"mapping": lambda: records(cal.MotionMapping)}
 LISTS = {
     (cal.PracticePage, "characters"): placed,
     (cal.CharacterScore, "mistakes"): lambda: records(cal.WritingMistake),

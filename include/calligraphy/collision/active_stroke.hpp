@@ -88,8 +88,8 @@ class ActiveStroke {
   std::array<double, max_elements_per_stroke + 1> attraction_ = {};  ///< per feature point
   std::array<double, max_elements_per_stroke + 1> first_arc_ = {};   ///< arc length at each feature point
   int element_count_ = 0;
-  double em_ = 0.0;         ///< [m]
-  double misplaced_ = 0.0;  ///< distance from the start at which the stroke was begun [m]
+  double em_ = 0.0;                  ///< [m]
+  Point misplaced_ = Point::Zero();  ///< offset from the start at which the stroke was begun [m]
   int active_ = 0;          ///< element being written; element_count_ once finished
   double arc_ = 0.0;        ///< arc length of the last closest point, within the active element
   double parameter_ = 0.0;  ///< of the last closest point

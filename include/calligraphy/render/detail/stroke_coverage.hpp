@@ -2,6 +2,7 @@
 #pragma once
 
 #include <calligraphy/collision/active_stroke.hpp>
+#include <calligraphy/render/detail/stroke_capture.hpp>
 
 namespace calligraphy {
 
@@ -9,8 +10,8 @@ namespace calligraphy {
 /// along the stroke and tolerated across it, for as long as the pen keeps it. Never allocates.
 class StrokeCoverage {
  public:
-  /// The stroke, which sets out in `direction`, is begun at `begin`, `offset` from its start [m].
-  void restart(const Point& begin, const Point& offset, const Point& direction) noexcept;
+  /// The stroke with this start is begun at `begin` [m].
+  void restart(const Point& begin, const StrokeStart& start) noexcept;
 
   /// The pen is at `tip`; progress counts while it deviates by at most `corridor` [m].
   void update(const Point& tip, const StrokeContact& contact, double length, double corridor) noexcept;
@@ -18,21 +19,22 @@ class StrokeCoverage {
   /// Share of `length` [m] that is covered.
   double share(double length) const noexcept;
 
-  /// Whether the deviation was within a corridor [m] for most of the way.
-  bool keeps_to(double corridor) const noexcept;
+  /// Whether the pen was in the corridor for most of its way: a wave about the stroke is not.
+  bool keeps_in_corridor() const noexcept;
 
   /// How far beyond its start the stroke was begun [m].
   double late() const noexcept { return ahead_ > 0.0 ? ahead_ : 0.0; }
 
  private:
-  Point offset_ = Point::Zero();     ///< [m]
+  StrokeStart start_;
+  Point offset_ = Point::Zero();     ///< from the start [m]
   Point tolerated_ = Point::Zero();  ///< what is left of it across the stroke [m]
   Point last_ = Point::Zero();       ///< pen tip [m]
   double furthest_ = 0.0;            ///< arc length, the offset removed [m]
   double covered_ = 0.0;             ///< arc length [m]
   double owed_ = 0.0;                ///< of the corner that was passed [m]
   double way_ = 0.0;                 ///< length of the pen's path [m]
-  double squares_ = 0.0;             ///< squared deviation, integrated along it [m^3]
+  double outside_ = 0.0;             ///< outside the corridor [m]
   double ahead_ = 0.0;               ///< offset along the stroke at its beginning [m]
 };
 
