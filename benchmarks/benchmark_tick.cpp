@@ -222,13 +222,14 @@ BENCHMARK(stage_active_stroke_load);
 
 void stage_constraint_share(benchmark::State& state, ConstraintSpaceRule rule) {
   const CurveQueries& queries = curve_queries();
+  constexpr double em = 0.04;  // [m]
   ConstraintSpace space;
   space.rule = rule;
   std::vector<NearestPoint> closest_points;
   for (const Point& tip : queries.tips) closest_points.push_back(nearest_point(queries.element, tip));
   std::size_t i = 0;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(guidance_weight(space, queries.element, queries.tips[i], closest_points[i]));
+    benchmark::DoNotOptimize(guidance_weight(space, em, queries.element, queries.tips[i], closest_points[i]));
     i = (i + 1) % closest_points.size();
   }
 }

@@ -23,7 +23,7 @@ int main() {
     const Point tip = element.point(0.5) + Point(0.0, offset);
     const NearestPoint closest = nearest_point(element, tip);
     std::printf("pen at (%.4f, %.4f) m: %.4f m from the stroke at t = %.4f, guidance %.0f %%\n", tip.x(), tip.y(),
-                closest.distance, closest.parameter, 100.0 * guidance_weight(tube, element, tip, closest));
+                closest.distance, closest.parameter, 100.0 * guidance_weight(tube, placement.em, element, tip, closest));
   }
   return 0;
 }

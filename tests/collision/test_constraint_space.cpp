@@ -12,12 +12,13 @@ using namespace calligraphy;
 
 namespace {
 
+constexpr double em = 0.04;  // [m]
 constexpr ConstraintSpace printed{ConstraintSpaceRule::wang2006};
 
 StrokeElement element_of(std::vector<Point> points) { return prepare_element(points); }
 
 double share_at(const ConstraintSpace& space, const StrokeElement& element, const Point& query) {
-  return guidance_weight(space, element, query, nearest_point(element, query));
+  return guidance_weight(space, em, element, query, nearest_point(element, query));
 }
 
 const StrokeElement horizontal = element_of({{0.01, 0.02}, {0.05, 0.02}});  // 40 mm
@@ -71,7 +72,7 @@ TEST_CASE("as printed, the half disc drops the whole force of a deviation before
 }
 
 TEST_CASE("the weight of the tube is 1 inside, 0 outside, and without step or kink in between", "[collision]") {
-  const ConstraintSpace tube{ConstraintSpaceRule::tube, 0.008, 0.003};
+  const ConstraintSpace tube{ConstraintSpaceRule::tube, 0.2, 0.075};  // 8 mm and 3 mm
   const auto share = [&](double y) { return share_at(tube, horizontal, {0.03, 0.02 + y}); };
   CHECK(share(0.0) == 1.0);
   CHECK(share(0.005) == Approx(1.0));
@@ -102,8 +103,20 @@ TEST_CASE("the tube is the same on both sides of a stroke and around both of its
   }
 }
 
+TEST_CASE("the tube is as wide as the square that is written in says", "[collision]") {
+  const ConstraintSpace tube;
+  for (const double size : {0.01, 0.02, 0.2}) {
+    const StrokeElement element = element_of({{0.0, 0.0}, {size, 0.0}});
+    for (const double offset : {0.05, 0.15, 0.2, 0.25, 0.31}) {  // [em]
+      const Point query = size * Point(0.5, offset), in_40_mm = horizontal.point(0.5) + em * Point(0.0, offset);
+      const double weight = guidance_weight(tube, size, element, query, nearest_point(element, query));
+      CHECK(weight == Approx(share_at(tube, horizontal, in_40_mm)).margin(1e-12));
+    }
+  }
+}
+
 TEST_CASE("the fade may fill the whole tube, and a query that is not finite is outside", "[collision]") {
-  const ConstraintSpace tube{ConstraintSpaceRule::tube, 0.008, 0.008};
+  const ConstraintSpace tube{ConstraintSpaceRule::tube, 0.2, 0.2};
   CHECK(share_at(tube, horizontal, {0.03, 0.02}) == 1.0);
   CHECK(share_at(tube, horizontal, {0.03, 0.024}) == Approx(0.5));
   CHECK(share_at(tube, horizontal, {std::nan(""), 0.02}) == 0.0);

@@ -34,6 +34,10 @@ class Pen {
       }
     }
     if (backwards) std::reverse(path.begin(), path.end());
+    draw(path);
+  }
+
+  void draw(const std::vector<Point>& path) {
     hover(path.front());
     for (const Point& point : path) step({point.x(), point.y(), -1e-4});
     hover(path.back());
@@ -85,6 +89,22 @@ TEST_CASE("a heng drawn 1 mm too high has a lateral error of 1 mm", "[practice]"
   CHECK(result.rms_error == Approx(1e-3).epsilon(1e-9));
   CHECK(result.max_error == Approx(1e-3).epsilon(1e-9));
   CHECK(result.contour == Approx(std::exp(-0.5)).epsilon(1e-6));  // 1 mm of an em of 40 mm, against 5 %
+}
+
+TEST_CASE("the score of a stroke begins where the pen is put down, before the stroke is recognised", "[practice]") {
+  const PracticePage page = page_of("一");
+  const PlacedCharacter& placed = page.characters[0];
+  const auto& points = strokes(placed.character)[0].control_points;
+  const Point start = placed.placement.to_page(points[0]), end = placed.placement.to_page(points[1]);
+  const Point along = (end - start).normalized(), left(-along.y(), along.x());
+  Pen pen(page);
+  std::vector<Point> path;
+  for (double way = 0.0; way < 0.003; way += 1e-4) path.push_back(start + (0.003 - way) * left);  // down to the start
+  for (double way = 0.0; way <= (end - start).norm(); way += 1e-4) path.push_back(start + way * along);
+  pen.draw(path);
+  const CharacterScore result = pen.scores().front();
+  CHECK(result.strokes_completed == 1);
+  CHECK(result.max_error == Approx(0.003).epsilon(1e-6));
 }
 
 TEST_CASE("a stroke written out of order is an order mistake that names both strokes", "[practice]") {

@@ -52,7 +52,7 @@ TEST_CASE("with perfect strokes assistance decays as retention^n, down to min_as
 TEST_CASE("with a constant error e assistance converges to e over full_assistance_error, from either side",
           "[render]") {
   const AssistPolicy policy;
-  for (const double error : {0.0004, 0.001, 0.0018}) {
+  for (const double error : {0.01, 0.025, 0.045}) {
     for (const double from : {policy.min_assistance, 1.0}) {
       double assistance = from;
       for (int n = 0; n < 200; ++n) assistance = policy.next(assistance, error);

@@ -88,19 +88,23 @@ TEST_CASE("before its start guidance damps along the stroke fully, where the spr
   test.go(0.010, 0.0, 0.005);
   test.go(-0.006, 0.0, 0.005);
   test.go(-0.006, 0.0, -0.002);
-  REQUIRE(test.renderer.last().state == InteractionState::writing);
+  test.pen.speed = 0.02;
+  test.go(-0.005, 0.0);
+  REQUIRE(test.renderer.last().state == InteractionState::calibration);  // guided across the stroke only
+  CHECK(test.against(test.along) == Approx(free_share * damping * test.speed()).epsilon(1e-3));
   test.go(-0.001, 0.0);
+  REQUIRE(test.renderer.last().state == InteractionState::writing);
   CHECK(test.against(test.along) == Approx(damping * test.speed()).epsilon(1e-3));
   // And a pen astray that is led to the start.
   RendererOptions options;
   options.guide_to_start = true;
-  options.box_margin = 0.03;
+  options.box_margin = 0.75;
   OnStroke led(options);
-  led.go(0.010, 0.0, 0.005);
-  led.go(0.010, 0.015, 0.005);
-  led.go(0.010, 0.015, -0.002);
+  led.go(0.016, 0.0, 0.005);
+  led.go(0.016, 0.015, 0.005);
+  led.go(0.016, 0.015, -0.002);
   REQUIRE(led.renderer.last().state == InteractionState::calibration);
-  led.go(0.005, 0.015);
+  led.go(0.011, 0.015);
   CHECK(led.against(led.along) == Approx(-damping * led.speed()).epsilon(1e-3));
 }
 
@@ -211,7 +215,7 @@ TEST_CASE("where the saturating law is softer, its damping falls by the square r
   RendererOptions options;
   options.guidance = GuidanceLaw::saturating;
   options.guidance_limit = 1.2;
-  options.box_margin = 0.06;
+  options.box_margin = 1.5;
   for (const double distance : {0.015, 0.03}) {
     OnStroke test(options);
     test.go(0.010, distance);

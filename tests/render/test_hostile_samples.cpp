@@ -287,10 +287,10 @@ TEST_CASE("no sequence of samples makes the force step, exceed the peak or lose 
     HapticRenderer renderer({placed(U'永'), placed(U'北', {0.03, 0.02})}, {}, test_device(), all[i]);
     INFO("options " << i);
     ScriptedPen pen(renderer);
-    const Point start =
-        renderer.page()[0].placement.to_page(strokes(renderer.page()[0].character)[0].control_points[0]);
-    pen.go({start.x(), start.y(), 0.005});
-    pen.go({start.x(), start.y(), -0.002});
+    const auto path =
+        calligraphy_test::path_of(strokes(renderer.page()[0].character)[0], renderer.page()[0].placement, 0.0001);
+    pen.go({path[0].x(), path[0].y(), 0.005});
+    for (std::size_t k = 0; k < 30; ++k) pen.go({path[k].x(), path[k].y(), -0.002});
     CHECK(renderer.last().state == InteractionState::writing);  // initially these samples hit a stroke in progress
     double max_excess = -infinity;
     int not_finite = 0;

@@ -55,6 +55,7 @@ const Domain domains[] = {
     {"guidance_damping", [](RendererOptions& o) -> double& { return o.guidance_damping; }, true},
     {"velocity_cutoff", [](RendererOptions& o) -> double& { return o.velocity_cutoff; }, false},
     {"guidance_fade_in", [](RendererOptions& o) -> double& { return o.guidance_fade_in; }, true},
+    {"guidance_fade_out", [](RendererOptions& o) -> double& { return o.guidance_fade_out; }, true},
     {"wrong_way_stiffness", [](RendererOptions& o) -> double& { return o.wrong_way_stiffness; }, true},
     {"wrong_way_limit", [](RendererOptions& o) -> double& { return o.wrong_way_limit; }, true},
     {"wrong_way_slack", [](RendererOptions& o) -> double& { return o.wrong_way_slack; }, true},
@@ -63,7 +64,13 @@ const Domain domains[] = {
     {"stroke.space.fade_width", [](RendererOptions& o) -> double& { return o.stroke.space.fade_width; }, false},
     {"stroke.plane_tolerance", [](RendererOptions& o) -> double& { return o.stroke.plane_tolerance; }, true},
     {"stroke.window", [](RendererOptions& o) -> double& { return o.stroke.window; }, true},
-    {"start_radius", [](RendererOptions& o) -> double& { return o.start_radius; }, false},
+    {"tolerances.start_distance", [](RendererOptions& o) -> double& { return o.tolerances.start_distance; }, false},
+    {"tolerances.direction", [](RendererOptions& o) -> double& { return o.tolerances.direction; }, true},
+    {"tolerances.first_stretch", [](RendererOptions& o) -> double& { return o.tolerances.first_stretch; }, true},
+    {"tolerances.distinction", [](RendererOptions& o) -> double& { return o.tolerances.distinction; }, false, true},
+    {"tolerances.corridor", [](RendererOptions& o) -> double& { return o.tolerances.corridor; }, false},
+    {"tolerances.coverage", [](RendererOptions& o) -> double& { return o.tolerances.coverage; }, true},
+    {"tolerances.late_start", [](RendererOptions& o) -> double& { return o.tolerances.late_start; }, true},
     {"box_margin", [](RendererOptions& o) -> double& { return o.box_margin; }, true},
     {"lift_height", [](RendererOptions& o) -> double& { return o.lift_height; }, true},
     {"lift_time", [](RendererOptions& o) -> double& { return o.lift_time; }, true},
@@ -161,6 +168,14 @@ TEST_CASE("fractions and ratios of the stages have upper and lower bounds", "[re
     CHECK_FALSE(refused(name, 1.0));
     CHECK(refused(name, 1.0 + 1e-9));
   }
+  CHECK_FALSE(refused("tolerances.coverage", 1.0));
+  CHECK(refused("tolerances.coverage", 1.0 + 1e-9));
+  CHECK_FALSE(refused("tolerances.late_start", 0.5));
+  CHECK(refused("tolerances.late_start", 0.5 + 1e-9));
+  CHECK_FALSE(refused("tolerances.direction", 3.14159265));
+  CHECK(refused("tolerances.direction", 3.1416));
+  CHECK_FALSE(refused("tolerances.distinction", 1.0));
+  CHECK(refused("tolerances.distinction", 1.0 - 1e-9));
   CHECK_FALSE(refused("friction.coefficient", 10.0));
   CHECK(refused("friction.coefficient", 10.5));
   CHECK(refused("friction.stiffness", 2e6));
@@ -235,7 +250,10 @@ TEST_CASE("a renderer needs a device that senses and drives three translations",
   CHECK(contains(complaint_of(plane, plane), "sensed axes are x, y, driven axes are x, y; the renderer"));
 }
 
-TEST_CASE("everything() is valid for the shipped devices, and enables every stage but passivity control", "[render]") {
+TEST_CASE(
+    "everything() is valid for the shipped devices, and enables every stage but passivity control and assistance as "
+    "needed",
+    "[render]") {
   struct Shipped {
     double peak, continuous, stiffness, mass;
     int delay;
@@ -258,8 +276,8 @@ TEST_CASE("everything() is valid for the shipped devices, and enables every stag
       CHECK(options.servo_rate == rate);
       CHECK(options.guidance == GuidanceLaw::saturating);
       CHECK(options.guide_to_start);
-      CHECK(options.assist.enabled);
-      CHECK(options.friction.coefficient > 0.0);
+      CHECK_FALSE(options.assist.enabled);  // it withdraws guidance by intent
+      CHECK(options.friction.coefficient == 0.15);
       CHECK_FALSE(options.passivity_control);  // the springs are damped already
       CHECK(std::isfinite(options.energy_budget));
       const bool warms = shipped.continuous > 0.0 && shipped.continuous < shipped.peak;
@@ -267,6 +285,38 @@ TEST_CASE("everything() is valid for the shipped devices, and enables every stag
       CHECK(options.guidance_limit <= 0.5 * shipped.peak);
     }
   }
+}
+
+TEST_CASE("everything() adds to the dry friction of the device what paper has more, at the pressure of a pen",
+          "[render]") {
+  for (const double own : {0.0, 0.05, 0.15, 0.26}) {  // [N], at 1 N
+    Capabilities device = test_device();
+    device.coulomb_friction = own;
+    CHECK(RendererOptions::everything(device).friction.coefficient == Approx(std::max(0.0, 0.15 - own)));
+  }
+}
+
+TEST_CASE("tolerances are sensible in every preset, stricter ones in every respect, and normal ones the default",
+          "[render]") {
+  const StrokeTolerances lenient = StrokeTolerances::lenient(), normal = StrokeTolerances::normal(),
+                         strict = StrokeTolerances::strict();
+  for (const StrokeTolerances& preset : {lenient, normal, strict}) {
+    RendererOptions options;
+    options.tolerances = preset;
+    CHECK(complaint(options).empty());
+  }
+  for (const auto& [looser, tighter] : {std::pair{lenient, normal}, {normal, strict}}) {
+    CHECK(looser.start_distance > tighter.start_distance);
+    CHECK(looser.direction > tighter.direction);
+    CHECK(looser.distinction > tighter.distinction);
+    CHECK(looser.corridor > tighter.corridor);
+    CHECK(looser.coverage < tighter.coverage);
+    CHECK(looser.late_start > tighter.late_start);
+  }
+  const StrokeTolerances standard = RendererOptions{}.tolerances;
+  CHECK(standard.coverage == 0.9);
+  CHECK(standard.start_distance == normal.start_distance);
+  CHECK(standard.corridor == normal.corridor);
 }
 
 TEST_CASE("a stiffness above the device's usable one is rejected", "[render]") {

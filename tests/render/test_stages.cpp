@@ -34,7 +34,7 @@ RendererOptions saturating() {
   RendererOptions options;
   options.guidance = GuidanceLaw::saturating;
   options.guidance_limit = 1.2;
-  options.box_margin = 0.06;
+  options.box_margin = 1.5;
   return options;
 }
 
@@ -168,17 +168,20 @@ TEST_CASE("a misplaced pen is pulled to the stroke's start, but only on the pape
     CHECK(renderer.last().state == InteractionState::calibration);
     const Point in_plane = renderer.last().page_force.head<2>();
     if (leads) {
-      CHECK(in_plane.normalized().isApprox((stroke.start - astray).normalized()));
+      // Along the stroke not to the very start, which the pen is about to leave: to within half of the 8 mm permitted.
+      CHECK(in_plane.normalized().isApprox((stroke.start + 0.004 * stroke.along - astray).normalized()));
       CHECK(in_plane.norm() > 1.0);
       CHECK(in_plane.norm() <= 1.2);
     } else {
       CHECK(in_plane == Point(0, 0));
     }
     pen.go(at(astray, 0.005));
-    rest(pen, at(astray, 0.005), 50);
+    rest(pen, at(astray, 0.005), 400);
+    CHECK(renderer.last().force.norm() < 1e-6);  // withdrawn in the air within guidance_fade_out
     pen.go(at(astray, -0.001));
     CHECK(renderer.last().page_force.head<2>().norm() < 0.1);  // and fades in again with each contact
     pen.go(at(stroke.start, -0.001));
+    pen.go(at(stroke.start + 0.005 * stroke.along, -0.001));
     CHECK(renderer.last().state == InteractionState::writing);
     pen.go(at(stroke.end, -0.001));
     CHECK(renderer.last().stroke == 1);
@@ -232,7 +235,7 @@ TEST_CASE("friction opposes the writing motion with mu N, and there is none in t
     };
     pen.go(at(stroke.end - 0.004 * stroke.along, -0.002));
     pen.go(at(stroke.end - 0.004 * stroke.along, 0.01));
-    rest(pen, at(stroke.end, 0.01), 100);
+    rest(pen, at(stroke.end, 0.01), 400);
     CHECK(writing > 50);
     CHECK(in_air == 0.0);
     CHECK(renderer.last().force == Vector3d(0, 0, 0));
@@ -377,10 +380,11 @@ TEST_CASE("a disabled stage changes no bit, whatever its parameters", "[render]"
 
 TEST_CASE("with every stage disabled the force is the plain composition: terms, sum, limits", "[render]") {
   RendererOptions options;
-  options.guidance_fade_in = 0.0;
+  options.guidance_fade_in = options.guidance_fade_out = 0.0;
   HapticRenderer renderer = renderer_of(U'永', options);
   ScriptedPen pen(renderer);
   const ForceLimiter limiter{0.1, 0.4, 3.3, true};
+  bool is_held = false;
   VelocityEstimator velocity;
   Vector3d force(0, 0, 0), last(0, 0, 0);
   bool first = true;
@@ -389,9 +393,20 @@ TEST_CASE("with every stage disabled the force is the plain composition: terms, 
     Vector3d sum(0, 0, 0);
     if (tick.state == InteractionState::writing) {
       const StrokeContact& contact = tick.contact;
-      sum.head<2>() =
-          attraction_force(600.0 * contact.weight * contact.attraction, tick.pen_tip.head<2>(), contact.closest.point) +
-          contact.weight * wrong_way_force(200.0, 1.0, 0.002, contact.backwards, contact.closest.tangent);
+      // A pen that slipped out of the tube is guided again once it is back in the corridor.
+      if (has_event(tick.events, TickEvent::stroke_started)) {
+        is_held = true;
+      } else {
+        is_held = is_held ? contact.weight >= 0.5 : contact.closest.distance <= 0.06 * 0.04;
+      }
+      const double share = is_held ? contact.weight : 0.0;
+      Point target = contact.closest.point;
+      const Point &tip = tick.pen_tip.head<2>(), &tangent = contact.closest.tangent;
+      if (contact.finished) target += std::max(0.0, (tip - target).dot(tangent)) * tangent;
+      sum.head<2>() = attraction_force(600.0 * share * contact.attraction, tip, target) +
+                      share * wrong_way_force(200.0, 1.0, 0.002, contact.backwards, tangent);
+    } else if (tick.state == InteractionState::calibration) {
+      sum.head<2>() = tick.attraction + tick.wrong_way;
     }
     const bool solid = tick.state == InteractionState::writing || tick.state == InteractionState::calibration;
     const double into = std::max(0.0, -tick.device_point.z()), onset = 0.0005;
@@ -421,14 +436,32 @@ TEST_CASE("with every stage disabled the force is the plain composition: terms, 
   CHECK(max_force > 1.0);
 }
 
-TEST_CASE("with every stage enabled each stroke of 永 is written, exactly and with an offset of 3 mm", "[render]") {
-  for (const double offset : {0.0, 0.003}) {
-    HapticRenderer renderer = renderer_of(U'永', everything());
+TEST_CASE("with every stage enabled strokes are written exactly, beside and shifted", "[render]") {
+  struct Deviation {
+    char32_t character;
+    double beside;  ///< [m]
+    Point shift;    ///< [m]
+  };
+  // Beside a stroke that turns by any angle, the pen deviates from a shift by up to twice the offset: 2 mm, within the
+  // corridor.
+  std::vector<Deviation> deviations = {{U'永', 0.0, {0, 0}},
+                                       {U'永', 0.001, {0, 0}},
+                                       {U'永', -0.001, {0, 0}},
+                                       {U'三', 0.003, {0, 0}},
+                                       {U'三', -0.003, {0, 0}}};
+  for (int eighth = 0; eighth < 8; ++eighth) {
+    const double angle = eighth * std::acos(-1.0) / 4.0;
+    deviations.push_back({U'永', 0.0, 0.002 * Point(std::cos(angle), std::sin(angle))});  // 5 % of the em
+  }
+  for (const auto& [character, offset, shift] : deviations) {
+    HapticRenderer renderer = renderer_of(character, everything());
     ScriptedPen pen(renderer);
     Watch watch;
     pen.on_tick = [&](const HapticTick& tick) { watch(tick); };
-    pen.write(renderer.page()[0], offset);
-    INFO(offset << " m: " << watch.events);
+    PlacedCharacter where = renderer.page()[0];
+    where.placement.origin += shift;
+    pen.write(where, offset);
+    INFO(offset << " m, " << shift.transpose() << " m: " << watch.events);
     CHECK(renderer.last().character == 1);
     CHECK(watch.events.find('a') == std::string::npos);
     check_steps(pen, renderer);
@@ -443,11 +476,12 @@ TEST_CASE("a pen on the feature plane or chattering across it passes one feature
     const Point start = corner.placement.to_page(stroke.control_points[0]);
     const Point turn = corner.placement.to_page(stroke.control_points[1]);
     const Point along = (turn - start).normalized();
-    for (const double before : {0.0, options.stroke.plane_tolerance}) {
+    for (const double before : {0.0, 0.04 * options.stroke.plane_tolerance}) {
       HapticRenderer renderer({corner}, {}, warm_device(), options);
       ScriptedPen pen(renderer);
       pen.go(at(start, 0.005));
       pen.go(at(start, -0.001));
+      pen.go(at(start + 0.003 * along, -0.001));
       Watch watch;
       pen.on_tick = [&](const HapticTick& tick) { watch(tick); };
       const Point plane = turn - before * along;
@@ -480,7 +514,9 @@ TEST_CASE("a finished stroke stays finished, and a pen back on it changes no sta
   }
 }
 
-TEST_CASE("a pen lifted after one sample abandons the stroke, every time, without a force step", "[render]") {
+TEST_CASE(
+    "a pen lifted after one sample begins no stroke, after the first stretch it abandons it, without a force step",
+    "[render]") {
   for (const RendererOptions& options : {RendererOptions{}, everything()}) {
     HapticRenderer renderer = renderer_of(U'三', options);
     ScriptedPen pen(renderer);
@@ -488,14 +524,13 @@ TEST_CASE("a pen lifted after one sample abandons the stroke, every time, withou
     Watch watch;
     pen.on_tick = [&](const HapticTick& tick) { watch(tick); };
     rest(pen, at(stroke.start, 0.0035), 1);
-    for (int i = 0; i < 20; ++i) {
-      pen.at(at(stroke.start, -0.001));
-      rest(pen, at(stroke.start, 0.0035), i % 4 + 1);  // too high for a bounce
-    }
     std::string states = "SS", events;
     for (int i = 0; i < 20; ++i) {
-      states += " WS SS";
-      events += "sa";
+      pen.at(at(stroke.start, -0.001));
+      if (i % 2 == 1) pen.at(at(stroke.start + 0.002 * stroke.along, -0.001));
+      rest(pen, at(stroke.start, 0.0035), i % 4 + 1);  // too high for a bounce
+      states += i % 2 == 1 ? " CS WS SS" : " CS SS";
+      events += i % 2 == 1 ? "sa" : "";
     }
     CHECK(watch.states == states);
     CHECK(watch.events == events);
@@ -517,7 +552,7 @@ TEST_CASE("a stroke that crosses a finished one is written as if it were alone",
       const int before = renderer.last().stroke;
       pen.write(path_of(stroke, renderer.page()[0].placement, 1e-4));
       INFO("stroke " << before + 1 << ": " << watch.states << ", " << watch.events);
-      CHECK(watch.states == "SS WS CS SS");
+      CHECK(watch.states == "SS CS WS CS SS");
       CHECK(watch.events.front() == 's');
       CHECK(watch.events.back() == 'f');
       CHECK(std::count(watch.events.begin(), watch.events.end(), 's') == 1);

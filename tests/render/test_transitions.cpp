@@ -149,8 +149,8 @@ TEST_CASE("a pen that chatters at the border of the box changes its state once",
   const RendererOptions& options = renderer.options();
   const Eigen::AlignedBox2d box = bounding_box(renderer.page()[0]);
   const double y = box.center().y();
-  for (const double border :
-       {box.min().x() - options.box_margin, box.min().x() - options.box_margin - options.box_hysteresis}) {
+  for (const double border : {box.min().x() - 0.04 * options.box_margin,
+                              box.min().x() - 0.04 * (options.box_margin + options.box_hysteresis)}) {
     renderer.restart();
     ScriptedPen pen(renderer);
     pen.go({0.0, y, 0.005});
@@ -162,18 +162,37 @@ TEST_CASE("a pen that chatters at the border of the box changes its state once",
   }
 }
 
-TEST_CASE("a pen that chatters at the start circle begins the stroke once", "[render]") {
+TEST_CASE("a pen that chatters at the edge of the start begins no stroke there, and one as it writes on", "[render]") {
   HapticRenderer renderer({placed(U'三')}, {}, test_device());
   ScriptedPen pen(renderer);
   const Stroke first = strokes(renderer.page()[0].character)[0];
   const Point start = renderer.page()[0].placement.to_page(first.control_points[0]);
-  const Point rim = start + Point(0.0, -renderer.options().start_radius);
+  const Point rim = start + Point(0.0, -0.04 * renderer.options().tolerances.start_distance);
   pen.go(at(rim + Point(0.0, -0.002), 0.005));
   pen.go(at(rim + Point(0.0, -0.002), -0.001));
   CHECK(renderer.last().state == InteractionState::calibration);
   const Chatter result = chatter(pen, at(rim, -0.001), {0, -1, 0});
-  CHECK(result.changes <= 1);
-  CHECK(result.strokes <= 1);
+  CHECK(result.changes == 0);
+  CHECK(result.strokes == 0);
+  CHECK(result.max_unexplained <= 1e-12);
+  const Point along = (renderer.page()[0].placement.to_page(first.control_points[1]) - start).normalized();
+  pen.go(at(rim + Point(0.0, 0.001) + 0.002 * along, -0.001));
+  CHECK(renderer.last().state == InteractionState::writing);
+}
+
+TEST_CASE("a pen that chatters at the end of the first stretch begins the stroke once", "[render]") {
+  HapticRenderer renderer({placed(U'三')}, {}, test_device());
+  ScriptedPen pen(renderer);
+  const Stroke first = strokes(renderer.page()[0].character)[0];
+  const Placement& page = renderer.page()[0].placement;
+  const Point start = page.to_page(first.control_points[0]);
+  const Point along = (page.to_page(first.control_points[1]) - start).normalized();
+  const double stretch = page.em * renderer.options().tolerances.first_stretch;  // 1.6 mm
+  pen.go(at(start, 0.005));
+  pen.go(at(start, -0.001));
+  const Chatter result = chatter(pen, at(start + stretch * along, -0.001), {along.x(), along.y(), 0.0});
+  CHECK(result.changes == 1);
+  CHECK(result.strokes == 1);
   CHECK(renderer.last().state == InteractionState::writing);
   CHECK(result.max_unexplained <= 1e-12);
 }
