@@ -47,7 +47,7 @@ constexpr double usual_grip = 300.0;
 constexpr double min_coverage = 0.6;
 
 /// Where guidance lets go of a pen: the tube's weight has fallen to this, or the hand is this far across [em].
-constexpr double slipping_weight = 0.5, slipping_detour = 0.08;
+constexpr double slipping_weight = 0.5, slipping_detour = 0.12;
 
 /// guide_to_start leads a pen as near to the start along the stroke as this, as a share of the tolerance.
 constexpr double unguided_start = 0.5;
@@ -569,10 +569,11 @@ bool HapticRenderer::is_guided() const noexcept {
   return tick_.hint == WritingHint::write && capture_.is_nearest();
 }
 
-/// Where the hand means to be, as far as the force against which it holds the pen shows [m, page].
+/// Where the hand means to be, as far as the force at work shows, if the device says what that is [m, page].
 Point HapticRenderer::hand() const noexcept {
-  const Eigen::Vector3d force = works_.allFinite() ? mapping_.force_to_page(works_) : tick_.page_force;
-  return tick_.pen_tip.head<2>() - force.head<2>() * (mapping_.scale * mapping_.scale / usual_grip);
+  const Point tip = tick_.pen_tip.head<2>();
+  if (!works_.allFinite()) return tip;
+  return tip - mapping_.force_to_page(works_).head<2>() * (mapping_.scale * mapping_.scale / usual_grip);
 }
 
 /// Until the first stretch has shown its direction, guidance acts across that direction only, so that it does not hide

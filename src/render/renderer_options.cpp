@@ -144,7 +144,7 @@ class Limits {
 
 void validate(const StrokeTolerances& tolerances) {
   require_above_zero("tolerances.start_distance", tolerances.start_distance, "em");
-  require_within("tolerances.direction", tolerances.direction, "rad", 0.0, std::numbers::pi);
+  require_above_zero("tolerances.direction", tolerances.direction, "rad", std::numbers::pi);
   require_not_negative("tolerances.first_stretch", tolerances.first_stretch, "em");
   require(tolerances.distinction >= 1.0, "tolerances.distinction", tolerances.distinction, "", "at least 1");
   require_above_zero("tolerances.corridor", tolerances.corridor, "em");

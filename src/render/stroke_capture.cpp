@@ -64,7 +64,7 @@ std::vector<StrokeStart> stroke_starts(const PlacedCharacter& placed, const Stro
 }
 
 void StrokeCapture::put_down(const Point& tip, std::span<const StrokeStart> starts, std::size_t due) noexcept {
-  anchor_ = tip;
+  anchor_ = down_ = tip;
   const Point seen = tip - misplaced_ / (count_ + 1);
   const auto distance = [&](const StrokeStart& start) { return (seen - start.point).squaredNorm(); };
   is_nearest_ = std::all_of(starts.begin() + static_cast<std::ptrdiff_t>(due), starts.end(),
@@ -98,12 +98,12 @@ CaptureVerdict StrokeCapture::update(const Point& tip, std::span<const StrokeSta
   if (own.tolerable() && !is_other) return verdict_ = CaptureVerdict::begun;
   verdict_ = own.place <= 1.0 ? CaptureVerdict::wrong_direction : CaptureVerdict::undecided;
   is_first_ = false;
-  anchor_ = tip - way * (stretch / moved);
+  anchor_ = moved > 0.0 ? Point(tip - way * (stretch / moved)) : tip;
   return verdict_;
 }
 
 void StrokeCapture::written(const Point& start) noexcept {
-  misplaced_ += anchor_ - start;
+  misplaced_ += down_ - start;
   ++count_;
 }
 

@@ -138,11 +138,11 @@ TEST_CASE("a pen that left the stroke it writes is told that it is too far away 
   page.down(page.start(0));
   const Point place = page.start(0) + 0.01 * page.along(0);
   page.go(place);
-  page.go(place - 0.009 * page.left(0));  // half of the guidance is left at 8 mm
-  CHECK(page.rest(2).hint == WritingHint::too_far);
+  page.go(place - 0.005 * page.left(0));  // beyond 0.12 em
+  CHECK(page.rest(2).hint == WritingHint::off_stroke);
   CHECK(page.renderer.last().state == InteractionState::writing);
   page.go(place - 0.003 * page.left(0));
-  CHECK(page.rest(2).hint == WritingHint::too_far);
+  CHECK(page.rest(2).hint == WritingHint::off_stroke);
   page.go(place - 0.002 * page.left(0));  // within the corridor
   CHECK(page.rest(2).hint == WritingHint::none);
 }
@@ -208,7 +208,7 @@ TEST_CASE("guidance that lets go of a pen is withdrawn within guidance_fade_out,
     CAPTURE(lifts);
     page.down(page.start(0));
     page.go(page.start(0) + 0.01 * page.along(0));
-    const double aside = lifts ? 0.004 : 0.0079;
+    const double aside = lifts ? 0.004 : 0.0045;
     page.go(page.start(0) + 0.01 * page.along(0) - aside * page.left(0));
     page.rest(300);
     const double before = page.renderer.last().page_force.head<2>().norm();
@@ -217,7 +217,7 @@ TEST_CASE("guidance that lets go of a pen is withdrawn within guidance_fade_out,
     if (lifts) {
       page.lift();
     } else {
-      page.go(page.start(0) + 0.01 * page.along(0) - 0.0085 * page.left(0));  // out of the tube
+      page.go(page.start(0) + 0.01 * page.along(0) - 0.0085 * page.left(0));  // away from the stroke
     }
     double last = page.renderer.last().page_force.head<2>().norm();
     CHECK(last > 0.8 * before);

@@ -65,7 +65,7 @@ const Domain domains[] = {
     {"stroke.plane_tolerance", [](RendererOptions& o) -> double& { return o.stroke.plane_tolerance; }, true},
     {"stroke.window", [](RendererOptions& o) -> double& { return o.stroke.window; }, true},
     {"tolerances.start_distance", [](RendererOptions& o) -> double& { return o.tolerances.start_distance; }, false},
-    {"tolerances.direction", [](RendererOptions& o) -> double& { return o.tolerances.direction; }, true},
+    {"tolerances.direction", [](RendererOptions& o) -> double& { return o.tolerances.direction; }, false},
     {"tolerances.first_stretch", [](RendererOptions& o) -> double& { return o.tolerances.first_stretch; }, true},
     {"tolerances.distinction", [](RendererOptions& o) -> double& { return o.tolerances.distinction; }, false, true},
     {"tolerances.corridor", [](RendererOptions& o) -> double& { return o.tolerances.corridor; }, false},

@@ -91,6 +91,7 @@ TEST_CASE("entering a stroke steps the force by K d as printed, within the rate 
     pen.go({inside.x(), inside.y(), -0.001});
     pen.go({further.x(), further.y(), -0.001});  // where the direction counts too
     CHECK(renderer.last().state == InteractionState::writing);
+    if (options.limit_force_rate) CHECK(pen.max_unexplained <= 0.1 + 1e-9);
     return step;
   };
   RendererOptions printed = RendererOptions::wang2006(), limited;
@@ -99,7 +100,7 @@ TEST_CASE("entering a stroke steps the force by K d as printed, within the rate 
   printed.box_margin = 0.25;
   const double deviation = std::sqrt(0.004 * 0.004 - 0.001 * 0.001);        // where the pen crosses the start circle
   CHECK(entering(printed) == Approx(stiffness * deviation).epsilon(0.03));  // 1.55 N
-  CHECK(entering(limited) <= 0.1);
+  CHECK(entering(limited) < 0.2 * entering(printed));
 }
 
 TEST_CASE("as printed, a factor that changes at a feature point steps the force by K d times its change", "[render]") {

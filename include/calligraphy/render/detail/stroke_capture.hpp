@@ -52,6 +52,7 @@ class StrokeCapture {
 
  private:
   Point anchor_ = Point::Zero();  ///< follows the pen at the length of the first stretch
+  Point down_ = Point::Zero();    ///< where the pen was put down
   CaptureVerdict verdict_ = CaptureVerdict::undecided;
   bool is_nearest_ = false;
   bool is_first_ = true;             ///< the pen has not yet gone as far since it was put down
