@@ -40,11 +40,8 @@ constexpr double largest_click = 0.1;
 /// holds does not coast on.
 constexpr double free_share = 0.15;
 
-/// Stiffness of a grip on a pen, about which people's vary [N/m].
-constexpr double usual_grip = 300.0;
-
-/// Least share of a stroke that finishes it, however much the device's friction hides: more than half.
-constexpr double min_coverage = 0.6;
+/// Least share of a stroke that finishes it, however much the device's friction hides: well above half.
+constexpr double min_coverage = 0.75;
 
 /// Where guidance lets go of a pen: the tube's weight has fallen to this, or the hand is this far across [em].
 constexpr double slipping_weight = 0.5, slipping_detour = 0.12;
@@ -137,7 +134,7 @@ HapticRenderer::HapticRenderer(std::vector<PlacedCharacter> page, const MotionMa
   limiter_.peak = capabilities.peak_force / mapping.scale;
   limiter_.limit_rate = options.limit_force_rate;
   period_ = 1.0 / options.servo_rate;
-  hidden_way_ = mapping.scale * capabilities.coulomb_friction / usual_grip;
+  hidden_way_ = mapping.scale * capabilities.coulomb_friction / options.grip_stiffness;
   velocity_ = VelocityEstimator(options.velocity_cutoff);
   rate_filter_ = -std::expm1(-2.0 * std::numbers::pi * options.velocity_cutoff * period_);
   observes_energy_ = options.passivity_control || std::isfinite(options.energy_budget);
@@ -573,7 +570,7 @@ bool HapticRenderer::is_guided() const noexcept {
 Point HapticRenderer::hand() const noexcept {
   const Point tip = tick_.pen_tip.head<2>();
   if (!works_.allFinite()) return tip;
-  return tip - mapping_.force_to_page(works_).head<2>() * (mapping_.scale * mapping_.scale / usual_grip);
+  return tip - mapping_.force_to_page(works_).head<2>() * (mapping_.scale * mapping_.scale / options_.grip_stiffness);
 }
 
 /// Until the first stretch has shown its direction, guidance acts across that direction only, so that it does not hide

@@ -323,6 +323,7 @@ void validate(const RendererOptions& options, const Capabilities& capabilities, 
   if (options.passivity_control) {
     require_above_zero("apparent_mass of the device, for passivity_control", capabilities.apparent_mass, "kg");
   }
+  require_above_zero("grip_stiffness", options.grip_stiffness, "N/m");
   require_above_zero("max_speed", options.max_speed, "m/s");
 }
 

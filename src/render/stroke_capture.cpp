@@ -94,7 +94,7 @@ CaptureVerdict StrokeCapture::update(const Point& tip, std::span<const StrokeSta
   if (is_other && is_first_) return verdict_ = CaptureVerdict::another_stroke;
   const double moved = way.norm();
   if (!(moved >= stretch)) return verdict_;
-  const Misfit own = misfit(starts[due], anchor_, way, em, tolerances);
+  const Misfit own = misfit(starts[due], tip - way, way, em, tolerances);
   if (own.tolerable() && !is_other) return verdict_ = CaptureVerdict::begun;
   verdict_ = own.place <= 1.0 ? CaptureVerdict::wrong_direction : CaptureVerdict::undecided;
   is_first_ = false;

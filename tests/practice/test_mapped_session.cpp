@@ -51,8 +51,9 @@ bool same(const Recording& a, const Recording& b) {
 SessionOptions similar(SessionOptions at_one, double scale) {
   const double square = scale * scale;
   Capabilities& device = at_one.device;
-  for (double* impedance : {&device.apparent_mass, &device.viscous_friction, &device.usable_stiffness,
-                            &at_one.skill.grip.mass, &at_one.skill.grip.damping, &at_one.skill.grip.stiffness}) {
+  for (double* impedance :
+       {&device.apparent_mass, &device.viscous_friction, &device.usable_stiffness, &at_one.skill.grip.mass,
+        &at_one.skill.grip.damping, &at_one.skill.grip.stiffness, &at_one.renderer.grip_stiffness}) {
     *impedance *= square;
   }
   for (double* force : {&device.peak_force, &device.continuous_force, &device.force_step, &device.coulomb_friction,

@@ -78,6 +78,7 @@ const Domain domains[] = {
     {"box_hysteresis", [](RendererOptions& o) -> double& { return o.box_hysteresis; }, true},
     {"in_plane_force_rate", [](RendererOptions& o) -> double& { return o.in_plane_force_rate; }, false},
     {"normal_force_rate", [](RendererOptions& o) -> double& { return o.normal_force_rate; }, false},
+    {"grip_stiffness", [](RendererOptions& o) -> double& { return o.grip_stiffness; }, false},
     {"max_speed", [](RendererOptions& o) -> double& { return o.max_speed; }, false},
     {"guidance_limit", [](RendererOptions& o) -> double& { return o.guidance_limit; }, false},
     {"assist.retention", [](RendererOptions& o) -> double& { return o.assist.retention; }, true},

@@ -82,6 +82,10 @@ struct RendererOptions {
   /// continuous force; 0: no limit [s].
   double thermal_time_constant = 0.0;
 
+  /// Stiffness of a usual grip, about which people's vary: from it and the force at work follows where the hand means
+  /// to be [N/m, device].
+  double grip_stiffness = 300.0;
+
   double max_speed = 5.0;  ///< a sample that implies a faster pen is a fault, not a motion [m/s, device]
 
   ForceSign force_sign = ForceSign::attracting;
