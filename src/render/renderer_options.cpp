@@ -52,6 +52,10 @@ StiffnessLimit usable_stiffness(const Capabilities& capabilities) {
   return {capabilities.usable_stiffness, reason.str()};
 }
 
+/// Limits of guidance for large deviations: hardly softer than the linear law where that is at its strongest.
+constexpr double largest_guidance = 3.0;  ///< [N]
+constexpr double guidance_share = 0.75;   ///< of the peak force
+
 /// Friction between pen and paper, of which everything() renders what the device does not have itself.
 constexpr double paper_friction_coefficient = 0.15;
 constexpr double usual_pressure = 1.0;  ///< of a pen on paper [N]
@@ -191,7 +195,7 @@ RendererOptions RendererOptions::for_device(const Capabilities& capabilities) {
 RendererOptions RendererOptions::everything(const Capabilities& capabilities) {
   RendererOptions options = for_device(capabilities);
   options.guidance = GuidanceLaw::saturating;
-  options.guidance_limit = std::min(options.guidance_limit, 0.5 * capabilities.peak_force);
+  options.guidance_limit = std::min(largest_guidance, guidance_share * capabilities.peak_force);
   options.guide_to_start = true;
   options.box_margin = 0.5;
   const double own_friction = capabilities.coulomb_friction / usual_pressure;
