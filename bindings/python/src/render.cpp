@@ -147,10 +147,11 @@ void add_render(py::module_& module) {
       "max_speed: a faster sample is a fault [m/s]", &O::force_sign, "force_sign: ForceSign", &O::pen_tip,
       "pen_tip: PenTipRule", &O::motion, "motion: MotionMappingRule")
       .def_static("wang2006", &O::wang2006, "Every rule as printed, except the signs of eq. (8) and (9).")
-      .def_static("for_device", &O::for_device, "capabilities"_a,
-                  "The defaults at the device's rate, stiffnesses clipped to what is usable and stable.")
+      .def_static("for_device", &O::for_device, "capabilities"_a, "scale"_a = 1.0,
+                  "The defaults at the device's rate, stiffnesses clipped to what is usable and stable; the hand feels "
+                  "the same at every `scale` of the MotionMapping.")
       .def_static(
-          "everything", &O::everything, "capabilities"_a,
+          "everything", &O::everything, "capabilities"_a, "scale"_a = 1.0,
           "for_device() with the optional stages that serve every writer on the device: neither passivity control nor "
           "assistance as needed.");
   module.def(
