@@ -187,6 +187,12 @@ void add_render(py::module_& module) {
            "none write too_far at_end in_middle wrong_direction another_stroke off_stroke lift_first");
   module.def("to_string", py::overload_cast<WritingHint>(&to_string), "hint"_a,
              "The words of a hint, such as \"too far from the start\"; \"\" for `none`.");
+  module.def(
+      "hint_text",
+      [](WritingHint hint, const ArrayLike& to_start) { return hint_text(hint, point(to_start, "to_start")); },
+      "hint"_a, "to_start"_a,
+      "The words of a hint with the way to the start [m, page], such as \"too far from the start: 12 mm to the "
+      "upper left\".");
   TickColumns columns(module);
   const HapticTick& t = columns.tick;
   columns.add(t.time, "time: sample time [s]", t.status, "status: TickStatus", t.state, "state: InteractionState",

@@ -107,6 +107,12 @@ def test_a_stroke_that_is_finished_asks_for_a_lift():
     assert ticks["stroke"][-1] == 1 and ticks["covered"][-1] == 0.0
 
 
+def test_a_line_for_people_names_the_way_to_the_start():
+    kinds = cal.WritingHint
+    assert cal.hint_text(kinds.too_far, (-0.0085, 0.0085)) == "too far from the start: 12 mm to the upper left"
+    assert cal.hint_text(kinds.lift_first, (0.1, 0.1)) == cal.to_string(kinds.lift_first)
+
+
 def test_a_display_has_words_for_every_hint():
     words = [cal.to_string(hint) for hint in cal.WritingHint]
     assert words[0] == "" and all(words[1:]) and len(set(words)) == len(words)
