@@ -176,6 +176,27 @@ def test_a_novice_finishes_fewer_strokes_at_the_first_touch_the_stricter_the_pre
     assert strict < normal <= lenient and strict < 0.9 * lenient
 
 
+@pytest.mark.parametrize("tolerances", PRESETS.values(), ids=PRESETS)
+def test_a_slanted_stroke_is_another_shape_beyond_the_angle_of_its_preset(tolerances):
+    one = cal.built_in_characters()["一"]
+    for angle, remarks in ((tolerances.direction - 0.14, 0), (tolerances.direction + 0.14, 1)):
+        arm = 0.3 * np.array([math.cos(angle), math.sin(angle)])
+        path = 0.5 + np.linspace(-1, 1, 50)[:, None] * arm
+        match = cal.match_strokes(one, [path], tolerances=tolerances)
+        assert match.count(cal.StrokeRemarkKind.shape) == len(match.remarks) == remarks
+        expected = cal.WritingDirection.neither if remarks else cal.WritingDirection.forwards
+        assert match.drawn[0].stroke == 0 and match.drawn[0].direction is expected
+
+
+def test_wrong_tolerances_and_paths_are_refused_by_the_judge_of_strokes():
+    one = cal.built_in_characters()["一"]
+    with pytest.raises(cal.InvalidValue, match="tolerances.direction = 4"):
+        cal.match_strokes(one, [[(0, 0), (1, 1)]], cal.StrokeTolerances(direction=4.0))
+    for paths in ([[(0, 0, 0)]], [np.zeros((0, 2))], [[(math.nan, 0)]]):
+        with pytest.raises(cal.InvalidValue):
+            cal.match_strokes(one, paths)
+
+
 def test_the_tolerances_of_a_grid_reach_its_trials():
     def table(tolerances):
         options = cal.RendererOptions.for_device(DESKTOP)
