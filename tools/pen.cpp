@@ -13,6 +13,32 @@
 #include "options.hpp"
 
 namespace calligraphy::tools {
+namespace {
+
+/// Tells a person each hint once it has lasted: a moving pen passes many that it does not need to hear of.
+class HintTeller {
+ public:
+  void look(const LiveView& view) {
+    const double now = view.newest.time;
+    if (view.hint != hint_) {
+      hint_ = view.hint;
+      since_ = now;
+      told_ = false;
+    }
+    if (told_ || hint_ == WritingHint::none || now - since_ < long_enough) return;
+    spdlog::info("{}", hint_text(hint_, view.to_start));
+    told_ = true;
+  }
+
+ private:
+  static constexpr double long_enough = 0.3;  ///< [s]
+
+  WritingHint hint_ = WritingHint::none;
+  double since_ = 0.0;  ///< [s]
+  bool told_ = false;
+};
+
+}  // namespace
 
 Pen::Pen(const PenOptions& options) : options_(options) {
   switch (options.device.kind) {
@@ -59,6 +85,7 @@ Recording Pen::replay(const PracticePage& page, const SessionOptions& session) c
 
 Recording Pen::live(const PracticePage& page, const SessionOptions& session) {
   DeviceFault told = DeviceFault::none;
+  HintTeller hints;
   LiveOptions options;
   options.mode = session.mode;
   options.renderer = session.renderer;
@@ -71,6 +98,7 @@ Recording Pen::live(const PracticePage& page, const SessionOptions& session) {
       spdlog::warn("force ramped down to zero: {}", to_string(view.servo.fault));
     }
     told = view.servo.fault;
+    hints.look(view);
     stop_key_->look();
     return !interrupted();
   };

@@ -78,8 +78,9 @@ class ReplayRun {
   explicit ReplayRun(const ReplayArguments& options) : options_(options) {
     if (options.out && options.out->empty()) throw UsageError("--out: the name is empty");
     session_.device = chosen_device(options.device);
-    session_.renderer = options.renderer == "everything" ? RendererOptions::everything(session_.device)
-                                                         : RendererOptions::for_device(session_.device);
+    session_.renderer = options.renderer == "everything"
+                            ? RendererOptions::everything(session_.device, options.page.scale)
+                            : RendererOptions::for_device(session_.device, options.page.scale);
     layout_ = options.page.layout(session_.device);
     session_.mapping = options.page.mapping(layout_.width, layout_.height);
     report_.renderer = options.renderer;

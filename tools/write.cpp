@@ -65,8 +65,9 @@ struct Sheet {
 };
 
 RendererOptions chosen_renderer(const WriteArguments& options, const Capabilities& capabilities) {
-  RendererOptions renderer = options.renderer == "everything" ? RendererOptions::everything(capabilities)
-                                                              : RendererOptions::for_device(capabilities);
+  RendererOptions renderer = options.renderer == "everything"
+                                 ? RendererOptions::everything(capabilities, options.page.scale)
+                                 : RendererOptions::for_device(capabilities, options.page.scale);
   const RendererOptions printed = RendererOptions::wang2006();
   if (options.rules == "wang2006") {
     if (options.renderer == "everything")
@@ -76,6 +77,7 @@ RendererOptions chosen_renderer(const WriteArguments& options, const Capabilitie
     rules.paper_stiffness = renderer.paper_stiffness;
     rules.guidance_stiffness = renderer.guidance_stiffness;
     rules.wrong_way_stiffness = renderer.wrong_way_stiffness;
+    rules.wrong_way_limit = renderer.wrong_way_limit;
     renderer = rules;
   }
   if (options.method == "exact") renderer.stroke.nearest = RendererOptions().stroke.nearest;

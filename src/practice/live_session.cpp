@@ -24,6 +24,13 @@ constexpr double max_absence = 2.0;
 /// Of the servo loop, when its rate is low [ticks].
 constexpr double min_patience = 3.0;
 
+/// One tick for the calling thread: what the recording keeps, and what only a display shows.
+struct LiveTick {
+  RecordedSample sample;
+  WritingHint hint = WritingHint::none;
+  Point to_start = Point::Zero();
+};
+
 }  // namespace
 
 Capabilities with_peak_force(Capabilities capabilities, double peak_force) {
@@ -40,7 +47,7 @@ LiveResult write_with_device(const PracticePage& page, HapticDevice& device, con
   HapticRenderer renderer(page.characters, mapping, with_peak_force(device.capabilities(), options.peak_force),
                           options.renderer);
   SessionTick session(renderer, options.mode, true);
-  SampleQueue<RecordedSample> queue(static_cast<std::size_t>(std::ceil(max_absence * options.renderer.servo_rate)));
+  SampleQueue<LiveTick> queue(static_cast<std::size_t>(std::ceil(max_absence * options.renderer.servo_rate)));
   ServoLoopOptions servo = options.servo;
   servo.servo.rate = options.renderer.servo_rate;
   servo.servo.timeout = std::max(servo.servo.timeout, min_patience / servo.servo.rate);
@@ -52,8 +59,8 @@ LiveResult write_with_device(const PracticePage& page, HapticDevice& device, con
           if (!(mapping.to_page(state.position).z() > 0.0)) return Eigen::Vector3d(Eigen::Vector3d::Zero());
           in_front.store(true, std::memory_order_relaxed);
         }
-        session.update(state);
-        queue.push(session.sample());
+        const HapticTick& tick = session.update(state);
+        queue.push({session.sample(), tick.hint, tick.to_start});
         return Eigen::Vector3d(session.force());
       },
       servo);
@@ -61,8 +68,12 @@ LiveResult write_with_device(const PracticePage& page, HapticDevice& device, con
   LiveResult result;
   result.recording.rate = options.renderer.servo_rate;
   LiveView view;
+  LiveTick newest;
   const auto take_over = [&] {
-    while (queue.pop(view.newest)) result.recording.samples.push_back(view.newest);
+    while (queue.pop(newest)) result.recording.samples.push_back(newest.sample);
+    view.newest = newest.sample;
+    view.hint = newest.hint;
+    view.to_start = newest.to_start;
   };
   const int count = static_cast<int>(page.characters.size());
   const double begin = monotonic_seconds();

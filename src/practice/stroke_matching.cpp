@@ -17,11 +17,12 @@ namespace calligraphy {
 namespace {
 
 constexpr std::size_t max_paths = 1000;
-constexpr double left_over = 0.15;        // what a stroke or a pen-down without a partner costs [em]
-constexpr double backwards_cost = 0.02;   // by which a stroke must fit better backwards [em]
-constexpr double turned_cost = 0.05;      // of a quarter turn; twice as much of a half turn [em]
-constexpr double order_doubt = 0.05;      // by which another order must fit better than the right one [em]
-constexpr double certainty = 2.0;         // or as many times better, which tells small strokes apart
+constexpr double left_over = 0.15;       // what a stroke or a pen-down without a partner costs [em]
+constexpr double backwards_cost = 0.02;  // by which a stroke must fit better backwards [em]
+constexpr double turned_cost = 0.05;     // of a quarter turn; twice as much of a half turn [em]
+// By which another order must fit better than the right one [em]; or by the factor StrokeTolerances::distinction, which
+// tells small strokes apart.
+constexpr double order_doubt = 0.05;
 constexpr double impossible = 1e3;        // [em]
 constexpr double max_dot = 0.3;           // a tap may be a stroke up to this length [em]
 constexpr double joined_distance = 0.15;  // mean distance up to which joined or broken strokes are told [em]
@@ -29,7 +30,6 @@ constexpr double joined_length = 0.6;     // of the strokes that a pen-down join
 constexpr double joined_share = 0.75;     // of the distance from one of them alone, at most
 constexpr std::size_t max_joined = 5;     // strokes without lifting the pen
 constexpr double broken_gap = 0.25;       // between the parts of a broken stroke, of its length
-constexpr double same_way = 0.5;          // accord from which a stroke runs forwards: 60 degrees for a straight one
 constexpr double opposite_way = 0.7;      // against the reversed stroke, from which it runs backwards: 45 degrees
 constexpr int max_refits = 6;
 constexpr double shape_stiffness = 0.1;  // spread of a shape [em] below which it says little of how it is stretched
@@ -54,8 +54,12 @@ struct Reading {
 
 class Judge {
  public:
-  Judge(const Character& character, std::span<const PenPath> paths)
-      : character_(character), strokes_(strokes(character)), paths_(paths) {
+  Judge(const Character& character, std::span<const PenPath> paths, const StrokeTolerances& tolerances)
+      : character_(character),
+        strokes_(strokes(character)),
+        paths_(paths),
+        same_way_(std::cos(tolerances.direction)),
+        distinction_(tolerances.distinction) {
     for (const Stroke& stroke : strokes_) {
       lines_.push_back(middle_line(stroke, {Point::Zero(), 1.0}));
       lengths_.push_back(path_length(lines_.back()));
@@ -151,8 +155,8 @@ class Judge {
     return is_clearly_more(cost_where(in_order, differs), cost_where(free, differs));
   }
 
-  static bool is_clearly_more(double cost, double other) {
-    return cost >= other + order_doubt || (cost > other && cost >= certainty * other);
+  bool is_clearly_more(double cost, double other) const {
+    return cost >= other + order_doubt || (cost > other && cost >= distinction_ * other);
   }
 
   /// An outline against `count` strokes one after the other, with the ways between them.
@@ -413,7 +417,7 @@ class Judge {
     const Outline wanted = wanted_outline(match.first, match.count);
     const Outline drawn = whole_outline(path);
     const double with = accord(drawn, wanted), against = accord(drawn, reversed(wanted));
-    if (with >= against) return with >= same_way ? WritingDirection::forwards : WritingDirection::neither;
+    if (with >= against) return with >= same_way_ ? WritingDirection::forwards : WritingDirection::neither;
     return against >= opposite_way ? WritingDirection::backwards : WritingDirection::neither;
   }
 
@@ -505,6 +509,8 @@ class Judge {
   const Character& character_;
   const std::vector<Stroke> strokes_;
   const std::span<const PenPath> paths_;   ///< as they came
+  const double same_way_;                  ///< accord from which a stroke runs forwards: of straight lines, the cosine
+  const double distinction_;               ///< factor by which another order must fit better
   std::vector<std::vector<Point>> lines_;  ///< of the strokes
   std::vector<double> lengths_;
   std::vector<Outline> outlines_;
@@ -559,9 +565,11 @@ int MatchResult::count(StrokeRemarkKind kind) const noexcept {
                                         [kind](const StrokeRemark& remark) { return remark.kind == kind; }));
 }
 
-MatchResult match_strokes(const Character& character, std::span<const PenPath> paths) {
+MatchResult match_strokes(const Character& character, std::span<const PenPath> paths,
+                          const StrokeTolerances& tolerances) {
   require_valid(character, paths);
-  return Judge(character, paths).run();
+  validate(tolerances);
+  return Judge(character, paths, tolerances).run();
 }
 
 }  // namespace calligraphy

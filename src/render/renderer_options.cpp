@@ -146,14 +146,15 @@ class Limits {
   std::string enlarged_;
 };
 
-void validate(const StrokeTolerances& tolerances) {
-  require_above_zero("tolerances.start_distance", tolerances.start_distance, "em");
-  require_above_zero("tolerances.direction", tolerances.direction, "rad", std::numbers::pi);
-  require_not_negative("tolerances.first_stretch", tolerances.first_stretch, "em");
-  require(tolerances.distinction >= 1.0, "tolerances.distinction", tolerances.distinction, "", "at least 1");
-  require_above_zero("tolerances.corridor", tolerances.corridor, "em");
-  require_within("tolerances.coverage", tolerances.coverage, "", 0.0, 1.0);
-  require_within("tolerances.late_start", tolerances.late_start, "", 0.0, 0.5);
+/// On a page of motion scale K_S, what the hand feels as it does these options at scale 1.
+RendererOptions felt_alike(RendererOptions options, double scale) {
+  for (double* impedance :
+       {&options.paper_stiffness, &options.paper_damping, &options.guidance_stiffness, &options.guidance_damping,
+        &options.wrong_way_stiffness, &options.friction.stiffness, &options.friction.damping}) {
+    *impedance /= scale * scale;
+  }
+  for (double* force : {&options.guidance_limit, &options.wrong_way_limit}) *force /= scale;
+  return options;
 }
 
 }  // namespace
@@ -184,24 +185,25 @@ RendererOptions RendererOptions::wang2006() {
   return options;
 }
 
-RendererOptions RendererOptions::for_device(const Capabilities& capabilities) {
-  RendererOptions options;
+RendererOptions RendererOptions::for_device(const Capabilities& capabilities, double scale) {
+  require_above_zero("scale", scale, "");
+  RendererOptions options = felt_alike(RendererOptions(), scale);
   options.servo_rate = capabilities.update_rate;
   options.stiffness_check = StiffnessCheck::clip;
-  clip_stiffness(options, capabilities);
+  clip_stiffness(options, capabilities, scale);
   return options;
 }
 
-RendererOptions RendererOptions::everything(const Capabilities& capabilities) {
-  RendererOptions options = for_device(capabilities);
+RendererOptions RendererOptions::everything(const Capabilities& capabilities, double scale) {
+  RendererOptions options = for_device(capabilities, scale);
   options.guidance = GuidanceLaw::saturating;
-  options.guidance_limit = std::min(largest_guidance, guidance_share * capabilities.peak_force);
+  options.guidance_limit = std::min(largest_guidance, guidance_share * capabilities.peak_force) / scale;
   options.guide_to_start = true;
   options.box_margin = 0.5;
   const double own_friction = capabilities.coulomb_friction / usual_pressure;
   if (own_friction < paper_friction_coefficient)
     options.friction.coefficient = paper_friction_coefficient - own_friction;
-  clip_stiffness(options, capabilities);
+  clip_stiffness(options, capabilities, scale);
   const bool is_modelled =
       capabilities.apparent_mass > 0.0 && capabilities.sample_delay <= PassivityController::max_delay;
   if (is_modelled) options.energy_budget = 0.1;

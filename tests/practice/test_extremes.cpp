@@ -29,8 +29,9 @@ struct Composition {
   const char* name;
   RendererOptions (*options)(const Capabilities&);
 };
-const std::vector<Composition> compositions = {{"default", RendererOptions::for_device},
-                                               {"everything", RendererOptions::everything}};
+const std::vector<Composition> compositions = {
+    {"default", [](const Capabilities& device) { return RendererOptions::for_device(device); }},
+    {"everything", [](const Capabilities& device) { return RendererOptions::everything(device); }}};
 
 PlacedCharacter one_stroke() { return {calligraphy_test::typical_character(1), {{0.02, 0.02}, 0.04}}; }
 

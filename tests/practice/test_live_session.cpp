@@ -230,6 +230,30 @@ TEST_CASE("a pen that comes out of an inkwell behind the paper writes nothing on
   CHECK(result.recording.samples.front().device_point.z() > 0.0);
 }
 
+TEST_CASE("a display can show why the pen is not guided, and the way to the start") {
+  const PracticePage page = page_of("一");
+  HeldDevice device(page_of("二"));  // the hand writes above and below the stroke that is due
+  std::vector<LiveView> views;
+  LiveOptions options = watched(device);
+  options.watch = [&](const LiveView& view) {
+    views.push_back(view);
+    device.seen();
+    return device.ticks() < 6'000;
+  };
+  write_with_device(page, device, options);
+  const PlacedCharacter& one = page.characters.front();
+  const Point start = one.placement.to_page(strokes(one.character).front().control_points.front());
+  int too_far = 0;
+  for (const LiveView& view : views) {
+    if (!view.started) continue;
+    CHECK((view.newest.pen_tip.head<2>() + view.to_start - start).norm() < 1e-12);
+    if (view.newest.pen_tip.z() > 0.001) CHECK(view.hint == WritingHint::none);
+    too_far += view.hint == WritingHint::too_far;
+  }
+  CHECK(too_far > 2);
+  CHECK(views.back().newest.stroke == 0);
+}
+
 TEST_CASE("with vision alone no force is sent") {
   const PracticePage page = page_of("一");
   HeldDevice device(page);

@@ -102,7 +102,7 @@ TEST_CASE("a whole character is written on a desk at motion scales of one half, 
       options.device = device_profile(name);
       // Dry friction of 0.26 N in a hand of 300 N/m, twice as far on the page: 1.7 mm that this writer does not notice.
       if (scale > 1.0 && options.device.coulomb_friction > 0.1) continue;
-      options.renderer = RendererOptions::for_device(options.device);
+      options.renderer = RendererOptions::for_device(options.device, scale);
       options.mapping = desk(page, scale);
       const Recording recording = write_page(page, options);
       const CharacterScore score = score_page(page, recording).front();
@@ -143,6 +143,30 @@ TEST_CASE("the more of the guidance the hand feels, the smaller the error", "[pr
   CHECK(half < mean_error(FeedbackMode::vision, 0.5));
   CHECK(one < half);
   CHECK(two < one);
+}
+
+TEST_CASE("options made for a motion scale guide the hand as much as at scale 1", "[practice]") {
+  const PracticePage page = page_of("永");
+  const auto reduction = [&page](double scale, double made_for) {
+    double errors[2] = {0.0, 0.0};
+    for (const FeedbackMode mode : {FeedbackMode::vision, FeedbackMode::force}) {
+      for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+        SessionOptions options = session(WriterSkill::novice(), mode, seed);
+        options.renderer = RendererOptions::for_device(options.device, made_for);
+        options.mapping = upright(page, scale);
+        const CharacterScore score = score_page(page, write_page(page, options)).front();
+        CHECK(score.strokes_completed == 5);
+        errors[mode == FeedbackMode::force] += score.rms_error;
+      }
+    }
+    return 1.0 - errors[1] / errors[0];
+  };
+  const double one = reduction(1.0, 1.0), half = reduction(0.5, 0.5), unscaled = reduction(0.5, 1.0);
+  CAPTURE(one, half, unscaled);
+  // Two springs: the share of the miss that is gone depends on their ratio only. What differs is the device: its mass
+  // and friction count four times on the page.
+  CHECK(std::abs(half - one) < 0.15 * one);
+  CHECK(unscaled < 0.75 * one);
 }
 
 TEST_CASE("a trace is followed on a desk as on a page upright, to the last digit", "[practice]") {

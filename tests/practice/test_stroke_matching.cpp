@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <numeric>
@@ -301,6 +302,65 @@ TEST_CASE("a stroke drawn across its direction has another shape and is not repo
     CHECK(turned(sign * 120.0) == WritingDirection::neither);
     CHECK(turned(sign * 150.0) == WritingDirection::backwards);
   }
+}
+
+TEST_CASE("a slanted stroke runs forwards within the angle of the tolerances", "[practice]") {
+  const Character one = character_of("一");
+  const auto direction = [&](double degrees, const StrokeTolerances& tolerances) {
+    const double angle = degrees * std::numbers::pi / 180.0;
+    const Point middle(0.5, 0.5), arm = 0.3 * Point(std::cos(angle), std::sin(angle));
+    const MatchResult match = match_strokes(one, std::vector<PenPath>{line(middle - arm, middle + arm)}, tolerances);
+    REQUIRE(match.drawn[0].stroke == 0);
+    CHECK(match.count(StrokeRemarkKind::shape) == (match.drawn[0].direction == WritingDirection::neither));
+    return match.drawn[0].direction;
+  };
+  for (const StrokeTolerances& tolerances :
+       {StrokeTolerances::lenient(), StrokeTolerances::normal(), StrokeTolerances::strict()}) {
+    const double degrees = tolerances.direction * 180.0 / std::numbers::pi;
+    for (const double sign : {1.0, -1.0}) {
+      CHECK(direction(sign * (degrees - 8.0), tolerances) == WritingDirection::forwards);
+      CHECK(direction(sign * (degrees + 8.0), tolerances) == WritingDirection::neither);
+    }
+  }
+}
+
+TEST_CASE("another order is told where it fits better by the factor of the tolerances", "[practice]") {
+  // Two short strokes 4 % of the em apart, so little that only the factor tells them apart, in a frame of two long ones
+  // that fixes the alignment. Each is drawn between its own place and the other's, at a share x of the way from the
+  // other's: the standard order then costs (1 - x) / x times as much as the one in which they are swapped.
+  const auto flat = [](double y, double half) { return std::vector<Point>{{0.5 - half, y}, {0.5 + half, y}}; };
+  constexpr double low = 0.5, apart = 0.04;
+  const Character character = make_character(
+      U'\u4e09', std::vector<StrokeInput>{
+                     {1, flat(0.1, 0.4)}, {1, flat(low, 0.15)}, {1, flat(low + apart, 0.15)}, {1, flat(0.9, 0.4)}});
+  const auto told_swapped = [&](double factor, const StrokeTolerances& tolerances) {
+    const double share = 1.0 / (1.0 + factor);
+    std::vector<PenPath> drawn = copy_of(character);
+    for (Point& point : drawn[1]) point.y() += (1.0 - share) * apart;
+    for (Point& point : drawn[2]) point.y() -= (1.0 - share) * apart;
+    return match_strokes(character, drawn, tolerances).count(StrokeRemarkKind::order) > 0;
+  };
+  for (const StrokeTolerances& tolerances :
+       {StrokeTolerances::lenient(), StrokeTolerances::normal(), StrokeTolerances::strict()}) {
+    CAPTURE(tolerances.distinction);
+    CHECK_FALSE(told_swapped(0.85 * tolerances.distinction, tolerances));
+    CHECK(told_swapped(1.15 * tolerances.distinction, tolerances));
+  }
+  StrokeTolerances certain;
+  certain.distinction = std::numeric_limits<double>::infinity();
+  CHECK_FALSE(told_swapped(3.5, certain));
+}
+
+TEST_CASE("a wrong tolerance is refused by name", "[practice]") {
+  const Character ten = character_of("十");
+  const auto refused = [&](double StrokeTolerances::*field, double value, const std::string& message) {
+    StrokeTolerances tolerances;
+    tolerances.*field = value;
+    CHECK_THROWS_WITH(match_strokes(ten, copy_of(ten), tolerances), Catch::Matchers::StartsWith(message));
+  };
+  refused(&StrokeTolerances::direction, 4.0, "tolerances.direction = 4 rad, must be from 0 to 3.14");
+  refused(&StrokeTolerances::distinction, 0.5, "tolerances.distinction = 0.5, must be at least 1");
+  refused(&StrokeTolerances::coverage, 1.5, "tolerances.coverage = 1.5, must be from 0 to 1");
 }
 
 TEST_CASE("without pen-downs every stroke is missing", "[practice]") {

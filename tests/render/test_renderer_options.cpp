@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/render/stiffness_advice.hpp>
 
 #include "../hard_cases.hpp"
@@ -595,6 +596,36 @@ TEST_CASE("for_device takes the device's rate and stays within its stiffness", "
   CHECK(options.wrong_way_stiffness == 150.0);
   CHECK(complaint(options, device).empty());
   CHECK(RendererOptions::for_device(test_device()).paper_stiffness == RendererOptions{}.paper_stiffness);
+}
+
+TEST_CASE("the hand feels the same stiffness, damping and force at every motion scale", "[render]") {
+  for (const Capabilities& device : device_profiles()) {
+    const auto felt = [&](RendererOptions options, double scale) {
+      CHECK(complaint([&] { validate(options, device, scale); }).empty());
+      const double square = scale * scale;
+      return std::vector<double>{options.paper_stiffness * square,
+                                 options.paper_damping * square,
+                                 options.guidance_stiffness * square,
+                                 options.guidance_damping * square,
+                                 options.wrong_way_stiffness * square,
+                                 options.friction.stiffness * square,
+                                 options.friction.damping * square,
+                                 options.guidance_limit * scale,
+                                 options.wrong_way_limit * scale,
+                                 options.friction.coefficient,
+                                 options.in_plane_force_rate,
+                                 options.normal_force_rate,
+                                 options.energy_budget};
+    };
+    for (const double scale : {0.5, 2.0}) {  // powers of two: nothing is rounded
+      CAPTURE(device.name, scale);
+      CHECK(felt(RendererOptions::for_device(device, scale), scale) == felt(RendererOptions::for_device(device), 1.0));
+      CHECK(felt(RendererOptions::everything(device, scale), scale) == felt(RendererOptions::everything(device), 1.0));
+    }
+  }
+  for (const double scale : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
+    CHECK(contains(complaint([&] { RendererOptions::for_device(test_device(), scale); }), "scale = "));
+  }
 }
 
 TEST_CASE("a damper that drives the pen by itself is refused beside no spring too", "[render]") {

@@ -141,6 +141,19 @@ class Devices(ProgramTest):
             self.assertIn(f"\nname {name}\n", text)
         self.assert_refused(2, ["devices", "profile", "touch"], "NAME", "omni")
 
+    def test_a_person_is_told_why_the_pen_is_not_guided(self):
+        """The hand writes the two strokes of 二 above and below the one of 一 that is due; in real time."""
+        library = os.environ.get("CALLIGRAPHY_HELD_LIBHD")
+        if not library:
+            self.skipTest("built without the backend for openhaptics")
+        done = self.run_program("write", "一", "--device", "openhaptics", "--out", "out", "--timeout", "6",
+                                environment={"CALLIGRAPHY_LIBHD": library, "STAND_IN_TEXT": "二"})
+        told = re.findall(r"too far from the start: \d+ mm (.+)\n", done.stderr)
+        if "force ramped down to zero" not in done.stderr.partition("straight up")[0]:
+            self.assertEqual(len(told), 2, done.stderr)  # once per pen-down
+        self.assertIn(told[0], ("to the lower left", "to the left"))
+        self.assertTrue(all(way in ("straight up", "to the upper left", "to the left") for way in told[1:]), told)
+
     def test_the_vendors_runtime_is_listed_watched_and_written_through(self):
         """On a stand-in for the library, whose device is held by a simulated writer; in real time, as above."""
         library = os.environ.get("CALLIGRAPHY_HELD_LIBHD")

@@ -64,11 +64,13 @@ class Grid:
 
     characters: looked up in `source`, a CharacterSet or CharacterList; by default the built-in characters.
     writers: names ("novice", "skilled") or a dict from name to WriterSkill.
-    stiffness: guidance and paper stiffness [N/m], clipped by clip_stiffness() to what is usable on the device and
+    stiffness: guidance and paper stiffness as the hand feels them [N/m], clipped by clip_stiffness() to what is usable on the device and
     stable in any hand, unless the stiffness_check of `options` is off; the columns guidance_stiffness and
     paper_stiffness contain the effective values, that of guidance where the attraction factor is 1.
     page: "upright" or on the "desk", filling the device's workspace.
-    motion_scale: K_S; the pen on the page moves this many times as far as the hand, which feels stiffnesses K_S^2 times.
+    motion_scale: K_S; the pen on the page moves this many times as far as the hand. Stiffnesses and forces in the table
+    are those that the hand feels: on the page they are 1 / K_S^2 and 1 / K_S times as large.
+    options: by default RendererOptions.for_device(device, motion_scale).
     """
 
     def __init__(
@@ -102,10 +104,10 @@ class Grid:
         else:
             self.seeds = list(range(1, _whole("seeds", seeds) + 1))
         self.device = _one("device", cal.device_profile(device) if isinstance(device, str) else device, cal.Capabilities)
-        usual = cal.RendererOptions.for_device(self.device)
+        self.motion_scale = _positive("motion_scale", motion_scale)
+        usual = cal.RendererOptions.for_device(self.device, self.motion_scale)
         self.options = usual if options is None else _one("options", options, cal.RendererOptions)
         self.character_timeout = _positive("character_timeout", character_timeout)
-        self.motion_scale = _positive("motion_scale", motion_scale)
         if page not in _PAGES:
             raise cal.InvalidValue(f"page: expected one of {', '.join(_PAGES)}, got {page!r}")
         self.page = page
@@ -193,7 +195,8 @@ def trial(grid: Grid, condition: Condition) -> Row:
     )
     renderer = options.renderer
     renderer.servo_rate = condition.rate
-    renderer.paper_stiffness = renderer.guidance_stiffness = condition.stiffness
+    square = grid.motion_scale**2
+    renderer.paper_stiffness = renderer.guidance_stiffness = condition.stiffness / square
     if renderer.stiffness_check == cal.StiffnessCheck.reject:
         renderer.stiffness_check = cal.StiffnessCheck.clip
     renderer.stroke.nearest.method = getattr(cal.NearestPointMethod, condition.method)
@@ -205,13 +208,13 @@ def trial(grid: Grid, condition: Condition) -> Row:
     score = cal.score_page(page, recording)[0]
     return {
         **condition._asdict(),
-        "guidance_stiffness": renderer.guidance_stiffness,
-        "paper_stiffness": renderer.paper_stiffness,
+        "guidance_stiffness": square * renderer.guidance_stiffness,
+        "paper_stiffness": square * renderer.paper_stiffness,
         "time": score.time,
         "rms_error": score.rms_error,
         "max_error": score.max_error,
-        "peak_force": score.peak_force,
-        "max_force_step": score.max_force_step,
+        "peak_force": grid.motion_scale * score.peak_force,
+        "max_force_step": grid.motion_scale * score.max_force_step,
         "stroke_count": score.stroke_count,
         "strokes_completed": score.strokes_completed,
         "order_mistakes": score.order_mistakes(),

@@ -234,6 +234,10 @@ void add_live(py::module_& module) {
             return py::array(type.cast<py::dtype>(), py::array::ShapeContainer{}, &self.newest);
           },
           "the latest tick, all zero before the first one: a structured array () of sample_dtype, copied")
+      .def_readonly("hint", &LiveView::hint, "why a pen on the paper is not guided in that tick; see hint_text()")
+      .def_property_readonly(
+          "to_start", [](const LiveView& self) { return array_of(self.to_start); },
+          "from its pen tip to the start of the stroke that is due, array (2,) [m, page]")
       .def_property_readonly(
           "servo", [](const LiveView& self) { return self.servo; }, "ServoStatus")
       .def_readonly("progress", &LiveView::progress, "share of the page that is written, in [0, 1]")

@@ -6,6 +6,7 @@
 #include <calligraphy/practice/mean_interval.hpp>
 #include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/session.hpp>
+#include <calligraphy/practice/stroke_matching.hpp>
 
 #include "components.hpp"
 
@@ -55,6 +56,15 @@ PenTrace trace_of(char32_t character, const std::vector<ArrayLike>& strokes, std
     }
   }
   return result;
+}
+
+MatchResult match_of(const Character& character, const std::vector<ArrayLike>& paths,
+                     const StrokeTolerances& tolerances) {
+  std::vector<PenPath> drawn;
+  for (const ArrayLike& path : paths) drawn.push_back(points(path, "paths"));
+  return released(+[](const Character& of, const std::vector<PenPath>& by, const StrokeTolerances& within) {
+    return match_strokes(of, by, within);
+  })(character, drawn, tolerances);
 }
 
 using Arrays = py::typing::List<Doubles>;
@@ -230,6 +240,28 @@ void add_practice(py::module_& module) {
       .def("order_mistakes", &S::order_mistakes, "Number of order mistakes.")
       .def("direction_mistakes", &S::direction_mistakes, "Number of direction mistakes.");
   module.def("score_page", released(&score_page), "page"_a, "recording"_a, "One score per character of the page.");
+
+  add_enum(module, "WritingDirection", "Direction of a pen-down along what it wrote.", WritingDirection::unknown,
+           "forwards backwards neither unknown");
+  add_enum(module, "StrokeRemarkKind", "What there is to remark on a stroke.", StrokeRemarkKind::extra,
+           "order direction shape joined broken missing extra");
+  using D = DrawnStroke;
+  add_struct<D>(module, "DrawnStroke", "What a pen-down wrote.", &D::stroke, "stroke: from 0; -1: none",
+                &D::stroke_count, "stroke_count: strokes that it wrote; above 1: joined", &D::continues,
+                "continues: it continues the stroke that the previous pen-down began", &D::in_turn,
+                "in_turn: written in order", &D::tap, "tap: shorter than 2 % of the em", &D::direction,
+                "direction: WritingDirection", &D::distance, "distance: mean, once both are aligned [em]");
+  add_struct<StrokeRemark>(module, "StrokeRemark", "A remark on a stroke.", &StrokeRemark::kind,
+                           "kind: StrokeRemarkKind", &StrokeRemark::path, "path: the pen-down, from 0; -1: none",
+                           &StrokeRemark::stroke, "stroke: from 0; -1: none", &StrokeRemark::reason,
+                           "reason: one sentence for people");
+  py::class_<MatchResult>(module, "MatchResult", "Result of match_strokes.")
+      .def_readonly("drawn", &MatchResult::drawn, "list of DrawnStroke, one per pen-down, copied")
+      .def_readonly("remarks", &MatchResult::remarks, "list of StrokeRemark, copied")
+      .def("count", &MatchResult::count, "kind"_a, "Number of remarks of a kind.");
+  module.def("match_strokes", &match_of, "character"_a, "paths"_a, "tolerances"_a = StrokeTolerances(),
+             "Which stroke each pen-down (n, 2) [em] wrote, in which order and direction, from geometry alone. Of the "
+             "tolerances `direction` and `distinction` apply. Raises InvalidValue.");
 
   add_struct<MeanInterval>(module, "MeanInterval", "A mean with its 95 % confidence interval.", &MeanInterval::mean,
                            "mean: of the values; NaN if there are none", &MeanInterval::half_width,

@@ -148,10 +148,11 @@ void add_render(py::module_& module) {
       &O::force_sign, "force_sign: ForceSign", &O::pen_tip, "pen_tip: PenTipRule", &O::motion,
       "motion: MotionMappingRule")
       .def_static("wang2006", &O::wang2006, "Every rule as printed, except the signs of eq. (8) and (9).")
-      .def_static("for_device", &O::for_device, "capabilities"_a,
-                  "The defaults at the device's rate, stiffnesses clipped to what is usable and stable.")
+      .def_static("for_device", &O::for_device, "capabilities"_a, "scale"_a = 1.0,
+                  "The defaults at the device's rate, stiffnesses clipped to what is usable and stable; the hand feels "
+                  "the same at every `scale` of the MotionMapping.")
       .def_static(
-          "everything", &O::everything, "capabilities"_a,
+          "everything", &O::everything, "capabilities"_a, "scale"_a = 1.0,
           "for_device() with the optional stages that serve every writer on the device: neither passivity control nor "
           "assistance as needed.");
   module.def(
@@ -187,6 +188,12 @@ void add_render(py::module_& module) {
            "none write too_far at_end in_middle wrong_direction another_stroke off_stroke lift_first");
   module.def("to_string", py::overload_cast<WritingHint>(&to_string), "hint"_a,
              "The words of a hint, such as \"too far from the start\"; \"\" for `none`.");
+  module.def(
+      "hint_text",
+      [](WritingHint hint, const ArrayLike& to_start) { return hint_text(hint, point(to_start, "to_start")); },
+      "hint"_a, "to_start"_a,
+      "The words of a hint with the way to the start [m, page], such as \"too far from the start: 12 mm to the "
+      "upper left\".");
   TickColumns columns(module);
   const HapticTick& t = columns.tick;
   columns.add(t.time, "time: sample time [s]", t.status, "status: TickStatus", t.state, "state: InteractionState",

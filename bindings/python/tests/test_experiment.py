@@ -670,8 +670,12 @@ def test_the_motion_scale_sets_page_and_stiffness():
     grid = experiment.Grid("一", page="desk", motion_scale=2.0, device="omni")
     assert (grid.layout.width, grid.layout.height) == (0.32, 0.14)
     assert grid.mapping == cal.desk_page(0.32, 0.14, 2.0)
+    assert grid.options.guidance_stiffness == 600.0 / 4  # felt K_S^2 times
     row = experiment.trial(grid, experiment.conditions(grid)[0])
-    assert row["guidance_stiffness"] == 700.0 / 4  # usable on the device, counted K_S^2 times
+    assert row["guidance_stiffness"] == row["paper_stiffness"] == 600.0
+    stiff = experiment.Grid("一", page="desk", motion_scale=2.0, device="omni", stiffness=[900.0])
+    row = experiment.trial(stiff, experiment.conditions(stiff)[0])
+    assert row["guidance_stiffness"] == 700.0  # usable on the device
     for wrong in ({"page": "wall"}, {"motion_scale": 0.0}):
         with pytest.raises(cal.InvalidValue, match=next(iter(wrong))):
             experiment.Grid("一", **wrong)

@@ -450,6 +450,27 @@ def test_a_session_ends_when_watch_returns_false_and_the_force_is_zero(answer):
     assert result.statistics["ticks"] > 0
 
 
+def test_a_display_can_show_why_the_pen_is_not_guided_and_the_way_to_the_start():
+    page = one_page("一")
+    placed = page.characters[0]
+    start = cal.place_elements(placed.character.strokes()[0], placed.placement)[0].point(0.0)
+    device, views = cal.PointerDevice(PROFILE), []
+    where = start + (0.1 * placed.placement.em, 0.4 * placed.placement.em)
+    device.move(*(where - (page.width / 2, page.height / 2)), 0.0)
+
+    def watch(view):
+        views.append(view)
+        if view.started:
+            device.move(*(where - (page.width / 2, page.height / 2)), 0.5)
+        return view.hint == cal.WritingHint.none
+
+    cal.write_with_device(page, device, live_options(timeout=60.0), watch)
+    last = views[-1]
+    assert last.hint == cal.WritingHint.too_far
+    assert last.to_start == pytest.approx(start - last.newest["pen_tip"][:2], abs=1e-12)
+    assert cal.hint_text(last.hint, last.to_start).endswith("mm straight down")
+
+
 def test_an_exception_of_watch_is_raised_with_the_result_after_the_force_is_zero():
     device = cal.PointerDevice(PROFILE)
 

@@ -145,6 +145,21 @@ def test_the_presets_clip_and_leave_passivity_control_off():
         assert full.friction.coefficient == pytest.approx(max(0.0, 0.15 - own))
 
 
+def test_the_presets_feel_the_same_at_every_motion_scale():
+    device = cal.device_profile("desktop")
+    for preset in (cal.RendererOptions.for_device, cal.RendererOptions.everything):
+        at_one = preset(device)
+        for scale in (0.5, 2.0):  # powers of two: nothing is rounded
+            options = preset(device, scale=scale)
+            cal.validate(options, device, scale)
+            for name in ("paper_stiffness", "guidance_stiffness", "guidance_damping", "wrong_way_stiffness"):
+                assert scale**2 * getattr(options, name) == getattr(at_one, name)
+            for name in ("guidance_limit", "wrong_way_limit"):
+                assert scale * getattr(options, name) == getattr(at_one, name)
+        with pytest.raises(cal.InvalidValue, match="scale = 0"):
+            preset(device, 0.0)
+
+
 def test_the_forces_of_a_device_with_a_coarse_dac_are_multiples_of_its_step():
     device = cal.SimulatedDevice(cal.Capabilities(apparent_mass=0.05, peak_force=1.0, force_step=0.25))
     device.write((0.3, -0.4, 5.0))

@@ -107,6 +107,12 @@ def test_a_stroke_that_is_finished_asks_for_a_lift():
     assert ticks["stroke"][-1] == 1 and ticks["covered"][-1] == 0.0
 
 
+def test_a_line_for_people_names_the_way_to_the_start():
+    kinds = cal.WritingHint
+    assert cal.hint_text(kinds.too_far, (-0.0085, 0.0085)) == "too far from the start: 12 mm to the upper left"
+    assert cal.hint_text(kinds.lift_first, (0.1, 0.1)) == cal.to_string(kinds.lift_first)
+
+
 def test_a_display_has_words_for_every_hint():
     words = [cal.to_string(hint) for hint in cal.WritingHint]
     assert words[0] == "" and all(words[1:]) and len(set(words)) == len(words)
@@ -168,6 +174,27 @@ def test_a_novice_finishes_fewer_strokes_at_the_first_touch_the_stricter_the_pre
 
     lenient, normal, strict = map(at_first_touch, PRESETS.values())
     assert strict < normal <= lenient and strict < 0.9 * lenient
+
+
+@pytest.mark.parametrize("tolerances", PRESETS.values(), ids=PRESETS)
+def test_a_slanted_stroke_is_another_shape_beyond_the_angle_of_its_preset(tolerances):
+    one = cal.built_in_characters()["一"]
+    for angle, remarks in ((tolerances.direction - 0.14, 0), (tolerances.direction + 0.14, 1)):
+        arm = 0.3 * np.array([math.cos(angle), math.sin(angle)])
+        path = 0.5 + np.linspace(-1, 1, 50)[:, None] * arm
+        match = cal.match_strokes(one, [path], tolerances=tolerances)
+        assert match.count(cal.StrokeRemarkKind.shape) == len(match.remarks) == remarks
+        expected = cal.WritingDirection.neither if remarks else cal.WritingDirection.forwards
+        assert match.drawn[0].stroke == 0 and match.drawn[0].direction is expected
+
+
+def test_wrong_tolerances_and_paths_are_refused_by_the_judge_of_strokes():
+    one = cal.built_in_characters()["一"]
+    with pytest.raises(cal.InvalidValue, match="tolerances.direction = 4"):
+        cal.match_strokes(one, [[(0, 0), (1, 1)]], cal.StrokeTolerances(direction=4.0))
+    for paths in ([[(0, 0, 0)]], [np.zeros((0, 2))], [[(math.nan, 0)]]):
+        with pytest.raises(cal.InvalidValue):
+            cal.match_strokes(one, paths)
 
 
 def test_the_tolerances_of_a_grid_reach_its_trials():

@@ -13,15 +13,18 @@
 #include <calligraphy/practice/page.hpp>
 #include <calligraphy/practice/recording.hpp>
 #include <calligraphy/practice/session.hpp>
+#include <calligraphy/render/haptic_tick.hpp>
 
 namespace calligraphy {
 
 /// What a display shows, updated about 50 times per second.
 struct LiveView {
-  RecordedSample newest;  ///< the latest tick; all zero before the first one
-  ServoStatus servo;      ///< state of the loop and its fault, if any
-  double progress = 0.0;  ///< share of the page that is written, in [0, 1]
-  bool started = false;   ///< the pen has been in front of the paper; until then no force is sent and nothing recorded
+  RecordedSample newest;                 ///< the latest tick; all zero before the first one
+  WritingHint hint = WritingHint::none;  ///< why a pen on the paper is not guided in that tick (hint_text())
+  Point to_start = Point::Zero();        ///< from its pen tip to the start of the stroke that is due [m, page]
+  ServoStatus servo;                     ///< state of the loop and its fault, if any
+  double progress = 0.0;                 ///< share of the page that is written, in [0, 1]
+  bool started = false;  ///< the pen has been in front of the paper; until then no force is sent and nothing recorded
 };
 
 struct LiveOptions {

@@ -30,7 +30,8 @@ struct SessionOptions {
   Capabilities device;
   RendererOptions renderer;
   /// Device axes to page axes; by default upright_page() of the page. On a desk: desk_page(). With a motion scale K_S
-  /// the hand moves 1 / K_S times as far as the pen on the page, and feels K_S^2 times its stiffness.
+  /// the hand moves 1 / K_S times as far as the pen on the page, and feels K_S^2 times its stiffness:
+  /// RendererOptions::for_device(device, K_S) makes up for that.
   std::optional<MotionMapping> mapping = std::nullopt;
   WriterSkill skill;
   std::uint64_t seed = 1;          ///< of the writer's beliefs and mistakes (SimulatedWriter)

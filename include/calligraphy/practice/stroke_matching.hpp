@@ -7,6 +7,7 @@
 
 #include <calligraphy/model/character.hpp>
 #include <calligraphy/practice/pen_path.hpp>
+#include <calligraphy/render/stroke_tolerances.hpp>
 
 namespace calligraphy {
 
@@ -65,11 +66,13 @@ struct MatchResult {
 /// mean distance of points at equal arc length, forwards or backwards, plus a penalty for the rotation between them. A
 /// pen-down that resembles no stroke is extra; a stroke that no pen-down resembles is missing; a pen-down that
 /// resembles several consecutive strokes has joined them. An order other than the standard one is accepted only where
-/// it fits better by 5 % of the em or twice as well. For the steps and the bounds see docs/practice.md.
-/// O(refits paths strokes).
+/// it fits better by 5 % of the em or by the factor `tolerances.distinction`; a stroke runs forwards within the angle
+/// `tolerances.direction`. For the steps and the bounds see docs/practice.md. O(refits paths strokes).
 ///
 /// `paths` are in the square of the character; writing from elsewhere is mapped there by fit_box.
-/// @throws ValueError when the character is invalid, there are more than 1000 paths, or one is empty or not finite
-MatchResult match_strokes(const Character& character, std::span<const PenPath> paths);
+/// @throws ValueError when the character or a tolerance is invalid, there are more than 1000 paths, or one is empty or
+/// not finite
+MatchResult match_strokes(const Character& character, std::span<const PenPath> paths,
+                          const StrokeTolerances& tolerances = {});
 
 }  // namespace calligraphy

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <type_traits>
 
 #include <calligraphy/collision/active_stroke.hpp>
@@ -57,6 +58,10 @@ enum class WritingHint : std::uint8_t {
 /// "", "write on", "too far from the start", "at the stroke's end", "in the middle of the stroke", "wrong direction",
 /// "another stroke's start", "too far from the stroke", "lift the pen first".
 const char* to_string(WritingHint hint) noexcept;
+
+/// The words for people, with the distance and the direction to the start [m, page; y up] where that is where to go:
+/// "too far from the start: 12 mm to the upper left", "at the stroke's end: the start is 30 mm to the left".
+std::string hint_text(WritingHint hint, const Point& to_start);
 
 struct HapticTick {
   double time = 0.0;  ///< sample time [s]

@@ -98,14 +98,17 @@ struct RendererOptions {
   static RendererOptions wang2006();
 
   /// The defaults at the device's update rate, with stiffnesses clipped to what is usable and stable on it, for any
-  /// page: stiffness_check is clip.
-  static RendererOptions for_device(const Capabilities& capabilities);
+  /// page: stiffness_check is clip. With a motion scale K_S (MotionMapping) they are the same as felt by the hand:
+  /// stiffnesses and dampings on the page are divided by K_S^2, `guidance_limit` and `wrong_way_limit` by K_S. Force
+  /// rates and energies are the device's at every scale.
+  /// @throws ValueError unless the scale is above 0, or when it is so small that no page could be that stiff
+  static RendererOptions for_device(const Capabilities& capabilities, double scale = 1.0);
 
   /// for_device() with the optional stages that serve every writer: guidance for large deviations and to the start; the
   /// friction of paper, less the device's own; an energy budget where the device states its mass and a delay of at most
   /// 15 ticks; a thermal budget where it states a continuous force below its peak. Not passivity control: the springs
   /// are damped already, and what it adds is drag. Not assistance as needed, which withdraws guidance by intent.
-  static RendererOptions everything(const Capabilities& capabilities);
+  static RendererOptions everything(const Capabilities& capabilities, double scale = 1.0);
 };
 
 /// Clips the stiffnesses to the device's usable stiffness, where it states one, and to what is stable in any hand on it

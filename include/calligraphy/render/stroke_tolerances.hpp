@@ -6,7 +6,8 @@
 namespace calligraphy {
 
 /// Tolerances of the renderer and of match_strokes(), relative to the character's square and to the stroke, so that
-/// they mean the same at every size. The default is normal().
+/// they mean the same at every size. match_strokes() judges whole pen-downs after the event, so it needs only
+/// `direction` and `distinction`. The default is normal().
 struct StrokeTolerances {
   /// A stroke begins within this distance of its start [em].
   double start_distance = 0.2;
@@ -37,5 +38,9 @@ struct StrokeTolerances {
     return {0.1, std::numbers::pi / 4.0, 0.04, 1.5, 0.05, 0.95, 0.05};
   }
 };
+
+/// @throws ValueError naming the tolerance and its value when one is out of range or not finite; only `distinction` may
+/// be infinite
+void validate(const StrokeTolerances& tolerances);
 
 }  // namespace calligraphy
