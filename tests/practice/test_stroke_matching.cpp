@@ -358,7 +358,7 @@ TEST_CASE("a wrong tolerance is refused by name", "[practice]") {
     tolerances.*field = value;
     CHECK_THROWS_WITH(match_strokes(ten, copy_of(ten), tolerances), Catch::Matchers::StartsWith(message));
   };
-  refused(&StrokeTolerances::direction, 4.0, "tolerances.direction = 4 rad, must be from 0 to 3.14");
+  refused(&StrokeTolerances::direction, 4.0, "tolerances.direction = 4 rad, must be above 0 and at most 3.14");
   refused(&StrokeTolerances::distinction, 0.5, "tolerances.distinction = 0.5, must be at least 1");
   refused(&StrokeTolerances::coverage, 1.5, "tolerances.coverage = 1.5, must be from 0 to 1");
 }

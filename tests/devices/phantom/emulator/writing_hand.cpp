@@ -50,8 +50,7 @@ Intention WritingHand::next(const Eigen::Vector3d& tip, double seconds) {
   time_ += seconds;
   const HapticTick& tick = eyes_.update(seen);
   if (writer_.done()) return {last_.position, Eigen::Vector3d::Zero()};
-  const Intention page =
-      writer_.update({tick.pen_tip, tick.character, tick.stroke, tick.state == InteractionState::writing}, seconds);
+  const Intention page = writer_.update(visual_feedback(tick), seconds);
   last_ = {mapping_.to_device(page.position), mapping_.rotation.transpose() * page.velocity / mapping_.scale};
   return last_;
 }
