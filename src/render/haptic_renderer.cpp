@@ -334,7 +334,7 @@ double HapticRenderer::needed_coverage() const noexcept {
 
 void HapticRenderer::put_down(const Point& tip) noexcept {
   if (!has_event(tick_.events, TickEvent::stroke_finished)) tick_.covered = 0.0;
-  capture_.put_down(tip, active_character().starts, static_cast<std::size_t>(tick_.stroke));
+  capture_.put_down(tip, active_character().starts, static_cast<std::size_t>(tick_.stroke), options_.guide_to_start);
   if (options_.tolerances.coverage == 0.0) return;
   const StrokeContact nearest = active_.nearest(tip, options_.stroke);
   resting_ = nearest.closest.distance <= options_.tolerances.corridor * active_character().em;

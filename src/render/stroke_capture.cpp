@@ -63,7 +63,9 @@ std::vector<StrokeStart> stroke_starts(const PlacedCharacter& placed, const Stro
   return starts;
 }
 
-void StrokeCapture::put_down(const Point& tip, std::span<const StrokeStart> starts, std::size_t due) noexcept {
+void StrokeCapture::put_down(const Point& tip, std::span<const StrokeStart> starts, std::size_t due,
+                             bool is_led) noexcept {
+  is_led_ = is_led;
   anchor_ = down_ = tip;
   const Point seen = tip - misplaced_ / (count_ + 1);
   const auto distance = [&](const StrokeStart& start) { return (seen - start.point).squaredNorm(); };
@@ -76,7 +78,13 @@ void StrokeCapture::put_down(const Point& tip, std::span<const StrokeStart> star
 CaptureVerdict StrokeCapture::update(const Point& tip, std::span<const StrokeStart> starts, std::size_t due, double em,
                                      const StrokeTolerances& tolerances) noexcept {
   if (verdict_ == CaptureVerdict::another_stroke) return verdict_;
-  const double stretch = starts[due].stretch;
+  const StrokeStart& start = starts[due];
+  if (is_led_) {
+    // Guidance leads the pen back to the start: the first stretch sets out from as near as that has brought it.
+    const double before = start.direction.dot(anchor_ - start.point), after = start.direction.dot(tip - start.point);
+    if (after < before && before > 0.0) anchor_ += (std::max(after, 0.0) - before) * start.direction;
+  }
+  const double stretch = start.stretch;
   const Point way = own_way(starts[due], anchor_, tip);
   // Guidance leads a pen towards the due stroke where it is the likely one: that says nothing of the others.
   const Point shown = is_nearest_ ? way : Point(tip - anchor_);

@@ -214,4 +214,17 @@ TEST_CASE("deciding what a pen begins does not allocate", "[render]") {
   CHECK(calligraphy_test::allocations() == before);
 }
 
+TEST_CASE("a pen that guidance leads back to the start begins the stroke from there", "[render]") {
+  const Point ahead(0.006, 0), near(0.002, 0);
+  for (const bool led : {false, true}) {
+    Pen pen{alone, {}};
+    pen.tip = ahead;
+    pen.capture.put_down(ahead, pen.starts, pen.due, led);
+    CAPTURE(led);
+    CHECK(pen.go(near - ahead) == (led ? CaptureVerdict::undecided : CaptureVerdict::wrong_direction));
+    CHECK(pen.go({1.01 * stretch, 0}) == CaptureVerdict::begun);
+    if (led) CHECK((pen.capture.begin() - near).norm() < 1e-9);
+  }
+}
+
 }  // namespace stroke_capture_tests
