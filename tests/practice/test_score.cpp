@@ -94,7 +94,8 @@ TEST_CASE("a heng drawn 1 mm too high has a lateral error of 1 mm", "[practice]"
 TEST_CASE("the score of a stroke begins where the pen is put down, before the stroke is recognised", "[practice]") {
   const PracticePage page = page_of("一");
   const PlacedCharacter& placed = page.characters[0];
-  const auto& points = strokes(placed.character)[0].control_points;
+  const std::vector<Stroke> drawn = strokes(placed.character);
+  const auto points = drawn[0].control_points;
   const Point start = placed.placement.to_page(points[0]), end = placed.placement.to_page(points[1]);
   const Point along = (end - start).normalized(), left(-along.y(), along.x());
   Pen pen(page);

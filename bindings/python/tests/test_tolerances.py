@@ -104,7 +104,7 @@ def test_a_stroke_that_is_finished_asks_for_a_lift():
     ticks = pen.write(0.0, 1.0)
     assert has(ticks, cal.TickEvent.stroke_finished)
     assert hints(ticks)[0] == "write" and hints(ticks)[-2:] == ["lift_first", "none"]
-    assert ticks["stroke"][-1] == 1 and ticks["covered"][-1] == 0.0
+    assert ticks["stroke"][-1] == 1 and ticks["covered"][-1] >= 0.9  # of the stroke written last
 
 
 def test_a_line_for_people_names_the_way_to_the_start():
