@@ -40,25 +40,30 @@ using Trace = std::vector<Point>;
 std::vector<std::vector<Trace>> traces_until(const Recording& recording, int active) {
   std::vector<std::vector<Trace>> result(static_cast<std::size_t>(active) + 1);
   Trace trace;
+  Trace touched;  // since the pen was put down, until it is known what it writes
   int character = -1;
-  const auto extend = [&trace](const RecordedSample& sample) {
-    if (sample.status == TickStatus::ok && sample.pen_tip.allFinite()) trace.push_back(sample.pen_tip.head<2>());
+  const auto extend = [](Trace& line, const RecordedSample& sample) {
+    if (sample.status == TickStatus::ok && sample.pen_tip.allFinite()) line.push_back(sample.pen_tip.head<2>());
   };
   const auto keep = [&] {
     const bool shown = character >= 0 && character <= active && !trace.empty();
     if (shown) result[static_cast<std::size_t>(character)].push_back(trace);
     trace.clear();
+    touched.clear();
     character = -1;
   };
   for (const RecordedSample& sample : recording.samples) {
-    const bool writing = sample.state == InteractionState::writing;
-    if (writing) {
+    if (has_event(sample.events, TickEvent::contact)) touched.clear();
+    if (sample.state == InteractionState::writing) {
+      if (character < 0) trace = touched;
       if (character < 0) character = sample.character;
-      extend(sample);
+      extend(trace, sample);
     } else if (character >= 0) {
-      if (has_event(sample.events, TickEvent::stroke_finished)) extend(sample);
+      if (has_event(sample.events, TickEvent::stroke_finished)) extend(trace, sample);
       if (has_event(sample.events, TickEvent::stroke_abandoned)) trace.clear();
       keep();
+    } else if (sample.state != InteractionState::separation) {
+      extend(touched, sample);
     }
   }
   keep();
