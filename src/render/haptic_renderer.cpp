@@ -40,7 +40,7 @@ constexpr double largest_click = 0.1;
 /// holds does not coast on.
 constexpr double free_share = 0.15;
 
-/// Least share of a stroke that finishes it, however much the device's friction hides: well above half.
+/// Least share of a stroke that finishes it, however much friction hides: well above half.
 constexpr double min_coverage = 0.75;
 
 /// Where guidance lets go of a pen: the tube's weight has fallen to this, or the hand is this far across [em].
@@ -134,7 +134,8 @@ HapticRenderer::HapticRenderer(std::vector<PlacedCharacter> page, const MotionMa
   limiter_.peak = capabilities.peak_force / mapping.scale;
   limiter_.limit_rate = options.limit_force_rate;
   period_ = 1.0 / options.servo_rate;
-  hidden_way_ = mapping.scale * capabilities.coulomb_friction / options.grip_stiffness;
+  const double dry = capabilities.coulomb_friction + options_.friction.coefficient * usual_pressure;
+  hidden_way_ = mapping.scale * dry / options.grip_stiffness;
   velocity_ = VelocityEstimator(options.velocity_cutoff);
   rate_filter_ = -std::expm1(-2.0 * std::numbers::pi * options.velocity_cutoff * period_);
   observes_energy_ = options.passivity_control || std::isfinite(options.energy_budget);
@@ -323,7 +324,7 @@ void HapticRenderer::write_on(const Point& tip, TransitionInput& input) noexcept
   input.stroke_finished = leaves ? is_covered && tolerances.coverage > 0.0 : is_covered && tick_.contact.finished;
 }
 
-/// A hand cannot feel what the device's own friction hides, at the beginning of a stroke and at its end.
+/// A hand cannot help what dry friction hides, the device's and that of the paper, at both ends of a stroke.
 double HapticRenderer::needed_coverage() const noexcept {
   const StrokeTolerances& tolerances = options_.tolerances;
   const double length = active_.length();
@@ -334,7 +335,7 @@ double HapticRenderer::needed_coverage() const noexcept {
 
 void HapticRenderer::put_down(const Point& tip) noexcept {
   if (!has_event(tick_.events, TickEvent::stroke_finished)) tick_.covered = 0.0;
-  capture_.put_down(tip, active_character().starts, static_cast<std::size_t>(tick_.stroke), options_.guide_to_start);
+  capture_.put_down(tip, active_character().starts, static_cast<std::size_t>(tick_.stroke));
   if (options_.tolerances.coverage == 0.0) return;
   const StrokeContact nearest = active_.nearest(tip, options_.stroke);
   resting_ = nearest.closest.distance <= options_.tolerances.corridor * active_character().em;

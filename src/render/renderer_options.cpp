@@ -58,7 +58,6 @@ constexpr double guidance_share = 0.75;   ///< of the peak force
 
 /// Friction between pen and paper, of which everything() renders what the device does not have itself.
 constexpr double paper_friction_coefficient = 0.15;
-constexpr double usual_pressure = 1.0;  ///< of a pen on paper [N]
 
 /// Rounded to single precision: the last bits, which differ between implementations of libm, reach no force.
 double without_last_bits(double stiffness) { return static_cast<float>(stiffness); }

@@ -63,9 +63,7 @@ std::vector<StrokeStart> stroke_starts(const PlacedCharacter& placed, const Stro
   return starts;
 }
 
-void StrokeCapture::put_down(const Point& tip, std::span<const StrokeStart> starts, std::size_t due,
-                             bool is_led) noexcept {
-  is_led_ = is_led;
+void StrokeCapture::put_down(const Point& tip, std::span<const StrokeStart> starts, std::size_t due) noexcept {
   anchor_ = down_ = tip;
   const Point seen = tip - misplaced_ / (count_ + 1);
   const auto distance = [&](const StrokeStart& start) { return (seen - start.point).squaredNorm(); };
@@ -79,11 +77,9 @@ CaptureVerdict StrokeCapture::update(const Point& tip, std::span<const StrokeSta
                                      const StrokeTolerances& tolerances) noexcept {
   if (verdict_ == CaptureVerdict::another_stroke) return verdict_;
   const StrokeStart& start = starts[due];
-  if (is_led_) {
-    // Guidance leads the pen back to the start: the first stretch sets out from as near as that has brought it.
-    const double before = start.direction.dot(anchor_ - start.point), after = start.direction.dot(tip - start.point);
-    if (after < before && before > 0.0) anchor_ += (std::max(after, 0.0) - before) * start.direction;
-  }
+  // A pen on its way back to the start, by itself or led by guidance, sets out from as near as it has come.
+  const double before = start.direction.dot(anchor_ - start.point), after = start.direction.dot(tip - start.point);
+  if (after < before && before > 0.0) anchor_ += (std::max(after, 0.0) - before) * start.direction;
   const double stretch = start.stretch;
   const Point way = own_way(starts[due], anchor_, tip);
   // Guidance leads a pen towards the due stroke where it is the likely one: that says nothing of the others.
@@ -93,13 +89,14 @@ CaptureVerdict StrokeCapture::update(const Point& tip, std::span<const StrokeSta
   // Of the strokes written before, the writer was off by about as much.
   const Point seen = anchor_ - misplaced_ / (count_ + 1);
   const Misfit expected = misfit(starts[due], seen, shown, em, tolerances);
-  bool is_other = false;
-  for (std::size_t later = due + 1; later < starts.size() && std::isfinite(tolerances.distinction); ++later) {
+  bool is_other = false, is_nearer = false;
+  for (std::size_t later = due + 1; later < starts.size(); ++later) {
     const Misfit other = misfit(starts[later], seen, shown, em, tolerances);
-    is_other =
-        is_other || (other.tolerable() && expected.size() > tolerances.distinction * (other.size() + indistinct));
+    if (!other.tolerable() || expected.size() <= tolerances.distinction * (other.size() + indistinct)) continue;
+    is_other = true;
+    is_nearer = is_nearer || other.place <= 1.5 * expected.place;
   }
-  if (is_other && is_first_) return verdict_ = CaptureVerdict::another_stroke;
+  if (is_nearer && is_first_) return verdict_ = CaptureVerdict::another_stroke;
   const double moved = way.norm();
   if (!(moved >= stretch)) return verdict_;
   const Misfit own = misfit(starts[due], tip - way, way, em, tolerances);

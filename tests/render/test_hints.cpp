@@ -138,7 +138,7 @@ TEST_CASE("a pen that left the stroke it writes is told that it is too far away 
   page.down(page.start(0));
   const Point place = page.start(0) + 0.01 * page.along(0);
   page.go(place);
-  page.go(place - 0.005 * page.left(0));  // beyond 0.12 em
+  page.go(place - 0.0065 * page.left(0));  // beyond 0.12 em
   CHECK(page.rest(2).hint == WritingHint::off_stroke);
   CHECK(page.renderer.last().state == InteractionState::writing);
   page.go(place - 0.003 * page.left(0));

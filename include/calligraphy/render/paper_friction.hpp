@@ -5,6 +5,9 @@
 
 namespace calligraphy {
 
+/// With which people press a pen on paper, about [N].
+inline constexpr double usual_pressure = 1.0;
+
 enum class FrictionModel {
   /// Hard break-away: a spring connects the pen to an anchor w on the paper, and drags the anchor along once it is
   /// stretched by mu N / stiffness. Below that w does not move at all: no drift. The force depends on the path alone,

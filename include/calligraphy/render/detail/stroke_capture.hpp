@@ -33,9 +33,8 @@ class StrokeCapture {
   /// A new character: nothing is known of where the writer sees it.
   void restart() noexcept { *this = {}; }
 
-  /// The pen was put down at `tip` [m, page], with stroke `due` of `starts` to be written; `is_led`: guidance leads it
-  /// to the start from afar.
-  void put_down(const Point& tip, std::span<const StrokeStart> starts, std::size_t due, bool is_led = false) noexcept;
+  /// The pen was put down at `tip` [m, page], with stroke `due` of `starts` to be written.
+  void put_down(const Point& tip, std::span<const StrokeStart> starts, std::size_t due) noexcept;
 
   /// The pen is at `tip`, and stroke `due` of `starts` is to be written; `em` [m].
   CaptureVerdict update(const Point& tip, std::span<const StrokeStart> starts, std::size_t due, double em,
@@ -56,7 +55,6 @@ class StrokeCapture {
   Point down_ = Point::Zero();    ///< where the pen was put down
   CaptureVerdict verdict_ = CaptureVerdict::undecided;
   bool is_nearest_ = false;
-  bool is_led_ = false;
   bool is_first_ = true;             ///< the pen has not yet gone as far since it was put down
   Point misplaced_ = Point::Zero();  ///< sum over the strokes written so far [m]
   int count_ = 0;
