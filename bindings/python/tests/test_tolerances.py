@@ -81,7 +81,8 @@ def test_a_pen_put_down_elsewhere_is_told_why_it_is_not_guided():
         (0.5, 0.55, 0.0, kinds.in_middle),
         (1.0, 0.95, 0.0, kinds.at_end),
         (0.0, 0.3, 0.3, kinds.too_far),
-        (0.15, 0.0, 0.0, kinds.wrong_direction),
+        (0.0, -0.15, 0.0, kinds.wrong_direction),
+        (0.15, 0.0, 0.0, kinds.write),  # back to the start
     ):
         pen = Pen()
         ticks = pen.write(first, last, aside, lift=False)
