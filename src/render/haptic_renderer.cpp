@@ -328,6 +328,7 @@ void HapticRenderer::write_on(const Point& tip, TransitionInput& input) noexcept
 double HapticRenderer::needed_coverage() const noexcept {
   const StrokeTolerances& tolerances = options_.tolerances;
   const double length = active_.length();
+  if (!(length > 0.0)) return tolerances.coverage;
   const double late = tick_.contact.finished ? std::min(tolerances.late_start, coverage_.late() / length) : 0.0;
   const double needed = tolerances.coverage * (1.0 - late);
   return std::max(needed - 2.0 * hidden_way_ / length, std::min(needed, min_coverage));

@@ -12,6 +12,9 @@ constexpr double max_stretch_share = 0.25;
 /// Starts that differ by less than this cannot be told apart, as a share of both tolerances.
 constexpr double indistinct = 0.05;
 
+/// A pen that writes another stroke was put down about as near to its start: at most this many times as far.
+constexpr double about_as_far = 1.5;
+
 /// How badly a first stretch fits a stroke, as shares of the tolerances.
 struct Misfit {
   double place, direction;
@@ -80,30 +83,29 @@ CaptureVerdict StrokeCapture::update(const Point& tip, std::span<const StrokeSta
   // A pen on its way back to the start, by itself or led by guidance, sets out from as near as it has come.
   const double before = start.direction.dot(anchor_ - start.point), after = start.direction.dot(tip - start.point);
   if (after < before && before > 0.0) anchor_ += (std::max(after, 0.0) - before) * start.direction;
-  const double stretch = start.stretch;
-  const Point way = own_way(starts[due], anchor_, tip);
+  const Point way = own_way(start, anchor_, tip);
   // Guidance leads a pen towards the due stroke where it is the likely one: that says nothing of the others.
   const Point shown = is_nearest_ ? way : Point(tip - anchor_);
-  if (!(shown.norm() >= stretch)) return verdict_;
+  if (!(shown.norm() >= start.stretch)) return verdict_;
 
   // Of the strokes written before, the writer was off by about as much.
   const Point seen = anchor_ - misplaced_ / (count_ + 1);
-  const Misfit expected = misfit(starts[due], seen, shown, em, tolerances);
+  const Misfit expected = misfit(start, seen, shown, em, tolerances);
   bool is_other = false, is_nearer = false;
   for (std::size_t later = due + 1; later < starts.size(); ++later) {
     const Misfit other = misfit(starts[later], seen, shown, em, tolerances);
     if (!other.tolerable() || expected.size() <= tolerances.distinction * (other.size() + indistinct)) continue;
     is_other = true;
-    is_nearer = is_nearer || other.place <= 1.5 * expected.place;
+    is_nearer = is_nearer || other.place <= about_as_far * expected.place;
   }
   if (is_nearer && is_first_) return verdict_ = CaptureVerdict::another_stroke;
   const double moved = way.norm();
-  if (!(moved >= stretch)) return verdict_;
-  const Misfit own = misfit(starts[due], tip - way, way, em, tolerances);
+  if (!(moved >= start.stretch)) return verdict_;
+  const Misfit own = misfit(start, tip - way, way, em, tolerances);
   if (own.tolerable() && !is_other) return verdict_ = CaptureVerdict::begun;
   verdict_ = own.place <= 1.0 ? CaptureVerdict::wrong_direction : CaptureVerdict::undecided;
   is_first_ = false;
-  anchor_ = moved > 0.0 ? Point(tip - way * (stretch / moved)) : tip;
+  anchor_ = moved > 0.0 ? Point(tip - way * (start.stretch / moved)) : tip;
   return verdict_;
 }
 

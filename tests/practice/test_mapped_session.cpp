@@ -16,6 +16,7 @@
 
 using namespace calligraphy;
 using calligraphy_test::page_of;
+using calligraphy_test::same;
 using calligraphy_test::session;
 
 namespace {
@@ -33,16 +34,6 @@ double difference(const Recording& a, const Recording& b) {
     largest = std::max(largest, (a.samples[i].pen_tip - b.samples[i].pen_tip).norm());
   }
   return largest;
-}
-
-/// Equal to the last digit.
-bool same(const Recording& a, const Recording& b) {
-  return std::equal(a.samples.begin(), a.samples.end(), b.samples.begin(), b.samples.end(),
-                    [](const RecordedSample& x, const RecordedSample& y) {
-                      return x.time == y.time && x.device_point == y.device_point && x.pen_tip == y.pen_tip &&
-                             x.force == y.force && x.state == y.state && x.events == y.events && x.status == y.status &&
-                             x.character == y.character && x.stroke == y.stroke;
-                    });
 }
 
 /// A session at a motion scale that is similar to `at_one`: the device and the grip, seen from the page, are the same.

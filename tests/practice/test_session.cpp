@@ -17,19 +17,10 @@
 
 using namespace calligraphy;
 using calligraphy_test::page_of;
+using calligraphy_test::same;
 using calligraphy_test::session;
 
 namespace {
-
-/// Identical to the last digit, except for measured times.
-bool same(const Recording& a, const Recording& b) {
-  return std::equal(a.samples.begin(), a.samples.end(), b.samples.begin(), b.samples.end(),
-                    [](const RecordedSample& x, const RecordedSample& y) {
-                      return x.time == y.time && x.device_point == y.device_point && x.pen_tip == y.pen_tip &&
-                             x.force == y.force && x.state == y.state && x.events == y.events && x.status == y.status &&
-                             x.character == y.character && x.stroke == y.stroke;
-                    });
-}
 
 double max_step(const Recording& recording) {
   double largest = 0.0;
