@@ -23,6 +23,7 @@
 #include <calligraphy/devices/servo_loop.hpp>
 
 #include "../catch.hpp"
+#include "../still_clock.hpp"
 #include "watched_device.hpp"
 
 using namespace calligraphy;
@@ -336,7 +337,9 @@ TEST_CASE("after an emergency stop a servo writes zero until it is cleared, then
   WatchedDevice device;
   device.state.velocity.setZero();
   int asked = 0;
-  Servo servo(device, [&](const DeviceState&) -> Eigen::Vector3d { return ++asked, Eigen::Vector3d(3.0, 0.0, 0.0); });
+  Servo servo(
+      device, [&](const DeviceState&) -> Eigen::Vector3d { return ++asked, Eigen::Vector3d(3.0, 0.0, 0.0); },
+      calligraphy_test::untimed());
   double now = 0.0;
   const auto step = [&](int ticks) {
     for (int i = 0; i < ticks; ++i) servo.step(now += 1e-3);
@@ -375,7 +378,7 @@ TEST_CASE("an emergency stop between the decision on a force and its writing is 
   ServoOptions options;
   options.ramp_up = 0.0;
   Servo servo(
-      device, [](const DeviceState&) { return Eigen::Vector3d(3.0, 0.0, 0.0); }, options);
+      device, [](const DeviceState&) { return Eigen::Vector3d(3.0, 0.0, 0.0); }, calligraphy_test::untimed(options));
   servo.step(0.001);
   device.while_writing = [] { emergency_stop(); };
   servo.step(0.002);
@@ -390,7 +393,7 @@ TEST_CASE("the watchdog's ramp-down is cut as well", "[emergency]") {
   ServoOptions options;
   options.ramp_up = 0.0;
   Servo servo(
-      device, [](const DeviceState&) { return Eigen::Vector3d(3.0, 0.0, 0.0); }, options);
+      device, [](const DeviceState&) { return Eigen::Vector3d(3.0, 0.0, 0.0); }, calligraphy_test::untimed(options));
   servo.step(0.001);
   for (int i = 0; i < 7; ++i) servo.supervise(0.001 * i);
   REQUIRE((device.last() > 0.0 && device.last() < 3.0));

@@ -17,6 +17,7 @@
 #include "../allocation_counter.hpp"
 #include "../catch.hpp"
 #include "../special_values.hpp"
+#include "../still_clock.hpp"
 #include "watched_device.hpp"
 
 using namespace calligraphy;
@@ -897,10 +898,13 @@ TEST_CASE("two servos with two devices are independent", "[servo]") {
 TEST_CASE("a simulated pen rests on a wall with the servo as it does without", "[servo]") {
   SimulatedDevice device(device_profile("desktop"), {0.15, 5.0, 500.0}, {0.0, 0.0, 0.01});
   device.set_intention({{0.0, 0.0, -0.005}, Eigen::Vector3d::Zero()});
-  Servo servo(device, [](const DeviceState& state) {
-    const double penetration = -state.position.z();
-    return Eigen::Vector3d(0.0, 0.0, penetration > 0.0 ? 800.0 * penetration - 2.0 * state.velocity.z() : 0.0);
-  });
+  Servo servo(
+      device,
+      [](const DeviceState& state) {
+        const double penetration = -state.position.z();
+        return Eigen::Vector3d(0.0, 0.0, penetration > 0.0 ? 800.0 * penetration - 2.0 * state.velocity.z() : 0.0);
+      },
+      calligraphy_test::untimed());
   for (int tick = 0; tick < 2000; ++tick) {
     servo.step(device.time());
     device.advance(period);
@@ -936,11 +940,14 @@ TEST_CASE("a damped wall does not vanish on a device that does not measure veloc
   NoVelocity device(physics);
   REQUIRE(device.read().velocity.array().isNaN().all());
   // As examples/02_own_force_law.cpp has it: std::max(0.0, NaN) is 0.
-  Servo servo(device, [](const DeviceState& state) -> Eigen::Vector3d {
-    const double penetration = -state.position.z();
-    if (penetration <= 0.0) return {0.0, 0.0, 0.0};
-    return {0.0, 0.0, std::max(0.0, 800.0 * penetration - 2.0 * state.velocity.z())};
-  });
+  Servo servo(
+      device,
+      [](const DeviceState& state) -> Eigen::Vector3d {
+        const double penetration = -state.position.z();
+        if (penetration <= 0.0) return {0.0, 0.0, 0.0};
+        return {0.0, 0.0, std::max(0.0, 800.0 * penetration - 2.0 * state.velocity.z())};
+      },
+      calligraphy_test::untimed());
   for (int tick = 0; tick < 2000; ++tick) {
     servo.step(physics.time());
     physics.advance(period);

@@ -8,6 +8,7 @@
 #include <calligraphy/base/random.hpp>
 #include <calligraphy/devices/servo.hpp>
 
+#include "../still_clock.hpp"
 #include "independent_hand.hpp"
 #include "scene.hpp"
 
@@ -226,8 +227,6 @@ class TryingHand {
   Vector3d jog_ = Vector3d::Zero(), knock_ = Vector3d::Zero();
 };
 
-double no_time() noexcept { return 0.0; }
-
 /// Faults that last for a few ticks.
 class Burst {
  public:
@@ -276,7 +275,7 @@ EnergyResult run_energy(const EnergyRun& run) {
   ServoOptions servo_options;
   servo_options.rate = rate;
   servo_options.timeout = std::max(servo_options.timeout, 2.0 * period);
-  servo_options.work_clock = no_time;
+  servo_options.work_clock = calligraphy_test::still_clock;
   Servo servo(
       device, [&](const DeviceState& state) { return renderer.update(state).force; }, servo_options);
 

@@ -8,6 +8,7 @@
 #include <calligraphy/devices/servo.hpp>
 
 #include "../../catch.hpp"
+#include "../../still_clock.hpp"
 #include "held_phantom.hpp"
 
 using namespace calligraphy_test;
@@ -21,7 +22,7 @@ Eigen::Vector3d spring(const DeviceState& state) {
 
 ServoOptions in_virtual_time() {
   ServoOptions options;
-  options.work_clock = []() noexcept { return 0.0; };  // independent of machine load
+  options.work_clock = calligraphy_test::still_clock;
   return options;
 }
 

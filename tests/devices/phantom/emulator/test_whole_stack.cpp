@@ -9,6 +9,7 @@
 #include <calligraphy/devices/phantom/phantom_device.hpp>
 #include <calligraphy/devices/servo.hpp>
 
+#include "../../../still_clock.hpp"
 #include "catch.hpp"
 #include "emulated_phantom.hpp"
 #include "plugged_touch.hpp"
@@ -35,7 +36,9 @@ struct Stack {
       : phantom(bed, identity, {0.1, 3.0, 300.0}),
         device((phantom.bus.plug_in(1, "2"), phantom::make_link("", patient)), options_of_touch(),
                [this] { return now.load(); }),
-        servo(device, [this](const DeviceState& state) { return leaning ? spring(state) : Eigen::Vector3d(0, 0, 0); }) {
+        servo(
+            device, [this](const DeviceState& state) { return leaning ? spring(state) : Eigen::Vector3d(0, 0, 0); },
+            untimed()) {
     REQUIRE(phantom.bus.wait(listens));
     run(50);
     phantom.arm.docked = false;
