@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -14,32 +15,22 @@ namespace calligraphy::tools {
 namespace fs = std::filesystem;
 namespace {
 
-/// Absolute path without a trailing slash: "out/" becomes "out".
-fs::path plain(const fs::path& path) {
-  const fs::path normal = fs::absolute(path).lexically_normal();
-  return normal.has_filename() ? normal : normal.parent_path();
-}
-
-fs::path first_missing(const fs::path& path) {
-  fs::path missing;
+/// Why there is no directory at `at`, where mkdir() has just failed.
+std::string reason(const fs::path& at, int error) {
   std::error_code failure;
-  for (fs::path at = path; at.has_relative_path() && !fs::exists(at, failure); at = at.parent_path()) missing = at;
-  return missing;
+  if (error == EEXIST && fs::is_symlink(at, failure)) {
+    return at.string() + " is a link to " + fs::read_symlink(at, failure).string() + ", which is not a directory";
+  }
+  return std::generic_category().message(error);
 }
 
 }  // namespace
 
-OutputDirectory::OutputDirectory(const fs::path& path) : path_(plain(path)), first_created_(first_missing(path_)) {
+OutputDirectory::OutputDirectory(const fs::path& path) : path_(fs::absolute(path)) {
   try {
-    std::error_code failure;
-    fs::create_directories(path_, failure);
-    if (!fs::is_directory(path_)) {
-      throw FileError(path.string() + ": cannot create directory" + (failure ? ": " + failure.message() : ""));
-    }
+    create(path);
     lock(path);
-    const fs::path probe = path_ / ".calligraphy-probe";
-    write_file(probe, "");
-    fs::remove(probe);
+    check_can_write(path_ / "a new file");
   } catch (const fs::filesystem_error& error) {
     release();
     throw FileError(path.string() + ": " + error.code().message());
@@ -51,27 +42,35 @@ OutputDirectory::OutputDirectory(const fs::path& path) : path_(plain(path)), fir
 
 OutputDirectory::~OutputDirectory() { release(); }
 
+void OutputDirectory::create(const fs::path& path) {
+  constexpr mode_t for_all = 0777;  // less what the process masks
+  fs::path at;
+  for (const fs::path& part : path_) {
+    at /= part;
+    if (part.empty() || fs::is_directory(at)) continue;  // empty: after a trailing slash
+    if (mkdir(at.c_str(), for_all) == 0) {
+      created_.push_back(at);
+    } else if (const int error = errno; !fs::is_directory(at)) {  // otherwise another run has just created it
+      throw FileError(path.string() + ": cannot create directory: " + reason(at, error));
+    }
+  }
+}
+
 void OutputDirectory::lock(const fs::path& path) {
   lock_ = open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (lock_ < 0 || flock(lock_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
-  first_created_.clear();  // it is the other run's
+  created_.clear();  // the other run's to remove
   throw FileError(path.string() + ": another run is writing there: wait for its end, or choose another directory");
 }
 
 void OutputDirectory::write(const fs::path& name, std::string_view content) const { write_file(path_ / name, content); }
 
+/// rmdir() removes no link, no file and no directory with something in it.
 void OutputDirectory::release() noexcept {
-  remove_empty();
+  while (!created_.empty() && rmdir(created_.back().c_str()) == 0) created_.pop_back();
+  created_.clear();
   if (lock_ >= 0) close(lock_);
   lock_ = -1;
-}
-
-void OutputDirectory::remove_empty() noexcept {
-  if (first_created_.empty()) return;
-  std::error_code failure;
-  for (fs::path at = path_; at.native().size() >= first_created_.native().size(); at = at.parent_path()) {
-    fs::remove(at, failure);  // fails, as intended, on a directory that is not empty
-  }
 }
 
 }  // namespace calligraphy::tools

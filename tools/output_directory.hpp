@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string_view>
+#include <vector>
 
 namespace calligraphy::tools {
 
@@ -10,9 +11,9 @@ namespace calligraphy::tools {
 inline constexpr const char* out_directory_rules =
     ", created if missing. Files of an earlier run are replaced if they have the same name, and otherwise stay";
 
-/// Creates the directory and its parents if missing; the destructor removes those it created that are still empty. No
-/// other run may use it in the meantime: the system's lock on the directory goes with the process, however it ends.
-/// Where there are no such locks (some network file systems) it is not locked.
+/// Creates the directory and its parents if missing; the destructor removes those it created that are still empty, and
+/// nothing else. No other run may use it in the meantime: the system's lock on the directory goes with the process,
+/// however it ends. Where there are no such locks (some network file systems) it is not locked.
 class OutputDirectory {
  public:
   /// @throws FileError naming the directory if no file can be written into it, or another run uses it
@@ -25,13 +26,13 @@ class OutputDirectory {
   void write(const std::filesystem::path& name, std::string_view content) const;
 
  private:
+  void create(const std::filesystem::path& path);
   void lock(const std::filesystem::path& path);
-  void remove_empty() noexcept;
   void release() noexcept;
 
   std::filesystem::path path_;
-  std::filesystem::path first_created_;  ///< empty: nothing was created
-  int lock_ = -1;                        ///< descriptor of the locked directory; -1: not locked
+  std::vector<std::filesystem::path> created_;  ///< parents first
+  int lock_ = -1;                               ///< descriptor of the locked directory; -1: not locked
 };
 
 }  // namespace calligraphy::tools

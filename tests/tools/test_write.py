@@ -349,6 +349,20 @@ class Refusals(ProgramTest):
         (self.directory / "data" / "北.json").write_text('{"medians": [[[0, 0], [1e999, 5]]]}')
         self.assert_refused(1, ["write", "北", "--out", "out", "--characters", "data"], "北.json")
 
+    def test_nothing_that_the_program_did_not_make_is_removed(self):
+        (self.directory / "gone").symlink_to("unmounted/disk")
+        (self.directory / "there").mkdir()
+        (self.directory / "link").symlink_to("there")
+        (self.directory / "link/.calligraphy-probe").write_text("mine")
+        for out in ("gone", "gone/", "gone/sub"):
+            self.assert_refused(1, ["write", "一", "--out", out], "gone is a link to unmounted/disk, which is not a")
+            self.assertEqual(os.readlink(self.directory / "gone"), "unmounted/disk")
+        self.assert_refused(1, ["write", "一", "--out", "link/gnome/../sub", "--device", "replay:none.csv"], "none.csv")
+        self.assertEqual(os.readlink(self.directory / "link"), "there")
+        self.run_program("write", "一", "--mode", "force", "--out", "link")
+        self.assertEqual((self.directory / "there/.calligraphy-probe").read_text(), "mine")
+        self.assertTrue((self.directory / "there/summary.json").exists())
+
     def test_an_unwritable_directory_is_named_before_the_run(self):
         (self.directory / "file").write_text("keep")
         self.assert_refused(1, ["write", "北", "--out", "file"], "file")
