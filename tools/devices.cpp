@@ -35,6 +35,7 @@
 #include "interrupt.hpp"
 #include "options.hpp"
 #include "servo_report.hpp"
+#include "stop_key.hpp"
 
 namespace calligraphy::tools {
 namespace {
@@ -232,19 +233,21 @@ void watch(const WatchOptions& options) {
   choice.wire_profile = options.wire_profile;
   choice.model = options.model;
   const std::unique_ptr<HapticDevice> device = open_device(choice, false);
-  fmt::print("{}, without force; Ctrl-C stops\n", device->capabilities().model);
   SeenDevice seen(*device);
   ServoLoopOptions servo;
   servo.servo.rate = device->capabilities().update_rate;
   ServoLoop loop(
       seen, [](const DeviceState&) { return Eigen::Vector3d(Eigen::Vector3d::Zero()); }, servo);
   const Interrupt interrupt;
+  StopKey key;
+  fmt::print("{}, without force; {} stops\n", device->capabilities().model, stop_keys(key));
   for (const std::string& warning : loop.start()) spdlog::warn("{}", warning);
   const double begin = monotonic_seconds();
   Sighting newest;
-  while (!interrupt.asked() && (options.seconds == 0.0 || monotonic_seconds() - begin < options.seconds)) {
+  while (!interrupt.asked() && !key.pressed() && (options.seconds == 0.0 || monotonic_seconds() - begin < options.seconds)) {
     std::this_thread::sleep_for(std::chrono::milliseconds(250));
     seen.look(newest);
+    key.look();
     const ServoStatus status = loop.status();
     const Eigen::Vector3d p = 1e3 * newest.state.position;
     fmt::print("x {:8.2f}  y {:8.2f}  z {:8.2f} mm{}  buttons {:04b}  {}{}{}  {} stale of {} ticks\n", p.x(), p.y(),
@@ -295,7 +298,7 @@ void add_devices(CLI::App& program) {
   const auto watch_options = std::make_shared<WatchOptions>();
   watcher->add_option("DEVICE", watch_options->device, "phantom[:SERIAL] or openhaptics[:NAME]")->required();
   add_phantom_options(*watcher, watch_options->wire_profile, watch_options->model);
-  watcher->add_option("--seconds", watch_options->seconds, "Duration, 0.1 to 86400 (default: until Ctrl-C)")
+  watcher->add_option("--seconds", watch_options->seconds, "Duration, 0.1 to 86400 (default: until space, Esc or Ctrl-C)")
       ->check(number(0.1, 86400.0))
       ->type_name("S");
   watcher->callback([watch_options] { watch(*watch_options); });

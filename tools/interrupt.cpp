@@ -13,7 +13,8 @@ namespace {
 constexpr std::array<int, 3> signals = {SIGINT, SIGTERM, SIGHUP};
 constexpr int last_straw = 3;
 
-volatile std::sig_atomic_t signalled = 0;
+volatile std::sig_atomic_t signalled = 0;    ///< how often
+volatile std::sig_atomic_t last_signal = 0;  ///< outlives the Interrupt
 
 /// Dispositions before; for one Interrupt at a time.
 std::array<struct sigaction, signals.size()> before;
@@ -24,6 +25,7 @@ extern "C" void remember(int signal) {
   emergency_stop();  // the person wants no more of it, whatever the program still has to write
   const int count = signalled + 1;
   signalled = count;
+  last_signal = signal;
   if (count + 1 < last_straw) return;
   for (std::size_t i = 0; i < signals.size(); ++i) {
     if (signals[i] == signal) restore(i);
@@ -52,6 +54,12 @@ bool Interrupt::asked() const noexcept { return signalled != 0; }
 
 void Interrupt::check() const {
   if (asked()) throw Error("interrupted");
+}
+
+void end_if_interrupted() noexcept {
+  if (last_signal == 0) return;
+  std::signal(last_signal, SIG_DFL);
+  std::raise(last_signal);
 }
 
 }  // namespace calligraphy::tools

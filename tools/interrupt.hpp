@@ -1,4 +1,5 @@
-// Ctrl-C as a flag that a loop polls, so that devices are released and empty directories removed before the exit.
+// Ctrl-C as a flag that a loop polls, so that devices are released, results written and empty directories removed before
+// the program ends as a shell expects: by the signal.
 #pragma once
 
 namespace calligraphy::tools {
@@ -16,5 +17,9 @@ class Interrupt {
   /// For work that leaves nothing behind when aborted. @throws Error if asked()
   void check() const;
 };
+
+/// Ends the program by the signal that an Interrupt has received, if any: a shell's loop ends with it, and the exit code
+/// says why.
+void end_if_interrupted() noexcept;
 
 }  // namespace calligraphy::tools

@@ -1,4 +1,4 @@
-// The program `calligraphy`. Exit codes: 0 success, 1 failure, 2 usage error.
+// The program `calligraphy`. Exit codes: 0 success, 1 failure, 2 usage error; or ended by a signal.
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
@@ -15,6 +15,7 @@
 #include <calligraphy/devices/emergency_stop.hpp>
 
 #include "commands.hpp"
+#include "interrupt.hpp"
 
 namespace {
 
@@ -61,9 +62,7 @@ int run(int argc, char** argv) {
   return flush();
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run_and_report(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const calligraphy::tools::UsageError& error) {
@@ -73,4 +72,12 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {
     return fail(1, error.what());
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int code = run_and_report(argc, argv);
+  calligraphy::tools::end_if_interrupted();
+  return code;
 }

@@ -40,11 +40,12 @@ class Pen {
   /// simulated writer. @throws FileError, FormatError, DeviceError
   Recording write(const PracticePage& page, const SessionOptions& session);
 
-  /// Whether space and Esc stop the run as Ctrl-C does.
-  bool has_stop_key() const noexcept { return stop_key_ && stop_key_->available(); }
+  /// What stops the writing of a person, as in "space, Esc or Ctrl-C".
+  const char* stop_keys() const noexcept { return tools::stop_keys(*stop_key_); }
   /// True if Ctrl-C or the stop key was pressed since the device was opened. write() then throws an Error for a
   /// simulated writer or a trace, and returns what was written so far for a person.
   bool interrupted() const noexcept { return interrupt_->asked() || (stop_key_ && stop_key_->pressed()); }
+  bool stopped_by_key() const noexcept { return interrupted() && !interrupt_->asked(); }
   /// Servo loop statistics per page; empty unless a person writes.
   const std::vector<ServoStatistics>& statistics() const noexcept { return statistics_; }
 

@@ -111,9 +111,10 @@ class ReplayRun {
       progress.show(static_cast<double>(i + 1) / static_cast<double>(traces.size()));
     }
     if (report_.traces.empty()) interrupt.check();
+    report_.interrupted = report_.traces.size() < with_template;
     if (out) out->write("replay.json", json(report_));
     fmt::print("{}", options_.json ? json(report_) : table(report_));
-    if (report_.traces.size() < with_template) {
+    if (report_.interrupted) {
       throw Error(fmt::format("interrupted after {} of {} traces", report_.traces.size(), with_template));
     }
   }

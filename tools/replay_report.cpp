@@ -132,6 +132,7 @@ std::string json(const ReplayReport& report) {
                     {"renderer", report.renderer},
                     {"peak_force_limit_N", report.peak_force},  // null: no limit
                     {"force_step_limit_N", report.max_force_step},
+                    {"interrupted", report.interrupted},
                     {"traces", traces},
                     {"without_template", missing}};
   return all.dump(2) + "\n";

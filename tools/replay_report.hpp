@@ -24,6 +24,7 @@ struct ReplayReport {
   double peak_force = 0.0;      ///< of the device [N]
   double max_force_step = 0.0;  ///< of the renderer [N per tick]
   std::vector<Replayed> traces;
+  bool interrupted = false;  ///< there are fewer than were asked for
   std::u32string without_template;  ///< written characters that are not in the set
 };
 

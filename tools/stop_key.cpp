@@ -36,6 +36,8 @@ void StopKey::look() noexcept {
   }
 }
 
+const char* stop_keys(const StopKey& key) noexcept { return key.available() ? "space, Esc or Ctrl-C" : "Ctrl-C"; }
+
 /// Async-signal-safe: tcsetattr() is.
 void StopKey::restore(void* self) noexcept {
   tcsetattr(STDIN_FILENO, TCSANOW, &static_cast<const StopKey*>(self)->before_);

@@ -35,4 +35,7 @@ class StopKey {
   bool pressed_ = false;
 };
 
+/// What a person presses to stop: "space, Esc or Ctrl-C", or "Ctrl-C" where no keys are read.
+const char* stop_keys(const StopKey& key) noexcept;
+
 }  // namespace calligraphy::tools

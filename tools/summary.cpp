@@ -65,6 +65,28 @@ std::string reduction(const char* what, const char* unit, const std::vector<Pair
                      unit, relative, interval.mean - interval.half_width, interval.mean + interval.half_width, unit);
 }
 
+/// The results from `begin` on that differ only in their repetition end here.
+std::size_t end_of_repetitions(const std::vector<Result>& results, std::size_t begin) {
+  const Result& first = results[begin];
+  std::size_t end = begin;
+  while (end < results.size() && results[end].position == first.position && results[end].mode == first.mode) ++end;
+  return end;
+}
+
+/// "interrupted: means over 3 to 100 of 100 repetitions"; empty where there is nothing to average.
+std::string repetitions(const Summary& summary) {
+  if (summary.repetitions == 1) return "";
+  if (!summary.interrupted) return fmt::format("means over {} repetitions\n", summary.repetitions);
+  std::size_t least = summary.results.size(), most = 0;
+  for (std::size_t begin = 0, end = 0; begin < summary.results.size(); begin = end) {
+    end = end_of_repetitions(summary.results, begin);
+    least = std::min(least, end - begin);
+    most = std::max(most, end - begin);
+  }
+  const std::string range = least < most ? fmt::format("{} to {}", least, most) : fmt::format("{}", most);
+  return fmt::format("interrupted: means over {} of {} repetitions\n", range, summary.repetitions);
+}
+
 }  // namespace
 
 double percentile(std::vector<float>& values, double share) {
@@ -75,16 +97,17 @@ double percentile(std::vector<float>& values, double share) {
   return *at;
 }
 
-std::string table(const std::vector<Result>& results) {
+std::string table(const Summary& summary) {
+  const std::vector<Result>& results = summary.results;
   constexpr const char* head = "{:<10}{:<8}{:>8}{:>10}{:>10}{:>7}{:>11}{:>9}{:>10}{:>10}{:>10}{:>12}\n";
-  std::string text = fmt::format(fmt::runtime(head), "", "", "time", "RMS err", "max err", "order", "direction",
+  std::string text = repetitions(summary);
+  text += fmt::format(fmt::runtime(head), "", "", "time", "RMS err", "max err", "order", "direction",
                                  "strokes", "peak F", "max step", "tick p50", "tick p99.9");
   text += fmt::format(fmt::runtime(head), "character", "mode", "[s]", "[mm]", "[mm]", "errors", "errors", "written",
                       "[N]", "[N/tick]", "[ns]", "[ns]");
   for (std::size_t begin = 0; begin < results.size();) {
     const Result& first = results[begin];
-    std::size_t end = begin;
-    while (end < results.size() && results[end].position == first.position && results[end].mode == first.mode) ++end;
+    const std::size_t end = end_of_repetitions(results, begin);
     const auto of = [&](const Quantity& quantity) { return mean(results, begin, end, quantity); };
     const int decimals = end - begin > 1 ? 2 : 0;
     const double written = of([](const Result& r) { return r.score.strokes_completed; });
@@ -104,9 +127,9 @@ std::string table(const std::vector<Result>& results) {
   return text;
 }
 
-std::string json(const std::vector<Result>& results) {
+std::string json(const Summary& summary) {
   Json list = Json::array();
-  for (const Result& result : results) {
+  for (const Result& result : summary.results) {
     const CharacterScore& score = result.score;
     const auto error = [&score](double metres) {  // null: no stroke was completed, so there is no error
       return score.strokes_completed > 0 ? Json(metres * millimetres) : Json();
@@ -140,7 +163,8 @@ std::string json(const std::vector<Result>& results) {
                     {"fidelity", score.fidelity},
                     {"mistakes", mistakes}});
   }
-  return list.dump(2) + "\n";
+  const Json all = {{"repetitions", summary.repetitions}, {"interrupted", summary.interrupted}, {"results", list}};
+  return all.dump(2) + "\n";
 }
 
 std::string reductions(const std::vector<Result>& results) {

@@ -21,14 +21,21 @@ struct Result {
   double tick_p999 = 0.0;  ///< [ns]
 };
 
+/// What a run has written.
+struct Summary {
+  std::vector<Result> results;  ///< ordered by position, then mode, then repetition
+  int repetitions = 1;          ///< asked for
+  bool interrupted = false;     ///< there are fewer
+};
+
 /// The smallest value that at least a fraction `share` of the values do not exceed; 0 if empty. Reorders `values`.
 double percentile(std::vector<float>& values, double share);
 
-/// One line per character and mode, with means over repetitions. `results` must be ordered by position, then mode.
-std::string table(const std::vector<Result>& results);
+/// One line per character and mode, with means over as many repetitions as there are, which the first line says.
+std::string table(const Summary& summary);
 
-/// A list with one object per result.
-std::string json(const std::vector<Result>& results);
+/// An object: how many repetitions were asked for, whether the run was interrupted, and a list with one object per result.
+std::string json(const Summary& summary);
 
 /// Reduction of error and time with force: mean and 95 % interval over the pairs of character and repetition that are
 /// complete in both modes; with fewer than 10 pairs of runs, that they are too few. Empty without a pair.

@@ -172,6 +172,7 @@ class WriteRun {
         pen_(chosen_pen(options)),
         session_(chosen_session(options, pen_.capabilities())),
         modes_(chosen_modes(options.mode, !pen_.is_person() && !pen_.is_replay())) {
+    summary_.repetitions = options.repeat;
     try {
       // The stable stiffness is lower at a rate below the device's own.
       for (const std::string& reason : clip_stiffness(session_.renderer, session_.device, options.page.scale)) {
@@ -192,18 +193,25 @@ class WriteRun {
     plots_ = gnuplot_available();
     if (!plots_) spdlog::warn("gnuplot is not available: forces are not plotted");
     write_all(out);
-    if (pen_.interrupted() && results_.empty()) throw Error("interrupted");
+    if (summary_.results.empty()) return tell_of_interruption("nothing was written");
     const auto order = [](const Result& a, const Result& b) {
       return std::tie(a.position, a.mode, a.repetition) < std::tie(b.position, b.mode, b.repetition);
     };
-    std::sort(results_.begin(), results_.end(), order);
-    out.write("summary.json", json(results_));
+    std::sort(summary_.results.begin(), summary_.results.end(), order);
+    summary_.interrupted = pen_.interrupted();
+    out.write("summary.json", json(summary_));
     if (pen_.is_person()) out.write("servo.json", json(pen_.statistics()));
     report();
-    if (pen_.interrupted()) throw Error("interrupted; results so far are in " + options_.out);
+    if (pen_.interrupted()) tell_of_interruption("results so far are in " + options_.out);
   }
 
  private:
+  /// Space and Esc are how a session is stopped; Ctrl-C ends the program.
+  void tell_of_interruption(const std::string& what_is_there) const {
+    if (pen_.stopped_by_key()) return spdlog::info("stopped; {}", what_is_there);
+    throw Error("interrupted; " + what_is_there);
+  }
+
   void write_all(const OutputDirectory& out) {
     Progress progress;
     std::size_t done = 0;
@@ -237,7 +245,7 @@ class WriteRun {
     if (pen_.is_person()) {
       spdlog::info("page {} of {}, {}: hold the pen above the paper and write; {} takes the force away and stops",
                    number + 1, sheets_.size(), session_.mode == FeedbackMode::vision ? "vision only" : "with force",
-                   pen_.has_stop_key() ? "space, Esc or Ctrl-C" : "Ctrl-C");
+                   pen_.stop_keys());
     }
     const Recording recording = pen_.write(sheet.page, session_);
     if (pen_.is_person()) {  // readable by replay:FILE
@@ -257,7 +265,7 @@ class WriteRun {
       result.repetition = repetition;
       result.seed = session_.seed;
       if (repetition == 1) draw(sheet.page, recording, own, index, result, out);
-      results_.push_back(std::move(result));
+      summary_.results.push_back(std::move(result));
     }
   }
 
@@ -278,15 +286,15 @@ class WriteRun {
 
   void report() const {
     if (options_.json) {
-      fmt::print("{}", json(results_));
+      fmt::print("{}", json(summary_));
     } else {
-      if (options_.repeat > 1) fmt::print("means over {} repetitions\n", options_.repeat);
-      fmt::print("{}{}", table(results_), reductions(results_));
+      fmt::print("{}{}", table(summary_), reductions(summary_.results));
       for (const ServoStatistics& statistics : pen_.statistics()) fmt::print("{}", lines(statistics));
     }
     const auto given_up = [](const Result& r) { return r.score.strokes_completed < r.score.stroke_count; };
-    const auto unfinished = std::count_if(results_.begin(), results_.end(), given_up);
-    if (unfinished > 0) spdlog::warn("{} of {} characters were not completed", unfinished, results_.size());
+    const std::vector<Result>& results = summary_.results;
+    const auto unfinished = std::count_if(results.begin(), results.end(), given_up);
+    if (unfinished > 0) spdlog::warn("{} of {} characters were not completed", unfinished, results.size());
   }
 
   const WriteArguments& options_;
@@ -295,7 +303,7 @@ class WriteRun {
   SessionOptions session_;
   std::vector<FeedbackMode> modes_;
   std::vector<Sheet> sheets_;
-  std::vector<Result> results_;
+  Summary summary_;
   bool plots_ = false;
 };
 

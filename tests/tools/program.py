@@ -1,5 +1,6 @@
 """Runs the program as a user would."""
 import fcntl
+import json
 import os
 import pty
 import shutil
@@ -97,7 +98,7 @@ class ProgramTest(unittest.TestCase):
             time.sleep(0.001)
         running.send_signal(signal.SIGINT)
         printed, told = running.communicate(timeout=600)
-        self.assertEqual(running.returncode, 1, told)
+        self.assertEqual(running.returncode, -signal.SIGINT, told)  # so that a shell's loop ends too
         return printed, told
 
     def assert_interrupted_leaves_nothing(self, *arguments):
@@ -105,6 +106,9 @@ class ProgramTest(unittest.TestCase):
         done = self.interrupted(*arguments, "--out", "out/new", once="out/new")
         self.assertEqual(done, ("", "calligraphy: interrupted\n"))
         self.assertEqual(self.files(), [])
+
+    def summary(self, out="out"):
+        return json.loads((self.directory / out / "summary.json").read_text())["results"]
 
     def files(self):
         return sorted(str(path.relative_to(self.directory)) for path in self.directory.rglob("*"))

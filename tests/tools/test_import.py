@@ -348,7 +348,7 @@ class Output(ImportTest):
             running.send_signal(signal.SIGINT)
             while part := screen.read(10000):
                 shown += part
-        self.assertEqual(running.returncode, 1)
+        self.assertEqual(running.returncode, -signal.SIGINT)
         self.assertIn(b"calligraphy: interrupted", shown)
         self.assertEqual((self.directory / "out.txt").read_text(), "keep")
         self.assertEqual([name for name in self.files() if not name.startswith("data")], ["out.txt"])

@@ -80,7 +80,9 @@ class Replay(ReplayTest):
         self.traces(*[character("三", THREE)] * 2000)
         printed, told = self.interrupted("replay", "pens.txt", "--out", "out", once="out/01-三.svg")
         self.assertIn("三", printed)
-        replayed = len(json.loads((self.directory / "out/replay.json").read_text())["traces"])
+        report = json.loads((self.directory / "out/replay.json").read_text())
+        replayed = len(report["traces"])
+        self.assertTrue(report["interrupted"])
         self.assertEqual(told, f"calligraphy: interrupted after {replayed} of 2000 traces\n")
         self.assertEqual(len(list((self.directory / "out").glob("*.svg"))), replayed)
 

@@ -46,8 +46,12 @@ class Write(ProgramTest):
         printed, told = self.interrupted("write", "一", "--mode", "force", "--repeat", "100000", "--out", "out",
                                          once="out/01-一-force.csv")
         self.assertIn("calligraphy: interrupted; results so far are in out\n", told)
-        self.assertIn("一", printed)
+        row = next(line for line in printed.splitlines() if line.startswith("一"))
         written = len(self.summary())
+        self.assertTrue(printed.startswith(f"interrupted: means over {written} of 100000 repetitions\n"), printed)
+        self.assertEqual(row.split()[1], "force")
+        whole = json.loads((self.directory / "out/summary.json").read_text())
+        self.assertEqual((whole["repetitions"], whole["interrupted"]), (100000, True))
         self.assertGreater(written, 0)
         self.assertLess(written, 100000)
 
@@ -80,9 +84,6 @@ class Write(ProgramTest):
         self.assertEqual(len(self.summary()), 1)
         self.assertTrue((self.directory / "out" / "02-一-force.csv").exists())
         self.assertIn("Files of an earlier run", " ".join(self.run_program("write", "--help").stdout.split()))
-
-    def summary(self, out="out"):
-        return json.loads((self.directory / out / "summary.json").read_text())
 
     def without_ticks(self, out):
         return [{k: v for k, v in row.items() if not k.startswith("tick_ns")} for row in self.summary(out)]
@@ -184,7 +185,8 @@ class Write(ProgramTest):
     def test_repetitions_are_paired_by_their_seeds(self):
         done = self.run_program("write", "一十", "--out", "out", "--repeat", "3", "--seed", "5", "--json")
         rows = self.summary()
-        self.assertEqual(json.loads(done.stdout), rows)
+        whole = json.loads(done.stdout)
+        self.assertEqual((whole["repetitions"], whole["interrupted"], whole["results"]), (3, False, rows))
         self.assertEqual(len(rows), 2 * 2 * 3)
         for mode in ("vision", "force"):
             seeds = [(r["repetition"], r["seed"]) for r in rows if r["mode"] == mode and r["character"] == "十"]
@@ -361,7 +363,7 @@ class Refusals(ProgramTest):
         self.assertEqual(os.readlink(self.directory / "link"), "there")
         self.run_program("write", "一", "--mode", "force", "--out", "link")
         self.assertEqual((self.directory / "there/.calligraphy-probe").read_text(), "mine")
-        self.assertTrue((self.directory / "there/summary.json").exists())
+        self.assertEqual(len(self.summary("there")), 1)
 
     def test_an_unwritable_directory_is_named_before_the_run(self):
         (self.directory / "file").write_text("keep")
