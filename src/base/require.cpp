@@ -1,24 +1,19 @@
 #include "require.hpp"
 
 #include <cmath>
-#include <string>
 
 #include <calligraphy/base/error.hpp>
 
 #include "charconv.hpp"
 
 namespace calligraphy {
-namespace {
 
-/// The fewest digits that read back as the same number.
 std::string number_text(double value) {
   char buffer[40];
   char* const end = buffer + sizeof buffer;
   const bool is_round = std::abs(value) < 1e7 && value == std::floor(value);  // 100000, not 1e+05
   return {buffer, (is_round ? to_chars_fixed(buffer, end, value, 0) : to_chars(buffer, end, value)).ptr};
 }
-
-}  // namespace
 
 void require(bool in_domain, std::string_view name, double value, std::string_view unit, std::string_view domain) {
   if (in_domain) return;

@@ -2,11 +2,15 @@
 #pragma once
 
 #include <limits>
+#include <string>
 #include <string_view>
 
 namespace calligraphy {
 
 inline constexpr double unlimited = std::numeric_limits<double>::max();
+
+/// For messages: the fewest digits that read back as the same number.
+std::string number_text(double value);
 
 /// @throws ValueError "NAME = VALUE UNIT, must be DOMAIN" unless `in_domain`; the value has as many digits as it takes
 /// to read it back. No unit: an empty one.

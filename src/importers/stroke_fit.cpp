@@ -13,6 +13,7 @@
 #include <calligraphy/importers/stroke_fit.hpp>
 #include <calligraphy/model/typical_stroke.hpp>
 
+#include "base/require.hpp"
 #include "brush.hpp"
 #include "cubic_fit.hpp"
 #include "path_distance.hpp"
@@ -42,8 +43,8 @@ void check(std::span<const Point> median) {
   if (median.empty()) throw ValueError("a stroke needs at least one point");
   for (std::size_t i = 0; i < median.size(); ++i) {
     if (median[i].allFinite() && median[i].cwiseAbs().maxCoeff() <= max_fitted_coordinate) continue;
-    throw ValueError("point " + std::to_string(i + 1) + " of a stroke is (" + std::to_string(median[i].x()) + ", " +
-                     std::to_string(median[i].y()) + "): expected finite numbers within 15 em of the origin");
+    throw ValueError("point " + std::to_string(i + 1) + " of a stroke is (" + number_text(median[i].x()) + ", " +
+                     number_text(median[i].y()) + "): expected finite numbers within 15 em of the origin");
   }
 }
 

@@ -8,6 +8,8 @@
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/model/bezier.hpp>
 
+#include "base/require.hpp"
+
 namespace calligraphy {
 namespace {
 
@@ -16,7 +18,7 @@ constexpr double smooth_angle = std::numbers::pi / 12.0;  // maximum bend at a s
 constexpr double min_element = 1e-6;                      // [em]
 
 std::string format_point(const Point& point) {
-  return "(" + std::to_string(point.x()) + ", " + std::to_string(point.y()) + ")";
+  return "(" + number_text(point.x()) + ", " + number_text(point.y()) + ")";
 }
 
 bool known_degree(int degree) { return degree == 3 || degree == 4; }
@@ -45,7 +47,7 @@ void validate_stroke(const Stroke& stroke, int number, std::vector<ValidationIss
   for (const double factor : stroke.attraction_factors) {
     if (std::isfinite(factor) && factor >= 0.0) continue;
     problems.push_back(
-        {number, "attraction factor " + std::to_string(factor) + " is not a finite, non-negative number"});
+        {number, "attraction factor " + number_text(factor) + " is not a finite, non-negative number"});
   }
   if (!finite) return;
 

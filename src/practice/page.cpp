@@ -42,8 +42,8 @@ std::vector<PracticePage> lay_out(std::span<const Character> characters, const P
   const double columns_that_fit = std::floor((layout.width - layout.gap) / pitch);
   const double rows_that_fit = std::floor((layout.height - layout.gap) / pitch);
   if (columns_that_fit < 1.0 || rows_that_fit < 1.0) {
-    throw ValueError("page layout: a square of " + std::to_string(layout.em) + " m does not fit on a page of " +
-                     std::to_string(layout.width) + " m x " + std::to_string(layout.height) + " m");
+    throw ValueError("page layout: a square of " + number_text(layout.em) + " m does not fit on a page of " +
+                     number_text(layout.width) + " m x " + number_text(layout.height) + " m");
   }
   const std::size_t most = std::max<std::size_t>(characters.size(), 1);
   const auto columns = static_cast<std::size_t>(std::min(columns_that_fit, static_cast<double>(most)));

@@ -16,6 +16,7 @@
 
 #include "base/charconv.hpp"
 #include "base/line_reader.hpp"
+#include "base/require.hpp"
 
 namespace calligraphy {
 namespace {
@@ -198,7 +199,7 @@ void require_writable(const PenTrace& trace, std::size_t index) {
   require(!trace.set.empty() && trace.set.find_first_of(" \r\n") == std::string::npos,
           "its set is '" + trace.set + "': expected a word");
   decode_utf8(trace.set);
-  require(trace.em >= finest && trace.em <= max_em, "its em is " + std::to_string(trace.em));
+  require(trace.em >= finest && trace.em <= max_em, "its em is " + number_text(trace.em));
   require(!trace.strokes.empty() && trace.strokes.size() <= max_trace_strokes,
           "it has " + std::to_string(trace.strokes.size()) + " strokes");
   double last = 0.0;
@@ -209,9 +210,9 @@ void require_writable(const PenTrace& trace, std::size_t index) {
             place + " has " + std::to_string(stroke.size()) + " points");
     for (const TimedPoint& point : stroke) {
       require(std::abs(point.point.x()) <= farthest && std::abs(1.0 - point.point.y()) <= farthest,
-              place + " has a point at " + std::to_string(point.point.x()) + ", " + std::to_string(point.point.y()));
+              place + " has a point at " + number_text(point.point.x()) + ", " + number_text(point.point.y()));
       require(point.time >= last && point.time <= max_time,
-              place + " has a time of " + std::to_string(point.time) + " s after " + std::to_string(last) + " s");
+              place + " has a time of " + number_text(point.time) + " s after " + number_text(last) + " s");
       last = point.time;
     }
   }

@@ -67,7 +67,7 @@ void require_valid(const PlacedCharacter& placed, std::size_t index) {
   if (!placed.placement.origin.allFinite()) throw ValueError(place + "its origin is not finite");
   const Eigen::AlignedBox2d box = bounding_box(placed);
   if (!(std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff()) <= furthest_point)) {
-    throw ValueError(place + "it reaches further than " + std::to_string(furthest_point) + " m from the page's origin");
+    throw ValueError(place + "it reaches further than " + number_text(furthest_point) + " m from the page's origin");
   }
 }
 

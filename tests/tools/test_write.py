@@ -330,6 +330,8 @@ class Refusals(ProgramTest):
             for value in ("nan", "inf", "1e999", "-1", "x", "", "1x", "0x10", "18446744073709551616"):
                 with self.subTest(option=option, value=value):
                     self.assert_refused(2, ["write", "北", "--out", "out", f"{option}={value}"], option, value)
+        (self.directory / "far.txt").write_text("calligraphy characters 1\ncharacter 一\nstroke 1 0,1e300 1,0\n")
+        self.assert_refused(1, ["write", "一", "--out", "out", "--characters", "far.txt"], "far.txt:3", "(0, 1e+300)")
         for option in ("--rate", "--tolerance", "--repeat", "--motion-scale"):
             with self.subTest(option=option):
                 self.assert_refused(2, ["write", "北", "--out", "out", option, "0"], option, "0")
