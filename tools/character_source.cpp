@@ -1,7 +1,13 @@
 #include "character_source.hpp"
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
+#include <utility>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
 #include <calligraphy/base/error.hpp>
@@ -25,11 +31,37 @@ CharacterSet open_one(const std::string& path, const std::u32string& text) {
   return CharacterSet::open(path);
 }
 
-std::string names_of(const std::vector<std::string>& paths) {
-  if (paths.empty()) return "the built-in set; use --characters to name another one";
-  std::string names;
-  for (const std::string& path : paths) names += (names.empty() ? "" : ", ") + path;
-  return names;
+/// Of Latin and Chinese texts, as Unicode has it in its blocks of punctuation.
+bool is_punctuation(char32_t code) {
+  constexpr std::array<std::pair<char32_t, char32_t>, 15> ranges = {{{U'!', U'/'},
+                                                                     {U':', U'@'},
+                                                                     {U'[', U'`'},
+                                                                     {U'{', U'~'},
+                                                                     {0xA1, 0xBF},
+                                                                     {0x2010, 0x205E},
+                                                                     {0x3001, 0x3003},
+                                                                     {0x3008, 0x3020},
+                                                                     {0x3030, 0x3030},
+                                                                     {0x30FB, 0x30FB},
+                                                                     {0xFE10, 0xFE6B},
+                                                                     {0xFF01, 0xFF0F},
+                                                                     {0xFF1A, 0xFF20},
+                                                                     {0xFF3B, 0xFF40},
+                                                                     {0xFF5B, 0xFF65}}};
+  return std::any_of(ranges.begin(), ranges.end(),
+                     [code](const auto& range) { return code >= range.first && code <= range.second; });
+}
+
+/// "龘 (U+9F98), 犇 (U+7287)", of many the first.
+std::string labels(const std::u32string& codes) {
+  constexpr std::size_t most = 20;
+  std::string text;
+  for (const char32_t code : codes.substr(0, most)) text += (text.empty() ? "" : ", ") + character_label(code);
+  return codes.size() > most ? text + fmt::format(" and {} more", codes.size() - most) : text;
+}
+
+std::string place_of(const std::vector<std::string>& paths) {
+  return paths.empty() ? "the built-in set (see --characters)" : fmt::format("{}", fmt::join(paths, ", "));
 }
 
 }  // namespace
@@ -41,16 +73,29 @@ CharacterSet open_sources(const std::vector<std::string>& paths, const std::u32s
   return CharacterSet::layered(sets);
 }
 
-CharacterSet open_characters(const std::vector<std::string>& paths, const std::u32string& text,
-                             const std::string& order) {
-  CharacterSet set = open_sources(paths, text);
+std::u32string present(const std::u32string& text, const std::function<bool(char32_t)>& is_there,
+                       const std::string& place) {
+  std::u32string found, skipped, missing;
   for (const char32_t code : text) {
-    if (set.find(code, order)) continue;
-    const bool has_others = set.find(code).has_value();
-    throw Error("character " + character_label(code) +
-                (has_others ? " has no stroke order \"" + order + "\" in " : " is not in ") + names_of(paths));
+    std::u32string& kind = is_there(code) ? found : is_punctuation(code) ? skipped : missing;
+    if (&kind == &found || kind.find(code) == kind.npos) kind += code;
   }
-  return set;
+  if (!missing.empty()) throw Error(fmt::format("not in {}: {}", place, labels(missing)));
+  if (!skipped.empty()) spdlog::warn("skipped: {}", labels(skipped));
+  return found;
+}
+
+ChosenCharacters open_characters(const std::vector<std::string>& paths, const std::u32string& text,
+                                 const std::string& order) {
+  CharacterSet set = open_sources(paths, text);
+  const auto is_there = [&set](char32_t code) { return set.find(code).has_value(); };
+  std::u32string found = present(text, is_there, place_of(paths));
+  if (found.empty() && !text.empty()) throw Error("TEXT has no character, only punctuation");
+  for (const char32_t code : found) {
+    if (set.find(code, order)) continue;
+    throw Error(fmt::format("{} has no stroke order \"{}\" in {}", character_label(code), order, place_of(paths)));
+  }
+  return {std::move(set), std::move(found)};
 }
 
 std::vector<Character> characters_of(const CharacterSet& set, const std::u32string& text, const std::string& order) {

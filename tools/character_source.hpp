@@ -2,6 +2,7 @@
 // built-in set.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,10 +19,21 @@ namespace calligraphy::tools {
 /// directory, only the characters of `text` are read. @throws Error naming the file
 CharacterSet open_sources(const std::vector<std::string>& paths, const std::u32string& text);
 
-/// As open_sources(), and checks that the set has every character of `text` in the stroke order `order`, or in any
-/// order if that is empty. @throws Error naming the character or the file
-CharacterSet open_characters(const std::vector<std::string>& paths, const std::u32string& text,
-                             const std::string& order = {});
+/// The characters of `text` that are there. Punctuation that is not is skipped, and a warning says so.
+/// @throws Error naming all other characters that are not in `place`
+std::u32string present(const std::u32string& text, const std::function<bool(char32_t)>& is_there,
+                       const std::string& place);
+
+/// Characters, and the set that has them.
+struct ChosenCharacters {
+  CharacterSet set;
+  std::u32string text;
+};
+
+/// As open_sources(), and what of `text` is present() in the set, in the stroke order `order`, or in any order if that is
+/// empty. @throws Error naming the characters or the file
+ChosenCharacters open_characters(const std::vector<std::string>& paths, const std::u32string& text,
+                                 const std::string& order = {});
 
 /// The characters of `text` in the stroke order `order`; if that is empty, in the standard or else the first order.
 std::vector<Character> characters_of(const CharacterSet& set, const std::u32string& text,

@@ -24,5 +24,7 @@ void add_import(CLI::App& program);
 void add_validate(CLI::App& program);
 void add_replay(CLI::App& program);
 void add_devices(CLI::App& program);
+void add_help(CLI::App& program);
+void add_completion(CLI::App& program);
 
 }  // namespace calligraphy::tools

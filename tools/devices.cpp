@@ -15,7 +15,6 @@
 #include <nlohmann/json.hpp>
 
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/base/file.hpp>
 #include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/devices/sample_queue.hpp>
 #include <calligraphy/devices/servo_loop.hpp>
@@ -34,6 +33,7 @@
 #include "device_choice.hpp"
 #include "interrupt.hpp"
 #include "options.hpp"
+#include "output_file.hpp"
 #include "servo_report.hpp"
 #include "stop_key.hpp"
 
@@ -133,9 +133,8 @@ PluggedDevice chosen_phantom(const std::string& serial) {
 
 /// Writes the descriptors first: they need no permission and are useful even if the device cannot be opened.
 void probe(const ProbeOptions& options) {
-  if (options.out.empty()) throw UsageError("--out: an empty name");
   const PluggedDevice device = chosen_phantom(options.serial);
-  check_can_write(options.out);
+  check_output(options.out);
   const Interrupt interrupt;
   std::ostringstream text;
   text << "# " << describe_device(device) << "\n" << dump_descriptors(device);
@@ -153,9 +152,10 @@ void probe(const ProbeOptions& options) {
     failure = error.what();
     text << "# " << failure << "\n";
   }
-  write_file(options.out, text.str());
+  write_output(options.out, text.str());
   if (!failure.empty()) throw DeviceError(failure + "; only the descriptors were written to " + options.out);
-  fmt::print("{}: descriptors and {} transfers written to {}\n", describe_device(device), transfers, options.out);
+  std::FILE* const told = options.out == standard_output ? stderr : stdout;
+  fmt::print(told, "{}: descriptors and {} transfers written to {}\n", describe_device(device), transfers, options.out);
 }
 #else
 void probe(const ProbeOptions&) {
@@ -266,6 +266,9 @@ void watch(const WatchOptions& options) {
 void add_devices(CLI::App& program) {
   CLI::App* const command = program.add_subcommand(
       "devices", "List the devices available to `write --device`, and how to obtain access to them.");
+  command->footer(
+      "calligraphy devices\n"
+      "calligraphy devices watch phantom --wire-profile mine.profile");
   const auto as_json = std::make_shared<bool>(false);
   command->add_flag("--json", *as_json, "Print JSON instead of text")->disable_flag_override();
   command->require_subcommand(0, 1);
@@ -276,7 +279,8 @@ void add_devices(CLI::App& program) {
                               "wire profile. No commands are sent to the device.");
   const auto probe_options = std::make_shared<ProbeOptions>();
   prober->add_option("SERIAL", probe_options->serial, "Serial number, required if several are connected");
-  prober->add_option("--out", probe_options->out, "Text file to write")->required()->type_name("FILE");
+  add_out_file(*prober, probe_options->out);
+  prober->footer("calligraphy devices probe --out probe.txt");
   prober->add_option("--seconds", probe_options->seconds, "Duration of the capture, 0.1 to 600")
       ->check(number(0.1, 600.0))
       ->capture_default_str()
@@ -286,8 +290,9 @@ void add_devices(CLI::App& program) {
 #ifdef CALLIGRAPHY_WITH_PHANTOM
   CLI::App* const profiles = command->add_subcommand(
       "profile", "Print a wire profile shipped with the library, as a starting point for your own.");
+  profiles->footer("calligraphy devices profile omni > mine.profile");
   const auto profile = std::make_shared<std::string>();
-  profiles->add_option("NAME", *profile, "Name of the profile")
+  profiles->add_option("NAME", *profile, fmt::format("Name of the profile: {}", fmt::join(phantom::wire_profile_names(), ", ")))
       ->required()
       ->check(CLI::IsMember(phantom::wire_profile_names()));
   profiles->callback([profile] { fmt::print("{}", phantom::wire_profile_text(*profile)); });
@@ -295,6 +300,7 @@ void add_devices(CLI::App& program) {
 
   CLI::App* const watcher = command->add_subcommand(
       "watch", "Show position, buttons and status of a device four times a second, without force.");
+  watcher->footer("calligraphy devices watch phantom --wire-profile mine.profile --seconds 10");
   const auto watch_options = std::make_shared<WatchOptions>();
   watcher->add_option("DEVICE", watch_options->device, "phantom[:SERIAL] or openhaptics[:NAME]")->required();
   add_phantom_options(*watcher, watch_options->wire_profile, watch_options->model);

@@ -1,5 +1,8 @@
 // calligraphy import: converts other character collections to typical strokes.
+#include <unistd.h>
+
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -11,7 +14,6 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include <calligraphy/base/file.hpp>
 #include <calligraphy/importers/character_import.hpp>
 #include <calligraphy/model/set_encoding.hpp>
 
@@ -19,6 +21,7 @@
 #include "import_report.hpp"
 #include "interrupt.hpp"
 #include "options.hpp"
+#include "output_file.hpp"
 #include "progress.hpp"
 
 namespace calligraphy::tools {
@@ -83,17 +86,22 @@ bool is_in_source(const ImportArguments& options) {
 
 void run(const ImportArguments& options) {
   if (options.source.empty()) throw UsageError("SOURCE: the name is empty");
-  if (options.out.empty()) throw UsageError("--out: the name is empty");
   if (is_in_source(options)) throw UsageError("--out: " + options.out + " is the source, or a file in it");
   if (options.format == "text" && options.precision) throw UsageError("--precision: the text format is always exact");
-  check_can_write(options.out);
+  const bool to_standard_output = options.out == standard_output;
+  if (to_standard_output && options.json) throw UsageError("--json: standard output is taken by --out -");
+  if (to_standard_output && options.format == "set" && isatty(STDOUT_FILENO) != 0) {
+    throw UsageError("--out -: a set file is no text for a terminal; choose --format text, or a pipe");
+  }
+  check_output(options.out);
   const Interrupt interrupt;
   const ImportResult import = imported(options, interrupt);
   const std::string bytes = encoded(import.list, options);
   interrupt.check();
-  write_file(options.out, bytes);
+  write_output(options.out, bytes);
   const ImportOutput output{options.out, options.format, bytes.size()};
-  fmt::print("{}", options.json ? json(import, output) : tables(import, output));
+  std::FILE* const report = to_standard_output ? stderr : stdout;
+  fmt::print(report, "{}", options.json ? json(import, output) : tables(import, output));
 }
 
 }  // namespace
@@ -101,21 +109,25 @@ void run(const ImportArguments& options) {
 void add_import(CLI::App& program) {
   CLI::App* const command = program.add_subcommand(
       "import",
-      "Convert hanzi-writer-data or KanjiVG (directory or npm tarball), a set file or a file in the text format to "
-      "typical strokes. The kind of SOURCE is detected from its content.");
+      "Convert other collections of characters to typical strokes. SOURCE is hanzi-writer-data or KanjiVG (directory or "
+      "npm tarball), a set file or a file in the text format; its content tells which.");
+  command->footer(
+      "npm pack hanzi-writer-data@2.0.1    # the source, a .tgz\n"
+      "calligraphy import hanzi-writer-data-2.0.1.tgz -o hanzi.set\n"
+      "calligraphy import hanzi.set --only 永 --format text -o -    # to edit");
   const auto options = std::make_shared<ImportArguments>();
   command->add_option("SOURCE", options->source, "Directory, npm tarball, set file or file in the text format")
-      ->required();
-  command->add_option("-o,--out", options->out, "File to write")->required()->type_name("FILE");
+      ->required()
+      ->type_name("PATH");
+  add_out_file(*command, options->out);
   command->add_option("--format", options->format, "Set file, or the text format, which can be edited")
       ->check(CLI::IsMember({"set", "text"}))
       ->capture_default_str();
   command
       ->add_option(
           "--precision", options->precision,
-          "Coordinate precision of a set file: coarse, standard (default), fine or exact; see docs/set-file.md")
-      ->check(CLI::IsMember(precisions).description(""))
-      ->type_name("NAME");
+          "Coordinate precision of a set file (default: standard); see docs/set-file.md")
+      ->check(CLI::IsMember({"coarse", "standard", "fine", "exact"}));
   command
       ->add_option("--letters", options->letters,
                    "Stroke letters for hanzi-writer-data: the tarball, directory or .js file of cnchar-order")

@@ -37,7 +37,8 @@ struct InfoArguments {
 /// Interpreted arguments.
 struct Request {
   std::vector<std::string> paths;
-  std::u32string text;  ///< each character once; empty: the set as a whole
+  std::u32string text;         ///< each character once; empty: the set as a whole
+  bool may_mean_file = false;  ///< the text is the only argument, and no file has this name
 };
 
 /// Totals of a set.
@@ -172,8 +173,24 @@ Request request_of(const InfoArguments& options) {
   if (has_file) request.paths.insert(request.paths.begin(), *options.first);
   const std::optional<std::string>& text = has_file ? options.second : options.first;
   if (text) request.text = each_once(*text);
+  request.may_mean_file = text && !has_file;
   if (request.paths.empty() && request.text.empty()) throw UsageError("FILE or TEXT is required");
   return request;
+}
+
+/// A mistyped name of a file is read as TEXT: the message says both.
+ChosenCharacters chosen(const Request& request, const InfoArguments& options) {
+  if (request.may_mean_file && options.first->find_first_of("./") != std::string::npos) {
+    throw FileError(*options.first + ": no such file");
+  }
+  try {
+    return open_characters(request.paths, request.text, options.order);
+  } catch (const FileError&) {
+    throw;
+  } catch (const Error& error) {
+    if (!request.may_mean_file) throw;
+    throw Error(fmt::format("{}: no such file, and as TEXT {}", *options.first, error.what()));
+  }
 }
 
 void run_paper_example(const InfoArguments& options) {
@@ -197,21 +214,21 @@ void run_paper_example(const InfoArguments& options) {
 void run(const InfoArguments& options) {
   if (options.paper_example) return run_paper_example(options);
   const Request request = request_of(options);
-  const CharacterSet set = open_characters(request.paths, request.text, options.order);
+  const auto [set, text] = chosen(request, options);
   const Summary summary = summary_of(set);
   if (options.json) {
     Json json = json_of(summary);
     if (options.licence_text) json["licence_text"] = summary.provenance.licence_text;
-    if (!request.text.empty()) json["text"] = Json::array();
-    for (const char32_t code : request.text) {
+    if (!text.empty()) json["text"] = Json::array();
+    for (const char32_t code : text) {
       const StoredCharacter found = *set.find(code, options.order);
       json["text"].push_back(json_of(found.character(), found.provenance(), set.orders(code)));
     }
     fmt::print("{}\n", json.dump(2));
     return;
   }
-  if (request.text.empty()) print(summary);
-  for (const Character& character : characters_of(set, request.text, options.order)) print(character);
+  if (text.empty()) print(summary);
+  for (const Character& character : characters_of(set, text, options.order)) print(character);
   print(summary.provenance);
   if (options.licence_text) fmt::print("\n{}\n", summary.provenance.licence_text);
 }
@@ -221,11 +238,15 @@ void run(const InfoArguments& options) {
 void add_info(CLI::App& program) {
   CLI::App* const command = program.add_subcommand(
       "info",
-      "Print the contents, source and licence of a character file, or with TEXT the data structure of its characters "
-      "(Table 3). FILE is a set file or a file in the text format; a first argument that names no file is TEXT.");
+      "Print what a character file or a character consists of. Of a file: contents, source and licence; with TEXT, the "
+      "data structure of its characters (Wang 2006, Table 3). FILE is a set file or a file in the text format; a first argument that names no file is TEXT.");
+  command->footer(
+      "calligraphy info 永\n"
+      "calligraphy info hanzi.set\n"
+      "calligraphy info hanzi.set 永和 --json");
   const auto options = std::make_shared<InfoArguments>();
-  command->add_option("FILE", options->first, "Set file, or file in the text format")->type_name("");
-  command->add_option("TEXT", options->second, "Characters, each shown once")->type_name("");
+  command->add_option("FILE", options->first, "Set file, or file in the text format")->type_name("FILE");
+  command->add_option("TEXT", options->second, "Characters, each shown once");
   add_characters_option(*command, options->characters);
   command->add_option("--order", options->order, "Alternate stroke order (default: the standard one)")
       ->type_name("NAME");

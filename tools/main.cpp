@@ -4,7 +4,9 @@
 #include <cstdio>
 #include <exception>
 #include <iostream>
+#include <memory>
 #include <new>
+#include <span>
 #include <string>
 
 #include <fmt/format.h>
@@ -14,8 +16,11 @@
 
 #include <calligraphy/devices/emergency_stop.hpp>
 
+#include "command_text.hpp"
 #include "commands.hpp"
+#include "help_page.hpp"
 #include "interrupt.hpp"
+#include "mistyped.hpp"
 
 namespace {
 
@@ -33,15 +38,31 @@ int flush() noexcept {
   return std::fflush(stdout) == 0 && std::cout ? 0 : fail(1, "cannot write to standard output");
 }
 
+class HelpFormatter final : public CLI::FormatterBase {
+  std::string make_help(const CLI::App* command, std::string, CLI::AppFormatMode) const override {
+    using namespace calligraphy::tools;
+    return help_page(command_text(*command), help_width());
+  }
+};
+
 int run(int argc, char** argv) {
   calligraphy::install_emergency_stop();
   std::signal(SIGXFSZ, SIG_IGN);  // exceeding the file size limit is a write error
   spdlog::set_default_logger(spdlog::stderr_logger_st("calligraphy"));
   spdlog::set_pattern("%n: %l: %v");
 
-  CLI::App program("Haptic guidance for writing Chinese characters.", "calligraphy");
-  program.set_version_flag("--version", "calligraphy " CALLIGRAPHY_VERSION);
-  program.require_subcommand(0, 1);  // a missing command is reported below, after any other error
+  CLI::App program(
+      "Haptic guidance for writing Chinese characters: a person writes with a force-feedback pen, which pulls the hand "
+      "along each stroke, in the right order and direction. Everything works on a simulated device too.",
+      "calligraphy");
+  program.require_subcommand(0, 1);  // so that the words after `help` are none
+  program.formatter(std::make_shared<HelpFormatter>());
+  program.set_version_flag("-V,--version", "calligraphy " CALLIGRAPHY_VERSION, "Print the version");
+  program.set_help_flag("-h,--help", "Print this help");
+  program.footer(
+      "calligraphy write 永 -o out    # a simulated writer, without and with force\n"
+      "calligraphy help write         # what else it can do\n"
+      "calligraphy devices            # which real devices are connected");
   calligraphy::tools::add_write(program);
   calligraphy::tools::add_strokes(program);
   calligraphy::tools::add_info(program);
@@ -51,14 +72,20 @@ int run(int argc, char** argv) {
   calligraphy::tools::add_validate(program);
   calligraphy::tools::add_replay(program);
   calligraphy::tools::add_devices(program);
+  calligraphy::tools::add_help(program);
+  calligraphy::tools::add_completion(program);
+  const std::span<const char* const> words(argv + 1, argv + argc);
+  if (words.empty()) {
+    fmt::print(stderr, "{}", program.help());
+    return 2;
+  }
+  calligraphy::tools::check_words(calligraphy::tools::command_text(program), words);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() != 0) return fail(2, error.what());
     program.exit(error);  // help and version
-    return flush();
   }
-  if (program.get_subcommands().empty()) return fail(2, "a command is required; --help lists them");
   return flush();
 }
 

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/text.hpp>
@@ -83,15 +84,22 @@ void add_page_options(CLI::App& command, PageChoice& page) {
       ->type_name("K");
 }
 
-std::string device_names() {
-  std::string names;
-  for (const Capabilities& profile : device_profiles()) names += (names.empty() ? "" : ", ") + profile.name;
+CLI::Validator such_as(const std::vector<std::string>& values) {
+  return CLI::Validator([](std::string&) { return std::string(); }, fmt::format("{{{}}}", fmt::join(values, ",")));
+}
+
+std::vector<std::string> profile_names() {
+  std::vector<std::string> names;
+  for (const Capabilities& profile : device_profiles()) names.push_back(profile.name);
   return names;
 }
+
+std::string device_names() { return fmt::format("{}", fmt::join(profile_names(), ", ")); }
 
 CLI::Option* add_device_option(CLI::App& command, std::string& device) {
   return command.add_option("--device", device, "[simulated:]NAME, where NAME is one of " + device_names())
       ->capture_default_str()
+      ->check(such_as(profile_names()))
       ->type_name("DEVICE");
 }
 

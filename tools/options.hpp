@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -26,6 +27,9 @@ std::string character_label(char32_t code);
 /// The character, or "U+002F" if it is unsuitable for a file name.
 std::string name_in_file(char32_t code);
 
+/// Accepts everything; completion offers these values.
+CLI::Validator such_as(const std::vector<std::string>& values);
+
 /// Adds --device [simulated:]NAME, whose default is the initial value of `device`.
 CLI::Option* add_device_option(CLI::App& command, std::string& device);
 
@@ -43,7 +47,9 @@ struct PageChoice {
 /// Adds --page upright|desk and --motion-scale K.
 void add_page_options(CLI::App& command, PageChoice& page);
 
-/// Names of all device profiles, as in "desktop, ideal".
+/// Names of all device profiles.
+std::vector<std::string> profile_names();
+/// The same as in "desktop, ideal".
 std::string device_names();
 
 /// The profile named by --device. @throws UsageError listing the available ones

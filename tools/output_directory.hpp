@@ -7,10 +7,6 @@
 
 namespace calligraphy::tools {
 
-/// Ends the help of every --out DIR.
-inline constexpr const char* out_directory_rules =
-    ", created if missing. Files of an earlier run are replaced if they have the same name, and otherwise stay";
-
 /// Creates the directory and its parents if missing; the destructor removes those it created that are still empty, and
 /// nothing else. No other run may use it in the meantime: the system's lock on the directory goes with the process,
 /// however it ends. Where there are no such locks (some network file systems) it is not locked.

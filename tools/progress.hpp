@@ -1,13 +1,11 @@
-// A progress bar on a terminal.
+// Progress on a terminal.
 #pragma once
 
-#include <memory>
-
-#include <boost/timer/progress_display.hpp>
+#include <chrono>
 
 namespace calligraphy::tools {
 
-/// Draws on standard error, only if that is a terminal.
+/// One line on standard error, " 43 %, 2 min 10 s left", only if that is a terminal; the destructor removes it.
 class Progress {
  public:
   Progress();
@@ -15,11 +13,16 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Shows the fraction of the work done, in [0, 1]; the bar never moves backwards.
+  /// Shows the fraction of the work done, in [0, 1]; it never falls.
   void show(double share);
 
  private:
-  std::unique_ptr<boost::timer::progress_display> display_;
+  using Clock = std::chrono::steady_clock;
+
+  const bool on_terminal_;
+  const Clock::time_point begin_ = Clock::now();
+  Clock::time_point next_ = begin_;
+  double share_ = 0.0;
 };
 
 }  // namespace calligraphy::tools

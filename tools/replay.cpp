@@ -21,6 +21,7 @@
 #include "interrupt.hpp"
 #include "options.hpp"
 #include "output_directory.hpp"
+#include "output_file.hpp"
 #include "progress.hpp"
 #include "replay_report.hpp"
 
@@ -30,7 +31,7 @@ namespace {
 struct ReplayArguments {
   std::string traces;
   std::vector<std::string> characters;
-  std::optional<std::string> out;
+  std::string out;
   std::optional<std::string> only;
   std::string device = "simulated:desktop";
   std::string renderer = "default";
@@ -45,21 +46,16 @@ struct Chosen {
 };
 
 std::vector<Chosen> chosen_traces(const ReplayArguments& options) {
-  std::u32string only;
-  if (options.only) only = characters_of(*options.only);
   std::vector<Chosen> chosen;
   int position = 0;
-  for (PenTrace& trace : read_pen_traces(options.traces)) {
-    ++position;
-    if (!only.empty() && only.find(trace.character) == std::u32string::npos) continue;
-    chosen.push_back({position, std::move(trace)});
-  }
-  const auto is_there = [&chosen](char32_t code) {
-    return std::any_of(chosen.begin(), chosen.end(),
-                       [code](const Chosen& each) { return each.trace.character == code; });
-  };
-  for (const char32_t code : only) {
-    if (!is_there(code)) throw Error("character " + character_label(code) + " is not in " + options.traces);
+  for (PenTrace& trace : read_pen_traces(options.traces)) chosen.push_back({++position, std::move(trace)});
+  if (options.only) {
+    const auto is_there = [&chosen](char32_t code) {
+      return std::any_of(chosen.begin(), chosen.end(),
+                         [code](const Chosen& each) { return each.trace.character == code; });
+    };
+    const std::u32string only = present(characters_of(*options.only), is_there, options.traces);
+    std::erase_if(chosen, [&only](const Chosen& each) { return only.find(each.trace.character) == only.npos; });
   }
   if (chosen.empty()) throw Error(options.traces + " contains no traces");
   return chosen;
@@ -76,7 +72,6 @@ std::u32string text_of(const std::vector<Chosen>& traces) {
 class ReplayRun {
  public:
   explicit ReplayRun(const ReplayArguments& options) : options_(options) {
-    if (options.out && options.out->empty()) throw UsageError("--out: the name is empty");
     session_.device = chosen_device(options.device);
     session_.renderer = options.renderer == "everything"
                             ? RendererOptions::everything(session_.device, options.page.scale)
@@ -92,7 +87,7 @@ class ReplayRun {
     const std::vector<Chosen> traces = chosen_traces(options_);
     const std::u32string text = text_of(traces);
     const CharacterSet set =
-        options_.only ? open_characters(options_.characters, text) : open_sources(options_.characters, text);
+        options_.only ? open_characters(options_.characters, text).set : open_sources(options_.characters, text);
     for (const char32_t code : text) {
       if (!set.find(code)) report_.without_template += code;
     }
@@ -102,7 +97,7 @@ class ReplayRun {
     const auto with_template = static_cast<std::size_t>(std::count_if(traces.begin(), traces.end(), has_template));
     const Interrupt interrupt;
     std::optional<OutputDirectory> out;
-    if (options_.out) out.emplace(*options_.out);
+    if (!options_.out.empty()) out.emplace(options_.out);
     Progress progress;
     for (std::size_t i = 0; i < traces.size(); ++i) {
       if (interrupt.asked()) break;
@@ -161,13 +156,15 @@ void add_replay(CLI::App& program) {
       "Replay recorded pen traces of people on the simulated device. Reports the order and direction in which they "
       "wrote "
       "and the forces of the guidance. With --out DIR, also writes a picture of each trace and replay.json.");
+  command->footer(
+      "calligraphy replay pens.txt\n"
+      "calligraphy replay pens.txt --only 永 --characters hanzi.set --out out");
   const auto options = std::make_shared<ReplayArguments>();
   command->add_option("TRACES", options->traces, "Pen traces in the format of docs/pen-traces.md")
       ->required()
       ->type_name("FILE");
   add_characters_option(*command, options->characters);
-  command->add_option("--out", options->out, std::string("Directory for pictures and JSON") + out_directory_rules)
-      ->type_name("DIR");
+  add_out_directory(*command, options->out, "pictures and JSON");
   command->add_option("--only", options->only, "Replay only traces of these characters")->type_name("TEXT");
   add_device_option(*command, options->device);
   add_page_options(*command, options->page);

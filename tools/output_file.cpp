@@ -1,0 +1,53 @@
+#include "output_file.hpp"
+
+#include <cstdio>
+
+#include <CLI/CLI.hpp>
+
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/base/file.hpp>
+
+namespace calligraphy::tools {
+namespace {
+
+CLI::Option* add_out(CLI::App& command, std::string& out, const std::string& description) {
+  const auto is_named = [](const std::string& word) {
+    return word.empty() ? std::string("the name is empty") : std::string();
+  };
+  return command.add_option("-o,--out", out, description)->check(CLI::Validator(is_named, ""));
+}
+
+}  // namespace
+
+CLI::Option* add_out_file(CLI::App& command, std::string& out) {
+  return add_out(command, out, "File to write; - is standard output")
+      ->required(out.empty())
+      ->capture_default_str()
+      ->type_name("FILE");
+}
+
+CLI::Option* add_out_directory(CLI::App& command, std::string& out, const std::string& what) {
+  const auto is_directory = [](const std::string& word) {
+    return word == standard_output ? std::string("several files are written, into a directory; ./- is one named -")
+                                   : std::string();
+  };
+  return add_out(command, out,
+                 "Directory for " + what +
+                     ", created if missing. Files of an earlier run are replaced if they have the same name, and "
+                     "otherwise stay")
+      ->check(CLI::Validator(is_directory, ""))
+      ->type_name("DIR");
+}
+
+void check_output(const std::string& out) {
+  if (out != standard_output) check_can_write(out);
+}
+
+void write_output(const std::string& out, std::string_view content) {
+  if (out != standard_output) return write_file(out, content);
+  if (std::fwrite(content.data(), 1, content.size(), stdout) != content.size() || std::fflush(stdout) != 0) {
+    throw FileError("cannot write to standard output");
+  }
+}
+
+}  // namespace calligraphy::tools
