@@ -1,5 +1,6 @@
 #include "ending_signals.hpp"
 
+#include <algorithm>
 #include <array>
 #include <csignal>
 
@@ -30,11 +31,32 @@ void (*to_call)() noexcept = nullptr;
 
 namespace {
 
-constexpr std::array ending_signals = {SIGINT,  SIGTERM, SIGHUP, SIGQUIT, SIGTSTP,
-                                       SIGSEGV, SIGBUS,  SIGFPE, SIGILL,  SIGABRT};
+/// A program that handles one of these is about to end, or to stand still; others it may handle for ends of its own.
+constexpr std::array stopping_if_handled = {SIGINT,  SIGTERM, SIGHUP, SIGQUIT, SIGTSTP,
+                                            SIGSEGV, SIGBUS,  SIGFPE, SIGILL,  SIGABRT};
 
-/// Dispositions before ours.
-std::array<struct sigaction, ending_signals.size()> before;
+/// Those that nobody can handle, and those that a program takes no notice of by default. All others end or suspend it,
+/// those of real-time applications and of future systems included.
+constexpr std::array left_alone = {
+    SIGKILL, SIGSTOP, SIGCHLD, SIGCONT, SIGURG, SIGWINCH,
+#if defined(__APPLE__) || defined(__FreeBSD__) || defined(__NetBSD__) || defined(__OpenBSD__)
+    SIGINFO, SIGIO,
+#endif
+};
+
+/// Dispositions before ours, by the number of the signal.
+std::array<struct sigaction, NSIG> before;
+
+template <std::size_t count>
+bool contains(const std::array<int, count>& list, int signal) noexcept {
+  return std::find(list.begin(), list.end(), signal) != list.end();
+}
+
+bool is_handled_by(const struct sigaction& action, void (*handler)(int)) noexcept {
+  return (action.sa_flags & SA_SIGINFO) == 0 && action.sa_handler == handler;
+}
+
+bool suspends(int signal) noexcept { return signal == SIGTSTP || signal == SIGTTIN || signal == SIGTTOU; }
 
 extern "C" void calligraphy_at_ending_signal(int signal, siginfo_t* info, void* context);
 
@@ -57,9 +79,9 @@ bool is_own_fault(int signal, const siginfo_t& info) noexcept {
 }
 
 void do_as_before(const struct sigaction& action, int signal, siginfo_t* info, void* context) noexcept {
-  const bool by_default = (action.sa_flags & SA_SIGINFO) == 0 && action.sa_handler == SIG_DFL;
+  const bool by_default = is_handled_by(action, SIG_DFL);
   if (by_default || (action.sa_flags & SA_RESETHAND) != 0) restore_default(signal);
-  if (by_default && signal == SIGTSTP) {
+  if (by_default && suspends(signal)) {
     raise(signal);
     sigset_t blocked;
     sigemptyset(&blocked);
@@ -80,9 +102,7 @@ void do_as_before(const struct sigaction& action, int signal, siginfo_t* info, v
 extern "C" void calligraphy_at_ending_signal(int signal, siginfo_t* info, void* context) {
   const int error = errno;
   to_call();
-  for (std::size_t i = 0; i < ending_signals.size(); ++i) {
-    if (ending_signals[i] == signal) do_as_before(before[i], signal, info, context);
-  }
+  do_as_before(before[static_cast<std::size_t>(signal)], signal, info, context);
   errno = error;
 }
 
@@ -91,11 +111,12 @@ extern "C" void calligraphy_at_ending_signal(int signal, siginfo_t* info, void* 
 void call_at_ending_signals(void (*action)() noexcept) noexcept {
   static const SignalStack stack;
   to_call = action;
-  for (std::size_t i = 0; i < ending_signals.size(); ++i) {
-    struct sigaction& old = before[i];
-    if (sigaction(ending_signals[i], nullptr, &old) != 0) continue;
-    if ((old.sa_flags & SA_SIGINFO) == 0 && old.sa_handler == SIG_IGN) continue;  // as nohup requires
-    install(ending_signals[i], old);
+  for (int signal = 1; signal < NSIG; ++signal) {
+    if (contains(left_alone, signal)) continue;
+    struct sigaction& old = before[static_cast<std::size_t>(signal)];
+    if (sigaction(signal, nullptr, &old) != 0) continue;  // the C library's own
+    if (is_handled_by(old, SIG_IGN)) continue;            // as nohup requires
+    if (is_handled_by(old, SIG_DFL) || contains(stopping_if_handled, signal)) install(signal, old);
   }
 }
 

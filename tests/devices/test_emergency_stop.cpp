@@ -80,11 +80,22 @@ class StoppableDevice final : public SharedDevice {
   EmergencyStopEntry entry_{*this};
 };
 
-constexpr std::array signals = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
+/// All that end a program by default (POSIX 2008, and signal(7) for those of Linux); SIGKILL cannot be handled.
+std::vector<int> ending_signals() {
+  return {SIGINT,  SIGTERM, SIGHUP,  SIGQUIT,   SIGSEGV, SIGBUS,  SIGFPE,  SIGILL, SIGABRT, SIGPIPE, SIGALRM,  SIGUSR1,
+          SIGUSR2, SIGTRAP, SIGSYS,  SIGVTALRM, SIGPROF, SIGXCPU, SIGXFSZ,
+#ifdef __linux__
+          SIGPOLL, SIGPWR,  SIGSTKFLT, SIGRTMIN, SIGRTMAX,
+#endif
+  };
+}
+
+constexpr std::array suspending_signals = {SIGTSTP, SIGTTIN, SIGTTOU};
 
 /// The child has none of the handlers of this program, nor its stack for them.
 void forget_handlers() {
-  for (const int signal : signals) std::signal(signal, SIG_DFL);
+  for (const int signal : ending_signals()) std::signal(signal, SIG_DFL);
+  for (const int signal : suspending_signals) std::signal(signal, SIG_DFL);
   std::set_terminate(std::abort);
   stack_t none = {};
   none.ss_flags = SS_DISABLE;
@@ -172,7 +183,7 @@ std::vector<Ending> endings() {
       {"an access to no memory", [] { read_nothing(); }, -1, SIGSEGV},
       {"an endless recursion", [] { overflow_stack(0); }, -1, SIGSEGV},
   };
-  for (const int signal : signals)
+  for (const int signal : ending_signals())
     all.push_back({"a signal", [signal] { kill(getpid(), signal), pause(); }, -1, signal});
   return all;
 }
@@ -280,27 +291,46 @@ TEST_CASE("a signal that is ignored stays ignored, and stops nothing", "[emergen
   CHECK(shared.remains->force == 3.0);
 }
 
-TEST_CASE("a program that is suspended by Ctrl-Z has no force while it stands still, each time", "[emergency]") {
+TEST_CASE("a signal that the program handles for its own ends stops nothing", "[emergency]") {
+  static Remains* remains = nullptr;
+  for (const int signal : {SIGALRM, SIGUSR1, SIGPIPE, SIGPROF}) {
+    CAPTURE(signal);
+    const SharedRemains shared;
+    remains = shared.remains;
+    const int status = status_of_child([signal] {
+      std::signal(signal, [](int) { ++remains->handled; });
+      install_emergency_stop();
+      push<SharedDevice>(*remains);
+      raise(signal);
+      std::_Exit(remains->handled);
+    });
+    CHECK(exited(status, 1));
+    CHECK(shared.remains->force == 3.0);
+  }
+}
+
+TEST_CASE("a program that is suspended, as by Ctrl-Z, has no force while it stands still, each time", "[emergency]") {
+  const int signal = GENERATE(from_range(suspending_signals));
+  CAPTURE(signal);
   const SharedRemains shared;
   const pid_t child = fork();
   REQUIRE(child >= 0);
   if (child == 0) {
     forget_handlers();
-    std::signal(SIGTSTP, SIG_DFL);
     setpgid(0, 0);  // nobody could continue an orphan, so the system does not suspend it
     install_emergency_stop();
     push<SharedDevice>(*shared.remains);
-    raise(SIGTSTP);
+    raise(signal);
     clear_emergency_stop();
     while (shared.remains->force != 3.0) std::this_thread::yield();
-    raise(SIGTSTP);
+    raise(signal);
     std::_Exit(7);
   }
   int status = 0;
   for (int i = 0; i < 2; ++i) {
     REQUIRE(waitpid(child, &status, WUNTRACED) == child);
     REQUIRE(WIFSTOPPED(status));
-    CHECK(WSTOPSIG(status) == SIGTSTP);
+    CHECK(WSTOPSIG(status) == signal);
     CHECK(shared.remains->force == 0.0);
     kill(child, SIGCONT);
   }
