@@ -81,8 +81,19 @@ std::u32string present(const std::u32string& text, const std::function<bool(char
     if (&kind == &found || kind.find(code) == kind.npos) kind += code;
   }
   if (!missing.empty()) throw Error(fmt::format("not in {}: {}", place, labels(missing)));
+  if (found.empty() && !skipped.empty()) throw Error(fmt::format("not in {}: {}", place, labels(skipped)));
   if (!skipped.empty()) spdlog::warn("skipped: {}", labels(skipped));
   return found;
+}
+
+void warn_of_missing(const std::u32string& only, const CharacterList& list, const std::string& source) {
+  std::u32string missing;
+  for (const char32_t code : only) {
+    const auto is_it = [code](const Character& each) { return each.code == code; };
+    const bool found = std::any_of(list.characters.begin(), list.characters.end(), is_it);
+    if (!found && missing.find(code) == missing.npos) missing += code;
+  }
+  if (!missing.empty()) spdlog::warn("not in {}: {}", source, labels(missing));
 }
 
 ChosenCharacters open_characters(const std::vector<std::string>& paths, const std::u32string& text,
@@ -90,7 +101,6 @@ ChosenCharacters open_characters(const std::vector<std::string>& paths, const st
   CharacterSet set = open_sources(paths, text);
   const auto is_there = [&set](char32_t code) { return set.find(code).has_value(); };
   std::u32string found = present(text, is_there, place_of(paths));
-  if (found.empty() && !text.empty()) throw Error("TEXT has no character, only punctuation");
   for (const char32_t code : found) {
     if (set.find(code, order)) continue;
     throw Error(fmt::format("{} has no stroke order \"{}\" in {}", character_label(code), order, place_of(paths)));

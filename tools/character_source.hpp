@@ -20,9 +20,12 @@ namespace calligraphy::tools {
 CharacterSet open_sources(const std::vector<std::string>& paths, const std::u32string& text);
 
 /// The characters of `text` that are there. Punctuation that is not is skipped, and a warning says so.
-/// @throws Error naming all other characters that are not in `place`
+/// @throws Error naming all other characters that are not in `place`, or the punctuation if there is nothing else
 std::u32string present(const std::u32string& text, const std::function<bool(char32_t)>& is_there,
                        const std::string& place);
+
+/// Warns of characters that were asked for by --only and are not in the list.
+void warn_of_missing(const std::u32string& only, const CharacterList& list, const std::string& source);
 
 /// Characters, and the set that has them.
 struct ChosenCharacters {

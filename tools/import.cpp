@@ -17,6 +17,7 @@
 #include <calligraphy/importers/character_import.hpp>
 #include <calligraphy/model/set_encoding.hpp>
 
+#include "character_source.hpp"
 #include "commands.hpp"
 #include "import_report.hpp"
 #include "interrupt.hpp"
@@ -96,6 +97,7 @@ void run(const ImportArguments& options) {
   check_output(options.out);
   const Interrupt interrupt;
   const ImportResult import = imported(options, interrupt);
+  if (options.only) warn_of_missing(characters_of(*options.only), import.list, options.source);
   const std::string bytes = encoded(import.list, options);
   interrupt.check();
   write_output(options.out, bytes);

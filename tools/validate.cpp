@@ -12,6 +12,7 @@
 #include <calligraphy/importers/character_import.hpp>
 #include <calligraphy/importers/stroke_warnings.hpp>
 
+#include "character_source.hpp"
 #include "commands.hpp"
 #include "import_report.hpp"
 #include "options.hpp"
@@ -58,6 +59,7 @@ Findings findings(const ValidateArguments& options) {
   asked.threads = options.threads;
   asked.progress = [&progress](double share) { progress.show(0.5 * share); };
   const ImportResult import = import_characters(options.file, asked);
+  warn_of_missing(asked.only, import.list, options.file);
   Findings found{import.report.characters, import.report.strokes, {}};
   for (const LabelConflict& conflict : import.report.label_conflicts) {
     found.list.push_back({conflict.place, "label", words_for(conflict)});

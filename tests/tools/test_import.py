@@ -128,6 +128,17 @@ class ImportResult(ImportTest):
         self.assertEqual(running.returncode, 0)
         self.assertRegex(shown, rb"\A +0 % +\r.* +\r\Z")  # one line, removed at the end
 
+    def test_standard_output_takes_the_place_of_a_file_and_the_report_steps_aside(self):
+        self.write("data/05341.svg", svg(HENG + SHU))
+        for asked in (["--format", "text"], ["--format", "set"]):
+            self.run_program("import", "data", "-o", "out", *asked)
+            done = subprocess.run([os.environ["CALLIGRAPHY_PROGRAM"], "import", "data", "-o", "-", *asked],
+                                  cwd=self.directory, capture_output=True, check=True)
+            self.assertEqual(done.stdout, (self.directory / "out").read_bytes())
+            self.assertIn(b"1 characters, 2 strokes", done.stderr)
+        self.assertEqual(self.files(), ["data", "data/05341.svg", "out"])
+        self.assert_refused(2, ["import", "data", "-o", "-", "--json"], "--json")
+
     def test_text_and_set_files_convert_without_loss(self):
         self.write("data/05341.svg", svg(HENG + SHU))
         self.write("data/05341-VtFst.svg", svg(SHU + HENG))
@@ -156,6 +167,8 @@ class ImportResult(ImportTest):
         for code in ("04e00", "05341", "04e8c"):
             self.write(f"data/{code}.svg", svg())
         self.assertEqual(self.report("data", "--only", "十 一 永")["characters"], 2)
+        done = self.run_program("import", "data", "-o", "out.txt", "--only", "十一永")
+        self.assertIn("not in data: 永 (U+6C38)\n", done.stderr)
         self.assert_refused(1, ["import", "data", "-o", "none.txt", "--only", "永"], "requested")
 
     def test_the_stroke_letters_of_a_package_are_used(self):

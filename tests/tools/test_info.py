@@ -102,6 +102,8 @@ class Refusals(ProgramTest):
         self.assert_refused(1, ["info", "北", "--characters", "none"], "none")
         self.assert_refused(1, ["info", "none.set", "北"], "none.set", "cannot be opened")
         self.assert_refused(1, ["info", str(DATA / "version_1.set"), "永"], "version_1.set", "永")
+        self.assert_refused(1, ["info", "none.set"], "none.set: no such file\n")
+        self.assert_refused(1, ["info", "hanzi"], "hanzi: no such file, and as TEXT not in the built-in set", "h (U+0068)")
         self.assert_refused(1, ["info", str(DATA / "version_1.set"), "一", "--order", "Table 3"], "一", "Table 3")
         self.assert_refused(2, ["info", str(DATA / "version_1.set"), ""], "TEXT")
 

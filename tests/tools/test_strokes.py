@@ -14,6 +14,11 @@ class Strokes(ProgramTest):
         for name in ("横", "竖", "横折弯钩"):
             self.assertIn(name, texts)
 
+    def test_standard_output_takes_the_place_of_a_file(self):
+        self.run_program("strokes", "-o", "strokes.svg")
+        self.assertEqual(self.run_program("strokes", "-o", "-").stdout, (self.directory / "strokes.svg").read_text())
+        self.assertEqual(self.files(), ["strokes.svg"])
+
     def test_an_unwritable_output_file_is_named(self):
         self.assert_refused(1, ["strokes", "--out", "none/strokes.svg"], "none/strokes.svg")
         self.assert_refused(2, ["strokes"], "--out")

@@ -265,6 +265,14 @@ class Write(ProgramTest):
                              "--tolerance", "1e-3")
             self.assertEqual(len(self.summary(device)), 2)
 
+    def test_punctuation_that_the_set_lacks_is_skipped_and_told(self):
+        done = self.run_program("write", "一，「十」。，", "-o", "out", "--mode", "force")
+        self.assertIn("skipped: ， (U+FF0C), 「 (U+300C), 」 (U+300D), 。 (U+3002)\n", done.stderr)
+        self.assertEqual([(row["character"], row["position"]) for row in self.summary()], [("一", 1), ("十", 2)])
+        (self.directory / "dot.txt").write_text("calligraphy characters 1\ncharacter 。\nstroke 1 0.1,0.5 0.9,0.5\n")
+        done = self.run_program("write", "。", "-o", "dot", "--mode", "force", "--characters", "dot.txt")
+        self.assertNotIn("skipped", done.stderr)
+
     def test_a_repeated_character_fills_as_many_pages_as_needed(self):
         self.run_program("write", "一一一一一一一一", "--out", "out", "--mode", "force")
         self.assertEqual([row["position"] for row in self.summary()], list(range(1, 9)))
@@ -338,6 +346,9 @@ class Refusals(ProgramTest):
     def test_an_unknown_character_is_named_with_its_code(self):
         self.assert_refused(1, ["write", "北\u9f98", "--out", "out"], "\u9f98", "U+9F98")
         self.assert_refused(1, ["write", "\x01", "--out", "out"], "U+0001")
+        self.assert_refused(1, ["write", "北\u9f98，\u9f98犇", "--out", "out"],
+                            "not in the built-in set (see --characters): \u9f98 (U+9F98), 犇 (U+7287)\n")
+        self.assert_refused(1, ["write", "，。", "--out", "out"], "not in the built-in set (see --characters): ， (U+FF0C), 。 (U+3002)\n")
 
     def test_a_missing_or_malformed_file_is_named(self):
         self.assert_refused(1, ["write", "北", "--out", "out", "--characters", "none.txt"], "none.txt")
