@@ -1,7 +1,6 @@
 #include "stop_key.hpp"
 
 #include <poll.h>
-#include <signal.h>
 #include <unistd.h>
 
 namespace calligraphy::tools {
@@ -39,15 +38,10 @@ void StopKey::look() noexcept {
 
 const char* stop_keys(const StopKey& key) noexcept { return key.available() ? "space, Esc or Ctrl-C" : "Ctrl-C"; }
 
-/// Async-signal-safe, as all that it calls. A program in the background would be suspended by SIGTTOU, if it were not
-/// blocked.
+/// Async-signal-safe: all three are. In the background the terminal is another program's.
 void StopKey::restore(void* self) noexcept {
-  sigset_t of_terminal, blocked_before;
-  sigemptyset(&of_terminal);
-  sigaddset(&of_terminal, SIGTTOU);
-  pthread_sigmask(SIG_BLOCK, &of_terminal, &blocked_before);
+  if (tcgetpgrp(STDIN_FILENO) != getpgrp()) return;
   tcsetattr(STDIN_FILENO, TCSANOW, &static_cast<const StopKey*>(self)->before_);
-  pthread_sigmask(SIG_SETMASK, &blocked_before, nullptr);
 }
 
 }  // namespace calligraphy::tools

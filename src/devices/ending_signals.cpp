@@ -31,32 +31,30 @@ void (*to_call)() noexcept = nullptr;
 
 namespace {
 
-/// A program that handles one of these is about to end, or to stand still; others it may handle for ends of its own.
-constexpr std::array stopping_if_handled = {SIGINT,  SIGTERM, SIGHUP, SIGQUIT, SIGTSTP,
-                                            SIGSEGV, SIGBUS,  SIGFPE, SIGILL,  SIGABRT};
-
-/// Those that nobody can handle, and those that a program takes no notice of by default. All others end or suspend it,
-/// those of real-time applications and of future systems included.
-constexpr std::array left_alone = {
-    SIGKILL, SIGSTOP, SIGCHLD, SIGCONT, SIGURG, SIGWINCH,
-#if defined(__APPLE__) || defined(__FreeBSD__) || defined(__NetBSD__) || defined(__OpenBSD__)
-    SIGINFO, SIGIO,
+/// Whether a program goes on at this signal by default. Every other one ends or stops it, whatever a system calls it.
+bool is_harmless(int signal) noexcept {
+#if defined(SIGINFO) && !defined(SIGPWR)  // where both exist they are one, which ends a program
+  if (signal == SIGINFO) return true;
 #endif
-};
-
-/// Dispositions before ours, by the number of the signal.
-std::array<struct sigaction, NSIG> before;
-
-template <std::size_t count>
-bool contains(const std::array<int, count>& list, int signal) noexcept {
-  return std::find(list.begin(), list.end(), signal) != list.end();
+  return signal == SIGCHLD || signal == SIGCONT || signal == SIGURG || signal == SIGWINCH;
 }
 
-bool is_handled_by(const struct sigaction& action, void (*handler)(int)) noexcept {
+/// Whether the program is to end or has crashed even where it handles this signal. What else it handles (SIGUSR1, a
+/// timer, a profiler's SIGPROF) is its own business, and it goes on.
+bool ends_if_handled(int signal) noexcept {
+  constexpr std::array signals = {SIGINT,  SIGTERM, SIGHUP, SIGQUIT, SIGTSTP,
+                                  SIGSEGV, SIGBUS,  SIGFPE, SIGILL,  SIGABRT};
+  return std::find(signals.begin(), signals.end(), signal) != signals.end();
+}
+
+bool stops_program(int signal) noexcept { return signal == SIGTSTP || signal == SIGTTIN || signal == SIGTTOU; }
+
+bool is(const struct sigaction& action, void (*handler)(int)) noexcept {
   return (action.sa_flags & SA_SIGINFO) == 0 && action.sa_handler == handler;
 }
 
-bool suspends(int signal) noexcept { return signal == SIGTSTP || signal == SIGTTIN || signal == SIGTTOU; }
+/// Dispositions before ours, by number.
+std::array<struct sigaction, NSIG> before;
 
 extern "C" void calligraphy_at_ending_signal(int signal, siginfo_t* info, void* context);
 
@@ -64,6 +62,10 @@ void install(int signal, const struct sigaction& old) noexcept {
   struct sigaction ours = old;
   ours.sa_sigaction = calligraphy_at_ending_signal;
   ours.sa_flags = (old.sa_flags | SA_SIGINFO | SA_ONSTACK) & ~static_cast<int>(SA_RESETHAND);
+  if (is(old, SIG_DFL)) {
+    ours.sa_flags |= SA_RESTART;        // a program that was only suspended has had no handler either
+    sigaddset(&ours.sa_mask, SIGTTOU);  // what restores the terminal from the background is not stopped midway
+  }
   sigaction(signal, &ours, nullptr);
 }
 
@@ -73,15 +75,16 @@ void restore_default(int signal) noexcept {
   sigaction(signal, &action, nullptr);
 }
 
-/// An instruction that cannot be executed, as opposed to a signal that some process has sent.
+/// An instruction that cannot be executed, as opposed to a signal that some process has sent, and to SIGTRAP and
+/// SIGSYS, whose instruction is over.
 bool is_own_fault(int signal, const siginfo_t& info) noexcept {
   return (signal == SIGSEGV || signal == SIGBUS || signal == SIGFPE || signal == SIGILL) && info.si_code > 0;
 }
 
 void do_as_before(const struct sigaction& action, int signal, siginfo_t* info, void* context) noexcept {
-  const bool by_default = is_handled_by(action, SIG_DFL);
+  const bool by_default = is(action, SIG_DFL);
   if (by_default || (action.sa_flags & SA_RESETHAND) != 0) restore_default(signal);
-  if (by_default && suspends(signal)) {
+  if (by_default && stops_program(signal)) {
     raise(signal);
     sigset_t blocked;
     sigemptyset(&blocked);
@@ -111,12 +114,11 @@ extern "C" void calligraphy_at_ending_signal(int signal, siginfo_t* info, void* 
 void call_at_ending_signals(void (*action)() noexcept) noexcept {
   static const SignalStack stack;
   to_call = action;
-  for (int signal = 1; signal < NSIG; ++signal) {
-    if (contains(left_alone, signal)) continue;
+  for (int signal = 1; signal < NSIG; ++signal) {  // the system refuses SIGKILL, SIGSTOP and what its threads need
     struct sigaction& old = before[static_cast<std::size_t>(signal)];
-    if (sigaction(signal, nullptr, &old) != 0) continue;  // the C library's own
-    if (is_handled_by(old, SIG_IGN)) continue;            // as nohup requires
-    if (is_handled_by(old, SIG_DFL) || contains(stopping_if_handled, signal)) install(signal, old);
+    if (is_harmless(signal) || sigaction(signal, nullptr, &old) != 0) continue;
+    if (is(old, SIG_IGN)) continue;  // as nohup requires
+    if (is(old, SIG_DFL) || ends_if_handled(signal)) install(signal, old);
   }
 }
 
@@ -147,7 +149,11 @@ SignalStack::~SignalStack() {
 
 namespace {
 
-constexpr std::array ending_signals = {SIGINT, SIGTERM, SIGSEGV, SIGFPE, SIGILL, SIGABRT};
+constexpr std::array ending_signals = {SIGINT, SIGTERM, SIGSEGV, SIGFPE, SIGILL, SIGABRT,
+#if defined(SIGBREAK)  // Ctrl-Break on Windows
+                                       SIGBREAK
+#endif
+};
 
 std::array<void (*)(int), ending_signals.size()> before;
 

@@ -5,9 +5,10 @@
 
 namespace calligraphy {
 
-/// From here on calls `action` first at every signal that ends or suspends the program (Ctrl-Z) and is not ignored, then
-/// does what the signal did before. A handler of the program's own is taken for such an end where the signal asks for one
-/// or is a crash. Call it once.
+/// From here on calls `action` first at every signal that ends or stops a program by default, then does what the signal
+/// did before. A signal that is ignored stays ignored. One that is handled stays as it is, unless it means that the
+/// program ends or has crashed: SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGTSTP, SIGSEGV, SIGBUS, SIGFPE, SIGILL and SIGABRT.
+/// Call it once.
 void call_at_ending_signals(void (*action)() noexcept) noexcept;
 
 /// Number of this process, which a forked child has not inherited; 0 where processes are not forked. Async-signal-safe.

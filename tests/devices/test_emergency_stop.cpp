@@ -1,9 +1,12 @@
 // Children end in every way that a program can; the last force that each wrote remains in shared memory.
+#include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
+#include <termios.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
@@ -80,22 +83,12 @@ class StoppableDevice final : public SharedDevice {
   EmergencyStopEntry entry_{*this};
 };
 
-/// All that end a program by default (POSIX 2008, and signal(7) for those of Linux); SIGKILL cannot be handled.
-std::vector<int> ending_signals() {
-  return {SIGINT,  SIGTERM, SIGHUP,  SIGQUIT,   SIGSEGV, SIGBUS,  SIGFPE,  SIGILL, SIGABRT, SIGPIPE, SIGALRM,  SIGUSR1,
-          SIGUSR2, SIGTRAP, SIGSYS,  SIGVTALRM, SIGPROF, SIGXCPU, SIGXFSZ,
-#ifdef __linux__
-          SIGPOLL, SIGPWR,  SIGSTKFLT, SIGRTMIN, SIGRTMAX,
-#endif
-  };
-}
-
-constexpr std::array suspending_signals = {SIGTSTP, SIGTTIN, SIGTTOU};
-
-/// The child has none of the handlers of this program, nor its stack for them.
+/// The child has none of the handlers of this program, nor its stack for them, and is alone in its group: what suspends
+/// a program needs somebody outside the group who could continue it.
 void forget_handlers() {
-  for (const int signal : ending_signals()) std::signal(signal, SIG_DFL);
-  for (const int signal : suspending_signals) std::signal(signal, SIG_DFL);
+  setpgid(0, 0);
+  const struct sigaction by_default = {};  // std::signal() would restart system calls, which a new program does not
+  for (int signal = 1; signal <= SIGRTMAX; ++signal) sigaction(signal, &by_default, nullptr);
   std::set_terminate(std::abort);
   stack_t none = {};
   none.ss_flags = SS_DISABLE;
@@ -115,12 +108,40 @@ int status_of_child(const std::function<void()>& ends) {
     std::_Exit(99);
   }
   int status = 0;
-  REQUIRE(waitpid(child, &status, 0) == child);
+  REQUIRE(waitpid(child, &status, WUNTRACED) == child);
+  if (WIFSTOPPED(status)) {
+    kill(child, SIGKILL);
+    waitpid(child, nullptr, 0);
+  }
   return status;
 }
 
 bool exited(int status, int code) { return WIFEXITED(status) && WEXITSTATUS(status) == code; }
 bool killed(int status, int signal) { return WIFSIGNALED(status) && WTERMSIG(status) == signal; }
+bool stopped(int status, int signal) { return WIFSTOPPED(status) && WSTOPSIG(status) == signal; }
+
+/// What each signal does by default, as the system itself has it; without SIGKILL and SIGSTOP, at which nothing can
+/// run, and without those that its threads keep for themselves.
+struct Signals {
+  std::vector<int> end, suspend;
+};
+
+const Signals& signals() {
+  static const Signals all = [] {
+    Signals found;
+    for (int signal = 1; signal <= SIGRTMAX; ++signal) {
+      if (signal == SIGKILL || signal == SIGSTOP) continue;
+      const int status = status_of_child([signal] {
+        struct sigaction present = {};
+        if (sigaction(signal, nullptr, &present) == 0) raise(signal);
+      });
+      if (killed(status, signal)) found.end.push_back(signal);
+      if (stopped(status, signal)) found.suspend.push_back(signal);
+    }
+    return found;
+  }();
+  return all;
+}
 
 ServoLoopOptions quickly(double timeout = 0.5) {  // by default a busy machine is no fault
   ServoLoopOptions options;
@@ -183,7 +204,10 @@ std::vector<Ending> endings() {
       {"an access to no memory", [] { read_nothing(); }, -1, SIGSEGV},
       {"an endless recursion", [] { overflow_stack(0); }, -1, SIGSEGV},
   };
-  for (const int signal : ending_signals())
+#if defined(__x86_64__) || defined(__i386__)
+  all.push_back({"a breakpoint, after which the program would go on", [] { __asm__("int3"); }, -1, SIGTRAP});
+#endif
+  for (const int signal : signals().end)
     all.push_back({"a signal", [signal] { kill(getpid(), signal), pause(); }, -1, signal});
   return all;
 }
@@ -219,6 +243,32 @@ TEST_CASE("a device with an entry is stopped without a servo loop", "[emergency]
     });
     CHECK(shared.remains->force == 0.0);
     CHECK(shared.remains->cuts > 0);
+  }
+}
+
+TEST_CASE("the signals that end or suspend a program are those that POSIX lists, and the real-time ones",
+          "[emergency]") {
+  for (const int signal :
+       {SIGABRT, SIGALRM, SIGBUS,  SIGFPE,  SIGHUP,  SIGILL,  SIGINT,    SIGPIPE, SIGPOLL, SIGPROF,  SIGQUIT,
+        SIGSEGV, SIGSYS,  SIGTERM, SIGTRAP, SIGUSR1, SIGUSR2, SIGVTALRM, SIGXCPU, SIGXFSZ, SIGRTMIN, SIGRTMAX}) {
+    CAPTURE(signal);
+    CHECK(std::count(signals().end.begin(), signals().end.end(), signal) == 1);
+  }
+  CHECK(signals().suspend == std::vector{SIGTSTP, SIGTTIN, SIGTTOU});
+}
+
+TEST_CASE("a signal that arrives in the servo's own thread leaves no force behind", "[emergency]") {
+  for (const int signal : signals().end) {
+    CAPTURE(signal);
+    const SharedRemains shared;
+    const int status = status_of_child([&] {
+      install_emergency_stop();
+      push<SharedDevice>(*shared.remains, [signal] { raise(signal); }, 4e-3);  // it is the watchdog that writes zero
+      law_fails = true;
+      pause();
+    });
+    CHECK(killed(status, signal));
+    CHECK(shared.remains->force == 0.0);
   }
 }
 
@@ -281,61 +331,123 @@ TEST_CASE("handlers installed before are called after the stop, with what they w
 
 TEST_CASE("a signal that is ignored stays ignored, and stops nothing", "[emergency]") {
   const SharedRemains shared;
-  status_of_child([&] {
-    std::signal(SIGHUP, SIG_IGN);
+  const int status = status_of_child([&] {
+    for (const std::vector<int>& some : {signals().end, signals().suspend}) {
+      for (const int signal : some) std::signal(signal, SIG_IGN);
+    }
     install_emergency_stop();
     push<SharedDevice>(*shared.remains);
-    raise(SIGHUP);
-    std::_Exit(0);
+    for (const std::vector<int>& some : {signals().end, signals().suspend}) {
+      for (const int signal : some) raise(signal);
+    }
+    std::_Exit(emergency_stopped() ? 1 : 0);
   });
+  CHECK(exited(status, 0));
   CHECK(shared.remains->force == 3.0);
 }
 
-TEST_CASE("a signal that the program handles for its own ends stops nothing", "[emergency]") {
+TEST_CASE("signals that a program handles for its own purposes stop nothing", "[emergency]") {
   static Remains* remains = nullptr;
-  for (const int signal : {SIGALRM, SIGUSR1, SIGPIPE, SIGPROF}) {
+  const SharedRemains shared;
+  remains = shared.remains;
+  const int status = status_of_child([] {
+    const std::array own = {SIGUSR1, SIGUSR2, SIGALRM, SIGVTALRM, SIGPROF, SIGPIPE, SIGIO, SIGTRAP, SIGRTMIN, SIGTTOU};
+    for (const int signal : own) std::signal(signal, [](int) { ++remains->handled; });
+    install_emergency_stop();
+    push<SharedDevice>(*remains);
+    for (const int signal : own) raise(signal);
+    std::_Exit(emergency_stopped() || remains->handled != static_cast<int>(own.size()) ? 1 : 0);
+  });
+  CHECK(exited(status, 0));
+  CHECK(shared.remains->force == 3.0);
+}
+
+TEST_CASE("a program that is suspended has no force while it stands still, each time", "[emergency]") {
+  for (const int signal : signals().suspend) {
     CAPTURE(signal);
     const SharedRemains shared;
-    remains = shared.remains;
-    const int status = status_of_child([signal] {
-      std::signal(signal, [](int) { ++remains->handled; });
+    const pid_t child = fork();
+    REQUIRE(child >= 0);
+    if (child == 0) {
+      forget_handlers();
       install_emergency_stop();
-      push<SharedDevice>(*remains);
+      push<SharedDevice>(*shared.remains);
       raise(signal);
-      std::_Exit(remains->handled);
-    });
-    CHECK(exited(status, 1));
-    CHECK(shared.remains->force == 3.0);
+      clear_emergency_stop();
+      while (shared.remains->force != 3.0) std::this_thread::yield();
+      raise(signal);
+      std::_Exit(7);
+    }
+    int status = 0;
+    for (int i = 0; i < 2; ++i) {
+      REQUIRE(waitpid(child, &status, WUNTRACED) == child);
+      REQUIRE(stopped(status, signal));
+      CHECK(shared.remains->force == 0.0);
+      kill(child, SIGCONT);
+    }
+    REQUIRE(waitpid(child, &status, 0) == child);
+    CHECK(exited(status, 7));
   }
 }
 
-TEST_CASE("a program that is suspended, as by Ctrl-Z, has no force while it stands still, each time", "[emergency]") {
-  const int signal = GENERATE(from_range(suspending_signals));
-  CAPTURE(signal);
-  const SharedRemains shared;
+TEST_CASE("a read that is suspended goes on when the program does", "[emergency]") {
+  int ends[2];
+  REQUIRE(pipe(ends) == 0);
   const pid_t child = fork();
   REQUIRE(child >= 0);
   if (child == 0) {
     forget_handlers();
-    setpgid(0, 0);  // nobody could continue an orphan, so the system does not suspend it
     install_emergency_stop();
-    push<SharedDevice>(*shared.remains);
-    raise(signal);
-    clear_emergency_stop();
-    while (shared.remains->force != 3.0) std::this_thread::yield();
-    raise(signal);
-    std::_Exit(7);
+    std::thread([] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      kill(getpid(), SIGTTIN);
+    }).detach();
+    char letter = 0;
+    std::_Exit(read(ends[0], &letter, 1) == 1 ? letter : 1);
   }
   int status = 0;
-  for (int i = 0; i < 2; ++i) {
-    REQUIRE(waitpid(child, &status, WUNTRACED) == child);
-    REQUIRE(WIFSTOPPED(status));
-    CHECK(WSTOPSIG(status) == signal);
-    CHECK(shared.remains->force == 0.0);
-    kill(child, SIGCONT);
-  }
+  REQUIRE(waitpid(child, &status, WUNTRACED) == child);
+  CHECK(stopped(status, SIGTTIN));
+  kill(child, SIGCONT);
+  CHECK(write(ends[1], "\7", 1) == 1);
   REQUIRE(waitpid(child, &status, 0) == child);
   CHECK(exited(status, 7));
+  close(ends[0]);
+  close(ends[1]);
+}
+
+TEST_CASE("an entry that restores the terminal from the background does not suspend a program that ends",
+          "[emergency]") {
+  const SharedRemains shared;
+  const int status = status_of_child([&] {
+    // The leader of a session of its own, whose terminal is that of its group; the program is in the background.
+    const pid_t leader = fork();
+    if (leader == 0) {
+      setsid();
+      const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
+      if (terminal < 0 || grantpt(terminal) != 0 || unlockpt(terminal) != 0) std::_Exit(2);
+      static int tty = -1;
+      tty = open(ptsname(terminal), O_RDWR);
+      if (tty < 0 || tcgetpgrp(tty) != getpgrp()) std::_Exit(3);
+      const int ending = status_of_child([&] {
+        install_emergency_stop();
+        const EmergencyStopEntry entry(&shared.remains->handled, [](void* handled) noexcept {
+          termios modes = {};
+          if (tcgetattr(tty, &modes) == 0 && tcsetattr(tty, TCSANOW, &modes) == 0)
+            ++*static_cast<std::atomic<int>*>(handled);
+        });
+        push<StoppableDevice>(*shared.remains);
+        raise(SIGTERM);
+      });
+      std::_Exit(killed(ending, SIGTERM) ? 0 : 4);
+    }
+    int ended = 0;
+    waitpid(leader, &ended, 0);
+    std::_Exit(WIFEXITED(ended) ? WEXITSTATUS(ended) : 5);
+  });
+  CHECK(exited(status, 0));
+  CHECK(shared.remains->handled == 1);
+  CHECK(shared.remains->force == 0.0);
 }
 
 TEST_CASE("terminate handlers installed before are called after the stop", "[emergency]") {

@@ -270,8 +270,8 @@ void add_devices(py::module_& module) {
 
   module.def(
       "install_emergency_stop", &install_for_python,
-      "Takes the force from every open device when the program ends: at exit, at SIGINT, SIGTERM and any other "
-      "signal that ends a program, at Ctrl-Z and at a crash. What was installed before follows, so that Ctrl-C still raises KeyboardInterrupt. "
+      "Takes the force from every open device when the program ends: at exit, at a crash and at every signal that "
+      "ends or stops it. What was installed before follows, so that Ctrl-C still raises KeyboardInterrupt. "
       "Call it once, in the main thread, after any signal.signal(). At a signal a device written in Python gets "
       "its zero only from the next tick of its loop, if there is one.");
   module.def("emergency_stop", &emergency_stop, py::call_guard<py::gil_scoped_release>(),

@@ -70,7 +70,7 @@ loop.stop()
     assert code == 0, told
 
 
-@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGQUIT, signal.SIGSEGV])
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGQUIT, signal.SIGSEGV, signal.SIGUSR1, signal.SIGALRM])
 def test_a_signal_ends_the_program_as_before(number):
     code, told = outcome(f"os.kill(os.getpid(), {int(number)}); time.sleep(60)")
     assert code == -number, told
@@ -84,6 +84,22 @@ os.kill(os.getpid(), signal.SIGTERM)
 time.sleep(60)
 """)
     assert code == 7, told
+
+
+def test_a_broken_pipe_is_an_exception_and_stops_nothing():
+    code, told = outcome("""
+reading, writing = os.pipe()
+os.close(reading)
+try:
+    os.write(writing, b"x")
+except BrokenPipeError:
+    pass
+else:
+    sys.exit("written")
+assert not cal.emergency_stopped()
+loop.stop()
+""")
+    assert code == 0, told
 
 
 def test_a_device_written_in_python_gets_its_zero_at_exit(tmp_path):

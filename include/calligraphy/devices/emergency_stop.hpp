@@ -8,11 +8,11 @@ namespace calligraphy {
 class HapticDevice;
 
 /// Calls emergency_stop() when the program ends: at exit() and quick_exit(), at std::terminate() (an uncaught
-/// exception), and at every signal that by default ends or suspends a program, SIGPIPE, SIGALRM, SIGUSR1, SIGTTOU and the
-/// real-time signals included. Signals still do what they did before: exit codes and core dumps stay as they were, a
-/// signal that is ignored stays ignored, and one for which the program has a handler is the program's. Only at SIGINT,
-/// SIGTERM, SIGHUP, SIGQUIT, SIGTSTP (Ctrl-Z), SIGSEGV, SIGBUS, SIGFPE, SIGILL and SIGABRT is the force taken before that
-/// handler is called.
+/// exception), and at every signal whose default action ends or stops it: Ctrl-C, Ctrl-Z and crashes, but also SIGPIPE,
+/// SIGALRM, SIGUSR1 or a real-time signal. The signal then ends or stops the program as before: exit codes and core
+/// dumps stay as they were. A signal that is ignored stays ignored. A handler installed before for SIGINT, SIGTERM,
+/// SIGHUP, SIGQUIT, SIGTSTP, SIGSEGV, SIGBUS, SIGFPE, SIGILL or SIGABRT is called after the stop; with a handler for
+/// any other signal the program goes on, and so does the force.
 ///
 /// Call it once, at the start of main() and after the program has installed its own handlers; further calls do nothing.
 /// A handler that is installed later replaces it and should call emergency_stop() itself. Nothing can run at SIGKILL,
