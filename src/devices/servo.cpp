@@ -17,7 +17,7 @@
 namespace calligraphy {
 namespace {
 
-constexpr std::uint64_t owner_bits = 2;  // below the change count
+constexpr std::uint64_t owner_bits = 3;  // below the change count
 constexpr int fault_shift = 8;           // in the packed status
 
 std::uint64_t with_fault(std::uint64_t status, DeviceFault fault) noexcept {
@@ -86,21 +86,28 @@ void Servo::step(double now) noexcept {
   // Decaying filters in the force law end in denormal numbers, whichever thread calls.
   const FlushDenormals flush;
   std::uint64_t owner = owner_.load(std::memory_order_acquire);
-  if (owner_of(owner) != Owner::nobody || !hand_over(owner, Owner::tick)) {
+  if (!take(owner)) {
     idle_ticks_.fetch_add(1, std::memory_order_relaxed);
     return;
   }
   const double period = 1.0 / options_.rate;
   const double begun = options_.work_clock();
   const double elapsed = elapsed_since_last_tick(now);
+  // The watchdog has seen to the time before: what it left of its ramp goes on by one period.
+  const bool watched = std::exchange(watchdog_fell_, false);
+  const double unguarded = watched ? std::min(elapsed, period) : elapsed;
+  since_asked_ += elapsed;
   DeviceState sample = device_.read();
   device_status_ = sample.status;
   const bool released = released_.load(std::memory_order_relaxed);
-  DeviceFault fault = judge(sample, elapsed);
+  DeviceFault fault = judge(sample, elapsed, watched);
   if (emergency_stopped()) fault = DeviceFault::emergency_stop;
   complete(sample, fault, elapsed);
 
+  double settling = since_asked_;
   if (fault == DeviceFault::none && !released && sample.status != DeviceStatus::stale) {
+    since_asked_ = settling_ = 0.0;
+    watchdog_wrote_ = false;
     hand_over(owner, Owner::law);
     Eigen::Vector3d force;
     const double asked = options_.work_clock();
@@ -110,6 +117,7 @@ void Servo::step(double now) noexcept {
       idle_ticks_.fetch_add(1, std::memory_order_relaxed);
       return;
     }
+    settling = answer_time;
     if (!answered) {
       fault = DeviceFault::bad_force;
     } else if (answer_time > options_.timeout) {
@@ -118,15 +126,18 @@ void Servo::step(double now) noexcept {
       guard_.pass(force, std::min(elapsed, period));  // a late tick ramps up by one period only
     }
   } else if (fault == DeviceFault::none && released) {
-    guard_.fall(guard_.fault(), elapsed, period);
+    guard_.fall(guard_.fault(), unguarded, period);
   } else if (fault == DeviceFault::none) {
-    guard_.hold(elapsed);
+    guard_.hold(unguarded);
   }
-  if (fault != DeviceFault::none) guard_.fall(fault, elapsed, period);
+  if (fault != DeviceFault::none) guard_.fall(fault, unguarded, period);
   if (fault != DeviceFault::none && fault != last_fault_) count_fault(fault);
   last_fault_ = fault;
 
-  write_force();
+  if (write_force()) {
+    settling_ = settling;
+    watchdog_wrote_ = false;
+  }
   publish();
   increment(ticks_);
   work_.add(options_.work_clock() - begun);
@@ -152,9 +163,10 @@ double Servo::elapsed_since_last_tick(double now) noexcept {
   return elapsed;
 }
 
-DeviceFault Servo::judge(const DeviceState& sample, double elapsed) noexcept {
-  // While the force is zero a gap is harmless, and the fault that caused the ramp-down stays reported.
-  const bool gap = elapsed > options_.timeout && guard_.phase() != ServoPhase::zero;
+DeviceFault Servo::judge(const DeviceState& sample, double elapsed, bool watched) noexcept {
+  // While the force is zero a gap is harmless, and the fault that caused the ramp-down stays reported. So it does while
+  // the watchdog's ramp-down is unfinished.
+  const bool gap = elapsed > options_.timeout && guard_.phase() != ServoPhase::zero && !watched;
   if (sample.status == DeviceStatus::stale) {
     increment(stale_);
     stale_for_ += elapsed;
@@ -180,6 +192,8 @@ DeviceFault Servo::judge(const DeviceState& sample, double elapsed) noexcept {
 /// Fills in what the device does not say.
 void Servo::complete(DeviceState& sample, DeviceFault fault, double elapsed) noexcept {
   if (!sample.force.allFinite()) sample.force = guard_.force();
+  sample.force_settling =
+      watchdog_wrote_ ? since_asked_ - steady_for_.load(std::memory_order_relaxed) : settling_;
   since_estimate_ += elapsed;
   if (fault != DeviceFault::none || elapsed > options_.timeout) velocity_.restart();
   const bool fresh = fault == DeviceFault::none && sample.status != DeviceStatus::stale;
@@ -213,9 +227,10 @@ void Servo::supervise(double now) noexcept {
     if (std::exchange(watch_has_time_, true) && now > watch_time_) elapsed = now - watch_time_;
     watch_time_ = now;
   }
+  steady_for_.store(steady_for_.load(std::memory_order_relaxed) + elapsed, std::memory_order_relaxed);
   std::uint64_t owner = owner_.load(std::memory_order_acquire);
-  if (owner_of(owner) == Owner::watchdog) {
-    let_fall(owner, elapsed);
+  if (owner_of(owner) == Owner::ramp) {
+    if (hand_over(owner, Owner::watchdog)) let_fall(owner, elapsed);
     return;
   }
   if (owner != watched_owner_) {
@@ -249,15 +264,22 @@ void Servo::supervise(double now) noexcept {
 /// The watchdog's tick while it owns the device: the same ramp-down as the servo's.
 void Servo::let_fall(std::uint64_t owner, double elapsed) noexcept {
   guard_.fall(reason_, elapsed, 1.0 / options_.rate);
-  write_force();
+  watchdog_fell_ = true;
+  if (write_force()) {
+    watchdog_wrote_ = true;
+    steady_for_.store(0.0, std::memory_order_relaxed);
+  }
   publish();
-  if (guard_.phase() != ServoPhase::zero) return;
-  give_back(owner);
+  if (guard_.phase() == ServoPhase::zero) {
+    give_back(owner);
+  } else {
+    hand_over(owner, Owner::ramp);
+  }
 }
 
-/// The only place that writes a force. It looks at the emergency stop again afterwards, which may have happened in
-/// between.
-void Servo::write_force() noexcept {
+/// The only place that writes a force, and whether it is another one than before. It looks at the emergency stop again
+/// afterwards, which may have happened in between.
+bool Servo::write_force() noexcept {
   bool stopped = false;
   do {
     stopped = emergency_stopped();
@@ -265,6 +287,7 @@ void Servo::write_force() noexcept {
     device_.write(guard_.force());
     halted_.store(stopped, std::memory_order_release);
   } while (!stopped && emergency_stopped());
+  return std::exchange(written_, guard_.force()) != guard_.force();
 }
 
 void Servo::give_back(std::uint64_t owner) noexcept {
@@ -281,9 +304,18 @@ void Servo::reset() noexcept {
   halted_.store(false, std::memory_order_relaxed);
   last_fault_ = reason_ = DeviceFault::none;
   has_time_ = watch_has_time_ = false;
-  stale_for_ = unchanged_for_ = 0.0;
+  written_.setZero();
+  watchdog_fell_ = watchdog_wrote_ = false;
+  stale_for_ = unchanged_for_ = since_asked_ = settling_ = 0.0;
   velocity_.restart();
   watched_owner_ = dealt_with_ = 0;
+}
+
+/// Takes the device for a tick: from nobody, or from a watchdog that has left its ramp-down alone since the last tick.
+bool Servo::take(std::uint64_t& owner) noexcept {
+  const Owner who = owner_of(owner);
+  const bool left = who == Owner::ramp && passed_over_.exchange(owner, std::memory_order_relaxed) == owner;
+  return (who == Owner::nobody || left) && hand_over(owner, Owner::tick);
 }
 
 /// Changes the owner unless the word has changed since the caller read it. On success `owner` is the new word.

@@ -227,7 +227,7 @@ void HapticRenderer::hear_force(const DeviceState& state) noexcept {
     unseen_ += ticks - 1;  // counted once, if this sample turns out to be bad
   }
   const bool as_sent = state.force == tick_.force || !state.force.allFinite();
-  passivity_.acted(as_sent ? tick_.page_force : mapping_.force_to_page(state.force), ticks);
+  passivity_.acted(as_sent ? tick_.page_force : mapping_.force_to_page(state.force), ticks, state.force_settling);
 }
 
 TickStatus HapticRenderer::map_sample(const DeviceState& state) noexcept {

@@ -71,14 +71,26 @@ void PassivityController::restart() noexcept {
   left_ = budget_;
 }
 
-void PassivityController::acted(const Eigen::Vector3d& force, int ticks) noexcept {
-  const Eigen::Vector3d before = sent_[newest_];
-  const double change = norm(Eigen::Vector3d(force - before));
-  // A force that was reduced meanwhile has been between the two, it is not known when: within max_gap.
+void PassivityController::acted(const Eigen::Vector3d& force, int ticks, double settling) noexcept {
   const int missed = std::max(0, ticks - 1);
-  const double longest = std::ceil(max_gap_ / period_);
+  const double settled = std::round(settling / period_);  // [ticks]
+  Eigen::Vector3d before = sent_[newest_];
+  double change = norm(Eigen::Vector3d(force - before));
+  if (missed > 0 && settled > 0.0) {
+    // What was sent came late, or never came: until then the force was the one before.
+    const Eigen::Vector3d& earlier = sent_[(newest_ + sent_.size() - 1) % sent_.size()];
+    change = std::max({change, norm(Eigen::Vector3d(earlier - before)), norm(Eigen::Vector3d(force - earlier))});
+    if (norm(earlier) > norm(before)) before = earlier;
+  }
+  // A force that was reduced meanwhile has been between the two, it is not known when.
+  const double longest = std::max(std::ceil(max_gap_ / period_), settled);
   const int unsure = change <= finest_force / scale_ ? 0 : static_cast<int>(std::min(longest, 1.0 * missed));
+  if (unsure > 0) sent_[newest_] = before;
   pass_unseen(before, unsure, change);
+  if (unsure > 0 && settled > missed && has_position_) {  // also in the period that ends now
+    unseen_force_ += change;
+    unseen_change_ += change;
+  }
   if (unsure == 0) sent_[newest_] = force;
   pass_unseen(force, missed - unsure, 0.0);
   sent_[newest_] = force;

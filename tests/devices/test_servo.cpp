@@ -495,6 +495,47 @@ TEST_CASE("a force law that returns while the watchdog ramps the force down writ
   check_return(bench);
 }
 
+TEST_CASE("ticks continue the ramp of a watchdog that is called no more, and say how long a force acted unseen",
+          "[servo]") {
+  Bench bench;
+  bench.warm_up();
+  bench.wait(8);  // taken over after 5; some of the ten steps of the ramp-down are done
+  REQUIRE(bench.servo.status().phase == ServoPhase::falling);
+  const double left = bench.device.last();
+  double settling = -1.0;
+  bench.law = [&](const DeviceState& state) {
+    if (settling < 0.0) settling = state.force_settling;
+    CHECK(state.force.x() == bench.device.last());
+    return Eigen::Vector3d(wanted, 0.0, 0.0);
+  };
+  for (int i = 0; i < 2; ++i) bench.servo.step(virtual_time += period);
+  CHECK(bench.device.last() == Approx(left - 0.1 * wanted));  // the first tick has waited for the watchdog
+  CHECK(settling == Approx(10e-3));                            // the watchdog has not watched since its last write
+  for (int i = 0; i < 10; ++i) bench.servo.step(virtual_time += period);
+  check_fall(bench.device.forces);
+  CHECK(bench.servo.statistics().fault_count(DeviceFault::late_clock) == 1);
+  CHECK(bench.servo.statistics().watchdog_takeovers == 1);
+}
+
+TEST_CASE("a force that the watchdog removed late is known to have acted until then", "[servo]") {
+  Bench bench;
+  bench.warm_up();
+  double settling = 0.0;
+  bench.law = [&](const DeviceState& state) {
+    settling = state.force_settling;
+    return Eigen::Vector3d(wanted, 0.0, 0.0);
+  };
+  bench.tick();
+  CHECK(settling == 0.0);
+  virtual_time += 0.1;  // nobody comes
+  bench.wait(2);
+  virtual_time += 0.1;
+  bench.wait(10);
+  REQUIRE(bench.device.last() == 0.0);
+  bench.tick();
+  CHECK(settling == Approx(0.204));  // 203 ms, and the period up to this tick
+}
+
 TEST_CASE("when the clock stops, the watchdog ramps the force down once, and the loop resumes when ticks return",
           "[servo]") {
   Bench bench;

@@ -3,12 +3,12 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/random.hpp>
 #include <calligraphy/devices/servo.hpp>
 
-#include "../still_clock.hpp"
 #include "independent_hand.hpp"
 #include "scene.hpp"
 
@@ -227,6 +227,10 @@ class TryingHand {
   Vector3d jog_ = Vector3d::Zero(), knock_ = Vector3d::Zero();
 };
 
+/// The clock of the run in this thread, for the work of its servo [s].
+thread_local double now = 0.0;
+double clock_of_run() noexcept { return now; }
+
 /// Faults that last for a few ticks.
 class Burst {
  public:
@@ -272,28 +276,63 @@ EnergyResult run_energy(const EnergyRun& run) {
   const auto act = [&](double time, const Vector3d& position, const Vector3d& velocity) {
     return hand.act(time, mapping.to_page(position), velocity, device.force());
   };
+  const bool jitters = run.timing == Timing::jitter || run.timing == Timing::everything;
+  const bool idles = run.timing == Timing::idle_watchdog, starves = run.timing == Timing::starved_watchdog;
+  const bool gaps = run.timing == Timing::gaps || run.timing == Timing::everything || idles || starves;
+  const bool faulty = run.timing == Timing::stale_and_lost || run.timing == Timing::everything;
+  Burst stale, lost, starved;
+  double elapsed = period, last_elapsed = 0.0;  // of the time planned last [s]
+  int pieces = 1, in_law = 0, pieces_left = 1;  // of a tick, those that the force law takes, and those to come
+  Servo* watched = nullptr;
+  const auto pass = [&](int count) {
+    hand.plan(device.time(), std::exchange(last_elapsed, elapsed * count / pieces), renderer.last(), pieces > 1);
+    for (int i = 0; i < count; ++i) {
+      device.advance(elapsed / pieces, act);
+      now = device.time();
+      const bool called = starves ? !starved.next(random, 0.1, 40) : !idles || pieces > 1;
+      if (watched != nullptr && called) watched->supervise(now);
+    }
+  };
   ServoOptions servo_options;
   servo_options.rate = rate;
   servo_options.timeout = std::max(servo_options.timeout, 2.0 * period);
-  servo_options.work_clock = calligraphy_test::still_clock;
+  servo_options.work_clock = clock_of_run;
   Servo servo(
-      device, [&](const DeviceState& state) { return renderer.update(state).force; }, servo_options);
+      device,
+      [&](const DeviceState& state) {
+        const Vector3d force = renderer.update(state).force;
+        if (in_law > 0) pass(in_law);
+        pieces_left -= in_law;
+        return force;
+      },
+      servo_options);
+  if (run.servo) watched = &servo;
 
-  const bool jitters = run.timing == Timing::jitter || run.timing == Timing::everything;
-  const bool gaps = run.timing == Timing::gaps || run.timing == Timing::everything;
-  const bool faulty = run.timing == Timing::stale_and_lost || run.timing == Timing::everything;
-  Burst stale, lost;
-  double allowance = 0.0, least = 0.0, elapsed = period;
-  double gap_share = run.gap_share;
+  double allowance = 0.0, least = 0.0;
+  // The force takes 0.2 s to return after a watchdog has removed it.
+  const double most_gaps = needs_servo(run.timing) ? 0.2 * run.gap_share : run.gap_share;
+  double gap_share = most_gaps;
   bool frozen = false;
   for (std::int64_t tick = 0; tick < run.ticks; ++tick) {
     if (tick % 500 == 0) {
-      gap_share = std::min(run.gap_share, run.gap_share * std::exp(random.between(-3.0, 0.7)));
+      gap_share = std::min(most_gaps, most_gaps * std::exp(random.between(-3.0, 0.7)));
     }
     if (faulty) {
       device.stale = stale.next(random, 0.03, 4);
       device.lost = !device.stale && lost.next(random, 0.003, 3);
     }
+    elapsed = jitters ? period * random.between(0.5, 1.5) : period;
+    pieces = 1;
+    if (gaps && random.next() < gap_share) {
+      // Half of them so short that the watchdog of a Servo does not ramp down.
+      const int longest = random.next() < 0.5 ? std::min(run.longest_gap, run.shortest_gap + 2) : run.longest_gap;
+      pieces = run.shortest_gap +
+               static_cast<int>(random.index(static_cast<std::uint64_t>(std::max(1, longest - run.shortest_gap + 1))));
+      elapsed = pieces * period;
+    }
+    pieces_left = pieces;
+    in_law = needs_servo(run.timing) && pieces > 1 && random.next() < 0.5 ? pieces - 1 : 0;
+    const double possible = device.energy_possible();
     if (run.servo) {
       servo.step(device.time());
     } else {
@@ -309,23 +348,8 @@ EnergyResult run_energy(const EnergyRun& run) {
     if (has_event(felt.events, TickEvent::stroke_finished) && !frozen) ++result.strokes;
     frozen = device.stale || device.lost;
 
-    const double last_elapsed = elapsed;
-    elapsed = jitters ? period * random.between(0.5, 1.5) : period;
-    int pieces = 1;
-    if (gaps && random.next() < gap_share) {
-      // Half of them so short that the watchdog of a Servo does not ramp down.
-      const int longest = random.next() < 0.5 ? std::min(run.longest_gap, run.shortest_gap + 2) : run.longest_gap;
-      pieces = run.shortest_gap +
-               static_cast<int>(random.index(static_cast<std::uint64_t>(std::max(1, longest - run.shortest_gap + 1))));
-      elapsed = pieces * period;
-    }
+    pass(pieces_left);
     const bool long_gap = elapsed > max_gap * (1.0 + 1e-9);
-    hand.plan(device.time(), tick > 0 ? last_elapsed : 0.0, felt, pieces > 1);
-    const double possible = device.energy_possible();
-    for (int piece = 0; piece < pieces; ++piece) {
-      device.advance(elapsed / pieces, act);
-      if (run.servo) servo.supervise(device.time());
-    }
     if (long_gap) allowance += device.energy_possible() - possible;
     result.most_excess = std::max(result.most_excess, device.energy_given() - run.budget - allowance);
     if (!long_gap && device.energy_given() <= run.budget) allowance = 0.0;

@@ -32,18 +32,25 @@ enum class Timing {
   jitter,          ///< periods of 0.5 to 1.5 ticks
   gaps,            ///< of 2 to `longest_gap` ticks, in which the device goes on sampling
   stale_and_lost,  ///< the last sample again, and samples without a position, for 1 to 4 ticks
-  everything       ///< all of them
+  everything,      ///< all of them
+  idle_watchdog,   ///< gaps, half of them in the force law, and a watchdog that is called only while one lasts
+  starved_watchdog  ///< the same gaps, and a watchdog that is not called for up to 40 ticks at a time
 };
-inline constexpr std::array timing_names = {"perfect", "jitter", "gaps", "stale and lost", "all faults"};
+inline constexpr std::array timing_names = {"perfect",    "jitter",        "gaps",            "stale and lost",
+                                            "all faults", "idle watchdog", "starved watchdog"};
+
+/// Whether the timing concerns only a Servo.
+inline bool needs_servo(Timing timing) { return timing >= Timing::idle_watchdog; }
 
 struct EnergyRun {
   calligraphy::Capabilities device;
   EnergyHand hand = EnergyHand::normal;
   Timing timing = Timing::perfect;
-  bool servo = false;  ///< behind a Servo with its watchdog, or the renderer alone
+  bool servo = false;  ///< behind a Servo with its watchdog, or the renderer alone; for every timing that needs_servo()
   std::int64_t ticks = 100000;
   int shortest_gap = 2, longest_gap = 20;  ///< [ticks]
-  double gap_share = 0.05;  ///< of the ticks that begin with a gap, at most; for half a second it may be a twentieth
+  double gap_share = 0.05;  ///< of the ticks that begin with a gap, at most; for half a second it may be a twentieth;
+                            ///< a fifth of that where the watchdog is late
   double budget = 0.1;      ///< [J]
   std::uint64_t seed = 1;
 };

@@ -79,6 +79,7 @@ int main(int argc, char** argv) {
           for (const bool behind : {false, true}) {
             if (!chosen(timing, timing_names, t) || !chosen(hand, energy_hand_names, h)) continue;
             if ((delay >= 0 && late != delay) || (behind ? alone : servo)) continue;
+            if (!behind && needs_servo(static_cast<Timing>(t))) continue;
             EnergyRun run = base;
             run.device = device;
             run.device.sample_delay = late;

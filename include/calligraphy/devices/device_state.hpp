@@ -75,6 +75,9 @@ struct DeviceState {
   /// The force at work when the sample is read, device axes [N]: the last one written, after every limit, guard and
   /// ramp. NaN if the device does not say; Servo then fills in what it wrote.
   Eigen::Vector3d force = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  /// How long after the last sample that the force law was asked about a force other than `force` may have been at
+  /// work [s]. Servo fills it in; 0 also if nobody knows.
+  double force_settling = 0.0;
   std::uint32_t buttons = 0;  ///< one bit per button
   DeviceStatus status = DeviceStatus::ok;
   DeviceFault fault = DeviceFault::none;  ///< the cause of a status other than ok, if known

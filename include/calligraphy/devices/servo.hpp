@@ -53,14 +53,16 @@ struct ServoStatus {
 ///
 /// A force above the device's peak is limited to it, its direction preserved. What the device does not say is filled in
 /// before the force law is called: a velocity that is NaN by a VelocityEstimator, which starts anew after a fault or a
-/// gap longer than `timeout`, and a force that is NaN by the last one that the servo or its watchdog wrote.
+/// gap longer than `timeout`, and a force that is NaN by the last one that the servo or its watchdog wrote. It also
+/// says how long that force has been settling: what acted before it may have worked unseen.
 ///
 /// The force ramps down to zero when the device is disconnected, uncalibrated or at fault; when its samples are not
 /// finite or stay stale for longer than `timeout`; when the force law throws, returns a force that is not finite or
 /// takes longer than `timeout`; and when no tick arrives for that long. A force law that does not return and missing
 /// ticks are handled by supervise(), called from another thread: while the force law runs, or between ticks, it takes
 /// over the device, ramps the force down and releases the device again. A tick that returns from a slow force law then
-/// finds the device taken and writes nothing.
+/// finds the device taken and writes nothing. A ramp that the watchdog has begun and does not continue for a whole tick
+/// is continued by the ticks, so that no force stays behind whoever is late.
 ///
 /// After any fault the force is therefore zero within `timeout` + `ramp_down` + two ticks, 16 ms by default. The only
 /// exception is a device whose own read() or write() hangs, because nothing else may touch it then: the status is
@@ -101,18 +103,19 @@ class Servo {
 
  private:
   /// Owner of the device and the guard. The upper bits of the word count changes, so that a state that was left and
-  /// re-entered is not mistaken for one that persisted.
-  enum class Owner : std::uint64_t { nobody, tick, law, watchdog };
+  /// re-entered is not mistaken for one that persisted. `ramp` is nobody while the watchdog's ramp-down is unfinished.
+  enum class Owner : std::uint64_t { nobody, tick, law, watchdog, ramp };
 
-  static Owner owner_of(std::uint64_t word) noexcept { return static_cast<Owner>(word & 3u); }
+  static Owner owner_of(std::uint64_t word) noexcept { return static_cast<Owner>(word & 7u); }
   bool hand_over(std::uint64_t& owner, Owner to) noexcept;
+  bool take(std::uint64_t& owner) noexcept;
   double elapsed_since_last_tick(double now) noexcept;
-  DeviceFault judge(const DeviceState& sample, double elapsed) noexcept;
+  DeviceFault judge(const DeviceState& sample, double elapsed, bool watched) noexcept;
   void complete(DeviceState& sample, DeviceFault fault, double elapsed) noexcept;
   bool ask(const DeviceState& sample, Eigen::Vector3d& force) noexcept;
   void let_fall(std::uint64_t owner, double elapsed) noexcept;
   void give_back(std::uint64_t owner) noexcept;
-  void write_force() noexcept;
+  bool write_force() noexcept;
   void count_fault(DeviceFault fault) noexcept;
   void publish() noexcept;
 
@@ -131,6 +134,13 @@ class Servo {
   ForceGuard guard_;
   DeviceStatus device_status_ = DeviceStatus::ok;
   DeviceFault last_fault_ = DeviceFault::none;  ///< of the previous tick
+  Eigen::Vector3d written_ = Eigen::Vector3d::Zero();
+  bool watchdog_fell_ = false;                  ///< the watchdog has ramped down since the last tick
+  bool watchdog_wrote_ = false;                 ///< the last change of the force was the watchdog's
+  double since_asked_ = 0.0;                    ///< from the last call of the force law to the last tick [s]
+  double settling_ = 0.0;                       ///< of it, until a tick last changed the force [s]
+
+  std::atomic<std::uint64_t> passed_over_ = 0;  ///< the watchdog's ramp as the last tick saw it
 
   // Used only by the thread that calls step().
   bool has_time_ = false;
@@ -146,6 +156,7 @@ class Servo {
   std::uint64_t dealt_with_ = 0;     ///< a word that persisted too long and has been handled; 0: no tick yet
   double unchanged_for_ = 0.0;       ///< [s]
   DeviceFault reason_ = DeviceFault::none;
+  std::atomic<double> steady_for_ = 0.0;  ///< for how long it has watched the force that it wrote last [s]
 
   DurationHistogram periods_;
   DurationHistogram work_;

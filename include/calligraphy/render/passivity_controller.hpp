@@ -59,9 +59,10 @@ class PassivityController {
   PassivityController(const PassivityOptions& options, double period);
 
   /// Reports, before next(), the force that really acted in the last tick [N], and the ticks that have passed since:
-  /// more than one when the loop paused, through which that force was held, or reduced within max_gap. Without a call
-  /// it was the force of sent(), for one tick.
-  void acted(const Eigen::Vector3d& force, int ticks) noexcept;
+  /// more than one when the loop paused, through which that force was held, or reduced within max_gap or `settling` [s],
+  /// whichever is longer: that long, a force between it and those before may have acted. Without a call it was the force
+  /// of sent(), for one tick.
+  void acted(const Eigen::Vector3d& force, int ticks, double settling = 0.0) noexcept;
   /// The force to send for a desired one [N], at the device position of this tick [m]; limits may follow. A position
   /// with NaN means that the sample of this tick is lost or stale: nothing is damped. `viscous` is the part of `wanted`
   /// that opposes the motion: where the budget limits the force, some of it remains, since a force that depends on the
