@@ -43,7 +43,8 @@ class Loop {
       throw ValueError("the servo loop is already running: stop it before starting it again");
     if (!InLaw::here()) stop_orphans();
     PythonDevice::refuse_without_capabilities(device_.cast<HapticDevice&>());
-    at_work_ = std::make_unique<AtWork>(AtWork::User::loop, &device_.cast<HapticDevice&>(), renderer_);
+    at_work_ = std::make_unique<AtWork>(AtWork::Owner{AtWork::User::loop, python_law_.get()},
+                                        &device_.cast<HapticDevice&>(), renderer_);
     if (python_law_) python_law_->forget_errors();
     changing_ = true;
     process_ = getpid();
@@ -163,7 +164,7 @@ using Watch = std::optional<py::typing::Callable<py::object(const LiveView&)>>;
 
 LiveResult write_live(const PracticePage& page, HapticDevice& device, LiveOptions options, const Watch& watch) {
   PythonDevice::refuse_without_capabilities(device);
-  const AtWork at_work(AtWork::User::loop, &device);
+  const AtWork at_work({AtWork::User::loop}, &device);
   const LiveSession counted;
   std::exception_ptr raised;
   options.watch = [&](const LiveView& view) {

@@ -206,7 +206,7 @@ void add_practice(py::module_& module) {
   module.def(
       "replay_page",
       [with](const PracticePage& page, ReplayDevice& device, const SessionOptions& options, const Progress& progress) {
-        const AtWork at_work(AtWork::User::call, &device);
+        const AtWork at_work({AtWork::User::call}, &device);
         return released(+[](const PracticePage& on, ReplayDevice* const& of, const SessionOptions& chosen) {
           return replay_page(on, *of, chosen);
         })(page, &device, with(options, progress));

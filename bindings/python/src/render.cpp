@@ -45,7 +45,7 @@ class TickColumns {
 /// Passes device positions, at the renderer's rate or at the given times, through the renderer.
 py::array trace(HapticRenderer& renderer, const ArrayLike& positions, const std::optional<ArrayLike>& times) {
   Interrupt interrupt;  // started here, because the conversion takes time as well
-  const AtWork at_work(AtWork::User::call, nullptr, &renderer);
+  const AtWork at_work({AtWork::User::call}, nullptr, &renderer);
   const Doubles points = doubles(positions, "positions", 3);
   const py::ssize_t count = points.shape(0);
   Doubles moments(0);

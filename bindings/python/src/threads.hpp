@@ -70,7 +70,7 @@ inline std::function<void(double)> interruptible(const Progress& progress) {
   };
 }
 
-/// Marks that this thread is inside a force law, where whatever running loops use may be used.
+/// Marks that this thread is inside a force law, which may use what its own loop uses.
 class InLaw {
  public:
   explicit InLaw(const void* law) noexcept : law_(law), outer_(std::exchange(innermost, this)) {}
@@ -98,14 +98,20 @@ class InLaw {
 class AtWork {
  public:
   enum class User { loop, call };
+  struct Owner {
+    User user;
+    const void* law = nullptr;  ///< of a loop, as for InLaw; null: it has none in Python
+  };
 
-  /// @throws Error when one of them is already in use
-  explicit AtWork(User user, const HapticDevice* device, const HapticRenderer* renderer = nullptr) {
-    refuse(device, "device");
-    refuse(renderer, "renderer");
+  /// @throws Error when one of them is already in use. A force law may call with what its own loop owns, but start no
+  /// other loop on it, which would run at the same time.
+  explicit AtWork(Owner owner, const HapticDevice* device, const HapticRenderer* renderer = nullptr) {
+    const bool from_law = owner.user == User::call;
+    refuse(device, "device", from_law);
+    refuse(renderer, "renderer", from_law);
     // What the calling force law's loop already owns remains the loop's.
-    device_ = device != nullptr && busy.emplace(device, user).second ? device : nullptr;
-    renderer_ = renderer != nullptr && busy.emplace(renderer, user).second ? renderer : nullptr;
+    device_ = device != nullptr && busy.emplace(device, owner).second ? device : nullptr;
+    renderer_ = renderer != nullptr && busy.emplace(renderer, owner).second ? renderer : nullptr;
   }
   ~AtWork() {
     busy.erase(device_);
@@ -114,18 +120,20 @@ class AtWork {
   AtWork(const AtWork&) = delete;
   AtWork& operator=(const AtWork&) = delete;
 
-  /// @throws Error when it is in use, except by a loop if called from a force law
-  static void refuse(const void* thing, const char* what) {
+  /// @throws Error when it is in use, except, if `from_law`, by the loop whose force law calls this
+  static void refuse(const void* thing, const char* what, bool from_law = true) {
     const auto found = busy.empty() ? busy.end() : busy.find(thing);
-    if (found == busy.end() || (found->second == User::loop && InLaw::here())) return;
+    if (found == busy.end()) return;
+    const auto [user, law] = found->second;
+    if (from_law && law != nullptr && InLaw::here(law)) return;
     throw Error(std::string("the ") + what +
-                (found->second == User::loop
-                     ? " is in use by a running loop: use it from the force law, or stop the loop first"
-                     : " is in use by another thread: use one per thread, or take turns"));
+                (user == User::loop ? " is in use by a running loop: use it from the force law of that loop, or stop "
+                                      "that loop first"
+                                    : " is in use by another thread: use one per thread, or take turns"));
   }
 
  private:
-  static inline std::map<const void*, User> busy;  ///< protected by the GIL
+  static inline std::map<const void*, Owner> busy;  ///< protected by the GIL
 
   const HapticDevice* device_;
   const HapticRenderer* renderer_;

@@ -211,6 +211,91 @@ def test_a_law_may_use_the_device_of_its_loop():
     assert -5e-3 < device.true_position[2] < 0.0
 
 
+def asked_in_a_law(device, questions):
+    """What each function returns or raises when it is called by the force law of a loop on the device."""
+    answers = []
+
+    def answer(question):
+        try:
+            return question()
+        except Exception as error:
+            return error
+
+    def law(state):
+        if not answers:
+            answers.append([answer(question) for question in questions])
+        return 0, 0, 0
+
+    with cal.ServoLoop(device, law, options()) as loop:
+        until(lambda: answers)
+    assert loop.error is None
+    return answers[0]
+
+
+@pytest.mark.parametrize("law", ["python", "renderer", "session"])
+def test_a_law_may_not_use_what_another_loop_owns(law):
+    device, renderer, page = cal.PointerDevice(PROFILE), renderer_of(one_page()), one_page()
+    servo, other, watched, ended = cal.Servo(device, wall), cal.PointerDevice(PROFILE), threading.Event(), []
+    uses = {
+        "read": device.read,
+        "write": lambda: device.write((0, 0, 1.0)),
+        "close": device.close,
+        "intention": lambda: device.intention,
+        "step": lambda: servo.step(0.0),
+        "start": cal.ServoLoop(device, wall, options()).start,
+        "session": lambda: cal.write_with_device(page, device, cal.LiveOptions(timeout=0.1)),
+    }
+    if law == "renderer":
+        uses |= {
+            "update": lambda: renderer.update(cal.DeviceState()),
+            "trace": lambda: renderer.trace(np.zeros((3, 3))),
+            "restart": renderer.restart,
+            "last": lambda: renderer.last,
+        }
+    if law == "session":
+        watch = lambda view: watched.set() or not ended  # noqa: E731
+        running = threading.Thread(target=cal.write_with_device, args=(page, device, cal.LiveOptions(), watch))
+        running.start()
+        until(watched.is_set)
+    else:
+        running = cal.ServoLoop(device, renderer if law == "renderer" else wall, options())
+        running.start()
+    try:
+        answers = dict(zip(uses, asked_in_a_law(other, uses.values())))
+    finally:
+        ended.append(True)
+        running.join() if law == "session" else running.stop()
+    refused = {
+        f"the {what} is in use by a running loop: use it from the force law of that loop, or stop that loop first"
+        for what in ("device", "renderer")
+    }
+    assert {name: answer for name, answer in answers.items() if type(answer) is not cal.Error or str(answer) not in refused} == {}
+    device.read()
+    renderer.restart()
+
+
+def test_a_law_may_use_the_device_of_its_loop_in_calls_and_within_other_laws():
+    device = cal.PointerDevice(PROFILE)
+    read = []
+    servo = cal.Servo(device, lambda state: read.append(device.read().time) or (0, 0, 0))
+    with cal.ServoLoop(cal.PointerDevice(PROFILE), wall, options()):
+        assert asked_in_a_law(device, [lambda: servo.step(0.0), lambda: servo.step(1e-3)]) == [None, None]
+    assert len(read) == 2 and 0 < read[0] < read[1]
+    page, mapping = one_page(), cal.upright_page(0.1, 0.1)
+    recorded = cal.SessionOptions(device=PROFILE, renderer=cal.RendererOptions.for_device(PROFILE))
+    replay = cal.ReplayDevice(cal.device_states(cal.write_page(page, recorded), mapping), PROFILE)
+    (rest,) = asked_in_a_law(replay, [lambda: cal.replay_page(page, replay, recorded)])
+    assert len(rest) > 100
+
+
+def test_a_law_may_not_start_another_loop_on_the_device_of_its_own():
+    """Both would run at the same time."""
+    device, brief = cal.PointerDevice(PROFILE), cal.LiveOptions(timeout=0.1)
+    starts = [cal.ServoLoop(device, wall, options()).start, lambda: cal.write_with_device(one_page(), device, brief)]
+    for refused in asked_in_a_law(device, starts):
+        assert type(refused) is cal.Error and "the device is in use by a running loop" in str(refused)
+
+
 def test_an_exception_of_a_law_is_reported_and_ramps_the_force_down():
     told = []
     before, sys.unraisablehook = sys.unraisablehook, lambda unraisable: told.append(unraisable.exc_value)
