@@ -192,8 +192,7 @@ DeviceFault Servo::judge(const DeviceState& sample, double elapsed, bool watched
 /// Fills in what the device does not say.
 void Servo::complete(DeviceState& sample, DeviceFault fault, double elapsed) noexcept {
   if (!sample.force.allFinite()) sample.force = guard_.force();
-  sample.force_settling =
-      watchdog_wrote_ ? since_asked_ - steady_for_.load(std::memory_order_relaxed) : settling_;
+  sample.force_settling = watchdog_wrote_ ? since_asked_ - steady_for_.load(std::memory_order_relaxed) : settling_;
   since_estimate_ += elapsed;
   if (fault != DeviceFault::none || elapsed > options_.timeout) velocity_.restart();
   const bool fresh = fault == DeviceFault::none && sample.status != DeviceStatus::stale;
