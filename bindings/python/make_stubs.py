@@ -65,8 +65,10 @@ def main(module: pathlib.Path, stub: pathlib.Path) -> None:
         words = ["-m", "pybind11_stubgen", "calligraphy._calligraphy", "-o", ".", "--enum-class-locations", ".*:calligraphy._calligraphy"]
         subprocess.run([sys.executable, *words], stderr=subprocess.DEVNULL, **run)
         tree = ast.parse((package / "_calligraphy.pyi").read_text(encoding="utf-8"))
-    text = ast.unparse(Finish(ast.literal_eval(told)).visit(tree))
-    for found, meant in TYPES.items():
+    enumerations = ast.literal_eval(told)
+    text = ast.unparse(Finish(enumerations).visit(tree))
+    names = {rf"\b{kind} \| str\b": f"{kind} | typing.Literal{list(members)}" for kind, members in enumerations.items()}
+    for found, meant in (TYPES | names).items():
         text = re.sub(found, meant, text)
     text = text.replace("import typing\n", "import builtins\nimport typing\nSelf = typing.TypeVar('Self')\n", 1)
     stub.write_text(text + "\n", encoding="utf-8")

@@ -20,17 +20,6 @@ StrokeElement element_of(const ArrayLike& control_points) {
   return prepare_element({reinterpret_cast<const Point*>(array.data()), static_cast<std::size_t>(count)});
 }
 
-using Method = std::variant<NearestPointMethod, std::string>;
-
-NearestPointMethod method_of(const Method& method) {
-  if (const auto* const member = std::get_if<NearestPointMethod>(&method)) return *member;
-  const py::dict members = py::type::of(py::cast(NearestPointMethod::exact)).attr("__members__");
-  const py::str name(std::get<std::string>(method));
-  if (members.contains(name)) return members[name].cast<NearestPointMethod>();
-  throw ValueError("method: expected one of " + py::str(", ").attr("join")(members).cast<std::string>() + ", got " +
-                   py::repr(name).cast<std::string>());
-}
-
 /// Results of many queries, as parts of one array, because large arrays are slow to allocate and free.
 struct NearestPoints {
   Doubles parameter, point, distance, tangent;
@@ -38,8 +27,8 @@ struct NearestPoints {
 };
 
 NearestPoints ask(const std::variant<const StrokeElement*, ArrayLike>& control_points, const ArrayLike& queries,
-                  const Method& method, double tolerance, int samples, int refinements) {
-  const NearestPointOptions options = {method_of(method), tolerance, samples, refinements};
+                  const Given<NearestPointMethod>& method, double tolerance, int samples, int refinements) {
+  const NearestPointOptions options = {converted(method, "method"), tolerance, samples, refinements};
   validate(options);
   const auto* const prepared = std::get_if<const StrokeElement*>(&control_points);
   const StrokeElement element = prepared != nullptr ? **prepared : element_of(std::get<ArrayLike>(control_points));
@@ -153,9 +142,9 @@ void add_collision(py::module_& module) {
              "samples"_a = 16, "refinements"_a = 2,
              "Nearest points of N queries on one element. Releases the GIL.\n\ncontrol_points: (2, 2) to (5, 2), a "
              "Bezier curve of degree 1 to 4, or a prepared StrokeElement; queries: (N, 2), not copied if they are "
-             "contiguous float64; both in the same unit. method: 'exact', 'tracked', 'sampled', 'wang2006' or a "
-             "NearestPointMethod; tolerance: relative to the element's size. A query that is not finite has an "
-             "infinite distance and is not certified. Raises InvalidValue naming the argument.");
+             "contiguous float64; both in the same unit. method: a NearestPointMethod or its name; tolerance: relative "
+             "to the element's size. A query that is not finite has an infinite distance and is not certified. Raises "
+             "InvalidValue naming the argument.");
 
   add_enum(module, "ConstraintSpaceRule", "Shape of a constraint space.", ConstraintSpaceRule::wang2006,
            "tube wang2006");

@@ -205,7 +205,8 @@ void add_devices(py::module_& module) {
       module, "HapticDevice",
       "A force-feedback device. A subclass defines capabilities(), read(), write(force) and close(). Their exceptions "
       "are passed to sys.unraisablehook, once until the method works again, and the sample has status `fault`. A "
-      "`with` block closes the device. While a loop runs on a C++ device, any use outside the force law of that loop raises Error.")
+      "`with` block closes the device. While a loop runs on a C++ device, any use outside the force law of that loop "
+      "raises Error.")
       .def(py::init<>())
       .def(
           "capabilities", [](const HapticDevice& self) { return self.capabilities(); }, "Capabilities of the device.")

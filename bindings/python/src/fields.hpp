@@ -3,6 +3,8 @@
 #pragma once
 
 #include <initializer_list>
+#include <limits>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -14,6 +16,25 @@
 #include <Eigen/Geometry>
 
 #include "arrays.hpp"
+
+/// Members of an enumeration, also by name.
+template <class Enum>
+struct pybind11::detail::type_caster_enum_type_enabled<Enum, std::enable_if_t<std::is_enum_v<Enum>>> : std::false_type {
+};
+template <class Enum>
+class pybind11::detail::type_caster<Enum, std::enable_if_t<std::is_enum_v<Enum>>> : public type_caster_enum_type<Enum> {
+ public:
+  static constexpr auto name = const_name<Enum>() + io_name(" | str", "");
+
+  /// @throws ValueError listing the names when given another one
+  bool load(handle given, bool convert) {
+    if (!convert || !isinstance<str>(given)) return type_caster_enum_type<Enum>::load(given, convert);
+    const object members = type::of(pybind11::cast(Enum{})).attr("__members__");
+    if (members.contains(given)) return type_caster_enum_type<Enum>::load(members[given], convert);
+    throw calligraphy::ValueError("expected one of " + str(", ").attr("join")(members).template cast<std::string>() +
+                                  ", got " + repr(given).cast<std::string>());
+  }
+};
 
 namespace calligraphy::python {
 
@@ -51,6 +72,55 @@ template <class Type>
 inline constexpr bool is_vector = false;
 template <class Element>
 inline constexpr bool is_vector<std::vector<Element>> = true;
+
+template <class Type>
+inline constexpr bool is_optional = false;
+template <class Value>
+inline constexpr bool is_optional<std::optional<Value>> = true;
+
+/// What is converted to a type, in words: "a number", or "numbers" as elements of a list.
+template <class Type>
+std::string expectation(bool elements = false) {
+  if constexpr (is_optional<Type>) {
+    return expectation<typename Type::value_type>() + " or None";
+  } else if constexpr (is_vector<Type>) {
+    return "a list of " + expectation<typename Type::value_type>(true);
+  } else if constexpr (std::is_same_v<Type, bool>) {
+    return "True or False";
+  } else if constexpr (std::is_same_v<Type, char32_t>) {
+    return "a str of length 1";
+  } else if constexpr (std::is_same_v<Type, std::string>) {
+    return elements ? "str" : "a str";
+  } else if constexpr (std::is_floating_point_v<Type>) {
+    return elements ? "numbers" : "a number";
+  } else if constexpr (std::is_integral_v<Type>) {
+    using Limits = std::numeric_limits<Type>;
+    return told(elements ? "integers from {} to {}" : "an integer from {} to {}", +Limits::min(), +Limits::max());
+  } else {
+    const auto name = py::type::of(py::cast(Type{})).attr("__name__").template cast<std::string>();
+    if (elements) return name;
+    return (std::string("AEIOU").find(name[0]) == std::string::npos ? "a " : "an ") + name;
+  }
+}
+
+/// Any object; in signatures, what is converted to the type.
+template <class Type>
+struct Given : ArrayLike {
+  using ArrayLike::ArrayLike;
+};
+
+/// @throws TypeError naming the argument or field, what is expected and what was given; ValueError for a wrong name
+template <class Type>
+Type converted(const Given<Type>& given, const std::string& name) {
+  try {
+    return given.template cast<Type>();
+  } catch (const ValueError& wrong) {
+    throw ValueError(name + ": " + wrong.what());
+  } catch (const py::builtin_exception&) {  // of a failed conversion
+    const py::object shown = py::module_::import("calligraphy._struct").attr("shown")(given);
+    throw py::type_error(told("{}: expected {}, got {}", name, expectation<Type>(), shown));
+  }
+}
 
 /// Offset of a field within the objects of a class. The class is known only at run time, so that pybind11's templates
 /// are instantiated once per field type instead of once per class and type.
@@ -108,7 +178,9 @@ void add_field(py::class_<Struct>& type, py::list& names, Member Struct::*member
       get = py::cpp_function([place](const py::object& self) -> Member& { return place.of<Member>(self); },
                              py::return_value_policy::reference_internal);
     }
-    set = [place](const py::object& self, Member value) { place.of<Member>(self) = std::move(value); };
+    set = [place, name = named.name](const py::object& self, const Given<Member>& value) {
+      place.of<Member>(self) = converted(value, name);
+    };
   }
   type.def_property(named.name.c_str(), get, set, named.documentation.c_str());
   names.append(named.name);
@@ -130,3 +202,8 @@ py::class_<Struct> add_struct(py::module_& module, const char* name, const char*
 }
 
 }  // namespace calligraphy::python
+
+template <class Type>
+struct pybind11::detail::handle_type_name<calligraphy::python::Given<Type>> {
+  static constexpr auto name = make_caster<Type>::name;
+};

@@ -153,16 +153,14 @@ void add_model(py::module_& module) {
                          "attribution: required attribution, one line", &Provenance::licence_text,
                          "licence_text: full text, if it must accompany the characters");
 
-  py::class_<CharacterList>(module, "CharacterList", "Characters and their provenance.")
-      .def(py::init([](std::vector<Character> characters, Provenance provenance) {
+  py::class_<CharacterList> characters(module, "CharacterList", "Characters and their provenance.");
+  py::list fields;
+  add_field(characters, fields, &CharacterList::characters, "characters: list of Character, copied");
+  add_field(characters, fields, &CharacterList::provenance, "provenance: Provenance");
+  characters.def(py::init([](std::vector<Character> characters, Provenance provenance) {
              return CharacterList{std::move(provenance), std::move(characters)};
            }),
            "characters"_a = std::vector<Character>{}, "provenance"_a = Provenance{})
-      .def_property(
-          "characters", [](const CharacterList& self) { return std::vector<Character>(self.characters); },
-          [](CharacterList& self, std::vector<Character> value) { self.characters = std::move(value); },
-          "list of Character, copied")
-      .def_readwrite("provenance", &CharacterList::provenance, "Provenance")
       .def("find", &find<CharacterList>, "code"_a, "order"_a = "",
            "The Character in the stroke order of this name (empty: the standard one), or None.")
       .def("__getitem__", &at<CharacterList>, "code"_a)
@@ -173,7 +171,7 @@ void add_model(py::module_& module) {
            [](const CharacterList& self) {
              return py::typing::Iterator<Character>(py::iter(py::cast(std::vector<Character>(self.characters))));
            })
-      .attr("__match_args__") = py::make_tuple("characters", "provenance");
+      .attr("__match_args__") = py::tuple(fields);
   module.def("built_in_characters", &built_in_characters, py::return_value_policy::copy,
              "The characters drawn for this library; every typical stroke occurs in at least one.");
   module.def("read_characters",

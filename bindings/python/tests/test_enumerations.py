@@ -32,9 +32,49 @@ def test_values_that_are_not_members_are_rejected():
             cal.FeedbackMode(given)
     with pytest.raises(KeyError):
         cal.FeedbackMode["blind"]
-    for other in (cal.WritingMistakeKind.order, 1, "force", None):  # numbers are rejected too
+    for other in (cal.WritingMistakeKind.order, 1, None):  # numbers are rejected too
         with pytest.raises(TypeError):
             cal.SessionOptions(mode=other)
+
+
+FIELDS = [
+    (owner, name, type(getattr(owner(), name)))
+    for owner in vars(cal).values()
+    if isinstance(owner, type) and hasattr(owner, "fields")
+    for name in owner.fields
+    if type(getattr(owner(), name)) in KINDS
+]
+
+
+@pytest.mark.parametrize("owner, name, kind", FIELDS, ids=lambda value: getattr(value, "__name__", value))
+def test_a_field_takes_the_names_of_members_and_no_other_names(owner, name, kind):
+    one = owner()
+    for member in kind:
+        setattr(one, name, member.name)
+        assert getattr(one, name) is member is getattr(owner(**{name: member.name}), name)
+    for wrong in ("", "no_member", kind.__name__, member.name.upper()):
+        for assign in (lambda: setattr(one, name, wrong), lambda: owner(**{name: wrong})):
+            with pytest.raises(cal.InvalidValue) as raised:
+                assign()
+            assert str(raised.value) == f"{name}: expected one of {', '.join(kind.__members__)}, got {wrong!r}"
+    assert getattr(one, name) is member
+
+
+def test_a_function_takes_the_names_of_members_and_no_other_names():
+    characters = cal.built_in_characters()
+    placed, match = cal.PlacedCharacter(characters["一"]), cal.match_strokes(characters["一"], [])
+    calls = {
+        cal.WritingHint: [cal.to_string, lambda hint: cal.hint_text(hint, (0.01, 0.0))],
+        cal.CoordinatePrecision: [lambda precision: cal.encode_character_set(characters, precision)],
+        cal.StrokeRemarkKind: [match.count],
+        cal.NearestPointMethod: [lambda method: cal.nearest_point([[0, 0], [1, 0]], [[0.3, 1]], method).parameter[0]],
+        cal.Attractor: [lambda to: cal.guidance_field(placed, 0, 0.5, (0, 0), 0.1, 4, attractor=to)["forces"].tolist()],
+    }
+    for kind, functions in calls.items():
+        for function in functions:
+            assert [function(member.name) for member in kind] == [function(member) for member in kind]
+            with pytest.raises(cal.InvalidValue, match=f"expected one of {', '.join(kind.__members__)}, got 'no_member'"):
+                function("no_member")
 
 
 def test_values_from_cpp_are_members_and_compare_with_array_elements():

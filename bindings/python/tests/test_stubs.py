@@ -31,6 +31,8 @@ state = cal.DeviceState(position=(0, 0, 0.01))
 state.position = [1, 2, 3]
 options = cal.RendererOptions(servo_rate=2000.0)
 options.stroke.nearest.method = cal.NearestPointMethod["exact"]
+options.stroke.nearest.method = "tracked"
+mode: cal.FeedbackMode = cal.SessionOptions(mode="force").mode
 class Mine(cal.HapticDevice):
     def read(self) -> cal.DeviceState:
         return state
@@ -49,6 +51,8 @@ cal.RendererOptions(servo_rat=1.0)
 cal.GripImpedance(mass="heavy")
 cal.nearest_pont
 cal.FeedbackMode.blind
+cal.SessionOptions(mode="blind")
+cal.SessionOptions().mode = "blind"
 """
 
 
@@ -79,7 +83,7 @@ def test_mypy_finds_exactly_the_mistakes_in_programs(tmp_path):
     package = checked([*words, "-p", "calligraphy"], tmp_path)
     assert package.returncode == 0, package.stdout + package.stderr
     assert [line for line in errors if not line.startswith("wrong.py:")] == [], found.stdout + found.stderr
-    assert [int(line.split(":")[1]) for line in errors] == [3, 4, 5, 6]
+    assert [int(line.split(":")[1]) for line in errors] == [3, 4, 5, 6, 7, 8]
 
 
 @pytest.mark.skipif(shutil.which("pyright") is None, reason="pyright is not installed")
@@ -88,7 +92,7 @@ def test_pyright_finds_exactly_the_mistakes_in_programs(tmp_path):
     words = ["pyright", "--outputjson", "--pythonpath", sys.executable, "."]
     found = json.loads(checked(words, tmp_path).stdout)["generalDiagnostics"]
     errors = [(pathlib.Path(e["file"]).name, e["range"]["start"]["line"] + 1) for e in found if e["severity"] == "error"]
-    assert sorted(set(errors)) == [("wrong.py", line) for line in (3, 4, 5, 6)], found
+    assert sorted(set(errors)) == [("wrong.py", line) for line in (3, 4, 5, 6, 7, 8)], found
 
 
 def test_the_stubs_cover_the_module_with_docstrings_and_units():
