@@ -72,15 +72,18 @@ std::string bash(const CommandText& program) {
     for (const ArgumentText& option : command.options) {
       options.insert(options.end(), option.names.begin(), option.names.end());
       if (option.value.empty()) continue;
-      for (const std::string& name : option.names) values += fmt::format("{}'{} {}'", name == option.names.front() ? "    " : " | ", command.name, name);
+      for (const std::string& name : option.names) {
+        values += fmt::format("{}'{} {}'", name == option.names.front() ? "    " : " | ", command.name, name);
+      }
       values += ") " + bash_values(option) + "; return ;;\n";
     }
     for (const CommandText& below : command.commands) {
       commands += (commands.empty() ? "'" : " | '") + below.name + "'";
     }
-    words += fmt::format(
-        "    '{}')\n      if [[ $current == -* ]]; then COMPREPLY=($(compgen -W '{}' -- \"$current\")); else {}; fi ;;\n",
-        command.name, joined(options), bash_plain_words(command));
+    words += fmt::format(R"(    '{}')
+      if [[ $current == -* ]]; then COMPREPLY=($(compgen -W '{}' -- "$current")); else {}; fi ;;
+)",
+                         command.name, joined(options), bash_plain_words(command));
   });
   return R"(# Completion of calligraphy in bash. Made by `calligraphy completion bash`.
 _calligraphy() {

@@ -133,6 +133,9 @@ void add_devices(py::module_& module) {
       &DeviceState::velocity_estimated, "velocity_estimated: from positions, not measured", &DeviceState::force,
       "force: (3,), the force at work when the sample is read, after every limit, guard and ramp; "
       "NaN if the device does not say; a Servo fills it in [N]",
+      &DeviceState::force_settling,
+      "force_settling: how long after the last sample that the force law was asked about a force other than `force` "
+      "may have been at work; a Servo fills it in, 0 also if nobody knows [s]",
       &DeviceState::buttons, "buttons: one bit per button", &DeviceState::status, "status: DeviceStatus",
       &DeviceState::fault, "fault: DeviceFault: cause of a status other than ok, if known", &DeviceState::orientation,
       "orientation: PenOrientation");
