@@ -153,11 +153,11 @@ void add_model(py::module_& module) {
                          "attribution: required attribution, one line", &Provenance::licence_text,
                          "licence_text: full text, if it must accompany the characters");
 
-  py::class_<CharacterList> characters(module, "CharacterList", "Characters and their provenance.");
+  py::class_<CharacterList> type(module, "CharacterList", "Characters and their provenance.");
   py::list fields;
-  add_field(characters, fields, &CharacterList::characters, "characters: list of Character, copied");
-  add_field(characters, fields, &CharacterList::provenance, "provenance: Provenance");
-  characters.def(py::init([](std::vector<Character> characters, Provenance provenance) {
+  add_field(type, fields, &CharacterList::characters, "characters: list of Character, copied");
+  add_field(type, fields, &CharacterList::provenance, "provenance: Provenance");
+  type.def(py::init([](std::vector<Character> characters, Provenance provenance) {
              return CharacterList{std::move(provenance), std::move(characters)};
            }),
            "characters"_a = std::vector<Character>{}, "provenance"_a = Provenance{})
