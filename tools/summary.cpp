@@ -36,6 +36,19 @@ struct Pair {
   const Result* force;
 };
 
+/// "3.142"; "-" where no repetition completed a stroke, so that there is no error. [mm]
+std::string mean_error(const std::vector<Result>& results, std::size_t begin, std::size_t end,
+                       double CharacterScore::*error) {
+  double sum = 0.0;
+  int count = 0;
+  for (std::size_t i = begin; i < end; ++i) {
+    if (results[i].score.strokes_completed == 0) continue;
+    sum += results[i].score.*error * millimetres;
+    ++count;
+  }
+  return count > 0 ? fmt::format("{:.3f}", sum / count) : "-";
+}
+
 bool is_complete(const Result& result) { return result.score.strokes_completed >= result.score.stroke_count; }
 
 /// One pair per character and repetition that has both modes.
@@ -102,7 +115,7 @@ std::string table(const Summary& summary) {
   constexpr const char* head = "{:<10}{:<8}{:>8}{:>10}{:>10}{:>7}{:>11}{:>9}{:>10}{:>10}{:>10}{:>12}\n";
   std::string text = repetitions(summary);
   text += fmt::format(fmt::runtime(head), "", "", "time", "RMS err", "max err", "order", "direction",
-                                 "strokes", "peak F", "max step", "tick p50", "tick p99.9");
+                      "strokes", "peak F", "max step", "tick p50", "tick p99.9");
   text += fmt::format(fmt::runtime(head), "character", "mode", "[s]", "[mm]", "[mm]", "errors", "errors", "written",
                       "[N]", "[N/tick]", "[ns]", "[ns]");
   for (std::size_t begin = 0; begin < results.size();) {
@@ -112,10 +125,10 @@ std::string table(const Summary& summary) {
     const int decimals = end - begin > 1 ? 2 : 0;
     const double written = of([](const Result& r) { return r.score.strokes_completed; });
     text += fmt::format(
-        "{:<10}{:<8}{:>8.2f}{:>10.3f}{:>10.3f}{:>7.{}f}{:>11.{}f}{:>9}{:>10.2f}{:>10.3f}{:>10.0f}{:>12.0f}\n",
+        "{:<10}{:<8}{:>8.2f}{:>10}{:>10}{:>7.{}f}{:>11.{}f}{:>9}{:>10.2f}{:>10.3f}{:>10.0f}{:>12.0f}\n",
         encode_utf8(first.score.character), to_string(first.mode), of([](const Result& r) { return r.score.time; }),
-        of([](const Result& r) { return r.score.rms_error * millimetres; }),
-        of([](const Result& r) { return r.score.max_error * millimetres; }),
+        mean_error(results, begin, end, &CharacterScore::rms_error),
+        mean_error(results, begin, end, &CharacterScore::max_error),
         of([](const Result& r) { return r.score.order_mistakes(); }), decimals,
         of([](const Result& r) { return r.score.direction_mistakes(); }), decimals,
         fmt::format("{:.{}f}/{}", written, decimals, first.score.stroke_count),
@@ -163,7 +176,7 @@ std::string json(const Summary& summary) {
                     {"fidelity", score.fidelity},
                     {"mistakes", mistakes}});
   }
-  const Json all = {{"repetitions", summary.repetitions}, {"interrupted", summary.interrupted}, {"results", list}};
+  const Json all = {{"repetitions_requested", summary.repetitions}, {"interrupted", summary.interrupted}, {"results", list}};
   return all.dump(2) + "\n";
 }
 
@@ -176,7 +189,9 @@ std::string reductions(const std::vector<Result>& results) {
   std::set<std::uint64_t> runs;
   for (const Pair& pair : both) runs.insert(pair.vision->seed);
   std::string text;
-  if (runs.size() < least_runs) {
+  if (both.empty()) {
+    text = "no character was completed in both modes: no effect of force to show\n";
+  } else if (runs.size() < least_runs) {
     text = fmt::format("n = {} {} of runs: too few to show an effect of force; try --repeat 20\n", runs.size(),
                        runs.size() == 1 ? "pair" : "pairs");
   } else {
@@ -187,7 +202,9 @@ std::string reductions(const std::vector<Result>& results) {
                "standard errors\n",
                both.size(), runs.size());
   }
-  if (both.size() < all) text += fmt::format("{} pairs omitted: not every stroke was completed\n", all - both.size());
+  if (const std::size_t omitted = all - both.size(); omitted > 0) {
+    text += fmt::format("{} {} omitted: not every stroke was completed\n", omitted, omitted == 1 ? "pair" : "pairs");
+  }
   return text;
 }
 

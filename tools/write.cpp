@@ -101,6 +101,7 @@ PenOptions chosen_pen(const WriteArguments& options) {
   refuse(options.rate && kind == DeviceKind::replay, "--rate", "the trace determines the rate");
   refuse(options.rate && kind == DeviceKind::openhaptics, "--rate", "the vendor's scheduler determines the rate");
   refuse(options.repeat > 1 && kind == DeviceKind::replay, "--repeat", "every repetition would be the same");
+  refuse(options.mode == "both" && kind == DeviceKind::replay, "--mode both", "a trace was written in one mode");
   refuse(options.timeout && !is_person, "--timeout", "applies only to a real device");
   refuse(!options.wire_profile.empty() && kind != DeviceKind::phantom, "--wire-profile",
          "applies only to phantom[:SERIAL]");
@@ -250,7 +251,9 @@ class WriteRun {
                    pen_.stop_keys());
     }
     const Recording recording = pen_.write(sheet.page, session_);
-    if (pen_.is_person()) {  // readable by replay:FILE
+    // For replay:FILE, which cannot begin in the middle of a page. A single character's trace is the page's.
+    const bool several = sheet.page.characters.size() > 1 && !pen_.is_replay() && repetition == 1;
+    if (pen_.is_person() || several) {
       std::ostringstream trace;
       write_recording(trace, recording);
       out.write(fmt::format("page-{}-{}-{}.csv", number + 1, to_string(session_.mode), repetition), trace.str());
@@ -296,7 +299,13 @@ class WriteRun {
     const auto given_up = [](const Result& r) { return r.score.strokes_completed < r.score.stroke_count; };
     const std::vector<Result>& results = summary_.results;
     const auto unfinished = std::count_if(results.begin(), results.end(), given_up);
-    if (unfinished > 0) spdlog::warn("{} of {} characters were not completed", unfinished, results.size());
+    if (unfinished == 0) return;
+    spdlog::warn("{} of {} characters were not completed", unfinished, results.size());
+    if (pen_.is_replay()) {
+      spdlog::warn(
+          "a trace is replayed with the TEXT and the page options with which it was recorded: that of a text of several "
+          "characters is page-1-....csv, with the whole text");
+    }
   }
 
   const WriteArguments& options_;
@@ -316,14 +325,17 @@ void add_write(CLI::App& program) {
                              "Write a text, without and with force. It is written by a simulated writer on a simulated "
                              "device, or by a person on a real one, where space, Esc and Ctrl-C take the force away at "
                              "once and stop. DIR receives summary.json and, per character and mode, a picture, a force "
-                             "plot and a trace of the first repetition.");
+                             "plot and a trace of the first repetition; of a page of several characters a trace too.");
   command->footer(
       "calligraphy write 永和 -o out                       # without and with force\n"
       "calligraphy write 永 --repeat 20 -o out             # what force changes\n"
       "calligraphy write 福 --characters hanzi.set -o out  # an imported character\n"
       "calligraphy write 永 --device phantom --wire-profile mine.profile -o out");
   const auto options = std::make_shared<WriteArguments>();
-  command->add_option("TEXT", options->text, "Characters to write; white space is ignored, and so is punctuation that the set lacks")->required();
+  command
+      ->add_option("TEXT", options->text,
+                   "Characters to write; white space is ignored, and so is punctuation that the set lacks")
+      ->required();
   add_out_directory(*command, options->out, "the results")->required();
   add_characters_option(*command, options->characters);
   command->add_option("--order", options->order, "Alternate stroke order (default: the standard one)")
@@ -334,7 +346,8 @@ void add_write(CLI::App& program) {
       ->add_option("--device", options->device,
                    "[simulated:]NAME, where NAME is one of " + device_names() +
                        "; phantom[:SERIAL] or openhaptics[:NAME], real devices; or replay:FILE, a trace recorded by "
-                       "this command")
+                       "this command, with the same TEXT and page options: page-N-MODE-1.csv of several characters, "
+                       "otherwise 01-CHARACTER-MODE.csv")
       ->capture_default_str()
       ->check(such_as(with_names))
       ->type_name("DEVICE");

@@ -51,7 +51,7 @@ class Write(ProgramTest):
         self.assertTrue(printed.startswith(f"interrupted: means over {written} of 100000 repetitions\n"), printed)
         self.assertEqual(row.split()[1], "force")
         whole = json.loads((self.directory / "out/summary.json").read_text())
-        self.assertEqual((whole["repetitions"], whole["interrupted"]), (100000, True))
+        self.assertEqual((whole["repetitions_requested"], whole["interrupted"]), (100000, True))
         self.assertGreater(written, 0)
         self.assertLess(written, 100000)
 
@@ -94,6 +94,7 @@ class Write(ProgramTest):
         out = self.directory / "deep" / "out"
         stems = [f"{n:02}-{c}-{mode}" for n, c in ((1, "十"), (2, "人")) for mode in ("vision", "force")]
         expected = {"summary.json"} | {s + e for s in stems for e in (".svg", ".csv")}
+        expected |= {f"page-1-{mode}-1.csv" for mode in ("vision", "force")}
         if shutil.which("gnuplot"):
             expected |= {s + "-force.svg" for s in stems}
             self.assertEqual(done.stderr, "")
@@ -186,12 +187,15 @@ class Write(ProgramTest):
         done = self.run_program("write", "一十", "--out", "out", "--repeat", "3", "--seed", "5", "--json")
         rows = self.summary()
         whole = json.loads(done.stdout)
-        self.assertEqual((whole["repetitions"], whole["interrupted"], whole["results"]), (3, False, rows))
+        self.assertEqual((whole["repetitions_requested"], whole["interrupted"], whole["results"]), (3, False, rows))
         self.assertEqual(len(rows), 2 * 2 * 3)
         for mode in ("vision", "force"):
             seeds = [(r["repetition"], r["seed"]) for r in rows if r["mode"] == mode and r["character"] == "十"]
             self.assertEqual(seeds, [(1, 5), (2, 6), (3, 7)])
-        self.assertEqual(len(list((self.directory / "out").glob("*.csv"))), 4, "traces of the first repetition only")
+        traces = sorted(path.name for path in (self.directory / "out").glob("*.csv"))
+        self.assertEqual(traces, sorted(f"{part}-{mode}{end}.csv" for mode in ("force", "vision")
+                                        for part, end in (("01-一", ""), ("02-十", ""), ("page-1", "-1"))),
+                         "of the first repetition only")
 
     def test_a_run_is_reproducible_to_the_last_digit(self):
         for out in ("a", "b"):
@@ -238,6 +242,26 @@ class Write(ProgramTest):
             self.assertAlmostEqual(again[0][field], first[field], places=6)
         lines = [path.read_text().count("\n") for path in (trace, self.directory / "again" / trace.name)]
         self.assertEqual(lines[0], lines[1])
+
+    def test_a_page_of_several_characters_is_replayed_whole_and_with_another_text_nothing_is_flattered(self):
+        self.run_program("write", "十人", "--out", "first", "--mode", "force")
+        done = self.run_program("write", "十人", "--out", "again", "--device", "replay:first/page-1-force-1.csv")
+        self.assertEqual(done.stderr, "")
+        for first, again in zip(self.summary("first"), self.summary("again")):
+            for field in ("strokes_completed", "rms_error_mm", "max_error_mm", "time_s"):
+                self.assertAlmostEqual(again[field], first[field], places=6)
+        self.assertFalse(list((self.directory / "again").glob("page-*")), "it is the trace that was given")
+        for trace, text in (("01-十", "十"), ("02-人", "人"), ("02-人", "十人")):
+            done = self.run_program("write", text, "--out", "other", "--device", f"replay:first/{trace}-force.csv")
+            self.assertIn("with the TEXT and the page options with which it was recorded", done.stderr)
+            rows = [line.split() for line in done.stdout.splitlines() if "force" in line]
+            self.assertEqual([row[3:5] for row in rows], [["-", "-"]] * len(text), done.stdout)
+
+    def test_where_no_character_is_completed_more_repetitions_are_not_advised(self):
+        for repeat, pairs in (("1", "1 pair"), ("2", "2 pairs")):
+            done = self.run_program("write", "永", "--out", "out", "--rules", "wang2006", "--repeat", repeat)
+            self.assertIn("\nno character was completed in both modes: no effect of force to show\n"
+                          f"{pairs} omitted: not every stroke was completed\n", done.stdout)
 
     def test_a_trace_whose_time_runs_backwards_is_named(self):
         self.run_program("write", "一", "--out", "first", "--mode", "force")
@@ -317,6 +341,7 @@ class Refusals(ProgramTest):
                 (["write", "北", "--out", "out", "--device", "replay"], ["--device", "replay", "file"]),
                 (["write", "北", "--out", "out", "--device", "replay:x", "--writer", "novice"], ["--writer", "replay"]),
                 (["write", "北", "--out", "out", "--device", "replay:x", "--rate", "500"], ["--rate", "replay"]),
+                (["write", "北", "--out", "out", "--device", "replay:x", "--mode", "both"], ["--mode both", "replay"]),
                 (["write", "北", "--out", "out", "--like", "omni"], ["--like", "replay"]),
                 (["write", "北", "--out", "out", "--device", "replay:t.csv", "--like", "omnibus"], ["--like: omnibus"]),
                 (["write", "北", "--out", "out", "--timeout", "5"], ["--timeout", "simulated"]),
