@@ -12,7 +12,6 @@
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/text.hpp>
-#include <calligraphy/importers/character_import.hpp>
 
 #include "commands.hpp"
 #include "options.hpp"
@@ -71,6 +70,15 @@ CharacterSet open_sources(const std::vector<std::string>& paths, const std::u32s
   for (const std::string& path : paths) sets.push_back(open_one(path, text));
   if (paths.empty()) sets.emplace_back(built_in_characters());
   return CharacterSet::layered(sets);
+}
+
+ImportResult import_source(const std::string& source, const ImportOptions& asked) {
+  try {
+    return import_characters(source, asked);
+  } catch (const ValueError& error) {  // begins with the name of the field, which is that of the option but for one
+    const std::string what = error.what(), opposite = "ideographs_only";
+    throw UsageError("--" + (what.starts_with(opposite) ? "all" + what.substr(opposite.size()) : what));
+  }
 }
 
 std::u32string present(const std::u32string& text, const std::function<bool(char32_t)>& is_there,

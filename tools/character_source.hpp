@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <calligraphy/importers/character_import.hpp>
 #include <calligraphy/model/character_set.hpp>
 
 namespace CLI {
@@ -18,6 +19,9 @@ namespace calligraphy::tools {
 /// Opens the files and directories in `paths`, layered with the first on top; without any, the built-in set. From a
 /// directory, only the characters of `text` are read. @throws Error naming the file
 CharacterSet open_sources(const std::vector<std::string>& paths, const std::u32string& text);
+
+/// As import_characters(). @throws UsageError naming an option that does not apply to this kind of source
+ImportResult import_source(const std::string& source, const ImportOptions& asked);
 
 /// The characters of `text` that are there. Punctuation that is not is skipped, and a warning says so.
 /// @throws Error naming all other characters that are not in `place`, or the punctuation if there is nothing else

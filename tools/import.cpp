@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -14,7 +15,6 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include <calligraphy/importers/character_import.hpp>
 #include <calligraphy/model/set_encoding.hpp>
 
 #include "character_source.hpp"
@@ -47,6 +47,16 @@ const std::map<std::string, CoordinatePrecision> precisions = {{"coarse", Coordi
                                                                {"fine", CoordinatePrecision::fine},
                                                                {"exact", CoordinatePrecision::exact}};
 
+/// Why the word is not a date; empty: it is one.
+std::string not_a_date(const std::string& word) {
+  int year = 0;
+  unsigned month = 0, day = 0;
+  std::sscanf(word.c_str(), "%4d-%2u-%2u", &year, &month, &day);
+  const std::chrono::year_month_day date{std::chrono::year(year), std::chrono::month(month), std::chrono::day(day)};
+  const bool as_written = word == fmt::format("{:04}-{:02}-{:02}", year, month, day);  // without blanks and signs
+  return as_written && year > 0 && date.ok() ? "" : word + ": expected a date, YYYY-MM-DD";
+}
+
 std::string encoded(const CharacterList& list, const ImportArguments& options) {
   if (options.format == "set") {
     const std::vector<std::byte> bytes =
@@ -71,7 +81,7 @@ ImportResult imported(const ImportArguments& options, const Interrupt& interrupt
     interrupt.check();
     progress.show(share);
   };
-  return import_characters(options.source, asked);
+  return import_source(options.source, asked);
 }
 
 /// True if `out` is the source or a file in it.
@@ -132,14 +142,17 @@ void add_import(CLI::App& program) {
       ->check(CLI::IsMember({"coarse", "standard", "fine", "exact"}));
   command
       ->add_option("--letters", options->letters,
-                   "Stroke letters for hanzi-writer-data: the tarball, directory or .js file of cnchar-order")
+                   "hanzi-writer-data: stroke letters, the tarball, directory or .js file of cnchar-order")
       ->type_name("PATH");
   command->add_flag("--alternates", options->alternates, "KanjiVG: also import variants, as alternate stroke orders")
       ->disable_flag_override();
   command->add_flag("--all", options->all, "KanjiVG: also import kana, Latin letters, radicals and signs")
       ->disable_flag_override();
   command->add_option("--only", options->only, "Import only these characters")->type_name("TEXT");
-  command->add_option("--date", options->date, "Date of the modification, stated in the attribution")
+  command
+      ->add_option("--date", options->date,
+                   "hanzi-writer-data, KanjiVG: date of the modification, YYYY-MM-DD, for the attribution")
+      ->check(CLI::Validator(not_a_date, ""))
       ->type_name("DATE");
   command->add_option("--threads", options->threads, "Threads (default: one per core)")
       ->check(integer(1, 256))

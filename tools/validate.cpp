@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include <calligraphy/base/text.hpp>
-#include <calligraphy/importers/character_import.hpp>
 #include <calligraphy/importers/stroke_warnings.hpp>
 
 #include "character_source.hpp"
@@ -58,7 +57,7 @@ Findings findings(const ValidateArguments& options) {
   if (options.only) asked.only = characters_of(*options.only);
   asked.threads = options.threads;
   asked.progress = [&progress](double share) { progress.show(0.5 * share); };
-  const ImportResult import = import_characters(options.file, asked);
+  const ImportResult import = import_source(options.file, asked);
   warn_of_missing(asked.only, import.list, options.file);
   Findings found{import.report.characters, import.report.strokes, {}};
   for (const LabelConflict& conflict : import.report.label_conflicts) {

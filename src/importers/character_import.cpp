@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdio>
 #include <fstream>
+#include <initializer_list>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -110,6 +111,21 @@ std::string with_plain_line_ends(std::string_view text, const std::string& place
     plain += text[i] == '\r' ? '\n' : text[i];
   }
   return plain;
+}
+
+/// @throws ValueError naming an option that has no effect on a source of this kind
+void check_applies(const ImportOptions& options, SourceKind kind) {
+  const auto refuse = [kind](bool given, const std::string& option, std::initializer_list<SourceKind> kinds) {
+    if (!given || std::find(kinds.begin(), kinds.end(), kind) != kinds.end()) return;
+    std::string names;
+    for (const SourceKind each : kinds) names += (names.empty() ? "" : " and ") + std::string(to_string(each));
+    throw ValueError(option + ": applies only to " + names + ", not to " +
+                     (kind == SourceKind::calligraphy ? "a set file or the text format" : to_string(kind)));
+  };
+  refuse(!options.letters.empty(), "letters", {SourceKind::hanzi_writer_data});
+  refuse(options.alternates, "alternates", {SourceKind::kanjivg});
+  refuse(!options.ideographs_only, "ideographs_only", {SourceKind::kanjivg});
+  refuse(!options.date.empty(), "date", {SourceKind::hanzi_writer_data, SourceKind::kanjivg});
 }
 
 /// Decides which files of a source are read: each character once.
@@ -238,9 +254,7 @@ class Importer {
       throw FormatError(source_.string() + ": contains both hanzi-writer-data and KanjiVG: " + drawings_.front().place +
                         " and " + drawing.place);
     }
-    if (kind_ == SourceKind::kanjivg && !options_.letters.empty()) {
-      throw ValueError("letters: stroke letters apply only to hanzi-writer-data; KanjiVG has its own labels");
-    }
+    check_applies(options_, kind_);
   }
 
   ImportedCharacter imported(const Drawing& drawing) {
@@ -345,8 +359,7 @@ bool is_own_format(const fs::path& source) {
 }
 
 ImportResult import_own_format(const fs::path& source, const ImportOptions& options) {
-  if (!options.letters.empty())
-    throw ValueError("letters: stroke letters apply only to hanzi-writer-data, not to a character set");
+  check_applies(options, SourceKind::calligraphy);
   CharacterList list = CharacterSet::open(source.string()).list();
   if (!options.only.empty()) {
     std::erase_if(list.characters, [&](const Character& c) { return options.only.find(c.code) == options.only.npos; });

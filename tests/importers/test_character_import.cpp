@@ -252,6 +252,13 @@ TEST_CASE("import options outside their domain are rejected by name", "[practice
   options = {};
   options.date = "2026\n11";
   CHECK(has(complaint(directory.path(), options), "ValueError date"));
+  options = {};
+  options.alternates = true;
+  CHECK(complaint(directory.path(), options) ==
+        "ValueError alternates: applies only to KanjiVG, not to hanzi-writer-data");
+  options = {};
+  options.ideographs_only = false;
+  CHECK(has(complaint(directory.path(), options), "ValueError ideographs_only: applies only to KanjiVG"));
 }
 
 TEST_CASE("fit counts include strokes, and characters by their worst stroke", "[practice]") {

@@ -386,4 +386,18 @@ class Output(ImportTest):
             with self.subTest(arguments=arguments):
                 self.assert_refused(2, ["import", *arguments], *words)
         self.assert_refused(1, ["import", "data", "-o", "x", "--letters", "none"], "none")
-        self.assert_refused(1, ["import", "data", "-o", "x", "--date", "1\n2"], "date")
+        for date in ("foo", "", "1\n2", "2026-02-29", "2026-13-01", "2026-1-2", "2026-01-02x", "-026-01-02"):
+            self.assert_refused(2, ["import", "data", "-o", "x", "--date", date], "--date: ", "YYYY-MM-DD")
+
+    def test_options_that_do_not_apply_to_the_source_are_refused(self):
+        self.write("kanji/05341.svg", svg(HENG + SHU))
+        self.write("hanzi/一.json", '{"medians":[[[100,400],[900,400]]]}')
+        self.write("letters.js", """x=JSON.parse('{"一":"j"}')""")
+        self.run_program("import", "kanji", "-o", "mine.txt", "--format", "text", "--date", "2024-02-29")
+        self.assertIn("on 2024-02-29", (self.directory / "mine.txt").read_text())
+        for source, option in (("mine.txt", ["--alternates"]), ("mine.txt", ["--all"]), ("hanzi", ["--alternates"]),
+                               ("hanzi", ["--all"]), ("mine.txt", ["--letters", "letters.js"]),
+                               ("kanji", ["--letters", "letters.js"]), ("mine.txt", ["--date", "2026-11-24"])):
+            with self.subTest(source=source, option=option):
+                self.assert_refused(2, ["import", source, "-o", "x", *option], option[0] + ": applies only to ")
+        self.assert_refused(2, ["validate", "mine.txt", "--letters", "letters.js"], "--letters: applies only to hanzi")

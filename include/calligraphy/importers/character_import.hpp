@@ -125,8 +125,8 @@ struct ImportResult {
 /// drawing within 1 % of the em, or as well as the one recognised by geometry alone, and starts within 60 degrees of
 /// its typical direction.
 /// @throws FileError if the source cannot be read; FormatError naming the file and the place if anything in it is
-///         malformed or exceeds the limits; ValueError for options outside their domain. An import never succeeds in
-///         part.
+///         malformed or exceeds the limits; ValueError for options outside their domain, or without effect on a source
+///         of this kind. An import never succeeds in part.
 ImportResult import_characters(const std::filesystem::path& source, const ImportOptions& options = {});
 
 }  // namespace calligraphy
