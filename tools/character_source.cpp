@@ -109,11 +109,25 @@ ChosenCharacters open_characters(const std::vector<std::string>& paths, const st
   CharacterSet set = open_sources(paths, text);
   const auto is_there = [&set](char32_t code) { return set.find(code).has_value(); };
   std::u32string found = present(text, is_there, place_of(paths));
-  for (const char32_t code : found) {
-    if (set.find(code, order)) continue;
-    throw Error(fmt::format("{} has no stroke order \"{}\" in {}", character_label(code), order, place_of(paths)));
+  ChosenCharacters chosen{std::move(set), std::move(found)};
+  require_order(chosen, order, paths);
+  return chosen;
+}
+
+void require_order(const ChosenCharacters& chosen, const std::string& order, const std::vector<std::string>& paths) {
+  for (const char32_t code : chosen.text) {
+    if (chosen.set.find(code, order)) continue;
+    throw Error(fmt::format("{} has no stroke order \"{}\" in {}; it has: {}", character_label(code), order,
+                            place_of(paths), order_names(chosen.set, code)));
   }
-  return {std::move(set), std::move(found)};
+}
+
+std::string order_names(const CharacterSet& set, char32_t code) {
+  std::string names;
+  for (const std::string& order : set.orders(code)) {
+    names += (names.empty() ? "" : ", ") + (order.empty() ? "the standard one" : '"' + order + '"');
+  }
+  return names;
 }
 
 std::vector<Character> characters_of(const CharacterSet& set, const std::u32string& text, const std::string& order) {

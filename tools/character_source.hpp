@@ -46,6 +46,12 @@ ChosenCharacters open_characters(const std::vector<std::string>& paths, const st
 std::vector<Character> characters_of(const CharacterSet& set, const std::u32string& text,
                                      const std::string& order = {});
 
+/// @throws Error naming the first of the characters that has no stroke order of this name, and the orders that it has
+void require_order(const ChosenCharacters& chosen, const std::string& order, const std::vector<std::string>& paths);
+
+/// Of a character, as in: the standard one, "Kaisho".
+std::string order_names(const CharacterSet& set, char32_t code);
+
 /// Adds --characters PATH, which may be repeated.
 CLI::Option* add_characters_option(CLI::App& command, std::vector<std::string>& paths);
 

@@ -1,10 +1,12 @@
 // calligraphy info: contents of a character set, and the data structure of a character (Wang 2006, Table 3).
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
@@ -46,7 +48,7 @@ struct Summary {
   std::size_t characters = 0;
   std::size_t strokes = 0;           ///< in the standard order of each character
   std::size_t alternate_orders = 0;  ///< not counting the first one of each character
-  std::size_t bytes = 0;
+  std::optional<std::uintmax_t> bytes;  ///< of the files
   double coordinate_error = 0.0;  ///< [em]
   Provenance provenance;          ///< of all layers, each once
 };
@@ -66,7 +68,19 @@ Provenance joined(const std::vector<Provenance>& layers) {
   return all;
 }
 
-Summary summary_of(const CharacterSet& set) {
+/// The size of all files together; none if the characters are built in, or if one of the paths is a directory.
+std::optional<std::uintmax_t> bytes_of(const std::vector<std::string>& paths) {
+  std::optional<std::uintmax_t> sum;
+  for (const std::string& path : paths) {
+    std::error_code failure;
+    const std::uintmax_t bytes = std::filesystem::file_size(path, failure);
+    if (failure) return std::nullopt;
+    sum = sum.value_or(0) + bytes;
+  }
+  return sum;
+}
+
+Summary summary_of(const CharacterSet& set, const std::vector<std::string>& paths) {
   Summary summary;
   for (const StoredCharacter& character : set) {
     if (character.stroke_count() == 0) character.character();  // throws, naming the damage
@@ -74,14 +88,16 @@ Summary summary_of(const CharacterSet& set) {
     summary.strokes += static_cast<std::size_t>(character.stroke_count());
     summary.alternate_orders += set.orders(character.code()).size() - 1;
   }
-  summary.bytes = set.bytes();
+  if (summary.characters == 0) throw FormatError(fmt::format("{}: contains no character", fmt::join(paths, ", ")));
+  summary.bytes = bytes_of(paths);
   summary.coordinate_error = set.coordinate_error();
   summary.provenance = joined(set.provenances());
   return summary;
 }
 
-double bytes_per_character(const Summary& summary) {
-  return static_cast<double>(summary.bytes) / static_cast<double>(std::max<std::size_t>(1, summary.characters));
+std::optional<double> bytes_per_character(const Summary& summary) {
+  if (!summary.bytes) return std::nullopt;
+  return static_cast<double>(*summary.bytes) / static_cast<double>(summary.characters);
 }
 
 void print(const Summary& summary) {
@@ -89,8 +105,10 @@ void print(const Summary& summary) {
   line("Characters", summary.characters);
   line("Strokes", summary.strokes);
   if (summary.alternate_orders > 0) line("Alternate stroke orders", summary.alternate_orders);
-  line("Bytes", summary.bytes);
-  line("Bytes per character", fmt::format("{:.1f}", bytes_per_character(summary)));
+  if (summary.bytes) {
+    line("Bytes", *summary.bytes);
+    line("Bytes per character", fmt::format("{:.1f}", *bytes_per_character(summary)));
+  }
   line("Coordinate error [em]", fmt::format("{:.3g}", summary.coordinate_error));
 }
 
@@ -99,9 +117,11 @@ void print(const Provenance& provenance) {
              provenance.attribution);
 }
 
-void print(const Character& character) {
+/// `orders`: the names of those it has, if there are several.
+void print(const Character& character, const std::string& orders) {
   const SequenceData& sequence = character.sequence;
   fmt::print("{}{}\n", character_label(character.code), character.order.empty() ? "" : ", order " + character.order);
+  if (!orders.empty()) fmt::print("  {:<28} {}\n", "Stroke orders (--order)", orders);
   fmt::print("  {:<28} {}\n", "Number of typical strokes", sequence.stroke_ids.size());
   fmt::print("  {:<28} {}\n", "ID array of typical strokes", fmt::join(sequence.stroke_ids, ", "));
   fmt::print("  {:<28} {}\n", "Number of control points", character.structure.control_points.size());
@@ -118,11 +138,12 @@ void print(const Character& character) {
 }
 
 Json json_of(const Summary& summary) {
+  const auto number_or_null = [](const auto& number) { return number ? Json(*number) : Json(); };
   return {{"characters", summary.characters},
           {"strokes", summary.strokes},
           {"alternate_orders", summary.alternate_orders},
-          {"bytes", summary.bytes},
-          {"bytes_per_character", bytes_per_character(summary)},
+          {"bytes", number_or_null(summary.bytes)},
+          {"bytes_per_character", number_or_null(bytes_per_character(summary))},
           {"coordinate_error_em", summary.coordinate_error},
           {"source", summary.provenance.source},
           {"licence", summary.provenance.licence},
@@ -165,26 +186,42 @@ std::u32string each_once(const std::string& text) {
   return codes;
 }
 
+bool has_file_name_characters(const std::string& word) { return word.find_first_of("./") != std::string::npos; }
+
+/// With two arguments the first is a FILE, or the second does not belong there. @throws FileError, UsageError
+void check_first_of_two(const std::string& first, const std::string& second) {
+  std::error_code failure;
+  if (std::filesystem::exists(first, failure) || failure) return;
+  const auto is_ascii = [](char c) { return static_cast<unsigned char>(c) < 0x80; };
+  if (has_file_name_characters(first) || std::all_of(first.begin(), first.end(), is_ascii)) {
+    throw FileError(first + ": no such file");
+  }
+  throw UsageError(fmt::format("unexpected argument {}; quote words that belong together", second));
+}
+
 /// The first argument is FILE if such a file exists, otherwise TEXT.
 Request request_of(const InfoArguments& options) {
   Request request{options.characters, {}};
   std::error_code failure;
+  if (options.second) check_first_of_two(*options.first, *options.second);
   const bool has_file = options.second || (options.first && std::filesystem::exists(*options.first, failure));
+  if (has_file && !options.characters.empty()) throw UsageError("--characters: cannot be combined with FILE");
   if (has_file) request.paths.insert(request.paths.begin(), *options.first);
   const std::optional<std::string>& text = has_file ? options.second : options.first;
   if (text) request.text = each_once(*text);
   request.may_mean_file = text && !has_file;
   if (request.paths.empty() && request.text.empty()) throw UsageError("FILE or TEXT is required");
+  if (!options.order.empty() && request.text.empty()) throw UsageError("--order: applies only to TEXT");
   return request;
 }
 
 /// A mistyped name of a file is read as TEXT: the message says both.
 ChosenCharacters chosen(const Request& request, const InfoArguments& options) {
-  if (request.may_mean_file && options.first->find_first_of("./") != std::string::npos) {
+  if (request.may_mean_file && has_file_name_characters(*options.first)) {
     throw FileError(*options.first + ": no such file");
   }
   try {
-    return open_characters(request.paths, request.text, options.order);
+    return open_characters(request.paths, request.text);
   } catch (const FileError&) {
     throw;
   } catch (const Error& error) {
@@ -196,6 +233,7 @@ ChosenCharacters chosen(const Request& request, const InfoArguments& options) {
 void run_paper_example(const InfoArguments& options) {
   if (!options.characters.empty()) throw UsageError("--paper-example: cannot be combined with --characters");
   if (options.second) throw UsageError("--paper-example: cannot be combined with FILE");
+  if (!options.order.empty()) throw UsageError("--paper-example: cannot be combined with --order");
   const Character& example = paper_example();
   if (options.first && characters_of(*options.first) != std::u32string(1, example.code)) {
     throw UsageError(
@@ -207,15 +245,17 @@ void run_paper_example(const InfoArguments& options) {
     fmt::print("{}\n", Json{{"text", Json::array({json_of(example, provenance, {})})}}.dump(2));
     return;
   }
-  print(example);
+  print(example, "");
   print(provenance);
 }
 
 void run(const InfoArguments& options) {
   if (options.paper_example) return run_paper_example(options);
   const Request request = request_of(options);
-  const auto [set, text] = chosen(request, options);
-  const Summary summary = summary_of(set);
+  const ChosenCharacters characters = chosen(request, options);
+  require_order(characters, options.order, request.paths);
+  const auto& [set, text] = characters;
+  const Summary summary = summary_of(set, request.paths);
   if (options.json) {
     Json json = json_of(summary);
     if (options.licence_text) json["licence_text"] = summary.provenance.licence_text;
@@ -228,7 +268,9 @@ void run(const InfoArguments& options) {
     return;
   }
   if (text.empty()) print(summary);
-  for (const Character& character : characters_of(set, text, options.order)) print(character);
+  for (const Character& character : characters_of(set, text, options.order)) {
+    print(character, set.orders(character.code).size() > 1 ? order_names(set, character.code) : "");
+  }
   print(summary.provenance);
   if (options.licence_text) fmt::print("\n{}\n", summary.provenance.licence_text);
 }

@@ -48,6 +48,24 @@ class Info(ProgramTest):
         self.assertRegex(text, r"Characters +3\nStrokes +7\nAlternate stroke orders +1\nBytes +\d+\n")
         self.assertIn("licence: MIT\n", text)
 
+    def test_the_bytes_are_those_of_the_files(self):
+        for names in (["version_1.set"], ["version_1.txt"], ["version_1.txt", "version_1.set"]):
+            files = [DATA / name for name in names]
+            bytes = sum(file.stat().st_size for file in files)
+            layers = [word for file in files for word in ("--characters", str(file))]
+            told = json.loads(self.run_program("info", *layers, "--json").stdout)
+            self.assertEqual(told["bytes"], bytes)
+            self.assertAlmostEqual(told["bytes_per_character"], bytes / 3)
+            self.assertRegex(self.run_program("info", *layers).stdout, rf"\nBytes +{bytes}\n")
+        self.assertIsNone(json.loads(self.run_program("info", "永", "--json").stdout)["bytes"])
+
+    def test_the_stroke_orders_of_a_character_are_listed(self):
+        file = str(DATA / "version_1.set")
+        for asked in ([], ["--order", "Table 3"]):
+            text = self.run_program("info", file, "北", *asked).stdout
+            self.assertRegex(text, r'\n  Stroke orders \(--order\) +the standard one, "Table 3"\n')
+        self.assertNotIn("Stroke orders", self.run_program("info", file, "一").stdout)
+
     def test_a_text_after_the_file_shows_its_characters(self):
         told = json.loads(self.run_program("info", str(DATA / "version_1.set"), "北一北", "--json").stdout)
         self.assertEqual([row["character"] for row in told["text"]], ["北", "一"])
@@ -100,12 +118,30 @@ class Refusals(ProgramTest):
         self.assert_refused(2, ["info", "--paper-example", "--characters", "x"], "--characters")
         self.assert_refused(1, ["info", "\u9f98"], "U+9F98")
         self.assert_refused(1, ["info", "北", "--characters", "none"], "none")
-        self.assert_refused(1, ["info", "none.set", "北"], "none.set", "cannot be opened")
+        self.assert_refused(1, ["info", "none.set", "北"], "calligraphy: none.set: no such file\n")
+        self.assert_refused(1, ["info", "hanzi", "北"], "calligraphy: hanzi: no such file\n")
+        self.assert_refused(2, ["info", "永", "北"], "unexpected argument 北; quote words that belong together\n")
         self.assert_refused(1, ["info", str(DATA / "version_1.set"), "永"], "version_1.set", "永")
         self.assert_refused(1, ["info", "none.set"], "none.set: no such file\n")
         self.assert_refused(1, ["info", "hanzi"], "hanzi: no such file, and as TEXT not in the built-in set", "h (U+0068)")
         self.assert_refused(1, ["info", str(DATA / "version_1.set"), "一", "--order", "Table 3"], "一", "Table 3")
+        self.assert_refused(1, ["info", str(DATA / "version_1.set"), "北", "--order", "foo"],
+                            'no stroke order "foo"', 'it has: the standard one, "Table 3"\n')
+        self.assert_refused(1, ["info", "永", "--order", "foo"], 'calligraphy: 永 (U+6C38) has no stroke order "foo" in the'
+                            ' built-in set (see --characters); it has: the standard one\n')
         self.assert_refused(2, ["info", str(DATA / "version_1.set"), ""], "TEXT")
+
+    def test_options_that_do_not_apply_are_refused(self):
+        file = str(DATA / "version_1.set")
+        self.assert_refused(2, ["info", file, "--order", "Table 3"], "--order: applies only to TEXT")
+        self.assert_refused(2, ["info", file, "北", "--characters", file], "--characters: cannot be combined with FILE")
+        self.assert_refused(2, ["info", file, "--characters", file], "--characters: cannot be combined with FILE")
+        self.assert_refused(2, ["info", "--paper-example", "--order", "x"], "--paper-example: ", "--order")
+
+    def test_a_file_without_characters_is_an_error_as_it_is_for_validate(self):
+        (self.directory / "head.txt").write_text("calligraphy characters 1\nsource mine\n")
+        for command in ("info", "validate"):
+            self.assert_refused(1, [command, "head.txt"], "calligraphy: head.txt: contains no character\n")
 
     def test_a_damaged_set_file_is_named(self):
         whole = (DATA / "version_1.set").read_bytes()
