@@ -15,7 +15,8 @@ std::string full_name(const CLI::App& command) {
   return parent == nullptr ? command.get_name() : full_name(*parent) + " " + command.get_name();
 }
 
-/// CLI11 writes the values of an option as "TEXT:{both,vision,force}", and its range as "N:NUMBER".
+/// CLI11 writes the values of an option as "TEXT:{both,vision,force}", and its range as "N:NUMBER". For such_as() the
+/// list ends with "...".
 void describe_value(const CLI::Option& option, ArgumentText& text) {
   if (option.get_type_size() == 0) return;
   const std::string type = option.get_type_name();
@@ -23,7 +24,14 @@ void describe_value(const CLI::Option& option, ArgumentText& text) {
   const std::size_t begin = type.find(":{"), end = type.find('}', begin == std::string::npos ? 0 : begin);
   if (begin == std::string::npos || end == std::string::npos) return;
   std::istringstream list(type.substr(begin + 2, end - begin - 2));
-  for (std::string choice; std::getline(list, choice, ',');) text.choices.push_back(choice);
+  text.has_other_values = false;
+  for (std::string choice; std::getline(list, choice, ',');) {
+    if (choice == "...") {
+      text.has_other_values = true;
+    } else {
+      text.choices.push_back(choice);
+    }
+  }
 }
 
 ArgumentText argument_text(const CLI::Option& option) {
@@ -73,7 +81,7 @@ std::string signature(const ArgumentText& argument) {
   if (text.front() != '-' || argument.value.empty()) return text;
   const std::string choices = fmt::format("{}", fmt::join(argument.choices, "|"));
   constexpr std::size_t short_enough = 30;
-  return text + " " + (choices.empty() || choices.size() > short_enough ? argument.value : choices);
+  return text + " " + (argument.has_other_values || choices.size() > short_enough ? argument.value : choices);
 }
 
 std::string usage(const CommandText& command) {

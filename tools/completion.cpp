@@ -8,14 +8,25 @@
 namespace calligraphy::tools {
 namespace {
 
-enum class ValueKind { none, one_of, file, directory, other };
-
-ValueKind kind_of(const ArgumentText& argument) {
-  if (argument.value.empty()) return ValueKind::none;
-  if (!argument.choices.empty()) return ValueKind::one_of;
-  if (argument.value == "DIR") return ValueKind::directory;
-  return argument.value == "FILE" || argument.value == "PATH" ? ValueKind::file : ValueKind::other;
+bool may_be_file(const ArgumentText& argument) {
+  return argument.value.ends_with("FILE") || argument.value == "PATH";  // also "NAME|FILE"
 }
+
+bool is_directory(const ArgumentText& argument) { return argument.value == "DIR"; }
+
+/// A list of words, of which "replay:FILE" is only "replay:".
+struct Words {
+  std::vector<std::string> all, before_file;
+
+  explicit Words(const std::vector<std::string>& choices) {
+    const std::string file = "FILE";
+    for (const std::string& choice : choices) {
+      const bool has_file = choice.ends_with(":" + file);
+      all.push_back(choice.substr(0, choice.size() - (has_file ? file.size() : 0)));
+      if (has_file) before_file.push_back(all.back());
+    }
+  }
+};
 
 std::string joined(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, " ")); }
 
@@ -40,19 +51,43 @@ void for_each_command(const CommandText& command, const Each& each) {
   for (const CommandText& below : command.commands) for_each_command(below, each);
 }
 
+/// A command that `help` describes, as one below `help`.
+CommandText described(const CommandText& help, const CommandText& command) {
+  CommandText words = help;
+  words.name += " " + own_name(command);
+  words.description = command.description;
+  words.positional.clear();
+  words.commands.clear();
+  for (const CommandText& below : command.commands) words.commands.push_back(described(words, below));
+  return words;
+}
+
+/// The program, in which a command whose argument names commands has them below it.
+CommandText with_commands_as_words(const CommandText& program) {
+  CommandText result = program;
+  for (CommandText& command : result.commands) {
+    if (command.positional.empty() || command.positional.front().names.front() != "COMMAND") continue;
+    const CommandText alone = command;
+    for (const CommandText& each : program.commands) command.commands.push_back(described(alone, each));
+  }
+  return result;
+}
+
 // bash
 
+std::string bash_words(const std::vector<std::string>& words) {
+  return "_calligraphy_offer -W " + quoted(joined(words), "'\\''");
+}
+
 std::string bash_values(const ArgumentText& argument) {
-  switch (kind_of(argument)) {
-    case ValueKind::one_of:
-      return "COMPREPLY=($(compgen -W " + quoted(joined(argument.choices), "'\\''") + " -- \"$current\"))";
-    case ValueKind::file:
-      return "compopt -o default";
-    case ValueKind::directory:
-      return "compopt -o dirnames";
-    default:
-      return ":";
+  if (is_directory(argument)) return "compopt -o dirnames";
+  if (argument.choices.empty()) return may_be_file(argument) ? "compopt -o default" : ":";
+  const Words words(argument.choices);
+  std::string text = bash_words(words.all);
+  for (const std::string& word : words.before_file) {
+    text = fmt::format("if [[ $current == {}* ]]; then compopt -o default; else {}; fi", word, text);
   }
+  return text + (may_be_file(argument) ? "; compopt -o filenames; _calligraphy_offer -f" : "");
 }
 
 /// The words that may stand there, options aside.
@@ -60,7 +95,7 @@ std::string bash_plain_words(const CommandText& command) {
   if (!command.commands.empty()) {
     std::vector<std::string> names;
     for (const CommandText& each : command.commands) names.push_back(own_name(each));
-    return "COMPREPLY=($(compgen -W '" + joined(names) + "' -- \"$current\"))";
+    return bash_words(names);
   }
   return command.positional.empty() ? ":" : bash_values(command.positional.front());
 }
@@ -81,18 +116,30 @@ std::string bash(const CommandText& program) {
       commands += (commands.empty() ? "'" : " | '") + below.name + "'";
     }
     words += fmt::format(R"(    '{}')
-      if [[ $current == -* ]]; then COMPREPLY=($(compgen -W '{}' -- "$current")); else {}; fi ;;
+      if [[ $current == -* ]]; then {}; else {}; fi ;;
 )",
-                         command.name, joined(options), bash_plain_words(command));
+                         command.name, bash_words(options), bash_plain_words(command));
   });
   return R"(# Completion of calligraphy in bash. Made by `calligraphy completion bash`.
+# Offers what compgen makes of its arguments. Bash completes only what is after the last colon.
+_calligraphy_offer() {
+  local word
+  while IFS= read -r word; do COMPREPLY+=("${word#"$before"}"); done < <(compgen "$@" -- "$current")
+  if [[ ${#COMPREPLY[@]} == 1 && ${COMPREPLY[0]} == *: ]]; then compopt -o nospace; fi
+}
 _calligraphy() {
-  local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} command=calligraphy word
+  local at=$COMP_CWORD current=${COMP_WORDS[COMP_CWORD]} before= previous command=calligraphy word
   COMPREPLY=()
+  while [[ at -gt 1 && ( $current == :* || ${COMP_WORDS[at - 1]} == : ) ]]; do
+    before=${COMP_WORDS[--at]}$before
+    current=${COMP_WORDS[at]}$current
+  done
+  if [[ $current == *: ]]; then before=$current; fi
+  previous=${COMP_WORDS[at - 1]}
   if [[ $current == = ]]; then
     current=
-  elif [[ $previous == = && COMP_CWORD -gt 1 ]]; then
-    previous=${COMP_WORDS[COMP_CWORD - 2]}
+  elif [[ $previous == = && at -gt 1 ]]; then
+    previous=${COMP_WORDS[at - 2]}
   fi
   for word in "${COMP_WORDS[@]:1:COMP_CWORD - 1}"; do
     case "$command $word" in
@@ -120,16 +167,10 @@ std::string zsh_escaped(const std::string& text) {
 }
 
 std::string zsh_values(const ArgumentText& argument) {
-  switch (kind_of(argument)) {
-    case ValueKind::one_of:
-      return "(" + joined(argument.choices) + ")";
-    case ValueKind::file:
-      return "_files";
-    case ValueKind::directory:
-      return "_directories";
-    default:
-      return " ";
-  }
+  if (is_directory(argument)) return "_directories";
+  if (argument.choices.empty()) return may_be_file(argument) ? "_files" : " ";
+  // The space keeps _arguments from adding arguments of its own.
+  return " _calligraphy_values " + zsh_escaped(joined(argument.choices)) + (may_be_file(argument) ? " FILE" : "");
 }
 
 /// "'(-o --out)'{-o,--out}'[Directory for the results]:DIR:_directories'".
@@ -178,7 +219,27 @@ std::string zsh_function(const CommandText& command) {
 }
 
 std::string zsh(const CommandText& program) {
-  std::string text = "#compdef calligraphy\n# Completion of calligraphy in zsh. Made by `calligraphy completion zsh`.\n\n";
+  std::string text = R"(#compdef calligraphy
+# Completion of calligraphy in zsh. Made by `calligraphy completion zsh`.
+
+# Offers words; for FILE, alone or after a colon, file names.
+_calligraphy_values() {
+  local -a words prefixes
+  local failed=1
+  words=(${${@:#FILE}:#*:FILE})
+  prefixes=(${${(M)@:#*:FILE}%FILE})
+  if [[ $PREFIX == *:* ]] && (( $prefixes[(Ie)${PREFIX%%:*}:] )); then
+    compset -P 1 '*:'
+    _files
+    return
+  fi
+  compadd -- $words && failed=0
+  (( $#prefixes )) && compadd -S '' -- $prefixes && failed=0
+  (( $@[(Ie)FILE] )) && _files && failed=0
+  return failed
+}
+
+)";
   for_each_command(program, [&text](const CommandText& command) { text += zsh_function(command); });
   // The same file serves as a function of fpath, which is called, and for `source`.
   return text +
@@ -190,20 +251,20 @@ std::string zsh(const CommandText& program) {
 
 std::string fish_quoted(const std::string& text) { return quoted(text, "\\'"); }
 
+/// The choices, each with an empty description: otherwise fish would repeat that of the option.
+std::string fish_words(const ArgumentText& argument) {
+  const Words words(argument.choices);
+  std::string text;
+  for (const std::string& word : words.all) text += (text.empty() ? "" : " ") + word + "\\t";
+  for (const std::string& word : words.before_file) text += " (__calligraphy_files " + word + ")";
+  return text;
+}
+
 std::string fish_values(const ArgumentText& argument) {
-  switch (kind_of(argument)) {
-    case ValueKind::none:
-      return "";
-    case ValueKind::one_of:
-      return " -x -a " + fish_quoted(joined(argument.choices));
-    case ValueKind::file:
-      return " -r -F";
-    case ValueKind::directory:
-      return " -x -a '(__fish_complete_directories)'";
-    case ValueKind::other:
-      return " -x";
-  }
-  return "";
+  if (argument.value.empty()) return "";
+  if (is_directory(argument)) return " -x -a '(__fish_complete_directories)'";
+  const std::string files = may_be_file(argument) ? " -r -F" : " -x";
+  return files + (argument.choices.empty() ? "" : " -a " + fish_quoted(fish_words(argument)));
 }
 
 std::string fish(const CommandText& program) {
@@ -222,9 +283,9 @@ std::string fish(const CommandText& program) {
       text += fish_values(option) + " -d " + fish_quoted(summary(option.description)) + "\n";
     }
     for (const ArgumentText& argument : command.positional) {
-      const ValueKind kind = kind_of(argument);
-      if (kind != ValueKind::file && kind != ValueKind::one_of) continue;
-      const std::string values = kind == ValueKind::file ? " -F" : " -a " + fish_quoted(joined(argument.choices));
+      std::string values = may_be_file(argument) ? " -F" : "";
+      if (!argument.choices.empty()) values += " -a " + fish_quoted(fish_words(argument));
+      if (values.empty()) continue;
       text += fmt::format("complete -c calligraphy -n \"__calligraphy_at '{}'\"{}\n", command.name, values);
     }
   });
@@ -240,6 +301,15 @@ function __calligraphy_at
     end
     test "$at" = "$argv[1]"
 end
+# Files, after the beginning of a word.
+function __calligraphy_files
+    set -l word (commandline -ct)
+    string match -q -- "$argv[1]*" $word; or return
+    for file in (string replace -- $argv[1] '' $word)*
+        test -d $file; and set file $file/
+        printf '%s%s\n' $argv[1] $file
+    end
+end
 complete -c calligraphy -f
 )" + text;
 }
@@ -247,8 +317,9 @@ complete -c calligraphy -f
 }  // namespace
 
 std::string completion(const CommandText& program, const std::string& shell) {
-  if (shell == "bash") return bash(program);
-  return shell == "zsh" ? zsh(program) : fish(program);
+  const CommandText commands = with_commands_as_words(program);
+  if (shell == "bash") return bash(commands);
+  return shell == "zsh" ? zsh(commands) : fish(commands);
 }
 
 }  // namespace calligraphy::tools

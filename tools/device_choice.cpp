@@ -10,6 +10,7 @@
 #include <calligraphy/devices/device_profiles.hpp>
 #ifdef CALLIGRAPHY_WITH_PHANTOM
 #include <calligraphy/devices/phantom/phantom_device.hpp>
+#include <calligraphy/devices/phantom/wire_profile.hpp>
 #endif
 #ifdef CALLIGRAPHY_WITH_OPENHAPTICS
 #include <calligraphy/devices/openhaptics/openhaptics_device.hpp>
@@ -56,11 +57,15 @@ DeviceChoice device_choice(const std::string& text) {
 }
 
 void add_phantom_options(CLI::App& command, std::string& wire_profile, std::string& model) {
-  command
-      .add_option("--wire-profile", wire_profile,
-                  "Packet layout of a Phantom: the name of a shipped wire profile, or a file; see docs/wire-profile.md "
-                  "(default: environment variable CALLIGRAPHY_WIRE_PROFILE)")
-      ->type_name("NAME|FILE");
+  CLI::Option* const layout =
+      command
+          .add_option("--wire-profile", wire_profile,
+                      "Packet layout of a Phantom: the name of a shipped wire profile, or a file; see "
+                      "docs/wire-profile.md (default: environment variable CALLIGRAPHY_WIRE_PROFILE)")
+          ->type_name("NAME|FILE");
+#ifdef CALLIGRAPHY_WITH_PHANTOM
+  layout->check(such_as(phantom::wire_profile_names()));
+#endif
   command.add_option("--model", model, "Arm model of a Phantom (default: touch)")
       ->check(CLI::IsMember({"omni", "touch", "premium-1.5"}));
 }

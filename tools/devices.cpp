@@ -302,7 +302,9 @@ void add_devices(CLI::App& program) {
       "watch", "Show position, buttons and status of a device four times a second, without force.");
   watcher->footer("calligraphy devices watch phantom --wire-profile mine.profile --seconds 10");
   const auto watch_options = std::make_shared<WatchOptions>();
-  watcher->add_option("DEVICE", watch_options->device, "phantom[:SERIAL] or openhaptics[:NAME]")->required();
+  watcher->add_option("DEVICE", watch_options->device, "phantom[:SERIAL] or openhaptics[:NAME]")
+      ->required()
+      ->check(such_as({"phantom", "openhaptics"}));
   add_phantom_options(*watcher, watch_options->wire_profile, watch_options->model);
   watcher->add_option("--seconds", watch_options->seconds, "Duration, 0.1 to 86400 (default: until space, Esc or Ctrl-C)")
       ->check(number(0.1, 86400.0))

@@ -85,7 +85,7 @@ void add_page_options(CLI::App& command, PageChoice& page) {
 }
 
 CLI::Validator such_as(const std::vector<std::string>& values) {
-  return CLI::Validator([](std::string&) { return std::string(); }, fmt::format("{{{}}}", fmt::join(values, ",")));
+  return CLI::Validator([](std::string&) { return std::string(); }, fmt::format("{{{},...}}", fmt::join(values, ",")));
 }
 
 std::vector<std::string> profile_names() {
@@ -94,12 +94,18 @@ std::vector<std::string> profile_names() {
   return names;
 }
 
+std::vector<std::string> simulated_devices() {
+  std::vector<std::string> devices = profile_names();
+  for (const std::string& name : profile_names()) devices.push_back("simulated:" + name);
+  return devices;
+}
+
 std::string device_names() { return fmt::format("{}", fmt::join(profile_names(), ", ")); }
 
 CLI::Option* add_device_option(CLI::App& command, std::string& device) {
   return command.add_option("--device", device, "[simulated:]NAME, where NAME is one of " + device_names())
       ->capture_default_str()
-      ->check(such_as(profile_names()))
+      ->check(such_as(simulated_devices()))
       ->type_name("DEVICE");
 }
 

@@ -27,7 +27,7 @@ std::string character_label(char32_t code);
 /// The character, or "U+002F" if it is unsuitable for a file name.
 std::string name_in_file(char32_t code);
 
-/// Accepts everything; completion offers these values.
+/// Accepts everything; completion offers these values, and file names in place of the FILE in "replay:FILE".
 CLI::Validator such_as(const std::vector<std::string>& values);
 
 /// Adds --device [simulated:]NAME, whose default is the initial value of `device`.
@@ -49,6 +49,8 @@ void add_page_options(CLI::App& command, PageChoice& page);
 
 /// Names of all device profiles.
 std::vector<std::string> profile_names();
+/// What --device takes: each of them, and again with "simulated:" before it.
+std::vector<std::string> simulated_devices();
 /// The same as in "desktop, ideal".
 std::string device_names();
 

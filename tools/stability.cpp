@@ -143,7 +143,7 @@ void add_stability(CLI::App& program) {
   const auto add_number = [&](const char* name, auto& value, const char* help, const char* unit) {
     add(name, value, help, unit)->check(number(0.0, largest));
   };
-  add("--device", options->device, "Device profile: " + device_names(), "DEVICE")->check(such_as(profile_names()));
+  add("--device", options->device, "Device profile: " + device_names(), "DEVICE")->check(such_as(simulated_devices()));
   add_number("--mass", options->mass, "Apparent mass of the device at its tip", "KG");
   add_number("--damping", options->damping, "Viscous friction of the device", "N_S/M");
   add_number("--friction", options->friction, "Coulomb friction of the device (default: 0, or the device's)", "N");
@@ -153,7 +153,8 @@ void add_stability(CLI::App& program) {
   add("--delay", options->delay, "Age of a sample when it is read (default: 0, or the device's)", "TICKS")
       ->check(integer(0, 1000));
   add_number("--wall-damping", options->wall_damping, "Damping of the wall (default: 0)", "N_S/M");
-  add("--grip", options->grip, "Grip: soft, normal, firm or m,b,k [kg, N s/m, N/m] (default: none)", "GRIP");
+  add("--grip", options->grip, "Grip: soft, normal, firm or m,b,k [kg, N s/m, N/m] (default: none)", "GRIP")
+      ->check(such_as({"soft", "normal", "firm"}));
   add_out_directory(*command, options->out, "stability.json and stability.svg");
   command->add_flag("--quick", options->quick, "Only the sweeps of the map, on a coarser grid")
       ->disable_flag_override();

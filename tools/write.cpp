@@ -340,8 +340,8 @@ void add_write(CLI::App& program) {
   add_characters_option(*command, options->characters);
   command->add_option("--order", options->order, "Alternate stroke order (default: the standard one)")
       ->type_name("NAME");
-  std::vector<std::string> with_names = profile_names();
-  with_names.insert(with_names.end(), {"phantom", "openhaptics", "replay:"});
+  std::vector<std::string> with_names = simulated_devices();
+  with_names.insert(with_names.end(), {"phantom", "openhaptics", "replay:FILE"});
   command
       ->add_option("--device", options->device,
                    "[simulated:]NAME, where NAME is one of " + device_names() +

@@ -8,6 +8,7 @@ from program import ProgramTest
 
 COMMANDS = ["write", "strokes", "info", "tradeoff", "stability", "import", "validate", "replay", "devices", "help",
             "completion"]
+PROFILES = ["omni", "touch", "desktop", "premium-1.5", "ideal"]
 PAGES = [[], *([each] for each in COMMANDS), ["devices", "probe"], ["devices", "profile"], ["devices", "watch"]]
 
 
@@ -113,12 +114,16 @@ _calligraphy; printf '%s\\n' "${{COMPREPLY[@]}}" """
         self.assertEqual(done.stderr, "")
         return done.stdout.split()
 
-    def completed_by_fish(self, line):
+    def offered_by_fish(self, line):
+        """Words, with their descriptions after a tab."""
         script = f"""source '{self.made_by_the_build("calligraphy.fish")}'; complete -C '{line}'"""
         done = subprocess.run([self.program("fish"), "--no-config", "-c", script], capture_output=True, text=True,
                               cwd=self.directory, env={**os.environ, "HOME": str(self.directory)})
         self.assertEqual(done.stderr, "")
-        return [each.split("\t")[0] for each in done.stdout.splitlines()]
+        return done.stdout.splitlines()
+
+    def completed_by_fish(self, line):
+        return [each.split("\t")[0] for each in self.offered_by_fish(line)]
 
     def completed_by_zsh(self, line):
         """Its line editor, in a terminal of its own, inserts what is unambiguous."""
@@ -126,11 +131,21 @@ _calligraphy; printf '%s\\n' "${{COMPREPLY[@]}}" """
         script = (f"fpath=('{share}' $fpath); autoload -U compinit; compinit -u -D; PS1='>'; unsetopt zle_bracketed_paste; "
                   "finish() { print -r -- \"<<$BUFFER>>\"; exit; }; zle -N finish; bindkey '^X' finish; "
                   "bindkey '^I' complete-word; LISTMAX=1000; calligraphy() {}")
+        return self.typed(["zsh", "-f", "-i"], script, line)
+
+    def inserted_by_bash(self, line):
+        """As zsh; so it is tested where bash divides words."""
+        script = (f"""source '{self.made_by_the_build("calligraphy")}'; PS1='>'; bind 'set bell-style none'; """
+                  """finish() { printf '<<%s>>\\n' "$READLINE_LINE"; exit; }; bind -x '"\C-t": finish'""")
+        return self.typed(["bash", "--norc", "-i"], script, line, end="\x14")
+
+    def typed(self, shell, script, line, end="\x18"):
+        """The line of this shell, in a terminal of its own, after a tab; `end` is the key that prints it."""
         ours, theirs = pty.openpty()
-        running = subprocess.Popen([self.program("zsh"), "-f", "-i"], stdin=theirs, stdout=theirs, stderr=theirs,
+        running = subprocess.Popen([self.program(shell[0]), *shell[1:]], stdin=theirs, stdout=theirs, stderr=theirs,
                                    cwd=self.directory, start_new_session=True, env={**os.environ, "TERM": "dumb"})
         os.close(theirs)
-        os.write(ours, f"{script}\n{line}\t\x18".encode())
+        os.write(ours, f"{script}\n{line}\t{end}".encode())
         seen = b""
         try:
             while part := os.read(ours, 10000):
@@ -151,18 +166,54 @@ _calligraphy; printf '%s\\n' "${{COMPREPLY[@]}}" """
                             ("calligraphy write --mode =", ["both", "vision", "force"]),
                             ("calligraphy write --device pre", ["premium-1.5"]),
                             ("calligraphy write 永 --out ", ["dirnames"]), ("calligraphy import han", ["default"]),
-                            ("calligraphy devices profile om", ["omni"]), ("calligraphy completion z", ["zsh"])):
+                            ("calligraphy devices profile om", ["omni"]), ("calligraphy completion z", ["zsh"]),
+                            ("calligraphy help wr", ["write"]), ("calligraphy help devices pr", ["probe", "profile"]),
+                            ("calligraphy help write ", []), ("calligraphy help write --m", ["--man"]),
+                            ("calligraphy devices watch ", ["phantom", "openhaptics"]),
+                            ("calligraphy write --wire-profile ", ["filenames", "omni", "simulated", "hanzi.set"]),
+                            ("calligraphy write --device simul", [f"simulated:{name}" for name in PROFILES]),
+                            ("calligraphy replay --device simulated :", PROFILES),
+                            ("calligraphy replay --device simulated : o", ["omni"]),
+                            ("calligraphy replay --device = simulated : o", ["omni"]),
+                            ("calligraphy write --device rep", ["nospace", "replay:"]),
+                            ("calligraphy write --device replay :", ["default"]),
+                            ("calligraphy stability --grip ", ["soft", "normal", "firm"])):
             with self.subTest(line=line):
                 self.assertEqual(self.completed_by_bash(line), words)
+
+    def test_bash_inserts_what_follows_a_colon(self):
+        (self.directory / "hanzi.set").write_text("")
+        for line, completed in (("calligraphy write --device simul", "calligraphy write --device simulated:"),
+                                ("calligraphy write --device simulated:o",
+                                 "calligraphy write --device simulated:omni "),
+                                ("calligraphy write --device=simulated:o",
+                                 "calligraphy write --device=simulated:omni "),
+                                ("calligraphy write --device rep", "calligraphy write --device replay:"),
+                                ("calligraphy write --device replay:", "calligraphy write --device replay:hanzi.set "),
+                                ("calligraphy write --device replay:h", "calligraphy write --device replay:hanzi.set "),
+                                ("calligraphy write --wire-profile h", "calligraphy write --wire-profile hanzi.set "),
+                                ("calligraphy write --mode=f", "calligraphy write --mode=force ")):
+            with self.subTest(line=line):
+                self.assertEqual(self.inserted_by_bash(line), completed)
 
     def test_fish_completes_commands_options_and_values(self):
         (self.directory / "hanzi.set").write_text("")
         for line, words in (("calligraphy wr", ["write"]), ("calligraphy devices pro", ["probe", "profile"]),
                             ("calligraphy write 永 --mo", ["--mode", "--model", "--motion-scale"]),
                             ("calligraphy write --mode f", ["force"]), ("calligraphy import han", ["hanzi.set"]),
-                            ("calligraphy completion z", ["zsh"])):
+                            ("calligraphy completion z", ["zsh"]), ("calligraphy help wr", ["write"]),
+                            ("calligraphy help devices pr", ["probe", "profile"]), ("calligraphy help write ", []),
+                            ("calligraphy devices watch ", ["openhaptics", "phantom"]),
+                            ("calligraphy write --wire-profile ", ["hanzi.set", "omni", "simulated"]),
+                            ("calligraphy write --device simulated:o", ["simulated:omni"]),
+                            ("calligraphy write --device replay:", ["replay:", "replay:hanzi.set"]),
+                            ("calligraphy stability --grip ", ["firm", "normal", "soft"])):
             with self.subTest(line=line):
                 self.assertEqual(self.completed_by_fish(line), words)
+
+    def test_fish_does_not_repeat_the_description_of_an_option_with_each_value(self):
+        self.assertRegex(self.offered_by_fish("calligraphy write --mod")[0], r"\A--mode\tVision only")
+        self.assertEqual(self.offered_by_fish("calligraphy write --mode "), ["both", "force", "vision"])
 
     def test_zsh_completes_commands_options_and_values(self):
         (self.directory / "hanzi.set").write_text("")
@@ -172,6 +223,17 @@ _calligraphy; printf '%s\\n' "${{COMPREPLY[@]}}" """
                                 ("calligraphy devices prof", "calligraphy devices profile "),
                                 ("calligraphy import han", "calligraphy import hanzi.set "),
                                 ("calligraphy devices profile om", "calligraphy devices profile omni "),
-                                ("calligraphy completion f", "calligraphy completion fish ")):
+                                ("calligraphy completion f", "calligraphy completion fish "),
+                                ("calligraphy help wr", "calligraphy help write "),
+                                ("calligraphy help devices prof", "calligraphy help devices profile "),
+                                ("calligraphy devices watch ph", "calligraphy devices watch phantom "),
+                                ("calligraphy write --wire-profile om", "calligraphy write --wire-profile omni "),
+                                ("calligraphy write --wire-profile h", "calligraphy write --wire-profile hanzi.set "),
+                                ("calligraphy write --device simul", "calligraphy write --device simulated:"),
+                                ("calligraphy write --device simulated:o",
+                                 "calligraphy write --device simulated:omni "),
+                                ("calligraphy write --device rep", "calligraphy write --device replay:"),
+                                ("calligraphy write --device replay:", "calligraphy write --device replay:hanzi.set "),
+                                ("calligraphy stability --grip s", "calligraphy stability --grip soft ")):
             with self.subTest(line=line):
                 self.assertEqual(self.completed_by_zsh(line), completed)
