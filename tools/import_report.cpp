@@ -16,13 +16,6 @@
 namespace calligraphy::tools {
 namespace {
 
-/// Replaces control characters, so that a file name cannot control the terminal.
-std::string printable(std::string text) {
-  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
-  std::replace_if(text.begin(), text.end(), is_control, '?');
-  return text;
-}
-
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t max_examples = 10;  // in a table; the JSON has all

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/base/text.hpp>
 
 namespace calligraphy {
 namespace {
@@ -14,7 +15,10 @@ constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
 std::string in_quotes(std::string_view text) {
   constexpr std::size_t most = 60;
-  return "'" + std::string(text.substr(0, most)) + (text.size() > most ? "..." : "") + "'";
+  if (text.size() <= most) return "'" + printable(text) + "'";
+  std::size_t end = most;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // not within a character
+  return "'" + printable(text.substr(0, end)) + "...'";
 }
 
 bool LineReader::next() {
@@ -47,7 +51,7 @@ bool LineReader::next_whole() {
   const bool found = next();
   if (found && in_.eof()) {
     constexpr std::size_t most = 40;
-    fail("the file is truncated after '" + line_.substr(line_.size() - std::min(line_.size(), most)) + "'");
+    fail("the file is truncated after '" + printable(line_.substr(line_.size() - std::min(line_.size(), most))) + "'");
   }
   return found;
 }

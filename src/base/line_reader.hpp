@@ -17,7 +17,7 @@ enum class LineKind {
   verbatim,  ///< text, trailing blanks and all
 };
 
-/// The text as a message shows it, shortened: a file that is no text may be a single line of any length.
+/// The text as a message shows it, printable and shortened: a file that is no text may be a single line of any length.
 std::string in_quotes(std::string_view text);
 
 /// Base of the parsers of text formats: reads lines that end with "\n" or "\r\n"; a byte order mark is skipped.

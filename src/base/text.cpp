@@ -31,4 +31,20 @@ std::string encode_utf8(char32_t code) {
   return text;
 }
 
+std::string printable(std::string_view text) {
+  std::string shown;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::string_view rest = text.substr(at);
+    const auto valid = static_cast<std::size_t>(
+        std::distance(rest.begin(), utf8::find_invalid(rest.begin(), rest.end())));
+    for (const char32_t code : decode_utf8(rest.substr(0, valid))) {
+      const bool is_control = code < 0x20 || (code >= 0x7F && code < 0xA0);
+      shown += is_control ? "?" : encode_utf8(code);
+    }
+    at += valid;
+    if (at < text.size()) shown += '?', ++at;
+  }
+  return shown;
+}
+
 }  // namespace calligraphy

@@ -21,6 +21,7 @@
 #include <calligraphy/importers/stroke_warnings.hpp>
 #include <calligraphy/model/character_set.hpp>
 
+#include "base/archive_format.hpp"
 #include "base/charconv.hpp"
 #include "base/parallel.hpp"
 #include "base/require.hpp"
@@ -350,12 +351,11 @@ bool is_own_format(const fs::path& source) {
   std::error_code failure;
   if (!fs::is_regular_file(source, failure)) return false;
   std::ifstream in(source, std::ios::binary);
-  std::string start(262, '\0');
+  std::string start(archive_start, '\0');
   in.read(start.data(), static_cast<std::streamsize>(start.size()));
   start.resize(static_cast<std::size_t>(in.gcount()));
-  const bool is_gzip = start.starts_with("\x1F\x8B");
-  const bool is_tar = start.ends_with("ustar") && start.size() == 262;
-  return !is_gzip && !is_tar;
+  const std::string_view archive = archive_format(start);
+  return archive != "gzip" && archive != "tar";
 }
 
 ImportResult import_own_format(const fs::path& source, const ImportOptions& options) {

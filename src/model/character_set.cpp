@@ -5,6 +5,7 @@
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/model/set_encoding.hpp>
 
+#include "base/archive_format.hpp"
 #include "set_file.hpp"
 
 namespace calligraphy {
@@ -13,6 +14,15 @@ namespace {
 /// A file that begins like this is a set file, possibly damaged: no text begins like this.
 bool begins_like_a_set_file(std::span<const std::byte> bytes) {
   return !bytes.empty() && bytes[0] == static_cast<std::byte>(set_format::magic[0]);
+}
+
+/// @throws FormatError if the file is an archive, whose bytes tell a reader nothing
+void check_is_no_archive(std::span<const std::byte> bytes, const std::string& path) {
+  const std::string_view format = archive_format({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  if (format.empty()) return;
+  throw FormatError(path + ": is " + (format == "tar" ? "an archive" : "a compressed archive") + " (" +
+                    std::string(format) +
+                    "), not a character file; `calligraphy import` converts collections, as directories or tarballs");
 }
 
 }  // namespace
@@ -26,6 +36,7 @@ CharacterSet::CharacterSet(const CharacterList& list)
 
 CharacterSet CharacterSet::open(const std::string& path) {
   auto file = std::make_unique<const MappedFile>(path);
+  check_is_no_archive(file->bytes(), path);
   if (!begins_like_a_set_file(file->bytes())) return CharacterSet(read_characters(path));
   return CharacterSet(Layers{std::make_shared<const SetFile>(std::move(file), path)});
 }

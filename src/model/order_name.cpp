@@ -23,10 +23,8 @@ bool is_order_name(std::string_view name) noexcept {
 
 void check_order_name(std::string_view name) {
   if (is_order_name(name)) return;
-  std::string quoted(name.substr(0, 60));
-  std::replace_if(quoted.begin(), quoted.end(), is_control, '?');
   throw ValueError(
-      "'" + quoted +
+      "'" + printable(name.substr(0, 60)) +
       "' is not a valid name of a stroke order: expected 1 to 255 bytes of UTF-8 without control characters, '#' and "
       "blanks at the ends");
 }

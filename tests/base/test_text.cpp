@@ -61,4 +61,12 @@ TEST_CASE("text is UTF-8 only when all of it is", "[base]") {
   CHECK_FALSE(is_utf8("\xC3"));
 }
 
+TEST_CASE("what a terminal would take for a command, or not understand, is shown as a question mark", "[base]") {
+  CHECK(printable("").empty());
+  CHECK(printable("p\xC3\xA4per \xE6\xB0\xB8") == "p\xC3\xA4per \xE6\xB0\xB8");
+  CHECK(printable(std::string("\0\n\x1B[1m\x7F", 7)) == "???[1m?");
+  CHECK(printable("a\xC2\x9B") == "a?");  // a control character of two bytes
+  CHECK(printable("\xFFp\xE4per\xE6\xB0") == "?p?per??");
+}
+
 }  // namespace text_tests

@@ -1,3 +1,4 @@
+import gzip
 import json
 import os
 import subprocess
@@ -137,6 +138,19 @@ class Refusals(ProgramTest):
         self.assert_refused(2, ["info", file, "北", "--characters", file], "--characters: cannot be combined with FILE")
         self.assert_refused(2, ["info", file, "--characters", file], "--characters: cannot be combined with FILE")
         self.assert_refused(2, ["info", "--paper-example", "--order", "x"], "--paper-example: ", "--order")
+
+    def test_a_file_that_is_no_text_is_told_in_printable_words(self):
+        tar = bytes(257) + b"ustar" + bytes(300)
+        for name, content, kind in (("x.tgz", gzip.compress(b"text"), "a compressed archive (gzip)"),
+                                    ("x.zip", b"PK\x03\x04\0\0", "a compressed archive (zip)"),
+                                    ("x.tar", tar, "an archive (tar)")):
+            (self.directory / name).write_bytes(content)
+            for arguments in (["info", name], ["info", name, "永"], ["info", "永", "--characters", name]):
+                self.assert_refused(1, arguments, f"{name}: is {kind}", "`calligraphy import` converts collections")
+        (self.directory / "binary").write_bytes(b"\0\x9b1m\xff" + "永\u009b".encode() + b"\x7f")
+        self.assert_refused(1, ["info", "binary"], "binary:1: expected 'calligraphy characters 1', found '??1m?永??'\n")
+        (self.directory / "long").write_text("ab" + 30 * "永")
+        self.assert_refused(1, ["info", "long"], "found 'ab" + 19 * "永" + "...'\n")
 
     def test_a_file_without_characters_is_an_error_as_it_is_for_validate(self):
         (self.directory / "head.txt").write_text("calligraphy characters 1\nsource mine\n")

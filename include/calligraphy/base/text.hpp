@@ -14,4 +14,7 @@ std::u32string decode_utf8(std::string_view text);
 /// UTF-8 of one code point. @throws ValueError if it is a surrogate or above U+10FFFF
 std::string encode_utf8(char32_t code);
 
+/// The text with '?' for every control character and every byte that is not UTF-8, for a terminal.
+std::string printable(std::string_view text);
+
 }  // namespace calligraphy

@@ -1,0 +1,21 @@
+// Recognises archives, which are read in place of character files by mistake.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+namespace calligraphy {
+
+/// As many bytes of a file are needed to recognise it.
+inline constexpr std::size_t archive_start = 262;
+
+/// "gzip", "zip" or "tar", by the first bytes of a file; empty: it is none of these.
+inline std::string_view archive_format(std::string_view start) noexcept {
+  constexpr std::string_view tar = "ustar";
+  if (start.starts_with("\x1F\x8B")) return "gzip";
+  if (start.starts_with("PK\x03\x04")) return "zip";
+  const bool is_tar = start.size() >= archive_start && start.substr(archive_start - tar.size(), tar.size()) == tar;
+  return is_tar ? "tar" : "";
+}
+
+}  // namespace calligraphy
