@@ -11,6 +11,7 @@
 
 #include <calligraphy/base/text.hpp>
 
+#include "counted.hpp"
 #include "options.hpp"
 
 namespace calligraphy::tools {
@@ -80,10 +81,10 @@ std::string id_table(const ImportReport& report) {
 std::string label_table(const ImportReport& report) {
   if (report.labelled == 0 && report.label_conflicts.empty()) return {};
   std::string text =
-      fmt::format("\nlabels: {} of {} strokes recognised by geometry alone agree with their label ({:.2f} %)\n",
-                  report.agreed, report.labelled, percent * share(report.agreed, report.labelled));
+      fmt::format("\nlabels: of {}, geometry alone recognises {} as labelled ({:.2f} %)\n",
+                  counted(report.labelled, "stroke"), report.agreed, percent * share(report.agreed, report.labelled));
   text +=
-      fmt::format("  of the others, {} labels were accepted and {} overridden by the shape; {} labels are unknown\n",
+      fmt::format("  labels of the others: {} accepted, {} overridden by the shape, {} unknown\n",
                   count_of(report, LabelResolution::accepted), count_of(report, LabelResolution::overridden),
                   count_of(report, LabelResolution::unknown));
   for (std::size_t i = 0; i < std::min(report.confusions.size(), max_examples); ++i) {
@@ -92,8 +93,8 @@ std::string label_table(const ImportReport& report) {
                         typical_name(confusion.recognised), stroke_reference_text(confusion.example));
   }
   if (!report.letters_unused.empty()) {
-    text += fmt::format("  {} characters whose letters do not match their stroke count: letters ignored\n",
-                        report.letters_unused.size());
+    text += fmt::format("  letters of {} ignored: they do not match the stroke count\n",
+                        counted(report.letters_unused.size(), "character"));
   }
   return text;
 }
@@ -179,6 +180,26 @@ Json skipped_json(const ImportReport& report) {
 
 }  // namespace
 
+Contents contents_of(const CharacterList& list) {
+  Contents contents;
+  for (std::size_t i = 0; i < list.characters.size(); ++i) {
+    const Character& character = list.characters[i];
+    if (i > 0 && list.characters[i - 1].code == character.code) {
+      ++contents.alternate_orders;
+    } else {
+      ++contents.characters;
+      contents.strokes += character.stroke_count();
+    }
+  }
+  return contents;
+}
+
+std::string to_string(const Contents& contents) {
+  const std::string text = counted(contents.characters, "character") + ", " + counted(contents.strokes, "stroke");
+  if (contents.alternate_orders == 0) return text;
+  return text + ", " + counted(contents.alternate_orders, "alternate stroke order");
+}
+
 std::string character_label(char32_t code, const std::string& order) {
   return order.empty() ? character_label(code) : character_label(code) + " order " + order;
 }
@@ -187,8 +208,8 @@ std::string tables(const ImportResult& import, const ImportOutput& output) {
   const ImportReport& report = import.report;
   const Provenance& provenance = import.list.provenance;
   const bool fitted = report.kind != SourceKind::calligraphy;
-  return fmt::format("{} ({}, {} bytes): {} characters, {} strokes from {}\n", output.file, output.format, output.bytes,
-                     report.characters, report.strokes, calligraphy::to_string(report.kind)) +
+  return fmt::format("{} ({}, {} bytes): {} from {}\n", output.file, output.format, output.bytes,
+                     to_string(contents_of(import.list)), calligraphy::to_string(report.kind)) +
          fmt::format("source: {}\nlicence: {}\nattribution: {}\n", provenance.source, provenance.licence,
                      provenance.attribution) +
          (fitted ? fit_table(report) : "") + id_table(report) + label_table(report) + skipped_table(report);
@@ -197,6 +218,7 @@ std::string tables(const ImportResult& import, const ImportOutput& output) {
 std::string json(const ImportResult& import, const ImportOutput& output) {
   const ImportReport& report = import.report;
   const Provenance& provenance = import.list.provenance;
+  const Contents contents = contents_of(import.list);
   Json all = {{"file", output.file},
               {"format", output.format},
               {"bytes", output.bytes},
@@ -204,8 +226,9 @@ std::string json(const ImportResult& import, const ImportOutput& output) {
               {"source", provenance.source},
               {"licence", provenance.licence},
               {"attribution", provenance.attribution},
-              {"characters", report.characters},
-              {"strokes", report.strokes}};
+              {"characters", contents.characters},
+              {"strokes", contents.strokes},
+              {"alternate_orders", contents.alternate_orders}};
   if (report.kind != SourceKind::calligraphy) {
     all["within"] = fit_json(report.within, report);
     all["within_median"] = fit_json(report.within_median, report);

@@ -13,6 +13,7 @@
 
 #include "character_source.hpp"
 #include "commands.hpp"
+#include "counted.hpp"
 #include "import_report.hpp"
 #include "options.hpp"
 #include "progress.hpp"
@@ -38,8 +39,7 @@ struct Finding {
 };
 
 struct Findings {
-  int characters = 0;
-  int strokes = 0;
+  Contents contents;
   std::vector<Finding> list;
 };
 
@@ -59,7 +59,7 @@ Findings findings(const ValidateArguments& options) {
   asked.progress = [&progress](double share) { progress.show(0.5 * share); };
   const ImportResult import = import_source(options.file, asked);
   warn_of_missing(asked.only, import.list, options.file);
-  Findings found{import.report.characters, import.report.strokes, {}};
+  Findings found{contents_of(import.list), {}};
   for (const LabelConflict& conflict : import.report.label_conflicts) {
     found.list.push_back({conflict.place, "label", words_for(conflict)});
   }
@@ -82,7 +82,10 @@ std::string listed_as_json(const Findings& findings) {
                         {"kind", finding.kind},
                         {"what", finding.what}});
   }
-  const Json all = {{"characters", findings.characters}, {"strokes", findings.strokes}, {"warnings", warnings}};
+  const Json all = {{"characters", findings.contents.characters},
+                    {"strokes", findings.contents.strokes},
+                    {"alternate_orders", findings.contents.alternate_orders},
+                    {"warnings", warnings}};
   return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -92,8 +95,7 @@ std::string listed(const Findings& findings) {
     text += fmt::format("{} stroke {}: {}: {}\n", character_label(finding.place.code, finding.place.order),
                         finding.place.stroke, finding.kind, finding.what);
   }
-  return text + fmt::format("{} warnings in {} characters, {} strokes\n", findings.list.size(), findings.characters,
-                            findings.strokes);
+  return text + counted(findings.list.size(), "warning") + " in " + to_string(findings.contents) + "\n";
 }
 
 void run(const ValidateArguments& options) {
@@ -121,7 +123,8 @@ void add_validate(CLI::App& program) {
   command->add_option("--threads", options->threads, "Threads (default: one per core)")
       ->check(integer(1, 256))
       ->type_name("N");
-  command->add_flag("--json", options->json, "Print JSON: characters, strokes, and a list of warnings")
+  command
+      ->add_flag("--json", options->json, "Print JSON: characters, strokes, alternate orders, and a list of warnings")
       ->disable_flag_override();
   command->callback([options] { run(*options); });
 }

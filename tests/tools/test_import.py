@@ -16,8 +16,8 @@ from program import ProgramTest
 
 HENG = '<path kvg:type="㇐" d="M10,50c30,0,60,-1,90,-2"/>'
 SHU = '<path kvg:type="㇑" d="M50,10c0,30,0,60,0,85"/>'
-FIELDS = {"file", "format", "bytes", "kind", "source", "licence", "attribution", "characters", "strokes", "within",
-          "within_median", "worst", "labels", "ids_used", "skipped", "notes"}
+FIELDS = {"file", "format", "bytes", "kind", "source", "licence", "attribution", "characters", "strokes",
+          "alternate_orders", "within", "within_median", "worst", "labels", "ids_used", "skipped", "notes"}
 
 
 def svg(content=HENG, head=""):
@@ -113,8 +113,8 @@ class ImportResult(ImportTest):
     def test_the_tables_contain_what_the_json_contains(self):
         self.tar(member("package/04e00.svg", svg(HENG + SHU.replace("㇑", "㇒"))), member("package/03042.svg", svg()))
         done = self.run_program("import", "source.tgz", "-o", "out.txt")
-        for words in ("1 characters, 2 strokes from KanjiVG", "Attribution-Share Alike", "Ulrich Apel", "100.00 %",
-                      "一 (U+4E00) stroke 1", "横", "1 of 2 strokes recognised", "㇒ looks like 2 竖",
+        for words in ("1 character, 2 strokes from KanjiVG", "Attribution-Share Alike", "Ulrich Apel", "100.00 %",
+                      "一 (U+4E00) stroke 1", "横", "of 2 strokes, geometry alone recognises 1", "㇒ looks like 2 竖",
                       "not an ideograph: package/03042.svg", "note: "):
             self.assertIn(words, done.stdout)
         self.assertEqual(done.stderr, "", "no progress bar in a pipe")
@@ -135,7 +135,7 @@ class ImportResult(ImportTest):
             done = subprocess.run([os.environ["CALLIGRAPHY_PROGRAM"], "import", "data", "-o", "-", *asked],
                                   cwd=self.directory, capture_output=True, check=True)
             self.assertEqual(done.stdout, (self.directory / "out").read_bytes())
-            self.assertIn(b"1 characters, 2 strokes", done.stderr)
+            self.assertIn(b"1 character, 2 strokes", done.stderr)
         self.assertEqual(self.files(), ["data", "data/05341.svg", "out"])
         self.assert_refused(2, ["import", "data", "-o", "-", "--json"], "--json")
 
@@ -147,6 +147,19 @@ class ImportResult(ImportTest):
         self.run_program("import", "exact.set", "-o", "second.txt", "--format", "text")
         self.assertEqual((self.directory / "first.txt").read_bytes(), (self.directory / "second.txt").read_bytes())
         self.run_program("write", "十", "--characters", "exact.set", "--out", "out", "--mode", "force")
+
+    def test_alternate_orders_are_counted_as_info_counts_them(self):
+        self.write("data/05341.svg", svg(HENG + SHU))
+        self.write("data/05341-VtFst.svg", svg(SHU + HENG))
+        self.write("data/04e00-Kaisho.svg", svg(HENG))  # has no standard order
+        done = self.run_program("import", "data", "-o", "out.txt", "--alternates")
+        self.assertIn(": 2 characters, 3 strokes, 1 alternate stroke order from KanjiVG\n", done.stdout)
+        imported = self.report("data", "--alternates")
+        told = json.loads(self.run_program("info", "out.txt", "--json").stdout)
+        for count in ("characters", "strokes", "alternate_orders"):
+            self.assertEqual(imported[count], told[count])
+        self.assertRegex(self.run_program("info", "out.txt").stdout,
+                         r"Characters +2\nStrokes +3\nAlternate stroke orders +1\n")
 
     def test_a_coarser_precision_makes_a_smaller_set_with_a_larger_error(self):
         for code in range(0x4e00, 0x4e40):

@@ -29,7 +29,11 @@ class Validate(ProgramTest):
 
     def test_a_file_without_suspicious_strokes_has_no_warnings(self):
         self.write("character 一\nstroke 1 0.1,0.5 0.9,0.5\n")
-        self.assertEqual(self.run_program("validate", "own.txt").stdout, "0 warnings in 1 characters, 1 strokes\n")
+        self.assertEqual(self.run_program("validate", "own.txt").stdout, "0 warnings in 1 character, 1 stroke\n")
+        self.write("character 一\nstroke 1 0.1,0.5 0.9,0.5\n"
+                   "character 一 order a\nstroke 1 0.1,0.5 0.9,0.5\ncharacter 一 order b\nstroke 1 0.9,0.7 0.1,0.7\n")
+        self.assertEqual(self.run_program("validate", "own.txt").stdout.splitlines()[-1],
+                         "1 warning in 1 character, 1 stroke, 2 alternate stroke orders")
 
     def test_known_faults_of_kanjivg_are_listed(self):
         package = self.package("CALLIGRAPHY_KANJIVG_TARBALL")
