@@ -6,6 +6,8 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdlib>
+#include <string>
 #include <system_error>
 
 #include <calligraphy/base/error.hpp>
@@ -21,6 +23,7 @@ std::string reason(const fs::path& at, int error) {
   if (error == EEXIST && fs::is_symlink(at, failure)) {
     return at.string() + " is a link to " + fs::read_symlink(at, failure).string() + ", which is not a directory";
   }
+  if (error == EEXIST) return at.string() + " is a file and not a directory";
   return std::generic_category().message(error);
 }
 
@@ -30,7 +33,7 @@ OutputDirectory::OutputDirectory(const fs::path& path) : path_(fs::absolute(path
   try {
     create(path);
     lock(path);
-    check_can_write(path_ / "a new file");
+    check_writable(path);
   } catch (const fs::filesystem_error& error) {
     release();
     throw FileError(path.string() + ": " + error.code().message());
@@ -61,6 +64,16 @@ void OutputDirectory::lock(const fs::path& path) {
   if (lock_ < 0 || flock(lock_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
   created_.clear();  // the other run's to remove
   throw FileError(path.string() + ": another run is writing there: wait for its end, or choose another directory");
+}
+
+void OutputDirectory::check_writable(const fs::path& path) const {
+  std::string name = (path_ / "new-XXXXXX").string();
+  const int file = mkstemp(name.data());
+  if (file < 0) {
+    throw FileError(path.string() + ": the directory is not writable: " + std::generic_category().message(errno));
+  }
+  close(file);
+  unlink(name.c_str());
 }
 
 void OutputDirectory::write(const fs::path& name, std::string_view content) const { write_file(path_ / name, content); }

@@ -24,6 +24,7 @@ class OutputDirectory {
  private:
   void create(const std::filesystem::path& path);
   void lock(const std::filesystem::path& path);
+  void check_writable(const std::filesystem::path& path) const;
   void release() noexcept;
 
   std::filesystem::path path_;
