@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <calligraphy/importers/character_import.hpp>
 #include <calligraphy/model/set_encoding.hpp>
 
 #include "character_source.hpp"

@@ -281,7 +281,8 @@ void add_info(CLI::App& program) {
   CLI::App* const command = program.add_subcommand(
       "info",
       "Print what a character file or a character consists of. Of a file: contents, source and licence; with TEXT, the "
-      "data structure of its characters (Wang 2006, Table 3). FILE is a set file or a file in the text format; a first argument that names no file is TEXT.");
+      "data structure of its characters (Wang 2006, Table 3). FILE is a set file or a file in the text format; a first argument "
+      "that names no file is TEXT.");
   command->footer(
       "calligraphy info 永\n"
       "calligraphy info hanzi.set\n"

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <calligraphy/base/text.hpp>
+#include <calligraphy/importers/character_import.hpp>
 #include <calligraphy/importers/stroke_warnings.hpp>
 
 #include "character_source.hpp"

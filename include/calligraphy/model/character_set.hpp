@@ -111,7 +111,7 @@ class CharacterSet {
 
   /// Number of characters. O(index) for one set, O(characters) for layered ones.
   std::size_t size() const noexcept;
-  /// Size of all layers together [byte].
+  /// Size of all layers together [byte]; of characters in memory or in the text format, that of their encoding.
   std::size_t bytes() const noexcept;
   /// Provenance of each layer.
   std::vector<Provenance> provenances() const;
