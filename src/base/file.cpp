@@ -7,6 +7,7 @@
 #include <random>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include <calligraphy/base/error.hpp>
 
@@ -29,6 +30,13 @@ struct CloseFile {
   void operator()(std::FILE* file) const noexcept { std::fclose(file); }
 };
 using File = std::unique_ptr<std::FILE, CloseFile>;
+
+void write_and_close(File file, const fs::path& path, std::string_view content) {
+  errno = 0;
+  const bool written = std::fwrite(content.data(), 1, content.size(), file.get()) == content.size();
+  if (!written || std::fflush(file.get()) != 0) fail(path, reason_of(errno));
+  if (std::fclose(file.release()) != 0) fail(path, reason_of(errno));
+}
 
 /// A new, empty file beside the target, removed unless it is renamed.
 class TemporaryFile {
@@ -54,12 +62,7 @@ class TemporaryFile {
     if (!renamed_) fs::remove(path_, ignored);
   }
 
-  void write(std::string_view content) {
-    errno = 0;
-    const bool written = std::fwrite(content.data(), 1, content.size(), file_.get()) == content.size();
-    if (!written || std::fflush(file_.get()) != 0) fail(target_, reason_of(errno));
-    if (std::fclose(file_.release()) != 0) fail(target_, reason_of(errno));
-  }
+  void write(std::string_view content) { write_and_close(std::move(file_), target_, content); }
 
   void take_permissions(fs::perms permissions) {
     std::error_code error;
@@ -81,6 +84,20 @@ class TemporaryFile {
   bool renamed_ = false;
 };
 
+/// A pipe or a character device. Also behind a link to no path, as /dev/fd/63 of a shell's >(command) is.
+bool is_stream(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  return fs::is_fifo(status) || fs::is_character_file(status);
+}
+
+void write_to_stream(const fs::path& path, std::string_view content) {
+  errno = 0;
+  File file(std::fopen(path.string().c_str(), "wb"));
+  if (!file) fail(path, reason_of(errno));
+  write_and_close(std::move(file), path, content);
+}
+
 /// The file to write for this path: the target of a link, because renaming onto the link would replace it.
 fs::path target_of(const fs::path& path) {
   std::error_code error;
@@ -94,6 +111,7 @@ fs::path target_of(const fs::path& path) {
 }  // namespace
 
 void write_file(const fs::path& path, std::string_view content) {
+  if (is_stream(path)) return write_to_stream(path, content);
   const fs::path target = target_of(path);
   std::error_code error;
   const fs::file_status before = fs::status(target, error);
@@ -103,7 +121,9 @@ void write_file(const fs::path& path, std::string_view content) {
   file.rename();
 }
 
-void check_can_write(const fs::path& path) { TemporaryFile(target_of(path)).write(""); }
+void check_can_write(const fs::path& path) {
+  if (!is_stream(path)) TemporaryFile(target_of(path)).write("");
+}
 
 std::ifstream open_file(const fs::path& path, std::uintmax_t max_bytes) {
   std::error_code failure;

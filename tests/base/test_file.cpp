@@ -1,4 +1,5 @@
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -6,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <thread>
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/file.hpp>
@@ -114,6 +116,38 @@ TEST_CASE("a path that cannot be written is an error that names path and reason"
   CHECK(error_of(directory.path, "new") ==
         directory.path.string() + ": cannot be written: it exists and is not a regular file");
   CHECK(content(directory.path / "file") == "old");
+  CHECK(directory.entries() == 1);
+}
+
+TEST_CASE("a pipe and a character device are written to and stay what they are", "[practice]") {
+  const Directory directory;
+  const fs::path pipe = directory.path / "pipe";
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  std::string received;
+  std::thread reader([&] { received = content(pipe); });
+  check_can_write(pipe);
+  write_file(pipe, "text");
+  reader.join();
+  CHECK(received == "text");
+  CHECK(fs::is_fifo(pipe));
+
+  int ends[2] = {};
+  REQUIRE(::pipe(ends) == 0);
+  const std::string shells_name = "/dev/fd/" + std::to_string(ends[1]);
+  check_can_write(shells_name);
+  write_file(shells_name, "text");
+  std::string bytes(4, '\0');
+  CHECK(read(ends[0], bytes.data(), bytes.size()) == 4);
+  CHECK(bytes == "text");
+  close(ends[0]);
+  close(ends[1]);
+
+  check_can_write("/dev/null");
+  CHECK(error_of("/dev/null", "text") == "");
+  CHECK(fs::is_character_file("/dev/null"));
+#ifdef __linux__
+  CHECK(error_of("/dev/full", "text") == "/dev/full: cannot be written: No space left on device");
+#endif
   CHECK(directory.entries() == 1);
 }
 

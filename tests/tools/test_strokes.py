@@ -1,3 +1,4 @@
+import os
 import xml.etree.ElementTree as xml
 
 from program import ProgramTest
@@ -18,6 +19,15 @@ class Strokes(ProgramTest):
         self.run_program("strokes", "-o", "strokes.svg")
         self.assertEqual(self.run_program("strokes", "-o", "-").stdout, (self.directory / "strokes.svg").read_text())
         self.assertEqual(self.files(), ["strokes.svg"])
+
+    def test_a_device_or_a_pipe_is_written_to(self):
+        picture = self.run_program("strokes", "-o", "-").stdout
+        self.run_program("strokes", "-o", "/dev/null")
+        self.assertTrue(os.stat("/dev/null").st_rdev)
+        self.assertEqual(self.run_program("strokes", "-o", "/dev/stdout").stdout, picture)
+        self.assertEqual(self.files(), [])
+        (self.directory / "directory").mkdir()
+        self.assert_refused(1, ["strokes", "-o", "directory"], "directory", "not a regular file")
 
     def test_an_unwritable_output_file_is_named(self):
         self.assert_refused(1, ["strokes", "--out", "none/strokes.svg"], "none/strokes.svg")

@@ -11,11 +11,13 @@
 
 namespace calligraphy {
 
-/// Writes atomically: to a temporary file beside `path`, which is then renamed.
-/// @throws FileError naming the path and the reason; an existing file is then left unchanged
+/// Writes atomically: to a temporary file beside `path`, which is then renamed. A pipe or a character device, such as
+/// /dev/null, is written to directly. @throws FileError naming the path and the reason; an existing file is then left
+/// unchanged
 void write_file(const std::filesystem::path& path, std::string_view content);
 
-/// Checks before long work that write_file() can succeed: creates and removes a temporary file beside `path`.
+/// Checks before long work that write_file() can succeed: creates and removes a temporary file beside `path`. A pipe or
+/// a character device is not tried, because a pipe's reader would take that for the end.
 /// @throws FileError as write_file()
 void check_can_write(const std::filesystem::path& path);
 
