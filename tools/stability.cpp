@@ -27,7 +27,7 @@
 namespace calligraphy::tools {
 namespace {
 
-constexpr double largest = 1e9;  ///< upper limit of all numeric options; the library checks what is physical
+constexpr double largest = 1e9;  ///< upper limit of most numeric options, as in the library
 
 struct StabilityArguments {
   std::optional<std::string> device, grip;
@@ -51,7 +51,7 @@ GripImpedance grip_of(const std::string& word) {
     const auto [rest, failure] = std::from_chars(at, end, values[i]);
     const bool separated = i + 1 < values.size() ? rest != end && *rest == ',' : rest == end;
     if (failure != std::errc() || !separated) {
-      throw UsageError("--grip " + word + ": expected soft, normal, firm or m,b,k [kg, N s/m, N/m]");
+      throw UsageError("--grip: " + word + ": expected soft, normal, firm or m,b,k [kg, N s/m, N/m]");
     }
     if (separated && rest != end) at = rest + 1;
   }
@@ -140,19 +140,19 @@ void add_stability(CLI::App& program) {
   const auto add = [&](const char* name, auto& value, const std::string& help, const char* unit) {
     return command->add_option(name, value, help)->type_name(unit);
   };
-  const auto add_number = [&](const char* name, auto& value, const char* help, const char* unit) {
-    add(name, value, help, unit)->check(number(0.0, largest));
-  };
+  const auto add_number = [&](const char* name, auto& value, const char* help, const char* unit, double least = 0.0,
+                              double most = largest) { add(name, value, help, unit)->check(number(least, most)); };
   add("--device", options->device, "Device profile: " + device_names(), "DEVICE")->check(such_as(simulated_devices()));
-  add_number("--mass", options->mass, "Apparent mass of the device at its tip", "KG");
-  add_number("--damping", options->damping, "Viscous friction of the device", "N_S/M");
-  add_number("--friction", options->friction, "Coulomb friction of the device (default: 0, or the device's)", "N");
+  add_number("--mass", options->mass, "Apparent mass of the device at its tip, 1e-9 to 1e9", "KG", 1e-9);
+  add_number("--damping", options->damping, "Viscous friction of the device, 0 to 1e9", "N_S/M");
+  add_number("--friction", options->friction,
+             "Coulomb friction of the device, 0 to 1e9 (default: 0, or the device's)", "N");
   add_number("--encoder-step", options->encoder_step,
-             "Position resolution of its encoders (default: 0, or the device's)", "M");
-  add_number("--rate", options->rate, "Servo rate (default: 1000, or the device's)", "HZ");
-  add("--delay", options->delay, "Age of a sample when it is read (default: 0, or the device's)", "TICKS")
+             "Position resolution of its encoders, 0 to 1e9 (default: 0, or the device's)", "M");
+  add_number("--rate", options->rate, "Servo rate, 1 to 1000000 (default: 1000, or the device's)", "HZ", 1.0, 1e6);
+  add("--delay", options->delay, "Age of a sample when it is read, 0 to 1000 (default: 0, or the device's)", "TICKS")
       ->check(integer(0, 1000));
-  add_number("--wall-damping", options->wall_damping, "Damping of the wall (default: 0)", "N_S/M");
+  add_number("--wall-damping", options->wall_damping, "Damping of the wall, 0 to 1e9 (default: 0)", "N_S/M");
   add("--grip", options->grip, "Grip: soft, normal, firm or m,b,k [kg, N s/m, N/m] (default: none)", "GRIP")
       ->check(such_as({"soft", "normal", "firm"}));
   add_out_directory(*command, options->out, "stability.json and stability.svg");
