@@ -67,7 +67,9 @@ std::string man_page(const CommandText& program, const std::string& version) {
   text += ".SH ENVIRONMENT\n";
   text += paragraph("CALLIGRAPHY_WIRE_PROFILE", "Wire profile of a Phantom where --wire-profile is not given.");
   text += paragraph("CALLIGRAPHY_LIBHD", "The vendor's library for openhaptics, where it is not found by its name.");
-  return text + paragraph("COLUMNS", "Width of the help where standard output is no terminal.");
+  text += paragraph("COLUMNS", "Width of the help where standard output is no terminal.");
+  text += ".SH FILES\n";
+  return text + paragraph("docs/*.md", "What is named like this is installed in share/doc/calligraphy.");
 }
 
 }  // namespace calligraphy::tools
