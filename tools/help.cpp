@@ -45,8 +45,7 @@ void add_help(CLI::App& program) {
   CLI::App* const command = program.add_subcommand("help", "Describe a command, or print the manual page.");
   command->footer("calligraphy help write\ncalligraphy help --man | man -l -");
   const auto options = std::make_shared<HelpArguments>();
-  command->add_option("COMMAND", options->command, "Command to describe, as in `devices probe` (default: all)")
-      ->expected(0, 2);
+  command->add_option("COMMAND", options->command, "Command to describe, as in `devices probe` (default: all)");
   command->add_flag("--man", options->man, "Print the manual page, in the format of man(1)")->disable_flag_override();
   add_out_file(*command, options->out);
   command->callback([options, &program] { write_output(options->out, help(program, *options)); });

@@ -4,8 +4,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cstdlib>
+#include <cstring>
 #include <sstream>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -89,7 +92,11 @@ std::size_t help_width() {
   winsize size = {};
   if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0) width = size.ws_col;
   const char* const environment = std::getenv("COLUMNS");
-  if (width == 0 && environment != nullptr) width = std::strtoul(environment, nullptr, 10);
+  if (width == 0 && environment != nullptr) {
+    const char* const end = environment + std::strlen(environment);
+    const auto [rest, failure] = std::from_chars(environment, end, width);
+    if (failure != std::errc() || rest != end) width = 0;
+  }
   return std::clamp(width == 0 ? usual : width, narrowest, widest);
 }
 

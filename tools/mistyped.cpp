@@ -87,6 +87,9 @@ std::string nearest_name(const std::string& word, const std::vector<std::string>
 
 const CommandText& chosen_command(const CommandText& command, const std::string& name) {
   if (const CommandText* const found = find_command(command, name)) return *found;
+  if (command.commands.empty()) {
+    throw UsageError(fmt::format("unexpected argument {}: {} has no commands", name, command.name));
+  }
   std::vector<std::string> names;
   for (const CommandText& each : command.commands) names.push_back(own_name(each));
   refuse(command, "command", name, names);
@@ -98,7 +101,10 @@ void check_words(const CommandText& program, std::span<const char* const> words)
   std::size_t plain_words = 0;
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::string word = words[i];
-    if (word == "--") return;
+    if (word == "--") {
+      if (command->commands.empty()) return;
+      throw UsageError(fmt::format("--: a command must come first; {} --help lists them", command->name));
+    }
     if (!looks_like_option(word)) {
       if (!command->commands.empty()) {
         command = &chosen_command(*command, word);
@@ -111,6 +117,7 @@ void check_words(const CommandText& program, std::span<const char* const> words)
     const bool has_its_own_word = std::find(option.names.begin(), option.names.end(), word) != option.names.end();
     if (option.value.empty()) {
       if (!has_its_own_word) throw UsageError(fmt::format("{}: it takes no value", word));
+      if (option.names.back() == "--help" || option.names.back() == "--version") return;
       continue;
     }
     if (!given.insert(&option).second && !option.repeatable) throw UsageError(fmt::format("{}: given twice", word));

@@ -14,7 +14,8 @@ namespace calligraphy::tools {
 std::string nearest_name(const std::string& word, const std::vector<std::string>& candidates);
 
 /// Looks through the words after the program's name for a command or an option that there is not, an option without its
-/// value or given twice, and an argument too many. @throws UsageError naming the first one, and the name that is near
+/// value or given twice, and an argument too many. What follows --help or --version does not count.
+/// @throws UsageError naming the first one, and the name that is near
 void check_words(const CommandText& program, std::span<const char* const> words);
 
 /// The command of this name below `command`. @throws UsageError as above

@@ -44,6 +44,14 @@ class Help(ProgramTest):
         self.assertGreater(max(map(columns, text.splitlines())), 50)
         self.assertLessEqual(max(map(columns, text.splitlines())), 64)
 
+    def test_a_width_that_is_none_is_that_of_most_terminals(self):
+        usual = self.run_program("help", "write", environment={"COLUMNS": "80"}).stdout
+        for width in ("", "0", "-5", "abc", "100x", "1e2", "99999999999999999999999"):
+            with self.subTest(width=width):
+                text = self.run_program("help", "write", environment={"COLUMNS": width}).stdout
+                self.assertEqual(text, usual)
+        self.assertNotEqual(self.run_program("help", "write", environment={"COLUMNS": "100"}).stdout, usual)
+
     def test_without_arguments_the_commands_are_listed(self):
         done = self.run_program(code=2)
         self.assertEqual(done.stdout, "")
@@ -55,11 +63,23 @@ class Help(ProgramTest):
         for option in ("-V", "--version"):
             self.assertRegex(self.run_program(option).stdout, r"\Acalligraphy \d+\.\d+\.\d+\n\Z")
 
+    def test_what_follows_help_or_version_does_not_count(self):
+        for word in ("foo", "--foo"):
+            for option in ("-V", "--version", "-h", "--help"):
+                self.assertEqual(self.run_program(option, word).stdout, self.run_program(option).stdout)
+            self.assertEqual(self.run_program("write", "--help", word).stdout, self.run_program("help", "write").stdout)
+        self.assertEqual(self.run_program("--version", "write").stdout, self.run_program("--version").stdout)
+        self.assertEqual(self.run_program("--help", "write").stdout, self.run_program("help", "write").stdout)
+
     def test_a_mistyped_word_is_named_with_the_near_one(self):
         for arguments, message in (
                 ("wriet 永", "unknown command wriet; did you mean write?"),
                 ("devices prob", "unknown command prob; did you mean probe?"),
                 ("help imprt", "unknown command imprt; did you mean import?"),
+                ("help write extra", "unexpected argument extra: calligraphy write has no commands"),
+                ("help devices watch extra", "unexpected argument extra: calligraphy devices watch has no commands"),
+                ("-- write", "--: a command must come first; calligraphy --help lists them"),
+                ("devices -- watch", "--: a command must come first; calligraphy devices --help lists them"),
                 ("frobnicate", "unknown command frobnicate; calligraphy --help lists them"),
                 ("write 永 --outt x", "unknown option --outt; did you mean --out?"),
                 ("write --outt x 永", "unknown option --outt; did you mean --out?"),
