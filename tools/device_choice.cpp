@@ -7,8 +7,10 @@
 
 #include <fmt/format.h>
 
+#include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/device_profiles.hpp>
 #ifdef CALLIGRAPHY_WITH_PHANTOM
+#include <calligraphy/devices/phantom/device_list.hpp>
 #include <calligraphy/devices/phantom/phantom_device.hpp>
 #include <calligraphy/devices/phantom/wire_profile.hpp>
 #endif
@@ -39,6 +41,16 @@ bool is_profile(const std::string& name) {
                   text, reason, device_names()));
 }
 
+#ifdef CALLIGRAPHY_WITH_PHANTOM
+[[noreturn]] void refuse_without_wire_profile() {
+  const std::string needed =
+      "--wire-profile is required, because the packets of a Phantom are not public: docs/wire-profile.md tells how to "
+      "describe those that `calligraphy devices probe` captures";
+  if (plugged_devices().empty()) throw DeviceError("no Phantom is connected; with one, " + needed);
+  throw UsageError(needed);
+}
+#endif
+
 }  // namespace
 
 DeviceChoice device_choice(const std::string& text) {
@@ -60,8 +72,9 @@ void add_phantom_options(CLI::App& command, std::string& wire_profile, std::stri
   CLI::Option* const layout =
       command
           .add_option("--wire-profile", wire_profile,
-                      "Packet layout of a Phantom: the name of a shipped wire profile, or a file; see "
-                      "docs/wire-profile.md (default: environment variable CALLIGRAPHY_WIRE_PROFILE)")
+                      "Packet layout of a Phantom: a file, or the name of a shipped wire profile, which lacks the "
+                      "calibration of your device; see docs/wire-profile.md (default: environment variable "
+                      "CALLIGRAPHY_WIRE_PROFILE)")
           ->type_name("NAME|FILE");
 #ifdef CALLIGRAPHY_WITH_PHANTOM
   layout->check(such_as(phantom::wire_profile_names()));
@@ -78,6 +91,7 @@ std::unique_ptr<HapticDevice> open_device(const DeviceChoice& choice, [[maybe_un
     const char* const environment = std::getenv("CALLIGRAPHY_WIRE_PROFILE");
     if (environment != nullptr) options.wire_profile = environment;
     if (!choice.wire_profile.empty()) options.wire_profile = choice.wire_profile;
+    if (options.wire_profile.empty()) refuse_without_wire_profile();
     if (!choice.model.empty()) options.model = choice.model;
     options.drive = drive;
     return std::make_unique<PhantomDevice>(options);

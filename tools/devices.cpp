@@ -31,6 +31,7 @@
 #include "base/monotonic_clock.hpp"
 #include "commands.hpp"
 #include "device_choice.hpp"
+#include "help_page.hpp"
 #include "interrupt.hpp"
 #include "options.hpp"
 #include "output_file.hpp"
@@ -60,7 +61,7 @@ Section phantoms() {
     section.text += fmt::format("phantom:{}  {}  {}, {} on bus {} port {}\n  {}: {}\n", device.serial, ids(device),
                                 device.model, to_string(device.link), device.bus, device.port,
                                 fmt::join(device.nodes, ", "), device.may_open ? "access permitted" : "access DENIED");
-    if (!device.advice.empty()) section.text += "  " + device.advice + "\n";
+    if (!device.advice.empty()) section.text += "  " + wrapped(device.advice, 2, 2, help_width());
     section.json.push_back({{"device", "phantom" + (device.serial.empty() ? "" : ":" + device.serial)},
                             {"ids", ids(device)},
                             {"model", device.model},
@@ -86,7 +87,8 @@ Section vendor_runtime() {
   if (runtime.found) {
     return {fmt::format("openhaptics: {}\n", runtime.library), {{"found", true}, {"library", runtime.library}}};
   }
-  return {fmt::format("openhaptics: {}\n", runtime.advice), {{"found", false}, {"advice", runtime.advice}}};
+  const std::string head = "openhaptics: ";
+  return {head + wrapped(runtime.advice, head.size(), 2, help_width()), {{"found", false}, {"advice", runtime.advice}}};
 }
 #else
 Section vendor_runtime() {
@@ -288,9 +290,12 @@ void add_devices(CLI::App& program) {
   prober->callback([probe_options] { probe(*probe_options); });
 
 #ifdef CALLIGRAPHY_WITH_PHANTOM
-  CLI::App* const profiles = command->add_subcommand(
-      "profile", "Print a wire profile shipped with the library, as a starting point for your own.");
-  profiles->footer("calligraphy devices profile omni > mine.profile");
+  CLI::App* const profiles =
+      command->add_subcommand("profile",
+                              "Print a wire profile shipped with the library, as a starting point for your own. Shipped "
+                              "profiles lack the calibration of your device, without which there are no positions and "
+                              "no forces: docs/wire-profile.md.");
+  profiles->footer("calligraphy devices profile omni > mine.profile    # then add the calibration");
   const auto profile = std::make_shared<std::string>();
   profiles->add_option("NAME", *profile, fmt::format("Name of the profile: {}", fmt::join(phantom::wire_profile_names(), ", ")))
       ->required()

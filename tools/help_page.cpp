@@ -24,6 +24,7 @@ constexpr std::size_t indent = 2;
 
 /// Columns that a text takes in a terminal.
 std::size_t columns(const std::string& text) {
+  if (!is_utf8(text)) return text.size();  // the name of a file
   constexpr char32_t first_wide = 0x1100;  // Hangul, kana, Chinese characters and their punctuation
   constexpr char32_t first_dash = 0x2000, last_sign = 0x2E7F;
   std::size_t count = 0;
@@ -31,24 +32,6 @@ std::size_t columns(const std::string& text) {
     count += code < first_wide || (code >= first_dash && code <= last_sign) ? 1 : 2;
   }
   return count;
-}
-
-/// Words from column `at` on; further lines begin at column `margin`.
-std::string wrapped(const std::string& text, std::size_t at, std::size_t margin, std::size_t width) {
-  std::string lines;
-  std::istringstream words(text);
-  bool begins_line = true;
-  for (std::string word; words >> word; begins_line = false) {
-    const std::size_t taken = columns(word);
-    if (!begins_line && at + 1 + taken > width) {
-      lines += "\n" + std::string(margin, ' ');
-      at = margin;
-      begins_line = true;
-    }
-    lines += (begins_line ? "" : " ") + word;
-    at += taken + (begins_line ? 0 : 1);
-  }
-  return lines + "\n";
 }
 
 /// "  NAME       what it is".
@@ -75,6 +58,23 @@ std::string section(const char* title, const List& list, Entry entry_of) {
 }
 
 }  // namespace
+
+std::string wrapped(const std::string& text, std::size_t at, std::size_t margin, std::size_t width) {
+  std::string lines;
+  std::istringstream words(text);
+  bool begins_line = true;
+  for (std::string word; words >> word; begins_line = false) {
+    const std::size_t taken = columns(word);
+    if (!begins_line && at + 1 + taken > width) {
+      lines += "\n" + std::string(margin, ' ');
+      at = margin;
+      begins_line = true;
+    }
+    lines += (begins_line ? "" : " ") + word;
+    at += taken + (begins_line ? 0 : 1);
+  }
+  return lines + "\n";
+}
 
 std::string help_page(const CommandText& command, std::size_t width) {
   const auto argument = [width](const ArgumentText& each) { return entry(each, width); };

@@ -16,6 +16,11 @@ class Devices(ProgramTest):
         for word in ("phantom", "openhaptics", "simulated", "desktop", "omni"):
             self.assertIn(word, text)
 
+    def test_the_list_keeps_to_the_width_of_the_terminal(self):
+        done = self.run_program("devices", environment={"COLUMNS": "60", "CALLIGRAPHY_LIBHD": "/nowhere/libHD.so"})
+        self.assertLessEqual(max(map(len, done.stdout.splitlines())), 60)
+        self.assertEqual(done.stdout.count("/nowhere/libHD.so"), 1)
+
     def test_the_list_is_available_as_json(self):
         devices = json.loads(self.run_program("devices", "--json").stdout)
         self.assertEqual(set(devices), {"phantom", "openhaptics", "simulated"})
@@ -33,7 +38,8 @@ class Devices(ProgramTest):
 
     def test_a_wire_profile_is_read_before_the_device_is_opened(self):
         write = ["write", "一", "--out", "out", "--device", "phantom"]
-        self.assert_refused(1, write, "wire profile")
+        self.assert_refused(1, write, "calligraphy: no Phantom is connected; with one, --wire-profile is required, ",
+                            "docs/wire-profile.md")
         self.assert_refused(1, [*write, "--wire-profile", "omni"], "omni", "lacks")
         (self.directory / "mine.profile").write_text("calligraphy wire profile 1\nname mine\nfrobnicate 3\n")
         self.assert_refused(1, [*write, "--wire-profile", "mine.profile"], "mine.profile:3", "frobnicate")

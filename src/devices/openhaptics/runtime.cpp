@@ -66,8 +66,10 @@ std::shared_ptr<Runtime> Runtime::load(const std::string& name) {
   for (const std::string& candidate : names_to_try(name)) {
     void* file = dlopen(candidate.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (file == nullptr) {
-      const char* reason = dlerror();
-      tried += (tried.empty() ? "" : "; ") + candidate + ": " + (reason != nullptr ? reason : "no reason given");
+      const char* const told = dlerror();
+      const std::string reason = told != nullptr ? told : "no reason given";
+      const bool names_it = reason.starts_with(candidate + ":");
+      tried += (tried.empty() ? "" : "; ") + (names_it ? "" : candidate + ": ") + reason;
       continue;
     }
     const std::lock_guard lock(registry_mutex);

@@ -37,8 +37,8 @@ WireProfile profile_of(const PhantomOptions& options) {
   if (options.wire_profile.empty()) {
     throw ValueError(
         "no wire profile is given. The packets of a Touch are not public: describe them in a file as explained in "
-        "docs/wire-profile.md (\"calligraphy devices probe\" captures them), and pass that file (--wire-profile, "
-        "PhantomOptions::wire_profile)");
+        "docs/wire-profile.md (\"calligraphy devices probe\" captures them), and pass that file "
+        "(PhantomOptions::wire_profile)");
   }
   const std::vector<std::string> shipped = wire_profile_names();
   const bool is_shipped = std::ranges::find(shipped, options.wire_profile) != shipped.end();
