@@ -270,7 +270,8 @@ void add_devices(CLI::App& program) {
       "devices", "List the devices available to `write --device`, and how to obtain access to them.");
   command->footer(
       "calligraphy devices\n"
-      "calligraphy devices watch phantom --wire-profile mine.profile");
+      "calligraphy devices watch phantom --wire-profile mine.profile\n"
+      "# mine.profile: see `calligraphy help devices profile`");
   const auto as_json = std::make_shared<bool>(false);
   command->add_flag("--json", *as_json, "Print JSON instead of text")->disable_flag_override();
   command->require_subcommand(0, 1);
@@ -305,7 +306,9 @@ void add_devices(CLI::App& program) {
 
   CLI::App* const watcher = command->add_subcommand(
       "watch", "Show position, buttons and status of a device four times a second, without force.");
-  watcher->footer("calligraphy devices watch phantom --wire-profile mine.profile --seconds 10");
+  watcher->footer(
+      "calligraphy devices watch phantom --wire-profile mine.profile --seconds 10\n"
+      "# mine.profile: see `calligraphy help devices profile`");
   const auto watch_options = std::make_shared<WatchOptions>();
   watcher->add_option("DEVICE", watch_options->device, "phantom[:SERIAL] or openhaptics[:NAME]")
       ->required()

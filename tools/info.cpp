@@ -285,7 +285,7 @@ void add_info(CLI::App& program) {
       "that names no file is TEXT.");
   command->footer(
       "calligraphy info 永\n"
-      "calligraphy info hanzi.set\n"
+      "calligraphy info hanzi.set    # from `calligraphy import`\n"
       "calligraphy info hanzi.set 永和 --json");
   const auto options = std::make_shared<InfoArguments>();
   command->add_option("FILE", options->first, "Set file, or file in the text format")->type_name("FILE");

@@ -157,8 +157,9 @@ void add_replay(CLI::App& program) {
       "wrote "
       "and the forces of the guidance. With --out DIR, also writes a picture of each trace and replay.json.");
   command->footer(
-      "calligraphy replay pens.txt\n"
-      "calligraphy replay pens.txt --only 永 --characters hanzi.set --out out");
+      "calligraphy replay pens.txt    # for its format see docs/pen-traces.md\n"
+      "calligraphy replay pens.txt --only 永 --characters hanzi.set --out out\n"
+      "# hanzi.set: see `calligraphy help import`");
   const auto options = std::make_shared<ReplayArguments>();
   command->add_option("TRACES", options->traces, "Pen traces in the format of docs/pen-traces.md")
       ->required()

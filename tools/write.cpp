@@ -329,8 +329,9 @@ void add_write(CLI::App& program) {
   command->footer(
       "calligraphy write 永和 -o out                       # without and with force\n"
       "calligraphy write 永 --repeat 20 -o out             # what force changes\n"
-      "calligraphy write 福 --characters hanzi.set -o out  # an imported character\n"
-      "calligraphy write 永 --device phantom --wire-profile mine.profile -o out");
+      "calligraphy write 福 --characters hanzi.set -o out  # made by `import`\n"
+      "calligraphy write 永 --device phantom --wire-profile mine.profile -o out\n"
+      "# mine.profile: see `calligraphy help devices profile`");
   const auto options = std::make_shared<WriteArguments>();
   command
       ->add_option("TEXT", options->text,

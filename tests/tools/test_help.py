@@ -33,6 +33,14 @@ class Help(ProgramTest):
                     for line in (head + options).splitlines():
                         self.assertLessEqual(columns(line), int(width), line)
 
+    def test_an_example_tells_where_its_files_come_from(self):
+        for page in PAGES:
+            examples = self.run_program("help", *page).stdout.split("\nExamples:\n")[1].split("\n\n")[0]
+            for file, source in (("hanzi.set", "import"), ("mine.profile", "profile"), ("mine.txt", "import"),
+                                 ("pens.txt", "docs/pen-traces.md"), (".tgz", "npm pack")):
+                if file in examples:
+                    self.assertRegex(examples, rf"#.*{source}|{source} .*#", page)
+
     def test_the_width_is_that_of_the_terminal(self):
         ours, theirs = pty.openpty()
         self.addCleanup(os.close, ours)
