@@ -44,6 +44,11 @@ class Devices(ProgramTest):
         (self.directory / "mine.profile").write_text("calligraphy wire profile 1\nname mine\nfrobnicate 3\n")
         self.assert_refused(1, [*write, "--wire-profile", "mine.profile"], "mine.profile:3", "frobnicate")
 
+    def test_a_wire_profile_is_required_for_a_connected_device(self):
+        without = ["--", "env", "-u", "CALLIGRAPHY_WIRE_PROFILE"]
+        done = self.run_on_emulated_phantom("devices", "watch", "phantom", hand=without, code=2)
+        self.assertIn("calligraphy: --wire-profile is required, ", done.stderr)
+
     def test_usage_errors_are_one_line_and_exit_with_two(self):
         for arguments, words in (
                 (["devices", "probe"], ["--out"]),

@@ -1,5 +1,6 @@
 import os
 import pty
+import re
 import shutil
 import subprocess
 import unicodedata
@@ -131,6 +132,14 @@ class ForShells(ProgramTest):
         for words in ("NAME calligraphy - haptic", "calligraphy write [OPTIONS] TEXT --out DIR", "EXIT STATUS",
                       "--motion-scale K", "-o, --out FILE", "devices watch", "calligraphy write 永 -o out"):
             self.assertIn(words, text)
+
+    def test_documents_that_the_program_names_are_installed_with_it(self):
+        built = os.path.dirname(os.environ["CALLIGRAPHY_PROGRAM"])
+        subprocess.run(["cmake", "--install", built, "--prefix", self.directory], capture_output=True, check=True)
+        named = re.findall(r"docs/[a-z-]+\.md", self.run_program("help", "--man").stdout.replace("\\-", "-"))
+        self.assertIn("docs/wire-profile.md", named)
+        for name in named:
+            self.assertTrue((self.directory / "share/doc/calligraphy" / name).exists(), name)
 
     def completed_by_bash(self, line):
         words = line.split(" ")
