@@ -173,14 +173,17 @@ std::string zsh_values(const ArgumentText& argument) {
   return " _calligraphy_values " + zsh_escaped(joined(argument.choices)) + (may_be_file(argument) ? " FILE" : "");
 }
 
-/// "'(-o --out)'{-o,--out}'[Directory for the results]:DIR:_directories'".
+/// "'(-o --out)'{-o+,--out=}'[Directory for the results]:DIR:_directories'": a value may be in the same word.
 std::string zsh_option(const ArgumentText& option) {
-  const bool has_synonym = option.names.size() > 1;
+  std::vector<std::string> names = option.names;
+  if (!option.value.empty()) {
+    for (std::string& name : names) name += name.starts_with("--") ? "=" : "+";
+  }
   std::string spec = "[" + zsh_escaped(summary(option.description)) + "]";
   if (!option.value.empty()) spec += ":" + option.value + ":" + zsh_values(option);
-  const std::string names = has_synonym ? fmt::format("'({})'{{{}}}", joined(option.names), fmt::join(option.names, ","))
-                                        : option.names.front();
-  return names + quoted(spec, "'\\''");
+  const bool is_alone = names.size() == 1;
+  return (is_alone ? names.front() : fmt::format("'({})'{{{}}}", joined(option.names), fmt::join(names, ","))) +
+         quoted(spec, "'\\''");
 }
 
 std::string zsh_function(const CommandText& command) {

@@ -255,8 +255,12 @@ _calligraphy; printf '%s\\n' "${{COMPREPLY[@]}}" """
     def test_zsh_completes_commands_options_and_values(self):
         (self.directory / "hanzi.set").write_text("")
         for line, completed in (("calligraphy wr", "calligraphy write "),
-                                ("calligraphy write 永 --tol", "calligraphy write 永 --tolerance "),
+                                ("calligraphy write 永 --tol", "calligraphy write 永 --tolerance="),
                                 ("calligraphy write --mode f", "calligraphy write --mode force "),
+                                ("calligraphy write --mode=f", "calligraphy write --mode=force "),
+                                ("calligraphy write --device=replay:", "calligraphy write --device=replay:hanzi.set "),
+                                ("calligraphy import x -ohan", "calligraphy import x -ohanzi.set "),
+                                ("calligraphy import x --out=h", "calligraphy import x --out=hanzi.set "),
                                 ("calligraphy devices prof", "calligraphy devices profile "),
                                 ("calligraphy import han", "calligraphy import hanzi.set "),
                                 ("calligraphy devices profile om", "calligraphy devices profile omni "),
