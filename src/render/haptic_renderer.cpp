@@ -218,16 +218,21 @@ const HapticTick& HapticRenderer::update(const DeviceState& state) noexcept {
 /// a loop may have paused.
 void HapticRenderer::hear_force(const DeviceState& state) noexcept {
   int ticks = 1;
+  double settling = state.force_settling;
   const bool fresh = state.status == DeviceStatus::ok || state.status == DeviceStatus::warm_motors;
   if (has_sample_ && fresh) {
     // NaN compares false below
     const double passed = (state.time - last_time_) / period_ - static_cast<double>(unseen_);
     constexpr double longest = 1e6;
-    if (passed > 1.75) ticks = static_cast<int>(std::min(passed + 0.5, longest));
+    if (passed > 1.75) {
+      ticks = static_cast<int>(std::min(passed + 0.5, longest));
+    } else if (passed > 1.0) {
+      settling /= passed;  // as a share of a tick that took longer
+    }
     unseen_ += ticks - 1;  // counted once, if this sample turns out to be bad
   }
   const bool as_sent = state.force == tick_.force || !state.force.allFinite();
-  passivity_.acted(as_sent ? tick_.page_force : mapping_.force_to_page(state.force), ticks, state.force_settling);
+  passivity_.acted(as_sent ? tick_.page_force : mapping_.force_to_page(state.force), ticks, settling);
 }
 
 TickStatus HapticRenderer::map_sample(const DeviceState& state) noexcept {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/require.hpp"
 
@@ -63,7 +64,7 @@ PassivityController::PassivityController(const PassivityOptions& options, double
 void PassivityController::restart() noexcept {
   sent_.fill(Eigen::Vector3d::Zero());
   has_position_ = false;
-  wanted_ = damping_ = held_ = Eigen::Vector3d::Zero();
+  wanted_ = damping_ = held_ = at_last_sample_ = Eigen::Vector3d::Zero();
   unseen_ = 0;
   free_for_ = 0.0;
   speed_ = unseen_force_ = unseen_change_ = surplus_in_plane_ = surplus_normal_ = given_ = 0.0;
@@ -76,9 +77,9 @@ void PassivityController::acted(const Eigen::Vector3d& force, int ticks, double 
   const double settled = std::round(settling / period_);  // [ticks]
   Eigen::Vector3d before = sent_[newest_];
   double change = norm(Eigen::Vector3d(force - before));
+  const Eigen::Vector3d earlier = std::exchange(at_last_sample_, force);
   if (missed > 0 && settled > 0.0) {
     // What was sent came late, or never came: until then the force was the one before.
-    const Eigen::Vector3d& earlier = sent_[(newest_ + sent_.size() - 1) % sent_.size()];
     change = std::max({change, norm(Eigen::Vector3d(earlier - before)), norm(Eigen::Vector3d(force - earlier))});
     if (norm(earlier) > norm(before)) before = earlier;
   }
@@ -91,9 +92,10 @@ void PassivityController::acted(const Eigen::Vector3d& force, int ticks, double 
     unseen_force_ += change;
     unseen_change_ += change;
   }
-  if (unsure == 0) sent_[newest_] = force;
+  // Within a period each force has its share of the time, and so of the way.
+  if (unsure == 0) sent_[newest_] = force + std::min(settling / period_, 1.0) * (earlier - force);
   pass_unseen(force, missed - unsure, 0.0);
-  sent_[newest_] = force;
+  if (missed > 0) sent_[newest_] = force;
 }
 
 /// `count` periods in which `force` is held pass like that, in bounded time: once it fills the ring, all are alike.

@@ -641,6 +641,32 @@ TEST_CASE("the force that really acted is charged, not the one sent", "[render]"
   }
 }
 
+TEST_CASE("a force that changes within a period is charged by its share of the time", "[render]") {
+  for (const int delay : {0, 3}) {
+    PassivityController passivity(budget_of(10.0, 0.045, delay), 0.001);
+    Sequence random(22);
+    std::vector<Vector3d> places = {Vector3d(0, 0, 0)};
+    std::vector<double> work = {0.0};  // done until each tick
+    Vector3d acted(0, 0, 0);
+    double share = 0.0, max_error = 0.0;
+    for (int i = 0; i < 500; ++i) {
+      if (i > 0) passivity.acted(acted, 1, share * 0.001);
+      const std::size_t seen = static_cast<std::size_t>(std::max(0, i - delay));
+      passivity.next(places[seen], random_vector(random, 3.0));
+      max_error = std::max(max_error, std::abs(passivity.energy_given() - work[seen]));
+      const Vector3d sent = random_vector(random, 3.0), step = random_vector(random, 1e-3);
+      passivity.sent(sent);
+      share = i % 10 == 0 ? 0.0 : random.next();  // the law needs this part of the period, in which the pen moves on
+      work.push_back(work.back() + share * acted.dot(step) + (1.0 - share) * sent.dot(step));
+      places.push_back(places.back() + step);
+      acted = sent;
+    }
+    CAPTURE(delay);
+    CHECK(std::abs(work.back()) > 1e-3);
+    CHECK(max_error < 1e-12);
+  }
+}
+
 TEST_CASE("over a gap in which the force is held, the work observed is exact", "[render]") {
   PassivityController passivity(budget_of(1.0, 0.045), 0.001);
   passivity.next({0, 0, 0}, {1.0, 2.0, 0.5});
