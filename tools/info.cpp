@@ -19,6 +19,7 @@
 
 #include "character_source.hpp"
 #include "commands.hpp"
+#include "mistyped.hpp"
 #include "options.hpp"
 
 namespace calligraphy::tools {
@@ -196,7 +197,7 @@ void check_first_of_two(const std::string& first, const std::string& second) {
   if (has_file_name_characters(first) || std::all_of(first.begin(), first.end(), is_ascii)) {
     throw FileError(first + ": no such file");
   }
-  throw UsageError(fmt::format("unexpected argument {}; quote words that belong together", second));
+  throw unexpected(second);
 }
 
 /// The first argument is FILE if such a file exists, otherwise TEXT.

@@ -7,8 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "commands.hpp"
-
 namespace calligraphy::tools {
 namespace {
 
@@ -95,6 +93,10 @@ const CommandText& chosen_command(const CommandText& command, const std::string&
   refuse(command, "command", name, names);
 }
 
+UsageError unexpected(const std::string& argument) {
+  return UsageError(fmt::format("unexpected argument {}; quote words that belong together", argument));
+}
+
 void check_words(const CommandText& program, std::span<const char* const> words) {
   const CommandText* command = &program;
   std::set<const ArgumentText*> given;
@@ -109,7 +111,7 @@ void check_words(const CommandText& program, std::span<const char* const> words)
       if (!command->commands.empty()) {
         command = &chosen_command(*command, word);
       } else if (++plain_words > command->positional.size() && !takes_many(*command)) {
-        throw UsageError(fmt::format("unexpected argument {}; quote words that belong together", word));
+        throw unexpected(word);
       }
       continue;
     }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "command_text.hpp"
+#include "commands.hpp"
 
 namespace calligraphy::tools {
 
@@ -20,5 +21,8 @@ void check_words(const CommandText& program, std::span<const char* const> words)
 
 /// The command of this name below `command`. @throws UsageError as above
 const CommandText& chosen_command(const CommandText& command, const std::string& name);
+
+/// Of an argument too many.
+UsageError unexpected(const std::string& argument);
 
 }  // namespace calligraphy::tools

@@ -13,6 +13,8 @@
 #include <calligraphy/base/text.hpp>
 #include <calligraphy/practice/mean_interval.hpp>
 
+#include "counted.hpp"
+
 namespace calligraphy::tools {
 namespace {
 
@@ -192,18 +194,18 @@ std::string reductions(const std::vector<Result>& results) {
   if (both.empty()) {
     text = "no character was completed in both modes: no effect of force to show\n";
   } else if (runs.size() < least_runs) {
-    text = fmt::format("n = {} {} of runs: too few to show an effect of force; try --repeat 20\n", runs.size(),
-                       runs.size() == 1 ? "pair" : "pairs");
+    text = fmt::format("n = {} of runs: too few to show an effect of force; try --repeat 20\n",
+                       counted(runs.size(), "pair"));
   } else {
     text = reduction("RMS error", "mm", both, [](const Result& r) { return r.score.rms_error * millimetres; }) +
            reduction("time", "s", both, [](const Result& r) { return r.score.time; }) +
            fmt::format(
-               "{} characters in n = {} pairs of runs, by which they are clustered; mean +/- t(0.975, n - 1) "
+               "{} in n = {} pairs of runs, by which they are clustered; mean +/- t(0.975, n - 1) "
                "standard errors\n",
-               both.size(), runs.size());
+               counted(both.size(), "character"), runs.size());
   }
   if (const std::size_t omitted = all - both.size(); omitted > 0) {
-    text += fmt::format("{} {} omitted: not every stroke was completed\n", omitted, omitted == 1 ? "pair" : "pairs");
+    text += counted(omitted, "pair") + " omitted: not every stroke was completed\n";
   }
   return text;
 }

@@ -24,6 +24,7 @@
 
 #include "character_source.hpp"
 #include "commands.hpp"
+#include "counted.hpp"
 #include "options.hpp"
 #include "output_directory.hpp"
 #include "output_file.hpp"
@@ -300,7 +301,7 @@ class WriteRun {
     const std::vector<Result>& results = summary_.results;
     const auto unfinished = std::count_if(results.begin(), results.end(), given_up);
     if (unfinished == 0) return;
-    spdlog::warn("{} of {} characters were not completed", unfinished, results.size());
+    spdlog::warn("not completed: {} of {}", unfinished, counted(results.size(), "character"));
     if (pen_.is_replay()) {
       spdlog::warn(
           "a trace is replayed with the TEXT and the page options with which it was recorded: that of a text of several "

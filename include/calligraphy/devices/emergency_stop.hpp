@@ -15,14 +15,16 @@ class HapticDevice;
 /// any other signal the program goes on, and so does the force.
 ///
 /// Call it once, at the start of main() and after the program has installed its own handlers; further calls do nothing.
-/// A handler that is installed later replaces it and should call emergency_stop() itself. Nothing can run at SIGKILL,
-/// SIGSTOP, _exit() or a power failure: only the device's own watchdog remains (HapticDevice::warnings()).
+/// A handler that is installed later replaces it and should call emergency_stop() itself. One that was installed with
+/// SA_RESETHAND is called once, as it asked: the second such signal ends the program by its default action, with the
+/// force on. Nothing can run at SIGKILL, SIGSTOP, _exit() or a power failure: only the device's own watchdog remains
+/// (HapticDevice::warnings()).
 void install_emergency_stop();
 
 /// Takes the force at once, without a ramp, from every device that has an entry (the built-in backends; your own by one
-/// line) and from every device behind a Servo, and keeps it at zero. A device that a program writes to by itself, without
-/// either, keeps its force. Returns when the devices have it: after a few milliseconds, at most 0.1 s more for each device or loop
-/// whose own thread does not answer. Async-signal-safe; callable from any thread.
+/// line) and from every device behind a Servo, and keeps it at zero. A device that a program writes to by itself,
+/// without either, keeps its force. Returns when the devices have it: after a few milliseconds, at most 0.1 s more for
+/// each device or loop whose own thread does not answer. Async-signal-safe; callable from any thread.
 void emergency_stop() noexcept;
 
 /// Whether emergency_stop() was called and the force has not been permitted again.

@@ -45,9 +45,9 @@ struct PassivityOptions {
 ///   deliver |F| v t, which is repaid before more is given;
 /// - each sample is `delay` ticks old, or known to be lost, or more than 10 m/s away (then the pen is elsewhere);
 /// - no hand turns the pen around within that age while the budget is exhausted: the brake then pushes along.
-/// Not observed is, with an encoder of resolution D, at most D / 2 times the sum of all changes of the force, and within
-/// a period in which the force changes, what a pen of acceleration a moves off a straight line: at most a T^2 / 8 times
-/// that sum.
+/// Not observed is, with an encoder of resolution D, at most D / 2 times the sum of all changes of the force, and
+/// within a period in which the force changes, what a pen of acceleration a moves off a straight line: at most a T^2 /
+/// 8 times that sum.
 class PassivityController {
  public:
   static constexpr int max_delay = 15;
@@ -60,10 +60,11 @@ class PassivityController {
   /// @throws ValueError naming the value when an option or the period is out of range
   PassivityController(const PassivityOptions& options, double period);
 
-  /// Reports, before next(), the force that acts at this sample [N], and the ticks that have passed since the last call:
-  /// more than one when the loop paused. For the first `settling` [s] of them the force may have been another one. In one
-  /// tick it was then the one of the last call, so the work is shared by time. Over a pause it may have been any between
-  /// this and those before, for `max_gap` at least. Without a call it was the force of sent(), for one tick.
+  /// Reports, before next(), the force that acts at this sample [N], and the ticks that have passed since the last
+  /// call: more than one when the loop paused. For the first `settling` [s] of them the force may have been another
+  /// one. In one tick it was then the one of the last call, so the work is shared by time. Over a pause it may have
+  /// been any between this and those before, for `max_gap` at least. Without a call it was the force of sent(), for one
+  /// tick.
   void acted(const Eigen::Vector3d& force, int ticks, double settling = 0.0) noexcept;
   /// The force to send for a desired one [N], at the device position of this tick [m]; limits may follow. A position
   /// with NaN means that the sample of this tick is lost or stale: nothing is damped. `viscous` is the part of `wanted`
