@@ -29,6 +29,15 @@ def shown(value: Any) -> str:
     return repr(value)
 
 
+def brief(value: Any) -> str:
+    """The value as one line of at most 80 characters, for messages."""
+    try:
+        line = " ".join(shown(value).split())
+    except Exception:  # of a __repr__
+        line = f"<{type(value).__name__} object>"
+    return line if len(line) <= 80 else f"{line[:77]}..."
+
+
 class Struct:
     """Methods copied into every class that has `__match_args__`."""
 

@@ -92,6 +92,10 @@ class Grid:
         motion_scale: float = 1.0,
     ) -> None:
         codes = _axis("characters", characters, _text)
+        if source is None:
+            source = cal.built_in_characters()
+        elif not isinstance(source, cal.CharacterSet):
+            source = _one("source", source, cal.CharacterList)
         self.characters = {code: _character(source, code) for code in codes}
         self.writers = _writers(writers)
         self.modes = _axis("modes", _list("modes", modes), _name_of(cal.FeedbackMode))
@@ -108,7 +112,7 @@ class Grid:
         usual = cal.RendererOptions.for_device(self.device, self.motion_scale)
         self.options = usual if options is None else _one("options", options, cal.RendererOptions)
         self.character_timeout = _positive("character_timeout", character_timeout)
-        if page not in _PAGES:
+        if not isinstance(page, str) or page not in _PAGES:
             raise cal.InvalidValue(f"page: expected one of {', '.join(_PAGES)}, got {page!r}")
         self.page = page
         self.layout = cal.workspace_layout(self.device, _PAGES[page](0.0, 0.0, self.motion_scale))
@@ -426,8 +430,8 @@ class _Bar:
             self._bar.close()
 
 
-def _character(source: cal.CharacterSet | cal.CharacterList | None, code: str) -> cal.Character:
-    found = (cal.built_in_characters() if source is None else source).find(code)
+def _character(source: cal.CharacterSet | cal.CharacterList, code: str) -> cal.Character:
+    found = source.find(code)
     if found is None:
         raise cal.InvalidValue(f"characters: {code!r} is not in the set")
     return found

@@ -33,9 +33,8 @@ class VirtualServo {
   /// One tick. While a law in Python runs, other threads may run; they must not start another tick. An exception of the
   /// law is stored; Ctrl-C and the like, also from a device, are raised to the caller.
   void step(double now) {
-    idle(device_);
-    if (stepping_)
-      throw Error("this Servo is already inside a tick: step it from one thread only, and not from its force law");
+    refuse_inside_a_tick();
+    const AtWork at_work({AtWork::User::tick, law_.get()}, &device_);
     const std::size_t errors = law_->errors;
     stepping_ = true;
     const InStep here;
@@ -48,6 +47,8 @@ class VirtualServo {
   }
 
   void reset() {
+    refuse_inside_a_tick();
+    idle(device_);
     servo_.reset();
     law_->forget_errors();
   }
@@ -59,6 +60,11 @@ class VirtualServo {
   std::size_t errors() const { return law_->errors; }
 
  private:
+  void refuse_inside_a_tick() const {
+    if (!stepping_) return;
+    throw Error("this Servo is already inside a tick: step or reset it from one thread only, and not from its force law");
+  }
+
   HapticDevice& device_;
   std::shared_ptr<PythonLaw> law_;
   Servo servo_;

@@ -113,13 +113,19 @@ struct Given : ArrayLike {
 template <class Type>
 Type converted(const Given<Type>& given, const std::string& name) {
   try {
+    // pybind11 takes the truth of anything for a bool, and bytes for a str.
+    constexpr bool is_bool = std::is_same_v<Type, bool>, is_string = std::is_same_v<Type, std::string>;
+    if (is_bool && !py::detail::make_caster<bool>().load(given, false)) throw py::cast_error();
+    if (is_string && !py::isinstance<py::str>(given)) throw py::cast_error();
     return given.template cast<Type>();
   } catch (const ValueError& wrong) {
     throw ValueError(name + ": " + wrong.what());
   } catch (const py::builtin_exception&) {  // of a failed conversion
-    const py::object shown = py::module_::import("calligraphy._struct").attr("shown")(given);
-    throw py::type_error(told("{}: expected {}, got {}", name, expectation<Type>(), shown));
+  } catch (const py::error_already_set& raised) {
+    if (!raised.matches(PyExc_TypeError)) throw;  // of a sequence that cannot be iterated over
   }
+  const py::object brief = py::module_::import("calligraphy._struct").attr("brief")(given);
+  throw py::type_error(told("{}: expected {}, got {}", name, expectation<Type>(), brief));
 }
 
 /// Offset of a field within the objects of a class. The class is known only at run time, so that pybind11's templates

@@ -41,7 +41,6 @@ class Loop {
     refuse_at_the_end();
     if (changing_ || loop_->running())
       throw ValueError("the servo loop is already running: stop it before starting it again");
-    if (!InLaw::here()) stop_orphans();
     PythonDevice::refuse_without_capabilities(device_.cast<HapticDevice&>());
     at_work_ = std::make_unique<AtWork>(AtWork::Owner{AtWork::User::loop, python_law_.get()},
                                         &device_.cast<HapticDevice&>(), renderer_);
@@ -80,6 +79,16 @@ class Loop {
     stop_orphans();
   }
 
+  static void stop_orphans() {
+    for (std::size_t i = orphans.size(); i-- > 0;) {
+      if (orphans[i].process != getpid()) continue;
+      const Orphan orphan = std::move(orphans[i]);
+      orphans.erase(orphans.begin() + static_cast<std::ptrdiff_t>(i));
+      const py::gil_scoped_release release;
+      orphan.loop->stop();
+    }
+  }
+
   bool is_running() const { return loop_->running(); }
   ServoStatus status() const { return loop_->status(); }
   py::dict statistics() const { return servo_statistics(loop_->statistics()); }
@@ -107,16 +116,6 @@ class Loop {
     std::unique_ptr<AtWork> at_work;
     pid_t process;
   };
-
-  static void stop_orphans() {
-    for (std::size_t i = orphans.size(); i-- > 0;) {
-      if (orphans[i].process != getpid()) continue;
-      const Orphan orphan = std::move(orphans[i]);
-      orphans.erase(orphans.begin() + static_cast<std::ptrdiff_t>(i));
-      const py::gil_scoped_release release;
-      orphan.loop->stop();
-    }
-  }
 
   // Protected by the GIL, as is everything outside the loop. Those of a parent process are never released.
   static std::set<Loop*> running;
@@ -197,6 +196,8 @@ LiveResult write_live(const PracticePage& page, HapticDevice& device, LiveOption
 }
 
 }  // namespace
+
+void stop_orphans() { Loop::stop_orphans(); }
 
 void add_live(py::module_& module) {
   py::class_<Loop>(

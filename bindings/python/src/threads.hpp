@@ -93,20 +93,23 @@ class InLaw {
   const InLaw* outer_;
 };
 
-/// During its lifetime the device and the renderer, either of which may be null, belong to a loop or to one call that
-/// has released the GIL. idle() refuses any other use, which would be a data race. Requires the GIL.
+/// Stops loops that were destroyed inside their own force law, where no thread can wait for itself. Requires the GIL.
+void stop_orphans();
+
+/// During its lifetime the device and the renderer, either of which may be null, belong to a loop, to one tick of a
+/// Servo, or to one call that has released the GIL. idle() refuses any other use, which would be a data race. Requires the GIL.
 class AtWork {
  public:
-  enum class User { loop, call };
+  enum class User { loop, tick, call };
   struct Owner {
     User user;
-    const void* law = nullptr;  ///< of a loop, as for InLaw; null: it has none in Python
+    const void* law = nullptr;  ///< of a loop or tick, as for InLaw; null: it has none in Python
   };
 
   /// @throws Error when one of them is already in use. A force law may call with what its own loop owns, but start no
   /// other loop on it, which would run at the same time.
   explicit AtWork(Owner owner, const HapticDevice* device, const HapticRenderer* renderer = nullptr) {
-    const bool from_law = owner.user == User::call;
+    const bool from_law = owner.user != User::loop;
     refuse(device, "device", from_law);
     refuse(renderer, "renderer", from_law);
     // What the calling force law's loop already owns remains the loop's.
@@ -120,16 +123,22 @@ class AtWork {
   AtWork(const AtWork&) = delete;
   AtWork& operator=(const AtWork&) = delete;
 
-  /// @throws Error when it is in use, except, if `from_law`, by the loop whose force law calls this
+  /// @throws Error when it is in use, except, if `from_law`, by the loop or tick whose force law calls this
   static void refuse(const void* thing, const char* what, bool from_law = true) {
-    const auto found = busy.empty() ? busy.end() : busy.find(thing);
+    auto found = busy.empty() ? busy.end() : busy.find(thing);
+    if (found != busy.end() && !InLaw::here()) {
+      stop_orphans();
+      found = busy.find(thing);
+    }
     if (found == busy.end()) return;
     const auto [user, law] = found->second;
     if (from_law && law != nullptr && InLaw::here(law)) return;
     throw Error(std::string("the ") + what +
-                (user == User::loop ? " is in use by a running loop: use it from the force law of that loop, or stop "
-                                      "that loop first"
-                                    : " is in use by another thread: use one per thread, or take turns"));
+                (user == User::loop   ? " is in use by a running loop: use it from the force law of that loop, or stop "
+                                        "that loop first"
+                 : user == User::tick ? " is in use by a tick of a Servo: use it from the force law of that Servo, or "
+                                        "between its ticks"
+                                      : " is in use by another thread: use one per thread, or take turns"));
   }
 
  private:

@@ -248,6 +248,8 @@ def test_a_grid_accepts_your_own_writer():
         ({"rate": [1000 + 0j]}, "rate: expected a positive number"),
         ({"rate": None}, "rate: expected a list, got None"),
         ({"modes": "force"}, "modes: expected a list, got 'force'"),
+        ({"source": 3}, "source: expected a CharacterList, got 3"),
+        ({"page": []}, r"page: expected one of upright, desk, got \[\]"),
         ({"modes": [["force"]]}, "modes: expected one of vision, force"),
         ({"modes": ["force", cal.FeedbackMode.force]}, "modes: 'force' occurs twice"),
         ({"modes": [cal.NearestPointMethod.exact]}, "modes: expected one of"),

@@ -443,10 +443,47 @@ def test_a_daemon_thread_that_keeps_restarting_ends_with_the_program():
     assert (ended.returncode, ended.stdout, ended.stderr) == (0, "last force 0.0\n", "")
 
 
-def test_a_servo_cannot_step_on_the_device_of_a_running_loop():
+def test_no_loop_can_be_started_on_the_device_of_a_servo_within_its_tick():
+    device, refused = cal.PointerDevice(PROFILE), []
+
+    def law(state):
+        for use in (cal.ServoLoop(device, wall, options()).start, cal.Servo(device, wall).reset, device.read, servo.reset):
+            try:
+                refused.append(use())
+            except cal.Error as error:
+                refused.append(str(error).partition(":")[0])
+        return 0, 0, 0
+
+    servo = cal.Servo(device, law)
+    servo.step(0.0)
+    loop, reset, sample, own = refused
+    assert loop == "the device is in use by a tick of a Servo" and own == "this Servo is already inside a tick"
+    assert reset is None and sample.status == cal.DeviceStatus.ok  # uses of the device in the thread of the law
+    with cal.ServoLoop(device, wall, options()):
+        pass
+
+
+def test_the_device_of_a_loop_dropped_in_its_own_law_can_be_used_again():
+    device, done = cal.PointerDevice(PROFILE), threading.Event()
+
+    def law(state):
+        loops.clear()
+        done.set()
+        return 0, 0, 0
+
+    loops = [cal.ServoLoop(device, law, options())]
+    loops[0].start()
+    assert done.wait(30)
+    device.read()
+    cal.Servo(device, wall).step(0.0)
+
+
+def test_a_servo_cannot_step_or_reset_the_device_of_a_running_loop():
     device = cal.PointerDevice(cal.device_profile("desktop"))
     servo = cal.Servo(device, lambda state: (0, 0, 0))
     with cal.ServoLoop(device, lambda state: (0, 0, 0)):
+        with pytest.raises(cal.Error, match="in use by a running loop"):
+            servo.reset()
         with pytest.raises(cal.Error, match="in use by a running loop"):
             servo.step(0.0)
     servo.step(0.0)

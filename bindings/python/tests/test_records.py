@@ -114,6 +114,11 @@ class Foreign:
         return "a foreign object"
 
 
+class Unshown:
+    def __repr__(self):
+        raise ValueError("of your own")
+
+
 @pytest.mark.parametrize("kind", [*RECORDS, cal.CharacterList])
 def test_a_value_of_another_type_is_rejected_with_the_name_of_its_field_what_is_expected_and_what_was_given(kind):
     one = kind()
@@ -151,6 +156,12 @@ def test_a_value_of_another_type_is_rejected_with_the_name_of_its_field_what_is_
         (cal.PracticePage(), {"characters": [0] * 99}, "characters: expected a list of PlacedCharacter, got [0, 0, 0, ... 99 in all]"),
         (cal.CharacterScore(), {"character": "永一"}, "character: expected a str of length 1, got '永一'"),
         (cal.Provenance(), {"source": 3}, "source: expected a str, got 3"),
+        (cal.Provenance(), {"source": b"me"}, "source: expected a str, got b'me'"),
+        (cal.SessionOptions(), {"measure_ticks": None}, "measure_ticks: expected True or False, got None"),
+        (cal.SessionOptions(), {"measure_ticks": 2.5}, "measure_ticks: expected True or False, got 2.5"),
+        (cal.StabilityMapOptions(), {"rates": np.array(3.0)}, "rates: expected a list of numbers, got 3.0"),
+        (cal.ServoOptions(), {"rate": {"a": "x" * 99}}, "rate: expected a number, got {'a': '" + "x" * 70 + "..."),
+        (cal.ServoOptions(), {"rate": Unshown()}, "rate: expected a number, got <Unshown object>"),
     ],
     ids=lambda value: next(iter(value)) if isinstance(value, dict) else "",
 )
@@ -159,6 +170,10 @@ def test_a_rejected_value_is_told_in_words(owner, value, told):
         with pytest.raises(TypeError) as raised:
             assign()
         assert str(raised.value) == told
+
+
+def test_a_bool_of_numpy_is_a_bool():
+    assert cal.SessionOptions(measure_ticks=np.bool_(True)).measure_ticks is True
 
 
 def test_nan_equals_nan_in_every_field_type():
