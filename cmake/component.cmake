@@ -30,7 +30,7 @@ function(calligraphy_component name)
   # Bit-identical results on every processor: no contraction into fused operations.
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-ffp-contract=off>)
   calligraphy_warnings(${target})
-  calligraphy_unity(${target} 8)
+  calligraphy_unity(${target} 12)
   set(components ${COMPONENT_DEPENDS})
   list(FILTER components INCLUDE REGEX "^calligraphy_")
   list(TRANSFORM components REPLACE "^calligraphy_" "")

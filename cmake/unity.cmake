@@ -3,8 +3,12 @@
 # includes (scripts/full/each_file.sh).
 option(CALLIGRAPHY_UNITY "Unity build: compile several source files as one, in a third of the time" ON)
 
-# calligraphy_unity(target files): compiles up to `files` source files of the target per unit.
+# calligraphy_unity(target files): compiles up to `files` source files of the target per unit, in units of like size.
 function(calligraphy_unity target files)
+  get_target_property(sources ${target} SOURCES)
+  list(LENGTH sources count)
+  math(EXPR units "(${count} + ${files} - 1) / ${files}")
+  math(EXPR files "(${count} + ${units} - 1) / ${units}")
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${CALLIGRAPHY_UNITY} UNITY_BUILD_BATCH_SIZE ${files})
 endfunction()
 

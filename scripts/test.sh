@@ -1,10 +1,12 @@
 #!/usr/bin/env bash
-# Installs missing packages, builds and runs every test, then again under the sanitizers.
+# Installs missing packages, builds and runs every test, then those of components whose own bytes, threads and pointers
+# are at risk again under the sanitizers.
 # The last line is "N passed, N failed", preceded by the tests that took more than 5 s and by the processor time of each
 # part.
 # usage: test.sh [--full]
-#   --full   also the slow checks: the library with clang and libc++, as WebAssembly and on an emulated arm64, and each
-#            source file on its own; the plain run compiles one file with libc++ and one to WebAssembly
+#   --full   also the slow checks: the library with clang and libc++, as WebAssembly and on an emulated arm64, each
+#            source file on its own, and the programs that no test runs: benchmarks, judges, long fuzz and soak runs;
+#            the plain run compiles one file with libc++ and one to WebAssembly
 #
 # CALLIGRAPHY_REQUIRE_DATA=1 (set in any CI): fail if the npm packages that tests read, or the Python packages that the
 # tests of the Python module need, are not available; otherwise those tests are skipped.
@@ -280,19 +282,20 @@ begin_python_environment
 clang=$(command -v clang++ || true)
 check env CXX="$clang" scripts/full/libcxx.sh one
 check scripts/full/wasm.sh one
-everything=(-DCALLIGRAPHY_TESTS=ON -DCALLIGRAPHY_EXAMPLES=ON -DCALLIGRAPHY_TOOLS=ON)
-test_build release -DCMAKE_BUILD_TYPE=Release -DCALLIGRAPHY_BENCHMARKS=ON "${everything[@]}"
+everything=(-DCALLIGRAPHY_TESTS=ON -DCALLIGRAPHY_EXAMPLES=ON -DCALLIGRAPHY_TOOLS=ON -DCALLIGRAPHY_PICTURES=ON)
+test_build release -DCMAKE_BUILD_TYPE=Release -DCALLIGRAPHY_BENCHMARKS=OFF "${everything[@]}"
 python_module "$build/release"
 begin_python_tests "$build/release"
 # With the other compiler, which finds different problems and is faster.
 sanitizing=${clang:-c++}
-test_build sanitized -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" -DCALLIGRAPHY_BENCHMARKS=OFF \
-  -DCMAKE_CXX_COMPILER="$sanitizing" \
-  -DCALLIGRAPHY_SANITIZE=address,undefined "${everything[@]}"
+test_build sanitized -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" -DCMAKE_CXX_COMPILER="$sanitizing" \
+  -DCALLIGRAPHY_SANITIZE=address,undefined -DCALLIGRAPHY_TESTS=ON -DCALLIGRAPHY_EXAMPLES=OFF -DCALLIGRAPHY_TOOLS=OFF \
+  -DCALLIGRAPHY_PICTURES="$(if [[ -n ${CALLIGRAPHY_SANITIZE_PYTHON:-} ]]; then echo ON; else echo OFF; fi)"
 end_python_tests
 if [[ -n ${CALLIGRAPHY_SANITIZE_PYTHON:-} ]]; then sanitized_python_tests "$build/sanitized" "$sanitizing"; fi
 if [[ -n $full ]]; then
   check scripts/full/each_file.sh
+  check scripts/full/programs.sh
   check env CXX="$clang" scripts/full/libcxx.sh
   check scripts/full/wasm.sh
   check scripts/full/arm64.sh

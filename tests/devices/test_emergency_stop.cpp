@@ -163,7 +163,7 @@ Value& immortal(Arguments&&... arguments) {
 
 /// Writes 3 N in real time until the program ends.
 template <class Device>
-void push(Remains& remains, const std::function<void()>& fault = nullptr, double timeout = 0.5) {
+void press(Remains& remains, const std::function<void()>& fault = nullptr, double timeout = 0.5) {
   ServoLoop& loop = immortal<ServoLoop>(
       immortal<Device>(remains),
       [fault](const DeviceState&) -> Eigen::Vector3d {
@@ -224,7 +224,7 @@ TEST_CASE("no force is left behind, however a program ends, and it ends as it wo
     const SharedRemains shared;
     const int status = status_of_child([&] {
       install_emergency_stop();
-      push<SharedDevice>(*shared.remains);
+      press<SharedDevice>(*shared.remains);
       ending.end();
     });
     CHECK(shared.remains->force == 0.0);
@@ -263,7 +263,7 @@ TEST_CASE("a signal that arrives in the servo's own thread leaves no force behin
     const SharedRemains shared;
     const int status = status_of_child([&] {
       install_emergency_stop();
-      push<SharedDevice>(*shared.remains, [signal] { raise(signal); }, 4e-3);  // it is the watchdog that writes zero
+      press<SharedDevice>(*shared.remains, [signal] { raise(signal); }, 4e-3);  // it is the watchdog that writes zero
       law_fails = true;
       pause();
     });
@@ -279,9 +279,9 @@ TEST_CASE("a force law that crashes in the servo's own thread leaves no force be
   const int status = status_of_child([&] {
     install_emergency_stop();
     if (has_entry) {
-      push<StoppableDevice>(*shared.remains, crash);
+      press<StoppableDevice>(*shared.remains, crash);
     } else {
-      push<SharedDevice>(*shared.remains, crash, 4e-3);  // it is the watchdog that writes zero
+      press<SharedDevice>(*shared.remains, crash, 4e-3);  // it is the watchdog that writes zero
     }
     law_fails = true;
     pause();
@@ -293,11 +293,11 @@ TEST_CASE("a force law that crashes in the servo's own thread leaves no force be
 TEST_CASE("without the emergency stop, and at SIGKILL, the last force stays: that is what devices' watchdogs are for",
           "[emergency]") {
   const SharedRemains shared;
-  CHECK(exited(status_of_child([&] { push<SharedDevice>(*shared.remains), std::_Exit(0); }), 0));
+  CHECK(exited(status_of_child([&] { press<SharedDevice>(*shared.remains), std::_Exit(0); }), 0));
   CHECK(shared.remains->force == 3.0);
   const int status = status_of_child([&] {
     install_emergency_stop();
-    push<StoppableDevice>(*shared.remains);
+    press<StoppableDevice>(*shared.remains);
     kill(getpid(), SIGKILL);
   });
   CHECK(killed(status, SIGKILL));
@@ -319,7 +319,7 @@ TEST_CASE("handlers installed before are called after the stop, with what they w
     sigaction(SIGSEGV, &earlier, nullptr);
     std::signal(SIGINT, [](int) { remains->handled += 10; });
     install_emergency_stop();
-    push<StoppableDevice>(*remains);
+    press<StoppableDevice>(*remains);
     raise(SIGINT);  // which the program survives
     const volatile char* volatile nowhere = reinterpret_cast<const char*>(0x1230);
     static_cast<void>(*nowhere);
@@ -336,7 +336,7 @@ TEST_CASE("a signal that is ignored stays ignored, and stops nothing", "[emergen
       for (const int signal : some) std::signal(signal, SIG_IGN);
     }
     install_emergency_stop();
-    push<SharedDevice>(*shared.remains);
+    press<SharedDevice>(*shared.remains);
     for (const std::vector<int>& some : {signals().end, signals().suspend}) {
       for (const int signal : some) raise(signal);
     }
@@ -354,7 +354,7 @@ TEST_CASE("signals that a program handles for its own purposes stop nothing", "[
     const std::array own = {SIGUSR1, SIGUSR2, SIGALRM, SIGVTALRM, SIGPROF, SIGPIPE, SIGIO, SIGTRAP, SIGRTMIN, SIGTTOU};
     for (const int signal : own) std::signal(signal, [](int) { ++remains->handled; });
     install_emergency_stop();
-    push<SharedDevice>(*remains);
+    press<SharedDevice>(*remains);
     for (const int signal : own) raise(signal);
     std::_Exit(emergency_stopped() || remains->handled != static_cast<int>(own.size()) ? 1 : 0);
   });
@@ -371,7 +371,7 @@ TEST_CASE("a program that is suspended has no force while it stands still, each 
     if (child == 0) {
       forget_handlers();
       install_emergency_stop();
-      push<SharedDevice>(*shared.remains);
+      press<SharedDevice>(*shared.remains);
       raise(signal);
       clear_emergency_stop();
       while (shared.remains->force != 3.0) std::this_thread::yield();
@@ -436,7 +436,7 @@ TEST_CASE("an entry that restores the terminal from the background does not susp
           if (tcgetattr(tty, &modes) == 0 && tcsetattr(tty, TCSANOW, &modes) == 0)
             ++*static_cast<std::atomic<int>*>(handled);
         });
-        push<StoppableDevice>(*shared.remains);
+        press<StoppableDevice>(*shared.remains);
         raise(SIGTERM);
       });
       std::_Exit(killed(ending, SIGTERM) ? 0 : 4);
@@ -455,7 +455,7 @@ TEST_CASE("terminate handlers installed before are called after the stop", "[eme
   const int status = status_of_child([&] {
     std::set_terminate([] { std::_Exit(43); });
     install_emergency_stop();
-    push<SharedDevice>(*shared.remains);
+    press<SharedDevice>(*shared.remains);
     std::terminate();
   });
   CHECK(exited(status, 43));
@@ -467,7 +467,7 @@ TEST_CASE("installing it again changes nothing", "[emergency]") {
   const int status = status_of_child([&] {
     install_emergency_stop();
     install_emergency_stop();
-    push<SharedDevice>(*shared.remains);
+    press<SharedDevice>(*shared.remains);
     raise(SIGTERM);
   });
   CHECK(killed(status, SIGTERM));

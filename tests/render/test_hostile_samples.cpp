@@ -23,12 +23,12 @@ constexpr double extremes[] = {0.0,   -0.0,   5e-324,  1e-310,   -1.0,     1.0, 
                                1e154, -1e200, 1.7e308, -1.7e308, infinity, -infinity, not_a_number};
 
 /// A renderer in the middle of a stroke, with the pen 3 mm off the stroke and 2 mm in the paper.
-struct InStroke {
+struct MidStroke {
   HapticRenderer renderer;
   ScriptedPen pen;
   Vector3d place;
 
-  explicit InStroke(const RendererOptions& options = {})
+  explicit MidStroke(const RendererOptions& options = {})
       : renderer({placed(U'三')}, {}, test_device(), options), pen(renderer, options.servo_rate) {
     const Stroke first = strokes(renderer.page()[0].character)[0];
     const Point start = renderer.page()[0].placement.to_page(first.control_points[0]);
@@ -93,7 +93,7 @@ constexpr int torment_ticks = 200'000;
 TEST_CASE("on bad samples the force ramps down to zero, and it recovers with the next good ones", "[render]") {
   for (const double value : {infinity, -infinity, not_a_number, 1e200, 1.0}) {
     for (int axis = 0; axis < 3; ++axis) {
-      InStroke test;
+      MidStroke test;
       const Vector3d before = test.renderer.last().force;
       REQUIRE(before.norm() > 1.5);
       Vector3d position = test.place;
@@ -114,7 +114,7 @@ TEST_CASE("on bad samples the force ramps down to zero, and it recovers with the
 TEST_CASE("on a missing or faulty device the force ramps down to zero, and does not step on its return", "[render]") {
   for (const DeviceStatus status : {DeviceStatus::disconnected, DeviceStatus::needs_calibration, DeviceStatus::fault,
                                     static_cast<DeviceStatus>(200)}) {
-    InStroke test;
+    MidStroke test;
     for (int i = 0; i < 100; ++i) {
       CHECK(test.pen.sample(state_with(test.place, status)).status == TickStatus::device_fault);
     }
@@ -132,7 +132,7 @@ TEST_CASE("a pen that is moved while no good sample arrives feels no step on its
   for (const DeviceStatus status : {DeviceStatus::ok, DeviceStatus::stale, DeviceStatus::fault}) {
     for (const int missed : {1, 3, 10, 100}) {
       for (const bool moves_on : {false, true}) {
-        InStroke test;
+        MidStroke test;
         const Vector3d unknown(not_a_number, 0.0, 0.0);  // with status ok: a bad sample
         for (int i = 0; i < missed; ++i) test.pen.sample(state_with(unknown, status));
         // 4 mm deeper in the paper, at 1 mm/ms at most: as fast as it may be, faster than the force may follow.
@@ -158,7 +158,7 @@ TEST_CASE("a pen that is moved while no good sample arrives feels no step on its
 }
 
 TEST_CASE("warm motors are no fault", "[render]") {
-  InStroke test;
+  MidStroke test;
   const Vector3d before = test.renderer.last().force;
   for (int i = 0; i < 1000; ++i) test.pen.sample(state_with(test.place, DeviceStatus::warm_motors));
   CHECK(test.renderer.last().status == TickStatus::ok);
@@ -170,7 +170,7 @@ TEST_CASE("while samples are stale the force is held for 4 ms, then ramps down, 
   for (const double rate : {1000.0, 4000.0}) {
     RendererOptions options;
     options.servo_rate = rate;
-    InStroke test(options);
+    MidStroke test(options);
     const Vector3d before = test.renderer.last().force;
     REQUIRE(before.norm() > 1.0);
     const int held = static_cast<int>(std::lround(0.004 * rate));
@@ -195,7 +195,7 @@ TEST_CASE("while samples are stale the force is held for 4 ms, then ramps down, 
 }
 
 TEST_CASE("a stale sample is not taken for a fresh one: it moves nothing, whatever it says", "[render]") {
-  InStroke test;
+  MidStroke test;
   const HapticTick before = test.renderer.last();
   for (int i = 0; i < 3; ++i) {
     test.pen.sample(state_with({test.place.x() + 0.002, test.place.y(), 0.010}, DeviceStatus::stale));
@@ -207,7 +207,7 @@ TEST_CASE("a stale sample is not taken for a fresh one: it moves nothing, whatev
 }
 
 TEST_CASE("a single sample far away is rejected, a second one near it accepted", "[render]") {
-  InStroke test;
+  MidStroke test;
   const Vector3d away = test.place + Vector3d(1.0, 0.0, 0.0);
   CHECK(test.pen.sample(state_with(away)).status == TickStatus::bad_sample);
   test.pen.at(test.place);
@@ -222,7 +222,7 @@ TEST_CASE("a single sample far away is rejected, a second one near it accepted",
 TEST_CASE("clocks that stop, run backwards or jump change neither the force on a pen at rest nor its state",
           "[render]") {
   for (const double leap : {0.0, -1.0, -1e9, 10.0, 1e9, 1e300}) {
-    InStroke test;
+    MidStroke test;
     const Vector3d before = test.renderer.last().force;
     DeviceState state = state_with(test.place);
     state.time = test.renderer.last().time;
