@@ -14,6 +14,7 @@
 
 #include "../allocation_counter.hpp"
 #include "../catch.hpp"
+#include "../sanitized.hpp"
 #include "../special_values.hpp"
 #include "../still_clock.hpp"
 
@@ -442,6 +443,7 @@ TEST_CASE("a sampled wall becomes unstable at the theoretical stiffness", "[devi
       Wall{1e-3, 0.1, 30.0, 0, none, 30139.0}, Wall{1e-3, 0.05, 0.0, 0, {0.05, 1.0, 100.0}, 2104.0},
       Wall{1e-3, 0.05, 0.0, 0, {0.1, 3.0, 300.0}, 6123.0}, Wall{1e-3, 0.05, 0.0, 0, {0.15, 5.0, 500.0}, 10146.0});
   CAPTURE(wall.period, wall.friction, wall.damping, wall.delay, wall.grip.stiffness);
+  if (calligraphy_test::sanitized && wall.delay == 0) return;
   CHECK(critical_stiffness(wall) == Approx(wall.critical_stiffness).epsilon(0.002));
 }
 

@@ -19,16 +19,9 @@ namespace {
 
 using namespace calligraphy;
 
-// Sanitizer builds check memory only.
-#ifdef __SANITIZE_ADDRESS__
-constexpr std::size_t most_characters = 3;
-constexpr int pair_count = 3, release_count = 10;
-const std::vector<double> sizes = {0.04};
-#else
 constexpr std::size_t most_characters = 1000;
 constexpr int pair_count = 160, release_count = 400;
 const std::vector<double> sizes = {0.01, 0.02, 0.04};
-#endif
 
 std::vector<Character> characters() {
   std::vector<Character> all = built_in_characters().characters;
@@ -200,9 +193,7 @@ TEST_CASE("everything() finishes as many characters as vision and reduces the er
       }
       CAPTURE(name, em, vision, everything);
       CHECK(everything >= vision);
-#ifndef __SANITIZE_ADDRESS__
       CHECK(everything_error <= 1.005 * standard_error);  // in the program, with more of them: less on every profile
-#endif
     }
   }
 }

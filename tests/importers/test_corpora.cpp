@@ -8,19 +8,15 @@
 
 #include "../catch.hpp"
 #include "../package_data.hpp"
+#include "../sanitized.hpp"
 #include "importers/stroke_letters.hpp"
 
 using namespace calligraphy;
 
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__)
-constexpr bool whole = false;  // this build checks memory; the other one checks accuracy
-constexpr std::size_t stride = 50;
-#else
-constexpr bool whole = true;
-constexpr std::size_t stride = 1;
-#endif
+constexpr bool whole = !calligraphy_test::sanitized;
+constexpr std::size_t stride = whole ? 1 : 200;
 
 /// Every `stride`-th ideograph; empty, which means all, if the whole corpus is requested.
 std::u32string chosen() {

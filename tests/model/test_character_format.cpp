@@ -12,6 +12,7 @@
 #include <calligraphy/model/character_list.hpp>
 
 #include "../hard_cases.hpp"
+#include "../sanitized.hpp"
 
 using namespace calligraphy;
 
@@ -207,11 +208,7 @@ TEST_CASE("a message does not repeat a line of one megabyte", "[model]") {
 }
 
 TEST_CASE("a million strokes are read", "[model]") {
-#ifdef __SANITIZE_ADDRESS__
-  constexpr int count = 50'000;
-#else
-  constexpr int count = 1'000'000;
-#endif
+  constexpr int count = calligraphy_test::sanitized ? 50'000 : 1'000'000;
   std::string text = head + "character \xE5\x8C\x97\n";
   for (int i = 0; i < count; ++i) text += "stroke 1 0,0 1,1\n";
   const CharacterList set = read(text);

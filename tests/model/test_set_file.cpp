@@ -1,5 +1,6 @@
 // Set files: intact, damaged, truncated, forged, and files of other formats.
 #include "../catch.hpp"
+#include "../sanitized.hpp"
 
 #include <sys/stat.h>
 
@@ -253,11 +254,7 @@ TEST_CASE("damage in one group leaves the others usable", "[model]") {
 }
 
 TEST_CASE("any byte forged under correct checksums causes no access outside the file", "[model]") {
-#if defined(__SANITIZE_ADDRESS__)
-  constexpr unsigned stride = 17;  // 0 and 255 are among them
-#else
-  constexpr unsigned stride = 5;
-#endif
+  constexpr unsigned stride = calligraphy_test::sanitized ? 51 : 5;  // 0 and 255 are among them
   int opened = 0, refused = 0;
   for (const CoordinatePrecision precision : {CoordinatePrecision::coarse, CoordinatePrecision::exact}) {
     const Bytes whole = encode_character_set(small_list(), precision);
@@ -275,11 +272,7 @@ TEST_CASE("any byte forged under correct checksums causes no access outside the 
 }
 
 TEST_CASE("several numbers forged under correct checksums cause no access outside the file", "[model]") {
-#if defined(__SANITIZE_ADDRESS__)
-  constexpr int repetitions = 10'000;
-#else
-  constexpr int repetitions = 50'000;
-#endif
+  constexpr int repetitions = calligraphy_test::sanitized ? 5'000 : 50'000;
   std::vector<Bytes> files;
   for (const CoordinatePrecision precision : {CoordinatePrecision::coarse, CoordinatePrecision::exact}) {
     files.push_back(encode_character_set(small_list(), precision));

@@ -17,13 +17,8 @@ using namespace calligraphy;
 
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__)
-constexpr int deviating_seeds = 1;
-const char* const deviating_text = "永";
-#else
 constexpr int deviating_seeds = 8;
 const char* const deviating_text = "永北京木国大";
-#endif
 
 /// Totals over the pages of one law and one bias.
 struct Outcome {
@@ -127,13 +122,11 @@ TEST_CASE("guidance for large deviations completes more strokes at once and clos
         // 100 and 400 N/s, and what springs and dampers change at 0.1 m/s, with kicks of 0.05 m/s, as the pen touches.
         CHECK(outcome.step <= std::hypot(0.1 + 800.0 * 1e-4 + 4.0 * 0.05, 0.4 + 600.0 * 1e-4 + 4.0 * (0.05 + 0.05)));
       }
-#if !defined(__SANITIZE_ADDRESS__)
       if (bias < 0.2) continue;
       CHECK(saturating.share_at_once() > linear.share_at_once());
       CHECK(everything.share_at_once() > linear.share_at_once());
       CHECK(saturating.rms() < linear.rms());
       CHECK(everything.rms() < linear.rms());
-#endif
     }
   }
 }

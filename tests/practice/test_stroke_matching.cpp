@@ -22,13 +22,8 @@ using calligraphy_test::Sequence;
 
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__)
-constexpr int rounds = 1;
-constexpr std::size_t trace_stride = 4;  // over people's traces
-#else
 constexpr int rounds = 5;
 constexpr std::size_t trace_stride = 1;
-#endif
 
 Character character_of(std::string_view text) { return calligraphy_test::characters(text).front(); }
 

@@ -196,11 +196,7 @@ TEST_CASE("people's pens hold the device without a fault, and no force or force 
   if (everything) options.renderer = RendererOptions::everything(options.device);
   const auto traces = calligraphy_test::traces_of_people();
   const auto set = calligraphy_test::imported_characters();
-#if defined(__SANITIZE_ADDRESS__)
-  const std::size_t stride = 8;
-#else
   const std::size_t stride = 1;
-#endif
   for (std::size_t i = 0; i < traces.size(); i += stride) {
     const auto stored = set ? set->find(traces[i].character) : std::nullopt;
     const Character character = stored ? stored->character() : calligraphy_test::own_character(traces[i]);

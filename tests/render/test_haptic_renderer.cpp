@@ -8,6 +8,7 @@
 #include <calligraphy/base/error.hpp>
 
 #include "../allocation_counter.hpp"
+#include "../sanitized.hpp"
 #include "../scripted_pen.hpp"
 
 using namespace calligraphy;
@@ -262,11 +263,7 @@ TEST_CASE("a moved renderer continues, and restart begins the page again", "[ren
 }
 
 TEST_CASE("a million updates do not allocate", "[render]") {
-#ifdef __SANITIZE_ADDRESS__
-  constexpr int updates = 100'000;
-#else
-  constexpr int updates = 1'000'000;
-#endif
+  constexpr int updates = calligraphy_test::sanitized ? 100'000 : 1'000'000;
   HapticRenderer renderer = renderer_of(U"永北");
   const auto path = path_of(strokes(renderer.page()[0].character)[1], renderer.page()[0].placement, 1e-4);
   const std::size_t before = calligraphy_test::allocations();

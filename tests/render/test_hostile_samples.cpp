@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "../hard_cases.hpp"
+#include "../sanitized.hpp"
 #include "../scripted_pen.hpp"
 #include "../special_values.hpp"
 
@@ -82,11 +83,7 @@ void torment(HapticRenderer& renderer, std::uint64_t seed, int ticks, double& ma
   }
 }
 
-#ifdef __SANITIZE_ADDRESS__
-constexpr int torment_ticks = 20'000;
-#else
-constexpr int torment_ticks = 200'000;
-#endif
+constexpr int torment_ticks = calligraphy_test::sanitized ? 20'000 : 200'000;
 
 }  // namespace
 

@@ -17,6 +17,7 @@
 #include "../allocation_counter.hpp"
 #include "../hard_cases.hpp"
 #include "../held_mass.hpp"
+#include "../sanitized.hpp"
 #include "../special_values.hpp"
 
 using namespace calligraphy;
@@ -192,11 +193,7 @@ const std::vector<std::pair<const char*, Field>> hostile_fields = {
        return (std::fmod(time, 0.06) < 0.03 ? 10.0 : -1.0) * unit(velocity);
      }}};
 
-#ifdef __SANITIZE_ADDRESS__
-constexpr double hostile_seconds = 0.5;
-#else
-constexpr double hostile_seconds = 2.0;
-#endif
+constexpr double hostile_seconds = calligraphy_test::sanitized ? 0.2 : 2.0;
 
 }  // namespace
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "../hard_cases.hpp"
+#include "../sanitized.hpp"
 #include "../scripted_pen.hpp"
 
 using namespace calligraphy;
@@ -94,11 +95,7 @@ void check_steps(const ScriptedPen& pen, const HapticRenderer& renderer) {
   CHECK(pen.max_force <= 3.3 * (1.0 + 1e-12));
 }
 
-#ifdef __SANITIZE_ADDRESS__
-constexpr int random_strokes = 2;
-#else
-constexpr int random_strokes = 10;
-#endif
+constexpr int random_strokes = calligraphy_test::sanitized ? 2 : 10;
 
 /// Writing, jumps and random motion in and above the paper, at speeds up to 1 m/s.
 void wander(ScriptedPen& pen, const HapticRenderer& renderer, std::uint64_t seed) {
@@ -276,11 +273,7 @@ TEST_CASE("a pen pressed for a minute: warm motors reduce the force to the conti
     const HapticTick& tick = renderer.last();
     CHECK(pen.max_force == Approx(3.3));
     double last = tick.force.norm(), max_rise = 0.0, max_turn = 0.0, hottest = 0.0;
-#ifdef __SANITIZE_ADDRESS__
-    constexpr int seconds = 40;
-#else
-    constexpr int seconds = 60;
-#endif
+    constexpr int seconds = calligraphy_test::sanitized ? 40 : 60;
     for (int i = 0; i < 1000 * seconds; ++i) {
       pen.at(place);
       const double size = tick.force.norm();

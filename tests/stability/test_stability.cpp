@@ -12,13 +12,8 @@
 namespace calligraphy_test {
 namespace {
 
-#ifdef __SANITIZE_ADDRESS__
-constexpr int drawn_cases = 30, grips = 10, energy_runs = 20;
-constexpr std::int64_t energy_ticks = 5000;
-#else
 constexpr int drawn_cases = 150, grips = 40, energy_runs = 40;
 constexpr std::int64_t energy_ticks = 20000;
-#endif
 
 void check_sweep(std::uint64_t seed) {
   const std::vector<SweepResult> results = run_sweep(seed, drawn_cases, 0);

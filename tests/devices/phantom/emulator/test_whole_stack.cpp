@@ -43,12 +43,12 @@ struct Stack {
     run(50);
     phantom.arm.docked = false;
     const Eigen::Vector3d from = phantom.arm.tip.true_position(), to(0.01, 0.02, 0.01);
-    phantom.arm.tip.set_intention({from, to - from});
-    run(1000);
+    phantom.arm.tip.set_intention({from, 4.0 * (to - from)});
+    run(250);
     phantom.arm.move_hand(to);
-    run(200);
+    run(100);
     leaning = true;
-    run(300);
+    run(200);
   }
 
   FreshBed bed;
@@ -103,7 +103,7 @@ void require_zero_within_20_ms(Stack& stack, bool reports, bool commands) {
 }
 
 void require_return_without_a_jump(Stack& stack) {
-  stack.run(600);
+  stack.run(400);
   REQUIRE(stack.servo.status().fault == DeviceFault::none);
   CHECK(stack.last_force.norm() > 0.7);
   CHECK(stack.max_step < 0.15);
