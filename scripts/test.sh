@@ -3,10 +3,12 @@
 # are at risk again under the sanitizers.
 # The last line is "N passed, N failed", preceded by the tests that took more than 5 s and by the processor time of each
 # part.
-# usage: test.sh [--full]
+# usage: test.sh [--full | --changed]
 #   --full   also the slow checks: the library with clang and libc++, as WebAssembly and on an emulated arm64, each
 #            source file on its own, and the programs that no test runs: benchmarks, judges, long fuzz and soak runs;
 #            the plain run compiles one file with libc++ and one to WebAssembly
+#   --changed  for use while working: only the Release tests of the components whose files differ from the branch main,
+#            and of those above them; of the program and the Python module only if their own files differ
 #
 # CALLIGRAPHY_REQUIRE_DATA=1 (set in any CI): fail if the npm packages that tests read, or the Python packages that the
 # tests of the Python module need, are not available; otherwise those tests are skipped.
@@ -17,11 +19,12 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-full=
+full= changed=
 case "$*" in
   '') ;;
   --full) full=1 ;;
-  *) echo "usage: $0 [--full]" >&2; exit 2 ;;
+  --changed) changed=1 ;;
+  *) echo "usage: $0 [--full | --changed]" >&2; exit 2 ;;
 esac
 if [[ -n ${CI:-} && ${CI:-} != false ]]; then export CALLIGRAPHY_REQUIRE_DATA=1; fi
 build=$PWD/build-tests
@@ -82,12 +85,16 @@ fetch_data() {
 import_characters() {
   local file=$build/data/hanzi-writer-data.set
   if [[ -n ${CALLIGRAPHY_CHARACTER_FILE:-} || -z ${CALLIGRAPHY_HANZI_WRITER_DATA_TARBALL:-} ]]; then return 0; fi
+  if [[ -n $changed && $labels != *importers* && -f $file ]]; then  # that of an earlier run
+    export CALLIGRAPHY_CHARACTER_FILE=$file
+    return 0
+  fi
   step "dependencies and data" "$1/tools/calligraphy" import "$CALLIGRAPHY_HANZI_WRITER_DATA_TARBALL" -o "$file" \
     --precision exact || return 0
   export CALLIGRAPHY_CHARACTER_FILE=$file
 }
 
-# test_build NAME CMAKE_OPTION...
+# test_build NAME CMAKE_OPTION...: runs the tests with the labels in `labels`, or all.
 test_build() {
   local name=$1 directory=$build/$1 junit=$build/$1.xml
   shift
@@ -97,7 +104,7 @@ test_build() {
   import_characters "$directory"
   echo "== ctest, $name"
   timed "$name: test" ctest --test-dir "$directory" --output-on-failure --no-tests=error -j "$(nproc)" \
-    --output-junit "$junit" || true
+    -L "${labels:-.*}" --output-junit "$junit" || true
   if [[ -s $junit ]]; then
     results+=("$junit")
   else
@@ -138,6 +145,7 @@ python_module() {
   # Long options, because pip of Debian 12 does not support -C.
   step "python: compile" "$PYTHON" -m pip wheel -q --disable-pip-version-check --no-build-isolation --no-deps . \
     -w "$work/wheel" --config-settings=build-dir="$work/build" --config-settings=cmake.source-dir=bindings/python \
+    --config-settings=cmake.define.CMAKE_CXX_FLAGS="$quick" \
     --config-settings=cmake.define.CMAKE_PREFIX_PATH="$work/installed" || return 0
   step "python: compile" "$PYTHON" -m pip install -q --disable-pip-version-check --no-deps --force-reinstall \
     "$work"/wheel/calligraphy-*.whl || return 0
@@ -185,7 +193,8 @@ sanitized_python_tests() {
   local flags="-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer"
   step "python, sanitized" cmake -S bindings/python -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Debug \
     -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" -DCMAKE_CXX_FLAGS="$flags" \
-    -DCMAKE_MODULE_LINKER_FLAGS=-shared-libsan -DCMAKE_PREFIX_PATH="$work/installed" -DPython_EXECUTABLE="$PYTHON" > /dev/null || return 0
+    -DCMAKE_MODULE_LINKER_FLAGS=-shared-libsan -DCMAKE_PREFIX_PATH="$work/installed" \
+    -DPython_EXECUTABLE="$PYTHON" > /dev/null || return 0
   step "python, sanitized" cmake --build "$work/build" || return 0
   mkdir -p "$work/site/calligraphy"
   cp bindings/python/calligraphy/*.py "$work"/build/_calligraphy*.so "$work/site/calligraphy"
@@ -278,12 +287,48 @@ if [[ -z ${CALLIGRAPHY_PEN_TRACES:-} && -d ../shared/data/traces ]]; then
   CALLIGRAPHY_PEN_TRACES=$(cd ../shared/data/traces && pwd)
   export CALLIGRAPHY_PEN_TRACES
 fi
+labels=
+everything=(-DCALLIGRAPHY_TESTS=ON -DCALLIGRAPHY_EXAMPLES=ON -DCALLIGRAPHY_TOOLS=ON -DCALLIGRAPHY_PICTURES=ON)
+# g++ compiles a tenth faster where it does not collect its garbage.
+quick=
+if "${CXX:-c++}" --version | grep -q "Free Software"; then
+  quick="--param=ggc-min-expand=1000 --param=ggc-min-heapsize=2097152"
+fi
+release() {
+  test_build release -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS="$quick" -DCALLIGRAPHY_BENCHMARKS=OFF \
+    "${everything[@]}"
+}
+
+if [[ -n $changed ]]; then
+  main=$(git rev-parse --verify --quiet main || git rev-parse --verify origin/main)
+  differ=$({ git diff --name-only "$main" && git ls-files --others --exclude-standard; } |
+    python3 tests/structure/changed_labels.py)
+  echo "== differs from main: ${differ:-nothing}"
+  if [[ -z $differ ]]; then
+    trap - EXIT
+    echo "0 passed, 0 failed"
+    exit 0
+  fi
+  if [[ $differ != everything ]]; then labels="^(${differ// /|})$"; fi
+  if [[ $differ =~ python|everything ]]; then begin_python_environment; fi
+  if [[ $differ != python ]]; then
+    release
+  elif step "release: compile" cmake --build "$build/release"; then
+    import_characters "$build/release"
+  fi
+  if [[ $differ =~ python|everything ]]; then
+    python_module "$build/release"
+    begin_python_tests "$build/release"
+    end_python_tests
+  fi
+  finish
+fi
+
 begin_python_environment
 clang=$(command -v clang++ || true)
 check env CXX="$clang" scripts/full/libcxx.sh one
 check scripts/full/wasm.sh one
-everything=(-DCALLIGRAPHY_TESTS=ON -DCALLIGRAPHY_EXAMPLES=ON -DCALLIGRAPHY_TOOLS=ON -DCALLIGRAPHY_PICTURES=ON)
-test_build release -DCMAKE_BUILD_TYPE=Release -DCALLIGRAPHY_BENCHMARKS=OFF "${everything[@]}"
+release
 python_module "$build/release"
 begin_python_tests "$build/release"
 # With the other compiler, which finds different problems and is faster.
