@@ -193,7 +193,7 @@ const std::vector<std::pair<const char*, Field>> hostile_fields = {
        return (std::fmod(time, 0.06) < 0.03 ? 10.0 : -1.0) * unit(velocity);
      }}};
 
-constexpr double hostile_seconds = calligraphy_test::sanitized ? 0.2 : 2.0;
+constexpr double hostile_seconds = calligraphy_test::sanitized ? 0.5 : 2.0;
 
 }  // namespace
 
