@@ -41,7 +41,7 @@ timed() {
     trap - EXIT
     status=0
     "$@" || status=$?
-    times > "$build/times/$part.$BASHPID"
+    LC_ALL=C times > "$build/times/$part.$BASHPID"
     exit $status
   )
 }
@@ -85,7 +85,7 @@ fetch_data() {
 import_characters() {
   local file=$build/data/hanzi-writer-data.set
   if [[ -n ${CALLIGRAPHY_CHARACTER_FILE:-} || -z ${CALLIGRAPHY_HANZI_WRITER_DATA_TARBALL:-} ]]; then return 0; fi
-  if [[ -n $changed && $labels != *importers* && -f $file ]]; then  # that of an earlier run
+  if [[ -n $labels && ! $labels =~ importers|tools && -f $file ]]; then  # that of an earlier run
     export CALLIGRAPHY_CHARACTER_FILE=$file
     return 0
   fi
@@ -94,17 +94,21 @@ import_characters() {
   export CALLIGRAPHY_CHARACTER_FILE=$file
 }
 
-# test_build NAME CMAKE_OPTION...: runs the tests with the labels in `labels`, or all.
-test_build() {
-  local name=$1 directory=$build/$1 junit=$build/$1.xml
+# compile NAME CMAKE_OPTION...
+compile() {
+  local name=$1 directory=$build/$1
   shift
+  step "$name: configure" cmake -S . -B "$directory" -G Ninja "$@" && step "$name: compile" cmake --build "$directory"
+}
+
+# test_build NAME: runs the tests with the labels that match `labels`, or all.
+test_build() {
+  local name=$1 directory=$build/$1 junit=$build/$1.xml selected=()
   rm -f "$junit"
-  step "$name: configure" cmake -S . -B "$directory" -G Ninja "$@" || return 0
-  step "$name: compile" cmake --build "$directory" || return 0
-  import_characters "$directory"
+  if [[ -n $labels ]]; then selected=(-L "$labels"); fi
   echo "== ctest, $name"
   timed "$name: test" ctest --test-dir "$directory" --output-on-failure --no-tests=error -j "$(nproc)" \
-    -L "${labels:-.*}" --output-junit "$junit" || true
+    "${selected[@]}" --output-junit "$junit" || true
   if [[ -s $junit ]]; then
     results+=("$junit")
   else
@@ -145,7 +149,7 @@ python_module() {
   # Long options, because pip of Debian 12 does not support -C.
   step "python: compile" "$PYTHON" -m pip wheel -q --disable-pip-version-check --no-build-isolation --no-deps . \
     -w "$work/wheel" --config-settings=build-dir="$work/build" --config-settings=cmake.source-dir=bindings/python \
-    --config-settings=cmake.define.CMAKE_CXX_FLAGS="$quick" \
+    --config-settings=cmake.define.CMAKE_CXX_FLAGS="${CXXFLAGS:-} $quick" \
     --config-settings=cmake.define.CMAKE_PREFIX_PATH="$work/installed" || return 0
   step "python: compile" "$PYTHON" -m pip install -q --disable-pip-version-check --no-deps --force-reinstall \
     "$work"/wheel/calligraphy-*.whl || return 0
@@ -218,7 +222,7 @@ sanitized_python_tests() {
 # Prints what did not pass, the processor times and the counts, and ends the script.
 finish() {
   local status=0
-  times > "$build/times/in total"
+  LC_ALL=C times > "$build/times/in total"
   python3 - "$build/times" "$checked" "$broken" "${results[@]}" << 'END' || status=$?
 import collections
 import glob
@@ -294,15 +298,18 @@ quick=
 if "${CXX:-c++}" --version | grep -q "Free Software"; then
   quick="--param=ggc-min-expand=1000 --param=ggc-min-heapsize=2097152"
 fi
-release() {
-  test_build release -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS="$quick" -DCALLIGRAPHY_BENCHMARKS=OFF \
-    "${everything[@]}"
+compile_release() {
+  compile release -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS="${CXXFLAGS:-} $quick" -DCALLIGRAPHY_BENCHMARKS=OFF \
+    "${everything[@]}" && import_characters "$build/release"
 }
 
 if [[ -n $changed ]]; then
-  main=$(git rev-parse --verify --quiet main || git rev-parse --verify origin/main)
-  differ=$({ git diff --name-only "$main" && git ls-files --others --exclude-standard; } |
-    python3 tests/structure/changed_labels.py)
+  if main=$(git merge-base HEAD main 2> /dev/null || git merge-base HEAD origin/main); then
+    differ=$({ git diff --name-only --no-renames "$main" && git ls-files --others --exclude-standard; } |
+      python3 tests/structure/changed_labels.py)
+  else
+    differ=everything
+  fi
   echo "== differs from main: ${differ:-nothing}"
   if [[ -z $differ ]]; then
     trap - EXIT
@@ -311,15 +318,13 @@ if [[ -n $changed ]]; then
   fi
   if [[ $differ != everything ]]; then labels="^(${differ// /|})$"; fi
   if [[ $differ =~ python|everything ]]; then begin_python_environment; fi
-  if [[ $differ != python ]]; then
-    release
-  elif step "release: compile" cmake --build "$build/release"; then
-    import_characters "$build/release"
-  fi
-  if [[ $differ =~ python|everything ]]; then
-    python_module "$build/release"
-    begin_python_tests "$build/release"
-    end_python_tests
+  if compile_release; then
+    test_build release
+    if [[ $differ =~ python|everything ]]; then
+      python_module "$build/release"
+      begin_python_tests "$build/release"
+      end_python_tests
+    fi
   fi
   finish
 fi
@@ -328,14 +333,16 @@ begin_python_environment
 clang=$(command -v clang++ || true)
 check env CXX="$clang" scripts/full/libcxx.sh one
 check scripts/full/wasm.sh one
-release
+if compile_release; then test_build release; fi
 python_module "$build/release"
 begin_python_tests "$build/release"
 # With the other compiler, which finds different problems and is faster.
 sanitizing=${clang:-c++}
-test_build sanitized -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" -DCMAKE_CXX_COMPILER="$sanitizing" \
+if compile sanitized -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" -DCMAKE_CXX_COMPILER="$sanitizing" \
   -DCALLIGRAPHY_SANITIZE=address,undefined -DCALLIGRAPHY_TESTS=ON -DCALLIGRAPHY_EXAMPLES=OFF -DCALLIGRAPHY_TOOLS=OFF \
-  -DCALLIGRAPHY_PICTURES="$(if [[ -n ${CALLIGRAPHY_SANITIZE_PYTHON:-} ]]; then echo ON; else echo OFF; fi)"
+  -DCALLIGRAPHY_PICTURES="$(if [[ -n ${CALLIGRAPHY_SANITIZE_PYTHON:-} ]]; then echo ON; else echo OFF; fi)"; then
+  test_build sanitized
+fi
 end_python_tests
 if [[ -n ${CALLIGRAPHY_SANITIZE_PYTHON:-} ]]; then sanitized_python_tests "$build/sanitized" "$sanitizing"; fi
 if [[ -n $full ]]; then

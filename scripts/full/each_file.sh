@@ -7,4 +7,4 @@ build=${1:-build-full}
 
 cmake -S . -B "$build/each_file" -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 -DCALLIGRAPHY_UNITY=OFF \
   -DCALLIGRAPHY_BENCHMARKS=ON > /dev/null
-cmake --build "$build/each_file"
+cmake --build "$build/each_file" --target all programs

@@ -68,8 +68,9 @@ TEST_CASE("the exact nearest point agrees with brute force within a range of an 
     const ReferenceCurve reference(curve.control_points);
     double worst = 0.0;
     for (const ParameterRange& range : ranges) {
-      if (calligraphy_test::sanitized && range.end != 0.7) continue;
-      for (const Point& query : hard_queries(curve, 4)) {
+      std::vector<Point> queries = hard_queries(curve, 4);
+      if (calligraphy_test::sanitized) queries.resize(4);
+      for (const Point& query : queries) {
         worst = std::max(worst, error_of(nearest_point(element, query, {}, range), reference, query, curve, range));
       }
     }

@@ -9,33 +9,41 @@ import sys
 
 from test_components import BELOW, component_of
 
-JUDGES = ["guidance", "stability"]  # of render, from outside
-FOLDERS = {"tools": "tools", "bindings": "python", "examples": "practice", "docs": "structure", "tests/tools": "tools",
-           "tests/consumer": "consumer", "tests/structure": "structure", "tests/fuzz": "collision",
-           "tests/soak": "practice", "tests/guidance": "guidance", "tests/stability": "stability"}
+#: What the tests with a label use beside what their component may include, and what the judges of render use.
+ALSO_USED = {"practice": ["importers"], "pictures": ["importers"], "experiments": ["importers"],
+             "collision": ["experiments"], "openhaptics": ["practice"], "guidance": ["practice"], "stability": ["render"]}
+#: The labels of other files, by the start of their path; the longest that fits.
+OTHERS = {"tools/": ["tools"], "bindings/": ["python"], "examples/": ["collision", "devices", "model", "practice"],
+          "examples/python/": ["python"], "docs/": [], "docs/own-backend.md": ["devices"], "docs/python.md": ["python"],
+          "README.md": ["python"], "CHANGELOG.md": [], "tests/tools/": ["tools"], "tests/consumer/": ["consumer"],
+          "tests/structure/": [], "tests/fuzz/": ["collision"], "tests/soak/": ["practice"],
+          "tests/guidance/": ["guidance"], "tests/stability/": ["stability", "guidance"],
+          "tests/devices/phantom/emulator/": ["phantom", "openhaptics", "tools", "python"],
+          "tests/devices/openhaptics/": ["openhaptics", "tools", "python"],
+          "tests/practice/": ["practice", "pictures", "experiments"]}
 
 
-def component_in(parts):
-    """The component of a file, or of the tests of one; None if it is that of no one component."""
-    if parts[:2] == ("include", "calligraphy"):
-        return component_of(parts[2:])
-    return component_of(parts[1:]) if parts[0] in ("src", "tests") and len(parts) > 2 else None
+def used(label):
+    """The components on which the tests with a label depend."""
+    direct = [label, *ALSO_USED.get(label, [])]
+    return {name for one in direct if one in BELOW for name in [one, *BELOW[one]]}
 
 
 def labels(paths):
-    """The labels, in no order; "everything" if a file belongs to everything."""
-    found = set()
+    """The labels of what may be wrong after a change of the files; "everything" if one belongs to everything."""
+    found = {"structure"} if paths else set()
     for path in paths:
         parts = pathlib.PurePosixPath(path).parts
-        own = component_in(parts)
-        folder = FOLDERS.get(parts[0]) or FOLDERS.get("/".join(parts[:2]))
-        if own and parts[0] == "tests":
-            found.add(own)
-        elif own:
-            above = [name for name in BELOW if name == own or own in BELOW[name]]
-            found.update(above, JUDGES if "render" in above else [])
-        elif folder or path.endswith(".md"):
-            found.add(folder or "structure")
+        fitting = [start for start in OTHERS if path.startswith(start)]
+        if parts[:2] == ("include", "calligraphy") or parts[0] == "src":
+            own = component_of(parts[2 if parts[0] == "include" else 1:])
+            if own is None:
+                return {"everything"}
+            found.update(label for label in [*BELOW, *ALSO_USED] if own in used(label))
+        elif fitting:
+            found.update(OTHERS[max(fitting, key=len)])
+        elif parts[0] == "tests" and len(parts) > 2 and component_of(parts[1:]):
+            found.add(component_of(parts[1:]))
         else:
             return {"everything"}
     return found
