@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds the programs that no test runs (benchmarks, judges of the guidance, long fuzz and soak runs), and runs them for an
-# instant, so that they cannot rot; fuzz and soak also under sanitizers.
+# Builds the programs that no test runs (benchmarks, judges of the guidance, long fuzz and soak runs), and runs them for
+# an instant, so that they cannot rot; fuzz and soak also under sanitizers.
 # usage: programs.sh [BUILD_DIRECTORY]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."

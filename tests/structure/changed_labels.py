@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Prints the CTest labels, and "python", of what may be wrong after a change of the files named on standard input: their
-components and those above. The program, the Python module and the examples are only named if their own files changed.
+"""Prints the CTest labels, and "python", of what may be wrong after a change of the files named on standard input:
+their components and those above. The program, the Python module and the examples only if their own files changed.
 
 usage: git diff --name-only main | changed_labels.py
 """
@@ -11,7 +11,8 @@ from test_components import BELOW, component_of
 
 #: What the tests with a label use beside what their component may include, and what the judges of render use.
 ALSO_USED = {"practice": ["importers"], "pictures": ["importers"], "experiments": ["importers"],
-             "collision": ["experiments"], "openhaptics": ["practice"], "guidance": ["practice"], "stability": ["render"]}
+             "collision": ["experiments"], "openhaptics": ["practice"],
+             "guidance": ["practice"], "stability": ["render"]}
 #: The labels of other files, by the start of their path; the longest that fits.
 OTHERS = {"tools/": ["tools"], "bindings/": ["python"], "examples/": ["collision", "devices", "model", "practice"],
           "examples/python/": ["python"], "docs/": [], "docs/own-backend.md": ["devices"], "docs/python.md": ["python"],
