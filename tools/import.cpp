@@ -40,6 +40,7 @@ struct ImportArguments {
   bool alternates = false;
   bool all = false;
   int threads = 0;
+  bool report = false;
   bool json = false;
 };
 
@@ -77,6 +78,7 @@ ImportResult imported(const ImportArguments& options, const Interrupt& interrupt
   if (options.only) asked.only = characters_of(*options.only);
   asked.date = options.date;
   asked.threads = options.threads;
+  asked.report = options.report;
   Progress progress;
   asked.progress = [&](double share) {
     interrupt.check();
@@ -158,6 +160,8 @@ void add_import(CLI::App& program) {
   command->add_option("--threads", options->threads, "Threads (default: one per core)")
       ->check(integer(1, 256))
       ->type_name("N");
+  command->add_flag("--report", options->report, "Also measure every stroke against its source; docs/strokes.md")
+      ->disable_flag_override();
   command->add_flag("--json", options->json, "Print the report as JSON")->disable_flag_override();
   command->callback([options] { run(*options); });
 }

@@ -12,6 +12,7 @@
 #include <calligraphy/base/text.hpp>
 
 #include "counted.hpp"
+#include "import_measures.hpp"
 #include "options.hpp"
 
 namespace calligraphy::tools {
@@ -20,19 +21,12 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t max_examples = 10;  // in a table; the JSON has all
-constexpr double percent = 100.0;
-
-double share(int part, int whole) { return whole == 0 ? 1.0 : static_cast<double>(part) / whole; }
 
 /// Skipped files by reason.
 std::map<std::string, std::vector<std::string>> by_reason(const std::vector<SkippedFile>& skipped) {
   std::map<std::string, std::vector<std::string>> reasons;
   for (const SkippedFile& file : skipped) reasons[file.reason].push_back(file.path);
   return reasons;
-}
-
-std::string stroke_reference_text(const StrokeReference& place) {
-  return fmt::format("{} stroke {}", character_label(place.code, place.order), place.stroke);
 }
 
 std::string typical_name(int id) { return fmt::format("{} {}", id, typical_stroke(id).name); }
@@ -108,10 +102,6 @@ std::string skipped_table(const ImportReport& report) {
   }
   for (const std::string& note : report.notes) text += "\nnote: " + note + "\n";
   return text;
-}
-
-Json place_json(const StrokeReference& place) {
-  return {{"character", encode_utf8(place.code)}, {"order", place.order}, {"stroke", place.stroke}};
 }
 
 Json fit_json(const std::array<FitCount, 3>& counts, const ImportReport& report) {
@@ -212,7 +202,8 @@ std::string tables(const ImportResult& import, const ImportOutput& output) {
                      to_string(contents_of(import.list)), calligraphy::to_string(report.kind)) +
          fmt::format("source: {}\nlicence: {}\nattribution: {}\n", provenance.source, provenance.licence,
                      provenance.attribution) +
-         (fitted ? fit_table(report) : "") + id_table(report) + label_table(report) + skipped_table(report);
+         (fitted ? fit_table(report) : "") + (report.measures.empty() ? "" : measures_table(report, output.bytes)) +
+         id_table(report) + label_table(report) + skipped_table(report);
 }
 
 std::string json(const ImportResult& import, const ImportOutput& output) {
@@ -234,6 +225,7 @@ std::string json(const ImportResult& import, const ImportOutput& output) {
     all["within_median"] = fit_json(report.within_median, report);
     all["worst"] = worst_json(report);
     all["labels"] = label_json(report);
+    if (!report.measures.empty()) all["measures"] = measures_json(report, output.bytes);
   }
   all["ids_used"] = ids_json(report);
   all["skipped"] = skipped_json(report);

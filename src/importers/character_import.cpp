@@ -28,9 +28,12 @@
 #include "hanzi_writer.hpp"
 #include "imported_character.hpp"
 #include "kanjivg.hpp"
+#include "outline.hpp"
 #include "source_files.hpp"
 #include "stroke_labels.hpp"
 #include "stroke_letters.hpp"
+#include "stroke_measures.hpp"
+#include "stroke_polyline.hpp"
 
 namespace calligraphy {
 namespace {
@@ -126,6 +129,7 @@ void check_applies(const ImportOptions& options, SourceKind kind) {
   refuse(!options.letters.empty(), "letters", {SourceKind::hanzi_writer_data});
   refuse(options.alternates, "alternates", {SourceKind::kanjivg});
   refuse(!options.ideographs_only, "ideographs_only", {SourceKind::kanjivg});
+  refuse(options.report, "report", {SourceKind::hanzi_writer_data, SourceKind::kanjivg});
   refuse(!options.date.empty(), "date", {SourceKind::hanzi_writer_data, SourceKind::kanjivg});
 }
 
@@ -160,6 +164,7 @@ struct Drawing {
 /// The drawn path of a stroke, and its label in the source.
 struct StrokeOfDrawing {
   std::vector<Point> path;
+  std::vector<Point> outline;  ///< of a brush stroke
   std::string label;
   std::span<const int> label_ids;
 };
@@ -279,7 +284,24 @@ class Importer {
       throw FormatError(drawing.place + ": " + error.what());
     }
     result.character.order = drawing.name.order;
+    if (options_.report) measure(drawn, strokes, result);
     return result;
+  }
+
+  static void measure(const std::vector<StrokeOfDrawing>& drawn, const std::vector<StrokeInput>& strokes,
+                      ImportedCharacter& result) {
+    constexpr double tolerance = 1e-4;  // [em], of the polyline
+    std::vector<recognition::StrokeAndSource> all;
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+      const TypicalStroke& type = typical_stroke(strokes[i].id);
+      all.push_back({recognition::flattened(type.elements, strokes[i].control_points, tolerance), drawn[i].path,
+                     recognition::half_width(drawn[i].path, drawn[i].outline)});
+      StrokeMeasures& measures = result.measures.emplace_back(
+          recognition::measure_stroke(all.back().path, all.back().source, all.back().half_width));
+      measures.place = {result.character.code, result.character.order, static_cast<int>(i) + 1};
+      measures.id = type.id;
+    }
+    result.crossings = recognition::count_crossings(all);
   }
 
   std::vector<StrokeOfDrawing> drawn_strokes(const Drawing& drawing, ImportedCharacter& result) const {
@@ -289,11 +311,13 @@ class Importer {
       result.notice = with_plain_line_ends(parsed.notice, drawing.place);
       for (KanjivgStroke& stroke : parsed.strokes) {
         const std::span<const int> ids = ids_of_kanjivg_label(stroke.label);
-        drawn.push_back({std::move(stroke.path), std::move(stroke.label), ids});
+        drawn.push_back({std::move(stroke.path), {}, std::move(stroke.label), ids});
       }
       return drawn;
     }
-    for (auto& median : parse_hanzi_writer(drawing.text, drawing.place)) drawn.push_back({std::move(median), {}, {}});
+    for (BrushStroke& stroke : parse_hanzi_writer(drawing.text, drawing.place)) {
+      drawn.push_back({std::move(stroke.median), std::move(stroke.outline), {}, {}});
+    }
     const auto found = letters_.find(drawing.name.code);
     if (found == letters_.end()) return drawn;
     result.letters_unused = found->second.size() != drawn.size();

@@ -10,6 +10,8 @@
 #include <calligraphy/base/text.hpp>
 #include <calligraphy/importers/stroke_fit.hpp>
 
+#include "path_data.hpp"
+
 namespace calligraphy {
 namespace {
 
@@ -21,6 +23,7 @@ constexpr std::size_t max_points = 10000;  // of one median
 constexpr double units_per_em = 1024.0;
 constexpr double baseline = -124.0;                    // [unit]
 constexpr double max_coordinate = 8.0 * units_per_em;  // [unit]
+constexpr double outline_tolerance = 5e-4;             // [em]
 
 /// Parses the JSON text of one character, with messages that name the file and the place.
 class Reader {
@@ -34,15 +37,23 @@ class Reader {
     }
   }
 
-  std::vector<std::vector<Point>> medians() const {
+  std::vector<BrushStroke> strokes() const {
     if (!root_.is_object()) fail("", "expected an object");
-    const auto found = root_.find("medians");
-    if (found == root_.end()) fail("medians", "missing");
-    if (!found->is_array() || found->empty()) fail("medians", "expected a non-empty array");
-    if (found->size() > max_strokes) fail("medians", "more than " + std::to_string(max_strokes) + " strokes");
-    std::vector<std::vector<Point>> result;
-    for (std::size_t i = 0; i < found->size(); ++i) {
-      result.push_back(median((*found)[i], "medians[" + std::to_string(i) + "]"));
+    const auto medians = root_.find("medians");
+    if (medians == root_.end()) fail("medians", "missing");
+    if (!medians->is_array() || medians->empty()) fail("medians", "expected a non-empty array");
+    if (medians->size() > max_strokes) fail("medians", "more than " + std::to_string(max_strokes) + " strokes");
+    std::vector<BrushStroke> result;
+    for (std::size_t i = 0; i < medians->size(); ++i) {
+      result.push_back({median((*medians)[i], place_in("medians", i)), {}});
+    }
+    const auto outlines = root_.find("strokes");
+    if (outlines == root_.end()) return result;
+    if (!outlines->is_array() || outlines->size() != result.size()) {
+      fail("strokes", "expected an array of " + std::to_string(result.size()) + " outlines, as many as medians");
+    }
+    for (std::size_t i = 0; i < result.size(); ++i) {
+      result[i].outline = outline((*outlines)[i], place_in("strokes", i));
     }
     return result;
   }
@@ -52,6 +63,24 @@ class Reader {
   }
 
  private:
+  static std::string place_in(const char* array, std::size_t index) {
+    return std::string(array) + "[" + std::to_string(index) + "]";
+  }
+
+  std::vector<Point> outline(const Json& value, const std::string& place) const {
+    if (!value.is_string()) fail(place, "expected the path data of an outline");
+    std::vector<Point> points;
+    try {
+      points = flattened_outline(value.get_ref<const std::string&>(), outline_tolerance * units_per_em);
+    } catch (const FormatError& error) {
+      fail(place, std::string("path data ") + error.what());
+    }
+    for (Point& point : points) point = in_em(point);
+    return points;
+  }
+
+  static Point in_em(const Point& units) { return Point(units.x(), units.y() - baseline) / units_per_em; }
+
   std::vector<Point> median(const Json& value, const std::string& place) const {
     if (!value.is_array() || value.empty()) fail(place, "expected a non-empty array of points");
     if (value.size() > max_points) fail(place, "more than " + std::to_string(max_points) + " points");
@@ -70,7 +99,7 @@ class Reader {
     if (units.cwiseAbs().maxCoeff() > max_coordinate) {
       fail(place, "(" + value[0].dump() + ", " + value[1].dump() + ") is more than 8 em from the origin");
     }
-    return Point(units.x(), units.y() - baseline) / units_per_em;
+    return in_em(units);
   }
 
   std::string name_;
@@ -79,8 +108,8 @@ class Reader {
 
 }  // namespace
 
-std::vector<std::vector<Point>> parse_hanzi_writer(std::string_view json, const std::string& name) {
-  return Reader(json, name).medians();
+std::vector<BrushStroke> parse_hanzi_writer(std::string_view json, const std::string& name) {
+  return Reader(json, name).strokes();
 }
 
 Character read_hanzi_writer(const std::string& directory, char32_t code) {
@@ -94,9 +123,10 @@ Character read_hanzi_writer(const std::string& directory, char32_t code) {
                     ": no such file; is this the unpacked npm package hanzi-writer-data, and does it contain " + name +
                     "?");
   }
-  const auto medians = parse_hanzi_writer(read_file(path, max_file_bytes), path.filename().string());
   std::vector<StrokeInput> strokes;
-  for (const std::vector<Point>& median : medians) strokes.push_back(fit_stroke(median).stroke);
+  for (const BrushStroke& stroke : parse_hanzi_writer(read_file(path, max_file_bytes), path.filename().string())) {
+    strokes.push_back(fit_stroke(stroke.median).stroke);
+  }
   return make_character(code, strokes);
 }
 

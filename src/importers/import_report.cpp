@@ -34,6 +34,9 @@ class Counter {
     }
     count_character(report_.within, imported.strokes, &ImportedStroke::error);
     count_character(report_.within_median, imported.strokes, &ImportedStroke::median_error);
+    report_.measures.insert(report_.measures.end(), imported.measures.begin(), imported.measures.end());
+    report_.crossings.source += imported.crossings.source;
+    report_.crossings.kept += imported.crossings.kept;
     if (imported.letters_unused) report_.letters_unused.push_back(character.code);
     ++report_.characters;
   }
@@ -57,6 +60,7 @@ class Counter {
     if (stroke.label_known) ++report_.labelled;
     if (stroke.label_agrees) {
       ++report_.agreed;
+      ++report_.allowed;
       return;
     }
     const LabelResolution resolution = !stroke.label_known       ? LabelResolution::unknown
@@ -64,6 +68,7 @@ class Counter {
                                                                  : LabelResolution::accepted;
     report_.label_conflicts.push_back({place, stroke.label, resolution, stroke.recognised, id});
     if (!stroke.label_known) return;
+    if (resolution == LabelResolution::accepted) ++report_.allowed;
     const auto [entry, is_new] = confusions_.try_emplace({stroke.label, stroke.recognised},
                                                          LabelConfusion{stroke.label, stroke.recognised, 0, place});
     ++entry->second.count;

@@ -20,6 +20,8 @@ struct ImportedStroke {
 struct ImportedCharacter {
   Character character;
   std::vector<ImportedStroke> strokes;
+  std::vector<StrokeMeasures> measures;  ///< if asked for
+  CrossingCount crossings;
   bool letters_unused = false;
   std::string notice;  ///< copyright notice of its file
 };

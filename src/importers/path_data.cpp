@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/model/bezier.hpp>
@@ -18,16 +19,25 @@ constexpr double max_path_coordinate = 1e4;  // [unit]; a drawing has 109
 constexpr std::size_t max_path_points = 20000;
 constexpr int max_pieces = 1000;  // of one curve
 
+/// What a path may consist of after its M.
+struct Commands {
+  std::string_view letters;
+  const char* expected;  ///< for messages
+};
+constexpr Commands centre_line{"CcSs", "expected C or S"};
+constexpr Commands outline{"CcLlQqZz", "expected C, L, Q or Z"};
+
 class PathReader {
  public:
-  PathReader(std::string_view data, double tolerance) : data_(data), tolerance_(tolerance) {}
+  PathReader(std::string_view data, double tolerance, const Commands& commands)
+      : data_(data), tolerance_(tolerance), commands_(commands) {}
 
   std::vector<Point> read() {
     const char start = command();
     if (start != 'M' && start != 'm') fail("expected M, found " + quoted(start));
     points_.push_back(pair(Point::Zero()));
     // The first pair is absolute even for m. Further pairs would be straight lines.
-    if (number_follows()) fail("a second point after M draws a straight line: expected C or S");
+    if (number_follows()) fail(std::string("a second point after M draws a straight line: ") + commands_.expected);
     handle_ = points_.back();
     while (!at_end()) draw(command());
     return std::move(points_);
@@ -35,19 +45,32 @@ class PathReader {
 
  private:
   void draw(char command) {
-    if (std::string_view("CcSs").find(command) == std::string_view::npos) {
-      fail("command " + quoted(command) + ": expected C or S");
+    if (commands_.letters.find(command) == std::string_view::npos) {
+      fail("command " + quoted(command) + ": " + commands_.expected);
     }
-    const bool relative = command == 'c' || command == 's';
-    const bool smooth = command == 'S' || command == 's';
+    if (command == 'Z' || command == 'z') {
+      skip_space();
+      if (!at_end()) fail("expected the end after Z, found " + rest());
+      return;
+    }
+    const bool relative = command >= 'a';
     do {
       const Point start = points_.back();
       const Point origin = relative ? start : Point(Point::Zero());
+      if (command == 'L' || command == 'l') {
+        add(pair(origin));
+        continue;
+      }
+      const bool smooth = command == 'S' || command == 's';
       const Point first = smooth ? Point(2.0 * start - handle_) : pair(origin);
       const Point second = pair(origin);
-      const Point end = pair(origin);
-      add_curve({{start, first, second, end}});
-      handle_ = second;
+      if (command == 'Q' || command == 'q') {  // raised to degree 3
+        add_curve({{start, start + 2.0 / 3.0 * (first - start), second + 2.0 / 3.0 * (first - second), second}});
+      } else {
+        const Point end = pair(origin);
+        add_curve({{start, first, second, end}});
+        handle_ = second;
+      }
     } while (number_follows());
   }
 
@@ -58,7 +81,11 @@ class PathReader {
     const double needed = std::ceil(std::sqrt(second / (8.0 * tolerance_)));
     const int pieces = static_cast<int>(std::clamp(needed, 1.0, static_cast<double>(max_pieces)));
     for (int i = 1; i < pieces; ++i) points_.push_back(curve.point(static_cast<double>(i) / pieces));
-    points_.push_back(p[3]);
+    add(p[3]);
+  }
+
+  void add(const Point& point) {
+    points_.push_back(point);
     if (points_.size() > max_path_points) fail("more than " + std::to_string(max_path_points) + " points");
   }
 
@@ -120,6 +147,7 @@ class PathReader {
 
   std::string_view data_;
   double tolerance_;
+  const Commands& commands_;
   std::size_t at_ = 0;
   std::vector<Point> points_;
   Point handle_ = Point::Zero();
@@ -128,7 +156,11 @@ class PathReader {
 }  // namespace
 
 std::vector<Point> flattened_path(std::string_view data, double tolerance) {
-  return PathReader(data, tolerance).read();
+  return PathReader(data, tolerance, centre_line).read();
+}
+
+std::vector<Point> flattened_outline(std::string_view data, double tolerance) {
+  return PathReader(data, tolerance, outline).read();
 }
 
 }  // namespace calligraphy

@@ -17,6 +17,35 @@ double path_length(std::span<const Point> path) {
   return length;
 }
 
+Path resampled(std::span<const Point> path, int count, double from, double to) {
+  Path result;
+  result.reserve(static_cast<std::size_t>(count));
+  std::size_t segment = 1;  // its end
+  double before = 0.0;      // arc length at its beginning
+  double length = path.size() > 1 ? (path[1] - path[0]).norm() : 0.0;
+  for (int i = 0; i < count; ++i) {
+    const double at = from + (to - from) * i / (count - 1);
+    while (segment + 1 < path.size() && before + length < at) {
+      before += length;
+      ++segment;
+      length = (path[segment] - path[segment - 1]).norm();
+    }
+    if (length <= 0.0) {
+      result.push_back(path[std::min(segment, path.size() - 1)]);
+      continue;
+    }
+    const double share = std::clamp((at - before) / length, 0.0, 1.0);
+    result.push_back(path[segment - 1] + share * (path[segment] - path[segment - 1]));
+  }
+  return result;
+}
+
+Path resampled(std::span<const Point> path, double step, int most) {
+  const double length = path_length(path);
+  const double pieces = std::ceil(std::min(length / step, static_cast<double>(most)));
+  return resampled(path, std::clamp(static_cast<int>(pieces) + 1, 2, most), 0.0, length);
+}
+
 Point nearest_on_segment(const Point& point, const Point& from, const Point& to) {
   const Point along = to - from;
   const double squared = along.squaredNorm();

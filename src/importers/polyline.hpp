@@ -20,6 +20,12 @@ double wrapped(double degrees);
 /// Length of a path [em].
 double path_length(std::span<const Point> path);
 
+/// `count` points, at least 2, equally far along the path from arc length `from` to `to` [em].
+Path resampled(std::span<const Point> path, int count, double from, double to);
+
+/// The whole path with a point every `step` [em] or less, in at most `most` points.
+Path resampled(std::span<const Point> path, double step, int most);
+
 /// Nearest point on the segment.
 Point nearest_on_segment(const Point& point, const Point& from, const Point& to);
 

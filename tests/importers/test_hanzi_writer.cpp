@@ -57,6 +57,15 @@ TEST_CASE("a median in units of 1/1024 em with the baseline at -124 is mapped to
   for (const double factor : character.physics.attraction_factors) CHECK(factor == 1.0);
 }
 
+TEST_CASE("outlines are in the frame of the medians, and a file may have none", "[practice]") {
+  const auto drawn = parse_hanzi_writer(
+      R"({"strokes":["M 0 -124 L 1024 -124 L 1024 900 Z"],"medians":[[[100,400],[900,400]]]})", "x.json");
+  REQUIRE(drawn.size() == 1);
+  CHECK(drawn[0].outline == std::vector<Point>{{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}});
+  CHECK(drawn[0].median.size() == 2);
+  CHECK(parse_hanzi_writer(R"({"medians":[[[100,400],[900,400]]]})", "x.json")[0].outline.empty());
+}
+
 TEST_CASE("a missing character is named with the path", "[practice]") {
   const TemporaryDirectory directory;
   try {
@@ -111,6 +120,9 @@ TEST_CASE("malformed files are rejected with the file and the place", "[practice
       {R"({"medians":[[[1,2],null]]})", "medians[0][1]: expected two finite numbers"},
       {R"({"medians":[[[1,2],[3,1e300]]]})", "medians[0][1]: (3, 1e+300) is more than 8 em"},
       {R"({"medians":[[[-18446744073709551615,2],[3,4]]]})", "medians[0][0]"},
+      {R"({"medians":[[[1,2],[3,4]]],"strokes":[]})", "strokes: expected an array of 1 outlines, as many as medians"},
+      {R"({"medians":[[[1,2],[3,4]]],"strokes":[7]})", "strokes[0]: expected the path data"},
+      {R"({"medians":[[[1,2],[3,4]]],"strokes":["M 1 2 H 3"]})", "strokes[0]: path data at byte 7: command 'H'"},
       {R"({"medians":[)" + repeated("[[1,2],[300,4]],", 300) + "[[1,2],[300,4]]]}", "medians: more than 256 strokes"},
       {R"({"medians":[[)" + repeated("[1,2],", 10001) + "[1,2]]]}", "medians[0]: more than 10000 points"},
   };

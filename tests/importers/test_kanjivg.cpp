@@ -22,22 +22,22 @@ std::string svg(const std::string& content, const std::string& head = "") {
          "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 109 109\">\n<g>" + content + "</g></svg>";
 }
 
-std::string complaint(const std::string& text) {
+template <typename Action>
+std::string complaint_of(Action action) {
   try {
-    parse_kanjivg(text, "x.svg");
+    action();
   } catch (const FormatError& error) {
     return error.what();
   }
   return {};
 }
 
+std::string complaint(const std::string& text) {
+  return complaint_of([&] { parse_kanjivg(text, "x.svg"); });
+}
+
 std::string path_complaint(const std::string& data) {
-  try {
-    flattened_path(data, 0.01);
-  } catch (const FormatError& error) {
-    return error.what();
-  }
-  return {};
+  return complaint_of([&] { flattened_path(data, 0.01); });
 }
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
@@ -119,6 +119,19 @@ TEST_CASE("path data other than a centre line is rejected with its byte", "[prac
   }
   CHECK(has(path_complaint("M1,1e9"), "beyond 10000"));
   CHECK(has(path_complaint("M1,1" + repeated("c9999,0,-9999,0,0,9", 100)), "more than 20000 points"));
+}
+
+TEST_CASE("an outline has lines and curves of degree 2 and 3 and ends after Z", "[practice]") {
+  const auto outline = [](const std::string& data) { return flattened_outline(data, 0.01); };
+  const std::vector<Point> triangle{{0, 0}, {4, 0}, {4, 3}};
+  CHECK(outline("M 0 0 L 4 0 L 4 3 Z") == triangle);
+  CHECK(outline("m0,0l4,0 0,3z") == triangle);
+  const Bezier<2> curve{{Point(0, 0), Point(20, 40), Point(60, 0)}};
+  const std::vector<Point> curved = outline("M 0 0 Q 20 40 60 0 L 0 0 Z");
+  for (int i = 0; i <= 100; ++i) REQUIRE(distance_to(curved, curve.point(i / 100.0)) <= 0.01);
+  for (const Point& point : curved) CHECK(point.y() <= 20.0);
+  CHECK(has(complaint_of([&] { outline("M0,0L4,0S1,1,2,2"); }), "command 'S': expected C, L, Q or Z"));
+  CHECK(has(complaint_of([&] { outline("M0,0L4,0ZM1,1"); }), "expected the end after Z, found 'M1,1'"));
 }
 
 TEST_CASE("SVG other than a KanjiVG drawing is rejected with the place", "[practice]") {

@@ -62,6 +62,20 @@ class ImportTest(ProgramTest):
 
 
 class ImportResult(ImportTest):
+    def test_the_measures_are_of_every_stroke_and_only_on_request(self):
+        self.write("kanji/05341.svg", svg(HENG + SHU))
+        self.assertNotIn("measures", self.report("kanji"))
+        measures = self.report("kanji", "--report")["measures"]
+        self.assertEqual([(row["character"], row["stroke"], row["id"]) for row in measures["strokes"]],
+                         [("十", 1, 1), ("十", 2, 2)])
+        self.assertEqual((measures["crossings"], measures["crossings_kept"]), (1, 1))
+        self.assertEqual((measures["labelled"], measures["allowed_by_label"]), (2, 2))
+        for row in measures["strokes"]:
+            self.assertLess(row["frechet_em"], 0.01)
+            self.assertAlmostEqual(row["length_em"], row["source_length_em"], delta=0.01)
+        text = self.run_program("import", "kanji", "-o", "out.set", "--report").stdout
+        self.assertIn("Fréchet distance <= 2 % of the em            100.00 %", text)
+
     def test_a_directory_and_its_tarball_in_every_format_give_the_same_characters(self):
         for code in ("04e00", "05341"):
             self.write(f"package/dist/{code}.svg", svg(HENG + SHU))
@@ -410,7 +424,8 @@ class Output(ImportTest):
         self.assertIn("on 2024-02-29", (self.directory / "mine.txt").read_text())
         for source, option in (("mine.txt", ["--alternates"]), ("mine.txt", ["--all"]), ("hanzi", ["--alternates"]),
                                ("hanzi", ["--all"]), ("mine.txt", ["--letters", "letters.js"]),
-                               ("kanji", ["--letters", "letters.js"]), ("mine.txt", ["--date", "2026-11-24"])):
+                               ("kanji", ["--letters", "letters.js"]), ("mine.txt", ["--date", "2026-11-24"]),
+                               ("mine.txt", ["--report"])):
             with self.subTest(source=source, option=option):
                 self.assert_refused(2, ["import", source, "-o", "x", *option], option[0] + ": applies only to ")
         self.assert_refused(2, ["validate", "mine.txt", "--letters", "letters.js"], "--letters: applies only to hanzi")

@@ -29,6 +29,7 @@ struct ImportOptions {
   std::u32string only;            ///< imports only these characters; empty: all
   std::string date;  ///< date of modification for the notice that the Arphic licence requires; empty: omitted
   int threads = 0;   ///< 0: one per core; the result does not depend on it
+  bool report = false;  ///< also measures every stroke against its source, before rounding: ImportReport::measures
   SourceLimits limits;
   std::function<void(double)> progress;  ///< receives the fraction done, in the calling thread
 };
@@ -60,6 +61,26 @@ struct StrokeError {
   StrokeReference place;
   int id;
   double error;  ///< maximum distance between stroke and drawing, in both directions [em]
+};
+
+/// How one imported stroke follows the whole path of its source, the median of a brush stroke or the line of a pen.
+struct StrokeMeasures {
+  StrokeReference place;
+  int id;
+  double frechet;        ///< discrete Fréchet distance, which keeps the order; the stroke may begin and end within
+                         ///< `half_width` of the path's ends [em]
+  double backward;       ///< how far it runs back along the path, as a share of the path's length [1]
+  double length;         ///< of the stroke [em]
+  double source_length;  ///< of the path [em]
+  double half_width;     ///< of the brush: its median along the stroke, at most 15 % of the path; 0 for a pen [em]
+  int false_corners;     ///< turns by more than 25 degrees where the path turns by less than half of that
+  int lost_corners;      ///< turns of the path by more than 60 degrees where the stroke turns by less than half of that
+};
+
+/// Pairs of strokes that cross in the source more than a half-width from their ends.
+struct CrossingCount {
+  int source = 0;
+  int kept = 0;  ///< those that cross as imported
 };
 
 /// Resolution of a label or letter that contradicts the shape.
@@ -107,9 +128,13 @@ struct ImportReport {
 
   int labelled = 0;                            ///< strokes with a known label or letter
   int agreed = 0;                              ///< of these, strokes that geometry alone recognises as labelled
+  int allowed = 0;                             ///< of these, strokes imported as a kind that the label allows
   std::vector<LabelConfusion> confusions;      ///< most frequent first
   std::vector<LabelConflict> label_conflicts;  ///< by character and stroke
   std::vector<char32_t> letters_unused;        ///< characters whose letters do not match their stroke count
+
+  std::vector<StrokeMeasures> measures;  ///< of every stroke of the source, if asked for; none is left out or split
+  CrossingCount crossings;               ///< if asked for
 
   std::vector<SkippedFile> skipped;
   std::vector<std::string> notes;  ///< further information for those who redistribute the characters

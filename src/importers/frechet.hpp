@@ -1,0 +1,16 @@
+// The distance of two paths that keeps their order; private to the importers.
+#pragma once
+
+#include <span>
+
+#include "polyline.hpp"
+
+namespace calligraphy::recognition {
+
+/// Discrete Fréchet distance of a path to its source [em] (Eiter and Mannila 1994): the shortest leash with which one
+/// can walk along both at once without going back. Points are set every `step` [em], at most 1,200 on each, so it is
+/// never below the distance of the curves and at most one step above. The path may begin at any place of the source
+/// within `free` [em] of its start, and end within as much of its end. O(product of the numbers of points).
+double frechet_distance(std::span<const Point> path, std::span<const Point> source, double free, double step);
+
+}  // namespace calligraphy::recognition

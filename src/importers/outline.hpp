@@ -1,0 +1,17 @@
+// The width of a brush stroke, from its outline; private to the importers.
+#pragma once
+
+#include <span>
+
+#include "polyline.hpp"
+
+namespace calligraphy::recognition {
+
+/// Radius of the largest disc about the point inside the outline, a closed polygon [em]; 0 outside. O(vertices).
+double inscribed_radius(std::span<const Point> outline, const Point& point);
+
+/// Half the width of a brush stroke: the median of the inscribed radii at 19 places along its median, at most 15 % of
+/// the median's length [em]. 0 without an outline.
+double half_width(std::span<const Point> median, std::span<const Point> outline);
+
+}  // namespace calligraphy::recognition

@@ -1,0 +1,143 @@
+// Measures of imported strokes against their source. Expected values are worked out by hand.
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "../catch.hpp"
+#include "importers/frechet.hpp"
+#include "importers/outline.hpp"
+#include "importers/stroke_measures.hpp"
+
+namespace stroke_measures_tests {
+
+using namespace calligraphy;
+using namespace calligraphy::recognition;
+
+namespace {
+
+constexpr double step = 0.004;  // [em]
+
+Path circle(const Point& centre, double radius) {
+  Path path;
+  for (int i = 0; i < 360; ++i) {
+    const double angle = i * std::numbers::pi / 180.0;
+    path.push_back(centre + radius * Point(std::cos(angle), std::sin(angle)));
+  }
+  return path;
+}
+
+}  // namespace
+
+TEST_CASE("the Fréchet distance keeps the order, which the nearest distance does not see", "[model]") {
+  const Path line{{0.1, 0.5}, {0.9, 0.5}};
+  const Path beside{{0.1, 0.53}, {0.9, 0.53}};
+  CHECK(frechet_distance(line, line, 0.0, step) < step);
+  CHECK(frechet_distance(beside, line, 0.0, step) == Approx(0.03).margin(step));
+  const Path reversed{{0.9, 0.5}, {0.1, 0.5}};
+  CHECK(frechet_distance(reversed, line, 0.0, step) == Approx(0.8).margin(step));
+  // From its middle to its start and then over all of it: no point is off the line.
+  const Path folded{{0.5, 0.5}, {0.1, 0.5}, {0.9, 0.5}};
+  CHECK(frechet_distance(folded, line, 0.0, step) == Approx(0.4).margin(step));
+  // Back and forth by 0.2 in the middle: the leash is half of it.
+  const Path zigzag{{0.1, 0.5}, {0.6, 0.5}, {0.4, 0.5}, {0.9, 0.5}};
+  CHECK(frechet_distance(zigzag, line, 0.0, step) == Approx(0.1).margin(step));
+}
+
+TEST_CASE("a path may begin and end as far from the ends of its source as is free, and no farther", "[model]") {
+  const Path line{{0.1, 0.5}, {0.9, 0.5}};
+  const Path shorter{{0.15, 0.5}, {0.87, 0.5}};
+  CHECK(frechet_distance(shorter, line, 0.0, step) == Approx(0.05).margin(step));
+  CHECK(frechet_distance(shorter, line, 0.05, step) < step);
+  CHECK(frechet_distance(shorter, line, 0.03, step) == Approx(0.02).margin(step));
+  const Path longer{{0.05, 0.5}, {0.9, 0.5}};
+  CHECK(frechet_distance(longer, line, 0.05, step) == Approx(0.05).margin(step));
+}
+
+TEST_CASE("the distance to a detour is its height, whichever of the two is the path", "[model]") {
+  const Path detour{{0.0, 0.0}, {0.5, 0.3}, {1.0, 0.0}};
+  const Path straight{{0.0, 0.0}, {1.0, 0.0}};
+  CHECK(frechet_distance(straight, detour, 0.0, step) == Approx(0.3).margin(step));
+  CHECK(frechet_distance(detour, straight, 0.0, step) == Approx(0.3).margin(step));
+}
+
+TEST_CASE("the distance of long paths is found in bounded time", "[model]") {
+  Path spiral;
+  for (int i = 0; i < 20000; ++i) {
+    const double angle = 0.01 * i;
+    spiral.push_back(0.05 * angle * Point(std::cos(angle), std::sin(angle)));
+  }
+  const double distance = frechet_distance(spiral, spiral, 0.0, step);
+  CHECK(distance == 0.0);
+  CHECK(frechet_distance(Path{{0.5, 0.5}, {0.5, 0.5}}, Path{{0.5, 0.6}, {0.5, 0.6}}, 0.1, step) == Approx(0.1));
+}
+
+TEST_CASE("the inscribed radius is the distance to the outline inside it and 0 outside", "[model]") {
+  const Path square{{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}};
+  CHECK(inscribed_radius(square, {0.5, 0.5}) == Approx(0.5));
+  CHECK(inscribed_radius(square, {0.9, 0.3}) == Approx(0.1));
+  CHECK(inscribed_radius(square, {1.1, 0.5}) == 0.0);
+  CHECK(inscribed_radius(square, {0.5, -0.1}) == 0.0);
+  const Path clockwise(square.rbegin(), square.rend());
+  CHECK(inscribed_radius(clockwise, {0.9, 0.3}) == Approx(0.1));
+  CHECK(inscribed_radius(circle({0.3, 0.4}, 0.2), {0.4, 0.4}) == Approx(0.1).margin(1e-4));
+  CHECK(inscribed_radius({}, {0.5, 0.5}) == 0.0);
+}
+
+TEST_CASE("the half-width of a brush stroke is at most 15 % of its length, and 0 without an outline", "[model]") {
+  const Path median{{0.1, 0.5}, {0.9, 0.5}};
+  const Path outline{{0.05, 0.46}, {0.95, 0.46}, {0.95, 0.54}, {0.05, 0.54}};
+  CHECK(half_width(median, outline) == Approx(0.04));
+  const Path thick{{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}};
+  CHECK(half_width(Path{{0.4, 0.5}, {0.6, 0.5}}, thick) == Approx(0.03));
+  CHECK(half_width(median, {}) == 0.0);
+}
+
+TEST_CASE("a stroke like its source has no fault", "[model]") {
+  const Path corner{{0.1, 0.8}, {0.7, 0.8}, {0.7, 0.2}};
+  const StrokeMeasures same = measure_stroke(corner, corner, 0.0);
+  CHECK(same.frechet < step);
+  CHECK(same.backward < 0.01);
+  CHECK(same.length == Approx(1.2));
+  CHECK(same.source_length == Approx(1.2));
+  CHECK(same.false_corners == 0);
+  CHECK(same.lost_corners == 0);
+}
+
+TEST_CASE("a corner made round is lost, and one that is not in the source is false", "[model]") {
+  const Path corner{{0.1, 0.8}, {0.7, 0.8}, {0.7, 0.2}};
+  Path round{{0.1, 0.8}};  // a quarter circle of 0.2 em in place of the corner
+  for (int i = 0; i <= 90; ++i) {
+    const double angle = (90.0 - i) * std::numbers::pi / 180.0;
+    round.push_back(Point(0.5, 0.6) + 0.2 * Point(std::cos(angle), std::sin(angle)));
+  }
+  round.emplace_back(0.7, 0.2);
+  CHECK(measure_stroke(round, corner, 0.0).lost_corners == 1);
+  CHECK(measure_stroke(round, corner, 0.0).false_corners == 0);
+  CHECK(measure_stroke(corner, round, 0.0).false_corners == 1);
+  CHECK(measure_stroke(corner, round, 0.0).lost_corners == 0);
+}
+
+TEST_CASE("a stroke that starts in its middle runs back", "[model]") {
+  const Path source{{0.1, 0.5}, {0.9, 0.5}};
+  const Path folded{{0.3, 0.5}, {0.1, 0.5}, {0.9, 0.5}};
+  CHECK(measure_stroke(folded, source, 0.0).backward == Approx(0.25).margin(0.02));
+  CHECK(measure_stroke(source, source, 0.0).backward == 0.0);
+}
+
+TEST_CASE("crossings within a half-width of an end do not count, others are kept or not", "[model]") {
+  const Path heng{{0.1, 0.5}, {0.9, 0.5}};
+  const Path shu{{0.5, 0.9}, {0.5, 0.1}};
+  const Path above{{0.5, 0.9}, {0.5, 0.6}};
+  const Path touching{{0.5, 0.9}, {0.5, 0.48}};
+  const auto crossings = [&](const Path& path, const Path& source) {
+    return count_crossings(std::vector<StrokeAndSource>{{heng, heng, 0.03}, {path, source, 0.03}});
+  };
+  CHECK(crossings(shu, shu).source == 1);
+  CHECK(crossings(shu, shu).kept == 1);
+  CHECK(crossings(above, shu).source == 1);
+  CHECK(crossings(above, shu).kept == 0);
+  CHECK(crossings(shu, above).source == 0);
+  CHECK(crossings(touching, touching).source == 0);
+}
+
+}  // namespace stroke_measures_tests

@@ -1,0 +1,129 @@
+#include "import_measures.hpp"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <calligraphy/base/text.hpp>
+
+#include "counted.hpp"
+#include "import_report.hpp"
+
+namespace calligraphy::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::array frechet_limits{0.01, 0.02, 0.04};  // [em]
+constexpr double backward_limit = 0.05;                 // [1]
+constexpr std::size_t max_listed = 20;
+
+template <typename Condition>
+int count_of(const ImportReport& report, Condition condition) {
+  return static_cast<int>(std::count_if(report.measures.begin(), report.measures.end(), condition));
+}
+
+int within(const ImportReport& report, double limit) {
+  return count_of(report, [limit](const StrokeMeasures& stroke) { return stroke.frechet <= limit; });
+}
+
+bool runs_back(const StrokeMeasures& stroke) { return stroke.backward > backward_limit; }
+bool has_its_length(const StrokeMeasures& stroke) {
+  return stroke.length >= 0.9 * (stroke.source_length - 2.0 * stroke.half_width) &&
+         stroke.length <= 1.1 * stroke.source_length;
+}
+bool has_false_corner(const StrokeMeasures& stroke) { return stroke.false_corners > 0; }
+bool has_lost_corner(const StrokeMeasures& stroke) { return stroke.lost_corners > 0; }
+
+double bytes_per_character(const ImportReport& report, std::size_t bytes) {
+  return report.characters == 0 ? 0.0 : static_cast<double>(bytes) / report.characters;
+}
+
+std::string row(const char* what, const std::string& value) { return fmt::format("  {:<43}{:>10}\n", what, value); }
+
+std::string share_row(const char* what, int part, int whole) {
+  return row(what, fmt::format("{:.2f} %", percent * share(part, whole)));
+}
+
+/// A row, and the strokes that it counts if they are few.
+template <typename Condition>
+std::string counted_row(const char* what, const ImportReport& report, Condition condition) {
+  const int count = count_of(report, condition);
+  std::string text = row(what, std::to_string(count));
+  if (count == 0 || static_cast<std::size_t>(count) > max_listed) return text;
+  for (const StrokeMeasures& stroke : report.measures) {
+    if (condition(stroke)) text += "    " + stroke_reference_text(stroke.place) + "\n";
+  }
+  return text;
+}
+
+Json stroke_json(const StrokeMeasures& stroke) {
+  Json row = place_json(stroke.place);
+  row["id"] = stroke.id;
+  row["frechet_em"] = stroke.frechet;
+  row["backward"] = stroke.backward;
+  row["length_em"] = stroke.length;
+  row["source_length_em"] = stroke.source_length;
+  row["half_width_em"] = stroke.half_width;
+  row["false_corners"] = stroke.false_corners;
+  row["lost_corners"] = stroke.lost_corners;
+  return row;
+}
+
+}  // namespace
+
+double share(int part, int whole) { return whole == 0 ? 1.0 : static_cast<double>(part) / whole; }
+
+std::string stroke_reference_text(const StrokeReference& place) {
+  return fmt::format("{} stroke {}", character_label(place.code, place.order), place.stroke);
+}
+
+Json place_json(const StrokeReference& place) {
+  return {{"character", encode_utf8(place.code)}, {"order", place.order}, {"stroke", place.stroke}};
+}
+
+std::string measures_table(const ImportReport& report, std::size_t bytes) {
+  const auto all = static_cast<int>(report.measures.size());
+  std::string text = fmt::format("\nof {}, each against the whole of its source\n", counted(all, "stroke"));
+  for (const double limit : frechet_limits) {
+    const std::string what = fmt::format("Fréchet distance <= {:.0f} % of the em", percent * limit);
+    text += share_row(what.c_str(), within(report, limit), all);
+  }
+  text += counted_row("strokes that run back by more than 5 %", report, runs_back);
+  text += share_row("length from 0.9 (L - 2 h) to 1.1 L", count_of(report, has_its_length), all);
+  text += counted_row("strokes with a corner that is not in it", report, has_false_corner);
+  text += counted_row("strokes without a corner that is in it", report, has_lost_corner);
+  text += share_row("crossings of strokes kept", report.crossings.kept, report.crossings.source);
+  if (report.labelled > 0) text += share_row("kinds that the label allows", report.allowed, report.labelled);
+  text += row("bytes a character", fmt::format("{:.1f}", bytes_per_character(report, bytes)));
+  return text;
+}
+
+Json measures_json(const ImportReport& report, std::size_t bytes) {
+  const auto all = static_cast<int>(report.measures.size());
+  Json distances = Json::array();
+  for (const double limit : frechet_limits) {
+    const int strokes = within(report, limit);
+    distances.push_back({{"frechet_em", limit}, {"strokes", strokes}, {"strokes_share", share(strokes, all)}});
+  }
+  const int length = count_of(report, has_its_length);
+  Json strokes = Json::array();
+  for (const StrokeMeasures& stroke : report.measures) strokes.push_back(stroke_json(stroke));
+  return {{"within", distances},
+          {"running_back", count_of(report, runs_back)},
+          {"length_kept", length},
+          {"length_kept_share", share(length, all)},
+          {"with_false_corners", count_of(report, has_false_corner)},
+          {"with_lost_corners", count_of(report, has_lost_corner)},
+          {"crossings", report.crossings.source},
+          {"crossings_kept", report.crossings.kept},
+          {"labelled", report.labelled},
+          {"allowed_by_label", report.allowed},
+          {"bytes_per_character", bytes_per_character(report, bytes)},
+          {"strokes", strokes}};
+}
+
+}  // namespace calligraphy::tools
