@@ -1,8 +1,6 @@
 #include "import_measures.hpp"
 
 #include <algorithm>
-#include <array>
-#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -17,17 +15,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array frechet_limits{0.01, 0.02, 0.04};  // [em]
-constexpr double backward_limit = 0.05;                 // [1]
+constexpr double backward_limit = 0.05;  // [1]
 constexpr std::size_t max_listed = 20;
 
 template <typename Condition>
 int count_of(const ImportReport& report, Condition condition) {
   return static_cast<int>(std::count_if(report.measures.begin(), report.measures.end(), condition));
-}
-
-int within(const ImportReport& report, double limit) {
-  return count_of(report, [limit](const StrokeMeasures& stroke) { return stroke.frechet <= limit; });
 }
 
 bool runs_back(const StrokeMeasures& stroke) { return stroke.backward > backward_limit; }
@@ -88,10 +81,6 @@ Json place_json(const StrokeReference& place) {
 std::string measures_table(const ImportReport& report, std::size_t bytes) {
   const auto all = static_cast<int>(report.measures.size());
   std::string text = fmt::format("\nof {}, each against the whole of its source\n", counted(all, "stroke"));
-  for (const double limit : frechet_limits) {
-    const std::string what = fmt::format("Fréchet distance <= {:.0f} % of the em", percent * limit);
-    text += share_row(what.c_str(), within(report, limit), all);
-  }
   text += counted_row("strokes that run back by more than 5 %", report, runs_back);
   text += share_row("length from 0.9 (L - 2 h) to 1.1 L", count_of(report, has_its_length), all);
   text += counted_row("strokes with a corner that is not in it", report, has_false_corner);
@@ -104,16 +93,10 @@ std::string measures_table(const ImportReport& report, std::size_t bytes) {
 
 Json measures_json(const ImportReport& report, std::size_t bytes) {
   const auto all = static_cast<int>(report.measures.size());
-  Json distances = Json::array();
-  for (const double limit : frechet_limits) {
-    const int strokes = within(report, limit);
-    distances.push_back({{"frechet_em", limit}, {"strokes", strokes}, {"strokes_share", share(strokes, all)}});
-  }
   const int length = count_of(report, has_its_length);
   Json strokes = Json::array();
   for (const StrokeMeasures& stroke : report.measures) strokes.push_back(stroke_json(stroke));
-  return {{"within", distances},
-          {"running_back", count_of(report, runs_back)},
+  return {{"running_back", count_of(report, runs_back)},
           {"length_kept", length},
           {"length_kept_share", share(length, all)},
           {"with_false_corners", count_of(report, has_false_corner)},

@@ -37,22 +37,16 @@ int count_of(const ImportReport& report, LabelResolution resolution) {
                     [resolution](const LabelConflict& conflict) { return conflict.resolution == resolution; }));
 }
 
-std::string fit_rows(const std::array<FitCount, 3>& counts, const ImportReport& report) {
+std::string fit_table(const ImportReport& report) {
+  std::string limits = "\nFréchet distance from the drawing <= ";
   std::string strokes = "strokes                             ";
   std::string characters = "characters with every stroke        ";
-  for (const FitCount& count : counts) {
+  for (const FitCount& count : report.within) {
+    limits += fmt::format("{:>8.0f} %", percent * count.error);
     strokes += fmt::format("{:>8.2f} %", percent * share(count.strokes, report.strokes));
     characters += fmt::format("{:>8.2f} %", percent * share(count.characters, report.characters));
   }
-  return strokes + "\n" + characters + "\n";
-}
-
-std::string fit_table(const ImportReport& report) {
-  std::string text = "\nwithin this distance of the drawing      0.5 %       1 %       2 %  of the em\n";
-  text += fit_rows(report.within, report);
-  if (report.kind == SourceKind::hanzi_writer_data) {
-    text += "including the corners that the brush's median cuts\n" + fit_rows(report.within_median, report);
-  }
+  std::string text = limits + " of the em\n" + strokes + "\n" + characters + "\n";
   text += "\nlargest errors [% of the em]\n";
   for (const StrokeError& worst : report.worst) {
     text += fmt::format("{:>8.2f}  {}, {}\n", percent * worst.error, stroke_reference_text(worst.place),
@@ -104,9 +98,9 @@ std::string skipped_table(const ImportReport& report) {
   return text;
 }
 
-Json fit_json(const std::array<FitCount, 3>& counts, const ImportReport& report) {
+Json fit_json(const ImportReport& report) {
   Json rows = Json::array();
-  for (const FitCount& count : counts) {
+  for (const FitCount& count : report.within) {
     rows.push_back({{"error_em", count.error},
                     {"strokes", count.strokes},
                     {"strokes_share", share(count.strokes, report.strokes)},
@@ -221,8 +215,7 @@ std::string json(const ImportResult& import, const ImportOutput& output) {
               {"strokes", contents.strokes},
               {"alternate_orders", contents.alternate_orders}};
   if (report.kind != SourceKind::calligraphy) {
-    all["within"] = fit_json(report.within, report);
-    all["within_median"] = fit_json(report.within_median, report);
+    all["within"] = fit_json(report);
     all["worst"] = worst_json(report);
     all["labels"] = label_json(report);
     if (!report.measures.empty()) all["measures"] = measures_json(report, output.bytes);

@@ -11,7 +11,6 @@ namespace {
 
 /// Lengths of brush traces [em], measured on hanzi-writer-data.
 constexpr double max_entry = 0.095;
-constexpr double max_pen_press = 0.05;  // on KanjiVG: 99 % are shorter
 constexpr double max_droop = 0.055;
 constexpr double max_lift_share = 0.095;  // [1], relative to the stroke's length; a hook is longer
 constexpr double max_press = 0.1;
@@ -56,8 +55,8 @@ bool is_lift(double piece, double body) {
 }
 
 /// Number of vertices at the start that belong to the brush entry.
-std::size_t entry_vertices(std::span<const Point> path, double length, double longest) {
-  const double limit = std::min(longest, 0.4 * length);
+std::size_t entry_vertices(std::span<const Point> path, double length) {
+  const double limit = std::min(max_entry, 0.4 * length);
   double travelled = 0.0;
   std::size_t cut = 0;
   for (std::size_t i = 1; i + 1 < path.size(); ++i) {
@@ -98,14 +97,10 @@ std::size_t droop_vertices(std::span<const Point> path, double length) {
 CleanPath as_it_is(std::span<const Point> points) {
   constexpr double reach = 0.04;           // [em]
   constexpr std::size_t max_points = 512;  // more points add less detail than a pen can show
-  constexpr double simplification = 2e-5;  // [em], well below the tolerance of the error
+  constexpr double simplification = 2e-5;  // [em]
   CleanPath clean;
   clean.points = without_repeats(points);
-  if (clean.points.size() > max_points) {
-    const Path simple = simplified(clean.points, max_points, simplification);
-    clean.slack = distance_to_simplified(clean.points, simple);
-    clean.points = simple;
-  }
+  if (clean.points.size() > max_points) clean.points = simplified(clean.points, max_points, simplification);
   const Path& path = clean.points;
   clean.first = direction_of(point_after(path, 0, reach) - path.front());
   clean.last = direction_of(path.back() - point_before(path, path.size() - 1, reach));
@@ -118,7 +113,7 @@ CleanPath clean_median(std::span<const Point> median) {
   CleanPath clean = as_it_is(median);
   const Path path = clean.points;
   const double length = path_length(path);
-  const std::size_t entry = entry_vertices(path, length, max_entry);
+  const std::size_t entry = entry_vertices(path, length);
   const std::size_t droop = droop_vertices(path, length);
   clean.had_entry = entry > 0;
   if (entry + droop + 2 <= path.size()) {
@@ -129,10 +124,5 @@ CleanPath clean_median(std::span<const Point> median) {
 }
 
 CleanPath clean_pen_path(std::span<const Point> path) { return as_it_is(path); }
-
-Path without_entry(const Path& path) {
-  const std::size_t entry = entry_vertices(path, path_length(path), max_pen_press);
-  return Path(path.begin() + static_cast<std::ptrdiff_t>(entry), path.end());
-}
 
 }  // namespace calligraphy::recognition

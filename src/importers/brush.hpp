@@ -1,4 +1,4 @@
-// Removal of what a brush adds to the median of a stroke; private to the importers.
+// Removal of what a brush adds to the median of a stroke, for its recognition; private to the importers.
 #pragma once
 
 #include <span>
@@ -10,7 +10,6 @@ namespace calligraphy::recognition {
 /// A pen path without repeated points, brush entry and end droop [em].
 struct CleanPath {
   Path points;             ///< at most 512
-  double slack = 0.0;      ///< maximum distance of the original path from `points`, if it was simplified [em]
   bool had_entry = false;  ///< a slanted start was removed
   double first = 0.0;      ///< direction of the first 0.04 em, entry included [degree]
   double last = 0.0;       ///< direction of the last 0.04 em, droop included [degree]
@@ -21,8 +20,5 @@ CleanPath clean_median(std::span<const Point> median);
 
 /// The path of a pen, from which only repeated points are removed. O(points).
 CleanPath clean_pen_path(std::span<const Point> path);
-
-/// The path without only its slanted start, for a pen that presses at the start. O(points).
-Path without_entry(const Path& path);
 
 }  // namespace calligraphy::recognition

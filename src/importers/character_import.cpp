@@ -25,6 +25,8 @@
 #include "base/charconv.hpp"
 #include "base/parallel.hpp"
 #include "base/require.hpp"
+#include "crossings.hpp"
+#include "frechet.hpp"
 #include "hanzi_writer.hpp"
 #include "imported_character.hpp"
 #include "kanjivg.hpp"
@@ -42,10 +44,8 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view licence_file = "ARPHICPL.TXT";
 constexpr std::string_view package_file = "package.json";
-constexpr double label_turn = std::numbers::pi / 3.0;  // [rad]; maximum turn from the typical start
-constexpr double label_error = 0.01;                   // [em]; a label is rejected if its stroke deviates by more
-constexpr int max_imported_strokes = 1'000'000;                 // of an import; the largest source known has 148 thousand
-constexpr std::size_t max_order = 64;                  // [byte]
+constexpr int max_imported_strokes = 1'000'000;  // of an import; the largest source known has 148 thousand
+constexpr std::size_t max_order = 64;            // [byte]
 
 /// The character in a file of a source, according to the file name.
 struct FileName {
@@ -169,35 +169,33 @@ struct StrokeOfDrawing {
   std::span<const int> label_ids;
 };
 
-/// How the strokes of a source are drawn: medians of a brush, or lines in textbook style.
-StrokeFitOptions drawing_of(SourceKind kind) {
-  const bool brush = kind == SourceKind::hanzi_writer_data;
-  return {.drawing_tool = brush ? DrawingTool::brush : DrawingTool::textbook_pen};
+/// True if the stroke runs across or against the typical one: then the label is that of another stroke.
+bool is_misdirected(const StrokeInput& stroke) {
+  constexpr double most = 80.0 * std::numbers::pi / 180.0;
+  return start_direction_error({&typical_stroke(stroke.id), 3, stroke.control_points, {}}) > most;
 }
 
-/// True if the label decides, with a stroke of its own kind, where geometry alone recognised another.
-bool is_plausible(const FittedStroke& labelled, const FittedStroke& recognised) {
-  const StrokeInput& stroke = labelled.stroke;
-  return labelled.error <= std::max(label_error, recognised.error) &&
-         start_direction_error({&typical_stroke(stroke.id), 3, stroke.control_points, {}}) <= label_turn;
-}
-
-/// Fits a stroke. Its label is considered only if it contradicts the shape, so most strokes are fitted once.
-FittedStroke fit(const StrokeOfDrawing& drawn, StrokeFitOptions options, ImportedStroke& result) {
-  FittedStroke fitted = fit_stroke(drawn.path, options);
+/// Fits a stroke. Its label decides unless the shape follows the drawing much closer.
+StrokeInput fit(const StrokeOfDrawing& drawn, ImportedStroke& result) {
+  constexpr double of_pen = 0.018;     // [em]; a label is not questioned within this distance of the drawing
+  constexpr double of_brush = 0.05;    // [em]; so far entries, droops and lifts reach
+  constexpr double much_closer = 0.7;  // [1]
+  FittedStroke fitted = fit_stroke(drawn.path, {drawn.outline, drawn.label_ids});
   const auto& ids = drawn.label_ids;
-  result.recognised = fitted.stroke.id;
+  result.recognised = fitted.recognised;
   result.label = drawn.label;
   result.label_known = !ids.empty();
   result.label_agrees = std::find(ids.begin(), ids.end(), result.recognised) != ids.end();
   if (result.label_known && !result.label_agrees) {
-    options.ids = ids;
-    FittedStroke labelled = fit_stroke(drawn.path, options);
-    if (is_plausible(labelled, fitted)) fitted = std::move(labelled);
+    const bool misdirected = is_misdirected(fitted.stroke);
+    if (misdirected || fitted.error > (drawn.outline.empty() ? of_pen : of_brush)) {
+      FittedStroke shape = fit_stroke(drawn.path, {drawn.outline, {&result.recognised, 1}});
+      const double limit = misdirected ? std::max(of_pen, fitted.error) : much_closer * fitted.error;
+      if (shape.error < limit) fitted = std::move(shape);
+    }
   }
   result.error = fitted.error;
-  result.median_error = fitted.median_error;
-  return fitted;
+  return std::move(fitted.stroke);
 }
 
 class Importer {
@@ -273,35 +271,53 @@ class Importer {
     for (const StrokeOfDrawing& stroke : drawn) {
       result.strokes.emplace_back();
       try {
-        strokes.push_back(fit(stroke, drawing_of(kind_), result.strokes.back()).stroke);
+        strokes.push_back(fit(stroke, result.strokes.back()));
       } catch (const ValueError& error) {
         throw FormatError(drawing.place + ": stroke " + std::to_string(result.strokes.size()) + ": " + error.what());
       }
     }
+    const std::vector<recognition::CrossingStrokes> crossings = keep_crossings(drawn, strokes, result);
     try {
       result.character = make_character(drawing.name.code, strokes);
     } catch (const ValueError& error) {
       throw FormatError(drawing.place + ": " + error.what());
     }
     result.character.order = drawing.name.order;
-    if (options_.report) measure(drawn, strokes, result);
+    if (options_.report) measure(drawn, strokes, crossings, result);
     return result;
   }
 
-  static void measure(const std::vector<StrokeOfDrawing>& drawn, const std::vector<StrokeInput>& strokes,
-                      ImportedCharacter& result) {
-    constexpr double tolerance = 1e-4;  // [em], of the polyline
-    std::vector<recognition::StrokeAndSource> all;
-    for (std::size_t i = 0; i < drawn.size(); ++i) {
-      const TypicalStroke& type = typical_stroke(strokes[i].id);
-      all.push_back({recognition::flattened(type.elements, strokes[i].control_points, tolerance), drawn[i].path,
-                     recognition::half_width(drawn[i].path, drawn[i].outline)});
-      StrokeMeasures& measures = result.measures.emplace_back(
-          recognition::measure_stroke(all.back().path, all.back().source, all.back().half_width));
-      measures.place = {result.character.code, result.character.order, static_cast<int>(i) + 1};
-      measures.id = type.id;
+  /// Lets strokes cross that cross in the drawing. Returns the crossings of the drawing.
+  static std::vector<recognition::CrossingStrokes> keep_crossings(const std::vector<StrokeOfDrawing>& drawn,
+                                                                  std::vector<StrokeInput>& strokes,
+                                                                  ImportedCharacter& result) {
+    std::vector<recognition::Path> sources;
+    for (const StrokeOfDrawing& stroke : drawn) {
+      sources.push_back(recognition::without_ends(stroke.path, recognition::half_width(stroke.path, stroke.outline)));
     }
-    result.crossings = recognition::count_crossings(all);
+    std::vector<recognition::CrossingStrokes> crossings = recognition::crossing_strokes(sources);
+    for (const std::size_t i : recognition::keep_crossings(crossings, sources, strokes)) {
+      result.strokes[i].error = recognition::fit_error(strokes[i], drawn[i].path,
+                                                       recognition::half_width(drawn[i].path, drawn[i].outline));
+    }
+    return crossings;
+  }
+
+  static void measure(const std::vector<StrokeOfDrawing>& drawn, const std::vector<StrokeInput>& strokes,
+                      const std::vector<recognition::CrossingStrokes>& crossings, ImportedCharacter& result) {
+    std::vector<recognition::Path> paths;
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+      paths.push_back(recognition::flattened(strokes[i]));
+      StrokeMeasures& measures = result.measures.emplace_back(recognition::measure_stroke(
+          paths.back(), drawn[i].path, recognition::half_width(drawn[i].path, drawn[i].outline)));
+      measures.place = {result.character.code, result.character.order, static_cast<int>(i) + 1};
+      measures.id = strokes[i].id;
+      measures.frechet = result.strokes[i].error;
+    }
+    result.crossings.source = static_cast<int>(crossings.size());
+    for (const auto& [one, other, at] : crossings) {
+      if (recognition::crossing_of(paths[one], paths[other])) ++result.crossings.kept;
+    }
   }
 
   std::vector<StrokeOfDrawing> drawn_strokes(const Drawing& drawing, ImportedCharacter& result) const {

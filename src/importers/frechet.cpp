@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "stroke_polyline.hpp"
+
 namespace calligraphy::recognition {
 
 double frechet_distance(std::span<const Point> path, std::span<const Point> source, double free, double step) {
@@ -30,6 +32,11 @@ double frechet_distance(std::span<const Point> path, std::span<const Point> sour
     }
   }
   return std::sqrt(*std::min_element(least.end() - 1 - static_cast<std::ptrdiff_t>(free_columns), least.end()));
+}
+
+double fit_error(const StrokeInput& stroke, std::span<const Point> source, double half_width) {
+  constexpr double step = 0.004;  // [em]
+  return frechet_distance(flattened(stroke), source, half_width, step);
 }
 
 }  // namespace calligraphy::recognition

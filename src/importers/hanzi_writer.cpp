@@ -125,7 +125,7 @@ Character read_hanzi_writer(const std::string& directory, char32_t code) {
   }
   std::vector<StrokeInput> strokes;
   for (const BrushStroke& stroke : parse_hanzi_writer(read_file(path, max_file_bytes), path.filename().string())) {
-    strokes.push_back(fit_stroke(stroke.median).stroke);
+    strokes.push_back(fit_stroke(stroke.median, {.outline = stroke.outline}).stroke);
   }
   return make_character(code, strokes);
 }

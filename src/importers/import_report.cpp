@@ -9,17 +9,6 @@ namespace {
 
 constexpr std::size_t max_worst = 10;
 
-using FitCounts = std::array<FitCount, 3>;
-
-/// Counts a character towards each error that none of its strokes exceeds.
-void count_character(FitCounts& counts, const std::vector<ImportedStroke>& strokes, double ImportedStroke::*error) {
-  for (FitCount& count : counts) {
-    const auto is_within = [&](const ImportedStroke& stroke) { return stroke.*error <= count.error; };
-    count.strokes += static_cast<int>(std::count_if(strokes.begin(), strokes.end(), is_within));
-    count.characters += std::all_of(strokes.begin(), strokes.end(), is_within) ? 1 : 0;
-  }
-}
-
 /// Counts stroke by stroke, in the order of the characters.
 class Counter {
  public:
@@ -32,8 +21,7 @@ class Counter {
       const int id = character.sequence.stroke_ids[i];
       add_stroke(imported.strokes[i], place, id);
     }
-    count_character(report_.within, imported.strokes, &ImportedStroke::error);
-    count_character(report_.within_median, imported.strokes, &ImportedStroke::median_error);
+    count_within(imported.strokes);
     report_.measures.insert(report_.measures.end(), imported.measures.begin(), imported.measures.end());
     report_.crossings.source += imported.crossings.source;
     report_.crossings.kept += imported.crossings.kept;
@@ -52,6 +40,14 @@ class Counter {
   }
 
  private:
+  void count_within(const std::vector<ImportedStroke>& strokes) {
+    for (FitCount& count : report_.within) {
+      const auto is_within = [&](const ImportedStroke& stroke) { return stroke.error <= count.error; };
+      count.strokes += static_cast<int>(std::count_if(strokes.begin(), strokes.end(), is_within));
+      count.characters += std::all_of(strokes.begin(), strokes.end(), is_within) ? 1 : 0;
+    }
+  }
+
   void add_stroke(const ImportedStroke& stroke, const StrokeReference& place, int id) {
     ++report_.strokes;
     ++report_.ids_used[static_cast<std::size_t>(id)];

@@ -9,10 +9,9 @@
 namespace calligraphy {
 
 struct ImportedStroke {
-  double error = 0.0;         ///< [em]
-  double median_error = 0.0;  ///< including the corners that the brush's median cuts [em]
-  int recognised = 0;         ///< id by geometry alone
-  std::string label;          ///< empty if there is none
+  double error = 0.0;  ///< [em]
+  int recognised = 0;  ///< id by geometry alone
+  std::string label;   ///< empty if there is none
   bool label_known = false;
   bool label_agrees = false;
 };

@@ -107,17 +107,6 @@ Path simplified(const Path& path, std::size_t most, double tolerance) {
   return result;
 }
 
-double distance_to_simplified(std::span<const Point> path, std::span<const Point> simple) {
-  double largest = 0.0;
-  std::size_t segment = 0;
-  for (const Point& point : path) {
-    // The kept vertices are in order: each ends one segment of the simplified path and begins the next.
-    if (segment + 2 < simple.size() && point == simple[segment + 1]) ++segment;
-    largest = std::max(largest, (point - nearest_on_segment(point, simple[segment], simple[segment + 1])).norm());
-  }
-  return largest;
-}
-
 Path refined(const Path& path, double step) {
   constexpr double max_steps = 96.0;
   step = std::max(step, path_length(path) / max_steps);

@@ -42,9 +42,6 @@ Path without_repeats(std::span<const Point> points);
 /// path if that limit permits (Douglas and Peucker 1973). O(points * most).
 Path simplified(const Path& path, std::size_t most, double tolerance);
 
-/// Maximum distance of a path from the result of `simplified` [em]. O(path * simple).
-double distance_to_simplified(std::span<const Point> path, std::span<const Point> simple);
-
 /// The path with vertices added so that no step exceeds `step` [em], which is increased if there would be too many.
 Path refined(const Path& path, double step);
 

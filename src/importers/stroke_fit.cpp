@@ -1,24 +1,23 @@
-// Fits a pen path: the typical stroke found by stroke_recognition, with its control points refined to follow the path.
+// Fits a path as a typical stroke: those that a label allows, or that geometry alone recognises, in order of likelihood
+// until one follows the path.
+#include <calligraphy/importers/stroke_fit.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <string>
-#include <string_view>
 #include <utility>
 
-#include <Eigen/Dense>
-
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/importers/stroke_fit.hpp>
 #include <calligraphy/model/typical_stroke.hpp>
 
 #include "base/require.hpp"
 #include "brush.hpp"
-#include "cubic_fit.hpp"
-#include "path_distance.hpp"
-#include "shoulder.hpp"
-#include "stroke_polish.hpp"
+#include "control_points.hpp"
+#include "frechet.hpp"
+#include "outline.hpp"
+#include "stroke_division.hpp"
 #include "stroke_polyline.hpp"
 #include "stroke_recognition.hpp"
 
@@ -28,72 +27,16 @@ namespace {
 using namespace recognition;
 
 constexpr double max_fitted_coordinate = 15.0;  // [em]; validate() allows 16, and a handle may lie outside its path
-constexpr double min_path = 0.01;        // [em]; a shorter path is a dot
-constexpr double dot_length = 0.02;      // [em]
+constexpr double min_path = 0.01;               // [em]; a shorter path is a dot
+constexpr double dot_length = 0.02;             // [em]
 constexpr double min_fitted_element = 1e-4;     // [em]
 
-/// Where each element of a stroke begins among the control points.
-std::vector<std::size_t> element_starts(std::string_view elements) {
-  std::vector<std::size_t> starts{0};
-  for (const char kind : elements) starts.push_back(starts.back() + (kind == 'L' ? 1 : 3));
-  return starts;
-}
-
-void check(std::span<const Point> median) {
-  if (median.empty()) throw ValueError("a stroke needs at least one point");
-  for (std::size_t i = 0; i < median.size(); ++i) {
-    if (median[i].allFinite() && median[i].cwiseAbs().maxCoeff() <= max_fitted_coordinate) continue;
-    throw ValueError("point " + std::to_string(i + 1) + " of a stroke is (" + number_text(median[i].x()) + ", " +
-                     number_text(median[i].y()) + "): expected finite numbers within 15 em of the origin");
+void check(std::span<const Point> points, const char* what) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].allFinite() && points[i].cwiseAbs().maxCoeff() <= max_fitted_coordinate) continue;
+    throw ValueError("point " + std::to_string(i + 1) + " of " + what + " is (" + number_text(points[i].x()) + ", " +
+                     number_text(points[i].y()) + "): expected finite numbers within 15 em of the origin");
   }
-}
-
-/// Middle part of a limb, so that rounded corners do not affect its direction.
-std::span<const Point> middle(std::span<const Point> limb) {
-  const std::size_t margin = limb.size() / 5;
-  return limb.subspan(margin, limb.size() - 2 * margin);
-}
-
-/// Intersection of two extended limbs, or the corner of the path if they meet too far away or never.
-Point limb_intersection(std::span<const Point> before, std::span<const Point> after) {
-  constexpr double farthest = 0.08;  // [em]
-  const Point& corner = after.front();
-  const Line first = line_through(middle(before));
-  const Line second = line_through(middle(after));
-  Eigen::Matrix2d directions;
-  directions << first.direction, -second.direction;
-  if (std::abs(directions.determinant()) < 0.25) return corner;
-  const Point lengths = directions.inverse() * (second.through - first.through);
-  const Point meeting = first.through + lengths.x() * first.direction;
-  return (meeting - corner).norm() < farthest ? meeting : corner;
-}
-
-/// Initial control points, from the positions where the elements begin and end in the path.
-std::vector<Point> initial_points(const TypicalStroke& type, const Path& path, std::span<const std::size_t> splits) {
-  const std::string_view elements = type.elements;
-  const std::span<const Point> all(path);
-  const auto piece = [&](std::size_t element) {
-    return all.subspan(splits[element], splits[element + 1] - splits[element] + 1);
-  };
-  std::vector<Point> vertices{path.front()};
-  for (std::size_t joint = 1; joint < elements.size(); ++joint) {
-    const bool corner = elements[joint - 1] == 'L' && elements[joint] == 'L';
-    vertices.push_back(corner ? limb_intersection(piece(joint - 1), piece(joint)) : path[splits[joint]]);
-  }
-  vertices.push_back(path.back());
-  std::vector<Point> points{vertices.front()};
-  for (std::size_t element = 0; element < elements.size(); ++element) {
-    if (elements[element] == 'C') {
-      Path limb(piece(element).begin(), piece(element).end());
-      limb.front() = vertices[element];
-      limb.back() = vertices[element + 1];
-      Point handles[2];
-      fit_cubic(limb, handles);
-      points.insert(points.end(), handles, handles + 2);
-    }
-    points.push_back(vertices[element + 1]);
-  }
-  return points;
 }
 
 /// True if make_character() accepts the points. Elements of zero length and far handles result from unnatural input.
@@ -101,32 +44,13 @@ bool usable(const TypicalStroke& type, std::span<const Point> points) {
   for (const Point& point : points) {
     if (!point.allFinite() || point.cwiseAbs().maxCoeff() > max_fitted_coordinate) return false;
   }
-  const std::vector<std::size_t> starts = element_starts(type.elements);
-  for (std::size_t element = 0; element + 1 < starts.size(); ++element) {
-    if ((points[starts[element + 1]] - points[starts[element]]).norm() < min_fitted_element) return false;
+  std::size_t at = 0;
+  for (const char kind : type.elements) {
+    const std::size_t end = at + (kind == 'L' ? 1 : 3);
+    if ((points[end] - points[at]).norm() < min_fitted_element) return false;
+    at = end;
   }
   return true;
-}
-
-/// Maximum distance in both directions, to 1e-4 em.
-double two_sided_error(const Path& path, const TypicalStroke& type, std::span<const Point> points) {
-  constexpr double tolerance = 4e-5;  // [em], of the flattened stroke and of the distance
-  return hausdorff_distance(path, flattened(type.elements, points, tolerance), tolerance);
-}
-
-/// A dot centred on a point: a short dian towards the lower right.
-FittedStroke dot_around(const Path& path) {
-  Point low = path.front();
-  Point high = path.front();
-  for (const Point& point : path) {
-    low = low.cwiseMin(point);
-    high = high.cwiseMax(point);
-  }
-  const Point centre = 0.5 * (low + high);
-  const Point half = 0.5 * dot_length * Point(1.0, -1.0).normalized();
-  const std::vector<Point> points{centre - half, centre + half};
-  const double error = two_sided_error(path, typical_stroke(8), points);
-  return {{8, points}, error, error};
 }
 
 /// Vertices where an element may end: those of the path and, on long pieces, intermediate points.
@@ -147,115 +71,155 @@ std::vector<std::size_t> corners_of(const Path& vertices, const Path& refined) {
   return corners;
 }
 
-/// Alternative to a stroke whose elements do not follow the path closely: the same stroke, drawn rounder.
+/// The typical strokes that the path may be by geometry alone, the likeliest first.
+std::vector<int> recognised_ids(std::span<const Point> path, bool brush) {
+  constexpr double step = 0.012;  // [em]
+  const CleanPath clean = brush ? clean_median(path) : clean_pen_path(path);
+  const Path vertices = simplified(clean.points, 20, 0.002);
+  const Path all = refined(vertices, step);
+  std::vector<int> ids;
+  for (const Recognition& found : recognise(all, corners_of(vertices, all), clean, brush)) ids.push_back(found.id);
+  return ids;
+}
+
+/// Alternative to a stroke whose line does not follow the path closely: the same stroke, drawn rounder.
 struct Rounder {
   int id;
   int instead;
-  double from_error;  ///< [em]
 };
 constexpr Rounder rounder_strokes[] = {
-    {5, 4, 0.01},     // short pie, pie
-    {8, 38, 0.01},    // dian, chang dian
-    {32, 30, 0.003},  // shu zhe, shu wan
+    {5, 4},    // short pie, pie
+    {8, 38},   // dian, chang dian
+    {9, 38},   // left dian, chang dian
+    {9, 4},    // left dian, pie
+    {32, 30},  // shu zhe, shu wan
+    {36, 30},  // pie zhe, shu wan
 };
-
-/// The path of a pen, without what the brush adds.
-Path pen_path(const CleanPath& clean, const StrokeFitOptions& options) {
-  if (options.drawing_tool == DrawingTool::brush) return without_shoulders(clean.points);
-  return options.drawing_tool == DrawingTool::textbook_pen ? without_entry(clean.points) : clean.points;
-}
 
 /// Fits one path as different strokes.
 class Fit {
  public:
-  Fit(const CleanPath& clean, const StrokeFitOptions& options)
-      : clean_(clean),
-        options_(options),
-        vertices_(simplified(clean.points, 20, 0.002)),
-        path_(refined(vertices_, step)),
-        pen_(pen_path(clean, options)),
-        followed_(refined(simplified(pen_, 96, 2e-4), step)) {}
+  explicit Fit(std::span<const Point> path, const BrushEnds& ends) : path_(samples(path, ends)), divider_(path_) {}
 
-  /// Fits the recognised typical stroke or, if that cannot follow the path, the next one that can. Without control
-  /// points if none is usable.
-  FittedStroke best() const {
-    constexpr double far_off = 0.02;  // [em]
-    constexpr std::size_t max_tries = 4;
-    const std::vector<Recognition> found = recognised(options_.ids);
-    FittedStroke best = nothing();
-    for (std::size_t i = 0; i < std::min(found.size(), max_tries) && best.error > far_off; ++i) {
-      keep_better(best, as(found[i]));
+  /// Of strokes that a label allows, the first that follows the path, or else the closest; of strokes that geometry
+  /// recognises, the first. A line that does not follow the path gives way to a curve, if the label allows that.
+  /// Without control points if none is usable.
+  StrokeInput best(std::span<const int> ids, bool labelled) {
+    constexpr std::size_t most_tries = 3;
+    const auto allows = [&](int id) { return !labelled || std::find(ids.begin(), ids.end(), id) != ids.end(); };
+    Attempt best;
+    for (std::size_t i = 0; i < std::min(ids.size(), most_tries); ++i) {
+      Attempt other = as(ids[i]);
+      if (other.distance < best.distance) best = std::move(other);
+      if (best.distance <= follows || (!labelled && !best.stroke.control_points.empty())) break;
     }
+    const int straight = best.stroke.id;
     for (const Rounder& rounder : rounder_strokes) {
-      if (rounder.id != best.stroke.id || best.error <= rounder.from_error) continue;
-      const bool allowed = options_.ids.empty() ||
-                           std::find(options_.ids.begin(), options_.ids.end(), rounder.instead) != options_.ids.end();
-      const std::vector<Recognition> other = recognised({&rounder.instead, 1});
-      if (allowed && !other.empty()) keep_better(best, as(other[0]));
-      break;
+      if (best.distance <= follows) break;
+      if (rounder.id != straight || !allows(rounder.instead)) continue;
+      Attempt other = as(rounder.instead);
+      if (other.distance < best.distance) best = std::move(other);
     }
-    return best;
+    return std::move(best.stroke);
+  }
+
+  /// The strokes in ascending order of the cost of dividing the path among their elements.
+  std::vector<int> by_cost(std::span<const int> ids) {
+    std::vector<std::pair<double, int>> costs;
+    for (const int id : ids) costs.emplace_back(divider_.divide(typical_stroke(id)).cost, id);
+    std::sort(costs.begin(), costs.end());
+    std::vector<int> sorted;
+    for (const auto& [cost, id] : costs) sorted.push_back(id);
+    return sorted;
   }
 
   /// A straight dian can always be fitted.
-  FittedStroke straight() const {
+  StrokeInput straight() const {
     Point end = path_.back();
     if ((end - path_.front()).norm() < min_path) end = path_.front() + dot_length * Point(1.0, -1.0).normalized();
-    const std::vector<Point> points{path_.front(), end};
-    return measured({8, points});
+    return {8, {path_.front(), end}};
   }
 
  private:
-  static constexpr double step = 0.012;  // [em]
+  static constexpr double follows = 0.018;  // [em]
 
-  static FittedStroke nothing() {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    return {{8, {}}, infinity, infinity};
+  struct Attempt {
+    StrokeInput stroke{0, {}};
+    double distance = std::numeric_limits<double>::infinity();  ///< Fréchet distance from the samples [em]
+  };
+
+  static Path samples(std::span<const Point> path, const BrushEnds& ends) {
+    constexpr double step = 0.008;  // [em]
+    constexpr int fewest = 16;
+    constexpr int most = 140;
+    const double length = path_length(path);
+    const double pieces = std::ceil(std::min((length - ends.start - ends.end) / step, static_cast<double>(most)));
+    const int count = std::clamp(static_cast<int>(pieces) + 1, fewest, most);
+    return resampled(path, count, ends.start, length - ends.end);
   }
 
-  static void keep_better(FittedStroke& best, FittedStroke other) {
-    if (other.error < best.error) best = std::move(other);
+  Attempt as(int id) {
+    constexpr double step = 0.008;  // [em]
+    const TypicalStroke& type = typical_stroke(id);
+    const Division division = divider_.divide(type);
+    if (division.ends.empty()) return {};
+    std::vector<Point> points = fit_control_points(type, path_, division.ends);
+    if (!usable(type, points)) return {};
+    StrokeInput stroke{id, std::move(points)};
+    const double distance = frechet_distance(flattened(stroke), path_, 0.0, step);
+    return {std::move(stroke), distance};
   }
 
-  std::vector<Recognition> recognised(std::span<const int> ids) const {
-    return recognise(path_, corners_of(vertices_, path_), clean_, options_.drawing_tool == DrawingTool::brush, ids);
-  }
-
-  FittedStroke as(const Recognition& found) const {
-    const TypicalStroke& type = typical_stroke(found.id);
-    std::vector<Point> points = polished(type, followed_, initial_points(type, path_, found.splits));
-    if (!usable(type, points)) return nothing();
-    return measured({found.id, std::move(points)});
-  }
-
-  FittedStroke measured(StrokeInput stroke) const {
-    const TypicalStroke& type = typical_stroke(stroke.id);
-    const double error = two_sided_error(pen_, type, stroke.control_points) + clean_.slack;
-    const bool squared = options_.drawing_tool == DrawingTool::brush && pen_.size() != clean_.points.size();
-    const double median_error =
-        squared ? two_sided_error(clean_.points, type, stroke.control_points) + clean_.slack : error;
-    return {std::move(stroke), error, median_error};
-  }
-
-  const CleanPath& clean_;
-  const StrokeFitOptions& options_;
-  Path vertices_;  ///< of the clean path
-  Path path_;      ///< used for recognition
-  Path pen_;       ///< used for measuring errors
-  Path followed_;  ///< used for fitting
+  Path path_;  ///< at equal steps, without the ends that the brush writes
+  StrokeDivider divider_;
 };
+
+/// A dot centred on a point: a short dian towards the lower right.
+StrokeInput dot_around(std::span<const Point> path) {
+  Point low = path.front();
+  Point high = path.front();
+  for (const Point& point : path) {
+    low = low.cwiseMin(point);
+    high = high.cwiseMax(point);
+  }
+  const Point centre = 0.5 * (low + high);
+  const Point half = 0.5 * dot_length * Point(1.0, -1.0).normalized();
+  return {8, {centre - half, centre + half}};
+}
+
+/// The strokes of `ids` in the order in which they are tried: the recognised one first, then by cost; without ids, as
+/// recognised.
+std::vector<int> in_order(Fit& fit, std::span<const int> ids, std::span<const int> recognised) {
+  if (ids.empty()) return {recognised.begin(), recognised.end()};
+  if (ids.size() == 1) return {ids.begin(), ids.end()};
+  std::vector<int> order = fit.by_cost(ids);
+  const auto first = std::find(order.begin(), order.end(), recognised.front());
+  if (first != order.end()) std::rotate(order.begin(), first, first + 1);
+  return order;
+}
 
 }  // namespace
 
-FittedStroke fit_stroke(std::span<const Point> median, const StrokeFitOptions& options) {
-  check(median);
+FittedStroke fit_stroke(std::span<const Point> path, const StrokeFitOptions& options) {
+  if (path.empty()) throw ValueError("a stroke needs at least one point");
+  check(path, "a stroke");
+  check(options.outline, "an outline");
   for (const int id : options.ids) typical_stroke(id);  // throws if there is none
-  const CleanPath clean = options.drawing_tool == DrawingTool::brush ? clean_median(median) : clean_pen_path(median);
-  if (path_length(clean.points) < min_path) return dot_around(clean.points);
 
-  const Fit fit(clean, options);
-  FittedStroke best = fit.best();
-  return best.stroke.control_points.empty() ? fit.straight() : best;
+  FittedStroke fitted;
+  if (path_length(path) < min_path) {
+    fitted.stroke = dot_around(path);
+    fitted.recognised = fitted.stroke.id;
+  } else {
+    const bool brush = !options.outline.empty();
+    const std::vector<int> recognised = recognised_ids(path, brush);
+    Fit fit(path, brush_ends(path, options.outline));
+    fitted.stroke = fit.best(in_order(fit, options.ids, recognised), !options.ids.empty());
+    if (fitted.stroke.control_points.empty()) fitted.stroke = fit.straight();
+    fitted.recognised = recognised.front();
+  }
+  fitted.error = fit_error(fitted.stroke, path, half_width(path, options.outline));
+  return fitted;
 }
 
 }  // namespace calligraphy

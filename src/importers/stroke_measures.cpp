@@ -6,12 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "frechet.hpp"
-
 namespace calligraphy::recognition {
 namespace {
-
-constexpr double frechet_step = 0.004;  // [em]
 
 /// How far the path runs back along the source, as a share of the source's length. Every point of the path is projected
 /// to the source within a quarter of its length about where it should be.
@@ -86,43 +82,6 @@ int corners_without_counterpart(const TurningPath& one, const TurningPath& other
   return count;
 }
 
-double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-bool segments_cross(const Point& a, const Point& b, const Point& c, const Point& d) {
-  return (cross(b - a, c - a) > 0.0) != (cross(b - a, d - a) > 0.0) &&
-         (cross(d - c, a - c) > 0.0) != (cross(d - c, b - c) > 0.0);
-}
-
-struct Box {
-  Point low;
-  Point high;
-};
-
-Box box_of(std::span<const Point> points) {
-  Box box{points.front(), points.front()};
-  for (const Point& point : points) {
-    box.low = box.low.cwiseMin(point);
-    box.high = box.high.cwiseMax(point);
-  }
-  return box;
-}
-
-bool overlap(const Box& a, const Box& b) {
-  return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
-}
-
-bool paths_cross(std::span<const Point> one, std::span<const Point> other) {
-  if (!overlap(box_of(one), box_of(other))) return false;
-  for (std::size_t i = 1; i < one.size(); ++i) {
-    const Box segment = box_of(one.subspan(i - 1, 2));
-    for (std::size_t k = 1; k < other.size(); ++k) {
-      if (!overlap(segment, box_of(other.subspan(k - 1, 2)))) continue;
-      if (segments_cross(one[i - 1], one[i], other[k - 1], other[k])) return true;
-    }
-  }
-  return false;
-}
-
 }  // namespace
 
 StrokeMeasures measure_stroke(std::span<const Point> path, std::span<const Point> source, double half_width) {
@@ -133,7 +92,6 @@ StrokeMeasures measure_stroke(std::span<const Point> path, std::span<const Point
   const TurningPath drawn = turning_path(path, window);
   const TurningPath wanted = turning_path(source, window);
   StrokeMeasures measures{};
-  measures.frechet = frechet_distance(path, source, half_width, frechet_step);
   measures.backward = backward_share(path, source);
   measures.length = path_length(path);
   measures.source_length = path_length(source);
@@ -141,23 +99,6 @@ StrokeMeasures measure_stroke(std::span<const Point> path, std::span<const Point
   measures.false_corners = corners_without_counterpart(drawn, wanted, window, false_corner);
   measures.lost_corners = corners_without_counterpart(wanted, drawn, window, lost_corner);
   return measures;
-}
-
-CrossingCount count_crossings(std::span<const StrokeAndSource> strokes) {
-  constexpr int points = 60;
-  std::vector<Path> inner;
-  for (const auto& [path, source, half_width] : strokes) {
-    inner.push_back(resampled(source, points, half_width, path_length(source) - half_width));
-  }
-  CrossingCount count;
-  for (std::size_t i = 0; i < strokes.size(); ++i) {
-    for (std::size_t k = 0; k < i; ++k) {
-      if (!paths_cross(inner[i], inner[k])) continue;
-      ++count.source;
-      if (paths_cross(strokes[i].path, strokes[k].path)) ++count.kept;
-    }
-  }
-  return count;
 }
 
 }  // namespace calligraphy::recognition

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include <calligraphy/model/bezier.hpp>
+#include <calligraphy/model/typical_stroke.hpp>
 
 namespace calligraphy::recognition {
 namespace {
@@ -17,18 +18,14 @@ int pieces_of(const Bezier<3>& curve, double tolerance) {
   return static_cast<int>(std::clamp(std::ceil(std::sqrt(bend / (8.0 * tolerance))), 1.0, 256.0));
 }
 
-/// Bernstein polynomials of a cubic at t.
-std::array<double, 4> weights_at(double t) {
-  const double s = 1.0 - t;
-  return {s * s * s, 3.0 * s * s * t, 3.0 * s * t * t, t * t * t};
-}
-
 }  // namespace
 
-Path flattened(std::string_view elements, std::span<const Point> control_points, double tolerance) {
+Path flattened(const StrokeInput& stroke) {
+  constexpr double tolerance = 1e-4;  // [em]
+  const std::vector<Point>& control_points = stroke.control_points;
   Path path{control_points.front()};
   std::size_t at = 0;
-  for (const char kind : elements) {
+  for (const char kind : typical_stroke(stroke.id).elements) {
     if (kind == 'L') {
       path.push_back(control_points[++at]);
       continue;
@@ -39,24 +36,6 @@ Path flattened(std::string_view elements, std::span<const Point> control_points,
     at += 3;
   }
   return path;
-}
-
-std::vector<StrokeChord> stroke_chords(std::string_view elements, int curve_steps) {
-  std::vector<StrokeChord> chords;
-  int at = 0;
-  for (const char kind : elements) {
-    if (kind == 'L') {
-      chords.push_back({at, 2, {1.0, 0.0}, {0.0, 1.0}});
-      at += 1;
-      continue;
-    }
-    for (int step = 0; step < curve_steps; ++step) {
-      const double width = 1.0 / curve_steps;
-      chords.push_back({at, 4, weights_at(step * width), weights_at((step + 1) * width)});
-    }
-    at += 3;
-  }
-  return chords;
 }
 
 }  // namespace calligraphy::recognition

@@ -50,27 +50,6 @@ Choice divide(const CompoundRule& rule, std::string_view kinds, const PieceTable
   return choice;
 }
 
-bool allowed(std::span<const int> ids, int id) {
-  return ids.empty() || std::find(ids.begin(), ids.end(), id) != ids.end();
-}
-
-/// The allowed one-element stroke that the path is: the one that the rules find, otherwise the one of minimum cost; 0
-/// if none is allowed.
-int simple_stroke(const SimpleShape& shape, const Piece& whole, bool brush, std::span<const int> ids) {
-  const int found = brush ? brush_stroke(shape) : pen_stroke(shape);
-  if (allowed(ids, found)) return found;
-  int best = 0;
-  double best_cost = unreachable;
-  for (const int id : ids) {
-    if (typical_stroke(id).elements.size() != 1) continue;
-    const double cost = simple_cost(whole, typical_stroke(id).elements[0], shape.length);
-    if (cost >= best_cost) continue;
-    best = id;
-    best_cost = cost;
-  }
-  return best;
-}
-
 /// The path as a compound stroke.
 Recognition as_compound(const CompoundRule& rule, const PieceTable& table, std::span<const std::size_t> corners,
                         double length) {
@@ -85,29 +64,21 @@ Recognition as_compound(const CompoundRule& rule, const PieceTable& table, std::
 }  // namespace
 
 std::vector<Recognition> recognise(const Path& path, std::span<const std::size_t> corners, const CleanPath& clean,
-                                   bool brush, std::span<const int> ids) {
+                                   bool brush) {
   const PieceTable table(path, corners);
-  const Piece& whole = table.whole();
-  const SimpleShape shape = simple_shape(path, whole, clean);
-  std::vector<Recognition> found;
-  const int simple = simple_stroke(shape, whole, brush, ids);
-  if (simple != 0) {
-    const double cost = simple_cost(whole, typical_stroke(simple).elements[0], shape.length);
-    found.push_back({simple, {0, path.size() - 1}, cost});
-  }
+  const SimpleShape shape = simple_shape(path, table.whole(), clean);
+  const int simple = brush ? brush_stroke(shape) : pen_stroke(shape);
+  const double simple_price = simple_cost(table.whole(), typical_stroke(simple).elements[0], shape.length);
+  std::vector<Recognition> found{{simple, {0, path.size() - 1}, simple_price}};
   for (const CompoundRule& rule : compound_rules()) {
-    if (!allowed(ids, rule.id)) continue;
     Recognition compound = as_compound(rule, table, corners, shape.length);
     if (compound.cost < unreachable) found.push_back(std::move(compound));
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const Recognition& a, const Recognition& b) { return a.cost < b.cost; });
-  if (found.empty()) return found;
   const int sibling = sibling_of(found[0].id, path, found[0].splits, brush);
-  if (sibling != found[0].id && allowed(ids, sibling)) {
-    const auto at = std::find_if(found.begin(), found.end(), [&](const Recognition& one) { return one.id == sibling; });
-    if (at != found.end()) std::rotate(found.begin(), at, at + 1);
-  }
+  const auto at = std::find_if(found.begin(), found.end(), [&](const Recognition& one) { return one.id == sibling; });
+  if (at != found.end()) std::rotate(found.begin(), at, at + 1);
   return found;
 }
 

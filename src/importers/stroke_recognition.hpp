@@ -18,9 +18,9 @@ struct Recognition {
 };
 
 /// Candidate typical strokes for a refined path, the best first. `corners` are ascending indices of path vertices where
-/// an element may end, including the first and last vertex. `clean` is the path before refinement. `ids` restricts the
-/// candidates; empty: no restriction. Returns no candidate if every allowed stroke has too many elements.
+/// an element may end, including the first and last vertex. `clean` is the path before refinement. There is at least
+/// one candidate, of one element.
 std::vector<Recognition> recognise(const Path& path, std::span<const std::size_t> corners, const CleanPath& clean,
-                                   bool brush, std::span<const int> ids);
+                                   bool brush);
 
 }  // namespace calligraphy::recognition

@@ -99,7 +99,7 @@ bool is_dot(const Stroke& stroke) {
 /// The typical stroke whose shape the curve has, if it contradicts the recorded one; otherwise 0.
 int other_type(const Stroke& stroke, const Path& path) {
   if (is_dot(stroke)) return 0;
-  const int found = fit_stroke(path, {.drawing_tool = DrawingTool::pen}).stroke.id;
+  const int found = fit_stroke(path).recognised;
   return found == stroke.type->id || are_alike(found, stroke.type->id) ? 0 : found;
 }
 

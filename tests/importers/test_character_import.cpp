@@ -264,10 +264,10 @@ TEST_CASE("import options outside their domain are rejected by name", "[practice
 TEST_CASE("fit counts include strokes, and characters by their worst stroke", "[practice]") {
   const TemporaryDirectory directory;
   directory.write("一.json", hanzi_writer_heng);
-  // No typical stroke follows zigzags of 3 % of the em within 2 %.
+  // No typical stroke follows zigzags of 12 % of the em within 4 %.
   std::string zigzag = R"({"medians":[[[100,400],[900,400]],[)";
   for (int i = 0; i <= 16; ++i) {
-    zigzag += (i > 0 ? ",[" : "[") + std::to_string(100 + 50 * i) + "," + std::to_string(i % 2 == 0 ? 600 : 680) + "]";
+    zigzag += (i > 0 ? ",[" : "[") + std::to_string(100 + 50 * i) + "," + std::to_string(i % 2 == 0 ? 600 : 720) + "]";
   }
   directory.write("二.json", zigzag + "]]}");
   const ImportReport report = import_characters(directory.path()).report;
@@ -278,5 +278,5 @@ TEST_CASE("fit counts include strokes, and characters by their worst stroke", "[
   REQUIRE(report.worst.size() == 3);
   CHECK(report.worst[0].place.code == U'二');
   CHECK(report.worst[0].place.stroke == 2);
-  CHECK(report.worst[0].error > 0.02);
+  CHECK(report.worst[0].error > 0.04);
 }

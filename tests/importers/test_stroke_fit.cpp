@@ -41,6 +41,18 @@ Path sampled(const TypicalStroke& type, const std::vector<Point>& points, int st
   return path;
 }
 
+/// The outline of a brush of constant width with blunt ends, whose median the path is.
+Path outline_of(const Path& path, double half_width) {
+  Path left, right;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const Point along = (path[std::min(i + 1, path.size() - 1)] - path[i > 0 ? i - 1 : 0]).normalized();
+    left.push_back(path[i] + half_width * Point(-along.y(), along.x()));
+    right.push_back(path[i] - half_width * Point(-along.y(), along.x()));
+  }
+  left.insert(left.end(), right.rbegin(), right.rend());
+  return left;
+}
+
 std::vector<Point> typical_points(const TypicalStroke& type) {
   std::vector<Point> points;
   for (const auto& point : type.shape) points.emplace_back(point[0], point[1]);
@@ -175,7 +187,7 @@ TEST_CASE("every typical shape drawn by a pen is recognised as itself or as a do
       if (calligraphy_test::sanitized && noise != 0.002) continue;
       for (const TypicalStroke& type : typical_strokes()) {
         const Path path = changed(sampled(type, typical_points(type), 12), scale, noise * scale);
-        const FittedStroke fitted = fit_stroke(path, {.drawing_tool = DrawingTool::pen});
+        const FittedStroke fitted = fit_stroke(path);
         INFO("typical stroke " << type.id << " at scale " << scale << " with noise " << noise << " became "
                                << fitted.stroke.id);
         CHECK(accepted_ids(type.id).contains(fitted.stroke.id));
@@ -184,22 +196,22 @@ TEST_CASE("every typical shape drawn by a pen is recognised as itself or as a do
   }
 }
 
-TEST_CASE("typical shapes at full size are recognised exactly", "[model]") {
+TEST_CASE("typical shapes drawn with a brush at full size are recognised exactly", "[model]") {
   for (const TypicalStroke& type : typical_strokes()) {
     INFO("typical stroke " << type.id);
-    CHECK(fit_stroke(sampled(type, typical_points(type), 12)).stroke.id == type.id);
+    const Path path = sampled(type, typical_points(type), 12);
+    CHECK(fit_stroke(path, {.outline = outline_of(path, 0.02)}).recognised == type.id);
   }
 }
 
-TEST_CASE("a dense typical shape is fitted within 0.3 % of the em if its id is given, the circle within 0.4 %",
-          "[model]") {
+TEST_CASE("a dense typical shape is fitted within 1 % of the em if its id is given", "[model]") {
   for (const TypicalStroke& type : typical_strokes()) {
     const int only[] = {type.id};
     const FittedStroke fitted =
-        fit_stroke(sampled(type, typical_points(type), 40), {.drawing_tool = DrawingTool::pen, .ids = only});
+        fit_stroke(sampled(type, typical_points(type), 40), {.ids = only});
     INFO("typical stroke " << type.id << ", error " << fitted.error);
     CHECK(fitted.stroke.id == type.id);
-    CHECK(fitted.error < (type.id == 39 ? 0.004 : 0.003));
+    CHECK(fitted.error < 0.01);
   }
 }
 
@@ -207,7 +219,7 @@ TEST_CASE("a typical shape with noise of 0.5 % of the em is fitted within 1 %, t
   for (const TypicalStroke& type : typical_strokes()) {
     const Path path = changed(sampled(type, typical_points(type), 12), 1.0, 0.005);
     const int only[] = {type.id};
-    const FittedStroke fitted = fit_stroke(path, {.drawing_tool = DrawingTool::pen, .ids = only});
+    const FittedStroke fitted = fit_stroke(path, {.ids = only});
     INFO("typical stroke " << type.id << ", error " << fitted.error);
     CHECK(fitted.error < (type.id == 39 ? 0.02 : 0.01));
   }
@@ -223,17 +235,21 @@ TEST_CASE("recognition does not depend on the position of the stroke", "[model]"
   }
 }
 
-TEST_CASE("the reported error of a pen path is the maximum distance in both directions to 1e-4 em", "[model]") {
+TEST_CASE("the reported error of a pen path is the maximum distance in both directions, or more to keep the order",
+          "[model]") {
+  constexpr double step = 0.004;  // [em] between the points that are compared
   for (const TypicalStroke& type : typical_strokes()) {
     const Path path = changed(sampled(type, typical_points(type), 12), 1.0, 0.004);  // noise keeps it above zero
-    const FittedStroke fitted = fit_stroke(path, {.drawing_tool = DrawingTool::pen});
+    const FittedStroke fitted = fit_stroke(path);
     const Path model = sampled(typical_stroke(fitted.stroke.id), fitted.stroke.control_points, 400);
     Path dense{path.front()};
     for (std::size_t i = 1; i < path.size(); ++i) {
       for (int k = 1; k <= 40; ++k) dense.push_back(path[i - 1] + k / 40.0 * (path[i] - path[i - 1]));
     }
     INFO("typical stroke " << type.id << " became " << fitted.stroke.id);
-    CHECK(std::abs(fitted.error - std::max(farthest(model, path), farthest(dense, model))) < 1e-4);
+    const double distance = std::max(farthest(model, path), farthest(dense, model));
+    CHECK(fitted.error > distance - 0.5 * step);
+    CHECK(fitted.error < distance + step);
   }
 }
 
@@ -247,38 +263,38 @@ TEST_CASE("smooth joints of a typical stroke bend by less than 5 degrees", "[mod
   }
 }
 
-TEST_CASE("brush entry and droop of a shu are removed", "[model]") {
-  const Path median{{0.33, 0.81}, {0.36, 0.79}, {0.38, 0.755}, {0.378, 0.40}, {0.376, 0.22}};
-  const FittedStroke fitted = fit_stroke(median);
-  CHECK(fitted.stroke.id == 2);
-  CHECK(std::abs(fitted.stroke.control_points.front().x() - 0.38) < 0.004);
-  CHECK(fitted.error < 0.002);
+TEST_CASE("a stroke follows its path from the first touch to the last, entry and droop included", "[model]") {
+  const Path shu{{0.33, 0.81}, {0.36, 0.79}, {0.38, 0.755}, {0.378, 0.40}, {0.376, 0.22}};
+  const Path heng{{0.10, 0.50}, {0.15, 0.49}, {0.50, 0.53}, {0.83, 0.57}, {0.90, 0.545}};
+  for (const auto& [id, path] : {std::pair{2, shu}, std::pair{1, heng}}) {
+    const FittedStroke fitted = fit_stroke(path, {.outline = outline_of(path, 0.01)});
+    INFO("typical stroke " << id);
+    CHECK(fitted.stroke.id == id);
+    CHECK(fitted.error < 0.025);
+    CHECK((fitted.stroke.control_points.front() - path.front()).norm() < 0.035);
+    CHECK((fitted.stroke.control_points.back() - path.back()).norm() < 0.035);
+  }
 }
 
-TEST_CASE("entry and press of a heng are removed", "[model]") {
-  const Path median{{0.10, 0.50}, {0.15, 0.49}, {0.50, 0.53}, {0.83, 0.57}, {0.90, 0.545}};
-  const FittedStroke fitted = fit_stroke(median);
-  CHECK(fitted.stroke.id == 1);
-  CHECK(fitted.stroke.control_points.front().x() > 0.14);
-  CHECK(fitted.stroke.control_points.back().x() < 0.84);
-  CHECK(fitted.error < 0.002);
+TEST_CASE("a blunt end of a brush stroke begins a half-width inside its outline, a tapering one at its tip", "[model]") {
+  const Path median{{0.1, 0.5}, {0.9, 0.5}};
+  const Path blunt{{0.1, 0.46}, {0.9, 0.46}, {0.9, 0.54}, {0.1, 0.54}};
+  const Path tapering{{0.1, 0.5}, {0.3, 0.46}, {0.9, 0.46}, {0.9, 0.54}, {0.3, 0.54}};
+  const StrokeInput of_blunt = fit_stroke(median, {.outline = blunt}).stroke;
+  CHECK((of_blunt.control_points.front() - Point(0.14, 0.5)).norm() < 0.005);
+  CHECK((of_blunt.control_points.back() - Point(0.86, 0.5)).norm() < 0.005);
+  const StrokeInput of_tapering = fit_stroke(median, {.outline = tapering}).stroke;
+  CHECK((of_tapering.control_points.front() - Point(0.1, 0.5)).norm() < 0.008);
+  const StrokeInput of_pen = fit_stroke(median).stroke;
+  CHECK((of_pen.control_points.front() - median.front()).norm() < 1e-6);
+  CHECK((of_pen.control_points.back() - median.back()).norm() < 1e-6);
 }
 
-TEST_CASE("a short first limb is not mistaken for a brush entry", "[model]") {
-  const Path median{{0.40, 0.60}, {0.48, 0.615}, {0.47, 0.50}};
-  const FittedStroke fitted = fit_stroke(median);
-  CHECK(fitted.stroke.id == 16);
-  CHECK(fitted.stroke.control_points.front().x() < 0.41);
-}
-
-TEST_CASE("a pen path keeps its ends, and its pressed start is removed only on request", "[model]") {
-  const Path path{{0.35, 0.79}, {0.37, 0.775}, {0.38, 0.755}, {0.378, 0.40}, {0.376, 0.22}};
-  const int shu[] = {2};
-  CHECK(fit_stroke(path, {.drawing_tool = DrawingTool::pen, .ids = shu}).error >
-        0.005);  // a line cannot follow the slanted start
-  const FittedStroke fitted = fit_stroke(path, {.drawing_tool = DrawingTool::textbook_pen, .ids = shu});
-  CHECK(std::abs(fitted.stroke.control_points.front().x() - 0.38) < 0.004);
-  CHECK(fitted.error < 0.002);
+TEST_CASE("a stroke that starts in its middle and runs over itself has an error of its fold, not of its distance",
+          "[model]") {
+  const Path folded{{0.5, 0.5}, {0.1, 0.5}, {0.9, 0.5}};
+  const int heng[] = {1};
+  CHECK(fit_stroke(folded, {.ids = heng}).error > 0.15);
 }
 
 TEST_CASE("a label restricts the candidates for a path", "[model]") {
@@ -305,7 +321,7 @@ TEST_CASE("a corner vertex lies at the intersection of the limbs, not on the rou
 }
 
 TEST_CASE("similar strokes are distinguished by direction and length", "[model]") {
-  const auto id_of = [](const Path& path) { return fit_stroke(path).stroke.id; };
+  const auto id_of = [](const Path& path) { return fit_stroke(path, {.outline = outline_of(path, 0.02)}).recognised; };
   CHECK(id_of({{0.1, 0.5}, {0.9, 0.6}}) == 1);                             // heng rises by 7 degrees
   CHECK(id_of({{0.3, 0.4}, {0.6, 0.6}}) == 10);                            // ti by 34
   CHECK(id_of({{0.5, 0.6}, {0.58, 0.5}}) == 8);                            // dian
@@ -324,8 +340,9 @@ TEST_CASE("similar strokes are distinguished by direction and length", "[model]"
 
 TEST_CASE("hard inputs give a valid, finite stroke with any options", "[model]") {
   const std::vector<int> labels{16, 30, 39};
+  const Path square{{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}};
   const std::vector<StrokeFitOptions> asked{
-      {}, {.drawing_tool = DrawingTool::pen}, {.drawing_tool = DrawingTool::textbook_pen}, {.ids = labels}};
+      {}, {.outline = square}, {.ids = labels}, {.outline = square, .ids = labels}};
   for (const auto& [name, path] : hard_inputs()) {
     for (std::size_t i = 0; i < asked.size(); ++i) {
       INFO(name << ", options " << i);
@@ -333,7 +350,6 @@ TEST_CASE("hard inputs give a valid, finite stroke with any options", "[model]")
       REQUIRE_NOTHROW(fitted = fit_stroke(path, asked[i]));
       CHECK(std::isfinite(fitted.error));
       CHECK(fitted.error >= 0.0);
-      CHECK(std::isfinite(fitted.median_error));
       double length = 0.0;
       for (std::size_t k = 1; k < fitted.stroke.control_points.size(); ++k) {
         length += (fitted.stroke.control_points[k] - fitted.stroke.control_points[k - 1]).norm();
@@ -356,7 +372,8 @@ TEST_CASE("random scribbles give valid strokes, reproducibly", "[model]") {
     const int count = 2 + static_cast<int>(random() * 14);
     const double size = trial % 5 == 0 ? 10.0 : trial % 3 == 0 ? 0.05 : 1.0;
     for (int i = 0; i < count; ++i) path.emplace_back(size * random(), size * random());
-    const StrokeFitOptions options{.drawing_tool = trial % 2 == 0 ? DrawingTool::brush : DrawingTool::pen};
+    const Path outline = trial % 2 == 0 ? outline_of(path, 0.03) : Path();
+    const StrokeFitOptions options{.outline = outline};
     INFO("scribble " << trial);
     const FittedStroke fitted = fit_stroke(path, options);
     const std::array strokes{fitted.stroke};
@@ -365,25 +382,19 @@ TEST_CASE("random scribbles give valid strokes, reproducibly", "[model]") {
   }
 }
 
-TEST_CASE("a shoulder cut by the brush is restored to a corner, by at most half a brush width", "[model]") {
+TEST_CASE("a shoulder cut by the brush is followed as closely as a corner can", "[model]") {
   const Path median{{0.20, 0.70}, {0.45, 0.72}, {0.69, 0.74}, {0.76, 0.68}, {0.74, 0.45}, {0.72, 0.20}};
   const FittedStroke fitted = fit_stroke(median);
   REQUIRE(fitted.stroke.id == 16);
-  CHECK(fitted.error < 0.01);
-  CHECK(fitted.median_error > 0.015);
-  const double reach = distance_to_segment(fitted.stroke.control_points[1], median[2], median[3]);
-  CHECK(reach > 0.02);
-  CHECK(reach < 0.04 + fitted.error);
-  const FittedStroke pen = fit_stroke(median, {.drawing_tool = DrawingTool::pen});
-  CHECK(pen.error == pen.median_error);
-  CHECK(distance_to_segment(pen.stroke.control_points[1], median[2], median[3]) <= pen.error + 1e-4);
+  CHECK(fitted.error < 0.025);
+  CHECK(distance_to_segment(fitted.stroke.control_points[1], median[2], median[3]) < 0.025);
 }
 
 TEST_CASE("a brush remnant after a heng zhe is not a hook", "[model]") {
   const Path lifted{{0.20, 0.70}, {0.75, 0.74}, {0.72, 0.20}, {0.68, 0.21}};
-  CHECK(fit_stroke(lifted).stroke.id == 16);
+  CHECK(fit_stroke(lifted, {.outline = outline_of(lifted, 0.02)}).stroke.id == 16);
   const Path hooked{{0.20, 0.70}, {0.75, 0.74}, {0.72, 0.20}, {0.56, 0.26}};
-  CHECK(fit_stroke(hooked).stroke.id == 18);
+  CHECK(fit_stroke(hooked, {.outline = outline_of(hooked, 0.02)}).stroke.id == 18);
 }
 
 TEST_CASE("a point becomes a dian of about 2 % of the em around it", "[model]") {
@@ -403,6 +414,8 @@ TEST_CASE("paths without points or with invalid ones are rejected", "[model]") {
   CHECK_THROWS_AS(fit_stroke(Path{{0.0, 0.0}, {0.5, nan}}), ValueError);
   CHECK_THROWS_AS(fit_stroke(Path{{0.0, 0.0}, {infinity, 0.5}}), ValueError);
   CHECK_THROWS_AS(fit_stroke(Path{{0.0, 0.0}, {1e300, 0.5}}), ValueError);
+  const Path outline{{0.0, 0.0}, {0.0, nan}, {1.0, 1.0}};
+  CHECK_THROWS_AS(fit_stroke(Path{{0.0, 0.0}, {0.5, 0.5}}, {.outline = outline}), ValueError);
 }
 
 TEST_CASE("a path of many points gives the same stroke as one of few, and its error is not underestimated", "[model]") {
@@ -414,15 +427,15 @@ TEST_CASE("a path of many points gives the same stroke as one of few, and its er
       corner.push_back(t < 0.5 ? Point(0.2 + t, 0.8) : Point(0.7, 1.3 - t));
     }
     INFO(count);
-    const FittedStroke heng = fit_stroke(line, {.drawing_tool = DrawingTool::pen});
+    const FittedStroke heng = fit_stroke(line);
     CHECK(heng.stroke.id == 1);
     CHECK(heng.error <= 2e-4);
-    const FittedStroke turn = fit_stroke(corner, {.drawing_tool = DrawingTool::pen});
+    const FittedStroke turn = fit_stroke(corner);
     CHECK(turn.stroke.id == 16);
-    CHECK(turn.error <= 2e-3);
+    CHECK(turn.error <= 3e-3);
   }
   // A line cannot follow a saw of 5,000 teeth, each 2 % of the em high, any closer.
   std::vector<Point> saw;
   for (int i = 0; i <= 10'000; ++i) saw.emplace_back(1e-4 * i, i % 2 == 0 ? 0.5 : 0.52);
-  CHECK(fit_stroke(saw, {.drawing_tool = DrawingTool::pen}).error >= 0.0099);
+  CHECK(fit_stroke(saw).error >= 0.0099);
 }

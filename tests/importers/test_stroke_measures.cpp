@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "../catch.hpp"
+#include "importers/crossings.hpp"
 #include "importers/frechet.hpp"
 #include "importers/outline.hpp"
 #include "importers/stroke_measures.hpp"
@@ -95,7 +96,6 @@ TEST_CASE("the half-width of a brush stroke is at most 15 % of its length, and 0
 TEST_CASE("a stroke like its source has no fault", "[model]") {
   const Path corner{{0.1, 0.8}, {0.7, 0.8}, {0.7, 0.2}};
   const StrokeMeasures same = measure_stroke(corner, corner, 0.0);
-  CHECK(same.frechet < step);
   CHECK(same.backward < 0.01);
   CHECK(same.length == Approx(1.2));
   CHECK(same.source_length == Approx(1.2));
@@ -124,20 +124,53 @@ TEST_CASE("a stroke that starts in its middle runs back", "[model]") {
   CHECK(measure_stroke(source, source, 0.0).backward == 0.0);
 }
 
-TEST_CASE("crossings within a half-width of an end do not count, others are kept or not", "[model]") {
+TEST_CASE("two paths cross at a place of each, or not at all", "[model]") {
   const Path heng{{0.1, 0.5}, {0.9, 0.5}};
-  const Path shu{{0.5, 0.9}, {0.5, 0.1}};
-  const Path above{{0.5, 0.9}, {0.5, 0.6}};
-  const Path touching{{0.5, 0.9}, {0.5, 0.48}};
-  const auto crossings = [&](const Path& path, const Path& source) {
-    return count_crossings(std::vector<StrokeAndSource>{{heng, heng, 0.03}, {path, source, 0.03}});
-  };
-  CHECK(crossings(shu, shu).source == 1);
-  CHECK(crossings(shu, shu).kept == 1);
-  CHECK(crossings(above, shu).source == 1);
-  CHECK(crossings(above, shu).kept == 0);
-  CHECK(crossings(shu, above).source == 0);
-  CHECK(crossings(touching, touching).source == 0);
+  const Path bent{{0.5, 0.9}, {0.5, 0.6}, {0.6, 0.4}, {0.9, 0.4}};
+  const auto crossing = crossing_of(heng, bent);
+  REQUIRE(crossing);
+  CHECK(crossing->on_one == Approx(0.45));
+  CHECK(crossing->on_other == Approx(0.3 + std::hypot(0.05, 0.1)));
+  CHECK_FALSE(crossing_of(heng, Path{{0.5, 0.9}, {0.5, 0.6}, {0.6, 0.6}}));
+  CHECK_FALSE(crossing_of(heng, Path{{0.95, 0.9}, {0.95, 0.1}}));
+}
+
+TEST_CASE("what crosses within a half-width of an end only touches", "[model]") {
+  const Path heng{{0.1, 0.5}, {0.9, 0.5}};
+  const Path shu{{0.5, 0.9}, {0.5, 0.48}};
+  for (const double half_width : {0.0, 0.03}) {
+    const std::vector<Path> inner{without_ends(heng, half_width), without_ends(shu, half_width)};
+    CHECK(crossing_strokes(inner).size() == (half_width == 0.0 ? 1 : 0));
+  }
+}
+
+TEST_CASE("an end that crosses in the source is drawn out along its direction, one that does not stays", "[model]") {
+  const std::vector<Path> sources{{{0.1, 0.5}, {0.9, 0.5}}, {{0.5, 0.9}, {0.5, 0.499}}};
+  const auto crossings = crossing_strokes(sources);
+  REQUIRE(crossings.size() == 1);
+  const StrokeInput heng{1, {{0.1, 0.5}, {0.9, 0.5}}};
+  std::vector<StrokeInput> fitted{heng, {2, {{0.51, 0.9}, {0.5, 0.507}}}};
+  const StrokeInput before = fitted[1];
+  CHECK(keep_crossings(crossings, sources, fitted) == std::vector<std::size_t>{1});
+  CHECK(crossing_of(fitted[0].control_points, fitted[1].control_points));
+  CHECK((fitted[1].control_points[0] - before.control_points[0]).norm() == 0.0);
+  const Point moved = fitted[1].control_points[1] - before.control_points[1];
+  CHECK(moved.norm() < 0.01);
+  CHECK(moved.normalized().dot((before.control_points[1] - before.control_points[0]).normalized()) == Approx(1.0));
+  CHECK(fitted[0].control_points == heng.control_points);
+  CHECK(keep_crossings(crossings, sources, fitted).empty());
+
+  std::vector<StrokeInput> far_off{heng, {2, {{0.5, 0.9}, {0.5, 0.55}}}};
+  CHECK(keep_crossings(crossings, sources, far_off).empty());
+}
+
+TEST_CASE("two ends that cross at a corner are both drawn out", "[model]") {
+  const std::vector<Path> sources{{{0.1, 0.5}, {0.502, 0.5}}, {{0.5, 0.502}, {0.5, 0.1}}};
+  const auto crossings = crossing_strokes(sources);
+  REQUIRE(crossings.size() == 1);
+  std::vector<StrokeInput> fitted{{1, {{0.1, 0.5}, {0.495, 0.5}}}, {2, {{0.5, 0.494}, {0.5, 0.1}}}};
+  CHECK(keep_crossings(crossings, sources, fitted) == std::vector<std::size_t>{0, 1});
+  CHECK(crossing_of(fitted[0].control_points, fitted[1].control_points));
 }
 
 }  // namespace stroke_measures_tests

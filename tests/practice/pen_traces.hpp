@@ -50,7 +50,7 @@ inline calligraphy::Character own_character(const calligraphy::PenTrace& trace) 
   std::vector<calligraphy::StrokeInput> strokes;
   for (const calligraphy::PenPath& path : calligraphy::pen_paths(trace)) {
     if (calligraphy::path_length(path) < calligraphy::tap_length) continue;
-    strokes.push_back(calligraphy::fit_stroke(path, {.drawing_tool = calligraphy::DrawingTool::pen}).stroke);
+    strokes.push_back(calligraphy::fit_stroke(path).stroke);
   }
   return calligraphy::make_character(trace.character, strokes);
 }

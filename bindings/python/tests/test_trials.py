@@ -34,7 +34,7 @@ def test_the_import_report_accounts_for_the_source(tmp_path):
     characters, report = cal.import_characters(tmp_path, threads=1)
     assert report["kind"] == "hanzi-writer-data"
     assert (report["characters"], report["strokes"]) == (2, 3) == (len(characters), sum(report["ids_used"]))
-    assert report["within"]["error"].tolist() == [0.005, 0.01, 0.02] and report["within"]["characters"][0] == 2
+    assert report["within"]["error"].tolist() == [0.01, 0.02, 0.04] and report["within"]["characters"][0] == 2
     worst = report["worst"]
     assert set(zip(worst["code"].tolist(), worst["stroke"].tolist())) == {("一", 1), ("十", 1), ("十", 2)}
     assert (worst["error"] < 0.005).all() and [path for path, _ in report["skipped"]] == ["notes.txt"]

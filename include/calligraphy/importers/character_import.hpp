@@ -50,7 +50,7 @@ struct StrokeReference {
   int stroke;         ///< from 1
 };
 
-/// Strokes, and characters with all their strokes, that are within `error` of the drawing.
+/// Strokes, and characters with all their strokes, that are within `error` of the drawing: FittedStroke::error.
 struct FitCount {
   double error;  ///< [em]
   int strokes = 0;
@@ -60,15 +60,14 @@ struct FitCount {
 struct StrokeError {
   StrokeReference place;
   int id;
-  double error;  ///< maximum distance between stroke and drawing, in both directions [em]
+  double error;  ///< FittedStroke::error [em]
 };
 
 /// How one imported stroke follows the whole path of its source, the median of a brush stroke or the line of a pen.
 struct StrokeMeasures {
   StrokeReference place;
   int id;
-  double frechet;        ///< discrete Fréchet distance, which keeps the order; the stroke may begin and end within
-                         ///< `half_width` of the path's ends [em]
+  double frechet;        ///< distance in order, as FittedStroke::error [em]
   double backward;       ///< how far it runs back along the path, as a share of the path's length [1]
   double length;         ///< of the stroke [em]
   double source_length;  ///< of the path [em]
@@ -86,8 +85,8 @@ struct CrossingCount {
 /// Resolution of a label or letter that contradicts the shape.
 enum class LabelResolution {
   unknown,    ///< unknown label: the shape decides
-  accepted,   ///< a stroke allowed by the label follows the drawing closely enough: the label decides
-  overridden  ///< no stroke allowed by the label does: the shape decides
+  accepted,   ///< a stroke allowed by the label follows the drawing about as closely: the label decides
+  overridden  ///< the shape's own stroke follows the drawing much closer: the shape decides
 };
 
 /// "unknown", "accepted", "overridden".
@@ -120,9 +119,7 @@ struct ImportReport {
   int strokes = 0;
 
   // Fitting; not used for a set file or the text format.
-  std::array<FitCount, 3> within{{{0.005}, {0.01}, {0.02}}};  ///< relative to the path of the pen in the drawing
-  std::array<FitCount, 3> within_median{
-      {{0.005}, {0.01}, {0.02}}};                        ///< including the corners that the brush's median cuts
+  std::array<FitCount, 3> within{{{0.01}, {0.02}, {0.04}}};  ///< of the drawing
   std::vector<StrokeError> worst;                        ///< at most ten
   std::array<int, typical_stroke_count + 1> ids_used{};  ///< strokes by id
 
@@ -146,9 +143,8 @@ struct ImportResult {
 };
 
 /// Imports hanzi-writer-data or KanjiVG (as a directory or an npm tarball), a set file or the text format; the kind is
-/// detected from the content. A label or letter determines the typical stroke as long as one that it allows follows the
-/// drawing within 1 % of the em, or as well as the one recognised by geometry alone, and starts within 60 degrees of
-/// its typical direction.
+/// detected from the content. A label or letter decides on the typical stroke, unless the one recognised by geometry alone
+/// follows the drawing much closer (docs/import.md).
 /// @throws FileError if the source cannot be read; FormatError naming the file and the place if anything in it is
 ///         malformed or exceeds the limits; ValueError for options outside their domain, or without effect on a source
 ///         of this kind. An import never succeeds in part.

@@ -8,29 +8,24 @@
 
 namespace calligraphy {
 
-/// What the path was drawn with, and therefore which parts of it a pen would not write.
-enum class DrawingTool {
-  brush,         ///< the median of a brush stroke: entry, droop and shoulders are removed
-  textbook_pen,  ///< a line in textbook style: its pressed start is removed
-  pen            ///< a plain line: nothing is removed
-};
-
 struct StrokeFitOptions {
-  DrawingTool drawing_tool = DrawingTool::brush;
-  std::span<const int> ids = {};  ///< candidate typical strokes, from a label; empty: all, by geometry alone
+  std::span<const Point> outline = {};  ///< of the brush stroke whose median the path is, a polygon; empty: of a pen
+  std::span<const int> ids = {};        ///< candidate typical strokes, from a label; empty: all, by geometry alone
 };
 
 /// A stroke recognised and fitted.
 struct FittedStroke {
   StrokeInput stroke;
-  double error;         ///< maximum distance between path and stroke, in both directions, to 1e-4 em [em]
-  double median_error;  ///< the same for the path with its shoulders, the corners that a brush's median cuts [em]
+  double error = 0.0;  ///< discrete Fréchet distance of stroke and path, which keeps the order; with an outline the
+                       ///< stroke may begin and end within half the brush's width of the path's ends [em]
+  int recognised = 0;  ///< the typical stroke by geometry alone
 };
 
-/// Finds the typical stroke and its control points for a pen path, a polyline in em, y up. Removed parts of a path do
-/// not count in the errors; docs/strokes.md describes them. A path that no stroke of `ids` can follow (a dot, or a path
-/// with fewer corners than they have) becomes a straight dian (8).
-/// @throws ValueError if there are no points, a point is not finite or farther than 15 em, or an id is not in 1..39
+/// Finds the typical stroke and its control points for a path, a polyline in em, y up. The stroke follows all of the
+/// path in its order, from the first point to the last; only as much of the ends of a median is left out as the brush
+/// covers at its tip (docs/strokes.md). A path that no stroke of `ids` can follow, such as a dot, becomes a straight
+/// dian (8).
+/// @throws ValueError if there are no points, a point of path or outline is not finite or farther than 15 em, or an id is not in 1..39
 FittedStroke fit_stroke(std::span<const Point> path, const StrokeFitOptions& options = {});
 
 }  // namespace calligraphy

@@ -1,0 +1,20 @@
+// Control points of a stroke that follows a path in its order; private to the importers.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <calligraphy/model/typical_stroke.hpp>
+
+#include "polyline.hpp"
+
+namespace calligraphy::recognition {
+
+/// Fits the control points of a typical stroke to a path whose points are equally far apart, given the points where its
+/// elements begin and the last one ends. Linear least squares for all control points at once alternates with the
+/// assignment of each point of the path to the nearest place of the stroke, in the order of both. Smooth joints stay
+/// smooth; the ends of the stroke are near those of the path.
+std::vector<Point> fit_control_points(const TypicalStroke& type, const Path& path, std::span<const std::size_t> ends);
+
+}  // namespace calligraphy::recognition

@@ -1,0 +1,41 @@
+// Strokes of a character that cross each other; private to the importers.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <calligraphy/model/character.hpp>
+
+#include "polyline.hpp"
+
+namespace calligraphy::recognition {
+
+/// Where two paths cross, as arc lengths [em].
+struct Crossing {
+  double on_one;
+  double on_other;
+};
+
+/// The first place on `one` where the paths cross; none if they do not. O(product of their lengths).
+std::optional<Crossing> crossing_of(std::span<const Point> one, std::span<const Point> other);
+
+/// Two strokes of a character that cross in the source.
+struct CrossingStrokes {
+  std::size_t one;
+  std::size_t other;
+  Crossing at;
+};
+
+/// The path of a stroke in the source, less a half-width of the brush at both ends: what crosses there only touches.
+Path without_ends(std::span<const Point> path, double half_width);
+
+/// All pairs of paths that cross. O(paths^2).
+std::vector<CrossingStrokes> crossing_strokes(std::span<const Path> paths);
+
+/// Draws out ends of strokes, along their direction, where they cross in the source near an end but not as fitted.
+/// Returns the strokes that it changed.
+std::vector<std::size_t> keep_crossings(std::span<const CrossingStrokes> crossings, std::span<const Path> sources,
+                                        std::span<StrokeInput> strokes);
+
+}  // namespace calligraphy::recognition

@@ -1,0 +1,40 @@
+// Where the elements of a typical stroke begin and end in a path; private to the importers.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include <calligraphy/model/typical_stroke.hpp>
+
+#include "piece_residuals.hpp"
+#include "polyline.hpp"
+
+namespace calligraphy::recognition {
+
+struct Division {
+  double cost = std::numeric_limits<double>::infinity();  ///< [em^2]
+  std::vector<std::size_t> ends;  ///< first point of each element, and last of all; empty if there are too few points
+};
+
+/// Divides one path among the elements of several typical strokes. The cost is the mean square of what is left by a line
+/// or cubic of constant speed for each element, and of how far the elements turn from the directions that they have in
+/// the typical stroke.
+class StrokeDivider {
+ public:
+  /// @param path points equally far apart, which outlive the divider
+  explicit StrokeDivider(const Path& path);
+
+  /// The division of least cost, by dynamic programming over at most 50 places for the joints.
+  Division divide(const TypicalStroke& type);
+
+ private:
+  double residual(std::size_t from, std::size_t to, char kind);
+
+  const Path& path_;
+  PieceResiduals pieces_;
+  std::vector<std::size_t> places_;   ///< points where an element may begin and end
+  std::vector<double> residuals_;     ///< of pieces between places, of lines and curves; below 0 if not yet known
+};
+
+}  // namespace calligraphy::recognition
