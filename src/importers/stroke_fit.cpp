@@ -99,7 +99,8 @@ constexpr Rounder rounder_strokes[] = {
 /// Fits one path as different strokes.
 class Fit {
  public:
-  explicit Fit(std::span<const Point> path, const BrushEnds& ends) : path_(samples(path, ends)), divider_(path_) {}
+  explicit Fit(std::span<const Point> path, const BrushEnds& ends)
+      : path_(samples(path, ends)), divider_(path_), follows_(std::min(0.018, 0.1 * path_length(path_))) {}
 
   /// Of strokes that a label allows, the first that follows the path, or else the closest; of strokes that geometry
   /// recognises, the first. A line that does not follow the path gives way to a curve, if the label allows that.
@@ -111,11 +112,11 @@ class Fit {
     for (std::size_t i = 0; i < std::min(ids.size(), most_tries); ++i) {
       Attempt other = as(ids[i]);
       if (other.distance < best.distance) best = std::move(other);
-      if (best.distance <= follows || (!labelled && !best.stroke.control_points.empty())) break;
+      if (best.distance <= follows_ || (!labelled && !best.stroke.control_points.empty())) break;
     }
     const int straight = best.stroke.id;
     for (const Rounder& rounder : rounder_strokes) {
-      if (best.distance <= follows) break;
+      if (best.distance <= follows_) break;
       if (rounder.id != straight || !allows(rounder.instead)) continue;
       Attempt other = as(rounder.instead);
       if (other.distance < best.distance) best = std::move(other);
@@ -141,8 +142,6 @@ class Fit {
   }
 
  private:
-  static constexpr double follows = 0.018;  // [em]
-
   struct Attempt {
     StrokeInput stroke{0, {}};
     double distance = std::numeric_limits<double>::infinity();  ///< Fréchet distance from the samples [em]
@@ -172,6 +171,7 @@ class Fit {
 
   Path path_;  ///< at equal steps, without the ends that the brush writes
   StrokeDivider divider_;
+  double follows_;  ///< distance within which a stroke follows the path: 1.8 % of the em, 10 % of a short path [em]
 };
 
 /// A dot centred on a point: a short dian towards the lower right.
