@@ -38,13 +38,19 @@ Point own_way(const StrokeStart& start, const Point& from, const Point& to) {
   return to - from + (before - left) * normal;
 }
 
-/// Point of a stroke at an arc length [m].
-Point point_at(const std::vector<StrokeElement>& elements, double arc) {
+/// The point farthest from a stroke's start among the corners within an arc length [m] and the point there: a stroke
+/// that turns back so soon comes no nearer to its start in between.
+Point farthest_point(const std::vector<StrokeElement>& elements, double arc) {
+  const Point start = elements.front().origin();
+  Point farthest = start;
   for (const StrokeElement& element : elements) {
-    if (arc <= element.length()) return element.point(element.parameter_at(arc));
+    const bool is_last = arc <= element.length();
+    const Point point = element.point(is_last ? element.parameter_at(arc) : 1.0);
+    if ((point - start).norm() > (farthest - start).norm()) farthest = point;
+    if (is_last) break;
     arc -= element.length();
   }
-  return elements.back().point(1.0);
+  return farthest;
 }
 
 }  // namespace
@@ -57,10 +63,10 @@ std::vector<StrokeStart> stroke_starts(const PlacedCharacter& placed, const Stro
     for (const StrokeElement& element : elements) length += element.length();
     StrokeStart start;
     start.point = elements.front().origin();
-    start.stretch = std::min(tolerances.first_stretch * placed.placement.em, max_stretch_share * length);
-    start.direction = point_at(elements, start.stretch) - start.point;
-    const double chord = start.direction.norm();
-    start.direction = chord > 0.0 ? Point(start.direction / chord) : elements.front().tangent(0.0);
+    const double arc = std::min(tolerances.first_stretch * placed.placement.em, max_stretch_share * length);
+    const Point way = farthest_point(elements, arc) - start.point;
+    start.stretch = way.norm();
+    start.direction = start.stretch > 0.0 ? Point(way / start.stretch) : elements.front().tangent(0.0);
     starts.push_back(start);
   }
   return starts;

@@ -85,6 +85,7 @@ SequenceResult judge_attempts(const std::vector<Character>& characters, const Se
       if (!tried.empty()) result.taken.add(taken);
       if (taken || pen.draw(lines[due], options.em).finished) continue;
       ++result.not_finished_exactly;
+      result.findings.push_back({0, static_cast<int>(due)});
       break;
     }
     return result;

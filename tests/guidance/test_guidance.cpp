@@ -6,8 +6,10 @@
 #include <calligraphy/base/text.hpp>
 #include <calligraphy/devices/device_profiles.hpp>
 #include <calligraphy/model/character_list.hpp>
+#include <calligraphy/model/character_set.hpp>
 
 #include "catch.hpp"
+#include "package_data.hpp"
 #include "pairs.hpp"
 #include "releases.hpp"
 #include "sequence.hpp"
@@ -177,6 +179,17 @@ TEST_CASE("strokes as people draw them finish at the first touch on every device
       }
     }
   }
+}
+
+TEST_CASE("every stroke of every imported character is finished by a pen that draws it exactly", "[guidance]") {
+  const auto file = package_data("CALLIGRAPHY_CHARACTER_FILE");
+  if (file.empty()) return;
+  const std::vector<Character> imported = CharacterSet::open(file.string()).list().characters;
+  const auto nothing_else = [](const std::vector<StrokeLine>&, std::size_t) { return std::vector<Attempt>(); };
+  const SequenceResult result = judge_attempts(imported, on("desktop", 0.04), nothing_else);
+  INFO(list(result));
+  CHECK(imported.size() == 9574);
+  CHECK(result.not_finished_exactly == 0);
 }
 
 TEST_CASE("everything() finishes as many characters as vision and reduces the error as much as the default",
