@@ -30,7 +30,6 @@
 #include "hanzi_writer.hpp"
 #include "imported_character.hpp"
 #include "kanjivg.hpp"
-#include "outline.hpp"
 #include "source_files.hpp"
 #include "stroke_labels.hpp"
 #include "stroke_letters.hpp"
@@ -195,6 +194,7 @@ StrokeInput fit(const StrokeOfDrawing& drawn, ImportedStroke& result) {
     }
   }
   result.error = fitted.error;
+  result.half_width = fitted.half_width;
   return std::move(fitted.stroke);
 }
 
@@ -292,13 +292,12 @@ class Importer {
                                                                   std::vector<StrokeInput>& strokes,
                                                                   ImportedCharacter& result) {
     std::vector<recognition::Path> sources;
-    for (const StrokeOfDrawing& stroke : drawn) {
-      sources.push_back(recognition::without_ends(stroke.path, recognition::half_width(stroke.path, stroke.outline)));
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+      sources.push_back(recognition::without_ends(drawn[i].path, result.strokes[i].half_width));
     }
     std::vector<recognition::CrossingStrokes> crossings = recognition::crossing_strokes(sources);
     for (const std::size_t i : recognition::keep_crossings(crossings, sources, strokes)) {
-      result.strokes[i].error = recognition::fit_error(strokes[i], drawn[i].path,
-                                                       recognition::half_width(drawn[i].path, drawn[i].outline));
+      result.strokes[i].error = recognition::fit_error(strokes[i], drawn[i].path, result.strokes[i].half_width);
     }
     return crossings;
   }
@@ -308,8 +307,8 @@ class Importer {
     std::vector<recognition::Path> paths;
     for (std::size_t i = 0; i < drawn.size(); ++i) {
       paths.push_back(recognition::flattened(strokes[i]));
-      StrokeMeasures& measures = result.measures.emplace_back(recognition::measure_stroke(
-          paths.back(), drawn[i].path, recognition::half_width(drawn[i].path, drawn[i].outline)));
+      StrokeMeasures& measures = result.measures.emplace_back(
+          recognition::measure_stroke(paths.back(), drawn[i].path, result.strokes[i].half_width));
       measures.place = {result.character.code, result.character.order, static_cast<int>(i) + 1};
       measures.id = strokes[i].id;
       measures.frechet = result.strokes[i].error;

@@ -9,9 +9,10 @@
 namespace calligraphy {
 
 struct ImportedStroke {
-  double error = 0.0;  ///< [em]
-  int recognised = 0;  ///< id by geometry alone
-  std::string label;   ///< empty if there is none
+  double error = 0.0;       ///< [em]
+  double half_width = 0.0;  ///< of the brush [em]
+  int recognised = 0;       ///< id by geometry alone
+  std::string label;        ///< empty if there is none
   bool label_known = false;
   bool label_agrees = false;
 };

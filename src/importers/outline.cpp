@@ -38,17 +38,16 @@ double half_width(std::span<const Point> median, std::span<const Point> outline)
   return std::min(*middle, most * length);
 }
 
-BrushEnds brush_ends(std::span<const Point> median, std::span<const Point> outline) {
+BrushEnds brush_ends(std::span<const Point> median, std::span<const Point> outline, double half_width) {
   constexpr double step = 0.004;    // [em]
   constexpr double reaches = 0.9;  // [1] of the way to the tip; the median may begin a little beside the middle
-  const double most = half_width(median, outline);
   const auto reach_from = [&](const Path& path) {
-    for (double at = step; at < most; at += step) {
+    for (double at = step; at < half_width; at += step) {
       if (inscribed_radius(outline, point_after(path, 0, at)) < reaches * at) return at;
     }
-    return most;
+    return half_width;
   };
-  if (most <= 0.0) return {};
+  if (half_width <= 0.0) return {};
   return {reach_from(Path(median.begin(), median.end())), reach_from(Path(median.rbegin(), median.rend()))};
 }
 

@@ -20,6 +20,6 @@ struct BrushEnds {
   double start = 0.0;
   double end = 0.0;
 };
-BrushEnds brush_ends(std::span<const Point> median, std::span<const Point> outline);
+BrushEnds brush_ends(std::span<const Point> median, std::span<const Point> outline, double half_width);
 
 }  // namespace calligraphy::recognition

@@ -207,18 +207,19 @@ FittedStroke fit_stroke(std::span<const Point> path, const StrokeFitOptions& opt
   for (const int id : options.ids) typical_stroke(id);  // throws if there is none
 
   FittedStroke fitted;
+  fitted.half_width = half_width(path, options.outline);
   if (path_length(path) < min_path) {
     fitted.stroke = dot_around(path);
     fitted.recognised = fitted.stroke.id;
   } else {
     const bool brush = !options.outline.empty();
     const std::vector<int> recognised = recognised_ids(path, brush);
-    Fit fit(path, brush_ends(path, options.outline));
+    Fit fit(path, brush_ends(path, options.outline, fitted.half_width));
     fitted.stroke = fit.best(in_order(fit, options.ids, recognised), !options.ids.empty());
     if (fitted.stroke.control_points.empty()) fitted.stroke = fit.straight();
     fitted.recognised = recognised.front();
   }
-  fitted.error = fit_error(fitted.stroke, path, half_width(path, options.outline));
+  fitted.error = fit_error(fitted.stroke, path, fitted.half_width);
   return fitted;
 }
 
