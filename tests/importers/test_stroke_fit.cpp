@@ -311,6 +311,30 @@ TEST_CASE("a label restricts the candidates for a path", "[model]") {
   CHECK_THROWS_AS(fit_stroke(heng, {.ids = zero}), ValueError);
 }
 
+TEST_CASE("a line that does not follow its path gives way to its rounder relative, where the label allows that",
+          "[model]") {
+  const auto pie = [](double length) {
+    constexpr double height = 0.018;  // [em]; half of that is its distance from a line
+    Path path;
+    for (int i = 0; i <= 20; ++i) {
+      const double share = i / 20.0;
+      path.push_back(Point(0.7, 0.7) + length * share * Point(-0.87, -0.49) +
+                     4.0 * share * (1.0 - share) * height * Point(0.49, -0.87));
+    }
+    return path;
+  };
+  const int either[] = {4, 5}, straight[] = {5};
+  // A line follows within 1.8 % of the em and 10 % of the path: the long one, although a curve would be closer.
+  for (const double length : {0.3, 0.08}) {
+    const Path path = pie(length);
+    const int expected = length > 0.1 ? 5 : 4;
+    REQUIRE(fit_stroke(path).recognised == 5);
+    CHECK(fit_stroke(path).stroke.id == expected);
+    CHECK(fit_stroke(path, {.ids = either}).stroke.id == expected);
+    CHECK(fit_stroke(path, {.ids = straight}).stroke.id == 5);
+  }
+}
+
 TEST_CASE("a corner vertex lies at the intersection of the limbs, not on the rounded corner", "[model]") {
   const Path median{{0.20, 0.70}, {0.50, 0.70}, {0.72, 0.70}, {0.75, 0.69}, {0.76, 0.66}, {0.76, 0.40}, {0.76, 0.20}};
   const FittedStroke fitted = fit_stroke(median);
