@@ -81,19 +81,28 @@ Arrays pen_downs(const PenTrace& trace) {
 }
 
 py::dict as_dict(const ImportReport& report) {
-  py::list within, worst, skipped;
+  py::list within, worst, measures, skipped;
   for (const FitCount& count : report.within) {
     within.append(py::make_tuple(count.error, count.strokes, count.characters));
   }
   for (const StrokeError& e : report.worst) {
     worst.append(py::make_tuple(py::cast(e.place.code), e.place.order, e.place.stroke, e.id, e.error));
   }
+  for (const StrokeMeasures& m : report.measures) {
+    measures.append(py::make_tuple(py::cast(m.place.code), m.place.order, m.place.stroke, m.id, m.frechet, m.backward,
+                                   m.length, m.source_length, m.half_width, m.false_corners, m.lost_corners));
+  }
   for (const SkippedFile& file : report.skipped) skipped.append(py::make_tuple(file.path, file.reason));
   return py::dict("kind"_a = to_string(report.kind), "characters"_a = report.characters, "strokes"_a = report.strokes,
-                  "labelled"_a = report.labelled, "agreed"_a = report.agreed, "ids_used"_a = report.ids_used,
+                  "labelled"_a = report.labelled, "agreed"_a = report.agreed, "allowed"_a = report.allowed,
+                  "ids_used"_a = report.ids_used,
                   "letters_unused"_a = report.letters_unused, "notes"_a = report.notes,
                   "within"_a = table(within, dtype_of("error:f8 strokes:i4 characters:i4")),
                   "worst"_a = table(worst, dtype_of("code:U1 order:U32 stroke:i4 id:i4 error:f8")),
+                  "measures"_a = table(measures, dtype_of("code:U1 order:U32 stroke:i4 id:i4 frechet:f8 backward:f8 "
+                                                          "length:f8 source_length:f8 half_width:f8 false_corners:i4 "
+                                                          "lost_corners:i4")),
+                  "crossings"_a = py::make_tuple(report.crossings.source, report.crossings.kept),
                   "skipped"_a = skipped);
 }
 
@@ -286,20 +295,21 @@ void add_practice(py::module_& module) {
       "import_characters",
       [](const std::filesystem::path& source, const std::optional<std::filesystem::path>& letters,
          const std::u32string& only, bool alternates, bool ideographs_only, const std::string& date, int threads,
-         const Progress& progress) {
+         bool report, const Progress& progress) {
         // Optional, because an empty C++ path would become "." in Python.
-        const ImportOptions options = {letters.value_or(""),   alternates, ideographs_only, only, date, threads, {},
-                                       interruptible(progress)};
+        const ImportOptions options = {letters.value_or(""), alternates, ideographs_only, only, date, threads,
+                                       report,               {},         interruptible(progress)};
         ImportResult imported = released(&import_characters)(source, options);
         return py::typing::Tuple<CharacterList, py::dict>(
             py::make_tuple(std::move(imported.list), as_dict(imported.report)));
       },
       "source"_a, "letters"_a = py::none(), "only"_a = std::u32string(), "alternates"_a = false,
-      "ideographs_only"_a = true, "date"_a = "", "threads"_a = 0, "progress"_a = py::none(),
+      "ideographs_only"_a = true, "date"_a = "", "threads"_a = 0, "report"_a = false, "progress"_a = py::none(),
       "Imports hanzi-writer-data or KanjiVG (a directory or a tarball), a set file or the text format. Returns a "
-      "CharacterList and a report (docs/import.md): kind, characters, strokes, labelled, agreed, ids_used by id, "
-      "letters_unused, notes; within: strokes and characters within an error [em]; worst: code, order, stroke (from "
-      "1), id, error [em]; skipped files with reasons. Raises FileError, FormatError, InvalidValue.");
+      "CharacterList and a report (docs/import.md): kind, characters, strokes, labelled, agreed, allowed, ids_used "
+      "by id, letters_unused, notes; within: strokes and characters within an error [em]; worst: code, order, stroke "
+      "(from 1), id, error [em]; skipped files with reasons. With `report`, every stroke is measured against its "
+      "source (docs/strokes.md): measures, a row for each, lengths in em; crossings: in the source, kept. Raises FileError, FormatError, InvalidValue.");
 }
 
 }  // namespace calligraphy::python

@@ -38,6 +38,12 @@ def test_the_import_report_accounts_for_the_source(tmp_path):
     worst = report["worst"]
     assert set(zip(worst["code"].tolist(), worst["stroke"].tolist())) == {("一", 1), ("十", 1), ("十", 2)}
     assert (worst["error"] < 0.005).all() and [path for path, _ in report["skipped"]] == ["notes.txt"]
+    assert len(report["measures"]) == 0
+    _, report = cal.import_characters(tmp_path, threads=1, report=True)
+    measures = report["measures"]
+    assert measures["id"].tolist() == [1, 1, 2] and report["crossings"] == (1, 1)
+    assert np.allclose(measures["source_length"], 800 / 1024) and (measures["frechet"] < 0.005).all()
+    assert not measures["backward"].any() and not measures["false_corners"].any()
     only, report = cal.import_characters(tmp_path, only="一")
     assert [character.code for character in only] == ["一"] and report["characters"] == 1
     (tmp_path / "二.json").write_text("{", encoding="utf-8")
