@@ -309,7 +309,8 @@ void add_practice(py::module_& module) {
       "CharacterList and a report (docs/import.md): kind, characters, strokes, labelled, agreed, allowed, ids_used "
       "by id, letters_unused, notes; within: strokes and characters within an error [em]; worst: code, order, stroke "
       "(from 1), id, error [em]; skipped files with reasons. With `report`, every stroke is measured against its "
-      "source (docs/strokes.md): measures, a row for each, lengths in em; crossings: in the source, kept. Raises FileError, FormatError, InvalidValue.");
+      "source (docs/strokes.md): measures, a row for each, lengths in em; crossings: in the source, kept. Raises "
+      "FileError, FormatError, InvalidValue.");
 }
 
 }  // namespace calligraphy::python
