@@ -27,7 +27,8 @@ struct FittedStroke {
 /// path in its order, from the first point to the last; only as much of the ends of a median is left out as the brush
 /// covers at its tip (docs/strokes.md). A path that no stroke of `ids` can follow, such as a dot, becomes a straight
 /// dian (8).
-/// @throws ValueError if there are no points, a point of path or outline is not finite or farther than 15 em, or an id is not in 1..39
+/// @throws ValueError if there are no points, a point of path or outline is not finite or farther than 15 em from the
+///         origin, or an id is not in 1..39
 FittedStroke fit_stroke(std::span<const Point> path, const StrokeFitOptions& options = {});
 
 }  // namespace calligraphy
