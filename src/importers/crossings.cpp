@@ -8,9 +8,10 @@
 namespace calligraphy::recognition {
 namespace {
 
-constexpr double nearest_end = 0.02;  // [em]; of the source, within which a fitted end may be drawn out
-constexpr double most_drawn = 0.03;   // [em]
-constexpr double margin = 0.002;      // [em] beyond the crossing, which rounding of coordinates does not undo
+constexpr double nearest_end = 0.02;    // [em]; of the source, within which a fitted end may be drawn out
+constexpr double most_drawn = 0.03;     // [em]
+constexpr double least_margin = 0.002;  // [em] beyond the crossing: more than rounding to standard precision undoes
+constexpr double margin = 0.003;        // [em] beyond the crossing, of an end that is drawn out
 
 double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -58,13 +59,21 @@ Path drawn_out(Path path, const std::optional<StrokeEnd>& end) {
   return path;
 }
 
+double from_tip(const StrokeEnd& end, double at, const Path& path) {
+  return end.at_start ? at : path_length(path) - at;
+}
+
+/// True if the end, where there is one, lies farther beyond the place at arc length `at` than rounding undoes.
+bool reaches_beyond(const std::optional<StrokeEnd>& end, double at, const Path& path) {
+  return !end || from_tip(*end, at, path) >= least_margin;
+}
+
 /// Moves the end beyond the place at arc length `at` of the path that was drawn out. False if that is not necessary.
-bool move_end(const std::optional<StrokeEnd>& end, double at, double length, StrokeInput& stroke) {
+bool move_end(const std::optional<StrokeEnd>& end, double at, const Path& longer, StrokeInput& stroke) {
   if (!end) return false;
-  const double from_tip = end->at_start ? at : length - at;  // of the drawn-out path
-  if (from_tip >= most_drawn) return false;
-  (end->at_start ? stroke.control_points.front() : stroke.control_points.back()) +=
-      (most_drawn - from_tip + margin) * end->outwards;
+  const double missing = most_drawn - from_tip(*end, at, longer);
+  if (missing <= -least_margin) return false;
+  (end->at_start ? stroke.control_points.front() : stroke.control_points.back()) += (missing + margin) * end->outwards;
   return true;
 }
 
@@ -122,15 +131,16 @@ std::vector<std::size_t> keep_crossings(std::span<const CrossingStrokes> crossin
   for (const auto& [one, other, at] : crossings) {
     const Path path = flattened(strokes[one]);
     const Path other_path = flattened(strokes[other]);
-    if (crossing_of(path, other_path)) continue;
     const auto end = end_near(at.on_one, path_length(sources[one]), strokes[one]);
     const auto other_end = end_near(at.on_other, path_length(sources[other]), strokes[other]);
+    const auto now = crossing_of(path, other_path);
+    if (now && reaches_beyond(end, now->on_one, path) && reaches_beyond(other_end, now->on_other, other_path)) continue;
     const Path longer = drawn_out(path, end);
     const Path other_longer = drawn_out(other_path, other_end);
     const auto meeting = crossing_of(longer, other_longer);
     if (!meeting) continue;
-    if (move_end(end, meeting->on_one, path_length(longer), strokes[one])) changed.push_back(one);
-    if (move_end(other_end, meeting->on_other, path_length(other_longer), strokes[other])) changed.push_back(other);
+    if (move_end(end, meeting->on_one, longer, strokes[one])) changed.push_back(one);
+    if (move_end(other_end, meeting->on_other, other_longer, strokes[other])) changed.push_back(other);
   }
   std::sort(changed.begin(), changed.end());
   changed.erase(std::unique(changed.begin(), changed.end()), changed.end());

@@ -33,8 +33,8 @@ Path without_ends(std::span<const Point> path, double half_width);
 /// All pairs of paths that cross. O(paths^2).
 std::vector<CrossingStrokes> crossing_strokes(std::span<const Path> paths);
 
-/// Draws out ends of strokes, along their direction, where they cross in the source near an end but not as fitted.
-/// Returns the strokes that it changed.
+/// Draws out ends of strokes, along their direction, where they cross in the source near an end but, as fitted, do not,
+/// or by less than rounding may undo. Returns the strokes that it changed.
 std::vector<std::size_t> keep_crossings(std::span<const CrossingStrokes> crossings, std::span<const Path> sources,
                                         std::span<StrokeInput> strokes);
 

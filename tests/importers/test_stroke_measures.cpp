@@ -202,10 +202,14 @@ TEST_CASE("an end that crosses in the source is drawn out along its direction, o
   CHECK(crossing_of(fitted[0].control_points, fitted[1].control_points));
   CHECK((fitted[1].control_points[0] - before.control_points[0]).norm() == 0.0);
   const Point moved = fitted[1].control_points[1] - before.control_points[1];
-  CHECK(moved.norm() < 0.01);
+  CHECK(moved.norm() < 0.011);
   CHECK(moved.normalized().dot((before.control_points[1] - before.control_points[0]).normalized()) == Approx(1.0));
   CHECK(fitted[0].control_points == heng.control_points);
   CHECK(keep_crossings(crossings, sources, fitted).empty());
+
+  fitted[1].control_points[1] = {0.5, 0.4995};  // a crossing that rounding may undo
+  CHECK(keep_crossings(crossings, sources, fitted) == std::vector<std::size_t>{1});
+  CHECK(fitted[1].control_points[1].y() < 0.498);
 
   std::vector<StrokeInput> far_off{heng, {2, {{0.5, 0.9}, {0.5, 0.55}}}};
   CHECK(keep_crossings(crossings, sources, far_off).empty());
