@@ -2,9 +2,12 @@
 #include <algorithm>
 #include <sstream>
 #include <string>
+#include <string_view>
 
 #include <calligraphy/base/text.hpp>
 #include <calligraphy/importers/character_import.hpp>
+#include <calligraphy/model/character.hpp>
+#include <calligraphy/model/set_encoding.hpp>
 
 #include "../catch.hpp"
 #include "../package_data.hpp"
@@ -85,6 +88,30 @@ void check_kinds(const CharacterList& list, const std::vector<KnownStroke>& know
   }
 }
 
+/// Share of the curves whose second handle lies before the first: such a curve folds where its stroke does not.
+double folded_share(const CharacterList& list) {
+  int curves = 0;
+  int folded = 0;
+  for (const Character& character : list.characters) {
+    for (const Stroke& stroke : strokes(character)) {
+      std::size_t at = 0;
+      for (const char kind : std::string_view(stroke.type->elements)) {
+        const auto p = stroke.control_points.subspan(at);
+        at += kind == 'L' ? 1 : 3;
+        if (kind == 'L') continue;
+        ++curves;
+        if ((p[2] - p[1]).dot(p[3] - p[0]) < 0.0) ++folded;
+      }
+    }
+  }
+  return share(folded, curves);
+}
+
+double bytes_per_character(const CharacterList& list) {
+  return static_cast<double>(encode_character_set(list, CoordinatePrecision::standard).size()) /
+         static_cast<double>(list.characters.size());
+}
+
 /// Checks that characters are valid, sorted, and identical after a round trip through the text format.
 void check_list(const CharacterList& list) {
   for (std::size_t i = 0; i < list.characters.size(); ++i) {
@@ -122,6 +149,8 @@ TEST_CASE("all of hanzi-writer-data, from its tarball, is fitted and recognised 
   CHECK(import.report.strokes == 112617);
   CHECK(import.report.letters_unused.size() == 4);
   check_marks(import.report, {0.965, 0.999, 0.985});
+  CHECK(bytes_per_character(import.list) <= 92.0);
+  CHECK(folded_share(import.list) < 0.002);
   check_kinds(import.list, {{U'五', 4, {1}},   {U'立', 5, {1}},   {U'星', 9, {1}},   {U'旗', 3, {18}},  {U'敖', 5, {18}},
                             {U'熬', 5, {18}},  {U'赘', 5, {18}},  {U'邀', 8, {18}},  {U'母', 2, {18}},  {U'姆', 5, {18}},
                             {U'拇', 5, {18}},  {U'昔', 6, {16}},  {U'普', 10, {16}}, {U'指', 7, {16}},  {U'增', 13, {16}},
@@ -145,6 +174,8 @@ TEST_CASE("all ideographs of KanjiVG, from its tarball, are fitted as required, 
   CHECK(import.report.strokes == 79178);
   // The goal of agreement is 98.5 % here too, but 97.36 % is achieved; docs/strokes.md explains the rest.
   check_marks(import.report, {0.995, 0.997, 0.973});
+  CHECK(bytes_per_character(import.list) <= 95.0);
+  CHECK(folded_share(import.list) < 0.002);
   check_kinds(import.list, {{U'感', 12, {8, 38}}, {U'億', 14, {8, 38}}, {U'念', 7, {8, 38}}, {U'悲', 11, {8, 38}},
                             {U'認', 13, {8, 38}}, {U'総', 13, {8, 38}}, {U'密', 7, {8, 38}},
                             {U'祭', 9, {12}},     {U'標', 13, {12}},    {U'禁', 11, {12}}});  // labelled shu, with a hook
