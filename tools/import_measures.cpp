@@ -83,10 +83,10 @@ std::string measures_table(const ImportReport& report, std::size_t bytes) {
   std::string text = fmt::format("\nof {}, each against the whole of its source\n", counted(all, "stroke"));
   text += counted_row("strokes that run back by more than 5 %", report, runs_back);
   text += share_row("length from 0.9 (L - 2 h) to 1.1 L", count_of(report, has_its_length), all);
-  text += counted_row("strokes with a corner that is not in it", report, has_false_corner);
-  text += counted_row("strokes without a corner that is in it", report, has_lost_corner);
+  text += counted_row("strokes with a corner that the source lacks", report, has_false_corner);
+  text += counted_row("strokes that lack a corner of the source", report, has_lost_corner);
   text += share_row("crossings of strokes kept", report.crossings.kept, report.crossings.source);
-  if (report.labelled > 0) text += share_row("kinds that the label allows", report.allowed, report.labelled);
+  if (report.labelled > 0) text += share_row("strokes of a kind that their label allows", report.allowed, report.labelled);
   text += row("bytes a character", fmt::format("{:.1f}", bytes_per_character(report, bytes)));
   return text;
 }

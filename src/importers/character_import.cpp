@@ -166,6 +166,8 @@ struct StrokeOfDrawing {
   std::vector<Point> outline;  ///< of a brush stroke
   std::string label;
   std::span<const int> label_ids;
+
+  bool allows(int id) const { return std::find(label_ids.begin(), label_ids.end(), id) != label_ids.end(); }
 };
 
 /// True if the stroke runs across or against the typical one: then the label is that of another stroke.
@@ -174,22 +176,22 @@ bool is_misdirected(const StrokeInput& stroke) {
   return start_direction_error({&typical_stroke(stroke.id), 3, stroke.control_points, {}}) > most;
 }
 
-/// Fits a stroke. Its label decides unless the shape follows the drawing much closer.
-StrokeInput fit(const StrokeOfDrawing& drawn, ImportedStroke& result) {
+/// Fits a stroke. Its label decides unless the shape follows the drawing much closer, or as close if the label is
+/// doubtful: that of another stroke.
+StrokeInput fit(const StrokeOfDrawing& drawn, bool doubtful, ImportedStroke& result) {
   constexpr double of_pen = 0.018;     // [em]; a label is not questioned within this distance of the drawing
   constexpr double of_brush = 0.05;    // [em]; so far entries, droops and lifts reach
   constexpr double much_closer = 0.7;  // [1]
   FittedStroke fitted = fit_stroke(drawn.path, {drawn.outline, drawn.label_ids});
-  const auto& ids = drawn.label_ids;
   result.recognised = fitted.recognised;
   result.label = drawn.label;
-  result.label_known = !ids.empty();
-  result.label_agrees = std::find(ids.begin(), ids.end(), result.recognised) != ids.end();
+  result.label_known = !drawn.label_ids.empty();
+  result.label_agrees = drawn.allows(result.recognised);
   if (result.label_known && !result.label_agrees) {
-    const bool misdirected = is_misdirected(fitted.stroke);
-    if (misdirected || fitted.error > (drawn.outline.empty() ? of_pen : of_brush)) {
+    doubtful = doubtful || is_misdirected(fitted.stroke);
+    if (doubtful || fitted.error > (drawn.outline.empty() ? of_pen : of_brush)) {
       FittedStroke shape = fit_stroke(drawn.path, {drawn.outline, {&result.recognised, 1}});
-      const double limit = misdirected ? std::max(of_pen, fitted.error) : much_closer * fitted.error;
+      const double limit = doubtful ? std::max(of_pen, fitted.error) : much_closer * fitted.error;
       if (shape.error < limit) fitted = std::move(shape);
     }
   }
@@ -267,15 +269,7 @@ class Importer {
     if ((strokes_ += static_cast<int>(drawn.size())) > max_imported_strokes) {
       throw FormatError(source_.string() + ": more than " + std::to_string(max_imported_strokes) + " strokes");
     }
-    std::vector<StrokeInput> strokes;
-    for (const StrokeOfDrawing& stroke : drawn) {
-      result.strokes.emplace_back();
-      try {
-        strokes.push_back(fit(stroke, result.strokes.back()));
-      } catch (const ValueError& error) {
-        throw FormatError(drawing.place + ": stroke " + std::to_string(result.strokes.size()) + ": " + error.what());
-      }
-    }
+    std::vector<StrokeInput> strokes = fitted(drawn, drawing.place, result);
     const std::vector<recognition::CrossingStrokes> crossings = keep_crossings(drawn, strokes, result);
     try {
       result.character = make_character(drawing.name.code, strokes);
@@ -285,6 +279,32 @@ class Importer {
     result.character.order = drawing.name.order;
     if (options_.report) measure(drawn, strokes, crossings, result);
     return result;
+  }
+
+  /// The strokes of a drawing. A string of letters is that of another order if many of them are not what geometry alone
+  /// recognises: then these are doubtful.
+  std::vector<StrokeInput> fitted(const std::vector<StrokeOfDrawing>& drawn, const std::string& place,
+                                  ImportedCharacter& result) const {
+    constexpr std::ptrdiff_t many = 5;  // in the right order there are up to four
+    std::vector<StrokeInput> strokes(drawn.size());
+    result.strokes.resize(drawn.size());
+    const auto fit_one = [&](std::size_t i, bool doubtful) {
+      try {
+        strokes[i] = fit(drawn[i], doubtful, result.strokes[i]);
+      } catch (const ValueError& error) {
+        throw FormatError(place + ": stroke " + std::to_string(i + 1) + ": " + error.what());
+      }
+    };
+    for (std::size_t i = 0; i < drawn.size(); ++i) fit_one(i, false);
+    const auto contradicted = [](const ImportedStroke& stroke) { return stroke.label_known && !stroke.label_agrees; };
+    if (kind_ != SourceKind::hanzi_writer_data ||
+        std::count_if(result.strokes.begin(), result.strokes.end(), contradicted) < many) {
+      return strokes;
+    }
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+      if (contradicted(result.strokes[i])) fit_one(i, true);
+    }
+    return strokes;
   }
 
   /// Lets strokes cross that cross in the drawing. Returns the crossings of the drawing.

@@ -82,12 +82,12 @@ std::vector<int> recognised_ids(std::span<const Point> path, bool brush) {
   return ids;
 }
 
-/// Alternative to a stroke whose line does not follow the path closely: the same stroke, drawn rounder.
-struct Rounder {
+/// Alternative to a stroke that does not follow the path within a distance.
+struct Alternative {
   int id;
   int instead;
 };
-constexpr Rounder rounder_strokes[] = {
+constexpr Alternative rounder_strokes[] = {
     {5, 4},    // short pie, pie
     {8, 38},   // dian, chang dian
     {9, 38},   // left dian, chang dian
@@ -95,6 +95,8 @@ constexpr Rounder rounder_strokes[] = {
     {32, 30},  // shu zhe, shu wan
     {36, 30},  // pie zhe, shu wan
 };
+constexpr Alternative hooked_strokes[] = {{16, 18}};  // heng zhe, heng zhe gou
+constexpr double lift = 0.043;  // [em]; a brush that is lifted after a heng zhe, as labels show, goes no farther off
 
 /// Fits one path as different strokes.
 class Fit {
@@ -103,8 +105,8 @@ class Fit {
       : path_(samples(path, ends)), divider_(path_), follows_(std::min(0.018, 0.1 * path_length(path_))) {}
 
   /// Of strokes that a label allows, the first that follows the path, or else the closest; of strokes that geometry
-  /// recognises, the first. A line that does not follow the path gives way to a curve, if the label allows that.
-  /// Without control points if none is usable.
+  /// recognises, the first. A line that does not follow the path gives way to a curve, and a stroke that is far from it
+  /// to the same with a hook, if the label allows that. Without control points if none is usable.
   StrokeInput best(std::span<const int> ids, bool labelled) {
     constexpr std::size_t most_tries = 3;
     const auto allows = [&](int id) { return !labelled || std::find(ids.begin(), ids.end(), id) != ids.end(); };
@@ -114,13 +116,17 @@ class Fit {
       if (other.distance < best.distance) best = std::move(other);
       if (best.distance <= follows_ || (!labelled && !best.stroke.control_points.empty())) break;
     }
-    const int straight = best.stroke.id;
-    for (const Rounder& rounder : rounder_strokes) {
-      if (best.distance <= follows_) break;
-      if (rounder.id != straight || !allows(rounder.instead)) continue;
-      Attempt other = as(rounder.instead);
-      if (other.distance < best.distance) best = std::move(other);
-    }
+    const auto give_way = [&](std::span<const Alternative> alternatives, double within) {
+      const int first = best.stroke.id;
+      for (const Alternative& alternative : alternatives) {
+        if (best.distance <= within) break;
+        if (alternative.id != first || !allows(alternative.instead)) continue;
+        Attempt other = as(alternative.instead);
+        if (other.distance < best.distance) best = std::move(other);
+      }
+    };
+    give_way(rounder_strokes, follows_);
+    give_way(hooked_strokes, lift);
     return std::move(best.stroke);
   }
 
