@@ -40,7 +40,7 @@ double half_width(std::span<const Point> median, std::span<const Point> outline)
 
 BrushEnds brush_ends(std::span<const Point> median, std::span<const Point> outline, double half_width) {
   constexpr double step = 0.004;    // [em]
-  constexpr double reaches = 0.9;  // [1] of the way to the tip; the median may begin a little beside the middle
+  constexpr double reaches = 0.9;  // [1] of the way to the end; at a blunt end the disc touches both, but for rounding
   const auto reach_from = [&](const Path& path) {
     for (double at = step; at < half_width; at += step) {
       if (inscribed_radius(outline, point_after(path, 0, at)) < reaches * at) return at;

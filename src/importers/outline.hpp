@@ -15,7 +15,8 @@ double inscribed_radius(std::span<const Point> outline, const Point& point);
 double half_width(std::span<const Point> median, std::span<const Point> outline);
 
 /// What the brush itself writes at each end of a median, which a path need not follow: as far as the disc there reaches
-/// the tip, at most a half-width [em]. A tapering tip loses nothing, a blunt one its half-width. 0 without an outline.
+/// the end of the median, at most a half-width [em]. A blunt end loses its half-width, one that tapers to a point
+/// nothing. 0 without an outline.
 struct BrushEnds {
   double start = 0.0;
   double end = 0.0;

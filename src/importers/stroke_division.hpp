@@ -25,7 +25,7 @@ class StrokeDivider {
   /// @param path points equally far apart, which outlive the divider
   explicit StrokeDivider(const Path& path);
 
-  /// The division of least cost, by dynamic programming over at most 50 places for the joints.
+  /// The division of least cost, by dynamic programming over at most 95 places for the joints.
   Division divide(const TypicalStroke& type);
 
  private:

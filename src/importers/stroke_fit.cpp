@@ -105,16 +105,24 @@ class Fit {
       : path_(samples(path, ends)), divider_(path_), follows_(std::min(0.018, 0.1 * path_length(path_))) {}
 
   /// Of strokes that a label allows, the first that follows the path, or else the closest; of strokes that geometry
-  /// recognises, the first. A line that does not follow the path gives way to a curve, and a stroke that is far from it
-  /// to the same with a hook, if the label allows that. Without control points if none is usable.
+  /// recognises, the first, unless that misses a corner. A line that does not follow the path gives way to a curve, and
+  /// a heng zhe that is far from it to one with a hook, if the label allows that. Without control points if none is
+  /// usable.
   StrokeInput best(std::span<const int> ids, bool labelled) {
     constexpr std::size_t most_tries = 3;
+    constexpr double bend = 0.027;  // [em]; a path farther from a stroke of one element has a corner
     const auto allows = [&](int id) { return !labelled || std::find(ids.begin(), ids.end(), id) != ids.end(); };
     Attempt best;
     for (std::size_t i = 0; i < std::min(ids.size(), most_tries); ++i) {
       Attempt other = as(ids[i]);
       if (other.distance < best.distance) best = std::move(other);
       if (best.distance <= follows_ || (!labelled && !best.stroke.control_points.empty())) break;
+    }
+    if (!labelled && best.distance > bend && typical_stroke(best.stroke.id).elements.size() == 1) {
+      for (std::size_t i = 1; i < std::min(ids.size(), most_tries); ++i) {
+        Attempt other = as(ids[i]);
+        if (other.distance < best.distance) best = std::move(other);
+      }
     }
     const auto give_way = [&](std::span<const Alternative> alternatives, double within) {
       const int first = best.stroke.id;

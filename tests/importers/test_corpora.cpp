@@ -49,9 +49,15 @@ int count_of(const ImportReport& report, bool (*condition)(const StrokeMeasures&
   return static_cast<int>(std::count_if(report.measures.begin(), report.measures.end(), condition));
 }
 
+/// What each corpus reaches but for a little; the aims of docs/strokes.md are below that.
 struct Marks {
+  double within_1_percent;
   double within_2_percent;
+  double farthest;  ///< [em]
+  int running_back;
   double length_kept;
+  int with_false_corners;
+  int with_lost_corners;
   double agreement;  ///< of geometry alone with the labels
 };
 
@@ -59,14 +65,18 @@ struct Marks {
 void check_marks(const ImportReport& report, const Marks& marks) {
   INFO(words(report));
   REQUIRE(std::ssize(report.measures) == report.strokes);
+  CHECK(share(report.within[0].strokes, report.strokes) >= marks.within_1_percent);
   CHECK(share(report.within[1].strokes, report.strokes) >= marks.within_2_percent);
-  CHECK(share(report.within[2].strokes, report.strokes) >= 0.999);
-  CHECK(count_of(report, [](const StrokeMeasures& m) { return m.backward > 0.05; }) <= 5);
+  CHECK(share(report.within[2].strokes, report.strokes) >= 0.9998);
+  CHECK(report.worst.front().error <= marks.farthest);
+  CHECK(count_of(report, [](const StrokeMeasures& m) { return m.backward > 0.05; }) <= marks.running_back);
   const int kept = count_of(report, [](const StrokeMeasures& m) {
     return m.length >= 0.9 * (m.source_length - 2.0 * m.half_width) && m.length <= 1.1 * m.source_length;
   });
   CHECK(share(kept, report.strokes) >= marks.length_kept);
-  CHECK(share(report.crossings.kept, report.crossings.source) >= 0.995);
+  CHECK(count_of(report, [](const StrokeMeasures& m) { return m.false_corners > 0; }) <= marks.with_false_corners);
+  CHECK(count_of(report, [](const StrokeMeasures& m) { return m.lost_corners > 0; }) <= marks.with_lost_corners);
+  CHECK(share(report.crossings.kept, report.crossings.source) >= 0.9999);
   CHECK(share(report.allowed, report.labelled) >= 0.995);
   CHECK(share(report.agreed, report.labelled) >= marks.agreement);
 }
@@ -149,7 +159,14 @@ TEST_CASE("all of hanzi-writer-data, from its tarball, is fitted and recognised 
   CHECK(import.report.characters == 9574);
   CHECK(import.report.strokes == 112617);
   CHECK(import.report.letters_unused.size() == 4);
-  check_marks(import.report, {0.965, 0.999, 0.985});
+  check_marks(import.report, {.within_1_percent = 0.75,
+                              .within_2_percent = 0.994,
+                              .farthest = 0.051,
+                              .running_back = 3,
+                              .length_kept = 0.9995,
+                              .with_false_corners = 430,
+                              .with_lost_corners = 9600,
+                              .agreement = 0.985});
   CHECK(bytes_per_character(import.list) <= 92.0);
   CHECK(folded_share(import.list) < 0.002);
   check_kinds(import.list, {{U'五', 4, {1}},   {U'立', 5, {1}},   {U'星', 9, {1}},   {U'旗', 3, {18}},  {U'敖', 5, {18}},
@@ -157,7 +174,7 @@ TEST_CASE("all of hanzi-writer-data, from its tarball, is fitted and recognised 
                             {U'拇', 5, {18}},  {U'昔', 6, {16}},  {U'普', 10, {16}}, {U'指', 7, {16}},  {U'增', 13, {16}},
                             {U'钠', 5, {29}},  {U'钨', 5, {29}},  {U'铜', 5, {29}},  {U'也', 1, {18}},  {U'狒', 6, {35}},
                             {U'兜', 3, {4}},   {U'燮', 5, {8}},   {U'啟', 9, {2}},   {U'髓', 20, {26}}, {U'調', 9, {18}},
-                            {U'鋼', 10, {18}}, {U'閻', 6, {18}}});
+                            {U'鋼', 10, {18}}, {U'閻', 6, {18}},  {U'擊', 8, {32}},  {U'寶', 12, {32}}});
 }
 
 TEST_CASE("all ideographs of KanjiVG, from its tarball, are fitted as required, and 97.3 % recognised as labelled",
@@ -176,7 +193,14 @@ TEST_CASE("all ideographs of KanjiVG, from its tarball, are fitted as required, 
   CHECK(import.report.characters == 6430);
   CHECK(import.report.strokes == 79178);
   // The goal of agreement is 98.5 % here too, but 97.36 % is achieved; docs/strokes.md explains the rest.
-  check_marks(import.report, {0.995, 0.997, 0.973});
+  check_marks(import.report, {.within_1_percent = 0.955,
+                              .within_2_percent = 0.9993,
+                              .farthest = 0.035,
+                              .running_back = 1,
+                              .length_kept = 0.9985,
+                              .with_false_corners = 135,
+                              .with_lost_corners = 460,
+                              .agreement = 0.973});
   CHECK(bytes_per_character(import.list) <= 95.0);
   CHECK(folded_share(import.list) < 0.002);
   check_kinds(import.list, {{U'感', 12, {8, 38}}, {U'億', 14, {8, 38}}, {U'念', 7, {8, 38}}, {U'悲', 11, {8, 38}},

@@ -108,7 +108,7 @@ TEST_CASE("the distance is that of the best of all walks, folds and free ends in
   }
 }
 
-TEST_CASE("the distance of long paths is found in bounded time", "[model]") {
+TEST_CASE("a long path has no distance from itself, and one without length that of its point", "[model]") {
   Path spiral;
   for (int i = 0; i < 20000; ++i) {
     const double angle = 0.01 * i;
