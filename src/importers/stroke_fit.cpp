@@ -112,17 +112,15 @@ class Fit {
     constexpr std::size_t most_tries = 3;
     constexpr double bend = 0.027;  // [em]; a path farther from a stroke of one element has a corner
     const auto allows = [&](int id) { return !labelled || std::find(ids.begin(), ids.end(), id) != ids.end(); };
+    const auto will_do = [&](const Attempt& attempt) {
+      if (labelled || attempt.stroke.id == 0) return attempt.distance <= follows_;
+      return attempt.distance <= bend || typical_stroke(attempt.stroke.id).elements.size() > 1;
+    };
     Attempt best;
     for (std::size_t i = 0; i < std::min(ids.size(), most_tries); ++i) {
       Attempt other = as(ids[i]);
       if (other.distance < best.distance) best = std::move(other);
-      if (best.distance <= follows_ || (!labelled && !best.stroke.control_points.empty())) break;
-    }
-    if (!labelled && best.distance > bend && typical_stroke(best.stroke.id).elements.size() == 1) {
-      for (std::size_t i = 1; i < std::min(ids.size(), most_tries); ++i) {
-        Attempt other = as(ids[i]);
-        if (other.distance < best.distance) best = std::move(other);
-      }
+      if (will_do(best)) break;
     }
     const auto give_way = [&](std::span<const Alternative> alternatives, double within) {
       const int first = best.stroke.id;

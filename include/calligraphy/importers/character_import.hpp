@@ -86,7 +86,7 @@ struct CrossingCount {
 enum class LabelResolution {
   unknown,    ///< unknown label: the shape decides
   accepted,   ///< a stroke allowed by the label follows the drawing about as closely: the label decides
-  overridden  ///< the shape's own stroke follows the drawing much closer: the shape decides
+  overridden  ///< the shape's own follows it much more closely, or the label is another stroke's: the shape decides
 };
 
 /// "unknown", "accepted", "overridden".
