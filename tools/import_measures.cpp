@@ -86,7 +86,7 @@ std::string measures_table(const ImportReport& report, std::size_t bytes) {
   text += counted_row("strokes with a corner that the source lacks", report, has_false_corner);
   text += counted_row("strokes that lack a corner of the source", report, has_lost_corner);
   text += share_row("crossings of strokes kept", report.crossings.kept, report.crossings.source);
-  if (report.labelled > 0) text += share_row("strokes of a kind that their label allows", report.allowed, report.labelled);
+  if (report.labelled > 0) text += share_row("strokes of a kind their label allows", report.allowed, report.labelled);
   text += row("bytes a character", fmt::format("{:.1f}", bytes_per_character(report, bytes)));
   return text;
 }

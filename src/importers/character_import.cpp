@@ -176,8 +176,8 @@ bool is_misdirected(const StrokeInput& stroke) {
   return start_direction_error({&typical_stroke(stroke.id), 3, stroke.control_points, {}}) > most;
 }
 
-/// Fits a stroke. Its label decides unless the shape follows the drawing much closer, or as close if the label is
-/// doubtful: that of another stroke.
+/// Fits a stroke. Its label decides unless the shape follows the drawing much more closely or, if the label is doubtful
+/// since it may be another stroke's, as closely.
 StrokeInput fit(const StrokeOfDrawing& drawn, bool doubtful, ImportedStroke& result) {
   constexpr double of_pen = 0.018;     // [em]; a label is not questioned within this distance of the drawing
   constexpr double of_brush = 0.05;    // [em]; so far entries, droops and lifts reach

@@ -10,10 +10,10 @@
 namespace calligraphy::recognition {
 
 /// Discrete Fréchet distance of a path to its source [em] (Eiter and Mannila 1994): the shortest leash with which one
-/// can walk along both at once without going back. Points are set every `step` [em], at most 1,200 on each; so it is at
-/// most one step above the distance of the curves, and below by at most half a step, where it passes a vertex. The path
-/// may begin at any place of the source within `free` [em] of its start, and end within as much of its end. O(product of
-/// the numbers of points).
+/// can walk along both at once without going back. Points are set every `step` [em], at most 1,200 on each; so it is
+/// at most one step above the distance of the curves, and below by at most half a step, where it passes a vertex. The
+/// path may begin at any place of the source within `free` [em] of its start, and end within as much of its end.
+/// O(product of the numbers of points).
 double frechet_distance(std::span<const Point> path, std::span<const Point> source, double free, double step);
 
 /// FittedStroke::error of a stroke whose source was drawn by a brush of this half-width [em].

@@ -12,7 +12,8 @@ namespace calligraphy {
 /// @throws FormatError naming the byte, also for any other command and for a second M
 std::vector<Point> flattened_path(std::string_view data, double tolerance);
 
-/// The vertices of one closed curve of M/m, L/l, Q/q, C/c and Z/z as a polygon within `tolerance` of it. Throws as above.
+/// The vertices of one closed curve of M/m, L/l, Q/q, C/c and Z/z as a polygon within `tolerance` of it.
+/// @throws FormatError as above
 std::vector<Point> flattened_outline(std::string_view data, double tolerance);
 
 }  // namespace calligraphy

@@ -17,9 +17,9 @@ struct Division {
   std::vector<std::size_t> ends;  ///< first point of each element, and last of all; empty if there are too few points
 };
 
-/// Divides one path among the elements of several typical strokes. The cost is the mean square of what is left by a line
-/// or cubic of constant speed for each element, and of how far the elements turn from the directions that they have in
-/// the typical stroke.
+/// Divides one path among the elements of several typical strokes. The cost is the mean square of what a line or
+/// cubic of constant speed leaves of each element, and of how far the elements turn from the directions that they have
+/// in the typical stroke.
 class StrokeDivider {
  public:
   /// @param path points equally far apart, which outlive the divider

@@ -82,21 +82,22 @@ std::vector<int> recognised_ids(std::span<const Point> path, bool brush) {
   return ids;
 }
 
-/// Alternative to a stroke that does not follow the path within a distance.
+/// Alternative to a stroke that does not follow the path: the same, drawn rounder or with a hook.
 struct Alternative {
   int id;
   int instead;
+  double beyond = 0.0;  ///< distance from the path beyond which the stroke gives way [em]
 };
-constexpr Alternative rounder_strokes[] = {
-    {5, 4},    // short pie, pie
-    {8, 38},   // dian, chang dian
-    {9, 38},   // left dian, chang dian
-    {9, 4},    // left dian, pie
-    {32, 30},  // shu zhe, shu wan
-    {36, 30},  // pie zhe, shu wan
-};
-constexpr Alternative hooked_strokes[] = {{16, 18}};  // heng zhe, heng zhe gou
 constexpr double lift = 0.043;  // [em]; a brush that is lifted after a heng zhe, as labels show, goes no farther off
+constexpr Alternative alternatives[] = {
+    {5, 4},          // short pie, pie
+    {8, 38},         // dian, chang dian
+    {9, 38},         // left dian, chang dian
+    {9, 4},          // left dian, pie
+    {32, 30},        // shu zhe, shu wan
+    {36, 30},        // pie zhe, shu wan
+    {16, 18, lift},  // heng zhe, heng zhe gou
+};
 
 /// Fits one path as different strokes.
 class Fit {
@@ -122,17 +123,12 @@ class Fit {
       if (other.distance < best.distance) best = std::move(other);
       if (will_do(best)) break;
     }
-    const auto give_way = [&](std::span<const Alternative> alternatives, double within) {
-      const int first = best.stroke.id;
-      for (const Alternative& alternative : alternatives) {
-        if (best.distance <= within) break;
-        if (alternative.id != first || !allows(alternative.instead)) continue;
-        Attempt other = as(alternative.instead);
-        if (other.distance < best.distance) best = std::move(other);
-      }
-    };
-    give_way(rounder_strokes, follows_);
-    give_way(hooked_strokes, lift);
+    const int first = best.stroke.id;
+    for (const auto& [id, instead, beyond] : alternatives) {
+      if (id != first || !allows(instead) || best.distance <= std::max(follows_, beyond)) continue;
+      Attempt other = as(instead);
+      if (other.distance < best.distance) best = std::move(other);
+    }
     return std::move(best.stroke);
   }
 

@@ -9,8 +9,8 @@
 
 namespace calligraphy::recognition {
 
-/// Measures of the path of a stroke against the path that it was fitted to, whose brush has this half-width [em]. Place,
-/// id and distance are left empty.
+/// Measures of the path of a stroke against the path that it was fitted to, whose brush has this half-width [em].
+/// Place, id and distance are left empty.
 StrokeMeasures measure_stroke(std::span<const Point> path, std::span<const Point> source, double half_width);
 
 }  // namespace calligraphy::recognition

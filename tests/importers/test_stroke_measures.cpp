@@ -108,7 +108,7 @@ TEST_CASE("the distance is that of the best of all walks, folds and free ends in
   }
 }
 
-TEST_CASE("a long path has no distance from itself, and one without length that of its point", "[model]") {
+TEST_CASE("a path has no distance from itself, however long, and paths that are points have theirs", "[model]") {
   Path spiral;
   for (int i = 0; i < 20000; ++i) {
     const double angle = 0.01 * i;

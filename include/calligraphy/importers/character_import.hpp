@@ -144,7 +144,7 @@ struct ImportResult {
 
 /// Imports hanzi-writer-data or KanjiVG (as a directory or an npm tarball), a set file or the text format; the kind is
 /// detected from the content. A label or letter decides on the typical stroke, unless the one recognised by geometry
-/// alone follows the drawing much closer (docs/import.md).
+/// alone follows the drawing much more closely or the label is another stroke's (docs/import.md).
 /// @throws FileError if the source cannot be read; FormatError naming the file and the place if anything in it is
 ///         malformed or exceeds the limits; ValueError for options outside their domain, or without effect on a source
 ///         of this kind. An import never succeeds in part.
