@@ -24,7 +24,7 @@ int main(int argc, char** argv) {
     const Point start = stroke.control_points.front(), end = stroke.control_points.back();
     const std::string pinyin(stroke.type->pinyin);
     std::printf("  %d: type %2d, %-12s %zu elements from (%.2f, %.2f) to (%.2f, %.2f) em\n", i + 1, stroke.type->id,
-                pinyin.c_str(), stroke.type->elements.size(), start.x(), start.y(), end.x(), end.y());
+                pinyin.c_str(), stroke.elements.size(), start.x(), start.y(), end.x(), end.y());
   }
   return found->stroke_count() == 5 ? 0 : 1;
 }

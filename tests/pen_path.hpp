@@ -33,7 +33,7 @@ inline void draw_line(std::vector<Point>& path, const Point& to, double step) {
 inline std::vector<Point> path_of(const Stroke& stroke, const Placement& placement, double step) {
   std::vector<Point> path = {placement.to_page(stroke.control_points[0])};
   std::size_t at = 0;
-  for (const char kind : stroke.type->elements) {
+  for (const char kind : stroke.elements) {
     if (kind == 'L') {
       draw_line(path, placement.to_page(stroke.control_points[++at]), step);
       continue;

@@ -132,7 +132,7 @@ void print(const Character& character, const std::string& orders) {
   int number = 0;
   for (const Stroke& stroke : strokes(character)) {
     fmt::print("  stroke {}: {} {} {}, elements {}, control points", ++number, stroke.type->id, stroke.type->name,
-               stroke.type->pinyin, stroke.type->elements);
+               stroke.type->pinyin, stroke.elements);
     for (const Point& point : stroke.control_points) fmt::print(" {:.4g},{:.4g}", point.x(), point.y());
     fmt::print("\n");
   }
@@ -159,7 +159,7 @@ Json json_of(const Character& character, const Provenance& provenance, const std
     drawn.push_back({{"id", stroke.type->id},
                      {"name", stroke.type->name},
                      {"pinyin", stroke.type->pinyin},
-                     {"elements", stroke.type->elements},
+                     {"elements", stroke.elements},
                      {"control_points_em", points},
                      {"attraction_factors",
                       Json(std::vector<double>(stroke.attraction_factors.begin(), stroke.attraction_factors.end()))}});

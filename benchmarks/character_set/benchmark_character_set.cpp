@@ -42,15 +42,15 @@ constexpr Precision precisions[] = {{CoordinatePrecision::coarse, "coarse"},
 Json json_of(const Character& character) {
   Json points = Json::array();
   for (const Point& point : character.structure.control_points) points.push_back({point.x(), point.y()});
-  return {{"ids", character.sequence.stroke_ids}, {"points", points}};
+  return {{"ids", character.sequence.stroke_ids}, {"elements", character.sequence.elements}, {"points", points}};
 }
 
 Character character_of(char32_t code, const Json& json) {
   std::vector<StrokeInput> strokes;
   std::size_t at = 0;
-  for (const int id : json["ids"]) {
-    strokes.push_back({id, {}, {}});
-    for (int i = 0; i < typical_stroke(id).control_point_count(); ++i, ++at) {
+  for (std::size_t stroke = 0; stroke < json["ids"].size(); ++stroke) {
+    strokes.push_back({json["ids"][stroke], {}, {}, json["elements"][stroke]});
+    for (int i = 0; i < control_point_count(strokes.back().elements); ++i, ++at) {
       strokes.back().control_points.emplace_back(json["points"][at][0], json["points"][at][1]);
     }
   }
@@ -158,7 +158,7 @@ void find(benchmark::State& state, CoordinatePrecision precision) {
 BENCHMARK_CAPTURE(find, standard, CoordinatePrecision::standard)->UseManualTime();
 
 void prepare(const Stroke& stroke) {
-  const std::string_view kinds = stroke.type->elements;
+  const std::string_view kinds = stroke.elements;
   std::size_t at = 0;
   for (const char kind : kinds) {
     const std::size_t points = kind == static_cast<char>(ElementKind::line) ? 1 : 3;
@@ -322,6 +322,7 @@ void alternatives(benchmark::State& state) {
     map += sizeof(std::pair<const char32_t, Character>) + 2 * sizeof(void*) +
            drawn.structure.control_points.capacity() * sizeof(Point) +
            (drawn.sequence.stroke_ids.capacity() + drawn.sequence.feature_points.capacity()) * sizeof(int) +
+           drawn.sequence.elements.capacity() * sizeof(std::string) +
            drawn.physics.attraction_factors.capacity() * sizeof(double);
   }
   const auto count = static_cast<double>(corpus->map.size());

@@ -16,12 +16,12 @@ constexpr double earliest_turn = 0.05;
 }  // namespace
 
 void ActiveStroke::load(const Stroke& stroke, const Placement& placement) noexcept {
-  element_count_ = static_cast<int>(stroke.type->elements.size());
+  element_count_ = static_cast<int>(stroke.elements.size());
   em_ = placement.em;
   std::array<Point, max_curve_degree + 1> points;
   std::size_t first = 0;
-  for (std::size_t i = 0; i < stroke.type->elements.size(); ++i) {
-    const bool is_line = stroke.type->elements[i] == static_cast<char>(ElementKind::line);
+  for (std::size_t i = 0; i < stroke.elements.size(); ++i) {
+    const bool is_line = stroke.elements[i] == static_cast<char>(ElementKind::line);
     const auto degree = static_cast<std::size_t>(is_line ? 1 : stroke.curve_degree);
     for (std::size_t k = 0; k <= degree; ++k) points[k] = placement.to_page(stroke.control_points[first + k]);
     elements_[i] = prepare_element(std::span(points.data(), degree + 1));

@@ -6,7 +6,7 @@ namespace calligraphy {
 
 std::vector<StrokeElement> place_elements(const Stroke& stroke, const Placement& placement) {
   std::vector<StrokeElement> elements;
-  const std::vector<int> ends = stroke.type->feature_points(stroke.curve_degree);
+  const std::vector<int> ends = feature_points(stroke.elements, stroke.curve_degree);
   for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
     std::vector<Point> points;
     for (int k = ends[i]; k <= ends[i + 1]; ++k) {

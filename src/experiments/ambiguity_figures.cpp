@@ -26,10 +26,7 @@ struct Case {
 PlacedCharacter placed_character(const Case& shown) {
   const Character& character = *built_in_characters().find(shown.character);
   if (!shown.alone) return {character, {}};
-  const Stroke stroke = strokes(character)[static_cast<std::size_t>(shown.stroke)];
-  const StrokeInput input{stroke.type->id,
-                          {stroke.control_points.begin(), stroke.control_points.end()},
-                          {stroke.attraction_factors.begin(), stroke.attraction_factors.end()}};
+  const StrokeInput input = input_of(strokes(character)[static_cast<std::size_t>(shown.stroke)]);
   return {make_character(character.code, std::span(&input, 1), character.curve_degree), {}};
 }
 

@@ -308,7 +308,7 @@ std::vector<std::vector<Point>> curve_control_points(std::span<const Character> 
     if (character.curve_degree != 3) continue;
     for (const Stroke& stroke : strokes(character)) {
       std::size_t at = 0;
-      for (const char kind : stroke.type->elements) {
+      for (const char kind : stroke.elements) {
         const std::size_t step = kind == 'C' ? 3 : 1;
         if (kind == 'C') {
           std::vector<Point>& curve = curves.emplace_back();

@@ -37,7 +37,7 @@ class Stray {
 
 std::vector<std::vector<Point>> elements_of(const Stroke& stroke, double em) {
   std::vector<std::vector<Point>> elements;
-  const std::vector<int> ends = stroke.type->feature_points(stroke.curve_degree);
+  const std::vector<int> ends = feature_points(stroke.elements, stroke.curve_degree);
   for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
     std::vector<Point>& element = elements.emplace_back();
     for (int k = ends[i]; k <= ends[i + 1]; ++k) {

@@ -62,7 +62,7 @@ void append_curve(std::span<const Point> points, Path& path) {
 Path sampled(const Stroke& stroke) {
   Path path{stroke.control_points.front()};
   std::size_t at = 0;
-  for (const char kind : stroke.type->elements) {
+  for (const char kind : stroke.elements) {
     if (kind == static_cast<char>(ElementKind::line)) {
       const Point from = stroke.control_points[at];
       const Point along = stroke.control_points[at + 1] - from;
@@ -81,18 +81,19 @@ Path sampled(const Stroke& stroke) {
 }
 
 /// Chord of the first element.
-Point start_of(std::span<const Point> control_points, const TypicalStroke& type, int curve_degree) {
-  return control_points[static_cast<std::size_t>(type.feature_points(curve_degree)[1])] - control_points.front();
+Point start_of(const Stroke& stroke) {
+  const int end = points_added(stroke.elements.front(), stroke.curve_degree);
+  return stroke.control_points[static_cast<std::size_t>(end)] - stroke.control_points.front();
 }
 
 Point typical_start(const TypicalStroke& type) {
-  const auto end = static_cast<std::size_t>(type.feature_points()[1]);
+  const auto end = static_cast<std::size_t>(points_added(type.elements.front(), 3));
   return Point(type.shape[end][0], type.shape[end][1]) - Point(type.shape[0][0], type.shape[0][1]);
 }
 
 /// True for a stroke of one short element, whose type depends on the character it is part of.
 bool is_dot(const Stroke& stroke) {
-  return stroke.type->elements.size() == 1 &&
+  return stroke.elements.size() == 1 &&
          (stroke.control_points.back() - stroke.control_points.front()).norm() < max_dot;
 }
 
@@ -153,7 +154,7 @@ const char* to_string(StrokeWarningKind kind) noexcept {
 }
 
 double start_direction_error(const Stroke& stroke) {
-  const Point start = start_of(stroke.control_points, *stroke.type, stroke.curve_degree);
+  const Point start = start_of(stroke);
   const Point typical = typical_start(*stroke.type);
   if (start.norm() < min_start || typical.norm() < min_start) return 0.0;  // a dot, a circle
   return std::acos(std::clamp(start.normalized().dot(typical.normalized()), -1.0, 1.0));

@@ -51,16 +51,16 @@ void validate_stroke(const Stroke& stroke, int number, std::vector<ValidationIss
   }
   if (!finite) return;
 
-  const std::vector<int> ends = stroke.type->feature_points(stroke.curve_degree);
+  const std::vector<int> ends = feature_points(stroke.elements, stroke.curve_degree);
   Point arriving = Point::Zero();
   for (std::size_t element = 0; element + 1 < ends.size(); ++element) {
     const auto points = stroke.control_points.subspan(static_cast<std::size_t>(ends[element]),
                                                       static_cast<std::size_t>(ends[element + 1] - ends[element] + 1));
     const Point leaving = leaving_direction(points);
-    const bool may_be_point = stroke.type->elements == "L";  // "line segment stroke include points" (sec. 3.3)
+    const bool may_be_point = stroke.elements == "L";  // "line segment stroke include points" (sec. 3.3)
     if (leaving.isZero() && !may_be_point) {
       problems.push_back({number, "element " + std::to_string(element + 1) + " has zero length"});
-    } else if (element > 0 && stroke.type->joints[element - 1] == 's' && !arriving.isZero()) {
+    } else if (element > 0 && is_smooth_joint(*stroke.type, stroke.elements, element - 1) && !arriving.isZero()) {
       const double cosine = std::clamp(arriving.dot(leaving), -1.0, 1.0);
       if (std::acos(cosine) > smooth_angle) {
         problems.push_back({number, "the joint after element " + std::to_string(element) + " bends by " +
@@ -73,7 +73,25 @@ void validate_stroke(const Stroke& stroke, int number, std::vector<ValidationIss
   }
 }
 
+/// "typical stroke 31 (LLLL)" or, where the composition goes without saying, "typical stroke 31".
+std::string type_label(const TypicalStroke& type, std::string_view elements) {
+  const std::string label = "typical stroke " + std::to_string(type.id);
+  return elements == type.elements ? label : label + " (" + std::string(elements) + ")";
+}
+
+std::string composition_error(const TypicalStroke& type, std::string_view elements) {
+  return "typical stroke " + std::to_string(type.id) + " is " + std::string(type.elements) +
+         "; a stroke of this type has as many elements, each L or C, not '" + std::string(elements) + "'";
+}
+
 }  // namespace
+
+StrokeInput input_of(const Stroke& stroke) {
+  return {stroke.type->id,
+          {stroke.control_points.begin(), stroke.control_points.end()},
+          {stroke.attraction_factors.begin(), stroke.attraction_factors.end()},
+          std::string(stroke.elements)};
+}
 
 Character make_character(char32_t code, std::span<const StrokeInput> inputs, int curve_degree) {
   if (!known_degree(curve_degree)) {
@@ -89,14 +107,16 @@ Character make_character(char32_t code, std::span<const StrokeInput> inputs, int
       throw ValueError(place + "typical stroke id " + std::to_string(input.id) + ": expected 1 to 39");
     }
     const TypicalStroke& type = typical_stroke(input.id);
-    const auto expected = static_cast<std::size_t>(type.control_point_count(curve_degree));
+    const std::string_view elements = input.composition();
+    if (!is_composition_of(type, elements)) throw ValueError(place + composition_error(type, elements));
+    const auto expected = static_cast<std::size_t>(control_point_count(elements, curve_degree));
     if (input.control_points.size() != expected) {
-      throw ValueError(place + "typical stroke " + std::to_string(input.id) + " takes " + std::to_string(expected) +
+      throw ValueError(place + type_label(type, elements) + " takes " + std::to_string(expected) +
                        " control points, not " + std::to_string(input.control_points.size()));
     }
-    const auto features = static_cast<std::size_t>(type.feature_point_count());
+    const auto features = static_cast<std::size_t>(feature_point_count(elements));
     if (!input.attraction_factors.empty() && input.attraction_factors.size() != features) {
-      throw ValueError(place + "typical stroke " + std::to_string(input.id) + " takes " + std::to_string(features) +
+      throw ValueError(place + type_label(type, elements) + " takes " + std::to_string(features) +
                        " attraction factors, not " + std::to_string(input.attraction_factors.size()));
     }
 
@@ -104,7 +124,8 @@ Character make_character(char32_t code, std::span<const StrokeInput> inputs, int
     const int first = static_cast<int>(points.size());
     points.insert(points.end(), input.control_points.begin(), input.control_points.end());
     character.sequence.stroke_ids.push_back(input.id);
-    for (const int index : type.feature_points(curve_degree)) {
+    character.sequence.elements.emplace_back(elements);
+    for (const int index : feature_points(elements, curve_degree)) {
       character.sequence.feature_points.push_back(first + index);
     }
     auto& factors = character.physics.attraction_factors;
@@ -128,12 +149,12 @@ std::vector<Stroke> strokes(const Character& character) {
   const std::span<const double> factors(character.physics.attraction_factors);
   std::size_t first_point = 0;
   std::size_t first_factor = 0;
-  for (const int id : character.sequence.stroke_ids) {
-    const TypicalStroke& type = typical_stroke(id);
-    const auto point_count = static_cast<std::size_t>(type.control_point_count(character.curve_degree));
-    const auto factor_count = static_cast<std::size_t>(type.feature_point_count());
-    views.push_back({&type, character.curve_degree, points.subspan(first_point, point_count),
-                     factors.subspan(first_factor, factor_count)});
+  for (std::size_t i = 0; i < character.sequence.stroke_ids.size(); ++i) {
+    const std::string_view elements = character.sequence.elements[i];
+    const auto point_count = static_cast<std::size_t>(control_point_count(elements, character.curve_degree));
+    const auto factor_count = static_cast<std::size_t>(feature_point_count(elements));
+    views.push_back({&typical_stroke(character.sequence.stroke_ids[i]), elements, character.curve_degree,
+                     points.subspan(first_point, point_count), factors.subspan(first_factor, factor_count)});
     first_point += point_count;
     first_factor += factor_count;
   }
@@ -144,10 +165,10 @@ Character with_quartic_curves(const Character& character) {
   if (character.curve_degree == 4) return character;
   std::vector<StrokeInput> inputs;
   for (const Stroke& stroke : strokes(character)) {
-    StrokeInput input{stroke.type->id, {stroke.control_points.front()}, {}};
-    input.attraction_factors.assign(stroke.attraction_factors.begin(), stroke.attraction_factors.end());
+    StrokeInput input = input_of(stroke);
+    input.control_points.resize(1);
     std::size_t at = 0;
-    for (const char kind : stroke.type->elements) {
+    for (const char kind : stroke.elements) {
       if (kind == static_cast<char>(ElementKind::line)) {
         input.control_points.push_back(stroke.control_points[++at]);
         continue;
@@ -172,33 +193,37 @@ std::vector<ValidationIssue> validate(const Character& character) {
   }
   if (character.sequence.stroke_ids.empty()) return {{0, "there is no stroke"}};
 
-  std::vector<int> feature_points;
+  const std::vector<int>& ids = character.sequence.stroke_ids;
+  const std::vector<std::string>& compositions = character.sequence.elements;
+  if (compositions.size() != ids.size()) {
+    return {{0, std::to_string(ids.size()) + " strokes have " + std::to_string(compositions.size()) + " compositions"}};
+  }
+  std::vector<int> indices;
   int points = 0;
-  int number = 0;
-  for (const int id : character.sequence.stroke_ids) {
-    ++number;
-    if (id < 1 || id > typical_stroke_count) {
-      return {{number, "typical stroke id " + std::to_string(id) + ": expected 1 to 39"}};
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const int number = static_cast<int>(i) + 1;
+    if (ids[i] < 1 || ids[i] > typical_stroke_count) {
+      return {{number, "typical stroke id " + std::to_string(ids[i]) + ": expected 1 to 39"}};
     }
-    for (const int index : typical_stroke(id).feature_points(character.curve_degree)) {
-      feature_points.push_back(points + index);
-    }
-    points += typical_stroke(id).control_point_count(character.curve_degree);
+    const TypicalStroke& type = typical_stroke(ids[i]);
+    if (!is_composition_of(type, compositions[i])) return {{number, composition_error(type, compositions[i])}};
+    for (const int index : feature_points(compositions[i], character.curve_degree)) indices.push_back(points + index);
+    points += control_point_count(compositions[i], character.curve_degree);
   }
   if (static_cast<int>(character.structure.control_points.size()) != points) {
-    problems.push_back({0, "the stroke ids take " + std::to_string(points) + " control points, not " +
+    problems.push_back({0, "the strokes take " + std::to_string(points) + " control points, not " +
                                std::to_string(character.structure.control_points.size())});
   }
-  if (character.sequence.feature_points != feature_points) {
-    problems.push_back({0, "the feature point indices do not match the stroke ids"});
+  if (character.sequence.feature_points != indices) {
+    problems.push_back({0, "the feature point indices do not match the strokes"});
   }
-  if (character.physics.attraction_factors.size() != feature_points.size()) {
-    problems.push_back({0, std::to_string(feature_points.size()) + " feature points have " +
+  if (character.physics.attraction_factors.size() != indices.size()) {
+    problems.push_back({0, std::to_string(indices.size()) + " feature points have " +
                                std::to_string(character.physics.attraction_factors.size()) + " attraction factors"});
   }
   if (!problems.empty()) return problems;
 
-  number = 0;
+  int number = 0;
   for (const Stroke& stroke : strokes(character)) validate_stroke(stroke, ++number, problems);
   return problems;
 }

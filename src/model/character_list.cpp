@@ -14,12 +14,14 @@
 #include "base/charconv.hpp"
 #include "base/line_reader.hpp"
 #include "built_in.hpp"
+#include "element_lists.hpp"
 #include "order_name.hpp"
 
 namespace calligraphy {
 namespace {
 
-constexpr std::string_view first_line = "calligraphy characters 1";
+constexpr std::string_view first_line = "calligraphy characters 2";
+constexpr std::string_view first_line_of_format_1 = "calligraphy characters 1";
 constexpr std::size_t max_file_bytes = 64 << 20;  // twice all of Make Me a Hanzi [bytes]
 constexpr std::string_view licence_text_key = "licence-text";
 
@@ -41,7 +43,10 @@ class Parser : private LineReader {
     while (next_statement(kind_of)) {
       const std::string_view key = word();
       if (!seen_first_line_) {
-        if (line() != first_line) fail("expected " + in_quotes(first_line) + ", found " + in_quotes(line()));
+        is_format_1_ = line() == first_line_of_format_1;
+        if (line() != first_line && !is_format_1_) {
+          fail("expected " + in_quotes(first_line) + ", found " + in_quotes(line()));
+        }
         seen_first_line_ = true;
       } else if (key == "source") {
         set_.provenance.source = checked_rest();
@@ -133,8 +138,15 @@ class Parser : private LineReader {
 
   void add_stroke() {
     if (!in_character_) fail("a stroke before any character");
-    StrokeInput stroke{parse_number<int>(word(), "typical stroke id"), {}, {}};
-    for (std::string_view text = word(); !text.empty(); text = word()) {
+    StrokeInput stroke{parse_number<int>(word(), "typical stroke id"), {}};
+    std::string_view text = word();
+    if (!text.empty() && text.find_first_not_of("LC") == std::string_view::npos) {
+      stroke.elements = text;
+      text = word();
+    } else if (is_format_1_ && stroke.id >= 1 && stroke.id <= typical_stroke_count) {
+      stroke.elements = elements_of_format_1(typical_stroke(stroke.id));
+    }
+    for (; !text.empty(); text = word()) {
       if (text == "|") {
         for (text = word(); !text.empty(); text = word()) {
           stroke.attraction_factors.push_back(parse_number<double>(text, "attraction factor"));
@@ -170,6 +182,7 @@ class Parser : private LineReader {
   }
 
   bool seen_first_line_ = false;
+  bool is_format_1_ = false;
   bool has_licence_text_ = false;
   bool in_character_ = false;
   int character_line_ = 0;
@@ -258,6 +271,7 @@ void write_characters(std::ostream& out, const CharacterList& set) {
     out << '\n';
     for (const Stroke& stroke : strokes(character)) {
       out << "stroke " << std::to_string(stroke.type->id);  // independent of the stream's base and locale
+      if (stroke.elements != stroke.type->elements) out << ' ' << stroke.elements;
       for (const Point& point : stroke.control_points) {
         out << ' ' << format_number(point.x()) << ',' << format_number(point.y());
       }

@@ -6,10 +6,10 @@
 #include <limits>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/text.hpp>
@@ -17,6 +17,7 @@
 #include "base/bit_cast.hpp"
 #include "checksum.hpp"
 #include "code_point_name.hpp"
+#include "element_lists.hpp"
 #include "little_endian.hpp"
 #include "order_name.hpp"
 #include "set_format.hpp"
@@ -147,11 +148,23 @@ void write_coordinate(BitWriter& bits, double coordinate, std::uint32_t steps_pe
   bits.write(static_cast<std::uint64_t>(steps(coordinate, steps_per_em) - origin), width);
 }
 
-/// The bits of a form: ids, points, factors.
+/// The kind of each stroke of a character: id, and which elements are curves.
+using Kind = std::pair<int, unsigned>;
+
+std::vector<Kind> kinds_of(const Character& character) {
+  const SequenceData& sequence = character.sequence;
+  std::vector<Kind> kinds;
+  for (std::size_t i = 0; i < sequence.stroke_ids.size(); ++i) {
+    kinds.emplace_back(sequence.stroke_ids[i], curves_in(sequence.elements[i]));
+  }
+  return kinds;
+}
+
+/// The bits of a form: kinds, points, factors.
 class FormEncoder {
  public:
-  explicit FormEncoder(const RankedIds& ids) {
-    for (std::size_t i = 0; i < ids.size(); ++i) ranks_[ids[i]] = static_cast<std::uint32_t>(i);
+  explicit FormEncoder(const std::vector<Kind>& kinds) {
+    for (std::size_t i = 0; i < kinds.size(); ++i) ranks_[kinds[i]] = i;
   }
 
   Bytes encode(const Form& form, bool is_last) const {
@@ -188,11 +201,15 @@ class FormEncoder {
     const Character& character = *form.character;
     const CoordinateEncoding& coding = form.coding;
     BitWriter bits;
-    for (const int id : character.sequence.stroke_ids) {
-      const std::uint32_t rank = ranks_[static_cast<std::size_t>(id)];
-      const int ones = static_cast<int>(rank / 2);
-      bits.write((std::uint64_t{1} << ones) - 1, ones + 1);
-      bits.write(rank % 2, 1);
+    for (const Kind& kind : kinds_of(character)) {
+      const std::size_t rank = ranks_.at(kind);
+      const int ones = rank < max_short_ranks ? static_cast<int>(rank / 2) : escape_ones;
+      bits.write((std::uint64_t{1} << ones) - 1, ones);
+      if (ones < escape_ones) {
+        bits.write((rank % 2) << 1, 2);
+      } else {
+        bits.write(rank, escaped_rank_bits);
+      }
     }
     for (const Point& point : character.structure.control_points) {
       write_coordinate(bits, point.x(), coding.steps_per_em, coding.x_origin, coding.x_bits);
@@ -204,7 +221,7 @@ class FormEncoder {
     return bits.bytes();
   }
 
-  std::array<std::uint32_t, typical_stroke_count + 1> ranks_{};
+  std::map<Kind, std::size_t> ranks_;
 };
 
 std::string character_label(const Character& character) {
@@ -252,16 +269,17 @@ std::map<char32_t, std::vector<const Character*>> sorted(const CharacterList& se
   return forms;
 }
 
-/// All ids, the most frequent first.
-RankedIds ranked_ids(const CharacterList& set) {
-  std::array<std::size_t, typical_stroke_count + 1> strokes{};
+/// All kinds of strokes in the set, the most frequent first.
+std::vector<Kind> ranked_kinds(const CharacterList& set) {
+  std::map<Kind, std::size_t> strokes;
   for (const Character& character : set.characters) {
-    for (const int id : character.sequence.stroke_ids) ++strokes[static_cast<std::size_t>(id)];
+    for (const Kind& kind : kinds_of(character)) ++strokes[kind];
   }
-  RankedIds ids{};
-  std::iota(ids.begin(), ids.end(), std::uint8_t{1});
-  std::stable_sort(ids.begin(), ids.end(), [&](auto a, auto b) { return strokes[a] > strokes[b]; });
-  return ids;
+  std::vector<Kind> kinds;
+  for (const auto& [kind, count] : strokes) kinds.push_back(kind);
+  std::stable_sort(kinds.begin(), kinds.end(),
+                   [&](const Kind& a, const Kind& b) { return strokes[a] > strokes[b]; });
+  return kinds;
 }
 
 /// Collects the records of 64 neighbouring code points, group by group.
@@ -317,14 +335,15 @@ class GroupWriter {
 
 struct Header {
   CoordinateEncoding coding;
-  RankedIds ids;
+  std::vector<Kind> kinds;
   double coordinate_error;
 };
 
 /// The complete file, including its checksum.
 Bytes assemble(const Header& header, const Provenance& provenance, const GroupWriter& writer) {
   const auto texts = {&provenance.source, &provenance.licence, &provenance.attribution, &provenance.licence_text};
-  std::size_t first_group = header_size + (block_size + entry_size) * writer.blocks.size();
+  std::size_t first_group = kinds_at + sizeof(std::uint16_t) + kind_size * header.kinds.size() +
+                            (block_size + entry_size) * writer.blocks.size();
   for (const std::string* text : texts) first_group += 4 + text->size();
   const std::size_t size = first_group + writer.groups.size();
   if (size > std::numeric_limits<std::uint32_t>::max()) {
@@ -336,7 +355,11 @@ Bytes assemble(const Header& header, const Provenance& provenance, const GroupWr
   append(index, static_cast<std::uint32_t>(writer.blocks.size()));
   append(index, bit_cast<std::uint64_t>(header.coordinate_error));
   append_coding(index, header.coding);
-  for (const std::uint8_t id : header.ids) append(index, id);
+  append(index, static_cast<std::uint16_t>(header.kinds.size()));
+  for (const auto& [id, curves] : header.kinds) {
+    append(index, static_cast<std::uint8_t>(id));
+    append(index, static_cast<std::uint8_t>(curves));
+  }
   for (const std::string* text : texts) {
     append(index, static_cast<std::uint32_t>(text->size()));
     append_text(index, *text);
@@ -369,8 +392,8 @@ double coordinate_error_bound(CoordinatePrecision precision) noexcept {
 std::vector<std::byte> encode_character_set(const CharacterList& set, CoordinatePrecision precision) {
   check(set.provenance);
   const auto characters = sorted(set);
-  Header header{coding_of(precision), ranked_ids(set), 0.0};
-  const FormEncoder encoder(header.ids);
+  Header header{coding_of(precision), ranked_kinds(set), 0.0};
+  const FormEncoder encoder(header.kinds);
   GroupWriter writer;
   for (const auto& [code, forms] : characters) {
     Bytes record;

@@ -9,6 +9,7 @@
 
 #include "base/bit_cast.hpp"
 #include "checksum.hpp"
+#include "element_lists.hpp"
 #include "little_endian.hpp"
 #include "order_name.hpp"
 
@@ -64,7 +65,7 @@ void SetFile::fail(const std::string& what) const { throw FormatError(name_ + ":
 
 void SetFile::read() {
   read_header();
-  read_provenance();
+  read_provenance(read_kinds());
 }
 
 void SetFile::read_header() {
@@ -72,17 +73,19 @@ void SetFile::read_header() {
   const std::string_view start(reinterpret_cast<const char*>(bytes_.data()), std::min(size, magic.size()));
   if (start != magic.substr(0, start.size())) fail("is not a set file: its first bytes differ");
   if (size < version_at + 4) fail("is truncated after " + std::to_string(size) + " bytes");
-  if (const auto found = load<std::uint32_t>(bytes_.data() + version_at); found != version) {
+  const auto found = load<std::uint32_t>(bytes_.data() + version_at);
+  if (found < oldest_version || found > version) {
     fail("was written by " + std::string(found > version ? "a newer version" : "another program") + ": its format is " +
-         std::to_string(found) + ", but this program reads " + std::to_string(version));
+         std::to_string(found) + ", but this program reads " + std::to_string(oldest_version) + " to " +
+         std::to_string(version));
   }
-  if (size < header_size) fail("is truncated after " + std::to_string(size) + " bytes");
+  if (size < kinds_at) fail("is truncated after " + std::to_string(size) + " bytes");
   if (const auto whole = load<std::uint32_t>(bytes_.data() + size_at); whole != size) {
     fail(std::string(whole > size ? "is truncated" : "continues after its end") + ": " + std::to_string(size) +
          " bytes, but its header states " + std::to_string(whole));
   }
   first_group_ = load<std::uint32_t>(bytes_.data() + first_group_at);
-  if (first_group_ < header_size || first_group_ > size) {
+  if (first_group_ < kinds_at || first_group_ > size) {
     fail("its groups begin at byte " + std::to_string(first_group_) + " of " + std::to_string(size));
   }
   const std::uint32_t checksum = crc32(bytes_.subspan(size_at, first_group_ - size_at));
@@ -94,16 +97,45 @@ void SetFile::read_header() {
   if (!(coordinate_error_ >= 0.0) || std::isinf(coordinate_error_)) fail("its coordinate error is not a distance");
   coding_ = load_coding(bytes_.data() + coding_at);
   if (!is_sound(coding_)) fail("its coordinate encoding has invalid numbers");
-  for (std::size_t i = 0; i < ranked_ids_.size(); ++i) {
-    ranked_ids_[i] = load<std::uint8_t>(&bytes_[ranked_ids_at + i]);
-    if (ranked_ids_[i] < 1 || ranked_ids_[i] > typical_stroke_count) {
-      fail("its list of typical strokes contains the invalid id " + std::to_string(ranked_ids_[i]));
-    }
-  }
 }
 
-void SetFile::read_provenance() {
-  std::size_t at = header_size;
+std::size_t SetFile::read_kinds() {
+  std::size_t at = kinds_at;
+  const auto take = [&](std::size_t size) {
+    if (first_group_ - at < size) fail("its index ends within its list of stroke kinds");
+    const std::byte* const taken = bytes_.data() + at;
+    at += size;
+    return taken;
+  };
+  if (load<std::uint32_t>(bytes_.data() + version_at) == 1) {
+    for (int i = 0; i < typical_stroke_count; ++i) add_kind(load<std::uint8_t>(take(1)), std::nullopt);
+    return at;
+  }
+  const auto count = load<std::uint16_t>(take(2));
+  if (count > max_kinds) fail("its list of stroke kinds has " + std::to_string(count) + " entries");
+  for (int i = 0; i < count; ++i) {
+    const std::byte* const kind = take(kind_size);
+    add_kind(load<std::uint8_t>(kind), load<std::uint8_t>(kind + 1));
+  }
+  return at;
+}
+
+/// `curves`: of version 1, not stored.
+void SetFile::add_kind(std::uint8_t id, std::optional<std::uint8_t> curves) {
+  if (id < 1 || id > typical_stroke_count) {
+    fail("its list of stroke kinds contains the invalid id " + std::to_string(id));
+  }
+  const TypicalStroke& type = typical_stroke(id);
+  if (!curves) curves = static_cast<std::uint8_t>(curves_in(elements_of_format_1(type)));
+  if (*curves >> type.elements.size() != 0) {
+    fail("its list of stroke kinds contains invalid elements of id " + std::to_string(id));
+  }
+  const std::string_view elements = element_list(type.elements.size(), *curves);
+  const auto points = [&](int degree) { return static_cast<std::uint8_t>(control_point_count(elements, degree)); };
+  kinds_.push_back({id, elements, {points(3), points(4)}, static_cast<std::uint8_t>(feature_point_count(elements))});
+}
+
+void SetFile::read_provenance(std::size_t at) {
   for (std::string* const text :
        {&provenance_.source, &provenance_.licence, &provenance_.attribution, &provenance_.licence_text}) {
     if (first_group_ - at < 4) fail("its index ends within its provenance");
@@ -255,7 +287,7 @@ bool SetFile::read_form(Record& rest, StoredCharacter& form) const noexcept {
   rest.begin = end;
   form.first_bit_ = 8 * std::uint64_t{at};
   form.end_bit_ = 8 * std::uint64_t{end};
-  if (strokes == 0 || std::uint64_t{strokes} * min_id_bits > form.end_bit_ - form.first_bit_) return false;
+  if (strokes == 0 || std::uint64_t{strokes} * min_rank_bits > form.end_bit_ - form.first_bit_) return false;
   if (strokes > max_strokes) return false;
   form.stroke_count_ = static_cast<int>(strokes);
   return true;

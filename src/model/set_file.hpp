@@ -42,7 +42,8 @@ class SetFile {
   std::size_t size() const noexcept { return size_; }
   const Provenance& provenance() const noexcept { return provenance_; }
   double coordinate_error() const noexcept { return coordinate_error_; }
-  const set_format::RankedIds& ranked_ids() const noexcept { return ranked_ids_; }
+  /// The kinds of strokes, by rank.
+  std::span<const set_format::StrokeKind> kinds() const noexcept { return kinds_; }
 
  private:
   /// Position of the forms of a character [byte]; empty if that part is damaged.
@@ -59,7 +60,10 @@ class SetFile {
 
   void read();
   void read_header();
-  void read_provenance();
+  /// Returns the offset of what follows.
+  std::size_t read_kinds();
+  void add_kind(std::uint8_t id, std::optional<std::uint8_t> curves);
+  void read_provenance(std::size_t at);
   void check_text(const std::string& text) const;
   void read_directory(std::size_t at);
   void check_group(std::size_t group);
@@ -85,7 +89,7 @@ class SetFile {
   std::span<const std::byte> bytes_;
   Provenance provenance_;
   CoordinateEncoding coding_;
-  set_format::RankedIds ranked_ids_{};
+  std::vector<set_format::StrokeKind> kinds_;
   double coordinate_error_ = 0.0;
   std::size_t group_count_ = 0;
   std::size_t first_group_ = 0;

@@ -15,7 +15,8 @@ namespace calligraphy::set_format {
 inline constexpr std::string_view magic =
     "\x89"
     "CGS\r\n\x1A\n";
-inline constexpr std::uint32_t version = 1;
+inline constexpr std::uint32_t version = 2;
+inline constexpr std::uint32_t oldest_version = 1;  ///< that can be read
 
 // The header: offset of each field [byte].
 inline constexpr std::size_t version_at = 8;
@@ -26,8 +27,8 @@ inline constexpr std::size_t group_count_at = 24;
 inline constexpr std::size_t error_at = 28;
 inline constexpr std::size_t coding_at = 36;
 inline constexpr std::size_t coding_size = 14;
-inline constexpr std::size_t ranked_ids_at = 50;  ///< all typical stroke ids, most frequent first
-inline constexpr std::size_t header_size = ranked_ids_at + typical_stroke_count;
+inline constexpr std::size_t kinds_at = 50;  ///< the kinds of strokes, most frequent first
+inline constexpr std::size_t kind_size = 2;  ///< u8 id, u8 which elements are curves, the first one lowest
 
 /// A group holds the characters of 64 neighbouring code points.
 inline constexpr int group_shift = 6;
@@ -53,36 +54,26 @@ inline constexpr std::size_t max_strokes = 4096;          ///< of a form
 inline constexpr std::size_t max_forms = 255;             ///< of a character
 inline constexpr std::size_t max_order_name_bytes = 255;  // [byte]
 
-// A stroke id is stored as its rank in a Rice code of parameter 1: rank / 2 ones, a zero, and the lowest bit.
-inline constexpr int min_id_bits = 2;
-inline constexpr int max_id_bits = (typical_stroke_count - 1) / 2 + 2;
-
-using RankedIds = std::array<std::uint8_t, typical_stroke_count>;
+// A stroke is stored as the rank of its kind, in a Rice code of parameter 1: rank / 2 ones, a zero, and the lowest bit.
+// A rank beyond those of version 1 follows as many ones as they do not need.
+inline constexpr int escape_ones = 20;
+inline constexpr std::size_t max_short_ranks = 2 * escape_ones;
+inline constexpr int escaped_rank_bits = 10;
+inline constexpr std::size_t max_kinds = std::size_t{1} << escaped_rank_bits;
+inline constexpr int min_rank_bits = 2;
+inline constexpr int max_rank_bits = escape_ones + escaped_rank_bits;
+static_assert(max_short_ranks >= typical_stroke_count && max_rank_bits <= 32);
 
 inline constexpr std::uint32_t max_steps_per_em = 1U << 26;
 inline constexpr std::uint8_t max_coordinate_bits = 32;
 inline constexpr double max_coordinate = 16.0;  // [em]
 
-/// Control points and feature points of each typical stroke: counts[degree - 3][id].
-struct StrokeCounts {
-  std::uint8_t points = 0;
+/// Strokes of one type with the same composition.
+struct StrokeKind {
+  std::uint8_t id = 0;
+  std::string_view elements;             ///< in storage that outlives every set
+  std::array<std::uint8_t, 2> points{};  ///< of cubic and of quartic curves
   std::uint8_t features = 0;
 };
-using CountTable = std::array<std::array<StrokeCounts, typical_stroke_count + 1>, 2>;
-
-inline const CountTable& stroke_counts() noexcept {
-  static const CountTable counts = [] {
-    CountTable table;
-    for (const TypicalStroke& stroke : typical_strokes()) {
-      for (const int degree : {3, 4}) {
-        table[static_cast<std::size_t>(degree - 3)][static_cast<std::size_t>(stroke.id)] = {
-            static_cast<std::uint8_t>(stroke.control_point_count(degree)),
-            static_cast<std::uint8_t>(stroke.feature_point_count())};
-      }
-    }
-    return table;
-  }();
-  return counts;
-}
 
 }  // namespace calligraphy::set_format

@@ -45,18 +45,24 @@ class PointReader {
   std::uint64_t at_;
 };
 
-/// Reads a sequence of stroke ids.
-class IdReader {
+/// Reads a sequence of strokes: their kinds.
+class KindReader {
  public:
-  IdReader(const SetFile& file, std::uint64_t at) noexcept : file_(file), at_(at) {}
+  KindReader(const SetFile& file, std::uint64_t at) noexcept : file_(file), at_(at) {}
 
-  /// 0 if the id is invalid.
-  int next() noexcept {
-    const std::uint32_t bits = load_bits(file_.bytes(), at_, max_id_bits);
+  /// Null if the rank is invalid.
+  const StrokeKind* next() noexcept {
+    const std::uint32_t bits = load_bits(file_.bytes(), at_, max_rank_bits);
     const int ones = std::countr_one(bits);
-    at_ += static_cast<std::uint64_t>(ones + 2);
-    const std::size_t rank = 2 * static_cast<std::size_t>(ones) + ((bits >> (ones + 1)) & 1);
-    return rank < typical_stroke_count ? file_.ranked_ids()[rank] : 0;
+    std::size_t rank;
+    if (ones < escape_ones) {
+      rank = 2 * static_cast<std::size_t>(ones) + ((bits >> (ones + 1)) & 1);
+      at_ += static_cast<std::uint64_t>(ones + 2);
+    } else {
+      rank = bits >> escape_ones;
+      at_ += max_rank_bits;
+    }
+    return rank < file_.kinds().size() ? &file_.kinds()[rank] : nullptr;
   }
   std::uint64_t at() const noexcept { return at_; }
 
@@ -78,48 +84,47 @@ const Provenance& StoredCharacter::provenance() const noexcept {
 
 int StoredCharacter::stroke_id(int index) const noexcept {
   if (index < 0 || index >= stroke_count_) return 0;
-  IdReader ids(*file_, first_bit_);
-  for (int i = 0; i < index; ++i) ids.next();
-  const int id = ids.next();
-  return ids.at() <= end_bit_ ? id : 0;
+  KindReader kinds(*file_, first_bit_);
+  for (int i = 0; i < index; ++i) kinds.next();
+  const StrokeKind* const kind = kinds.next();
+  return kind != nullptr && kinds.at() <= end_bit_ ? kind->id : 0;
 }
 
 std::optional<StoredStroke> StoredCharacter::stroke(int index) const noexcept {
   if (index < 0 || index >= stroke_count_) return std::nullopt;
-  const auto& counts = stroke_counts()[static_cast<std::size_t>(curve_degree_ - 3)];
-  IdReader ids(*file_, first_bit_);
-  int own = 0;
+  const auto degree = static_cast<std::size_t>(curve_degree_ - 3);
+  KindReader kinds(*file_, first_bit_);
+  const StrokeKind* own = nullptr;
   std::uint64_t points_before = 0, points = 0, features_before = 0;
   for (int i = 0; i < stroke_count_; ++i) {
-    const int id = ids.next();
-    if (id == 0) return std::nullopt;
-    const StrokeCounts& count = counts[static_cast<std::size_t>(id)];
+    const StrokeKind* const kind = kinds.next();
+    if (kind == nullptr) return std::nullopt;
     if (i == index) {
-      own = id;
+      own = kind;
       points_before = points;
     }
-    if (i < index) features_before += count.features;
-    points += count.points;
+    if (i < index) features_before += kind->features;
+    points += kind->points[degree];
   }
   const std::uint64_t point_bits = coding_.x_bits + std::uint64_t{coding_.y_bits};
-  const std::uint64_t first_factor = ids.at() + points * point_bits;
-  const StrokeCounts& count = counts[static_cast<std::size_t>(own)];
+  const std::uint64_t first_factor = kinds.at() + points * point_bits;
 
   std::optional<StoredStroke> result(std::in_place);
-  result->type = &typical_strokes()[static_cast<std::size_t>(own - 1)];
+  result->type = &typical_strokes()[static_cast<std::size_t>(own->id - 1)];
+  result->elements = own->elements;
   result->curve_degree = curve_degree_;
-  result->point_count = count.points;
+  result->point_count = own->points[degree];
   if (first_factor > end_bit_) return std::nullopt;
-  PointReader reader(file_->bytes(), coding_, ids.at() + points_before * point_bits);
-  for (std::size_t i = 0; i < count.points; ++i) {
+  PointReader reader(file_->bytes(), coding_, kinds.at() + points_before * point_bits);
+  for (std::size_t i = 0; i < result->point_count; ++i) {
     result->points[i] = reader.next();
     if (!in_domain(result->points[i])) return std::nullopt;
   }
   result->factors.fill(1.0);
   if (has_factors_) {
     const std::uint64_t first = first_factor + 64 * features_before;
-    if (first + 64 * count.features > end_bit_) return std::nullopt;
-    for (std::size_t i = 0; i < count.features; ++i) {
+    if (first + 64 * own->features > end_bit_) return std::nullopt;
+    for (std::size_t i = 0; i < own->features; ++i) {
       result->factors[i] = load_double(file_->bytes(), first + 64 * i);
       if (!(result->factors[i] >= 0.0) || std::isinf(result->factors[i])) return std::nullopt;
     }
@@ -133,26 +138,28 @@ Character StoredCharacter::character() const {
                       " is damaged: " + what);
   };
   if (stroke_count_ == 0) fail("the checksum or the numbers of its record are wrong");
-  const auto& counts = stroke_counts()[static_cast<std::size_t>(curve_degree_ - 3)];
+  const auto degree = static_cast<std::size_t>(curve_degree_ - 3);
   std::vector<StrokeInput> strokes(static_cast<std::size_t>(stroke_count_));
-  IdReader ids(*file_, first_bit_);
+  KindReader kinds(*file_, first_bit_);
   std::uint64_t points = 0, features = 0;
   for (StrokeInput& stroke : strokes) {
-    stroke.id = ids.next();
-    if (stroke.id == 0) fail("it has a stroke with an invalid id");
-    points += counts[static_cast<std::size_t>(stroke.id)].points;
-    features += counts[static_cast<std::size_t>(stroke.id)].features;
+    const StrokeKind* const kind = kinds.next();
+    if (kind == nullptr) fail("it has a stroke of an invalid kind");
+    stroke.id = kind->id;
+    stroke.elements = kind->elements;
+    points += kind->points[degree];
+    features += kind->features;
   }
-  const std::uint64_t factors_at = ids.at() + points * (coding_.x_bits + std::uint64_t{coding_.y_bits});
+  const std::uint64_t factors_at = kinds.at() + points * (coding_.x_bits + std::uint64_t{coding_.y_bits});
   const std::uint64_t end = factors_at + (has_factors_ ? 64 * features : 0);
   if ((end + 7) / 8 * 8 != end_bit_) fail("its strokes take " + std::to_string(end) + " bits");
 
-  PointReader reader(file_->bytes(), coding_, ids.at());
+  PointReader reader(file_->bytes(), coding_, kinds.at());
   std::uint64_t factor_at = factors_at;
   for (StrokeInput& stroke : strokes) {
-    const StrokeCounts& count = counts[static_cast<std::size_t>(stroke.id)];
-    for (int i = 0; i < count.points; ++i) stroke.control_points.push_back(reader.next());
-    for (int i = 0; has_factors_ && i < count.features; ++i, factor_at += 64) {
+    const int count = control_point_count(stroke.elements, curve_degree_);
+    for (int i = 0; i < count; ++i) stroke.control_points.push_back(reader.next());
+    for (int i = 0; has_factors_ && i < feature_point_count(stroke.elements); ++i, factor_at += 64) {
       stroke.attraction_factors.push_back(load_double(file_->bytes(), factor_at));
     }
   }

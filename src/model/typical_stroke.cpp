@@ -11,8 +11,7 @@ namespace {
 
 using EmPoint = std::array<double, 2>;
 
-// Typical shapes [em], y up: the path of a pen tip, without the entry and exit of a brush. Heng zhe wan gou (20) and
-// shu wan gou (31) are polylines by the paper's count, so one short segment stands for their round bend.
+// Typical shapes [em], y up: the path of a pen tip, without the entry and exit of a brush.
 constexpr EmPoint heng[] = {{0.10, 0.48}, {0.90, 0.53}};
 constexpr EmPoint shu[] = {{0.50, 0.90}, {0.50, 0.10}};
 constexpr EmPoint shu_pie[] = {{0.56, 0.90}, {0.57, 0.58}, {0.55, 0.33}, {0.36, 0.10}};
@@ -33,7 +32,7 @@ constexpr EmPoint heng_pie[] = {{0.24, 0.80}, {0.74, 0.85}, {0.66, 0.56}, {0.48,
 constexpr EmPoint heng_zhe_gou[] = {{0.22, 0.82}, {0.76, 0.87}, {0.73, 0.10}, {0.63, 0.18}};
 constexpr EmPoint heng_zhe_ti[] = {{0.22, 0.72}, {0.52, 0.77}, {0.50, 0.18}, {0.72, 0.38}};
 constexpr EmPoint heng_zhe_wan_gou[] = {
-    {0.16, 0.76}, {0.58, 0.82}, {0.54, 0.28}, {0.61, 0.18}, {0.88, 0.18}, {0.88, 0.29}};
+    {0.16, 0.76}, {0.58, 0.82}, {0.5452, 0.35}, {0.537, 0.234}, {0.566, 0.18}, {0.67, 0.18}, {0.88, 0.18}, {0.88, 0.29}};
 constexpr EmPoint heng_xie_gou[] = {{0.10, 0.80}, {0.56, 0.87}, {0.53, 0.52}, {0.62, 0.22}, {0.88, 0.12}, {0.89, 0.23}};
 constexpr EmPoint heng_xie_wan_gou[] = {
     {0.22, 0.82}, {0.62, 0.87}, {0.36, 0.54}, {0.115, 0.229}, {0.20, 0.18}, {0.84, 0.18}, {0.85, 0.29}};
@@ -49,7 +48,7 @@ constexpr EmPoint heng_pie_wan_gou[] = {
     {0.28, 0.86}, {0.62, 0.91}, {0.48, 0.60}, {0.66, 0.52}, {0.74, 0.32}, {0.60, 0.20}, {0.49, 0.29}};
 constexpr EmPoint shu_ti[] = {{0.42, 0.86}, {0.40, 0.18}, {0.68, 0.44}};
 constexpr EmPoint shu_wan[] = {{0.32, 0.80}, {0.30, 0.42}, {0.292, 0.268}, {0.36, 0.24}, {0.48, 0.24}, {0.78, 0.24}};
-constexpr EmPoint shu_wan_gou[] = {{0.32, 0.88}, {0.31, 0.29}, {0.39, 0.18}, {0.78, 0.18}, {0.78, 0.29}};
+constexpr EmPoint shu_wan_gou[] = {{0.32, 0.88}, {0.311, 0.35}, {0.309, 0.234}, {0.336, 0.18}, {0.44, 0.18}, {0.78, 0.18}, {0.78, 0.29}};
 constexpr EmPoint shu_zhe[] = {{0.26, 0.80}, {0.26, 0.24}, {0.80, 0.30}};
 constexpr EmPoint shu_zhe_pie[] = {{0.48, 0.90}, {0.38, 0.50}, {0.74, 0.55}, {0.69, 0.42}, {0.60, 0.28}, {0.48, 0.12}};
 constexpr EmPoint shu_zhe_zhe[] = {{0.30, 0.86}, {0.29, 0.50}, {0.70, 0.54}, {0.69, 0.14}};
@@ -82,7 +81,8 @@ constexpr TypicalStroke table[] = {
     {17, "横撇", "héngpiě", "HP", "31C7", "LC", "c", "又 (1st)", heng_pie},
     {18, "横折钩", "héngzhégōu", "HZG", "31C6", "LLL", "cc", "月 (2nd), 刀", heng_zhe_gou},
     {19, "横折提", "héngzhétí", "HZT", "31CA", "LLL", "cc", "计 (2nd)", heng_zhe_ti},
-    {20, "横折弯钩", "héngzhéwāngōu", "HZWG", "31C8", "LLLLL", "cccc", "九 (2nd), 几 (2nd)", heng_zhe_wan_gou},
+    {20, "横折弯钩", "héngzhéwāngōu", "HZWG", "31C8", "LLCLL", "cssc", "九 (2nd), 几 (2nd)", heng_zhe_wan_gou,
+     "LLLLL"},
     {21, "横斜钩", "héngxiégōu", "HXG", "31E4", "LCL", "cc", "风 (2nd), 飞 (1st)", heng_xie_gou},
     {22, "横斜弯钩", "héngxiéwāngōu", "HXWG", "31E0", "LLCL", "csc", "乙 (1st)", heng_xie_wan_gou},
     {23, "横折弯", "héngzhéwān", "HZW", "31CD", "LLC", "cs", "朵 (2nd), 投 (5th)", heng_zhe_wan},
@@ -93,7 +93,7 @@ constexpr TypicalStroke table[] = {
     {28, "横撇弯钩", "héngpiěwāngōu", "HPWG", "31CC", "LLCL", "ccc", "队 (1st)", heng_pie_wan_gou},
     {29, "竖提", "shùtí", "ST", "31D9", "LL", "c", "民 (3rd), 以 (1st)", shu_ti},
     {30, "竖弯", "shùwān", "SW", "31C4", "LCL", "ss", "四 (4th), 西", shu_wan},
-    {31, "竖弯钩", "shùwāngōu", "SWG", "31DF", "LLLL", "ccc", "北, 乱 (7th)", shu_wan_gou},
+    {31, "竖弯钩", "shùwāngōu", "SWG", "31DF", "LCLL", "ssc", "北, 乱 (7th)", shu_wan_gou, "LLLL"},
     {32, "竖折", "shùzhé", "SZ", "31D7", "LL", "c", "山 (2nd)", shu_zhe},
     {33, "竖折撇", "shùzhépiě", "SZP", "31E5", "LLC", "cc", "专 (3rd)", shu_zhe_pie},
     {34, "竖折折", "shùzhézhé", "SZZ", "31DE", "LLL", "cc", "鼎 (6th), 亞 (4th)", shu_zhe_zhe},
@@ -103,18 +103,6 @@ constexpr TypicalStroke table[] = {
     {38, "长点(反捺)", "chángdiǎn", "D/N (long)", "31D4 var", "C", "", "不 (4th)", chang_dian},
     {39, "圈", "quān", "Q", "31E3", "CCCC", "sss", "〇", quan},
 };
-
-constexpr char line = static_cast<char>(ElementKind::line);
-constexpr char curve = static_cast<char>(ElementKind::curve);
-
-/// Control points an element adds: it shares its first one with the element before it.
-constexpr int points_added(char element, int curve_degree) { return element == line ? 1 : curve_degree; }
-
-constexpr int points_of(std::string_view elements, int curve_degree) {
-  int count = 1;
-  for (const char element : elements) count += points_added(element, curve_degree);
-  return count;
-}
 
 /// Whether the polygon before-at-after turns by less than 5 degrees.
 constexpr bool is_smooth(const EmPoint& before, const EmPoint& at, const EmPoint& after) {
@@ -129,16 +117,16 @@ constexpr bool is_consistent(const TypicalStroke& stroke) {
   const auto& elements = stroke.elements;
   if (elements.empty() || elements.size() > max_elements_per_stroke) return false;
   if (elements.find_first_not_of("LC") != std::string_view::npos) return false;
+  if (!stroke.printed_elements.empty() && stroke.printed_elements.size() != elements.size()) return false;
   if (stroke.joints.size() + 1 != elements.size()) return false;
-  if (stroke.shape.size() != static_cast<std::size_t>(points_of(elements, 3))) return false;
-  if (points_of(elements, max_curve_degree) > max_control_points_per_stroke) return false;
+  if (stroke.shape.size() != static_cast<std::size_t>(control_point_count(elements))) return false;
   for (const EmPoint& point : stroke.shape) {
     if (point[0] < 0 || point[0] > 1 || point[1] < 0 || point[1] > 1) return false;
   }
   std::size_t at = 0;
   for (std::size_t i = 0; i < stroke.joints.size(); ++i) {
     at += static_cast<std::size_t>(points_added(elements[i], 3));
-    const bool has_curve = elements[i] == curve || elements[i + 1] == curve;
+    const bool has_curve = elements[i] != elements[i + 1] || elements[i] == static_cast<char>(ElementKind::curve);
     const bool smooth = is_smooth(stroke.shape[at - 1], stroke.shape[at], stroke.shape[at + 1]);
     if (stroke.joints[i] != (has_curve && smooth ? 's' : 'c')) return false;
   }
@@ -159,15 +147,6 @@ static_assert(first_inconsistent_id() == 0);
 
 }  // namespace
 
-int TypicalStroke::control_point_count(int curve_degree) const { return points_of(elements, curve_degree); }
-
-std::vector<int> TypicalStroke::feature_points(int curve_degree) const {
-  std::vector<int> indices{0};
-  indices.reserve(elements.size() + 1);
-  for (const char element : elements) indices.push_back(indices.back() + points_added(element, curve_degree));
-  return indices;
-}
-
 std::span<const TypicalStroke> typical_strokes() noexcept { return table; }
 
 const TypicalStroke& typical_stroke(int id) {
@@ -176,6 +155,10 @@ const TypicalStroke& typical_stroke(int id) {
                      std::to_string(typical_stroke_count));
   }
   return table[id - 1];
+}
+
+bool is_composition_of(const TypicalStroke& type, std::string_view elements) noexcept {
+  return elements.size() == type.elements.size() && elements.find_first_not_of("LC") == std::string_view::npos;
 }
 
 }  // namespace calligraphy

@@ -67,7 +67,7 @@ std::string stroke_path(const Stroke& stroke, const View& view) {
   Path path;
   path.move_to(view(points[0]));
   std::size_t at = 0;
-  for (const char element : stroke.type->elements) {
+  for (const char element : stroke.elements) {
     if (element == static_cast<char>(ElementKind::line)) {
       path.line_to(view(points[++at]));
     } else if (stroke.curve_degree == 3) {

@@ -84,7 +84,7 @@ void draw_typical_stroke(pugi::xml_node parent, const TypicalStroke& type, doubl
   for (const auto& point : type.shape) em_points.emplace_back(point[0], point[1]);
   const svg::View view{{x, y + cell_em}, cell_em};
   add(parent, "path",
-      {{"d", svg::stroke_path({&type, 3, em_points, {}}, view)},
+      {{"d", svg::stroke_path({&type, type.elements, 3, em_points, {}}, view)},
        {"fill", "none"},
        {"stroke", stroke_blue},
        {"stroke-width", "9"},
@@ -93,7 +93,7 @@ void draw_typical_stroke(pugi::xml_node parent, const TypicalStroke& type, doubl
 
   std::vector<Point> points;
   for (const Point& point : em_points) points.push_back(view(point));
-  const std::vector<int> features = type.feature_points();
+  const std::vector<int> features = feature_points(type.elements);
   for (std::size_t i = 0; i < type.elements.size(); ++i) {
     if (type.elements[i] != static_cast<char>(ElementKind::curve)) continue;
     const auto first = static_cast<std::size_t>(features[i]);

@@ -132,7 +132,7 @@ TEST_CASE("real strokes are the cubics of the characters on squares of 40 mm", "
   std::size_t curves = 0;
   for (const Character& character : built_in_characters().characters) {
     for (const Stroke& stroke : strokes(character)) {
-      curves += static_cast<std::size_t>(std::count(stroke.type->elements.begin(), stroke.type->elements.end(), 'C'));
+      curves += static_cast<std::size_t>(std::count(stroke.elements.begin(), stroke.elements.end(), 'C'));
     }
   }
   REQUIRE(real_curves().size() == curves);

@@ -191,9 +191,7 @@ std::vector<ReleaseEvent> run_release(const ReleaseCase& drawn,
                                       const std::function<void(const ReleaseSample&)>& watch) {
   const Character& whole = built_in_characters().characters[static_cast<std::size_t>(drawn.character)];
   const Stroke stroke = strokes(whole)[static_cast<std::size_t>(drawn.stroke)];
-  const StrokeInput input{stroke.type->id,
-                          {stroke.control_points.begin(), stroke.control_points.end()},
-                          {stroke.attraction_factors.begin(), stroke.attraction_factors.end()}};
+  const StrokeInput input = input_of(stroke);
   const PracticePage page = page_of(make_character(whole.code, std::span(&input, 1), whole.curve_degree), drawn.em);
   const StrokeLine line = stroke_lines(page.characters.front()).front();
   const StrainedHand hand(drawn, line);

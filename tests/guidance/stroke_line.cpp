@@ -33,15 +33,15 @@ StrokeLine::StrokeLine(std::vector<Point> points, const std::vector<std::size_t>
 StrokeLine::StrokeLine(const Stroke& stroke, const Placement& placement) : corner_points_{0} {
   points_ = {placement.to_page(stroke.control_points[0])};
   std::size_t first = 0;
-  for (std::size_t element = 0; element < stroke.type->elements.size(); ++element) {
-    const bool line = stroke.type->elements[element] == 'L';
+  for (std::size_t element = 0; element < stroke.elements.size(); ++element) {
+    const bool line = stroke.elements[element] == 'L';
     const auto degree = static_cast<std::size_t>(line ? 1 : stroke.curve_degree);
     std::vector<Point> control;
     for (std::size_t i = 0; i <= degree; ++i) control.push_back(placement.to_page(stroke.control_points[first + i]));
     for (int i = 1; i <= chords; ++i) points_.push_back(bezier_point(control, static_cast<double>(i) / chords));
     first += degree;
-    const bool last = element + 1 == stroke.type->elements.size();
-    if (last || stroke.type->joints[element] == 'c') corner_points_.push_back(points_.size() - 1);
+    const bool last = element + 1 == stroke.elements.size();
+    if (last || !is_smooth_joint(*stroke.type, stroke.elements, element)) corner_points_.push_back(points_.size() - 1);
   }
   measure();
 }

@@ -76,7 +76,7 @@ TEST_CASE("the kind of a source is detected from its content", "[practice]") {
 
 TEST_CASE("the text format and set files are imported unchanged, by ascending code point", "[practice]") {
   const TemporaryDirectory directory;
-  const std::string head = "calligraphy characters 1\nsource s\nlicence l\nattribution a\n";
+  const std::string head = "calligraphy characters 2\nsource s\nlicence l\nattribution a\n";
   const std::string one = "\ncharacter 一\nstroke 1 0.1,0.5 0.9,0.5\n";
   const std::string ten = "\ncharacter 十\nstroke 1 0.1,0.5 0.9,0.5\nstroke 2 0.5,0.9 0.5,0.1\n";
   directory.write("own.txt", head + ten + one);

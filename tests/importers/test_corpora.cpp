@@ -106,7 +106,7 @@ double folded_share(const CharacterList& list) {
   for (const Character& character : list.characters) {
     for (const Stroke& stroke : strokes(character)) {
       std::size_t at = 0;
-      for (const char kind : std::string_view(stroke.type->elements)) {
+      for (const char kind : std::string_view(stroke.elements)) {
         const auto p = stroke.control_points.subspan(at);
         at += kind == 'L' ? 1 : 3;
         if (kind == 'L') continue;

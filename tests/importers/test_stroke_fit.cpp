@@ -127,7 +127,7 @@ std::set<int> accepted_ids(int id) {
 /// Maximum bend at the smooth joints of the typical stroke [degree].
 double max_smooth_bend(const StrokeInput& stroke) {
   const TypicalStroke& type = typical_stroke(stroke.id);
-  const std::vector<int> joints = type.feature_points();
+  const std::vector<int> joints = feature_points(type.elements);
   double largest = 0.0;
   for (std::size_t i = 1; i + 1 < joints.size(); ++i) {
     if (type.joints[i - 1] != 's') continue;

@@ -15,7 +15,8 @@ namespace calligraphy_test {
 
 inline bool same(const calligraphy::Character& a, const calligraphy::Character& b) {
   return a.code == b.code && a.order == b.order && a.curve_degree == b.curve_degree &&
-         a.sequence.stroke_ids == b.sequence.stroke_ids && a.sequence.feature_points == b.sequence.feature_points &&
+         a.sequence.stroke_ids == b.sequence.stroke_ids && a.sequence.elements == b.sequence.elements &&
+         a.sequence.feature_points == b.sequence.feature_points &&
          a.structure.control_points == b.structure.control_points &&
          a.physics.attraction_factors == b.physics.attraction_factors;
 }

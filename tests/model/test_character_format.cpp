@@ -18,7 +18,7 @@ using namespace calligraphy;
 
 namespace {
 
-const std::string head = "calligraphy characters 1\n";
+const std::string head = "calligraphy characters 2\n";
 
 CharacterList read(const std::string& text) {
   std::istringstream in(text);
@@ -47,7 +47,8 @@ bool same(const CharacterList& a, const CharacterList& b) {
   for (std::size_t i = 0; i < a.characters.size(); ++i) {
     const Character &x = a.characters[i], &y = b.characters[i];
     if (x.code != y.code || x.order != y.order || x.curve_degree != y.curve_degree ||
-        x.sequence.stroke_ids != y.sequence.stroke_ids || x.sequence.feature_points != y.sequence.feature_points ||
+        x.sequence.stroke_ids != y.sequence.stroke_ids || x.sequence.elements != y.sequence.elements ||
+        x.sequence.feature_points != y.sequence.feature_points ||
         x.structure.control_points != y.structure.control_points ||
         x.physics.attraction_factors != y.physics.attraction_factors) {
       return false;
@@ -145,7 +146,7 @@ TEST_CASE("each kind of malformed line is reported with file, line and value", "
       {"", "test.txt: ", "empty"},
       {"\n\n# nothing\n", "test.txt: ", "empty"},
       {"characters\n", "test.txt:1: ", "'characters'"},
-      {"\n\ncalligraphy characters 2\n", "test.txt:3: ", "'calligraphy characters 2'"},
+      {"\n\ncalligraphy characters 3\n", "test.txt:3: ", "'calligraphy characters 3'"},
       {head + "strokes 1 0,0 1,1\n", "test.txt:2: ", "'strokes'"},
       {head + "stroke 1 0,0 1,1\n", "test.txt:2: ", "before any character"},
       {head + "character \xE5\x8C\n", "test.txt:2: ", "byte 0"},
@@ -173,6 +174,8 @@ TEST_CASE("each kind of malformed line is reported with file, line and value", "
       {north + "stroke 0 0,0 1,1\n", "test.txt:3: ", "id 0"},
       {north + "stroke 40 0,0 1,1\n", "test.txt:3: ", "id 40"},
       {north + "stroke -1 0,0 1,1\n", "test.txt:3: ", "id -1"},
+      {north + "stroke 16 L 0,0 1,1\n", "test.txt:3: ", "not 'L'"},
+      {north + "stroke 16 CL 0,0 1,1 2,1\n", "test.txt:3: ", "typical stroke 16 (CL) takes 5 control points"},
       {north + "stroke 1 0,0\n", "test.txt:3: ", "2 control points, not 1"},
       {north + "stroke 1 0,0 1,1 1,2\n", "test.txt:3: ", "not 3"},
       {north + "stroke 1 0,0 1\n", "test.txt:3: ", "'1'"},

@@ -179,16 +179,19 @@ TEST_CASE("set files and text files are distinguished by their content", "[model
   }
 }
 
-TEST_CASE("files of version 1 stay readable and are still written identically", "[model]") {
+TEST_CASE("files of each version stay readable, and those of version 2 are still written identically", "[model]") {
   const std::string directory = CALLIGRAPHY_SOURCE_DIR "/tests/data/";
-  const CharacterSet stored = CharacterSet::open(directory + "version_1.set");
-  const CharacterList list = read_characters(directory + "version_1.txt");
-  CHECK(stored.provenances() == std::vector{list.provenance});
-  CHECK(list.provenance.licence_text == "First line\n\n and the third");
-  for (const Character& character : list.characters) {  // whose coordinates are whole steps of 1/800 em
-    CHECK(same(stored.find(character.code, character.order)->character(), character));
+  for (const std::string version : {"version_1", "version_2"}) {
+    const CharacterSet stored = CharacterSet::open(directory + version + ".set");
+    const CharacterList list = read_characters(directory + version + ".txt");
+    CHECK(stored.provenances() == std::vector{list.provenance});
+    CHECK(list.provenance.licence_text == "First line\n\n and the third");
+    for (const Character& character : list.characters) {  // whose coordinates are whole steps of 1/800 em
+      CHECK(same(stored.find(character.code, character.order)->character(), character));
+    }
   }
-  std::ifstream in(directory + "version_1.set", std::ios::binary);
+  const CharacterList list = read_characters(directory + "version_2.txt");
+  std::ifstream in(directory + "version_2.set", std::ios::binary);
   const std::string bytes(std::istreambuf_iterator<char>(in), {});
   const Bytes written = encode_character_set(list);
   CHECK(std::string(reinterpret_cast<const char*>(written.data()), written.size()) == bytes);
@@ -318,8 +321,14 @@ TEST_CASE("each number of the header is validated, not only its checksum", "[mod
   CHECK(with(error_at + 4, 0xBFF00000).find("coordinate error") != std::string::npos);
   CHECK(with(coding_at, 0).find("coding") != std::string::npos);  // doubles of 10 bits
   CHECK(with(coding_at, 0xFFFFFFFF).find("coding") != std::string::npos);
-  CHECK(with(header_size, 0xFFFFFFFF).find("its provenance") != std::string::npos);
-  CHECK(with(header_size + 1, 0xFF000000).find("its provenance") != std::string::npos);  // no UTF-8
+  const std::size_t kinds = load<std::uint16_t>(whole.data() + kinds_at), provenance = kinds_at + 2 + kind_size * kinds;
+  CHECK(kinds >= 5);
+  CHECK(with(kinds_at, 0xFFFFFFFF).find("list of stroke kinds has 65535 entries") != std::string::npos);
+  CHECK(with(kinds_at, 0x01010400).find("list of stroke kinds") != std::string::npos);
+  CHECK(with(kinds_at + 2, 0x01010028).find("invalid id 40") != std::string::npos);
+  CHECK(with(kinds_at + 2, 0x01010201).find("invalid elements of id 1") != std::string::npos);  // a second element
+  CHECK(with(provenance, 0xFFFFFFFF).find("its provenance") != std::string::npos);
+  CHECK(with(provenance + 1, 0xFF000000).find("its provenance") != std::string::npos);  // no UTF-8
   CHECK(with(entries, 0).find("entry 1 ") != std::string::npos);                         // a group of no character
   const auto with_block = [&](std::size_t group, std::uint16_t value) {
     Bytes bytes = whole;
@@ -366,9 +375,9 @@ TEST_CASE("a character-specific encoding is validated like that of the file", "[
 
 TEST_CASE("files of a newer version and of another program are reported as such", "[model]") {
   Bytes bytes = encode_character_set(small_list());
-  store(bytes, set_format::version_at, std::uint32_t{2});
+  store(bytes, set_format::version_at, std::uint32_t{3});
   CHECK(complaint(bytes).find("newer version") != std::string::npos);
-  CHECK(complaint(bytes).find("format is 2") != std::string::npos);
+  CHECK(complaint(bytes).find("format is 3") != std::string::npos);
   store(bytes, set_format::version_at, std::uint32_t{0});
   CHECK(complaint(bytes).find("another program") != std::string::npos);
   const TestFile file("magic");

@@ -69,7 +69,7 @@ TEST_CASE("attraction factors that are negative or not finite are reported with 
 
 TEST_CASE("counts that do not match the ids are found", "[model]") {
   CHECK(contains(problems_after([](Character& c) { c.structure.control_points.pop_back(); }),
-                 "0: the stroke ids take 15 control points, not 14"));
+                 "0: the strokes take 15 control points, not 14"));
   CHECK(contains(problems_after([](Character& c) { c.structure.control_points.emplace_back(0.5, 0.5); }), "not 16"));
   CHECK(
       contains(problems_after([](Character& c) { c.sequence.feature_points[3] = 4; }), "0: the feature point indices"));
@@ -79,7 +79,20 @@ TEST_CASE("counts that do not match the ids are found", "[model]") {
                  "0: the feature point indices"));
   CHECK(contains(problems_after([](Character& c) { c.physics.attraction_factors.pop_back(); }),
                  "13 feature points have 12"));
-  CHECK(contains(problems_after([](Character& c) { c.sequence.stroke_ids.pop_back(); }), "0: the stroke ids take 11"));
+  CHECK(contains(problems_after([](Character& c) {
+                   c.sequence.stroke_ids.pop_back();
+                   c.sequence.elements.pop_back();
+                 }),
+                 "0: the strokes take 11"));
+}
+
+TEST_CASE("a composition of another number of elements, or of others than L and C, is found", "[model]") {
+  CHECK(problems_after([](Character& c) { c.sequence.elements.pop_back(); }) == "0: 5 strokes have 4 compositions\n");
+  for (const char* const elements : {"", "LLL", "LLLLL", "LCLX", "lcll"}) {
+    const std::string found = problems_after([&](Character& c) { c.sequence.elements[3] = elements; });
+    CHECK(found == "4: typical stroke 31 is LCLL; a stroke of this type has as many elements, each L or C, not '" +
+                       std::string(elements) + "'\n");
+  }
 }
 
 TEST_CASE("unknown ids and degrees, and a character without strokes, are found", "[model]") {

@@ -85,7 +85,7 @@ class Info(ProgramTest):
         self.assertEqual((told["characters"], len(told["text"])), (3, 1))
 
     def test_a_character_is_taken_from_the_first_set_that_has_it(self):
-        (self.directory / "mine.txt").write_text("calligraphy characters 1\nsource mine\n\n"
+        (self.directory / "mine.txt").write_text("calligraphy characters 2\nsource mine\n\n"
                                                  "character 一\nstroke 1 0.1,0.5 0.9,0.5\n")
         arguments = ["info", "一北", "--characters", "mine.txt", "--characters", str(DATA / "version_1.set"), "--json"]
         told = json.loads(self.run_program(*arguments).stdout)
@@ -148,12 +148,12 @@ class Refusals(ProgramTest):
             for arguments in (["info", name], ["info", name, "永"], ["info", "永", "--characters", name]):
                 self.assert_refused(1, arguments, f"{name}: is {kind}", "`calligraphy import` converts collections")
         (self.directory / "binary").write_bytes(b"\0\x9b1m\xff" + "永\u009b".encode() + b"\x7f")
-        self.assert_refused(1, ["info", "binary"], "binary:1: expected 'calligraphy characters 1', found '??1m?永??'\n")
+        self.assert_refused(1, ["info", "binary"], "binary:1: expected 'calligraphy characters 2', found '??1m?永??'\n")
         (self.directory / "long").write_text("ab" + 30 * "永")
         self.assert_refused(1, ["info", "long"], "found 'ab" + 19 * "永" + "...'\n")
 
     def test_a_file_without_characters_is_an_error_as_it_is_for_validate(self):
-        (self.directory / "head.txt").write_text("calligraphy characters 1\nsource mine\n")
+        (self.directory / "head.txt").write_text("calligraphy characters 2\nsource mine\n")
         for command in ("info", "validate"):
             self.assert_refused(1, [command, "head.txt"], "calligraphy: head.txt: contains no character\n")
 

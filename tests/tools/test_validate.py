@@ -2,7 +2,7 @@ import json
 
 from program import ProgramTest
 
-HEAD = "calligraphy characters 1\nsource s\nlicence l\nattribution a\n\n"
+HEAD = "calligraphy characters 2\nsource s\nlicence l\nattribution a\n\n"
 
 
 class Validate(ProgramTest):

@@ -293,7 +293,7 @@ class Write(ProgramTest):
         done = self.run_program("write", "一，「十」。，", "-o", "out", "--mode", "force")
         self.assertIn("skipped: ， (U+FF0C), 「 (U+300C), 」 (U+300D), 。 (U+3002)\n", done.stderr)
         self.assertEqual([(row["character"], row["position"]) for row in self.summary()], [("一", 1), ("十", 2)])
-        (self.directory / "dot.txt").write_text("calligraphy characters 1\ncharacter 。\nstroke 1 0.1,0.5 0.9,0.5\n")
+        (self.directory / "dot.txt").write_text("calligraphy characters 2\ncharacter 。\nstroke 1 0.1,0.5 0.9,0.5\n")
         done = self.run_program("write", "。", "-o", "dot", "--mode", "force", "--characters", "dot.txt")
         self.assertNotIn("skipped", done.stderr)
 
@@ -303,7 +303,7 @@ class Write(ProgramTest):
         self.assertTrue((self.directory / "out/08-一-force.svg").exists())
 
     def test_characters_of_a_text_file_are_written(self):
-        (self.directory / "own.txt").write_text("calligraphy characters 1\nsource s\nlicence l\nattribution a\n\n"
+        (self.directory / "own.txt").write_text("calligraphy characters 2\nsource s\nlicence l\nattribution a\n\n"
                                                 "character /\nstroke 1 0.1,0.5 0.9,0.5\n")
         self.run_program("write", "/", "--out", "out", "--characters", "own.txt", "--mode", "force")
         self.assertTrue((self.directory / "out/01-U+002F-force.csv").exists(), self.files())
@@ -362,7 +362,7 @@ class Refusals(ProgramTest):
             for value in ("nan", "inf", "1e999", "-1", "x", "", "1x", "0x10", "18446744073709551616"):
                 with self.subTest(option=option, value=value):
                     self.assert_refused(2, ["write", "北", "--out", "out", f"{option}={value}"], option, value)
-        (self.directory / "far.txt").write_text("calligraphy characters 1\ncharacter 一\nstroke 1 0,1e300 1,0\n")
+        (self.directory / "far.txt").write_text("calligraphy characters 2\ncharacter 一\nstroke 1 0,1e300 1,0\n")
         self.assert_refused(1, ["write", "一", "--out", "out", "--characters", "far.txt"], "far.txt:3", "(0, 1e+300)")
         for option in ("--rate", "--tolerance", "--repeat", "--motion-scale"):
             with self.subTest(option=option):
@@ -379,7 +379,7 @@ class Refusals(ProgramTest):
         self.assert_refused(1, ["write", "北", "--out", "out", "--characters", "none.txt"], "none.txt")
         self.assert_refused(1, ["write", "北", "--out", "out", "--device", "replay:none.csv"], "none.csv")
         self.assert_refused(1, ["info", "北", "--characters", "/dev/zero"], "/dev/zero", "regular file")
-        (self.directory / "bad.txt").write_text("calligraphy characters 1\ncharacter 北\nstroke 99 0,0 1,1\n")
+        (self.directory / "bad.txt").write_text("calligraphy characters 2\ncharacter 北\nstroke 99 0,0 1,1\n")
         self.assert_refused(1, ["write", "北", "--out", "out", "--characters", "bad.txt"], "bad.txt", "3", "99")
         (self.directory / "empty.txt").write_text("")
         self.assert_refused(1, ["write", "北", "--out", "out", "--characters", "empty.txt"], "empty.txt")

@@ -29,9 +29,13 @@ py::typing::List<Stroke> strokes_of(const py::object& character) {
 
 Character character_of(char32_t code, const std::string& order, int curve_degree, const ArrayLike& control_points,
                        const std::vector<int>& stroke_ids, const std::vector<int>& feature_points,
-                       const std::vector<double>& factors) {
-  Character result{
-      code, order, curve_degree, {points(control_points, "control_points")}, {stroke_ids, feature_points}, {factors}};
+                       const std::vector<std::string>& elements, const std::vector<double>& factors) {
+  Character result{code,
+                   order,
+                   curve_degree,
+                   {points(control_points, "control_points")},
+                   {stroke_ids, feature_points, elements},
+                   {factors}};
   const std::vector<ValidationIssue> problems = validate(result);
   if (!problems.empty()) throw ValueError("stroke " + std::to_string(problems[0].stroke) + ": " + problems[0].what);
   return result;
@@ -60,7 +64,10 @@ void add_model(py::module_& module) {
       .def_readonly("pinyin", &TypicalStroke::pinyin, "its pronunciation")
       .def_readonly("code", &TypicalStroke::code, "letter code as used for CJK strokes")
       .def_readonly("unicode", &TypicalStroke::unicode, "code point of the CJK stroke in hexadecimal")
-      .def_readonly("elements", &TypicalStroke::elements, "'L' (line) or 'C' (curve) per element, in writing order")
+      .def_readonly("elements", &TypicalStroke::elements,
+                    "its composition: 'L' (line) or 'C' (curve) per element, in writing order")
+      .def_readonly("printed_elements", &TypicalStroke::printed_elements,
+                    "its composition as the paper counts it, if that differs; otherwise empty")
       .def_readonly("joints", &TypicalStroke::joints, "'c' (corner) or 's' (smooth) per inner feature point")
       .def_readonly("example", &TypicalStroke::example, "characters that contain it")
       .def_property_readonly("shape", array_within<TypicalStroke>(&TypicalStroke::shape),
@@ -84,10 +91,11 @@ void add_model(py::module_& module) {
              "The typical stroke with this id, 1 to 39. Raises InvalidValue for any other id.");
 
   py::class_<StrokeInput>(module, "StrokeInput", "A stroke as input to make_character.")
-      .def(py::init([](int id, const ArrayLike& control_points, const std::vector<double>& factors) {
-             return StrokeInput{id, points(control_points, "control_points"), factors};
+      .def(py::init([](int id, const ArrayLike& control_points, const std::vector<double>& factors,
+                       const std::string& elements) {
+             return StrokeInput{id, points(control_points, "control_points"), factors, elements};
            }),
-           "id"_a, "control_points"_a, "attraction_factors"_a = std::vector<double>{})
+           "id"_a, "control_points"_a, "attraction_factors"_a = std::vector<double>{}, "elements"_a = "")
       .def_readwrite("id", &StrokeInput::id, "id of the typical stroke, 1 to 39")
       .def_property(
           "control_points", [](const StrokeInput& self) { return array_of_points(self.control_points); },
@@ -95,12 +103,16 @@ void add_model(py::module_& module) {
           "(n, 2), copied [em]")
       .def_readwrite("attraction_factors", &StrokeInput::attraction_factors,
                      "one per feature point; empty: all 1; copied [1]")
-      .attr("__match_args__") = py::make_tuple("id", "control_points", "attraction_factors");
+      .def_readwrite("elements", &StrokeInput::elements,
+                     "composition: 'L' or 'C' for each element of the typical stroke; empty: as there")
+      .attr("__match_args__") = py::make_tuple("id", "control_points", "attraction_factors", "elements");
 
   py::class_<Stroke>(module, "Stroke", "One stroke of a character: a view that keeps the character alive.")
       .def_property_readonly(
           "type", [](const Stroke& self) { return self.type; }, py::return_value_policy::reference, "TypicalStroke")
+      .def_readonly("elements", &Stroke::elements, "its composition: 'L' (line) or 'C' (curve) per element")
       .def_readonly("curve_degree", &Stroke::curve_degree, "3, or 4 as eq. (1) prints")
+      .def("input", &input_of, "A copy as input to make_character, to be changed.")
       .def_property_readonly("control_points", array_within<Stroke>(&Stroke::control_points), "(n, 2), read only [em]")
       .def_property_readonly("attraction_factors", array_within<Stroke>(&Stroke::attraction_factors),
                              "one per feature point, read only [1]")
@@ -112,7 +124,7 @@ void add_model(py::module_& module) {
                         "A character: shape, stroke order and feel. Immutable. Made by make_character, or read from a "
                         "file. Frame: em square, y up.")
       .def(py::init(&character_of), "code"_a, "order"_a, "curve_degree"_a, "control_points"_a, "stroke_ids"_a,
-           "feature_points"_a, "attraction_factors"_a, "From the fields below; make_character() is simpler.")
+           "feature_points"_a, "elements"_a, "attraction_factors"_a, "From the fields below; make_character() is simpler.")
       .def_readonly("code", &Character::code, "the character, a str of length 1")
       .def_readonly("order", &Character::order, "name of an alternate stroke order; empty for the standard one")
       .def_readonly("curve_degree", &Character::curve_degree, "3, or 4 as eq. (1) prints")
@@ -125,6 +137,9 @@ void add_model(py::module_& module) {
       .def_property_readonly("feature_points",
                              array_within<Character>(&Character::sequence, &SequenceData::feature_points),
                              "indices into control_points in writing order, read only")
+      .def_property_readonly(
+          "elements", [](const Character& self) { return self.sequence.elements; },
+          "composition of each stroke: 'L' (line) or 'C' (curve) per element; copied")
       .def_property_readonly("attraction_factors",
                              array_within<Character>(&Character::physics, &PhysicalData::attraction_factors),
                              "one per feature point, read only [1]")
@@ -134,7 +149,7 @@ void add_model(py::module_& module) {
              return told("Character({}, {} strokes)", encode_utf8(self.code), self.stroke_count());
            })
       .attr("__match_args__") = py::make_tuple("code", "order", "curve_degree", "control_points", "stroke_ids",
-                                               "feature_points", "attraction_factors");
+                                               "feature_points", "elements", "attraction_factors");
 
   module.def(
       "make_character",

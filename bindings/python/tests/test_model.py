@@ -15,6 +15,7 @@ def test_the_example_of_table_3_has_the_published_counts():
     assert character.stroke_ids.tolist() == [2, 1, 10, 31, 4]
     assert character.control_points.shape == (15, 2)
     assert len(character.feature_points) == 13
+    assert character.elements == ["L", "L", "L", "LLLL", "C"]
 
 
 def test_there_are_39_typical_strokes():
@@ -30,14 +31,18 @@ def test_there_are_39_typical_strokes():
 
 def test_a_character_can_be_rebuilt_from_its_strokes():
     original = cal.built_in_characters()["永"]
-    inputs = [
-        cal.StrokeInput(stroke.type.id, stroke.control_points, list(stroke.attraction_factors))
-        for stroke in original.strokes()
-    ]
+    inputs = [stroke.input() for stroke in original.strokes()]
     again = cal.make_character("永", inputs)
     assert np.array_equal(again.control_points, original.control_points)
     assert np.array_equal(again.stroke_ids, original.stroke_ids)
     assert again == original
+    inputs[0].elements, inputs[0].control_points = "C", [[0.4, 0.9], [0.5, 0.9], [0.5, 0.8], [0.6, 0.8]]
+    bent = cal.make_character("永", inputs)
+    assert bent.strokes()[0].elements == "C" and bent != original
+    inputs[0].elements = "CC"
+    with pytest.raises(cal.InvalidValue, match="stroke 1: typical stroke 8 is L.*'CC'"):
+        cal.make_character("永", inputs)
+    inputs = [stroke.input() for stroke in original.strokes()]
     inputs[2].id = 99
     with pytest.raises(cal.InvalidValue, match="99"):
         cal.make_character("永", inputs)
@@ -48,7 +53,7 @@ def test_a_character_survives_pickling_and_copying(again):
     original = cal.with_quartic_curves(cal.built_in_characters()["永"])
     result = again(original)
     assert (result.code, result.order, result.curve_degree) == ("永", "", 4)
-    for name in ("control_points", "stroke_ids", "feature_points", "attraction_factors"):
+    for name in ("control_points", "stroke_ids", "feature_points", "elements", "attraction_factors"):
         assert np.array_equal(getattr(result, name), getattr(original, name))
 
 

@@ -277,7 +277,7 @@ RESULTS = {
 PARTS = {
     "NearestPoints": ("parameter", "point", "distance", "tangent", "status", "certified"),
     "Recording": ("rate", "samples"),
-    "StrokeInput": ("id", "control_points", "attraction_factors"),
+    "StrokeInput": ("id", "control_points", "attraction_factors", "elements"),
     "PenTrace": ("character", "set", "em", "strokes"),
     "CharacterList": ("characters", "provenance"),
     "TypicalStroke": ("id", "name"),
@@ -334,7 +334,7 @@ def test_other_classes_have_a_one_line_repr(written):
 def test_the_repr_of_long_values_is_abbreviated_with_their_length():
     strokes = cal.StrokeInput(1, [[0, 0], [1, 1]], np.arange(50.0))
     assert "attraction_factors=[0.0, 1.0, 2.0, ... 50 in all]" in repr(strokes)
-    assert "attraction_factors=[0.0, 1.0])" in repr(cal.StrokeInput(1, [[0, 0], [1, 1]], [0.0, 1.0]))
+    assert "attraction_factors=[0.0, 1.0], elements='')" in repr(cal.StrokeInput(1, [[0, 0], [1, 1]], [0.0, 1.0]))
     licence = repr(cal.Provenance(licence_text="word " * 1000))
     assert "licence_text='word word" in licence and "... 5000 characters in all" in licence and len(licence) < 200
     score = repr(cal.CharacterScore(character="永", mistakes=[cal.WritingMistake(reason="x")]))

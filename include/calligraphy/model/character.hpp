@@ -16,10 +16,11 @@ struct StructuralData {
   std::vector<Point> control_points;
 };
 
-/// Order: the typical strokes in writing order, and which control points are feature points.
+/// Order: the typical strokes in writing order, what they consist of, and which control points are feature points.
 struct SequenceData {
-  std::vector<int> stroke_ids;      ///< typical stroke ids, in writing order
-  std::vector<int> feature_points;  ///< indices into StructuralData::control_points, in writing order
+  std::vector<int> stroke_ids;        ///< typical stroke ids, in writing order
+  std::vector<int> feature_points;    ///< indices into StructuralData::control_points, in writing order
+  std::vector<std::string> elements;  ///< composition of each stroke: "LCL"; that of the typical stroke, or a variant
 };
 
 /// Force: the attraction factor at each feature point, a multiple of the guidance stiffness [1].
@@ -30,6 +31,7 @@ struct PhysicalData {
 /// One stroke of a character: a view, valid as long as the character.
 struct Stroke {
   const TypicalStroke* type;
+  std::string_view elements;  ///< its composition
   int curve_degree;
   std::span<const Point> control_points;       ///< [em]
   std::span<const double> attraction_factors;  ///< one per feature point [1]
@@ -47,12 +49,18 @@ struct Character {
   int stroke_count() const { return static_cast<int>(sequence.stroke_ids.size()); }
 };
 
-/// A stroke as input to make_character(): control points [em], and one factor per feature point (empty: all 1).
+/// A stroke as input to make_character().
 struct StrokeInput {
-  int id;
-  std::vector<Point> control_points;
-  std::vector<double> attraction_factors = {};
+  int id;                                       ///< of the typical stroke
+  std::vector<Point> control_points;            ///< [em]
+  std::vector<double> attraction_factors = {};  ///< one per feature point [1]; empty: all 1
+  std::string elements = {};  ///< composition: as many elements as the typical stroke has; empty: those
+
+  std::string_view composition() const { return elements.empty() ? typical_stroke(id).elements : elements; }
 };
+
+/// A stroke of a character as input, to be changed.
+StrokeInput input_of(const Stroke& stroke);
 
 /// Builds a character from its strokes in writing order.
 /// @throws ValueError naming the stroke if an id, a count, a coordinate or a factor is outside its domain
@@ -70,7 +78,7 @@ struct ValidationIssue {
   std::string what;
 };
 
-/// Everything that makes a character unusable: wrong counts, ids or indices, points that are not finite or far outside
+/// Everything that makes a character unusable: wrong counts, ids, compositions or indices, points that are not finite or far outside
 /// the em square, missing factors, elements of zero length (except that a stroke of a single LSE may be a point), and
 /// joints that bend by more than 15 degrees although smooth in their typical stroke. Empty if the character is valid.
 std::vector<ValidationIssue> validate(const Character& character);

@@ -26,7 +26,7 @@ struct CharacterList {
 const CharacterList& built_in_characters();
 
 /// The five-stroke character of Table 3, verbatim: ids 2, 1, 10, 31, 4; 15 control points, 13 feature points. It is 北
-/// with the pie written last; built_in_characters() has 北 in the standard order.
+/// with a bend of lines and the pie written last; built_in_characters() has 北 in the standard order.
 const Character& paper_example();
 
 /// Reads the text format of docs/character-format.md. `name` is used in messages.

@@ -32,6 +32,7 @@ struct CoordinateEncoding {
 /// One stroke of a set, decoded.
 struct StoredStroke {
   const TypicalStroke* type;
+  std::string_view elements;  ///< its composition, in static storage
   int curve_degree;
   std::array<Point, max_control_points_per_stroke> points;  ///< [em]
   std::array<double, max_elements_per_stroke + 1> factors;  ///< one per feature point [1]
@@ -39,8 +40,8 @@ struct StoredStroke {
 
   /// A view, valid as long as this object.
   Stroke stroke() const noexcept {
-    return {type, curve_degree, std::span(points).first(point_count),
-            std::span(factors).first(type->elements.size() + 1)};
+    return {type, elements, curve_degree, std::span(points).first(point_count),
+            std::span(factors).first(elements.size() + 1)};
   }
 };
 

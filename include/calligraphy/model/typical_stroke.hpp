@@ -2,23 +2,16 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <span>
 #include <string_view>
-#include <vector>
 
+#include <calligraphy/model/composition.hpp>
 #include <calligraphy/model/point.hpp>
 
 namespace calligraphy {
 
 inline constexpr int typical_stroke_count = 39;
-
-/// Maxima over all typical strokes, quartic curves included, so that a stroke fits in fixed storage.
-inline constexpr int max_elements_per_stroke = 5;
-inline constexpr int max_curve_degree = 4;
-inline constexpr int max_control_points_per_stroke = 17;
-
-/// Kind of a stroke element (Wang 2006, sec. 3.2): line segment (LSE) or Bezier curve segment (CSE).
-enum class ElementKind : char { line = 'L', curve = 'C' };
 
 /// One entry of the stroke library. The id is independent of the size and position of a stroke.
 ///
@@ -30,17 +23,14 @@ struct TypicalStroke {
   std::string_view pinyin;    ///< romanised name
   std::string_view code;      ///< letter code as used for CJK strokes
   std::string_view unicode;   ///< code point of the CJK stroke in hexadecimal, with "var" if it is a variant
-  std::string_view elements;  ///< 'L' (LSE) or 'C' (CSE) per element, in writing order
+  std::string_view elements;  ///< its composition: 'L' (LSE) or 'C' (CSE) per element, in writing order
   std::string_view joints;    ///< one per inner feature point: 'c' corner, 's' smooth (tangent continuous)
   std::string_view example;   ///< characters that contain it
   std::span<const std::array<double, 2>> shape;  ///< typical control points, cubic curves [em]
 
-  /// Number of control points for curves of the given degree (3 by default, 4 as printed in eq. (1)).
-  int control_point_count(int curve_degree = 3) const;
-  /// Number of feature points: one more than elements.
-  int feature_point_count() const { return static_cast<int>(elements.size()) + 1; }
-  /// Indices of the feature points among the control points of the stroke (Wang 2006, sec. 3.4).
-  std::vector<int> feature_points(int curve_degree = 3) const;
+  /// Its composition as the paper counts it, with a line for a round bend (Table 3, Figs. 11 and 12), if that differs.
+  /// Files of format 1 have this one.
+  std::string_view printed_elements = {};
 };
 
 /// All typical strokes, by id.
@@ -48,5 +38,15 @@ std::span<const TypicalStroke> typical_strokes() noexcept;
 
 /// The typical stroke with this id. @throws ValueError if id is not in 1..39
 const TypicalStroke& typical_stroke(int id);
+
+/// Whether a stroke of this type but with these elements is smooth after element `index`: where the typical stroke is,
+/// unless the joint is one between two lines.
+constexpr bool is_smooth_joint(const TypicalStroke& type, std::string_view elements, std::size_t index) {
+  constexpr char curve = static_cast<char>(ElementKind::curve);
+  return type.joints[index] == 's' && (elements[index] == curve || elements[index + 1] == curve);
+}
+
+/// Whether a stroke of this type may have these elements: as many as the typical stroke, each a line or a curve.
+bool is_composition_of(const TypicalStroke& type, std::string_view elements) noexcept;
 
 }  // namespace calligraphy
