@@ -30,6 +30,7 @@
 #include "hanzi_writer.hpp"
 #include "imported_character.hpp"
 #include "kanjivg.hpp"
+#include "outline.hpp"
 #include "source_files.hpp"
 #include "stroke_labels.hpp"
 #include "stroke_letters.hpp"
@@ -180,7 +181,6 @@ bool is_misdirected(const StrokeInput& stroke) {
 /// since it may be another stroke's, as closely.
 StrokeInput fit(const StrokeOfDrawing& drawn, bool doubtful, ImportedStroke& result) {
   constexpr double of_pen = 0.018;     // [em]; a label is not questioned within this distance of the drawing
-  constexpr double of_brush = 0.05;    // [em]; so far entries, droops and lifts reach
   constexpr double much_closer = 0.7;  // [1]
   FittedStroke fitted = fit_stroke(drawn.path, {drawn.outline, drawn.label_ids});
   result.recognised = fitted.recognised;
@@ -189,10 +189,10 @@ StrokeInput fit(const StrokeOfDrawing& drawn, bool doubtful, ImportedStroke& res
   result.label_agrees = drawn.allows(result.recognised);
   if (result.label_known && !result.label_agrees) {
     doubtful = doubtful || is_misdirected(fitted.stroke);
-    if (doubtful || fitted.error > (drawn.outline.empty() ? of_pen : of_brush)) {
+    if (doubtful || fitted.unbent_error > (drawn.outline.empty() ? of_pen : recognition::reach_of_brush)) {
       FittedStroke shape = fit_stroke(drawn.path, {drawn.outline, {&result.recognised, 1}});
-      const double limit = doubtful ? std::max(of_pen, fitted.error) : much_closer * fitted.error;
-      if (shape.error < limit) fitted = std::move(shape);
+      const double limit = doubtful ? std::max(of_pen, fitted.unbent_error) : much_closer * fitted.unbent_error;
+      if (shape.unbent_error < limit) fitted = std::move(shape);
     }
   }
   result.error = fitted.error;

@@ -54,8 +54,8 @@ Blend blend_at(char kind, double t) {
 /// Solves for the control points of a stroke that is assigned to a path.
 class ControlPointSolver {
  public:
-  ControlPointSolver(const TypicalStroke& type, std::vector<Point> start)
-      : type_(type), starts_(starts_of(type.elements)), points_(std::move(start)) {
+  ControlPointSolver(const TypicalStroke& type, std::string_view elements, std::vector<Point> start)
+      : type_(type), elements_(elements), starts_(starts_of(elements)), points_(std::move(start)) {
     straighten();
   }
 
@@ -103,11 +103,11 @@ class ControlPointSolver {
   /// Calls action(joint, direction, handle before it or none, handle after it or none) for every smooth joint.
   template <typename Action>
   void for_each_smooth_joint(Action action) const {
-    for (std::size_t i = 0; i < type_.joints.size(); ++i) {
-      if (type_.joints[i] != 's') continue;
+    for (std::size_t i = 0; i + 1 < elements_.size(); ++i) {
+      if (!is_smooth_joint(type_, elements_, i)) continue;
       const std::size_t joint = starts_[i + 1];
-      const bool before = type_.elements[i] == 'C';
-      const bool after = type_.elements[i + 1] == 'C';
+      const bool before = elements_[i] == 'C';
+      const bool after = elements_[i + 1] == 'C';
       const Point& from = points_[before && !after ? joint : joint - 1];
       const Point& to = points_[after && !before ? joint : joint + 1];
       action(joint, unit(to - from), before, after);
@@ -120,8 +120,8 @@ class ControlPointSolver {
     right_.setZero(count, 2);
     double total = 0.0;
     for (std::size_t i = 0; i < path.size(); ++i) {
-      const std::size_t element = std::min(static_cast<std::size_t>(places[i]), type_.elements.size() - 1);
-      const Blend blend = blend_at(type_.elements[element], places[i] - static_cast<double>(element));
+      const std::size_t element = std::min(static_cast<std::size_t>(places[i]), elements_.size() - 1);
+      const Blend blend = blend_at(elements_[element], places[i] - static_cast<double>(element));
       const int first = static_cast<int>(starts_[element]);
       for (int row = 0; row < blend.count; ++row) {
         const double weighted = weights[i] * blend.weights[static_cast<std::size_t>(row)];
@@ -189,6 +189,7 @@ class ControlPointSolver {
   }
 
   const TypicalStroke& type_;
+  std::string_view elements_;
   std::vector<std::size_t> starts_;
   std::vector<Point> points_;
   std::vector<Unknown> of_point_;
@@ -360,8 +361,9 @@ void weigh_by_distance(std::span<const double> distances, double farthest, std::
 
 }  // namespace
 
-std::vector<Point> fit_control_points(const TypicalStroke& type, const Path& path, std::span<const std::size_t> ends) {
-  ControlPointSolver solver(type, first_points(type.elements, path, ends));
+std::vector<Point> fit_control_points(const TypicalStroke& type, std::string_view elements, const Path& path,
+                                      std::span<const std::size_t> ends) {
+  ControlPointSolver solver(type, elements, first_points(elements, path, ends));
   std::vector<double> places = first_places(path, ends);
   std::vector<double> weights(path.size(), 1.0);
   weights.front() = weights.back() = weight_of_ends;
@@ -369,7 +371,7 @@ std::vector<Point> fit_control_points(const TypicalStroke& type, const Path& pat
   double least = std::numeric_limits<double>::infinity();
   for (int step = 0; step < most_steps; ++step) {
     if (!solver.solve(path, places, weights)) break;
-    const std::vector<double> distances = assign(type.elements, solver.points(), path, places);
+    const std::vector<double> distances = assign(elements, solver.points(), path, places);
     const double farthest = *std::max_element(distances.begin(), distances.end());
     const bool improves = farthest < still_improving * least;
     if (farthest < least) {

@@ -7,6 +7,10 @@
 
 namespace calligraphy::recognition {
 
+/// How far from the typical stroke entries, droops and lifts of the brush take a path that follows it [em], as labels
+/// show: what is farther off is of another kind.
+inline constexpr double reach_of_brush = 0.043;
+
 /// Radius of the largest disc about the point inside the outline, a closed polygon [em]; 0 outside. O(vertices).
 double inscribed_radius(std::span<const Point> outline, const Point& point);
 

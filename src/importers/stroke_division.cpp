@@ -13,7 +13,7 @@ constexpr double free_turn = 35.0;          // [degree] from the typical directi
 constexpr double price_of_degree = 0.0005;  // [em]; of turns beyond that
 constexpr double unreached = std::numeric_limits<double>::infinity();
 
-/// Directions of an element in the typical stroke [degree].
+/// Directions of an element in the typical stroke [degree]; if that is a line, all the same.
 struct ElementDirections {
   double leaving;
   double arriving;
@@ -68,8 +68,7 @@ double StrokeDivider::residual(std::size_t from, std::size_t to, char kind) {
   return known;
 }
 
-Division StrokeDivider::divide(const TypicalStroke& type) {
-  const std::string_view elements = type.elements;
+Division StrokeDivider::divide(const TypicalStroke& type, std::string_view elements) {
   const std::size_t places = places_.size();
   if (places <= elements.size()) return {};
   const std::vector<ElementDirections> directions = directions_of(type);

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <string_view>
 #include <vector>
 
 #include <calligraphy/model/typical_stroke.hpp>
@@ -26,7 +27,8 @@ class StrokeDivider {
   explicit StrokeDivider(const Path& path);
 
   /// The division of least cost, by dynamic programming over at most 95 places for the joints.
-  Division divide(const TypicalStroke& type);
+  /// @param elements a composition of strokes of this type
+  Division divide(const TypicalStroke& type, std::string_view elements);
 
  private:
   double residual(std::size_t from, std::size_t to, char kind);

@@ -40,12 +40,12 @@ void check(std::span<const Point> points, const char* what) {
 }
 
 /// True if make_character() accepts the points. Elements of zero length and far handles result from unnatural input.
-bool usable(const TypicalStroke& type, std::span<const Point> points) {
+bool usable(std::string_view elements, std::span<const Point> points) {
   for (const Point& point : points) {
     if (!point.allFinite() || point.cwiseAbs().maxCoeff() > max_fitted_coordinate) return false;
   }
   std::size_t at = 0;
-  for (const char kind : type.elements) {
+  for (const char kind : elements) {
     const std::size_t end = at + (kind == 'L' ? 1 : 3);
     if ((points[end] - points[at]).norm() < min_fitted_element) return false;
     at = end;
@@ -88,20 +88,24 @@ struct Alternative {
   int instead;
   double beyond = 0.0;  ///< distance from the path beyond which the stroke gives way [em]
 };
-constexpr double lift = 0.043;  // [em]; a brush that is lifted after a heng zhe, as labels show, goes no farther off
 constexpr Alternative alternatives[] = {
-    {5, 4},          // short pie, pie
-    {8, 38},         // dian, chang dian
-    {9, 38},         // left dian, chang dian
-    {9, 4},          // left dian, pie
-    {32, 30},        // shu zhe, shu wan
-    {36, 30},        // pie zhe, shu wan
-    {16, 18, lift},  // heng zhe, heng zhe gou
+    {5, 4},                    // short pie, pie
+    {8, 38},                   // dian, chang dian
+    {9, 38},                   // left dian, chang dian
+    {9, 4},                    // left dian, pie
+    {32, 30},                  // shu zhe, shu wan
+    {36, 30},                  // pie zhe, shu wan
+    {16, 18, reach_of_brush},  // heng zhe, heng zhe gou
 };
 
 /// Fits one path as different strokes.
 class Fit {
  public:
+  struct Attempt {
+    StrokeInput stroke{0, {}};
+    double distance = std::numeric_limits<double>::infinity();  ///< Fréchet distance from the samples [em]
+  };
+
   explicit Fit(std::span<const Point> path, const BrushEnds& ends)
       : path_(samples(path, ends)), divider_(path_), follows_(std::min(0.018, 0.1 * path_length(path_))) {}
 
@@ -109,7 +113,7 @@ class Fit {
   /// recognises, the first, unless that misses a corner. A line that does not follow the path gives way to a curve, and
   /// a heng zhe that is far from it to one with a hook, if the label allows that. Without control points if none is
   /// usable.
-  StrokeInput best(std::span<const int> ids, bool labelled) {
+  Attempt best(std::span<const int> ids, bool labelled) {
     constexpr std::size_t most_tries = 3;
     constexpr double bend = 0.027;  // [em]; a path farther from a stroke of one element has a corner
     const auto allows = [&](int id) { return !labelled || std::find(ids.begin(), ids.end(), id) != ids.end(); };
@@ -129,17 +133,39 @@ class Fit {
       Attempt other = as(instead);
       if (other.distance < best.distance) best = std::move(other);
     }
-    return std::move(best.stroke);
+    return best;
   }
 
   /// The strokes in ascending order of the cost of dividing the path among their elements.
   std::vector<int> by_cost(std::span<const int> ids) {
     std::vector<std::pair<double, int>> costs;
-    for (const int id : ids) costs.emplace_back(divider_.divide(typical_stroke(id)).cost, id);
+    for (const int id : ids) costs.emplace_back(divider_.divide(typical_stroke(id), typical_stroke(id).elements).cost, id);
     std::sort(costs.begin(), costs.end());
     std::vector<int> sorted;
     for (const auto& [cost, id] : costs) sorted.push_back(id);
     return sorted;
+  }
+
+  /// The stroke with curves in place of lines, where those bring it closer to the path: as long as that is farther than
+  /// 1.8 % of the em, the curve that helps most, if it takes a tenth of the distance; three at most.
+  StrokeInput bent(Attempt best) {
+    constexpr double far_off = 0.018;  // [em]
+    constexpr double improvement = 0.9;  // [1]
+    constexpr int most_curves = 3;
+    for (int curves = 0; curves < most_curves && best.distance > far_off; ++curves) {
+      Attempt closest{{0, {}}, improvement * best.distance};
+      std::string elements(best.stroke.composition());
+      for (char& element : elements) {
+        if (element != static_cast<char>(ElementKind::line)) continue;
+        element = static_cast<char>(ElementKind::curve);
+        Attempt other = as(best.stroke.id, elements);
+        if (other.distance < closest.distance) closest = std::move(other);
+        element = static_cast<char>(ElementKind::line);
+      }
+      if (closest.stroke.id == 0) break;
+      best = std::move(closest);
+    }
+    return std::move(best.stroke);
   }
 
   /// A straight dian can always be fitted.
@@ -150,11 +176,6 @@ class Fit {
   }
 
  private:
-  struct Attempt {
-    StrokeInput stroke{0, {}};
-    double distance = std::numeric_limits<double>::infinity();  ///< Fréchet distance from the samples [em]
-  };
-
   static Path samples(std::span<const Point> path, const BrushEnds& ends) {
     constexpr double step = 0.008;  // [em]
     constexpr int fewest = 16;
@@ -165,17 +186,20 @@ class Fit {
     return resampled(path, count, ends.start, length - ends.end);
   }
 
-  Attempt as(int id) {
+  Attempt as(int id, std::string_view elements) {
     constexpr double step = 0.008;  // [em]
     const TypicalStroke& type = typical_stroke(id);
-    const Division division = divider_.divide(type);
+    const Division division = divider_.divide(type, elements);
     if (division.ends.empty()) return {};
-    std::vector<Point> points = fit_control_points(type, path_, division.ends);
-    if (!usable(type, points)) return {};
+    std::vector<Point> points = fit_control_points(type, elements, path_, division.ends);
+    if (!usable(elements, points)) return {};
     StrokeInput stroke{id, std::move(points)};
+    if (elements != type.elements) stroke.elements = elements;
     const double distance = frechet_distance(flattened(stroke), path_, 0.0, step);
     return {std::move(stroke), distance};
   }
+
+  Attempt as(int id) { return as(id, typical_stroke(id).elements); }
 
   Path path_;  ///< at equal steps, without the ends that the brush writes
   StrokeDivider divider_;
@@ -219,12 +243,15 @@ FittedStroke fit_stroke(std::span<const Point> path, const StrokeFitOptions& opt
   if (path_length(path) < min_path) {
     fitted.stroke = dot_around(path);
     fitted.recognised = fitted.stroke.id;
+    fitted.unbent_error = fit_error(fitted.stroke, path, fitted.half_width);
   } else {
     const bool brush = !options.outline.empty();
     const std::vector<int> recognised = recognised_ids(path, brush);
     Fit fit(path, brush_ends(path, options.outline, fitted.half_width));
-    fitted.stroke = fit.best(in_order(fit, options.ids, recognised), !options.ids.empty());
-    if (fitted.stroke.control_points.empty()) fitted.stroke = fit.straight();
+    Fit::Attempt best = fit.best(in_order(fit, options.ids, recognised), !options.ids.empty());
+    if (best.stroke.control_points.empty()) best.stroke = fit.straight();
+    fitted.unbent_error = fit_error(best.stroke, path, fitted.half_width);
+    fitted.stroke = fit.bent(std::move(best));
     fitted.recognised = recognised.front();
   }
   fitted.error = fit_error(fitted.stroke, path, fitted.half_width);

@@ -67,7 +67,7 @@ void check_marks(const ImportReport& report, const Marks& marks) {
   REQUIRE(std::ssize(report.measures) == report.strokes);
   CHECK(share(report.within[0].strokes, report.strokes) >= marks.within_1_percent);
   CHECK(share(report.within[1].strokes, report.strokes) >= marks.within_2_percent);
-  CHECK(share(report.within[2].strokes, report.strokes) >= 0.9998);
+  CHECK(share(report.within[2].strokes, report.strokes) == 1.0);
   CHECK(report.worst.front().error <= marks.farthest);
   CHECK(count_of(report, [](const StrokeMeasures& m) { return m.backward > 0.05; }) <= marks.running_back);
   const int kept = count_of(report, [](const StrokeMeasures& m) {
@@ -99,17 +99,19 @@ void check_kinds(const CharacterList& list, const std::vector<KnownStroke>& know
   }
 }
 
-/// Share of the curves whose second handle lies before the first: such a curve folds where its stroke does not.
+/// Share of the typical strokes' curves whose second handle lies before the first: such a curve folds where its stroke
+/// does not.
 double folded_share(const CharacterList& list) {
   int curves = 0;
   int folded = 0;
   for (const Character& character : list.characters) {
     for (const Stroke& stroke : strokes(character)) {
       std::size_t at = 0;
-      for (const char kind : std::string_view(stroke.elements)) {
+      std::size_t element = 0;
+      for (const char kind : stroke.elements) {
         const auto p = stroke.control_points.subspan(at);
         at += kind == 'L' ? 1 : 3;
-        if (kind == 'L') continue;
+        if (stroke.type->elements[element++] == 'L') continue;
         ++curves;
         if ((p[2] - p[1]).dot(p[3] - p[0]) < 0.0) ++folded;
       }
@@ -159,22 +161,23 @@ TEST_CASE("all of hanzi-writer-data, from its tarball, is fitted and recognised 
   CHECK(import.report.characters == 9574);
   CHECK(import.report.strokes == 112617);
   CHECK(import.report.letters_unused.size() == 4);
-  check_marks(import.report, {.within_1_percent = 0.75,
-                              .within_2_percent = 0.994,
-                              .farthest = 0.051,
-                              .running_back = 3,
+  check_marks(import.report, {.within_1_percent = 0.76,
+                              .within_2_percent = 0.9997,
+                              .farthest = 0.027,
+                              .running_back = 1,
                               .length_kept = 0.9995,
-                              .with_false_corners = 430,
-                              .with_lost_corners = 9600,
+                              .with_false_corners = 80,
+                              .with_lost_corners = 9400,
                               .agreement = 0.985});
-  CHECK(bytes_per_character(import.list) <= 92.0);
+  CHECK(bytes_per_character(import.list) <= 89.0);
   CHECK(folded_share(import.list) < 0.002);
   check_kinds(import.list, {{U'五', 4, {1}},   {U'立', 5, {1}},   {U'星', 9, {1}},   {U'旗', 3, {18}},  {U'敖', 5, {18}},
                             {U'熬', 5, {18}},  {U'赘', 5, {18}},  {U'邀', 8, {18}},  {U'母', 2, {18}},  {U'姆', 5, {18}},
                             {U'拇', 5, {18}},  {U'昔', 6, {16}},  {U'普', 10, {16}}, {U'指', 7, {16}},  {U'增', 13, {16}},
                             {U'钠', 5, {29}},  {U'钨', 5, {29}},  {U'铜', 5, {29}},  {U'也', 1, {18}},  {U'狒', 6, {35}},
                             {U'兜', 3, {4}},   {U'燮', 5, {8}},   {U'啟', 9, {2}},   {U'髓', 20, {26}}, {U'調', 9, {18}},
-                            {U'鋼', 10, {18}}, {U'閻', 6, {18}},  {U'擊', 8, {32}},  {U'寶', 12, {32}}});
+                            {U'鋼', 10, {18}}, {U'閻', 6, {18}},  {U'擊', 8, {32}},  {U'寶', 12, {32}},
+                            {U'剎', 4, {12}},  {U'埗', 8, {12}}});  // labelled shu, with a hook that no curve swallows
 }
 
 TEST_CASE("all ideographs of KanjiVG, from its tarball, are fitted as required, and 97.3 % recognised as labelled",
@@ -194,14 +197,14 @@ TEST_CASE("all ideographs of KanjiVG, from its tarball, are fitted as required, 
   CHECK(import.report.strokes == 79178);
   // The goal of agreement is 98.5 % here too, but 97.36 % is achieved; docs/strokes.md explains the rest.
   check_marks(import.report, {.within_1_percent = 0.955,
-                              .within_2_percent = 0.9993,
+                              .within_2_percent = 0.9999,
                               .farthest = 0.035,
                               .running_back = 1,
                               .length_kept = 0.9985,
-                              .with_false_corners = 135,
+                              .with_false_corners = 85,
                               .with_lost_corners = 460,
                               .agreement = 0.973});
-  CHECK(bytes_per_character(import.list) <= 95.0);
+  CHECK(bytes_per_character(import.list) <= 93.0);
   CHECK(folded_share(import.list) < 0.002);
   check_kinds(import.list, {{U'感', 12, {8, 38}}, {U'億', 14, {8, 38}}, {U'念', 7, {8, 38}}, {U'悲', 11, {8, 38}},
                             {U'認', 13, {8, 38}}, {U'総', 13, {8, 38}}, {U'密', 7, {8, 38}},

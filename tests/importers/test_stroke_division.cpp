@@ -73,7 +73,7 @@ TEST_CASE("the elements of a stroke begin at the corners of a path of its shape"
   const Path path = steps_along({{0.1, 0.9}, {0.7, 0.9}, {0.7, 0.2}, {0.6, 0.3}}, 140);  // heng zhe gou
   const double step = path_length(path) / 139.0;
   StrokeDivider divider(path);
-  const Division division = divider.divide(typical_stroke(18));
+  const Division division = divider.divide(typical_stroke(18), typical_stroke(18).elements);
   REQUIRE(division.ends.size() == 4);
   CHECK(division.ends.front() == 0);
   CHECK(division.ends.back() == 139);
@@ -82,22 +82,22 @@ TEST_CASE("the elements of a stroke begin at the corners of a path of its shape"
   CHECK(division.cost < 1e-4);
 
   SECTION("and the costs tell the stroke from those with other elements or directions") {
-    CHECK(divider.divide(typical_stroke(16)).cost > 2.0 * division.cost);  // heng zhe
-    CHECK(divider.divide(typical_stroke(12)).cost > 2.0 * division.cost);  // shu gou
-    CHECK(divider.divide(typical_stroke(36)).cost > 2.0 * division.cost);  // pie zhe
+    CHECK(divider.divide(typical_stroke(16), typical_stroke(16).elements).cost > 2.0 * division.cost);  // heng zhe
+    CHECK(divider.divide(typical_stroke(12), typical_stroke(12).elements).cost > 2.0 * division.cost);  // shu gou
+    CHECK(divider.divide(typical_stroke(36), typical_stroke(36).elements).cost > 2.0 * division.cost);  // pie zhe
   }
 }
 
 TEST_CASE("a path of fewer places than elements has no division", "[model]") {
   const Path path = steps_along({{0.1, 0.9}, {0.7, 0.9}}, 3);
   StrokeDivider divider(path);
-  CHECK(divider.divide(typical_stroke(18)).ends.empty());
+  CHECK(divider.divide(typical_stroke(18), typical_stroke(18).elements).ends.empty());
 }
 
 TEST_CASE("control points of corners lie where the limbs meet, those of a curve on that curve", "[model]") {
   const std::vector<Point> corners{{0.1, 0.9}, {0.7, 0.9}, {0.7, 0.2}};
   const Path bend = steps_along(corners, 100);
-  const std::vector<Point> zhe = fit_control_points(typical_stroke(16), bend, std::vector<std::size_t>{0, 46, 99});
+  const std::vector<Point> zhe = fit_control_points(typical_stroke(16), typical_stroke(16).elements, bend, std::vector<std::size_t>{0, 46, 99});
   REQUIRE(zhe.size() == 3);
   for (std::size_t i = 0; i < 3; ++i) CHECK((zhe[i] - corners[i]).norm() < 0.5 * 0.013);  // half a step of the path
 
@@ -106,7 +106,7 @@ TEST_CASE("control points of corners lie where the limbs meet, those of a curve 
     const double angle = i * std::numbers::pi / 180.0;
     arc.push_back({0.2 + 0.5 * std::cos(angle), 0.8 - 0.5 * std::sin(angle)});
   }
-  const std::vector<Point> pie = fit_control_points(typical_stroke(4), arc, std::vector<std::size_t>{0, 90});
+  const std::vector<Point> pie = fit_control_points(typical_stroke(4), typical_stroke(4).elements, arc, std::vector<std::size_t>{0, 90});
   REQUIRE(pie.size() == 4);
   CHECK((pie.front() - arc.front()).norm() < 2e-3);
   CHECK((pie.back() - arc.back()).norm() < 2e-3);

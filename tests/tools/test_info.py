@@ -15,6 +15,7 @@ class Info(ProgramTest):
         self.assertEqual(row["number_of_typical_strokes"], 5)
         self.assertEqual(row["typical_stroke_ids"], [2, 1, 10, 31, 4])
         self.assertEqual(row["number_of_control_points"], 15)
+        self.assertEqual(row["strokes"][3]["elements"], "LLLL")
         self.assertEqual(row["number_of_feature_points"], 13)
         self.assertEqual(row["sequence"], [2, 1, 10, 31, 4])
         text = self.run_program("info", "--paper-example").stdout
@@ -26,7 +27,8 @@ class Info(ProgramTest):
         row, = json.loads(self.run_program("info", "北", "--json").stdout)["text"]
         self.assertEqual(row["sequence"], [2, 1, 10, 4, 31])
         self.assertEqual(len(row["feature_points"]), 13)
-        self.assertEqual(sum(len(stroke["control_points_em"]) for stroke in row["strokes"]), 15)
+        self.assertEqual(sum(len(stroke["control_points_em"]) for stroke in row["strokes"]), 17)
+        self.assertEqual(row["strokes"][4]["elements"], "LCLL")
 
     def test_each_character_of_a_text_is_printed_once_with_its_source(self):
         text = self.run_program("info", "北永 北").stdout
@@ -162,7 +164,7 @@ class Refusals(ProgramTest):
         for name, content, words in (("cut.set", whole[:-1], ["truncated"]),
                                      ("index.set", whole[:70] + b"x" + whole[71:], ["checksum"]),
                                      ("group.set", whole[:-1] + bytes([whole[-1] ^ 1]), ["U+20000", "checksum"]),
-                                     ("newer.set", whole[:8] + b"\2" + whole[9:], ["newer version"]),
+                                     ("newer.set", whole[:8] + b"\3" + whole[9:], ["newer version"]),
                                      ("picture.set", b"\x89PNG\r\n\x1a\n", ["not a set file"])):
             with self.subTest(name=name):
                 (self.directory / name).write_bytes(content)
