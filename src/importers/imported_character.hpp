@@ -15,6 +15,7 @@ struct ImportedStroke {
   std::string label;        ///< empty if there is none
   bool label_known = false;
   bool label_agrees = false;
+  bool contradicts_label = false;  ///< clearly, if measured
 };
 
 struct ImportedCharacter {
@@ -22,6 +23,7 @@ struct ImportedCharacter {
   std::vector<ImportedStroke> strokes;
   std::vector<StrokeMeasures> measures;  ///< if asked for
   CrossingCount crossings;
+  std::vector<LostCrossing> lost_crossings;
   bool letters_unused = false;
   std::string notice;  ///< copyright notice of its file
 };

@@ -17,6 +17,17 @@ double path_length(std::span<const Point> path) {
   return length;
 }
 
+double box_diagonal(std::span<const Point> points) {
+  if (points.empty()) return 0.0;
+  Point low = points.front();
+  Point high = points.front();
+  for (const Point& point : points) {
+    low = low.cwiseMin(point);
+    high = high.cwiseMax(point);
+  }
+  return (high - low).norm();
+}
+
 Path resampled(std::span<const Point> path, int count, double from, double to) {
   Path result;
   result.reserve(static_cast<std::size_t>(count));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -60,10 +61,18 @@ TurningPath turning_path(std::span<const Point> path, double window) {
   return result;
 }
 
-/// Corners of one path, by more than `least` [degree], near which the other turns by less than half as much.
-int corners_without_counterpart(const TurningPath& one, const TurningPath& other, double window, double least) {
+/// A turn of one path near which the other turns by less than half as much.
+struct Corner {
+  double inside;    ///< distance along its path from the nearer end [em]
+  double distance;  ///< from the other path [em]
+};
+
+/// Such turns of one path, by more than `least` [degree].
+std::vector<Corner> corners_without_counterpart(const TurningPath& one, const TurningPath& other, double window,
+                                                double least) {
   const double near = 2.0 * window + 0.02;  // [em]
-  int count = 0;
+  const double step = path_length(one.points) / static_cast<double>(one.points.size() - 1);
+  std::vector<Corner> corners;
   for (std::size_t i = 0; i < one.points.size(); ++i) {
     const double turn = one.turns[i];
     if (turn <= least) continue;
@@ -74,12 +83,30 @@ int corners_without_counterpart(const TurningPath& one, const TurningPath& other
     }
     if (!is_peak) continue;
     double counterpart = 0.0;
+    double nearest = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < other.points.size(); ++k) {
-      if ((other.points[k] - one.points[i]).norm() <= near) counterpart = std::max(counterpart, other.turns[k]);
+      const double distance = (other.points[k] - one.points[i]).norm();
+      nearest = std::min(nearest, distance);
+      if (distance <= near) counterpart = std::max(counterpart, other.turns[k]);
     }
-    if (counterpart < 0.5 * turn) ++count;
+    if (counterpart >= 0.5 * turn) continue;
+    corners.push_back({step * static_cast<double>(std::min(i, one.points.size() - 1 - i)), nearest});
   }
-  return count;
+  return corners;
+}
+
+/// The sharpest turn between two successive segments, both longer than 1 % of the em [degree].
+double sharpest_reversal(std::span<const Point> path) {
+  constexpr double shortest = 0.01;  // [em]
+  const Path points = without_repeats(path);
+  double sharpest = 0.0;
+  for (std::size_t i = 2; i < points.size(); ++i) {
+    const Point before = points[i - 1] - points[i - 2];
+    const Point after = points[i] - points[i - 1];
+    if (before.norm() < shortest || after.norm() < shortest) continue;
+    sharpest = std::max(sharpest, std::abs(wrapped(direction_of(after) - direction_of(before))));
+  }
+  return sharpest;
 }
 
 }  // namespace
@@ -96,8 +123,13 @@ StrokeMeasures measure_stroke(std::span<const Point> path, std::span<const Point
   measures.length = path_length(path);
   measures.source_length = path_length(source);
   measures.half_width = half_width;
-  measures.false_corners = corners_without_counterpart(drawn, wanted, window, false_corner);
-  measures.lost_corners = corners_without_counterpart(wanted, drawn, window, lost_corner);
+  const std::vector<Corner> added = corners_without_counterpart(drawn, wanted, window, false_corner);
+  const std::vector<Corner> lost = corners_without_counterpart(wanted, drawn, window, lost_corner);
+  measures.false_corners = static_cast<int>(added.size());
+  measures.lost_corners = static_cast<int>(lost.size());
+  for (const Corner& corner : added) measures.false_distance = std::max(measures.false_distance, corner.distance);
+  for (const Corner& corner : lost) measures.lost_inside = std::max(measures.lost_inside, corner.inside);
+  measures.reversal = sharpest_reversal(source);
   return measures;
 }
 

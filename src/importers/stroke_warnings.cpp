@@ -1,11 +1,12 @@
 #include <calligraphy/importers/stroke_warnings.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <numbers>
 #include <span>
+#include <tuple>
 #include <utility>
 
 #include <calligraphy/importers/stroke_fit.hpp>
@@ -13,6 +14,8 @@
 
 #include "base/parallel.hpp"
 #include "polyline.hpp"
+#include "shape_contradiction.hpp"
+#include "stroke_labels.hpp"
 
 namespace calligraphy {
 namespace {
@@ -21,34 +24,23 @@ using recognition::Path;
 
 constexpr double overlap_distance = 0.01;                     // [em]; a printed line is wider
 constexpr double outside_distance = 0.01;                     // [em]
-constexpr double against = 100.0 * std::numbers::pi / 180.0;  // to the typical start [rad]
-constexpr double max_dot = 0.25;    // [em]; one element as short as this may be called dian, pie, ti or shu
+// To the typical start [rad]: of one element, as a dot that may fall to the left, and of the first of several.
+constexpr double against = 100.0 * std::numbers::pi / 180.0;
+constexpr double first_against = 80.0 * std::numbers::pi / 180.0;
+constexpr double max_dot = 0.15;    // [em]
 constexpr double min_start = 0.02;  // [em]; anything shorter has no direction
 constexpr int curve_steps = 24;
 constexpr double max_step = 0.02;  // [em]
 
-/// Typical strokes that can have the same curve, so that geometry alone cannot distinguish them.
-constexpr std::array<std::array<int, 5>, 14> alike = {{{1, 10},
-                                                       {3, 4, 5},
-                                                       {2, 3},
-                                                       {8, 9, 38},
-                                                       {6, 7, 38, 8},
-                                                       {9, 4, 5},
-                                                       {11, 17},
-                                                       {12, 13},
-                                                       {14, 15},
-                                                       {20, 21, 22},
-                                                       {23, 24},
-                                                       {27, 28},
-                                                       {30, 32},
-                                                       {33, 34}}};
-
-bool are_alike(int one, int other) {
-  return std::any_of(alike.begin(), alike.end(), [&](const auto& group) {
-    return std::find(group.begin(), group.end(), one) != group.end() &&
-           std::find(group.begin(), group.end(), other) != group.end();
-  });
-}
+// Of a stroke against its drawing.
+constexpr double most_backward = 0.05;  // [1]
+constexpr double most_turn = 135.0;     // [degree]; a hook turns back less
+constexpr double fragment = 1.0 / 3.0;  // [1]; of the size of the outline
+constexpr double least_length = 0.8;    // [1]; of the drawing without the ends that the brush writes
+constexpr double most_length = 1.1;     // [1]
+constexpr double round_corner = 0.03;   // [em]; a drawing this near rounds the same corner
+constexpr double most_entry = 0.1;      // [em]; nearer to an end a brush turns as it is set down or lifted
+constexpr double most_distance = 0.04;  // [em]
 
 /// One element of a stroke as a polyline, without its first point.
 template <int Degree>
@@ -91,19 +83,6 @@ Point typical_start(const TypicalStroke& type) {
   return Point(type.shape[end][0], type.shape[end][1]) - Point(type.shape[0][0], type.shape[0][1]);
 }
 
-/// True for a stroke of one short element, whose type depends on the character it is part of.
-bool is_dot(const Stroke& stroke) {
-  return stroke.elements.size() == 1 &&
-         (stroke.control_points.back() - stroke.control_points.front()).norm() < max_dot;
-}
-
-/// The typical stroke whose shape the curve has, if it contradicts the recorded one; otherwise 0.
-int other_type(const Stroke& stroke, const Path& path) {
-  if (is_dot(stroke)) return 0;
-  const int found = fit_stroke(path).recognised;
-  return found == stroke.type->id || are_alike(found, stroke.type->id) ? 0 : found;
-}
-
 double distance_outside(const Path& path) {
   double farthest = 0.0;
   for (const Point& point : path) {
@@ -132,9 +111,106 @@ std::string name_with_id(int id) {
   return std::to_string(id) + " (" + std::string(type.name) + " " + std::string(type.pinyin) + ")";
 }
 
-std::string percent_of_em(double length) {
-  const long tenths = std::lround(1000.0 * length);
-  return std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) + " % of the em";
+/// What the curve has instead of the shape of the recorded type; empty if it has that. A short element has the shape of
+/// many types, a heng may rise like a ti, and a heng zhe end with the lift of a brush, which looks like a hook.
+std::string other_shape(const Stroke& stroke, const Path& path) {
+  const int id = stroke.type->id;
+  const bool is_single = stroke.elements.size() == 1;
+  if (is_single && recognition::path_length(path) < max_dot) return {};
+  const int found = fit_stroke(path).recognised;
+  if (std::min(found, id) == 1 && (std::max(found, id) == 1 || std::max(found, id) == 10)) return {};
+  if (id == 16 && found == 18) return {};
+  if (recognition::contradicts(path, false, {&id, 1}, found)) return "has the shape of " + name_with_id(found);
+  if (is_single && recognition::is_misdirected(path, {&id, 1})) return "runs in another direction";
+  return {};
+}
+
+/// "5.1 %".
+std::string percents(double share) {
+  const long tenths = std::lround(1000.0 * share);
+  return std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) + " %";
+}
+
+std::string percent_of_em(double length) { return percents(length) + " of the em"; }
+
+/// A label and the typical strokes that it allows: "g (竖钩)".
+std::string label_with_names(const std::string& label) {
+  std::span<const int> ids = ids_of_kanjivg_label(label);
+  if (ids.empty() && label.size() == 1) ids = ids_of_stroke_letter(label[0]);
+  std::string names;
+  for (const int id : ids) names += (names.empty() ? "" : ", ") + std::string(typical_stroke(id).name);
+  return label + " (" + names + ")";
+}
+
+std::string words_for(const LabelConflict& conflict) {
+  const std::string recognised = name_with_id(conflict.recognised);
+  if (conflict.resolution == LabelResolution::unknown)
+    return "label " + conflict.label + " is unknown; the shape is that of " + recognised;
+  return "is labelled " + label_with_names(conflict.label) + " but has the shape of " + recognised;
+}
+
+/// The warnings of one character's strokes against their source.
+using SourceWarnings = std::map<std::pair<char32_t, std::string>, std::vector<StrokeWarning>>;
+
+void add_measures(const StrokeMeasures& stroke, std::vector<StrokeWarning>& warnings) {
+  const auto add = [&](StrokeWarningKind kind, std::string what) {
+    warnings.push_back({stroke.place.stroke, kind, std::move(what)});
+  };
+  if (stroke.backward > most_backward) {
+    add(StrokeWarningKind::fold, "runs back by " + percents(stroke.backward) + " of its length");
+  } else if (stroke.reversal > most_turn) {
+    add(StrokeWarningKind::fold,
+        "the drawing turns back by " + std::to_string(std::lround(stroke.reversal)) + " degrees");
+  }
+  if (stroke.source_length < fragment * stroke.outline_size) {
+    add(StrokeWarningKind::length, "the median is " + percent_of_em(stroke.source_length) + " long, its outline " +
+                                       percents(stroke.outline_size));
+  } else if (stroke.length < least_length * (stroke.source_length - 2.0 * stroke.half_width) ||
+             stroke.length > most_length * stroke.source_length) {
+    add(StrokeWarningKind::length,
+        "is " + percent_of_em(stroke.length) + " long, the drawing " + percents(stroke.source_length));
+  }
+  if (stroke.false_distance > round_corner) {
+    add(StrokeWarningKind::corner,
+        "has a corner that the drawing lacks, " + percent_of_em(stroke.false_distance) + " off it");
+  }
+  if (stroke.lost_inside > most_entry) add(StrokeWarningKind::corner, "lacks a corner of the drawing");
+  if (stroke.frechet > most_distance) {
+    add(StrokeWarningKind::distance, "is up to " + percent_of_em(stroke.frechet) + " off the drawing");
+  }
+}
+
+/// What the labels, measures and crossings of an import say.
+SourceWarnings source_warnings(const ImportReport& report) {
+  SourceWarnings warnings;
+  const auto of = [&](const StrokeReference& place) -> std::vector<StrokeWarning>& {
+    return warnings[{place.code, place.order}];
+  };
+  for (const LabelConflict& conflict : report.label_conflicts) {
+    if (!conflict.certain && conflict.resolution != LabelResolution::unknown) continue;
+    of(conflict.place).push_back({conflict.place.stroke, StrokeWarningKind::label, words_for(conflict)});
+  }
+  for (const StrokeMeasures& stroke : report.measures) add_measures(stroke, of(stroke.place));
+  for (const auto& [place, other] : report.lost_crossings) {
+    of(place).push_back({place.stroke, StrokeWarningKind::crossing,
+                         "crosses stroke " + std::to_string(other) + " in the drawing, but not as imported"});
+  }
+  return warnings;
+}
+
+/// The warnings of a character, by stroke and kind, without those of the type where a label contradicts the drawing.
+std::vector<StrokeWarning> merged(std::vector<StrokeWarning> warnings, const std::vector<StrokeWarning>& of_source) {
+  std::erase_if(warnings, [&](const StrokeWarning& warning) {
+    return warning.kind == StrokeWarningKind::type &&
+           std::any_of(of_source.begin(), of_source.end(), [&](const StrokeWarning& other) {
+             return other.kind == StrokeWarningKind::label && other.stroke == warning.stroke;
+           });
+  });
+  warnings.insert(warnings.end(), of_source.begin(), of_source.end());
+  std::stable_sort(warnings.begin(), warnings.end(), [](const StrokeWarning& a, const StrokeWarning& b) {
+    return std::tie(a.stroke, a.kind) < std::tie(b.stroke, b.kind);
+  });
+  return warnings;
 }
 
 }  // namespace
@@ -148,9 +224,21 @@ const char* to_string(StrokeWarningKind kind) noexcept {
     case StrokeWarningKind::overlap:
       return "overlap";
     case StrokeWarningKind::outside:
+      return "outside";
+    case StrokeWarningKind::label:
+      return "label";
+    case StrokeWarningKind::fold:
+      return "fold";
+    case StrokeWarningKind::crossing:
+      return "crossing";
+    case StrokeWarningKind::length:
+      return "length";
+    case StrokeWarningKind::corner:
+      return "corner";
+    case StrokeWarningKind::distance:
       break;
   }
-  return "outside";
+  return "distance";
 }
 
 double start_direction_error(const Stroke& stroke) {
@@ -169,13 +257,13 @@ std::vector<StrokeWarning> stroke_warnings(const Character& character) {
     paths.push_back(sampled(stroke));
     const Path& path = paths.back();
     // A stroke written backwards has the shape of another: one warning suffices.
-    if (start_direction_error(stroke) > against) {
+    const bool is_single = stroke.elements.size() == 1;
+    if (start_direction_error(stroke) > (is_single ? against : first_against)) {
       warnings.push_back(
           {number, StrokeWarningKind::direction, "starts against the direction of " + name_with_id(stroke.type->id)});
-    } else if (const int other = other_type(stroke, path); other != 0) {
+    } else if (const std::string other = other_shape(stroke, path); !other.empty()) {
       warnings.push_back(
-          {number, StrokeWarningKind::type,
-           "is recorded as " + name_with_id(stroke.type->id) + " but has the shape of " + name_with_id(other)});
+          {number, StrokeWarningKind::type, "is of type " + name_with_id(stroke.type->id) + " but " + other});
     }
     if (const double outside = distance_outside(path); outside > outside_distance) {
       warnings.push_back({number, StrokeWarningKind::outside, "leaves the em square by " + percent_of_em(outside)});
@@ -188,11 +276,16 @@ std::vector<StrokeWarning> stroke_warnings(const Character& character) {
   return warnings;
 }
 
-std::vector<CharacterWarnings> character_warnings(std::span<const Character> characters, int threads,
-                                                  const std::function<void(double)>& progress) {
+std::vector<CharacterWarnings> import_warnings(const ImportResult& import, int threads,
+                                               const std::function<void(double)>& progress) {
+  const std::vector<Character>& characters = import.list.characters;
+  const SourceWarnings of_source = source_warnings(import.report);
   std::vector<std::vector<StrokeWarning>> warnings(characters.size());
-  parallel_for(characters.size(), threads, progress,
-               [&](std::size_t i) { warnings[i] = stroke_warnings(characters[i]); });
+  parallel_for(characters.size(), threads, progress, [&](std::size_t i) {
+    warnings[i] = stroke_warnings(characters[i]);
+    const auto found = of_source.find({characters[i].code, characters[i].order});
+    if (found != of_source.end()) warnings[i] = merged(std::move(warnings[i]), found->second);
+  });
   std::vector<CharacterWarnings> found;
   for (std::size_t i = 0; i < characters.size(); ++i) {
     if (!warnings[i].empty()) found.push_back({characters[i].code, characters[i].order, std::move(warnings[i])});

@@ -164,6 +164,26 @@ TEST_CASE("a corner made round is lost, and one that is not in the source is fal
   CHECK(measure_stroke(corner, round, 0.0).lost_corners == 0);
 }
 
+TEST_CASE("a lost corner is as far inside as the nearer end, a false one as far off as the source passes it",
+          "[model]") {
+  const Path corner{{0.1, 0.8}, {0.7, 0.8}, {0.7, 0.4}};
+  const Path cut{{0.1, 0.8}, {0.7, 0.4}};
+  constexpr double sampling = 0.012;  // [em]; a turn is equal over two steps about a corner
+  CHECK(measure_stroke(cut, corner, 0.0).lost_inside == Approx(0.4).margin(sampling));
+  CHECK(measure_stroke(cut, corner, 0.0).false_distance == 0.0);
+  // From (0.7, 0.8) to the line that cuts the corner: 0.6 * 0.4 / hypot(0.6, 0.4).
+  CHECK(measure_stroke(corner, cut, 0.0).false_distance == Approx(0.24 / std::hypot(0.6, 0.4)).margin(sampling));
+  CHECK(measure_stroke(corner, cut, 0.0).lost_inside == 0.0);
+}
+
+TEST_CASE("the reversal of a drawing is its sharpest turn, whatever the stroke, but for tiny segments", "[model]") {
+  const Path stroke{{0.1, 0.5}, {0.9, 0.5}};
+  CHECK(measure_stroke(stroke, stroke, 0.0).reversal == 0.0);
+  CHECK(measure_stroke(stroke, Path{{0.1, 0.5}, {0.5, 0.5}, {0.5, 0.9}}, 0.0).reversal == Approx(90.0));
+  CHECK(measure_stroke(stroke, Path{{0.1, 0.5}, {0.9, 0.5}, {0.6, 0.5}}, 0.0).reversal == Approx(180.0));
+  CHECK(measure_stroke(stroke, Path{{0.1, 0.5}, {0.9, 0.5}, {0.895, 0.5}}, 0.0).reversal == 0.0);
+}
+
 TEST_CASE("a stroke that starts in its middle runs back", "[model]") {
   const Path source{{0.1, 0.5}, {0.9, 0.5}};
   const Path folded{{0.3, 0.5}, {0.1, 0.5}, {0.9, 0.5}};

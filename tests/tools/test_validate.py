@@ -41,16 +41,30 @@ class Validate(ProgramTest):
         found = {(warning["character"], warning["stroke"]): warning["what"] for warning in report["warnings"]
                  if warning["kind"] == "label"}
         for place in (("祭", 9), ("禁", 11), ("標", 13)):
-            self.assertIn("is labelled ㇑ but has the shape of 12", found[place])
+            self.assertIn("is labelled ㇑ (竖) but has the shape of 12", found[place])
         self.assertTrue(any(character == "勵" and "label ６ is unknown" in what
                             for (character, _), what in found.items()))
         self.assertFalse(any(character == "一" for character, _ in found))
+
+    def test_known_faults_of_hanzi_writer_data_are_listed_in_text_and_json_alike(self):
+        hanzi = self.package("CALLIGRAPHY_HANZI_WRITER_DATA_TARBALL")
+        letters = self.package("CALLIGRAPHY_CNCHAR_ORDER_TARBALL")
+        arguments = ("validate", hanzi, "--letters", letters, "--only", "瀝谗馋饧鬮瀾罵剎一")
+        warnings = json.loads(self.run_program(*arguments, "--json").stdout)["warnings"]
+        found = {(warning["character"], warning["stroke"], warning["kind"]) for warning in warnings}
+        self.assertLessEqual({("瀝", 6, "length"), ("谗", 9, "fold"), ("馋", 10, "fold"), ("饧", 3, "fold"),
+                              ("鬮", 14, "direction"), ("瀾", 14, "direction"), ("罵", 2, "type"),
+                              ("剎", 4, "label")}, found)
+        self.assertFalse(any(character == "一" for character, _, _ in found))
+        lines = self.run_program(*arguments).stdout.splitlines()[:-1]
+        self.assertEqual([line.split(": ", 2)[1:] for line in lines],
+                         [[warning["kind"], warning["what"]] for warning in warnings])
 
     def test_a_letter_that_contradicts_a_bent_hook_is_listed(self):
         hanzi = self.package("CALLIGRAPHY_HANZI_WRITER_DATA_TARBALL")
         letters = self.package("CALLIGRAPHY_CNCHAR_ORDER_TARBALL")
         done = self.run_program("validate", hanzi, "--letters", letters, "--only", "了")
-        self.assertIn("了 (U+4E86) stroke 2: label: is labelled g but has the shape of 13", done.stdout)
+        self.assertIn("了 (U+4E86) stroke 2: label: is labelled g (竖钩) but has the shape of 13", done.stdout)
 
 
 class Refusals(ProgramTest):

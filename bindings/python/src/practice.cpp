@@ -90,7 +90,8 @@ py::dict as_dict(const ImportReport& report) {
   }
   for (const StrokeMeasures& m : report.measures) {
     measures.append(py::make_tuple(py::cast(m.place.code), m.place.order, m.place.stroke, m.id, m.frechet, m.backward,
-                                   m.length, m.source_length, m.half_width, m.false_corners, m.lost_corners));
+                                   m.length, m.source_length, m.half_width, m.false_corners, m.lost_corners,
+                                   m.lost_inside));
   }
   for (const SkippedFile& file : report.skipped) skipped.append(py::make_tuple(file.path, file.reason));
   return py::dict("kind"_a = to_string(report.kind), "characters"_a = report.characters, "strokes"_a = report.strokes,
@@ -101,7 +102,7 @@ py::dict as_dict(const ImportReport& report) {
                   "worst"_a = table(worst, dtype_of("code:U1 order:U32 stroke:i4 id:i4 error:f8")),
                   "measures"_a = table(measures, dtype_of("code:U1 order:U32 stroke:i4 id:i4 frechet:f8 backward:f8 "
                                                           "length:f8 source_length:f8 half_width:f8 false_corners:i4 "
-                                                          "lost_corners:i4")),
+                                                          "lost_corners:i4 lost_inside:f8")),
                   "crossings"_a = py::make_tuple(report.crossings.source, report.crossings.kept),
                   "skipped"_a = skipped);
 }

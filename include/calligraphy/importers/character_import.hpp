@@ -74,6 +74,16 @@ struct StrokeMeasures {
   double half_width;     ///< of the brush: its median along the stroke, at most 15 % of the path; 0 for a pen [em]
   int false_corners;     ///< turns by more than 25 degrees where the path turns by less than half of that
   int lost_corners;      ///< turns of the path by more than 60 degrees where the stroke turns by less than half of that
+  double false_distance;  ///< of the farthest false corner from the path [em]; 0 if there is none
+  double lost_inside;    ///< how far from both ends of the path a corner is lost [em]; 0 if none is
+  double reversal;       ///< the sharpest turn of the path between two segments over 1 % of the em [degree]
+  double outline_size;   ///< diagonal of the outline's bounding box [em]; 0 for a pen
+};
+
+/// Two strokes that cross in the source, but not as imported.
+struct LostCrossing {
+  StrokeReference place;
+  int other;  ///< stroke of the same character, from 1
 };
 
 /// Pairs of strokes that cross in the source more than a half-width from their ends.
@@ -98,6 +108,7 @@ struct LabelConflict {
   LabelResolution resolution;
   int recognised;  ///< id by geometry alone
   int id;          ///< as imported
+  bool certain;    ///< if measured: the drawing is clearly none of the kinds that the label allows (docs/import.md)
 };
 
 /// How often a label coincides with an id, recognised by geometry alone, that it does not allow.
@@ -130,8 +141,9 @@ struct ImportReport {
   std::vector<LabelConflict> label_conflicts;  ///< by character and stroke
   std::vector<char32_t> letters_unused;        ///< characters whose letters do not match their stroke count
 
-  std::vector<StrokeMeasures> measures;  ///< of every stroke of the source, if asked for; none is left out or split
-  CrossingCount crossings;               ///< if asked for
+  std::vector<StrokeMeasures> measures;      ///< of every stroke of the source, if asked for; none is left out or split
+  CrossingCount crossings;                   ///< if asked for
+  std::vector<LostCrossing> lost_crossings;  ///< if asked for
 
   std::vector<SkippedFile> skipped;
   std::vector<std::string> notes;  ///< further information for those who redistribute the characters
@@ -141,6 +153,9 @@ struct ImportResult {
   CharacterList list;  ///< by ascending code point; for each character the standard order first
   ImportReport report;
 };
+
+/// True for a regular file that import_characters() reads as a set file or the text format: any but a tarball.
+bool is_own_format(const std::filesystem::path& source);
 
 /// Imports hanzi-writer-data or KanjiVG (as a directory or an npm tarball), a set file or the text format; the kind is
 /// detected from the content. A label or letter decides on the typical stroke, unless the one recognised by geometry

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <functional>
-#include <span>
 #include <string>
 #include <vector>
 
+#include <calligraphy/importers/character_import.hpp>
 #include <calligraphy/model/character.hpp>
 
 namespace calligraphy {
@@ -14,10 +14,16 @@ enum class StrokeWarningKind {
   type,       ///< it has the shape of another typical stroke
   direction,  ///< it starts against the direction in which its typical stroke is written
   overlap,    ///< it lies on another stroke
-  outside     ///< it leaves the em square
+  outside,    ///< it leaves the em square
+  label,      ///< the drawing contradicts its label, or the label is unknown
+  fold,       ///< it, or its drawing, runs back on itself
+  crossing,   ///< it does not cross a stroke that it crosses in the drawing
+  length,     ///< it is much shorter or longer than the drawing, or a median than its outline
+  corner,     ///< it has a corner that the drawing lacks, or lacks one
+  distance    ///< it is far from the drawing
 };
 
-/// "type", "direction", "overlap", "outside".
+/// "type", "direction", and so on.
 const char* to_string(StrokeWarningKind kind) noexcept;
 
 struct StrokeWarning {
@@ -30,9 +36,9 @@ struct StrokeWarning {
 /// is too short to have a direction.
 double start_direction_error(const Stroke& stroke);
 
-/// Checks every stroke of a valid character; docs/import.md lists the thresholds. The type is questioned if geometry
-/// alone recognises the curve of the stroke as another type, unless the two differ only in degree (as pie and short
-/// pie) or the stroke is a dot. O(strokes^2), about one fit per stroke.
+/// Checks type, direction, overlap and em square of every stroke of a valid character; docs/import.md lists the
+/// thresholds. The type is questioned if geometry alone recognises the curve of the stroke as another and the curve is
+/// clearly not of the recorded one. O(strokes^2), about one fit per stroke.
 std::vector<StrokeWarning> stroke_warnings(const Character& character);
 
 struct CharacterWarnings {
@@ -41,9 +47,11 @@ struct CharacterWarnings {
   std::vector<StrokeWarning> warnings;
 };
 
-/// The characters with stroke warnings, in the order given, from `threads` threads (0: one per core). `progress` hears
-/// the share that is done, in the calling thread.
-std::vector<CharacterWarnings> character_warnings(std::span<const Character> characters, int threads = 0,
-                                                  const std::function<void(double)>& progress = {});
+/// The characters with warnings, in the order of the list, from `threads` threads (0: one per core): those of
+/// stroke_warnings() and, of a source that was measured (ImportOptions::report), label, fold, crossing, length, corner
+/// and distance. A label that contradicts the drawing makes a warning of the type superfluous. `progress` hears the
+/// share that is done, in the calling thread.
+std::vector<CharacterWarnings> import_warnings(const ImportResult& import, int threads = 0,
+                                               const std::function<void(double)>& progress = {});
 
 }  // namespace calligraphy

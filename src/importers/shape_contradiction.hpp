@@ -1,0 +1,18 @@
+// Whether a drawn path contradicts the kinds that it is said to be of; private to the importers.
+#pragma once
+
+#include <span>
+
+#include "polyline.hpp"
+
+namespace calligraphy::recognition {
+
+/// True if the path, which geometry alone recognises as another kind, is clearly none of `ids` (docs/import.md): it
+/// runs in another direction, ends with a hook that they lack, or lacks theirs. Of compound brush strokes, whose
+/// entries and lifts look like hooks, only a wan gou said to be a shu gou counts. O(points).
+bool contradicts(std::span<const Point> path, bool brush, std::span<const int> ids, int recognised);
+
+/// True if the path runs in a direction in which none of `ids` that are of one element does. O(points).
+bool is_misdirected(std::span<const Point> path, std::span<const int> ids);
+
+}  // namespace calligraphy::recognition
