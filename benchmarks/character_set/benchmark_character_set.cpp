@@ -42,14 +42,16 @@ constexpr Precision precisions[] = {{CoordinatePrecision::coarse, "coarse"},
 Json json_of(const Character& character) {
   Json points = Json::array();
   for (const Point& point : character.structure.control_points) points.push_back({point.x(), point.y()});
-  return {{"ids", character.sequence.stroke_ids}, {"elements", character.sequence.elements}, {"points", points}};
+  Json elements = Json::array();
+  for (const ElementList composition : character.sequence.elements) elements.push_back(composition.elements());
+  return {{"ids", character.sequence.stroke_ids}, {"elements", elements}, {"points", points}};
 }
 
 Character character_of(char32_t code, const Json& json) {
   std::vector<StrokeInput> strokes;
   std::size_t at = 0;
   for (std::size_t stroke = 0; stroke < json["ids"].size(); ++stroke) {
-    strokes.push_back({json["ids"][stroke], {}, {}, json["elements"][stroke]});
+    strokes.push_back({json["ids"][stroke], {}, {}, json["elements"][stroke].get<std::string>()});
     for (int i = 0; i < control_point_count(strokes.back().elements); ++i, ++at) {
       strokes.back().control_points.emplace_back(json["points"][at][0], json["points"][at][1]);
     }
@@ -322,7 +324,7 @@ void alternatives(benchmark::State& state) {
     map += sizeof(std::pair<const char32_t, Character>) + 2 * sizeof(void*) +
            drawn.structure.control_points.capacity() * sizeof(Point) +
            (drawn.sequence.stroke_ids.capacity() + drawn.sequence.feature_points.capacity()) * sizeof(int) +
-           drawn.sequence.elements.capacity() * sizeof(std::string) +
+           drawn.sequence.elements.capacity() * sizeof(ElementList) +
            drawn.physics.attraction_factors.capacity() * sizeof(double);
   }
   const auto count = static_cast<double>(corpus->map.size());

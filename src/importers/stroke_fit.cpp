@@ -154,7 +154,7 @@ class Fit {
     constexpr int most_curves = 3;
     for (int curves = 0; curves < most_curves && best.distance > far_off; ++curves) {
       Attempt closest{{0, {}}, improvement * best.distance};
-      std::string elements(best.stroke.composition());
+      std::string elements(best.stroke.composition().elements());
       for (char& element : elements) {
         if (element != static_cast<char>(ElementKind::line)) continue;
         element = static_cast<char>(ElementKind::curve);

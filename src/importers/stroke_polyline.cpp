@@ -25,7 +25,7 @@ Path flattened(const StrokeInput& stroke) {
   const std::vector<Point>& control_points = stroke.control_points;
   Path path{control_points.front()};
   std::size_t at = 0;
-  for (const char kind : stroke.composition()) {
+  for (const char kind : stroke.composition().elements()) {
     if (kind == 'L') {
       path.push_back(control_points[++at]);
       continue;

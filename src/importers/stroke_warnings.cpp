@@ -74,12 +74,12 @@ Path sampled(const Stroke& stroke) {
 
 /// Chord of the first element.
 Point start_of(const Stroke& stroke) {
-  const int end = points_added(stroke.elements.front(), stroke.curve_degree);
-  return stroke.control_points[static_cast<std::size_t>(end)] - stroke.control_points.front();
+  const auto end = static_cast<std::size_t>(stroke.elements.front() == 'L' ? 1 : stroke.curve_degree);
+  return stroke.control_points[end] - stroke.control_points.front();
 }
 
 Point typical_start(const TypicalStroke& type) {
-  const auto end = static_cast<std::size_t>(points_added(type.elements.front(), 3));
+  const auto end = static_cast<std::size_t>(type.elements.front() == 'L' ? 1 : 3);
   return Point(type.shape[end][0], type.shape[end][1]) - Point(type.shape[0][0], type.shape[0][1]);
 }
 

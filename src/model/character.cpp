@@ -74,14 +74,16 @@ void validate_stroke(const Stroke& stroke, int number, std::vector<ValidationIss
 }
 
 /// "typical stroke 31 (LLLL)" or, where the composition goes without saying, "typical stroke 31".
-std::string type_label(const TypicalStroke& type, std::string_view elements) {
+std::string type_label(const TypicalStroke& type, ElementList elements) {
   const std::string label = "typical stroke " + std::to_string(type.id);
-  return elements == type.elements ? label : label + " (" + std::string(elements) + ")";
+  return elements == type.elements ? label : label + " (" + std::string(elements.elements()) + ")";
 }
 
-std::string composition_error(const TypicalStroke& type, std::string_view elements) {
+/// Empty if a stroke of this type may have these elements: as many as the typical stroke.
+std::string composition_error(const TypicalStroke& type, ElementList elements) {
+  if (elements.size() == type.elements.size()) return {};
   return "typical stroke " + std::to_string(type.id) + " is " + std::string(type.elements) +
-         "; a stroke of this type has as many elements, each L or C, not '" + std::string(elements) + "'";
+         "; a stroke of this type has as many elements, not '" + std::string(elements.elements()) + "'";
 }
 
 }  // namespace
@@ -90,7 +92,7 @@ StrokeInput input_of(const Stroke& stroke) {
   return {stroke.type->id,
           {stroke.control_points.begin(), stroke.control_points.end()},
           {stroke.attraction_factors.begin(), stroke.attraction_factors.end()},
-          std::string(stroke.elements)};
+          stroke.elements};
 }
 
 Character make_character(char32_t code, std::span<const StrokeInput> inputs, int curve_degree) {
@@ -100,6 +102,8 @@ Character make_character(char32_t code, std::span<const StrokeInput> inputs, int
   Character character;
   character.code = code;
   character.curve_degree = curve_degree;
+  character.sequence.stroke_ids.reserve(inputs.size());
+  character.sequence.elements.reserve(inputs.size());
   int number = 0;
   for (const StrokeInput& input : inputs) {
     const std::string place = "stroke " + std::to_string(++number) + ": ";
@@ -107,8 +111,8 @@ Character make_character(char32_t code, std::span<const StrokeInput> inputs, int
       throw ValueError(place + "typical stroke id " + std::to_string(input.id) + ": expected 1 to 39");
     }
     const TypicalStroke& type = typical_stroke(input.id);
-    const std::string_view elements = input.composition();
-    if (!is_composition_of(type, elements)) throw ValueError(place + composition_error(type, elements));
+    const ElementList elements = input.composition();
+    if (const std::string error = composition_error(type, elements); !error.empty()) throw ValueError(place + error);
     const auto expected = static_cast<std::size_t>(control_point_count(elements, curve_degree));
     if (input.control_points.size() != expected) {
       throw ValueError(place + type_label(type, elements) + " takes " + std::to_string(expected) +
@@ -124,7 +128,7 @@ Character make_character(char32_t code, std::span<const StrokeInput> inputs, int
     const int first = static_cast<int>(points.size());
     points.insert(points.end(), input.control_points.begin(), input.control_points.end());
     character.sequence.stroke_ids.push_back(input.id);
-    character.sequence.elements.emplace_back(elements);
+    character.sequence.elements.push_back(elements);
     for (const int index : feature_points(elements, curve_degree)) {
       character.sequence.feature_points.push_back(first + index);
     }
@@ -150,10 +154,10 @@ std::vector<Stroke> strokes(const Character& character) {
   std::size_t first_point = 0;
   std::size_t first_factor = 0;
   for (std::size_t i = 0; i < character.sequence.stroke_ids.size(); ++i) {
-    const std::string_view elements = character.sequence.elements[i];
+    const ElementList elements = character.sequence.elements[i];
     const auto point_count = static_cast<std::size_t>(control_point_count(elements, character.curve_degree));
     const auto factor_count = static_cast<std::size_t>(feature_point_count(elements));
-    views.push_back({&typical_stroke(character.sequence.stroke_ids[i]), elements, character.curve_degree,
+    views.push_back({&typical_stroke(character.sequence.stroke_ids[i]), elements.elements(), character.curve_degree,
                      points.subspan(first_point, point_count), factors.subspan(first_factor, factor_count)});
     first_point += point_count;
     first_factor += factor_count;
@@ -194,7 +198,7 @@ std::vector<ValidationIssue> validate(const Character& character) {
   if (character.sequence.stroke_ids.empty()) return {{0, "there is no stroke"}};
 
   const std::vector<int>& ids = character.sequence.stroke_ids;
-  const std::vector<std::string>& compositions = character.sequence.elements;
+  const std::vector<ElementList>& compositions = character.sequence.elements;
   if (compositions.size() != ids.size()) {
     return {{0, std::to_string(ids.size()) + " strokes have " + std::to_string(compositions.size()) + " compositions"}};
   }
@@ -206,7 +210,7 @@ std::vector<ValidationIssue> validate(const Character& character) {
       return {{number, "typical stroke id " + std::to_string(ids[i]) + ": expected 1 to 39"}};
     }
     const TypicalStroke& type = typical_stroke(ids[i]);
-    if (!is_composition_of(type, compositions[i])) return {{number, composition_error(type, compositions[i])}};
+    if (std::string error = composition_error(type, compositions[i]); !error.empty()) return {{number, std::move(error)}};
     for (const int index : feature_points(compositions[i], character.curve_degree)) indices.push_back(points + index);
     points += control_point_count(compositions[i], character.curve_degree);
   }

@@ -14,7 +14,6 @@
 #include "base/charconv.hpp"
 #include "base/line_reader.hpp"
 #include "built_in.hpp"
-#include "element_lists.hpp"
 #include "order_name.hpp"
 
 namespace calligraphy {
@@ -141,10 +140,10 @@ class Parser : private LineReader {
     StrokeInput stroke{parse_number<int>(word(), "typical stroke id"), {}};
     std::string_view text = word();
     if (!text.empty() && text.find_first_not_of("LC") == std::string_view::npos) {
-      stroke.elements = text;
+      stroke.elements = elements_of(text);
       text = word();
     } else if (is_format_1_ && stroke.id >= 1 && stroke.id <= typical_stroke_count) {
-      stroke.elements = elements_of_format_1(typical_stroke(stroke.id));
+      stroke.elements = typical_stroke(stroke.id).as_printed();
     }
     for (; !text.empty(); text = word()) {
       if (text == "|") {
@@ -161,6 +160,14 @@ class Parser : private LineReader {
     }
     check_stroke(stroke);
     strokes_.push_back(std::move(stroke));
+  }
+
+  ElementList elements_of(std::string_view text) const {
+    try {
+      return text;
+    } catch (const ValueError& error) {
+      fail(error.what());
+    }
   }
 
   /// An invalid stroke is reported with its own line, not that of its character.

@@ -17,7 +17,6 @@
 #include "base/bit_cast.hpp"
 #include "checksum.hpp"
 #include "code_point_name.hpp"
-#include "element_lists.hpp"
 #include "little_endian.hpp"
 #include "order_name.hpp"
 #include "set_format.hpp"
@@ -155,7 +154,7 @@ std::vector<Kind> kinds_of(const Character& character) {
   const SequenceData& sequence = character.sequence;
   std::vector<Kind> kinds;
   for (std::size_t i = 0; i < sequence.stroke_ids.size(); ++i) {
-    kinds.emplace_back(sequence.stroke_ids[i], curves_in(sequence.elements[i]));
+    kinds.emplace_back(sequence.stroke_ids[i], sequence.elements[i].curves());
   }
   return kinds;
 }

@@ -9,7 +9,6 @@
 
 #include "base/bit_cast.hpp"
 #include "checksum.hpp"
-#include "element_lists.hpp"
 #include "little_endian.hpp"
 #include "order_name.hpp"
 
@@ -126,11 +125,11 @@ void SetFile::add_kind(std::uint8_t id, std::optional<std::uint8_t> curves) {
     fail("its list of stroke kinds contains the invalid id " + std::to_string(id));
   }
   const TypicalStroke& type = typical_stroke(id);
-  if (!curves) curves = static_cast<std::uint8_t>(curves_in(elements_of_format_1(type)));
+  if (!curves) curves = static_cast<std::uint8_t>(ElementList(type.as_printed()).curves());
   if (*curves >> type.elements.size() != 0) {
     fail("its list of stroke kinds contains invalid elements of id " + std::to_string(id));
   }
-  const std::string_view elements = element_list(type.elements.size(), *curves);
+  const ElementList elements = ElementList::of(type.elements.size(), *curves);
   const auto points = [&](int degree) { return static_cast<std::uint8_t>(control_point_count(elements, degree)); };
   kinds_.push_back({id, elements, {points(3), points(4)}, static_cast<std::uint8_t>(feature_point_count(elements))});
 }

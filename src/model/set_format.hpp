@@ -71,7 +71,7 @@ inline constexpr double max_coordinate = 16.0;  // [em]
 /// Strokes of one type with the same composition.
 struct StrokeKind {
   std::uint8_t id = 0;
-  std::string_view elements;             ///< in storage that outlives every set
+  ElementList elements;
   std::array<std::uint8_t, 2> points{};  ///< of cubic and of quartic curves
   std::uint8_t features = 0;
 };

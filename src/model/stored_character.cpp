@@ -48,11 +48,11 @@ class PointReader {
 /// Reads a sequence of strokes: their kinds.
 class KindReader {
  public:
-  KindReader(const SetFile& file, std::uint64_t at) noexcept : file_(file), at_(at) {}
+  KindReader(const SetFile& file, std::uint64_t at) noexcept : bytes_(file.bytes()), kinds_(file.kinds()), at_(at) {}
 
   /// Null if the rank is invalid.
   const StrokeKind* next() noexcept {
-    const std::uint32_t bits = load_bits(file_.bytes(), at_, max_rank_bits);
+    const std::uint32_t bits = load_bits(bytes_, at_, max_rank_bits);
     const int ones = std::countr_one(bits);
     std::size_t rank;
     if (ones < escape_ones) {
@@ -62,12 +62,13 @@ class KindReader {
       rank = bits >> escape_ones;
       at_ += max_rank_bits;
     }
-    return rank < file_.kinds().size() ? &file_.kinds()[rank] : nullptr;
+    return rank < kinds_.size() ? &kinds_[rank] : nullptr;
   }
   std::uint64_t at() const noexcept { return at_; }
 
  private:
-  const SetFile& file_;
+  std::span<const std::byte> bytes_;
+  std::span<const StrokeKind> kinds_;
   std::uint64_t at_;
 };
 
@@ -91,14 +92,20 @@ int StoredCharacter::stroke_id(int index) const noexcept {
 }
 
 std::optional<StoredStroke> StoredCharacter::stroke(int index) const noexcept {
-  if (index < 0 || index >= stroke_count_) return std::nullopt;
+  std::optional<StoredStroke> result(std::in_place);  // decoded in place, as it has hundreds of bytes
+  if (!decode(index, *result)) result.reset();
+  return result;
+}
+
+bool StoredCharacter::decode(int index, StoredStroke& stroke) const noexcept {
+  if (index < 0 || index >= stroke_count_) return false;
   const auto degree = static_cast<std::size_t>(curve_degree_ - 3);
   KindReader kinds(*file_, first_bit_);
   const StrokeKind* own = nullptr;
   std::uint64_t points_before = 0, points = 0, features_before = 0;
   for (int i = 0; i < stroke_count_; ++i) {
     const StrokeKind* const kind = kinds.next();
-    if (kind == nullptr) return std::nullopt;
+    if (kind == nullptr) return false;
     if (i == index) {
       own = kind;
       points_before = points;
@@ -109,27 +116,26 @@ std::optional<StoredStroke> StoredCharacter::stroke(int index) const noexcept {
   const std::uint64_t point_bits = coding_.x_bits + std::uint64_t{coding_.y_bits};
   const std::uint64_t first_factor = kinds.at() + points * point_bits;
 
-  std::optional<StoredStroke> result(std::in_place);
-  result->type = &typical_strokes()[static_cast<std::size_t>(own->id - 1)];
-  result->elements = own->elements;
-  result->curve_degree = curve_degree_;
-  result->point_count = own->points[degree];
-  if (first_factor > end_bit_) return std::nullopt;
+  stroke.type = &typical_strokes()[static_cast<std::size_t>(own->id - 1)];
+  stroke.elements = own->elements.elements();
+  stroke.curve_degree = curve_degree_;
+  stroke.point_count = own->points[degree];
+  if (first_factor > end_bit_) return false;
   PointReader reader(file_->bytes(), coding_, kinds.at() + points_before * point_bits);
-  for (std::size_t i = 0; i < result->point_count; ++i) {
-    result->points[i] = reader.next();
-    if (!in_domain(result->points[i])) return std::nullopt;
+  for (std::size_t i = 0; i < stroke.point_count; ++i) {
+    stroke.points[i] = reader.next();
+    if (!in_domain(stroke.points[i])) return false;
   }
-  result->factors.fill(1.0);
+  stroke.factors.fill(1.0);
   if (has_factors_) {
     const std::uint64_t first = first_factor + 64 * features_before;
-    if (first + 64 * own->features > end_bit_) return std::nullopt;
+    if (first + 64 * own->features > end_bit_) return false;
     for (std::size_t i = 0; i < own->features; ++i) {
-      result->factors[i] = load_double(file_->bytes(), first + 64 * i);
-      if (!(result->factors[i] >= 0.0) || std::isinf(result->factors[i])) return std::nullopt;
+      stroke.factors[i] = load_double(file_->bytes(), first + 64 * i);
+      if (!(stroke.factors[i] >= 0.0) || std::isinf(stroke.factors[i])) return false;
     }
   }
-  return result;
+  return true;
 }
 
 Character StoredCharacter::character() const {

@@ -125,7 +125,7 @@ constexpr bool is_consistent(const TypicalStroke& stroke) {
   }
   std::size_t at = 0;
   for (std::size_t i = 0; i < stroke.joints.size(); ++i) {
-    at += static_cast<std::size_t>(points_added(elements[i], 3));
+    at += elements[i] == static_cast<char>(ElementKind::line) ? 1 : 3;
     const bool has_curve = elements[i] != elements[i + 1] || elements[i] == static_cast<char>(ElementKind::curve);
     const bool smooth = is_smooth(stroke.shape[at - 1], stroke.shape[at], stroke.shape[at + 1]);
     if (stroke.joints[i] != (has_curve && smooth ? 's' : 'c')) return false;
@@ -155,10 +155,6 @@ const TypicalStroke& typical_stroke(int id) {
                      std::to_string(typical_stroke_count));
   }
   return table[id - 1];
-}
-
-bool is_composition_of(const TypicalStroke& type, std::string_view elements) noexcept {
-  return elements.size() == type.elements.size() && elements.find_first_not_of("LC") == std::string_view::npos;
 }
 
 }  // namespace calligraphy

@@ -66,10 +66,7 @@ std::vector<Path> paths_of(const Character& character) {
   Point low = Point::Constant(std::numeric_limits<double>::infinity());
   Point high = -low;
   for (const Stroke& stroke : strokes(character)) {
-    const StrokeInput input{.id = stroke.type->id,
-                            .control_points = {stroke.control_points.begin(), stroke.control_points.end()},
-                            .elements = std::string(stroke.elements)};
-    const Path path = recognition::flattened(input);
+    const Path path = recognition::flattened(input_of(stroke));
     paths.push_back(recognition::resampled(path, points_per_stroke, 0.0, recognition::path_length(path)));
     for (const Point& point : paths.back()) {
       low = low.cwiseMin(point);

@@ -131,7 +131,7 @@ std::set<int> accepted_ids(int id) {
 
 /// Maximum bend at the smooth joints of the typical stroke [degree].
 double max_smooth_bend(const StrokeInput& stroke) {
-  const std::string_view elements = stroke.composition();
+  const std::string_view elements = stroke.composition().elements();
   const std::vector<int> joints = feature_points(elements);
   double largest = 0.0;
   for (std::size_t i = 1; i + 1 < joints.size(); ++i) {
@@ -246,7 +246,7 @@ TEST_CASE("the reported error of a pen path is the maximum distance in both dire
   for (const TypicalStroke& type : typical_strokes()) {
     const Path path = changed(sampled(type, typical_points(type), 12), 1.0, 0.004);  // noise keeps it above zero
     const FittedStroke fitted = fit_stroke(path);
-    const Path model = sampled(fitted.stroke.composition(), fitted.stroke.control_points, 400);
+    const Path model = sampled(fitted.stroke.composition().elements(), fitted.stroke.control_points, 400);
     Path dense{path.front()};
     for (std::size_t i = 1; i < path.size(); ++i) {
       for (int k = 1; k <= 40; ++k) dense.push_back(path[i - 1] + k / 40.0 * (path[i] - path[i - 1]));
@@ -303,7 +303,7 @@ TEST_CASE("as many lines become curves as the path needs", "[model]") {
   path.emplace_back(0.9, 0.3);
   const int only[] = {type.id};
   const FittedStroke fitted = fit_stroke(path, {.ids = only});
-  CHECK(std::ranges::count(fitted.stroke.composition(), 'C') >= 2);
+  CHECK(std::ranges::count(fitted.stroke.composition().elements(), 'C') >= 2);
   CHECK(fitted.error < 0.018);
 }
 

@@ -32,7 +32,7 @@ TEST_CASE("Table 3: five strokes with ids 2, 1, 10, 31, 4, 15 control points and
   CHECK(example.code == U'北');
   CHECK(example.stroke_count() == 5);
   CHECK(example.sequence.stroke_ids == std::vector<int>{2, 1, 10, 31, 4});
-  CHECK(example.sequence.elements == std::vector<std::string>{"L", "L", "L", "LLLL", "C"});
+  CHECK(example.sequence.elements == std::vector<ElementList>{"L", "L", "L", "LLLL", "C"});
   CHECK(example.structure.control_points.size() == 15);
   CHECK(example.sequence.feature_points.size() == 13);
   CHECK(example.physics.attraction_factors.size() == 13);
@@ -52,7 +52,7 @@ TEST_CASE("the built-in 北 has the strokes of Table 3 in the standard order, wi
   const Character* north = built_in_characters().find(U'北');
   REQUIRE(north != nullptr);
   CHECK(north->sequence.stroke_ids == std::vector<int>{2, 1, 10, 4, 31});
-  CHECK(north->sequence.elements == std::vector<std::string>{"L", "L", "L", "C", "LCLL"});
+  CHECK(north->sequence.elements == std::vector<ElementList>{"L", "L", "L", "C", "LCLL"});
   CHECK(north->sequence.feature_points.size() == 13);
 }
 

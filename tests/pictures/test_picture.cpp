@@ -170,11 +170,12 @@ TEST_CASE("quartic curves are drawn like the equal cubic curves", "[practice]") 
     const auto cubic_paths = all(cubic, "//g[@class='template active']/path");
     const auto quartic_paths = all(quartic, "//g[@class='template active']/path");
     REQUIRE(cubic_paths.size() == quartic_paths.size());
+    const std::vector<Stroke> strokes_of = strokes(character);
     for (std::size_t i = 0; i < cubic_paths.size(); ++i) {
       CAPTURE(encode_utf8(character.code), i);
       const auto c = points(cubic_paths[i]), q = points(quartic_paths[i]);
       std::size_t at = 0, drawn = 0;
-      for (const char element : character.sequence.elements[i]) {
+      for (const char element : strokes_of[i].elements) {
         const bool curve = element == 'C';
         if (curve) {
           const Point middle = 0.125 * (c[at] + 3.0 * c[at + 1] + 3.0 * c[at + 2] + c[at + 3]);

@@ -30,11 +30,12 @@ py::typing::List<Stroke> strokes_of(const py::object& character) {
 Character character_of(char32_t code, const std::string& order, int curve_degree, const ArrayLike& control_points,
                        const std::vector<int>& stroke_ids, const std::vector<int>& feature_points,
                        const std::vector<std::string>& elements, const std::vector<double>& factors) {
+  const std::vector<ElementList> compositions(elements.begin(), elements.end());
   Character result{code,
                    order,
                    curve_degree,
                    {points(control_points, "control_points")},
-                   {stroke_ids, feature_points, elements},
+                   {stroke_ids, feature_points, compositions},
                    {factors}};
   const std::vector<ValidationIssue> problems = validate(result);
   if (!problems.empty()) throw ValueError("stroke " + std::to_string(problems[0].stroke) + ": " + problems[0].what);
@@ -103,8 +104,10 @@ void add_model(py::module_& module) {
           "(n, 2), copied [em]")
       .def_readwrite("attraction_factors", &StrokeInput::attraction_factors,
                      "one per feature point; empty: all 1; copied [1]")
-      .def_readwrite("elements", &StrokeInput::elements,
-                     "composition: 'L' or 'C' for each element of the typical stroke; empty: as there")
+      .def_property(
+          "elements", [](const StrokeInput& self) { return self.elements.elements(); },
+          [](StrokeInput& self, const std::string& value) { self.elements = value; },
+          "composition: 'L' or 'C' for each element of the typical stroke; empty: as there")
       .attr("__match_args__") = py::make_tuple("id", "control_points", "attraction_factors", "elements");
 
   py::class_<Stroke>(module, "Stroke", "One stroke of a character: a view that keeps the character alive.")
@@ -138,7 +141,12 @@ void add_model(py::module_& module) {
                              array_within<Character>(&Character::sequence, &SequenceData::feature_points),
                              "indices into control_points in writing order, read only")
       .def_property_readonly(
-          "elements", [](const Character& self) { return self.sequence.elements; },
+          "elements",
+          [](const Character& self) {
+            std::vector<std::string_view> elements;
+            for (const ElementList composition : self.sequence.elements) elements.push_back(composition.elements());
+            return elements;
+          },
           "composition of each stroke: 'L' (line) or 'C' (curve) per element; copied")
       .def_property_readonly("attraction_factors",
                              array_within<Character>(&Character::physics, &PhysicalData::attraction_factors),

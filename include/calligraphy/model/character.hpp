@@ -20,7 +20,7 @@ struct StructuralData {
 struct SequenceData {
   std::vector<int> stroke_ids;        ///< typical stroke ids, in writing order
   std::vector<int> feature_points;    ///< indices into StructuralData::control_points, in writing order
-  std::vector<std::string> elements;  ///< composition of each stroke: "LCL"; that of the typical stroke, or a variant
+  std::vector<ElementList> elements;  ///< of each stroke: as many as its typical stroke has, those or others
 };
 
 /// Force: the attraction factor at each feature point, a multiple of the guidance stiffness [1].
@@ -31,7 +31,7 @@ struct PhysicalData {
 /// One stroke of a character: a view, valid as long as the character.
 struct Stroke {
   const TypicalStroke* type;
-  std::string_view elements;  ///< its composition
+  std::string_view elements;  ///< its composition: "LCL"; in static storage
   int curve_degree;
   std::span<const Point> control_points;       ///< [em]
   std::span<const double> attraction_factors;  ///< one per feature point [1]
@@ -54,9 +54,9 @@ struct StrokeInput {
   int id;                                       ///< of the typical stroke
   std::vector<Point> control_points;            ///< [em]
   std::vector<double> attraction_factors = {};  ///< one per feature point [1]; empty: all 1
-  std::string elements = {};  ///< composition: as many elements as the typical stroke has; empty: those
+  ElementList elements = {};  ///< as many as the typical stroke has; empty: those
 
-  std::string_view composition() const { return elements.empty() ? typical_stroke(id).elements : elements; }
+  ElementList composition() const { return elements.empty() ? ElementList(typical_stroke(id).elements) : elements; }
 };
 
 /// A stroke of a character as input, to be changed.

@@ -31,6 +31,8 @@ struct CoordinateEncoding {
 
 /// One stroke of a set, decoded.
 struct StoredStroke {
+  StoredStroke() noexcept {}  // not `= default`, which lets the decoder zero what it is about to write
+
   const TypicalStroke* type;
   std::string_view elements;  ///< its composition, in static storage
   int curve_degree;
@@ -68,6 +70,9 @@ class StoredCharacter {
 
  private:
   friend class SetFile;
+
+  /// False if there is no such stroke or it is damaged.
+  bool decode(int index, StoredStroke& stroke) const noexcept;
 
   std::shared_ptr<const SetFile> file_;
   char32_t code_ = 0;

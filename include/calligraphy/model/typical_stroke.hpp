@@ -6,7 +6,7 @@
 #include <span>
 #include <string_view>
 
-#include <calligraphy/model/composition.hpp>
+#include <calligraphy/model/element_list.hpp>
 #include <calligraphy/model/point.hpp>
 
 namespace calligraphy {
@@ -31,6 +31,10 @@ struct TypicalStroke {
   /// Its composition as the paper counts it, with a line for a round bend (Table 3, Figs. 11 and 12), if that differs.
   /// Files of format 1 have this one.
   std::string_view printed_elements = {};
+
+  constexpr std::string_view as_printed() const noexcept {
+    return printed_elements.empty() ? elements : printed_elements;
+  }
 };
 
 /// All typical strokes, by id.
@@ -45,8 +49,5 @@ constexpr bool is_smooth_joint(const TypicalStroke& type, std::string_view eleme
   constexpr char curve = static_cast<char>(ElementKind::curve);
   return type.joints[index] == 's' && (elements[index] == curve || elements[index + 1] == curve);
 }
-
-/// Whether a stroke of this type may have these elements: as many as the typical stroke, each a line or a curve.
-bool is_composition_of(const TypicalStroke& type, std::string_view elements) noexcept;
 
 }  // namespace calligraphy

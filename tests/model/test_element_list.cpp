@@ -80,20 +80,30 @@ CharacterList parsed(const std::string& text) {
 
 TEST_CASE("a stroke may have any of its elements as lines or curves, and has the points that these take", "[model]") {
   for (const StrokeInput& input : all_variants()) {
-    INFO("id " << input.id << " " << input.elements);
-    const auto curves = std::count(input.elements.begin(), input.elements.end(), 'C');
+    INFO("id " << input.id << " " << input.elements.elements());
+    const auto curves = std::ranges::count(input.elements.elements(), 'C');
     const auto elements = static_cast<std::ptrdiff_t>(input.elements.size());
     CHECK(control_point_count(input.elements) == elements + 1 + 2 * curves);
     const Character character = make_character(U'一', std::vector{input});
     const Stroke stroke = strokes(character)[0];
-    CHECK(stroke.elements == input.elements);
+    CHECK(stroke.elements == input.elements.elements());
     CHECK(stroke.control_points.size() == input.control_points.size());
     CHECK(static_cast<std::ptrdiff_t>(stroke.attraction_factors.size()) == elements + 1);
     const Character quartic = with_quartic_curves(character);
-    CHECK(strokes(quartic)[0].elements == input.elements);
+    CHECK(strokes(quartic)[0].elements == input.elements.elements());
     CHECK(static_cast<std::ptrdiff_t>(quartic.structure.control_points.size()) == elements + 1 + 3 * curves);
     CHECK(quartic.structure.control_points.size() <= max_control_points_per_stroke);
     CHECK(same(make_character(U'一', std::vector{input_of(stroke)}), character));
+  }
+}
+
+TEST_CASE("a composition has at most five elements, each a line or a curve", "[model]") {
+  CHECK(ElementList("LCL").elements() == "LCL");
+  CHECK(ElementList("LCL").curves() == 0b010);
+  CHECK(ElementList::of(3, 0b010) == "LCL");
+  CHECK(ElementList().empty());
+  for (const char* const elements : {"LLLLLL", "X", "lc", "L C"}) {
+    CHECK_THROWS_WITH(ElementList(elements), Catch::Matchers::StartsWith("elements '" + std::string(elements) + "'"));
   }
 }
 
@@ -127,7 +137,7 @@ TEST_CASE("in the text format of version 1, round bends are lines unless their c
       "stroke 31 LCLL 0.5,0.9 0.5,0.3 0.5,0.2 0.5,0.1 0.6,0.1 0.9,0.1 0.9,0.2\n"
       "stroke 30 0.5,0.9 0.5,0.3 0.5,0.2 0.5,0.1 0.6,0.1 0.9,0.1\n";
   CHECK(parsed("calligraphy characters 1\n" + strokes).characters[0].sequence.elements ==
-        std::vector<std::string>{"LLLL", "LCLL", "LCL"});
+        std::vector<ElementList>{"LLLL", "LCLL", "LCL"});
   CHECK_THROWS_WITH(parsed("calligraphy characters 2\n" + strokes),
                     "test.txt:3: stroke 1: typical stroke 31 takes 7 control points, not 5");
 }
@@ -145,7 +155,7 @@ TEST_CASE("every composition survives a set file, from the most frequent to thos
     for (std::size_t i = 0; i < strokes.size(); i += 7) {
       const auto stroke = set.find(U'一')->stroke(static_cast<int>(i));
       REQUIRE(stroke);
-      CHECK(stroke->elements == strokes[i].elements);
+      CHECK(stroke->elements == strokes[i].elements.elements());
       CHECK(std::ranges::equal(stroke->stroke().control_points,
                                calligraphy::strokes(stored)[i].control_points));
       CHECK(set.find(U'一')->stroke_id(static_cast<int>(i)) == strokes[i].id);
