@@ -46,10 +46,11 @@ timed() {
   )
 }
 
-# step PART COMMAND...: runs the command as part of PART; counts and reports a failure.
+# step PART COMMAND...: runs the command as part of PART; counts a failure, and reports it again at the end.
 step() {
   echo "== ${*:2}"
-  timed "$@" && return 0
+  timed "$@" 2>&1 | tee "$build/step.log" && return 0
+  { echo "== failed: ${*:2}" && tail -n 40 "$build/step.log"; } >> "$build/failed.log"
   echo "== failed: ${*:2}" >&2
   broken=$((broken + 1))
   return 1
@@ -222,6 +223,7 @@ sanitized_python_tests() {
 # Prints what did not pass, the processor times and the counts, and ends the script.
 finish() {
   local status=0
+  if [[ -s $build/failed.log ]]; then cat "$build/failed.log"; fi
   LC_ALL=C times > "$build/times/in total"
   python3 - "$build/times" "$checked" "$broken" "${results[@]}" << 'END' || status=$?
 import collections
@@ -279,7 +281,7 @@ END
 
 # Print the last line even if the script ends early.
 trap 'echo "0 passed, 1 failed"; exit 1' EXIT
-rm -rf "$build/times"
+rm -rf "$build/times" "$build/failed.log"
 mkdir -p "$build/times"
 wanted=tests
 if [[ -n $full ]]; then wanted=full; fi
