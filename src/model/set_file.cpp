@@ -131,7 +131,7 @@ void SetFile::add_kind(std::uint8_t id, std::optional<std::uint8_t> curves) {
   }
   const ElementList elements = ElementList::of(type.elements.size(), *curves);
   const auto points = [&](int degree) { return static_cast<std::uint8_t>(control_point_count(elements, degree)); };
-  kinds_.push_back({id, elements, {points(3), points(4)}, static_cast<std::uint8_t>(feature_point_count(elements))});
+  kinds_.push_back({id, elements, {points(3), points(4)}});
 }
 
 void SetFile::read_provenance(std::size_t at) {

@@ -73,7 +73,6 @@ struct StrokeKind {
   std::uint8_t id = 0;
   ElementList elements;
   std::array<std::uint8_t, 2> points{};  ///< of cubic and of quartic curves
-  std::uint8_t features = 0;
 };
 
 }  // namespace calligraphy::set_format

@@ -110,7 +110,7 @@ bool StoredCharacter::decode(int index, StoredStroke& stroke) const noexcept {
       own = kind;
       points_before = points;
     }
-    if (i < index) features_before += kind->features;
+    if (i < index) features_before += kind->elements.size() + 1;
     points += kind->points[degree];
   }
   const std::uint64_t point_bits = coding_.x_bits + std::uint64_t{coding_.y_bits};
@@ -129,8 +129,9 @@ bool StoredCharacter::decode(int index, StoredStroke& stroke) const noexcept {
   stroke.factors.fill(1.0);
   if (has_factors_) {
     const std::uint64_t first = first_factor + 64 * features_before;
-    if (first + 64 * own->features > end_bit_) return false;
-    for (std::size_t i = 0; i < own->features; ++i) {
+    const std::size_t features = own->elements.size() + 1;
+    if (first + 64 * features > end_bit_) return false;
+    for (std::size_t i = 0; i < features; ++i) {
       stroke.factors[i] = load_double(file_->bytes(), first + 64 * i);
       if (!(stroke.factors[i] >= 0.0) || std::isinf(stroke.factors[i])) return false;
     }
@@ -154,7 +155,7 @@ Character StoredCharacter::character() const {
     stroke.id = kind->id;
     stroke.elements = kind->elements;
     points += kind->points[degree];
-    features += kind->features;
+    features += kind->elements.size() + 1;
   }
   const std::uint64_t factors_at = kinds.at() + points * (coding_.x_bits + std::uint64_t{coding_.y_bits});
   const std::uint64_t end = factors_at + (has_factors_ ? 64 * features : 0);
