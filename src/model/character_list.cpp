@@ -139,7 +139,8 @@ class Parser : private LineReader {
     if (!in_character_) fail("a stroke before any character");
     StrokeInput stroke{parse_number<int>(word(), "typical stroke id"), {}};
     std::string_view text = word();
-    if (!text.empty() && text.find_first_not_of("LC") == std::string_view::npos) {
+    const bool is_letter = !text.empty() && ((text[0] >= 'A' && text[0] <= 'Z') || (text[0] >= 'a' && text[0] <= 'z'));
+    if (is_letter && text.find(',') == std::string_view::npos) {
       stroke.elements = elements_of(text);
       text = word();
     } else if (is_format_1_ && stroke.id >= 1 && stroke.id <= typical_stroke_count) {

@@ -175,6 +175,7 @@ TEST_CASE("each kind of malformed line is reported with file, line and value", "
       {north + "stroke 40 0,0 1,1\n", "test.txt:3: ", "id 40"},
       {north + "stroke -1 0,0 1,1\n", "test.txt:3: ", "id -1"},
       {north + "stroke 16 L 0,0 1,1\n", "test.txt:3: ", "not 'L'"},
+      {north + "stroke 16 cl 0,0 1,1 2,1\n", "test.txt:3: ", "elements 'cl': expected"},
       {north + "stroke 16 CL 0,0 1,1 2,1\n", "test.txt:3: ", "typical stroke 16 (CL) takes 5 control points"},
       {north + "stroke 1 0,0\n", "test.txt:3: ", "2 control points, not 1"},
       {north + "stroke 1 0,0 1,1 1,2\n", "test.txt:3: ", "not 3"},
