@@ -26,7 +26,7 @@ std::string warnings_of(const std::vector<StrokeInput>& strokes, int degree = 3)
   return text;
 }
 
-constexpr StrokeReference place{U'永', "", 1};
+const StrokeReference place{U'永', "", 1};
 
 /// A stroke that follows its drawing well.
 StrokeMeasures good_measures() {
