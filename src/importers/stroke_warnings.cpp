@@ -174,7 +174,10 @@ void add_measures(const StrokeMeasures& stroke, std::vector<StrokeWarning>& warn
     add(StrokeWarningKind::corner,
         "has a corner that the drawing lacks, " + percent_of_em(stroke.false_distance) + " off it");
   }
-  if (stroke.lost_inside > most_entry) add(StrokeWarningKind::corner, "lacks a corner of the drawing");
+  if (stroke.lost_inside > most_entry) {
+    add(StrokeWarningKind::corner, "the drawing has a corner " + percent_of_em(stroke.lost_inside) +
+                                       " from its end that the stroke lacks: a jagged drawing, or another kind");
+  }
   if (stroke.frechet > most_distance) {
     add(StrokeWarningKind::distance, "is up to " + percent_of_em(stroke.frechet) + " off the drawing");
   }

@@ -92,7 +92,7 @@ StrokeInput input_of(const Stroke& stroke) {
   return {stroke.type->id,
           {stroke.control_points.begin(), stroke.control_points.end()},
           {stroke.attraction_factors.begin(), stroke.attraction_factors.end()},
-          stroke.elements};
+          stroke.elements == stroke.type->elements ? ElementList() : ElementList(stroke.elements)};
 }
 
 Character make_character(char32_t code, std::span<const StrokeInput> inputs, int curve_degree) {
@@ -115,8 +115,11 @@ Character make_character(char32_t code, std::span<const StrokeInput> inputs, int
     if (const std::string error = composition_error(type, elements); !error.empty()) throw ValueError(place + error);
     const auto expected = static_cast<std::size_t>(control_point_count(elements, curve_degree));
     if (input.control_points.size() != expected) {
+      const auto as_printed = static_cast<std::size_t>(control_point_count(type.as_printed(), curve_degree));
+      const bool is_printed = expected != as_printed && input.control_points.size() == as_printed;
       throw ValueError(place + type_label(type, elements) + " takes " + std::to_string(expected) +
-                       " control points, not " + std::to_string(input.control_points.size()));
+                       " control points, not " + std::to_string(input.control_points.size()) +
+                       (is_printed ? ", unless its elements are " + std::string(type.as_printed()) : ""));
     }
     const auto features = static_cast<std::size_t>(feature_point_count(elements));
     if (!input.attraction_factors.empty() && input.attraction_factors.size() != features) {
@@ -210,7 +213,8 @@ std::vector<ValidationIssue> validate(const Character& character) {
       return {{number, "typical stroke id " + std::to_string(ids[i]) + ": expected 1 to 39"}};
     }
     const TypicalStroke& type = typical_stroke(ids[i]);
-    if (std::string error = composition_error(type, compositions[i]); !error.empty()) return {{number, std::move(error)}};
+    std::string error = composition_error(type, compositions[i]);
+    if (!error.empty()) return {{number, std::move(error)}};
     for (const int index : feature_points(compositions[i], character.curve_degree)) indices.push_back(points + index);
     points += control_point_count(compositions[i], character.curve_degree);
   }

@@ -44,7 +44,7 @@ class Parser : private LineReader {
       if (!seen_first_line_) {
         is_format_1_ = line() == first_line_of_format_1;
         if (line() != first_line && !is_format_1_) {
-          fail("expected " + in_quotes(first_line) + ", found " + in_quotes(line()));
+          fail("expected " + in_quotes(first_line) + " (or 1), found " + in_quotes(line()));
         }
         seen_first_line_ = true;
       } else if (key == "source") {

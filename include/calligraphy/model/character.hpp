@@ -59,7 +59,7 @@ struct StrokeInput {
   ElementList composition() const { return elements.empty() ? ElementList(typical_stroke(id).elements) : elements; }
 };
 
-/// A stroke of a character as input, to be changed.
+/// A stroke of a character as input, to be changed. `elements` is empty if they are those of the typical stroke.
 StrokeInput input_of(const Stroke& stroke);
 
 /// Builds a character from its strokes in writing order.
