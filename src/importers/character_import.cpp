@@ -175,7 +175,8 @@ struct StrokeOfDrawing {
 /// True if the stroke runs across or against the typical one: then the label is that of another stroke.
 bool is_misdirected(const StrokeInput& stroke) {
   constexpr double most = 80.0 * std::numbers::pi / 180.0;
-  return start_direction_error({&typical_stroke(stroke.id), stroke.composition().elements(), 3, stroke.control_points, {}}) > most;
+  const std::string_view elements = stroke.composition().elements();
+  return start_direction_error({&typical_stroke(stroke.id), elements, 3, stroke.control_points, {}}) > most;
 }
 
 /// Fits a stroke. Its label decides unless the shape follows the drawing much more closely or, if the label is doubtful

@@ -139,7 +139,10 @@ class Fit {
   /// The strokes in ascending order of the cost of dividing the path among their elements.
   std::vector<int> by_cost(std::span<const int> ids) {
     std::vector<std::pair<double, int>> costs;
-    for (const int id : ids) costs.emplace_back(divider_.divide(typical_stroke(id), typical_stroke(id).elements).cost, id);
+    for (const int id : ids) {
+      const TypicalStroke& type = typical_stroke(id);
+      costs.emplace_back(divider_.divide(type, type.elements).cost, id);
+    }
     std::sort(costs.begin(), costs.end());
     std::vector<int> sorted;
     for (const auto& [cost, id] : costs) sorted.push_back(id);

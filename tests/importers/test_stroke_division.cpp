@@ -97,7 +97,8 @@ TEST_CASE("a path of fewer places than elements has no division", "[model]") {
 TEST_CASE("control points of corners lie where the limbs meet, those of a curve on that curve", "[model]") {
   const std::vector<Point> corners{{0.1, 0.9}, {0.7, 0.9}, {0.7, 0.2}};
   const Path bend = steps_along(corners, 100);
-  const std::vector<Point> zhe = fit_control_points(typical_stroke(16), typical_stroke(16).elements, bend, std::vector<std::size_t>{0, 46, 99});
+  const std::vector<Point> zhe =
+      fit_control_points(typical_stroke(16), "LL", bend, std::vector<std::size_t>{0, 46, 99});
   REQUIRE(zhe.size() == 3);
   for (std::size_t i = 0; i < 3; ++i) CHECK((zhe[i] - corners[i]).norm() < 0.5 * 0.013);  // half a step of the path
 
@@ -106,7 +107,7 @@ TEST_CASE("control points of corners lie where the limbs meet, those of a curve 
     const double angle = i * std::numbers::pi / 180.0;
     arc.push_back({0.2 + 0.5 * std::cos(angle), 0.8 - 0.5 * std::sin(angle)});
   }
-  const std::vector<Point> pie = fit_control_points(typical_stroke(4), typical_stroke(4).elements, arc, std::vector<std::size_t>{0, 90});
+  const std::vector<Point> pie = fit_control_points(typical_stroke(4), "C", arc, std::vector<std::size_t>{0, 90});
   REQUIRE(pie.size() == 4);
   CHECK((pie.front() - arc.front()).norm() < 2e-3);
   CHECK((pie.back() - arc.back()).norm() < 2e-3);

@@ -127,7 +127,8 @@ void add_model(py::module_& module) {
                         "A character: shape, stroke order and feel. Immutable. Made by make_character, or read from a "
                         "file. Frame: em square, y up.")
       .def(py::init(&character_of), "code"_a, "order"_a, "curve_degree"_a, "control_points"_a, "stroke_ids"_a,
-           "feature_points"_a, "elements"_a, "attraction_factors"_a, "From the fields below; make_character() is simpler.")
+           "feature_points"_a, "elements"_a, "attraction_factors"_a,
+           "From the fields below; make_character() is simpler.")
       .def_readonly("code", &Character::code, "the character, a str of length 1")
       .def_readonly("order", &Character::order, "name of an alternate stroke order; empty for the standard one")
       .def_readonly("curve_degree", &Character::curve_degree, "3, or 4 as eq. (1) prints")

@@ -78,9 +78,10 @@ struct ValidationIssue {
   std::string what;
 };
 
-/// Everything that makes a character unusable: wrong counts, ids, compositions or indices, points that are not finite or far outside
-/// the em square, missing factors, elements of zero length (except that a stroke of a single LSE may be a point), and
-/// joints that bend by more than 15 degrees although smooth in their typical stroke. Empty if the character is valid.
+/// Everything that makes a character unusable: wrong counts, ids, compositions or indices, points that are not finite or
+/// far outside the em square, missing factors, elements of zero length (except that a stroke of a single LSE may be a
+/// point), and joints that bend by more than 15 degrees although smooth in their typical stroke. Empty if the character
+/// is valid.
 std::vector<ValidationIssue> validate(const Character& character);
 
 }  // namespace calligraphy
