@@ -15,8 +15,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double backward_limit = 0.05;  // [1]
-constexpr double brush_end = 0.1;  // [em]; nearer to an end a brush turns as it is set down or lifted
 constexpr std::size_t max_listed = 20;
 
 template <typename Condition>
@@ -24,7 +22,7 @@ int count_of(const ImportReport& report, Condition condition) {
   return static_cast<int>(std::count_if(report.measures.begin(), report.measures.end(), condition));
 }
 
-bool runs_back(const StrokeMeasures& stroke) { return stroke.backward > backward_limit; }
+bool runs_back(const StrokeMeasures& stroke) { return stroke.backward > most_backward; }
 bool has_its_length(const StrokeMeasures& stroke) {
   return stroke.length >= 0.9 * (stroke.source_length - 2.0 * stroke.half_width) &&
          stroke.length <= 1.1 * stroke.source_length;

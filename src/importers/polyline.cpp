@@ -18,14 +18,9 @@ double path_length(std::span<const Point> path) {
 }
 
 double box_diagonal(std::span<const Point> points) {
-  if (points.empty()) return 0.0;
-  Point low = points.front();
-  Point high = points.front();
-  for (const Point& point : points) {
-    low = low.cwiseMin(point);
-    high = high.cwiseMax(point);
-  }
-  return (high - low).norm();
+  Eigen::AlignedBox2d box;
+  for (const Point& point : points) box.extend(point);
+  return box.isEmpty() ? 0.0 : box.diagonal().norm();
 }
 
 Path resampled(std::span<const Point> path, int count, double from, double to) {

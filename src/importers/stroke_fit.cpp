@@ -152,7 +152,7 @@ class Fit {
   /// The stroke with curves in place of lines, where those bring it closer to the path: as long as that is farther than
   /// 1.8 % of the em, the curve that helps most, if it takes a tenth of the distance; three at most.
   StrokeInput bent(Attempt best) {
-    constexpr double far_off = 0.018;  // [em]
+    constexpr double far_off = 0.018;    // [em]
     constexpr double improvement = 0.9;  // [1]
     constexpr int most_curves = 3;
     for (int curves = 0; curves < most_curves && best.distance > far_off; ++curves) {

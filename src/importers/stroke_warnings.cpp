@@ -33,13 +33,11 @@ constexpr int curve_steps = 24;
 constexpr double max_step = 0.02;  // [em]
 
 // Of a stroke against its drawing.
-constexpr double most_backward = 0.05;  // [1]
 constexpr double most_turn = 135.0;     // [degree]; a hook turns back less
 constexpr double fragment = 1.0 / 3.0;  // [1]; of the size of the outline
 constexpr double least_length = 0.8;    // [1]; of the drawing without the ends that the brush writes
 constexpr double most_length = 1.1;     // [1]
 constexpr double round_corner = 0.03;   // [em]; a drawing this near rounds the same corner
-constexpr double most_entry = 0.1;      // [em]; nearer to an end a brush turns as it is set down or lifted
 constexpr double most_distance = 0.04;  // [em]
 
 /// One element of a stroke as a polyline, without its first point.
@@ -174,7 +172,7 @@ void add_measures(const StrokeMeasures& stroke, std::vector<StrokeWarning>& warn
     add(StrokeWarningKind::corner,
         "has a corner that the drawing lacks, " + percent_of_em(stroke.false_distance) + " off it");
   }
-  if (stroke.lost_inside > most_entry) {
+  if (stroke.lost_inside > brush_end) {
     add(StrokeWarningKind::corner, "the drawing has a corner " + percent_of_em(stroke.lost_inside) +
                                        " from its end that the stroke lacks: a jagged drawing, or another kind");
   }

@@ -63,6 +63,10 @@ struct StrokeError {
   double error;  ///< FittedStroke::error [em]
 };
 
+/// Limits of measures, which the report of an import and its warnings share.
+inline constexpr double most_backward = 0.05;  ///< share of its length that a stroke may run back [1]
+inline constexpr double brush_end = 0.1;       ///< nearer to an end a brush turns as it is set down or lifted [em]
+
 /// How one imported stroke follows the whole path of its source, the median of a brush stroke or the line of a pen.
 struct StrokeMeasures {
   StrokeReference place;
