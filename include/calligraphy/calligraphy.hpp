@@ -30,9 +30,12 @@
 #include <calligraphy/model/character.hpp>
 #include <calligraphy/model/character_list.hpp>
 #include <calligraphy/model/character_set.hpp>
+#include <calligraphy/model/ink_outline.hpp>
 #include <calligraphy/model/point.hpp>
 #include <calligraphy/model/provenance.hpp>
 #include <calligraphy/model/set_encoding.hpp>
+#include <calligraphy/model/stroke_ink.hpp>
+#include <calligraphy/model/stroke_polyline.hpp>
 #include <calligraphy/model/typical_stroke.hpp>
 #include <calligraphy/practice/live_session.hpp>
 #include <calligraphy/practice/mean_interval.hpp>

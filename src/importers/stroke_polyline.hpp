@@ -1,4 +1,4 @@
-// A stroke's centre line as a polyline; private to the importers.
+// The path of a fitted stroke; private to the importers.
 #pragma once
 
 #include <calligraphy/model/character.hpp>
@@ -7,8 +7,7 @@
 
 namespace calligraphy::recognition {
 
-/// The stroke as a polyline within 1e-4 em of it, unless a curve is so large that this would require more than 256
-/// pieces.
+/// The path of a stroke as stroke_polyline() flattens it, before it is part of a character.
 Path flattened(const StrokeInput& stroke);
 
 }  // namespace calligraphy::recognition

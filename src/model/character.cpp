@@ -37,6 +37,18 @@ Point arriving_direction(std::span<const Point> points) {
   return -leaving_direction(reversed);
 }
 
+void validate_ink(const StrokeInk& ink, int number, std::vector<ValidationIssue>& problems) {
+  const auto check = [&](double value, double least, const char* name) {
+    if (value >= least && value <= max_ink_length) return;  // false for NaN
+    problems.push_back({number, std::string(name) + " of ink " + number_text(value) + " em is not within " +
+                                    number_text(least) + " and " + number_text(max_ink_length)});
+  };
+  check(ink.start, 0.0, "start");
+  check(ink.end, 0.0, "end");
+  for (const double half_width : ink.half_widths) check(half_width, 0.0, "half-width");
+  for (const double offset : ink.offsets) check(offset, -max_ink_length, "offset");
+}
+
 void validate_stroke(const Stroke& stroke, int number, std::vector<ValidationIssue>& problems) {
   bool finite = true;
   for (const Point& point : stroke.control_points) {
@@ -49,6 +61,7 @@ void validate_stroke(const Stroke& stroke, int number, std::vector<ValidationIss
     problems.push_back(
         {number, "attraction factor " + number_text(factor) + " is not a finite, non-negative number"});
   }
+  if (stroke.ink != nullptr) validate_ink(*stroke.ink, number, problems);
   if (!finite) return;
 
   const std::vector<int> ends = feature_points(stroke.elements, stroke.curve_degree);
@@ -92,7 +105,8 @@ StrokeInput input_of(const Stroke& stroke) {
   return {stroke.type->id,
           {stroke.control_points.begin(), stroke.control_points.end()},
           {stroke.attraction_factors.begin(), stroke.attraction_factors.end()},
-          stroke.elements == stroke.type->elements ? ElementList() : ElementList(stroke.elements)};
+          stroke.elements == stroke.type->elements ? ElementList() : ElementList(stroke.elements),
+          stroke.ink == nullptr ? std::nullopt : std::optional(*stroke.ink)};
 }
 
 Character make_character(char32_t code, std::span<const StrokeInput> inputs, int curve_degree) {
@@ -141,6 +155,10 @@ Character make_character(char32_t code, std::span<const StrokeInput> inputs, int
     } else {
       factors.insert(factors.end(), input.attraction_factors.begin(), input.attraction_factors.end());
     }
+    if (input.ink.has_value() != inputs[0].ink.has_value()) {
+      throw ValueError(place + (input.ink ? "has ink" : "has no ink") + ", unlike stroke 1");
+    }
+    if (input.ink) character.physics.ink.push_back(*input.ink);
   }
   const std::vector<ValidationIssue> problems = validate(character);
   if (!problems.empty()) {
@@ -161,7 +179,8 @@ std::vector<Stroke> strokes(const Character& character) {
     const auto point_count = static_cast<std::size_t>(control_point_count(elements, character.curve_degree));
     const auto factor_count = static_cast<std::size_t>(feature_point_count(elements));
     views.push_back({&typical_stroke(character.sequence.stroke_ids[i]), elements.elements(), character.curve_degree,
-                     points.subspan(first_point, point_count), factors.subspan(first_factor, factor_count)});
+                     points.subspan(first_point, point_count), factors.subspan(first_factor, factor_count),
+                     character.physics.ink.empty() ? nullptr : &character.physics.ink[i]});
     first_point += point_count;
     first_factor += factor_count;
   }
@@ -228,6 +247,9 @@ std::vector<ValidationIssue> validate(const Character& character) {
   if (character.physics.attraction_factors.size() != indices.size()) {
     problems.push_back({0, std::to_string(indices.size()) + " feature points have " +
                                std::to_string(character.physics.attraction_factors.size()) + " attraction factors"});
+  }
+  if (const std::size_t inks = character.physics.ink.size(); inks != 0 && inks != ids.size()) {
+    problems.push_back({0, std::to_string(ids.size()) + " strokes have the ink of " + std::to_string(inks)});
   }
   if (!problems.empty()) return problems;
 

@@ -1,12 +1,14 @@
 // A character as a sequence of typical strokes (Wang 2006, sec. 3.2, 3.5, Table 3).
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <calligraphy/model/point.hpp>
+#include <calligraphy/model/stroke_ink.hpp>
 #include <calligraphy/model/typical_stroke.hpp>
 
 namespace calligraphy {
@@ -23,9 +25,11 @@ struct SequenceData {
   std::vector<ElementList> elements;  ///< of each stroke: as many as its typical stroke has, those or others
 };
 
-/// Force: the attraction factor at each feature point, a multiple of the guidance stiffness [1].
+/// Force: the attraction factor at each feature point, a multiple of the guidance stiffness [1]; and how wide the brush
+/// is, where that is known.
 struct PhysicalData {
   std::vector<double> attraction_factors;  ///< one per feature point
+  std::vector<StrokeInk> ink;              ///< of each stroke, or empty
 };
 
 /// One stroke of a character: a view, valid as long as the character.
@@ -35,6 +39,7 @@ struct Stroke {
   int curve_degree;
   std::span<const Point> control_points;       ///< [em]
   std::span<const double> attraction_factors;  ///< one per feature point [1]
+  const StrokeInk* ink = nullptr;              ///< null if it has none
 };
 
 /// A character, with structural, sequence and physical data kept separate. Frame: em square, y up.
@@ -55,6 +60,7 @@ struct StrokeInput {
   std::vector<Point> control_points;            ///< [em]
   std::vector<double> attraction_factors = {};  ///< one per feature point [1]; empty: all 1
   ElementList elements = {};  ///< as many as the typical stroke has; empty: those
+  std::optional<StrokeInk> ink = std::nullopt;  ///< of all strokes of a character, or of none
 
   ElementList composition() const { return elements.empty() ? ElementList(typical_stroke(id).elements) : elements; }
 };
@@ -63,7 +69,7 @@ struct StrokeInput {
 StrokeInput input_of(const Stroke& stroke);
 
 /// Builds a character from its strokes in writing order.
-/// @throws ValueError naming the stroke if an id, a count, a coordinate or a factor is outside its domain
+/// @throws ValueError naming the stroke if an id, a count, a coordinate, a factor or a width is outside its domain
 Character make_character(char32_t code, std::span<const StrokeInput> strokes, int curve_degree = 3);
 
 /// The strokes of a valid character in writing order, as views into it. O(strokes).
@@ -80,8 +86,8 @@ struct ValidationIssue {
 
 /// Everything that makes a character unusable: wrong counts, ids, compositions or indices, points that are not finite or
 /// far outside the em square, missing factors, elements of zero length (except that a stroke of a single LSE may be a
-/// point), and joints that bend by more than 15 degrees although smooth in their typical stroke. Empty if the character
-/// is valid.
+/// point), joints that bend by more than 15 degrees although smooth in their typical stroke, and ink that is negative,
+/// beyond 1 em or not finite. Empty if the character is valid.
 std::vector<ValidationIssue> validate(const Character& character);
 
 }  // namespace calligraphy

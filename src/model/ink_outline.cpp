@@ -1,0 +1,216 @@
+#include <calligraphy/model/ink_outline.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <utility>
+
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/model/stroke_polyline.hpp>
+
+#include "base/require.hpp"
+
+namespace calligraphy {
+namespace {
+
+Point direction(const Point& from, const Point& to) {
+  const double length = (to - from).norm();
+  return length > 0.0 ? Point((to - from) / length) : Point(1.0, 0.0);
+}
+
+Point left_of(const Point& direction) { return {-direction.y(), direction.x()}; }
+
+/// A polyline by arc length. The places asked for must not decrease by much from one call to the next.
+class ArcLength {
+ public:
+  explicit ArcLength(std::vector<Point> points) : points_(std::move(points)), arcs_(points_.size(), 0.0) {
+    for (std::size_t i = 1; i < points_.size(); ++i) arcs_[i] = arcs_[i - 1] + (points_[i] - points_[i - 1]).norm();
+  }
+
+  double length() const { return arcs_.back(); }
+
+  Point at(double arc) {
+    while (next_ + 1 < points_.size() && arcs_[next_] < arc) ++next_;
+    while (next_ > 1 && arcs_[next_ - 1] > arc) --next_;
+    const double piece = arcs_[next_] - arcs_[next_ - 1];
+    const double share = piece > 0.0 ? std::clamp((arc - arcs_[next_ - 1]) / piece, 0.0, 1.0) : 0.0;
+    return points_[next_ - 1] + share * (points_[next_] - points_[next_ - 1]);
+  }
+
+ private:
+  std::vector<Point> points_;
+  std::vector<double> arcs_;
+  std::size_t next_ = 1;  ///< end of the piece of the last place
+};
+
+/// The path drawn out straight at both ends.
+std::vector<Point> drawn_out(const Stroke& stroke) {
+  std::vector<Point> path = stroke_polyline(stroke);
+  path.erase(std::unique(path.begin(), path.end()), path.end());
+  const std::size_t last = path.size() - 1;
+  const Point start = path.front() - stroke.ink->start * direction(path.front(), path[std::min<std::size_t>(1, last)]);
+  const Point end = path.back() + stroke.ink->end * direction(path[last > 0 ? last - 1 : 0], path.back());
+  path.insert(path.begin(), start);
+  path.push_back(end);
+  return path;
+}
+
+/// A value of the profile at a share of the length.
+struct ProfilePlace {
+  std::size_t knot;
+  double share;  ///< of the way from the knot to the next
+
+  double of(const std::array<double, ink_knot_count>& values) const {
+    return values[knot] + share * (values[knot + 1] - values[knot]);
+  }
+};
+
+void require_ink(const Stroke& stroke) {
+  if (stroke.ink == nullptr) throw ValueError("the stroke has no ink; with_typical_ink() gives it some");
+}
+
+/// Collects the outline of discs: those points of it that no disc covers.
+class Envelope {
+ public:
+  Envelope(const std::vector<InkDisc>& discs, double tolerance) : discs_(discs), tolerance_(tolerance) {
+    for (std::size_t i = 1; i < discs.size(); ++i) {
+      const double step = (discs[i].centre - discs[i - 1].centre).norm();
+      largest_step_ = std::max(largest_step_, step + std::abs(discs[i].radius - discs[i - 1].radius));
+    }
+  }
+
+  /// Along the right side of the discs, round the last, back along the left side and round the first.
+  std::vector<Point> outline() {
+    const std::size_t count = discs_.size();
+    if (count == 1) {
+      arc(discs_[0], 0.0, 2.0 * std::numbers::pi);
+      return std::move(points_);
+    }
+    for (std::size_t i = 0; i + 1 < count; ++i) add_tangent(i, i + 1, i > 0 ? i - 1 : i + 1);
+    for (std::size_t i = count - 1; i > 0; --i) add_tangent(i, i - 1, i + 1 < count ? i + 1 : i - 1);
+    return thinned();
+  }
+
+ private:
+  /// How much the radius grows per distance from one disc to another, at most 1: then one contains the other.
+  double slope(std::size_t from, std::size_t to) const {
+    const double distance = (discs_[to].centre - discs_[from].centre).norm();
+    const double growth = discs_[to].radius - discs_[from].radius;
+    if (distance <= std::abs(growth)) return growth > 0.0 ? 1.0 : growth < 0.0 ? -1.0 : 0.0;
+    return growth / distance;
+  }
+
+  double heading(std::size_t from, std::size_t to) const {
+    const Point along = discs_[to].centre - discs_[from].centre;
+    return std::atan2(along.y(), along.x());
+  }
+
+  /// Adds the tangent on the right of two discs, and before it the arc of the first, if the outline turns left there on
+  /// its way from disc `before`. It turns back at the first disc and the last, where that is the disc ahead.
+  void add_tangent(std::size_t from, std::size_t to, std::size_t before) {
+    constexpr double right = -0.5 * std::numbers::pi;
+    const double tilt = std::asin(slope(from, to));
+    const double angle = heading(from, to) + right - tilt;
+    double turn = std::asin(slope(before, from)) - tilt;
+    turn += before == to ? std::numbers::pi
+                         : std::remainder(heading(from, to) - heading(before, from), 2.0 * std::numbers::pi);
+    if (turn > 0.0) arc(discs_[from], angle - turn, turn);
+    add(discs_[from], angle);
+    add(discs_[to], angle);
+  }
+
+  void arc(const InkDisc& disc, double from, double turn) {
+    const double share = std::clamp(1.0 - tolerance_ / std::max(disc.radius, tolerance_), -1.0, 1.0);
+    const double step = std::clamp(std::acos(share), 0.02, 1.0);
+    const int pieces = static_cast<int>(std::ceil(turn / step));
+    for (int i = 0; i <= pieces; ++i) add(disc, from + (pieces > 0 ? turn * i / pieces : 0.0));
+  }
+
+  void add(const InkDisc& disc, double angle) {
+    const Point point = disc.centre + disc.radius * Point(std::cos(angle), std::sin(angle));
+    if (!is_covered(point)) points_.push_back(point);
+  }
+
+  bool is_covered(const Point& point) const {
+    const double within = 0.25 * tolerance_;
+    for (std::size_t i = 0; i < discs_.size();) {
+      const double distance = (point - discs_[i].centre).norm() - discs_[i].radius;
+      if (distance < -within) return true;
+      // Discs nearer along the line than that cannot cover the point.
+      const double clear = largest_step_ > 0.0 ? (distance + within) / largest_step_ : 0.0;
+      i += std::max<std::size_t>(1, static_cast<std::size_t>(clear));
+    }
+    return false;
+  }
+
+  /// The points without those that are within the tolerance of the line between their neighbours.
+  std::vector<Point> thinned() const {
+    std::vector<Point> kept;
+    for (std::size_t from = 0; from < points_.size();) {
+      kept.push_back(points_[from]);
+      std::size_t to = from + 1;
+      while (to + 1 < points_.size() && is_straight(from, to + 1)) ++to;
+      from = to;
+    }
+    return kept;
+  }
+
+  bool is_straight(std::size_t from, std::size_t to) const {
+    const Point chord = points_[to] - points_[from];
+    const double squared = chord.squaredNorm();
+    for (std::size_t i = from + 1; i < to; ++i) {
+      const Point offset = points_[i] - points_[from];
+      const double share = squared > 0.0 ? std::clamp(offset.dot(chord) / squared, 0.0, 1.0) : 0.0;
+      if ((offset - share * chord).squaredNorm() > tolerance_ * tolerance_) return false;
+    }
+    return true;
+  }
+
+  const std::vector<InkDisc>& discs_;
+  double tolerance_;
+  double largest_step_ = 0.0;  ///< by which the distance of a point from the edge of the next disc may be less [em]
+  std::vector<Point> points_;
+};
+
+}  // namespace
+
+std::array<double, ink_knot_count> ink_knots(double length) noexcept {
+  const double near = length > 0.245 ? 0.035 / length : 1.0 / 7.0;
+  const double far = length > 0.28 ? 0.08 / length : 2.0 / 7.0;
+  const double third = (1.0 - 2.0 * far) / 3.0;
+  return {0.0, near, far, far + third, far + 2.0 * third, 1.0 - far, 1.0 - near, 1.0};
+}
+
+std::vector<InkDisc> ink_discs(const Stroke& stroke, double spacing) {
+  constexpr double reach = 0.02;  // [em]
+  constexpr double most = 2000.0;
+  require_ink(stroke);
+  require_above_zero("spacing", spacing, "em");
+  ArcLength path(drawn_out(stroke)), behind = path, ahead = path;
+  const double length = path.length();
+  const auto count = static_cast<std::size_t>(std::min(std::ceil(length / spacing), most - 1.0)) + 1;
+  const std::array<double, ink_knot_count> knots = ink_knots(length);
+  std::vector<InkDisc> discs;
+  discs.reserve(count);
+  ProfilePlace place{0, 0.0};
+  for (std::size_t i = 0; i < count; ++i) {
+    const double share = count > 1 ? static_cast<double>(i) / static_cast<double>(count - 1) : 0.0;
+    while (place.knot + 2 < knots.size() && knots[place.knot + 1] < share) ++place.knot;
+    place.share = (share - knots[place.knot]) / (knots[place.knot + 1] - knots[place.knot]);
+    const double arc = share * length;
+    const Point along = direction(behind.at(std::max(0.0, arc - reach)), ahead.at(std::min(length, arc + reach)));
+    discs.push_back({path.at(arc) + place.of(stroke.ink->offsets) * left_of(along),
+                     place.of(stroke.ink->half_widths)});
+  }
+  return discs;
+}
+
+std::vector<Point> ink_outline(const Stroke& stroke, double tolerance) {
+  constexpr double spacing = 0.005;  // [em]
+  require_above_zero("tolerance", tolerance, "em");
+  const std::vector<InkDisc> discs = ink_discs(stroke, spacing);
+  return Envelope(discs, tolerance).outline();
+}
+
+}  // namespace calligraphy

@@ -1,0 +1,240 @@
+// Ink: discs along a path and their outline. Expected values are those of plane geometry.
+#include "../catch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/model/character_list.hpp>
+#include <calligraphy/model/ink_outline.hpp>
+#include <calligraphy/model/stroke_polyline.hpp>
+
+#include "../hard_cases.hpp"
+
+using namespace calligraphy;
+
+namespace {
+
+StrokeInk even_ink(double half_width) {
+  StrokeInk ink;
+  ink.half_widths.fill(half_width);
+  return ink;
+}
+
+Character character_of(const StrokeInput& stroke) { return make_character(U'永', std::vector{stroke}); }
+
+StrokeInput with_ink(StrokeInput stroke, const StrokeInk& ink) {
+  stroke.ink = ink;
+  return stroke;
+}
+
+/// Heng, 0.8 em long, with this ink.
+Character heng(const StrokeInk& ink) { return character_of({1, {{0.1, 0.5}, {0.9, 0.5}}, {}, {}, ink}); }
+
+std::vector<Point> outline_of(const Character& character, double tolerance = 5e-4) {
+  return ink_outline(strokes(character)[0], tolerance);
+}
+
+/// Positive if counter-clockwise.
+double area_of(const std::vector<Point>& polygon) {
+  double twice = 0.0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Point& next = polygon[(i + 1) % polygon.size()];
+    twice += polygon[i].x() * next.y() - next.x() * polygon[i].y();
+  }
+  return 0.5 * twice;
+}
+
+int winding_number(const std::vector<Point>& polygon, const Point& point) {
+  double turned = 0.0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Point a = polygon[i] - point, b = polygon[(i + 1) % polygon.size()] - point;
+    turned += std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
+  }
+  return static_cast<int>(std::lround(turned / (2.0 * std::numbers::pi)));
+}
+
+/// How far the point is outside all discs; negative inside one.
+double clearance(const std::vector<InkDisc>& discs, const Point& point) {
+  double least = 1e9;
+  for (const InkDisc& disc : discs) least = std::min(least, (disc.centre - point).norm() - disc.radius);
+  return least;
+}
+
+/// A typical stroke with a profile at the limits of what brushes do, or beyond.
+StrokeInput wild_stroke(const TypicalStroke& type, calligraphy_test::Sequence& random) {
+  StrokeInput stroke{type.id, {}};
+  for (const std::array<double, 2>& point : type.shape) stroke.control_points.emplace_back(point[0], point[1]);
+  StrokeInk ink;
+  ink.start = random.between(0.0, 0.05);
+  ink.end = random.between(0.0, 0.05);
+  for (double& half_width : ink.half_widths) half_width = random.between(0.0, 0.08);
+  for (double& offset : ink.offsets) offset = random.between(-0.03, 0.03);
+  return with_ink(stroke, ink);
+}
+
+std::string first_problem(const StrokeInk& ink) {
+  try {
+    heng(ink);
+  } catch (const ValueError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("a line of one width has the outline of a stadium", "[model][ink]") {
+  constexpr double r = 0.05, length = 0.8;
+  const std::vector<Point> outline = outline_of(heng(even_ink(r)), 1e-5);
+  CHECK(area_of(outline) == Approx(2.0 * r * length + std::numbers::pi * r * r).epsilon(1e-3));
+  for (const Point& point : outline) {
+    const double x = std::clamp(point.x(), 0.1, 0.9);
+    CHECK((point - Point(x, 0.5)).norm() == Approx(r).margin(1e-9));
+  }
+}
+
+TEST_CASE("a line that is drawn out is longer by that", "[model][ink]") {
+  StrokeInk ink = even_ink(0.02);
+  ink.start = 0.03;
+  ink.end = 0.05;
+  const std::vector<InkDisc> discs = ink_discs(strokes(heng(ink))[0]);
+  CHECK(discs.front().centre.x() == Approx(0.07));
+  CHECK(discs.back().centre.x() == Approx(0.95));
+}
+
+TEST_CASE("offsets are to the left of the stroke, half-widths and offsets linear between knots", "[model][ink]") {
+  StrokeInk ink;
+  for (std::size_t i = 0; i < ink_knot_count; ++i) {
+    ink.half_widths[i] = 0.01 * static_cast<double>(i + 1);
+    ink.offsets[i] = 0.002 * static_cast<double>(i);
+  }
+  const std::vector<InkDisc> discs = ink_discs(strokes(heng(ink))[0], 0.0005);
+  const std::array<double, ink_knot_count> knots = ink_knots(0.8);
+  CHECK(knots[1] * 0.8 == Approx(0.035));
+  CHECK(knots[2] * 0.8 == Approx(0.08));
+  CHECK(knots[4] - knots[3] == Approx(knots[3] - knots[2]));
+  for (const InkDisc& disc : discs) {
+    const double share = (disc.centre.x() - 0.1) / 0.8;
+    std::size_t knot = 0;
+    while (knot + 2 < ink_knot_count && knots[knot + 1] < share) ++knot;
+    const double between = (share - knots[knot]) / (knots[knot + 1] - knots[knot]);
+    CHECK(disc.radius == Approx(0.01 * (static_cast<double>(knot + 1) + between)));
+    CHECK(disc.centre.y() - 0.5 == Approx(0.002 * (static_cast<double>(knot) + between)).margin(1e-12));
+  }
+}
+
+TEST_CASE("knots increase from 0 to 1 on a path of any length", "[model][ink]") {
+  for (const double length : {0.0, 1e-6, 0.1, 0.2449, 0.2451, 0.2799, 0.2801, 0.5, 4.0, 100.0}) {
+    const std::array<double, ink_knot_count> knots = ink_knots(length);
+    CHECK(knots.front() == 0.0);
+    CHECK(knots.back() == 1.0);
+    CHECK(std::adjacent_find(knots.begin(), knots.end(), std::greater_equal<>()) == knots.end());
+  }
+}
+
+TEST_CASE("the outline of any stroke contains what its discs cover and nothing else", "[model][ink]") {
+  constexpr double tolerance = 5e-4;
+  constexpr double band = 2e-3;  // discs 1 mm of an em apart leave scallops; inner corners are cut by up to a spacing
+  calligraphy_test::Sequence random(34);
+  int inside = 0, outside = 0;
+  for (const TypicalStroke& type : typical_strokes()) {
+    for (int drawn = 0; drawn < 3; ++drawn) {
+      const Character character = character_of(wild_stroke(type, random));
+      const Stroke stroke = strokes(character)[0];
+      const std::vector<InkDisc> discs = ink_discs(stroke, 0.001);
+      const std::vector<Point> outline = ink_outline(stroke, tolerance);
+      INFO("typical stroke " << type.id);
+      for (int i = 0; i < 300; ++i) {
+        const double share = random.between(0.0, 0.999);
+        const InkDisc& near = discs[static_cast<std::size_t>(share * static_cast<double>(discs.size()))];
+        const Point point = near.centre + random.point(-0.1, 0.1);
+        const double clear = clearance(discs, point);
+        if (std::abs(clear) < band) continue;
+        ++(clear < 0.0 ? inside : outside);
+        CHECK((winding_number(outline, point) != 0) == (clear < 0.0));
+      }
+      CHECK(area_of(outline) > 0.0);
+    }
+  }
+  CHECK(inside > 8'000);
+  CHECK(outside > 8'000);
+}
+
+TEST_CASE("a coarser outline has fewer points and the same area, nearly", "[model][ink]") {
+  calligraphy_test::Sequence random(5);
+  const Character character = character_of(wild_stroke(typical_stroke(20), random));
+  const std::vector<Point> fine = outline_of(character, 1e-4), coarse = outline_of(character, 4e-3);
+  CHECK(coarse.size() < fine.size() / 2);
+  CHECK(area_of(coarse) == Approx(area_of(fine)).epsilon(0.05));
+}
+
+TEST_CASE("a stroke that is a point has the ink of a disc", "[model][ink]") {
+  const Character dot = character_of({8, {{0.5, 0.5}, {0.5, 0.5}}, {}, {}, even_ink(0.1)});
+  CHECK(area_of(outline_of(dot, 1e-5)) == Approx(std::numbers::pi * 0.01).epsilon(1e-3));
+}
+
+TEST_CASE("a tapered tip ends in a point", "[model][ink]") {
+  StrokeInk ink = even_ink(0.03);
+  ink.half_widths.back() = 0.0;
+  const std::vector<Point> outline = outline_of(heng(ink));
+  const auto is_left = [](const Point& a, const Point& b) { return a.x() < b.x(); };
+  const auto tip = std::max_element(outline.begin(), outline.end(), is_left);
+  CHECK((*tip - Point(0.9, 0.5)).norm() < 1e-9);
+}
+
+TEST_CASE("the polyline of a stroke lies within its tolerance of the curves, cubic and quartic", "[model][ink]") {
+  const Character& cubic = *built_in_characters().find(U'永');
+  const Character quartic = with_quartic_curves(cubic);
+  for (std::size_t i = 0; i < strokes(cubic).size(); ++i) {
+    const std::vector<Point> fine = stroke_polyline(strokes(cubic)[i], 1e-6);
+    const std::vector<Point> coarse = stroke_polyline(strokes(quartic)[i], 1e-3);
+    CHECK(coarse.size() <= fine.size());
+    CHECK((coarse.front() - fine.front()).norm() < 1e-12);
+    CHECK((coarse.back() - fine.back()).norm() < 1e-12);
+    for (const Point& point : fine) {
+      double nearest = 1e9;
+      for (std::size_t k = 1; k < coarse.size(); ++k) {
+        const Point along = coarse[k] - coarse[k - 1];
+        const double share = std::clamp((point - coarse[k - 1]).dot(along) / along.squaredNorm(), 0.0, 1.0);
+        nearest = std::min(nearest, (point - coarse[k - 1] - share * along).norm());
+      }
+      CHECK(nearest <= 1e-3 + 1e-6);
+    }
+  }
+}
+
+TEST_CASE("ink outside its domain is refused by name and value", "[model][ink]") {
+  StrokeInk ink = even_ink(0.02);
+  CHECK(first_problem(ink).empty());
+  ink.half_widths[3] = -0.01;
+  CHECK(first_problem(ink) == "stroke 1: half-width of ink -0.01 em is not within 0 and 1");
+  ink.half_widths[3] = std::nan("");
+  CHECK(first_problem(ink).starts_with("stroke 1: half-width of ink nan em"));
+  ink = even_ink(0.02);
+  ink.offsets[0] = 1.5;
+  CHECK(first_problem(ink) == "stroke 1: offset of ink 1.5 em is not within -1 and 1");
+  ink = even_ink(0.02);
+  ink.end = -1.0;
+  CHECK(first_problem(ink) == "stroke 1: end of ink -1 em is not within 0 and 1");
+}
+
+TEST_CASE("all strokes of a character have ink or none has", "[model][ink]") {
+  const StrokeInput with = with_ink({1, {{0.1, 0.5}, {0.9, 0.5}}}, even_ink(0.02));
+  const StrokeInput without{2, {{0.5, 0.9}, {0.5, 0.1}}};
+  CHECK_THROWS_WITH(make_character(U'十', std::vector{with, without}), "stroke 2: has no ink, unlike stroke 1");
+  CHECK_THROWS_WITH(make_character(U'十', std::vector{without, with}), "stroke 2: has ink, unlike stroke 1");
+  Character character = make_character(U'十', std::vector{with, with});
+  character.physics.ink.pop_back();
+  CHECK(validate(character).at(0).what == "2 strokes have the ink of 1");
+  CHECK_THROWS_AS(ink_outline(strokes(make_character(U'十', std::vector{without}))[0]), ValueError);
+}
+
+TEST_CASE("ink survives the change to quartic curves and back to input", "[model][ink]") {
+  const Character character = heng(even_ink(0.02));
+  CHECK(with_quartic_curves(character).physics.ink == character.physics.ink);
+  CHECK(input_of(strokes(character)[0]).ink == character.physics.ink[0]);
+}
