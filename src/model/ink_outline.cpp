@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include <calligraphy/base/error.hpp>
@@ -44,16 +45,18 @@ class ArcLength {
   std::size_t next_ = 1;  ///< end of the piece of the last place
 };
 
-/// The path drawn out straight at both ends.
-std::vector<Point> drawn_out(const Stroke& stroke) {
-  std::vector<Point> path = stroke_polyline(stroke);
-  path.erase(std::unique(path.begin(), path.end()), path.end());
-  const std::size_t last = path.size() - 1;
-  const Point start = path.front() - stroke.ink->start * direction(path.front(), path[std::min<std::size_t>(1, last)]);
-  const Point end = path.back() + stroke.ink->end * direction(path[last > 0 ? last - 1 : 0], path.back());
-  path.insert(path.begin(), start);
-  path.push_back(end);
-  return path;
+/// The path without repeated points, drawn out straight at both ends.
+std::vector<Point> drawn_out(std::span<const Point> path, const StrokeInk& ink) {
+  std::vector<Point> points{path.front()};
+  for (const Point& point : path) {
+    if (point != points.back()) points.push_back(point);
+  }
+  const std::size_t last = points.size() - 1;
+  const Point start = points[0] - ink.start * direction(points[0], points[std::min<std::size_t>(1, last)]);
+  const Point end = points[last] + ink.end * direction(points[last > 0 ? last - 1 : 0], points[last]);
+  points.insert(points.begin(), start);
+  points.push_back(end);
+  return points;
 }
 
 /// A value of the profile at a share of the length.
@@ -65,10 +68,6 @@ struct ProfilePlace {
     return values[knot] + share * (values[knot + 1] - values[knot]);
   }
 };
-
-void require_ink(const Stroke& stroke) {
-  if (stroke.ink == nullptr) throw ValueError("the stroke has no ink; with_typical_ink() gives it some");
-}
 
 /// Collects the outline of discs: those points of it that no disc covers.
 class Envelope {
@@ -182,13 +181,13 @@ std::array<double, ink_knot_count> ink_knots(double length) noexcept {
   return {0.0, near, far, far + third, far + 2.0 * third, 1.0 - far, 1.0 - near, 1.0};
 }
 
-std::vector<InkDisc> ink_discs(const Stroke& stroke, double spacing) {
+std::vector<InkDisc> ink_discs(std::span<const Point> path, const StrokeInk& ink, double spacing) {
   constexpr double reach = 0.02;  // [em]
   constexpr double most = 2000.0;
-  require_ink(stroke);
+  if (path.empty()) throw ValueError("ink along a path without points");
   require_above_zero("spacing", spacing, "em");
-  ArcLength path(drawn_out(stroke)), behind = path, ahead = path;
-  const double length = path.length();
+  ArcLength line(drawn_out(path, ink)), behind = line, ahead = line;
+  const double length = line.length();
   const auto count = static_cast<std::size_t>(std::min(std::ceil(length / spacing), most - 1.0)) + 1;
   const std::array<double, ink_knot_count> knots = ink_knots(length);
   std::vector<InkDisc> discs;
@@ -200,17 +199,21 @@ std::vector<InkDisc> ink_discs(const Stroke& stroke, double spacing) {
     place.share = (share - knots[place.knot]) / (knots[place.knot + 1] - knots[place.knot]);
     const double arc = share * length;
     const Point along = direction(behind.at(std::max(0.0, arc - reach)), ahead.at(std::min(length, arc + reach)));
-    discs.push_back({path.at(arc) + place.of(stroke.ink->offsets) * left_of(along),
-                     place.of(stroke.ink->half_widths)});
+    discs.push_back({line.at(arc) + place.of(ink.offsets) * left_of(along), place.of(ink.half_widths)});
   }
   return discs;
 }
 
-std::vector<Point> ink_outline(const Stroke& stroke, double tolerance) {
+std::vector<Point> ink_outline(std::span<const Point> path, const StrokeInk& ink, double tolerance) {
   constexpr double spacing = 0.005;  // [em]
   require_above_zero("tolerance", tolerance, "em");
-  const std::vector<InkDisc> discs = ink_discs(stroke, spacing);
+  const std::vector<InkDisc> discs = ink_discs(path, ink, spacing);
   return Envelope(discs, tolerance).outline();
+}
+
+std::vector<Point> ink_outline(const Stroke& stroke, double tolerance) {
+  if (stroke.ink == nullptr) throw ValueError("the stroke has no ink; with_typical_ink() gives it some");
+  return ink_outline(stroke_polyline(stroke), *stroke.ink, tolerance);
 }
 
 }  // namespace calligraphy

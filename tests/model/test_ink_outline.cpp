@@ -34,6 +34,10 @@ StrokeInput with_ink(StrokeInput stroke, const StrokeInk& ink) {
 /// Heng, 0.8 em long, with this ink.
 Character heng(const StrokeInk& ink) { return character_of({1, {{0.1, 0.5}, {0.9, 0.5}}, {}, {}, ink}); }
 
+std::vector<InkDisc> discs_of(const Stroke& stroke, double spacing = 0.004) {
+  return ink_discs(stroke_polyline(stroke), *stroke.ink, spacing);
+}
+
 std::vector<Point> outline_of(const Character& character, double tolerance = 5e-4) {
   return ink_outline(strokes(character)[0], tolerance);
 }
@@ -101,7 +105,8 @@ TEST_CASE("a line that is drawn out is longer by that", "[model][ink]") {
   StrokeInk ink = even_ink(0.02);
   ink.start = 0.03;
   ink.end = 0.05;
-  const std::vector<InkDisc> discs = ink_discs(strokes(heng(ink))[0]);
+  const Character character = heng(ink);
+  const std::vector<InkDisc> discs = discs_of(strokes(character)[0]);
   CHECK(discs.front().centre.x() == Approx(0.07));
   CHECK(discs.back().centre.x() == Approx(0.95));
 }
@@ -112,7 +117,8 @@ TEST_CASE("offsets are to the left of the stroke, half-widths and offsets linear
     ink.half_widths[i] = 0.01 * static_cast<double>(i + 1);
     ink.offsets[i] = 0.002 * static_cast<double>(i);
   }
-  const std::vector<InkDisc> discs = ink_discs(strokes(heng(ink))[0], 0.0005);
+  const Character character = heng(ink);
+  const std::vector<InkDisc> discs = discs_of(strokes(character)[0], 0.0005);
   const std::array<double, ink_knot_count> knots = ink_knots(0.8);
   CHECK(knots[1] * 0.8 == Approx(0.035));
   CHECK(knots[2] * 0.8 == Approx(0.08));
@@ -145,7 +151,7 @@ TEST_CASE("the outline of any stroke contains what its discs cover and nothing e
     for (int drawn = 0; drawn < 3; ++drawn) {
       const Character character = character_of(wild_stroke(type, random));
       const Stroke stroke = strokes(character)[0];
-      const std::vector<InkDisc> discs = ink_discs(stroke, 0.001);
+      const std::vector<InkDisc> discs = discs_of(stroke, 0.001);
       const std::vector<Point> outline = ink_outline(stroke, tolerance);
       INFO("typical stroke " << type.id);
       for (int i = 0; i < 300; ++i) {
@@ -230,7 +236,8 @@ TEST_CASE("all strokes of a character have ink or none has", "[model][ink]") {
   Character character = make_character(U'十', std::vector{with, with});
   character.physics.ink.pop_back();
   CHECK(validate(character).at(0).what == "2 strokes have the ink of 1");
-  CHECK_THROWS_AS(ink_outline(strokes(make_character(U'十', std::vector{without}))[0]), ValueError);
+  const Character bare = make_character(U'十', std::vector{without});
+  CHECK_THROWS_AS(ink_outline(strokes(bare)[0]), ValueError);
 }
 
 TEST_CASE("ink survives the change to quartic curves and back to input", "[model][ink]") {

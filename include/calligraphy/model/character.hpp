@@ -84,9 +84,9 @@ struct ValidationIssue {
   std::string what;
 };
 
-/// Everything that makes a character unusable: wrong counts, ids, compositions or indices, points that are not finite or
-/// far outside the em square, missing factors, elements of zero length (except that a stroke of a single LSE may be a
-/// point), joints that bend by more than 15 degrees although smooth in their typical stroke, and ink that is negative,
+/// Everything that makes a character unusable: wrong counts, ids, compositions or indices, points that are not finite
+/// or far outside the em square, missing factors, elements of zero length (except that a stroke of a single LSE may be
+/// a point), joints that bend by more than 15 degrees although smooth in their typical stroke, and ink that is negative,
 /// beyond 1 em or not finite. Empty if the character is valid.
 std::vector<ValidationIssue> validate(const Character& character);
 

@@ -1,10 +1,12 @@
 // The shape of ink: what to fill to draw a stroke with the width of the brush.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include <calligraphy/model/character.hpp>
 #include <calligraphy/model/point.hpp>
+#include <calligraphy/model/stroke_ink.hpp>
 
 namespace calligraphy {
 
@@ -14,16 +16,19 @@ struct InkDisc {
   double radius;  ///< [em]
 };
 
-/// The ink of a stroke as discs equally far along its drawn out path, at most `spacing` apart but no more than 2000.
-/// Sideways is at right angles to the chord of 0.02 em before and after a point, so that corners are rounded. Centres
-/// and radii are linear in the offsets and half-widths of the profile.
-/// @throws ValueError if the stroke has no ink or the spacing is not positive
-std::vector<InkDisc> ink_discs(const Stroke& stroke, double spacing = 0.004);
+/// Ink along a path, a polyline [em], as discs equally far along it once it is drawn out: at most `spacing` apart, but
+/// no more than 2000. Sideways is at right angles to the chord from 0.02 em before a point to 0.02 em after it, so that
+/// corners are rounded. Centres and radii are linear in the offsets and half-widths of the profile.
+/// @throws ValueError if the path has no point or the spacing is not positive
+std::vector<InkDisc> ink_discs(std::span<const Point> path, const StrokeInk& ink, double spacing = 0.004);
 
-/// Outline of the ink: a closed polygon, counter-clockwise, whose last vertex is joined to the first, within about
-/// `tolerance` of the discs' envelope [em]. To be filled by the nonzero rule, the default of SVG, Cairo, the canvas of a
-/// web page and Matplotlib: where a stroke crosses itself, so does the outline.
-/// @throws ValueError if the stroke has no ink or the tolerance is not positive
+/// Outline of the ink along a path: a closed polygon, counter-clockwise, whose last vertex is joined to the first,
+/// within about `tolerance` of the discs' envelope [em]. To be filled by the nonzero rule, the default of SVG, Cairo,
+/// the canvas of a web page and Matplotlib: where a stroke crosses itself, so does the outline.
+/// @throws ValueError if the path has no point or the tolerance is not positive
+std::vector<Point> ink_outline(std::span<const Point> path, const StrokeInk& ink, double tolerance = 5e-4);
+
+/// The same along the path of a stroke. @throws ValueError if it has no ink or the tolerance is not positive
 std::vector<Point> ink_outline(const Stroke& stroke, double tolerance = 5e-4);
 
 }  // namespace calligraphy
