@@ -34,6 +34,7 @@ struct ImportArguments {
   std::string out;
   std::string format = "set";
   std::optional<std::string> precision;
+  std::string ink = "full";
   std::string letters;
   std::optional<std::string> only;
   std::string date;
@@ -48,6 +49,9 @@ const std::map<std::string, CoordinatePrecision> precisions = {{"coarse", Coordi
                                                                {"standard", CoordinatePrecision::standard},
                                                                {"fine", CoordinatePrecision::fine},
                                                                {"exact", CoordinatePrecision::exact}};
+
+const std::map<std::string, InkDetail> ink_details = {
+    {"none", InkDetail::none}, {"half-widths", InkDetail::half_widths}, {"full", InkDetail::full}};
 
 /// Why the word is not a date; empty: it is one.
 std::string not_a_date(const std::string& word) {
@@ -75,6 +79,7 @@ ImportResult imported(const ImportArguments& options, const Interrupt& interrupt
   asked.letters = options.letters;
   asked.alternates = options.alternates;
   asked.ideographs_only = !options.all;
+  asked.ink = ink_details.at(options.ink);
   if (options.only) asked.only = characters_of(*options.only);
   asked.date = options.date;
   asked.threads = options.threads;
@@ -143,6 +148,12 @@ void add_import(CLI::App& program) {
           "--precision", options->precision,
           "Coordinate precision of a set file (default: standard); see docs/set-file.md")
       ->check(CLI::IsMember({"coarse", "standard", "fine", "exact"}));
+  command
+      ->add_option("--ink", options->ink,
+                   "hanzi-writer-data: keep the width of the brush along each stroke, alone or with its sideways "
+                   "offsets (full); see docs/strokes.md")
+      ->check(CLI::IsMember({"none", "half-widths", "full"}))
+      ->capture_default_str();
   command
       ->add_option("--letters", options->letters,
                    "hanzi-writer-data: stroke letters, the tarball, directory or .js file of cnchar-order")

@@ -1,6 +1,8 @@
 #include "import_measures.hpp"
 
 #include <algorithm>
+#include <numeric>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -53,6 +55,41 @@ std::string counted_row(const char* what, const ImportReport& report, Condition 
   return text;
 }
 
+double mean_of(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// What a share of the values falls short of.
+double quantile(std::vector<double> values, double share) {
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+constexpr double low = 0.05;
+
+std::string ink_table(const InkMeasures& ink) {
+  const auto area_row = [](const char* what, double value) { return row(what, fmt::format("{:.4f}", value)); };
+  std::string text = area_row("ink: intersection over union, mean", mean_of(ink.strokes));
+  text += area_row("  5th percentile", quantile(ink.strokes, low));
+  text += area_row("  mean of whole characters", mean_of(ink.characters));
+  text += share_row("contacts of strokes kept", ink.contacts_kept, ink.contacts);
+  text += share_row("new contacts of neighbours", ink.new_contacts, std::max(1, ink.apart));
+  return text;
+}
+
+Json ink_json(const InkMeasures& ink) {
+  if (ink.strokes.empty()) return nullptr;
+  return {{"iou_mean", mean_of(ink.strokes)},
+          {"iou_p5", quantile(ink.strokes, low)},
+          {"iou_characters_mean", mean_of(ink.characters)},
+          {"contacts", ink.contacts},
+          {"contacts_kept", ink.contacts_kept},
+          {"apart", ink.apart},
+          {"new_contacts", ink.new_contacts},
+          {"iou", ink.strokes}};
+}
+
 Json stroke_json(const StrokeMeasures& stroke) {
   Json row = place_json(stroke.place);
   row["id"] = stroke.id;
@@ -89,6 +126,7 @@ std::string measures_table(const ImportReport& report, std::size_t bytes) {
   text += counted_row("  more than 10 % of the em from its ends", report, has_lost_inner_corner);
   text += share_row("crossings of strokes kept", report.crossings.kept, report.crossings.source);
   if (report.labelled > 0) text += share_row("strokes of a kind their label allows", report.allowed, report.labelled);
+  if (!report.ink.strokes.empty()) text += ink_table(report.ink);
   text += row("bytes a character", fmt::format("{:.1f}", bytes_per_character(report, bytes)));
   return text;
 }
@@ -109,6 +147,7 @@ Json measures_json(const ImportReport& report, std::size_t bytes) {
           {"labelled", report.labelled},
           {"allowed_by_label", report.allowed},
           {"bytes_per_character", bytes_per_character(report, bytes)},
+          {"ink", ink_json(report.ink)},
           {"strokes", strokes}};
 }
 

@@ -20,6 +20,7 @@
 #include <calligraphy/importers/stroke_fit.hpp>
 #include <calligraphy/importers/stroke_warnings.hpp>
 #include <calligraphy/model/character_set.hpp>
+#include <calligraphy/model/ink_outline.hpp>
 
 #include "base/archive_format.hpp"
 #include "base/charconv.hpp"
@@ -29,6 +30,8 @@
 #include "frechet.hpp"
 #include "hanzi_writer.hpp"
 #include "imported_character.hpp"
+#include "ink_fit.hpp"
+#include "ink_measures.hpp"
 #include "kanjivg.hpp"
 #include "outline.hpp"
 #include "shape_contradiction.hpp"
@@ -281,6 +284,7 @@ class Importer {
     }
     std::vector<StrokeInput> strokes = fitted(drawn, drawing.place, result);
     const std::vector<recognition::CrossingStrokes> crossings = keep_crossings(drawn, strokes, result);
+    if (options_.ink != InkDetail::none && have_outlines(drawn)) add_ink(drawn, strokes);
     try {
       result.character = make_character(drawing.name.code, strokes);
     } catch (const ValueError& error) {
@@ -317,6 +321,17 @@ class Importer {
     return strokes;
   }
 
+  static bool have_outlines(const std::vector<StrokeOfDrawing>& drawn) {
+    return std::all_of(drawn.begin(), drawn.end(), [](const auto& stroke) { return stroke.outline.size() >= 3; });
+  }
+
+  void add_ink(const std::vector<StrokeOfDrawing>& drawn, std::vector<StrokeInput>& strokes) const {
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+      strokes[i].ink =
+          recognition::fit_ink(recognition::flattened(strokes[i]), drawn[i].path, drawn[i].outline, options_.ink);
+    }
+  }
+
   /// Lets strokes cross that cross in the drawing. Returns the crossings of the drawing.
   static std::vector<recognition::CrossingStrokes> keep_crossings(const std::vector<StrokeOfDrawing>& drawn,
                                                                   std::vector<StrokeInput>& strokes,
@@ -343,9 +358,11 @@ class Importer {
       measures.place = {result.character.code, result.character.order, static_cast<int>(i) + 1};
       measures.id = strokes[i].id;
       measures.frechet = stroke.error;
-      measures.outline_size = recognition::box_diagonal(drawn[i].outline);
+      const std::vector<Point>& outline = drawn[i].outline;
+      measures.outline_size = outline.empty() ? 0.0 : recognition::box_of(outline).diagonal().norm();
       stroke.contradicts_label = contradicts_label(drawn[i], stroke, strokes[i].id);
     }
+    if (strokes.front().ink) result.ink = measured_ink(drawn, paths, strokes);
     result.crossings.source = static_cast<int>(crossings.size());
     for (const auto& [one, other, at] : crossings) {
       if (recognition::crossing_of(paths[one], paths[other])) {
@@ -354,6 +371,19 @@ class Importer {
         result.lost_crossings.push_back({result.measures[one].place, static_cast<int>(other) + 1});
       }
     }
+  }
+
+  static InkMeasures measured_ink(const std::vector<StrokeOfDrawing>& drawn,
+                                  const std::vector<recognition::Path>& paths,
+                                  const std::vector<StrokeInput>& strokes) {
+    constexpr double spacing = 0.003;  // [em]
+    std::vector<std::span<const Point>> outlines;
+    std::vector<std::vector<InkDisc>> inks;
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+      outlines.emplace_back(drawn[i].outline);
+      inks.push_back(ink_discs(paths[i], *strokes[i].ink, spacing));
+    }
+    return recognition::measure_ink(outlines, inks);
   }
 
   std::vector<StrokeOfDrawing> drawn_strokes(const Drawing& drawing, ImportedCharacter& result) const {

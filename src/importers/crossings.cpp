@@ -15,24 +15,6 @@ constexpr double margin = 0.003;        // [em] beyond the crossing, of an end t
 
 double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-struct Box {
-  Point low;
-  Point high;
-};
-
-Box box_of(std::span<const Point> points) {
-  Box box{points.front(), points.front()};
-  for (const Point& point : points) {
-    box.low = box.low.cwiseMin(point);
-    box.high = box.high.cwiseMax(point);
-  }
-  return box;
-}
-
-bool overlap(const Box& a, const Box& b) {
-  return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
-}
-
 /// An end of a stroke, as fitted, that may be drawn out.
 struct StrokeEnd {
   bool at_start;
@@ -80,18 +62,18 @@ bool move_end(const std::optional<StrokeEnd>& end, double at, const Path& longer
 }  // namespace
 
 std::optional<Crossing> crossing_of(std::span<const Point> one, std::span<const Point> other) {
-  const Box box = box_of(other);
-  if (!overlap(box_of(one), box)) return std::nullopt;
+  const Eigen::AlignedBox2d box = box_of(other);
+  if (!box.intersects(box_of(one))) return std::nullopt;
   double before = 0.0;
   for (std::size_t i = 1; i < one.size(); ++i) {
     const std::span<const Point> segment = one.subspan(i - 1, 2);
     const Point along = segment[1] - segment[0];
-    const Box around = box_of(segment);
-    if (overlap(around, box)) {
+    const Eigen::AlignedBox2d around = box_of(segment);
+    if (around.intersects(box)) {
       double before_other = 0.0;
       for (std::size_t k = 1; k < other.size(); ++k) {
         const Point other_along = other[k] - other[k - 1];
-        if (overlap(around, box_of(other.subspan(k - 1, 2)))) {
+        if (around.intersects(box_of(other.subspan(k - 1, 2)))) {
           const double start = cross(along, other[k - 1] - segment[0]);
           const double end = cross(along, other[k] - segment[0]);
           const double other_start = cross(other_along, segment[0] - other[k - 1]);

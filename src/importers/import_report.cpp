@@ -23,6 +23,7 @@ class Counter {
     }
     count_within(imported.strokes);
     report_.measures.insert(report_.measures.end(), imported.measures.begin(), imported.measures.end());
+    add(imported.ink, report_.ink);
     report_.crossings.source += imported.crossings.source;
     report_.crossings.kept += imported.crossings.kept;
     report_.lost_crossings.insert(report_.lost_crossings.end(), imported.lost_crossings.begin(),
@@ -42,6 +43,15 @@ class Counter {
   }
 
  private:
+  static void add(const InkMeasures& character, InkMeasures& sum) {
+    sum.strokes.insert(sum.strokes.end(), character.strokes.begin(), character.strokes.end());
+    sum.characters.insert(sum.characters.end(), character.characters.begin(), character.characters.end());
+    sum.contacts += character.contacts;
+    sum.contacts_kept += character.contacts_kept;
+    sum.apart += character.apart;
+    sum.new_contacts += character.new_contacts;
+  }
+
   void count_within(const std::vector<ImportedStroke>& strokes) {
     for (FitCount& count : report_.within) {
       const auto is_within = [&](const ImportedStroke& stroke) { return stroke.error <= count.error; };

@@ -22,6 +22,7 @@ struct ImportedCharacter {
   Character character;
   std::vector<ImportedStroke> strokes;
   std::vector<StrokeMeasures> measures;  ///< if asked for
+  InkMeasures ink;                       ///< of this character, if asked for
   CrossingCount crossings;
   std::vector<LostCrossing> lost_crossings;
   bool letters_unused = false;

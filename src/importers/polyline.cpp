@@ -17,10 +17,10 @@ double path_length(std::span<const Point> path) {
   return length;
 }
 
-double box_diagonal(std::span<const Point> points) {
+Eigen::AlignedBox2d box_of(std::span<const Point> points) {
   Eigen::AlignedBox2d box;
   for (const Point& point : points) box.extend(point);
-  return box.isEmpty() ? 0.0 : box.diagonal().norm();
+  return box;
 }
 
 Path resampled(std::span<const Point> path, int count, double from, double to) {

@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include <calligraphy/model/point.hpp>
 
 namespace calligraphy::recognition {
@@ -20,8 +22,8 @@ double wrapped(double degrees);
 /// Length of a path [em].
 double path_length(std::span<const Point> path);
 
-/// Diagonal of the bounding box of the points [em]; 0 of none.
-double box_diagonal(std::span<const Point> points);
+/// Bounding box of the points.
+Eigen::AlignedBox2d box_of(std::span<const Point> points);
 
 /// `count` points, at least 2, equally far along the path from arc length `from` to `to` [em].
 Path resampled(std::span<const Point> path, int count, double from, double to);

@@ -152,6 +152,7 @@ TEST_CASE("all of hanzi-writer-data, from its tarball, is fitted and recognised 
   options.letters = letters;
   options.only = chosen();
   options.report = true;
+  options.ink = InkDetail::none;
   const ImportResult import = import_characters(package, options);
   CHECK(import.list.provenance.source == "Make Me a Hanzi, as hanzi-writer-data 2.0.1");
   CHECK(import.list.provenance.licence_text.find("ARPHIC PUBLIC LICENSE") == 0);

@@ -22,10 +22,18 @@ struct SourceLimits {
   double unpacked_to_packed = 100.0;     ///< judged once 16 MiB are unpacked
 };
 
+/// How closely the ink of imported strokes follows the outlines of their source, if it has any.
+enum class InkDetail {
+  none,         ///< no ink
+  half_widths,  ///< half-widths alone: the ink lies about the path
+  full          ///< half-widths, and offsets of the centre line
+};
+
 struct ImportOptions {
   std::filesystem::path letters;  ///< cnchar-order, whose letters label the strokes of hanzi-writer-data
   bool alternates = false;        ///< also imports KanjiVG's variants, as alternate orders named after their suffix
   bool ideographs_only = true;    ///< omits KanjiVG's kana, Latin letters, radicals and signs
+  InkDetail ink = InkDetail::full;  ///< of hanzi-writer-data; KanjiVG has no outlines
   std::u32string only;            ///< imports only these characters; empty: all
   std::string date;  ///< date of modification for the notice that the Arphic licence requires; empty: omitted
   int threads = 0;   ///< 0: one per core; the result does not depend on it
@@ -82,6 +90,16 @@ struct StrokeMeasures {
   double lost_inside;    ///< how far from both ends of the path a corner is lost [em]; 0 if none is
   double reversal;       ///< the sharpest turn of the path between two segments over 1 % of the em [degree]
   double outline_size;   ///< diagonal of the outline's bounding box [em]; 0 for a pen
+};
+
+/// How well ink covers the outlines of the source.
+struct InkMeasures {
+  std::vector<double> strokes;     ///< of each, intersection over union of the areas of ink and outline [1]
+  std::vector<double> characters;  ///< of each, the same of all its ink and all its outlines [1]
+  int contacts = 0;                ///< pairs of strokes of a character whose outlines overlap
+  int contacts_kept = 0;           ///< of these, pairs whose ink is at most 0.5 % of the em apart
+  int apart = 0;                   ///< neighbours whose outlines are more than 1 % of the em apart
+  int new_contacts = 0;            ///< of these, pairs whose ink overlaps
 };
 
 /// Two strokes that cross in the source, but not as imported.
@@ -146,6 +164,7 @@ struct ImportReport {
   std::vector<char32_t> letters_unused;        ///< characters whose letters do not match their stroke count
 
   std::vector<StrokeMeasures> measures;      ///< of every stroke of the source, if asked for; none is left out or split
+  InkMeasures ink;                           ///< if asked for, and the strokes have ink
   CrossingCount crossings;                   ///< if asked for
   std::vector<LostCrossing> lost_crossings;  ///< if asked for
 

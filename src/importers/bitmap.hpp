@@ -1,0 +1,44 @@
+// A black-and-white picture of the em square and its margin, to compare shapes by area; private to the importers.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <calligraphy/model/ink_outline.hpp>
+#include <calligraphy/model/point.hpp>
+
+namespace calligraphy::recognition {
+
+/// From -0.25 to 1.25 em in both directions; a pixel is black if its centre is inside. What lies beyond is left out.
+class Bitmap {
+ public:
+  explicit Bitmap(int pixels_per_em);
+
+  void clear();
+  /// Fills a closed polygon by the nonzero rule.
+  void fill(std::span<const Point> polygon);
+  void fill(const InkDisc& disc);
+  /// Blackens what is black in `other`, which has the same resolution.
+  void add(const Bitmap& other);
+  /// Number of black pixels.
+  std::int64_t area() const;
+
+  /// Area of the intersection divided by area of the union; 0 if both are white.
+  friend double intersection_over_union(const Bitmap& a, const Bitmap& b);
+
+ private:
+  int row_of(double y) const;
+  void fill_span(int row, double from, double to);
+
+  int pixels_per_em_;
+  int rows_;
+  int words_;  ///< of a row
+  int first_row_, last_row_;  ///< that are not white, or `last_row_ < first_row_`
+  std::vector<std::uint64_t> bits_;
+};
+
+double intersection_over_union(const Bitmap& a, const Bitmap& b);
+
+}  // namespace calligraphy::recognition

@@ -1,0 +1,18 @@
+// Fits the ink of a stroke to the outline of a brush stroke; private to the importers.
+#pragma once
+
+#include <span>
+
+#include <calligraphy/importers/character_import.hpp>
+#include <calligraphy/model/stroke_ink.hpp>
+
+#include "polyline.hpp"
+
+namespace calligraphy::recognition {
+
+/// The ink along a path that covers the outline of a brush stroke best: the path is that of the stroke fitted to the
+/// median, and the outline a closed polygon of at least three vertices, all in em (docs/strokes.md).
+StrokeInk fit_ink(std::span<const Point> path, std::span<const Point> median, std::span<const Point> outline,
+                  InkDetail detail);
+
+}  // namespace calligraphy::recognition

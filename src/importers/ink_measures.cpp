@@ -1,0 +1,90 @@
+#include "ink_measures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "bitmap.hpp"
+#include "outline.hpp"
+#include "polyline.hpp"
+
+namespace calligraphy::recognition {
+namespace {
+
+constexpr double joined = 0.005;  // [em]; strokes that nearly touch look as if they did
+constexpr double apart = 0.01;    // [em]
+constexpr double near = 0.03;     // [em]; boxes farther apart hold no pair of neighbours
+
+bool segments_cross(const Point& a, const Point& b, const Point& c, const Point& d) {
+  const auto side = [](const Point& from, const Point& to, const Point& point) {
+    return (to.x() - from.x()) * (point.y() - from.y()) - (to.y() - from.y()) * (point.x() - from.x());
+  };
+  return (side(a, b, c) > 0.0) != (side(a, b, d) > 0.0) && (side(c, d, a) > 0.0) != (side(c, d, b) > 0.0);
+}
+
+/// 0 if the outlines overlap.
+double gap_between(std::span<const Point> one, std::span<const Point> other) {
+  if (inscribed_radius(one, other[0]) > 0.0 || inscribed_radius(other, one[0]) > 0.0) return 0.0;
+  double squared = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    const Point& a = one[i];
+    const Point& b = one[(i + 1) % one.size()];
+    for (std::size_t k = 0; k < other.size(); ++k) {
+      const Point& c = other[k];
+      const Point& d = other[(k + 1) % other.size()];
+      if (segments_cross(a, b, c, d)) return 0.0;
+      squared = std::min(squared, (nearest_on_segment(c, a, b) - c).squaredNorm());
+      squared = std::min(squared, (nearest_on_segment(a, c, d) - a).squaredNorm());
+    }
+  }
+  return std::sqrt(squared);
+}
+
+/// At most 0 if the inks overlap.
+double gap_between(std::span<const InkDisc> one, std::span<const InkDisc> other) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const InkDisc& a : one) {
+    for (const InkDisc& b : other) least = std::min(least, (a.centre - b.centre).norm() - a.radius - b.radius);
+  }
+  return least;
+}
+
+}  // namespace
+
+InkMeasures measure_ink(std::span<const std::span<const Point>> outlines, std::span<const std::vector<InkDisc>> inks) {
+  constexpr int pixels_per_em = 512;
+  Bitmap outline(pixels_per_em), ink(pixels_per_em), all_outlines(pixels_per_em), all_ink(pixels_per_em);
+  InkMeasures measures;
+  for (std::size_t i = 0; i < outlines.size(); ++i) {
+    outline.clear();
+    outline.fill(outlines[i]);
+    ink.clear();
+    for (const InkDisc& disc : inks[i]) ink.fill(disc);
+    measures.strokes.push_back(intersection_over_union(outline, ink));
+    all_outlines.add(outline);
+    all_ink.add(ink);
+  }
+  measures.characters.push_back(intersection_over_union(all_outlines, all_ink));
+
+  std::vector<Eigen::AlignedBox2d> boxes;
+  for (const std::span<const Point> each : outlines) boxes.push_back(box_of(each));
+  for (std::size_t i = 0; i < outlines.size(); ++i) {
+    for (std::size_t k = i + 1; k < outlines.size(); ++k) {
+      if (boxes[i].exteriorDistance(boxes[k]) > near) continue;
+      const double wanted = gap_between(outlines[i], outlines[k]);
+      if (wanted > 0.0 && wanted <= apart) continue;
+      const double drawn = gap_between(inks[i], inks[k]);
+      if (wanted > 0.0) {
+        ++measures.apart;
+        measures.new_contacts += drawn <= 0.0 ? 1 : 0;
+      } else {
+        ++measures.contacts;
+        measures.contacts_kept += drawn <= joined ? 1 : 0;
+      }
+    }
+  }
+  return measures;
+}
+
+}  // namespace calligraphy::recognition

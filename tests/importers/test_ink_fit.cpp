@@ -1,0 +1,201 @@
+// Ink fitted to outlines: outlines of known ink, areas known from geometry, and a sample of hanzi-writer-data.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include <calligraphy/importers/character_import.hpp>
+#include <calligraphy/model/ink_outline.hpp>
+#include <calligraphy/model/stroke_polyline.hpp>
+
+#include "../catch.hpp"
+#include "../package_data.hpp"
+#include "../sanitized.hpp"
+#include "../temporary_directory.hpp"
+#include "importers/bitmap.hpp"
+#include "importers/ink_fit.hpp"
+#include "importers/ink_measures.hpp"
+
+namespace ink_fit_tests {
+
+using namespace calligraphy;
+using namespace calligraphy::recognition;
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180.0;
+
+std::vector<Point> box(const Point& low, const Point& high) {
+  return {low, {high.x(), low.y()}, high, {low.x(), high.y()}};
+}
+
+/// Ink that a brush may leave: an entry, a waist, a press.
+StrokeInk brushed() {
+  return {0.01, 0.012, {0.012, 0.03, 0.034, 0.026, 0.024, 0.034, 0.044, 0.014},
+          {0.004, 0.006, 0.004, 0.0, -0.002, 0.0, 0.006, 0.002}};
+}
+
+/// The path of a typical stroke.
+Path path_of(const TypicalStroke& type) {
+  Path points;
+  for (const std::array<double, 2>& point : type.shape) points.emplace_back(point[0], point[1]);
+  return stroke_polyline({&type, type.elements, 3, points, {}});
+}
+
+double covered(const std::vector<Point>& outline, const std::vector<InkDisc>& discs) {
+  Bitmap wanted(512), drawn(512);
+  wanted.fill(outline);
+  for (const InkDisc& disc : discs) drawn.fill(disc);
+  return intersection_over_union(wanted, drawn);
+}
+
+double mean(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// Three characters of one stroke, as hanzi-writer-data writes them: a horizontal bar of 0.1 em.
+void write_bar(const TemporaryDirectory& directory, bool with_outline) {
+  const std::string outline = R"("strokes":["M 100 250 L 900 250 L 900 350 L 100 350 Z"],)";
+  directory.write("一.json", "{" + (with_outline ? outline : "") + R"("medians":[[[110,300],[890,300]]]})");
+}
+
+}  // namespace
+
+TEST_CASE("a bitmap has the area of what fills it, of any winding, and counts an overlap once", "[ink]") {
+  constexpr int pixels = 400;
+  Bitmap bitmap(pixels);
+  CHECK(bitmap.area() == 0);
+  bitmap.fill(box({0.2, 0.3}, {0.7, 0.5}));
+  CHECK(bitmap.area() == 200 * 80);
+  bitmap.fill(box({0.6, 0.3}, {0.8, 0.5}));
+  CHECK(bitmap.area() == 240 * 80);
+  bitmap.clear();
+  std::vector<Point> clockwise = box({0.2, 0.3}, {0.7, 0.5});
+  std::reverse(clockwise.begin(), clockwise.end());
+  bitmap.fill(clockwise);
+  CHECK(bitmap.area() == 200 * 80);
+  bitmap.clear();
+  bitmap.fill(InkDisc{{0.5, 0.5}, 0.25});
+  CHECK(static_cast<double>(bitmap.area()) / (pixels * pixels) == Approx(std::numbers::pi / 16.0).epsilon(2e-3));
+}
+
+TEST_CASE("what lies beyond a bitmap is left out", "[ink]") {
+  Bitmap bitmap(100);
+  bitmap.fill(box({-9.0, -9.0}, {9.0, 9.0}));
+  CHECK(bitmap.area() >= 150 * 150);
+  CHECK(bitmap.area() <= 150 * 192);  // to the end of a word
+  bitmap.fill(InkDisc{{7.0, -8.0}, 0.5});
+  bitmap.clear();
+  CHECK(bitmap.area() == 0);
+}
+
+TEST_CASE("two squares that share a third of their union have an intersection over union of a third", "[ink]") {
+  Bitmap one(200), other(200);
+  one.fill(box({0.0, 0.0}, {0.5, 0.5}));
+  other.fill(box({0.25, 0.0}, {0.75, 0.5}));
+  CHECK(intersection_over_union(one, other) == Approx(1.0 / 3.0));
+  CHECK(intersection_over_union(one, one) == 1.0);
+  CHECK(intersection_over_union(one, Bitmap(200)) == 0.0);
+}
+
+TEST_CASE("the ink of an outline is found again, along every typical stroke", "[ink]") {
+  for (const TypicalStroke& type : typical_strokes()) {
+    INFO("typical stroke " << type.id);
+    const Path path = path_of(type);
+    const std::vector<Point> outline = ink_outline(path, brushed(), 1e-4);
+    const StrokeInk found = fit_ink(path, path, outline, InkDetail::full);
+    CHECK(covered(outline, ink_discs(path, found, 0.002)) >= (path_length(path) < 0.6 ? 0.93 : 0.96));
+  }
+}
+
+TEST_CASE("along a line the half-widths and offsets themselves are found again", "[ink]") {
+  const Path path{{0.1, 0.5}, {0.9, 0.52}};
+  const StrokeInk found = fit_ink(path, path, ink_outline(path, brushed(), 1e-4), InkDetail::full);
+  for (std::size_t k = 1; k + 1 < ink_knot_count; ++k) {
+    CHECK(found.half_widths[k] == Approx(brushed().half_widths[k]).margin(0.003));
+    CHECK(found.offsets[k] == Approx(brushed().offsets[k]).margin(0.003));
+  }
+}
+
+TEST_CASE("half-widths alone leave the ink on the path", "[ink]") {
+  const Path path{{0.1, 0.5}, {0.9, 0.5}};
+  const std::vector<Point> outline = ink_outline(path, brushed(), 1e-4);
+  const StrokeInk found = fit_ink(path, path, outline, InkDetail::half_widths);
+  CHECK(found.offsets == StrokeInk{}.offsets);
+  CHECK(covered(outline, ink_discs(path, found, 0.002)) >= 0.85);
+}
+
+TEST_CASE("ink of any outline, however unlike its path, is valid", "[ink]") {
+  const Path path{{0.1, 0.1}, {0.9, 0.9}, {0.2, 0.85}};
+  const Path point{{0.5, 0.5}, {0.5, 0.5}};
+  std::vector<Point> spiral;
+  for (int i = 0; i < 200; ++i) {
+    spiral.push_back(Point(0.5, 0.5) + 0.002 * i * Point(std::cos(20.0 * i * degree), std::sin(20.0 * i * degree)));
+  }
+  for (const std::vector<Point>& outline :
+       {box({0.4, 0.4}, {0.6, 0.6}), box({5.0, 5.0}, {6.0, 6.0}), box({0.5, 0.5}, {0.5, 0.5}), spiral}) {
+    for (const InkDetail detail : {InkDetail::half_widths, InkDetail::full}) {
+      for (const Path& each : {path, point}) {
+        const StrokeInk ink = fit_ink(each, each, outline, detail);
+        StrokeInput stroke{1, {{0.1, 0.5}, {0.9, 0.5}}};
+        stroke.ink = ink;
+        CHECK_NOTHROW(make_character(U'一', std::vector{stroke}));
+      }
+    }
+  }
+}
+
+TEST_CASE("contacts are counted between outlines, and kept or new by the gap of the inks", "[ink]") {
+  // A bar, one that overlaps it, and one that is 0.02 em above.
+  const std::vector<std::vector<Point>> outlines{box({0.1, 0.4}, {0.9, 0.5}), box({0.4, 0.1}, {0.5, 0.45}),
+                                                 box({0.1, 0.52}, {0.9, 0.6})};
+  const std::vector<std::span<const Point>> views(outlines.begin(), outlines.end());
+  const InkDisc bar{{0.5, 0.45}, 0.05};
+  const auto measured = [&](const InkDisc& second, const InkDisc& third) {
+    return measure_ink(views, std::vector<std::vector<InkDisc>>{{bar}, {second}, {third}});
+  };
+  const InkMeasures near = measured({{0.5, 0.36}, 0.036}, {{0.5, 0.56}, 0.03});  // gaps of 0.004 and 0.03 em
+  CHECK(near.contacts == 1);
+  CHECK(near.contacts_kept == 1);
+  CHECK(near.apart == 1);
+  CHECK(near.new_contacts == 0);
+  const InkMeasures far = measured({{0.5, 0.36}, 0.03}, {{0.5, 0.56}, 0.07});  // a gap of 0.01 em, and an overlap
+  CHECK(far.contacts_kept == 0);
+  CHECK(far.new_contacts == 1);
+  CHECK(far.strokes.size() == 3);
+  CHECK(far.characters.size() == 1);
+  CHECK(far.strokes[0] == Approx(std::numbers::pi * 0.05 * 0.05 / 0.08).epsilon(0.01));
+}
+
+TEST_CASE("strokes are imported with ink if the source has outlines and it is asked for", "[ink]") {
+  const TemporaryDirectory directory;
+  write_bar(directory, true);
+  const Character bar = import_characters(directory.path()).list.characters[0];
+  REQUIRE(bar.physics.ink.size() == 1);
+  CHECK(bar.physics.ink[0].half_widths[3] == Approx(50.0 / 1024.0).margin(1e-3));
+  ImportOptions options;
+  options.ink = InkDetail::none;
+  CHECK(import_characters(directory.path(), options).list.characters[0].physics.ink.empty());
+  write_bar(directory, false);
+  CHECK(import_characters(directory.path()).list.characters[0].physics.ink.empty());
+}
+
+TEST_CASE("the ink of a sample of hanzi-writer-data covers its outlines and keeps its contacts", "[ink][corpus]") {
+  const auto package = package_data("CALLIGRAPHY_HANZI_WRITER_DATA_TARBALL");
+  if (package.empty()) return;
+  ImportOptions options;
+  for (char32_t code = 0x4E00; code < 0x9FFF; code += calligraphy_test::sanitized ? 1600 : 40) options.only += code;
+  options.report = true;
+  InkMeasures ink = import_characters(package, options).report.ink;
+  CHECK(mean(ink.strokes) >= 0.94);
+  std::sort(ink.strokes.begin(), ink.strokes.end());
+  CHECK(ink.strokes[ink.strokes.size() / 20] >= 0.84);
+  CHECK(mean(ink.characters) >= 0.92);
+  CHECK(ink.contacts_kept >= 0.985 * ink.contacts);
+  CHECK(ink.new_contacts <= 0.005 * ink.apart);
+}
+
+}  // namespace ink_fit_tests
