@@ -182,6 +182,12 @@ Doubles array_of_points(const Points& values) {
   return result;
 }
 
+/// A copy of a sequence of numbers.
+template <class Numbers>
+Doubles as_numbers(const Numbers& values) {
+  return Doubles(static_cast<py::ssize_t>(values.size()), values.data());
+}
+
 /// The columns of a structured array whose rows are C++ structs: name, type and offset of each member.
 template <class Row>
 class Columns {

@@ -2,6 +2,8 @@
 // representation, copies, pickling) are implemented in calligraphy/_struct.py.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <initializer_list>
 #include <limits>
 #include <optional>
@@ -68,6 +70,10 @@ template <int Rows, int Columns>
 inline constexpr bool is_matrix<Eigen::Matrix<double, Rows, Columns>> = true;
 template <>
 inline constexpr bool is_matrix<Eigen::Isometry3d> = true;
+template <class Type>
+inline constexpr bool is_array = false;
+template <std::size_t Size>
+inline constexpr bool is_array<std::array<double, Size>> = true;
 template <class Type>
 inline constexpr bool is_vector = false;
 template <class Element>
@@ -176,6 +182,16 @@ void add_field(py::class_<Struct>& type, py::list& names, Member Struct::*member
     set = [place, name = named.name](const py::object& self, const ArrayLike& value) {
       using Matrix = std::remove_cvref_t<decltype(std::declval<Member&>().matrix().derived())>;
       place.of<Member>(self).matrix() = matrix_of<Matrix>(value, name.c_str());
+    };
+  } else if constexpr (is_array<Member>) {
+    get = [place](const py::object& self) {
+      auto& value = place.of<Member>(self);
+      return py::array_t<double>(static_cast<py::ssize_t>(value.size()), value.data(), self);
+    };
+    set = [place, name = named.name](const py::object& self, const ArrayLike& value) {
+      auto& to = place.of<Member>(self);
+      std::copy_n(fixed_doubles(value, name.c_str(), static_cast<py::ssize_t>(to.size())).data(), to.size(),
+                  to.begin());
     };
   } else {
     if constexpr (is_vector<Member>) {

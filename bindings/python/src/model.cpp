@@ -3,7 +3,9 @@
 #include <calligraphy/base/text.hpp>
 #include <calligraphy/model/character_list.hpp>
 #include <calligraphy/model/character_set.hpp>
+#include <calligraphy/model/ink_outline.hpp>
 #include <calligraphy/model/set_encoding.hpp>
+#include <calligraphy/model/stroke_polyline.hpp>
 
 #include "components.hpp"
 
@@ -29,14 +31,15 @@ py::typing::List<Stroke> strokes_of(const py::object& character) {
 
 Character character_of(char32_t code, const std::string& order, int curve_degree, const ArrayLike& control_points,
                        const std::vector<int>& stroke_ids, const std::vector<int>& feature_points,
-                       const std::vector<std::string>& elements, const std::vector<double>& factors) {
+                       const std::vector<std::string>& elements, const std::vector<double>& factors,
+                       const std::vector<StrokeInk>& ink) {
   const std::vector<ElementList> compositions(elements.begin(), elements.end());
   Character result{code,
                    order,
                    curve_degree,
                    {points(control_points, "control_points")},
                    {stroke_ids, feature_points, compositions},
-                   {factors}};
+                   {factors, ink}};
   const std::vector<ValidationIssue> problems = validate(result);
   if (!problems.empty()) throw ValueError("stroke " + std::to_string(problems[0].stroke) + ": " + problems[0].what);
   return result;
@@ -54,6 +57,44 @@ template <class Characters>
 Character at(const Characters& characters, char32_t code) {
   if (const std::optional<Character> found = find(characters, code, "")) return *found;
   throw py::key_error(encode_utf8(code));
+}
+
+void add_ink(py::module_& module) {
+  module.def(
+      "ink_knots", [](double length) { return as_numbers(ink_knots(length)); }, "length"_a,
+      "Where the knots lie along a drawn out path of this length [em], as shares of it, (8,).");
+  module.def(
+      "ink_discs",
+      [](const ArrayLike& path, const StrokeInk& ink, double spacing) {
+        const std::vector<InkDisc> discs = ink_discs(points(path, "path"), ink, spacing);
+        Doubles result({static_cast<py::ssize_t>(discs.size()), py::ssize_t{3}});
+        double* to = result.mutable_data();
+        for (const InkDisc& disc : discs) {
+          *to++ = disc.centre.x();
+          *to++ = disc.centre.y();
+          *to++ = disc.radius;
+        }
+        return result;
+      },
+      "path"_a, "ink"_a, "spacing"_a = 0.004,
+      "Ink along a path (n, 2) as discs at most `spacing` apart: x, y, radius, (m, 3) [em].");
+  module.def(
+      "ink_outline",
+      [](const Stroke& stroke, double tolerance) { return array_of_points(ink_outline(stroke, tolerance)); },
+      "stroke"_a, "tolerance"_a = 5e-4,
+      "Outline of a stroke's ink, a polygon to be filled by the nonzero rule, (n, 2) [em]. Raises InvalidValue if the "
+      "stroke has none.");
+  module.def(
+      "ink_outline",
+      [](const ArrayLike& path, const StrokeInk& ink, double tolerance) {
+        return array_of_points(ink_outline(points(path, "path"), ink, tolerance));
+      },
+      "path"_a, "ink"_a, "tolerance"_a = 5e-4, "The same along any path (n, 2) [em].");
+  module.def(
+      "stroke_polyline",
+      [](const Stroke& stroke, double tolerance) { return array_of_points(stroke_polyline(stroke, tolerance)); },
+      "stroke"_a, "tolerance"_a = 1e-4,
+      "The path of a stroke as a polyline within `tolerance` of it, (n, 2) [em].");
 }
 
 }  // namespace
@@ -91,12 +132,21 @@ void add_model(py::module_& module) {
   module.def("typical_stroke", &typical_stroke, py::return_value_policy::reference, "id"_a,
              "The typical stroke with this id, 1 to 39. Raises InvalidValue for any other id.");
 
+  add_struct<StrokeInk>(
+      module, "StrokeInk",
+      "What a brush leaves of a stroke: how wide it is along the path, which is drawn out at both ends, and how far its "
+      "centre lies to the left of it. Values at eight knots, linear in arc length between them.",
+      &StrokeInk::start, "start: by which the path is drawn out before its start [em]", &StrokeInk::end,
+      "end: by which it is drawn out beyond its end [em]", &StrokeInk::half_widths, "half_widths: (8,) [em]",
+      &StrokeInk::offsets, "offsets: of the centre line, to the left as the stroke is written, (8,) [em]");
+
   py::class_<StrokeInput>(module, "StrokeInput", "A stroke as input to make_character.")
       .def(py::init([](int id, const ArrayLike& control_points, const std::vector<double>& factors,
-                       const std::string& elements) {
-             return StrokeInput{id, points(control_points, "control_points"), factors, elements};
+                       const std::string& elements, const std::optional<StrokeInk>& ink) {
+             return StrokeInput{id, points(control_points, "control_points"), factors, elements, ink};
            }),
-           "id"_a, "control_points"_a, "attraction_factors"_a = std::vector<double>{}, "elements"_a = "")
+           "id"_a, "control_points"_a, "attraction_factors"_a = std::vector<double>{}, "elements"_a = "",
+           "ink"_a = py::none())
       .def_readwrite("id", &StrokeInput::id, "id of the typical stroke, 1 to 39")
       .def_property(
           "control_points", [](const StrokeInput& self) { return array_of_points(self.control_points); },
@@ -108,7 +158,8 @@ void add_model(py::module_& module) {
           "elements", [](const StrokeInput& self) { return self.elements.elements(); },
           [](StrokeInput& self, const std::string& value) { self.elements = value; },
           "composition: 'L' or 'C' for each element of the typical stroke; empty: as there")
-      .attr("__match_args__") = py::make_tuple("id", "control_points", "attraction_factors", "elements");
+      .def_readwrite("ink", &StrokeInput::ink, "StrokeInk, or None; of all strokes of a character or of none; copied")
+      .attr("__match_args__") = py::make_tuple("id", "control_points", "attraction_factors", "elements", "ink");
 
   py::class_<Stroke>(module, "Stroke", "One stroke of a character: a view that keeps the character alive.")
       .def_property_readonly(
@@ -119,15 +170,20 @@ void add_model(py::module_& module) {
       .def_property_readonly("control_points", array_within<Stroke>(&Stroke::control_points), "(n, 2), read only [em]")
       .def_property_readonly("attraction_factors", array_within<Stroke>(&Stroke::attraction_factors),
                              "one per feature point, read only [1]")
+      .def_property_readonly(
+          "ink", [](const Stroke& self) { return self.ink == nullptr ? std::nullopt : std::optional(*self.ink); },
+          "StrokeInk, copied, or None")
       .def("__repr__", [](const Stroke& self) {
         return told("Stroke({}, {} control points)", self.type->name, self.control_points.size());
       });
+
+  add_ink(module);
 
   py::class_<Character>(module, "Character",
                         "A character: shape, stroke order and feel. Immutable. Made by make_character, or read from a "
                         "file. Frame: em square, y up.")
       .def(py::init(&character_of), "code"_a, "order"_a, "curve_degree"_a, "control_points"_a, "stroke_ids"_a,
-           "feature_points"_a, "elements"_a, "attraction_factors"_a,
+           "feature_points"_a, "elements"_a, "attraction_factors"_a, "ink"_a = std::vector<StrokeInk>(),
            "From the fields below; make_character() is simpler.")
       .def_readonly("code", &Character::code, "the character, a str of length 1")
       .def_readonly("order", &Character::order, "name of an alternate stroke order; empty for the standard one")
@@ -152,13 +208,15 @@ void add_model(py::module_& module) {
       .def_property_readonly("attraction_factors",
                              array_within<Character>(&Character::physics, &PhysicalData::attraction_factors),
                              "one per feature point, read only [1]")
+      .def_property_readonly(
+          "ink", [](const Character& self) { return self.physics.ink; }, "StrokeInk of each stroke, or empty; copied")
       .def("strokes", &strokes_of, "The strokes in writing order.")
       .def("__repr__",
            [](const Character& self) {
              return told("Character({}, {} strokes)", encode_utf8(self.code), self.stroke_count());
            })
       .attr("__match_args__") = py::make_tuple("code", "order", "curve_degree", "control_points", "stroke_ids",
-                                               "feature_points", "elements", "attraction_factors");
+                                               "feature_points", "elements", "attraction_factors", "ink");
 
   module.def(
       "make_character",

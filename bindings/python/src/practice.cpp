@@ -103,6 +103,7 @@ py::dict as_dict(const ImportReport& report) {
                   "measures"_a = table(measures, dtype_of("code:U1 order:U32 stroke:i4 id:i4 frechet:f8 backward:f8 "
                                                           "length:f8 source_length:f8 half_width:f8 false_corners:i4 "
                                                           "lost_corners:i4 lost_inside:f8")),
+                  "ink"_a = as_numbers(report.ink.strokes),
                   "crossings"_a = py::make_tuple(report.crossings.source, report.crossings.kept),
                   "skipped"_a = skipped);
 }
@@ -292,13 +293,15 @@ void add_practice(py::module_& module) {
       "The MeanInterval of values (n,), clustered by the independent draw that each belongs to, an integer (n,): "
       "Student's t with one degree of freedom less than there are draws.");
 
+  add_enum(module, "InkDetail", "How closely imported ink follows the outlines of its source.", InkDetail::full,
+           "none half_widths full");
   module.def(
       "import_characters",
       [](const std::filesystem::path& source, const std::optional<std::filesystem::path>& letters,
          const std::u32string& only, bool alternates, bool ideographs_only, const std::string& date, int threads,
-         bool report, const Progress& progress) {
+         bool report, const Progress& progress, InkDetail ink) {
         // Optional, because an empty C++ path would become "." in Python.
-        const ImportOptions options = {letters.value_or(""), alternates, ideographs_only, only, date, threads,
+        const ImportOptions options = {letters.value_or(""), alternates, ideographs_only, ink, only, date, threads,
                                        report,               {},         interruptible(progress)};
         ImportResult imported = released(&import_characters)(source, options);
         return py::typing::Tuple<CharacterList, py::dict>(
@@ -306,11 +309,13 @@ void add_practice(py::module_& module) {
       },
       "source"_a, "letters"_a = py::none(), "only"_a = std::u32string(), "alternates"_a = false,
       "ideographs_only"_a = true, "date"_a = "", "threads"_a = 0, "report"_a = false, "progress"_a = py::none(),
+      "ink"_a = InkDetail::full,
       "Imports hanzi-writer-data or KanjiVG (a directory or a tarball), a set file or the text format. Returns a "
       "CharacterList and a report (docs/import.md): kind, characters, strokes, labelled, agreed, allowed, ids_used "
       "by id, letters_unused, notes; within: strokes and characters within an error [em]; worst: code, order, stroke "
       "(from 1), id, error [em]; skipped files with reasons. With `report`, every stroke is measured against its "
-      "source (docs/strokes.md): measures, a row for each, lengths in em; crossings: in the source, kept. Raises "
+      "source (docs/strokes.md): measures, a row for each, lengths in em; crossings: in the source, kept; ink: of each "
+      "stroke, intersection over union with its outline. `ink` is kept of hanzi-writer-data. Raises "
       "FileError, FormatError, InvalidValue.");
 }
 

@@ -127,3 +127,34 @@ def test_a_character_list_iterates_in_its_own_order():
 def test_an_invalid_method_is_rejected(method):
     with pytest.raises(TypeError, match="method: "):
         cal.nearest_point([[0, 0], [1, 0]], [[0, 1]], method)
+
+
+def brushed():
+    return cal.StrokeInk(start=0.01, end=0.02, half_widths=np.linspace(0.01, 0.045, 8), offsets=np.full(8, 0.002))
+
+
+def test_ink_belongs_to_a_stroke_and_has_an_outline():
+    heng = cal.StrokeInput(1, [[0.1, 0.5], [0.9, 0.5]], ink=brushed())
+    character = cal.make_character("一", [heng])
+    stroke = character.strokes()[0]
+    assert stroke.ink == brushed() == character.ink[0] == stroke.input().ink
+    assert character == pickle.loads(pickle.dumps(character))
+    outline = cal.ink_outline(stroke)
+    x, y = outline.T
+    area = 0.5 * abs(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1)))
+    knots = 0.83 * cal.ink_knots(0.83)
+    trapezia = np.sum(np.diff(knots) * (brushed().half_widths[1:] + brushed().half_widths[:-1]))
+    assert area == pytest.approx(trapezia + 0.5 * np.pi * (0.01**2 + 0.045**2), rel=0.01)
+    path = cal.stroke_polyline(stroke)
+    assert np.array_equal(outline, cal.ink_outline(path, brushed()))
+    discs = cal.ink_discs(path, brushed())
+    assert discs.shape[1] == 3 and discs[0] == pytest.approx([0.09, 0.502, 0.01])
+
+
+def test_a_stroke_without_ink_has_no_outline():
+    stroke = cal.paper_example().strokes()[0]
+    assert stroke.ink is None and cal.paper_example().ink == []
+    with pytest.raises(cal.InvalidValue, match="has no ink"):
+        cal.ink_outline(stroke)
+    with pytest.raises(cal.InvalidValue, match="half_widths: expected shape \\(8,\\), got \\(3,\\)"):
+        cal.StrokeInk(half_widths=[0.1, 0.2, 0.3])

@@ -266,7 +266,7 @@ def test_pages_are_equal_if_their_characters_are():
 RESULTS = {
     "NearestPoints": lambda: cal.nearest_point([[0, 0], [1, 2], [3, 0]], [[0, 1], [2, 2], [np.nan, 0]]),
     "Recording": lambda: cal.Recording(500.0, np.ones(3, dtype=cal.sample_dtype)),
-    "StrokeInput": lambda: cal.StrokeInput(1, [[0, 0], [1, 1]], [1.0, 2.0]),
+    "StrokeInput": lambda: cal.StrokeInput(1, [[0, 0], [1, 1]], [1.0, 2.0], ink=cal.StrokeInk(start=0.1)),
     "PenTrace": lambda: cal.PenTrace("一", [[[0, 0, 0], [1, 0, 0.5]], np.zeros((0, 3))], set="made", em=500.0),
     "CharacterList": lambda: cal.CharacterList(
         [cal.built_in_characters()["永"]], cal.Provenance(source="mine", licence="MIT")
@@ -277,7 +277,7 @@ RESULTS = {
 PARTS = {
     "NearestPoints": ("parameter", "point", "distance", "tangent", "status", "certified"),
     "Recording": ("rate", "samples"),
-    "StrokeInput": ("id", "control_points", "attraction_factors", "elements"),
+    "StrokeInput": ("id", "control_points", "attraction_factors", "elements", "ink"),
     "PenTrace": ("character", "set", "em", "strokes"),
     "CharacterList": ("characters", "provenance"),
     "TypicalStroke": ("id", "name"),
@@ -334,7 +334,7 @@ def test_other_classes_have_a_one_line_repr(written):
 def test_the_repr_of_long_values_is_abbreviated_with_their_length():
     strokes = cal.StrokeInput(1, [[0, 0], [1, 1]], np.arange(50.0))
     assert "attraction_factors=[0.0, 1.0, 2.0, ... 50 in all]" in repr(strokes)
-    assert "attraction_factors=[0.0, 1.0], elements='')" in repr(cal.StrokeInput(1, [[0, 0], [1, 1]], [0.0, 1.0]))
+    assert "attraction_factors=[0.0, 1.0], elements='', ink=None)" in repr(cal.StrokeInput(1, [[0, 0], [1, 1]], [0.0, 1.0]))
     licence = repr(cal.Provenance(licence_text="word " * 1000))
     assert "licence_text='word word" in licence and "... 5000 characters in all" in licence and len(licence) < 200
     score = repr(cal.CharacterScore(character="永", mistakes=[cal.WritingMistake(reason="x")]))
