@@ -68,13 +68,14 @@ double quantile(std::vector<double> values, double share) {
 
 constexpr double low = 0.05;
 
-std::string ink_table(const InkMeasures& ink) {
+std::string ink_table(const char* name, const InkMeasures& ink) {
   const auto area_row = [](const char* what, double value) { return row(what, fmt::format("{:.4f}", value)); };
-  std::string text = area_row("ink: intersection over union, mean", mean_of(ink.strokes));
+  std::string text = fmt::format("{}, intersection over union with the outlines\n", name);
+  text += area_row("  mean", mean_of(ink.strokes));
   text += area_row("  5th percentile", quantile(ink.strokes, low));
   text += area_row("  mean of whole characters", mean_of(ink.characters));
-  text += share_row("contacts of strokes kept", ink.contacts_kept, ink.contacts);
-  text += share_row("new contacts of neighbours", ink.new_contacts, std::max(1, ink.apart));
+  text += share_row("  contacts of strokes kept", ink.contacts_kept, ink.contacts);
+  text += share_row("  new contacts of neighbours", ink.new_contacts, std::max(1, ink.apart));
   return text;
 }
 
@@ -126,8 +127,10 @@ std::string measures_table(const ImportReport& report, std::size_t bytes) {
   text += counted_row("  more than 10 % of the em from its ends", report, has_lost_inner_corner);
   text += share_row("crossings of strokes kept", report.crossings.kept, report.crossings.source);
   if (report.labelled > 0) text += share_row("strokes of a kind their label allows", report.allowed, report.labelled);
-  if (!report.ink.strokes.empty()) text += ink_table(report.ink);
   text += row("bytes a character", fmt::format("{:.1f}", bytes_per_character(report, bytes)));
+  if (!report.ink.strokes.empty()) {
+    text += ink_table("ink", report.ink) + ink_table("ink typical of each kind", report.typical_ink);
+  }
   return text;
 }
 
@@ -148,6 +151,7 @@ Json measures_json(const ImportReport& report, std::size_t bytes) {
           {"allowed_by_label", report.allowed},
           {"bytes_per_character", bytes_per_character(report, bytes)},
           {"ink", ink_json(report.ink)},
+          {"typical_ink", ink_json(report.typical_ink)},
           {"strokes", strokes}};
 }
 

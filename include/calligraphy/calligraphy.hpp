@@ -36,6 +36,7 @@
 #include <calligraphy/model/set_encoding.hpp>
 #include <calligraphy/model/stroke_ink.hpp>
 #include <calligraphy/model/stroke_polyline.hpp>
+#include <calligraphy/model/typical_ink.hpp>
 #include <calligraphy/model/typical_stroke.hpp>
 #include <calligraphy/practice/live_session.hpp>
 #include <calligraphy/practice/mean_interval.hpp>

@@ -21,6 +21,7 @@
 #include <calligraphy/importers/stroke_warnings.hpp>
 #include <calligraphy/model/character_set.hpp>
 #include <calligraphy/model/ink_outline.hpp>
+#include <calligraphy/model/typical_ink.hpp>
 
 #include "base/archive_format.hpp"
 #include "base/charconv.hpp"
@@ -362,7 +363,7 @@ class Importer {
       measures.outline_size = outline.empty() ? 0.0 : recognition::box_of(outline).diagonal().norm();
       stroke.contradicts_label = contradicts_label(drawn[i], stroke, strokes[i].id);
     }
-    if (strokes.front().ink) result.ink = measured_ink(drawn, paths, strokes);
+    if (strokes.front().ink) measure_ink(drawn, paths, strokes, result);
     result.crossings.source = static_cast<int>(crossings.size());
     for (const auto& [one, other, at] : crossings) {
       if (recognition::crossing_of(paths[one], paths[other])) {
@@ -373,17 +374,20 @@ class Importer {
     }
   }
 
-  static InkMeasures measured_ink(const std::vector<StrokeOfDrawing>& drawn,
-                                  const std::vector<recognition::Path>& paths,
-                                  const std::vector<StrokeInput>& strokes) {
+  /// The ink as fitted and, to compare with it, that of the strokes' kinds.
+  static void measure_ink(const std::vector<StrokeOfDrawing>& drawn, const std::vector<recognition::Path>& paths,
+                          const std::vector<StrokeInput>& strokes, ImportedCharacter& result) {
     constexpr double spacing = 0.003;  // [em]
     std::vector<std::span<const Point>> outlines;
-    std::vector<std::vector<InkDisc>> inks;
+    std::vector<std::vector<InkDisc>> inks, typical_inks;
     for (std::size_t i = 0; i < drawn.size(); ++i) {
       outlines.emplace_back(drawn[i].outline);
       inks.push_back(ink_discs(paths[i], *strokes[i].ink, spacing));
+      typical_inks.push_back(
+          ink_discs(paths[i], typical_ink(strokes[i].id, result.strokes[i].half_width), spacing));
     }
-    return recognition::measure_ink(outlines, inks);
+    result.ink = recognition::measure_ink(outlines, inks);
+    result.typical_ink = recognition::measure_ink(outlines, typical_inks);
   }
 
   std::vector<StrokeOfDrawing> drawn_strokes(const Drawing& drawing, ImportedCharacter& result) const {

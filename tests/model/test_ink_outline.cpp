@@ -11,6 +11,7 @@
 #include <calligraphy/model/character_list.hpp>
 #include <calligraphy/model/ink_outline.hpp>
 #include <calligraphy/model/stroke_polyline.hpp>
+#include <calligraphy/model/typical_ink.hpp>
 
 #include "../hard_cases.hpp"
 
@@ -244,4 +245,40 @@ TEST_CASE("ink survives the change to quartic curves and back to input", "[model
   const Character character = heng(even_ink(0.02));
   CHECK(with_quartic_curves(character).physics.ink == character.physics.ink);
   CHECK(input_of(strokes(character)[0]).ink == character.physics.ink[0]);
+}
+
+TEST_CASE("every kind of stroke has valid typical ink, wider where it is longer, thinner among others", "[model][ink]") {
+  for (const TypicalStroke& type : typical_strokes()) {
+    INFO("typical stroke " << type.id);
+    const double usual = typical_half_width(type.id, 8, 0.5);
+    CHECK(usual > 0.01);
+    CHECK(usual < 0.04);
+    CHECK(typical_half_width(type.id, 8, 0.7) > usual);
+    CHECK(typical_half_width(type.id, 16, 0.5) < usual);
+    StrokeInput stroke{type.id, {}};
+    for (const std::array<double, 2>& point : type.shape) stroke.control_points.emplace_back(point[0], point[1]);
+    const Character inked = with_typical_ink(character_of(stroke));
+    CHECK(validate(inked).empty());
+    REQUIRE(inked.physics.ink.size() == 1);
+    CHECK(area_of(outline_of(inked)) > 0.0);
+  }
+  CHECK_THROWS_AS(typical_ink(0, 0.02), ValueError);
+  CHECK_THROWS_AS(typical_half_width(1, 0, 0.5), ValueError);
+}
+
+TEST_CASE("typical ink is what calligraphers write: a na is widest near its end, a pie near its start", "[model][ink]") {
+  const auto widest = [](int id) {
+    const StrokeInk ink = typical_ink(id, 1.0);
+    return std::max_element(ink.half_widths.begin(), ink.half_widths.end()) - ink.half_widths.begin();
+  };
+  CHECK(widest(6) >= 4);
+  CHECK(widest(4) == 1);
+  CHECK(typical_ink(4, 1.0).half_widths.back() < 0.5);
+}
+
+TEST_CASE("typical ink replaces none of a character's own", "[model][ink]") {
+  const Character own = heng(even_ink(0.02));
+  CHECK(with_typical_ink(own).physics.ink == own.physics.ink);
+  const Character dot = with_typical_ink(character_of({8, {{0.5, 0.5}, {0.5, 0.5}}}));
+  CHECK(validate(dot).empty());
 }

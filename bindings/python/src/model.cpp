@@ -6,6 +6,7 @@
 #include <calligraphy/model/ink_outline.hpp>
 #include <calligraphy/model/set_encoding.hpp>
 #include <calligraphy/model/stroke_polyline.hpp>
+#include <calligraphy/model/typical_ink.hpp>
 
 #include "components.hpp"
 
@@ -90,6 +91,10 @@ void add_ink(py::module_& module) {
         return array_of_points(ink_outline(points(path, "path"), ink, tolerance));
       },
       "path"_a, "ink"_a, "tolerance"_a = 5e-4, "The same along any path (n, 2) [em].");
+  module.def("typical_half_width", &typical_half_width, "id"_a, "stroke_count"_a, "length"_a,
+             "The usual half-width of a stroke of a kind and length in a character of so many strokes [em].");
+  module.def("typical_ink", &typical_ink, "id"_a, "half_width"_a,
+             "The typical StrokeInk of a kind of stroke, scaled to a half-width [em].");
   module.def(
       "stroke_polyline",
       [](const Stroke& stroke, double tolerance) { return array_of_points(stroke_polyline(stroke, tolerance)); },
@@ -227,6 +232,8 @@ void add_model(py::module_& module) {
       "Builds a character from its strokes in writing order. Raises InvalidValue naming the stroke.");
   module.def("with_quartic_curves", &with_quartic_curves, "character"_a,
              "The same shape with quartic curves, as eq. (1) prints.");
+  module.def("with_typical_ink", &with_typical_ink, "character"_a,
+             "The same character with typical ink, or as it is if it has ink of its own.");
   module.def("paper_example", &paper_example, py::return_value_policy::copy, "The character of Table 3.");
 
   add_struct<Provenance>(module, "Provenance", "Origin of characters, and the terms of their use.", &Provenance::source,
