@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <calligraphy/base/text.hpp>
+#include <calligraphy/model/set_encoding.hpp>
 
 #include "counted.hpp"
 #include "import_report.hpp"
@@ -68,29 +69,6 @@ double quantile(std::vector<double> values, double share) {
 
 constexpr double low = 0.05;
 
-std::string ink_table(const char* name, const InkMeasures& ink) {
-  const auto area_row = [](const char* what, double value) { return row(what, fmt::format("{:.4f}", value)); };
-  std::string text = fmt::format("{}, intersection over union with the outlines\n", name);
-  text += area_row("  mean", mean_of(ink.strokes));
-  text += area_row("  5th percentile", quantile(ink.strokes, low));
-  text += area_row("  mean of whole characters", mean_of(ink.characters));
-  text += share_row("  contacts of strokes kept", ink.contacts_kept, ink.contacts);
-  text += share_row("  new contacts of neighbours", ink.new_contacts, std::max(1, ink.apart));
-  return text;
-}
-
-Json ink_json(const InkMeasures& ink) {
-  if (ink.strokes.empty()) return nullptr;
-  return {{"iou_mean", mean_of(ink.strokes)},
-          {"iou_p5", quantile(ink.strokes, low)},
-          {"iou_characters_mean", mean_of(ink.characters)},
-          {"contacts", ink.contacts},
-          {"contacts_kept", ink.contacts_kept},
-          {"apart", ink.apart},
-          {"new_contacts", ink.new_contacts},
-          {"iou", ink.strokes}};
-}
-
 Json stroke_json(const StrokeMeasures& stroke) {
   Json row = place_json(stroke.place);
   row["id"] = stroke.id;
@@ -105,7 +83,67 @@ Json stroke_json(const StrokeMeasures& stroke) {
   return row;
 }
 
+/// Ink as stored: what it costs, and what it covers.
+struct InkRow {
+  const char* name;
+  const char* key;
+  const InkMeasures* measures;
+  double bytes;  ///< a character
+};
+
+std::vector<InkRow> ink_rows(const ImportResult& import) {
+  if (import.report.ink.strokes.empty()) return {};
+  const auto size = [](const CharacterList& list) { return static_cast<double>(encode_character_set(list).size()); };
+  CharacterList list = import.list;
+  const double full = size(list);
+  for (Character& character : list.characters) {
+    for (StrokeInk& ink : character.physics.ink) ink.offsets.fill(0.0);
+  }
+  const double plain = size(list);
+  for (Character& character : list.characters) character.physics.ink.clear();
+  const double none = size(list);
+  const auto count = static_cast<double>(list.characters.size());
+  std::vector<InkRow> rows{{"typical of the kind, scaled", "typical", &import.report.typical_ink, 0.0},
+                           {"8 half-widths", "half_widths", &import.report.plain_ink, (plain - none) / count}};
+  if (full != plain) {
+    rows.push_back({"8 half-widths, 8 offsets", "full", &import.report.ink, (full - none) / count});
+  }
+  return rows;
+}
+
 }  // namespace
+
+std::string ink_table(const ImportResult& import) {
+  const std::vector<InkRow> rows = ink_rows(import);
+  if (rows.empty()) return {};
+  constexpr const char* head = "{:<28}{:>10}{:>8}{:>8}{:>8}{:>10}{:>8}\n";
+  std::string text = "\nink against the outlines: intersection over union of areas; contacts of strokes\n";
+  text += fmt::format(fmt::runtime(head), "", "bytes a", "", "", "whole", "kept", "new");
+  text += fmt::format(fmt::runtime(head), "", "character", "mean", "p5", "char.", "[%]", "[%]");
+  for (const auto& [name, key, ink, bytes] : rows) {
+    text += fmt::format("{:<28}{:>10.1f}{:>8.4f}{:>8.4f}{:>8.4f}{:>10.2f}{:>8.2f}\n", name, bytes,
+                        mean_of(ink->strokes), quantile(ink->strokes, low), mean_of(ink->characters),
+                        percent * share(ink->contacts_kept, ink->contacts),
+                        percent * share(ink->new_contacts, std::max(1, ink->apart)));
+  }
+  return text;
+}
+
+Json ink_json(const ImportResult& import) {
+  Json result = Json::object();
+  for (const auto& [name, key, ink, bytes] : ink_rows(import)) {
+    result[key] = {{"bytes_per_character", bytes},
+                   {"iou_mean", mean_of(ink->strokes)},
+                   {"iou_p5", quantile(ink->strokes, low)},
+                   {"iou_characters_mean", mean_of(ink->characters)},
+                   {"contacts", ink->contacts},
+                   {"contacts_kept", ink->contacts_kept},
+                   {"apart", ink->apart},
+                   {"new_contacts", ink->new_contacts},
+                   {"iou", ink->strokes}};
+  }
+  return result;
+}
 
 double share(int part, int whole) { return whole == 0 ? 1.0 : static_cast<double>(part) / whole; }
 
@@ -128,9 +166,6 @@ std::string measures_table(const ImportReport& report, std::size_t bytes) {
   text += share_row("crossings of strokes kept", report.crossings.kept, report.crossings.source);
   if (report.labelled > 0) text += share_row("strokes of a kind their label allows", report.allowed, report.labelled);
   text += row("bytes a character", fmt::format("{:.1f}", bytes_per_character(report, bytes)));
-  if (!report.ink.strokes.empty()) {
-    text += ink_table("ink", report.ink) + ink_table("ink typical of each kind", report.typical_ink);
-  }
   return text;
 }
 
@@ -150,8 +185,6 @@ Json measures_json(const ImportReport& report, std::size_t bytes) {
           {"labelled", report.labelled},
           {"allowed_by_label", report.allowed},
           {"bytes_per_character", bytes_per_character(report, bytes)},
-          {"ink", ink_json(report.ink)},
-          {"typical_ink", ink_json(report.typical_ink)},
           {"strokes", strokes}};
 }
 

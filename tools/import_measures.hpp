@@ -26,4 +26,11 @@ std::string measures_table(const ImportReport& report, std::size_t bytes);
 /// The same, and the measures of every stroke.
 nlohmann::ordered_json measures_json(const ImportReport& report, std::size_t bytes);
 
+/// What ink costs in a set file at standard precision, and how well it covers the outlines: typical ink, half-widths
+/// alone, and with offsets. Empty if nothing was imported with ink and a report.
+std::string ink_table(const ImportResult& import);
+
+/// The same, and the intersection over union of every stroke.
+nlohmann::ordered_json ink_json(const ImportResult& import);
+
 }  // namespace calligraphy::tools

@@ -197,7 +197,7 @@ std::string tables(const ImportResult& import, const ImportOutput& output) {
          fmt::format("source: {}\nlicence: {}\nattribution: {}\n", provenance.source, provenance.licence,
                      provenance.attribution) +
          (fitted ? fit_table(report) : "") + (report.measures.empty() ? "" : measures_table(report, output.bytes)) +
-         id_table(report) + label_table(report) + skipped_table(report);
+         ink_table(import) + id_table(report) + label_table(report) + skipped_table(report);
 }
 
 std::string json(const ImportResult& import, const ImportOutput& output) {
@@ -219,6 +219,7 @@ std::string json(const ImportResult& import, const ImportOutput& output) {
     all["worst"] = worst_json(report);
     all["labels"] = label_json(report);
     if (!report.measures.empty()) all["measures"] = measures_json(report, output.bytes);
+    if (!report.ink.strokes.empty()) all["ink"] = ink_json(import);
   }
   all["ids_used"] = ids_json(report);
   all["skipped"] = skipped_json(report);

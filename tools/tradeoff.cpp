@@ -36,6 +36,7 @@ constexpr std::size_t max_written = 2;
 struct TradeoffArguments {
   std::string text = "永北京航空天大学和年书法";
   std::vector<std::string> characters;
+  std::string ink;
   std::string out;
   std::uint64_t seed = 1;
   std::optional<int> queries;
@@ -57,6 +58,17 @@ TradeoffReport asked_for(const TradeoffArguments& options) {
   }
   if (options.queries) report.nearest_options.queries = *options.queries;
   return report;
+}
+
+/// The characters from a source of outlines, measured against these.
+ImportResult with_ink(const std::string& source, const std::u32string& text, const Interrupt& interrupt) {
+  ImportOptions asked;
+  asked.only = text;
+  asked.report = true;
+  asked.progress = [&](double) { interrupt.check(); };
+  ImportResult import = import_source(source, asked);
+  if (import.report.ink.strokes.empty()) throw Error("--ink: " + source + " has no outlines of strokes");
+  return import;
 }
 
 void measure(TradeoffReport& report, const std::vector<Character>& characters, const Interrupt& interrupt) {
@@ -101,6 +113,7 @@ void run(const TradeoffArguments& options) {
     throw Error("TEXT has no stroke with a curve to measure the nearest point on");
   }
   const Interrupt interrupt;
+  if (!options.ink.empty()) report.ink = with_ink(options.ink, report.text, interrupt);
   std::optional<OutputDirectory> out;
   if (!options.out.empty()) out.emplace(options.out);
   measure(report, characters, interrupt);
@@ -130,6 +143,10 @@ void add_tradeoff(CLI::App& program) {
   command->add_option("TEXT", options->text, "Characters to measure; the first two are written at every servo rate")
       ->capture_default_str();
   add_characters_option(*command, options->characters);
+  command
+      ->add_option("--ink", options->ink,
+                   "hanzi-writer-data (directory or npm tarball): also measure what the ink of TEXT takes and covers")
+      ->type_name("PATH");
   add_out_directory(*command, options->out, "plots and JSON");
   command->add_option("--seed", options->seed, "Seed of all random draws")
       ->check(integer(0, std::numeric_limits<std::uint64_t>::max()))

@@ -5,6 +5,8 @@
 
 #include <calligraphy/base/text.hpp>
 
+#include "import_measures.hpp"
+
 namespace calligraphy::tools {
 namespace {
 
@@ -159,12 +161,12 @@ std::string tables(const TradeoffReport& report) {
                     &NearestPointTradeoff::real) +
          cost_table(report, fmt::format("Nearest point on the hard workloads, {} queries", 17 * queries),
                     &NearestPointTradeoff::hard) +
-         hand_table(report) + rate_table(report) + width_table(report);
+         hand_table(report) + rate_table(report) + width_table(report) + (report.ink ? ink_table(*report.ink) : "");
 }
 
 std::string json(const TradeoffReport& report) {
   const NearestPointTradeoffOptions& options = report.nearest_options;
-  const Json object = {
+  Json object = {
       {"characters", utf8(report.text)},
       {"written_characters", utf8(report.written)},
       {"seed", report.seed},
@@ -176,6 +178,7 @@ std::string json(const TradeoffReport& report) {
       {"nearest_point", list_of(report.nearest_point)},
       {"servo_rate", list_of(report.servo_rate)},
       {"coordinate_width", list_of(report.coordinate_width)}};
+  if (report.ink) object["ink"] = ink_json(*report.ink);
   return object.dump(2) + "\n";
 }
 

@@ -1,10 +1,12 @@
 // Report of `calligraphy tradeoff`, as tables and as JSON.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <calligraphy/experiments/tradeoff.hpp>
+#include <calligraphy/importers/character_import.hpp>
 
 namespace calligraphy::tools {
 
@@ -17,6 +19,7 @@ struct TradeoffReport {
   std::vector<NearestPointTradeoff> nearest_point;
   std::vector<ServoRateTradeoff> servo_rate;
   std::vector<CoordinateWidthTradeoff> coordinate_width;
+  std::optional<ImportResult> ink;  ///< the characters, imported with a report, if a source of ink is given
 };
 
 std::string tables(const TradeoffReport& report);

@@ -374,19 +374,23 @@ class Importer {
     }
   }
 
-  /// The ink as fitted and, to compare with it, that of the strokes' kinds.
+  /// The ink as fitted and, to compare with it, without offsets, and that of the strokes' kinds.
   static void measure_ink(const std::vector<StrokeOfDrawing>& drawn, const std::vector<recognition::Path>& paths,
                           const std::vector<StrokeInput>& strokes, ImportedCharacter& result) {
     constexpr double spacing = 0.003;  // [em]
     std::vector<std::span<const Point>> outlines;
-    std::vector<std::vector<InkDisc>> inks, typical_inks;
+    std::vector<std::vector<InkDisc>> inks, plain_inks, typical_inks;
     for (std::size_t i = 0; i < drawn.size(); ++i) {
       outlines.emplace_back(drawn[i].outline);
       inks.push_back(ink_discs(paths[i], *strokes[i].ink, spacing));
+      const StrokeInk plain =
+          recognition::fit_ink(paths[i], drawn[i].path, drawn[i].outline, InkDetail::half_widths);
+      plain_inks.push_back(ink_discs(paths[i], plain, spacing));
       typical_inks.push_back(
           ink_discs(paths[i], typical_ink(strokes[i].id, result.strokes[i].half_width), spacing));
     }
     result.ink = recognition::measure_ink(outlines, inks);
+    result.plain_ink = recognition::measure_ink(outlines, plain_inks);
     result.typical_ink = recognition::measure_ink(outlines, typical_inks);
   }
 

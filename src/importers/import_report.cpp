@@ -24,6 +24,7 @@ class Counter {
     count_within(imported.strokes);
     report_.measures.insert(report_.measures.end(), imported.measures.begin(), imported.measures.end());
     add(imported.ink, report_.ink);
+    add(imported.plain_ink, report_.plain_ink);
     add(imported.typical_ink, report_.typical_ink);
     report_.crossings.source += imported.crossings.source;
     report_.crossings.kept += imported.crossings.kept;

@@ -23,6 +23,7 @@ struct ImportedCharacter {
   std::vector<ImportedStroke> strokes;
   std::vector<StrokeMeasures> measures;  ///< if asked for
   InkMeasures ink;                       ///< of this character, if asked for
+  InkMeasures plain_ink;                 ///< the same without offsets
   InkMeasures typical_ink;               ///< the same of typical ink
   CrossingCount crossings;
   std::vector<LostCrossing> lost_crossings;

@@ -48,7 +48,9 @@ Character with_typical_ink(Character character) {
   std::vector<StrokeInk> ink;
   for (const Stroke& stroke : strokes(character)) {
     const int id = stroke.type->id;
-    ink.push_back(typical_ink(id, typical_half_width(id, character.stroke_count(), length_of(stroke))));
+    StrokeInk own = typical_ink(id, typical_half_width(id, character.stroke_count(), length_of(stroke)));
+    own.start = own.end = 0.0;
+    ink.push_back(own);
   }
   character.physics.ink = std::move(ink);
   return character;

@@ -165,6 +165,7 @@ struct ImportReport {
 
   std::vector<StrokeMeasures> measures;      ///< of every stroke of the source, if asked for; none is left out or split
   InkMeasures ink;                           ///< if asked for, and the strokes have ink
+  InkMeasures plain_ink;    ///< the same of ink fitted with half-widths alone
   InkMeasures typical_ink;  ///< the same of the ink that is typical of each kind, as wide as the stroke
   CrossingCount crossings;                   ///< if asked for
   std::vector<LostCrossing> lost_crossings;  ///< if asked for
