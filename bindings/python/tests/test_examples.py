@@ -19,6 +19,7 @@ EXAMPLES = {
     "own_force_law": ["own-force-law.png"],
     "replay_trace": ["replay-trace.png"],
     "live_writing": ["live-writing.png"],
+    "ink": ["ink.png"],
 }
 PAGES = ["README.md", "docs/python.md"]
 

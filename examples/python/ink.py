@@ -1,0 +1,24 @@
+"""Strokes with the width of the brush: a character as ink, and the width of each stroke along its path."""
+
+import matplotlib.pyplot as plt
+import numpy as np
+from plotting import output_directory, save
+
+import calligraphy as cal
+
+out = output_directory(__doc__)
+# Characters imported from hanzi-writer-data have ink of their own; this one gets that of its kinds of strokes.
+character = cal.with_typical_ink(cal.built_in_characters()["永"])
+
+figure, (page, widths) = plt.subplots(1, 2, figsize=(10, 4.6), layout="constrained")
+for number, stroke in enumerate(character.strokes(), start=1):
+    (filled,) = page.fill(*cal.ink_outline(stroke).T, label=f"{number} {stroke.type.pinyin}")
+    page.plot(*cal.stroke_polyline(stroke).T, color="white", linewidth=0.8)
+
+    path = cal.stroke_polyline(stroke)
+    length = np.linalg.norm(np.diff(path, axis=0), axis=1).sum() + stroke.ink.start + stroke.ink.end
+    widths.plot(length * cal.ink_knots(length), stroke.ink.half_widths, "o-", color=filled.get_facecolor())
+page.set(aspect="equal", xlim=(0, 1), ylim=(0, 1), title="ink and path [em]")
+page.legend(loc="upper right", fontsize=7)
+widths.set(xlabel="along the stroke [em]", ylabel="half-width [em]", ylim=(0, None), title="width profiles")
+save(figure, out / "ink.png")
