@@ -18,7 +18,18 @@ inline bool same(const calligraphy::Character& a, const calligraphy::Character& 
          a.sequence.stroke_ids == b.sequence.stroke_ids && a.sequence.elements == b.sequence.elements &&
          a.sequence.feature_points == b.sequence.feature_points &&
          a.structure.control_points == b.structure.control_points &&
-         a.physics.attraction_factors == b.physics.attraction_factors;
+         a.physics.attraction_factors == b.physics.attraction_factors && a.physics.ink == b.physics.ink;
+}
+
+/// Ink for every stroke of a character, no value beyond `most` [em].
+inline void add_ink(calligraphy::Character& character, double most, Sequence& random) {
+  character.physics.ink.assign(character.sequence.stroke_ids.size(), {});
+  for (calligraphy::StrokeInk& ink : character.physics.ink) {
+    ink.start = random.between(0.0, most);
+    ink.end = random.between(0.0, most);
+    for (double& half_width : ink.half_widths) half_width = random.between(0.0, most);
+    for (double& offset : ink.offsets) offset = random.between(-most, most);
+  }
 }
 
 /// Every typical stroke as a separate character from U+4E00 on, each scaled about a different point.
