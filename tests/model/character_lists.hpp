@@ -48,7 +48,7 @@ inline calligraphy::CharacterList typical_strokes_as_characters(double scale, Se
 }
 
 /// The built-in characters and rare cases: quartics, factors, alternate orders, points far outside, numbers with all
-/// digits, four-byte code points.
+/// digits, four-byte code points, ink of some and very wide ink of a few.
 inline calligraphy::CharacterList rich_list() {
   calligraphy::CharacterList list = calligraphy::built_in_characters();
   list.provenance.licence_text = "First line\n\n  the third\n";
@@ -68,6 +68,9 @@ inline calligraphy::CharacterList rich_list() {
   for (std::size_t i = 0; i < list.characters.size(); i += 3) {
     for (double& factor : list.characters[i].physics.attraction_factors) factor = random.between(0.0, 3.0);
     for (Point& point : list.characters[i].structure.control_points) point += 1e-3 * random.point(-1.0, 1.0);
+  }
+  for (std::size_t i = 0; i < list.characters.size(); i += 2) {
+    add_ink(list.characters[i], i % 10 == 0 ? calligraphy::max_ink_length : 0.06, random);
   }
   return list;
 }
