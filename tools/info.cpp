@@ -49,6 +49,7 @@ struct Summary {
   std::size_t characters = 0;
   std::size_t strokes = 0;           ///< in the standard order of each character
   std::size_t alternate_orders = 0;  ///< not counting the first one of each character
+  std::size_t with_ink = 0;          ///< characters, in their standard order
   std::optional<std::uintmax_t> bytes;  ///< of the files
   double coordinate_error = 0.0;  ///< [em]
   Provenance provenance;          ///< of all layers, each once
@@ -87,6 +88,7 @@ Summary summary_of(const CharacterSet& set, const std::vector<std::string>& path
     if (character.stroke_count() == 0) character.character();  // throws, naming the damage
     ++summary.characters;
     summary.strokes += static_cast<std::size_t>(character.stroke_count());
+    if (character.has_ink()) ++summary.with_ink;
     summary.alternate_orders += set.orders(character.code()).size() - 1;
   }
   if (summary.characters == 0) throw FormatError(fmt::format("{}: contains no character", fmt::join(paths, ", ")));
@@ -106,6 +108,7 @@ void print(const Summary& summary) {
   line("Characters", summary.characters);
   line("Strokes", summary.strokes);
   if (summary.alternate_orders > 0) line("Alternate stroke orders", summary.alternate_orders);
+  if (summary.with_ink > 0) line("Characters with ink", summary.with_ink);
   if (summary.bytes) {
     line("Bytes", *summary.bytes);
     line("Bytes per character", fmt::format("{:.1f}", *bytes_per_character(summary)));
@@ -143,6 +146,7 @@ Json json_of(const Summary& summary) {
   return {{"characters", summary.characters},
           {"strokes", summary.strokes},
           {"alternate_orders", summary.alternate_orders},
+          {"characters_with_ink", summary.with_ink},
           {"bytes", number_or_null(summary.bytes)},
           {"bytes_per_character", number_or_null(bytes_per_character(summary))},
           {"coordinate_error_em", summary.coordinate_error},

@@ -1,8 +1,10 @@
 #include <calligraphy/model/character_list.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <set>
+#include <span>
 #include <sstream>
 #include <system_error>
 #include <utility>
@@ -19,8 +21,10 @@
 namespace calligraphy {
 namespace {
 
-constexpr std::string_view first_line = "calligraphy characters 2";
-constexpr std::string_view first_line_of_format_1 = "calligraphy characters 1";
+constexpr std::array<std::string_view, 3> first_lines = {"calligraphy characters 1", "calligraphy characters 2",
+                                                        "calligraphy characters 3"};
+constexpr int format_with_ink = 3;
+constexpr std::size_t ink_values = 2 + 2 * ink_knot_count;
 constexpr std::size_t max_file_bytes = 64 << 20;  // twice all of Make Me a Hanzi [bytes]
 constexpr std::string_view licence_text_key = "licence-text";
 
@@ -41,12 +45,8 @@ class Parser : private LineReader {
   CharacterList parse() {
     while (next_statement(kind_of)) {
       const std::string_view key = word();
-      if (!seen_first_line_) {
-        is_format_1_ = line() == first_line_of_format_1;
-        if (line() != first_line && !is_format_1_) {
-          fail("expected " + in_quotes(first_line) + " (or 1), found " + in_quotes(line()));
-        }
-        seen_first_line_ = true;
+      if (format_ == 0) {
+        read_format();
       } else if (key == "source") {
         set_.provenance.source = checked_rest();
       } else if (key == "licence") {
@@ -59,16 +59,26 @@ class Parser : private LineReader {
         begin_character();
       } else if (key == "stroke") {
         add_stroke();
+      } else if (key == "ink") {
+        add_ink();
       } else {
         fail("unknown keyword " + in_quotes(key));
       }
     }
-    if (!seen_first_line_) throw FormatError(name() + ": empty; expected '" + std::string(first_line) + "'");
+    if (format_ == 0) throw FormatError(name() + ": empty; expected '" + std::string(first_lines[1]) + "'");
     end_character();
     return std::move(set_);
   }
 
  private:
+  void read_format() {
+    const auto found = std::find(first_lines.begin(), first_lines.end(), line());
+    if (found == first_lines.end()) {
+      fail("expected " + in_quotes(first_lines[1]) + " (or 1, or 3 with ink), found " + in_quotes(line()));
+    }
+    format_ = static_cast<int>(found - first_lines.begin()) + 1;
+  }
+
   /// The text after the keyword and one space.
   void add_licence_line() {
     const std::string_view line = left().empty() ? left() : left().substr(1);
@@ -137,13 +147,14 @@ class Parser : private LineReader {
 
   void add_stroke() {
     if (!in_character_) fail("a stroke before any character");
+    check_ink_is_like_that_of_first_stroke();
     StrokeInput stroke{parse_number<int>(word(), "typical stroke id"), {}};
     std::string_view text = word();
     const bool is_letter = !text.empty() && ((text[0] >= 'A' && text[0] <= 'Z') || (text[0] >= 'a' && text[0] <= 'z'));
     if (is_letter && text.find(',') == std::string_view::npos) {
       stroke.elements = elements_of(text);
       text = word();
-    } else if (is_format_1_ && stroke.id >= 1 && stroke.id <= typical_stroke_count) {
+    } else if (format_ == 1 && stroke.id >= 1 && stroke.id <= typical_stroke_count) {
       stroke.elements = typical_stroke(stroke.id).as_printed();
     }
     for (; !text.empty(); text = word()) {
@@ -161,6 +172,42 @@ class Parser : private LineReader {
     }
     check_stroke(stroke);
     strokes_.push_back(std::move(stroke));
+    stroke_line_ = number();
+  }
+
+  void add_ink() {
+    if (format_ < format_with_ink) {
+      fail("ink, which takes " + in_quotes(first_lines[format_with_ink - 1]) + " as the first statement, not " +
+           std::to_string(format_));
+    }
+    if (strokes_.empty()) fail("ink before any stroke of a character");
+    StrokeInput& stroke = strokes_.back();
+    if (stroke.ink) fail("a second line of ink for one stroke");
+    std::array<double, ink_values> values{};
+    std::size_t count = 0;
+    for (std::string_view text = word(); !text.empty(); text = word()) {
+      const double value = parse_number<double>(text, "number");
+      if (count < values.size()) values[count] = value;
+      ++count;
+    }
+    if (count != ink_values && count != ink_values - ink_knot_count) {
+      fail("ink takes 10 or 18 numbers, not " + std::to_string(count));
+    }
+    StrokeInk& ink = stroke.ink.emplace();
+    ink.start = values[0];
+    ink.end = values[1];
+    std::copy_n(values.begin() + 2, ink_knot_count, ink.half_widths.begin());
+    std::copy_n(values.begin() + 2 + ink_knot_count, ink_knot_count, ink.offsets.begin());
+    check_stroke(stroke);
+    stroke_line_ = number();
+    check_ink_is_like_that_of_first_stroke();
+  }
+
+  /// A character has ink on all strokes or on none; the last stroke so far is complete.
+  void check_ink_is_like_that_of_first_stroke() const {
+    if (strokes_.empty() || strokes_.back().ink.has_value() == strokes_.front().ink.has_value()) return;
+    fail_at(stroke_line_, "stroke " + std::to_string(strokes_.size()) +
+                              (strokes_.back().ink ? " has ink" : " has no ink") + ", unlike stroke 1");
   }
 
   ElementList elements_of(std::string_view text) const {
@@ -183,17 +230,18 @@ class Parser : private LineReader {
   void end_character() {
     if (!in_character_) return;
     if (strokes_.empty()) fail_at(character_line_, character_label(code_, order_) + " has no stroke");
+    check_ink_is_like_that_of_first_stroke();
     set_.characters.push_back(make_character(code_, strokes_, degree_));
     set_.characters.back().order = order_;
     strokes_.clear();
     in_character_ = false;
   }
 
-  bool seen_first_line_ = false;
-  bool is_format_1_ = false;
+  int format_ = 0;  // 0: not yet known
   bool has_licence_text_ = false;
   bool in_character_ = false;
   int character_line_ = 0;
+  int stroke_line_ = 0;  // of the last stroke or its ink
   char32_t code_ = 0;
   int degree_ = 3;
   std::string order_;
@@ -211,6 +259,19 @@ std::string format_number(double value) {
   char buffer[32];
   const auto [end, error] = to_chars(buffer, buffer + sizeof buffer, value);
   return error == std::errc() ? std::string(buffer, end) : std::string("0");
+}
+
+void write_numbers(std::ostream& out, std::span<const double> numbers) {
+  for (const double number : numbers) out << ' ' << format_number(number);
+}
+
+void write_ink(std::ostream& out, const StrokeInk& ink) {
+  out << "ink " << format_number(ink.start) << ' ' << format_number(ink.end);
+  write_numbers(out, ink.half_widths);
+  if (std::any_of(ink.offsets.begin(), ink.offsets.end(), [](double offset) { return offset != 0.0; })) {
+    write_numbers(out, ink.offsets);
+  }
+  out << '\n';
 }
 
 /// One statement per line; "a\n" has two lines, the second of them empty.
@@ -264,7 +325,9 @@ void write_characters(std::ostream& out, const CharacterList& set) {
     if (text.find_first_of("\r\n") != std::string::npos)
       throw ValueError("source, licence and attribution must be one line each: " + in_quotes(text));
   }
-  out << first_line << '\n';
+  const bool has_ink = std::any_of(set.characters.begin(), set.characters.end(),
+                                   [](const Character& character) { return !character.physics.ink.empty(); });
+  out << first_lines[has_ink ? 2 : 1] << '\n';
   if (!provenance.source.empty()) out << "source " << provenance.source << '\n';
   if (!provenance.licence.empty()) out << "licence " << provenance.licence << '\n';
   if (!provenance.attribution.empty()) out << "attribution " << provenance.attribution << '\n';
@@ -286,9 +349,10 @@ void write_characters(std::ostream& out, const CharacterList& set) {
       const auto& factors = stroke.attraction_factors;
       if (std::any_of(factors.begin(), factors.end(), [](double factor) { return factor != 1.0; })) {
         out << " |";
-        for (const double factor : factors) out << ' ' << format_number(factor);
+        write_numbers(out, factors);
       }
       out << '\n';
+      if (stroke.ink != nullptr) write_ink(out, *stroke.ink);
     }
   }
 }

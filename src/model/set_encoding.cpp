@@ -43,6 +43,21 @@ CoordinateEncoding coding_of(CoordinatePrecision precision) {
   return {};
 }
 
+/// Without the number of values.
+InkEncoding ink_coding_of(CoordinatePrecision precision) {
+  switch (precision) {
+    case CoordinatePrecision::coarse:
+      return {400, 8, 0};
+    case CoordinatePrecision::standard:
+      return {800, 8, 0};
+    case CoordinatePrecision::fine:
+      return {12800, 16, 0};
+    case CoordinatePrecision::exact:
+      break;
+  }
+  return {};
+}
+
 void append_bytes(Bytes& bytes, const Bytes& more) { bytes.insert(bytes.end(), more.begin(), more.end()); }
 
 void append_text(Bytes& bytes, std::string_view text) {
@@ -63,6 +78,12 @@ void append_coding(Bytes& bytes, const CoordinateEncoding& coding) {
   append(bytes, coding.y_bits);
 }
 
+void append_coding(Bytes& bytes, const InkEncoding& coding) {
+  append(bytes, coding.steps_per_em);
+  append(bytes, coding.bits);
+  append(bytes, coding.values_per_stroke);
+}
+
 std::int64_t steps(double coordinate, std::uint32_t steps_per_em) { return std::llround(coordinate * steps_per_em); }
 
 bool is_covered(std::int64_t step, std::int64_t origin, int bits) {
@@ -75,6 +96,44 @@ bool covers(const CoordinateEncoding& coding, const Character& character) {
            return is_covered(steps(point.x(), coding.steps_per_em), coding.x_origin, coding.x_bits) &&
                   is_covered(steps(point.y(), coding.steps_per_em), coding.y_origin, coding.y_bits);
          });
+}
+
+bool covers(const InkEncoding& coding, const StrokeInk& ink) {
+  const auto is_length = [&](double value) { return is_covered(steps(value, coding.steps_per_em), 0, coding.bits); };
+  const auto is_offset = [&](double value) {
+    const std::int64_t least = -(std::int64_t{1} << (coding.bits - 1));
+    return is_covered(steps(value, coding.steps_per_em), least, coding.bits);
+  };
+  return coding.steps_per_em == 0 ||
+         (is_length(ink.start) && is_length(ink.end) &&
+          std::all_of(ink.half_widths.begin(), ink.half_widths.end(), is_length) &&
+          std::all_of(ink.offsets.begin(), ink.offsets.end(), is_offset));
+}
+
+/// The encoding of the ink of a character: that of the set, or doubles if it does not cover it.
+InkEncoding ink_coding(const Character& character, const InkEncoding& common) {
+  const std::vector<StrokeInk>& all = character.physics.ink;
+  if (all.empty()) return {};
+  const bool is_common = std::all_of(all.begin(), all.end(), [&](const StrokeInk& ink) { return covers(common, ink); });
+  return is_common ? common : InkEncoding{0, 64, common.values_per_stroke};
+}
+
+/// The encoding of ink in a set. It has no values if there is no ink, and no offsets if all are zero once rounded.
+InkEncoding common_ink_coding(const CharacterList& set, CoordinatePrecision precision) {
+  InkEncoding common = ink_coding_of(precision);
+  std::size_t values = 0;
+  for (const Character& character : set.characters) {
+    const std::uint32_t steps_per_em = ink_coding(character, common).steps_per_em;
+    const auto is_zero = [&](double offset) {
+      return steps_per_em == 0 ? offset == 0.0 : steps(offset, steps_per_em) == 0;
+    };
+    for (const StrokeInk& ink : character.physics.ink) {
+      const bool is_straight = std::all_of(ink.offsets.begin(), ink.offsets.end(), is_zero);
+      values = std::max(values, is_straight ? ink_values_without_offsets : ink_values);
+    }
+  }
+  common.values_per_stroke = static_cast<std::uint8_t>(values);
+  return common;
 }
 
 /// The fewest bits that cover the character.
@@ -159,10 +218,25 @@ std::vector<Kind> kinds_of(const Character& character) {
   return kinds;
 }
 
-/// The bits of a form: kinds, points, factors.
+void append_value(Bytes& bytes, double value, const InkEncoding& coding) {
+  if (coding.steps_per_em == 0) return append(bytes, bit_cast<std::uint64_t>(value));
+  const auto step = static_cast<std::uint64_t>(steps(value, coding.steps_per_em));  // two's complement
+  if (coding.bits == 8) return append(bytes, static_cast<std::uint8_t>(step));
+  append(bytes, static_cast<std::uint16_t>(step));
+}
+
+void append_ink(Bytes& bytes, const StrokeInk& ink, const InkEncoding& coding) {
+  append_value(bytes, ink.start, coding);
+  append_value(bytes, ink.end, coding);
+  for (const double half_width : ink.half_widths) append_value(bytes, half_width, coding);
+  if (coding.values_per_stroke == ink_values_without_offsets) return;
+  for (const double offset : ink.offsets) append_value(bytes, offset, coding);
+}
+
+/// The bits of a form, kinds, points and factors; and its ink.
 class FormEncoder {
  public:
-  explicit FormEncoder(const std::vector<Kind>& kinds) {
+  FormEncoder(const std::vector<Kind>& kinds, const InkEncoding& common_ink) : common_ink_(common_ink) {
     for (std::size_t i = 0; i < kinds.size(); ++i) ranks_[kinds[i]] = i;
   }
 
@@ -170,15 +244,20 @@ class FormEncoder {
     const Character& character = *form.character;
     const auto& all_factors = character.physics.attraction_factors;
     const bool has_factors = std::any_of(all_factors.begin(), all_factors.end(), [](double f) { return f != 1.0; });
-    const Bytes bits = encode_bits(form, has_factors);
+    Bytes content = encode_bits(form, has_factors);
+    const InkEncoding ink = ink_coding(character, common_ink_);
+    for (const StrokeInk& one : character.physics.ink) append_ink(content, one, ink);
+    const bool has_ink = !character.physics.ink.empty();
     const std::size_t count = character.sequence.stroke_ids.size();
     const unsigned flags = (is_last ? 0U : more_forms) | (character.order.empty() ? 0U : named) |
                            (character.curve_degree == 4 ? quartic : 0U) | (has_factors ? factors : 0U) |
-                           (form.has_own_coding ? own_coding : 0U);
+                           (form.has_own_coding ? own_coding : 0U) |
+                           (!has_ink && common_ink_.values_per_stroke != 0 ? no_ink : 0U) |
+                           (has_ink && ink.bits != common_ink_.bits ? exact_ink : 0U);
     Bytes bytes;
     if (flags == 0 && count <= max_plain_strokes) {
       bytes.push_back(static_cast<std::byte>(count));
-      append_bytes(bytes, bits);
+      append_bytes(bytes, content);
       return bytes;
     }
     Bytes rest;
@@ -187,7 +266,7 @@ class FormEncoder {
       append_text(rest, character.order);
     }
     if (form.has_own_coding) append_coding(rest, form.coding);
-    append_bytes(rest, bits);
+    append_bytes(rest, content);
     bytes.push_back(static_cast<std::byte>(special | flags));
     append_number(bytes, count);
     append_number(bytes, rest.size());
@@ -220,6 +299,7 @@ class FormEncoder {
     return bits.bytes();
   }
 
+  InkEncoding common_ink_;
   std::map<Kind, std::size_t> ranks_;
 };
 
@@ -335,14 +415,17 @@ class GroupWriter {
 struct Header {
   CoordinateEncoding coding;
   std::vector<Kind> kinds;
+  InkEncoding ink;
   double coordinate_error;
 };
 
 /// The complete file, including its checksum.
 Bytes assemble(const Header& header, const Provenance& provenance, const GroupWriter& writer) {
+  const bool has_ink = header.ink.values_per_stroke != 0;
   const auto texts = {&provenance.source, &provenance.licence, &provenance.attribution, &provenance.licence_text};
   std::size_t first_group = kinds_at + sizeof(std::uint16_t) + kind_size * header.kinds.size() +
                             (block_size + entry_size) * writer.blocks.size();
+  if (has_ink) first_group += ink_coding_size;
   for (const std::string* text : texts) first_group += 4 + text->size();
   const std::size_t size = first_group + writer.groups.size();
   if (size > std::numeric_limits<std::uint32_t>::max()) {
@@ -359,6 +442,7 @@ Bytes assemble(const Header& header, const Provenance& provenance, const GroupWr
     append(index, static_cast<std::uint8_t>(id));
     append(index, static_cast<std::uint8_t>(curves));
   }
+  if (has_ink) append_coding(index, header.ink);
   for (const std::string* text : texts) {
     append(index, static_cast<std::uint32_t>(text->size()));
     append_text(index, *text);
@@ -372,7 +456,7 @@ Bytes assemble(const Header& header, const Provenance& provenance, const GroupWr
   Bytes file;
   file.reserve(size);
   append_text(file, magic);
-  append(file, version);
+  append(file, has_ink ? version : version_without_ink);
   append(file, crc32(index));
   append_bytes(file, index);
   append_bytes(file, writer.groups);
@@ -388,11 +472,18 @@ double coordinate_error_bound(CoordinatePrecision precision) noexcept {
   return std::numbers::sqrt2 / 2.0 / steps_per_em + arithmetic;
 }
 
+double ink_error_bound(CoordinatePrecision precision) noexcept {
+  const std::uint32_t steps_per_em = ink_coding_of(precision).steps_per_em;
+  if (steps_per_em == 0) return 0.0;
+  constexpr double arithmetic = 1e-15;  // [em]; of a length within 1 em
+  return 0.5 / steps_per_em + arithmetic;
+}
+
 std::vector<std::byte> encode_character_set(const CharacterList& set, CoordinatePrecision precision) {
   check(set.provenance);
   const auto characters = sorted(set);
-  Header header{coding_of(precision), ranked_kinds(set), 0.0};
-  const FormEncoder encoder(header.kinds);
+  Header header{coding_of(precision), ranked_kinds(set), common_ink_coding(set, precision), 0.0};
+  const FormEncoder encoder(header.kinds, header.ink);
   GroupWriter writer;
   for (const auto& [code, forms] : characters) {
     Bytes record;

@@ -34,6 +34,12 @@ bool is_sound(const CoordinateEncoding& coding) noexcept {
   return coding.steps_per_em <= max_steps_per_em && is_width(coding.x_bits) && is_width(coding.y_bits);
 }
 
+bool is_sound(const InkEncoding& coding) noexcept {
+  if (coding.values_per_stroke != ink_values && coding.values_per_stroke != ink_values_without_offsets) return false;
+  if (coding.steps_per_em == 0) return coding.bits == 64;
+  return coding.steps_per_em <= max_steps_per_em && (coding.bits == 8 || coding.bits == 16);
+}
+
 /// A number of up to 32 bits, seven per byte, the lowest first. False if it ends beyond `end` or is too large.
 bool read_number(std::span<const std::byte> bytes, std::size_t& at, std::size_t end, std::uint32_t& number) noexcept {
   std::uint64_t value = 0;
@@ -64,7 +70,7 @@ void SetFile::fail(const std::string& what) const { throw FormatError(name_ + ":
 
 void SetFile::read() {
   read_header();
-  read_provenance(read_kinds());
+  read_provenance(read_ink_coding(read_kinds()));
 }
 
 void SetFile::read_header() {
@@ -117,6 +123,15 @@ std::size_t SetFile::read_kinds() {
     add_kind(load<std::uint8_t>(kind), load<std::uint8_t>(kind + 1));
   }
   return at;
+}
+
+std::size_t SetFile::read_ink_coding(std::size_t at) {
+  if (load<std::uint32_t>(bytes_.data() + version_at) <= version_without_ink) return at;
+  if (first_group_ - at < ink_coding_size) fail("its index ends within its ink encoding");
+  const std::byte* const coding = bytes_.data() + at;
+  ink_ = {load<std::uint32_t>(coding), load<std::uint8_t>(coding + 4), load<std::uint8_t>(coding + 5)};
+  if (!is_sound(ink_)) fail("its ink encoding has invalid numbers");
+  return at + ink_coding_size;
 }
 
 /// `curves`: of version 1, not stored.
@@ -251,6 +266,7 @@ std::optional<SetFile::Record> SetFile::record(char32_t code) const noexcept {
 bool SetFile::read_form(Record& rest, StoredCharacter& form) const noexcept {
   form.stroke_count_ = 0;
   form.order_ = {};
+  form.ink_ = {};
   if (rest.begin >= rest.end) return false;
   const auto head = std::to_integer<std::uint8_t>(bytes_[rest.begin++]);
   std::uint32_t strokes = head;
@@ -259,9 +275,11 @@ bool SetFile::read_form(Record& rest, StoredCharacter& form) const noexcept {
   form.coding_ = coding_;
   form.curve_degree_ = 3;
   form.has_factors_ = false;
+  InkEncoding ink = ink_;
   if (head >= special) {
     std::uint32_t size = 0;
-    if ((head & ~known_flags) != 0 || !read_number(bytes_, at, end, strokes) || !read_number(bytes_, at, end, size)) {
+    const unsigned known = ink.values_per_stroke == 0 ? known_flags : known_flags | no_ink | exact_ink;
+    if ((head & ~known) != 0 || !read_number(bytes_, at, end, strokes) || !read_number(bytes_, at, end, size)) {
       return false;
     }
     if (size > end - at || ((head & more_forms) == 0 && size != end - at)) return false;
@@ -282,12 +300,16 @@ bool SetFile::read_form(Record& rest, StoredCharacter& form) const noexcept {
     }
     form.curve_degree_ = (head & quartic) != 0 ? 4 : 3;
     form.has_factors_ = (head & factors) != 0;
+    if ((head & exact_ink) != 0) ink = {0, 64, ink.values_per_stroke};
+    if ((head & no_ink) != 0) ink = {};
+    if ((head & no_ink) != 0 && (head & exact_ink) != 0) return false;
   }
   rest.begin = end;
+  if (strokes == 0 || strokes > max_strokes || strokes * ink_size(ink) > end - at) return false;
   form.first_bit_ = 8 * std::uint64_t{at};
-  form.end_bit_ = 8 * std::uint64_t{end};
-  if (strokes == 0 || std::uint64_t{strokes} * min_rank_bits > form.end_bit_ - form.first_bit_) return false;
-  if (strokes > max_strokes) return false;
+  form.end_bit_ = 8 * std::uint64_t{end - strokes * ink_size(ink)};
+  if (std::uint64_t{strokes} * min_rank_bits > form.end_bit_ - form.first_bit_) return false;
+  form.ink_ = ink;
   form.stroke_count_ = static_cast<int>(strokes);
   return true;
 }

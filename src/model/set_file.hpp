@@ -62,6 +62,8 @@ class SetFile {
   void read_header();
   /// Returns the offset of what follows.
   std::size_t read_kinds();
+  /// Returns the offset of what follows.
+  std::size_t read_ink_coding(std::size_t at);
   void add_kind(std::uint8_t id, std::optional<std::uint8_t> curves);
   void read_provenance(std::size_t at);
   void check_text(const std::string& text) const;
@@ -89,6 +91,7 @@ class SetFile {
   std::span<const std::byte> bytes_;
   Provenance provenance_;
   CoordinateEncoding coding_;
+  InkEncoding ink_;
   std::vector<set_format::StrokeKind> kinds_;
   double coordinate_error_ = 0.0;
   std::size_t group_count_ = 0;

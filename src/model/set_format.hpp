@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include <calligraphy/model/character_set.hpp>
+#include <calligraphy/model/stroke_ink.hpp>
 #include <calligraphy/model/typical_stroke.hpp>
 
 namespace calligraphy::set_format {
@@ -15,8 +16,9 @@ namespace calligraphy::set_format {
 inline constexpr std::string_view magic =
     "\x89"
     "CGS\r\n\x1A\n";
-inline constexpr std::uint32_t version = 2;
-inline constexpr std::uint32_t oldest_version = 1;  ///< that can be read
+inline constexpr std::uint32_t version = 3;
+inline constexpr std::uint32_t version_without_ink = 2;  ///< of files that any reader of version 2 reads
+inline constexpr std::uint32_t oldest_version = 1;       ///< that can be read
 
 // The header: offset of each field [byte].
 inline constexpr std::size_t version_at = 8;
@@ -29,6 +31,7 @@ inline constexpr std::size_t coding_at = 36;
 inline constexpr std::size_t coding_size = 14;
 inline constexpr std::size_t kinds_at = 50;  ///< the kinds of strokes, most frequent first
 inline constexpr std::size_t kind_size = 2;  ///< u8 id, u8 which elements are curves, the first one lowest
+inline constexpr std::size_t ink_coding_size = 6;  ///< after the kinds in version 3: u32 steps, u8 bits, u8 values
 
 /// A group holds the characters of 64 neighbouring code points.
 inline constexpr int group_shift = 6;
@@ -47,6 +50,8 @@ inline constexpr unsigned named = 2;
 inline constexpr unsigned quartic = 4;
 inline constexpr unsigned factors = 8;
 inline constexpr unsigned own_coding = 16;
+inline constexpr unsigned no_ink = 32;     ///< in a file that has ink
+inline constexpr unsigned exact_ink = 64;  ///< in a file that has ink: that of this form is stored as doubles
 inline constexpr unsigned special = 128;
 inline constexpr unsigned known_flags = more_forms | named | quartic | factors | own_coding | special;
 inline constexpr std::size_t max_plain_strokes = 127;
@@ -67,6 +72,15 @@ static_assert(max_short_ranks >= typical_stroke_count && max_rank_bits <= 32);
 inline constexpr std::uint32_t max_steps_per_em = 1U << 26;
 inline constexpr std::uint8_t max_coordinate_bits = 32;
 inline constexpr double max_coordinate = 16.0;  // [em]
+
+// The values of a stroke's ink: start, end, half-widths and, unless all of the file are zero, offsets.
+inline constexpr std::size_t ink_values_without_offsets = 2 + ink_knot_count;
+inline constexpr std::size_t ink_values = ink_values_without_offsets + ink_knot_count;
+
+/// Size of the ink of a stroke [byte].
+constexpr std::size_t ink_size(const InkEncoding& coding) {
+  return std::size_t{coding.values_per_stroke} * coding.bits / 8;
+}
 
 /// Strokes of one type with the same composition.
 struct StrokeKind {

@@ -76,6 +76,25 @@ bool in_domain(const Point& point) noexcept {
   return std::abs(point.x()) <= max_coordinate && std::abs(point.y()) <= max_coordinate;  // false for NaN
 }
 
+/// A length of ink [em], of which the file has all bytes.
+double load_length(const std::byte* at, const InkEncoding& coding) noexcept {
+  if (coding.steps_per_em == 0) return bit_cast<double>(load<std::uint64_t>(at));
+  const auto step = coding.bits == 8 ? load<std::uint8_t>(at) : load<std::uint16_t>(at);
+  return static_cast<double>(step) / coding.steps_per_em;
+}
+
+/// The same of an offset, which has a sign.
+double load_offset(const std::byte* at, const InkEncoding& coding) noexcept {
+  if (coding.steps_per_em == 0) return bit_cast<double>(load<std::uint64_t>(at));
+  const int step = coding.bits == 8 ? static_cast<std::int8_t>(load<std::uint8_t>(at))
+                                    : static_cast<std::int16_t>(load<std::uint16_t>(at));
+  return static_cast<double>(step) / coding.steps_per_em;
+}
+
+/// False for NaN.
+bool is_length(double value) noexcept { return value >= 0.0 && value <= max_ink_length; }
+bool is_offset(double value) noexcept { return std::abs(value) <= max_ink_length; }
+
 }  // namespace
 
 const Provenance& StoredCharacter::provenance() const noexcept {
@@ -139,6 +158,30 @@ bool StoredCharacter::decode(int index, StoredStroke& stroke) const noexcept {
   return true;
 }
 
+std::optional<StrokeInk> StoredCharacter::ink(int index) const noexcept {
+  if (!has_ink() || index < 0 || index >= stroke_count_) return std::nullopt;
+  const std::size_t value_size = ink_.bits / 8;
+  const std::byte* at = file_->bytes().data() + end_bit_ / 8 + static_cast<std::size_t>(index) * ink_size(ink_);
+  StrokeInk ink;
+  bool is_sound = true;
+  const auto take_length = [&](double& length) {
+    length = load_length(at, ink_);
+    is_sound = is_sound && is_length(length);
+    at += value_size;
+  };
+  take_length(ink.start);
+  take_length(ink.end);
+  for (double& half_width : ink.half_widths) take_length(half_width);
+  if (ink_.values_per_stroke == ink_values) {
+    for (double& offset : ink.offsets) {
+      offset = load_offset(at, ink_);
+      is_sound = is_sound && is_offset(offset);
+      at += value_size;
+    }
+  }
+  return is_sound ? std::optional(ink) : std::nullopt;
+}
+
 Character StoredCharacter::character() const {
   const auto fail = [&](const std::string& what) {
     throw FormatError((file_ ? file_->name() : "no set") + ": character " + code_point_name(code_) +
@@ -169,6 +212,11 @@ Character StoredCharacter::character() const {
     for (int i = 0; has_factors_ && i < feature_point_count(stroke.elements); ++i, factor_at += 64) {
       stroke.attraction_factors.push_back(load_double(file_->bytes(), factor_at));
     }
+  }
+  for (int i = 0; has_ink() && i < stroke_count_; ++i) {
+    StrokeInput& stroke = strokes[static_cast<std::size_t>(i)];
+    stroke.ink = ink(i);
+    if (!stroke.ink) fail("stroke " + std::to_string(i + 1) + " has ink of an invalid width");
   }
   try {
     Character character = make_character(code_, strokes, curve_degree_);

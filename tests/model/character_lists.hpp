@@ -18,7 +18,18 @@ inline bool same(const calligraphy::Character& a, const calligraphy::Character& 
          a.sequence.stroke_ids == b.sequence.stroke_ids && a.sequence.elements == b.sequence.elements &&
          a.sequence.feature_points == b.sequence.feature_points &&
          a.structure.control_points == b.structure.control_points &&
-         a.physics.attraction_factors == b.physics.attraction_factors;
+         a.physics.attraction_factors == b.physics.attraction_factors && a.physics.ink == b.physics.ink;
+}
+
+/// Ink for every stroke of a character, no value beyond `most` [em].
+inline void add_ink(calligraphy::Character& character, double most, Sequence& random) {
+  character.physics.ink.assign(character.sequence.stroke_ids.size(), {});
+  for (calligraphy::StrokeInk& ink : character.physics.ink) {
+    ink.start = random.between(0.0, most);
+    ink.end = random.between(0.0, most);
+    for (double& half_width : ink.half_widths) half_width = random.between(0.0, most);
+    for (double& offset : ink.offsets) offset = random.between(-most, most);
+  }
 }
 
 /// Every typical stroke as a separate character from U+4E00 on, each scaled about a different point.
@@ -37,7 +48,7 @@ inline calligraphy::CharacterList typical_strokes_as_characters(double scale, Se
 }
 
 /// The built-in characters and rare cases: quartics, factors, alternate orders, points far outside, numbers with all
-/// digits, four-byte code points.
+/// digits, four-byte code points, ink of some and very wide ink of a few.
 inline calligraphy::CharacterList rich_list() {
   calligraphy::CharacterList list = calligraphy::built_in_characters();
   list.provenance.licence_text = "First line\n\n  the third\n";
@@ -57,6 +68,9 @@ inline calligraphy::CharacterList rich_list() {
   for (std::size_t i = 0; i < list.characters.size(); i += 3) {
     for (double& factor : list.characters[i].physics.attraction_factors) factor = random.between(0.0, 3.0);
     for (Point& point : list.characters[i].structure.control_points) point += 1e-3 * random.point(-1.0, 1.0);
+  }
+  for (std::size_t i = 0; i < list.characters.size(); i += 2) {
+    add_ink(list.characters[i], i % 10 == 0 ? calligraphy::max_ink_length : 0.06, random);
   }
   return list;
 }

@@ -13,6 +13,7 @@
 
 #include "../hard_cases.hpp"
 #include "../sanitized.hpp"
+#include "character_lists.hpp"
 
 using namespace calligraphy;
 
@@ -50,7 +51,7 @@ bool same(const CharacterList& a, const CharacterList& b) {
         x.sequence.stroke_ids != y.sequence.stroke_ids || x.sequence.elements != y.sequence.elements ||
         x.sequence.feature_points != y.sequence.feature_points ||
         x.structure.control_points != y.structure.control_points ||
-        x.physics.attraction_factors != y.physics.attraction_factors) {
+        x.physics.attraction_factors != y.physics.attraction_factors || x.physics.ink != y.physics.ink) {
       return false;
     }
   }
@@ -85,6 +86,69 @@ TEST_CASE("a written list reads back identically, including quartics and attract
   CHECK(write(read(write(set))) == write(set));
   CHECK(same(read(write(built_in_characters())), built_in_characters()));
   CHECK(read(write({})).characters.empty());
+}
+
+TEST_CASE("ink reads back identically, and the format is that of older programs if there is none", "[model]") {
+  const auto begins_with = [](const std::string& text, int format) {
+    return text.starts_with("calligraphy characters " + std::to_string(format) + "\n");
+  };
+  CharacterList set = built_in_characters();
+  CHECK(begins_with(write(set), 2));
+  calligraphy_test::Sequence random(4);
+  for (std::size_t i = 0; i < set.characters.size(); i += 2) {
+    calligraphy_test::add_ink(set.characters[i], max_ink_length, random);
+    if (i % 4 == 0) set.characters[i].physics.ink[0].offsets.fill(0.0);
+  }
+  CHECK(begins_with(write(set), 3));
+  CHECK(same(read(write(set)), set));
+  CHECK(write(read(write(set))) == write(set));
+}
+
+TEST_CASE("ink is a line of 10 or 18 numbers after each stroke of a character", "[model]") {
+  const CharacterList set = read("calligraphy characters 3\ncharacter \xE4\xB8\x80\nstroke 1 0,0 1,1 | 1 2\n\n"
+                                 "ink 0.01 0.02 1e-1 0 1 .4 .5 .6 .7 .8 # thick\n"
+                                 "stroke 1 0,1 1,0\n  ink 0 0 0 0 0 0 0 0 0 0 -1 .2 .3 .4 .5 .6 .7 1\n"
+                                 "character \xE4\xBA\x8C\nstroke 1 0,0 1,1\n");
+  REQUIRE(set.characters[0].physics.ink.size() == 2);
+  CHECK(set.characters[0].physics.ink[0] == StrokeInk{0.01, 0.02, {0.1, 0.0, 1.0, 0.4, 0.5, 0.6, 0.7, 0.8}, {}});
+  CHECK(set.characters[0].physics.ink[1] == StrokeInk{0.0, 0.0, {}, {-1.0, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 1.0}});
+  CHECK(set.characters[1].physics.ink.empty());
+  CHECK(write(set).find("\nink 0.01 0.02 0.1 0 1 0.4 0.5 0.6 0.7 0.8\n") != std::string::npos);
+}
+
+TEST_CASE("each kind of malformed ink is reported with file, line and value", "[model]") {
+  const std::string plain = "\ncharacter \xE5\x8C\x97\nstroke 1 0,0 1,1\n";
+  const std::string north = "calligraphy characters 3" + plain;
+  const std::string ink = "ink 0 0 .1 .1 .1 .1 .1 .1 .1 .1";
+  const std::string version = "'calligraphy characters 3' as the first statement";
+  const struct {
+    std::string text, line, value;
+  } cases[] = {
+      {"calligraphy characters 2" + plain + ink, "test.txt:4: ", version + ", not 2"},
+      {"calligraphy characters 1" + plain + ink, "test.txt:4: ", version + ", not 1"},
+      {"calligraphy characters 3\n" + ink, "test.txt:2: ", "before any stroke"},
+      {north + ink + "\ncharacter \xE4\xB8\x80\n" + ink, "test.txt:6: ", "before any stroke"},
+      {north + ink + "\n" + ink, "test.txt:5: ", "second line of ink"},
+      {north + "ink", "test.txt:4: ", "10 or 18 numbers, not 0"},
+      {north + "ink 0 0 .1 .1 .1 .1 .1 .1 .1", "test.txt:4: ", "not 9"},
+      {north + ink + " 0", "test.txt:4: ", "not 11"},
+      {north + ink + " 0 0 0 0 0 0 0 0 0", "test.txt:4: ", "not 19"},
+      {north + ink + " 0 0 0 0 wide", "test.txt:4: ", "'wide'"},
+      {north + ink + " 0 0 0 0 0 0 0 -1.5", "test.txt:4: ", "offset of ink -1.5 em"},
+      {north + "ink -.25 0 .1 .1 .1 .1 .1 .1 .1 .1", "test.txt:4: ", "start of ink -0.25 em"},
+      {north + "ink 0 1.5 .1 .1 .1 .1 .1 .1 .1 .1", "test.txt:4: ", "end of ink 1.5 em"},
+      {north + "ink 0 0 .1 .1 .1 .1 .1 .1 .1 nan", "test.txt:4: ", "half-width of ink nan"},
+      {north + "stroke 1 0,1 1,0\n" + ink, "test.txt:5: ", "stroke 2 has ink, unlike stroke 1"},
+      {north + ink + "\nstroke 1 0,1 1,0\n\n", "test.txt:5: ", "stroke 2 has no ink, unlike stroke 1"},
+      {north + ink + "\nstroke 1 0,1 1,0\n\nstroke 1 0,0 1,1\n", "test.txt:5: ", "stroke 2 has no ink"},
+      {north + ink + "\nstroke 1 0,1 1,0\n\ncharacter \xE4\xB8\x80\n", "test.txt:5: ", "stroke 2 has no ink"},
+  };
+  for (const auto& [text, line, value] : cases) {
+    const std::string found = complaint(text);
+    INFO(text << " gives " << found);
+    CHECK(found.starts_with(line));
+    CHECK(found.find(value) != std::string::npos);
+  }
 }
 
 TEST_CASE("source, licence and attribution are free text, including '#'", "[model]") {
@@ -146,7 +210,7 @@ TEST_CASE("each kind of malformed line is reported with file, line and value", "
       {"", "test.txt: ", "empty"},
       {"\n\n# nothing\n", "test.txt: ", "empty"},
       {"characters\n", "test.txt:1: ", "'characters'"},
-      {"\n\ncalligraphy characters 3\n", "test.txt:3: ", "'calligraphy characters 3'"},
+      {"\n\ncalligraphy characters 4\n", "test.txt:3: ", "'calligraphy characters 4'"},
       {head + "strokes 1 0,0 1,1\n", "test.txt:2: ", "'strokes'"},
       {head + "stroke 1 0,0 1,1\n", "test.txt:2: ", "before any character"},
       {head + "character \xE5\x8C\n", "test.txt:2: ", "byte 0"},

@@ -96,9 +96,15 @@ TEST_CASE("a stroke decoded on its own equals that of the whole character", "[mo
         const auto decoded = stored.stroke(index++);
         REQUIRE(decoded);
         CHECK(same_stroke(decoded->stroke(), stroke));
+        CHECK(decoded->stroke().ink == nullptr);
+        const auto ink = stored.ink(index - 1);
+        CHECK(ink.has_value() == (stroke.ink != nullptr));
+        if (ink && stroke.ink != nullptr) CHECK(*ink == *stroke.ink);
       }
+      CHECK(stored.has_ink() == !character.physics.ink.empty());
       for (const int outside : {-1, index, index + 1, 1'000'000}) {
         CHECK_FALSE(stored.stroke(outside));
+        CHECK_FALSE(stored.ink(outside));
         CHECK(stored.stroke_id(outside) == 0);
       }
     }
@@ -181,6 +187,78 @@ TEST_CASE("a stored control point is within the bound of its precision, and so i
   }
 }
 
+TEST_CASE("stored ink is within half a step of the original, and exact where it is too wide for its bits", "[model]") {
+  const CharacterList list = rich_list();
+  const struct {
+    CoordinatePrecision precision;
+    double most;         ///< error [em]
+    double widest;       ///< that its bits hold [em]
+    double most_offset;  ///< likewise
+  } marks[] = {{CoordinatePrecision::coarse, 1.0 / 800.0, 255.0 / 400.0, 127.0 / 400.0},
+               {CoordinatePrecision::standard, 1.0 / 1600.0, 255.0 / 800.0, 127.0 / 800.0},
+               {CoordinatePrecision::fine, 1.0 / 25600.0, 1.0, 1.0},
+               {CoordinatePrecision::exact, 0.0, 1.0, 1.0}};
+  for (const auto& [precision, most, widest, most_offset] : marks) {
+    CHECK(ink_error_bound(precision) == Approx(most).margin(1e-14));
+    const CharacterSet set = CharacterSet::from_bytes(encode_character_set(list, precision), "test");
+    double largest = 0.0;
+    for (const Character& character : list.characters) {
+      const std::vector<StrokeInk>& drawn = character.physics.ink;
+      const std::vector<StrokeInk> kept = set.find(character.code, character.order)->character().physics.ink;
+      REQUIRE(kept.size() == drawn.size());
+      double difference = 0.0;
+      bool is_wide = false;
+      for (std::size_t i = 0; i < drawn.size(); ++i) {
+        const auto compare = [&](double a, double b, double limit) {
+          difference = std::max(difference, std::abs(a - b));
+          is_wide = is_wide || std::abs(a) > limit + most;
+        };
+        compare(drawn[i].start, kept[i].start, widest);
+        compare(drawn[i].end, kept[i].end, widest);
+        for (std::size_t k = 0; k < ink_knot_count; ++k) {
+          compare(drawn[i].half_widths[k], kept[i].half_widths[k], widest);
+          compare(drawn[i].offsets[k], kept[i].offsets[k], most_offset);
+        }
+      }
+      if (is_wide) CHECK(difference == 0.0);
+      largest = std::max(largest, difference);
+    }
+    CHECK(largest <= ink_error_bound(precision));
+    CHECK(largest >= 0.9 * most);
+  }
+}
+
+TEST_CASE("ink takes 18 bytes a stroke at standard precision, 10 without offsets, and none where there is none",
+          "[model]") {
+  CharacterList list = built_in_characters();
+  const std::size_t without = encode_character_set(list).size();
+  calligraphy_test::Sequence random(13);
+  std::size_t strokes = 0;
+  for (Character& character : list.characters) {
+    strokes += character.sequence.stroke_ids.size();
+    calligraphy_test::add_ink(character, 0.06, random);
+  }
+  const std::size_t coding = 6;
+  CHECK(encode_character_set(list).size() == without + coding + 18 * strokes);
+  CHECK(encode_character_set(list, CoordinatePrecision::coarse).size() ==
+        encode_character_set(built_in_characters(), CoordinatePrecision::coarse).size() + coding + 18 * strokes);
+  CHECK(encode_character_set(list, CoordinatePrecision::fine).size() ==
+        encode_character_set(built_in_characters(), CoordinatePrecision::fine).size() + coding + 36 * strokes);
+  for (Character& character : list.characters) {
+    for (StrokeInk& ink : character.physics.ink) ink.offsets.fill(0.4 / 800.0);  // zero once rounded
+  }
+  const auto straight = encode_character_set(list);
+  CHECK(straight.size() == without + coding + 10 * strokes);
+  CHECK(CharacterSet::from_bytes(straight, "test").find(U'永')->ink(0)->offsets == decltype(StrokeInk::offsets){});
+  list.characters[0].physics.ink[0].offsets[7] = -1.0 / 800.0;
+  CHECK(encode_character_set(list).size() == without + coding + 18 * strokes);
+  Character& bare = list.characters[0];
+  const std::size_t own = bare.sequence.stroke_ids.size();
+  bare.physics.ink.clear();
+  const std::size_t numbers = 2;  // a form that is not plain also states its number of strokes and its size
+  CHECK(encode_character_set(list).size() == without + coding + 10 * (strokes - own) + numbers);
+}
+
 TEST_CASE("small strokes with smooth joints stay smooth at every precision", "[model]") {
   calligraphy_test::Sequence random(11);
   for (int repetition = 0; repetition < 20; ++repetition) {
@@ -253,19 +331,21 @@ TEST_CASE("characters with very many strokes, and groups larger than 16-bit offs
 }
 
 TEST_CASE("finding a character and decoding its strokes does not allocate", "[model]") {
-  const CharacterSet one = CharacterSet::from_bytes(encode_character_set(built_in_characters()), "test");
+  const CharacterSet one = CharacterSet::from_bytes(encode_character_set(rich_list()), "test");
   const CharacterSet set = CharacterSet::layered(std::vector{set_of({one_stroke(U'一')}), one});
-  double sum = 0.0;
+  double sum = 0.0, inked = 0.0;
   const std::size_t before = calligraphy_test::allocations();
   for (char32_t code = 0x4E00; code < 0x9FFF; ++code) {
     const auto found = set.find(code);
     for (int i = 0; found && i < found->stroke_count(); ++i) {
       const auto stroke = found->stroke(i);
       sum += stroke->stroke().control_points.back().x() + found->stroke_id(i);
+      if (const auto ink = found->ink(i)) inked += ink->half_widths[0];
     }
   }
   CHECK(calligraphy_test::allocations() == before);
   CHECK(sum > 0.0);
+  CHECK(inked > 0.0);
 }
 
 TEST_CASE("a character outlives its set, and a copied set outlives the original", "[model]") {
@@ -286,6 +366,8 @@ TEST_CASE("a default-constructed character has no strokes", "[model]") {
   CHECK(none.stroke_count() == 0);
   CHECK(none.stroke_id(0) == 0);
   CHECK_FALSE(none.stroke(0));
+  CHECK_FALSE(none.ink(0));
+  CHECK_FALSE(none.has_ink());
   CHECK(none.provenance() == Provenance());
   CHECK_THROWS_AS(none.character(), FormatError);
 }

@@ -4,6 +4,7 @@
 
 #include <sys/stat.h>
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -14,6 +15,7 @@
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/model/character_set.hpp>
 #include <calligraphy/model/set_encoding.hpp>
+#include <base/bit_cast.hpp>
 #include <model/checksum.hpp>
 #include <model/little_endian.hpp>
 #include <model/order_name.hpp>
@@ -33,8 +35,8 @@ namespace {
 namespace fs = std::filesystem;
 using Bytes = std::vector<std::byte>;
 
-/// A few characters in several groups, including an alternate order, factors, quartics and a character-specific
-/// encoding.
+/// A few characters in several groups, including an alternate order, factors, quartics, a character-specific encoding,
+/// and ink, common and exact.
 CharacterList small_list() {
   const CharacterList rich = rich_list();
   CharacterList list{{"s", "l", "a", "t\n"}, {one_stroke(U'一')}};
@@ -42,6 +44,10 @@ CharacterList small_list() {
     if (character.code == U'北' || character.code == U'\U00020000') list.characters.push_back(character);
   }
   list.characters.push_back(with_quartic_curves(one_stroke(U'\U00020001')));  // short, and its form not plain
+  list.characters.push_back(one_stroke(U'丁'));
+  calligraphy_test::Sequence random(19);
+  calligraphy_test::add_ink(list.characters[0], 0.06, random);
+  calligraphy_test::add_ink(list.characters.back(), max_ink_length, random);
   return list;
 }
 
@@ -101,6 +107,11 @@ void use(const CharacterSet& set) {
     for (int i = 0; i < character.stroke_count(); ++i) {
       REQUIRE(character.stroke_id(i) >= 0);
       REQUIRE(character.stroke_id(i) <= typical_stroke_count);
+      if (const auto ink = character.ink(i)) {
+        for (const double length : {ink->start, ink->end}) REQUIRE((length >= 0.0 && length <= max_ink_length));
+        for (const double half : ink->half_widths) REQUIRE((half >= 0.0 && half <= max_ink_length));
+        for (const double offset : ink->offsets) REQUIRE(std::abs(offset) <= max_ink_length);
+      }
       const auto stroke = character.stroke(i);
       if (!stroke) continue;
       for (const Point& point : stroke->stroke().control_points) REQUIRE(point.cwiseAbs().maxCoeff() <= 16.0);
@@ -179,22 +190,24 @@ TEST_CASE("set files and text files are distinguished by their content", "[model
   }
 }
 
-TEST_CASE("files of each version stay readable, and those of version 2 are still written identically", "[model]") {
+TEST_CASE("files of each version stay readable, and those of versions 2 and 3 are still written identically",
+          "[model]") {
   const std::string directory = CALLIGRAPHY_SOURCE_DIR "/tests/data/";
-  for (const std::string version : {"version_1", "version_2"}) {
+  for (const std::string version : {"version_1", "version_2", "version_3"}) {
     const CharacterSet stored = CharacterSet::open(directory + version + ".set");
     const CharacterList list = read_characters(directory + version + ".txt");
     CHECK(stored.provenances() == std::vector{list.provenance});
     CHECK(list.provenance.licence_text == "First line\n\n and the third");
-    for (const Character& character : list.characters) {  // whose coordinates are whole steps of 1/800 em
+    for (const Character& character : list.characters) {  // whose coordinates and ink are whole steps of 1/800 em
       CHECK(same(stored.find(character.code, character.order)->character(), character));
     }
   }
-  const CharacterList list = read_characters(directory + "version_2.txt");
-  std::ifstream in(directory + "version_2.set", std::ios::binary);
-  const std::string bytes(std::istreambuf_iterator<char>(in), {});
-  const Bytes written = encode_character_set(list);
-  CHECK(std::string(reinterpret_cast<const char*>(written.data()), written.size()) == bytes);
+  for (const std::string version : {"version_2", "version_3"}) {
+    std::ifstream in(directory + version + ".set", std::ios::binary);
+    const std::string bytes(std::istreambuf_iterator<char>(in), {});
+    const Bytes written = encode_character_set(read_characters(directory + version + ".txt"));
+    CHECK(std::string(reinterpret_cast<const char*>(written.data()), written.size()) == bytes);
+  }
 }
 
 TEST_CASE("an open set is unaffected when its file is replaced or removed", "[model]") {
@@ -322,12 +335,18 @@ TEST_CASE("each number of the header is validated, not only its checksum", "[mod
   CHECK(with(error_at + 4, 0xBFF00000).find("coordinate error") != std::string::npos);
   CHECK(with(coding_at, 0).find("coding") != std::string::npos);  // doubles of 10 bits
   CHECK(with(coding_at, 0xFFFFFFFF).find("coding") != std::string::npos);
-  const std::size_t kinds = load<std::uint16_t>(whole.data() + kinds_at), provenance = kinds_at + 2 + kind_size * kinds;
+  const std::size_t kinds = load<std::uint16_t>(whole.data() + kinds_at), ink = kinds_at + 2 + kind_size * kinds;
+  const std::size_t provenance = ink + ink_coding_size;
   CHECK(kinds >= 5);
   CHECK(with(kinds_at, 0xFFFFFFFF).find("list of stroke kinds has 65535 entries") != std::string::npos);
   CHECK(with(kinds_at, 0x01010400).find("list of stroke kinds") != std::string::npos);
   CHECK(with(kinds_at + 2, 0x01010028).find("invalid id 40") != std::string::npos);
   CHECK(with(kinds_at + 2, 0x01010201).find("invalid elements of id 1") != std::string::npos);  // a second element
+  CHECK(with(ink, 0).find("ink encoding has invalid numbers") != std::string::npos);  // doubles of 8 bits
+  CHECK(with(ink, max_steps_per_em + 1).find("ink encoding has invalid numbers") != std::string::npos);
+  CHECK(with(ink + 1, 0x07000003).find("ink encoding has invalid numbers") != std::string::npos);  // 7 bits
+  CHECK(with(ink + 2, 0x11080000).find("ink encoding has invalid numbers") != std::string::npos);  // 17 values
+  CHECK(with(ink + 2, 0x00080000).find("ink encoding has invalid numbers") != std::string::npos);  // none
   CHECK(with(provenance, 0xFFFFFFFF).find("its provenance") != std::string::npos);
   CHECK(with(provenance + 1, 0xFF000000).find("its provenance") != std::string::npos);  // no UTF-8
   CHECK(with(entries, 0).find("entry 1 ") != std::string::npos);                         // a group of no character
@@ -374,11 +393,77 @@ TEST_CASE("a character-specific encoding is validated like that of the file", "[
   CHECK(complaint(bytes).find("一") != std::string::npos);
 }
 
+TEST_CASE("ink that is negative, not finite or wider than 1 em is damaged, and its stroke is not", "[model]") {
+  CharacterList list{{}, {one_stroke(U'一')}};
+  calligraphy_test::Sequence random(23);
+  calligraphy_test::add_ink(list.characters[0], 0.06, random);
+  for (const CoordinatePrecision precision : {CoordinatePrecision::fine, CoordinatePrecision::exact}) {
+    const Bytes whole = encode_character_set(list, precision);
+    const std::size_t size = precision == CoordinatePrecision::exact ? 8 : 2;
+    const std::size_t first = whole.size() - set_format::ink_values * size;
+    const auto is_damaged = [&](std::size_t value, double number) {
+      Bytes bytes = whole;
+      if (size == 8) {
+        store(bytes, first + value * size, bit_cast<std::uint64_t>(number));
+      } else {
+        store(bytes, first + value * size, static_cast<std::uint16_t>(std::lround(number * 12800.0)));
+      }
+      forge_checksums(bytes);
+      const StoredCharacter stored = *CharacterSet::from_bytes(bytes, "test.set").find(U'一');
+      REQUIRE(stored.has_ink());
+      REQUIRE(stored.stroke(0).has_value());
+      const bool is_reported = complaint(bytes).find("stroke 1 has ink") != std::string::npos;
+      REQUIRE(is_reported == !stored.ink(0).has_value());
+      return is_reported;
+    };
+    for (std::size_t value = 0; value < set_format::ink_values; ++value) {
+      const bool is_offset = value >= set_format::ink_values_without_offsets;
+      INFO(size << " bytes, value " << value);
+      CHECK_FALSE(is_damaged(value, 1.0));
+      CHECK(is_damaged(value, 1.0 + 1.0 / 12800.0));
+      CHECK(is_damaged(value, -1.0 / 12800.0) == !is_offset);
+      if (size == 2) continue;
+      for (const double number : {HUGE_VAL, -HUGE_VAL, std::nan("")}) CHECK(is_damaged(value, number));
+    }
+  }
+}
+
+TEST_CASE("a form has ink for each of its strokes, and flags of ink only where the file has ink", "[model]") {
+  using namespace set_format;
+  calligraphy_test::Sequence random(29);
+  const auto complaint_of_head = [](const CharacterList& list, unsigned head, std::size_t cut) {
+    Bytes bytes = encode_character_set(list);
+    const std::size_t record = load_u32(bytes, first_group_at) + 2;
+    bytes[record] = static_cast<std::byte>(head);
+    bytes.resize(bytes.size() - cut);
+    store(bytes, size_at, static_cast<std::uint32_t>(bytes.size()));
+    if (head >= special) bytes[record + 2] = static_cast<std::byte>(bytes.size() - record - 3);
+    forge_checksums(bytes);
+    return complaint(bytes);
+  };
+  CharacterList plain{{}, {one_stroke(U'一')}};
+  calligraphy_test::add_ink(plain.characters[0], 0.06, random);
+  CHECK(complaint_of_head(plain, 1, 0).empty());
+  CHECK_FALSE(complaint_of_head(plain, 1, 1).empty());
+  CHECK_FALSE(complaint_of_head(plain, 1, 18).empty());
+
+  CharacterList inked{{}, {with_quartic_curves(one_stroke(U'一'))}};
+  CHECK(complaint_of_head(inked, special | quartic, 0).empty());
+  CHECK_FALSE(complaint_of_head(inked, special | quartic | no_ink, 0).empty());
+  CHECK_FALSE(complaint_of_head(inked, special | quartic | exact_ink, 0).empty());
+  calligraphy_test::add_ink(inked.characters[0], 0.06, random);
+  CHECK(complaint_of_head(inked, special | quartic, 0).empty());
+  CHECK(complaint_of_head(inked, special | quartic | no_ink, 18).empty());
+  CHECK_FALSE(complaint_of_head(inked, special | quartic | no_ink, 0).empty());
+  CHECK_FALSE(complaint_of_head(inked, special | quartic | exact_ink, 0).empty());
+  CHECK_FALSE(complaint_of_head(inked, special | quartic | no_ink | exact_ink, 18).empty());
+}
+
 TEST_CASE("files of a newer version and of another program are reported as such", "[model]") {
   Bytes bytes = encode_character_set(small_list());
-  store(bytes, set_format::version_at, std::uint32_t{3});
+  store(bytes, set_format::version_at, std::uint32_t{4});
   CHECK(complaint(bytes).find("newer version") != std::string::npos);
-  CHECK(complaint(bytes).find("format is 3") != std::string::npos);
+  CHECK(complaint(bytes).find("format is 4") != std::string::npos);
   store(bytes, set_format::version_at, std::uint32_t{0});
   CHECK(complaint(bytes).find("another program") != std::string::npos);
   const TestFile file("magic");

@@ -69,6 +69,14 @@ class Info(ProgramTest):
             self.assertRegex(text, r'\n  Stroke orders \(--order\) +the standard one, "Table 3"\n')
         self.assertNotIn("Stroke orders", self.run_program("info", file, "一").stdout)
 
+    def test_the_characters_with_ink_are_counted(self):
+        for name, count in (("version_3.set", 2), ("version_3.txt", 2), ("version_2.set", 0)):
+            file = str(DATA / name)
+            self.assertEqual(json.loads(self.run_program("info", file, "--json").stdout)["characters_with_ink"], count)
+            text = self.run_program("info", file).stdout
+            self.assertEqual("Characters with ink" in text, count > 0)
+        self.assertRegex(self.run_program("info", str(DATA / "version_3.set")).stdout, r"\nCharacters with ink +2\n")
+
     def test_a_text_after_the_file_shows_its_characters(self):
         told = json.loads(self.run_program("info", str(DATA / "version_1.set"), "北一北", "--json").stdout)
         self.assertEqual([row["character"] for row in told["text"]], ["北", "一"])
@@ -151,7 +159,7 @@ class Refusals(ProgramTest):
                 self.assert_refused(1, arguments, f"{name}: is {kind}", "`calligraphy import` converts collections")
         (self.directory / "binary").write_bytes(b"\0\x9b1m\xff" + "永\u009b".encode() + b"\x7f")
         self.assert_refused(1, ["info", "binary"],
-                            "binary:1: expected 'calligraphy characters 2' (or 1), found '??1m?永??'\n")
+                            "binary:1: expected 'calligraphy characters 2' (or 1, or 3 with ink), found '??1m?永??'\n")
         (self.directory / "long").write_text("ab" + 30 * "永")
         self.assert_refused(1, ["info", "long"], "found 'ab" + 19 * "永" + "...'\n")
 
@@ -165,7 +173,7 @@ class Refusals(ProgramTest):
         for name, content, words in (("cut.set", whole[:-1], ["truncated"]),
                                      ("index.set", whole[:70] + b"x" + whole[71:], ["checksum"]),
                                      ("group.set", whole[:-1] + bytes([whole[-1] ^ 1]), ["U+20000", "checksum"]),
-                                     ("newer.set", whole[:8] + b"\3" + whole[9:], ["newer version"]),
+                                     ("newer.set", whole[:8] + b"\4" + whole[9:], ["newer version"]),
                                      ("picture.set", b"\x89PNG\r\n\x1a\n", ["not a set file"])):
             with self.subTest(name=name):
                 (self.directory / name).write_bytes(content)

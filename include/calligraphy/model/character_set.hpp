@@ -29,7 +29,14 @@ struct CoordinateEncoding {
   std::uint8_t y_bits = 64;
 };
 
-/// One stroke of a set, decoded.
+/// Encoding of the ink of strokes.
+struct InkEncoding {
+  std::uint32_t steps_per_em = 0;      ///< 0: unquantised doubles
+  std::uint8_t bits = 64;              ///< per value
+  std::uint8_t values_per_stroke = 0;  ///< 18, or 10 if all offsets are 0; 0: there is no ink
+};
+
+/// One stroke of a set, decoded, without its ink.
 struct StoredStroke {
   StoredStroke() noexcept {}  // not `= default`, which lets the decoder zero what it is about to write
 
@@ -59,11 +66,17 @@ class StoredCharacter {
   int stroke_count() const noexcept { return stroke_count_; }
   /// Typical stroke id of the stroke with this index; 0 if there is no such stroke or it is damaged. O(index).
   int stroke_id(int index) const noexcept;
-  /// The stroke with this index; empty if there is no such stroke or it is damaged. Safe in the servo loop: does not
-  /// allocate, lock or throw; O(index). Counts, ids and coordinates (finite, within 16 em) are valid, but only
-  /// character() checks for elements of zero length and for joints that are not smooth.
+  /// The stroke with this index, without its ink; empty if there is no such stroke or it is damaged. Safe in the servo
+  /// loop: does not allocate, lock or throw; O(index). Counts, ids and coordinates (finite, within 16 em) are valid, but
+  /// only character() checks for elements of zero length and for joints that are not smooth.
   std::optional<StoredStroke> stroke(int index) const noexcept;
-  /// The whole character, validated. @throws FormatError naming the file and the character if it is damaged
+  /// Whether the character has ink. False if the record is damaged.
+  bool has_ink() const noexcept { return ink_.values_per_stroke != 0; }
+  /// The ink of the stroke with this index; empty if there is no such stroke, or its ink is missing or damaged. Safe in
+  /// the servo loop, as stroke(); O(1).
+  std::optional<StrokeInk> ink(int index) const noexcept;
+  /// The whole character with its ink, validated.
+  /// @throws FormatError naming the file and the character if it is damaged
   Character character() const;
   /// Its provenance; the reference is valid as long as this object.
   const Provenance& provenance() const noexcept;
@@ -81,8 +94,9 @@ class StoredCharacter {
   int stroke_count_ = 0;
   bool has_factors_ = false;
   CoordinateEncoding coding_;
+  InkEncoding ink_;
   std::uint64_t first_bit_ = 0;  // in the file: ids, points, factors
-  std::uint64_t end_bit_ = 0;
+  std::uint64_t end_bit_ = 0;    // where its ink begins
 };
 
 /// An immutable set of characters: a memory-mapped set file, characters in memory, or several layered sets. Cheap to

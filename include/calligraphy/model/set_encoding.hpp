@@ -8,12 +8,13 @@
 
 namespace calligraphy {
 
-/// Precision of the control points in a set file. At any precision a valid character stays valid: one that rounding
-/// would invalidate, or that lies far outside the em square, is stored more precisely than the others.
+/// Precision of the control points and the ink in a set file. At any precision a valid character stays valid: one that
+/// rounding would invalidate, or that lies far outside the em square, is stored more precisely than the others, and so
+/// is ink too wide for its bits.
 enum class CoordinatePrecision {
-  coarse,    ///< steps of 1/200 em: 8 bits per coordinate
-  standard,  ///< steps of 1/800 em: 10 bits
-  fine,      ///< steps of 1/12800 em: 14 bits
+  coarse,    ///< steps of 1/200 em: 8 bits per coordinate; ink in steps of 1/400 em: 8 bits per value
+  standard,  ///< steps of 1/800 em: 10 bits; ink in steps of 1/800 em: 8 bits
+  fine,      ///< steps of 1/12800 em: 14 bits; ink in steps of 1/12800 em: 16 bits
   exact      ///< unquantised: 64 bits
 };
 
@@ -21,6 +22,10 @@ enum class CoordinatePrecision {
 /// rounding of doubles. It bounds the error of strokes too, as two curves are no farther apart than their control
 /// points.
 double coordinate_error_bound(CoordinatePrecision precision) noexcept;
+
+/// Maximum difference between a stored half-width, offset, start or end of ink and the original one [em]: half a step,
+/// plus rounding of doubles.
+double ink_error_bound(CoordinatePrecision precision) noexcept;
 
 /// Encodes characters as the bytes of a set file. The same characters give the same bytes.
 /// @throws ValueError naming the character if one is invalid, is not a Unicode character, has more than 4096 strokes or
