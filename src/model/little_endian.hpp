@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "base/bit_cast.hpp"
+
 namespace calligraphy {
 
 template <class Unsigned>
@@ -46,6 +48,11 @@ class BitWriter {
       if (size_ % 8 == 0) bytes_.push_back(std::byte{0});
       if (((value >> i) & 1) != 0) bytes_.back() |= std::byte{1} << (size_ % 8);
     }
+  }
+  void write_double(double value) {
+    const auto whole = bit_cast<std::uint64_t>(value);
+    write(whole & 0xFFFFFFFF, 32);
+    write(whole >> 32, 32);
   }
   /// The bits so far, padded with zeros to a whole byte.
   const std::vector<std::byte>& bytes() const { return bytes_; }

@@ -17,6 +17,7 @@
 #include "base/bit_cast.hpp"
 #include "checksum.hpp"
 #include "code_point_name.hpp"
+#include "ink_encoding.hpp"
 #include "little_endian.hpp"
 #include "order_name.hpp"
 #include "set_format.hpp"
@@ -43,19 +44,18 @@ CoordinateEncoding coding_of(CoordinatePrecision precision) {
   return {};
 }
 
-/// Without the number of values.
-InkEncoding ink_coding_of(CoordinatePrecision precision) {
+std::uint32_t ink_steps_of(CoordinatePrecision precision) {
   switch (precision) {
     case CoordinatePrecision::coarse:
-      return {400, 8, 0};
+      return 400;
     case CoordinatePrecision::standard:
-      return {800, 8, 0};
+      return 800;
     case CoordinatePrecision::fine:
-      return {12800, 16, 0};
+      return 12800;
     case CoordinatePrecision::exact:
       break;
   }
-  return {};
+  return 0;
 }
 
 void append_bytes(Bytes& bytes, const Bytes& more) { bytes.insert(bytes.end(), more.begin(), more.end()); }
@@ -78,12 +78,6 @@ void append_coding(Bytes& bytes, const CoordinateEncoding& coding) {
   append(bytes, coding.y_bits);
 }
 
-void append_coding(Bytes& bytes, const InkEncoding& coding) {
-  append(bytes, coding.steps_per_em);
-  append(bytes, coding.bits);
-  append(bytes, coding.values_per_stroke);
-}
-
 std::int64_t steps(double coordinate, std::uint32_t steps_per_em) { return std::llround(coordinate * steps_per_em); }
 
 bool is_covered(std::int64_t step, std::int64_t origin, int bits) {
@@ -96,44 +90,6 @@ bool covers(const CoordinateEncoding& coding, const Character& character) {
            return is_covered(steps(point.x(), coding.steps_per_em), coding.x_origin, coding.x_bits) &&
                   is_covered(steps(point.y(), coding.steps_per_em), coding.y_origin, coding.y_bits);
          });
-}
-
-bool covers(const InkEncoding& coding, const StrokeInk& ink) {
-  const auto is_length = [&](double value) { return is_covered(steps(value, coding.steps_per_em), 0, coding.bits); };
-  const auto is_offset = [&](double value) {
-    const std::int64_t least = -(std::int64_t{1} << (coding.bits - 1));
-    return is_covered(steps(value, coding.steps_per_em), least, coding.bits);
-  };
-  return coding.steps_per_em == 0 ||
-         (is_length(ink.start) && is_length(ink.end) &&
-          std::all_of(ink.half_widths.begin(), ink.half_widths.end(), is_length) &&
-          std::all_of(ink.offsets.begin(), ink.offsets.end(), is_offset));
-}
-
-/// The encoding of the ink of a character: that of the set, or doubles if it does not cover it.
-InkEncoding ink_coding(const Character& character, const InkEncoding& common) {
-  const std::vector<StrokeInk>& all = character.physics.ink;
-  if (all.empty()) return {};
-  const bool is_common = std::all_of(all.begin(), all.end(), [&](const StrokeInk& ink) { return covers(common, ink); });
-  return is_common ? common : InkEncoding{0, 64, common.values_per_stroke};
-}
-
-/// The encoding of ink in a set. It has no values if there is no ink, and no offsets if all are zero once rounded.
-InkEncoding common_ink_coding(const CharacterList& set, CoordinatePrecision precision) {
-  InkEncoding common = ink_coding_of(precision);
-  std::size_t values = 0;
-  for (const Character& character : set.characters) {
-    const std::uint32_t steps_per_em = ink_coding(character, common).steps_per_em;
-    const auto is_zero = [&](double offset) {
-      return steps_per_em == 0 ? offset == 0.0 : steps(offset, steps_per_em) == 0;
-    };
-    for (const StrokeInk& ink : character.physics.ink) {
-      const bool is_straight = std::all_of(ink.offsets.begin(), ink.offsets.end(), is_zero);
-      values = std::max(values, is_straight ? ink_values_without_offsets : ink_values);
-    }
-  }
-  common.values_per_stroke = static_cast<std::uint8_t>(values);
-  return common;
 }
 
 /// The fewest bits that cover the character.
@@ -195,14 +151,8 @@ Form choose_coding(const Character& character, const CoordinateEncoding& common,
   return {&character, CoordinateEncoding(), common.steps_per_em != 0};
 }
 
-void write_double(BitWriter& bits, double value) {
-  const auto whole = bit_cast<std::uint64_t>(value);
-  bits.write(whole & 0xFFFFFFFF, 32);
-  bits.write(whole >> 32, 32);
-}
-
 void write_coordinate(BitWriter& bits, double coordinate, std::uint32_t steps_per_em, std::int32_t origin, int width) {
-  if (steps_per_em == 0) return write_double(bits, coordinate);
+  if (steps_per_em == 0) return bits.write_double(coordinate);
   bits.write(static_cast<std::uint64_t>(steps(coordinate, steps_per_em) - origin), width);
 }
 
@@ -218,42 +168,31 @@ std::vector<Kind> kinds_of(const Character& character) {
   return kinds;
 }
 
-void append_value(Bytes& bytes, double value, const InkEncoding& coding) {
-  if (coding.steps_per_em == 0) return append(bytes, bit_cast<std::uint64_t>(value));
-  const auto step = static_cast<std::uint64_t>(steps(value, coding.steps_per_em));  // two's complement
-  if (coding.bits == 8) return append(bytes, static_cast<std::uint8_t>(step));
-  append(bytes, static_cast<std::uint16_t>(step));
-}
-
-void append_ink(Bytes& bytes, const StrokeInk& ink, const InkEncoding& coding) {
-  append_value(bytes, ink.start, coding);
-  append_value(bytes, ink.end, coding);
-  for (const double half_width : ink.half_widths) append_value(bytes, half_width, coding);
-  if (coding.values_per_stroke == ink_values_without_offsets) return;
-  for (const double offset : ink.offsets) append_value(bytes, offset, coding);
-}
-
-/// The bits of a form, kinds, points and factors; and its ink.
+/// The bits of a form: kinds, points, factors, ink.
 class FormEncoder {
  public:
-  FormEncoder(const std::vector<Kind>& kinds, const InkEncoding& common_ink) : common_ink_(common_ink) {
+  FormEncoder(const CharacterList& set, const std::vector<Kind>& kinds, CoordinatePrecision precision) {
     for (std::size_t i = 0; i < kinds.size(); ++i) ranks_[kinds[i]] = i;
+    std::vector<RankedInk> inks;
+    for (const Character& character : set.characters) {
+      const std::vector<RankedInk> own = inks_of(character);
+      inks.insert(inks.end(), own.begin(), own.end());
+    }
+    ink_code = ink_code_of(inks, kinds.size(), ink_steps_of(precision));
   }
+
+  InkCode ink_code;
 
   Bytes encode(const Form& form, bool is_last) const {
     const Character& character = *form.character;
     const auto& all_factors = character.physics.attraction_factors;
     const bool has_factors = std::any_of(all_factors.begin(), all_factors.end(), [](double f) { return f != 1.0; });
-    Bytes content = encode_bits(form, has_factors);
-    const InkEncoding ink = ink_coding(character, common_ink_);
-    for (const StrokeInk& one : character.physics.ink) append_ink(content, one, ink);
-    const bool has_ink = !character.physics.ink.empty();
+    const Bytes content = encode_bits(form, has_factors);
+    const bool lacks_ink = ink_code.values != 0 && character.physics.ink.empty();
     const std::size_t count = character.sequence.stroke_ids.size();
     const unsigned flags = (is_last ? 0U : more_forms) | (character.order.empty() ? 0U : named) |
                            (character.curve_degree == 4 ? quartic : 0U) | (has_factors ? factors : 0U) |
-                           (form.has_own_coding ? own_coding : 0U) |
-                           (!has_ink && common_ink_.values_per_stroke != 0 ? no_ink : 0U) |
-                           (has_ink && ink.bits != common_ink_.bits ? exact_ink : 0U);
+                           (form.has_own_coding ? own_coding : 0U) | (lacks_ink ? no_ink : 0U);
     Bytes bytes;
     if (flags == 0 && count <= max_plain_strokes) {
       bytes.push_back(static_cast<std::byte>(count));
@@ -275,6 +214,15 @@ class FormEncoder {
   }
 
  private:
+  std::vector<RankedInk> inks_of(const Character& character) const {
+    const std::vector<Kind> kinds = kinds_of(character);
+    std::vector<RankedInk> inks;
+    for (std::size_t i = 0; i < character.physics.ink.size(); ++i) {
+      inks.push_back({&character.physics.ink[i], ranks_.at(kinds[i])});
+    }
+    return inks;
+  }
+
   Bytes encode_bits(const Form& form, bool has_factors) const {
     const Character& character = *form.character;
     const CoordinateEncoding& coding = form.coding;
@@ -294,12 +242,12 @@ class FormEncoder {
       write_coordinate(bits, point.y(), coding.steps_per_em, coding.y_origin, coding.y_bits);
     }
     if (has_factors) {
-      for (const double factor : character.physics.attraction_factors) write_double(bits, factor);
+      for (const double factor : character.physics.attraction_factors) bits.write_double(factor);
     }
+    for (const RankedInk& ink : inks_of(character)) write_ink(bits, ink, ink_code);
     return bits.bytes();
   }
 
-  InkEncoding common_ink_;
   std::map<Kind, std::size_t> ranks_;
 };
 
@@ -415,17 +363,19 @@ class GroupWriter {
 struct Header {
   CoordinateEncoding coding;
   std::vector<Kind> kinds;
-  InkEncoding ink;
+  InkCode ink;
   double coordinate_error;
 };
 
 /// The complete file, including its checksum.
 Bytes assemble(const Header& header, const Provenance& provenance, const GroupWriter& writer) {
-  const bool has_ink = header.ink.values_per_stroke != 0;
+  const bool has_ink = header.ink.values != 0;
   const auto texts = {&provenance.source, &provenance.licence, &provenance.attribution, &provenance.licence_text};
   std::size_t first_group = kinds_at + sizeof(std::uint16_t) + kind_size * header.kinds.size() +
                             (block_size + entry_size) * writer.blocks.size();
-  if (has_ink) first_group += ink_coding_size;
+  Bytes ink;
+  if (has_ink) append_ink_code(ink, header.ink);
+  first_group += ink.size();
   for (const std::string* text : texts) first_group += 4 + text->size();
   const std::size_t size = first_group + writer.groups.size();
   if (size > std::numeric_limits<std::uint32_t>::max()) {
@@ -442,7 +392,7 @@ Bytes assemble(const Header& header, const Provenance& provenance, const GroupWr
     append(index, static_cast<std::uint8_t>(id));
     append(index, static_cast<std::uint8_t>(curves));
   }
-  if (has_ink) append_coding(index, header.ink);
+  append_bytes(index, ink);
   for (const std::string* text : texts) {
     append(index, static_cast<std::uint32_t>(text->size()));
     append_text(index, *text);
@@ -473,7 +423,7 @@ double coordinate_error_bound(CoordinatePrecision precision) noexcept {
 }
 
 double ink_error_bound(CoordinatePrecision precision) noexcept {
-  const std::uint32_t steps_per_em = ink_coding_of(precision).steps_per_em;
+  const std::uint32_t steps_per_em = ink_steps_of(precision);
   if (steps_per_em == 0) return 0.0;
   constexpr double arithmetic = 1e-15;  // [em]; of a length within 1 em
   return 0.5 / steps_per_em + arithmetic;
@@ -482,8 +432,9 @@ double ink_error_bound(CoordinatePrecision precision) noexcept {
 std::vector<std::byte> encode_character_set(const CharacterList& set, CoordinatePrecision precision) {
   check(set.provenance);
   const auto characters = sorted(set);
-  Header header{coding_of(precision), ranked_kinds(set), common_ink_coding(set, precision), 0.0};
-  const FormEncoder encoder(header.kinds, header.ink);
+  Header header{coding_of(precision), ranked_kinds(set), {}, 0.0};
+  const FormEncoder encoder(set, header.kinds, precision);
+  header.ink = encoder.ink_code;
   GroupWriter writer;
   for (const auto& [code, forms] : characters) {
     Bytes record;

@@ -34,12 +34,6 @@ bool is_sound(const CoordinateEncoding& coding) noexcept {
   return coding.steps_per_em <= max_steps_per_em && is_width(coding.x_bits) && is_width(coding.y_bits);
 }
 
-bool is_sound(const InkEncoding& coding) noexcept {
-  if (coding.values_per_stroke != ink_values && coding.values_per_stroke != ink_values_without_offsets) return false;
-  if (coding.steps_per_em == 0) return coding.bits == 64;
-  return coding.steps_per_em <= max_steps_per_em && (coding.bits == 8 || coding.bits == 16);
-}
-
 /// A number of up to 32 bits, seven per byte, the lowest first. False if it ends beyond `end` or is too large.
 bool read_number(std::span<const std::byte> bytes, std::size_t& at, std::size_t end, std::uint32_t& number) noexcept {
   std::uint64_t value = 0;
@@ -70,7 +64,7 @@ void SetFile::fail(const std::string& what) const { throw FormatError(name_ + ":
 
 void SetFile::read() {
   read_header();
-  read_provenance(read_ink_coding(read_kinds()));
+  read_provenance(read_ink_code(read_kinds()));
 }
 
 void SetFile::read_header() {
@@ -125,13 +119,34 @@ std::size_t SetFile::read_kinds() {
   return at;
 }
 
-std::size_t SetFile::read_ink_coding(std::size_t at) {
+std::size_t SetFile::read_ink_code(std::size_t at) {
   if (load<std::uint32_t>(bytes_.data() + version_at) <= version_without_ink) return at;
-  if (first_group_ - at < ink_coding_size) fail("its index ends within its ink encoding");
-  const std::byte* const coding = bytes_.data() + at;
-  ink_ = {load<std::uint32_t>(coding), load<std::uint8_t>(coding + 4), load<std::uint8_t>(coding + 5)};
-  if (!is_sound(ink_)) fail("its ink encoding has invalid numbers");
-  return at + ink_coding_size;
+  if (first_group_ - at < ink_head_size) fail("its index ends within its ink encoding");
+  ink_code_.steps_per_em = load<std::uint32_t>(bytes_.data() + at);
+  ink_code_.values = load<std::uint8_t>(bytes_.data() + at + 4);
+  at += ink_head_size;
+  const bool is_sound = ink_code_.steps_per_em <= max_ink_steps_per_em &&
+                        (ink_code_.values == first_offset || ink_code_.values == values_per_ink);
+  if (!is_sound) fail("its ink encoding has invalid numbers");
+  if (ink_code_.steps_per_em == 0) return at;
+  const std::size_t row = sizeof(std::int16_t) * ink_code_.values;
+  if (first_group_ - at < ink_code_.values + 2 + row) fail("its index ends within its ink encoding");
+  for (std::size_t value = 0; value < ink_code_.values; ++value) {
+    ink_code_.parameters[value] = load<std::uint8_t>(bytes_.data() + at++);
+    if (ink_code_.parameters[value] > max_ink_parameter) fail("its ink encoding has invalid numbers");
+  }
+  const std::size_t rows = load<std::uint16_t>(bytes_.data() + at);
+  at += 2;
+  if (rows == 0 || rows > kinds_.size() + 1 || first_group_ - at < rows * row) {
+    fail("its ink encoding has " + std::to_string(rows) + " rows");
+  }
+  for (std::size_t i = 0; i < rows; ++i) {
+    InkSteps& usual = ink_code_.usual.emplace_back();
+    for (std::size_t value = 0; value < ink_code_.values; ++value, at += sizeof(std::int16_t)) {
+      usual[value] = static_cast<std::int16_t>(load<std::uint16_t>(bytes_.data() + at));
+    }
+  }
+  return at;
 }
 
 /// `curves`: of version 1, not stored.
@@ -266,7 +281,7 @@ std::optional<SetFile::Record> SetFile::record(char32_t code) const noexcept {
 bool SetFile::read_form(Record& rest, StoredCharacter& form) const noexcept {
   form.stroke_count_ = 0;
   form.order_ = {};
-  form.ink_ = {};
+  form.has_ink_ = false;
   if (rest.begin >= rest.end) return false;
   const auto head = std::to_integer<std::uint8_t>(bytes_[rest.begin++]);
   std::uint32_t strokes = head;
@@ -275,10 +290,10 @@ bool SetFile::read_form(Record& rest, StoredCharacter& form) const noexcept {
   form.coding_ = coding_;
   form.curve_degree_ = 3;
   form.has_factors_ = false;
-  InkEncoding ink = ink_;
+  bool has_ink = ink_code_.values != 0;
   if (head >= special) {
     std::uint32_t size = 0;
-    const unsigned known = ink.values_per_stroke == 0 ? known_flags : known_flags | no_ink | exact_ink;
+    const unsigned known = has_ink ? known_flags | no_ink : known_flags;
     if ((head & ~known) != 0 || !read_number(bytes_, at, end, strokes) || !read_number(bytes_, at, end, size)) {
       return false;
     }
@@ -300,16 +315,14 @@ bool SetFile::read_form(Record& rest, StoredCharacter& form) const noexcept {
     }
     form.curve_degree_ = (head & quartic) != 0 ? 4 : 3;
     form.has_factors_ = (head & factors) != 0;
-    if ((head & exact_ink) != 0) ink = {0, 64, ink.values_per_stroke};
-    if ((head & no_ink) != 0) ink = {};
-    if ((head & no_ink) != 0 && (head & exact_ink) != 0) return false;
+    has_ink = has_ink && (head & no_ink) == 0;
   }
   rest.begin = end;
-  if (strokes == 0 || strokes > max_strokes || strokes * ink_size(ink) > end - at) return false;
   form.first_bit_ = 8 * std::uint64_t{at};
-  form.end_bit_ = 8 * std::uint64_t{end - strokes * ink_size(ink)};
-  if (std::uint64_t{strokes} * min_rank_bits > form.end_bit_ - form.first_bit_) return false;
-  form.ink_ = ink;
+  form.end_bit_ = 8 * std::uint64_t{end};
+  const std::uint64_t least_bits = min_rank_bits + (has_ink ? ink_code_.values : 0);  // of a stroke
+  if (strokes == 0 || strokes > max_strokes || strokes * least_bits > form.end_bit_ - form.first_bit_) return false;
+  form.has_ink_ = has_ink;
   form.stroke_count_ = static_cast<int>(strokes);
   return true;
 }

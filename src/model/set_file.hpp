@@ -42,6 +42,7 @@ class SetFile {
   std::size_t size() const noexcept { return size_; }
   const Provenance& provenance() const noexcept { return provenance_; }
   double coordinate_error() const noexcept { return coordinate_error_; }
+  const set_format::InkCode& ink_code() const noexcept { return ink_code_; }
   /// The kinds of strokes, by rank.
   std::span<const set_format::StrokeKind> kinds() const noexcept { return kinds_; }
 
@@ -63,7 +64,7 @@ class SetFile {
   /// Returns the offset of what follows.
   std::size_t read_kinds();
   /// Returns the offset of what follows.
-  std::size_t read_ink_coding(std::size_t at);
+  std::size_t read_ink_code(std::size_t at);
   void add_kind(std::uint8_t id, std::optional<std::uint8_t> curves);
   void read_provenance(std::size_t at);
   void check_text(const std::string& text) const;
@@ -91,7 +92,7 @@ class SetFile {
   std::span<const std::byte> bytes_;
   Provenance provenance_;
   CoordinateEncoding coding_;
-  InkEncoding ink_;
+  set_format::InkCode ink_code_;
   std::vector<set_format::StrokeKind> kinds_;
   double coordinate_error_ = 0.0;
   std::size_t group_count_ = 0;

@@ -1,10 +1,12 @@
 // Constants of the set file format, shared by writer and reader (docs/set-file.md).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
+#include <vector>
 
 #include <calligraphy/model/character_set.hpp>
 #include <calligraphy/model/stroke_ink.hpp>
@@ -31,7 +33,7 @@ inline constexpr std::size_t coding_at = 36;
 inline constexpr std::size_t coding_size = 14;
 inline constexpr std::size_t kinds_at = 50;  ///< the kinds of strokes, most frequent first
 inline constexpr std::size_t kind_size = 2;  ///< u8 id, u8 which elements are curves, the first one lowest
-inline constexpr std::size_t ink_coding_size = 6;  ///< after the kinds in version 3: u32 steps, u8 bits, u8 values
+inline constexpr std::size_t ink_head_size = 5;  ///< after the kinds in version 3: u32 steps, u8 values per stroke
 
 /// A group holds the characters of 64 neighbouring code points.
 inline constexpr int group_shift = 6;
@@ -50,8 +52,7 @@ inline constexpr unsigned named = 2;
 inline constexpr unsigned quartic = 4;
 inline constexpr unsigned factors = 8;
 inline constexpr unsigned own_coding = 16;
-inline constexpr unsigned no_ink = 32;     ///< in a file that has ink
-inline constexpr unsigned exact_ink = 64;  ///< in a file that has ink: that of this form is stored as doubles
+inline constexpr unsigned no_ink = 32;  ///< in a file that has ink
 inline constexpr unsigned special = 128;
 inline constexpr unsigned known_flags = more_forms | named | quartic | factors | own_coding | special;
 inline constexpr std::size_t max_plain_strokes = 127;
@@ -74,12 +75,34 @@ inline constexpr std::uint8_t max_coordinate_bits = 32;
 inline constexpr double max_coordinate = 16.0;  // [em]
 
 // The values of a stroke's ink: start, end, half-widths and, unless all of the file are zero, offsets.
-inline constexpr std::size_t ink_values_without_offsets = 2 + ink_knot_count;
-inline constexpr std::size_t ink_values = ink_values_without_offsets + ink_knot_count;
+inline constexpr std::size_t first_half_width = 2;
+inline constexpr std::size_t first_offset = first_half_width + ink_knot_count;
+inline constexpr std::size_t values_per_ink = first_offset + ink_knot_count;
 
-/// Size of the ink of a stroke [byte].
-constexpr std::size_t ink_size(const InkEncoding& coding) {
-  return std::size_t{coding.values_per_stroke} * coding.bits / 8;
+/// A stroke's ink in steps.
+using InkSteps = std::array<std::int32_t, values_per_ink>;
+
+// What a value differs from what is expected, 0, -1, 1, -2, ..., is stored in a Rice code. As many ones escape to the
+// number itself.
+inline constexpr int ink_escape_ones = 20;
+inline constexpr int ink_escaped_bits = 17;
+inline constexpr std::uint8_t max_ink_parameter = 15;
+inline constexpr std::uint32_t max_ink_steps_per_em = 16384;  ///< whose difference has no more than the escaped bits
+
+/// How the ink of a file is stored.
+struct InkCode {
+  std::uint32_t steps_per_em = 0;  ///< 0: values are doubles
+  std::size_t values = 0;          ///< per stroke; 0: there is no ink
+  std::array<std::uint8_t, values_per_ink> parameters{};  ///< of the Rice code of each value
+  std::vector<InkSteps> usual;  ///< of the most frequent kinds of strokes, and last of all others
+
+  const InkSteps& usual_of(std::size_t kind) const noexcept { return usual[std::min(kind, usual.size() - 1)]; }
+};
+
+/// The value expected where the one before was `off` what is usual: a brush that presses harder does so for a while.
+constexpr std::int32_t expected_ink(const InkSteps& usual, std::size_t value, std::int32_t off) {
+  const bool follows = value > first_half_width && value < first_offset;
+  return usual[value] + (follows ? off >> 1 : 0);
 }
 
 /// Strokes of one type with the same composition.

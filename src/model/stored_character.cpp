@@ -48,7 +48,10 @@ class PointReader {
 /// Reads a sequence of strokes: their kinds.
 class KindReader {
  public:
-  KindReader(const SetFile& file, std::uint64_t at) noexcept : bytes_(file.bytes()), kinds_(file.kinds()), at_(at) {}
+  KindReader(const SetFile& file, std::uint64_t at) noexcept
+      : bytes_(file.bytes()), kinds_(file.kinds()), first_(at), at_(at) {}
+
+  void restart() noexcept { at_ = first_; }
 
   /// Null if the rank is invalid.
   const StrokeKind* next() noexcept {
@@ -69,6 +72,7 @@ class KindReader {
  private:
   std::span<const std::byte> bytes_;
   std::span<const StrokeKind> kinds_;
+  std::uint64_t first_;
   std::uint64_t at_;
 };
 
@@ -76,24 +80,63 @@ bool in_domain(const Point& point) noexcept {
   return std::abs(point.x()) <= max_coordinate && std::abs(point.y()) <= max_coordinate;  // false for NaN
 }
 
-/// A length of ink [em], of which the file has all bytes.
-double load_length(const std::byte* at, const InkEncoding& coding) noexcept {
-  if (coding.steps_per_em == 0) return bit_cast<double>(load<std::uint64_t>(at));
-  const auto step = coding.bits == 8 ? load<std::uint8_t>(at) : load<std::uint16_t>(at);
-  return static_cast<double>(step) / coding.steps_per_em;
-}
+/// Reads a sequence of inks.
+class InkReader {
+ public:
+  InkReader(const SetFile& file, std::uint64_t at) noexcept
+      : bytes_(file.bytes()), kinds_(file.kinds()), code_(file.ink_code()), at_(at) {}
 
-/// The same of an offset, which has a sign.
-double load_offset(const std::byte* at, const InkEncoding& coding) noexcept {
-  if (coding.steps_per_em == 0) return bit_cast<double>(load<std::uint64_t>(at));
-  const int step = coding.bits == 8 ? static_cast<std::int8_t>(load<std::uint8_t>(at))
-                                    : static_cast<std::int16_t>(load<std::uint16_t>(at));
-  return static_cast<double>(step) / coding.steps_per_em;
-}
+  /// The ink of a stroke of this kind. False if a value is outside its domain.
+  bool next(const StrokeKind& kind, StrokeInk& ink) noexcept {
+    const InkSteps* const usual =
+        code_.steps_per_em == 0 ? nullptr : &code_.usual_of(static_cast<std::size_t>(&kind - kinds_.data()));
+    bool is_sound = true;
+    off_ = 0;
+    for (std::size_t value = 0; value < code_.values; ++value) {
+      const double length = usual == nullptr ? exact() : coded(*usual, value);
+      is_sound = is_sound && length >= (value < first_offset ? 0.0 : -max_ink_length) && length <= max_ink_length;
+      place(ink, value) = length;
+    }
+    return is_sound;
+  }
+  std::uint64_t at() const noexcept { return at_; }
 
-/// False for NaN.
-bool is_length(double value) noexcept { return value >= 0.0 && value <= max_ink_length; }
-bool is_offset(double value) noexcept { return std::abs(value) <= max_ink_length; }
+ private:
+  static double& place(StrokeInk& ink, std::size_t value) noexcept {
+    if (value < first_half_width) return value == 0 ? ink.start : ink.end;
+    return value < first_offset ? ink.half_widths[value - first_half_width] : ink.offsets[value - first_offset];
+  }
+
+  double exact() noexcept {
+    const std::uint64_t at = at_;
+    at_ += 64;
+    return load_double(bytes_, at);
+  }
+
+  double coded(const InkSteps& usual, std::size_t value) noexcept {
+    const std::uint32_t number = rice_number(code_.parameters[value]);
+    const auto half = static_cast<std::int32_t>(number >> 1);
+    const std::int32_t step = expected_ink(usual, value, off_) + ((number & 1) != 0 ? -half - 1 : half);
+    off_ = step - usual[value];
+    return static_cast<double>(step) / code_.steps_per_em;
+  }
+
+  std::uint32_t rice_number(int parameter) noexcept {
+    const int ones = std::min(std::countr_one(load_bits(bytes_, at_, ink_escape_ones)), ink_escape_ones);
+    const bool is_escaped = ones == ink_escape_ones;
+    at_ += static_cast<std::uint64_t>(is_escaped ? ones : ones + 1);
+    const int width = is_escaped ? ink_escaped_bits : parameter;
+    const std::uint32_t low = load_bits(bytes_, at_, width);
+    at_ += static_cast<std::uint64_t>(width);
+    return is_escaped ? low : (static_cast<std::uint32_t>(ones) << parameter) | low;
+  }
+
+  std::span<const std::byte> bytes_;
+  std::span<const StrokeKind> kinds_;
+  const InkCode& code_;
+  std::uint64_t at_;
+  std::int32_t off_ = 0;  ///< what the last value differs from the usual one [step]
+};
 
 }  // namespace
 
@@ -159,27 +202,23 @@ bool StoredCharacter::decode(int index, StoredStroke& stroke) const noexcept {
 }
 
 std::optional<StrokeInk> StoredCharacter::ink(int index) const noexcept {
-  if (!has_ink() || index < 0 || index >= stroke_count_) return std::nullopt;
-  const std::size_t value_size = ink_.bits / 8;
-  const std::byte* at = file_->bytes().data() + end_bit_ / 8 + static_cast<std::size_t>(index) * ink_size(ink_);
+  if (!has_ink_ || index < 0 || index >= stroke_count_) return std::nullopt;
+  const auto degree = static_cast<std::size_t>(curve_degree_ - 3);
+  KindReader kinds(*file_, first_bit_);
+  std::uint64_t points = 0, features = 0;
+  for (int i = 0; i < stroke_count_; ++i) {
+    const StrokeKind* const kind = kinds.next();
+    if (kind == nullptr) return std::nullopt;
+    points += kind->points[degree];
+    features += kind->elements.size() + 1;
+  }
+  const std::uint64_t point_bits = coding_.x_bits + std::uint64_t{coding_.y_bits};
+  InkReader inks(*file_, kinds.at() + points * point_bits + (has_factors_ ? 64 * features : 0));
   StrokeInk ink;
   bool is_sound = true;
-  const auto take_length = [&](double& length) {
-    length = load_length(at, ink_);
-    is_sound = is_sound && is_length(length);
-    at += value_size;
-  };
-  take_length(ink.start);
-  take_length(ink.end);
-  for (double& half_width : ink.half_widths) take_length(half_width);
-  if (ink_.values_per_stroke == ink_values) {
-    for (double& offset : ink.offsets) {
-      offset = load_offset(at, ink_);
-      is_sound = is_sound && is_offset(offset);
-      at += value_size;
-    }
-  }
-  return is_sound ? std::optional(ink) : std::nullopt;
+  kinds.restart();
+  for (int i = 0; i <= index && is_sound; ++i) is_sound = inks.next(*kinds.next(), ink);
+  return is_sound && inks.at() <= end_bit_ ? std::optional(ink) : std::nullopt;
 }
 
 Character StoredCharacter::character() const {
@@ -201,8 +240,8 @@ Character StoredCharacter::character() const {
     features += kind->elements.size() + 1;
   }
   const std::uint64_t factors_at = kinds.at() + points * (coding_.x_bits + std::uint64_t{coding_.y_bits});
-  const std::uint64_t end = factors_at + (has_factors_ ? 64 * features : 0);
-  if ((end + 7) / 8 * 8 != end_bit_) fail("its strokes take " + std::to_string(end) + " bits");
+  const std::uint64_t ink_at = factors_at + (has_factors_ ? 64 * features : 0);
+  if (ink_at > end_bit_) fail("its strokes take " + std::to_string(ink_at) + " bits");
 
   PointReader reader(file_->bytes(), coding_, kinds.at());
   std::uint64_t factor_at = factors_at;
@@ -213,11 +252,14 @@ Character StoredCharacter::character() const {
       stroke.attraction_factors.push_back(load_double(file_->bytes(), factor_at));
     }
   }
-  for (int i = 0; has_ink() && i < stroke_count_; ++i) {
-    StrokeInput& stroke = strokes[static_cast<std::size_t>(i)];
-    stroke.ink = ink(i);
-    if (!stroke.ink) fail("stroke " + std::to_string(i + 1) + " has ink of an invalid width");
+  InkReader inks(*file_, ink_at);
+  kinds.restart();
+  for (std::size_t i = 0; has_ink_ && i < strokes.size(); ++i) {
+    if (!inks.next(*kinds.next(), strokes[i].ink.emplace())) {
+      fail("stroke " + std::to_string(i + 1) + " has ink of an invalid width");
+    }
   }
+  if ((inks.at() + 7) / 8 * 8 != end_bit_) fail("its strokes take " + std::to_string(inks.at()) + " bits");
   try {
     Character character = make_character(code_, strokes, curve_degree_);
     character.order = order_;

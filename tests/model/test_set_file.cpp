@@ -336,17 +336,20 @@ TEST_CASE("each number of the header is validated, not only its checksum", "[mod
   CHECK(with(coding_at, 0).find("coding") != std::string::npos);  // doubles of 10 bits
   CHECK(with(coding_at, 0xFFFFFFFF).find("coding") != std::string::npos);
   const std::size_t kinds = load<std::uint16_t>(whole.data() + kinds_at), ink = kinds_at + 2 + kind_size * kinds;
-  const std::size_t provenance = ink + ink_coding_size;
+  const std::size_t parameters = ink + ink_head_size;
+  const std::size_t rows = parameters + values_per_ink;
+  const std::size_t provenance = rows + 2 + 2 * values_per_ink * load<std::uint16_t>(whole.data() + rows);
   CHECK(kinds >= 5);
   CHECK(with(kinds_at, 0xFFFFFFFF).find("list of stroke kinds has 65535 entries") != std::string::npos);
   CHECK(with(kinds_at, 0x01010400).find("list of stroke kinds") != std::string::npos);
   CHECK(with(kinds_at + 2, 0x01010028).find("invalid id 40") != std::string::npos);
   CHECK(with(kinds_at + 2, 0x01010201).find("invalid elements of id 1") != std::string::npos);  // a second element
-  CHECK(with(ink, 0).find("ink encoding has invalid numbers") != std::string::npos);  // doubles of 8 bits
-  CHECK(with(ink, max_steps_per_em + 1).find("ink encoding has invalid numbers") != std::string::npos);
-  CHECK(with(ink + 1, 0x07000003).find("ink encoding has invalid numbers") != std::string::npos);  // 7 bits
-  CHECK(with(ink + 2, 0x11080000).find("ink encoding has invalid numbers") != std::string::npos);  // 17 values
-  CHECK(with(ink + 2, 0x00080000).find("ink encoding has invalid numbers") != std::string::npos);  // none
+  CHECK(with(ink, max_ink_steps_per_em + 1).find("ink encoding has invalid numbers") != std::string::npos);
+  CHECK(with(ink + 1, 0x11000003).find("ink encoding has invalid numbers") != std::string::npos);  // 17 values
+  CHECK(with(ink + 1, 0x00000003).find("ink encoding has invalid numbers") != std::string::npos);  // none
+  CHECK(with(parameters, 0x10).find("ink encoding has invalid numbers") != std::string::npos);
+  CHECK(with(rows, 0).find("ink encoding has 0 rows") != std::string::npos);
+  CHECK(with(rows, 1000).find("ink encoding has 1000 rows") != std::string::npos);
   CHECK(with(provenance, 0xFFFFFFFF).find("its provenance") != std::string::npos);
   CHECK(with(provenance + 1, 0xFF000000).find("its provenance") != std::string::npos);  // no UTF-8
   CHECK(with(entries, 0).find("entry 1 ") != std::string::npos);                         // a group of no character
@@ -393,36 +396,54 @@ TEST_CASE("a character-specific encoding is validated like that of the file", "[
   CHECK(complaint(bytes).find("一") != std::string::npos);
 }
 
+namespace {
+
+std::size_t record_of_first(const Bytes& bytes) { return load_u32(bytes, set_format::first_group_at) + 2; }
+
+void store_bits(Bytes& bytes, std::size_t at, std::uint64_t value, int count) {
+  for (int i = 0; i < count; ++i, ++at) {
+    const std::byte bit = std::byte{1} << (at % 8);
+    bytes[at / 8] = ((value >> i) & 1) != 0 ? bytes[at / 8] | bit : bytes[at / 8] & ~bit;
+  }
+}
+
+/// Of the first stroke of 一: its ink is damaged and reported, and the stroke itself is not.
+bool has_damaged_ink(Bytes bytes) {
+  forge_checksums(bytes);
+  const StoredCharacter stored = *CharacterSet::from_bytes(bytes, "test.set").find(U'一');
+  REQUIRE(stored.has_ink());
+  REQUIRE(stored.stroke(0).has_value());
+  const bool is_reported = complaint(bytes).find("stroke 1 has ink") != std::string::npos;
+  REQUIRE(is_reported == !stored.ink(0).has_value());
+  return is_reported;
+}
+
+}  // namespace
+
 TEST_CASE("ink that is negative, not finite or wider than 1 em is damaged, and its stroke is not", "[model]") {
   CharacterList list{{}, {one_stroke(U'一')}};
   calligraphy_test::Sequence random(23);
   calligraphy_test::add_ink(list.characters[0], 0.06, random);
+  using namespace set_format;
   for (const CoordinatePrecision precision : {CoordinatePrecision::fine, CoordinatePrecision::exact}) {
     const Bytes whole = encode_character_set(list, precision);
-    const std::size_t size = precision == CoordinatePrecision::exact ? 8 : 2;
-    const std::size_t first = whole.size() - set_format::ink_values * size;
+    const bool is_exact = precision == CoordinatePrecision::exact;
+    const std::size_t usual = kinds_at + 2 + kind_size + ink_head_size + values_per_ink + 2;  // of the one kind
     const auto is_damaged = [&](std::size_t value, double number) {
       Bytes bytes = whole;
-      if (size == 8) {
-        store(bytes, first + value * size, bit_cast<std::uint64_t>(number));
-      } else {
-        store(bytes, first + value * size, static_cast<std::uint16_t>(std::lround(number * 12800.0)));
+      if (is_exact) {  // after the rank of the kind and two points
+        store_bits(bytes, 8 * record_of_first(bytes) + 8 + 2 + 64 * (4 + value), bit_cast<std::uint64_t>(number), 64);
+        return has_damaged_ink(bytes);
       }
-      forge_checksums(bytes);
-      const StoredCharacter stored = *CharacterSet::from_bytes(bytes, "test.set").find(U'一');
-      REQUIRE(stored.has_ink());
-      REQUIRE(stored.stroke(0).has_value());
-      const bool is_reported = complaint(bytes).find("stroke 1 has ink") != std::string::npos;
-      REQUIRE(is_reported == !stored.ink(0).has_value());
-      return is_reported;
+      store(bytes, usual + 2 * value, static_cast<std::uint16_t>(std::lround(number * 12800.0)));
+      return has_damaged_ink(bytes);
     };
-    for (std::size_t value = 0; value < set_format::ink_values; ++value) {
-      const bool is_offset = value >= set_format::ink_values_without_offsets;
-      INFO(size << " bytes, value " << value);
+    for (std::size_t value = 0; value < values_per_ink; ++value) {
+      INFO("value " << value << (is_exact ? ", exact" : ""));
       CHECK_FALSE(is_damaged(value, 1.0));
       CHECK(is_damaged(value, 1.0 + 1.0 / 12800.0));
-      CHECK(is_damaged(value, -1.0 / 12800.0) == !is_offset);
-      if (size == 2) continue;
+      CHECK(is_damaged(value, -1.0 / 12800.0) == (value < first_offset));
+      if (!is_exact) continue;
       for (const double number : {HUGE_VAL, -HUGE_VAL, std::nan("")}) CHECK(is_damaged(value, number));
     }
   }
@@ -431,6 +452,7 @@ TEST_CASE("ink that is negative, not finite or wider than 1 em is damaged, and i
 TEST_CASE("a form has ink for each of its strokes, and flags of ink only where the file has ink", "[model]") {
   using namespace set_format;
   calligraphy_test::Sequence random(29);
+  constexpr std::size_t all_ink = 2;  // [byte]; 18 bits, as all values are the usual ones, after 42
   const auto complaint_of_head = [](const CharacterList& list, unsigned head, std::size_t cut) {
     Bytes bytes = encode_character_set(list);
     const std::size_t record = load_u32(bytes, first_group_at) + 2;
@@ -445,18 +467,15 @@ TEST_CASE("a form has ink for each of its strokes, and flags of ink only where t
   calligraphy_test::add_ink(plain.characters[0], 0.06, random);
   CHECK(complaint_of_head(plain, 1, 0).empty());
   CHECK_FALSE(complaint_of_head(plain, 1, 1).empty());
-  CHECK_FALSE(complaint_of_head(plain, 1, 18).empty());
+  CHECK_FALSE(complaint_of_head(plain, 1, all_ink).empty());
 
   CharacterList inked{{}, {with_quartic_curves(one_stroke(U'一'))}};
   CHECK(complaint_of_head(inked, special | quartic, 0).empty());
   CHECK_FALSE(complaint_of_head(inked, special | quartic | no_ink, 0).empty());
-  CHECK_FALSE(complaint_of_head(inked, special | quartic | exact_ink, 0).empty());
   calligraphy_test::add_ink(inked.characters[0], 0.06, random);
   CHECK(complaint_of_head(inked, special | quartic, 0).empty());
-  CHECK(complaint_of_head(inked, special | quartic | no_ink, 18).empty());
+  CHECK(complaint_of_head(inked, special | quartic | no_ink, all_ink).empty());
   CHECK_FALSE(complaint_of_head(inked, special | quartic | no_ink, 0).empty());
-  CHECK_FALSE(complaint_of_head(inked, special | quartic | exact_ink, 0).empty());
-  CHECK_FALSE(complaint_of_head(inked, special | quartic | no_ink | exact_ink, 18).empty());
 }
 
 TEST_CASE("files of a newer version and of another program are reported as such", "[model]") {

@@ -29,13 +29,6 @@ struct CoordinateEncoding {
   std::uint8_t y_bits = 64;
 };
 
-/// Encoding of the ink of strokes.
-struct InkEncoding {
-  std::uint32_t steps_per_em = 0;      ///< 0: unquantised doubles
-  std::uint8_t bits = 64;              ///< per value
-  std::uint8_t values_per_stroke = 0;  ///< 18, or 10 if all offsets are 0; 0: there is no ink
-};
-
 /// One stroke of a set, decoded, without its ink.
 struct StoredStroke {
   StoredStroke() noexcept {}  // not `= default`, which lets the decoder zero what it is about to write
@@ -71,9 +64,9 @@ class StoredCharacter {
   /// only character() checks for elements of zero length and for joints that are not smooth.
   std::optional<StoredStroke> stroke(int index) const noexcept;
   /// Whether the character has ink. False if the record is damaged.
-  bool has_ink() const noexcept { return ink_.values_per_stroke != 0; }
+  bool has_ink() const noexcept { return has_ink_; }
   /// The ink of the stroke with this index; empty if there is no such stroke, or its ink is missing or damaged. Safe in
-  /// the servo loop, as stroke(); O(1).
+  /// the servo loop, as stroke(); O(strokes).
   std::optional<StrokeInk> ink(int index) const noexcept;
   /// The whole character with its ink, validated.
   /// @throws FormatError naming the file and the character if it is damaged
@@ -94,9 +87,9 @@ class StoredCharacter {
   int stroke_count_ = 0;
   bool has_factors_ = false;
   CoordinateEncoding coding_;
-  InkEncoding ink_;
-  std::uint64_t first_bit_ = 0;  // in the file: ids, points, factors
-  std::uint64_t end_bit_ = 0;    // where its ink begins
+  bool has_ink_ = false;
+  std::uint64_t first_bit_ = 0;  // in the file: kinds, points, factors, ink
+  std::uint64_t end_bit_ = 0;
 };
 
 /// An immutable set of characters: a memory-mapped set file, characters in memory, or several layered sets. Cheap to

@@ -9,12 +9,11 @@
 namespace calligraphy {
 
 /// Precision of the control points and the ink in a set file. At any precision a valid character stays valid: one that
-/// rounding would invalidate, or that lies far outside the em square, is stored more precisely than the others, and so
-/// is ink too wide for its bits.
+/// rounding would invalidate, or that lies far outside the em square, is stored more precisely than the others.
 enum class CoordinatePrecision {
-  coarse,    ///< steps of 1/200 em: 8 bits per coordinate; ink in steps of 1/400 em: 8 bits per value
-  standard,  ///< steps of 1/800 em: 10 bits; ink in steps of 1/800 em: 8 bits
-  fine,      ///< steps of 1/12800 em: 14 bits; ink in steps of 1/12800 em: 16 bits
+  coarse,    ///< steps of 1/200 em: 8 bits per coordinate; of ink 1/400 em
+  standard,  ///< steps of 1/800 em: 10 bits; of ink the same
+  fine,      ///< steps of 1/12800 em: 14 bits; of ink the same
   exact      ///< unquantised: 64 bits
 };
 
