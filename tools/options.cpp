@@ -71,6 +71,13 @@ std::string name_in_file(char32_t code) {
   return good ? encode_utf8(code) : fmt::format("U+{:04X}", static_cast<unsigned>(code));
 }
 
+void add_lines_flag(CLI::App& command, StrokeStyle& style) {
+  command
+      .add_flag_callback(
+          "--lines", [&style] { style = StrokeStyle::lines; }, "Draw strokes as lines of one width instead of ink")
+      ->disable_flag_override();
+}
+
 void add_page_options(CLI::App& command, PageChoice& page) {
   command.add_option("--page", page.plane, "Page upright in front of the user, or flat on the desk")
       ->check(CLI::IsMember({"upright", "desk"}))

@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include <calligraphy/devices/capabilities.hpp>
+#include <calligraphy/pictures/stroke_style.hpp>
 #include <calligraphy/practice/page.hpp>
 #include <calligraphy/render/motion_mapping.hpp>
 
@@ -43,6 +44,9 @@ struct PageChoice {
   }
   PageLayout layout(const Capabilities& device) const { return workspace_layout(device, mapping(0.0, 0.0)); }
 };
+
+/// Adds --lines, which draws strokes as lines instead of ink.
+void add_lines_flag(CLI::App& command, StrokeStyle& style);
 
 /// Adds --page upright|desk and --motion-scale K.
 void add_page_options(CLI::App& command, PageChoice& page);

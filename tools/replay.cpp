@@ -36,6 +36,7 @@ struct ReplayArguments {
   std::string device = "simulated:desktop";
   std::string renderer = "default";
   PageChoice page;
+  StrokeStyle style = StrokeStyle::ink;  ///< of the templates
   bool json = false;
 };
 
@@ -137,7 +138,7 @@ class ReplayRun {
           fmt::format("{}, {}, {}", encode_utf8(character.code), chosen.trace.set, report_.device);
       const std::vector<PenPath> guided = pen_paths(recording, page.characters.front().placement);
       out->write(fmt::format("{:02}-{}.svg", chosen.position, name_in_file(character.code)),
-                 replay_picture(character, paths, result.match, guided, title));
+                 replay_picture(character, paths, result.match, guided, title, options_.style));
     }
     report_.traces.push_back(std::move(result));
   }
@@ -172,6 +173,7 @@ void add_replay(CLI::App& program) {
   command->add_option("--renderer", options->renderer, "Default stages, or the optional stages enabled too")
       ->check(CLI::IsMember({"default", "everything"}))
       ->capture_default_str();
+  add_lines_flag(*command, options->style);
   command->add_flag("--json", options->json, "Print JSON instead of the table")->disable_flag_override();
   command->callback([options] { ReplayRun(*options).replay(); });
 }

@@ -55,6 +55,7 @@ struct WriteArguments {
   std::string rules = "default";
   std::string renderer = "default";
   PageChoice page;
+  StrokeStyle style = StrokeStyle::ink;
   std::optional<std::string> method;
   std::optional<double> tolerance;
   bool json = false;
@@ -282,7 +283,7 @@ class WriteRun {
     const std::string title =
         fmt::format("{}, {}, {}", encode_utf8(code),
                     result.mode == FeedbackMode::vision ? "vision only" : "vision and force", session_.device.model);
-    out.write(stem + ".svg", page_picture(page, recording, index, title));
+    out.write(stem + ".svg", page_picture(page, recording, index, title, options_.style));
     const bool reached = !own.samples.empty();  // the page may have been aborted before
     if (plots_ && reached) out.write(stem + "-force.svg", force_plot(recording, index, title));
     std::ostringstream trace;
@@ -404,6 +405,7 @@ void add_write(CLI::App& program) {
                    "Tolerance of the nearest point, relative to the size of the curve, 1e-15 to 1")
       ->check(number(1e-15, 1.0))
       ->type_name("T");
+  add_lines_flag(*command, options->style);
   command->add_flag("--json", options->json, "Print summary.json instead of the table")->disable_flag_override();
   command->callback([options] { WriteRun(*options).write(); });
 }

@@ -4,10 +4,13 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/model/ink_outline.hpp>
+#include <calligraphy/model/typical_ink.hpp>
 
 #include "base/require.hpp"
 #include "svg.hpp"
@@ -30,37 +33,51 @@ constexpr const char* start_red = "#e02020";
 // Relative to the em square.
 constexpr double stroke_width = 0.07;
 constexpr double trace_width = 0.022;
+constexpr double trace_share = 0.6;       ///< of the template's ink, so that its edge shows round the trace
+constexpr double longest_ink = 8.0;       ///< [em]
 constexpr double finest_detail = 0.0005;  ///< by which a drawn trace may differ from the recorded one
 
 constexpr std::size_t max_trace_points = 15000;  ///< about 200 kB of text
 
-using Trace = std::vector<Point>;
+/// What the pen left of a stroke, up to where it is now if that is not finished.
+struct Trace {
+  std::vector<Point> path;  ///< [em] of the character
+  int stroke = 0;           ///< index within the character
+  bool finished = false;
+};
 
-/// The traces of each character up to `active`, those of abandoned attempts left out [m, page].
-std::vector<std::vector<Trace>> traces_until(const Recording& recording, int active) {
+/// The traces of each character up to `active`, those of abandoned attempts left out.
+std::vector<std::vector<Trace>> traces_until(const PracticePage& page, const Recording& recording, int active) {
   std::vector<std::vector<Trace>> result(static_cast<std::size_t>(active) + 1);
-  Trace trace;
-  Trace touched;  // since the pen was put down, until it is known what it writes
+  Trace trace;                 // [m, page] until it is kept
+  std::vector<Point> touched;  // since the pen was put down, until it is known what it writes
   int character = -1;
-  const auto extend = [](Trace& line, const RecordedSample& sample) {
+  const auto extend = [](std::vector<Point>& line, const RecordedSample& sample) {
     if (sample.status == TickStatus::ok && sample.pen_tip.allFinite()) line.push_back(sample.pen_tip.head<2>());
   };
   const auto keep = [&] {
-    const bool shown = character >= 0 && character <= active && !trace.empty();
-    if (shown) result[static_cast<std::size_t>(character)].push_back(trace);
-    trace.clear();
+    if (character >= 0 && character <= active && !trace.path.empty()) {
+      const auto index = static_cast<std::size_t>(character);
+      const Placement& placement = page.characters[index].placement;
+      for (Point& point : trace.path) point = (point - placement.origin) / placement.em;
+      result[index].push_back(trace);
+    }
+    trace = {};
     touched.clear();
     character = -1;
   };
   for (const RecordedSample& sample : recording.samples) {
     if (has_event(sample.events, TickEvent::contact)) touched.clear();
     if (sample.state == InteractionState::writing) {
-      if (character < 0) trace = touched;
-      if (character < 0) character = sample.character;
-      extend(trace, sample);
+      if (character < 0) {
+        character = sample.character;
+        trace = {touched, sample.stroke};
+      }
+      extend(trace.path, sample);
     } else if (character >= 0) {
-      if (has_event(sample.events, TickEvent::stroke_finished)) extend(trace, sample);
-      if (has_event(sample.events, TickEvent::stroke_abandoned)) trace.clear();
+      trace.finished = has_event(sample.events, TickEvent::stroke_finished);
+      if (trace.finished) extend(trace.path, sample);
+      if (has_event(sample.events, TickEvent::stroke_abandoned)) trace.path.clear();
       keep();
     } else if (sample.state != InteractionState::separation) {
       extend(touched, sample);
@@ -77,18 +94,24 @@ double distance_to_chord(const Point& point, const Point& begin, const Point& en
   return (point - begin - t * chord).norm();
 }
 
-/// Ramer, Douglas and Peucker: no point of the trace is further than `tolerance` from what is left of it.
-Trace thinned(const Trace& trace, double tolerance) {
-  std::vector<bool> kept(trace.size(), false);
+double length_of(const std::vector<Point>& path) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) length += (path[i] - path[i - 1]).norm();
+  return length;
+}
+
+/// Ramer, Douglas and Peucker: no point of the path is further than `tolerance` from what is left of it.
+std::vector<Point> thinned(const std::vector<Point>& path, double tolerance) {
+  std::vector<bool> kept(path.size(), false);
   kept.front() = kept.back() = true;
-  std::vector<std::pair<std::size_t, std::size_t>> open{{0, trace.size() - 1}};
+  std::vector<std::pair<std::size_t, std::size_t>> open{{0, path.size() - 1}};
   while (!open.empty()) {
     const auto [begin, end] = open.back();
     open.pop_back();
     std::size_t furthest = begin;
     double largest = tolerance;
     for (std::size_t i = begin + 1; i < end; ++i) {
-      const double distance = distance_to_chord(trace[i], trace[begin], trace[end]);
+      const double distance = distance_to_chord(path[i], path[begin], path[end]);
       if (distance <= largest) continue;
       largest = distance;
       furthest = i;
@@ -98,34 +121,71 @@ Trace thinned(const Trace& trace, double tolerance) {
     open.push_back({begin, furthest});
     open.push_back({furthest, end});
   }
-  Trace result;
-  for (std::size_t i = 0; i < trace.size(); ++i) {
-    if (kept[i]) result.push_back(trace[i]);
+  std::vector<Point> result;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    if (kept[i]) result.push_back(path[i]);
   }
   return result;
 }
 
-/// Drops detail that nobody sees, and more of it when a picture of all would be too large.
-void thin(std::vector<std::vector<Trace>>& traces, const PracticePage& page) {
+/// What is drawn of a trace [em].
+struct TraceShape {
+  std::vector<Point> points;
+  bool filled;  ///< the outline of ink, not a line
+};
+
+/// A line where the stroke is not finished, since its profile is that of the whole stroke, and where the pen went to and
+/// fro so long that the ink would be a blot.
+TraceShape shape_of(const Trace& trace, std::span<const Stroke> strokes, StrokeStyle style, double detail) {
+  std::vector<Point> path = thinned(trace.path, detail);
+  const bool known = trace.finished && trace.stroke >= 0 && trace.stroke < static_cast<int>(strokes.size());
+  if (style == StrokeStyle::lines || !known || length_of(trace.path) > longest_ink) return {std::move(path), false};
+  StrokeInk profile = *strokes[static_cast<std::size_t>(trace.stroke)].ink;
+  for (double& half_width : profile.half_widths) half_width *= trace_share;
+  return {ink_outline(path, profile, detail), true};
+}
+
+/// Without detail that nobody sees, and with less of it where a picture of all would be too large.
+std::vector<std::vector<TraceShape>> shapes_of(std::vector<std::vector<Trace>> traces,
+                                               const std::vector<std::vector<Stroke>>& strokes, StrokeStyle style) {
+  for (std::vector<Trace>& of_character : traces) {
+    for (Trace& trace : of_character) trace.path = thinned(trace.path, finest_detail);
+  }
   for (double detail = finest_detail;; detail *= 2.0) {
+    std::vector<std::vector<TraceShape>> shapes(traces.size());
     std::size_t points = 0;
     for (std::size_t character = 0; character < traces.size(); ++character) {
-      for (Trace& trace : traces[character]) {
-        trace = thinned(trace, detail * page.characters[character].placement.em);
-        points += trace.size();
+      for (const Trace& trace : traces[character]) {
+        shapes[character].push_back(shape_of(trace, strokes[character], style, detail));
+        points += shapes[character].back().points.size();
       }
     }
-    if (points <= max_trace_points || detail > 1.0) return;
+    if (points <= max_trace_points || detail > 1.0) return shapes;
   }
 }
 
-std::string trace_path(const Trace& trace, const svg::View& view) {
+std::string line_path(const std::vector<Point>& points, const svg::View& view) {
   svg::Path path;
-  path.move_to(view(trace.front()));
+  path.move_to(view(points.front()));
   // A pen that stood still leaves a dot.
-  if (trace.size() == 1) path.line_to(view(trace.front()));
-  for (std::size_t i = 1; i < trace.size(); ++i) path.line_to(view(trace[i]));
+  if (points.size() == 1) path.line_to(view(points.front()));
+  for (std::size_t i = 1; i < points.size(); ++i) path.line_to(view(points[i]));
   return path.data();
+}
+
+void draw_traces(pugi::xml_node root, const std::vector<TraceShape>& shapes, const svg::View& em) {
+  pugi::xml_node group = add(root, "g",
+                             {{"class", "trace"},
+                              {"stroke-width", number(trace_width * em.scale)},
+                              {"stroke-linecap", "round"},
+                              {"stroke-linejoin", "round"}});
+  for (const TraceShape& shape : shapes) {
+    if (shape.filled) {
+      add(group, "path", {{"d", svg::polygon_path(shape.points, em)}, {"fill", trace_green}});
+    } else {
+      add(group, "path", {{"d", line_path(shape.points, em)}, {"fill", "none"}, {"stroke", trace_green}});
+    }
+  }
 }
 
 /// The stroke of the active character that was active last; its last one once it is complete.
@@ -155,14 +215,15 @@ void draw_square(pugi::xml_node parent, const svg::View& em) {
 }
 
 /// What each colour means, in one line below the page.
-void draw_legend(pugi::xml_node root, double middle, double y, double unit) {
+void draw_legend(pugi::xml_node root, StrokeStyle style, double middle, double y, double unit) {
   struct Entry {
     const char* colour;
     const char* text;
     double width;
   };
-  constexpr std::array<Entry, 3> lines = {
-      {{template_blue, "template", 2.6}, {active_yellow, "active character", 2.6}, {trace_green, "trace", 0.9}}};
+  const std::array<Entry, 3> lines = {{{template_blue, "template", 2.6},
+                                       {active_yellow, "active character", 2.6},
+                                       {trace_green, "trace", style == StrokeStyle::ink ? 2.6 * trace_share : 0.9}}};
   const std::string start = "start of the active stroke";
   const double size = 3.3 * unit, sample = 7.0 * unit, space = 1.5 * unit, gap = 6.0 * unit;
 
@@ -209,7 +270,8 @@ void require_valid(const PracticePage& page, int active) {
 
 }  // namespace
 
-std::string page_picture(const PracticePage& page, const Recording& recording, int active, const std::string& title) {
+std::string page_picture(const PracticePage& page, const Recording& recording, int active, const std::string& title,
+                         StrokeStyle style) {
   require_valid(page, active);
   const int count = static_cast<int>(page.characters.size());
   const std::string heading = svg::clean(title);
@@ -236,34 +298,22 @@ std::string page_picture(const PracticePage& page, const Recording& recording, i
   pugi::xml_node squares = add(root, "g", {{"fill", "none"}, {"stroke", faint}, {"stroke-width", number(0.2 * unit)}});
   for (const PlacedCharacter& placed : page.characters) draw_square(squares, view_of(placed.placement, view));
 
+  std::vector<Character> characters;  // with ink
   std::vector<std::vector<Stroke>> all_strokes;
+  for (const PlacedCharacter& placed : page.characters) characters.push_back(with_typical_ink(placed.character));
   for (int i = 0; i < count; ++i) {
-    const PlacedCharacter& placed = page.characters[static_cast<std::size_t>(i)];
-    const svg::View em = view_of(placed.placement, view);
-    pugi::xml_node group = add(root, "g",
-                               {{"class", i == active ? "template active" : "template"},
-                                {"fill", "none"},
-                                {"stroke", i == active ? active_yellow : template_blue},
-                                {"stroke-width", number(stroke_width * em.scale)},
-                                {"stroke-linecap", "round"},
-                                {"stroke-linejoin", "round"}});
-    all_strokes.push_back(strokes(placed.character));
-    for (const Stroke& stroke : all_strokes.back()) add(group, "path", {{"d", svg::stroke_path(stroke, em)}});
+    const auto index = static_cast<std::size_t>(i);
+    const svg::View em = view_of(page.characters[index].placement, view);
+    pugi::xml_node group =
+        svg::add_stroke_group(root, i == active ? "template active" : "template", style,
+                              i == active ? active_yellow : template_blue, stroke_width * em.scale);
+    all_strokes.push_back(strokes(characters[index]));
+    for (const Stroke& stroke : all_strokes.back()) svg::add_stroke(group, stroke, style, em);
   }
 
-  auto traces = traces_until(recording, active);
-  thin(traces, page);
-  for (std::size_t i = 0; i < traces.size(); ++i) {
-    if (traces[i].empty()) continue;
-    const double em = view.scale * page.characters[i].placement.em;
-    pugi::xml_node group = add(root, "g",
-                               {{"class", "trace"},
-                                {"fill", "none"},
-                                {"stroke", trace_green},
-                                {"stroke-width", number(trace_width * em)},
-                                {"stroke-linecap", "round"},
-                                {"stroke-linejoin", "round"}});
-    for (const Trace& trace : traces[i]) add(group, "path", {{"d", trace_path(trace, view)}});
+  const auto shapes = shapes_of(traces_until(page, recording, active), all_strokes, style);
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    if (!shapes[i].empty()) draw_traces(root, shapes[i], view_of(page.characters[i].placement, view));
   }
 
   const auto& active_strokes = all_strokes[static_cast<std::size_t>(active)];
@@ -281,7 +331,7 @@ std::string page_picture(const PracticePage& page, const Recording& recording, i
        {"stroke", start_red},
        {"stroke-width", number(0.018 * em.scale)}});
 
-  draw_legend(root, middle, top + height + 6.2 * unit, unit);
+  draw_legend(root, style, middle, top + height + 6.2 * unit, unit);
   return svg::to_string(document);
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/model/typical_ink.hpp>
 
 #include "practice/resemblance.hpp"
 #include "svg.hpp"
@@ -174,7 +175,7 @@ svg::View view_of(const Eigen::AlignedBox2d& box, double x) {
 }
 
 /// The square at `x`, its heading and the template.
-void draw_square(pugi::xml_node root, const Character& character, double x, const char* heading,
+void draw_square(pugi::xml_node root, const Character& character, StrokeStyle style, double x, const char* heading,
                  const svg::View& view) {
   add_text(root, x + 0.5 * square_side, sheet_top - 2.5, text_size, heading,
            {{"text-anchor", "middle"}, {"fill", ink}});
@@ -186,14 +187,8 @@ void draw_square(pugi::xml_node root, const Character& character, double x, cons
        {"fill", "none"},
        {"stroke", faint},
        {"stroke-width", "0.3"}});
-  pugi::xml_node group = add(root, "g",
-                             {{"class", "template"},
-                              {"fill", "none"},
-                              {"stroke", template_colour},
-                              {"stroke-width", number(0.035 * square_side)},
-                              {"stroke-linecap", "round"},
-                              {"stroke-linejoin", "round"}});
-  for (const Stroke& stroke : strokes(character)) add(group, "path", {{"d", svg::stroke_path(stroke, view)}});
+  pugi::xml_node group = svg::add_stroke_group(root, "template", style, template_colour, 0.035 * square_side);
+  for (const Stroke& stroke : strokes(character)) svg::add_stroke(group, stroke, style, view);
 }
 
 void draw_written(pugi::xml_node root, const Character& character, std::span<const PenPath> paths,
@@ -249,7 +244,7 @@ std::vector<std::string> lines_of(const MatchResult& match) {
 }  // namespace
 
 std::string replay_picture(const Character& character, std::span<const PenPath> paths, const MatchResult& match,
-                           std::span<const PenPath> guided, const std::string& title) {
+                           std::span<const PenPath> guided, const std::string& title, StrokeStyle style) {
   if (match.drawn.size() != paths.size()) {
     throw ValueError("replay picture: the match has " + std::to_string(match.drawn.size()) +
                      " pen-downs, expected the same number as paths, " + std::to_string(paths.size()));
@@ -268,9 +263,10 @@ std::string replay_picture(const Character& character, std::span<const PenPath> 
   }
   const Eigen::AlignedBox2d box = box_of(character, laid, match, guided);
   const svg::View left = view_of(box, sheet_margin), right = view_of(box, 2.0 * sheet_margin + square_side);
-  draw_square(root, character, sheet_margin, "as written", left);
+  const Character inked = with_typical_ink(character);
+  draw_square(root, inked, style, sheet_margin, "as written", left);
   draw_written(root, character, laid, match, left);
-  draw_square(root, character, 2.0 * sheet_margin + square_side, "device, under guidance", right);
+  draw_square(root, inked, style, 2.0 * sheet_margin + square_side, "device, under guidance", right);
   draw_guided(root, guided, right);
 
   double y = sheet_top + square_side + 5.5;

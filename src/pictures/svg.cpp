@@ -6,6 +6,7 @@
 
 #include <calligraphy/base/text.hpp>
 #include <calligraphy/model/bezier.hpp>
+#include <calligraphy/model/ink_outline.hpp>
 
 #include "base/charconv.hpp"
 
@@ -80,6 +81,30 @@ std::string stroke_path(const Stroke& stroke, const View& view) {
     }
   }
   return path.data();
+}
+
+std::string polygon_path(std::span<const Point> polygon, const View& view) {
+  Path path;
+  path.move_to(view(polygon.front()));
+  for (const Point& point : polygon.subspan(1)) path.line_to(view(point));
+  return path.data() + "Z";
+}
+
+pugi::xml_node add_stroke_group(pugi::xml_node parent, const std::string& name, StrokeStyle style, const char* colour,
+                                double line_width) {
+  if (style == StrokeStyle::ink) return add(parent, "g", {{"class", name}, {"fill", colour}});
+  return add(parent, "g",
+             {{"class", name},
+              {"fill", "none"},
+              {"stroke", colour},
+              {"stroke-width", number(line_width)},
+              {"stroke-linecap", "round"},
+              {"stroke-linejoin", "round"}});
+}
+
+void add_stroke(pugi::xml_node group, const Stroke& stroke, StrokeStyle style, const View& view) {
+  const bool lines = style == StrokeStyle::lines;
+  add(group, "path", {{"d", lines ? stroke_path(stroke, view) : polygon_path(ink_outline(stroke), view)}});
 }
 
 pugi::xml_node begin(pugi::xml_document& document, double width, double height, const char* unit,

@@ -10,6 +10,7 @@
 #include <pugixml.hpp>
 
 #include <calligraphy/model/character.hpp>
+#include <calligraphy/pictures/stroke_style.hpp>
 
 namespace calligraphy::svg {
 
@@ -55,6 +56,17 @@ class Path {
 
 /// The stroke's middle line: cubic curves as they are, quartic ones as fine polylines.
 std::string stroke_path(const Stroke& stroke, const View& view);
+
+/// A polygon [em] as a closed path.
+std::string polygon_path(std::span<const Point> polygon, const View& view);
+
+/// A group whose children are paths of add_stroke() in the same style. `line_width` is that of lines, in the units of
+/// the picture.
+pugi::xml_node add_stroke_group(pugi::xml_node parent, const std::string& name, StrokeStyle style, const char* colour,
+                                double line_width);
+
+/// The stroke's ink, which it must have, or its middle line.
+void add_stroke(pugi::xml_node group, const Stroke& stroke, StrokeStyle style, const View& view);
 
 /// An empty picture on white. Lengths have the unit given ("mm", "px").
 pugi::xml_node begin(pugi::xml_document& document, double width, double height, const char* unit,

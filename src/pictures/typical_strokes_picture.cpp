@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <calligraphy/model/typical_ink.hpp>
 #include <calligraphy/model/typical_stroke.hpp>
 
 #include "svg.hpp"
@@ -78,18 +79,14 @@ void draw_frame(pugi::xml_node parent, double x, double y) {
        {"stroke", faint}});
 }
 
-void draw_typical_stroke(pugi::xml_node parent, const TypicalStroke& type, double x, double y) {
+void draw_typical_stroke(pugi::xml_node parent, const TypicalStroke& type, StrokeStyle style, double x, double y) {
   draw_frame(parent, x, y);
   std::vector<Point> em_points;
   for (const auto& point : type.shape) em_points.emplace_back(point[0], point[1]);
   const svg::View view{{x, y + cell_em}, cell_em};
-  add(parent, "path",
-      {{"d", svg::stroke_path({&type, type.elements, 3, em_points, {}}, view)},
-       {"fill", "none"},
-       {"stroke", stroke_blue},
-       {"stroke-width", "9"},
-       {"stroke-linecap", "round"},
-       {"stroke-linejoin", "round"}});
+  const Character character = with_typical_ink(make_character(0, std::array{StrokeInput{type.id, em_points}}));
+  pugi::xml_node group = svg::add_stroke_group(parent, "template", style, stroke_blue, 9.0);
+  svg::add_stroke(group, strokes(character).front(), style, view);
 
   std::vector<Point> points;
   for (const Point& point : em_points) points.push_back(view(point));
@@ -132,7 +129,7 @@ void draw_key(pugi::xml_node parent, double x, double y) {
 
 }  // namespace
 
-std::string typical_strokes_picture() {
+std::string typical_strokes_picture(StrokeStyle style) {
   constexpr int rows = (typical_stroke_count + sheet_columns) / sheet_columns;  // one more cell, for the key
   const double width = sheet_columns * cell_width + 2.0 * table_margin;
   const std::string title = "The " + std::to_string(typical_stroke_count) + " typical strokes";
@@ -147,7 +144,7 @@ std::string typical_strokes_picture() {
   for (const TypicalStroke& type : typical_strokes()) {
     pugi::xml_node group = add(root, "g", {{"class", "stroke"}, {"text-anchor", "middle"}, {"fill", ink}});
     const Point corner = cell(type.id - 1);
-    draw_typical_stroke(group, type, corner.x(), corner.y());
+    draw_typical_stroke(group, type, style, corner.x(), corner.y());
   }
   const Point corner = cell(typical_stroke_count);
   draw_key(add(root, "g", {{"class", "key"}, {"fill", ink}}), corner.x(), corner.y());

@@ -8,6 +8,9 @@
 #include <pugixml.hpp>
 
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/model/ink_outline.hpp>
+#include <calligraphy/model/stroke_polyline.hpp>
+#include <calligraphy/model/typical_ink.hpp>
 #include <calligraphy/pictures/picture.hpp>
 #include <calligraphy/practice/session.hpp>
 
@@ -61,6 +64,27 @@ std::vector<Point> points(const pugi::xml_node& path) {
   std::vector<Point> result;
   for (std::size_t i = 0; i + 1 < numbers.size(); i += 2) result.emplace_back(numbers[i], numbers[i + 1]);
   return result;
+}
+
+/// Whether a point is within a filled path, by the nonzero rule.
+bool is_filled(const pugi::xml_node& path, const Point& at) {
+  const std::vector<Point> polygon = points(path);
+  double turn = 0.0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Point from = polygon[i] - at, to = polygon[(i + 1) % polygon.size()] - at;
+    turn += std::atan2(from.x() * to.y() - from.y() * to.x(), from.dot(to));
+  }
+  return std::abs(turn) > 3.0;
+}
+
+double distance(const std::vector<Point>& line, const Point& from) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    const Point chord = line[i + 1] - line[i];
+    const double t = std::clamp((from - line[i]).dot(chord) / std::max(chord.squaredNorm(), 1e-300), 0.0, 1.0);
+    nearest = std::min(nearest, (from - line[i] - t * chord).norm());
+  }
+  return nearest;
 }
 
 /// Corner of the page in the picture [mm].
@@ -132,14 +156,82 @@ TEST_CASE("only the active character is yellow, the others are blue", "[practice
     REQUIRE(groups.size() == 3);
     for (int i = 0; i < 3; ++i) {
       const auto& group = groups[static_cast<std::size_t>(i)];
-      CHECK(std::string(group.attribute("stroke").value()) == (i == active ? "#f2b705" : "#5b8ff0"));
+      CHECK(std::string(group.attribute("fill").value()) == (i == active ? "#f2b705" : "#5b8ff0"));
     }
   }
 }
 
-TEST_CASE("template paths are the strokes' control points on the page, in millimetres and upright", "[practice]") {
-  const PracticePage page = page_of("永北");
+TEST_CASE("a template is filled from the middle of every stroke to its edge, and no further", "[practice]") {
+  const PracticePage page = page_of("永北京航空");
+  const std::string svg = page_picture(page, {}, 0, "title");
+  CHECK(svg.find("nan") == std::string::npos);
+  CHECK(svg.find("inf") == std::string::npos);
+  const auto document = xml(svg);
+  const auto groups = templates(document);
+  REQUIRE(groups.size() == page.characters.size());
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    const Character character = with_typical_ink(page.characters[i].character);
+    const Placement& placement = page.characters[i].placement;
+    const std::vector<Stroke> expected = strokes(character);
+    std::size_t at = 0;
+    for (const auto& path : groups[i].children("path")) {
+      CAPTURE(encode_utf8(character.code), at);
+      REQUIRE(at < expected.size());
+      const std::vector<InkDisc> discs = ink_discs(stroke_polyline(expected[at]), *expected[at].ink);
+      ++at;
+      const auto place = [&](const Point& em) { return in_picture(document, placement.to_page(em)); };
+      std::size_t bare = 0;
+      for (const InkDisc& disc : discs) bare += !is_filled(path, place(disc.centre));
+      CHECK(bare == 0);
+      for (const Point& vertex : points(path)) {
+        double outside = std::numeric_limits<double>::infinity();
+        for (const InkDisc& disc : discs) {
+          outside = std::min(outside, (vertex - place(disc.centre)).norm() - 1e3 * placement.em * disc.radius);
+        }
+        CHECK(std::abs(outside) < 0.1);  // [mm], at a corner
+      }
+    }
+  }
+}
+
+TEST_CASE("the ink of a character takes the place of the typical one", "[practice]") {
+  PracticePage page = page_of("一");
+  StrokeInk ink;
+  ink.half_widths.fill(0.1);
+  page.characters[0].character.physics.ink = {ink};
   const auto document = xml(page_picture(page, {}, 0, "title"));
+  const auto path = all(document, "//g[@class='template active']/path").at(0);
+  const Stroke stroke = strokes(page.characters[0].character)[0];
+  const Point middle = 0.5 * (stroke.control_points.front() + stroke.control_points.back());
+  const auto place = [&](double above) {
+    return in_picture(document, page.characters[0].placement.to_page(middle + Point(0.0, above)));
+  };
+  CHECK(is_filled(path, place(0.095)));
+  CHECK(is_filled(path, place(-0.095)));
+  CHECK_FALSE(is_filled(path, place(0.11)));
+}
+
+TEST_CASE("as lines, strokes are lines of one width and nothing is filled", "[practice]") {
+  const PracticePage page = page_of("永北");
+  Recording recording;
+  append_run(recording, 0, 0, corner, TickEvent::stroke_finished);
+  const auto document = xml(page_picture(page, recording, 1, "title", StrokeStyle::lines));
+  const auto groups = templates(document);
+  REQUIRE(groups.size() == 2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double em = 1e3 * page.characters[i].placement.em;
+    CHECK(std::string(groups[i].attribute("fill").value()) == "none");
+    CHECK(std::string(groups[i].attribute("stroke").value()) == (i == 1 ? "#f2b705" : "#5b8ff0"));
+    CHECK(groups[i].attribute("stroke-width").as_double() == Approx(0.07 * em).epsilon(1e-3));
+  }
+  const auto trace = all(document, "//g[@class='trace']/path").at(0);
+  CHECK(std::string(trace.attribute("fill").value()) == "none");
+  CHECK(std::string(trace.attribute("stroke").value()) == "#5fce5f");
+}
+
+TEST_CASE("template paths as lines are the strokes' control points on the page, in millimetres and upright", "[practice]") {
+  const PracticePage page = page_of("永北");
+  const auto document = xml(page_picture(page, {}, 0, "title", StrokeStyle::lines));
   const auto groups = templates(document);
   REQUIRE(groups.size() == 2);
   for (std::size_t i = 0; i < groups.size(); ++i) {
@@ -161,12 +253,12 @@ TEST_CASE("template paths are the strokes' control points on the page, in millim
                                                  std::to_string(root.attribute("height").as_int()));
 }
 
-TEST_CASE("quartic curves are drawn like the equal cubic curves", "[practice]") {
+TEST_CASE("as lines, quartic curves are drawn like the equal cubic curves", "[practice]") {
   for (const Character& character : built_in_characters().characters) {
     PracticePage page = lay_out({&character, 1}).front();
-    const auto cubic = xml(page_picture(page, {}, 0, "title"));
+    const auto cubic = xml(page_picture(page, {}, 0, "title", StrokeStyle::lines));
     page.characters[0].character = with_quartic_curves(character);
-    const auto quartic = xml(page_picture(page, {}, 0, "title"));
+    const auto quartic = xml(page_picture(page, {}, 0, "title", StrokeStyle::lines));
     const auto cubic_paths = all(cubic, "//g[@class='template active']/path");
     const auto quartic_paths = all(quartic, "//g[@class='template active']/path");
     REQUIRE(cubic_paths.size() == quartic_paths.size());
@@ -221,14 +313,62 @@ TEST_CASE("traces show the path of the pen in light green, in page coordinates",
   Recording recording;
   recording.samples.push_back(sample(ss, 0, 0, {0.01, 0.01}));
   append_run(recording, 0, 0, corner, TickEvent::stroke_finished);
-  const auto document = xml(page_picture(page, recording, 0, "title"));
+  const auto document = xml(page_picture(page, recording, 0, "title", StrokeStyle::lines));
   const auto traces = all(document, "//g[@class='trace']");
   REQUIRE(traces.size() == 1);
-  CHECK(std::string(traces[0].attribute("stroke").value()) == "#5fce5f");
   REQUIRE(paths(traces[0]) == 1);
+  CHECK(std::string(traces[0].child("path").attribute("stroke").value()) == "#5fce5f");
   const auto drawn = points(traces[0].child("path"));
   REQUIRE(drawn.size() == 3);
   for (std::size_t i = 0; i < 3; ++i) CHECK((drawn[i] - in_picture(document, corner[i])).norm() < 0.001);
+}
+
+TEST_CASE("the trace of a finished stroke is light green ink along the path of the pen", "[practice]") {
+  PracticePage page = page_of("一");
+  StrokeInk ink;
+  ink.half_widths.fill(0.05);
+  page.characters[0].character.physics.ink = {ink};
+  Recording recording;
+  append_run(recording, 0, 0, corner, TickEvent::stroke_finished);
+  const auto document = xml(page_picture(page, recording, 0, "title"));
+  const auto traces = all(document, "//g[@class='trace']/path");
+  REQUIRE(traces.size() == 1);
+  CHECK(std::string(traces[0].attribute("fill").value()) == "#5fce5f");
+  std::vector<Point> path;
+  for (const Point& tip : corner) path.push_back(in_picture(document, tip));
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    for (double t = 0.0; t <= 1.0; t += 0.05) CHECK(is_filled(traces[0], path[i] + t * (path[i + 1] - path[i])));
+  }
+  const double half_width = 0.6 * 0.05 * 1e3 * page.characters[0].placement.em;
+  for (const Point& vertex : points(traces[0])) CHECK(std::abs(distance(path, vertex) - half_width) < 0.05);
+}
+
+TEST_CASE("the trace of a stroke in progress, or of none that is known, is a line", "[practice]") {
+  const PracticePage page = page_of("永");
+  const auto is_line = [&page](const Recording& recording) {
+    const auto traces = all(xml(page_picture(page, recording, 0, "title")), "//g[@class='trace']/path");
+    REQUIRE(traces.size() == 1);
+    return traces[0].attribute("fill").value() == std::string("none") && points(traces[0]).size() == 3;
+  };
+  Recording unknown;
+  append_run(unknown, 0, 99, corner, TickEvent::stroke_finished);
+  CHECK(is_line(unknown));
+  for (RecordedSample& each : unknown.samples) each.stroke = -1;
+  CHECK(is_line(unknown));
+  Recording open;
+  for (const Point& tip : corner) open.samples.push_back(sample(ws, 0, 0, tip));
+  CHECK(is_line(open));
+}
+
+TEST_CASE("a pen that stood still leaves a dot in either style", "[practice]") {
+  const PracticePage page = page_of("永");
+  Recording recording;
+  append_run(recording, 0, 0, {corner[0], corner[0], corner[0]}, TickEvent::stroke_finished);
+  for (const StrokeStyle style : {StrokeStyle::ink, StrokeStyle::lines}) {
+    const std::string svg = page_picture(page, recording, 0, "title", style);
+    CHECK(svg.find("nan") == std::string::npos);
+    CHECK(all(xml(svg), "//g[@class='trace']/path").size() == 1);
+  }
 }
 
 TEST_CASE("traces of abandoned attempts are omitted, an unfinished one is shown", "[practice]") {
@@ -272,7 +412,7 @@ TEST_CASE("rejected samples leave no mark", "[practice]") {
   bad.status = TickStatus::ok;
   bad.pen_tip.setConstant(std::numeric_limits<double>::quiet_NaN());
   recording.samples.insert(recording.samples.begin() + 1, bad);
-  const std::string svg = page_picture(page, recording, 0, "title");
+  const std::string svg = page_picture(page, recording, 0, "title", StrokeStyle::lines);
   CHECK(points(all(xml(svg), "//g[@class='trace']/path").at(0)).size() == 3);
   CHECK(svg.find("nan") == std::string::npos);
 }
@@ -282,37 +422,37 @@ TEST_CASE("a drawn trace is within 0.03 mm of the recorded one", "[practice]") {
   std::vector<Point> wave;
   for (int i = 0; i < 5000; ++i) wave.emplace_back(0.04 + 8e-6 * i, 0.06 + 0.002 * std::sin(0.01 * i));
   append_run(recording, 0, 0, wave, TickEvent::stroke_finished);
-  const auto document = xml(page_picture(page_of("永"), recording, 0, "title"));
+  const auto document = xml(page_picture(page_of("永"), recording, 0, "title", StrokeStyle::lines));
   const auto drawn = points(all(document, "//g[@class='trace']/path").at(0));
   CHECK(drawn.size() < 500);
   double largest = 0.0;
   for (const Point& tip : wave) {
-    const Point place = in_picture(document, tip);
-    double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i + 1 < drawn.size(); ++i) {
-      const Point chord = drawn[i + 1] - drawn[i];
-      const double t = std::clamp((place - drawn[i]).dot(chord) / chord.squaredNorm(), 0.0, 1.0);
-      nearest = std::min(nearest, (place - drawn[i] - t * chord).norm());
-    }
-    largest = std::max(largest, nearest);
+    largest = std::max(largest, distance(drawn, in_picture(document, tip)));
   }
   CHECK(largest < 0.03);  // [mm]
 }
 
-TEST_CASE("the picture of a long scribble stays under 300 kB", "[practice]") {
+TEST_CASE("the picture of long scribbles stays under 300 kB", "[practice]") {
   const PracticePage page = page_of("永北京航空天");
-  Recording recording;
-  calligraphy_test::Sequence random(1);
-  for (int character = 0; character < 6; ++character) {
-    for (int stroke = 0; stroke < 4; ++stroke) {
-      std::vector<Point> scribble;
-      for (int i = 0; i < 5000; ++i) scribble.push_back(random.point(0.05, 0.055));
-      append_run(recording, character, stroke, scribble, TickEvent::stroke_finished);
+  for (const auto& [attempts, length] : {std::pair{1, 5000}, std::pair{5, 80}}) {
+    Recording recording;
+    calligraphy_test::Sequence random(1);
+    for (int character = 0; character < 6; ++character) {
+      for (int i = 0; i < 4 * attempts; ++i) {
+        std::vector<Point> scribble;
+        for (int k = 0; k < length; ++k) scribble.push_back(random.point(0.05, 0.055));
+        append_run(recording, character, i % 4, scribble, TickEvent::stroke_finished);
+      }
+    }
+    for (const StrokeStyle style : {StrokeStyle::ink, StrokeStyle::lines}) {
+      const std::string svg = page_picture(page, recording, 5, "title", style);
+      CAPTURE(attempts, static_cast<int>(style));
+      CHECK(svg.size() < 300000);
+      const std::size_t filled = all(xml(svg), "//g[@class='trace']/path[@fill!='none']").size();
+      CHECK(all(xml(svg), "//g[@class='trace']/path").size() == static_cast<std::size_t>(24 * attempts));
+      CHECK((filled > 0) == (style == StrokeStyle::ink && length == 80));
     }
   }
-  const std::string svg = page_picture(page, recording, 5, "title");
-  CHECK(svg.size() < 300000);
-  CHECK(all(xml(svg), "//g[@class='trace']/path").size() == 24);
 }
 
 TEST_CASE("the picture of a real session shows one trace per finished stroke", "[practice]") {
@@ -378,5 +518,17 @@ TEST_CASE("the sheet of typical strokes has a group for each of the 39", "[pract
     CHECK(features == feature_point_count(type.elements));
     CHECK(features + controls == control_point_count(type.elements));
     CHECK(curves == std::count(type.elements.begin(), type.elements.end(), 'C'));
+  }
+}
+
+TEST_CASE("a typical stroke is drawn as ink, or as a line of one width", "[practice]") {
+  for (const StrokeStyle style : {StrokeStyle::ink, StrokeStyle::lines}) {
+    const auto groups = all(xml(typical_strokes_picture(style)), "//g[@class='stroke']/g[@class='template']");
+    REQUIRE(groups.size() == typical_stroke_count);
+    for (const auto& group : groups) {
+      CHECK(paths(group) == 1);
+      CHECK((group.attribute("fill").value() == std::string("#a9c4f5")) == (style == StrokeStyle::ink));
+      CHECK((group.attribute("stroke").value() == std::string("#a9c4f5")) == (style == StrokeStyle::lines));
+    }
   }
 }

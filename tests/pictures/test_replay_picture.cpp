@@ -51,6 +51,17 @@ TEST_CASE("a replay picture shows mistakes in red, lists them, and omits bounces
   CHECK(text.find(match.remarks.at(0).reason) != std::string::npos);
 }
 
+TEST_CASE("a replay picture shows the template as ink, or as lines, and pen paths as lines", "[practice]") {
+  const Character ten = calligraphy_test::characters("十").front();
+  const auto paths = copy_of(ten);
+  const MatchResult match = match_strokes(ten, paths);
+  const auto ink = replay_xml(replay_picture(ten, paths, match, paths, "title"));
+  CHECK(count(ink, "//g[@class='template' and @fill='#c5d6f7' and not(@stroke)]/path") == 4);
+  const auto lines = replay_xml(replay_picture(ten, paths, match, paths, "title", StrokeStyle::lines));
+  CHECK(count(lines, "//g[@class='template' and @fill='none' and @stroke='#c5d6f7']/path") == 4);
+  for (const auto* document : {&ink, &lines}) CHECK(count(*document, "//g[@class='written' and @fill='none']/path") == 4);
+}
+
 TEST_CASE("a replay picture rejects a match of other pen-downs", "[practice]") {
   const Character ten = calligraphy_test::characters("十").front();
   const auto paths = copy_of(ten);

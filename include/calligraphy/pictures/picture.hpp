@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include <calligraphy/pictures/stroke_style.hpp>
 #include <calligraphy/practice/page.hpp>
 #include <calligraphy/practice/recording.hpp>
 
@@ -10,11 +11,14 @@ namespace calligraphy {
 
 /// Draws the page, life-size, after character `active` (index) has been written: templates blue, the active character
 /// yellow, traces light green, and a red ellipse at the start of the active stroke (of the last stroke once the
-/// character is complete). Traces of abandoned attempts are cleared, as on the display (sec. 4.3).
+/// character is complete). Traces of abandoned attempts are cleared, as on the display (sec. 4.3). A trace drawn as ink
+/// has the profile of the stroke that it wrote, at 0.6 of its width, so that the template shows on both sides of it
+/// where the pen kept to the path; that of a stroke in progress is a line.
 /// @throws ValueError when `active` is not on the page or the page is invalid, FormatError when the title is not UTF-8
-std::string page_picture(const PracticePage& page, const Recording& recording, int active, const std::string& title);
+std::string page_picture(const PracticePage& page, const Recording& recording, int active, const std::string& title,
+                         StrokeStyle style = StrokeStyle::ink);
 
 /// Draws all typical strokes with ID, names, elements, control points and feature points (Figs. 7 and 9 to 12).
-std::string typical_strokes_picture();
+std::string typical_strokes_picture(StrokeStyle style = StrokeStyle::ink);
 
 }  // namespace calligraphy

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include <calligraphy/pictures/stroke_style.hpp>
 #include <calligraphy/practice/pen_path.hpp>
 #include <calligraphy/practice/stroke_matching.hpp>
 
@@ -13,8 +14,10 @@ namespace calligraphy {
 /// each with an arrow and its number in writing order; the template's own numbers are blue; red marks what is out of
 /// order, backwards, extra or missing, orange what was joined or has another shape. Right: the path of the device's pen
 /// (pen-downs in the square of the same character). Below: the remarks.
+/// The style is that of the template: pen paths are always lines.
 /// @throws ValueError when the match does not belong to these paths, FormatError when the title is not UTF-8
 std::string replay_picture(const Character& character, std::span<const PenPath> paths, const MatchResult& match,
-                           std::span<const PenPath> guided, const std::string& title);
+                           std::span<const PenPath> guided, const std::string& title,
+                           StrokeStyle style = StrokeStyle::ink);
 
 }  // namespace calligraphy
