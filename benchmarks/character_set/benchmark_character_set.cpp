@@ -181,12 +181,17 @@ void stroke(benchmark::State& state, CoordinatePrecision precision) {
     const StoredCharacter& character = found.find(code)->second;
     return character.stroke(some_stroke(code, character.stroke_count()));
   };
+  const auto ink_of_set = [&](char32_t code) {
+    const StoredCharacter& character = found.find(code)->second;
+    return character.ink(some_stroke(code, character.stroke_count()));
+  };
   const auto of_map = [&](char32_t code) {
     const Character& character = corpus->map.find(code)->second;
     return strokes(character)[static_cast<std::size_t>(some_stroke(code, character.stroke_count()))];
   };
   compare(state, {{"prepared", [&](char32_t code) { prepare(of_set(code)->stroke()); }},
                   {"decoded", [&](char32_t code) { benchmark::DoNotOptimize(of_set(code)); }},
+                  {"ink", [&](char32_t code) { benchmark::DoNotOptimize(ink_of_set(code)); }},
                   {"map_prepared", [&](char32_t code) { prepare(of_map(code)); }}});
 }
 BENCHMARK_CAPTURE(stroke, coarse, CoordinatePrecision::coarse)->UseManualTime();
