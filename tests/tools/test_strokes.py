@@ -15,6 +15,12 @@ class Strokes(ProgramTest):
         for name in ("横", "竖", "横折弯钩"):
             self.assertIn(name, texts)
 
+    def test_strokes_are_filled_as_ink_or_drawn_as_lines(self):
+        ink = self.run_program("strokes", "-o", "-").stdout
+        lines = self.run_program("strokes", "-o", "-", "--lines").stdout
+        self.assertNotIn('stroke-width="9"', ink)
+        self.assertEqual(lines.count('stroke-width="9"'), 39)
+
     def test_standard_output_takes_the_place_of_a_file(self):
         self.run_program("strokes", "-o", "strokes.svg")
         self.assertEqual(self.run_program("strokes", "-o", "-").stdout, (self.directory / "strokes.svg").read_text())

@@ -23,6 +23,18 @@ def without_times(value):
 
 
 class Trade(ProgramTest):
+    def test_ink_is_measured_against_the_outlines_of_a_source(self):
+        (self.directory / "data").mkdir()
+        outline = "M 100 250 L 900 240 L 900 350 L 100 300 Z"
+        drawing = {"strokes": [outline], "medians": [[[110, 275], [890, 295]]]}
+        (self.directory / "data/大.json").write_text(json.dumps(drawing))
+        ink = self.tradeoff("大", "--ink", "data")["ink"]
+        self.assertEqual(set(ink), {"typical", "half_widths", "full"})
+        self.assertEqual(ink["typical"]["bytes_per_character"], 0)
+        self.assertGreater(ink["full"]["iou_mean"], 0.9)
+        (self.directory / "data/大.json").write_text(json.dumps({"medians": drawing["medians"]}))
+        self.assert_refused(1, ["tradeoff", "--quick", "大", "--ink", "data"], "--ink", "no outlines")
+
     def tradeoff(self, *arguments):
         return json.loads(self.run_program("tradeoff", "--quick", "--json", *arguments).stdout)
 
