@@ -134,8 +134,8 @@ struct TraceShape {
   bool filled;  ///< the outline of ink, not a line
 };
 
-/// A line where the stroke is not finished, since its profile is that of the whole stroke, and where the pen went to and
-/// fro so long that the ink would be a blot.
+/// A line where the stroke is not finished, since its profile is that of the whole stroke, and where the pen went to
+/// and fro so long that the ink would be a blot.
 TraceShape shape_of(const Trace& trace, std::span<const Stroke> strokes, StrokeStyle style, double detail) {
   std::vector<Point> path = thinned(trace.path, detail);
   const bool known = trace.finished && trace.stroke >= 0 && trace.stroke < static_cast<int>(strokes.size());

@@ -229,7 +229,7 @@ TEST_CASE("as lines, strokes are lines of one width and nothing is filled", "[pr
   CHECK(std::string(trace.attribute("stroke").value()) == "#5fce5f");
 }
 
-TEST_CASE("template paths as lines are the strokes' control points on the page, in millimetres and upright", "[practice]") {
+TEST_CASE("as lines, templates are the strokes' control points on the page, in millimetres and upright", "[practice]") {
   const PracticePage page = page_of("永北");
   const auto document = xml(page_picture(page, {}, 0, "title", StrokeStyle::lines));
   const auto groups = templates(document);

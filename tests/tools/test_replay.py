@@ -132,6 +132,13 @@ class Replay(ReplayTest):
         self.assertEqual(colours, ["#e02020", "#e02020", "#333333"])
         self.assertGreaterEqual(len(list(group["guided"])), 3)
 
+    def test_templates_are_ink_or_lines(self):
+        traces = self.traces(character("十", TEN))
+        for options, style in ([], "fill"), (["--lines"], "stroke"):
+            self.run_program("replay", traces, "--out", style, *options)
+            groups = list(xml.parse(self.directory / style / "01-十.svg").getroot().iter(SVG + "g"))
+            self.assertEqual([g.get(style) for g in groups if g.get("class") == "template"], ["#c5d6f7"] * 2)
+
     def test_only_requested_characters_are_replayed(self):
         texts = [character("三", THREE), character("十", TEN), character("三", THREE)]
         report = self.replay(*texts, options=["--only", "三"])

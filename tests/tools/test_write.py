@@ -197,6 +197,13 @@ class Write(ProgramTest):
                                         for part, end in (("01-一", ""), ("02-十", ""), ("page-1", "-1"))),
                          "of the first repetition only")
 
+    def test_pictures_show_ink_or_lines(self):
+        for options, style in ([], "fill"), (["--lines"], "stroke"):
+            out = self.directory / style
+            self.run_program("write", "人", "--mode", "force", "--out", style, *options)
+            groups = list(xml.parse(out / "01-人-force.svg").getroot().iter("{http://www.w3.org/2000/svg}g"))
+            self.assertEqual([g.get(style) for g in groups if g.get("class") == "template active"], ["#f2b705"])
+
     def test_a_run_is_reproducible_to_the_last_digit(self):
         for out in ("a", "b"):
             self.run_program("write", "人", "--out", out, "--seed", "7")
