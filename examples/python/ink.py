@@ -11,13 +11,13 @@ out = output_directory(__doc__)
 character = cal.with_typical_ink(cal.built_in_characters()["永"])
 
 figure, (page, widths) = plt.subplots(1, 2, figsize=(10, 4.6), layout="constrained")
-for number, stroke in enumerate(character.strokes(), start=1):
-    (filled,) = page.fill(*cal.ink_outline(stroke).T, label=f"{number} {stroke.type.pinyin}")
-    page.plot(*cal.stroke_polyline(stroke).T, color="white", linewidth=0.8)
-
+for stroke, ink in zip(character.strokes(), character.ink):
     path = cal.stroke_polyline(stroke)
-    length = np.linalg.norm(np.diff(path, axis=0), axis=1).sum() + stroke.ink.start + stroke.ink.end
-    widths.plot(length * cal.ink_knots(length), stroke.ink.half_widths, "o-", color=filled.get_facecolor())
+    (filled,) = page.fill(*cal.ink_outline(path, ink).T, label=stroke.type.pinyin)
+    page.plot(*path.T, color="white", linewidth=0.8)
+
+    length = np.linalg.norm(np.diff(path, axis=0), axis=1).sum() + ink.start + ink.end
+    widths.plot(length * cal.ink_knots(length), ink.half_widths, "o-", color=filled.get_facecolor())
 page.set(aspect="equal", xlim=(0, 1), ylim=(0, 1), title="ink and path [em]")
 page.legend(loc="upper right", fontsize=7)
 widths.set(xlabel="along the stroke [em]", ylabel="half-width [em]", ylim=(0, None), title="width profiles")

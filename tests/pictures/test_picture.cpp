@@ -523,7 +523,8 @@ TEST_CASE("the sheet of typical strokes has a group for each of the 39", "[pract
 
 TEST_CASE("a typical stroke is drawn as ink, or as a line of one width", "[practice]") {
   for (const StrokeStyle style : {StrokeStyle::ink, StrokeStyle::lines}) {
-    const auto groups = all(xml(typical_strokes_picture(style)), "//g[@class='stroke']/g[@class='template']");
+    const auto document = xml(typical_strokes_picture(style));
+    const auto groups = all(document, "//g[@class='stroke']/g[@class='template']");
     REQUIRE(groups.size() == typical_stroke_count);
     for (const auto& group : groups) {
       CHECK(paths(group) == 1);
