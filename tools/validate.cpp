@@ -50,6 +50,7 @@ Findings findings(const ValidateArguments& options) {
   asked.letters = options.letters;
   if (options.only) asked.only = characters_of(*options.only);
   asked.threads = options.threads;
+  asked.ink = InkDetail::none;
   asked.report = !is_own_format(options.file);
   asked.progress = [&progress](double share) { progress.show(0.5 * share); };
   const ImportResult import = import_source(options.file, asked);

@@ -21,6 +21,8 @@
 #include <calligraphy/importers/stroke_warnings.hpp>
 #include <calligraphy/model/character_set.hpp>
 #include <calligraphy/model/ink_outline.hpp>
+#include <calligraphy/model/set_encoding.hpp>
+#include <calligraphy/model/stroke_polyline.hpp>
 #include <calligraphy/model/typical_ink.hpp>
 
 #include "base/archive_format.hpp"
@@ -374,24 +376,34 @@ class Importer {
     }
   }
 
-  /// The ink as fitted and, to compare with it, without offsets, and that of the strokes' kinds.
-  static void measure_ink(const std::vector<StrokeOfDrawing>& drawn, const std::vector<recognition::Path>& paths,
-                          const std::vector<StrokeInput>& strokes, ImportedCharacter& result) {
+  /// The ink of the strokes as a set file at standard precision holds it.
+  static std::vector<std::vector<InkDisc>> stored_ink(char32_t code, const std::vector<StrokeInput>& strokes) {
     constexpr double spacing = 0.003;  // [em]
-    std::vector<std::span<const Point>> outlines;
-    std::vector<std::vector<InkDisc>> inks, plain_inks, typical_inks;
-    for (std::size_t i = 0; i < drawn.size(); ++i) {
-      outlines.emplace_back(drawn[i].outline);
-      inks.push_back(ink_discs(paths[i], *strokes[i].ink, spacing));
-      const StrokeInk plain =
-          recognition::fit_ink(paths[i], drawn[i].path, drawn[i].outline, InkDetail::half_widths);
-      plain_inks.push_back(ink_discs(paths[i], plain, spacing));
-      typical_inks.push_back(
-          ink_discs(paths[i], typical_ink(strokes[i].id, result.strokes[i].half_width), spacing));
+    const CharacterSet set =
+        CharacterSet::from_bytes(encode_character_set({{}, {make_character(code, strokes)}}), "measured");
+    const Character stored = set.find(code)->character();
+    std::vector<std::vector<InkDisc>> inks;
+    for (const Stroke& stroke : calligraphy::strokes(stored)) {
+      inks.push_back(ink_discs(stroke_polyline(stroke), *stroke.ink, spacing));
     }
-    result.ink = recognition::measure_ink(outlines, inks);
-    result.plain_ink = recognition::measure_ink(outlines, plain_inks);
-    result.typical_ink = recognition::measure_ink(outlines, typical_inks);
+    return inks;
+  }
+
+  /// The ink as stored and, to compare with it, without offsets, and that of the strokes' kinds.
+  static void measure_ink(const std::vector<StrokeOfDrawing>& drawn, const std::vector<recognition::Path>& paths,
+                          std::vector<StrokeInput> strokes, ImportedCharacter& result) {
+    const char32_t code = result.character.code;
+    std::vector<std::span<const Point>> outlines;
+    for (const StrokeOfDrawing& stroke : drawn) outlines.emplace_back(stroke.outline);
+    result.ink = recognition::measure_ink(outlines, stored_ink(code, strokes));
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+      strokes[i].ink = recognition::fit_ink(paths[i], drawn[i].path, drawn[i].outline, InkDetail::half_widths);
+    }
+    result.plain_ink = recognition::measure_ink(outlines, stored_ink(code, strokes));
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+      strokes[i].ink = typical_ink(strokes[i].id, result.strokes[i].half_width);
+    }
+    result.typical_ink = recognition::measure_ink(outlines, stored_ink(code, strokes));
   }
 
   std::vector<StrokeOfDrawing> drawn_strokes(const Drawing& drawing, ImportedCharacter& result) const {

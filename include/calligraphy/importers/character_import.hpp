@@ -92,7 +92,7 @@ struct StrokeMeasures {
   double outline_size;   ///< diagonal of the outline's bounding box [em]; 0 for a pen
 };
 
-/// How well ink covers the outlines of the source.
+/// How well ink, as a set file at standard precision holds it, covers the outlines of the source.
 struct InkMeasures {
   std::vector<double> strokes;     ///< of each, intersection over union of the areas of ink and outline [1]
   std::vector<double> characters;  ///< of each, the same of all its ink and all its outlines [1]
