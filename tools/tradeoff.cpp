@@ -62,6 +62,7 @@ TradeoffReport asked_for(const TradeoffArguments& options) {
 
 /// The characters from a source of outlines, measured against these.
 ImportResult with_ink(const std::string& source, const std::u32string& text, const Interrupt& interrupt) {
+  if (is_own_format(source)) throw Error("--ink: " + source + " is no source of outlines but holds imported characters");
   ImportOptions asked;
   asked.only = text;
   asked.report = true;

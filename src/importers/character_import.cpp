@@ -134,6 +134,7 @@ void check_applies(const ImportOptions& options, SourceKind kind) {
                      (kind == SourceKind::calligraphy ? "a set file or the text format" : to_string(kind)));
   };
   refuse(!options.letters.empty(), "letters", {SourceKind::hanzi_writer_data});
+  refuse(options.ink == InkDetail::half_widths, "ink half-widths", {SourceKind::hanzi_writer_data});
   refuse(options.alternates, "alternates", {SourceKind::kanjivg});
   refuse(!options.ideographs_only, "ideographs_only", {SourceKind::kanjivg});
   refuse(options.report, "report", {SourceKind::hanzi_writer_data, SourceKind::kanjivg});
@@ -476,6 +477,9 @@ ImportResult import_own_format(const fs::path& source, const ImportOptions& opti
   CharacterList list = CharacterSet::open(source.string()).list();
   if (!options.only.empty()) {
     std::erase_if(list.characters, [&](const Character& c) { return options.only.find(c.code) == options.only.npos; });
+  }
+  for (Character& character : list.characters) {
+    if (options.ink == InkDetail::none) character.physics.ink.clear();
   }
   if (list.characters.empty())
     throw FormatError(source.string() + ": contains no character" +

@@ -86,8 +86,8 @@ class Envelope {
       arc(discs_[0], 0.0, 2.0 * std::numbers::pi);
       return std::move(points_);
     }
-    for (std::size_t i = 0; i + 1 < count; ++i) add_tangent(i, i + 1, i > 0 ? i - 1 : i + 1);
-    for (std::size_t i = count - 1; i > 0; --i) add_tangent(i, i - 1, i + 1 < count ? i + 1 : i - 1);
+    for (std::size_t i = 0; i + 1 < count; ++i) add_junction(i > 0 ? i - 1 : i + 1, i, i + 1);
+    for (std::size_t i = count - 1; i > 0; --i) add_junction(i + 1 < count ? i + 1 : i - 1, i, i - 1);
     return thinned();
   }
 
@@ -105,18 +105,21 @@ class Envelope {
     return std::atan2(along.y(), along.x());
   }
 
-  /// Adds the tangent on the right of two discs, and before it the arc of the first, if the outline turns left there on
-  /// its way from disc `before`. It turns back at the first disc and the last, where that is the disc ahead.
-  void add_tangent(std::size_t from, std::size_t to, std::size_t before) {
+  /// Adds what the right side of a disc has of the outline, between its tangents with the discs before and ahead: an arc
+  /// where the outline turns left, else one point, as the tangents cross. At the first disc and the last, where the
+  /// outline turns back, the disc before is the one ahead.
+  void add_junction(std::size_t before, std::size_t at, std::size_t ahead) {
     constexpr double right = -0.5 * std::numbers::pi;
-    const double tilt = std::asin(slope(from, to));
-    const double angle = heading(from, to) + right - tilt;
-    double turn = std::asin(slope(before, from)) - tilt;
-    turn += before == to ? std::numbers::pi
-                         : std::remainder(heading(from, to) - heading(before, from), 2.0 * std::numbers::pi);
-    if (turn > 0.0) arc(discs_[from], angle - turn, turn);
-    add(discs_[from], angle);
-    add(discs_[to], angle);
+    const double tilt = std::asin(slope(at, ahead));
+    const double angle = heading(at, ahead) + right - tilt;
+    double turn = std::asin(slope(before, at)) - tilt;
+    turn += before == ahead ? std::numbers::pi
+                            : std::remainder(heading(at, ahead) - heading(before, at), 2.0 * std::numbers::pi);
+    if (turn > 0.0) {
+      arc(discs_[at], angle - turn, turn);
+    } else {
+      add(discs_[at], angle - 0.5 * turn);
+    }
   }
 
   void arc(const InkDisc& disc, double from, double turn) {

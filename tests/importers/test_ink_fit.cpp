@@ -179,6 +179,14 @@ TEST_CASE("strokes are imported with ink if the source has outlines and it is as
   ImportOptions options;
   options.ink = InkDetail::none;
   CHECK(import_characters(directory.path(), options).list.characters[0].physics.ink.empty());
+  const TemporaryDirectory stored;
+  stored.write("bar.txt",
+               "calligraphy characters 3\ncharacter 一\nstroke 1 0.1,0.5 0.9,0.5\nink 0 0 1 1 1 1 1 1 1 1\n");
+  CHECK(import_characters(stored.path() / "bar.txt").list.characters[0].physics.ink.size() == 1);
+  CHECK(import_characters(stored.path() / "bar.txt", options).list.characters[0].physics.ink.empty());
+  options.ink = InkDetail::half_widths;
+  CHECK_THROWS_WITH(import_characters(stored.path() / "bar.txt", options),
+                    Catch::Matchers::StartsWith("ink half-widths: applies only to hanzi-writer-data"));
   write_bar(directory, false);
   CHECK(import_characters(directory.path()).list.characters[0].physics.ink.empty());
 }

@@ -172,6 +172,31 @@ TEST_CASE("the outline of any stroke contains what its discs cover and nothing e
   CHECK(outside > 8'000);
 }
 
+TEST_CASE("the outline of a brush stroke that does not cross itself does not cross itself either", "[model][ink]") {
+  const auto side = [](const Point& a, const Point& b, const Point& c) {
+    return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x()) > 0.0;
+  };
+  for (const char32_t code : {U'一', U'永', U'九', U'北', U'心'}) {
+    const Character* const found = built_in_characters().find(code);
+    if (found == nullptr) continue;
+    const Character character = with_typical_ink(*found);
+    for (const Stroke& stroke : strokes(character)) {
+      const std::vector<Point> outline = ink_outline(stroke);
+      const std::size_t count = outline.size();
+      int crossings = 0;
+      for (std::size_t i = 0; i < count; ++i) {
+        const Point &a = outline[i], &b = outline[(i + 1) % count];
+        for (std::size_t k = i + 2; k < count - (i == 0 ? 1 : 0); ++k) {
+          const Point &c = outline[k], &d = outline[(k + 1) % count];
+          if (side(a, b, c) != side(a, b, d) && side(c, d, a) != side(c, d, b)) ++crossings;
+        }
+      }
+      INFO("typical stroke " << stroke.type->id);
+      CHECK(crossings == 0);
+    }
+  }
+}
+
 TEST_CASE("a coarser outline has fewer points and the same area, nearly", "[model][ink]") {
   calligraphy_test::Sequence random(5);
   const Character character = character_of(wild_stroke(typical_stroke(20), random));

@@ -34,6 +34,8 @@ class Trade(ProgramTest):
         self.assertGreater(ink["full"]["iou_mean"], 0.9)
         (self.directory / "data/大.json").write_text(json.dumps({"medians": drawing["medians"]}))
         self.assert_refused(1, ["tradeoff", "--quick", "大", "--ink", "data"], "--ink", "no outlines")
+        self.run_program("import", "data", "-o", "own.set")
+        self.assert_refused(1, ["tradeoff", "--quick", "大", "--ink", "own.set"], "--ink", "own.set is no source")
 
     def tradeoff(self, *arguments):
         return json.loads(self.run_program("tradeoff", "--quick", "--json", *arguments).stdout)

@@ -33,7 +33,7 @@ struct ImportOptions {
   std::filesystem::path letters;  ///< cnchar-order, whose letters label the strokes of hanzi-writer-data
   bool alternates = false;        ///< also imports KanjiVG's variants, as alternate orders named after their suffix
   bool ideographs_only = true;    ///< omits KanjiVG's kana, Latin letters, radicals and signs
-  InkDetail ink = InkDetail::full;  ///< of hanzi-writer-data; KanjiVG has no outlines
+  InkDetail ink = InkDetail::full;  ///< of hanzi-writer-data; `none` also drops that of a set file or the text format
   std::u32string only;            ///< imports only these characters; empty: all
   std::string date;  ///< date of modification for the notice that the Arphic licence requires; empty: omitted
   int threads = 0;   ///< 0: one per core; the result does not depend on it

@@ -24,7 +24,7 @@ std::vector<InkDisc> ink_discs(std::span<const Point> path, const StrokeInk& ink
 
 /// Outline of the ink along a path: a closed polygon, counter-clockwise, whose last vertex is joined to the first,
 /// within about `tolerance` of the discs' envelope [em]. To be filled by the nonzero rule, the default of SVG, Cairo,
-/// the canvas of a web page and Matplotlib: where a stroke crosses itself, so does the outline.
+/// the canvas of a web page and Matplotlib: where a stroke crosses itself or folds back, so does the outline.
 /// @throws ValueError if the path has no point or the tolerance is not positive
 std::vector<Point> ink_outline(std::span<const Point> path, const StrokeInk& ink, double tolerance = 5e-4);
 

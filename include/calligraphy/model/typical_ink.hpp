@@ -14,8 +14,8 @@ double typical_half_width(int id, int stroke_count, double length);
 /// The typical ink of a stroke with this id, scaled to the half-width [em]. @throws ValueError if the id is not in 1..39
 StrokeInk typical_ink(int id, double half_width);
 
-/// The same character with typical ink, or as it is if it has ink of its own. No stroke is drawn out: a path that was
-/// not fitted to the middle of a brush stroke goes as far as the brush.
+/// The same character with typical ink, or as it is if it has ink of its own. The ink ends where the path does: strokes
+/// are not drawn out.
 Character with_typical_ink(Character character);
 
 }  // namespace calligraphy
