@@ -478,8 +478,8 @@ ImportResult import_own_format(const fs::path& source, const ImportOptions& opti
   if (!options.only.empty()) {
     std::erase_if(list.characters, [&](const Character& c) { return options.only.find(c.code) == options.only.npos; });
   }
-  for (Character& character : list.characters) {
-    if (options.ink == InkDetail::none) character.physics.ink.clear();
+  if (options.ink == InkDetail::none) {
+    for (Character& character : list.characters) character.physics.ink.clear();
   }
   if (list.characters.empty())
     throw FormatError(source.string() + ": contains no character" +

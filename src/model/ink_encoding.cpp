@@ -21,7 +21,8 @@ std::array<double, values_per_ink> values_of(const StrokeInk& ink) {
 InkSteps steps_of(const StrokeInk& ink, std::uint32_t steps_per_em) {
   InkSteps steps{};
   const std::array<double, values_per_ink> values = values_of(ink);
-  for (std::size_t i = 0; i < values_per_ink; ++i) steps[i] = static_cast<std::int32_t>(std::lround(values[i] * steps_per_em));
+  std::transform(values.begin(), values.end(), steps.begin(),
+                 [&](double value) { return static_cast<std::int32_t>(std::lround(value * steps_per_em)); });
   return steps;
 }
 
