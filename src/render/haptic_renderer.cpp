@@ -17,18 +17,6 @@
 namespace calligraphy {
 namespace {
 
-/// A pen farther from the page than this is a fault, whatever its speed [m].
-constexpr double furthest_point = 1e3;
-
-/// Minimum motion scale, and the inverse of the maximum; keeps every force finite.
-constexpr double min_scale = 1e-6;
-
-/// Maximum time over which eq. (3) integrates in one tick [s].
-constexpr double max_tick = 0.1;
-
-/// For how long the force is held while samples are stale, as a servo does [s].
-constexpr double max_hold = 4e-3;
-
 /// Faster pens, and larger changes of their velocity in a tick, are faults rather than motions of a hand: the force
 /// does not follow them at once [m/s].
 constexpr double fastest_followed = 1.0, largest_kick = 0.3;
@@ -66,17 +54,25 @@ void require_valid(const PlacedCharacter& placed, std::size_t index) {
   require_above_zero(place + "em", em, "m");
   if (!placed.placement.origin.allFinite()) throw ValueError(place + "its origin is not finite");
   const Eigen::AlignedBox2d box = bounding_box(placed);
-  if (!(std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff()) <= furthest_point)) {
-    throw ValueError(place + "it reaches further than " + number_text(furthest_point) + " m from the page's origin");
+  if (!(std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff()) <= PenSensor::max_coordinate)) {
+    throw ValueError(place + "it reaches further than " + number_text(PenSensor::max_coordinate) + " m from the page's origin");
   }
 }
 
-void require_valid(const MotionMapping& mapping) {
-  const bool rigid =
-      mapping.rotation.allFinite() && mapping.rotation.isUnitary(1e-9) && mapping.rotation.determinant() > 0.0;
-  if (!rigid) throw ValueError("motion mapping: rotation is not a rotation matrix");
-  if (!mapping.offset.allFinite()) throw ValueError("motion mapping: offset is not finite");
-  require_within("motion mapping: scale", mapping.scale, "", min_scale, 1.0 / min_scale);
+/// @throws ValueError naming the character of the page that is invalid
+std::vector<PlacedCharacter> checked(std::vector<PlacedCharacter> page) {
+  if (page.empty()) throw ValueError("the page has no character");
+  for (std::size_t i = 0; i < page.size(); ++i) require_valid(page[i], i);
+  return page;
+}
+
+/// The options as they take effect. @throws ValueError naming what is invalid
+RendererOptions checked(RendererOptions options, const Capabilities& capabilities, const MotionMapping& mapping,
+                        std::vector<std::string>& clipped) {
+  validate(mapping);
+  if (options.stiffness_check == StiffnessCheck::clip) clipped = clip_stiffness(options, capabilities, mapping.scale);
+  validate(options, capabilities, mapping.scale);
+  return options;
 }
 
 /// In page axes, where forces are 1 / scale times those of the device, masses and damping 1 / scale^2 times
@@ -108,23 +104,19 @@ PassivityController passivity_controller(const RendererOptions& options, const C
 
 HapticRenderer::HapticRenderer(std::vector<PlacedCharacter> page, const MotionMapping& mapping,
                                const Capabilities& capabilities, const RendererOptions& options)
-    : page_(std::move(page)), mapping_(mapping), options_(options) {
-  if (page_.empty()) throw ValueError("the page has no character");
-  for (std::size_t i = 0; i < page_.size(); ++i) {
-    require_valid(page_[i], i);
-    const auto& factors = page_[i].character.physics.attraction_factors;
+    : page_(checked(std::move(page))),
+      mapping_(mapping),
+      options_(checked(options, capabilities, mapping, clipped_)),
+      sensor_(options_, mapping_) {
+  for (const PlacedCharacter& placed : page_) {
+    const auto& factors = placed.character.physics.attraction_factors;
     max_attraction_ = std::max(max_attraction_, *std::max_element(factors.begin(), factors.end()));
-    const double em = page_[i].placement.em;
-    Eigen::AlignedBox2d box = bounding_box(page_[i]);
+    const double em = placed.placement.em;
+    Eigen::AlignedBox2d box = bounding_box(placed);
     box.min().array() -= options.box_margin * em;
     box.max().array() += options.box_margin * em;
-    prepared_.push_back({strokes(page_[i].character), stroke_starts(page_[i], options.tolerances), box, em});
+    prepared_.push_back({strokes(placed.character), stroke_starts(placed, options.tolerances), box, em});
   }
-  require_valid(mapping);
-  if (options_.stiffness_check == StiffnessCheck::clip) {
-    clipped_ = clip_stiffness(options_, capabilities, mapping.scale);
-  }
-  validate(options_, capabilities, mapping.scale);
   limit_attraction(capabilities);
   require_translations(capabilities, "the renderer");
   require(capabilities.peak_force > 0.0, "peak force of the device", capabilities.peak_force, "N", "above 0");
@@ -136,9 +128,8 @@ HapticRenderer::HapticRenderer(std::vector<PlacedCharacter> page, const MotionMa
   period_ = 1.0 / options.servo_rate;
   const double dry = capabilities.coulomb_friction + options_.friction.coefficient * usual_pressure;
   hidden_way_ = mapping.scale * dry / options.grip_stiffness;
-  velocity_ = VelocityEstimator(options.velocity_cutoff);
   rate_filter_ = -std::expm1(-2.0 * std::numbers::pi * options.velocity_cutoff * period_);
-  observes_energy_ = options.passivity_control || std::isfinite(options.energy_budget);
+  observes_energy_ = options.observes_energy();
   if (observes_energy_) passivity_ = passivity_controller(options, capabilities, mapping.scale);
   if (options.thermal_time_constant > 0.0) {
     thermal_.peak = limiter_.peak;
@@ -165,12 +156,7 @@ void HapticRenderer::restart() noexcept {
   tick_ = {};
   inside_box_ = false;
   lifted_ = true;
-  has_sample_ = false;
-  has_rejected_ = false;
-  unseen_ = 0;
-  velocity_.restart();
-  last_velocity_ = motion_ = Eigen::Vector3d::Zero();
-  above_for_ = 0.0;
+  sensor_.restart();
   passivity_.restart();
   thermal_.heat = 0.0;
   release_friction();
@@ -191,17 +177,18 @@ double HapticRenderer::max_force_step() const noexcept {
 const HapticTick& HapticRenderer::update(const DeviceState& state) noexcept {
   tick_.events = TickEvent::none;
   tick_.time = state.time;
-  works_ = state.force;
-  if (observes_energy_) hear_force(state);
-  tick_.status = map_sample(state);
-  if (tick_.status == TickStatus::ok) {
-    unseen_ = 0;
+  const PenState& pen = sensor_.update(state);
+  tick_.status = pen.status;
+  tick_.device_point = pen.device_point;
+  tick_.pen_tip = pen.tip;
+  tick_.penetration = pen.penetration;
+  if (observes_energy_) observe_force(state);
+  if (pen.status == TickStatus::ok) {
     follow(sense());
     send(sum_forces());
     return tick_;
   }
-  ++unseen_;
-  if (tick_.status == TickStatus::stale && static_cast<double>(unseen_) * period_ <= max_hold) {
+  if (pen.holds_force) {
     send(tick_.page_force);
     return tick_;
   }
@@ -216,88 +203,16 @@ const HapticTick& HapticRenderer::update(const DeviceState& state) noexcept {
 
 /// The account of energy sees the force at work and for how long: behind a servo it may be less than the one sent, and
 /// a loop may have paused.
-void HapticRenderer::hear_force(const DeviceState& state) noexcept {
-  int ticks = 1;
-  double settling = state.force_settling;
-  const bool fresh = state.status == DeviceStatus::ok || state.status == DeviceStatus::warm_motors;
-  if (has_sample_ && fresh) {
-    // NaN compares false below
-    const double passed = (state.time - last_time_) / period_ - static_cast<double>(unseen_);
-    constexpr double longest = 1e6;
-    if (passed > 1.75) {
-      ticks = static_cast<int>(std::min(passed + 0.5, longest));
-    } else if (passed > 1.0) {
-      settling /= passed;  // as a share of a tick that took longer
-    }
-    unseen_ += ticks - 1;  // counted once, if this sample turns out to be bad
-  }
+void HapticRenderer::observe_force(const DeviceState& state) noexcept {
+  const PenState& pen = sensor_.pen();
   const bool as_sent = state.force == tick_.force || !state.force.allFinite();
-  passivity_.acted(as_sent ? tick_.page_force : mapping_.force_to_page(state.force), ticks, settling);
-}
-
-TickStatus HapticRenderer::map_sample(const DeviceState& state) noexcept {
-  const bool usable = state.status == DeviceStatus::ok || state.status == DeviceStatus::stale ||
-                      state.status == DeviceStatus::warm_motors;
-  if (!usable) return TickStatus::device_fault;
-  if (state.status == DeviceStatus::stale) return TickStatus::stale;
-  if (!state.position.allFinite() || !std::isfinite(state.time)) return TickStatus::bad_sample;
-  const Eigen::Vector3d mapped = mapping_.to_page(state.position);
-  if (!(mapped.cwiseAbs().maxCoeff() <= furthest_point)) return TickStatus::bad_sample;
-  if (!plausible(mapped, state.time)) {
-    has_rejected_ = true;
-    rejected_position_ = mapped;
-    return TickStatus::bad_sample;
-  }
-  if (has_rejected_) {
-    velocity_.restart();  // it is elsewhere, and did not move there
-    has_sample_ = false;
-  }
-
-  if (options_.motion == MotionMappingRule::wang2006 && has_sample_) {
-    const double elapsed = std::clamp(state.time - last_time_, 0.0, max_tick);
-    const Eigen::Vector3d velocity = mapping_.velocity_to_page(state.velocity);
-    const bool measured = norm(velocity) <= options_.max_speed * mapping_.scale;  // false for NaN too
-    tick_.device_point += measured ? Eigen::Vector3d(velocity * elapsed) : Eigen::Vector3d(mapped - last_position_);
-  } else {
-    tick_.device_point = mapped;
-  }
-  // A clock that stands or runs backwards must not turn a small motion into a fast one.
-  const double elapsed = has_sample_ ? std::max(state.time - last_time_, period_) : period_;
-  last_velocity_ = velocity_.velocity();
-  velocity_.update(mapped, elapsed);
-  motion_ = mapped - last_position_;
-  if (!has_sample_ || unseen_ > 0) {
-    // The force has not followed the pen meanwhile, and must not jump to where it would be.
-    last_velocity_ = velocity_.velocity();
-    motion_.setZero();
-  }
-  above_for_ += elapsed;
-  has_sample_ = true;
-  has_rejected_ = false;
-  last_position_ = mapped;
-  last_time_ = state.time;
-  return TickStatus::ok;
-}
-
-/// A pen cannot jump: a single sample far away is rejected. A second one near the first is accepted, because then the
-/// device really is elsewhere.
-bool HapticRenderer::plausible(const Eigen::Vector3d& position, double time) const noexcept {
-  if (!has_sample_) return true;
-  const double fastest = options_.max_speed * mapping_.scale;
-  const double reach = fastest * std::max(time - last_time_, period_);
-  if (norm(position - last_position_) <= reach) return true;
-  return has_rejected_ && norm(position - rejected_position_) <= fastest * period_;
+  passivity_.acted(as_sent ? tick_.page_force : pen.force, pen.ticks, pen.settling);
 }
 
 TransitionInput HapticRenderer::sense() noexcept {
-  const Eigen::Vector3d& point = tick_.device_point;
   const bool writing = tick_.state == InteractionState::writing;
   TransitionInput input;
-  input.contact = touches();
-
-  tick_.penetration = std::max(0.0, -point.z());
-  tick_.pen_tip = point;
-  if (options_.pen_tip == PenTipRule::projected && point.z() < 0.0) tick_.pen_tip.z() = 0.0;
+  input.contact = sensor_.pen().contact;
   if (all_written()) return input;
 
   const Point tip = tick_.pen_tip.head<2>();
@@ -320,8 +235,9 @@ void HapticRenderer::write_on(const Point& tip, TransitionInput& input) noexcept
   if (input.contact) {
     tick_.contact = active_.update(tip, options_.stroke);
     if (tick_.contact.passed_feature) tick_.events |= TickEvent::feature_passed;
-    const bool on_paper = tick_.device_point.z() <= options_.lift_height;
-    if (on_paper) coverage_.update(tip, tick_.contact, active_.length(), tolerances.corridor * active_character().em);
+    if (sensor_.pen().on_paper) {
+      coverage_.update(tip, tick_.contact, active_.length(), tolerances.corridor * active_character().em);
+    }
     tick_.covered = coverage_.share(active_.length());
   }
   const bool is_covered = tick_.covered >= needed_coverage() && coverage_.keeps_in_corridor();
@@ -375,20 +291,6 @@ WritingHint HapticRenderer::hint() const noexcept {
     return capture_.verdict() == CaptureVerdict::wrong_direction ? WritingHint::wrong_direction : WritingHint::write;
   }
   return resting_ ? WritingHint::in_middle : WritingHint::too_far;
-}
-
-/// A pen that bounces on the paper has not been lifted.
-bool HapticRenderer::touches() noexcept {
-  const double height = tick_.device_point.z();
-  if (tick_.state == InteractionState::separation) {
-    above_for_ = 0.0;
-    return height <= 0.0;
-  }
-  if (height <= options_.lift_height) {
-    above_for_ = 0.0;
-    return true;
-  }
-  return height <= options_.lift_clearance && above_for_ < options_.lift_time;
 }
 
 void HapticRenderer::follow(const TransitionInput& input) noexcept {
@@ -500,7 +402,7 @@ double HapticRenderer::paper_force() noexcept {
   const double strained = depth < onset ? 0.5 * depth * share : depth - 0.5 * onset;
   const double spring = normal_force(options_.paper_stiffness, strained, options_.force_sign);
   if (!(depth > 0.0)) return spring;
-  const double damping = -share * options_.paper_damping * velocity_.velocity().z();
+  const double damping = -share * options_.paper_damping * sensor_.pen().velocity.z();
   tick_.viscous.z() = spring >= 0.0 ? std::max(damping, -spring) : damping;
   return spring + tick_.viscous.z();
 }
@@ -545,7 +447,7 @@ Point HapticRenderer::guidance_force() noexcept {
     // Less than the stiffness falls towards the stroke, as much as it falls around it.
     if (linear > 0.0) share *= std::sqrt(tick_.attraction.norm() / linear);
   }
-  const Point velocity = velocity_.velocity().head<2>();
+  const Point velocity = sensor_.pen().velocity.head<2>();
   const Point tangent = writing ? contact.closest.tangent : held_ ? start_of_stroke().direction : Point(Point::Zero());
   // Resistance to writing backwards is not weakened by assistance, nor is its damper.
   const Point guided =
@@ -576,8 +478,9 @@ bool HapticRenderer::is_guided() const noexcept {
 /// Where the hand means to be, as far as the force at work shows, if the device says what that is [m, page].
 Point HapticRenderer::hand() const noexcept {
   const Point tip = tick_.pen_tip.head<2>();
-  if (!works_.allFinite()) return tip;
-  return tip - mapping_.force_to_page(works_).head<2>() * (mapping_.scale * mapping_.scale / options_.grip_stiffness);
+  const Eigen::Vector3d& force = sensor_.pen().force;
+  if (!force.allFinite()) return tip;
+  return tip - force.head<2>() * (mapping_.scale * mapping_.scale / options_.grip_stiffness);
 }
 
 /// Until the first stretch has shown its direction, guidance acts across that direction only, so that it does not hide
@@ -628,7 +531,7 @@ Point HapticRenderer::fade(const Point& force) noexcept {
   constexpr TickEvent leaps = TickEvent::stroke_started | TickEvent::feature_passed | TickEvent::contact;
   constexpr TickEvent ends = TickEvent::stroke_finished | TickEvent::stroke_abandoned | TickEvent::lift;
   const bool lets_go = has_event(tick_.events, ends) || (regrips_ && !held_);
-  const Point tip = tick_.pen_tip.head<2>(), velocity = velocity_.velocity().head<2>();
+  const Point tip = tick_.pen_tip.head<2>(), velocity = sensor_.pen().velocity.head<2>();
   if (lets_go || regrips_ || has_event(tick_.events, leaps)) {
     const double seconds = lets_go ? options_.guidance_fade_out : options_.guidance_fade_in;
     released_.take_over(tick_.page_force.head<2>() - tick_.friction - tick_.damping.head<2>(), tip, velocity,
@@ -677,20 +580,20 @@ ForceAllowance HapticRenderer::allowance_for(Point way, Point kick) const noexce
 }
 
 ForceAllowance HapticRenderer::allowance() const noexcept {
-  const Eigen::Vector3d& velocity = velocity_.velocity();
-  const Eigen::Vector3d kick = velocity - last_velocity_;
-  const double way = std::abs(motion_.z());
+  const PenState& pen = sensor_.pen();
+  const Eigen::Vector3d& kick = pen.velocity_change;
+  const double way = std::abs(pen.motion.z());
   // The damper of the paper sets in with depth.
   const double entered = way < options_.paper_onset ? way / options_.paper_onset : 1.0;
-  return allowance_for({motion_.head<2>().norm(), way},
-                       {kick.head<2>().norm(), std::abs(kick.z()) + entered * std::abs(velocity.z())});
+  return allowance_for({pen.motion.head<2>().norm(), way},
+                       {kick.head<2>().norm(), std::abs(kick.z()) + entered * std::abs(pen.velocity.z())});
 }
 
 Eigen::Vector3d HapticRenderer::control_passivity(const Eigen::Vector3d& wanted) noexcept {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   const bool known = tick_.status == TickStatus::ok;
   Eigen::Vector3d force =
-      passivity_.next(known ? last_position_ : Eigen::Vector3d(unknown, unknown, unknown), wanted, tick_.viscous);
+      passivity_.next(known ? sensor_.pen().position : Eigen::Vector3d(unknown, unknown, unknown), wanted, tick_.viscous);
   // Paper does not pull, however fast the pen is lifted.
   if (wanted.z() >= 0.0) force.z() = std::max(0.0, force.z());
   tick_.damping = passivity_.damping();

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -10,8 +9,8 @@
 
 #include <calligraphy/collision/active_stroke.hpp>
 #include <calligraphy/devices/device_state.hpp>
-#include <calligraphy/devices/velocity_estimator.hpp>
 #include <calligraphy/render/detail/force_limiter.hpp>
+#include <calligraphy/render/detail/pen_sensor.hpp>
 #include <calligraphy/render/detail/released_spring.hpp>
 #include <calligraphy/render/detail/stroke_capture.hpp>
 #include <calligraphy/render/detail/stroke_coverage.hpp>
@@ -64,8 +63,6 @@ class HapticRenderer {
     double em = 0.0;          ///< [m]
   };
 
-  TickStatus map_sample(const DeviceState& state) noexcept;
-  bool plausible(const Eigen::Vector3d& position, double time) const noexcept;
   TransitionInput sense() noexcept;
   void write_on(const Point& tip, TransitionInput& input) noexcept;
   double needed_coverage() const noexcept;
@@ -78,8 +75,7 @@ class HapticRenderer {
   void adapt_assistance(bool abandoned) noexcept;
   void activate(int character, int stroke) noexcept;
   void limit_attraction(const Capabilities& capabilities);
-  void hear_force(const DeviceState& state) noexcept;
-  bool touches() noexcept;
+  void observe_force(const DeviceState& state) noexcept;
   Eigen::Vector3d sum_forces() noexcept;
   double paper_force() noexcept;
   Point guidance_force() noexcept;
@@ -107,8 +103,9 @@ class HapticRenderer {
   std::vector<PlacedCharacter> page_;
   std::vector<PreparedCharacter> prepared_;  ///< views into page_
   MotionMapping mapping_;
-  RendererOptions options_;
   std::vector<std::string> clipped_;
+  RendererOptions options_;
+  PenSensor sensor_;
   double period_ = 0.001;        ///< [s]
   double max_guidance_ = 0.0;    ///< stiffness, attraction factor included [N/m, page]
   double max_attraction_ = 1.0;  ///< on the page
@@ -124,15 +121,11 @@ class HapticRenderer {
   ActiveStroke active_;
   StrokeCapture capture_;
   StrokeCoverage coverage_;
-  Eigen::Vector3d works_ = Eigen::Vector3d::Zero();  ///< force at work, if the device says so [N, device axes]
   StrokeContact rest_;                               ///< of a pen on the active stroke that is not writing it
   bool resting_ = false;                             ///< it was put down on that stroke, near enough for `rest_`
   bool held_ = false;                                ///< guidance acts
   bool regrips_ = false;                             ///< that has changed in this tick
   HapticTick tick_;
-  VelocityEstimator velocity_;                               ///< of the pen [m/s, page]
-  Eigen::Vector3d last_velocity_ = Eigen::Vector3d::Zero();  ///< estimate of the tick before [m/s, page]
-  Eigen::Vector3d motion_ = Eigen::Vector3d::Zero();         ///< since the sample before [m, page]
   Point friction_spring_ = Point::Zero();                    ///< force of the tick before [N, page]
   Point friction_rate_ = Point::Zero();                      ///< its filtered change [N/s, page]
   ReleasedSpring released_;                                  ///< what guided before the last jump of the closest point
@@ -141,16 +134,8 @@ class HapticRenderer {
   double error_way_ = 0.0;           ///< length of that path [m]
   Point error_tip_ = Point::Zero();  ///< pen tip at the last measurement [m]
   bool inside_box_ = false;
-  double above_for_ = 0.0;       ///< how long a pen in contact has been above the paper [s]
   bool lifted_ = true;           ///< the pen was lifted since the last stroke was finished
   bool character_done_ = false;  ///< its last stroke is finished, and the pen is still down
-
-  bool has_sample_ = false;  ///< last_position_ and last_time_ are those of the last accepted sample
-  std::int64_t unseen_ = 0;  ///< ticks since then, without a fresh sample
-  Eigen::Vector3d last_position_ = Eigen::Vector3d::Zero();
-  double last_time_ = 0.0;
-  bool has_rejected_ = false;  ///< rejected_position_ is that of a sample just rejected as too far away
-  Eigen::Vector3d rejected_position_ = Eigen::Vector3d::Zero();
 };
 
 }  // namespace calligraphy

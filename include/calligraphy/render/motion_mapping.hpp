@@ -38,6 +38,9 @@ struct MotionMapping {
   }
 };
 
+/// @throws ValueError naming what is wrong: not a rotation, an offset that is not finite, a scale outside [1e-6, 1e6]
+void validate(const MotionMapping& mapping);
+
 /// Upright page [m] in the x-y plane of the device, as in the paper's experiments (sec. 7.2). The centre of the page
 /// lies at the device origin for every scale K_S; with K_S = 2 the pen on the page moves twice as far as the device. A
 /// wrong scale is refused by what uses the mapping (HapticRenderer).

@@ -1,6 +1,7 @@
 // Options of the haptic renderer.
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
@@ -91,6 +92,9 @@ struct RendererOptions {
   ForceSign force_sign = ForceSign::attracting;
   PenTipRule pen_tip = PenTipRule::projected;
   MotionMappingRule motion = MotionMappingRule::affine;
+
+  /// Passivity control and an energy budget need an account of the energy that the force delivers.
+  bool observes_energy() const noexcept { return passivity_control || std::isfinite(energy_budget); }
 
   /// Every rule as printed, except the signs of eq. (8) and (9), which the available text may have lost: with the signs
   /// as printed nothing can be written (set force_sign to see it). Widths and stiffnesses are the defaults. Without

@@ -1,0 +1,52 @@
+// Makes the pen's state of device samples: mapping, plausibility, staleness, velocity, and contact without bounces.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include <Eigen/Core>
+
+#include <calligraphy/devices/device_state.hpp>
+#include <calligraphy/devices/velocity_estimator.hpp>
+#include <calligraphy/render/detail/pen_state.hpp>
+#include <calligraphy/render/motion_mapping.hpp>
+#include <calligraphy/render/renderer_options.hpp>
+
+namespace calligraphy {
+
+/// update() never allocates, throws or logs.
+class PenSensor {
+ public:
+  /// A pen farther from the page's origin along any axis is a fault, whatever its speed [m].
+  static constexpr double max_coordinate = 1e3;
+
+  /// The options must be valid.
+  PenSensor(const RendererOptions& options, const MotionMapping& mapping);
+
+  const PenState& update(const DeviceState& sample) noexcept;
+  void restart() noexcept;
+
+  const PenState& pen() const noexcept { return pen_; }
+
+ private:
+  void count_ticks(const DeviceState& sample) noexcept;
+  TickStatus accept(const DeviceState& sample) noexcept;
+  bool is_plausible(const Eigen::Vector3d& position, double time) const noexcept;
+  void move_device_point(const DeviceState& sample, const Eigen::Vector3d& position) noexcept;
+  void estimate_motion(const Eigen::Vector3d& position, double elapsed) noexcept;
+  void feel_paper(double elapsed) noexcept;
+
+  RendererOptions options_;
+  MotionMapping mapping_;
+  double period_;         ///< [s]
+  bool counts_pauses_;    ///< for the account of energy
+  VelocityEstimator velocity_;
+  PenState pen_;
+  bool has_sample_ = false;  ///< a sample was accepted, and the pen has moved on from there
+  double time_ = 0.0;        ///< of that sample [s]
+  std::int64_t unseen_ = 0;  ///< ticks since then, without a good sample
+  double above_for_ = 0.0;   ///< how long a pen in contact has been above the paper [s]
+  std::optional<Eigen::Vector3d> rejected_;  ///< position of a sample just rejected as too far away
+};
+
+}  // namespace calligraphy

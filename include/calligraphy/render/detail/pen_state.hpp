@@ -1,0 +1,33 @@
+// The pen on the page, as the samples of the device show it.
+#pragma once
+
+#include <limits>
+
+#include <Eigen/Core>
+
+#include <calligraphy/render/haptic_tick.hpp>
+
+namespace calligraphy {
+
+/// Position and motion are those of the last good sample; a sample that is not `ok` leaves them.
+struct PenState {
+  TickStatus status = TickStatus::ok;
+  bool holds_force = false;  ///< samples have been stale for so short a time that the force is held, as a servo does
+  /// Force at work when the sample was read, page axes [N]; NaN if the device does not say.
+  Eigen::Vector3d force = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();         ///< of the device, page frame [m]
+  Eigen::Vector3d device_point = Eigen::Vector3d::Zero();     ///< haptic interface point, page frame [m]
+  Eigen::Vector3d tip = Eigen::Vector3d::Zero();              ///< virtual pen tip, page frame [m]
+  double penetration = 0.0;                                   ///< of the device point into the paper [m]
+  bool contact = false;                                       ///< touches the paper, or bounces on it
+  bool on_paper = false;                                      ///< touches it: does not bounce
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();         ///< estimate [m/s, page]
+  Eigen::Vector3d velocity_change = Eigen::Vector3d::Zero();  ///< since the sample before; zero after a gap [m/s, page]
+  Eigen::Vector3d motion = Eigen::Vector3d::Zero();           ///< likewise [m, page]
+
+  int ticks = 1;          ///< since the sample before; more when the loop paused, if that is counted
+  double settling = 0.0;  ///< for how long after the sample before the force may have been another one [s]
+};
+
+}  // namespace calligraphy

@@ -1,0 +1,142 @@
+#include <calligraphy/render/detail/pen_sensor.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include "collision/length.hpp"
+
+namespace calligraphy {
+namespace {
+
+/// Maximum time over which eq. (3) integrates in one tick [s].
+constexpr double max_integration_time = 0.1;
+
+/// For how long the force is held while samples are stale [s].
+constexpr double max_hold_time = 4e-3;
+
+/// A pause is at least this long; what is shorter is jitter [ticks].
+constexpr double min_pause = 1.75;
+
+}  // namespace
+
+PenSensor::PenSensor(const RendererOptions& options, const MotionMapping& mapping)
+    : options_(options),
+      mapping_(mapping),
+      period_(1.0 / options.servo_rate),
+      counts_pauses_(options.observes_energy()),
+      velocity_(options.velocity_cutoff) {}
+
+void PenSensor::restart() noexcept {
+  pen_ = {};
+  velocity_.restart();
+  has_sample_ = false;
+  unseen_ = 0;
+  above_for_ = 0.0;
+  rejected_.reset();
+}
+
+const PenState& PenSensor::update(const DeviceState& sample) noexcept {
+  pen_.force = mapping_.force_to_page(sample.force);
+  if (counts_pauses_) count_ticks(sample);
+  pen_.status = accept(sample);
+  unseen_ = pen_.status == TickStatus::ok ? 0 : unseen_ + 1;
+  pen_.holds_force = pen_.status == TickStatus::stale && static_cast<double>(unseen_) * period_ <= max_hold_time;
+  return pen_;
+}
+
+void PenSensor::count_ticks(const DeviceState& sample) noexcept {
+  pen_.ticks = 1;
+  pen_.settling = sample.force_settling;
+  const bool is_fresh = sample.status == DeviceStatus::ok || sample.status == DeviceStatus::warm_motors;
+  if (!has_sample_ || !is_fresh) return;
+  const double passed = (sample.time - time_) / period_ - static_cast<double>(unseen_);
+  constexpr double most = 1e6;
+  if (passed > min_pause) {  // false for NaN, as below
+    pen_.ticks = static_cast<int>(std::min(passed + 0.5, most));
+  } else if (passed > 1.0) {
+    pen_.settling /= passed;  // as a share of a tick that took longer
+  }
+  unseen_ += pen_.ticks - 1;  // counted once, if this sample turns out to be bad
+}
+
+TickStatus PenSensor::accept(const DeviceState& sample) noexcept {
+  const bool is_usable = sample.status == DeviceStatus::ok || sample.status == DeviceStatus::stale ||
+                         sample.status == DeviceStatus::warm_motors;
+  if (!is_usable) return TickStatus::device_fault;
+  if (sample.status == DeviceStatus::stale) return TickStatus::stale;
+  if (!sample.position.allFinite() || !std::isfinite(sample.time)) return TickStatus::bad_sample;
+  const Eigen::Vector3d position = mapping_.to_page(sample.position);
+  if (!(position.cwiseAbs().maxCoeff() <= max_coordinate)) return TickStatus::bad_sample;
+  if (!is_plausible(position, sample.time)) {
+    rejected_ = position;
+    return TickStatus::bad_sample;
+  }
+  if (rejected_) {
+    velocity_.restart();  // the pen is elsewhere, and did not move there
+    has_sample_ = false;
+    rejected_.reset();
+  }
+  // A clock that stands or runs backwards must not turn a small motion into a fast one.
+  const double elapsed = has_sample_ ? std::max(sample.time - time_, period_) : period_;
+  move_device_point(sample, position);
+  estimate_motion(position, elapsed);
+  feel_paper(elapsed);
+  has_sample_ = true;
+  time_ = sample.time;
+  return TickStatus::ok;
+}
+
+/// A pen cannot jump: a single sample far away is rejected. A second one near the first is accepted, because then the
+/// device really is elsewhere.
+bool PenSensor::is_plausible(const Eigen::Vector3d& position, double time) const noexcept {
+  if (!has_sample_) return true;
+  const double max_speed = options_.max_speed * mapping_.scale;
+  const double reach = max_speed * std::max(time - time_, period_);
+  if (norm(position - pen_.position) <= reach) return true;
+  return rejected_ && norm(position - *rejected_) <= max_speed * period_;
+}
+
+void PenSensor::move_device_point(const DeviceState& sample, const Eigen::Vector3d& position) noexcept {
+  if (options_.motion == MotionMappingRule::wang2006 && has_sample_) {
+    const double elapsed = std::clamp(sample.time - time_, 0.0, max_integration_time);
+    const Eigen::Vector3d velocity = mapping_.velocity_to_page(sample.velocity);
+    const bool is_measured = norm(velocity) <= options_.max_speed * mapping_.scale;  // false for NaN too
+    pen_.device_point += is_measured ? Eigen::Vector3d(velocity * elapsed) : Eigen::Vector3d(position - pen_.position);
+  } else {
+    pen_.device_point = position;
+  }
+  pen_.penetration = std::max(0.0, -pen_.device_point.z());
+  pen_.tip = pen_.device_point;
+  if (options_.pen_tip == PenTipRule::projected && pen_.tip.z() < 0.0) pen_.tip.z() = 0.0;
+}
+
+void PenSensor::estimate_motion(const Eigen::Vector3d& position, double elapsed) noexcept {
+  const Eigen::Vector3d& velocity = velocity_.update(position, elapsed);
+  if (has_sample_ && unseen_ == 0) {
+    pen_.velocity_change = velocity - pen_.velocity;
+    pen_.motion = position - pen_.position;
+  } else {
+    // The force has not followed the pen meanwhile, and must not jump to where it would be.
+    pen_.velocity_change.setZero();
+    pen_.motion.setZero();
+  }
+  pen_.velocity = velocity;
+  pen_.position = position;
+}
+
+/// A pen that bounces on the paper has not been lifted.
+void PenSensor::feel_paper(double elapsed) noexcept {
+  const double height = pen_.device_point.z();
+  pen_.on_paper = height <= options_.lift_height;
+  above_for_ += elapsed;
+  if (!pen_.contact) {
+    above_for_ = 0.0;
+    pen_.contact = height <= 0.0;
+  } else if (pen_.on_paper) {
+    above_for_ = 0.0;
+  } else {
+    pen_.contact = height <= options_.lift_clearance && above_for_ < options_.lift_time;
+  }
+}
+
+}  // namespace calligraphy
