@@ -17,13 +17,6 @@
 namespace calligraphy {
 namespace {
 
-/// Faster pens, and larger changes of their velocity in a tick, are faults rather than motions of a hand: the force
-/// does not follow them at once [m/s].
-constexpr double fastest_followed = 1.0, largest_kick = 0.3;
-
-/// Force of passivity control for one step of the encoder within a tick [N].
-constexpr double largest_click = 0.1;
-
 /// What is left of the guidance's damping where no spring acts, as long as the pen touches the paper: a pen that nobody
 /// holds does not coast on.
 constexpr double free_share = 0.15;
@@ -66,90 +59,29 @@ std::vector<PlacedCharacter> checked(std::vector<PlacedCharacter> page) {
   return page;
 }
 
-/// The options as they take effect. @throws ValueError naming what is invalid
-RendererOptions checked(RendererOptions options, const Capabilities& capabilities, const MotionMapping& mapping,
-                        std::vector<std::string>& clipped) {
-  validate(mapping);
-  if (options.stiffness_check == StiffnessCheck::clip) clipped = clip_stiffness(options, capabilities, mapping.scale);
-  validate(options, capabilities, mapping.scale);
-  return options;
-}
-
-/// In page axes, where forces are 1 / scale times those of the device, masses and damping 1 / scale^2 times
-/// (MotionMapping).
-PassivityController passivity_controller(const RendererOptions& options, const Capabilities& capabilities,
-                                         double scale) {
-  PassivityOptions passivity;
-  passivity.delay = capabilities.sample_delay;
-  if (options.passivity_control) {
-    // Half of what the mass tolerates alone, less what guidance and paper damp already: a hand has a spring.
-    const double damped = scale * scale * std::max(options.paper_damping, options.guidance_damping);
-    passivity.max_damping = std::max(0.0, 0.5 * injectable_damping({capabilities, options.servo_rate}) - damped);
-    // A single step of the encoder must not be felt as a click.
-    if (capabilities.encoder_step > 0.0) {
-      passivity.max_damping =
-          std::min(passivity.max_damping, largest_click / (capabilities.encoder_step * options.servo_rate));
-    }
-    passivity.max_damping /= scale * scale;
-  }
-  passivity.energy_budget = options.energy_budget;
-  if (capabilities.apparent_mass > 0.0) passivity.mass = capabilities.apparent_mass / (scale * scale);
-  passivity.hand_speed *= scale;
-  passivity.scale = scale;
-  passivity.max_gap = options.max_gap;
-  return PassivityController(passivity, 1.0 / options.servo_rate);
-}
-
 }  // namespace
 
 HapticRenderer::HapticRenderer(std::vector<PlacedCharacter> page, const MotionMapping& mapping,
                                const Capabilities& capabilities, const RendererOptions& options)
     : page_(checked(std::move(page))),
       mapping_(mapping),
-      options_(checked(options, capabilities, mapping, clipped_)),
-      sensor_(options_, mapping_) {
+      effective_(effective_options(options, page_, mapping_, capabilities)),
+      options_(effective_.options),
+      sensor_(options_, mapping_),
+      output_(options_, capabilities, mapping_, effective_.guidance_stiffness(effective_.max_attraction)) {
   for (const PlacedCharacter& placed : page_) {
-    const auto& factors = placed.character.physics.attraction_factors;
-    max_attraction_ = std::max(max_attraction_, *std::max_element(factors.begin(), factors.end()));
     const double em = placed.placement.em;
     Eigen::AlignedBox2d box = bounding_box(placed);
     box.min().array() -= options.box_margin * em;
     box.max().array() += options.box_margin * em;
     prepared_.push_back({strokes(placed.character), stroke_starts(placed, options.tolerances), box, em});
   }
-  limit_attraction(capabilities);
-  require_translations(capabilities, "the renderer");
-  require(capabilities.peak_force > 0.0, "peak force of the device", capabilities.peak_force, "N", "above 0");
-  fade_step_ = options.guidance_fade_in > 0.0 ? 1.0 / (options.guidance_fade_in * options.servo_rate) : 1.0;
-  limiter_.in_plane_step = options.in_plane_force_rate / options.servo_rate / mapping.scale;
-  limiter_.normal_step = options.normal_force_rate / options.servo_rate / mapping.scale;
-  limiter_.peak = capabilities.peak_force / mapping.scale;
-  limiter_.limit_rate = options.limit_force_rate;
   period_ = 1.0 / options.servo_rate;
+  fade_step_ = options.guidance_fade_in > 0.0 ? 1.0 / (options.guidance_fade_in * options.servo_rate) : 1.0;
   const double dry = capabilities.coulomb_friction + options_.friction.coefficient * usual_pressure;
   hidden_way_ = mapping.scale * dry / options.grip_stiffness;
   rate_filter_ = -std::expm1(-2.0 * std::numbers::pi * options.velocity_cutoff * period_);
-  observes_energy_ = options.observes_energy();
-  if (observes_energy_) passivity_ = passivity_controller(options, capabilities, mapping.scale);
-  if (options.thermal_time_constant > 0.0) {
-    thermal_.peak = limiter_.peak;
-    thermal_.continuous = std::min(capabilities.continuous_force, capabilities.peak_force) / mapping.scale;
-    thermal_.time_constant = options.thermal_time_constant;
-  }
   restart();
-}
-
-/// Where strokes attract more than others, guidance is limited there, not on the whole page.
-void HapticRenderer::limit_attraction(const Capabilities& capabilities) {
-  max_guidance_ = max_guidance_stiffness(options_, capabilities, mapping_.scale);
-  const double most = options_.guidance_stiffness * max_attraction_;
-  if (most <= max_guidance_) return;
-  std::ostringstream message;
-  message << "guidance_stiffness = " << options_.guidance_stiffness << " N/m times the maximum attraction factor "
-          << max_attraction_ << " is above " << max_guidance_ << " N/m, the maximum on the device "
-          << device_label(capabilities);
-  if (options_.stiffness_check != StiffnessCheck::clip) throw ValueError(message.str());
-  clipped_.push_back(message.str());
 }
 
 void HapticRenderer::restart() noexcept {
@@ -157,8 +89,7 @@ void HapticRenderer::restart() noexcept {
   inside_box_ = false;
   lifted_ = true;
   sensor_.restart();
-  passivity_.restart();
-  thermal_.heat = 0.0;
+  output_.restart();
   release_friction();
   released_.clear();
   capture_.restart();
@@ -166,13 +97,7 @@ void HapticRenderer::restart() noexcept {
   activate(0, 0);
 }
 
-double HapticRenderer::max_force_step() const noexcept {
-  if (!limiter_.limit_rate) return ForceLimiter::no_limit;
-  constexpr double any = std::numeric_limits<double>::max();
-  const ForceAllowance most = allowance_for({any, any}, {any, any});
-  const Eigen::Vector2d step(limiter_.in_plane_step + most.in_plane, limiter_.normal_step + most.normal);
-  return step.norm() * mapping_.scale;
-}
+double HapticRenderer::max_force_step() const noexcept { return output_.max_step() * mapping_.scale; }
 
 const HapticTick& HapticRenderer::update(const DeviceState& state) noexcept {
   tick_.events = TickEvent::none;
@@ -182,7 +107,7 @@ const HapticTick& HapticRenderer::update(const DeviceState& state) noexcept {
   tick_.device_point = pen.device_point;
   tick_.pen_tip = pen.tip;
   tick_.penetration = pen.penetration;
-  if (observes_energy_) observe_force(state);
+  output_.observe(state.force, pen);
   if (pen.status == TickStatus::ok) {
     follow(sense());
     send(sum_forces());
@@ -199,14 +124,6 @@ const HapticTick& HapticRenderer::update(const DeviceState& state) noexcept {
   release_friction();
   send(Eigen::Vector3d::Zero());
   return tick_;
-}
-
-/// The account of energy sees the force at work and for how long: behind a servo it may be less than the one sent, and
-/// a loop may have paused.
-void HapticRenderer::observe_force(const DeviceState& state) noexcept {
-  const PenState& pen = sensor_.pen();
-  const bool as_sent = state.force == tick_.force || !state.force.allFinite();
-  passivity_.acted(as_sent ? tick_.page_force : pen.force, pen.ticks, pen.settling);
 }
 
 TransitionInput HapticRenderer::sense() noexcept {
@@ -432,7 +349,7 @@ Point HapticRenderer::guidance_force() noexcept {
     if (resting_ && may_start()) resistance = contact.weight;
   }
   const double factor = writing ? contact.attraction : active_.first_attraction();
-  const double stiffness = std::min(options_.guidance_stiffness * factor, max_guidance_);
+  const double stiffness = effective_.guidance_stiffness(factor);
   tick_.attraction = attraction_force(stiffness * share, tip, tip + way, options_.force_sign);
   if (factor < 1.0) share *= factor;
   const double slack = options_.wrong_way_slack * active_character().em;
@@ -535,7 +452,7 @@ Point HapticRenderer::fade(const Point& force) noexcept {
   if (lets_go || regrips_ || has_event(tick_.events, leaps)) {
     const double seconds = lets_go ? options_.guidance_fade_out : options_.guidance_fade_in;
     released_.take_over(tick_.page_force.head<2>() - tick_.friction - tick_.damping.head<2>(), tip, velocity,
-                        std::min(options_.guidance_stiffness, max_guidance_), options_.guidance_damping,
+                        effective_.guidance_stiffness(1.0), options_.guidance_damping,
                         seconds / period_);
     faded_ = 0.0;
   }
@@ -545,60 +462,13 @@ Point HapticRenderer::fade(const Point& force) noexcept {
   return released_.next(tip, velocity) + share * force;
 }
 
-/// The last stages, in this order: passivity, direction-preserving saturation, rate, energy and heat of the force sent.
 void HapticRenderer::send(const Eigen::Vector3d& wanted) noexcept {
-  double longest = thermal_.peak > 0.0 ? thermal_.max_force() : ForceLimiter::no_limit;
-  Eigen::Vector3d force = wanted;
-  if (observes_energy_) {
-    force = control_passivity(shortened(wanted, std::min(limiter_.peak, longest)));
-    longest = std::min(longest, passivity_.max_force());
-  }
-  const bool trusted = tick_.status == TickStatus::ok || (tick_.status == TickStatus::stale && norm(wanted) > 0.0);
-  tick_.page_force =
-      trusted ? limiter_.next(tick_.page_force, force, allowance(), longest) : limiter_.release(tick_.page_force);
-  if (observes_energy_) passivity_.sent(tick_.page_force);
-  if (thermal_.peak > 0.0) {
-    thermal_.held(norm(tick_.page_force), period_);
-    tick_.heat = thermal_.heat;
-  }
-  tick_.force = mapping_.force_to_device(tick_.page_force);
-}
-
-/// What springs and dampers change because the pen has moved by `way` and its velocity changed by `kick`, each in the
-/// plane and along the normal.
-ForceAllowance HapticRenderer::allowance_for(Point way, Point kick) const noexcept {
-  const double fastest = fastest_followed * mapping_.scale;
-  way = way.cwiseMin(fastest * period_);
-  kick = kick.cwiseMin(largest_kick * mapping_.scale);
-  const double guidance = std::min(options_.guidance_stiffness * max_attraction_, max_guidance_);
-  const FrictionOptions& friction = options_.friction;
-  const bool rubs = friction.coefficient > 0.0;
-  const double stiffness = guidance + options_.wrong_way_stiffness + (rubs ? friction.stiffness : 0.0);
-  const double damping = options_.guidance_damping + (rubs ? friction.damping : 0.0);
-  return {stiffness * way.x() + damping * kick.x(),
-          options_.paper_stiffness * way.y() + options_.paper_damping * kick.y()};
-}
-
-ForceAllowance HapticRenderer::allowance() const noexcept {
-  const PenState& pen = sensor_.pen();
-  const Eigen::Vector3d& kick = pen.velocity_change;
-  const double way = std::abs(pen.motion.z());
-  // The damper of the paper sets in with depth.
-  const double entered = way < options_.paper_onset ? way / options_.paper_onset : 1.0;
-  return allowance_for({pen.motion.head<2>().norm(), way},
-                       {kick.head<2>().norm(), std::abs(kick.z()) + entered * std::abs(pen.velocity.z())});
-}
-
-Eigen::Vector3d HapticRenderer::control_passivity(const Eigen::Vector3d& wanted) noexcept {
-  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  const bool known = tick_.status == TickStatus::ok;
-  Eigen::Vector3d force =
-      passivity_.next(known ? sensor_.pen().position : Eigen::Vector3d(unknown, unknown, unknown), wanted, tick_.viscous);
-  // Paper does not pull, however fast the pen is lifted.
-  if (wanted.z() >= 0.0) force.z() = std::max(0.0, force.z());
-  tick_.damping = passivity_.damping();
-  tick_.energy_given = passivity_.energy_given();
-  return force;
+  const SentForce& sent = output_.update(sensor_.pen(), wanted, tick_.viscous);
+  tick_.page_force = sent.page;
+  tick_.force = sent.device;
+  tick_.damping = sent.damping;
+  tick_.energy_given = sent.energy_given;
+  tick_.heat = sent.heat;
 }
 
 }  // namespace calligraphy

@@ -9,16 +9,15 @@
 
 #include <calligraphy/collision/active_stroke.hpp>
 #include <calligraphy/devices/device_state.hpp>
-#include <calligraphy/render/detail/force_limiter.hpp>
+#include <calligraphy/render/detail/effective_options.hpp>
+#include <calligraphy/render/detail/force_output.hpp>
 #include <calligraphy/render/detail/pen_sensor.hpp>
 #include <calligraphy/render/detail/released_spring.hpp>
 #include <calligraphy/render/detail/stroke_capture.hpp>
 #include <calligraphy/render/detail/stroke_coverage.hpp>
-#include <calligraphy/render/detail/thermal_budget.hpp>
 #include <calligraphy/render/haptic_tick.hpp>
 #include <calligraphy/render/motion_mapping.hpp>
 #include <calligraphy/render/paper_friction.hpp>
-#include <calligraphy/render/passivity_controller.hpp>
 #include <calligraphy/render/renderer_options.hpp>
 
 namespace calligraphy {
@@ -48,7 +47,7 @@ class HapticRenderer {
   /// Effective options: with StiffnessCheck::clip, stiffnesses may be lower than requested.
   const RendererOptions& options() const noexcept { return options_; }
   /// What was clipped, one line per value, with the reason.
-  const std::vector<std::string>& clipped() const noexcept { return clipped_; }
+  const std::vector<std::string>& clipped() const noexcept { return effective_.clipped; }
   const MotionMapping& mapping() const noexcept { return mapping_; }
   const std::vector<PlacedCharacter>& page() const noexcept { return page_; }
   /// Maximum change of the force per tick [N], that on a pen as fast as the force follows at once (1 m/s); infinite
@@ -74,8 +73,6 @@ class HapticRenderer {
   void measure_error() noexcept;
   void adapt_assistance(bool abandoned) noexcept;
   void activate(int character, int stroke) noexcept;
-  void limit_attraction(const Capabilities& capabilities);
-  void observe_force(const DeviceState& state) noexcept;
   Eigen::Vector3d sum_forces() noexcept;
   double paper_force() noexcept;
   Point guidance_force() noexcept;
@@ -87,9 +84,6 @@ class HapticRenderer {
   void release_friction() noexcept;
   Point fade(const Point& force) noexcept;
   void send(const Eigen::Vector3d& wanted) noexcept;
-  ForceAllowance allowance_for(Point way, Point kick) const noexcept;
-  ForceAllowance allowance() const noexcept;
-  Eigen::Vector3d control_passivity(const Eigen::Vector3d& wanted) noexcept;
   bool may_start() const noexcept { return !character_done_ && (lifted_ || !options_.lift_between_strokes); }
   bool all_written() const noexcept { return tick_.character >= static_cast<int>(page_.size()); }
   /// Of the active stroke.
@@ -103,19 +97,14 @@ class HapticRenderer {
   std::vector<PlacedCharacter> page_;
   std::vector<PreparedCharacter> prepared_;  ///< views into page_
   MotionMapping mapping_;
-  std::vector<std::string> clipped_;
+  EffectiveOptions effective_;
   RendererOptions options_;
   PenSensor sensor_;
+  ForceOutput output_;
   double period_ = 0.001;        ///< [s]
-  double max_guidance_ = 0.0;    ///< stiffness, attraction factor included [N/m, page]
-  double max_attraction_ = 1.0;  ///< on the page
   double hidden_way_ = 0.0;      ///< by which the device's dry friction holds the pen back from a usual hand [m, page]
   double rate_filter_ = 1.0;     ///< coefficient of the low-pass on the rate of the friction spring
-  ForceLimiter limiter_;
   double fade_step_ = 1.0;  ///< per tick
-  bool observes_energy_ = false;
-  PassivityController passivity_;
-  ThermalBudget thermal_;  ///< peak 0: disabled
   PaperFriction friction_;
 
   ActiveStroke active_;

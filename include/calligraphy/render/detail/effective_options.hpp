@@ -1,0 +1,32 @@
+// The options of a renderer as they take effect on a device and a page.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <calligraphy/collision/placed_character.hpp>
+#include <calligraphy/devices/capabilities.hpp>
+#include <calligraphy/render/motion_mapping.hpp>
+#include <calligraphy/render/renderer_options.hpp>
+
+namespace calligraphy {
+
+struct EffectiveOptions {
+  RendererOptions options;
+  std::vector<std::string> clipped;      ///< one line per value, with the reason
+  double guidance_limit = 0.0;       ///< of the stiffness of guidance, attraction factor included [N/m, page]
+  double max_attraction = 1.0;       ///< attraction factor, on the page [1]
+
+  /// Stiffness of guidance where the attraction factor is this one [N/m, page].
+  double guidance_stiffness(double attraction) const noexcept {
+    return std::min(options.guidance_stiffness * attraction, guidance_limit);
+  }
+};
+
+/// Checks all that is asked for, and clips it if that is asked for too.
+/// @throws ValueError naming the option, the mapping or the property of the device that is invalid
+EffectiveOptions effective_options(const RendererOptions& options, const std::vector<PlacedCharacter>& page,
+                                   const MotionMapping& mapping, const Capabilities& capabilities);
+
+}  // namespace calligraphy

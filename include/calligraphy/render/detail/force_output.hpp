@@ -1,0 +1,69 @@
+// The last stage: what a device gets of the forces that the page wants, and what energy that gives the hand.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <calligraphy/devices/capabilities.hpp>
+#include <calligraphy/render/detail/force_limiter.hpp>
+#include <calligraphy/render/detail/pen_state.hpp>
+#include <calligraphy/render/detail/thermal_budget.hpp>
+#include <calligraphy/render/motion_mapping.hpp>
+#include <calligraphy/render/passivity_controller.hpp>
+#include <calligraphy/render/renderer_options.hpp>
+
+namespace calligraphy {
+
+struct SentForce {
+  Eigen::Vector3d page = Eigen::Vector3d::Zero();     ///< page axes [N]
+  Eigen::Vector3d device = Eigen::Vector3d::Zero();   ///< device axes [N]
+  Eigen::Vector3d damping = Eigen::Vector3d::Zero();  ///< by the passivity controller, before limits [N, page]
+  double energy_given = 0.0;                          ///< to the hand, as observed; 0 without an account of it [J]
+  double heat = 0.0;                                  ///< of the motors; 0 without thermal budget [1]
+};
+
+/// Passivity, energy budget, heat, peak and rate, in this order. Never allocates.
+class ForceOutput {
+ public:
+  /// `max_guidance`: stiffness of guidance where it is stiffest on the page [N/m].
+  /// @throws ValueError unless the device has a peak force
+  ForceOutput(const RendererOptions& options, const Capabilities& capabilities, const MotionMapping& mapping,
+              double max_guidance);
+
+  /// Before update(), in every tick: `force` is at work, device axes [N]; NaN if the device does not say. Behind a
+  /// servo it may be less than the one sent.
+  void observe(const Eigen::Vector3d& force, const PenState& pen) noexcept;
+
+  /// Sends what may be sent of `wanted`; `viscous` is the part of it that opposes motion [N, page]. For a pen whose
+  /// samples cannot be trusted that is nothing: the force goes to zero by the rate.
+  const SentForce& update(const PenState& pen, const Eigen::Vector3d& wanted, const Eigen::Vector3d& viscous) noexcept;
+
+  void restart() noexcept;
+
+  const SentForce& last() const noexcept { return sent_; }
+  /// As HapticRenderer::max_force_step() [N, page].
+  double max_step() const noexcept;
+
+ private:
+  /// Of all springs and dampers that act in one direction.
+  struct Impedance {
+    double stiffness;  ///< [N/m]
+    double damping;    ///< [N s/m]
+    double force(double way, double velocity) const noexcept { return stiffness * way + damping * velocity; }
+  };
+
+  ForceAllowance allowance(const PenState& pen) const noexcept;
+  ForceAllowance allowance(Point way, Point velocity_change) const noexcept;
+  Eigen::Vector3d passive(const PenState& pen, const Eigen::Vector3d& wanted, const Eigen::Vector3d& viscous) noexcept;
+
+  MotionMapping mapping_;
+  double period_;  ///< [s]
+  Impedance in_plane_, normal_;
+  double paper_onset_;  ///< depth over which the damper of the paper sets in [m]
+  ForceLimiter limiter_;
+  bool observes_energy_;
+  PassivityController passivity_;
+  ThermalBudget thermal_;  ///< peak 0: disabled
+  SentForce sent_;
+};
+
+}  // namespace calligraphy

@@ -1,0 +1,37 @@
+#include <calligraphy/render/detail/effective_options.hpp>
+
+#include <sstream>
+
+#include <calligraphy/base/error.hpp>
+
+namespace calligraphy {
+
+EffectiveOptions effective_options(const RendererOptions& options, const std::vector<PlacedCharacter>& page,
+                                   const MotionMapping& mapping, const Capabilities& capabilities) {
+  validate(mapping);
+  EffectiveOptions effective;
+  effective.options = options;
+  const bool clips = options.stiffness_check == StiffnessCheck::clip;
+  if (clips) effective.clipped = clip_stiffness(effective.options, capabilities, mapping.scale);
+  validate(effective.options, capabilities, mapping.scale);
+  require_translations(capabilities, "the renderer");
+
+  // Where strokes attract more than others, guidance is limited there, not on the whole page.
+  effective.guidance_limit = max_guidance_stiffness(effective.options, capabilities, mapping.scale);
+  for (const PlacedCharacter& placed : page) {
+    for (const double factor : placed.character.physics.attraction_factors) {
+      effective.max_attraction = std::max(effective.max_attraction, factor);
+    }
+  }
+  const double stiffness = effective.options.guidance_stiffness;
+  if (stiffness * effective.max_attraction <= effective.guidance_limit) return effective;
+  std::ostringstream message;
+  message << "guidance_stiffness = " << stiffness << " N/m times the maximum attraction factor "
+          << effective.max_attraction << " is above " << effective.guidance_limit << " N/m, the maximum on the device "
+          << device_label(capabilities);
+  if (!clips) throw ValueError(message.str());
+  effective.clipped.push_back(message.str());
+  return effective;
+}
+
+}  // namespace calligraphy

@@ -1,0 +1,142 @@
+#include <calligraphy/render/detail/force_output.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <calligraphy/render/stiffness_advice.hpp>
+
+#include "base/require.hpp"
+#include "collision/length.hpp"
+
+namespace calligraphy {
+namespace {
+
+/// Faster pens, and larger changes of their velocity in a tick, are faults rather than motions of a hand: the force
+/// does not follow them at once [m/s].
+constexpr double max_followed_speed = 1.0, max_followed_change = 0.3;
+
+/// Maximum force of passivity control for one step of the encoder within a tick: a click that is not felt [N].
+constexpr double max_control_click = 0.1;
+
+/// In page axes, where forces are 1 / scale times those of the device, masses and damping 1 / scale^2 times
+/// (MotionMapping).
+PassivityController passivity_controller(const RendererOptions& options, const Capabilities& capabilities,
+                                         double scale) {
+  PassivityOptions passivity;
+  passivity.delay = capabilities.sample_delay;
+  if (options.passivity_control) {
+    // Half of what the mass tolerates alone, less what guidance and paper damp already: a hand has a spring.
+    const double damped = scale * scale * std::max(options.paper_damping, options.guidance_damping);
+    passivity.max_damping = std::max(0.0, 0.5 * injectable_damping({capabilities, options.servo_rate}) - damped);
+    if (capabilities.encoder_step > 0.0) {
+      passivity.max_damping =
+          std::min(passivity.max_damping, max_control_click / (capabilities.encoder_step * options.servo_rate));
+    }
+    passivity.max_damping /= scale * scale;
+  }
+  passivity.energy_budget = options.energy_budget;
+  if (capabilities.apparent_mass > 0.0) passivity.mass = capabilities.apparent_mass / (scale * scale);
+  passivity.hand_speed *= scale;
+  passivity.scale = scale;
+  passivity.max_gap = options.max_gap;
+  return PassivityController(passivity, 1.0 / options.servo_rate);
+}
+
+}  // namespace
+
+ForceOutput::ForceOutput(const RendererOptions& options, const Capabilities& capabilities,
+                         const MotionMapping& mapping, double max_guidance)
+    : mapping_(mapping),
+      period_(1.0 / options.servo_rate),
+      in_plane_{max_guidance + options.wrong_way_stiffness, options.guidance_damping},
+      normal_{options.paper_stiffness, options.paper_damping},
+      paper_onset_(options.paper_onset),
+      observes_energy_(options.observes_energy()) {
+  require(capabilities.peak_force > 0.0, "peak force of the device", capabilities.peak_force, "N", "above 0");
+  const FrictionOptions& friction = options.friction;
+  if (friction.coefficient > 0.0) {
+    in_plane_.stiffness += friction.stiffness;
+    in_plane_.damping += friction.damping;
+  }
+  limiter_.in_plane_step = options.in_plane_force_rate / options.servo_rate / mapping.scale;
+  limiter_.normal_step = options.normal_force_rate / options.servo_rate / mapping.scale;
+  limiter_.peak = capabilities.peak_force / mapping.scale;
+  limiter_.limit_rate = options.limit_force_rate;
+  if (observes_energy_) passivity_ = passivity_controller(options, capabilities, mapping.scale);
+  if (options.thermal_time_constant > 0.0) {
+    thermal_.peak = limiter_.peak;
+    thermal_.continuous = std::min(capabilities.continuous_force, capabilities.peak_force) / mapping.scale;
+    thermal_.time_constant = options.thermal_time_constant;
+  }
+}
+
+void ForceOutput::restart() noexcept {
+  passivity_.restart();
+  thermal_.heat = 0.0;
+  sent_ = {};
+}
+
+void ForceOutput::observe(const Eigen::Vector3d& force, const PenState& pen) noexcept {
+  if (!observes_energy_) return;
+  const bool is_as_sent = force == sent_.device || !force.allFinite();
+  passivity_.acted(is_as_sent ? sent_.page : pen.force, pen.ticks, pen.settling);
+}
+
+const SentForce& ForceOutput::update(const PenState& pen, const Eigen::Vector3d& wanted,
+                                     const Eigen::Vector3d& viscous) noexcept {
+  double max_force = thermal_.peak > 0.0 ? thermal_.max_force() : ForceLimiter::no_limit;
+  Eigen::Vector3d force = wanted;
+  if (observes_energy_) {
+    force = passive(pen, shortened(wanted, std::min(limiter_.peak, max_force)), viscous);
+    max_force = std::min(max_force, passivity_.max_force());
+  }
+  const bool is_trusted = pen.status == TickStatus::ok || (pen.holds_force && norm(wanted) > 0.0);
+  sent_.page = is_trusted ? limiter_.next(sent_.page, force, allowance(pen), max_force) : limiter_.release(sent_.page);
+  if (observes_energy_) passivity_.sent(sent_.page);
+  if (thermal_.peak > 0.0) {
+    thermal_.held(norm(sent_.page), period_);
+    sent_.heat = thermal_.heat;
+  }
+  sent_.device = mapping_.force_to_device(sent_.page);
+  return sent_;
+}
+
+Eigen::Vector3d ForceOutput::passive(const PenState& pen, const Eigen::Vector3d& wanted,
+                                     const Eigen::Vector3d& viscous) noexcept {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  const bool is_known = pen.status == TickStatus::ok;
+  Eigen::Vector3d force =
+      passivity_.next(is_known ? pen.position : Eigen::Vector3d(unknown, unknown, unknown), wanted, viscous);
+  // Paper does not pull, however fast the pen is lifted.
+  if (wanted.z() >= 0.0) force.z() = std::max(0.0, force.z());
+  sent_.damping = passivity_.damping();
+  sent_.energy_given = passivity_.energy_given();
+  return force;
+}
+
+/// What springs and dampers change because the pen has moved since the sample before.
+ForceAllowance ForceOutput::allowance(const PenState& pen) const noexcept {
+  const double way = std::abs(pen.motion.z());
+  // The damper of the paper sets in with depth.
+  const double onset = way < paper_onset_ ? way / paper_onset_ : 1.0;
+  const Eigen::Vector3d& change = pen.velocity_change;
+  return allowance({pen.motion.head<2>().norm(), way},
+                   {change.head<2>().norm(), std::abs(change.z()) + onset * std::abs(pen.velocity.z())});
+}
+
+/// For a motion by `way` [m] and a change of the velocity [m/s], each in the plane and along the normal.
+ForceAllowance ForceOutput::allowance(Point way, Point velocity_change) const noexcept {
+  way = way.cwiseMin(max_followed_speed * mapping_.scale * period_);
+  velocity_change = velocity_change.cwiseMin(max_followed_change * mapping_.scale);
+  return {in_plane_.force(way.x(), velocity_change.x()), normal_.force(way.y(), velocity_change.y())};
+}
+
+double ForceOutput::max_step() const noexcept {
+  if (!limiter_.limit_rate) return ForceLimiter::no_limit;
+  constexpr double any = std::numeric_limits<double>::max();
+  const ForceAllowance most = allowance({any, any}, {any, any});
+  return Eigen::Vector2d(limiter_.in_plane_step + most.in_plane, limiter_.normal_step + most.normal).norm();
+}
+
+}  // namespace calligraphy
