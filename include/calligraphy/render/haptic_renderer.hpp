@@ -11,13 +11,13 @@
 #include <calligraphy/devices/device_state.hpp>
 #include <calligraphy/render/detail/effective_options.hpp>
 #include <calligraphy/render/detail/force_output.hpp>
+#include <calligraphy/render/detail/guidance.hpp>
+#include <calligraphy/render/detail/paper.hpp>
 #include <calligraphy/render/detail/pen_sensor.hpp>
-#include <calligraphy/render/detail/released_spring.hpp>
 #include <calligraphy/render/detail/stroke_capture.hpp>
 #include <calligraphy/render/detail/stroke_coverage.hpp>
 #include <calligraphy/render/haptic_tick.hpp>
 #include <calligraphy/render/motion_mapping.hpp>
-#include <calligraphy/render/paper_friction.hpp>
 #include <calligraphy/render/renderer_options.hpp>
 
 namespace calligraphy {
@@ -70,28 +70,18 @@ class HapticRenderer {
   WritingHint hint() const noexcept;
   void follow(const TransitionInput& input) noexcept;
   void finish_stroke() noexcept;
-  void measure_error() noexcept;
-  void adapt_assistance(bool abandoned) noexcept;
   void activate(int character, int stroke) noexcept;
-  Eigen::Vector3d sum_forces() noexcept;
-  double paper_force() noexcept;
-  Point guidance_force() noexcept;
   bool is_guided() const noexcept;
   Point hand() const noexcept;
-  Point way_to_begin() const noexcept;
-  Point damped(const Point& velocity, const Point& way, const Point& tangent) const noexcept;
-  Point friction_force() noexcept;
-  void release_friction() noexcept;
-  Point fade(const Point& force) noexcept;
   void send(const Eigen::Vector3d& wanted) noexcept;
   bool may_start() const noexcept { return !character_done_ && (lifted_ || !options_.lift_between_strokes); }
-  bool all_written() const noexcept { return tick_.character >= static_cast<int>(page_.size()); }
+  bool all_written() const noexcept { return writer_.character >= static_cast<int>(page_.size()); }
   /// Of the active stroke.
   const StrokeStart& start_of_stroke() const noexcept {
-    return active_character().starts[static_cast<std::size_t>(tick_.stroke)];
+    return active_character().starts[static_cast<std::size_t>(writer_.stroke)];
   }
   const PreparedCharacter& active_character() const noexcept {
-    return prepared_[static_cast<std::size_t>(tick_.character)];
+    return prepared_[static_cast<std::size_t>(writer_.character)];
   }
 
   std::vector<PlacedCharacter> page_;
@@ -100,28 +90,16 @@ class HapticRenderer {
   EffectiveOptions effective_;
   RendererOptions options_;
   PenSensor sensor_;
+  Guidance guidance_;
+  Paper paper_;
   ForceOutput output_;
-  double period_ = 0.001;        ///< [s]
   double hidden_way_ = 0.0;      ///< by which the device's dry friction holds the pen back from a usual hand [m, page]
-  double rate_filter_ = 1.0;     ///< coefficient of the low-pass on the rate of the friction spring
-  double fade_step_ = 1.0;  ///< per tick
-  PaperFriction friction_;
 
   ActiveStroke active_;
   StrokeCapture capture_;
   StrokeCoverage coverage_;
-  StrokeContact rest_;                               ///< of a pen on the active stroke that is not writing it
-  bool resting_ = false;                             ///< it was put down on that stroke, near enough for `rest_`
-  bool held_ = false;                                ///< guidance acts
-  bool regrips_ = false;                             ///< that has changed in this tick
+  WriterState writer_;
   HapticTick tick_;
-  Point friction_spring_ = Point::Zero();                    ///< force of the tick before [N, page]
-  Point friction_rate_ = Point::Zero();                      ///< its filtered change [N/s, page]
-  ReleasedSpring released_;                                  ///< what guided before the last jump of the closest point
-  double faded_ = 0.0;                                       ///< progress of the fade-in since that jump, 0 to 1
-  double error_square_ = 0.0;        ///< squared lateral error, integrated along the path on the active stroke [m^3]
-  double error_way_ = 0.0;           ///< length of that path [m]
-  Point error_tip_ = Point::Zero();  ///< pen tip at the last measurement [m]
   bool inside_box_ = false;
   bool lifted_ = true;           ///< the pen was lifted since the last stroke was finished
   bool character_done_ = false;  ///< its last stroke is finished, and the pen is still down

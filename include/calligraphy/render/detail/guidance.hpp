@@ -1,0 +1,50 @@
+// The lateral force: pulls the pen along the stroke that is due, and resists writing it backwards.
+#pragma once
+
+#include <calligraphy/render/detail/assistance.hpp>
+#include <calligraphy/render/detail/effective_options.hpp>
+#include <calligraphy/render/detail/pen_state.hpp>
+#include <calligraphy/render/detail/released_spring.hpp>
+#include <calligraphy/render/detail/writer_state.hpp>
+
+namespace calligraphy {
+
+/// In the paper plane [N, page].
+struct GuidanceForce {
+  Point attraction = Point::Zero();  ///< eq. (8), assistance included, before the fade
+  Point wrong_way = Point::Zero();   ///< Fig. 4, before the fade
+  Point viscous = Point::Zero();     ///< damping, before the fade
+  Point total = Point::Zero();       ///< of the three as they fade in, and of what is still being withdrawn
+};
+
+/// Never allocates.
+class Guidance {
+ public:
+  explicit Guidance(const EffectiveOptions& effective);
+
+  /// `sent`: what the device got of the total of the tick before [N, page].
+  const GuidanceForce& update(const PenState& pen, const WriterState& writer, const Point& sent) noexcept;
+
+  /// The device cannot be trusted: no force, and none to withdraw.
+  void release() noexcept;
+  void restart() noexcept;
+
+  /// From the assist policy [1].
+  double assistance() const noexcept { return assistance_.factor(); }
+
+ private:
+  void pull(const PenState& pen, const WriterState& writer) noexcept;
+  Point way_to_start(const WriterState& writer) const noexcept;
+  Point faded(const PenState& pen, const WriterState& writer, const Point& sent) noexcept;
+
+  EffectiveOptions effective_;
+  double period_;     ///< [s]
+  double fade_step_;  ///< per tick
+  Assistance assistance_;
+  bool guided_ = false;      ///< in the tick before
+  ReleasedSpring released_;  ///< what guided before the last jump of the closest point
+  double fade_ = 0.0;        ///< progress of the fade-in since that jump, 0 to 1
+  GuidanceForce force_;
+};
+
+}  // namespace calligraphy

@@ -1,0 +1,46 @@
+// The paper under the pen: its surface presses back, and rubs.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <calligraphy/render/detail/pen_state.hpp>
+#include <calligraphy/render/detail/writer_state.hpp>
+#include <calligraphy/render/paper_friction.hpp>
+#include <calligraphy/render/renderer_options.hpp>
+
+namespace calligraphy {
+
+/// [N, page].
+struct PaperForce {
+  double normal = 0.0;                                ///< eq. (9), damping included
+  Point friction = Point::Zero();                     ///< damping included
+  Eigen::Vector3d viscous = Eigen::Vector3d::Zero();  ///< damping in both
+};
+
+/// Never allocates.
+class Paper {
+ public:
+  explicit Paper(const RendererOptions& options);
+
+  /// `pressure`: what the device got of the normal force of the tick before [N].
+  const PaperForce& update(const PenState& pen, const WriterState& writer, double pressure) noexcept;
+
+  /// The device cannot be trusted: no force.
+  void release() noexcept;
+
+  const PaperForce& last() const noexcept { return force_; }
+
+ private:
+  void press(const PenState& pen) noexcept;
+  void rub(const Point& point, double pressure) noexcept;
+
+  RendererOptions options_;
+  double period_;       ///< [s]
+  double rate_filter_;  ///< coefficient of the low-pass on the rate of the friction spring
+  PaperFriction friction_;
+  Point spring_ = Point::Zero();       ///< of friction, in the tick before [N, page]
+  Point spring_rate_ = Point::Zero();  ///< its filtered change [N/s, page]
+  PaperForce force_;
+};
+
+}  // namespace calligraphy
