@@ -77,18 +77,19 @@ void ForceOutput::restart() noexcept {
   sent_ = {};
 }
 
-void ForceOutput::observe(const Eigen::Vector3d& force, const PenState& pen) noexcept {
-  if (!observes_energy_) return;
-  const bool is_as_sent = force == sent_.device || !force.allFinite();
-  passivity_.acted(is_as_sent ? sent_.page : pen.force, pen.ticks, pen.settling);
-}
+const SentForce& ForceOutput::update(const DeviceState& sample, const PenState& pen, const GuidanceForce& guidance,
+                                     const PaperForce& paper) noexcept {
+  const Point in_plane = guidance.total + paper.friction;
+  const Eigen::Vector3d wanted =
+      pen.holds_force ? sent_.page : Eigen::Vector3d(in_plane.x(), in_plane.y(), paper.normal);
+  sent_.viscous = paper.viscous;
+  sent_.viscous.head<2>() += guidance.viscous;
 
-const SentForce& ForceOutput::update(const PenState& pen, const Eigen::Vector3d& wanted,
-                                     const Eigen::Vector3d& viscous) noexcept {
   double max_force = thermal_.peak > 0.0 ? thermal_.max_force() : ForceLimiter::no_limit;
   Eigen::Vector3d force = wanted;
   if (observes_energy_) {
-    force = passive(pen, shortened(wanted, std::min(limiter_.peak, max_force)), viscous);
+    observe(sample.force, pen);
+    force = passive(pen, shortened(wanted, std::min(limiter_.peak, max_force)));
     max_force = std::min(max_force, passivity_.max_force());
   }
   const bool is_trusted = pen.status == TickStatus::ok || (pen.holds_force && norm(wanted) > 0.0);
@@ -98,16 +99,22 @@ const SentForce& ForceOutput::update(const PenState& pen, const Eigen::Vector3d&
     thermal_.held(norm(sent_.page), period_);
     sent_.heat = thermal_.heat;
   }
+  sent_.guidance = sent_.page.head<2>() - paper.friction - sent_.damping.head<2>();
   sent_.device = mapping_.force_to_device(sent_.page);
   return sent_;
 }
 
-Eigen::Vector3d ForceOutput::passive(const PenState& pen, const Eigen::Vector3d& wanted,
-                                     const Eigen::Vector3d& viscous) noexcept {
+/// The account of energy sees the force at work: behind a servo it may be less than the one sent.
+void ForceOutput::observe(const Eigen::Vector3d& at_work, const PenState& pen) noexcept {
+  const bool is_as_sent = at_work == sent_.device || !at_work.allFinite();
+  passivity_.acted(is_as_sent ? sent_.page : pen.force, pen.ticks, pen.settling);
+}
+
+Eigen::Vector3d ForceOutput::passive(const PenState& pen, const Eigen::Vector3d& wanted) noexcept {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   const bool is_known = pen.status == TickStatus::ok;
   Eigen::Vector3d force =
-      passivity_.next(is_known ? pen.position : Eigen::Vector3d(unknown, unknown, unknown), wanted, viscous);
+      passivity_.next(is_known ? pen.position : Eigen::Vector3d(unknown, unknown, unknown), wanted, sent_.viscous);
   // Paper does not pull, however fast the pen is lifted.
   if (wanted.z() >= 0.0) force.z() = std::max(0.0, force.z());
   sent_.damping = passivity_.damping();

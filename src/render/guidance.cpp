@@ -37,19 +37,26 @@ Guidance::Guidance(const EffectiveOptions& effective)
   fade_step_ = options.guidance_fade_in > 0.0 ? 1.0 / (options.guidance_fade_in * options.servo_rate) : 1.0;
 }
 
+/// No force, and none to withdraw.
 void Guidance::release() noexcept {
-  force_ = {};
+  force_.attraction = force_.wrong_way = force_.viscous = force_.total = Point::Zero();
   released_.clear();
 }
 
 void Guidance::restart() noexcept {
   release();
+  force_.assistance = 1.0;
   assistance_.restart();
   guided_ = false;
 }
 
 const GuidanceForce& Guidance::update(const PenState& pen, const WriterState& writer, const Point& sent) noexcept {
+  if (pen.status != TickStatus::ok) {
+    if (!pen.holds_force) release();
+    return force_;
+  }
   assistance_.update(pen.tip.head<2>(), writer);
+  force_.assistance = assistance_.factor();
   pull(pen, writer);
   force_.total = faded(pen, writer, sent);
   return force_;
@@ -58,7 +65,7 @@ const GuidanceForce& Guidance::update(const PenState& pen, const WriterState& wr
 /// The three terms.
 void Guidance::pull(const PenState& pen, const WriterState& writer) noexcept {
   force_.attraction = force_.wrong_way = force_.viscous = Point::Zero();
-  if (writer.state == InteractionState::separation || writer.page_written) return;
+  if (writer.phase == WritingPhase::lifted || writer.phase == WritingPhase::page_written) return;
   const RendererOptions& options = effective_.options;
   const bool saturating = options.guidance == GuidanceLaw::saturating;
   const bool writing = writer.state == InteractionState::writing;
@@ -74,12 +81,12 @@ void Guidance::pull(const PenState& pen, const WriterState& writer) noexcept {
     if (contact.finished) way -= std::min(0.0, way.dot(contact.closest.tangent)) * contact.closest.tangent;
     tangent = contact.closest.tangent;
     resistance = writer.guided ? contact.weight : 0.0;
-    share = assistance() * (saturating ? 1.0 : resistance);
+    share = force_.assistance * (saturating ? 1.0 : resistance);
   } else {
     if (writer.guided) {
       way = way_to_start(writer);
       tangent = writer.direction;
-      share = assistance();
+      share = force_.assistance;
     }
     if (writer.rests) resistance = contact.weight;
   }

@@ -14,12 +14,20 @@ Paper::Paper(const RendererOptions& options)
       rate_filter_(-std::expm1(-2.0 * std::numbers::pi * options.velocity_cutoff * period_)) {}
 
 void Paper::release() noexcept {
+  force_ = {};
+  release_friction();
+}
+
+void Paper::release_friction() noexcept {
   friction_.release();
   spring_ = spring_rate_ = Point::Zero();
-  force_ = {};
 }
 
 const PaperForce& Paper::update(const PenState& pen, const WriterState& writer, double pressure) noexcept {
+  if (pen.status != TickStatus::ok) {
+    if (!pen.holds_force) release();
+    return force_;
+  }
   const bool is_solid = writer.state == InteractionState::calibration || writer.state == InteractionState::writing ||
                         (writer.state == InteractionState::adjusting && options_.solid_paper);
   force_ = {};
@@ -27,8 +35,7 @@ const PaperForce& Paper::update(const PenState& pen, const WriterState& writer, 
   if (force_.normal > 0.0) {
     if (options_.friction.coefficient > 0.0) rub(pen.device_point.head<2>(), std::max(0.0, pressure));
   } else {
-    friction_.release();
-    spring_ = spring_rate_ = Point::Zero();
+    release_friction();
   }
   return force_;
 }

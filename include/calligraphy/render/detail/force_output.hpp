@@ -4,7 +4,10 @@
 #include <Eigen/Core>
 
 #include <calligraphy/devices/capabilities.hpp>
+#include <calligraphy/devices/device_state.hpp>
 #include <calligraphy/render/detail/force_limiter.hpp>
+#include <calligraphy/render/detail/guidance.hpp>
+#include <calligraphy/render/detail/paper.hpp>
 #include <calligraphy/render/detail/pen_state.hpp>
 #include <calligraphy/render/detail/thermal_budget.hpp>
 #include <calligraphy/render/motion_mapping.hpp>
@@ -16,6 +19,8 @@ namespace calligraphy {
 struct SentForce {
   Eigen::Vector3d page = Eigen::Vector3d::Zero();     ///< page axes [N]
   Eigen::Vector3d device = Eigen::Vector3d::Zero();   ///< device axes [N]
+  Point guidance = Point::Zero();                     ///< part of it that is guidance's [N, page]
+  Eigen::Vector3d viscous = Eigen::Vector3d::Zero();  ///< damping in the forces wanted [N, page]
   Eigen::Vector3d damping = Eigen::Vector3d::Zero();  ///< by the passivity controller, before limits [N, page]
   double energy_given = 0.0;                          ///< to the hand, as observed; 0 without an account of it [J]
   double heat = 0.0;                                  ///< of the motors; 0 without thermal budget [1]
@@ -29,13 +34,10 @@ class ForceOutput {
   ForceOutput(const RendererOptions& options, const Capabilities& capabilities, const MotionMapping& mapping,
               double max_guidance);
 
-  /// Before update(), in every tick: `force` is at work, device axes [N]; NaN if the device does not say. Behind a
-  /// servo it may be less than the one sent.
-  void observe(const Eigen::Vector3d& force, const PenState& pen) noexcept;
-
-  /// Sends what may be sent of `wanted`; `viscous` is the part of it that opposes motion [N, page]. For a pen whose
-  /// samples cannot be trusted that is nothing: the force goes to zero by the rate.
-  const SentForce& update(const PenState& pen, const Eigen::Vector3d& wanted, const Eigen::Vector3d& viscous) noexcept;
+  /// Sends what may be sent of the forces. While samples are stale for a moment, that is what was sent before; for a
+  /// device that cannot be trusted, nothing: the force goes to zero by the rate.
+  const SentForce& update(const DeviceState& sample, const PenState& pen, const GuidanceForce& guidance,
+                          const PaperForce& paper) noexcept;
 
   void restart() noexcept;
 
@@ -53,7 +55,8 @@ class ForceOutput {
 
   ForceAllowance allowance(const PenState& pen) const noexcept;
   ForceAllowance allowance(Point way, Point velocity_change) const noexcept;
-  Eigen::Vector3d passive(const PenState& pen, const Eigen::Vector3d& wanted, const Eigen::Vector3d& viscous) noexcept;
+  void observe(const Eigen::Vector3d& at_work, const PenState& pen) noexcept;
+  Eigen::Vector3d passive(const PenState& pen, const Eigen::Vector3d& wanted) noexcept;
 
   MotionMapping mapping_;
   double period_;  ///< [s]

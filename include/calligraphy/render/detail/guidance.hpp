@@ -15,6 +15,7 @@ struct GuidanceForce {
   Point wrong_way = Point::Zero();   ///< Fig. 4, before the fade
   Point viscous = Point::Zero();     ///< damping, before the fade
   Point total = Point::Zero();       ///< of the three as they fade in, and of what is still being withdrawn
+  double assistance = 1.0;           ///< factor from the assist policy [1]
 };
 
 /// Never allocates.
@@ -22,17 +23,13 @@ class Guidance {
  public:
   explicit Guidance(const EffectiveOptions& effective);
 
-  /// `sent`: what the device got of the total of the tick before [N, page].
+  /// None for a device that cannot be trusted. `sent`: what the device got of the total of the tick before [N, page].
   const GuidanceForce& update(const PenState& pen, const WriterState& writer, const Point& sent) noexcept;
 
-  /// The device cannot be trusted: no force, and none to withdraw.
-  void release() noexcept;
   void restart() noexcept;
 
-  /// From the assist policy [1].
-  double assistance() const noexcept { return assistance_.factor(); }
-
  private:
+  void release() noexcept;
   void pull(const PenState& pen, const WriterState& writer) noexcept;
   Point way_to_start(const WriterState& writer) const noexcept;
   Point faded(const PenState& pen, const WriterState& writer, const Point& sent) noexcept;

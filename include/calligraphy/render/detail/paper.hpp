@@ -22,15 +22,13 @@ class Paper {
  public:
   explicit Paper(const RendererOptions& options);
 
-  /// `pressure`: what the device got of the normal force of the tick before [N].
+  /// None for a device that cannot be trusted. `pressure`: what the device got of the normal force of the tick before [N].
   const PaperForce& update(const PenState& pen, const WriterState& writer, double pressure) noexcept;
 
-  /// The device cannot be trusted: no force.
   void release() noexcept;
 
-  const PaperForce& last() const noexcept { return force_; }
-
  private:
+  void release_friction() noexcept;
   void press(const PenState& pen) noexcept;
   void rub(const Point& point, double pressure) noexcept;
 

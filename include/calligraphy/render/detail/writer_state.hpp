@@ -1,7 +1,8 @@
-// Where a writer is in the stroke that is due.
+// Where a writer is on the page and in the stroke that is due.
 #pragma once
 
 #include <calligraphy/collision/active_stroke.hpp>
+#include <calligraphy/render/detail/writing_phase.hpp>
 #include <calligraphy/render/haptic_tick.hpp>
 #include <calligraphy/render/interaction_state.hpp>
 
@@ -9,19 +10,19 @@ namespace calligraphy {
 
 struct WriterState {
   InteractionState state = InteractionState::separation;
-  TickEvent events = TickEvent::none;
-  int character = 0;  ///< as HapticTick::character
-  int stroke = 0;     ///< as HapticTick::stroke
-  /// On that stroke, valid while it is written, in the tick that leaves it, and for a pen that `rests`.
+  WritingPhase phase = WritingPhase::lifted;
+  TickEvent events = TickEvent::none;  ///< of this tick
+  int character = 0;                   ///< as HapticTick::character
+  int stroke = 0;                      ///< as HapticTick::stroke
+  /// On that stroke: while it is written, in the tick that leaves it, and for a pen that `rests`.
   StrokeContact contact;
-  bool rests = false;   ///< the pen was put down on the stroke, and follows it without writing it
-  bool guided = false;  ///< guidance acts
-  bool page_written = false;           ///< no stroke is due
-  double covered = 0.0;                ///< as HapticTick::covered [1]
-  Point to_start = Point::Zero();      ///< from the pen tip to the start of the stroke [m, page]
-  Point direction = Point::Zero();     ///< of the stroke's first stretch; unit vector, zero for one without length
-  double attraction = 1.0;             ///< attraction factor where the pen is, before the stroke that at its start [1]
-  double em = 0.0;                     ///< of the character [m]
+  bool rests = false;               ///< the pen was put down on the stroke, and follows it without writing it
+  bool guided = false;              ///< guidance acts
+  double covered = 0.0;             ///< as HapticTick::covered [1]
+  Point to_start = Point::Zero();   ///< from the pen tip to the start of the stroke [m, page]
+  Point direction = Point::Zero();  ///< of its first stretch; unit vector, zero for a stroke without length
+  double attraction = 1.0;          ///< attraction factor where the pen is; before the stroke, that at its start [1]
+  double em = 0.0;                  ///< of the character [m]
 };
 
 }  // namespace calligraphy

@@ -1,0 +1,39 @@
+// A page with what the servo loop asks of its characters, worked out in advance.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <calligraphy/collision/placed_character.hpp>
+#include <calligraphy/render/detail/stroke_capture.hpp>
+#include <calligraphy/render/renderer_options.hpp>
+
+namespace calligraphy {
+
+struct PreparedCharacter {
+  Placement placement;
+  std::vector<Stroke> strokes;  ///< views into the character
+  std::vector<StrokeStart> starts;
+  Eigen::AlignedBox2d box;  ///< including the margin [m]
+};
+
+class PreparedPage {
+ public:
+  /// @throws ValueError naming the character that is invalid, or when there is none
+  PreparedPage(std::vector<PlacedCharacter> characters, const RendererOptions& options);
+
+  PreparedPage(PreparedPage&&) noexcept = default;
+  PreparedPage& operator=(PreparedPage&&) noexcept = default;
+
+  int size() const noexcept { return static_cast<int>(prepared_.size()); }
+  const PreparedCharacter& operator[](int index) const noexcept { return prepared_[static_cast<std::size_t>(index)]; }
+  const std::vector<PlacedCharacter>& characters() const noexcept { return characters_; }
+
+ private:
+  std::vector<PlacedCharacter> characters_;
+  std::vector<PreparedCharacter> prepared_;
+};
+
+}  // namespace calligraphy

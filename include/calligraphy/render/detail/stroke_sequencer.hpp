@@ -1,0 +1,65 @@
+// Follows a writer through the strokes of a page: which stroke is due, what the pen is doing to it, and how far it is.
+#pragma once
+
+#include <vector>
+
+#include <calligraphy/collision/active_stroke.hpp>
+#include <calligraphy/devices/capabilities.hpp>
+#include <calligraphy/render/detail/pen_state.hpp>
+#include <calligraphy/render/detail/prepared_page.hpp>
+#include <calligraphy/render/detail/stroke_capture.hpp>
+#include <calligraphy/render/detail/stroke_coverage.hpp>
+#include <calligraphy/render/detail/writer_state.hpp>
+#include <calligraphy/render/interaction_state.hpp>
+#include <calligraphy/render/renderer_options.hpp>
+
+namespace calligraphy {
+
+/// update() never allocates, throws or logs.
+class StrokeSequencer {
+ public:
+  /// `scale`: K_S (MotionMapping). The options must be valid.
+  /// @throws ValueError as PreparedPage
+  StrokeSequencer(std::vector<PlacedCharacter> page, const RendererOptions& options, const Capabilities& capabilities,
+                  double scale);
+
+  const WriterState& update(const PenState& pen) noexcept;
+  /// Nothing is written.
+  void restart() noexcept;
+
+  const std::vector<PlacedCharacter>& page() const noexcept { return page_.characters(); }
+
+ private:
+  bool all_written() const noexcept { return writer_.character >= page_.size(); }
+  const PreparedCharacter& character() const noexcept { return page_[writer_.character]; }
+
+  TransitionInput observe(const PenState& pen) noexcept;
+  void put_down(const Point& tip) noexcept;
+  bool begins(const Point& tip) noexcept;
+  void write_on(const PenState& pen) noexcept;
+  bool is_finished(bool leaves) const noexcept;
+  double needed_coverage() const noexcept;
+
+  void start_stroke(const PenState& pen) noexcept;
+  void finish_stroke(const Point& tip) noexcept;
+  void abandon_stroke(const Point& tip) noexcept;
+  void lift() noexcept;
+  void activate(int character, int stroke) noexcept;
+
+  WritingPhase phase(const PenState& pen) const noexcept;
+  WritingPhase phase_before_stroke(const Point& tip) const noexcept;
+  bool keeps_hold(const PenState& pen) const noexcept;
+  bool is_guided() const noexcept;
+
+  PreparedPage page_;
+  RendererOptions options_;
+  double hidden_way_;  ///< by which dry friction holds the pen back from a usual hand [m, page]
+  double compliance_;  ///< of a usual grip [m/N, page]
+  ActiveStroke active_;
+  StrokeCapture capture_;
+  StrokeCoverage coverage_;
+  bool inside_box_ = false;
+  WriterState writer_;
+};
+
+}  // namespace calligraphy

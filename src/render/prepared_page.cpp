@@ -1,0 +1,46 @@
+#include <calligraphy/render/detail/prepared_page.hpp>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include <calligraphy/base/error.hpp>
+#include <calligraphy/render/detail/pen_sensor.hpp>
+
+#include "base/require.hpp"
+
+namespace calligraphy {
+namespace {
+
+void require_valid(const PlacedCharacter& placed, std::size_t index) {
+  const std::string place = "character " + std::to_string(index + 1) + " of the page: ";
+  const std::vector<ValidationIssue> problems = validate(placed.character);
+  if (!problems.empty()) {
+    throw ValueError(place + "stroke " + std::to_string(problems[0].stroke) + ": " + problems[0].what);
+  }
+  require_above_zero(place + "em", placed.placement.em, "m");
+  if (!placed.placement.origin.allFinite()) throw ValueError(place + "its origin is not finite");
+  const Eigen::AlignedBox2d box = bounding_box(placed);
+  constexpr double most = PenSensor::max_coordinate;
+  if (!(std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff()) <= most)) {
+    throw ValueError(place + "it reaches further than " + number_text(most) + " m from the page's origin");
+  }
+}
+
+}  // namespace
+
+PreparedPage::PreparedPage(std::vector<PlacedCharacter> characters, const RendererOptions& options)
+    : characters_(std::move(characters)) {
+  if (characters_.empty()) throw ValueError("the page has no character");
+  for (std::size_t i = 0; i < characters_.size(); ++i) {
+    const PlacedCharacter& placed = characters_[i];
+    require_valid(placed, i);
+    Eigen::AlignedBox2d box = bounding_box(placed);
+    box.min().array() -= options.box_margin * placed.placement.em;
+    box.max().array() += options.box_margin * placed.placement.em;
+    prepared_.push_back(
+        {placed.placement, strokes(placed.character), stroke_starts(placed, options.tolerances), box});
+  }
+}
+
+}  // namespace calligraphy

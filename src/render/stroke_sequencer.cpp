@@ -1,0 +1,243 @@
+#include <calligraphy/render/detail/stroke_sequencer.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+namespace calligraphy {
+namespace {
+
+/// A pen that writes must go this much farther out of the box than another one to leave it.
+constexpr double writing_hysteresis = 3.0;
+
+/// Least share of a stroke that finishes it, however much friction hides: well above half.
+constexpr double min_coverage = 0.75;
+
+/// A pen put down on the stroke this far along it is at its end.
+constexpr double end_share = 0.75;
+
+/// Guidance lets go of a pen where the tube's weight has fallen to this,
+constexpr double min_held_weight = 0.5;
+/// or where the hand means to be this far across the stroke; it takes hold again within half of that [em].
+constexpr double max_detour = 0.12;
+
+}  // namespace
+
+StrokeSequencer::StrokeSequencer(std::vector<PlacedCharacter> page, const RendererOptions& options,
+                                 const Capabilities& capabilities, double scale)
+    : page_(std::move(page), options), options_(options), compliance_(scale * scale / options.grip_stiffness) {
+  const double dry_friction = capabilities.coulomb_friction + options.friction.coefficient * usual_pressure;
+  hidden_way_ = scale * dry_friction / options.grip_stiffness;
+  restart();
+}
+
+void StrokeSequencer::restart() noexcept {
+  writer_ = {};
+  inside_box_ = false;
+  capture_.restart();
+  activate(0, 0);
+}
+
+const WriterState& StrokeSequencer::update(const PenState& pen) noexcept {
+  using State = InteractionState;
+  const Point tip = pen.tip.head<2>();
+  writer_.events = TickEvent::none;
+  if (pen.status != TickStatus::ok) return writer_;
+  const TransitionInput input = observe(pen);
+  const State before = writer_.state, after = next_state(before, input);
+  writer_.state = after;
+  if (before == State::separation && after != State::separation) writer_.events |= TickEvent::contact;
+  if (before == State::writing && after != State::writing) {
+    input.stroke_finished ? finish_stroke(tip) : abandon_stroke(tip);
+  }
+  if (before != State::writing && after == State::writing) start_stroke(pen);
+  if (before != State::separation && after == State::separation) lift();
+  writer_.to_start = all_written() ? Point(Point::Zero()) : Point(active_.start() - tip);
+  writer_.attraction = after == State::writing ? writer_.contact.attraction : active_.first_attraction();
+  writer_.phase = phase(pen);
+  writer_.guided = is_guided();
+  return writer_;
+}
+
+TransitionInput StrokeSequencer::observe(const PenState& pen) noexcept {
+  TransitionInput input;
+  input.contact = pen.contact;
+  if (all_written()) return input;
+
+  const Point tip = pen.tip.head<2>();
+  const bool writing = writer_.state == InteractionState::writing;
+  const double hysteresis = options_.box_hysteresis * writer_.em * (writing ? writing_hysteresis : 1.0);
+  inside_box_ = character().box.exteriorDistance(tip) <= (inside_box_ ? hysteresis : 0.0);
+  input.inside_box = inside_box_;
+  input.may_start = writer_.phase != WritingPhase::finished;
+  if (writing) {
+    if (input.contact) write_on(pen);
+    input.stroke_finished = is_finished(!input.contact || !input.inside_box);
+  } else if (input.contact && input.may_start) {
+    if (writer_.state == InteractionState::separation) put_down(tip);
+    input.at_start = begins(tip);
+  }
+  return input;
+}
+
+void StrokeSequencer::put_down(const Point& tip) noexcept {
+  writer_.covered = 0.0;
+  capture_.put_down(tip, character().starts, static_cast<std::size_t>(writer_.stroke));
+  if (options_.tolerances.coverage == 0.0) return;
+  const StrokeContact nearest = active_.nearest(tip, options_.stroke);
+  writer_.rests = nearest.closest.distance <= options_.tolerances.corridor * writer_.em;
+  if (writer_.rests) active_.rest(nearest);
+}
+
+bool StrokeSequencer::begins(const Point& tip) noexcept {
+  const auto due = static_cast<std::size_t>(writer_.stroke);
+  const CaptureVerdict verdict = capture_.update(tip, character().starts, due, writer_.em, options_.tolerances);
+  if (verdict == CaptureVerdict::begun) return true;
+  if (verdict == CaptureVerdict::another_stroke) writer_.rests = false;
+  if (writer_.rests) writer_.contact = active_.update(tip, options_.stroke);
+  return false;
+}
+
+void StrokeSequencer::write_on(const PenState& pen) noexcept {
+  const Point tip = pen.tip.head<2>();
+  writer_.contact = active_.update(tip, options_.stroke);
+  if (writer_.contact.passed_feature) writer_.events |= TickEvent::feature_passed;
+  if (pen.on_paper) {
+    coverage_.update(tip, writer_.contact, active_.length(), options_.tolerances.corridor * writer_.em);
+  }
+  writer_.covered = coverage_.share(active_.length());
+}
+
+/// At its end, or where the pen `leaves` it before.
+bool StrokeSequencer::is_finished(bool leaves) const noexcept {
+  if (!(writer_.covered >= needed_coverage() && coverage_.keeps_in_corridor())) return false;
+  return leaves ? options_.tolerances.coverage > 0.0 : writer_.contact.finished;
+}
+
+/// A hand cannot help what dry friction hides, the device's and that of the paper, at both ends of a stroke.
+double StrokeSequencer::needed_coverage() const noexcept {
+  const StrokeTolerances& tolerances = options_.tolerances;
+  const double length = active_.length();
+  if (!(length > 0.0)) return tolerances.coverage;
+  const double late = writer_.contact.finished ? std::min(tolerances.late_start, coverage_.late() / length) : 0.0;
+  const double needed = tolerances.coverage * (1.0 - late);
+  return std::max(needed - 2.0 * hidden_way_ / length, std::min(needed, min_coverage));
+}
+
+void StrokeSequencer::start_stroke(const PenState& pen) noexcept {
+  writer_.events |= TickEvent::stroke_started;
+  writer_.rests = false;
+  active_.begin(capture_.begin());
+  coverage_.restart(capture_.begin(), character().starts[static_cast<std::size_t>(writer_.stroke)]);
+  write_on(pen);
+}
+
+void StrokeSequencer::finish_stroke(const Point& tip) noexcept {
+  writer_.events |= TickEvent::stroke_finished;
+  capture_.written(active_.start());
+  const int next = writer_.stroke + 1;
+  if (next < static_cast<int>(character().strokes.size())) {
+    activate(writer_.character, next);
+  } else {
+    writer_.events |= TickEvent::character_finished;
+    if (writer_.character + 1 == page_.size()) writer_.events |= TickEvent::page_finished;
+    // The box of the next character is elsewhere, and outside a box the paper does not press back: it would give way
+    // under a pen that still rests on this character.
+    if (options_.lift_between_strokes) {
+      writer_.stroke = next;
+    } else {
+      activate(writer_.character + 1, 0);
+    }
+  }
+  if (options_.lift_between_strokes) {
+    writer_.phase = WritingPhase::finished;
+  } else if (!all_written()) {
+    capture_.put_down(tip, character().starts, static_cast<std::size_t>(writer_.stroke));
+  }
+}
+
+void StrokeSequencer::abandon_stroke(const Point& tip) noexcept {
+  writer_.events |= TickEvent::stroke_abandoned;
+  writer_.covered = 0.0;
+  active_.reload();
+  capture_.put_down(tip, character().starts, static_cast<std::size_t>(writer_.stroke));
+}
+
+void StrokeSequencer::lift() noexcept {
+  writer_.events |= TickEvent::lift;
+  if (all_written()) return;
+  const bool is_character_written = writer_.stroke == static_cast<int>(character().strokes.size());
+  if (is_character_written) activate(writer_.character + 1, 0);
+}
+
+void StrokeSequencer::activate(int character, int stroke) noexcept {
+  if (character != writer_.character) {
+    inside_box_ = false;
+    capture_.restart();
+  }
+  writer_.character = character;
+  writer_.stroke = stroke;
+  writer_.rests = false;
+  if (all_written()) return;
+  const PreparedCharacter& active = page_[character];
+  active_.load(active.strokes[static_cast<std::size_t>(stroke)], active.placement);
+  writer_.em = active.placement.em;
+  writer_.direction = active.starts[static_cast<std::size_t>(stroke)].direction;
+}
+
+/// The state machine that docs/capture.md draws.
+WritingPhase StrokeSequencer::phase(const PenState& pen) const noexcept {
+  if (writer_.state == InteractionState::separation) return WritingPhase::lifted;
+  if (all_written()) return WritingPhase::page_written;
+  if (writer_.state == InteractionState::writing) {
+    return keeps_hold(pen) ? WritingPhase::guided : WritingPhase::released;
+  }
+  return writer_.phase == WritingPhase::finished ? WritingPhase::finished : phase_before_stroke(pen.tip.head<2>());
+}
+
+WritingPhase StrokeSequencer::phase_before_stroke(const Point& tip) const noexcept {
+  const CaptureVerdict verdict = capture_.verdict();
+  if (verdict == CaptureVerdict::another_stroke) return WritingPhase::other_stroke;
+  // The first stretch leads away from the start.
+  const double from_start = std::min(writer_.to_start.norm(), (capture_.begin() - active_.start()).norm());
+  const bool is_late = writer_.rests && writer_.contact.arc > end_share * active_.length();
+  if (is_late && (tip - active_.end()).norm() < from_start) return WritingPhase::at_end;
+  if (from_start <= options_.tolerances.start_distance * writer_.em) {
+    return verdict == CaptureVerdict::wrong_direction ? WritingPhase::turned_away : WritingPhase::at_start;
+  }
+  return writer_.rests ? WritingPhase::in_middle : WritingPhase::away;
+}
+
+/// Guidance lets go, in time, of a pen that is far from the stroke or that the hand pulls elsewhere, and takes hold
+/// again where both are back: a pen that slipped out of the tube would be thrown, and one that another stroke was meant
+/// for would be dragged along.
+bool StrokeSequencer::keeps_hold(const PenState& pen) const noexcept {
+  const bool lets_go = options_.stroke.space.rule == ConstraintSpaceRule::tube &&
+                       options_.guidance != GuidanceLaw::saturating;
+  if (!lets_go || has_event(writer_.events, TickEvent::stroke_started)) return true;
+  // Where the hand means to be, as far as the force at work shows, if the device says what that is.
+  Point hand = pen.tip.head<2>();
+  if (pen.force.allFinite()) hand -= pen.force.head<2>() * compliance_;
+  const StrokeContact& contact = writer_.contact;
+  const double detour = coverage_.astray(hand, contact);
+  if (writer_.guided) return contact.weight >= min_held_weight && detour <= max_detour * writer_.em;
+  return contact.closest.distance <= options_.tolerances.corridor * writer_.em && detour <= 0.5 * max_detour * writer_.em;
+}
+
+/// Before the stroke, guidance leads a pen that is likely to begin it.
+bool StrokeSequencer::is_guided() const noexcept {
+  if (writer_.phase == WritingPhase::guided) return true;
+  if (writer_.state != InteractionState::calibration) return false;
+  switch (writer_.phase) {
+    case WritingPhase::page_written:
+    case WritingPhase::finished:
+    case WritingPhase::other_stroke:
+      return false;
+    case WritingPhase::at_start:
+      return options_.guide_to_start || capture_.is_nearest();
+    default:
+      return options_.guide_to_start;
+  }
+}
+
+}  // namespace calligraphy
