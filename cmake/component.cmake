@@ -29,6 +29,9 @@ function(calligraphy_component name)
   target_link_libraries(${target} PUBLIC ${COMPONENT_DEPENDS})
   # Bit-identical results on every processor: no contraction into fused operations.
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-ffp-contract=off>)
+  # Nobody reads errno after a square root, or replaces a function of a component at run time: g++ may inline both.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-fno-math-errno>
+                                           $<$<CXX_COMPILER_ID:GNU>:-fno-semantic-interposition>)
   calligraphy_warnings(${target})
   calligraphy_unity(${target} 12)
   set(components ${COMPONENT_DEPENDS})

@@ -6,6 +6,14 @@
 #include "base/require.hpp"
 
 namespace calligraphy {
+namespace {
+
+/// Zero times infinity or NaN is NaN.
+bool is_finite(const Eigen::Vector3d& vector) noexcept {
+  return 0.0 * vector.x() + 0.0 * vector.y() + 0.0 * vector.z() == 0.0;
+}
+
+}  // namespace
 
 VelocityEstimator::VelocityEstimator(double cutoff) : cutoff_(2.0 * std::numbers::pi * cutoff) {
   require_above_zero("cut-off frequency of the velocity", cutoff, "Hz");
@@ -16,12 +24,15 @@ const Eigen::Vector3d& VelocityEstimator::update(const Eigen::Vector3d& position
     if (!(elapsed > 0.0 && std::isfinite(elapsed))) return velocity_;
     since_position_ += elapsed;
   }
-  if (!position.allFinite()) return velocity_;
+  if (!is_finite(position)) return velocity_;
   if (has_position_) {
     const Eigen::Vector3d difference = (position - position_) / since_position_;
-    const double share = -std::expm1(-cutoff_ * since_position_);
-    const Eigen::Vector3d smoothed = velocity_ + share * (difference - velocity_);
-    if (smoothed.allFinite()) velocity_ = smoothed;  // differences near the largest double overflow
+    if (since_position_ != share_time_) {
+      share_time_ = since_position_;
+      share_ = -std::expm1(-cutoff_ * since_position_);
+    }
+    const Eigen::Vector3d smoothed = velocity_ + share_ * (difference - velocity_);
+    if (is_finite(smoothed)) velocity_ = smoothed;  // differences near the largest double overflow
   }
   has_position_ = true;
   position_ = position;

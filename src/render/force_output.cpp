@@ -77,7 +77,7 @@ void ForceOutput::restart() noexcept {
   sent_ = {};
 }
 
-const SentForce& ForceOutput::update(const DeviceState& sample, const PenState& pen, const GuidanceForce& guidance,
+const SentForce& ForceOutput::update(const PenState& pen, const GuidanceForce& guidance,
                                      const PaperForce& paper) noexcept {
   const Point in_plane = guidance.total + paper.friction;
   const Eigen::Vector3d wanted =
@@ -88,7 +88,7 @@ const SentForce& ForceOutput::update(const DeviceState& sample, const PenState& 
   double max_force = thermal_.peak > 0.0 ? thermal_.max_force() : ForceLimiter::no_limit;
   Eigen::Vector3d force = wanted;
   if (observes_energy_) {
-    observe(sample.force, pen);
+    observe(pen);
     force = passive(pen, shortened(wanted, std::min(limiter_.peak, max_force)));
     max_force = std::min(max_force, passivity_.max_force());
   }
@@ -105,9 +105,9 @@ const SentForce& ForceOutput::update(const DeviceState& sample, const PenState& 
 }
 
 /// The account of energy sees the force at work: behind a servo it may be less than the one sent.
-void ForceOutput::observe(const Eigen::Vector3d& at_work, const PenState& pen) noexcept {
-  const bool is_as_sent = at_work == sent_.device || !at_work.allFinite();
-  passivity_.acted(is_as_sent ? sent_.page : pen.force, pen.ticks, pen.settling);
+void ForceOutput::observe(const PenState& pen) noexcept {
+  const bool is_as_sent = pen.force == sent_.device || !pen.force.allFinite();
+  passivity_.acted(is_as_sent ? sent_.page : mapping_.force_to_page(pen.force), pen.ticks, pen.settling);
 }
 
 Eigen::Vector3d ForceOutput::passive(const PenState& pen, const Eigen::Vector3d& wanted) noexcept {

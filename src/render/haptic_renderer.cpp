@@ -9,7 +9,7 @@ HapticRenderer::HapticRenderer(std::vector<PlacedCharacter> page, const MotionMa
     : mapping_(mapping),
       effective_(effective_options(options, page, mapping, capabilities)),
       sensor_(effective_.options, mapping),
-      sequencer_(std::move(page), effective_.options, capabilities, mapping.scale),
+      sequencer_(std::move(page), effective_.options, capabilities, mapping),
       guidance_(effective_),
       paper_(effective_.options),
       output_(effective_.options, capabilities, mapping, effective_.guidance_stiffness(effective_.max_attraction)) {}
@@ -28,7 +28,7 @@ const HapticTick& HapticRenderer::update(const DeviceState& sample) noexcept {
   const WriterState& writer = sequencer_.update(pen);
   const GuidanceForce& guidance = guidance_.update(pen, writer, output_.last().guidance);
   const PaperForce& paper = paper_.update(pen, writer, output_.last().page.z());
-  const SentForce& sent = output_.update(sample, pen, guidance, paper);
+  const SentForce& sent = output_.update(pen, guidance, paper);
   report(sample, pen, writer, guidance, paper, sent);
   return tick_;
 }

@@ -17,6 +17,12 @@ constexpr double max_hold_time = 4e-3;
 /// A pause is at least this long; what is shorter is jitter [ticks].
 constexpr double min_pause = 1.75;
 
+/// False for NaN too.
+bool is_on_page(const Eigen::Vector3d& position) noexcept {
+  constexpr double most = PenSensor::max_coordinate;
+  return std::abs(position.x()) <= most && std::abs(position.y()) <= most && std::abs(position.z()) <= most;
+}
+
 }  // namespace
 
 PenSensor::PenSensor(const RendererOptions& options, const MotionMapping& mapping)
@@ -36,7 +42,7 @@ void PenSensor::restart() noexcept {
 }
 
 const PenState& PenSensor::update(const DeviceState& sample) noexcept {
-  pen_.force = mapping_.force_to_page(sample.force);
+  pen_.force = sample.force;
   if (counts_pauses_) count_ticks(sample);
   pen_.status = accept(sample);
   unseen_ = pen_.status == TickStatus::ok ? 0 : unseen_ + 1;
@@ -64,9 +70,8 @@ TickStatus PenSensor::accept(const DeviceState& sample) noexcept {
                          sample.status == DeviceStatus::warm_motors;
   if (!is_usable) return TickStatus::device_fault;
   if (sample.status == DeviceStatus::stale) return TickStatus::stale;
-  if (!sample.position.allFinite() || !std::isfinite(sample.time)) return TickStatus::bad_sample;
   const Eigen::Vector3d position = mapping_.to_page(sample.position);
-  if (!(position.cwiseAbs().maxCoeff() <= max_coordinate)) return TickStatus::bad_sample;
+  if (!is_on_page(position) || !std::isfinite(sample.time)) return TickStatus::bad_sample;
   if (!is_plausible(position, sample.time)) {
     rejected_ = position;
     return TickStatus::bad_sample;

@@ -24,10 +24,13 @@ constexpr double max_detour = 0.12;
 }  // namespace
 
 StrokeSequencer::StrokeSequencer(std::vector<PlacedCharacter> page, const RendererOptions& options,
-                                 const Capabilities& capabilities, double scale)
-    : page_(std::move(page), options), options_(options), compliance_(scale * scale / options.grip_stiffness) {
+                                 const Capabilities& capabilities, const MotionMapping& mapping)
+    : page_(std::move(page), options),
+      options_(options),
+      mapping_(mapping),
+      compliance_(mapping.scale * mapping.scale / options.grip_stiffness) {
   const double dry_friction = capabilities.coulomb_friction + options.friction.coefficient * usual_pressure;
-  hidden_way_ = scale * dry_friction / options.grip_stiffness;
+  hidden_way_ = mapping.scale * dry_friction / options.grip_stiffness;
   restart();
 }
 
@@ -67,7 +70,8 @@ TransitionInput StrokeSequencer::observe(const PenState& pen) noexcept {
   const Point tip = pen.tip.head<2>();
   const bool writing = writer_.state == InteractionState::writing;
   const double hysteresis = options_.box_hysteresis * writer_.em * (writing ? writing_hysteresis : 1.0);
-  inside_box_ = character().box.exteriorDistance(tip) <= (inside_box_ ? hysteresis : 0.0);
+  const Eigen::AlignedBox2d& box = character().box;
+  inside_box_ = box.contains(tip) || (inside_box_ && box.exteriorDistance(tip) <= hysteresis);
   input.inside_box = inside_box_;
   input.may_start = writer_.phase != WritingPhase::finished;
   if (writing) {
@@ -216,8 +220,9 @@ bool StrokeSequencer::keeps_hold(const PenState& pen) const noexcept {
                        options_.guidance != GuidanceLaw::saturating;
   if (!lets_go || has_event(writer_.events, TickEvent::stroke_started)) return true;
   // Where the hand means to be, as far as the force at work shows, if the device says what that is.
+  const Point force = mapping_.force_to_page(pen.force).head<2>();
   Point hand = pen.tip.head<2>();
-  if (pen.force.allFinite()) hand -= pen.force.head<2>() * compliance_;
+  if (force.allFinite()) hand -= force * compliance_;
   const StrokeContact& contact = writer_.contact;
   const double detour = coverage_.astray(hand, contact);
   if (writer_.guided) return contact.weight >= min_held_weight && detour <= max_detour * writer_.em;

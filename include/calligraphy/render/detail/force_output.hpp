@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 
 #include <calligraphy/devices/capabilities.hpp>
-#include <calligraphy/devices/device_state.hpp>
 #include <calligraphy/render/detail/force_limiter.hpp>
 #include <calligraphy/render/detail/guidance.hpp>
 #include <calligraphy/render/detail/paper.hpp>
@@ -36,8 +35,7 @@ class ForceOutput {
 
   /// Sends what may be sent of the forces. While samples are stale for a moment, that is what was sent before; for a
   /// device that cannot be trusted, nothing: the force goes to zero by the rate.
-  const SentForce& update(const DeviceState& sample, const PenState& pen, const GuidanceForce& guidance,
-                          const PaperForce& paper) noexcept;
+  const SentForce& update(const PenState& pen, const GuidanceForce& guidance, const PaperForce& paper) noexcept;
 
   void restart() noexcept;
 
@@ -55,7 +53,7 @@ class ForceOutput {
 
   ForceAllowance allowance(const PenState& pen) const noexcept;
   ForceAllowance allowance(Point way, Point velocity_change) const noexcept;
-  void observe(const Eigen::Vector3d& at_work, const PenState& pen) noexcept;
+  void observe(const PenState& pen) noexcept;
   Eigen::Vector3d passive(const PenState& pen, const Eigen::Vector3d& wanted) noexcept;
 
   MotionMapping mapping_;

@@ -13,7 +13,7 @@ namespace calligraphy {
 struct PenState {
   TickStatus status = TickStatus::ok;
   bool holds_force = false;  ///< samples have been stale for so short a time that the force is held, as a servo does
-  /// Force at work when the sample was read, page axes [N]; NaN if the device does not say.
+  /// At work when the sample was read [N, device axes]; NaN if the device does not say.
   Eigen::Vector3d force = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
 
   Eigen::Vector3d position = Eigen::Vector3d::Zero();         ///< of the device, page frame [m]

@@ -11,6 +11,7 @@
 #include <calligraphy/render/detail/stroke_coverage.hpp>
 #include <calligraphy/render/detail/writer_state.hpp>
 #include <calligraphy/render/interaction_state.hpp>
+#include <calligraphy/render/motion_mapping.hpp>
 #include <calligraphy/render/renderer_options.hpp>
 
 namespace calligraphy {
@@ -18,10 +19,10 @@ namespace calligraphy {
 /// update() never allocates, throws or logs.
 class StrokeSequencer {
  public:
-  /// `scale`: K_S (MotionMapping). The options must be valid.
+  /// The options and the mapping must be valid.
   /// @throws ValueError as PreparedPage
   StrokeSequencer(std::vector<PlacedCharacter> page, const RendererOptions& options, const Capabilities& capabilities,
-                  double scale);
+                  const MotionMapping& mapping);
 
   const WriterState& update(const PenState& pen) noexcept;
   /// Nothing is written.
@@ -53,6 +54,7 @@ class StrokeSequencer {
 
   PreparedPage page_;
   RendererOptions options_;
+  MotionMapping mapping_;
   double hidden_way_;  ///< by which dry friction holds the pen back from a usual hand [m, page]
   double compliance_;  ///< of a usual grip [m/N, page]
   ActiveStroke active_;
