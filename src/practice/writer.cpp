@@ -157,8 +157,7 @@ void SimulatedWriter::think(double seconds) {
       attempt_ = next ? 0 : attempt_ + 1;
       character_ = next ? seen_.sight.character : character_;
       stroke_ = next ? seen_.sight.stroke : stroke_;
-      gave_up_ = attempt_ >= max_attempts;
-      if (gave_up_ || character_ >= static_cast<int>(page_.size())) {
+      if (attempt_ >= max_attempts || character_ >= static_cast<int>(page_.size())) {
         begin(Phase::done);
         return;
       }

@@ -74,8 +74,6 @@ class ActiveStroke {
   /// Attraction factor at the start.
   double first_attraction() const noexcept { return attraction_[0]; }
   double length() const noexcept { return first_arc_[static_cast<std::size_t>(element_count_)]; }
-  /// Feature points not yet passed; 0 once the stroke is finished.
-  int features_remaining() const noexcept { return element_count_ - active_; }
   const StrokeElement& element(int index) const noexcept { return elements_[static_cast<std::size_t>(index)]; }
   int element_count() const noexcept { return element_count_; }
 

@@ -69,10 +69,9 @@ class SimulatedWriter {
   /// Sees the display, advances time by `seconds` and returns the intended motion of the pen in that time, on the page.
   Intention update(const VisualFeedback& sight, double seconds);
 
-  /// All characters are written, or the writer gave up, and the pen is off the paper.
+  /// All characters are written, or the writer gave up after ten failures of the same stroke, and the pen is off the
+  /// paper.
   bool done() const noexcept { return phase_ == Phase::done; }
-  /// The same stroke failed ten times.
-  bool gave_up() const noexcept { return gave_up_; }
   /// Index of the stroke that the present attempt means to write; out of order, not the one that is due.
   int intended_stroke() const noexcept { return intended_; }
 
@@ -119,7 +118,6 @@ class SimulatedWriter {
   Phase phase_ = Phase::pause;
   double time_ = 0.0;        ///< [s]
   double phase_time_ = 0.0;  ///< since the phase began [s]
-  bool gave_up_ = false;
   int character_ = 0;  ///< the next to be written, as far as the writer has seen
   int stroke_ = 0;
   int attempt_ = 0;

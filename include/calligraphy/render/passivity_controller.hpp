@@ -1,25 +1,13 @@
 // Passivity observer and controller for the force at work, and a budget for the energy that it delivers.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <limits>
-
 #include <Eigen/Core>
 
-namespace calligraphy {
+#include <calligraphy/render/detail/energy_budget.hpp>
+#include <calligraphy/render/detail/energy_observer.hpp>
+#include <calligraphy/render/passivity_options.hpp>
 
-struct PassivityOptions {
-  double max_damping = 0.0;  ///< maximum damping injected; 0: no control [N s/m]
-  /// Maximum net energy delivered to the hand since the start. Infinite: no limit [J].
-  double energy_budget = std::numeric_limits<double>::infinity();
-  double mass = std::numeric_limits<double>::infinity();  ///< with a budget: of the device, the lightest pen [kg]
-  double hand_speed = 2.0;  ///< with a budget: maximum speed at which a hand moves the pen [m/s]
-  double max_gap = 0.016;   ///< with a budget: longest time for which a force is held without a fresh sample [s]
-  double scale = 1.0;       ///< K_S (MotionMapping): forces are 1 / scale, speeds scale times those of the device
-  int delay = 0;            ///< age of a sample when it is read, at most PassivityController::max_delay [ticks]
-};
+namespace calligraphy {
 
 /// Keeps a sampled force law from generating energy.
 ///
@@ -50,7 +38,7 @@ struct PassivityOptions {
 /// 8 times that sum.
 class PassivityController {
  public:
-  static constexpr int max_delay = 15;
+  static constexpr int max_delay = EnergyObserver::max_delay;
 
   /// Damping that a device's mass tolerates on its own without being thrown back within one period, 0.9 m / (T (1 + 2
   /// delay)) [N s/m].
@@ -78,58 +66,24 @@ class PassivityController {
   void restart() noexcept;
 
   /// Net energy delivered to the hand, as observed; work not yet observed is not in it [J].
-  double energy_given() const noexcept { return given_; }
-  /// What remains of the budget [J].
-  double energy_remaining() const noexcept { return left_; }
+  double energy_given() const noexcept { return observer_.energy_given(); }
   /// Force limit of the last next(); infinite without a budget [N].
-  double max_force() const noexcept { return max_force_; }
+  double max_force() const noexcept { return budget_.max_force(); }
   /// Damping force injected in the last tick [N].
   const Eigen::Vector3d& damping() const noexcept { return damping_; }
 
  private:
-  const Eigen::Vector3d& force_at_work() const noexcept {
-    return sent_[(newest_ + sent_.size() - delay_) % sent_.size()];
-  }
-  Eigen::Vector3d within_budget(const Eigen::Vector3d& force, const Eigen::Vector3d& viscous) noexcept;
-  void move(const Eigen::Vector3d& position, const Eigen::Vector3d& wanted) noexcept;
-  void pass_unseen(double change) noexcept;
-  void pass_unseen(const Eigen::Vector3d& force, int count, double change) noexcept;
-  void pay(double energy) noexcept;
-  double max_payable_force() const noexcept;
+  void damp(const ObservedStep& step, const Eigen::Vector3d& field) noexcept;
 
   double max_damping_ = 0.0;
-  double budget_ = std::numeric_limits<double>::infinity();
-  double mass_ = std::numeric_limits<double>::infinity();
-  double hand_speed_ = 2.0;
-  double max_gap_ = 0.016;
-  double scale_ = 1.0;
   double period_ = 0.001;
-  double brake_ = 0.1;    ///< with an exhausted budget [N]
-  double reserve_ = 0.0;  ///< of the budget, for the brake [J]
-  std::size_t delay_ = 0;
-
-  std::array<Eigen::Vector3d, max_delay + 1> sent_ = {};  ///< ring buffer
-  std::size_t newest_ = 0;
-  Eigen::Vector3d at_last_sample_ = Eigen::Vector3d::Zero();  ///< the force then at work [N]
-  bool has_position_ = false;
-  Eigen::Vector3d position_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d wanted_ = Eigen::Vector3d::Zero();
+  EnergyObserver observer_;
+  EnergyBudget budget_;
+  Eigen::Vector3d field_ = Eigen::Vector3d::Zero();    ///< desired in the tick before
   Eigen::Vector3d damping_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  ///< over the last period; zero if that is not known [m/s]
-  double speed_ = 0.0;                                  ///< over the last known step [m/s]
-
-  // Periods that have passed since the last known position, the one that ends with the next sample not counted.
-  std::int64_t unseen_ = 0;
-  Eigen::Vector3d held_ = Eigen::Vector3d::Zero();  ///< force of the first of them [N]
-  double unseen_force_ = 0.0;                       ///< sum of |F| over them [N]
-  double unseen_change_ = 0.0;                      ///< sum of |F - held_| over them [N]
-
-  double max_force_ = std::numeric_limits<double>::infinity();
   double surplus_in_plane_ = 0.0;  ///< not yet dissipated [J]
   double surplus_normal_ = 0.0;    ///< [J]
   double free_for_ = 0.0;          ///< how long no force has been desired [s]
-  double given_ = 0.0;
-  double left_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace calligraphy

@@ -1,0 +1,120 @@
+#include <calligraphy/render/detail/energy_observer.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "collision/length.hpp"
+
+namespace calligraphy {
+namespace {
+
+/// A sample that implies a faster pen is not a motion: the pen is elsewhere [m/s].
+constexpr double max_pen_speed = 10.0;
+
+/// A device that renders a force so nearly has held it: it rounds to its resolution [N].
+constexpr double force_resolution = 0.01;
+
+}  // namespace
+
+EnergyObserver::EnergyObserver(const PassivityOptions& options, double period) noexcept
+    : options_(options), period_(period), delay_(static_cast<std::size_t>(std::clamp(options.delay, 0, max_delay))) {
+  restart();
+}
+
+void EnergyObserver::restart() noexcept {
+  sent_.fill(Eigen::Vector3d::Zero());
+  has_position_ = false;
+  at_last_sample_ = velocity_ = Eigen::Vector3d::Zero();
+  gap_ = {};
+  speed_ = given_ = 0.0;
+}
+
+double EnergyObserver::speed() const noexcept { return std::max(options_.hand_speed, speed_); }
+
+void EnergyObserver::sent(const Eigen::Vector3d& force) noexcept {
+  newest_ = (newest_ + 1) % sent_.size();
+  sent_[newest_] = force;
+}
+
+void EnergyObserver::acted(const Eigen::Vector3d& force, int ticks, double settling) noexcept {
+  const int missed = std::max(0, ticks - 1);
+  const double settled = std::round(settling / period_);  // [ticks]
+  Eigen::Vector3d before = sent_[newest_];
+  double change = norm(Eigen::Vector3d(force - before));
+  const Eigen::Vector3d earlier = std::exchange(at_last_sample_, force);
+  if (missed > 0 && settled > 0.0) {
+    // What was sent came late, or never came: until then the force was the one before.
+    change = std::max({change, norm(Eigen::Vector3d(earlier - before)), norm(Eigen::Vector3d(force - earlier))});
+    if (norm(earlier) > norm(before)) before = earlier;
+  }
+  // A force that was reduced meanwhile has been between the two, it is not known when.
+  const double longest = std::max(std::ceil(options_.max_gap / period_), settled);
+  const int unsure = change <= force_resolution / options_.scale ? 0 : static_cast<int>(std::min(longest, 1.0 * missed));
+  if (unsure > 0) sent_[newest_] = before;
+  pass_unseen(before, unsure, change);
+  if (unsure > 0 && settled > missed && has_position_) {  // also in the period that ends now
+    gap_.force += change;
+    gap_.change += change;
+  }
+  // Within a period each force has its share of the time, and so of the way.
+  if (unsure == 0) sent_[newest_] = force + std::min(settling / period_, 1.0) * (earlier - force);
+  pass_unseen(force, missed - unsure, 0.0);
+  if (missed > 0) sent_[newest_] = force;
+}
+
+/// `count` periods in which `force` is held pass like that, in bounded time: once it fills the ring, all are alike.
+void EnergyObserver::pass_unseen(const Eigen::Vector3d& force, int count, double change) noexcept {
+  const int first = std::min(count, static_cast<int>(sent_.size()));
+  for (int i = 0; i < first; ++i) {
+    pass_unseen(change);
+    sent(force);
+  }
+  if (!has_position_) return;
+  const int rest = count - first;
+  gap_.periods += rest;
+  gap_.force += rest * norm(force);
+  gap_.change += rest * (norm(Eigen::Vector3d(force - gap_.held)) + change);
+}
+
+/// A period passes at whose end the position is not known; the force was this one up to a `change` [N].
+void EnergyObserver::pass_unseen(double change) noexcept {
+  velocity_.setZero();
+  if (!has_position_) return;
+  const Eigen::Vector3d& force = force_at_work();
+  if (gap_.periods == 0) gap_.held = force;
+  ++gap_.periods;
+  gap_.force += norm(force);
+  gap_.change += norm(Eigen::Vector3d(force - gap_.held)) + change;
+}
+
+ObservedStep EnergyObserver::move(const Eigen::Vector3d& position) noexcept {
+  ObservedStep step;
+  step.force = force_at_work();
+  if (has_position_) step.way = position - position_;
+  const double way = norm(step.way), seconds = static_cast<double>(gap_.periods + 1) * period_;
+  const bool jumped = way > max_pen_speed * options_.scale * seconds;
+  if (!has_position_) {
+    // Without a first position nothing is known of the work: the force was zero then, or is charged from now on.
+  } else if (jumped) {
+    step.energy = (gap_.force + norm(step.force)) * speed() * period_;  // did not move there
+  } else if (gap_.periods == 0) {
+    step.energy = dot(step.force, step.way);
+    step.seen = true;
+  } else {
+    // Exact if the force was held; otherwise it is unknown how far the pen moved under which.
+    const double fastest = std::max(speed(), way / seconds);
+    const double change = gap_.change + norm(Eigen::Vector3d(step.force - gap_.held));
+    step.energy = std::min(dot(gap_.held, step.way) + change * fastest * period_,
+                           (gap_.force + norm(step.force)) * fastest * period_);
+  }
+  given_ += step.energy;
+  speed_ = has_position_ && !jumped ? way / seconds : 0.0;
+  if (step.seen) velocity_ = step.way / period_;
+  has_position_ = true;
+  position_ = position;
+  gap_ = {};
+  return step;
+}
+
+}  // namespace calligraphy
