@@ -8,10 +8,10 @@
 namespace calligraphy {
 namespace {
 
-constexpr double max_brake = 0.1;         ///< with an exhausted budget [N]
-constexpr double min_brake_share = 0.2;   ///< of the brake with an overdrawn budget
-constexpr double max_brake_age = 0.01;    ///< an older velocity says less, and brakes less [s]
-constexpr double half_brake_speed = 0.01; ///< of the pen, at which half of the brake acts [m/s]
+constexpr double max_brake = 0.1;          ///< with an exhausted budget [N]
+constexpr double min_brake_share = 0.2;    ///< of the brake with an overdrawn budget
+constexpr double max_brake_age = 0.01;     ///< an older velocity says less, and brakes less [s]
+constexpr double half_brake_speed = 0.01;  ///< of the pen, at which half of the brake acts [m/s]
 
 constexpr double damping_share = 0.15;  ///< of a force that the budget limits
 

@@ -25,7 +25,7 @@ EnergyObserver::EnergyObserver(const PassivityOptions& options, double period) n
 void EnergyObserver::restart() noexcept {
   sent_.fill(Eigen::Vector3d::Zero());
   has_position_ = false;
-  at_last_sample_ = velocity_ = Eigen::Vector3d::Zero();
+  at_last_sample_.setZero();
   gap_ = {};
   speed_ = given_ = 0.0;
 }
@@ -50,7 +50,8 @@ void EnergyObserver::acted(const Eigen::Vector3d& force, int ticks, double settl
   }
   // A force that was reduced meanwhile has been between the two, it is not known when.
   const double longest = std::max(std::ceil(options_.max_gap / period_), settled);
-  const int unsure = change <= force_resolution / options_.scale ? 0 : static_cast<int>(std::min(longest, 1.0 * missed));
+  const int unsure =
+      change <= force_resolution / options_.scale ? 0 : static_cast<int>(std::min(longest, 1.0 * missed));
   if (unsure > 0) sent_[newest_] = before;
   pass_unseen(before, unsure, change);
   if (unsure > 0 && settled > missed && has_position_) {  // also in the period that ends now

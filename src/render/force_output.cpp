@@ -45,8 +45,8 @@ PassivityController passivity_controller(const RendererOptions& options, const C
 
 }  // namespace
 
-ForceOutput::ForceOutput(const RendererOptions& options, const Capabilities& capabilities,
-                         const MotionMapping& mapping, double max_guidance)
+ForceOutput::ForceOutput(const RendererOptions& options, const Capabilities& capabilities, const MotionMapping& mapping,
+                         double max_guidance)
     : mapping_(mapping),
       period_(1.0 / options.servo_rate),
       in_plane_{max_guidance + options.wrong_way_stiffness, options.guidance_damping},

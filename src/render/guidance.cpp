@@ -19,8 +19,8 @@ constexpr double unguided_start = 0.5;
 /// and of its own [m].
 constexpr double oblique_share = 0.2, oblique_slack = 1e-5;
 
-/// The part of a velocity that guidance along `way` [m] damps: across the stroke. Along it the pen is free, except where
-/// guidance leads that way too: before the start and at a corner that is not passed.
+/// The part of a velocity that guidance along `way` [m] damps: across the stroke. Along it the pen is free, except
+/// where guidance leads that way too: before the start and at a corner that is not passed.
 Point damped_part(const Point& velocity, const Point& way, const Point& tangent) noexcept {
   const double along = std::abs(way.dot(tangent));
   const double oblique = std::min(1.0, along / (oblique_share * way.norm() + oblique_slack));
@@ -107,8 +107,8 @@ void Guidance::pull(const PenState& pen, const WriterState& writer) noexcept {
   }
   const Point velocity = pen.velocity.head<2>();
   // Resistance to writing backwards is not weakened by assistance, nor is its damper.
-  const Point guided = resisted ? Point(std::max(share, resistance) * velocity)
-                                : Point(share * damped_part(velocity, way, tangent));
+  const Point guided =
+      resisted ? Point(std::max(share, resistance) * velocity) : Point(share * damped_part(velocity, way, tangent));
   force_.viscous = -options.guidance_damping * (guided + unguided_damping * (velocity - guided));
 }
 

@@ -38,8 +38,7 @@ PreparedPage::PreparedPage(std::vector<PlacedCharacter> characters, const Render
     Eigen::AlignedBox2d box = bounding_box(placed);
     box.min().array() -= options.box_margin * placed.placement.em;
     box.max().array() += options.box_margin * placed.placement.em;
-    prepared_.push_back(
-        {placed.placement, strokes(placed.character), stroke_starts(placed, options.tolerances), box});
+    prepared_.push_back({placed.placement, strokes(placed.character), stroke_starts(placed, options.tolerances), box});
   }
 }
 

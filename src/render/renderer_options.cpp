@@ -1,149 +1,29 @@
 #include <calligraphy/render/renderer_options.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numbers>
-#include <sstream>
 #include <string>
+#include <vector>
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/render/passivity_controller.hpp>
-#include <calligraphy/render/stiffness_advice.hpp>
 
 #include "base/require.hpp"
+#include "stiffness_limits.hpp"
 
 namespace calligraphy {
 namespace {
 
-/// For a device that states no limit; keeps every force finite [N/m].
-constexpr double stiffest = 1e6;
-
-/// Of a damping [N s/m].
-constexpr double strongest = 1e6;
-
 /// Keeps every force step finite [N/s].
-constexpr double fastest_force = 1e12;
-
-/// Of a device that states none, with a margin: the lightest of the shipped profiles weighs 45 g [kg].
-constexpr double presumed_mass = 0.02;
-
-/// Of what guidance and friction may be together, friction has at least this share if it asks for it.
-constexpr double friction_share = 0.35;
-constexpr double softest_friction = 1.0;  ///< with less there is none [N/m]
-
-/// Relative: what has been clipped must not be clipped again for a rounding error.
-constexpr double slack = 1e-9;
-
-/// Force of a damper for one step of the encoder, where Coulomb friction does not hold more [N].
-constexpr double harmless_click = 0.1;
-
-struct StiffnessLimit {
-  double value;  ///< [N/m]
-  std::string reason;
-};
-
-StiffnessLimit usable_stiffness(const Capabilities& capabilities) {
-  if (!(capabilities.usable_stiffness > 0.0 && capabilities.usable_stiffness < stiffest)) {
-    return {stiffest, "at most 1e6 N/m are accepted"};
-  }
-  std::ostringstream reason;
-  reason << "the device " << capabilities.model << " is usable up to " << capabilities.usable_stiffness << " N/m";
-  return {capabilities.usable_stiffness, reason.str()};
-}
+constexpr double max_force_rate = 1e12;
 
 /// Limits of guidance for large deviations: hardly softer than the linear law where that is at its strongest.
-constexpr double largest_guidance = 3.0;  ///< [N]
-constexpr double guidance_share = 0.75;   ///< of the peak force
+constexpr double max_saturated_guidance = 3.0;  ///< [N]
+constexpr double guidance_peak_share = 0.75;    ///< of the peak force
 
 /// Friction between pen and paper, of which everything() renders what the device does not have itself.
 constexpr double paper_friction_coefficient = 0.15;
-
-/// Rounded to single precision: the last bits, which differ between implementations of libm, reach no force.
-double without_last_bits(double stiffness) { return static_cast<float>(stiffness); }
-
-/// What the springs of a page may be, given the loop that renders them.
-class Limits {
- public:
-  Limits(const RendererOptions& options, const Capabilities& capabilities, double scale)
-      : square_(scale * scale),
-        is_off_(options.stiffness_check == StiffnessCheck::off),
-        cutoff_(options.velocity_cutoff),
-        usable_(usable_stiffness(is_off_ ? Capabilities() : capabilities)) {
-    loop_.device = capabilities;
-    loop_.device.apparent_mass = capabilities.apparent_mass > 0.0 ? capabilities.apparent_mass : presumed_mass;
-    loop_.rate = options.servo_rate;
-    if (scale != 1.0) {
-      std::ostringstream enlarged;
-      enlarged << " times the square of the motion scale " << scale;
-      enlarged_ = enlarged.str();
-    }
-  }
-
-  /// Of a stiffness on the page beside `damping` on the page [N/m].
-  StiffnessLimit usable() const { return {usable_.value / square_, enlarged_ + ": " + usable_.reason}; }
-  StiffnessLimit stable(double damping) const {
-    if (is_off_) return {std::numeric_limits<double>::infinity(), ""};
-    const double value = stable_on_device(damping * square_);
-    std::ostringstream reason;
-    reason << enlarged_ << ": with a damping of " << damping * square_ << " N s/m at " << loop_.rate << " Hz";
-    if (loop_.device.sample_delay > 0) reason << " and a delay of " << loop_.device.sample_delay << " ticks";
-    reason << " the device " << device_label(loop_.device) << " is stable in any hand up to " << value
-           << " N/m (stiffness_for_any_hand)" << (damping > 0.0 ? "" : ": without damping no spring is");
-    return {value / square_, reason.str()};
-  }
-  StiffnessLimit both(double damping) const {
-    const StiffnessLimit one = usable(), other = stable(damping);
-    return one.value < other.value ? one : other;
-  }
-  /// The highest damping, at most that wanted, that permits `stiffness` in addition to a damping `beside`; if none
-  /// does, the one that permits most, or 0 if none permits any: it would drive the pen by itself [N s/m, page].
-  double best_damping(double wanted, double stiffness, double beside) const {
-    const double needed = std::min(stiffness, usable().value);
-    const auto permitted = [&](double damping) { return is_safe(damping) ? stable(damping + beside).value : -1.0; };
-    if (is_off_ || wanted == 0.0 || permitted(wanted) >= (1.0 - slack) * needed) return wanted;
-    double best = 0.0, most = 0.0, too_strong = wanted;
-    for (const double share : {1.0, 0.75, 0.5, 0.35, 0.25, 0.15, 0.08, 0.04}) {
-      const double value = permitted(share * wanted);
-      if (value > most) {
-        most = value;
-        best = share * wanted;
-      }
-      if (value >= needed) break;
-      too_strong = share * wanted;
-    }
-    if (most < needed || best == 0.0) return best;
-    for (int halving = 0; halving < 8; ++halving) {
-      const double middle = 0.5 * (best + too_strong);
-      (permitted(middle) >= needed ? best : too_strong) = middle;
-    }
-    return without_last_bits(best);
-  }
-
- private:
-  /// Whether the damper drives nothing by itself, with the loop's lag or with the steps of the encoder.
-  bool is_safe(double damping) const {
-    constexpr double almost_nothing = 1e-3;  // [N/m]
-    SampledLoop loop = loop_;
-    loop.wall_damping = damping * square_;
-    const double passed = -std::expm1(-2.0 * std::numbers::pi * cutoff_ / loop.rate);
-    const double click = loop.wall_damping * loop.device.encoder_step * passed * loop.rate;
-    return click <= std::max(harmless_click, loop.device.coulomb_friction) &&
-           stiffness_for_any_hand(loop, cutoff_, almost_nothing) >= almost_nothing;
-  }
-  double stable_on_device(double damping) const {
-    SampledLoop loop = loop_;
-    loop.wall_damping = damping;
-    return without_last_bits(stiffness_for_any_hand(loop, cutoff_, stiffest));
-  }
-
-  double square_;  ///< of the motion scale
-  bool is_off_;
-  double cutoff_;
-  StiffnessLimit usable_;
-  SampledLoop loop_;
-  std::string enlarged_;
-};
 
 /// On a page of motion scale K_S, what the hand feels as it does these options at scale 1.
 RendererOptions felt_alike(RendererOptions options, double scale) {
@@ -196,7 +76,7 @@ RendererOptions RendererOptions::for_device(const Capabilities& capabilities, do
 RendererOptions RendererOptions::everything(const Capabilities& capabilities, double scale) {
   RendererOptions options = for_device(capabilities, scale);
   options.guidance = GuidanceLaw::saturating;
-  options.guidance_limit = std::min(largest_guidance, guidance_share * capabilities.peak_force) / scale;
+  options.guidance_limit = std::min(max_saturated_guidance, guidance_peak_share * capabilities.peak_force) / scale;
   options.guide_to_start = true;
   options.box_margin = 0.5;
   const double own_friction = capabilities.coulomb_friction / usual_pressure;
@@ -209,73 +89,6 @@ RendererOptions RendererOptions::everything(const Capabilities& capabilities, do
   const bool warms = capabilities.continuous_force > 0.0 && capabilities.continuous_force < capabilities.peak_force;
   options.thermal_time_constant = warms ? 10.0 : 0.0;
   return options;
-}
-
-std::vector<std::string> clip_stiffness(RendererOptions& options, const Capabilities& capabilities, double scale) {
-  require_above_zero("servo_rate", options.servo_rate, "Hz", 1e6);
-  require_above_zero("velocity_cutoff", options.velocity_cutoff, "Hz", 1e6);
-  require_above_zero("scale", scale, "");
-  const Limits limits(options, capabilities, scale);
-  std::vector<std::string> clipped;
-  const auto clip = [&](const char* name, double& stiffness, const StiffnessLimit& limit) {
-    require_not_negative(name, stiffness, "N/m");
-    if (stiffness <= limit.value * (1.0 + slack)) return;
-    std::ostringstream message;
-    message << name << " = " << stiffness << " N/m" << limit.reason;
-    clipped.push_back(message.str());
-    stiffness = limit.value;
-  };
-  const auto clip_damping = [&](const char* name, double& damping, double stiffness, double beside = 0.0) {
-    require_within(name, damping, "N s/m", 0.0, strongest);
-    const double best = limits.best_damping(damping, stiffness, beside);
-    if (best == damping) return;
-    std::ostringstream message;
-    message << name << " = " << damping << " N s/m: too strong for the lag or the encoder of this loop, at most "
-            << best << " N s/m beside " << stiffness << " N/m";
-    clipped.push_back(message.str());
-    damping = best;
-  };
-  clip_damping("paper_damping", options.paper_damping, options.paper_stiffness);
-  clip("paper_stiffness", options.paper_stiffness, limits.both(options.paper_damping));
-  clip_damping("guidance_damping", options.guidance_damping, options.guidance_stiffness);
-  const StiffnessLimit guidance = limits.both(options.guidance_damping);
-  clip("guidance_stiffness", options.guidance_stiffness, guidance);
-  clip("wrong_way_stiffness", options.wrong_way_stiffness, guidance);
-  if (options.friction.coefficient > 0.0) {
-    FrictionOptions& friction = options.friction;
-    // `usable_stiffness` applies to each of the two springs, one along the stroke and one across; stability requires
-    // counting both.
-    const double both = options.guidance_stiffness + friction.stiffness;
-    clip_damping("friction.damping", friction.damping, both, options.guidance_damping);
-    const StiffnessLimit alone = limits.both(friction.damping);
-    const StiffnessLimit sum = limits.stable(options.guidance_damping + friction.damping);
-    if (std::min(alone.value, friction_share * sum.value) < softest_friction) {
-      std::ostringstream message;
-      message << "friction.coefficient = " << friction.coefficient << sum.reason << ", too soft for friction";
-      clipped.push_back(message.str());
-      friction.coefficient = 0.0;
-      return clipped;
-    }
-    clip("friction.stiffness", friction.stiffness, alone);
-    std::ostringstream reason;
-    reason << " in addition to " << options.guidance_stiffness << " N/m of guidance" << sum.reason;
-    clip("friction.stiffness", friction.stiffness,
-         {std::max(sum.value - options.guidance_stiffness, friction_share * sum.value), reason.str()});
-    reason.str("");
-    reason << " in addition to " << friction.stiffness << " N/m of friction" << sum.reason;
-    clip("guidance_stiffness", options.guidance_stiffness, {sum.value - friction.stiffness, reason.str()});
-  }
-  return clipped;
-}
-
-double max_guidance_stiffness(const RendererOptions& options, const Capabilities& capabilities, double scale) {
-  const Limits limits(options, capabilities, scale);
-  double most = limits.both(options.guidance_damping).value;
-  if (options.friction.coefficient > 0.0) {
-    const double sum = limits.stable(options.guidance_damping + options.friction.damping).value;
-    most = std::min(most, sum - options.friction.stiffness);
-  }
-  return most;
 }
 
 void validate(const RendererOptions& options, const Capabilities& capabilities, double scale) {
@@ -296,9 +109,9 @@ void validate(const RendererOptions& options, const Capabilities& capabilities, 
   require_within("assist.retention", options.assist.retention, "", 0.0, 1.0);
   require_above_zero("assist.full_assistance_error", options.assist.full_assistance_error, "em");
   require_within("assist.min_assistance", options.assist.min_assistance, "", 0.0, 1.0);
-  require_within("friction.damping", options.friction.damping, "N s/m", 0.0, strongest);
+  require_within("friction.damping", options.friction.damping, "N s/m", 0.0, max_damping);
   require_within("friction.coefficient", options.friction.coefficient, "", 0.0, 10.0);
-  require_above_zero("friction.stiffness", options.friction.stiffness, "N/m", stiffest);
+  require_above_zero("friction.stiffness", options.friction.stiffness, "N/m", max_stiffness);
   try {
     validate(options.stroke.nearest);
   } catch (const ValueError& error) {
@@ -314,8 +127,8 @@ void validate(const RendererOptions& options, const Capabilities& capabilities, 
   require_not_negative("lift_time", options.lift_time, "s");
   require_not_negative("lift_clearance", options.lift_clearance, "m");
   require_not_negative("box_hysteresis", options.box_hysteresis, "em");
-  require_above_zero("in_plane_force_rate", options.in_plane_force_rate, "N/s", fastest_force);
-  require_above_zero("normal_force_rate", options.normal_force_rate, "N/s", fastest_force);
+  require_above_zero("in_plane_force_rate", options.in_plane_force_rate, "N/s", max_force_rate);
+  require_above_zero("normal_force_rate", options.normal_force_rate, "N/s", max_force_rate);
   if (!(options.energy_budget == std::numeric_limits<double>::infinity())) {
     require_not_negative("energy_budget", options.energy_budget, "J");
     require_above_zero("apparent_mass of the device, for energy_budget", capabilities.apparent_mass, "kg");

@@ -216,8 +216,8 @@ WritingPhase StrokeSequencer::phase_before_stroke(const Point& tip) const noexce
 /// again where both are back: a pen that slipped out of the tube would be thrown, and one that another stroke was meant
 /// for would be dragged along.
 bool StrokeSequencer::keeps_hold(const PenState& pen) const noexcept {
-  const bool lets_go = options_.stroke.space.rule == ConstraintSpaceRule::tube &&
-                       options_.guidance != GuidanceLaw::saturating;
+  const bool lets_go =
+      options_.stroke.space.rule == ConstraintSpaceRule::tube && options_.guidance != GuidanceLaw::saturating;
   if (!lets_go || has_event(writer_.events, TickEvent::stroke_started)) return true;
   // Where the hand means to be, as far as the force at work shows, if the device says what that is.
   const Point force = mapping_.force_to_page(pen.force).head<2>();
@@ -226,7 +226,8 @@ bool StrokeSequencer::keeps_hold(const PenState& pen) const noexcept {
   const StrokeContact& contact = writer_.contact;
   const double detour = coverage_.astray(hand, contact);
   if (writer_.guided) return contact.weight >= min_held_weight && detour <= max_detour * writer_.em;
-  return contact.closest.distance <= options_.tolerances.corridor * writer_.em && detour <= 0.5 * max_detour * writer_.em;
+  return contact.closest.distance <= options_.tolerances.corridor * writer_.em &&
+         detour <= 0.5 * max_detour * writer_.em;
 }
 
 /// Before the stroke, guidance leads a pen that is likely to begin it.

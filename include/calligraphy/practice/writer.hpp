@@ -118,7 +118,7 @@ class SimulatedWriter {
   Phase phase_ = Phase::pause;
   double time_ = 0.0;        ///< [s]
   double phase_time_ = 0.0;  ///< since the phase began [s]
-  int character_ = 0;  ///< the next to be written, as far as the writer has seen
+  int character_ = 0;        ///< the next to be written, as far as the writer has seen
   int stroke_ = 0;
   int attempt_ = 0;
 

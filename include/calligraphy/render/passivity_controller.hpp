@@ -79,7 +79,7 @@ class PassivityController {
   double period_ = 0.001;
   EnergyObserver observer_;
   EnergyBudget budget_;
-  Eigen::Vector3d field_ = Eigen::Vector3d::Zero();    ///< desired in the tick before
+  Eigen::Vector3d field_ = Eigen::Vector3d::Zero();  ///< desired in the tick before
   Eigen::Vector3d damping_ = Eigen::Vector3d::Zero();
   double surplus_in_plane_ = 0.0;  ///< not yet dissipated [J]
   double surplus_normal_ = 0.0;    ///< [J]

@@ -14,7 +14,7 @@ namespace calligraphy {
 
 struct EffectiveOptions {
   RendererOptions options;
-  std::vector<std::string> clipped;      ///< one line per value, with the reason
+  std::vector<std::string> clipped;  ///< one line per value, with the reason
   double guidance_limit = 0.0;       ///< of the stiffness of guidance, attraction factor included [N/m, page]
   double max_attraction = 1.0;       ///< attraction factor, on the page [1]
 

@@ -47,7 +47,8 @@ class EnergyObserver {
   double energy_given() const noexcept { return given_; }
   /// Over the last period; zero if that is not known [m/s].
   const Eigen::Vector3d& velocity() const noexcept { return velocity_; }
-  /// At which a hand may move the pen: its maximum speed, or the pen's over the last known step if that is higher [m/s].
+  /// At which a hand may move the pen: its maximum speed, or the pen's over the last known step if that is higher
+  /// [m/s].
   double speed() const noexcept;
   const Gap& gap() const noexcept { return gap_; }
   int delay() const noexcept { return static_cast<int>(delay_); }
@@ -62,8 +63,8 @@ class EnergyObserver {
   void pass_unseen(const Eigen::Vector3d& force, int count, double change) noexcept;
 
   PassivityOptions options_;
-  double period_ = 0.001;  ///< [s]
-  std::size_t delay_ = 0;  ///< [ticks]
+  double period_ = 0.001;                                 ///< [s]
+  std::size_t delay_ = 0;                                 ///< [ticks]
   std::array<Eigen::Vector3d, max_delay + 1> sent_ = {};  ///< ring buffer
   std::size_t newest_ = 0;
   Eigen::Vector3d at_last_sample_ = Eigen::Vector3d::Zero();  ///< the force then at work [N]

@@ -22,7 +22,8 @@ class Paper {
  public:
   explicit Paper(const RendererOptions& options);
 
-  /// None for a device that cannot be trusted. `pressure`: what the device got of the normal force of the tick before [N].
+  /// None for a device that cannot be trusted. `pressure`: what the device got of the normal force of the tick before
+  /// [N].
   const PaperForce& update(const PenState& pen, const WriterState& writer, double pressure) noexcept;
 
   void release() noexcept;

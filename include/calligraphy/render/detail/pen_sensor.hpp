@@ -38,14 +38,14 @@ class PenSensor {
 
   RendererOptions options_;
   MotionMapping mapping_;
-  double period_;         ///< [s]
-  bool counts_pauses_;    ///< for the account of energy
+  double period_;       ///< [s]
+  bool counts_pauses_;  ///< for the account of energy
   VelocityEstimator velocity_;
   PenState pen_;
-  bool has_sample_ = false;  ///< a sample was accepted, and the pen has moved on from there
-  double time_ = 0.0;        ///< of that sample [s]
-  std::int64_t unseen_ = 0;  ///< ticks since then, without a good sample
-  double above_for_ = 0.0;   ///< how long a pen in contact has been above the paper [s]
+  bool has_sample_ = false;                  ///< a sample was accepted, and the pen has moved on from there
+  double time_ = 0.0;                        ///< of that sample [s]
+  std::int64_t unseen_ = 0;                  ///< ticks since then, without a good sample
+  double above_for_ = 0.0;                   ///< how long a pen in contact has been above the paper [s]
   std::optional<Eigen::Vector3d> rejected_;  ///< position of a sample just rejected as too far away
 };
 

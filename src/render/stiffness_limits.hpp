@@ -1,0 +1,12 @@
+// Limits of stiffness and damping that hold for every device.
+#pragma once
+
+namespace calligraphy {
+
+/// For a device that states no limit; keeps every force finite [N/m].
+inline constexpr double max_stiffness = 1e6;
+
+/// Likewise [N s/m].
+inline constexpr double max_damping = 1e6;
+
+}  // namespace calligraphy
