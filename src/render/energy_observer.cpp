@@ -25,7 +25,7 @@ EnergyObserver::EnergyObserver(const PassivityOptions& options, double period) n
 void EnergyObserver::restart() noexcept {
   sent_.fill(Eigen::Vector3d::Zero());
   has_position_ = false;
-  at_last_sample_.setZero();
+  at_last_sample_ = velocity_ = Eigen::Vector3d::Zero();
   gap_ = {};
   speed_ = given_ = 0.0;
 }

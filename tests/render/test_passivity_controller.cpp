@@ -728,27 +728,31 @@ TEST_CASE("samples lost before the first good one are not charged", "[render]") 
 }
 
 TEST_CASE("a restarted passivity controller behaves like a new one", "[render]") {
-  PassivityOptions options;
-  options.max_damping = 10.0;
-  options.energy_budget = 0.01;
-  options.delay = 3;
-  PassivityController used(options, 0.001);
-  Sequence random(11);
-  for (int i = 0; i < 100; ++i) {
-    used.next(i % 7 ? random_vector(random, 0.01) : lost, random_vector(random, 3.0));
-    used.sent(random_vector(random, 3.0));
-  }
-  used.next(lost, {0, 0, 0});
-  used.sent({1.0, 0, 0});
-  used.restart();
-  PassivityController fresh(options, 0.001);
-  for (int i = 0; i < 100; ++i) {
-    const Vector3d position = random_vector(random, 0.01), wanted = random_vector(random, 3.0);
-    const Vector3d force = fresh.next(position, wanted);
-    CHECK(used.next(position, wanted) == force);
-    CHECK(used.max_force() == fresh.max_force());
-    fresh.sent(force);
-    used.sent(force);
+  for (const double budget : {0.0, 0.01}) {  // with none left, the brake acts from the first tick
+    PassivityOptions options;
+    options.max_damping = 10.0;
+    options.energy_budget = budget;
+    options.delay = 3;
+    PassivityController used(options, 0.001);
+    Sequence random(11);
+    for (int i = 0; i < 102; ++i) {
+      used.next(i % 7 ? random_vector(random, 0.001) : lost, random_vector(random, 3.0));
+      used.sent(random_vector(random, 3.0));
+    }
+    if (budget > 0.0) {
+      used.next(lost, {0, 0, 0});
+      used.sent({1.0, 0, 0});
+    }
+    used.restart();
+    PassivityController fresh(options, 0.001);
+    for (int i = 0; i < 100; ++i) {
+      const Vector3d position = random_vector(random, 0.01), wanted = random_vector(random, 3.0);
+      const Vector3d force = fresh.next(position, wanted);
+      CHECK(used.next(position, wanted) == force);
+      CHECK(used.max_force() == fresh.max_force());
+      fresh.sent(force);
+      used.sent(force);
+    }
   }
 }
 
