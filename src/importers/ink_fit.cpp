@@ -36,19 +36,19 @@ struct Place {
 };
 
 /// What stays the same while the profile changes: the line of the discs without offsets, at equal steps.
-struct Line {
+struct SampledLine {
   Path points;
   Path sideways;  ///< unit vectors
   std::vector<Place> places;
 };
 
-Line line_along(std::span<const Point> path, double start, double end, double spacing) {
+SampledLine line_along(std::span<const Point> path, double start, double end, double spacing) {
   StrokeInk ink{start, end, {}, {}};
   const std::vector<InkDisc> centres = ink_discs(path, ink, spacing);
   ink.offsets.fill(1.0);
   const std::vector<InkDisc> shifted = ink_discs(path, ink, spacing);
   const Values at = ink_knots(start + path_length(path) + end);
-  Line line;
+  SampledLine line;
   std::size_t knot = 0;
   for (std::size_t i = 0; i < centres.size(); ++i) {
     line.points.push_back(centres[i].centre);
@@ -82,7 +82,7 @@ StrokeInk first_ink(std::span<const Point> path, std::span<const Point> median, 
   constexpr double spacing = 0.015;  // [em]
   const BrushEnds ends = brush_ends(median, outline, half_width(median, outline));
   StrokeInk ink{ends.start, ends.end, {}, {}};
-  const Line line = line_along(path, ink.start, ink.end, spacing);
+  const SampledLine line = line_along(path, ink.start, ink.end, spacing);
   const Path on_median = resampled(median, static_cast<int>(line.points.size()), 0.0, path_length(median));
   const bool is_sideways = detail == InkDetail::full;
   std::vector<double> radii, offsets;
@@ -234,7 +234,7 @@ class InkFit {
   std::span<const Point> outline_;
   bool is_sideways_;
   StrokeInk ink_;
-  Line line_;
+  SampledLine line_;
   std::vector<InkDisc> discs_;
   double largest_step_ = 0.0;  ///< by which the edge of the next disc may be nearer to a point [em]
   Eigen::Matrix<double, unknowns, unknowns> matrix_;

@@ -5,6 +5,7 @@
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/file.hpp>
+#include <calligraphy/base/text.hpp>
 
 #include "tarball.hpp"
 
@@ -73,6 +74,20 @@ class Directory {
 };
 
 }  // namespace
+
+std::string with_plain_line_ends(std::string_view text, const std::string& place) {
+  try {
+    decode_utf8(text);
+  } catch (const FormatError& error) {
+    throw FormatError(place + ": " + error.what());
+  }
+  std::string plain;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '\r' && i + 1 < text.size() && text[i + 1] == '\n') continue;
+    plain += text[i] == '\r' ? '\n' : text[i];
+  }
+  return plain;
+}
 
 SourceFiles read_source(const fs::path& source, const SkipReason& skip_reason, const SourceLimits& limits) {
   try {

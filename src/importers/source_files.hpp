@@ -22,6 +22,9 @@ struct SourceFiles {
   std::vector<SkippedFile> skipped;  ///< files that were not read, including links and devices
 };
 
+/// A text as it is redistributed: UTF-8 with '\n' line ends. @throws FormatError naming the place
+std::string with_plain_line_ends(std::string_view text, const std::string& place);
+
 /// Returns why a file is skipped, given its path within the source; empty: it is read.
 using SkipReason = std::function<std::string(std::string_view path)>;
 

@@ -87,7 +87,7 @@ constexpr double max_heng_gou_hook = 0.25;
 constexpr double max_pen_hook = 0.17;
 
 /// Costs of deviations, in em.
-constexpr double price_of_degree = 0.0009;
+constexpr double price_of_degree_outside = 0.0009;
 constexpr double price_of_bulge = 0.25;     // per unit of offset over chord
 constexpr double price_of_share = 0.25;     // per unit of the stroke's length
 constexpr double price_of_corner = 0.0012;  // per degree of a sharp turn inside an element
@@ -106,12 +106,12 @@ double price_of(char kind, double stroke_length) {
 
 double cost_of(const ElementRule& rule, char kind, const Piece& piece, double stroke_length) {
   const double direction = kind == 'L' ? piece.line_direction : piece.direction;
-  const double misplaced = price_of_degree * outside(rule.direction, direction) +
+  const double misplaced = price_of_degree_outside * outside(rule.direction, direction) +
                            price_of_share * stroke_length * beyond(rule.share, piece.length / stroke_length);
   const double price = price_of(kind, stroke_length);
   if (kind == 'L') return price + piece.line_error + corner_cost(piece) + misplaced;
   return price + piece.cubic_error + corner_cost(piece) + misplaced +
-         price_of_degree * (outside(rule.leaving, piece.leaving) + outside(rule.arriving, piece.arriving)) +
+         price_of_degree_outside * (outside(rule.leaving, piece.leaving) + outside(rule.arriving, piece.arriving)) +
          price_of_bulge * stroke_length * beyond(rule.bulge, piece.bulge);
 }
 

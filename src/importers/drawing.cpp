@@ -1,0 +1,46 @@
+#include "drawing.hpp"
+
+#include <cstddef>
+#include <utility>
+
+#include "hanzi_writer.hpp"
+#include "kanjivg.hpp"
+#include "source_files.hpp"
+#include "stroke_labels.hpp"
+
+namespace calligraphy {
+namespace {
+
+Drawing pen_drawing(const DrawingFile& file) {
+  Drawing drawing;
+  KanjivgDrawing parsed = parse_kanjivg(file.text, file.place);
+  drawing.notice = with_plain_line_ends(parsed.notice, file.place);
+  for (KanjivgStroke& stroke : parsed.strokes) {
+    const std::span<const int> ids = ids_of_kanjivg_label(stroke.label);
+    drawing.strokes.push_back({std::move(stroke.path), {}, std::move(stroke.label), ids});
+  }
+  return drawing;
+}
+
+Drawing brush_drawing(const DrawingFile& file, const StrokeLetters& letters) {
+  Drawing drawing;
+  for (BrushStroke& stroke : parse_hanzi_writer(file.text, file.place)) {
+    drawing.strokes.push_back({std::move(stroke.median), std::move(stroke.outline), {}, {}});
+  }
+  const auto found = letters.find(file.character.code);
+  if (found == letters.end()) return drawing;
+  drawing.letters_unused = found->second.size() != drawing.strokes.size();
+  for (std::size_t i = 0; i < drawing.strokes.size() && !drawing.letters_unused; ++i) {
+    drawing.strokes[i].label = found->second[i];
+    drawing.strokes[i].label_ids = ids_of_stroke_letter(found->second[i]);
+  }
+  return drawing;
+}
+
+}  // namespace
+
+Drawing parse_drawing(const DrawingFile& file, const StrokeLetters& letters) {
+  return file.character.kind == SourceKind::kanjivg ? pen_drawing(file) : brush_drawing(file, letters);
+}
+
+}  // namespace calligraphy

@@ -1,0 +1,42 @@
+// The strokes of a character as a source draws and labels them; private to the importers.
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <calligraphy/model/point.hpp>
+
+#include "character_file.hpp"
+#include "stroke_letters.hpp"
+
+namespace calligraphy {
+
+/// One file of a source.
+struct DrawingFile {
+  CharacterFile character;
+  std::string place;  ///< for messages: source and path
+  std::string text;
+};
+
+struct DrawnStroke {
+  std::vector<Point> path;         ///< the median of a brush stroke or the line of a pen [em]
+  std::vector<Point> outline;      ///< of a brush stroke; otherwise empty
+  std::string label;               ///< empty if there is none
+  std::span<const int> label_ids;  ///< typical strokes that the label allows
+
+  bool allows(int id) const { return std::find(label_ids.begin(), label_ids.end(), id) != label_ids.end(); }
+};
+
+struct Drawing {
+  std::vector<DrawnStroke> strokes;  ///< in writing order
+  std::string notice;                ///< the file's own copyright notice
+  bool letters_unused = false;       ///< there are letters for the character, but not one a stroke
+};
+
+/// `letters` label the strokes of hanzi-writer-data.
+/// @throws FormatError naming the place
+Drawing parse_drawing(const DrawingFile& file, const StrokeLetters& letters);
+
+}  // namespace calligraphy

@@ -1,0 +1,35 @@
+// A collection of drawings: its files, what kind of source it is, and whose work; private to the importers.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <calligraphy/importers/character_import.hpp>
+#include <calligraphy/model/provenance.hpp>
+
+#include "drawing.hpp"
+
+namespace calligraphy {
+
+struct DrawingSource {
+  SourceKind kind = SourceKind::calligraphy;
+  std::vector<DrawingFile> files;  ///< by code point and order, at least one
+  std::vector<SkippedFile> skipped;
+  std::string licence;  ///< text of the licence; empty if the source has none
+  std::string package;  ///< text of its package.json; empty if the source has none
+};
+
+/// Reads the files that the options ask for, each character once.
+/// @throws FileError and FormatError as read_source(); FormatError if it contains no such file or is of two kinds;
+///         ValueError as check_applies()
+DrawingSource read_drawings(const std::filesystem::path& path, const ImportOptions& options);
+
+/// Provenance of what was made of the drawings, and in `notes` what it lacks. `notice`: of one of the files.
+Provenance provenance(const DrawingSource& source, const ImportOptions& options, const std::string& notice,
+                      std::vector<std::string>& notes);
+
+/// @throws ValueError naming an option that has no effect on a source of this kind
+void check_applies(const ImportOptions& options, SourceKind kind);
+
+}  // namespace calligraphy

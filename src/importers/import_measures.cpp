@@ -1,0 +1,80 @@
+#include "import_measures.hpp"
+
+#include <cstddef>
+#include <span>
+
+#include <calligraphy/model/character_set.hpp>
+#include <calligraphy/model/ink_outline.hpp>
+#include <calligraphy/model/set_encoding.hpp>
+#include <calligraphy/model/stroke_polyline.hpp>
+#include <calligraphy/model/typical_ink.hpp>
+
+#include "ink_fit.hpp"
+#include "ink_measures.hpp"
+#include "labelled_fit.hpp"
+#include "outline.hpp"
+#include "stroke_measures.hpp"
+#include "stroke_polyline.hpp"
+
+namespace calligraphy {
+namespace {
+
+/// The ink of the strokes as a set file at standard precision holds it.
+std::vector<std::vector<InkDisc>> stored_ink(char32_t code, const std::vector<StrokeInput>& strokes) {
+  constexpr double spacing = 0.003;  // [em]
+  const CharacterSet set =
+      CharacterSet::from_bytes(encode_character_set({{}, {make_character(code, strokes)}}), "measured");
+  const Character stored = set.find(code)->character();
+  std::vector<std::vector<InkDisc>> inks;
+  for (const Stroke& stroke : calligraphy::strokes(stored)) {
+    inks.push_back(ink_discs(stroke_polyline(stroke), *stroke.ink, spacing));
+  }
+  return inks;
+}
+
+/// The ink as stored and, to compare with it, without offsets, and that of the strokes' kinds.
+void measure_ink(const std::vector<DrawnStroke>& drawn, const std::vector<recognition::Path>& paths,
+                 std::vector<StrokeInput> strokes, ImportedCharacter& result) {
+  const char32_t code = result.character.code;
+  std::vector<std::span<const Point>> outlines;
+  for (const DrawnStroke& stroke : drawn) outlines.emplace_back(stroke.outline);
+  result.ink = recognition::measure_ink(outlines, stored_ink(code, strokes));
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    strokes[i].ink = recognition::fit_ink(paths[i], drawn[i].path, drawn[i].outline, InkDetail::half_widths);
+  }
+  result.plain_ink = recognition::measure_ink(outlines, stored_ink(code, strokes));
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    strokes[i].ink = typical_ink(strokes[i].id, result.strokes[i].half_width);
+  }
+  result.typical_ink = recognition::measure_ink(outlines, stored_ink(code, strokes));
+}
+
+}  // namespace
+
+void measure_import(const std::vector<DrawnStroke>& drawn, const std::vector<StrokeInput>& strokes,
+                    const std::vector<recognition::CrossingStrokes>& crossings, ImportedCharacter& result) {
+  std::vector<recognition::Path> paths;
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    paths.push_back(recognition::flattened(strokes[i]));
+    StrokeMeasures& measures = result.measures.emplace_back(
+        recognition::measure_stroke(paths.back(), drawn[i].path, result.strokes[i].half_width));
+    ImportedStroke& stroke = result.strokes[i];
+    measures.place = {result.character.code, result.character.order, static_cast<int>(i) + 1};
+    measures.id = strokes[i].id;
+    measures.frechet = stroke.error;
+    const std::vector<Point>& outline = drawn[i].outline;
+    measures.outline_size = outline.empty() ? 0.0 : recognition::box_of(outline).diagonal().norm();
+    stroke.contradicts_label = contradicts_label(drawn[i], stroke, strokes[i].id);
+  }
+  if (strokes.front().ink) measure_ink(drawn, paths, strokes, result);
+  result.crossings.source = static_cast<int>(crossings.size());
+  for (const auto& [one, other, at] : crossings) {
+    if (recognition::crossing_of(paths[one], paths[other])) {
+      ++result.crossings.kept;
+    } else {
+      result.lost_crossings.push_back({result.measures[one].place, static_cast<int>(other) + 1});
+    }
+  }
+}
+
+}  // namespace calligraphy

@@ -1,0 +1,18 @@
+// Measures the strokes of an imported character against its drawing; private to the importers.
+#pragma once
+
+#include <vector>
+
+#include <calligraphy/model/character.hpp>
+
+#include "crossings.hpp"
+#include "drawing.hpp"
+#include "imported_character.hpp"
+
+namespace calligraphy {
+
+/// Adds the measures to `result`, whose character and strokes are those of `strokes`. `crossings`: of the drawing.
+void measure_import(const std::vector<DrawnStroke>& drawn, const std::vector<StrokeInput>& strokes,
+                    const std::vector<recognition::CrossingStrokes>& crossings, ImportedCharacter& result);
+
+}  // namespace calligraphy

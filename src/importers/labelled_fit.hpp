@@ -1,0 +1,26 @@
+// Fits the strokes of a drawing, where a label and the shape may disagree on the kind; private to the importers.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <calligraphy/model/character.hpp>
+
+#include "drawing.hpp"
+#include "imported_character.hpp"
+
+namespace calligraphy {
+
+/// The strokes that were fitted, and what is said of them.
+struct LabelledFit {
+  std::vector<StrokeInput> inputs;
+  std::vector<ImportedStroke> strokes;
+};
+
+/// @throws FormatError naming the place and the stroke that cannot be fitted
+LabelledFit fit_labelled(const std::vector<DrawnStroke>& drawn, const DrawingFile& file);
+
+/// True if the drawing clearly contradicts the label of a stroke imported as `id`.
+bool contradicts_label(const DrawnStroke& drawn, const ImportedStroke& stroke, int id);
+
+}  // namespace calligraphy
