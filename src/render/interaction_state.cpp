@@ -23,7 +23,7 @@ InteractionState next_state(InteractionState state, const TransitionInput& input
     return input.inside_box ? InteractionState::writing : InteractionState::adjusting;
   }
   if (!input.inside_box) return InteractionState::adjusting;
-  return input.at_start && input.may_start ? InteractionState::writing : InteractionState::calibration;
+  return input.begins && input.may_start ? InteractionState::writing : InteractionState::calibration;
 }
 
 }  // namespace calligraphy

@@ -79,7 +79,7 @@ TransitionInput StrokeSequencer::observe(const PenState& pen) noexcept {
     input.stroke_finished = is_finished(!input.contact || !input.inside_box);
   } else if (input.contact && input.may_start) {
     if (writer_.state == InteractionState::separation) put_down(tip);
-    input.at_start = begins(tip);
+    input.begins = begins(tip);
   }
   return input;
 }
@@ -169,6 +169,7 @@ void StrokeSequencer::abandon_stroke(const Point& tip) noexcept {
 
 void StrokeSequencer::lift() noexcept {
   writer_.events |= TickEvent::lift;
+  writer_.rests = false;
   if (all_written()) return;
   const bool is_character_written = writer_.stroke == static_cast<int>(character().strokes.size());
   if (is_character_written) activate(writer_.character + 1, 0);

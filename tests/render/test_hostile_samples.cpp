@@ -191,6 +191,34 @@ TEST_CASE("while samples are stale the force is held for 4 ms, then ramps down, 
   }
 }
 
+TEST_CASE("while the force is held so are its terms, and a device that cannot be trusted has none", "[render]") {
+  RendererOptions options;
+  options.friction.coefficient = 0.2;
+  options.friction.stiffness = 200.0;
+  MidStroke test(options);
+  test.pen.at(test.place + Vector3d(0.0001, 0, 0));
+  test.pen.at(test.place + Vector3d(0.0002, 0, 0));  // drags the friction spring, and is damped
+  const HapticTick before = test.renderer.last();
+  REQUIRE(before.attraction.norm() > 0.1);
+  REQUIRE(before.friction.norm() > 0.01);
+  REQUIRE(before.normal > 0.1);
+  REQUIRE(before.viscous.norm() > 0.01);
+  const auto is_as_before = [&](const HapticTick& tick) {
+    return tick.attraction == before.attraction && tick.friction == before.friction && tick.normal == before.normal &&
+           tick.viscous == before.viscous;
+  };
+  for (int i = 0; i < 4; ++i) {
+    CHECK(is_as_before(test.pen.sample(state_with(test.place, DeviceStatus::stale))));
+  }
+  for (const DeviceStatus status : {DeviceStatus::stale, DeviceStatus::fault}) {
+    const HapticTick& tick = test.pen.sample(state_with(test.place, status));
+    CHECK(tick.attraction == Point(0, 0));
+    CHECK(tick.friction == Point(0, 0));
+    CHECK(tick.normal == 0.0);
+    CHECK(tick.viscous == Vector3d(0, 0, 0));
+  }
+}
+
 TEST_CASE("a stale sample is not taken for a fresh one: it moves nothing, whatever it says", "[render]") {
   MidStroke test;
   const HapticTick before = test.renderer.last();

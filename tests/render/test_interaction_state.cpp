@@ -29,7 +29,7 @@ S by_table(S from, const TransitionInput& in) {
                       {ws, in.stroke_finished, S::calibration},
                       {ws, !in.inside_box, S::adjusting},
                       {ws, true, S::writing},
-                      {!ws, in.at_start && in.may_start && in.inside_box, S::writing},
+                      {!ws, in.begins && in.may_start && in.inside_box, S::writing},
                       {!ws, in.inside_box, S::calibration},
                       {!ws, true, S::adjusting}};
   for (const Row& row : rows) {
@@ -57,7 +57,7 @@ TEST_CASE("Table 1: the meaning of each state holds after every transition", "[r
       CHECK((to == S::separation) == !in.contact);
       if (to == S::adjusting) CHECK_FALSE(in.inside_box);
       if (to == S::writing) CHECK(in.inside_box);
-      if (to == S::writing && from != S::writing) CHECK((in.at_start && in.may_start));
+      if (to == S::writing && from != S::writing) CHECK((in.begins && in.may_start));
     }
   }
 }

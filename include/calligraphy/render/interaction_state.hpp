@@ -8,7 +8,7 @@ namespace calligraphy {
 enum class InteractionState : std::uint8_t {
   separation,   ///< SS: the pen does not touch the paper
   adjusting,    ///< AS: the pen touches the paper outside the active character's box
-  calibration,  ///< CS: the pen touches the paper inside the box, but not at the start of the active stroke
+  calibration,  ///< CS: the pen touches the paper inside the box, but does not write the active stroke
   writing       ///< WS: the active stroke is being written
 };
 
@@ -19,9 +19,9 @@ const char* to_string(InteractionState state) noexcept;
 struct TransitionInput {
   bool contact = false;          ///< the pen touches the paper
   bool inside_box = false;       ///< inside the active character's box
-  bool at_start = false;         ///< within the neighbourhood of the active stroke's start
+  bool begins = false;           ///< has written the first stretch of the active stroke
   bool may_start = false;        ///< there is an active stroke and, if required, the pen was lifted since the last one
-  bool stroke_finished = false;  ///< the active stroke's last feature point has just been passed
+  bool stroke_finished = false;  ///< the active stroke has just been finished: it is covered, at its end or at the lift
 };
 
 /// The state graph as a pure function:
@@ -32,7 +32,7 @@ struct TransitionInput {
 /// | WS   | stroke finished                            | CS |
 /// | WS   | outside the box                            | AS |
 /// | WS   | otherwise                                  | WS |
-/// | SS, AS, CS | inside the box, at the start of a stroke that may start | WS |
+/// | SS, AS, CS | inside the box, has begun a stroke that may start | WS |
 /// | SS, AS, CS | inside the box                       | CS |
 /// | SS, AS, CS | outside the box                      | AS |
 ///

@@ -37,12 +37,13 @@ enum class StiffnessCheck {
 };
 
 struct RendererOptions {
-  double servo_rate = 1000.0;          ///< [Hz]
-  double paper_stiffness = 600.0;      ///< K_en of eq. (9) [N/m]
-  double paper_onset = 0.0005;         ///< depth over which the paper becomes as stiff and as damped as that [m]
-  double paper_damping = 4.0;          ///< against motion in the paper, along its normal [N s/m]
-  double guidance_stiffness = 600.0;   ///< K_et of eq. (8) where the attraction factor is 1 [N/m]
-  double guidance_damping = 4.0;       ///< where guidance acts, against motion across the stroke, not along it [N s/m]
+  double servo_rate = 1000.0;         ///< [Hz]
+  double paper_stiffness = 600.0;     ///< K_en of eq. (9) [N/m]
+  double paper_onset = 0.0005;        ///< depth over which the paper becomes as stiff and as damped as that [m]
+  double paper_damping = 4.0;         ///< against motion in the paper, along its normal [N s/m]
+  double guidance_stiffness = 600.0;  ///< K_et of eq. (8) where the attraction factor is 1 [N/m]
+  /// Where guidance acts, against motion across the stroke; elsewhere on the paper 15 % of it, against any [N s/m].
+  double guidance_damping = 4.0;
   double velocity_cutoff = 50.0;       ///< of the low-pass on the velocity for both (VelocityEstimator) [Hz]
   double guidance_fade_in = 0.15;      ///< fade-in time of guidance after a stroke's start and each feature point [s]
   double guidance_fade_out = 0.3;      ///< fade-out time when guidance lets go: a pulled hand must not be thrown [s]

@@ -1,0 +1,133 @@
+// What the pen sensor makes of samples: which are believed, what touches the paper, and what moved.
+#include "../catch.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <calligraphy/render/detail/pen_sensor.hpp>
+
+namespace pen_sensor_tests {
+
+using namespace calligraphy;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+struct Sampled {
+  PenSensor sensor;
+  DeviceState sample;
+
+  explicit Sampled(const RendererOptions& options = {}, const MotionMapping& mapping = {}) : sensor(options, mapping) {}
+
+  /// The next sample, 1 ms after the one before.
+  const PenState& at(const Vector3d& position) {
+    sample.position = position;
+    sample.time += 0.001;
+    return sensor.update(sample);
+  }
+  const PenState& with(DeviceStatus status) {
+    sample.status = status;
+    const PenState& pen = at(sample.position);
+    sample.status = DeviceStatus::ok;
+    return pen;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("the pen is where the mapping says, and its tip on the paper as long as the device is below it", "[render]") {
+  MotionMapping mapping;
+  mapping.rotation << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+  mapping.offset = {0.1, 0.2, 0.0};
+  mapping.scale = 2.0;
+  RendererOptions options;
+  options.max_speed = 100.0;
+  Sampled pen(options, mapping);
+  const PenState& above = pen.at({0.01, 0.02, 0.03});
+  CHECK(above.device_point.isApprox(Vector3d(0.16, 0.22, 0.04)));
+  CHECK(above.tip == above.device_point);
+  CHECK(above.penetration == 0.0);
+  const PenState& below = pen.at({0.01, -0.001, 0.03});
+  CHECK(below.penetration == Approx(0.002));
+  CHECK(below.tip.isApprox(Vector3d(0.16, 0.22, 0.0)));
+}
+
+TEST_CASE("a position that is not finite or farther than 1 km is a bad sample, in every coordinate", "[render]") {
+  for (const double value : {not_a_number, HUGE_VAL, -HUGE_VAL, 1001.0, -1001.0}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      Sampled pen;
+      pen.at({0, 0, 0});
+      Vector3d position(0, 0, 0);
+      position[axis] = value;
+      CAPTURE(value, axis);
+      CHECK(pen.at(position).status == TickStatus::bad_sample);
+      CHECK(pen.at({0, 0, 0}).status == TickStatus::ok);
+    }
+  }
+}
+
+TEST_CASE("the force is held for 4 ms of stale samples, and not for a fault", "[render]") {
+  Sampled pen;
+  pen.at({0, 0, -0.001});
+  for (int i = 1; i <= 6; ++i) CHECK(pen.with(DeviceStatus::stale).holds_force == (i <= 4));
+  CHECK(pen.at({0, 0, -0.001}).status == TickStatus::ok);
+  CHECK_FALSE(pen.with(DeviceStatus::fault).holds_force);
+}
+
+TEST_CASE("after a gap the pen has not moved as far as the force is concerned, and moves on from there", "[render]") {
+  Sampled pen;
+  pen.at({0, 0, 0});
+  CHECK(pen.at({0.001, 0, 0}).motion.isApprox(Vector3d(0.001, 0, 0)));
+  pen.with(DeviceStatus::stale);
+  const PenState& after = pen.at({0.003, 0, 0});
+  CHECK(after.motion == Vector3d(0, 0, 0));
+  CHECK(after.velocity_change == Vector3d(0, 0, 0));
+  const PenState& next = pen.at({0.004, 0, 0});
+  CHECK(next.motion.isApprox(Vector3d(0.001, 0, 0)));
+  CHECK(next.velocity_change.norm() > 0.0);
+}
+
+TEST_CASE("a bounce is contact but not on the paper, and what is higher or longer is neither", "[render]") {
+  const RendererOptions options;  // lifted at 3 mm, or after 50 ms above 0.5 mm
+  Sampled pen(options);
+  CHECK_FALSE(pen.at({0, 0, 0.0002}).contact);
+  CHECK(pen.at({0, 0, -0.0001}).contact);
+  CHECK(pen.at({0, 0, 0.0004}).on_paper);
+  for (int i = 1; i <= 49; ++i) {
+    const PenState& bounce = pen.at({0, 0, 0.001});
+    CHECK(bounce.contact);
+    CHECK_FALSE(bounce.on_paper);
+  }
+  pen.at({0, 0, 0.001});
+  CHECK_FALSE(pen.at({0, 0, 0.001}).contact);
+  CHECK(pen.at({0, 0, -0.0001}).contact);
+  CHECK_FALSE(pen.at({0, 0, 0.0031}).contact);
+}
+
+TEST_CASE("a pause is counted in ticks only where energy is accounted for", "[render]") {
+  for (const bool accounts : {false, true}) {
+    RendererOptions options;
+    if (accounts) options.energy_budget = 0.1;
+    Sampled pen(options);
+    pen.at({0, 0, 0});
+    pen.sample.time += 0.004;
+    CHECK(pen.at({0, 0, 0}).ticks == (accounts ? 5 : 1));
+    CHECK(pen.at({0, 0, 0}).ticks == 1);
+  }
+}
+
+TEST_CASE("a restarted sensor knows nothing of the pen before", "[render]") {
+  Sampled pen;
+  pen.at({0, 0, -0.001});
+  pen.at({0.5, 0, -0.001});  // too far: rejected
+  pen.sensor.restart();
+  const PenState& fresh = pen.at({0.3, 0, 0.001});
+  CHECK(fresh.status == TickStatus::ok);
+  CHECK_FALSE(fresh.contact);
+  CHECK(fresh.motion == Vector3d(0, 0, 0));
+  CHECK(fresh.velocity == Vector3d(0, 0, 0));
+}
+
+}  // namespace pen_sensor_tests

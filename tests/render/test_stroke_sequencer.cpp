@@ -1,0 +1,198 @@
+// The one state of the sequencer moves as docs/capture.md draws it.
+#include "../catch.hpp"
+
+#include <algorithm>
+#include <initializer_list>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include <calligraphy/render/detail/stroke_sequencer.hpp>
+
+#include "../hard_cases.hpp"
+#include "../scripted_pen.hpp"
+
+namespace sequencer_tests {
+
+using namespace calligraphy;
+using calligraphy_test::placed;
+using calligraphy_test::Sequence;
+using calligraphy_test::test_device;
+using Phase = WritingPhase;
+
+namespace {
+
+StrokeSequencer sequencer_of(char32_t code, const RendererOptions& options = {}) {
+  return StrokeSequencer({placed(code)}, options, test_device(), {});
+}
+
+PenState pen_at(const Point& tip, bool contact) {
+  PenState pen;
+  pen.contact = pen.on_paper = contact;
+  pen.tip = pen.device_point = pen.position = {tip.x(), tip.y(), contact ? 0.0 : 0.005};
+  return pen;
+}
+
+/// The way of an accurate pen along stroke `index` of a page, in steps of 0.2 mm.
+std::vector<Point> way_along(const StrokeSequencer& sequencer, int index) {
+  const PlacedCharacter& character = sequencer.page()[0];
+  return calligraphy_test::path_of(strokes(character.character)[static_cast<std::size_t>(index)], character.placement,
+                                   2e-4);
+}
+
+/// Follows a sequencer in which pens wander about the strokes of a page: to their starts and ends, between them, along
+/// the one that is due, pulled aside or not, and up from the paper now and then.
+template <typename Visit>
+void wander(StrokeSequencer& sequencer, Sequence& random, int ticks, Visit visit) {
+  const int count = static_cast<int>(strokes(sequencer.page()[0].character).size());
+  const WriterState* writer = &sequencer.update(pen_at({0.0, 0.0}, false));
+  Point tip(0.0, 0.0);
+  for (int done = 0; done < ticks;) {
+    const bool writes = random.next() < 0.6 && writer->character == 0 && writer->stroke < count;
+    const int stroke = writes ? writer->stroke : static_cast<int>(count * random.next());
+    std::vector<Point> way = way_along(sequencer, stroke);
+    const double kind = random.next();
+    if (!writes && kind < 0.3) std::reverse(way.begin(), way.end());
+    if (!writes && kind > 0.6)
+      way = {way[static_cast<std::size_t>(random.next() * static_cast<double>(way.size() - 1))]};
+    const Point aside(random.between(-1e-3, 1e-3), random.between(-1e-3, 1e-3));
+    const bool strays = random.next() < 0.3, slides = random.next() < 0.3;
+    const Point far(strays ? random.between(-0.02, 0.02) : 0.0, strays ? random.between(-0.02, 0.02) : 0.0);
+    if (!slides) writer = &visit(sequencer.update(pen_at(tip, false)));
+    for (std::size_t i = 0; i < way.size(); ++i, ++done) {
+      const double middle = i > way.size() / 3 && i < way.size() / 2 ? 1.0 : 0.0;
+      tip = way[i] + aside + middle * far;
+      PenState pen = pen_at(tip, true);
+      if (strays && i % 7 == 0) pen.force.setZero();
+      writer = &visit(sequencer.update(pen));
+      if (random.next() < 0.002) break;
+    }
+  }
+}
+
+/// The arrows of docs/capture.md.
+bool is_drawn(Phase from, Phase to, const RendererOptions& options) {
+  const auto is_one = [](Phase phase, std::initializer_list<Phase> phases) {
+    return std::find(phases.begin(), phases.end(), phase) != phases.end();
+  };
+  const auto is_before = [&](Phase phase) {
+    return is_one(phase, {Phase::away, Phase::in_middle, Phase::at_end, Phase::at_start, Phase::turned_away});
+  };
+  const auto writes = [&](Phase phase) { return is_one(phase, {Phase::guided, Phase::released}); };
+  if (from == to || to == Phase::lifted) return true;
+  if (from == Phase::lifted) return is_before(to) || to == Phase::page_written;
+  if (is_before(from)) return is_before(to) || is_one(to, {Phase::other_stroke, Phase::guided});
+  if (!writes(from)) return false;  // finished, another stroke, page written: until the pen is lifted
+  if (writes(to)) return true;
+  if (to == Phase::finished) return options.lift_between_strokes;
+  return is_before(to) || (to == Phase::page_written && !options.lift_between_strokes);
+}
+
+}  // namespace
+
+TEST_CASE("the state of the writer moves along the arrows that are drawn, and refines the paper's", "[render]") {
+  RendererOptions sliding;
+  sliding.lift_between_strokes = false;
+  sliding.guide_to_start = true;
+  RendererOptions narrow;
+  narrow.box_margin = 0.0;
+  narrow.box_hysteresis = 0.0;
+  std::set<std::pair<Phase, Phase>> seen;
+  for (const RendererOptions& options : {RendererOptions(), sliding, narrow}) {
+    for (const char32_t code : {U'三', U'永', U'北'}) {
+      StrokeSequencer sequencer = sequencer_of(code, options);
+      Sequence random(static_cast<unsigned>(code));
+      Phase before = Phase::lifted;
+      int wrong = 0, unlike_paper = 0, guided_wrongly = 0;
+      for (int page = 0; page < 20; ++page) {
+        sequencer.restart();
+        before = Phase::lifted;
+        wander(sequencer, random, 4000, [&](const WriterState& writer) -> const WriterState& {
+          const Phase phase = writer.phase;
+          if (before != phase) seen.emplace(before, phase);
+          wrong += !is_drawn(before, phase, options);
+          const bool is_lifted = phase == Phase::lifted, writes = phase == Phase::guided || phase == Phase::released;
+          unlike_paper += is_lifted != (writer.state == InteractionState::separation);
+          unlike_paper += writes != (writer.state == InteractionState::writing);
+          const bool may_be_led = writer.state == InteractionState::calibration && phase != Phase::finished &&
+                                  phase != Phase::other_stroke && phase != Phase::page_written;
+          guided_wrongly += writer.guided && phase != Phase::guided && !may_be_led;
+          guided_wrongly += !writer.guided && phase == Phase::guided;
+          before = phase;
+          return writer;
+        });
+      }
+      CAPTURE(static_cast<int>(code), options.lift_between_strokes, options.box_margin);
+      CHECK(wrong == 0);
+      CHECK(unlike_paper == 0);
+      CHECK(guided_wrongly == 0);
+    }
+  }
+  // What is drawn was also walked: each phase was entered, and left for the air.
+  for (const Phase phase : {Phase::page_written, Phase::finished, Phase::away, Phase::in_middle, Phase::at_end,
+                            Phase::at_start, Phase::turned_away, Phase::other_stroke, Phase::guided, Phase::released}) {
+    CAPTURE(static_cast<int>(phase));
+    CHECK(std::any_of(seen.begin(), seen.end(), [&](const auto& arrow) { return arrow.second == phase; }));
+    CHECK(seen.count({phase, Phase::lifted}) == 1);
+  }
+  CHECK(seen.count({Phase::guided, Phase::released}) == 1);
+  CHECK(seen.count({Phase::released, Phase::guided}) == 1);
+}
+
+TEST_CASE("a page that is finished by sliding guides nobody, from that tick on", "[render]") {
+  RendererOptions options;
+  options.lift_between_strokes = false;
+  options.guide_to_start = true;
+  StrokeSequencer sequencer = sequencer_of(U'一', options);
+  bool finished = false;
+  sequencer.update(pen_at(way_along(sequencer, 0).front(), false));
+  for (const Point& tip : way_along(sequencer, 0)) {
+    const WriterState& writer = sequencer.update(pen_at(tip, true));
+    finished = finished || has_event(writer.events, TickEvent::page_finished);
+    CHECK((writer.phase == Phase::page_written) == finished);
+    if (finished) CHECK_FALSE(writer.guided);
+  }
+  CHECK(finished);
+}
+
+TEST_CASE("the hint is that of the same tick: off the stroke as soon as guidance has let go", "[render]") {
+  StrokeSequencer sequencer = sequencer_of(U'一');
+  const std::vector<Point> way = way_along(sequencer, 0);
+  sequencer.update(pen_at(way.front(), false));
+  int released = 0;
+  for (std::size_t i = 0; i < way.size(); ++i) {
+    const double aside = i > way.size() / 3 && i < way.size() / 2 ? 0.012 : 0.0;
+    const WriterState& writer = sequencer.update(pen_at(way[i] + Point(0.0, aside), true));
+    if (writer.state != InteractionState::writing) continue;
+    CHECK((hint_in(writer.phase) == WritingHint::off_stroke) == !writer.guided);
+    released += !writer.guided;
+  }
+  CHECK(released > 5);
+}
+
+TEST_CASE("a pen that rested on a stroke and is lifted rests on it no more where it is put down beside it",
+          "[render]") {
+  StrokeSequencer sequencer = sequencer_of(U'三');
+  const std::vector<Point> way = way_along(sequencer, 0);
+  sequencer.update(pen_at(way.front(), false));
+  CHECK(sequencer.update(pen_at(way[way.size() / 2], true)).rests);
+  CHECK_FALSE(sequencer.update(pen_at(way[way.size() / 2], false)).rests);
+  CHECK_FALSE(sequencer.update(pen_at(way[way.size() / 2] + Point(0.0, 0.005), true)).rests);
+}
+
+TEST_CASE("a bad sample changes nothing that is known of the writer, and happens nowhere", "[render]") {
+  StrokeSequencer sequencer = sequencer_of(U'一');
+  const std::vector<Point> way = way_along(sequencer, 0);
+  sequencer.update(pen_at(way.front(), false));
+  CHECK(has_event(sequencer.update(pen_at(way.front(), true)).events, TickEvent::contact));
+  for (const TickStatus status : {TickStatus::stale, TickStatus::bad_sample, TickStatus::device_fault}) {
+    PenState pen = pen_at(way.back(), false);
+    pen.status = status;
+    const WriterState& writer = sequencer.update(pen);
+    CHECK(writer.events == TickEvent::none);
+    CHECK(writer.phase == Phase::at_start);
+    CHECK(writer.guided);
+  }
+}
+
+}  // namespace sequencer_tests
