@@ -11,7 +11,7 @@ namespace {
 constexpr double min_weight = 0.5;
 
 /// Most that an offset at the start may bring a corner forward [em].
-constexpr double earliest_turn = 0.05;
+constexpr double max_early_turn = 0.05;
 
 }  // namespace
 
@@ -128,7 +128,7 @@ bool ActiveStroke::passes(const Point& tip, const StrokeContact& contact, const 
   // the pen is far away.
   if (contact.weight < min_weight || left > 2.0 * tolerance + misplaced_.norm() + 1e-6 * length) return false;
   // One who began the stroke before its start may turn as much before the corner.
-  const double early = std::clamp(-planes_[i].normal.dot(misplaced_), 0.0, earliest_turn * em_);
+  const double early = std::clamp(-planes_[i].normal.dot(misplaced_), 0.0, max_early_turn * em_);
   if (beyond >= -tolerance - early) return true;
   // A pen that stays on the inside of a corner never reaches the plane: it passes on the bisector, where both elements
   // attract it equally.

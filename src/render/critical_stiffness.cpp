@@ -95,12 +95,12 @@ class Loop {
 /// cos(angle) of degree d + 1: it has at most that many zeros, which the even spacing separates. The other angles find
 /// those of a slow motion near z = 1.
 std::vector<double> angles(int delay) {
-  constexpr double lowest = 1e-9;
+  constexpr double min_angle = 1e-9;
   constexpr int per_decade = 20, per_zero = 32;
   std::vector<double> all;
   const int even = per_zero * (delay + 2);
   const double step = std::numbers::pi / even;
-  for (double angle = lowest; angle < step; angle *= std::pow(10.0, 1.0 / per_decade)) all.push_back(angle);
+  for (double angle = min_angle; angle < step; angle *= std::pow(10.0, 1.0 / per_decade)) all.push_back(angle);
   for (int i = 1; i < even; ++i) all.push_back(i * step);
   return all;
 }
@@ -109,10 +109,10 @@ std::vector<double> angles(int delay) {
 /// none.
 template <typename Gain>
 double first_crossing(int delay, Gain gain) {
-  double smallest = std::numeric_limits<double>::infinity();
+  double minimum = std::numeric_limits<double>::infinity();
   const auto consider = [&](double angle) {
     const double value = gain(angle).real();
-    if (value > 0.0) smallest = std::min(smallest, value);
+    if (value > 0.0) minimum = std::min(minimum, value);
   };
   const auto is_negative = [&](double angle) { return std::signbit(gain(angle).imag()); };
   consider(std::numbers::pi);
@@ -127,7 +127,7 @@ double first_crossing(int delay, Gain gain) {
     }
     consider(0.5 * (low + high));
   }
-  return smallest;
+  return minimum;
 }
 
 }  // namespace

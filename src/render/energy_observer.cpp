@@ -49,9 +49,9 @@ void EnergyObserver::acted(const Eigen::Vector3d& force, int ticks, double settl
     if (norm(earlier) > norm(before)) before = earlier;
   }
   // A force that was reduced meanwhile has been between the two, it is not known when.
-  const double longest = std::max(std::ceil(options_.max_gap / period_), settled);
+  const double max_unsure = std::max(std::ceil(options_.max_gap / period_), settled);
   const int unsure =
-      change <= force_resolution / options_.scale ? 0 : static_cast<int>(std::min(longest, 1.0 * missed));
+      change <= force_resolution / options_.scale ? 0 : static_cast<int>(std::min(max_unsure, 1.0 * missed));
   if (unsure > 0) sent_[newest_] = before;
   pass_unseen(before, unsure, change);
   if (unsure > 0 && settled > missed && has_position_) {  // also in the period that ends now
@@ -104,10 +104,10 @@ ObservedStep EnergyObserver::move(const Eigen::Vector3d& position) noexcept {
     step.seen = true;
   } else {
     // Exact if the force was held; otherwise it is unknown how far the pen moved under which.
-    const double fastest = std::max(speed(), way / seconds);
+    const double max_speed = std::max(speed(), way / seconds);
     const double change = gap_.change + norm(Eigen::Vector3d(step.force - gap_.held));
-    step.energy = std::min(dot(gap_.held, step.way) + change * fastest * period_,
-                           (gap_.force + norm(step.force)) * fastest * period_);
+    step.energy = std::min(dot(gap_.held, step.way) + change * max_speed * period_,
+                           (gap_.force + norm(step.force)) * max_speed * period_);
   }
   given_ += step.energy;
   speed_ = has_position_ && !jumped ? way / seconds : 0.0;

@@ -29,13 +29,13 @@ const HapticTick& HapticRenderer::update(const DeviceState& sample) noexcept {
   const GuidanceForce& guidance = guidance_.update(pen, writer, output_.last().guidance);
   const PaperForce& paper = paper_.update(pen, writer, output_.last().page.z());
   const SentForce& sent = output_.update(pen, guidance, paper);
-  report(sample, pen, writer, guidance, paper, sent);
+  report(pen, writer, guidance, paper, sent);
   return tick_;
 }
 
-void HapticRenderer::report(const DeviceState& sample, const PenState& pen, const WriterState& writer,
-                            const GuidanceForce& guidance, const PaperForce& paper, const SentForce& sent) noexcept {
-  tick_.time = sample.time;
+void HapticRenderer::report(const PenState& pen, const WriterState& writer, const GuidanceForce& guidance,
+                            const PaperForce& paper, const SentForce& sent) noexcept {
+  tick_.time = pen.time;
   tick_.status = pen.status;
   tick_.state = writer.state;
   tick_.events = writer.events;

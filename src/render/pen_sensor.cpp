@@ -42,6 +42,7 @@ void PenSensor::restart() noexcept {
 }
 
 const PenState& PenSensor::update(const DeviceState& sample) noexcept {
+  pen_.time = sample.time;
   pen_.force = sample.force;
   if (counts_pauses_) count_ticks(sample);
   pen_.status = accept(sample);

@@ -24,12 +24,12 @@ struct Felt {
 };
 
 std::vector<Felt> felt_spring(const SampledLoop& loop, double velocity_cutoff) {
-  constexpr double slowest = 0.5;  // [rad/s]: softer springs than 0.1 N/m are not looked at
+  constexpr double min_frequency = 0.5;  // [rad/s]: softer springs than 0.1 N/m are not looked at
   constexpr double ratio = 1.03;
   const double period = 1.0 / loop.rate;
   const double passed = -std::expm1(-2.0 * std::numbers::pi * velocity_cutoff * period);
   std::vector<Felt> all;
-  for (double w = slowest; w * period < std::numbers::pi; w *= ratio) {
+  for (double w = min_frequency; w * period < std::numbers::pi; w *= ratio) {
     const double angle = w * period;
     const std::complex<double> before = std::polar(1.0, -angle);  // one sample earlier
     const std::complex<double> held =
@@ -85,8 +85,8 @@ double stiffness_for_any_hand(const SampledLoop& loop, double velocity_cutoff, d
     (is_damped(loop, felt, middle) ? low : high) = middle;
   }
   // So soft a spring that nothing swings on it at the lowest frequency looked at.
-  const double softest = loop.device.apparent_mass * felt.front().frequency * felt.front().frequency;
-  return low > softest * (1.0 + 1e-6) ? low : 0.0;
+  const double min_stiffness = loop.device.apparent_mass * felt.front().frequency * felt.front().frequency;
+  return low > min_stiffness * (1.0 + 1e-6) ? low : 0.0;
 }
 
 }  // namespace calligraphy

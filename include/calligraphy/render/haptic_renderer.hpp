@@ -50,8 +50,8 @@ class HapticRenderer {
   double max_force_step() const noexcept { return output_.max_step() * mapping_.scale; }
 
  private:
-  void report(const DeviceState& sample, const PenState& pen, const WriterState& writer, const GuidanceForce& guidance,
-              const PaperForce& paper, const SentForce& sent) noexcept;
+  void report(const PenState& pen, const WriterState& writer, const GuidanceForce& guidance, const PaperForce& paper,
+              const SentForce& sent) noexcept;
 
   MotionMapping mapping_;
   EffectiveOptions effective_;

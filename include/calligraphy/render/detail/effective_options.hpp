@@ -16,7 +16,7 @@ struct EffectiveOptions {
   RendererOptions options;
   std::vector<std::string> clipped;  ///< one line per value, with the reason
   double guidance_limit = 0.0;       ///< of the stiffness of guidance, attraction factor included [N/m, page]
-  double max_attraction = 1.0;       ///< attraction factor, on the page [1]
+  double max_attraction = 1.0;       ///< largest attraction factor on the page [1]
 
   /// Stiffness of guidance where the attraction factor is this one [N/m, page].
   double guidance_stiffness(double attraction) const noexcept {

@@ -25,7 +25,7 @@ struct SentForce {
   double heat = 0.0;                                  ///< of the motors; 0 without thermal budget [1]
 };
 
-/// Passivity, energy budget, heat, peak and rate, in this order. Never allocates.
+/// Passivity and the energy budget, then peak and heat, which keep the direction, then the rate. Never allocates.
 class ForceOutput {
  public:
   /// `max_guidance`: stiffness of guidance where it is stiffest on the page [N/m].

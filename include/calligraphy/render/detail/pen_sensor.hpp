@@ -26,8 +26,6 @@ class PenSensor {
   const PenState& update(const DeviceState& sample) noexcept;
   void restart() noexcept;
 
-  const PenState& pen() const noexcept { return pen_; }
-
  private:
   void count_ticks(const DeviceState& sample) noexcept;
   TickStatus accept(const DeviceState& sample) noexcept;

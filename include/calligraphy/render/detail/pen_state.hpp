@@ -9,8 +9,9 @@
 
 namespace calligraphy {
 
-/// Position and motion are those of the last good sample; a sample that is not `ok` leaves them.
+/// Position, contact and motion are those of the last good sample: one that is not `ok` leaves them.
 struct PenState {
+  double time = 0.0;  ///< of the sample [s]
   TickStatus status = TickStatus::ok;
   bool holds_force = false;  ///< samples have been stale for so short a time that the force is held, as a servo does
   /// At work when the sample was read [N, device axes]; NaN if the device does not say.
