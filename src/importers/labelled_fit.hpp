@@ -1,7 +1,6 @@
 // Fits the strokes of a drawing, where a label and the shape may disagree on the kind; private to the importers.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include <calligraphy/model/character.hpp>

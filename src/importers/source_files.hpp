@@ -29,8 +29,7 @@ std::string with_plain_line_ends(std::string_view text, const std::string& place
 using SkipReason = std::function<std::string(std::string_view path)>;
 
 /// Reads the files of a directory (links are not followed) or of a tarball (.tgz or .tar; nothing is unpacked to disk).
-/// @throws FileError if the source cannot be opened or read, or this build does not support tarballs; FormatError
-/// naming
+/// @throws FileError if the source cannot be opened or read, or this build does not support tarballs; FormatError naming
 ///         source and entry if it is damaged, exceeds the limits, or contains a path that leaves the tarball
 SourceFiles read_source(const std::filesystem::path& source, const SkipReason& skip_reason,
                         const SourceLimits& limits = {});

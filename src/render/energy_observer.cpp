@@ -48,7 +48,7 @@ void EnergyObserver::acted(const Eigen::Vector3d& force, int ticks, double settl
     change = std::max({change, norm(Eigen::Vector3d(earlier - before)), norm(Eigen::Vector3d(force - earlier))});
     if (norm(earlier) > norm(before)) before = earlier;
   }
-  // A force that was reduced meanwhile has been between the two, it is not known when.
+  // A force that was reduced meanwhile has been between the two, at a time that is not known.
   const double max_unsure = std::max(std::ceil(options_.max_gap / period_), settled);
   const int unsure =
       change <= force_resolution / options_.scale ? 0 : static_cast<int>(std::min(max_unsure, 1.0 * missed));

@@ -12,8 +12,7 @@
 namespace calligraphy {
 namespace {
 
-/// Faster pens, and larger changes of their velocity in a tick, are faults rather than motions of a hand: the force
-/// does not follow them at once [m/s].
+/// The force follows a pen at once up to this speed, and this change of it in a tick [m/s].
 constexpr double max_followed_speed = 1.0, max_followed_change = 0.3;
 
 /// Maximum force of passivity control for one step of the encoder within a tick: a click that is not felt [N].
@@ -46,10 +45,10 @@ PassivityController passivity_controller(const RendererOptions& options, const C
 }  // namespace
 
 ForceOutput::ForceOutput(const RendererOptions& options, const Capabilities& capabilities, const MotionMapping& mapping,
-                         double max_guidance)
+                         double max_guidance_stiffness)
     : mapping_(mapping),
       period_(1.0 / options.servo_rate),
-      in_plane_{max_guidance + options.wrong_way_stiffness, options.guidance_damping},
+      in_plane_{max_guidance_stiffness + options.wrong_way_stiffness, options.guidance_damping},
       normal_{options.paper_stiffness, options.paper_damping},
       paper_onset_(options.paper_onset),
       observes_energy_(options.observes_energy()) {
@@ -88,10 +87,11 @@ const SentForce& ForceOutput::update(const PenState& pen, const GuidanceForce& g
   double max_force = thermal_.peak > 0.0 ? thermal_.max_force() : ForceLimiter::no_limit;
   Eigen::Vector3d force = wanted;
   if (observes_energy_) {
-    observe(pen);
+    account(pen);
     force = passive(pen, shortened(wanted, std::min(limiter_.peak, max_force)));
     max_force = std::min(max_force, passivity_.max_force());
   }
+  // Where nothing was sent, nothing is held, the brake of an exhausted budget included.
   const bool is_trusted = pen.status == TickStatus::ok || (pen.holds_force && norm(wanted) > 0.0);
   sent_.page = is_trusted ? limiter_.next(sent_.page, force, allowance(pen), max_force) : limiter_.release(sent_.page);
   if (observes_energy_) passivity_.sent(sent_.page);
@@ -105,7 +105,7 @@ const SentForce& ForceOutput::update(const PenState& pen, const GuidanceForce& g
 }
 
 /// The account of energy sees the force at work: behind a servo it may be less than the one sent.
-void ForceOutput::observe(const PenState& pen) noexcept {
+void ForceOutput::account(const PenState& pen) noexcept {
   const bool is_as_sent = pen.force == sent_.device || !pen.force.allFinite();
   passivity_.acted(is_as_sent ? sent_.page : mapping_.force_to_page(pen.force), pen.ticks, pen.settling);
 }

@@ -12,11 +12,10 @@ namespace {
 /// not coast on.
 constexpr double unguided_damping = 0.15;
 
-/// guide_to_start leads a pen as near to the start along the stroke as this, as a share of the tolerance.
+/// guide_to_start stops short of the start along the stroke by this share of the tolerance.
 constexpr double unguided_start = 0.5;
 
-/// A closest point counts as an end of the stroke where the pen is this far from its normal, as a share of the distance
-/// and of its own [m].
+/// A pen this far from the normal of its closest point is beyond an end: as a share of the distance, plus a slack [m].
 constexpr double oblique_share = 0.2, oblique_slack = 1e-5;
 
 /// The part of a velocity that guidance along `way` [m] damps: across the stroke. Along it the pen is free, except
@@ -102,7 +101,7 @@ void Guidance::pull(const PenState& pen, const WriterState& writer) noexcept {
   if (saturating) {
     const double linear = force_.attraction.norm();
     force_.attraction = saturated_force(force_.attraction, options.guidance_limit);
-    // Less than the stiffness falls towards the stroke, as much as it falls around it.
+    // Across the stroke the stiffness falls with the square of what this falls by.
     if (linear > 0.0) share *= std::sqrt(force_.attraction.norm() / linear);
   }
   const Point velocity = pen.velocity.head<2>();

@@ -78,7 +78,7 @@ TickStatus PenSensor::accept(const DeviceState& sample) noexcept {
     return TickStatus::bad_sample;
   }
   if (rejected_) {
-    velocity_.restart();  // the pen is elsewhere, and did not move there
+    velocity_.restart();  // the pen is elsewhere, and did not move there, or nobody knows where it was
     has_sample_ = false;
     rejected_.reset();
   }

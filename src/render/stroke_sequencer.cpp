@@ -16,9 +16,11 @@ constexpr double min_coverage = 0.75;
 /// A pen put down on the stroke this far along it is at its end.
 constexpr double end_share = 0.75;
 
-/// Guidance lets go of a pen where the tube's weight has fallen to this,
+/// Guidance lets go of a pen where the tube's weight has fallen to this.
 constexpr double min_held_weight = 0.5;
-/// or where the hand means to be this far across the stroke; it takes hold again within half of that [em].
+
+/// It also lets go where the hand means to be this much farther across than it began, and takes hold again within half
+/// of that [em].
 constexpr double max_detour = 0.12;
 
 }  // namespace
@@ -46,7 +48,7 @@ const WriterState& StrokeSequencer::update(const PenState& pen) noexcept {
   const Point tip = pen.tip.head<2>();
   writer_.events = TickEvent::none;
   if (pen.status != TickStatus::ok) return writer_;
-  const TransitionInput input = observe(pen);
+  const TransitionInput input = advance(pen);
   const State before = writer_.state, after = next_state(before, input);
   writer_.state = after;
   if (before == State::separation && after != State::separation) writer_.events |= TickEvent::contact;
@@ -62,7 +64,7 @@ const WriterState& StrokeSequencer::update(const PenState& pen) noexcept {
   return writer_;
 }
 
-TransitionInput StrokeSequencer::observe(const PenState& pen) noexcept {
+TransitionInput StrokeSequencer::advance(const PenState& pen) noexcept {
   TransitionInput input;
   input.contact = pen.contact;
   if (all_written()) return input;
@@ -146,7 +148,7 @@ void StrokeSequencer::finish_stroke(const Point& tip) noexcept {
     writer_.events |= TickEvent::character_finished;
     if (writer_.character + 1 == page_.size()) writer_.events |= TickEvent::page_finished;
     // The box of the next character is elsewhere, and outside a box the paper does not press back: it would give way
-    // under a pen that still rests on this character.
+    // under a pen that is still pressed on this character.
     if (options_.lift_between_strokes) {
       writer_.stroke = next;
     } else {
@@ -190,7 +192,7 @@ void StrokeSequencer::activate(int character, int stroke) noexcept {
   writer_.direction = active.starts[static_cast<std::size_t>(stroke)].direction;
 }
 
-/// The state machine that docs/capture.md draws.
+/// Refines the paper's state as docs/capture.md draws it.
 WritingPhase StrokeSequencer::phase(const PenState& pen) const noexcept {
   if (writer_.state == InteractionState::separation) return WritingPhase::lifted;
   if (all_written()) return WritingPhase::page_written;

@@ -420,7 +420,7 @@ TEST_CASE("without damping, or with a damper too strong for the lag, no stiffnes
   };
   for (const int delay : {0, 1, 5}) {
     CHECK(bound(0.0, delay, 0.0) == 0.0);
-    CHECK(bound(0.1, delay, 0.0) < 2.0);   // (b / 0.15)^2 / (m + 0.3 kg) = 1.3 N/m
+    CHECK(bound(0.1, delay, 0.0) < 2.0);  // (b / 0.15)^2 / (m + 0.3 kg) = 1.3 N/m
   }
   CHECK(bound(0.1, 5, 20.0) == 0.0);
   CHECK(bound(0.1, 0, 1000.0) == 0.0);

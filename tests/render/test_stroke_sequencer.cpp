@@ -114,6 +114,8 @@ TEST_CASE("the state of the writer moves along the arrows that are drawn, and re
           const bool is_lifted = phase == Phase::lifted, writes = phase == Phase::guided || phase == Phase::released;
           unlike_paper += is_lifted != (writer.state == InteractionState::separation);
           unlike_paper += writes != (writer.state == InteractionState::writing);
+          const bool ends = has_event(writer.events, TickEvent::page_finished);
+          unlike_paper += phase == Phase::page_written && !ends && writer.state != InteractionState::adjusting;
           const bool may_be_led = writer.state == InteractionState::calibration && phase != Phase::finished &&
                                   phase != Phase::other_stroke && phase != Phase::page_written;
           guided_wrongly += writer.guided && phase != Phase::guided && !may_be_led;

@@ -33,7 +33,7 @@ class HapticRenderer {
   /// Processes one sample. Write `force` of the result to the device.
   const HapticTick& update(const DeviceState& sample) noexcept;
 
-  /// Starts the page again: nothing written, force zero immediately.
+  /// Starts the page again: nothing written, force zero immediately, energy and heat as at the beginning.
   void restart() noexcept;
 
   /// What the last update() returned. For the thread that calls update() alone: for a display, publish it through a
@@ -45,8 +45,8 @@ class HapticRenderer {
   const std::vector<std::string>& clipped() const noexcept { return effective_.clipped; }
   const MotionMapping& mapping() const noexcept { return mapping_; }
   const std::vector<PlacedCharacter>& page() const noexcept { return sequencer_.page(); }
-  /// Maximum change of the force per tick [N], that on a pen as fast as the force follows at once (1 m/s); infinite
-  /// when the rate is not limited.
+  /// Maximum change of the force per tick [N], reached by a pen of 1 m/s or more; a budget of energy or heat may cut
+  /// the force faster. Infinite when the rate is not limited.
   double max_force_step() const noexcept { return output_.max_step() * mapping_.scale; }
 
  private:

@@ -44,14 +44,14 @@ const char* to_string(TickStatus status) noexcept;
 
 /// Why a pen on the paper is not guided, for a display to show.
 enum class WritingHint : std::uint8_t {
-  none,             ///< it is guided, or not on the paper
+  none,             ///< it is guided in writing, not on the paper, or all is written
   write,            ///< at the start of the stroke that is due: write on
   too_far,          ///< too far from the start: `to_start` says where it is
   at_end,           ///< at the stroke's end
   in_middle,        ///< in the middle of the stroke
   wrong_direction,  ///< at the start, but moving another way
   another_stroke,   ///< at the start of another stroke
-  off_stroke,       ///< writing, but too far from the stroke: `contact.closest` is where to return
+  off_stroke,       ///< writing, but too far from the stroke or pulled aside: `contact.closest` is where to return
   lift_first        ///< lift the pen first: the stroke before has just been finished
 };
 
@@ -73,10 +73,10 @@ struct HapticTick {
   Eigen::Vector3d device_point = Eigen::Vector3d::Zero();  ///< haptic interface point, page frame [m]
   Eigen::Vector3d pen_tip = Eigen::Vector3d::Zero();       ///< virtual pen tip, page frame [m]
   double penetration = 0.0;                                ///< of the device point into the paper [m]
-  StrokeContact contact;  ///< valid in the writing state and in the tick that leaves it
+  StrokeContact contact;  ///< valid in the writing state, in the tick that leaves it, and for hints on the stroke
   double covered = 0.0;   ///< share of the stroke written last that was covered in order [1]
   WritingHint hint = WritingHint::none;
-  Point to_start = Point::Zero();    ///< from the pen tip to the start of the active stroke [m, page]
+  Point to_start = Point::Zero();    ///< from the pen tip to the start of the active, or last, stroke [m, page]
   Point attraction = Point::Zero();  ///< force term, including assistance, before fade-in and limits [N, page]
   Point wrong_way = Point::Zero();   ///< force term, before fade-in and limits [N, page]
   Point friction = Point::Zero();    ///< force term, before limits [N, page]

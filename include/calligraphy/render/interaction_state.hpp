@@ -17,11 +17,12 @@ const char* to_string(InteractionState state) noexcept;
 
 /// The inputs of a transition, with hysteresis already applied.
 struct TransitionInput {
-  bool contact = false;          ///< the pen touches the paper
-  bool inside_box = false;       ///< inside the active character's box
-  bool begins = false;           ///< has written the first stretch of the active stroke
-  bool may_start = false;        ///< there is an active stroke and, if required, the pen was lifted since the last one
-  bool stroke_finished = false;  ///< the active stroke has just been finished: it is covered, at its end or at the lift
+  bool contact = false;     ///< the pen touches the paper
+  bool inside_box = false;  ///< inside the active character's box
+  bool begins = false;      ///< has written the first stretch of the active stroke
+  bool may_start = false;   ///< there is an active stroke and, if required, the pen was lifted since the last one
+  bool stroke_finished =
+      false;  ///< the active stroke has just been finished: it is covered, at its end or where the pen leaves it
 };
 
 /// The state graph as a pure function:

@@ -26,8 +26,9 @@ namespace calligraphy {
 /// F v t + (F t)^2 / (2 m) <= E, with v = hand_speed, or the pen's own speed if that is higher, and t = max_gap plus a
 /// period; for the path of a pen that the hand moves at v while the force accelerates it for that time. Forces whose
 /// work no sample has shown yet are charged likewise. Energy that the hand returns is added to E, up to the budget.
-/// Where less than 0.1 N is left by this rule, that is a brake against the motion, of 0.01 N at least, so that the pen
-/// returns energy. The true net energy never exceeds the budget, whatever the field, as long as
+/// Where less than 0.1 N is left by this rule, that is a brake against the motion, of 0.02 N at least (less with
+/// samples older than 10 ms), so that the pen returns energy. The true net energy never exceeds the budget, whatever
+/// the field, as long as
 /// - a downstream stage does not lengthen a force, and reports the one that it changes (acted());
 /// - no hand moves the pen faster than `hand_speed`, and no gap is longer than `max_gap`: a longer one of t seconds may
 ///   deliver |F| v t, which is repaid before more is given;

@@ -24,8 +24,6 @@ class EnergyBudget {
                           const EnergyObserver& observer) noexcept;
   void restart() noexcept;
 
-  /// What remains [J].
-  double remaining() const noexcept { return remaining_; }
   /// Of the last limited(); infinite before that [N].
   double max_force() const noexcept { return max_force_; }
 

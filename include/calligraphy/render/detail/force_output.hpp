@@ -18,20 +18,21 @@ namespace calligraphy {
 struct SentForce {
   Eigen::Vector3d page = Eigen::Vector3d::Zero();     ///< page axes [N]
   Eigen::Vector3d device = Eigen::Vector3d::Zero();   ///< device axes [N]
-  Point guidance = Point::Zero();                     ///< part of it that is guidance's [N, page]
-  Eigen::Vector3d viscous = Eigen::Vector3d::Zero();  ///< damping in the forces wanted [N, page]
+  Point guidance = Point::Zero();                     ///< without friction and damping as they were wanted [N, page]
+  Eigen::Vector3d viscous = Eigen::Vector3d::Zero();  ///< as HapticTick::viscous [N, page]
   Eigen::Vector3d damping = Eigen::Vector3d::Zero();  ///< by the passivity controller, before limits [N, page]
   double energy_given = 0.0;                          ///< to the hand, as observed; 0 without an account of it [J]
   double heat = 0.0;                                  ///< of the motors; 0 without thermal budget [1]
 };
 
-/// Passivity and the energy budget, then peak and heat, which keep the direction, then the rate. Never allocates.
+/// Limits the forces by passivity and the energy budget, by peak and heat, which keep the direction, and by the rate.
+/// The energy is that of the force at work. Never allocates.
 class ForceOutput {
  public:
-  /// `max_guidance`: stiffness of guidance where it is stiffest on the page [N/m].
+  /// `max_guidance_stiffness`: where it is stiffest on the page [N/m].
   /// @throws ValueError unless the device has a peak force
   ForceOutput(const RendererOptions& options, const Capabilities& capabilities, const MotionMapping& mapping,
-              double max_guidance);
+              double max_guidance_stiffness);
 
   /// Sends what may be sent of the forces. While samples are stale for a moment, that is what was sent before; for a
   /// device that cannot be trusted, nothing: the force goes to zero by the rate.
@@ -53,7 +54,7 @@ class ForceOutput {
 
   ForceAllowance allowance(const PenState& pen) const noexcept;
   ForceAllowance allowance(Point way, Point velocity_change) const noexcept;
-  void observe(const PenState& pen) noexcept;
+  void account(const PenState& pen) noexcept;
   Eigen::Vector3d passive(const PenState& pen, const Eigen::Vector3d& wanted) noexcept;
 
   MotionMapping mapping_;

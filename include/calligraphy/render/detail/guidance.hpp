@@ -1,4 +1,4 @@
-// The lateral force: pulls the pen along the stroke that is due, and resists writing it backwards.
+// The lateral force: holds the pen to the stroke that is due, leads it to its start, and resists writing it backwards.
 #pragma once
 
 #include <calligraphy/render/detail/assistance.hpp>
@@ -23,7 +23,8 @@ class Guidance {
  public:
   explicit Guidance(const EffectiveOptions& effective);
 
-  /// None for a device that cannot be trusted. `sent`: what the device got of the total of the tick before [N, page].
+  /// No force where the device cannot be trusted, the last one while it is held. `sent`: what the device got of the
+  /// total of the tick before [N, page].
   const GuidanceForce& update(const PenState& pen, const WriterState& writer, const Point& sent) noexcept;
 
   void restart() noexcept;
@@ -39,8 +40,8 @@ class Guidance {
   double fade_step_;  ///< per tick
   Assistance assistance_;
   bool guided_ = false;      ///< in the tick before
-  ReleasedSpring released_;  ///< what guided before the last jump of the closest point
-  double fade_ = 0.0;        ///< progress of the fade-in since that jump, 0 to 1
+  ReleasedSpring released_;  ///< what guided before it last jumped, took hold or let go
+  double fade_ = 0.0;        ///< progress of the fade-in since then, 0 to 1
   GuidanceForce force_;
 };
 

@@ -22,8 +22,8 @@ class Paper {
  public:
   explicit Paper(const RendererOptions& options);
 
-  /// None for a device that cannot be trusted. `pressure`: what the device got of the normal force of the tick before
-  /// [N].
+  /// No force where the device cannot be trusted, the last one while it is held. `pressure`: what the device got of the
+  /// normal force of the tick before [N].
   const PaperForce& update(const PenState& pen, const WriterState& writer, double pressure) noexcept;
 
   void release() noexcept;

@@ -1,4 +1,5 @@
-// Makes the pen's state of device samples: mapping, plausibility, staleness, velocity, and contact without bounces.
+// Turns device samples into the state of the pen: mapping, plausibility, staleness, velocity, and contact without
+// bounces.
 #pragma once
 
 #include <cstdint>

@@ -22,12 +22,12 @@ struct PenState {
   Eigen::Vector3d tip = Eigen::Vector3d::Zero();              ///< virtual pen tip, page frame [m]
   double penetration = 0.0;                                   ///< of the device point into the paper [m]
   bool contact = false;                                       ///< touches the paper, or bounces on it
-  bool on_paper = false;                                      ///< touches it: does not bounce
+  bool on_paper = false;                                      ///< within `lift_height`: does not bounce
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();         ///< estimate [m/s, page]
   Eigen::Vector3d velocity_change = Eigen::Vector3d::Zero();  ///< since the sample before; zero after a gap [m/s, page]
   Eigen::Vector3d motion = Eigen::Vector3d::Zero();           ///< likewise [m, page]
 
-  int ticks = 1;          ///< since the sample before; more when the loop paused, if that is counted
+  int ticks = 1;          ///< since the sample before; more when the loop paused, counted for the account of energy
   double settling = 0.0;  ///< for how long after the sample before the force may have been another one [s]
 };
 

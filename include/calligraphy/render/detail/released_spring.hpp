@@ -7,8 +7,8 @@
 
 namespace calligraphy {
 
-/// A spring and a damper along the force that was at work: the spring never exceeds it and never pushes the other way,
-/// and vanishes before the damper does. A hand that has been let go of finds less and less, and a pen that nobody holds
+/// A spring and a damper along the force that was at work: the spring only slackens and never pushes the other way, and
+/// vanishes before the damper does. A hand that has been let go of finds less and less, and a pen that nobody holds
 /// is not driven on.
 class ReleasedSpring {
  public:

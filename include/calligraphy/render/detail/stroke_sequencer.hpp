@@ -34,7 +34,7 @@ class StrokeSequencer {
   bool all_written() const noexcept { return writer_.character >= page_.size(); }
   const PreparedCharacter& character() const noexcept { return page_[writer_.character]; }
 
-  TransitionInput observe(const PenState& pen) noexcept;
+  TransitionInput advance(const PenState& pen) noexcept;
   void put_down(const Point& tip) noexcept;
   bool begins(const Point& tip) noexcept;
   void write_on(const PenState& pen) noexcept;
@@ -55,7 +55,7 @@ class StrokeSequencer {
   PreparedPage page_;
   RendererOptions options_;
   MotionMapping mapping_;
-  double hidden_way_;  ///< by which dry friction holds the pen back from a usual hand [m, page]
+  double hidden_way_;  ///< how far dry friction keeps the pen short of where a usual hand means to be [m, page]
   double compliance_;  ///< of a usual grip [m/N, page]
   ActiveStroke active_;
   StrokeCapture capture_;

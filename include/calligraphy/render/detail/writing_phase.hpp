@@ -1,4 +1,4 @@
-// What a pen is doing to the stroke that is due: the one state of the sequencer (docs/capture.md draws it).
+// What a pen is doing to the stroke that is due (docs/capture.md draws it).
 #pragma once
 
 #include <cstdint>
@@ -7,15 +7,15 @@
 
 namespace calligraphy {
 
-/// Refines the paper's states: `lifted` is SS, `guided` and `released` are WS, and the others are CS in the character's
-/// box and AS outside it.
+/// Refines the paper's states: `lifted` is SS, `guided` and `released` are WS, `page_written` is AS, and the others are
+/// CS in the character's box and AS outside it.
 enum class WritingPhase : std::uint8_t {
   lifted,        ///< not on the paper
   page_written,  ///< no stroke is due
   finished,      ///< has just finished the stroke before, and must be lifted
   away,          ///< too far from the start
-  in_middle,     ///< put down on the stroke, past its start
-  at_end,        ///< put down on its last quarter
+  in_middle,     ///< put down on the stroke, elsewhere than at its start
+  at_end,        ///< put down on the stroke, and now on its last quarter
   at_start,      ///< at the start, the first stretch not yet written
   turned_away,   ///< at the start, setting out another way
   other_stroke,  ///< writes another stroke, until it is lifted
