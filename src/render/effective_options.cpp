@@ -3,11 +3,13 @@
 #include <sstream>
 
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/render/detail/prepared_page.hpp>
 
 namespace calligraphy {
 
 EffectiveOptions effective_options(const RendererOptions& options, const std::vector<PlacedCharacter>& page,
                                    const MotionMapping& mapping, const Capabilities& capabilities) {
+  validate(page);
   validate(mapping);
   EffectiveOptions effective;
   effective.options = options;

@@ -19,7 +19,7 @@ constexpr double damping_share = 0.15;  ///< of a force that the budget limits
 
 EnergyBudget::EnergyBudget(const PassivityOptions& options, double period) noexcept
     : options_(options), period_(period) {
-  brake_ = max_brake / options.scale * std::min(1.0, max_brake_age / ((options.delay + 1) * period));
+  brake_ = max_brake / options.scale * std::min(1.0, max_brake_age / ((options.delay + 1.0) * period));
   reserve_ = std::min(0.5 * options.energy_budget, brake_ * options.hand_speed * (options.max_gap + period));
   restart();
 }

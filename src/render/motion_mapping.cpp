@@ -1,5 +1,7 @@
 #include <calligraphy/render/motion_mapping.hpp>
 
+#include <Eigen/LU>
+
 #include <calligraphy/base/error.hpp>
 
 #include "base/require.hpp"

@@ -29,12 +29,14 @@ void require_valid(const PlacedCharacter& placed, std::size_t index) {
 
 }  // namespace
 
+void validate(const std::vector<PlacedCharacter>& page) {
+  if (page.empty()) throw ValueError("the page has no character");
+  for (std::size_t i = 0; i < page.size(); ++i) require_valid(page[i], i);
+}
+
 PreparedPage::PreparedPage(std::vector<PlacedCharacter> characters, const RendererOptions& options)
     : characters_(std::move(characters)) {
-  if (characters_.empty()) throw ValueError("the page has no character");
-  for (std::size_t i = 0; i < characters_.size(); ++i) {
-    const PlacedCharacter& placed = characters_[i];
-    require_valid(placed, i);
+  for (const PlacedCharacter& placed : characters_) {
     Eigen::AlignedBox2d box = bounding_box(placed);
     box.min().array() -= options.box_margin * placed.placement.em;
     box.max().array() += options.box_margin * placed.placement.em;

@@ -92,7 +92,9 @@ void StrokeSequencer::put_down(const Point& tip) noexcept {
   if (options_.tolerances.coverage == 0.0) return;
   const StrokeContact nearest = active_.nearest(tip, options_.stroke);
   writer_.rests = nearest.closest.distance <= options_.tolerances.corridor * writer_.em;
-  if (writer_.rests) active_.rest(nearest);
+  if (!writer_.rests) return;
+  active_.rest(nearest);
+  writer_.contact = nearest;
 }
 
 bool StrokeSequencer::begins(const Point& tip) noexcept {
@@ -223,9 +225,8 @@ bool StrokeSequencer::keeps_hold(const PenState& pen) const noexcept {
       options_.stroke.space.rule == ConstraintSpaceRule::tube && options_.guidance != GuidanceLaw::saturating;
   if (!lets_go || has_event(writer_.events, TickEvent::stroke_started)) return true;
   // Where the hand means to be, as far as the force at work shows, if the device says what that is.
-  const Point force = mapping_.force_to_page(pen.force).head<2>();
   Point hand = pen.tip.head<2>();
-  if (force.allFinite()) hand -= force * compliance_;
+  if (pen.force.allFinite()) hand -= mapping_.force_to_page(pen.force).head<2>() * compliance_;
   const StrokeContact& contact = writer_.contact;
   const double detour = coverage_.astray(hand, contact);
   if (writer_.guided) return contact.weight >= min_held_weight && detour <= max_detour * writer_.em;

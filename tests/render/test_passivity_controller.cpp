@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -787,6 +788,7 @@ TEST_CASE("an option of the passivity controller out of range is named with its 
   names({}, infinity, "period = inf");
   names({.delay = -1}, 0.001, "delay = -1");
   names({.delay = 16}, 0.001, "delay = 16");
+  names({.delay = std::numeric_limits<int>::max()}, 0.001, "delay = 2147483647");
 }
 
 TEST_CASE("the passivity controller does not allocate", "[render]") {

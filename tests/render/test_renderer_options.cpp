@@ -562,6 +562,9 @@ TEST_CASE("an invalid page, placement or mapping is rejected by name", "[render]
   PlacedCharacter broken = placed(U'永');
   broken.character.structure.control_points[2].x() = not_a_number;
   CHECK(contains(refusal({broken}), "character 1 of the page: stroke 2"));
+  PlacedCharacter strong = placed(U'永');
+  strong.character.physics.attraction_factors[0] = infinity;
+  CHECK(contains(refusal({strong}), "character 1 of the page: stroke 1"));
 
   MotionMapping mapping;
   mapping.scale = -2.0;

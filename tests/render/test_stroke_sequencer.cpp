@@ -182,6 +182,25 @@ TEST_CASE("a pen that rested on a stroke and is lifted rests on it no more where
   CHECK_FALSE(sequencer.update(pen_at(way[way.size() / 2] + Point(0.0, 0.005), true)).rests);
 }
 
+TEST_CASE("a pen put down beside a stroke that it begins at once, but out of the box, feels nothing of the last one",
+          "[render]") {
+  // A line, and above its middle a dot without length, whose start is the whole of it.
+  const std::vector<StrokeInput> inputs = {{1, {{0.2, 0.5}, {0.8, 0.5}}}, {1, {{0.5, 0.8}, {0.5, 0.8}}}};
+  RendererOptions options;
+  options.box_margin = 0.05;
+  StrokeSequencer sequencer({{make_character(U'\u4E0A', inputs), {{0.0, 0.0}, 0.04}}}, options, test_device(), {});
+  sequencer.update(pen_at(0.04 * Point(0.2, 0.5), false));
+  for (int i = 0; i <= 110; ++i) sequencer.update(pen_at(0.04 * Point(0.2 + 0.005 * i, 0.5), true));
+  for (int i = 0; i <= 26; ++i) sequencer.update(pen_at(0.04 * Point(0.75 - 0.005 * i, 0.5), true));
+  CHECK(has_event(sequencer.update(pen_at(0.04 * Point(0.62, 0.5), false)).events, TickEvent::stroke_finished));
+  sequencer.update(pen_at(0.04 * Point(0.5, 1.0), false));  // out of the box
+  const WriterState& writer = sequencer.update(pen_at(0.04 * Point(0.5, 0.855), true));
+  CHECK(writer.state == InteractionState::adjusting);
+  CHECK(writer.rests);
+  CHECK(writer.contact.backwards == 0.0);
+  CHECK(writer.contact.closest.point.isApprox(0.04 * Point(0.5, 0.8)));
+}
+
 TEST_CASE("a bad sample changes nothing that is known of the writer, and happens nowhere", "[render]") {
   StrokeSequencer sequencer = sequencer_of(U'一');
   const std::vector<Point> way = way_along(sequencer, 0);

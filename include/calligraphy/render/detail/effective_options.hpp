@@ -25,7 +25,8 @@ struct EffectiveOptions {
 };
 
 /// Checks all that is asked for, and clips it if that is asked for too.
-/// @throws ValueError naming the option, the mapping or the property of the device that is invalid
+/// @throws ValueError naming the character of the page, the mapping, the option or the property of the device that is
+/// invalid
 EffectiveOptions effective_options(const RendererOptions& options, const std::vector<PlacedCharacter>& page,
                                    const MotionMapping& mapping, const Capabilities& capabilities);
 

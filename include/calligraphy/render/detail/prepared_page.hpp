@@ -12,6 +12,9 @@
 
 namespace calligraphy {
 
+/// @throws ValueError naming the character that is invalid, or when there is none
+void validate(const std::vector<PlacedCharacter>& page);
+
 struct PreparedCharacter {
   Placement placement;
   std::vector<Stroke> strokes;  ///< views into the character
@@ -21,7 +24,7 @@ struct PreparedCharacter {
 
 class PreparedPage {
  public:
-  /// @throws ValueError naming the character that is invalid, or when there is none
+  /// The characters and the options must be valid.
   PreparedPage(std::vector<PlacedCharacter> characters, const RendererOptions& options);
 
   PreparedPage(PreparedPage&&) noexcept = default;

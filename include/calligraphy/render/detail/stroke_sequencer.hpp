@@ -19,8 +19,7 @@ namespace calligraphy {
 /// update() never allocates, throws or logs.
 class StrokeSequencer {
  public:
-  /// The options and the mapping must be valid.
-  /// @throws ValueError as PreparedPage
+  /// The page, the options and the mapping must be valid.
   StrokeSequencer(std::vector<PlacedCharacter> page, const RendererOptions& options, const Capabilities& capabilities,
                   const MotionMapping& mapping);
 
