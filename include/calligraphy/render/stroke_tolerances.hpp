@@ -23,7 +23,7 @@ struct StrokeTolerances {
   /// Greatest lateral deviation at which the pen makes progress, beyond that at its start [em].
   double corridor = 0.06;
   /// Share of the length that must be covered in order before the stroke is finished: at its end, or where the pen is
-  /// lifted. 0: the feature planes alone finish it, as printed.
+  /// lifted. 0: the feature planes finish it, as printed, if the pen keeps to the corridor.
   double coverage = 0.9;
   /// Share of the length that may be missing at its beginning, and is not counted, where the stroke was begun beyond
   /// its start and is written to its very end.
