@@ -26,8 +26,6 @@ Point damped_part(const Point& velocity, const Point& way, const Point& tangent)
   return velocity - (1.0 - oblique) * velocity.dot(tangent) * tangent;
 }
 
-double smooth_step(double share) noexcept { return share * share * (3.0 - 2.0 * share); }
-
 }  // namespace
 
 Guidance::Guidance(const EffectiveOptions& effective)

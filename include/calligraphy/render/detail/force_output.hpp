@@ -18,7 +18,7 @@ namespace calligraphy {
 struct SentForce {
   Eigen::Vector3d page = Eigen::Vector3d::Zero();     ///< page axes [N]
   Eigen::Vector3d device = Eigen::Vector3d::Zero();   ///< device axes [N]
-  Point guidance = Point::Zero();                     ///< without friction and damping as they were wanted [N, page]
+  Point guidance = Point::Zero();                     ///< `page` less friction and damping as wanted [N]
   Eigen::Vector3d viscous = Eigen::Vector3d::Zero();  ///< as HapticTick::viscous [N, page]
   Eigen::Vector3d damping = Eigen::Vector3d::Zero();  ///< by the passivity controller, before limits [N, page]
   double energy_given = 0.0;                          ///< to the hand, as observed; 0 without an account of it [J]

@@ -26,6 +26,7 @@ class Paper {
   /// normal force of the tick before [N].
   const PaperForce& update(const PenState& pen, const WriterState& writer, double pressure) noexcept;
 
+  /// No force, and nothing that rubs.
   void release() noexcept;
 
  private:

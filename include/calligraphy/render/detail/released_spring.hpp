@@ -7,6 +7,9 @@
 
 namespace calligraphy {
 
+/// From 0 to 1 as `share` does, with no slope at either end.
+inline double smooth_step(double share) noexcept { return share * share * (3.0 - 2.0 * share); }
+
 /// A spring and a damper along the force that was at work: the spring only slackens and never pushes the other way, and
 /// vanishes before the damper does. A hand that has been let go of finds less and less, and a pen that nobody holds
 /// is not driven on.
@@ -34,7 +37,7 @@ class ReleasedSpring {
     if (!acts_) return Point::Zero();
     passed_ = std::min(1.0, passed_ + step_);
     acts_ = passed_ < 1.0;
-    const double left = 1.0 - passed_ * passed_ * (3.0 - 2.0 * passed_);
+    const double left = 1.0 - smooth_step(passed_);
     const double spring = std::clamp(strained_ - stiffness_ * direction_.dot(tip - tip_), 0.0, strained_);
     const double damping = (1.0 - passed_ * passed_ * passed_) * damping_ * direction_.dot(velocity);
     return (left * spring - damping) * direction_;
