@@ -2,11 +2,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <cstdlib>
 #include <map>
 #include <string>
-
-#include <unistd.h>
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/base/text.hpp>
@@ -14,9 +11,9 @@
 #include <calligraphy/model/character_list.hpp>
 
 #include "arguments.hpp"
+#include "judge_program.hpp"
 #include "pairs.hpp"
 #include "releases.hpp"
-#include "sequence.hpp"
 #include "stages.hpp"
 #include "statistics.hpp"
 #include "stroke_line.hpp"
@@ -32,36 +29,19 @@ constexpr const char* usage =
     "           strokes by the novice, with vision alone and with force; C, S: that page alone\n"
     "       guidance_judge releases [--cases N] [--seed S] [--case K]\n"
     "           pens that the guidance lets go of; --case: one of them, its motion as CSV\n"
-    "       guidance_judge sequence [--what later|half|sideways|zigzag|shifted] [--characters N] [--em MM] [--device "
-    "NAME|all]\n"
-    "                               [--renderer default|everything] [--character C] [--seed S]\n"
+    "       guidance_judge sequence [--what honest|dishonest|sideways] [--characters N [--half choosing|printed]]\n"
+    "                               [--em MM] [--device NAME|all] [--renderer default|everything]\n"
+    "                               [--tolerances lenient|normal|strict] [--held [--naive]] [--character C] [--seed "
+    "S]\n"
     "           what is taken for the due stroke: of the set CALLIGRAPHY_CHARACTER_FILE, or else of the built-in\n"
-    "           characters; zigzag --held: also in a hand; shifted --naive: by a hand that leaves the device's\n"
-    "           friction to the spring of its grip\n"
+    "           characters; --half: of those, the half on which the constants were chosen, or the other; --held: a\n"
+    "           pen in a hand, or else one that is where it is meant to be; --naive: in a hand that leaves the\n"
+    "           device's friction to the spring of its grip\n"
     "       guidance_judge everything [--times N] [--device NAME|all] [--text CHARACTERS|all] [--em MM]\n"
     "           vision, the default and everything()\n"
     "each with --threads T (0: one per core)\n";
 
 constexpr std::size_t worst_shown = 10;
-
-std::function<void(double)> progress() {
-  if (isatty(STDERR_FILENO) == 0) return nullptr;
-  return [](double share) { std::fprintf(stderr, share < 1.0 ? "\r%3.0f %%" : "\r     \r", 100.0 * share); };
-}
-
-std::string name_of(char32_t code) { return encode_utf8(code); }
-
-RendererOptions renderer_of(const std::string& name, const Capabilities& device) {
-  if (name == "default") return RendererOptions::for_device(device);
-  if (name == "everything") return RendererOptions::everything(device);
-  throw ValueError("--renderer " + name + ": expected default or everything");
-}
-
-std::vector<Capabilities> devices_of(const std::string& name) {
-  const auto profiles = device_profiles();
-  if (name == "all") return {profiles.begin(), profiles.end()};
-  return {device_profile(name)};
-}
 
 std::vector<Character> built_in(const std::string& text) {
   std::vector<Character> characters;
@@ -209,136 +189,6 @@ int releases(Arguments& arguments) {
   return 0;
 }
 
-// sequence
-
-void print_sequence(const std::string& what, SequenceResult result, const char* figure) {
-  std::printf("%-64s %6d of %6d (%6.2f %%)", what.c_str(), result.taken.count, result.taken.of, result.taken.percent());
-  if (result.not_finished_exactly > 0) {
-    std::printf("; broken off, because a stroke drawn exactly was not finished: %d", result.not_finished_exactly);
-  }
-  std::printf("\n");
-  std::sort(result.findings.begin(), result.findings.end(),
-            [](const Finding& a, const Finding& b) { return a.figure > b.figure; });
-  for (std::size_t i = 0; figure != nullptr && i < std::min<std::size_t>(3, result.findings.size()); ++i) {
-    const Finding& finding = result.findings[i];
-    std::printf("    --character %s, stroke %d", name_of(finding.character).c_str(), finding.stroke + 1);
-    if (finding.other >= 0) std::printf(", attempt %d", finding.other + 1);
-    std::printf(": %s %.2f em\n", figure, finding.figure);
-  }
-}
-
-class SequenceProgram {
- public:
-  explicit SequenceProgram(Arguments& arguments)
-      : what_(arguments.text("--what", "later")),
-        device_(arguments.text("--device", what_ == "shifted" ? "all" : "desktop")),
-        renderer_(arguments.text("--renderer", "default")),
-        held_(arguments.flag("--held")),
-        naive_(arguments.flag("--naive")),
-        em_(arguments.number("--em", 0.0)) {
-    const int count = static_cast<int>(arguments.number("--characters", 100));
-    const std::string text = arguments.text("--character");
-    options_.seed = static_cast<std::uint64_t>(arguments.number("--seed", 1));
-    options_.threads = static_cast<int>(arguments.number("--threads", 0));
-    const char* const file = std::getenv("CALLIGRAPHY_CHARACTER_FILE");
-    if (!arguments.understood()) return;
-    characters_ = some_characters(file != nullptr ? file : "", text.empty() ? count : 1000000, 1);
-    std::erase_if(characters_, [&](const Character& character) {
-      return !text.empty() && text.find(name_of(character.code)) == std::string::npos;
-    });
-  }
-
-  void run() {
-    for (const Capabilities& device : devices_of(device_)) {
-      options_.device = device;
-      options_.renderer = renderer_of(renderer_, device);
-      for (const double em : {10.0, 20.0, 40.0}) {
-        if (em_ > 0.0 && em != 10.0) continue;
-        options_.em = 1e-3 * (em_ > 0.0 ? em_ : em);
-        std::printf("%s, em %.0f mm, %zu characters\n", device.name.c_str(), 1e3 * options_.em, characters_.size());
-        run_one();
-      }
-    }
-  }
-
- private:
-  void run_one() {
-    if (what_ == "later") {
-      judge("a later stroke, different by > 5 % of the em, was taken", later_strokes(options_.em), "different by");
-    } else if (what_ == "half") {
-      judge("the first half was taken", part_of_stroke(0.0, 0.5));
-      judge("the second half was taken", part_of_stroke(0.5, 1.0));
-      judge("the middle half was taken", part_of_stroke(0.25, 0.75));
-      judge("the first 80 % were taken (for information)", part_of_stroke(0.0, 0.8));
-    } else if (what_ == "sideways") {
-      for (const double share : {0.05, -0.05, 0.1, -0.1, 0.15, -0.15, 0.1875, -0.1875}) {
-        char name[96];
-        std::snprintf(name, sizeof name, "displaced sideways by %+.2f %% of the em, it was taken", 100.0 * share);
-        judge(name, displaced_sideways(share * options_.em));
-      }
-    } else if (what_ == "zigzag") {
-      run_zigzags();
-    } else if (what_ == "shifted") {
-      run_people();
-    } else {
-      throw ValueError("--what " + what_ + ": expected later, half, sideways, zigzag or shifted");
-    }
-  }
-
-  void judge(const std::string& name, const Attempts& attempts, const char* figure = nullptr) {
-    print_sequence(name, judge_attempts(characters_, options_, attempts, progress()), figure);
-  }
-
-  void run_zigzags() {
-    for (const bool held : {false, true}) {
-      if (held && !held_) continue;
-      options_.held = held;
-      for (const double amplitude : {0.1, 0.07, 0.15}) {
-        std::vector<Zigzag> all;
-        for (const bool sine : {false, true}) {
-          for (const bool at_extreme : {false, true}) {
-            for (const double wave : {0.1, 0.2, 0.3, 0.5}) all.push_back({amplitude, wave, sine, at_extreme});
-          }
-        }
-        char name[96];
-        std::snprintf(name, sizeof name, "one of %zu zigzags of +-%.0f %% of the em was taken%s", all.size(),
-                      100.0 * amplitude, held ? ", in a hand" : "");
-        judge(name, zigzags(options_.em, all), amplitude == 0.1 ? "length" : nullptr);
-      }
-    }
-    options_.held = false;
-  }
-
-  void run_people() {
-    struct Variant {
-      const char* name;
-      PeopleDraw people;
-    };
-    const Variant variants[] = {
-        {"exactly", {0.0, Noise::none, 0.0, 0.0}},
-        {"shifted by up to 5 %", {0.05, Noise::none, 0.0, 0.0}},
-        {"shifted, each stroke displaced by 2 %", {0.05, Noise::displacement, 0.02, 0.0}},
-        {"shifted, each stroke distorted by 2 %", {0.05, Noise::distortion, 0.02, 0.0}},
-        {"shifted, each stroke distorted by 2 %, scaled by up to 3 %", {0.05, Noise::distortion, 0.02, 0.03}},
-    };
-    options_.held = true;
-    options_.arm = naive_ ? Arm::naive : Arm::skilled;
-    for (const Variant& variant : variants) {
-      for (const bool feels : {true, false}) {
-        options_.feels = feels;
-        print_sequence(std::string(variant.name) + (feels ? ", force" : ", vision"),
-                       judge_people(characters_, options_, variant.people, progress()), nullptr);
-      }
-    }
-  }
-
-  std::string what_, device_, renderer_;
-  bool held_, naive_;
-  double em_;
-  SequenceOptions options_;
-  std::vector<Character> characters_;
-};
-
 // everything
 
 int everything(Arguments& arguments) {
@@ -387,11 +237,8 @@ int run(const std::string& command, Arguments& arguments) {
   if (command == "pairs") return pairs(arguments);
   if (command == "releases") return releases(arguments);
   if (command == "everything") return everything(arguments);
-  if (command != "sequence") return 2;
-  SequenceProgram program(arguments);
-  if (!arguments.understood()) return 2;
-  program.run();
-  return 0;
+  if (command == "sequence") return sequence(arguments);
+  return 2;
 }
 
 }  // namespace

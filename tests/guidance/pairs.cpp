@@ -58,8 +58,7 @@ CharacterRun write_character(const PracticePage& page, const SessionOptions& opt
   SimulatedWriter writer(page, options.skill, options.seed);
   const auto motion = [&](const HapticTick& tick, double seconds) -> std::optional<Intention> {
     observer.see(tick, writer.intended_stroke());
-    const Intention next =
-        writer.update(calligraphy::visual_feedback(tick), seconds);
+    const Intention next = writer.update(calligraphy::visual_feedback(tick), seconds);
     if (writer.done()) return std::nullopt;
     return next;
   };

@@ -2,12 +2,47 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "scene.hpp"
 
 namespace calligraphy_test {
 
 using namespace calligraphy;
+
+namespace {
+
+/// How far along the line a hand is after each tick.
+std::vector<double> arcs_by_tick(const StrokeLine& line, double em, double period) {
+  constexpr double shortest = 0.12;      // time for a hook or a dot [s]
+  constexpr double reach = 0.02;         // over which the curvature is seen [em]
+  constexpr double straightest = 0.5;    // a line is as fast as a bend of this curvature [1/em]
+  constexpr double acceleration = 20.0;  // where it sets out and stops, in straight strokes' speeds [em/s^2]
+  const double length = line.length();
+  const int steps = std::max(16, static_cast<int>(std::ceil(length / (0.005 * em))));
+  std::vector<double> times = {0.0};
+  for (int i = 0; i < steps; ++i) {
+    const double arc = length * (i + 0.5) / steps, near = std::min(arc, length - arc);
+    const double around = std::min(reach * em, near);
+    const Point before = line.at(arc) - line.at(arc - around), after = line.at(arc + around) - line.at(arc);
+    const double turn = std::atan2(std::abs(before.x() * after.y() - before.y() * after.x()), before.dot(after));
+    const double curvature = around > 0.0 ? turn * em / around : 0.0;
+    const double speed = std::min(1.0 / std::cbrt(straightest + curvature), std::sqrt(2.0 * acceleration * near / em));
+    times.push_back(times.back() + 1.0 / std::max(speed, 1e-6));  // a dot has no length
+  }
+  const int ticks = static_cast<int>(std::lround(std::max(shortest, length / (people_speed * em)) / period));
+  std::vector<double> arcs;
+  std::size_t step = 1;
+  for (int k = 1; k <= ticks; ++k) {
+    const double time = times.back() * k / ticks;
+    while (step + 1 < times.size() && times[step] < time) ++step;
+    const double share = std::min(1.0, (time - times[step - 1]) / (times[step] - times[step - 1]));
+    arcs.push_back(length * (static_cast<double>(step - 1) + share) / steps);
+  }
+  return arcs;
+}
+
+}  // namespace
 
 Pen::Pen(const PracticePage& page, const Capabilities& device, const RendererOptions& options)
     : renderer_(page.characters, upright_page(page.width, page.height), device, options),
@@ -31,21 +66,13 @@ void Pen::go(const Eigen::Vector3d& to, double seconds) {
 }
 
 Drawn Pen::draw(const StrokeLine& line, double em) {
-  constexpr double shortest = 0.12;  // time for a hook or a dot [s]
   drawn_ = {};
   const auto raised_at = [](const Point& point, double height) {
     return Eigen::Vector3d(point.x(), point.y(), height);
   };
   go(raised_at(line.at(0.0), raised), 0.3);
   go(raised_at(line.at(0.0), -pressed_), 0.2);
-  for (std::size_t i = 1; i < line.corners().size(); ++i) {
-    const double from = line.corners()[i - 1], way = line.corners()[i] - from;
-    const double seconds = std::max(shortest, way / (people_speed * em));
-    const int ticks = static_cast<int>(std::lround(seconds / period_));
-    for (int k = 1; k <= ticks; ++k) {
-      step_and_see(raised_at(line.at(from + smooth_step(static_cast<double>(k) / ticks) * way), -pressed_));
-    }
-  }
+  for (const double arc : arcs_by_tick(line, em, period_)) step_and_see(raised_at(line.at(arc), -pressed_));
   go(raised_at(intended_.head<2>(), raised), 0.12);
   go(intended_, 0.08);  // until a held pen is there
   return drawn_;

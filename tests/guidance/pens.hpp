@@ -22,8 +22,9 @@ class Pen {
  public:
   virtual ~Pen() = default;
 
-  /// Brings the pen over the start, lowers it, draws with minimum jerk from corner to corner, and raises it: in the air
-  /// for at least 0.3 s, 8 mm above the paper.
+  /// Brings the pen over the start, lowers it, draws by the two-thirds law (Lacquaniti, Terzuolo and Viviani, 1983: the
+  /// speed falls with the cube root of the curvature), and raises it: in the air for at least 0.3 s, 8 mm above the
+  /// paper.
   Drawn draw(const StrokeLine& line, double em);
 
   const calligraphy::HapticTick& last() const { return renderer_.last(); }

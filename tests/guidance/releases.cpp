@@ -93,9 +93,8 @@ class EndlessGuidance {
       : before_(before), arc_(before.contact.arc), damping_(options.guidance_damping) {
     const bool writing = before.state == InteractionState::writing;
     std::vector<Point> points = writing ? line.points() : std::vector<Point>{line.at(0.0), line.at(0.0)};
-    const std::size_t end = points.size() - 1;
     if (writing) points.push_back(points.back() + 0.1 * line.tangent(line.length()));
-    line_ = StrokeLine(std::move(points), {0, end});
+    line_ = StrokeLine(std::move(points));
     if (!writing) arc_ = 0.0;
     window_ = 0.2 * line.length();
     if (options.guidance == GuidanceLaw::saturating) limit_ = options.guidance_limit;

@@ -25,12 +25,9 @@ Point bezier_point(std::vector<Point> row, double t) {
 
 }  // namespace
 
-StrokeLine::StrokeLine(std::vector<Point> points, const std::vector<std::size_t>& corners)
-    : points_(std::move(points)), corner_points_(corners) {
-  measure();
-}
+StrokeLine::StrokeLine(std::vector<Point> points) : points_(std::move(points)) { measure(); }
 
-StrokeLine::StrokeLine(const Stroke& stroke, const Placement& placement) : corner_points_{0} {
+StrokeLine::StrokeLine(const Stroke& stroke, const Placement& placement) {
   points_ = {placement.to_page(stroke.control_points[0])};
   std::size_t first = 0;
   for (std::size_t element = 0; element < stroke.elements.size(); ++element) {
@@ -40,8 +37,6 @@ StrokeLine::StrokeLine(const Stroke& stroke, const Placement& placement) : corne
     for (std::size_t i = 0; i <= degree; ++i) control.push_back(placement.to_page(stroke.control_points[first + i]));
     for (int i = 1; i <= chords; ++i) points_.push_back(bezier_point(control, static_cast<double>(i) / chords));
     first += degree;
-    const bool last = element + 1 == stroke.elements.size();
-    if (last || !is_smooth_joint(*stroke.type, stroke.elements, element)) corner_points_.push_back(points_.size() - 1);
   }
   measure();
 }
@@ -49,8 +44,6 @@ StrokeLine::StrokeLine(const Stroke& stroke, const Placement& placement) : corne
 void StrokeLine::measure() {
   arcs_ = {0.0};
   for (std::size_t i = 1; i < points_.size(); ++i) arcs_.push_back(arcs_.back() + (points_[i] - points_[i - 1]).norm());
-  corners_.clear();
-  for (const std::size_t i : corner_points_) corners_.push_back(arcs_[i]);
 }
 
 /// Index of the end of the chord that contains `arc`.
@@ -99,17 +92,11 @@ double StrokeLine::nearest_arc(const Point& from, double low, double high) const
 StrokeLine StrokeLine::part(double from, double to) const {
   const double first = from * length(), last = to * length();
   std::vector<Point> points = {at(first)};
-  std::vector<std::size_t> corners = {0};
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    if (arcs_[i] <= first || arcs_[i] >= last) continue;
-    points.push_back(points_[i]);
-    if (std::find(corner_points_.begin(), corner_points_.end(), i) != corner_points_.end()) {
-      corners.push_back(points.size() - 1);
-    }
+    if (arcs_[i] > first && arcs_[i] < last) points.push_back(points_[i]);
   }
   points.push_back(at(last));
-  corners.push_back(points.size() - 1);
-  return StrokeLine(std::move(points), corners);
+  return StrokeLine(std::move(points));
 }
 
 std::vector<StrokeLine> stroke_lines(const PlacedCharacter& placed) {

@@ -12,18 +12,16 @@ namespace calligraphy_test {
 
 using calligraphy::Point;
 
-/// A polyline by arc length, and its corners.
+/// A polyline by arc length.
 class StrokeLine {
  public:
   StrokeLine() = default;
-  /// `corners`: indices of points, the first and the last among them, at which a hand that writes the line stops.
-  StrokeLine(std::vector<Point> points, const std::vector<std::size_t>& corners);
+  explicit StrokeLine(std::vector<Point> points);
   /// A stroke as placed on the page: 48 chords per curve, within 1e-4 of its size.
   StrokeLine(const calligraphy::Stroke& stroke, const calligraphy::Placement& placement);
 
   double length() const { return arcs_.back(); }
   const std::vector<Point>& points() const { return points_; }
-  const std::vector<double>& corners() const { return corners_; }  ///< arc lengths [m]
   Point at(double arc) const;
   Point tangent(double arc) const;  ///< unit vector; zero for a point
   double distance(const Point& from) const;
@@ -49,8 +47,7 @@ class StrokeLine {
   void measure();
 
   std::vector<Point> points_;
-  std::vector<std::size_t> corner_points_;
-  std::vector<double> arcs_, corners_;
+  std::vector<double> arcs_;
 };
 
 /// The strokes of a placed character, in writing order.
