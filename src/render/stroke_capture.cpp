@@ -74,7 +74,7 @@ std::vector<StrokeStart> stroke_starts(const PlacedCharacter& placed, const Stro
 
 void StrokeCapture::put_down(const Point& tip, std::span<const StrokeStart> starts, std::size_t due) noexcept {
   anchor_ = down_ = tip;
-  const Point seen = tip - misplaced_ / (count_ + 1);
+  const Point seen = tip - misplaced();
   const auto distance = [&](const StrokeStart& start) { return (seen - start.point).squaredNorm(); };
   is_nearest_ = std::all_of(starts.begin() + static_cast<std::ptrdiff_t>(due), starts.end(),
                             [&](const StrokeStart& start) { return distance(start) >= distance(starts[due]); });
@@ -95,7 +95,7 @@ CaptureVerdict StrokeCapture::update(const Point& tip, std::span<const StrokeSta
   if (!(shown.norm() >= start.stretch)) return verdict_;
 
   // Of the strokes written before, the writer was off by about as much.
-  const Point seen = anchor_ - misplaced_ / (count_ + 1);
+  const Point seen = anchor_ - misplaced();
   const Misfit expected = misfit(start, seen, shown, em, tolerances);
   bool is_other = false, is_nearer = false;
   for (std::size_t later = due + 1; later < starts.size(); ++later) {

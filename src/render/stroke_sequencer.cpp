@@ -10,9 +10,6 @@ namespace {
 /// A pen that writes must go this much farther out of the box than another one to leave it.
 constexpr double writing_hysteresis = 3.0;
 
-/// Least share of a stroke that finishes it, however much friction hides: well above half.
-constexpr double min_coverage = 0.75;
-
 /// A pen put down on the stroke this far along it is at its end.
 constexpr double end_share = 0.75;
 
@@ -110,33 +107,22 @@ void StrokeSequencer::write_on(const PenState& pen) noexcept {
   const Point tip = pen.tip.head<2>();
   writer_.contact = active_.update(tip, options_.stroke);
   if (writer_.contact.passed_feature) writer_.events |= TickEvent::feature_passed;
-  if (pen.on_paper) {
-    coverage_.update(tip, writer_.contact, active_.length(), options_.tolerances.corridor * writer_.em);
-  }
-  writer_.covered = coverage_.share(active_.length());
+  if (pen.on_paper) follower_.update(tip, hand(pen));
+  writer_.covered = follower_.covered();
 }
 
 /// At its end, or where the pen `leaves` it before.
-bool StrokeSequencer::is_finished(bool leaves) const noexcept {
-  if (!(writer_.covered >= needed_coverage() && coverage_.keeps_in_corridor())) return false;
-  return leaves ? options_.tolerances.coverage > 0.0 : writer_.contact.finished;
-}
-
-/// A hand cannot help what dry friction hides, the device's and that of the paper, at both ends of a stroke.
-double StrokeSequencer::needed_coverage() const noexcept {
-  const StrokeTolerances& tolerances = options_.tolerances;
-  const double length = active_.length();
-  if (!(length > 0.0)) return tolerances.coverage;
-  const double late = writer_.contact.finished ? std::min(tolerances.late_start, coverage_.late() / length) : 0.0;
-  const double needed = tolerances.coverage * (1.0 - late);
-  return std::max(needed - 2.0 * hidden_way_ / length, std::min(needed, min_coverage));
+bool StrokeSequencer::is_finished(bool leaves) noexcept {
+  if (options_.tolerances.coverage == 0.0) return writer_.contact.finished;
+  if (leaves) follower_.leave();
+  return (leaves || follower_.is_at_end()) && follower_.accepts(2.0 * hidden_way_);
 }
 
 void StrokeSequencer::start_stroke(const PenState& pen) noexcept {
   writer_.events |= TickEvent::stroke_started;
   writer_.rests = false;
   active_.begin(capture_.begin());
-  coverage_.restart(capture_.begin(), character().starts[static_cast<std::size_t>(writer_.stroke)]);
+  follower_.begin(capture_.begin(), capture_.misplaced());
   write_on(pen);
 }
 
@@ -191,6 +177,7 @@ void StrokeSequencer::activate(int character, int stroke) noexcept {
   const PreparedCharacter& active = page_[character];
   active_.load(active.strokes[static_cast<std::size_t>(stroke)], active.placement);
   writer_.em = active.placement.em;
+  follower_.load(active_, writer_.em, options_.tolerances);
   writer_.direction = active.starts[static_cast<std::size_t>(stroke)].direction;
 }
 
@@ -217,6 +204,13 @@ WritingPhase StrokeSequencer::phase_before_stroke(const Point& tip) const noexce
   return writer_.rests ? WritingPhase::in_middle : WritingPhase::away;
 }
 
+/// Where the hand means to be, as far as the force at work shows, if the device says what that is.
+Point StrokeSequencer::hand(const PenState& pen) const noexcept {
+  Point hand = pen.tip.head<2>();
+  if (pen.force.allFinite()) hand -= mapping_.force_to_page(pen.force).head<2>() * compliance_;
+  return hand;
+}
+
 /// Guidance lets go, in time, of a pen that is far from the stroke or that the hand pulls elsewhere, and takes hold
 /// again where both are back: a pen that slipped out of the tube would be thrown, and one that another stroke was meant
 /// for would be dragged along.
@@ -224,11 +218,8 @@ bool StrokeSequencer::keeps_hold(const PenState& pen) const noexcept {
   const bool lets_go =
       options_.stroke.space.rule == ConstraintSpaceRule::tube && options_.guidance != GuidanceLaw::saturating;
   if (!lets_go || has_event(writer_.events, TickEvent::stroke_started)) return true;
-  // Where the hand means to be, as far as the force at work shows, if the device says what that is.
-  Point hand = pen.tip.head<2>();
-  if (pen.force.allFinite()) hand -= mapping_.force_to_page(pen.force).head<2>() * compliance_;
   const StrokeContact& contact = writer_.contact;
-  const double detour = coverage_.astray(hand, contact);
+  const double detour = follower_.astray(hand(pen), contact);
   if (writer_.guided) return contact.weight >= min_held_weight && detour <= max_detour * writer_.em;
   return contact.closest.distance <= options_.tolerances.corridor * writer_.em &&
          detour <= 0.5 * max_detour * writer_.em;

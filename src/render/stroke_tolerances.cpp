@@ -13,7 +13,7 @@ void validate(const StrokeTolerances& tolerances) {
   require(tolerances.distinction >= 1.0, "tolerances.distinction", tolerances.distinction, "", "at least 1");
   require_above_zero("tolerances.corridor", tolerances.corridor, "em");
   require_within("tolerances.coverage", tolerances.coverage, "", 0.0, 1.0);
-  require_within("tolerances.late_start", tolerances.late_start, "", 0.0, 0.5);
+  require_not_negative("tolerances.slack", tolerances.slack, "em");
 }
 
 }  // namespace calligraphy

@@ -71,7 +71,7 @@ const Domain domains[] = {
     {"tolerances.distinction", [](RendererOptions& o) -> double& { return o.tolerances.distinction; }, false, true},
     {"tolerances.corridor", [](RendererOptions& o) -> double& { return o.tolerances.corridor; }, false},
     {"tolerances.coverage", [](RendererOptions& o) -> double& { return o.tolerances.coverage; }, true},
-    {"tolerances.late_start", [](RendererOptions& o) -> double& { return o.tolerances.late_start; }, true},
+    {"tolerances.slack", [](RendererOptions& o) -> double& { return o.tolerances.slack; }, true},
     {"box_margin", [](RendererOptions& o) -> double& { return o.box_margin; }, true},
     {"lift_height", [](RendererOptions& o) -> double& { return o.lift_height; }, true},
     {"lift_time", [](RendererOptions& o) -> double& { return o.lift_time; }, true},
@@ -172,8 +172,6 @@ TEST_CASE("fractions and ratios of the stages have upper and lower bounds", "[re
   }
   CHECK_FALSE(refused("tolerances.coverage", 1.0));
   CHECK(refused("tolerances.coverage", 1.0 + 1e-9));
-  CHECK_FALSE(refused("tolerances.late_start", 0.5));
-  CHECK(refused("tolerances.late_start", 0.5 + 1e-9));
   CHECK_FALSE(refused("tolerances.direction", 3.14159265));
   CHECK(refused("tolerances.direction", 3.1416));
   CHECK_FALSE(refused("tolerances.distinction", 1.0));
@@ -313,7 +311,7 @@ TEST_CASE("tolerances are sensible in every preset, stricter ones in every respe
     CHECK(looser.distinction > tighter.distinction);
     CHECK(looser.corridor > tighter.corridor);
     CHECK(looser.coverage < tighter.coverage);
-    CHECK(looser.late_start > tighter.late_start);
+    CHECK(looser.slack > tighter.slack);
   }
   const StrokeTolerances standard = RendererOptions{}.tolerances;
   CHECK(standard.coverage == 0.9);

@@ -61,6 +61,7 @@ std::vector<Point> page_path(const Character& character, double offset) {
 
 TEST_CASE("the half disc drops K d before the end of a stroke, the tube does not", "[render]") {
   RendererOptions whole = direct();
+  whole.tolerances.coverage = 0.0;
   whole.stroke.plane_tolerance = 0.0;  // the disc ends d^2 / 2L before the stroke
   RendererOptions printed = whole;
   printed.stroke.space.rule = ConstraintSpaceRule::wang2006;

@@ -107,10 +107,9 @@ void add_render(py::module_& module) {
                 "first_stretch: length over which that is judged, at most a quarter of the stroke; 0: place only [em]",
                 &T::distinction,
                 "distinction: a later stroke is meant if its start fits better by this factor; infinite: never [1]",
-                &T::corridor, "corridor: maximum lateral deviation at which the pen makes progress [em]", &T::coverage,
-                "coverage: share of the length to be covered in order; 0: the feature planes alone finish it [1]",
-                &T::late_start,
-                "late_start: share that may be missing at the beginning of a stroke written to its end [1]")
+                &T::corridor, "corridor: half the width of the corridor in which the pen makes progress [em]", &T::coverage,
+                "coverage: share of the length to be written in order; 0: the feature planes finish it [1]",
+                &T::slack, "slack: length that may be missing besides [em]")
       .def_static("lenient", &T::lenient, "For beginners and for large devices held loosely.")
       .def_static("normal", &T::normal, "The default.")
       .def_static("strict", &T::strict, "For examinations.");

@@ -43,7 +43,7 @@ def hints(ticks):
 
 def test_the_presets_differ_in_the_order_of_their_names():
     lenient, normal, strict = PRESETS.values()
-    for name in ("start_distance", "direction", "distinction", "corridor", "late_start"):
+    for name in ("start_distance", "direction", "distinction", "corridor", "slack"):
         assert getattr(lenient, name) > getattr(normal, name) > getattr(strict, name)
     assert lenient.coverage < normal.coverage < strict.coverage
     assert normal == cal.StrokeTolerances() == cal.RendererOptions().tolerances and normal.coverage >= 0.9

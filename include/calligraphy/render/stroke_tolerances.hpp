@@ -20,23 +20,22 @@ struct StrokeTolerances {
   /// A later stroke of the character is meant when its start fits better by this factor; infinite: no other stroke is
   /// considered, as printed.
   double distinction = 2.0;
-  /// Greatest lateral deviation at which the pen makes progress, beyond that at its start [em].
+  /// Half the width of the corridor about the stroke, beyond what the writer is off by anyway [em].
   double corridor = 0.06;
-  /// Share of the length that must be covered in order before the stroke is finished: at its end, or where the pen is
-  /// lifted. 0: the feature planes finish it, as printed, if the pen keeps to the corridor.
+  /// Share of the length that must be written in order before the stroke is finished: at its end, or where the pen is
+  /// lifted. 0: the feature planes finish it, as printed.
   double coverage = 0.9;
-  /// Share of the length that may be missing at its beginning, and is not counted, where the stroke was begun beyond
-  /// its start and is written to its very end.
-  double late_start = 0.2;
+  /// Length that may be missing besides, so that short strokes are taken too [em].
+  double slack = 0.05;
 
   /// For beginners and for large devices held loosely.
   static constexpr StrokeTolerances lenient() noexcept {
-    return {0.25, std::numbers::pi / 2.5, 0.04, 3.0, 0.12, 0.8, 0.3};
+    return {0.25, std::numbers::pi / 2.5, 0.04, 3.0, 0.08, 0.8, 0.08};
   }
   static constexpr StrokeTolerances normal() noexcept { return {}; }
   /// For examinations.
   static constexpr StrokeTolerances strict() noexcept {
-    return {0.1, std::numbers::pi / 4.0, 0.04, 1.5, 0.05, 0.95, 0.05};
+    return {0.1, std::numbers::pi / 4.0, 0.04, 1.5, 0.05, 0.95, 0.02};
   }
 };
 

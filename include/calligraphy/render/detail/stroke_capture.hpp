@@ -47,6 +47,9 @@ class StrokeCapture {
   /// Where the stroke was begun [m, page].
   const Point& begin() const noexcept { return anchor_; }
 
+  /// How far off the strokes of this character were begun, on average [m]; the first ones say little.
+  Point misplaced() const noexcept { return misplaced_ / (count_ + 1); }
+
   /// The stroke that begins at `start` was written to its end: writers misplace the strokes of a character alike.
   void written(const Point& start) noexcept;
 

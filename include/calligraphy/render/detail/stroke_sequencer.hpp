@@ -8,7 +8,7 @@
 #include <calligraphy/render/detail/pen_state.hpp>
 #include <calligraphy/render/detail/prepared_page.hpp>
 #include <calligraphy/render/detail/stroke_capture.hpp>
-#include <calligraphy/render/detail/stroke_coverage.hpp>
+#include <calligraphy/render/detail/stroke_follower.hpp>
 #include <calligraphy/render/detail/writer_state.hpp>
 #include <calligraphy/render/interaction_state.hpp>
 #include <calligraphy/render/motion_mapping.hpp>
@@ -37,8 +37,7 @@ class StrokeSequencer {
   void put_down(const Point& tip) noexcept;
   bool begins(const Point& tip) noexcept;
   void write_on(const PenState& pen) noexcept;
-  bool is_finished(bool leaves) const noexcept;
-  double needed_coverage() const noexcept;
+  bool is_finished(bool leaves) noexcept;
 
   void start_stroke(const PenState& pen) noexcept;
   void finish_stroke(const Point& tip) noexcept;
@@ -48,6 +47,7 @@ class StrokeSequencer {
 
   WritingPhase phase(const PenState& pen) const noexcept;
   WritingPhase phase_before_stroke(const Point& tip) const noexcept;
+  Point hand(const PenState& pen) const noexcept;
   bool keeps_hold(const PenState& pen) const noexcept;
   bool is_guided() const noexcept;
 
@@ -58,7 +58,7 @@ class StrokeSequencer {
   double compliance_;  ///< of a usual grip [m/N, page]
   ActiveStroke active_;
   StrokeCapture capture_;
-  StrokeCoverage coverage_;
+  StrokeFollower follower_;
   bool inside_box_ = false;
   WriterState writer_;
 };

@@ -1,0 +1,81 @@
+// How much of a stroke a pen has written, in order: a corridor about the stroke, decided tick by tick.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include <calligraphy/collision/active_stroke.hpp>
+#include <calligraphy/render/stroke_tolerances.hpp>
+
+namespace calligraphy {
+
+/// The stroke is a row of points at equal arc length. Which of them the pen can have reached in order, passing each
+/// while it was free, that is, abreast of the pen and near enough, follows from step to step by the recurrence that
+/// decides whether a discrete Frechet distance is within a bound (Eiter and Mannila, Computing discrete Frechet
+/// distance, 1994). The offset at which the stroke was begun is allowed for: along the stroke as it was, across it as
+/// the pen keeps it. docs/capture.md draws it. Never allocates.
+class StrokeFollower {
+ public:
+  /// A stroke as long as it may be, in a square of `em` [m].
+  void load(const ActiveStroke& stroke, double em, const StrokeTolerances& tolerances) noexcept;
+
+  /// The stroke is begun at `tip`, in a character that the writer has misplaced by `misplaced` so far [m, page].
+  void begin(const Point& tip, const Point& misplaced) noexcept;
+
+  /// The pen is at `tip`, on the paper, and the hand means to be at `hand` [m, page].
+  void update(const Point& tip, const Point& hand) noexcept;
+  /// The pen leaves the stroke where it was last: the rest of its way, however short, counts too.
+  void leave() noexcept;
+
+  /// Share of the stroke that was written in order.
+  double covered() const noexcept;
+  /// Whether what was written is the stroke, of which up to `hidden` may be missing besides what is tolerated [m].
+  bool accepts(double hidden) const noexcept;
+  /// The pen is at the end of the stroke, or has been there, having come in order.
+  bool is_at_end() const noexcept { return at_end_; }
+
+  /// Distance across the stroke of a hand that is at `hand`, beyond what the writer is off by anyway [m].
+  double astray(const Point& hand, const StrokeContact& contact) const noexcept;
+
+ private:
+  static constexpr int max_points = 64;  // as many as the bits of a word
+
+  /// Where the pen is relative to one point of the stroke, the offset at the beginning allowed for.
+  struct Place {
+    double along, across, distance;  // [m]
+    bool free;
+  };
+
+  Place place(const Point& tip, int point) const noexcept;
+  double across(const Point& from_stroke, const Point& normal) const noexcept;
+  void look(const Point& tip, double way) noexcept;
+  void measure(const Point& tip) noexcept;
+
+  // The stroke. [m]
+  int count_ = 0;
+  double em_ = 0.0, length_ = 0.0, spacing_ = 0.0;
+  double width_ = 0.0;      ///< of the corridor to each side
+  double lead_ = 0.0;       ///< a point this far ahead or behind is abreast of the pen
+  double step_ = 0.0;       ///< the pen is looked at each time it has moved this far
+  double chord_ = 0.0;      ///< the way is measured in chords of this length, which a tremor does not lengthen
+  double exact_way_ = 0.0;  ///< of a pen that draws the stroke exactly
+  double share_ = 0.0, slack_ = 0.0;
+  std::array<Point, max_points> points_, tangents_;
+  std::uint64_t corners_ = 0;  ///< bit i: the stroke bends sharply at point i
+
+  // The pen. [m]
+  std::uint64_t reached_ = 0;         ///< bit i: point i can have been reached in order
+  Point own_ = Point::Zero();         ///< offset from the stroke
+  Point misplaced_ = Point::Zero();   ///< that of the character
+  Point tip_ = Point::Zero();         ///< of the last sample
+  Point pull_ = Point::Zero();        ///< from there to where the hand means to be
+  Point seen_ = Point::Zero();        ///< where the pen was last looked at
+  Point chord_from_ = Point::Zero();  ///< where the chord began that it is on
+  double nearest_ = 0.0;              ///< arc length of the furthest point that the pen was nearest to
+  double covered_ = 0.0;              ///< arc length
+  double way_ = 0.0, outside_ = 0.0;  ///< lengths of the pen's path, and of what lay outside the corridor
+  double chords_ = 0.0;               ///< length of the path inside it
+  bool at_end_ = false;
+};
+
+}  // namespace calligraphy
