@@ -25,8 +25,9 @@ using namespace calligraphy;
 
 constexpr const char* usage =
     "usage: guidance_judge pairs [--cases N] [--device NAME] [--renderer default|everything] [--em MM]\n"
-    "                            [--character C [--seed S]]\n"
-    "           strokes by the novice, with vision alone and with force; C, S: that page alone\n"
+    "                            [--character C [--seed S]] [--first S]\n"
+    "           strokes by the novice, with vision alone and with force; C, S: that page alone; --first: the seed of\n"
+    "           the first page, 1 by default\n"
     "       guidance_judge releases [--cases N] [--seed S] [--case K]\n"
     "           pens that the guidance lets go of; --case: one of them, its motion as CSV\n"
     "       guidance_judge sequence [--what honest|dishonest|sideways] [--characters N [--half choosing|printed]]\n"
@@ -37,6 +38,8 @@ constexpr const char* usage =
     "           characters; --half: of those, the half on which the constants were chosen, or the other; --held: a\n"
     "           pen in a hand, or else one that is where it is meant to be; --naive: in a hand that leaves the\n"
     "           device's friction to the spring of its grip\n"
+    "       guidance_judge wrong_end [--strokes N] [--device NAME|all] [--renderer default|everything] [--em MM]\n"
+    "           strokes of the built-in characters, drawn from their ends: whether force resists\n"
     "       guidance_judge everything [--times N] [--device NAME|all] [--text CHARACTERS|all] [--em MM]\n"
     "           vision, the default and everything()\n"
     "each with --threads T (0: one per core)\n";
@@ -114,6 +117,7 @@ int pairs(Arguments& arguments) {
   const int cases = static_cast<int>(arguments.number("--cases", 1000));
   const std::string text = arguments.text("--character");
   const int seed = static_cast<int>(arguments.number("--seed", 0));
+  const int first_seed = static_cast<int>(arguments.number("--first", 1));
   if (!arguments.understood()) return 2;
   const std::vector<Character> characters = text.empty() ? built_in_characters().characters : built_in(text);
   int pages = 0;
@@ -121,7 +125,7 @@ int pairs(Arguments& arguments) {
     strokes += characters[static_cast<std::size_t>(pages) % characters.size()].stroke_count();
   }
   if (seed > 0) pages = static_cast<int>(characters.size());
-  const auto first = static_cast<std::uint64_t>(std::max(1, seed));
+  const auto first = static_cast<std::uint64_t>(seed > 0 ? seed : first_seed);
   print_pairs(write_pairs(characters, first, pages, options, progress()), worst_shown);
   return 0;
 }
@@ -238,6 +242,7 @@ int run(const std::string& command, Arguments& arguments) {
   if (command == "releases") return releases(arguments);
   if (command == "everything") return everything(arguments);
   if (command == "sequence") return sequence(arguments);
+  if (command == "wrong_end") return wrong_end(arguments);
   return 2;
 }
 

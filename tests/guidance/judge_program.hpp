@@ -22,5 +22,7 @@ std::vector<calligraphy::Capabilities> devices_of(const std::string& name);
 
 /// guidance_judge sequence: returns 2 if the arguments are not understood.
 int sequence(Arguments& arguments);
+/// guidance_judge wrong_end: likewise.
+int wrong_end(Arguments& arguments);
 
 }  // namespace calligraphy_test

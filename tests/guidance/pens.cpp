@@ -53,6 +53,7 @@ Pen::Pen(const PracticePage& page, const Capabilities& device, const RendererOpt
 void Pen::step_and_see(const Eigen::Vector3d& to) {
   step(to);
   intended_ = to;
+  if (on_tick) on_tick(last());
   drawn_.started |= has_event(last().events, TickEvent::stroke_started);
   drawn_.finished |= has_event(last().events, TickEvent::stroke_finished);
 }

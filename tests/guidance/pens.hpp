@@ -2,6 +2,8 @@
 // hand holds on a simulated device.
 #pragma once
 
+#include <functional>
+
 #include <calligraphy/devices/simulated_device.hpp>
 #include <calligraphy/render/haptic_renderer.hpp>
 
@@ -29,6 +31,7 @@ class Pen {
 
   const calligraphy::HapticTick& last() const { return renderer_.last(); }
   int due() const { return last().stroke; }
+  std::function<void(const calligraphy::HapticTick&)> on_tick;  ///< while it draws
 
  protected:
   Pen(const calligraphy::PracticePage& page, const calligraphy::Capabilities& device,
