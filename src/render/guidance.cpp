@@ -110,12 +110,13 @@ void Guidance::pull(const PenState& pen, const WriterState& writer) noexcept {
 }
 
 /// Until the first stretch has shown its direction, guidance acts across that direction only, so that it does not hide
-/// it; with guide_to_start also along it, though not up to the start itself, which the pen is about to leave.
+/// it; with guide_to_start also along it, though not up to the start itself, which the pen is about to leave, nor from
+/// the stroke, along which a pen that moves backwards is resisted.
 Point Guidance::way_to_start(const WriterState& writer) const noexcept {
   const RendererOptions& options = effective_.options;
   const double along = writer.to_start.dot(writer.direction);
   const Point across = writer.to_start - along * writer.direction;
-  if (!options.guide_to_start) return across;
+  if (!options.guide_to_start || writer.rests) return across;
   const double free = unguided_start * options.tolerances.start_distance * writer.em;
   return across + std::copysign(std::max(0.0, std::abs(along) - free), along) * writer.direction;
 }

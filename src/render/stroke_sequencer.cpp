@@ -225,7 +225,8 @@ bool StrokeSequencer::keeps_hold(const PenState& pen) const noexcept {
          detour <= 0.5 * max_detour * writer_.em;
 }
 
-/// Before the stroke, guidance leads a pen that is likely to begin it.
+/// Before the stroke, guidance leads a pen that is likely to begin it: put down nearer to its start than to any to
+/// come. One that rests on the stroke elsewhere is free forwards and resisted backwards, where its start is.
 bool StrokeSequencer::is_guided() const noexcept {
   if (writer_.phase == WritingPhase::guided) return true;
   if (writer_.state != InteractionState::calibration) return false;
@@ -235,9 +236,9 @@ bool StrokeSequencer::is_guided() const noexcept {
     case WritingPhase::other_stroke:
       return false;
     case WritingPhase::at_start:
-      return options_.guide_to_start || capture_.is_nearest();
+      return capture_.is_nearest();
     default:
-      return options_.guide_to_start;
+      return options_.guide_to_start && capture_.is_nearest() && !writer_.rests;
   }
 }
 

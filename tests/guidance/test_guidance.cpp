@@ -15,6 +15,7 @@
 #include "sequence.hpp"
 #include "stages.hpp"
 #include "stroke_line.hpp"
+#include "wrong_end.hpp"
 
 namespace calligraphy_test {
 namespace {
@@ -212,7 +213,7 @@ TEST_CASE("everything() finishes as many characters as vision and reduces the er
     for (const double em : {0.04}) {
       int vision = 0, everything = 0;
       double standard_error = 0.0, everything_error = 0.0;
-      for (const StagesRun& run : write_with_stages(characters(), 3, device_profile(name), em, 0)) {
+      for (const StagesRun& run : write_with_stages(characters(), 12, device_profile(name), em, 0)) {
         vision += run.vision.finished();
         everything += run.everything.finished();
         standard_error += run.standard.score.rms_error;
@@ -221,6 +222,44 @@ TEST_CASE("everything() finishes as many characters as vision and reduces the er
       CAPTURE(name, em, vision, everything);
       CHECK(everything >= vision);
       CHECK(everything_error <= 1.005 * standard_error);  // in the program, with more of them: less on every profile
+    }
+  }
+}
+
+TEST_CASE("everything() hardly ever takes a pen farther from the stroke that is meant either", "[guidance]") {
+  for (const std::string device : {"desktop", "omni"}) {
+    PairOptions options;
+    options.device = device_profile(device);
+    options.renderer = RendererOptions::everything(options.device);
+    int failed = 0;
+    for (const CharacterPair& character : write_pairs(characters(), 1, pair_count, options)) {
+      for (const StrokePair& pair : character.strokes()) {
+        INFO(device << ": " << encode_utf8(pair.character) << " seed " << pair.seed << " stroke " << pair.stroke + 1);
+        CHECK(pair.excess() < 0.004);
+        failed += pair.fails();
+      }
+    }
+    CAPTURE(device);
+    CHECK(failed <= 1);
+  }
+}
+
+TEST_CASE("a stroke that is written from its end is resisted, by default and with everything()", "[guidance]") {
+  const std::vector<Character> first = with_strokes(characters(), 65);
+  for (const std::string device : {"desktop", "omni"}) {
+    for (const bool everything : {false, true}) {
+      SequenceOptions options = on(device, 0.04);
+      if (everything) options.renderer = RendererOptions::everything(options.device);
+      std::string others;
+      Share resisted;
+      for (const WrongEnd& stroke : draw_from_wrong_end(first, options)) {
+        resisted.add(stroke.resisted());
+        CHECK_FALSE(stroke.taken);
+        if (!stroke.resisted()) others += encode_utf8(stroke.character) + " " + std::to_string(stroke.stroke + 1) + " ";
+      }
+      CAPTURE(device, everything, others);
+      CHECK(resisted.of == 65);
+      CHECK(resisted.count >= 60);
     }
   }
 }

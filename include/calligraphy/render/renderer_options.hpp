@@ -55,7 +55,9 @@ struct RendererOptions {
 
   GuidanceLaw guidance = GuidanceLaw::linear;
   double guidance_limit = 2.0;  ///< saturating: maximum guidance force [N]
-  bool guide_to_start = false;  ///< before a stroke, guidance pulls a pen on the paper to the stroke's start
+  /// Before a stroke, guidance pulls a pen to the stroke's start that was put down nearer to it than to any to come,
+  /// though not on the stroke.
+  bool guide_to_start = false;
   AssistPolicy assist;          ///< off by default: full assistance
   FrictionOptions friction;     ///< off by default
 
