@@ -9,6 +9,13 @@ namespace {
 /// Longest share of a stroke over which its direction is judged.
 constexpr double max_stretch_share = 0.25;
 
+/// A first stretch that runs more than 60 degrees off what follows, as the entry of a brush may, is not the direction
+/// that a writer means: it is judged over this length [em], at most this share of the stroke.
+constexpr double longer_stretch = 0.15, longer_stretch_share = 0.5, contradiction_cosine = 0.5;
+
+/// Of a stroke that turns back within its first stretch, a pen need not come quite as far as the stroke.
+constexpr double turning_share = 0.9;
+
 /// Starts that differ by less than this cannot be told apart, as a share of both tolerances.
 constexpr double indistinct = 0.05;
 
@@ -38,19 +45,25 @@ Point own_way(const StrokeStart& start, const Point& from, const Point& to) {
   return to - from + (before - left) * normal;
 }
 
-/// The point farthest from a stroke's start among the corners within an arc length [m] and the point there: a stroke
+struct Stretch {
+  Point way = Point::Zero();  ///< from the start [m]
+  bool turns = false;         ///< comes back from there
+};
+
+/// To the point farthest from a stroke's start among the corners within an arc length [m] and the point there: a stroke
 /// that turns back so soon comes no nearer to its start in between.
-Point farthest_point(const std::vector<StrokeElement>& elements, double arc) {
+Stretch first_stretch(const std::vector<StrokeElement>& elements, double arc) {
   const Point start = elements.front().origin();
-  Point farthest = start;
+  Stretch stretch;
   for (const StrokeElement& element : elements) {
     const bool is_last = arc <= element.length();
     const Point point = element.point(is_last ? element.parameter_at(arc) : 1.0);
-    if ((point - start).norm() > (farthest - start).norm()) farthest = point;
+    stretch.turns = (point - start).norm() < stretch.way.norm();
+    if (!stretch.turns) stretch.way = point - start;
     if (is_last) break;
     arc -= element.length();
   }
-  return farthest;
+  return stretch;
 }
 
 }  // namespace
@@ -63,10 +76,14 @@ std::vector<StrokeStart> stroke_starts(const PlacedCharacter& placed, const Stro
     for (const StrokeElement& element : elements) length += element.length();
     StrokeStart start;
     start.point = elements.front().origin();
-    const double arc = std::min(tolerances.first_stretch * placed.placement.em, max_stretch_share * length);
-    const Point way = farthest_point(elements, arc) - start.point;
-    start.stretch = way.norm();
-    start.direction = start.stretch > 0.0 ? Point(way / start.stretch) : elements.front().tangent(0.0);
+    const double em = placed.placement.em;
+    Stretch first = first_stretch(elements, std::min(tolerances.first_stretch * em, max_stretch_share * length));
+    const Stretch longer = first_stretch(elements, std::min(longer_stretch * em, longer_stretch_share * length));
+    const double sizes = first.way.norm() * longer.way.norm();
+    if (first.way.dot(longer.way) < contradiction_cosine * sizes) first = longer;
+    const double size = first.way.norm();
+    start.stretch = first.turns ? turning_share * size : size;
+    start.direction = size > 0.0 ? Point(first.way / size) : elements.front().tangent(0.0);
     starts.push_back(start);
   }
   return starts;

@@ -203,6 +203,42 @@ TEST_CASE("the first stretch of a stroke is 0.04 em long, of a short stroke a qu
   }
 }
 
+TEST_CASE("a first stretch that contradicts what follows is judged over what follows", "[render]") {
+  const Placement place{{0.01, 0.02}, em};
+  const auto start_of = [&](const std::vector<Point>& points) {
+    const StrokeInput input{16, points, {}};  // two lines
+    return stroke_starts({make_character(U'\u4E00', std::span(&input, 1)), place}, {}).front();
+  };
+  for (const double length : {0.5, 0.16}) {  // over 0.15 em, over half of the stroke
+    const double entry = 0.04, judged = std::min(0.15, 0.5 * (entry + length)) - entry;
+    for (const double angle : {-100.0, -75.0, -50.0, 0.0, 50.0, 75.0, 100.0}) {
+      CAPTURE(length, angle);
+      const Point turn = Point(0.3, 0.5) + entry * towards(angle * degree);
+      const StrokeStart start = start_of({{0.3, 0.5}, turn, turn + Point(length, 0.0)});
+      const Point there = entry * towards(angle * degree) + Point(judged, 0.0);
+      const double off = std::abs(std::atan2(there.y(), there.x()) - angle * degree);
+      if (off > 60.0 * degree) {
+        CHECK(start.direction.isApprox(there.normalized(), 1e-6));
+        CHECK(start.stretch == Approx(em * there.norm()).epsilon(1e-6));
+      } else {
+        CHECK(start.stretch <= 0.04 * em * (1.0 + 1e-9));
+        CHECK(start.direction.dot(towards(angle * degree)) > 0.5);
+      }
+    }
+  }
+}
+
+TEST_CASE("of a stroke that turns back at once a pen need not come quite as far as its turn", "[render]") {
+  const Placement place{{0.01, 0.02}, em};
+  const StrokeInput input{16, {{0.3, 0.5}, {0.33, 0.5}, {0.1, 0.49}}, {}};
+  const StrokeStart start = stroke_starts({make_character(U'\u4E00', std::span(&input, 1)), place}, {}).front();
+  CHECK(start.direction.x() < -0.9);  // back, since the turn contradicts what follows
+  const StrokeInput hook{16, {{0.3, 0.5}, {0.33, 0.5}, {0.32, 0.48}}, {}};
+  const StrokeStart hooked = stroke_starts({make_character(U'\u4E00', std::span(&hook, 1)), place}, {}).front();
+  CHECK(hooked.direction.x() > 0.9);
+  CHECK(hooked.stretch <= 0.03 * em);
+}
+
 TEST_CASE("deciding what a pen begins does not allocate", "[render]") {
   Pen pen{{alone[0], {{0.004, 0}, {0, 1}, stretch}}, {}};
   const std::size_t before = calligraphy_test::allocations();
