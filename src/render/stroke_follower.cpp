@@ -9,9 +9,10 @@ namespace {
 
 constexpr double spacing = 0.01;  ///< of the points, where the stroke is not too long for that [em]
 constexpr int min_points = 5;
+constexpr int first_points = 4;  ///< over which the direction of the start is seen
 
 /// A point is abreast of the pen within this distance along the stroke [em], at most this share of the stroke.
-constexpr double max_lead = 0.05, max_lead_share = 0.15;
+constexpr double max_lead = 0.03, max_lead_share = 0.15;
 
 /// The pen is looked at each time it has moved this far [em].
 constexpr double step = 0.01;
@@ -19,18 +20,24 @@ constexpr double step = 0.01;
 /// Over this distance [em], at most this share of the stroke, it bends sharply if it turns by more than 37 degrees.
 constexpr double bend = 0.03, max_bend_share = 0.25, bend_cosine = 0.8;
 
-/// The pen's own offset across the stroke follows it over this arc length [em], up to this size [em].
-constexpr double follow = 1.0, max_offset = 0.3;
+/// The pen's own offset across the stroke follows it over this arc length [em], where it comes back to the stroke over
+/// the second one, up to a size [em].
+constexpr double follow = 1.0, give_up = 0.05, max_offset = 0.3;
 
 /// Chords of the pen's way [em], at most this share of the stroke.
 constexpr double chord = 0.03, max_chord_share = 0.34;
 
 /// Share of the exact way that a pen must have gone, in chords: less is a part of the stroke, however it is stretched.
-constexpr double min_way = 0.55;
+constexpr double min_way = 0.57;
 /// Share of the stroke that must be covered in order, however short it is.
 constexpr double min_coverage = 0.42;
 /// Share of the pen's path that may lie outside the corridor.
 constexpr double max_outside = 0.1;
+
+/// How far a value is beyond a range, with a sign.
+double beyond(double value, double low, double high) {
+  return value > high ? value - high : std::min(value - low, 0.0);
+}
 
 Point left_of(const Point& direction) { return {-direction.y(), direction.x()}; }
 
@@ -84,11 +91,14 @@ void StrokeFollower::load(const ActiveStroke& stroke, double em, const StrokeTol
 void StrokeFollower::begin(const Point& tip, const Point& misplaced) noexcept {
   reached_ = 1;
   own_ = tip - points_[0];
+  const Point towards =
+      (points_[static_cast<std::size_t>(std::min(first_points, count_ - 1))] - points_[0]).normalized();
+  late_ = std::max(0.0, own_.dot(towards)) * towards;
   misplaced_ = misplaced;
   tip_ = seen_ = chord_from_ = tip;
   nearest_ = covered_ = way_ = outside_ = chords_ = 0.0;
   pull_ = Point::Zero();
-  at_end_ = !(length_ > 0.0);
+  to_end_ = length_;
 }
 
 void StrokeFollower::update(const Point& tip, const Point& hand) noexcept {
@@ -104,23 +114,24 @@ void StrokeFollower::update(const Point& tip, const Point& hand) noexcept {
 
 void StrokeFollower::leave() noexcept { look(tip_, (tip_ - seen_).norm()); }
 
-/// Distance of a vector from the stroke from what the writer is off by: nothing, the character or the stroke.
+/// How far a vector from the stroke is across it, beyond all that the writer may be off by: nothing, as the character,
+/// or as the stroke.
 double StrokeFollower::across(const Point& from_stroke, const Point& normal) const noexcept {
-  const double value = from_stroke.dot(normal), own = own_.dot(normal), misplaced = misplaced_.dot(normal);
-  const double low = std::min({0.0, own, misplaced}), high = std::max({0.0, own, misplaced});
-  return value > high ? value - high : value < low ? low - value : 0.0;
+  const double own = own_.dot(normal), misplaced = misplaced_.dot(normal);
+  return std::abs(beyond(from_stroke.dot(normal), std::min({0.0, own, misplaced}), std::max({0.0, own, misplaced})));
 }
 
 StrokeFollower::Place StrokeFollower::place(const Point& tip, int point) const noexcept {
   const auto i = static_cast<std::size_t>(point);
   const Point from_stroke = tip - points_[i];
-  const double along = (from_stroke - own_).dot(tangents_[i]);
+  const double own_along = (from_stroke - own_).dot(tangents_[i]), late = late_.dot(tangents_[i]);
+  const double along = beyond(own_along, std::min(0.0, -late), std::max(0.0, -late));
   const double aside = across(from_stroke, left_of(tangents_[i]));
-  const bool beyond = (point == 0 && along < 0.0) || (point == count_ - 1 && along > 0.0);
-  const double distance = beyond ? aside : std::hypot(along, aside);
+  const bool is_outside = (point == 0 && along < 0.0) || (point == count_ - 1 && along > 0.0);
   const bool is_corner = (corners_ >> point & 1) != 0;
-  const bool abreast = beyond || std::abs(along) <= lead_;
-  return {along, aside, distance, (abreast && aside <= width_) || (is_corner && distance <= width_)};
+  const bool abreast = is_outside || std::abs(along) <= lead_;
+  return {along, is_outside ? aside : std::hypot(own_along, aside),
+          (abreast && aside <= width_) || (is_corner && std::hypot(along, aside) <= width_)};
 }
 
 void StrokeFollower::look(const Point& tip, double way) noexcept {
@@ -129,7 +140,6 @@ void StrokeFollower::look(const Point& tip, double way) noexcept {
   std::uint64_t reached = 0;
   int nearest = -1;
   double least = 0.0, covered = covered_;
-  Place at_nearest = {};
   for (int i = std::countr_zero(reached_); i < count_; ++i) {
     const std::uint64_t from = ((reached_ | reached) << 1 | reached_) >> i;
     if (from == 0) break;
@@ -140,13 +150,12 @@ void StrokeFollower::look(const Point& tip, double way) noexcept {
     if (nearest < 0 || here.distance < least) {
       nearest = i;
       least = here.distance;
-      at_nearest = here;
     }
     const bool at_last = i == count_ - 1;
     if (std::abs(here.along) <= spacing_ || (at_last && here.along > 0.0)) {
       covered = std::max(covered, std::min(i * spacing_ + here.along, length_));
     }
-    if (at_last && here.along >= -0.5 * lead_) at_end_ = true;
+    if (at_last) to_end_ = std::min(to_end_, -here.along);
   }
   if (nearest < 0) {
     outside_ += way;
@@ -160,7 +169,9 @@ void StrokeFollower::look(const Point& tip, double way) noexcept {
   nearest_ = arc;
   const auto i = static_cast<std::size_t>(nearest);
   const Point normal = left_of(tangents_[i]);
-  own_ += gained / (gained + follow * em_) * (tip - points_[i] - own_).dot(normal) * normal;
+  const double own = own_.dot(normal), off = (tip - points_[i]).dot(normal);
+  const bool comes_back = std::min(own, 0.0) <= off && off <= std::max(own, 0.0);
+  own_ += gained / (gained + (comes_back ? give_up : follow) * em_) * (off - own) * normal;
   const double size = own_.norm();
   if (size > max_offset * em_) own_ *= max_offset * em_ / size;
 }
@@ -174,6 +185,8 @@ void StrokeFollower::measure(const Point& tip) noexcept {
 }
 
 double StrokeFollower::covered() const noexcept { return covered_ < length_ ? covered_ / length_ : 1.0; }
+
+bool StrokeFollower::is_at_end(double hidden) const noexcept { return to_end_ <= 0.5 * lead_ + hidden; }
 
 bool StrokeFollower::accepts(double hidden) const noexcept {
   const double needed = std::max(min_coverage * length_, share_ * length_ - slack_ - hidden);

@@ -115,7 +115,7 @@ void StrokeSequencer::write_on(const PenState& pen) noexcept {
 bool StrokeSequencer::is_finished(bool leaves) noexcept {
   if (options_.tolerances.coverage == 0.0) return writer_.contact.finished;
   if (leaves) follower_.leave();
-  return (leaves || follower_.is_at_end()) && follower_.accepts(2.0 * hidden_way_);
+  return (leaves || follower_.is_at_end(hidden_way_)) && follower_.accepts(2.0 * hidden_way_);
 }
 
 void StrokeSequencer::start_stroke(const PenState& pen) noexcept {

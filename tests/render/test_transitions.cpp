@@ -227,7 +227,7 @@ TEST_CASE("a pen that chatters at the end of a stroke finishes it once and start
   pen.go(at(start, 0.005));
   pen.go(at(start, -0.001));
   pen.go(at(end - Point(0.0025, 0.0), -0.001));
-  const Chatter result = chatter(pen, at(end - Point(0.0006, 0.0), -0.001), {1, 0, 0});
+  const Chatter result = chatter(pen, at(end - Point(0.0002, 0.0), -0.001), {1, 0, 0});
   CHECK(result.changes <= 1);
   CHECK(result.strokes == 0);
   CHECK(renderer.last().stroke == 1);

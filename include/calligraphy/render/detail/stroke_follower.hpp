@@ -31,8 +31,8 @@ class StrokeFollower {
   double covered() const noexcept;
   /// Whether what was written is the stroke, of which up to `hidden` may be missing besides what is tolerated [m].
   bool accepts(double hidden) const noexcept;
-  /// The pen is at the end of the stroke, or has been there, having come in order.
-  bool is_at_end() const noexcept { return at_end_; }
+  /// Whether the pen is at the end of the stroke, up to `hidden` [m] short of it, or has been there, in order.
+  bool is_at_end(double hidden) const noexcept;
 
   /// Distance across the stroke of a hand that is at `hand`, beyond what the writer is off by anyway [m].
   double astray(const Point& hand, const StrokeContact& contact) const noexcept;
@@ -42,7 +42,8 @@ class StrokeFollower {
 
   /// Where the pen is relative to one point of the stroke, the offset at the beginning allowed for.
   struct Place {
-    double along, across, distance;  // [m]
+    double along;     ///< how far the pen is ahead of it, beyond what it is off by [m]
+    double distance;  ///< with the pen's own offset [m]
     bool free;
   };
 
@@ -66,6 +67,7 @@ class StrokeFollower {
   // The pen. [m]
   std::uint64_t reached_ = 0;         ///< bit i: point i can have been reached in order
   Point own_ = Point::Zero();         ///< offset from the stroke
+  Point late_ = Point::Zero();        ///< what of it was a start beyond the stroke's
   Point misplaced_ = Point::Zero();   ///< that of the character
   Point tip_ = Point::Zero();         ///< of the last sample
   Point pull_ = Point::Zero();        ///< from there to where the hand means to be
@@ -75,7 +77,7 @@ class StrokeFollower {
   double covered_ = 0.0;              ///< arc length
   double way_ = 0.0, outside_ = 0.0;  ///< lengths of the pen's path, and of what lay outside the corridor
   double chords_ = 0.0;               ///< length of the path inside it
-  bool at_end_ = false;
+  double to_end_ = 0.0;               ///< from the end of the stroke, once that can have been reached
 };
 
 }  // namespace calligraphy
