@@ -13,12 +13,6 @@ constexpr double max_stretch_share = 0.25;
 /// that a writer means: it is judged over this length [em], at most this share of the stroke.
 constexpr double longer_stretch = 0.15, longer_stretch_share = 0.5, contradiction_cosine = 0.5;
 
-/// Of a stroke that turns back within its first stretch, a pen need not come quite as far as the stroke.
-constexpr double turning_share = 0.9;
-
-/// Starts that differ by less than this cannot be told apart, as a share of both tolerances.
-constexpr double indistinct = 0.05;
-
 /// A pen that writes another stroke was put down about as near to its start: at most this many times as far.
 constexpr double about_as_far = 1.5;
 
@@ -45,25 +39,19 @@ Point own_way(const StrokeStart& start, const Point& from, const Point& to) {
   return to - from + (before - left) * normal;
 }
 
-struct Stretch {
-  Point way = Point::Zero();  ///< from the start [m]
-  bool turns = false;         ///< comes back from there
-};
-
-/// To the point farthest from a stroke's start among the corners within an arc length [m] and the point there: a stroke
+/// From a stroke's start to the farthest point among the corners within an arc length [m] and the point there: a stroke
 /// that turns back so soon comes no nearer to its start in between.
-Stretch first_stretch(const std::vector<StrokeElement>& elements, double arc) {
+Point first_stretch(const std::vector<StrokeElement>& elements, double arc) {
   const Point start = elements.front().origin();
-  Stretch stretch;
+  Point farthest = Point::Zero();
   for (const StrokeElement& element : elements) {
     const bool is_last = arc <= element.length();
     const Point point = element.point(is_last ? element.parameter_at(arc) : 1.0);
-    stretch.turns = (point - start).norm() < stretch.way.norm();
-    if (!stretch.turns) stretch.way = point - start;
+    if ((point - start).norm() > farthest.norm()) farthest = point - start;
     if (is_last) break;
     arc -= element.length();
   }
-  return stretch;
+  return farthest;
 }
 
 }  // namespace
@@ -77,13 +65,11 @@ std::vector<StrokeStart> stroke_starts(const PlacedCharacter& placed, const Stro
     StrokeStart start;
     start.point = elements.front().origin();
     const double em = placed.placement.em;
-    Stretch first = first_stretch(elements, std::min(tolerances.first_stretch * em, max_stretch_share * length));
-    const Stretch longer = first_stretch(elements, std::min(longer_stretch * em, longer_stretch_share * length));
-    const double sizes = first.way.norm() * longer.way.norm();
-    if (first.way.dot(longer.way) < contradiction_cosine * sizes) first = longer;
-    const double size = first.way.norm();
-    start.stretch = first.turns ? turning_share * size : size;
-    start.direction = size > 0.0 ? Point(first.way / size) : elements.front().tangent(0.0);
+    Point way = first_stretch(elements, std::min(tolerances.first_stretch * em, max_stretch_share * length));
+    const Point longer = first_stretch(elements, std::min(longer_stretch * em, longer_stretch_share * length));
+    if (way.dot(longer) < contradiction_cosine * way.norm() * longer.norm()) way = longer;
+    start.stretch = way.norm();
+    start.direction = start.stretch > 0.0 ? Point(way / start.stretch) : elements.front().tangent(0.0);
     starts.push_back(start);
   }
   return starts;
@@ -117,7 +103,7 @@ CaptureVerdict StrokeCapture::update(const Point& tip, std::span<const StrokeSta
   bool is_other = false, is_nearer = false;
   for (std::size_t later = due + 1; later < starts.size(); ++later) {
     const Misfit other = misfit(starts[later], seen, shown, em, tolerances);
-    if (!other.tolerable() || expected.size() <= tolerances.distinction * (other.size() + indistinct)) continue;
+    if (!other.tolerable() || other.size() >= expected.size() / tolerances.distinction) continue;
     is_other = true;
     is_nearer = is_nearer || other.place <= about_as_far * expected.place;
   }

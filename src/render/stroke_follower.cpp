@@ -17,15 +17,16 @@ constexpr double max_lead = 0.03, max_lead_share = 0.15;
 /// The pen is looked at each time it has moved this far [em].
 constexpr double step = 0.01;
 
-/// Over this distance [em], at most this share of the stroke, it bends sharply if it turns by more than 37 degrees.
-constexpr double bend = 0.03, max_bend_share = 0.25, bend_cosine = 0.8;
+/// The stroke bends sharply where it turns by more than 37 degrees from this distance before to this distance after
+/// [em].
+constexpr double bend = 0.03, bend_cosine = 0.8;
 
 /// The pen's own offset across the stroke follows it over this arc length [em], where it comes back to the stroke over
-/// the second one, up to a size [em].
-constexpr double follow = 1.0, give_up = 0.05, max_offset = 0.3;
+/// the second one [em].
+constexpr double follow = 1.0, give_up = 0.05;
 
-/// Chords of the pen's way [em], at most this share of the stroke.
-constexpr double chord = 0.03, max_chord_share = 0.34;
+/// Chords of the pen's way [em].
+constexpr double chord = 0.03;
 
 /// Share of the exact way that a pen must have gone, in chords: less is a part of the stroke, however it is stretched.
 constexpr double min_way = 0.57;
@@ -54,7 +55,7 @@ void StrokeFollower::load(const ActiveStroke& stroke, double em, const StrokeTol
   slack_ = tolerances.slack * em;
   step_ = step * em;
   lead_ = std::max(std::min(max_lead * em, max_lead_share * length_), step_) + spacing_;
-  chord_ = std::min(chord * em, max_chord_share * length_);
+  chord_ = chord * em;
 
   int element = 0;
   double before = 0.0;
@@ -67,8 +68,8 @@ void StrokeFollower::load(const ActiveStroke& stroke, double em, const StrokeTol
     points_[static_cast<std::size_t>(i)] = on.point(on.parameter_at(arc - before));
   }
   const auto point = [&](int i) { return points_[static_cast<std::size_t>(std::clamp(i, 0, count_ - 1))]; };
-  const double reach = std::min(bend * em, max_bend_share * length_);
-  const int apart = spacing_ > 0.0 ? std::max(1, static_cast<int>(std::lround(reach / spacing_))) : 1;
+  const int apart =
+      spacing_ > 0.0 ? std::max(1, static_cast<int>(std::min(bend * em / spacing_, 1.0 * max_points))) : 1;
   corners_ = 0;
   for (int i = 0; i < count_; ++i) {
     const Point chord_here = point(i + 1) - point(i - 1);
@@ -172,8 +173,6 @@ void StrokeFollower::look(const Point& tip, double way) noexcept {
   const double own = own_.dot(normal), off = (tip - points_[i]).dot(normal);
   const bool comes_back = std::min(own, 0.0) <= off && off <= std::max(own, 0.0);
   own_ += gained / (gained + (comes_back ? give_up : follow) * em_) * (off - own) * normal;
-  const double size = own_.norm();
-  if (size > max_offset * em_) own_ *= max_offset * em_ / size;
 }
 
 /// Counts a chord once the pen is far enough from where it began.

@@ -7,7 +7,8 @@
 namespace calligraphy {
 namespace {
 
-/// A pen that writes must go this much farther out of the box than another one to leave it.
+/// A pen that writes must go this much farther out of the box than another one to leave it: it is under force there, and
+/// would be thrown where the stroke is abandoned.
 constexpr double writing_hysteresis = 3.0;
 
 /// A pen put down on the stroke this far along it is at its end.
@@ -16,9 +17,9 @@ constexpr double end_share = 0.75;
 /// Guidance lets go of a pen where the tube's weight has fallen to this.
 constexpr double min_held_weight = 0.5;
 
-/// It also lets go where the hand means to be this much farther across than it began, and takes hold again within half
-/// of that [em].
-constexpr double max_detour = 0.12;
+/// It also lets go where the hand means to be this many corridors farther across than the writer is off by anyway, and
+/// takes hold again within one.
+constexpr double max_detour = 2.0;
 
 }  // namespace
 
@@ -220,9 +221,9 @@ bool StrokeSequencer::keeps_hold(const PenState& pen) const noexcept {
   if (!lets_go || has_event(writer_.events, TickEvent::stroke_started)) return true;
   const StrokeContact& contact = writer_.contact;
   const double detour = follower_.astray(hand(pen), contact);
-  if (writer_.guided) return contact.weight >= min_held_weight && detour <= max_detour * writer_.em;
-  return contact.closest.distance <= options_.tolerances.corridor * writer_.em &&
-         detour <= 0.5 * max_detour * writer_.em;
+  const double corridor = options_.tolerances.corridor * writer_.em;
+  if (writer_.guided) return contact.weight >= min_held_weight && detour <= max_detour * corridor;
+  return contact.closest.distance <= corridor && detour <= corridor;
 }
 
 /// Before the stroke, guidance leads a pen that is likely to begin it: put down nearer to its start than to any to

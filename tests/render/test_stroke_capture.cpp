@@ -228,17 +228,6 @@ TEST_CASE("a first stretch that contradicts what follows is judged over what fol
   }
 }
 
-TEST_CASE("of a stroke that turns back at once a pen need not come quite as far as its turn", "[render]") {
-  const Placement place{{0.01, 0.02}, em};
-  const StrokeInput input{16, {{0.3, 0.5}, {0.33, 0.5}, {0.1, 0.49}}, {}};
-  const StrokeStart start = stroke_starts({make_character(U'\u4E00', std::span(&input, 1)), place}, {}).front();
-  CHECK(start.direction.x() < -0.9);  // back, since the turn contradicts what follows
-  const StrokeInput hook{16, {{0.3, 0.5}, {0.33, 0.5}, {0.32, 0.48}}, {}};
-  const StrokeStart hooked = stroke_starts({make_character(U'\u4E00', std::span(&hook, 1)), place}, {}).front();
-  CHECK(hooked.direction.x() > 0.9);
-  CHECK(hooked.stretch <= 0.03 * em);
-}
-
 TEST_CASE("deciding what a pen begins does not allocate", "[render]") {
   Pen pen{{alone[0], {{0.004, 0}, {0, 1}, stretch}}, {}};
   const std::size_t before = calligraphy_test::allocations();
