@@ -17,8 +17,8 @@ constexpr double max_lead = 0.03, max_lead_share = 0.15;
 /// The pen is looked at each time it has moved this far [em].
 constexpr double step = 0.01;
 
-/// The stroke bends sharply where it turns by more than 37 degrees from this distance before to this distance after
-/// [em].
+/// The stroke bends sharply at a point where its directions from this far before and to this far after differ by more
+/// than 37 degrees [em].
 constexpr double bend = 0.03, bend_cosine = 0.8;
 
 /// The pen's own offset across the stroke follows it over this arc length [em], where it comes back to the stroke over

@@ -26,11 +26,11 @@ struct StrokeTolerances {
   /// lifted. 0: the feature planes finish it, as printed.
   double coverage = 0.9;
   /// Length that may be missing besides, so that short strokes are taken too [em].
-  double slack = 0.05;
+  double slack = 0.04;
 
   /// For beginners and for large devices held loosely.
   static constexpr StrokeTolerances lenient() noexcept {
-    return {0.25, std::numbers::pi / 2.5, 0.04, 3.0, 0.08, 0.8, 0.08};
+    return {0.25, std::numbers::pi / 2.5, 0.04, 3.0, 0.08, 0.8, 0.06};
   }
   static constexpr StrokeTolerances normal() noexcept { return {}; }
   /// For examinations.
