@@ -89,5 +89,6 @@ parts += [
     label((0.6, 0.11), "end: accepted within the slack"),
 ]
 with open(sys.argv[1], "w", encoding="utf-8") as file:
-    file.write('<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 860 550" font-family="sans-serif" font-size="17">\n')
+    file.write('<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 860 550" ')
+    file.write('font-family="sans-serif" font-size="17">\n')
     file.write('<rect width="860" height="550" fill="#fff"/>\n' + "\n".join(parts) + "\n</svg>\n")

@@ -7,8 +7,8 @@
 namespace calligraphy {
 namespace {
 
-/// A pen that writes must go this much farther out of the box than another one to leave it: it is under force there, and
-/// would be thrown where the stroke is abandoned.
+/// A pen that writes must go this much farther out of the box than another one to leave it: it is under force there,
+/// and would be thrown where the stroke is abandoned.
 constexpr double writing_hysteresis = 3.0;
 
 /// A pen put down on the stroke this far along it is at its end.

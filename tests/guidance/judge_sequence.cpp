@@ -36,6 +36,7 @@ class SequenceProgram {
         device_(arguments.text("--device", "ideal")),
         renderer_(arguments.text("--renderer", "default")),
         tolerances_(arguments.text("--tolerances", "normal")),
+        slack_(arguments.number("--slack", -1.0)),
         em_(arguments.number("--em", 0.0)) {
     const int count = static_cast<int>(arguments.number("--characters", 100));
     const std::string text = arguments.text("--character"), half = arguments.text("--half");
@@ -57,6 +58,7 @@ class SequenceProgram {
       options_.device = device;
       options_.renderer = renderer_of(renderer_, device);
       options_.renderer.tolerances = tolerances_of(tolerances_);
+      if (slack_ >= 0.0) options_.renderer.tolerances.slack = slack_;
       for (const double em : {10.0, 20.0, 40.0}) {
         if (em_ > 0.0 && em != 10.0) continue;
         options_.em = 1e-3 * (em_ > 0.0 ? em_ : em);
@@ -154,7 +156,7 @@ class SequenceProgram {
   }
 
   std::string what_, device_, renderer_, tolerances_;
-  double em_;
+  double slack_, em_;
   SequenceOptions options_;
   std::vector<Character> characters_;
 };
