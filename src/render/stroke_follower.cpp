@@ -109,7 +109,7 @@ void StrokeFollower::update(const Point& tip, const Point& hand) noexcept {
   const double moved = (tip - from).norm();
   if (moved < step_) return;
   // Of the first stretch and of lost samples only the ends are known.
-  const int steps = std::min(max_points, static_cast<int>(moved / step_));
+  const int steps = static_cast<int>(std::min(moved / step_, 1.0 * max_points));
   for (int i = 1; i <= steps; ++i) look(from + (tip - from) * i / steps, moved / steps);
 }
 

@@ -122,6 +122,7 @@ class SequenceProgram {
     judge("the middle half", part_of_stroke(0.25, 0.75));
     judge("the second half", part_of_stroke(0.5, 1.0));
     judge("the first 65 %", part_of_stroke(0.0, 0.65));
+    judge("the last 65 %", part_of_stroke(0.35, 1.0));
     judge("the first 80 %", part_of_stroke(0.0, 0.8));
     judge("the first 80 % of strokes of 0.4 em and longer", part_of_stroke(0.0, 0.8, 0.4 * em));
     judge("to the middle and back", doubled_back(0.5));
