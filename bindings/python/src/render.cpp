@@ -107,9 +107,10 @@ void add_render(py::module_& module) {
                 "first_stretch: length over which that is judged, at most a quarter of the stroke; 0: place only [em]",
                 &T::distinction,
                 "distinction: a later stroke is meant if its start fits better by this factor; infinite: never [1]",
-                &T::corridor, "corridor: half the width of the corridor in which the pen makes progress [em]", &T::coverage,
-                "coverage: share of the length to be written in order; 0: the feature planes finish it [1]",
-                &T::slack, "slack: length that may be missing besides [em]")
+                &T::corridor, "corridor: half the width of the corridor in which the pen makes progress [em]",
+                &T::coverage,
+                "coverage: share of the length to be written in order; 0: the feature planes finish it [1]", &T::slack,
+                "slack: length that may be missing besides [em]")
       .def_static("lenient", &T::lenient, "For beginners and for large devices held loosely.")
       .def_static("normal", &T::normal, "The default.")
       .def_static("strict", &T::strict, "For examinations.");
