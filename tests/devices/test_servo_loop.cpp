@@ -95,10 +95,10 @@ TEST_CASE("a servo thread ticks with a monotonic clock until it is stopped", "[s
   ServoThreadOptions options;
   options.priority = 0;
   options.lock_memory = false;
-  ServoThread thread(options);
   std::vector<double> times;
   times.reserve(100'000);
   std::atomic<int> count = 0;
+  ServoThread thread(options);  // ends before what it writes to
   thread.start([&](double now) {
     if (times.size() < times.capacity()) times.push_back(now);
     ++count;
