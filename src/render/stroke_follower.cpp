@@ -25,15 +25,17 @@ constexpr double bend = 0.03, bend_cosine = 0.8;
 /// the second one [em].
 constexpr double follow = 1.0, give_up = 0.05;
 
-/// Chords of the pen's way [em].
+/// The pen's way is measured in chords of this length, which a fine tremor does not lengthen [em].
 constexpr double chord = 0.03;
 
 /// Share of the exact way that a pen must have gone, in chords: less is a part of the stroke, however it is stretched.
 constexpr double min_way = 0.57;
-/// Share of the stroke that must be covered in order, however short it is.
+/// Share of the stroke that must be covered in order, however short it is: half of it, less what counts as abreast.
 constexpr double min_coverage = 0.42;
 /// Share of the pen's path that may lie outside the corridor.
 constexpr double max_outside = 0.1;
+/// The end is reached within this share of what counts as abreast.
+constexpr double end_share_of_lead = 0.5;
 
 /// How far a value is beyond a range, with a sign.
 double beyond(double value, double low, double high) {
@@ -53,9 +55,7 @@ void StrokeFollower::load(const ActiveStroke& stroke, double em, const StrokeTol
   width_ = tolerances.corridor * em;
   share_ = tolerances.coverage;
   slack_ = tolerances.slack * em;
-  step_ = step * em;
-  lead_ = std::max(std::min(max_lead * em, max_lead_share * length_), step_) + spacing_;
-  chord_ = chord * em;
+  lead_ = std::max(std::min(max_lead * em, max_lead_share * length_), step * em) + spacing_;
 
   int element = 0;
   double before = 0.0;
@@ -107,9 +107,9 @@ void StrokeFollower::update(const Point& tip, const Point& hand) noexcept {
   pull_ = hand - tip;
   const Point from = seen_;
   const double moved = (tip - from).norm();
-  if (moved < step_) return;
+  if (moved < step * em_) return;
   // Of the first stretch and of lost samples only the ends are known.
-  const int steps = static_cast<int>(std::min(moved / step_, 1.0 * max_points));
+  const int steps = static_cast<int>(std::min(moved / (step * em_), 1.0 * max_points));
   for (int i = 1; i <= steps; ++i) look(from + (tip - from) * i / steps, moved / steps);
 }
 
@@ -178,14 +178,14 @@ void StrokeFollower::look(const Point& tip, double way) noexcept {
 /// Counts a chord once the pen is far enough from where it began.
 void StrokeFollower::measure(const Point& tip) noexcept {
   const double size = (tip - chord_from_).norm();
-  if (size < chord_) return;
+  if (size < chord * em_) return;
   chords_ += size;
   chord_from_ = tip;
 }
 
 double StrokeFollower::covered() const noexcept { return covered_ < length_ ? covered_ / length_ : 1.0; }
 
-bool StrokeFollower::is_at_end(double hidden) const noexcept { return to_end_ <= 0.5 * lead_ + hidden; }
+bool StrokeFollower::is_at_end(double hidden) const noexcept { return to_end_ <= end_share_of_lead * lead_ + hidden; }
 
 bool StrokeFollower::accepts(double hidden) const noexcept {
   const double needed = std::max(min_coverage * length_, share_ * length_ - slack_ - hidden);

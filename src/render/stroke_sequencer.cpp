@@ -76,7 +76,9 @@ TransitionInput StrokeSequencer::advance(const PenState& pen) noexcept {
   input.may_start = writer_.phase != WritingPhase::finished;
   if (writing) {
     if (input.contact) write_on(pen);
-    input.stroke_finished = is_finished(!input.contact || !input.inside_box);
+    const bool leaves = !input.contact || !input.inside_box;
+    if (leaves) follower_.leave();
+    input.stroke_finished = is_finished(leaves);
   } else if (input.contact && input.may_start) {
     if (writer_.state == InteractionState::separation) put_down(tip);
     input.begins = begins(tip);
@@ -113,9 +115,8 @@ void StrokeSequencer::write_on(const PenState& pen) noexcept {
 }
 
 /// At its end, or where the pen `leaves` it before.
-bool StrokeSequencer::is_finished(bool leaves) noexcept {
+bool StrokeSequencer::is_finished(bool leaves) const noexcept {
   if (options_.tolerances.coverage == 0.0) return writer_.contact.finished;
-  if (leaves) follower_.leave();
   return (leaves || follower_.is_at_end(hidden_way_)) && follower_.accepts(2.0 * hidden_way_);
 }
 
@@ -153,7 +154,6 @@ void StrokeSequencer::finish_stroke(const Point& tip) noexcept {
 
 void StrokeSequencer::abandon_stroke(const Point& tip) noexcept {
   writer_.events |= TickEvent::stroke_abandoned;
-  writer_.covered = 0.0;
   active_.reload();
   capture_.put_down(tip, character().starts, static_cast<std::size_t>(writer_.stroke));
 }

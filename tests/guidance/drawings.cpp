@@ -1,10 +1,9 @@
 #include "drawings.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
-
-#include <calligraphy/base/random.hpp>
 
 #include "pens.hpp"
 
@@ -129,12 +128,11 @@ std::vector<StrokeLine> drawn_by_people(const std::vector<StrokeLine>& lines, co
 }
 
 Attempts later_strokes(double em, double noise, double different) {
-  return [=](const std::vector<StrokeLine>& lines, std::size_t due) {
+  return [=](const std::vector<StrokeLine>& lines, std::size_t due, Random& random) {
     std::vector<Attempt> later;
     for (std::size_t i = due + 1; i < lines.size(); ++i) {
       const double difference = mean_distance(lines[due], lines[i]) / em;
       if (!(difference > different)) continue;
-      Random random(lines.size(), {static_cast<int>(due), static_cast<int>(i)});
       const Distortion distortion(random, Noise::distortion, noise * em);
       later.push_back(
           {lines[i].moved([&](const Point& point, double share) { return Point(point + distortion(share)); }),
@@ -145,23 +143,23 @@ Attempts later_strokes(double em, double noise, double different) {
 }
 
 Attempts part_of_stroke(double from, double to, double shortest) {
-  return [=](const std::vector<StrokeLine>& lines, std::size_t due) {
+  return [=](const std::vector<StrokeLine>& lines, std::size_t due, Random&) {
     const StrokeLine& line = lines[due];
     if (!(line.length() > 0.0) || line.length() < shortest) return std::vector<Attempt>{};
-    return std::vector<Attempt>{{line.part(from, to), line.length()}};
+    return std::vector<Attempt>{{line.part(from, to)}};
   };
 }
 
 Attempts doubled_back(double share) {
-  return [=](const std::vector<StrokeLine>& lines, std::size_t due) {
+  return [=](const std::vector<StrokeLine>& lines, std::size_t due, Random&) {
     std::vector<Point> points = lines[due].part(0.0, share).points();
     for (std::size_t i = points.size() - 1; i > 0; --i) points.push_back(points[i - 1]);
-    return std::vector<Attempt>{{StrokeLine(std::move(points)), lines[due].length()}};
+    return std::vector<Attempt>{{StrokeLine(std::move(points))}};
   };
 }
 
 Attempts chord(double em, double different) {
-  return [=](const std::vector<StrokeLine>& lines, std::size_t due) {
+  return [=](const std::vector<StrokeLine>& lines, std::size_t due, Random&) {
     const StrokeLine& line = lines[due];
     StrokeLine straight({line.at(0.0), line.at(line.length())});
     const double difference = mean_distance(line, straight) / em;
@@ -171,11 +169,10 @@ Attempts chord(double em, double different) {
 }
 
 Attempts displaced_sideways(double distance) {
-  return [=](const std::vector<StrokeLine>& lines, std::size_t due) {
+  return [=](const std::vector<StrokeLine>& lines, std::size_t due, Random&) {
     const StrokeLine& line = lines[due];
     const Point way = distance * left_of((line.at(line.length()) - line.at(0.0)).normalized());
-    return std::vector<Attempt>{
-        {line.moved([&](const Point& point, double) { return Point(point + way); }), line.length()}};
+    return std::vector<Attempt>{{line.moved([&](const Point& point, double) { return Point(point + way); })}};
   };
 }
 
@@ -194,7 +191,7 @@ StrokeLine zigzag_about(const StrokeLine& line, const Zigzag& zigzag, double em)
 }
 
 Attempts zigzags(double em, double amplitude, bool sine) {
-  return [=](const std::vector<StrokeLine>& lines, std::size_t due) {
+  return [=](const std::vector<StrokeLine>& lines, std::size_t due, Random&) {
     std::vector<Attempt> attempts;
     for (const double wavelength : {0.1, 0.2, 0.3, 0.5}) {
       for (const bool at_extreme : {false, true}) {

@@ -1,11 +1,11 @@
 // Lines that are drawn for a stroke: the stroke as people draw it who mean it, and others that are not it.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
-#include <string>
 #include <vector>
+
+#include <calligraphy/base/random.hpp>
 
 #include "stroke_line.hpp"
 
@@ -37,14 +37,14 @@ std::vector<StrokeLine> drawn_by_people(const std::vector<StrokeLine>& lines, co
 
 // Dishonest: none of them is the due stroke.
 
-/// One line, and how different it is or how long the stroke [em].
 struct Attempt {
   StrokeLine line;
-  double figure = 0.0;
+  double figure = 0.0;  ///< how different it is, or how long the stroke, where that is of interest [em]
 };
 
 /// What is drawn for a due stroke, all of them in turn.
-using Attempts = std::function<std::vector<Attempt>(const std::vector<StrokeLine>& lines, std::size_t due)>;
+using Attempts = std::function<std::vector<Attempt>(const std::vector<StrokeLine>& lines, std::size_t due,
+                                                    calligraphy::Random& random)>;
 
 /// Each later stroke that differs from the due one by more than `different` [em]: mean distance of the points that are
 /// equally far along. Distorted by `noise` [em, RMS].

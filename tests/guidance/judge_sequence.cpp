@@ -140,8 +140,12 @@ class SequenceProgram {
 
   /// `figure`: what that of a finding says; the worst are shown.
   void print(const std::string& what, SequenceResult result, const char* figure) const {
+    ClusteredMean share;
+    for (std::size_t i = 0; i < result.by_character.size(); ++i) {
+      for (int k = 0; k < result.by_character[i].of; ++k) share.add(i, k < result.by_character[i].count ? 1.0 : 0.0);
+    }
     std::printf("%-66s %6d of %6d (%6.2f +- %.2f %%)", what.c_str(), result.taken.count, result.taken.of,
-                result.taken.percent(), half_width(result.by_character));
+                result.taken.percent(), 100.0 * share.half_width());
     if (result.tries.of > result.taken.of) std::printf(", %.2f %% of %d", result.tries.percent(), result.tries.of);
     if (result.not_finished_exactly > 0) {
       std::printf("; broken off, because a stroke drawn exactly was not finished: %d", result.not_finished_exactly);

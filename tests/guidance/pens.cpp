@@ -54,7 +54,6 @@ void Pen::step_and_see(const Eigen::Vector3d& to) {
   step(to);
   intended_ = to;
   if (on_tick) on_tick(last());
-  drawn_.started |= has_event(last().events, TickEvent::stroke_started);
   drawn_.finished |= has_event(last().events, TickEvent::stroke_finished);
 }
 

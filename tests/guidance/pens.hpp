@@ -15,7 +15,6 @@ inline constexpr double people_speed = 0.66;  ///< mean, along a stroke [em/s]
 
 /// What became of one line that was drawn, from the touch to the lift.
 struct Drawn {
-  bool started = false;   ///< a stroke
   bool finished = false;  ///< a stroke
 };
 
@@ -30,7 +29,6 @@ class Pen {
   Drawn draw(const StrokeLine& line, double em);
 
   const calligraphy::HapticTick& last() const { return renderer_.last(); }
-  int due() const { return last().stroke; }
   std::function<void(const calligraphy::HapticTick&)> on_tick;  ///< while it draws
 
  protected:

@@ -47,13 +47,15 @@ SequenceResult judge_attempts(const std::vector<Character>& characters, const Se
   return judge_each(characters, options, progress, [&](const PracticePage& page) {
     SequenceResult result;
     const std::vector<StrokeLine> lines = stroke_lines(page.characters.front());
+    const auto code = static_cast<int>(page.characters.front().character.code);
     std::unique_ptr<Pen> pen = pen_for(page, options);
     const auto write_exactly = [&](std::size_t count) {
       for (std::size_t i = 0; i < count; ++i) pen->draw(lines[i], options.em);
     };
     for (std::size_t due = 0; due < lines.size(); ++due) {
       bool taken = false;
-      const std::vector<Attempt> tried = attempts(lines, due);
+      Random random(options.seed, {code, static_cast<int>(due)});
+      const std::vector<Attempt> tried = attempts(lines, due, random);
       for (std::size_t i = 0; i < tried.size(); ++i) {
         const bool is_taken = pen->draw(tried[i].line, options.em).finished;
         result.tries.add(is_taken);

@@ -24,16 +24,6 @@ struct Share {
   double percent() const { return of > 0 ? 100.0 * count / of : 0.0; }
 };
 
-/// Half width of the 95 % interval of the share over all, where those of one cluster are not independent [%].
-inline double half_width(const std::vector<Share>& clusters) {
-  Share all;
-  for (const Share& cluster : clusters) all.add(cluster);
-  const double share = all.of > 0 ? static_cast<double>(all.count) / all.of : 0.0;
-  double square = 0.0;
-  for (const Share& cluster : clusters) square += std::pow(cluster.count - share * cluster.of, 2);
-  return all.of > 0 ? 196.0 * std::sqrt(square) / all.of : 0.0;
-}
-
 /// The value below which `share` of the values lie; 0 if there is none.
 inline double quantile(std::vector<double> values, double share) {
   if (values.empty()) return 0.0;

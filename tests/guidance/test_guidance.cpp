@@ -118,7 +118,7 @@ TEST_CASE("force hardly ever takes a pen more than 2 mm farther from the stroke 
       }
     }
     CAPTURE(device, count);
-    CHECK(failed <= 2);  // 4 of 5,000 in the program's run
+    CHECK(failed <= 2);  // of 719 pairs; 1 to 7 of 5,000 in the program's run
   }
 }
 
@@ -200,7 +200,7 @@ TEST_CASE("every stroke of every imported character is finished by a pen that dr
   const auto file = package_data("CALLIGRAPHY_CHARACTER_FILE");
   if (file.empty()) return;
   const std::vector<Character> imported = CharacterSet::open(file.string()).list().characters;
-  const auto nothing_else = [](const std::vector<StrokeLine>&, std::size_t) { return std::vector<Attempt>(); };
+  const auto nothing_else = [](const std::vector<StrokeLine>&, std::size_t, Random&) { return std::vector<Attempt>(); };
   const SequenceResult result = judge_attempts(imported, on("desktop", 0.04), nothing_else);
   INFO(list(result));
   CHECK(imported.size() == 9574);

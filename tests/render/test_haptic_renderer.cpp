@@ -136,8 +136,13 @@ TEST_CASE("lifting the pen in mid-stroke abandons the stroke, which begins again
   pen.write(path_of(all[0], renderer.page()[0].placement, 1e-4));
   std::vector<Point> second = path_of(all[1], renderer.page()[0].placement, 1e-4);
   Log log;
-  pen.on_tick = [&](const HapticTick& tick) { log(tick); };
+  double written = 0.0;
+  pen.on_tick = [&](const HapticTick& tick) {
+    log(tick);
+    if (has_event(tick.events, TickEvent::stroke_abandoned)) written = tick.covered;
+  };
   pen.write({second.begin(), second.begin() + static_cast<std::ptrdiff_t>(second.size() / 2)});
+  CHECK(written == Approx(0.5).margin(0.1));  // what a display may still tell
   CHECK(log.letters == "sa");
   CHECK(renderer.last().stroke == 1);
   pen.write(

@@ -13,7 +13,8 @@ struct StrokeTolerances {
   double start_distance = 0.2;
   /// Its first stretch runs within this angle of the stroke's own [rad].
   double direction = std::numbers::pi / 3.0;
-  /// Length over which that direction is judged, at most a quarter of the stroke [em]. Until then guidance acts across
+  /// Length over which that direction is judged, at most a quarter of the stroke [em]; more where it contradicts what
+  /// follows (docs/capture.md). Until then guidance acts across
   /// it only, so that the pen cannot be led along a stroke that it was not to write. 0: only the place counts, as
   /// printed.
   double first_stretch = 0.04;

@@ -12,11 +12,10 @@ namespace calligraphy {
 /// The stroke is a row of points at equal arc length. Which of them the pen can have reached in order, passing each
 /// while it was free, that is, abreast of the pen and near enough, follows from step to step by the recurrence that
 /// decides whether a discrete Frechet distance is within a bound (Eiter and Mannila, Computing discrete Frechet
-/// distance, 1994). The offset at which the stroke was begun is allowed for: along the stroke as it was, across it as
-/// the pen keeps it. docs/capture.md draws it. Never allocates.
+/// distance, 1994). What the writer is off by is allowed for: docs/capture.md draws it and says how. Never allocates.
 class StrokeFollower {
  public:
-  /// A stroke as long as it may be, in a square of `em` [m].
+  /// The stroke to be written next, in a square of `em` [m]. Takes a few microseconds.
   void load(const ActiveStroke& stroke, double em, const StrokeTolerances& tolerances) noexcept;
 
   /// The stroke is begun at `tip`, in a character that the writer has misplaced by `misplaced` so far [m, page].
@@ -57,8 +56,6 @@ class StrokeFollower {
   double em_ = 0.0, length_ = 0.0, spacing_ = 0.0;
   double width_ = 0.0;      ///< of the corridor to each side
   double lead_ = 0.0;       ///< a point this far ahead or behind is abreast of the pen
-  double step_ = 0.0;       ///< the pen is looked at each time it has moved this far
-  double chord_ = 0.0;      ///< the way is measured in chords of this length, which a tremor does not lengthen
   double exact_way_ = 0.0;  ///< of a pen that draws the stroke exactly
   double share_ = 0.0, slack_ = 0.0;
   std::array<Point, max_points> points_, tangents_;

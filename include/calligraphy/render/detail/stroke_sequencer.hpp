@@ -37,7 +37,7 @@ class StrokeSequencer {
   void put_down(const Point& tip) noexcept;
   bool begins(const Point& tip) noexcept;
   void write_on(const PenState& pen) noexcept;
-  bool is_finished(bool leaves) noexcept;
+  bool is_finished(bool leaves) const noexcept;
 
   void start_stroke(const PenState& pen) noexcept;
   void finish_stroke(const Point& tip) noexcept;
