@@ -129,6 +129,48 @@ TEST_CASE("strokes out of order and backwards are not accepted", "[render]") {
   CHECK(renderer.last().stroke == 0);
 }
 
+TEST_CASE("before a stroke only a pen that is nearer to its start than to any to come is guided to it", "[render]") {
+  // Two lines to the right, 0.12 em apart: both starts are within start_distance.
+  const std::vector<StrokeInput> lines = {{1, {{0.2, 0.5}, {0.8, 0.5}}, {}}, {1, {{0.2, 0.38}, {0.8, 0.38}}, {}}};
+  const PlacedCharacter two{make_character(U'\u4E8C', lines), {{0.02, 0.02}, 0.04}};
+  for (const bool guide_to_start : {false, true}) {
+    RendererOptions options;
+    options.guide_to_start = guide_to_start;
+    for (const bool nearer : {true, false}) {
+      HapticRenderer renderer({two}, {}, test_device(), options);
+      ScriptedPen pen(renderer);
+      const Point tip = two.placement.to_page({0.2, nearer ? 0.53 : 0.36});
+      pen.go(calligraphy_test::at(tip, 0.005));
+      for (int tick = 0; tick < 300; ++tick) pen.at(calligraphy_test::at(tip, -0.001));
+      CAPTURE(guide_to_start, nearer);
+      CHECK(renderer.last().state == InteractionState::calibration);
+      CHECK(renderer.last().hint == WritingHint::write);
+      CHECK((renderer.last().attraction.norm() > 0.0) == nearer);
+    }
+  }
+}
+
+TEST_CASE("who has misplaced the strokes before by as much may misplace the rest of this one", "[render]") {
+  for (const double shift : {0.0, 0.13}) {  // [em]
+    HapticRenderer renderer = renderer_of(U"三");
+    ScriptedPen pen(renderer);
+    const Placement& placement = renderer.page()[0].placement;
+    const auto all = strokes(renderer.page()[0].character);
+    for (const std::size_t before : {0, 1}) {
+      std::vector<Point> path = path_of(all[before], placement, 1e-4);
+      for (Point& point : path) point.y() += shift * placement.em;
+      pen.write(path);
+    }
+    REQUIRE(renderer.last().stroke == 2);
+    // Begun where it should be, and from its first tenth on 0.1 em above: beyond the corridor of 0.06 em.
+    std::vector<Point> path = path_of(all[2], placement, 1e-4);
+    for (std::size_t i = path.size() / 10; i < path.size(); ++i) path[i].y() += 0.1 * placement.em;
+    pen.write(path);
+    CAPTURE(shift);
+    CHECK((renderer.last().character == 1) == (shift > 0.0));
+  }
+}
+
 TEST_CASE("lifting the pen in mid-stroke abandons the stroke, which begins again at its start", "[render]") {
   HapticRenderer renderer = renderer_of(U"永");
   ScriptedPen pen(renderer);
