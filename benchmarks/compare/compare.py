@@ -1,0 +1,142 @@
+#!/usr/bin/env python3
+"""The tick of two trees in one run: compare.py BEFORE AFTER [--rounds N] ...; started by compare.sh.
+
+Both programs replay the same pens and stay alive; in each round either does the same work, one directly after the
+other, so that what the machine does besides falls on both. A ratio is the median of the ratios of the rounds.
+"""
+import argparse
+import re
+import shutil
+import statistics
+import struct
+import subprocess
+import tempfile
+from pathlib import Path
+
+parser = argparse.ArgumentParser()
+parser.add_argument("before")
+parser.add_argument("after")
+parser.add_argument("--rounds", type=int, default=60)
+parser.add_argument("--cold-rounds", type=int, default=12, help="with caches emptied before a tick")
+parser.add_argument("--options", default="default,everything", help="those whose time is measured")
+parser.add_argument("--no-instructions", action="store_true")
+parser.add_argument("--stages", type=int, default=14, help="number of files to list")
+arguments = parser.parse_args()
+programs = [arguments.before, arguments.after]
+measured = arguments.options.split(",")
+everything = ["default", "wang2006", "friction", "hayward_armstrong", "saturating", "guide_to_start", "assist",
+              "passivity", "budget", "thermal", "everything"]
+folder = tempfile.TemporaryDirectory()
+pens = str(Path(folder.name) / "pens")
+subprocess.run([programs[1], "record", pens], check=True)
+
+
+class Server:
+    def __init__(self, program):
+        self.process = subprocess.Popen([program, "serve", pens], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                                        text=True)
+
+    def ask(self, *words):
+        self.process.stdin.write(" ".join(words) + "\n")
+        self.process.stdin.flush()
+        return [float(word) for word in self.process.stdout.readline().split()]
+
+
+servers = [Server(program) for program in programs]
+
+
+def in_turn(number, *command):
+    """The answers of both, the order alternating."""
+    answers = {}
+    for i in ([0, 1] if number % 2 == 0 else [1, 0]):
+        answers[i] = servers[i].ask(*command)
+    return answers[0], answers[1]
+
+
+def table(header, rows):
+    print(f"\n| {' | '.join(header)} |\n{'|---' * len(header)}|")
+    for row in rows:
+        print(f"| {' | '.join(row)} |", flush=True)
+
+
+def row(name, pairs):
+    """Medians of both, and the median of the ratios with their quartiles."""
+    ratios = sorted(after / before for before, after in pairs)
+    before, after = (statistics.median(side) for side in zip(*pairs))
+    quarter = len(ratios) // 4
+    return [name, f"{before:.1f}", f"{after:.1f}", f"{statistics.median(ratios):.3f}",
+            f"{ratios[quarter]:.3f} to {ratios[-1 - quarter]:.3f}"]
+
+
+def instructions(program, options):
+    """Per tick, by source file: inlined code counts where it is written, that of other libraries where it is used."""
+    out = Path(folder.name) / "callgrind"
+    command = ["valgrind", "--tool=callgrind", f"--callgrind-out-file={out}", "--collect-atstart=no",
+               "--toggle-collect=measured", program, "count", pens, options]
+    result = subprocess.run(command, capture_output=True, text=True, check=True)
+    ticks = int(result.stdout.split()[-1])
+    names, costs, stage, is_call = {}, {}, "", False
+    for line in out.read_text().splitlines():
+        found = re.match(r"(fl|fi|fe|cfl|cfi)=\((\d+)\)(?: (.*))?", line)
+        if found:
+            if found[3]:
+                names[found[2]] = found[3]
+            if not found[1].startswith("c"):  # the file of a called function, whose cost is listed there
+                file = names[found[2]]
+                if re.search("/calligraphy/|/src/", file) and "/Eigen/" not in file:
+                    stage = Path(file).stem
+                elif found[1] == "fl":
+                    stage = "other libraries"
+        elif line.startswith("calls="):
+            is_call = True
+        elif re.match(r"[+\-*\d]", line):
+            if not is_call:
+                costs[stage] = costs.get(stage, 0.0) + int(line.split()[1]) / ticks
+            is_call = False
+    return costs
+
+
+print("pens: " + "; ".join(f"{int(strokes)} strokes finished in {int(ticks)} ticks"
+                           for strokes, ticks in (server.ask("strokes", "default") for server in servers)))
+
+rows = []
+for options in everything:
+    files = [str(Path(folder.name) / f"{options}-{i}") for i in (0, 1)]
+    results = []
+    for server, file in zip(servers, files):
+        server.ask("forces", options, file)
+        results.append(list(struct.iter_unpack("=7d", Path(file).read_bytes())))
+        Path(file).unlink()
+    change = max(max(abs(a - b) for a, b in zip(x[:3], y[:3])) for x, y in zip(*results))
+    others = sum(x[3:] != y[3:] for x, y in zip(*results))
+    rows.append([options, f"{change:.2g}", str(others)])
+table(["options", "largest change of a force in a tick [N]", "ticks with another state, event, hint or stroke"], rows)
+
+rows = []
+for options in measured:
+    rows.append(row(f"{options}: ticks in one piece",
+                    [tuple(a[0] for a in in_turn(i, "whole", options)) for i in range(arguments.rounds)]))
+    rounds = [in_turn(i, "ticks", options) for i in range(arguments.rounds)]
+    for k, name in enumerate(["p50", "p99", "p99.9"]):
+        rows.append(row(f"{options}: {name} of a round", [(a[k], b[k]) for a, b in rounds]))
+    means = in_turn(0, "means", options)
+    for k, name in enumerate(["p50", "p99", "p99.9"]):
+        rows.append(row(f"{options}: {name} of the ticks' means", [(means[0][k], means[1][k])]))
+    if arguments.cold_rounds:
+        rows.append(row(f"{options}: cold, median of a round",
+                        [tuple(a[0] for a in in_turn(i, "cold", options)) for i in range(arguments.cold_rounds)]))
+        means = in_turn(0, "mean_cold", options)
+        rows.append(row(f"{options}: cold, median of the ticks' means", [(means[0][0], means[1][0])]))
+table(["time [ns]", "before", "after", "ratio", "quartiles"], rows)
+
+if arguments.no_instructions or not shutil.which("valgrind"):
+    print("\nleft out: instructions" + ("" if arguments.no_instructions else " (needs valgrind)"))
+else:
+    for options in measured:
+        before, after = (instructions(program, options) for program in programs)
+        totals = [sum(costs.values()) for costs in (before, after)]
+        rows = [["all", f"{totals[0]:.0f}", f"{totals[1]:.0f}", f"{totals[1] / totals[0]:.3f}"]]
+        names = sorted(before | after, key=lambda name: -max(before.get(name, 0.0), after.get(name, 0.0)))
+        for name in names[:arguments.stages]:
+            rows.append([name, f"{before.get(name, 0.0):.0f}", f"{after.get(name, 0.0):.0f}", ""])
+        table([f"instructions per tick, {options}, by file", "before", "after", "ratio"], rows)
