@@ -33,7 +33,7 @@ class VelocityEstimator {
   double cutoff_;  ///< angular [rad/s]
   bool has_position_ = false;
   double since_position_ = 0.0;  ///< [s]
-  double share_ = 0.0;           ///< of the newest difference in the estimate, for a difference over `share_time_` [s]
+  double share_ = 0.0;           ///< of the newest difference in the estimate, where that is over `share_time_` [s]
   double share_time_ = 0.0;
   Eigen::Vector3d position_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
