@@ -38,12 +38,21 @@ void EnergyObserver::sent(const Eigen::Vector3d& force) noexcept {
 }
 
 void EnergyObserver::acted(const Eigen::Vector3d& force, int ticks, double settling) noexcept {
-  const int missed = std::max(0, ticks - 1);
+  if (ticks > 1) {
+    acted_over_pause(force, ticks - 1, settling);
+  } else {
+    sent_[newest_] = force + std::min(settling / period_, 1.0) * (at_last_sample_ - force);  // each by its time
+    at_last_sample_ = force;
+  }
+}
+
+[[gnu::noinline]] void EnergyObserver::acted_over_pause(const Eigen::Vector3d& force, int missed,
+                                                        double settling) noexcept {
   const double settled = std::round(settling / period_);  // [ticks]
   Eigen::Vector3d before = sent_[newest_];
   double change = norm(Eigen::Vector3d(force - before));
   const Eigen::Vector3d earlier = std::exchange(at_last_sample_, force);
-  if (missed > 0 && settled > 0.0) {
+  if (settled > 0.0) {
     // What was sent came late, or never came: until then the force was the one before.
     change = std::max({change, norm(Eigen::Vector3d(earlier - before)), norm(Eigen::Vector3d(force - earlier))});
     if (norm(earlier) > norm(before)) before = earlier;
@@ -61,7 +70,7 @@ void EnergyObserver::acted(const Eigen::Vector3d& force, int ticks, double settl
   // Within a period each force has its share of the time, and so of the way.
   if (unsure == 0) sent_[newest_] = force + std::min(settling / period_, 1.0) * (earlier - force);
   pass_unseen(force, missed - unsure, 0.0);
-  if (missed > 0) sent_[newest_] = force;
+  sent_[newest_] = force;
 }
 
 /// `count` periods in which `force` is held pass like that, in bounded time: once it fills the ring, all are alike.

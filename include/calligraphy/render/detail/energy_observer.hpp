@@ -59,6 +59,7 @@ class EnergyObserver {
 
  private:
   const Eigen::Vector3d& force_at_work() const noexcept { return sent_before(delay_); }
+  void acted_over_pause(const Eigen::Vector3d& force, int missed, double settling) noexcept;
   void pass_unseen(double change) noexcept;
   void pass_unseen(const Eigen::Vector3d& force, int count, double change) noexcept;
 

@@ -14,6 +14,8 @@ struct ThermalBudget {
   double continuous = 0.0;     ///< [N]
   double time_constant = 0.0;  ///< [s]
   double heat = 0.0;           ///< 1: in equilibrium at the continuous force [1]
+  double last_seconds = 0.0;   ///< for which a force was held last [s]
+  double last_share = 0.0;     ///< of the way to equilibrium that it went in that time [1]
 
   double max_force() const noexcept {
     constexpr double warm = 0.8;
@@ -22,8 +24,12 @@ struct ThermalBudget {
   }
   /// Accounts for `force` [N] held for `seconds`.
   void held(double force, double seconds) noexcept {
+    if (seconds != last_seconds) {
+      last_seconds = seconds;
+      last_share = -std::expm1(-seconds / time_constant);
+    }
     const double ratio = std::min(force / continuous, 1e6);
-    heat += (ratio * ratio - heat) * -std::expm1(-seconds / time_constant);
+    heat += (ratio * ratio - heat) * last_share;
   }
 };
 
