@@ -26,10 +26,10 @@ inline double dot(const Eigen::Vector3d& a, const Eigen::Vector3d& b) noexcept {
 /// Norm of a force or displacement in space, whose squares are finite.
 inline double norm(const Eigen::Vector3d& vector) noexcept { return std::sqrt(dot(vector, vector)); }
 
-/// `vector`, or the one of length `longest` in its direction.
+/// `vector`, or the one of length `longest` >= 0 in its direction.
 inline Eigen::Vector3d shortened(const Eigen::Vector3d& vector, double longest) noexcept {
-  const double size = norm(vector);
-  return size > longest ? Eigen::Vector3d(vector * (longest / size)) : vector;
+  const double square = dot(vector, vector);  // most need no root
+  return square > longest * longest ? Eigen::Vector3d(vector * (longest / std::sqrt(square))) : vector;
 }
 
 }  // namespace calligraphy

@@ -76,8 +76,8 @@ void ForceOutput::restart() noexcept {
   sent_ = {};
 }
 
-const SentForce& ForceOutput::update(const PenState& pen, const GuidanceForce& guidance,
-                                     const PaperForce& paper) noexcept {
+[[gnu::flatten]] const SentForce& ForceOutput::update(const PenState& pen, const GuidanceForce& guidance,
+                                                      const PaperForce& paper) noexcept {
   const Point in_plane = guidance.total + paper.friction;
   const Eigen::Vector3d wanted =
       pen.holds_force ? sent_.page : Eigen::Vector3d(in_plane.x(), in_plane.y(), paper.normal);
@@ -92,8 +92,13 @@ const SentForce& ForceOutput::update(const PenState& pen, const GuidanceForce& g
     max_force = std::min(max_force, passivity_.max_force());
   }
   // Where nothing was sent, nothing is held, the brake of an exhausted budget included.
-  const bool is_trusted = pen.status == TickStatus::ok || (pen.holds_force && norm(wanted) > 0.0);
-  sent_.page = is_trusted ? limiter_.next(sent_.page, force, allowance(pen), max_force) : limiter_.release(sent_.page);
+  if (pen.status != TickStatus::ok && !(pen.holds_force && norm(wanted) > 0.0)) {
+    sent_.page = limiter_.release(sent_.page);
+  } else if (limiter_.reaches(sent_.page, force, max_force)) {
+    sent_.page = force;
+  } else {
+    sent_.page = limiter_.next(sent_.page, force, allowance(pen), max_force);
+  }
   if (observes_energy_) passivity_.sent(sent_.page);
   if (thermal_.peak > 0.0) {
     thermal_.held(norm(sent_.page), period_);

@@ -47,7 +47,8 @@ void Guidance::restart() noexcept {
   guided_ = false;
 }
 
-const GuidanceForce& Guidance::update(const PenState& pen, const WriterState& writer, const Point& sent) noexcept {
+[[gnu::flatten]] const GuidanceForce& Guidance::update(const PenState& pen, const WriterState& writer,
+                                                       const Point& sent) noexcept {
   if (pen.status != TickStatus::ok) {
     if (!pen.holds_force) release();
     return force_;

@@ -23,7 +23,8 @@ void Paper::release_friction() noexcept {
   spring_ = spring_rate_ = Point::Zero();
 }
 
-const PaperForce& Paper::update(const PenState& pen, const WriterState& writer, double pressure) noexcept {
+[[gnu::flatten]] const PaperForce& Paper::update(const PenState& pen, const WriterState& writer,
+                                                 double pressure) noexcept {
   if (pen.status != TickStatus::ok) {
     if (!pen.holds_force) release();
     return force_;

@@ -41,7 +41,7 @@ void PenSensor::restart() noexcept {
   rejected_.reset();
 }
 
-const PenState& PenSensor::update(const DeviceState& sample) noexcept {
+[[gnu::flatten]] const PenState& PenSensor::update(const DeviceState& sample) noexcept {
   pen_.time = sample.time;
   pen_.force = sample.force;
   if (counts_pauses_) count_ticks(sample);

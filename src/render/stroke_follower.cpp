@@ -135,7 +135,7 @@ StrokeFollower::Place StrokeFollower::place(const Point& tip, int point) const n
           (abreast && aside <= width_) || (is_corner && std::hypot(along, aside) <= width_)};
 }
 
-void StrokeFollower::look(const Point& tip, double way) noexcept {
+[[gnu::noinline]] void StrokeFollower::look(const Point& tip, double way) noexcept {
   seen_ = tip;
   way_ += way;
   std::uint64_t reached = 0;

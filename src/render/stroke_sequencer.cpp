@@ -41,7 +41,7 @@ void StrokeSequencer::restart() noexcept {
   activate(0, 0);
 }
 
-const WriterState& StrokeSequencer::update(const PenState& pen) noexcept {
+[[gnu::flatten]] const WriterState& StrokeSequencer::update(const PenState& pen) noexcept {
   using State = InteractionState;
   const Point tip = pen.tip.head<2>();
   writer_.events = TickEvent::none;
@@ -86,7 +86,7 @@ TransitionInput StrokeSequencer::advance(const PenState& pen) noexcept {
   return input;
 }
 
-void StrokeSequencer::put_down(const Point& tip) noexcept {
+[[gnu::noinline]] void StrokeSequencer::put_down(const Point& tip) noexcept {
   writer_.covered = 0.0;
   capture_.put_down(tip, character().starts, static_cast<std::size_t>(writer_.stroke));
   if (options_.tolerances.coverage == 0.0) return;
@@ -120,7 +120,7 @@ bool StrokeSequencer::is_finished(bool leaves) const noexcept {
   return (leaves || follower_.is_at_end(hidden_way_)) && follower_.accepts(2.0 * hidden_way_);
 }
 
-void StrokeSequencer::start_stroke(const PenState& pen) noexcept {
+[[gnu::noinline]] void StrokeSequencer::start_stroke(const PenState& pen) noexcept {
   writer_.events |= TickEvent::stroke_started;
   writer_.rests = false;
   active_.begin(capture_.begin());
@@ -128,7 +128,7 @@ void StrokeSequencer::start_stroke(const PenState& pen) noexcept {
   write_on(pen);
 }
 
-void StrokeSequencer::finish_stroke(const Point& tip) noexcept {
+[[gnu::noinline]] void StrokeSequencer::finish_stroke(const Point& tip) noexcept {
   writer_.events |= TickEvent::stroke_finished;
   capture_.written(active_.start());
   const int next = writer_.stroke + 1;
@@ -152,13 +152,13 @@ void StrokeSequencer::finish_stroke(const Point& tip) noexcept {
   }
 }
 
-void StrokeSequencer::abandon_stroke(const Point& tip) noexcept {
+[[gnu::noinline]] void StrokeSequencer::abandon_stroke(const Point& tip) noexcept {
   writer_.events |= TickEvent::stroke_abandoned;
   active_.reload();
   capture_.put_down(tip, character().starts, static_cast<std::size_t>(writer_.stroke));
 }
 
-void StrokeSequencer::lift() noexcept {
+[[gnu::noinline]] void StrokeSequencer::lift() noexcept {
   writer_.events |= TickEvent::lift;
   writer_.rests = false;
   if (all_written()) return;
@@ -166,7 +166,7 @@ void StrokeSequencer::lift() noexcept {
   if (is_character_written) activate(writer_.character + 1, 0);
 }
 
-void StrokeSequencer::activate(int character, int stroke) noexcept {
+[[gnu::noinline]] void StrokeSequencer::activate(int character, int stroke) noexcept {
   if (character != writer_.character) {
     inside_box_ = false;
     capture_.restart();

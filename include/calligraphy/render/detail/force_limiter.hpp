@@ -31,6 +31,15 @@ struct ForceLimiter {
   double peak = 0.0;           ///< [N]
   bool limit_rate = true;      ///< false: `wang2006`, forces change without a limit
 
+  /// Whether next() is `target` itself, whatever the allowance: the usual case, without a square root.
+  bool reaches(const Eigen::Vector3d& previous, const Eigen::Vector3d& target, double max_length) const noexcept {
+    const double most = peak < max_length ? peak : max_length;
+    const double x = target.x() - previous.x(), y = target.y() - previous.y(), z = target.z() - previous.z();
+    const double square = target.x() * target.x() + target.y() * target.y() + target.z() * target.z();
+    return square <= most * most &&
+           (!limit_rate || (x * x + y * y <= in_plane_step * in_plane_step && z <= normal_step && z >= -normal_step));
+  }
+
   /// Of a pen at rest [N].
   double max_step() const noexcept;
   /// The next force from `previous` towards `target`, at most `max_length` long [N, page axes]. `target` must be
