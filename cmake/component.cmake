@@ -1,9 +1,10 @@
-# calligraphy_component(name [EXPORT set] [FOLDER folder] [SUBFOLDERS ...] [SOURCES ...] [WITHOUT ...] DEPENDS ...
-# [NEEDS package ...]): a component as the target calligraphy::name, from the source files in src/folder (default
-# src/name) and its SUBFOLDERS except WITHOUT, plus the generated SOURCES. DEPENDS: components, and libraries that all
-# components need. NEEDS: packages that a user of an installed copy must have to link the target.
+# calligraphy_component(name [ONE_UNIT] [EXPORT set] [FOLDER folder] [SUBFOLDERS ...] [SOURCES ...] [WITHOUT ...]
+# DEPENDS ... [NEEDS package ...]): a component as the target calligraphy::name, from the source files in src/folder
+# (default src/name) and its SUBFOLDERS except WITHOUT, plus the generated SOURCES. ONE_UNIT: its files are compiled as
+# one, so that any function can be inlined. DEPENDS: components, and libraries that all components need. NEEDS: packages
+# that a user of an installed copy must have to link the target.
 function(calligraphy_component name)
-  cmake_parse_arguments(COMPONENT "" "EXPORT;FOLDER" "SUBFOLDERS;SOURCES;WITHOUT;DEPENDS;NEEDS" ${ARGN})
+  cmake_parse_arguments(COMPONENT "ONE_UNIT" "EXPORT;FOLDER" "SUBFOLDERS;SOURCES;WITHOUT;DEPENDS;NEEDS" ${ARGN})
   if(NOT COMPONENT_EXPORT)
     set(COMPONENT_EXPORT calligraphyTargets)
   endif()
@@ -33,7 +34,11 @@ function(calligraphy_component name)
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-fno-math-errno>
                                            $<$<CXX_COMPILER_ID:GNU>:-fno-semantic-interposition>)
   calligraphy_warnings(${target})
-  calligraphy_unity(${target} 12)
+  if(COMPONENT_ONE_UNIT)
+    calligraphy_unity(${target} 1000)
+  else()
+    calligraphy_unity(${target} 12)
+  endif()
   set(components ${COMPONENT_DEPENDS})
   list(FILTER components INCLUDE REGEX "^calligraphy_")
   list(TRANSFORM components REPLACE "^calligraphy_" "")

@@ -39,11 +39,13 @@ void ActiveStroke::reload() noexcept {
   parameter_ = 0.0;
   furthest_ = 0.0;
   misplaced_ = Point::Zero();
+  misplacement_ = 0.0;
 }
 
 void ActiveStroke::begin(const Point& tip) noexcept {
   reload();
   misplaced_ = tip - start();
+  misplacement_ = misplaced_.norm();
 }
 
 StrokeContact ActiveStroke::nearest(const Point& tip, const StrokeRules& rules) const noexcept {
@@ -62,11 +64,11 @@ StrokeContact ActiveStroke::nearest(const Point& tip, const StrokeRules& rules) 
 }
 
 void ActiveStroke::rest(const StrokeContact& nearest) noexcept {
+  reload();
   active_ = nearest.element;
   arc_ = nearest.arc - first_arc_[static_cast<std::size_t>(active_)];
   parameter_ = nearest.closest.parameter;
   furthest_ = nearest.arc;
-  misplaced_ = Point::Zero();
 }
 
 StrokeContact ActiveStroke::update(const Point& tip, const StrokeRules& rules) noexcept {
@@ -118,18 +120,18 @@ StrokeContact ActiveStroke::locate(const Point& tip, const StrokeRules& rules) c
 
 bool ActiveStroke::passes(const Point& tip, const StrokeContact& contact, const StrokeRules& rules) const noexcept {
   const auto i = static_cast<std::size_t>(contact.element);
-  const double beyond = planes_[i].signed_distance(tip);
-  if (rules.plane == FeaturePlaneRule::wang2006) return beyond > 0.0;
+  if (rules.plane == FeaturePlaneRule::wang2006) return planes_[i].signed_distance(tip) > 0.0;
+  if (contact.weight < min_weight) return false;
   const double length = elements_[i].length();
   const double tolerance = std::min(rules.plane_tolerance * em_, 0.3 * length);
   const double left = first_arc_[i + 1] - contact.arc;
   // Near the feature point along the stroke too: a plane also crosses other parts of the same stroke. On a curve the
   // closest point may lag behind the plane by more than the tolerance, but not by more than twice the tolerance unless
   // the pen is far away.
-  if (contact.weight < min_weight || left > 2.0 * tolerance + misplaced_.norm() + 1e-6 * length) return false;
+  if (left > 2.0 * tolerance + misplacement_ + 1e-6 * length) return false;
   // One who began the stroke before its start may turn as much before the corner.
   const double early = std::clamp(-planes_[i].normal.dot(misplaced_), 0.0, max_early_turn * em_);
-  if (beyond >= -tolerance - early) return true;
+  if (planes_[i].signed_distance(tip) >= -tolerance - early) return true;
   // A pen that stays on the inside of a corner never reaches the plane: it passes on the bisector, where both elements
   // attract it equally.
   if (contact.element + 1 == element_count_) return false;

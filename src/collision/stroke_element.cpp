@@ -33,17 +33,6 @@ LineElement prepare_line(const Point& start, const Point& end) noexcept {
   return line;
 }
 
-double StrokeElement::arc_length(double t) const noexcept {
-  if (curve()) return curve()->arc_length(t);
-  return t > 0.0 ? std::min(t, 1.0) * length() : 0.0;
-}
-
-double StrokeElement::parameter_at(double arc_length) const noexcept {
-  if (!(arc_length > 0.0)) return 0.0;
-  if (!(arc_length < length())) return 1.0;
-  return curve() ? curve()->parameter_at(arc_length) : arc_length / length();
-}
-
 StrokeElement prepare_element(std::span<const Point> control_points) noexcept {
   if (control_points.size() < 2 || control_points.size() > max_curve_degree + 1) return {unusable_element()};
   const Point& start = control_points.front();

@@ -29,10 +29,6 @@ void EnergyBudget::restart() noexcept {
   max_force_ = std::numeric_limits<double>::infinity();
 }
 
-bool EnergyBudget::is_limited() const noexcept { return std::isfinite(options_.energy_budget); }
-
-void EnergyBudget::pay(double energy) noexcept { remaining_ = std::min(options_.energy_budget, remaining_ - energy); }
-
 /// When the budget is nearly exhausted, a moving pen is braked lightly, so that it returns energy. Otherwise an
 /// exhausted budget would stay exhausted forever, because zero force does no work.
 Eigen::Vector3d EnergyBudget::limited(const Eigen::Vector3d& force, const Eigen::Vector3d& viscous,
@@ -44,7 +40,7 @@ Eigen::Vector3d EnergyBudget::limited(const Eigen::Vector3d& force, const Eigen:
     const Eigen::Vector3d& velocity = observer.velocity();
     return -max_force_ / (norm(velocity) + half_brake_speed * options_.scale) * velocity;
   }
-  if (!(norm(force) > max_force_)) return force;
+  if (!(dot(force, force) > max_force_ * max_force_)) return force;
   const Eigen::Vector3d kept = shortened(viscous, damping_share * max_force_);
   return shortened(force - viscous, max_force_ - norm(kept)) + kept;
 }

@@ -18,7 +18,10 @@ constexpr double force_resolution = 0.01;
 }  // namespace
 
 EnergyObserver::EnergyObserver(const PassivityOptions& options, double period) noexcept
-    : options_(options), period_(period), delay_(static_cast<std::size_t>(std::clamp(options.delay, 0, max_delay))) {
+    : options_(options),
+      period_(period),
+      rate_(1.0 / period),
+      delay_(static_cast<std::size_t>(std::clamp(options.delay, 0, max_delay))) {
   restart();
 }
 
@@ -31,20 +34,6 @@ void EnergyObserver::restart() noexcept {
 }
 
 double EnergyObserver::speed() const noexcept { return std::max(options_.hand_speed, speed_); }
-
-void EnergyObserver::sent(const Eigen::Vector3d& force) noexcept {
-  newest_ = (newest_ + 1) % sent_.size();
-  sent_[newest_] = force;
-}
-
-void EnergyObserver::acted(const Eigen::Vector3d& force, int ticks, double settling) noexcept {
-  if (ticks > 1) {
-    acted_over_pause(force, ticks - 1, settling);
-  } else {
-    sent_[newest_] = force + std::min(settling / period_, 1.0) * (at_last_sample_ - force);  // each by its time
-    at_last_sample_ = force;
-  }
-}
 
 [[gnu::noinline]] void EnergyObserver::acted_over_pause(const Eigen::Vector3d& force, int missed,
                                                         double settling) noexcept {
@@ -102,15 +91,30 @@ ObservedStep EnergyObserver::move(const Eigen::Vector3d& position) noexcept {
   ObservedStep step;
   step.force = force_at_work();
   if (has_position_) step.way = position - position_;
+  const double square = dot(step.way, step.way), reach = max_pen_speed * options_.scale * period_;
+  if (has_position_ && gap_.periods == 0 && square <= reach * reach) {
+    step.energy = dot(step.force, step.way);
+    step.seen = true;
+    velocity_ = step.way * rate_;
+    const double by_hand = options_.hand_speed * period_;
+    speed_ = square > by_hand * by_hand ? std::sqrt(square) * rate_ : 0.0;
+  } else {
+    move_after_gap(step);
+  }
+  given_ += step.energy;
+  has_position_ = true;
+  position_ = position;
+  return step;
+}
+
+/// Or after a step that no pen takes.
+[[gnu::noinline]] void EnergyObserver::move_after_gap(ObservedStep& step) noexcept {
   const double way = norm(step.way), seconds = static_cast<double>(gap_.periods + 1) * period_;
   const bool jumped = way > max_pen_speed * options_.scale * seconds;
   if (!has_position_) {
     // Without a first position nothing is known of the work: the force was zero then, or is charged from now on.
   } else if (jumped) {
     step.energy = (gap_.force + norm(step.force)) * speed() * period_;  // did not move there
-  } else if (gap_.periods == 0) {
-    step.energy = dot(step.force, step.way);
-    step.seen = true;
   } else {
     // Exact if the force was held; otherwise it is unknown how far the pen moved under which.
     const double max_speed = std::max(speed(), way / seconds);
@@ -118,13 +122,8 @@ ObservedStep EnergyObserver::move(const Eigen::Vector3d& position) noexcept {
     step.energy = std::min(dot(gap_.held, step.way) + change * max_speed * period_,
                            (gap_.force + norm(step.force)) * max_speed * period_);
   }
-  given_ += step.energy;
   speed_ = has_position_ && !jumped ? way / seconds : 0.0;
-  if (step.seen) velocity_ = step.way / period_;
-  has_position_ = true;
-  position_ = position;
   gap_ = {};
-  return step;
 }
 
 }  // namespace calligraphy

@@ -25,7 +25,7 @@ Eigen::Vector3d ForceLimiter::next(const Eigen::Vector3d& previous, const Eigen:
   return shortened(force, most);
 }
 
-Eigen::Vector3d ForceLimiter::release(const Eigen::Vector3d& previous) const noexcept {
+[[gnu::noinline]] Eigen::Vector3d ForceLimiter::release(const Eigen::Vector3d& previous) const noexcept {
   const double size = norm(previous);
   const double step = max_step();
   return size <= step ? Eigen::Vector3d(0.0, 0.0, 0.0) : Eigen::Vector3d(previous * (1.0 - step / size));

@@ -76,8 +76,8 @@ void ForceOutput::restart() noexcept {
   sent_ = {};
 }
 
-[[gnu::flatten]] const SentForce& ForceOutput::update(const PenState& pen, const GuidanceForce& guidance,
-                                                      const PaperForce& paper) noexcept {
+const SentForce& ForceOutput::update(const PenState& pen, const GuidanceForce& guidance,
+                                     const PaperForce& paper) noexcept {
   const Point in_plane = guidance.total + paper.friction;
   const Eigen::Vector3d wanted =
       pen.holds_force ? sent_.page : Eigen::Vector3d(in_plane.x(), in_plane.y(), paper.normal);

@@ -47,8 +47,7 @@ void Guidance::restart() noexcept {
   guided_ = false;
 }
 
-[[gnu::flatten]] const GuidanceForce& Guidance::update(const PenState& pen, const WriterState& writer,
-                                                       const Point& sent) noexcept {
+const GuidanceForce& Guidance::update(const PenState& pen, const WriterState& writer, const Point& sent) noexcept {
   if (pen.status != TickStatus::ok) {
     if (!pen.holds_force) release();
     return force_;

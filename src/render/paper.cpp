@@ -23,8 +23,7 @@ void Paper::release_friction() noexcept {
   spring_ = spring_rate_ = Point::Zero();
 }
 
-[[gnu::flatten]] const PaperForce& Paper::update(const PenState& pen, const WriterState& writer,
-                                                 double pressure) noexcept {
+const PaperForce& Paper::update(const PenState& pen, const WriterState& writer, double pressure) noexcept {
   if (pen.status != TickStatus::ok) {
     if (!pen.holds_force) release();
     return force_;

@@ -14,7 +14,7 @@ constexpr double max_bounce = 0.05;
 
 /// Damping [N s/m] that dissipates `surplus` [J] within one period; `square` is the squared step of that period [m^2].
 double damping_for(double surplus, double square, double period, double most) noexcept {
-  if (!(surplus > 0.0) || !(square > 0.0)) return 0.0;
+  if (!(square > 0.0)) return 0.0;
   return std::min(surplus * period / square, most);
 }
 
@@ -43,12 +43,6 @@ void PassivityController::restart() noexcept {
   surplus_in_plane_ = surplus_normal_ = free_for_ = 0.0;
 }
 
-void PassivityController::acted(const Eigen::Vector3d& force, int ticks, double settling) noexcept {
-  observer_.acted(force, ticks, settling);
-}
-
-void PassivityController::sent(const Eigen::Vector3d& force) noexcept { observer_.sent(force); }
-
 Eigen::Vector3d PassivityController::next(const Eigen::Vector3d& position, const Eigen::Vector3d& wanted,
                                           const Eigen::Vector3d& viscous) noexcept {
   damping_.setZero();
@@ -62,7 +56,7 @@ Eigen::Vector3d PassivityController::next(const Eigen::Vector3d& position, const
     observer_.lose_sample();
   }
   // Without a field nothing can swing: a pen that is lifted is not held back for what happened on the paper.
-  const bool is_free = norm(field) == 0.0 && norm(field_) == 0.0;
+  const bool is_free = dot(field, field) == 0.0 && dot(field_, field_) == 0.0;
   free_for_ = is_free ? free_for_ + period_ : 0.0;
   if (free_for_ > max_bounce) surplus_in_plane_ = surplus_normal_ = 0.0;
   field_ = field;
@@ -75,10 +69,14 @@ void PassivityController::damp(const ObservedStep& step, const Eigen::Vector3d& 
   const Eigen::Vector3d beyond = step.force - 0.5 * (field_ + field);
   surplus_in_plane_ = std::max(0.0, surplus_in_plane_ + beyond.head<2>().dot(step.way.head<2>()));
   surplus_normal_ = std::max(0.0, surplus_normal_ + beyond.z() * step.way.z());
-  const double in_plane = damping_for(surplus_in_plane_, step.way.head<2>().squaredNorm(), period_, max_damping_);
-  const double normal = damping_for(surplus_normal_, step.way.z() * step.way.z(), period_, max_damping_);
-  damping_.head<2>() = -in_plane / period_ * step.way.head<2>();
-  damping_.z() = -normal / period_ * step.way.z();
+  if (surplus_in_plane_ > 0.0) {
+    const double in_plane = damping_for(surplus_in_plane_, step.way.head<2>().squaredNorm(), period_, max_damping_);
+    damping_.head<2>() = -in_plane / period_ * step.way.head<2>();
+  }
+  if (surplus_normal_ > 0.0) {
+    const double normal = damping_for(surplus_normal_, step.way.z() * step.way.z(), period_, max_damping_);
+    damping_.z() = -normal / period_ * step.way.z();
+  }
 }
 
 }  // namespace calligraphy

@@ -41,7 +41,7 @@ void PenSensor::restart() noexcept {
   rejected_.reset();
 }
 
-[[gnu::flatten]] const PenState& PenSensor::update(const DeviceState& sample) noexcept {
+const PenState& PenSensor::update(const DeviceState& sample) noexcept {
   pen_.time = sample.time;
   pen_.force = sample.force;
   if (counts_pauses_) count_ticks(sample);
@@ -98,7 +98,8 @@ bool PenSensor::is_plausible(const Eigen::Vector3d& position, double time) const
   if (!has_sample_) return true;
   const double max_speed = options_.max_speed * mapping_.scale;
   const double reach = max_speed * std::max(time - time_, period_);
-  if (norm(position - pen_.position) <= reach) return true;
+  const Eigen::Vector3d way = position - pen_.position;
+  if (dot(way, way) <= reach * reach) return true;
   return rejected_ && norm(position - *rejected_) <= max_speed * period_;
 }
 

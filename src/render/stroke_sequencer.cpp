@@ -41,7 +41,7 @@ void StrokeSequencer::restart() noexcept {
   activate(0, 0);
 }
 
-[[gnu::flatten]] const WriterState& StrokeSequencer::update(const PenState& pen) noexcept {
+const WriterState& StrokeSequencer::update(const PenState& pen) noexcept {
   using State = InteractionState;
   const Point tip = pen.tip.head<2>();
   writer_.events = TickEvent::none;

@@ -88,6 +88,7 @@ class ActiveStroke {
   int element_count_ = 0;
   double em_ = 0.0;                  ///< [m]
   Point misplaced_ = Point::Zero();  ///< offset from the start at which the stroke was begun [m]
+  double misplacement_ = 0.0;        ///< its length [m]
   int active_ = 0;                   ///< element being written; element_count_ once finished
   double arc_ = 0.0;                 ///< arc length of the last closest point, within the active element
   double parameter_ = 0.0;           ///< of the last closest point

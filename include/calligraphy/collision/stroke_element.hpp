@@ -1,6 +1,7 @@
 // A stroke element prepared for queries (Wang 2006, sec. 3.3: LSE and CSE).
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <variant>
 
@@ -29,9 +30,16 @@ struct StrokeElement {
   Point tangent(double t) const noexcept { return curve() ? curve()->tangent(t) : line()->direction; }
   /// Arc length from 0 to t, which is clamped to [0, 1] (NaN counts as 0); exact on a line, accurate to 3e-3 of the
   /// size on a curve (1e-4 on typical strokes) [m].
-  double arc_length(double t) const noexcept;
+  double arc_length(double t) const noexcept {
+    if (curve()) return curve()->arc_length(t);
+    return t > 0.0 ? std::min(t, 1.0) * length() : 0.0;
+  }
   /// Parameter at an arc length, clamped to [0, 1]; the inverse of arc_length.
-  double parameter_at(double arc_length) const noexcept;
+  double parameter_at(double arc_length) const noexcept {
+    if (!(arc_length > 0.0)) return 0.0;
+    if (!(arc_length < length())) return 1.0;
+    return curve() ? curve()->parameter_at(arc_length) : arc_length / length();
+  }
 };
 
 /// Prepares 2 to 5 control points: an element of a degree one lower, or a point when all are equal (within 1e-300 m).

@@ -30,6 +30,8 @@ class VelocityEstimator {
   void restart() noexcept;
 
  private:
+  void learn_share() noexcept;
+
   double cutoff_;  ///< angular [rad/s]
   bool has_position_ = false;
   double since_position_ = 0.0;  ///< [s]

@@ -54,7 +54,9 @@ class PassivityController {
   /// one. In one tick it was then the one of the last call, so the work is shared by time. Over a pause it may have
   /// been any between this and those before, for `max_gap` at least. Without a call it was the force of sent(), for one
   /// tick.
-  void acted(const Eigen::Vector3d& force, int ticks, double settling = 0.0) noexcept;
+  void acted(const Eigen::Vector3d& force, int ticks, double settling = 0.0) noexcept {
+    observer_.acted(force, ticks, settling);
+  }
   /// The force to send for a desired one [N], at the device position of this tick [m]; limits may follow. A position
   /// with NaN means that the sample of this tick is lost or stale: nothing is damped. `viscous` is the part of `wanted`
   /// that opposes the motion: where the budget limits the force, some of it remains, since a force that depends on the
@@ -62,7 +64,7 @@ class PassivityController {
   Eigen::Vector3d next(const Eigen::Vector3d& position, const Eigen::Vector3d& wanted,
                        const Eigen::Vector3d& viscous = Eigen::Vector3d::Zero()) noexcept;
   /// Reports the force after all limits, held from now on. Call it once after every next().
-  void sent(const Eigen::Vector3d& force) noexcept;
+  void sent(const Eigen::Vector3d& force) noexcept { observer_.sent(force); }
   /// Resets: no force sent, no energy delivered.
   void restart() noexcept;
 

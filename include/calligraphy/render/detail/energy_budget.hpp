@@ -1,6 +1,8 @@
 // How much force may be sent for what remains of an energy budget.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <Eigen/Core>
@@ -16,9 +18,9 @@ class EnergyBudget {
   EnergyBudget() = default;
   EnergyBudget(const PassivityOptions& options, double period) noexcept;
 
-  bool is_limited() const noexcept;
+  bool is_limited() const noexcept { return std::isfinite(options_.energy_budget); }
   /// The pen has been given this energy, or has returned it where negative [J].
-  void pay(double energy) noexcept;
+  void pay(double energy) noexcept { remaining_ = std::min(options_.energy_budget, remaining_ - energy); }
   /// What of `force` may be sent; `viscous` is the part of it that opposes the motion [N].
   Eigen::Vector3d limited(const Eigen::Vector3d& force, const Eigen::Vector3d& viscous,
                           const EnergyObserver& observer) noexcept;

@@ -1,6 +1,7 @@
 // What work a force has done on a pen, from delayed, lost and late samples.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -36,12 +37,25 @@ class EnergyObserver {
   EnergyObserver(const PassivityOptions& options, double period) noexcept;
 
   /// As PassivityController::acted().
-  void acted(const Eigen::Vector3d& force, int ticks, double settling) noexcept;
+  void acted(const Eigen::Vector3d& force, int ticks, double settling) noexcept {
+    if (ticks > 1) {
+      acted_over_pause(force, ticks - 1, settling);
+      return;
+    }
+    sent_[newest_] = force;
+    if (settling > 0.0) {  // each force has its share of the time, and so of the way
+      sent_[newest_] += std::min(settling / period_, 1.0) * (at_last_sample_ - force);
+    }
+    at_last_sample_ = force;
+  }
   /// The pen is where this sample says [m].
   ObservedStep move(const Eigen::Vector3d& position) noexcept;
   /// A period passes at whose end the position is not known.
   void lose_sample() noexcept { pass_unseen(0.0); }
-  void sent(const Eigen::Vector3d& force) noexcept;
+  void sent(const Eigen::Vector3d& force) noexcept {
+    newest_ = (newest_ + 1) % sent_.size();
+    sent_[newest_] = force;
+  }
   void restart() noexcept;
 
   double energy_given() const noexcept { return given_; }
@@ -60,11 +74,12 @@ class EnergyObserver {
  private:
   const Eigen::Vector3d& force_at_work() const noexcept { return sent_before(delay_); }
   void acted_over_pause(const Eigen::Vector3d& force, int missed, double settling) noexcept;
+  void move_after_gap(ObservedStep& step) noexcept;
   void pass_unseen(double change) noexcept;
   void pass_unseen(const Eigen::Vector3d& force, int count, double change) noexcept;
 
   PassivityOptions options_;
-  double period_ = 0.001;                                 ///< [s]
+  double period_ = 0.001, rate_ = 1000.0;                 ///< [s], [Hz]
   std::size_t delay_ = 0;                                 ///< [ticks]
   std::array<Eigen::Vector3d, max_delay + 1> sent_ = {};  ///< ring buffer
   std::size_t newest_ = 0;
@@ -72,7 +87,7 @@ class EnergyObserver {
   bool has_position_ = false;
   Eigen::Vector3d position_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
-  double speed_ = 0.0;  ///< over the last known step [m/s]
+  double speed_ = 0.0;  ///< of the last known step, if that was faster than a hand [m/s]
   Gap gap_;
   double given_ = 0.0;  ///< [J]
 };
