@@ -21,6 +21,14 @@ namespace {
   return search_minima(curve, query, tolerance, range);
 }
 
+/// The distance falls, or grows, all along the curve.
+template <int Degree>
+[[gnu::always_inline]] inline NearestPoint end_of(const CurveElement& curve, bool falls, Pair query,
+                                                  const ParameterRange& range) {
+  return curve_answer(curve, candidate<Degree>(curve, query, falls ? range.end : range.begin),
+                      NearestPointStatus::certified);
+}
+
 /// The only minimum of the whole curve is also the result within a range, or else the nearer end of the range is.
 template <int Degree>
 [[gnu::always_inline]] inline NearestPoint answer_within(const CurveElement& curve, const Candidate& minimum,
@@ -78,10 +86,7 @@ template <int Degree>
                                                       double tolerance, const ParameterRange& range) {
   if (signs.certain) {
     const std::uint64_t changes = signs.changes();
-    if (changes == 0) {
-      const double end = signs.first_negative() ? range.end : range.begin;
-      return curve_answer(curve, candidate<Degree>(curve, query, end), NearestPointStatus::certified);
-    }
+    if (changes == 0) return end_of<Degree>(curve, signs.first_negative(), query, range);
     if (signs.first_negative() && (changes & (changes - 1)) == 0) {
       const double start = middles<Degree>[static_cast<std::size_t>(std::countr_zero(changes))];
       Residue residue;
@@ -116,7 +121,8 @@ template <int Degree>
 #endif
 
 /// By degree minus 2. The baseline until the processor has been detected at program start.
-constinit std::array<CertifiedMethod, 3> certified_methods = {certified_baseline<2>, certified_baseline<3>, certified_baseline<4>};
+constinit std::array<CertifiedMethod, 3> certified_methods = {certified_baseline<2>, certified_baseline<3>,
+                                                              certified_baseline<4>};
 
 #if defined(__SSE2__)
 [[maybe_unused]] const bool certified_chosen = [] {
@@ -130,11 +136,15 @@ NearestPoint tracked(const CurveElement& curve, const Point& query, double toler
                      double start) {
   const Pair relative = in_sizes(curve, query);
   const auto signs = slope_signs(curve.whole, relative);
-  const std::uint64_t changes = signs.changes();
-  if (signs.certain && signs.first_negative() && std::has_single_bit(changes)) {
-    Candidate found;
-    if (follow<Degree>(curve, relative, start, allowed_error<Degree>(tolerance), found)) {
-      return answer_within<Degree>(curve, found, relative, tolerance, range);
+  if (signs.certain) {
+    const std::uint64_t changes = signs.changes();
+    if (changes == 0) return end_of<Degree>(curve, signs.first_negative(), relative, range);
+    if (signs.first_negative() && (changes & (changes - 1)) == 0) {
+      Residue residue;
+      const Candidate found = polish<Degree>(curve, SlopePolynomial<Degree>(curve, relative), relative, start, residue);
+      if (residue.converged(curve, allowed_error<Degree>(tolerance))) {
+        return answer_within<Degree>(curve, found, relative, tolerance, range);
+      }
     }
   }
   return certified_nearest_point(curve, query, tolerance, range);

@@ -44,15 +44,4 @@ template <int Degree, typename Vector = Pair>
   return sum;
 }
 
-template <int Degree, typename Vector = Pair>
-[[gnu::always_inline]] inline Vector third_derivative(const CurveElement& curve, double t) {
-  if constexpr (Degree == 2) return Vector{};
-  Vector sum =
-      vector_of<Vector>(curve.coefficients[Degree - 1]) * static_cast<double>(Degree * (Degree - 1) * (Degree - 2));
-  for (std::size_t k = Degree - 1; k-- > 2;) {
-    sum = sum * t + vector_of<Vector>(curve.coefficients[k]) * static_cast<double>((k + 1) * k * (k - 1));
-  }
-  return sum;
-}
-
 }  // namespace calligraphy

@@ -112,26 +112,4 @@ template <int Degree, typename Vector>
   return at;
 }
 
-/// From an initial value so good that one step of Halley's method on the curve itself suffices: shifts the Taylor
-/// series of the curve by the step and checks the remaining distance from the zero of g. False where that was not
-/// enough.
-template <int Degree>
-[[gnu::always_inline]] inline bool follow(const CurveElement& curve, Pair query, double t, double allowed,
-                                          Candidate& at) {
-  at = candidate<Degree>(curve, query, t);
-  const Pair acceleration = second_derivative<Degree>(curve, t), jerk = third_derivative<Degree>(curve, t);
-  const double g = dot(at.offset, at.velocity);
-  const double slope = dot(at.velocity, at.velocity) + dot(at.offset, acceleration);
-  const double bend = 0.5 * (3.0 * dot(at.velocity, acceleration) + dot(at.offset, jerk));
-  const double step = g * slope / (slope * slope - g * bend);
-  constexpr double max_step = 1e-3;  // the contribution of a quartic's fourth derivative is below rounding
-  const Pair moved = (at.velocity - (acceleration - jerk * (step / 3.0)) * (0.5 * step)) * step;
-  at.t -= step;
-  at.place -= moved;
-  at.offset -= moved;
-  at.velocity -= (acceleration - jerk * (0.5 * step)) * step;
-  return std::abs(step) <= max_step && slope > curve.min_slope &&
-         std::abs(dot(at.offset, at.velocity)) <= allowed * slope;
-}
-
 }  // namespace calligraphy
