@@ -24,11 +24,11 @@ parser.add_argument("--stages", type=int, default=14, help="number of files to l
 arguments = parser.parse_args()
 programs = [arguments.before, arguments.after]
 measured = arguments.options.split(",")
-everything = ["default", "wang2006", "friction", "hayward_armstrong", "saturating", "guide_to_start", "assist",
+everything = ["default", "exact", "wang2006", "friction", "hayward_armstrong", "saturating", "guide_to_start", "assist",
               "passivity", "budget", "thermal", "everything"]
 folder = tempfile.TemporaryDirectory()
 pens = str(Path(folder.name) / "pens")
-subprocess.run([programs[1], "record", pens], check=True)
+subprocess.run([programs[0], "record", pens], check=True)
 
 
 class Server:

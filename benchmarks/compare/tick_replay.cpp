@@ -106,7 +106,9 @@ RendererOptions options_of(const std::string& name) {
   if (name == "default") return options;
   if (name == "everything") return RendererOptions::everything(device());
   if (name == "wang2006") return RendererOptions::wang2006();
-  if (name == "friction") {
+  if (name == "exact") {
+    options.stroke.nearest.method = NearestPointMethod::exact;
+  } else if (name == "friction") {
     options.friction.coefficient = 0.15;
   } else if (name == "hayward_armstrong") {
     options.friction.coefficient = 0.15;

@@ -1,30 +1,16 @@
 #include <calligraphy/collision/constraint_space.hpp>
 
 namespace calligraphy {
-namespace {
 
 /// Wang 2006, sec. 4.3.1 (a)-(d) for an LSE. Sec. 4.3.2 gives a CSE a "spherical neighboring area around the start
 /// point" without a radius; interpreted, as for an LSE, as the distance from its start to its end.
-double printed_share(const StrokeElement& element, const Point& query, const NearestPoint& closest) {
+double printed_weight(const StrokeElement& element, const Point& query, const NearestPoint& closest) noexcept {
   if (!(element.size() > 0.0)) return 1.0;  // (d)
   const bool ahead =
       element.degree() > 1 || closest.parameter > 0.0;  // (a): the closest point on a line is its projection
   const double reach = (element.point(1.0) - element.origin()).squaredNorm();
   const bool near = (query - element.origin()).squaredNorm() < reach;  // (b), (c)
   return ahead && near ? 1.0 : 0.0;
-}
-
-}  // namespace
-
-double guidance_weight(const ConstraintSpace& space, double em, const StrokeElement& element, const Point& query,
-                       const NearestPoint& closest) noexcept {
-  if (space.rule == ConstraintSpaceRule::wang2006) return printed_share(element, query, closest);
-  const double radius = space.radius * em, fade_width = space.fade_width * em;
-  if (!(closest.distance < radius)) return 0.0;
-  const double depth = radius - closest.distance;  // > 0: inside the edge of the tube
-  if (depth >= fade_width) return 1.0;
-  const double x = depth / fade_width;
-  return x * x * (3.0 - 2.0 * x);
 }
 
 }  // namespace calligraphy

@@ -23,9 +23,9 @@ constexpr double furthest_query = 1e100;
   closest.parameter = range.begin;
   closest.tangent = line.direction;
   const Point from_start = query - line.origin;
-  const bool is_point = !(line.length > 0.0);
-  if (std::isnan(line.length) || !query.allFinite() ||
-      !(is_point || from_start.cwiseAbs().maxCoeff() <= furthest_query * line.length)) {
+  const bool is_point = line.length == 0.0;
+  const double furthest = is_point ? std::numeric_limits<double>::max() : furthest_query * line.length;
+  if (!(std::abs(from_start.x()) <= furthest && std::abs(from_start.y()) <= furthest)) {  // true for NaN
     closest.point = line.point(range.begin);
     closest.distance = std::numeric_limits<double>::infinity();
     closest.status = NearestPointStatus::not_finite;

@@ -1,3 +1,4 @@
+#include <calligraphy/devices/detail/finite.hpp>
 #include <calligraphy/render/detail/force_output.hpp>
 
 #include <algorithm>
@@ -111,7 +112,7 @@ const SentForce& ForceOutput::update(const PenState& pen, const GuidanceForce& g
 
 /// The account of energy sees the force at work: behind a servo it may be less than the one sent.
 void ForceOutput::account(const PenState& pen) noexcept {
-  const bool is_as_sent = pen.force == sent_.device || !pen.force.allFinite();
+  const bool is_as_sent = pen.force == sent_.device || !is_finite(pen.force);
   passivity_.acted(is_as_sent ? sent_.page : mapping_.force_to_page(pen.force), pen.ticks, pen.settling);
 }
 

@@ -52,6 +52,8 @@ const GuidanceForce& Guidance::update(const PenState& pen, const WriterState& wr
     if (!pen.holds_force) release();
     return force_;
   }
+  const bool is_free = writer.phase == WritingPhase::lifted && writer.events == TickEvent::none && !released_.acts();
+  if (is_free) return force_;  // nothing guides a pen in the air, and nothing is left to withdraw
   assistance_.update(pen.tip.head<2>(), writer);
   force_.assistance = assistance_.factor();
   pull(pen, writer);
@@ -138,8 +140,12 @@ Point Guidance::faded(const PenState& pen, const WriterState& writer, const Poin
                         seconds / period_);
     fade_ = 0.0;
   }
-  fade_ = std::min(1.0, fade_ + fade_step_);
-  return released_.next(tip, velocity) + smooth_step(fade_) * (force_.attraction + force_.wrong_way + force_.viscous);
+  Point force = force_.attraction + force_.wrong_way + force_.viscous;
+  if (fade_ < 1.0) {
+    fade_ = std::min(1.0, fade_ + fade_step_);
+    force *= smooth_step(fade_);
+  }
+  return released_.acts() ? Point(force + released_.next(tip, velocity)) : force;
 }
 
 }  // namespace calligraphy

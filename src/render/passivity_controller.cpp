@@ -1,3 +1,4 @@
+#include <calligraphy/devices/detail/finite.hpp>
 #include <calligraphy/render/passivity_controller.hpp>
 
 #include <algorithm>
@@ -48,7 +49,7 @@ Eigen::Vector3d PassivityController::next(const Eigen::Vector3d& position, const
   damping_.setZero();
   // What the budget takes away on purpose is not generated.
   const Eigen::Vector3d field = shortened(wanted, budget_.max_force());
-  if (position.allFinite()) {
+  if (is_finite(position)) {
     const ObservedStep step = observer_.move(position);
     budget_.pay(step.energy);
     if (step.seen) damp(step, field);

@@ -20,6 +20,7 @@ constexpr double min_pause = 1.75;
 /// False for NaN too.
 bool is_on_page(const Eigen::Vector3d& position) noexcept {
   constexpr double most = PenSensor::max_coordinate;
+  if (dot(position, position) <= most * most) return true;
   return std::abs(position.x()) <= most && std::abs(position.y()) <= most && std::abs(position.z()) <= most;
 }
 

@@ -40,7 +40,13 @@ PreparedPage::PreparedPage(std::vector<PlacedCharacter> characters, const Render
     Eigen::AlignedBox2d box = bounding_box(placed);
     box.min().array() -= options.box_margin * placed.placement.em;
     box.max().array() += options.box_margin * placed.placement.em;
-    prepared_.push_back({placed.placement, strokes(placed.character), stroke_starts(placed, options.tolerances), box});
+    std::vector<PreparedStroke> prepared;
+    for (const Stroke& stroke : strokes(placed.character)) {
+      PreparedStroke& next = prepared.emplace_back();
+      next.geometry.load(stroke, placed.placement);
+      next.follower.load(next.geometry, placed.placement.em, options.tolerances);
+    }
+    prepared_.push_back({placed.placement.em, std::move(prepared), stroke_starts(placed, options.tolerances), box});
   }
 }
 

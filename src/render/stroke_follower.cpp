@@ -42,11 +42,17 @@ double beyond(double value, double low, double high) {
   return value > high ? value - high : std::min(value - low, 0.0);
 }
 
-Point left_of(const Point& direction) { return {-direction.y(), direction.x()}; }
+/// Of a vector, along a direction and to its left.
+double ahead(const Point& vector, const Point& direction) {
+  return vector.x() * direction.x() + vector.y() * direction.y();
+}
+double left(const Point& vector, const Point& direction) {
+  return vector.y() * direction.x() - vector.x() * direction.y();
+}
 
 }  // namespace
 
-void StrokeFollower::load(const ActiveStroke& stroke, double em, const StrokeTolerances& tolerances) noexcept {
+void StrokeFollower::load(const ActiveStroke& stroke, double em, const StrokeTolerances& tolerances) {
   em_ = em;
   length_ = stroke.length();
   count_ = static_cast<int>(std::clamp(std::ceil(length_ / (spacing * em)) + 1.0, static_cast<double>(min_points),
@@ -57,6 +63,7 @@ void StrokeFollower::load(const ActiveStroke& stroke, double em, const StrokeTol
   slack_ = tolerances.slack * em;
   lead_ = std::max(std::min(max_lead * em, max_lead_share * length_), step * em) + spacing_;
 
+  row_.clear();
   int element = 0;
   double before = 0.0;
   for (int i = 0; i < count_; ++i) {
@@ -65,16 +72,16 @@ void StrokeFollower::load(const ActiveStroke& stroke, double em, const StrokeTol
       before += stroke.element(element++).length();
     }
     const StrokeElement& on = stroke.element(element);
-    points_[static_cast<std::size_t>(i)] = on.point(on.parameter_at(arc - before));
+    row_.push_back({on.point(on.parameter_at(arc - before)), Point(1.0, 0.0)});
   }
-  const auto point = [&](int i) { return points_[static_cast<std::size_t>(std::clamp(i, 0, count_ - 1))]; };
+  const auto point = [&](int i) { return row(std::clamp(i, 0, count_ - 1)).point; };
   const int apart =
       spacing_ > 0.0 ? std::max(1, static_cast<int>(std::min(bend * em / spacing_, 1.0 * max_points))) : 1;
   corners_ = 0;
   for (int i = 0; i < count_; ++i) {
     const Point chord_here = point(i + 1) - point(i - 1);
     const double size = chord_here.norm();
-    tangents_[static_cast<std::size_t>(i)] = size > 0.0 ? Point(chord_here / size) : Point(1.0, 0.0);
+    if (size > 0.0) row_[static_cast<std::size_t>(i)].tangent = chord_here / size;
     const Point in = point(i) - point(i - apart), out = point(i + apart) - point(i);
     const bool is_inside = i > 0 && i + 1 < count_;
     if (is_inside && in.dot(out) < bend_cosine * in.norm() * out.norm()) corners_ |= std::uint64_t{1} << i;
@@ -91,9 +98,8 @@ void StrokeFollower::load(const ActiveStroke& stroke, double em, const StrokeTol
 
 void StrokeFollower::begin(const Point& tip, const Point& misplaced) noexcept {
   reached_ = 1;
-  own_ = tip - points_[0];
-  const Point towards =
-      (points_[static_cast<std::size_t>(std::min(first_points, count_ - 1))] - points_[0]).normalized();
+  own_ = tip - row_.front().point;
+  const Point towards = (row(std::min(first_points, count_ - 1)).point - row_.front().point).normalized();
   late_ = std::max(0.0, own_.dot(towards)) * towards;
   misplaced_ = misplaced;
   tip_ = seen_ = chord_from_ = tip;
@@ -105,37 +111,42 @@ void StrokeFollower::begin(const Point& tip, const Point& misplaced) noexcept {
 void StrokeFollower::update(const Point& tip, const Point& hand) noexcept {
   tip_ = tip;
   pull_ = hand - tip;
-  const Point from = seen_;
-  const double moved = (tip - from).norm();
-  if (moved < step * em_) return;
-  // Of the first stretch and of lost samples only the ends are known.
-  const int steps = static_cast<int>(std::min(moved / (step * em_), 1.0 * max_points));
-  for (int i = 1; i <= steps; ++i) look(from + (tip - from) * i / steps, moved / steps);
+  if ((tip - seen_).squaredNorm() >= step * em_ * (step * em_)) look_along();
 }
 
 void StrokeFollower::leave() noexcept { look(tip_, (tip_ - seen_).norm()); }
 
+/// Of the first stretch and of lost samples only the ends are known.
+[[gnu::noinline]] void StrokeFollower::look_along() noexcept {
+  const Point from = seen_;
+  const double moved = (tip_ - from).norm();
+  const int steps = static_cast<int>(std::min(moved / (step * em_), 1.0 * max_points));
+  for (int i = 1; i <= steps; ++i) look(from + (tip_ - from) * i / steps, moved / steps);
+}
+
 /// How far a vector from the stroke is across it, beyond all that the writer may be off by: nothing, as the character,
 /// or as the stroke.
-double StrokeFollower::across(const Point& from_stroke, const Point& normal) const noexcept {
-  const double own = own_.dot(normal), misplaced = misplaced_.dot(normal);
-  return std::abs(beyond(from_stroke.dot(normal), std::min({0.0, own, misplaced}), std::max({0.0, own, misplaced})));
+double StrokeFollower::across(const Point& from_stroke, const Point& tangent) const noexcept {
+  const double own = left(own_, tangent), misplaced = left(misplaced_, tangent);
+  const double low = std::min(0.0, std::min(own, misplaced)), high = std::max(0.0, std::max(own, misplaced));
+  return std::abs(beyond(left(from_stroke, tangent), low, high));
 }
 
 StrokeFollower::Place StrokeFollower::place(const Point& tip, int point) const noexcept {
-  const auto i = static_cast<std::size_t>(point);
-  const Point from_stroke = tip - points_[i];
-  const double own_along = (from_stroke - own_).dot(tangents_[i]), late = late_.dot(tangents_[i]);
+  const Point& tangent = row(point).tangent;
+  const Point from_stroke = tip - row(point).point;
+  const double own_along = ahead(from_stroke, tangent) - ahead(own_, tangent), late = ahead(late_, tangent);
   const double along = beyond(own_along, std::min(0.0, -late), std::max(0.0, -late));
-  const double aside = across(from_stroke, left_of(tangents_[i]));
   const bool is_outside = (point == 0 && along < 0.0) || (point == count_ - 1 && along > 0.0);
   const bool is_corner = (corners_ >> point & 1) != 0;
   const bool abreast = is_outside || std::abs(along) <= lead_;
-  return {along, is_outside ? aside : std::hypot(own_along, aside),
-          (abreast && aside <= width_) || (is_corner && std::hypot(along, aside) <= width_)};
+  if (!abreast && !is_corner) return {along, 0.0, false};
+  const double aside = across(from_stroke, tangent), square = aside * aside;
+  return {along, is_outside ? square : own_along * own_along + square,
+          (abreast && aside <= width_) || (is_corner && along * along + square <= width_ * width_)};
 }
 
-[[gnu::noinline]] void StrokeFollower::look(const Point& tip, double way) noexcept {
+[[gnu::flatten]] void StrokeFollower::look(const Point& tip, double way) noexcept {
   seen_ = tip;
   way_ += way;
   std::uint64_t reached = 0;
@@ -148,9 +159,9 @@ StrokeFollower::Place StrokeFollower::place(const Point& tip, int point) const n
     const Place here = place(tip, i);
     if (!here.free) continue;
     reached |= std::uint64_t{1} << i;
-    if (nearest < 0 || here.distance < least) {
+    if (nearest < 0 || here.square < least) {
       nearest = i;
-      least = here.distance;
+      least = here.square;
     }
     const bool at_last = i == count_ - 1;
     if (std::abs(here.along) <= spacing_ || (at_last && here.along > 0.0)) {
@@ -168,11 +179,10 @@ StrokeFollower::Place StrokeFollower::place(const Point& tip, int point) const n
   const double arc = nearest * spacing_, gained = arc - nearest_;
   if (!(gained > 0.0)) return;
   nearest_ = arc;
-  const auto i = static_cast<std::size_t>(nearest);
-  const Point normal = left_of(tangents_[i]);
-  const double own = own_.dot(normal), off = (tip - points_[i]).dot(normal);
+  const Point& tangent = row(nearest).tangent;
+  const double own = left(own_, tangent), off = left(tip - row(nearest).point, tangent);
   const bool comes_back = std::min(own, 0.0) <= off && off <= std::max(own, 0.0);
-  own_ += gained / (gained + (comes_back ? give_up : follow) * em_) * (off - own) * normal;
+  own_ += gained / (gained + (comes_back ? give_up : follow) * em_) * (off - own) * Point(-tangent.y(), tangent.x());
 }
 
 /// Counts a chord once the pen is far enough from where it began.
@@ -194,7 +204,7 @@ bool StrokeFollower::accepts(double hidden) const noexcept {
 }
 
 double StrokeFollower::astray(const Point& hand, const StrokeContact& contact) const noexcept {
-  return across(hand - contact.closest.point, left_of(contact.closest.tangent));
+  return across(hand - contact.closest.point, contact.closest.tangent);
 }
 
 }  // namespace calligraphy

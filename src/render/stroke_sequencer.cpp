@@ -1,3 +1,4 @@
+#include <calligraphy/devices/detail/finite.hpp>
 #include <calligraphy/render/detail/stroke_sequencer.hpp>
 
 #include <algorithm>
@@ -55,9 +56,9 @@ const WriterState& StrokeSequencer::update(const PenState& pen) noexcept {
   }
   if (before != State::writing && after == State::writing) start_stroke(pen);
   if (before != State::separation && after == State::separation) lift();
-  writer_.to_start = all_written() ? Point(Point::Zero()) : Point(active_.start() - tip);
-  writer_.attraction = after == State::writing ? writer_.contact.attraction : active_.first_attraction();
-  writer_.phase = phase(pen);
+  writer_.to_start = all_written() ? Point(Point::Zero()) : Point(due_->geometry.start() - tip);
+  writer_.attraction = after == State::writing ? writer_.contact.attraction : due_->geometry.first_attraction();
+  writer_.phase = phase(tip);
   writer_.guided = is_guided();
   return writer_;
 }
@@ -69,15 +70,19 @@ TransitionInput StrokeSequencer::advance(const PenState& pen) noexcept {
 
   const Point tip = pen.tip.head<2>();
   const bool writing = writer_.state == InteractionState::writing;
-  const double hysteresis = options_.box_hysteresis * writer_.em * (writing ? writing_hysteresis : 1.0);
-  const Eigen::AlignedBox2d& box = character().box;
-  inside_box_ = box.contains(tip) || (inside_box_ && box.exteriorDistance(tip) <= hysteresis);
+  const Eigen::AlignedBox2d& box = character_->box;
+  if (!box.contains(tip) && inside_box_) {
+    const double hysteresis = options_.box_hysteresis * writer_.em * (writing ? writing_hysteresis : 1.0);
+    inside_box_ = box.exteriorDistance(tip) <= hysteresis;
+  } else {
+    inside_box_ = box.contains(tip);
+  }
   input.inside_box = inside_box_;
   input.may_start = writer_.phase != WritingPhase::finished;
   if (writing) {
     if (input.contact) write_on(pen);
     const bool leaves = !input.contact || !input.inside_box;
-    if (leaves) follower_.leave();
+    if (leaves) due_->follower.leave();
     input.stroke_finished = is_finished(leaves);
   } else if (input.contact && input.may_start) {
     if (writer_.state == InteractionState::separation) put_down(tip);
@@ -88,51 +93,52 @@ TransitionInput StrokeSequencer::advance(const PenState& pen) noexcept {
 
 [[gnu::noinline]] void StrokeSequencer::put_down(const Point& tip) noexcept {
   writer_.covered = 0.0;
-  capture_.put_down(tip, character().starts, static_cast<std::size_t>(writer_.stroke));
+  capture_.put_down(tip, character_->starts, static_cast<std::size_t>(writer_.stroke));
   if (options_.tolerances.coverage == 0.0) return;
-  const StrokeContact nearest = active_.nearest(tip, options_.stroke);
+  const StrokeContact nearest = due_->geometry.nearest(tip, options_.stroke);
   writer_.rests = nearest.closest.distance <= options_.tolerances.corridor * writer_.em;
   if (!writer_.rests) return;
-  active_.rest(nearest);
+  due_->geometry.rest(nearest);
   writer_.contact = nearest;
 }
 
 bool StrokeSequencer::begins(const Point& tip) noexcept {
   const auto due = static_cast<std::size_t>(writer_.stroke);
-  const CaptureVerdict verdict = capture_.update(tip, character().starts, due, writer_.em, options_.tolerances);
+  const CaptureVerdict verdict = capture_.update(tip, character_->starts, due, writer_.em, options_.tolerances);
   if (verdict == CaptureVerdict::begun) return true;
   if (verdict == CaptureVerdict::another_stroke) writer_.rests = false;
-  if (writer_.rests) writer_.contact = active_.update(tip, options_.stroke);
+  if (writer_.rests) writer_.contact = due_->geometry.update(tip, options_.stroke);
   return false;
 }
 
 void StrokeSequencer::write_on(const PenState& pen) noexcept {
   const Point tip = pen.tip.head<2>();
-  writer_.contact = active_.update(tip, options_.stroke);
+  writer_.contact = due_->geometry.update(tip, options_.stroke);
   if (writer_.contact.passed_feature) writer_.events |= TickEvent::feature_passed;
-  if (pen.on_paper) follower_.update(tip, hand(pen));
-  writer_.covered = follower_.covered();
+  hand_ = hand(pen);
+  if (pen.on_paper) due_->follower.update(tip, hand_);
+  writer_.covered = due_->follower.covered();
 }
 
 /// At its end, or where the pen `leaves` it before.
 bool StrokeSequencer::is_finished(bool leaves) const noexcept {
   if (options_.tolerances.coverage == 0.0) return writer_.contact.finished;
-  return (leaves || follower_.is_at_end(hidden_way_)) && follower_.accepts(2.0 * hidden_way_);
+  return (leaves || due_->follower.is_at_end(hidden_way_)) && due_->follower.accepts(2.0 * hidden_way_);
 }
 
 [[gnu::noinline]] void StrokeSequencer::start_stroke(const PenState& pen) noexcept {
   writer_.events |= TickEvent::stroke_started;
   writer_.rests = false;
-  active_.begin(capture_.begin());
-  follower_.begin(capture_.begin(), capture_.misplaced());
+  due_->geometry.begin(capture_.begin());
+  due_->follower.begin(capture_.begin(), capture_.misplaced());
   write_on(pen);
 }
 
 [[gnu::noinline]] void StrokeSequencer::finish_stroke(const Point& tip) noexcept {
   writer_.events |= TickEvent::stroke_finished;
-  capture_.written(active_.start());
+  capture_.written(due_->geometry.start());
   const int next = writer_.stroke + 1;
-  if (next < static_cast<int>(character().strokes.size())) {
+  if (next < static_cast<int>(character_->strokes.size())) {
     activate(writer_.character, next);
   } else {
     writer_.events |= TickEvent::character_finished;
@@ -148,21 +154,21 @@ bool StrokeSequencer::is_finished(bool leaves) const noexcept {
   if (options_.lift_between_strokes) {
     writer_.phase = WritingPhase::finished;
   } else if (!all_written()) {
-    capture_.put_down(tip, character().starts, static_cast<std::size_t>(writer_.stroke));
+    capture_.put_down(tip, character_->starts, static_cast<std::size_t>(writer_.stroke));
   }
 }
 
 [[gnu::noinline]] void StrokeSequencer::abandon_stroke(const Point& tip) noexcept {
   writer_.events |= TickEvent::stroke_abandoned;
-  active_.reload();
-  capture_.put_down(tip, character().starts, static_cast<std::size_t>(writer_.stroke));
+  due_->geometry.reload();
+  capture_.put_down(tip, character_->starts, static_cast<std::size_t>(writer_.stroke));
 }
 
 [[gnu::noinline]] void StrokeSequencer::lift() noexcept {
   writer_.events |= TickEvent::lift;
   writer_.rests = false;
   if (all_written()) return;
-  const bool is_character_written = writer_.stroke == static_cast<int>(character().strokes.size());
+  const bool is_character_written = writer_.stroke == static_cast<int>(character_->strokes.size());
   if (is_character_written) activate(writer_.character + 1, 0);
 }
 
@@ -174,31 +180,31 @@ bool StrokeSequencer::is_finished(bool leaves) const noexcept {
   writer_.character = character;
   writer_.stroke = stroke;
   writer_.rests = false;
+  character_ = character < page_.size() ? &page_[character] : nullptr;
   if (all_written()) return;
-  const PreparedCharacter& active = page_[character];
-  active_.load(active.strokes[static_cast<std::size_t>(stroke)], active.placement);
-  writer_.em = active.placement.em;
-  follower_.load(active_, writer_.em, options_.tolerances);
-  writer_.direction = active.starts[static_cast<std::size_t>(stroke)].direction;
+  due_ = &character_->strokes[static_cast<std::size_t>(stroke)];
+  due_->geometry.reload();
+  writer_.em = character_->em;
+  writer_.direction = character_->starts[static_cast<std::size_t>(stroke)].direction;
 }
 
 /// Refines the paper's state as docs/capture.md draws it.
-WritingPhase StrokeSequencer::phase(const PenState& pen) const noexcept {
+WritingPhase StrokeSequencer::phase(const Point& tip) const noexcept {
   if (writer_.state == InteractionState::separation) return WritingPhase::lifted;
   if (all_written()) return WritingPhase::page_written;
   if (writer_.state == InteractionState::writing) {
-    return keeps_hold(pen) ? WritingPhase::guided : WritingPhase::released;
+    return keeps_hold() ? WritingPhase::guided : WritingPhase::released;
   }
-  return writer_.phase == WritingPhase::finished ? WritingPhase::finished : phase_before_stroke(pen.tip.head<2>());
+  return writer_.phase == WritingPhase::finished ? WritingPhase::finished : phase_before_stroke(tip);
 }
 
 WritingPhase StrokeSequencer::phase_before_stroke(const Point& tip) const noexcept {
   const CaptureVerdict verdict = capture_.verdict();
   if (verdict == CaptureVerdict::another_stroke) return WritingPhase::other_stroke;
   // The first stretch leads away from the start.
-  const double from_start = std::min(writer_.to_start.norm(), (capture_.begin() - active_.start()).norm());
-  const bool is_late = writer_.rests && writer_.contact.arc > end_share * active_.length();
-  if (is_late && (tip - active_.end()).norm() < from_start) return WritingPhase::at_end;
+  const double from_start = std::min(writer_.to_start.norm(), (capture_.begin() - due_->geometry.start()).norm());
+  const bool is_late = writer_.rests && writer_.contact.arc > end_share * due_->geometry.length();
+  if (is_late && (tip - due_->geometry.end()).norm() < from_start) return WritingPhase::at_end;
   if (from_start <= options_.tolerances.start_distance * writer_.em) {
     return verdict == CaptureVerdict::wrong_direction ? WritingPhase::turned_away : WritingPhase::at_start;
   }
@@ -207,20 +213,20 @@ WritingPhase StrokeSequencer::phase_before_stroke(const Point& tip) const noexce
 
 /// Where the hand means to be, as far as the force at work shows, if the device says what that is.
 Point StrokeSequencer::hand(const PenState& pen) const noexcept {
-  Point hand = pen.tip.head<2>();
-  if (pen.force.allFinite()) hand -= mapping_.force_to_page(pen.force).head<2>() * compliance_;
-  return hand;
+  Point place = pen.tip.head<2>();
+  if (is_finite(pen.force)) place -= mapping_.force_to_page(pen.force).head<2>() * compliance_;
+  return place;
 }
 
 /// Guidance lets go, in time, of a pen that is far from the stroke or that the hand pulls elsewhere, and takes hold
 /// again where both are back: a pen that slipped out of the tube would be thrown, and one that another stroke was meant
 /// for would be dragged along.
-bool StrokeSequencer::keeps_hold(const PenState& pen) const noexcept {
+bool StrokeSequencer::keeps_hold() const noexcept {
   const bool lets_go =
       options_.stroke.space.rule == ConstraintSpaceRule::tube && options_.guidance != GuidanceLaw::saturating;
   if (!lets_go || has_event(writer_.events, TickEvent::stroke_started)) return true;
   const StrokeContact& contact = writer_.contact;
-  const double detour = follower_.astray(hand(pen), contact);
+  const double detour = due_->follower.astray(hand_, contact);
   const double corridor = options_.tolerances.corridor * writer_.em;
   if (writer_.guided) return contact.weight >= min_held_weight && detour <= max_detour * corridor;
   return contact.closest.distance <= corridor && detour <= corridor;

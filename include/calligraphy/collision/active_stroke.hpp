@@ -2,7 +2,7 @@
 // (Wang 2006, sec. 4.3, 4.3.3).
 #pragma once
 
-#include <array>
+#include <vector>
 
 #include <calligraphy/collision/constraint_space.hpp>
 #include <calligraphy/collision/detail/feature_plane.hpp>
@@ -46,11 +46,11 @@ struct StrokeContact {
   bool finished = false;        ///< the last feature point has been passed
 };
 
-/// Prepares only this stroke; the other strokes of the page take no time. Never allocates.
+/// One stroke of the page, so that the others take no time. Only load() allocates.
 class ActiveStroke {
  public:
-  /// Prepares the stroke and fills its stack of feature points.
-  void load(const Stroke& stroke, const Placement& placement) noexcept;
+  /// Prepares the stroke and fills its stack of feature points. Takes a microsecond.
+  void load(const Stroke& stroke, const Placement& placement);
 
   /// Refills the stack of feature points: the pen was lifted before the end (sec. 4.3).
   void reload() noexcept;
@@ -69,23 +69,32 @@ class ActiveStroke {
   /// effect on its progress.
   StrokeContact nearest(const Point& tip, const StrokeRules& rules) const noexcept;
 
-  Point start() const noexcept { return elements_[0].origin(); }
-  Point end() const noexcept { return planes_[static_cast<std::size_t>(element_count_ - 1)].point; }
+  const Point& start() const noexcept { return start_; }
+  Point end() const noexcept { return parts_.back().end.point; }
   /// Attraction factor at the start.
-  double first_attraction() const noexcept { return attraction_[0]; }
-  double length() const noexcept { return first_arc_[static_cast<std::size_t>(element_count_)]; }
-  const StrokeElement& element(int index) const noexcept { return elements_[static_cast<std::size_t>(index)]; }
-  int element_count() const noexcept { return element_count_; }
+  double first_attraction() const noexcept { return parts_.front().first_attraction; }
+  double length() const noexcept { return parts_.back().last_arc; }
+  const StrokeElement& element(int index) const noexcept { return parts_[static_cast<std::size_t>(index)].element; }
+  int element_count() const noexcept { return static_cast<int>(parts_.size()); }
 
  private:
+  /// From one feature point to the next.
+  struct Part {
+    StrokeElement element;
+    FeaturePlane end;
+    double first_arc, last_arc;  ///< arc length from the start of the stroke [m]
+    double first_attraction, last_attraction;
+  };
+
+  const Part& part(int index) const noexcept { return parts_[static_cast<std::size_t>(index)]; }
+  bool is_finished() const noexcept { return active_ == element_count_; }
   StrokeContact locate(const Point& tip, const StrokeRules& rules) const noexcept;
+  void pass_feature(const Point& tip, const StrokeRules& rules, StrokeContact& contact) noexcept;
   bool passes(const Point& tip, const StrokeContact& contact, const StrokeRules& rules) const noexcept;
 
-  std::array<StrokeElement, max_elements_per_stroke> elements_;
-  std::array<FeaturePlane, max_elements_per_stroke> planes_;
-  std::array<double, max_elements_per_stroke + 1> attraction_ = {};  ///< per feature point
-  std::array<double, max_elements_per_stroke + 1> first_arc_ = {};   ///< arc length at each feature point
+  std::vector<Part> parts_;
   int element_count_ = 0;
+  Point start_ = Point::Zero();
   double em_ = 0.0;                  ///< [m]
   Point misplaced_ = Point::Zero();  ///< offset from the start at which the stroke was begun [m]
   double misplacement_ = 0.0;        ///< its length [m]

@@ -1,7 +1,12 @@
 // Velocity of a point from its sampled positions.
 #pragma once
 
+#include <cmath>
+#include <limits>
+
 #include <Eigen/Core>
+
+#include <calligraphy/devices/detail/finite.hpp>
 
 namespace calligraphy {
 
@@ -30,6 +35,13 @@ class VelocityEstimator {
   void restart() noexcept;
 
  private:
+  /// Intervals differ by no more than this, in the exponent of the low-pass, where a clock only jitters.
+  static constexpr double max_jitter = 0.02;
+
+  /// 1 - exp(-x), to 1e-13 for |x| <= max_jitter.
+  static double rise(double x) noexcept {
+    return x * (1.0 + x * (-1.0 / 2.0 + x * (1.0 / 6.0 + x * (-1.0 / 24.0 + x * (1.0 / 120.0)))));
+  }
   void learn_share() noexcept;
 
   double cutoff_;  ///< angular [rad/s]
@@ -40,5 +52,28 @@ class VelocityEstimator {
   Eigen::Vector3d position_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
 };
+
+inline const Eigen::Vector3d& VelocityEstimator::update(const Eigen::Vector3d& position, double elapsed) noexcept {
+  if (!has_position_) {
+    if (!is_finite(position)) return velocity_;
+    has_position_ = true;
+  } else {
+    if (!(elapsed > 0.0 && elapsed < std::numeric_limits<double>::infinity())) return velocity_;
+    since_position_ += elapsed;
+    const Eigen::Vector3d difference = (position - position_) / since_position_;
+    // What is left after this interval is left after the one whose share is known, and after what it is longer by.
+    if (!(std::abs(since_position_ - share_time_) * cutoff_ <= max_jitter)) learn_share();
+    const double share = share_ + (1.0 - share_) * rise(cutoff_ * (since_position_ - share_time_));
+    const Eigen::Vector3d smoothed = velocity_ + share * (difference - velocity_);
+    if (is_finite(smoothed)) {
+      velocity_ = smoothed;
+    } else if (!is_finite(position)) {
+      return velocity_;  // otherwise the difference has overflowed
+    }
+  }
+  position_ = position;
+  since_position_ = 0.0;
+  return velocity_;
+}
 
 }  // namespace calligraphy

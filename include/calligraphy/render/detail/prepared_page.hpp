@@ -6,8 +6,10 @@
 
 #include <Eigen/Geometry>
 
+#include <calligraphy/collision/active_stroke.hpp>
 #include <calligraphy/collision/placed_character.hpp>
 #include <calligraphy/render/detail/stroke_capture.hpp>
+#include <calligraphy/render/detail/stroke_follower.hpp>
 #include <calligraphy/render/renderer_options.hpp>
 
 namespace calligraphy {
@@ -15,9 +17,15 @@ namespace calligraphy {
 /// @throws ValueError naming the character that is invalid, or when there is none
 void validate(const std::vector<PlacedCharacter>& page);
 
+/// With its own progress, which begins anew with each attempt.
+struct PreparedStroke {
+  ActiveStroke geometry;
+  StrokeFollower follower;
+};
+
 struct PreparedCharacter {
-  Placement placement;
-  std::vector<Stroke> strokes;  ///< views into the character
+  double em = 0.0;  ///< [m]
+  std::vector<PreparedStroke> strokes;
   std::vector<StrokeStart> starts;
   Eigen::AlignedBox2d box;  ///< including the margin [m]
 };
@@ -32,6 +40,7 @@ class PreparedPage {
 
   int size() const noexcept { return static_cast<int>(prepared_.size()); }
   const PreparedCharacter& operator[](int index) const noexcept { return prepared_[static_cast<std::size_t>(index)]; }
+  PreparedCharacter& operator[](int index) noexcept { return prepared_[static_cast<std::size_t>(index)]; }
   const std::vector<PlacedCharacter>& characters() const noexcept { return characters_; }
 
  private:

@@ -32,6 +32,8 @@ class ReleasedSpring {
     acts_ = size > 0.0;
   }
 
+  bool acts() const noexcept { return acts_; }
+
   /// Force of the next tick [N].
   Point next(const Point& tip, const Point& velocity) noexcept {
     if (!acts_) return Point::Zero();

@@ -1,8 +1,8 @@
 // How much of a stroke a pen has written, in order: a corridor about the stroke, decided tick by tick.
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <vector>
 
 #include <calligraphy/collision/active_stroke.hpp>
 #include <calligraphy/render/stroke_tolerances.hpp>
@@ -12,11 +12,12 @@ namespace calligraphy {
 /// The stroke is a row of points at equal arc length. Which of them the pen can have reached in order, passing each
 /// while it was free, that is, abreast of the pen and near enough, follows from step to step by the recurrence that
 /// decides whether a discrete Frechet distance is within a bound (Eiter and Mannila, Computing discrete Frechet
-/// distance, 1994). What the writer is off by is allowed for: docs/capture.md draws it and says how. Never allocates.
+/// distance, 1994). What the writer is off by is allowed for: docs/capture.md draws it and says how. Only load()
+/// allocates.
 class StrokeFollower {
  public:
-  /// The stroke to be written next, in a square of `em` [m]. Takes a few microseconds.
-  void load(const ActiveStroke& stroke, double em, const StrokeTolerances& tolerances) noexcept;
+  /// The stroke to be written, in a square of `em` [m]. Takes a few microseconds.
+  void load(const ActiveStroke& stroke, double em, const StrokeTolerances& tolerances);
 
   /// The stroke is begun at `tip`, in a character that the writer has misplaced by `misplaced` so far [m, page].
   void begin(const Point& tip, const Point& misplaced) noexcept;
@@ -39,15 +40,21 @@ class StrokeFollower {
  private:
   static constexpr int max_points = 64;  // as many as the bits of a word
 
+  struct RowPoint {
+    Point point, tangent;
+  };
+
   /// Where the pen is relative to one point of the stroke, the offset at the beginning allowed for.
   struct Place {
-    double along;     ///< how far the pen is ahead of it, beyond what it is off by [m]
-    double distance;  ///< with the pen's own offset [m]
+    double along;   ///< how far the pen is ahead of it, beyond what it is off by [m]
+    double square;  ///< of the distance, with the pen's own offset [m^2]
     bool free;
   };
 
+  const RowPoint& row(int point) const noexcept { return row_[static_cast<std::size_t>(point)]; }
   Place place(const Point& tip, int point) const noexcept;
-  double across(const Point& from_stroke, const Point& normal) const noexcept;
+  double across(const Point& from_stroke, const Point& tangent) const noexcept;
+  void look_along() noexcept;
   void look(const Point& tip, double way) noexcept;
   void measure(const Point& tip) noexcept;
 
@@ -58,7 +65,7 @@ class StrokeFollower {
   double lead_ = 0.0;       ///< a point this far ahead or behind is abreast of the pen
   double exact_way_ = 0.0;  ///< of a pen that draws the stroke exactly
   double share_ = 0.0, slack_ = 0.0;
-  std::array<Point, max_points> points_, tangents_;
+  std::vector<RowPoint> row_;
   std::uint64_t corners_ = 0;  ///< bit i: the stroke bends sharply at point i
 
   // The pen. [m]

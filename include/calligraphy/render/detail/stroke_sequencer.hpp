@@ -3,12 +3,10 @@
 
 #include <vector>
 
-#include <calligraphy/collision/active_stroke.hpp>
 #include <calligraphy/devices/capabilities.hpp>
 #include <calligraphy/render/detail/pen_state.hpp>
 #include <calligraphy/render/detail/prepared_page.hpp>
 #include <calligraphy/render/detail/stroke_capture.hpp>
-#include <calligraphy/render/detail/stroke_follower.hpp>
 #include <calligraphy/render/detail/writer_state.hpp>
 #include <calligraphy/render/interaction_state.hpp>
 #include <calligraphy/render/motion_mapping.hpp>
@@ -30,8 +28,7 @@ class StrokeSequencer {
   const std::vector<PlacedCharacter>& page() const noexcept { return page_.characters(); }
 
  private:
-  bool all_written() const noexcept { return writer_.character >= page_.size(); }
-  const PreparedCharacter& character() const noexcept { return page_[writer_.character]; }
+  bool all_written() const noexcept { return character_ == nullptr; }
 
   TransitionInput advance(const PenState& pen) noexcept;
   void put_down(const Point& tip) noexcept;
@@ -45,10 +42,10 @@ class StrokeSequencer {
   void lift() noexcept;
   void activate(int character, int stroke) noexcept;
 
-  WritingPhase phase(const PenState& pen) const noexcept;
+  WritingPhase phase(const Point& tip) const noexcept;
   WritingPhase phase_before_stroke(const Point& tip) const noexcept;
   Point hand(const PenState& pen) const noexcept;
-  bool keeps_hold(const PenState& pen) const noexcept;
+  bool keeps_hold() const noexcept;
   bool is_guided() const noexcept;
 
   PreparedPage page_;
@@ -56,9 +53,10 @@ class StrokeSequencer {
   MotionMapping mapping_;
   double hidden_way_;  ///< how far dry friction keeps the pen short of where a usual hand means to be [m, page]
   double compliance_;  ///< of a usual grip [m/N, page]
-  ActiveStroke active_;
+  PreparedCharacter* character_ = nullptr;  ///< of `page_`: the one to be written; null once all are
+  PreparedStroke* due_ = nullptr;           ///< likewise; the last once all are
+  Point hand_ = Point::Zero();              ///< where the hand means to be, in the writing state [m, page]
   StrokeCapture capture_;
-  StrokeFollower follower_;
   bool inside_box_ = false;
   WriterState writer_;
 };
