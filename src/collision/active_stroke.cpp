@@ -71,17 +71,15 @@ void ActiveStroke::rest(const StrokeContact& nearest) noexcept {
 
 [[gnu::always_inline]] inline StrokeContact ActiveStroke::locate(const Point& tip,
                                                                  const StrokeRules& rules) const noexcept {
-  StrokeContact contact;
-  contact.element = std::min(active_, element_count_ - 1);
-  const Part& here = part(contact.element);
+  const int index = std::min(active_, element_count_ - 1);
+  const Part& here = part(index);
   const StrokeElement& element = here.element;
-
   ParameterRange range;
   if (rules.window > 0.0) {
     const double window = rules.window * em_;
     range = {element.parameter_at(arc_ - window), element.parameter_at(arc_ + window)};
   }
-  contact.closest = nearest_point(element, tip, rules.nearest, range, parameter_);
+  StrokeContact contact{.element = index, .closest = nearest_point(element, tip, rules.nearest, range, parameter_)};
   contact.weight = guidance_weight(rules.space, em_, element, tip, contact.closest);
   const double arc = element.arc_length(contact.closest.parameter);
   contact.arc = here.first_arc + arc;

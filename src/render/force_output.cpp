@@ -82,8 +82,8 @@ const SentForce& ForceOutput::update(const PenState& pen, const GuidanceForce& g
   const Point in_plane = guidance.total + paper.friction;
   const Eigen::Vector3d wanted =
       pen.holds_force ? sent_.page : Eigen::Vector3d(in_plane.x(), in_plane.y(), paper.normal);
-  sent_.viscous = paper.viscous;
-  sent_.viscous.head<2>() += guidance.viscous;
+  sent_.viscous = {paper.viscous.x() + guidance.viscous.x(), paper.viscous.y() + guidance.viscous.y(),
+                   paper.viscous.z()};
 
   double max_force = thermal_.peak > 0.0 ? thermal_.max_force() : ForceLimiter::no_limit;
   Eigen::Vector3d force = wanted;
@@ -130,11 +130,11 @@ Eigen::Vector3d ForceOutput::passive(const PenState& pen, const Eigen::Vector3d&
 
 /// What springs and dampers change because the pen has moved since the sample before.
 ForceAllowance ForceOutput::allowance(const PenState& pen) const noexcept {
-  const double way = std::abs(pen.motion.z());
+  const Eigen::Vector3d motion = pen.motion(), change = pen.velocity_change();
+  const double way = std::abs(motion.z());
   // The damper of the paper sets in with depth.
   const double onset = way < paper_onset_ ? way / paper_onset_ : 1.0;
-  const Eigen::Vector3d& change = pen.velocity_change;
-  return allowance({pen.motion.head<2>().norm(), way},
+  return allowance({motion.head<2>().norm(), way},
                    {change.head<2>().norm(), std::abs(change.z()) + onset * std::abs(pen.velocity.z())});
 }
 

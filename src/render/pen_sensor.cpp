@@ -42,7 +42,7 @@ void PenSensor::restart() noexcept {
   rejected_.reset();
 }
 
-const PenState& PenSensor::update(const DeviceState& sample) noexcept {
+[[gnu::flatten, gnu::noinline]] const PenState& PenSensor::update(const DeviceState& sample) noexcept {
   pen_.time = sample.time;
   pen_.force = sample.force;
   if (counts_pauses_) count_ticks(sample);
@@ -119,17 +119,14 @@ void PenSensor::move_device_point(const DeviceState& sample, const Eigen::Vector
 }
 
 void PenSensor::estimate_motion(const Eigen::Vector3d& position, double elapsed) noexcept {
-  const Eigen::Vector3d& velocity = velocity_.update(position, elapsed);
-  if (has_sample_ && unseen_ == 0) {
-    pen_.velocity_change = velocity - pen_.velocity;
-    pen_.motion = position - pen_.position;
-  } else {
-    // The force has not followed the pen meanwhile, and must not jump to where it would be.
-    pen_.velocity_change.setZero();
-    pen_.motion.setZero();
-  }
-  pen_.velocity = velocity;
+  pen_.last_velocity = pen_.velocity;
+  pen_.last_position = pen_.position;
+  pen_.velocity = velocity_.update(position, elapsed);
   pen_.position = position;
+  if (has_sample_ && unseen_ == 0) return;
+  // The force has not followed the pen meanwhile, and must not jump to where it would be.
+  pen_.last_velocity = pen_.velocity;
+  pen_.last_position = position;
 }
 
 /// A pen that bounces on the paper has not been lifted.

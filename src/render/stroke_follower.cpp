@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "collision/pair.hpp"
+
 namespace calligraphy {
 namespace {
 
@@ -42,10 +44,13 @@ double beyond(double value, double low, double high) {
   return value > high ? value - high : std::min(value - low, 0.0);
 }
 
-/// Of a vector, along a direction and to its left.
-double ahead(const Point& vector, const Point& direction) {
-  return vector.x() * direction.x() + vector.y() * direction.y();
+Pair smaller(Pair a, Pair b) { return a < b ? a : b; }
+Pair larger(Pair a, Pair b) { return a > b ? a : b; }
+Pair beyond(Pair values, Pair low, Pair high) {
+  return larger(values - high, Pair{}) + smaller(values - low, Pair{});
 }
+
+/// Of a vector, to the left of a direction.
 double left(const Point& vector, const Point& direction) {
   return vector.y() * direction.x() - vector.x() * direction.y();
 }
@@ -74,6 +79,7 @@ void StrokeFollower::load(const ActiveStroke& stroke, double em, const StrokeTol
     const StrokeElement& on = stroke.element(element);
     row_.push_back({on.point(on.parameter_at(arc - before)), Point(1.0, 0.0)});
   }
+  row_.push_back(row_.back());
   const auto point = [&](int i) { return row(std::clamp(i, 0, count_ - 1)).point; };
   const int apart =
       spacing_ > 0.0 ? std::max(1, static_cast<int>(std::min(bend * em / spacing_, 1.0 * max_points))) : 1;
@@ -101,6 +107,7 @@ void StrokeFollower::begin(const Point& tip, const Point& misplaced) noexcept {
   own_ = tip - row_.front().point;
   const Point towards = (row(std::min(first_points, count_ - 1)).point - row_.front().point).normalized();
   late_ = std::max(0.0, own_.dot(towards)) * towards;
+  is_late_ = own_.dot(towards) > 0.0;
   misplaced_ = misplaced;
   tip_ = seen_ = chord_from_ = tip;
   nearest_ = covered_ = way_ = outside_ = chords_ = 0.0;
@@ -132,42 +139,66 @@ double StrokeFollower::across(const Point& from_stroke, const Point& tangent) co
   return std::abs(beyond(left(from_stroke, tangent), low, high));
 }
 
-StrokeFollower::Place StrokeFollower::place(const Point& tip, int point) const noexcept {
-  const Point& tangent = row(point).tangent;
-  const Point from_stroke = tip - row(point).point;
-  const double own_along = ahead(from_stroke, tangent) - ahead(own_, tangent), late = ahead(late_, tangent);
-  const double along = beyond(own_along, std::min(0.0, -late), std::max(0.0, -late));
-  const bool is_outside = (point == 0 && along < 0.0) || (point == count_ - 1 && along > 0.0);
-  const bool is_corner = (corners_ >> point & 1) != 0;
-  const bool abreast = is_outside || std::abs(along) <= lead_;
-  if (!abreast && !is_corner) return {along, 0.0, false};
-  const double aside = across(from_stroke, tangent), square = aside * aside;
-  return {along, is_outside ? square : own_along * own_along + square,
-          (abreast && aside <= width_) || (is_corner && along * along + square <= width_ * width_)};
+/// Two points at a time, this one and the next.
+void StrokeFollower::place(const Point& tip, int point, Places& places) const noexcept {
+  const RowPoint &one = row(point), &other = row(point + 1);
+  const Pair x = tip.x() - Pair{one.point.x(), other.point.x()}, y = tip.y() - Pair{one.point.y(), other.point.y()};
+  const Pair tx = {one.tangent.x(), other.tangent.x()}, ty = {one.tangent.y(), other.tangent.y()};
+  const Pair zero = {};
+  const Pair own_along = (x - own_.x()) * tx + (y - own_.y()) * ty;
+  Pair along = own_along;
+  if (is_late_) {
+    const Pair late = late_.x() * tx + late_.y() * ty;
+    along = beyond(own_along, smaller(-late, zero), larger(-late, zero));
+  }
+  const Pair own = own_.y() * tx - own_.x() * ty, misplaced = misplaced_.y() * tx - misplaced_.x() * ty;
+  const Pair off = beyond(y * tx - x * ty, smaller(smaller(own, misplaced), zero), larger(larger(own, misplaced), zero));
+  const Pair square = off * off;
+
+  const int last = count_ - 1;
+  for (int k = 0; k < 2; ++k) {
+    const auto i = static_cast<std::size_t>(point + k);
+    const bool is_outside = (point + k == 0 && along[k] < 0.0) || (point + k == last && along[k] > 0.0);
+    const bool is_corner = (corners_ >> i & 1) != 0;
+    const bool is_near = square[k] <= width_ * width_ && (is_outside || std::abs(along[k]) <= lead_);
+    const bool is_free = is_near || (is_corner && along[k] * along[k] + square[k] <= width_ * width_);
+    places.along[i] = along[k];
+    places.square[i] = is_outside ? square[k] : own_along[k] * own_along[k] + square[k];
+    places.free |= static_cast<std::uint64_t>(is_free) << i;
+  }
 }
 
-[[gnu::flatten]] void StrokeFollower::look(const Point& tip, double way) noexcept {
+void StrokeFollower::look(const Point& tip, double way) noexcept {
   seen_ = tip;
   way_ += way;
-  std::uint64_t reached = 0;
+  const std::uint64_t next = reached_ | reached_ << 1;
+  Places places;
+  places.free = 0;
+  // As far as the pen can have come: further only through points that it passes.
+  int end = std::countr_zero(reached_) & ~1;
+  do {
+    place(tip, end, places);
+    end += 2;
+  } while (end < count_ && (next >> end != 0 || (places.free >> (end - 1) & 1) != 0));
+  if (count_ % 2 != 0) places.free &= (std::uint64_t{1} << count_) - 1;
+  // The carries of the sum run on through what is free.
+  const std::uint64_t seeds = next & places.free;
+  const std::uint64_t reached = (((places.free + seeds) ^ places.free) & places.free) | seeds;
+
   int nearest = -1;
   double least = 0.0, covered = covered_;
-  for (int i = std::countr_zero(reached_); i < count_; ++i) {
-    const std::uint64_t from = ((reached_ | reached) << 1 | reached_) >> i;
-    if (from == 0) break;
-    if ((from & 1) == 0) continue;
-    const Place here = place(tip, i);
-    if (!here.free) continue;
-    reached |= std::uint64_t{1} << i;
-    if (nearest < 0 || here.square < least) {
+  for (std::uint64_t left = reached; left != 0; left &= left - 1) {
+    const int i = std::countr_zero(left);
+    const double along = places.along[static_cast<std::size_t>(i)], square = places.square[static_cast<std::size_t>(i)];
+    if (nearest < 0 || square < least) {
       nearest = i;
-      least = here.square;
+      least = square;
     }
     const bool at_last = i == count_ - 1;
-    if (std::abs(here.along) <= spacing_ || (at_last && here.along > 0.0)) {
-      covered = std::max(covered, std::min(i * spacing_ + here.along, length_));
+    if (std::abs(along) <= spacing_ || (at_last && along > 0.0)) {
+      covered = std::max(covered, std::min(i * spacing_ + along, length_));
     }
-    if (at_last) to_end_ = std::min(to_end_, -here.along);
+    if (at_last) to_end_ = std::min(to_end_, -along);
   }
   if (nearest < 0) {
     outside_ += way;

@@ -22,6 +22,11 @@ constexpr double min_held_weight = 0.5;
 /// takes hold again within one.
 constexpr double max_detour = 2.0;
 
+bool is_within(const Eigen::AlignedBox2d& box, const Point& point) {
+  return box.min().x() <= point.x() && point.x() <= box.max().x() && box.min().y() <= point.y() &&
+         point.y() <= box.max().y();
+}
+
 }  // namespace
 
 StrokeSequencer::StrokeSequencer(std::vector<PlacedCharacter> page, const RendererOptions& options,
@@ -71,11 +76,11 @@ TransitionInput StrokeSequencer::advance(const PenState& pen) noexcept {
   const Point tip = pen.tip.head<2>();
   const bool writing = writer_.state == InteractionState::writing;
   const Eigen::AlignedBox2d& box = character_->box;
-  if (!box.contains(tip) && inside_box_) {
+  if (is_within(box, tip)) {
+    inside_box_ = true;
+  } else if (inside_box_) {
     const double hysteresis = options_.box_hysteresis * writer_.em * (writing ? writing_hysteresis : 1.0);
     inside_box_ = box.exteriorDistance(tip) <= hysteresis;
-  } else {
-    inside_box_ = box.contains(tip);
   }
   input.inside_box = inside_box_;
   input.may_start = writer_.phase != WritingPhase::finished;

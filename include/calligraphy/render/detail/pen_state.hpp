@@ -24,11 +24,15 @@ struct PenState {
   bool contact = false;                                       ///< touches the paper, or bounces on it
   bool on_paper = false;                                      ///< within `lift_height`: does not bounce
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();         ///< estimate [m/s, page]
-  Eigen::Vector3d velocity_change = Eigen::Vector3d::Zero();  ///< since the sample before; zero after a gap [m/s, page]
-  Eigen::Vector3d motion = Eigen::Vector3d::Zero();           ///< likewise [m, page]
+  Eigen::Vector3d last_velocity = Eigen::Vector3d::Zero();    ///< at the sample before; after a gap at this one
+  Eigen::Vector3d last_position = Eigen::Vector3d::Zero();    ///< likewise
 
   int ticks = 1;          ///< since the sample before; more when the loop paused, counted for the account of energy
   double settling = 0.0;  ///< for how long after the sample before the force may have been another one [s]
+
+  /// Since the sample before; zero after a gap [m, page], [m/s, page].
+  Eigen::Vector3d motion() const noexcept { return position - last_position; }
+  Eigen::Vector3d velocity_change() const noexcept { return velocity - last_velocity; }
 };
 
 }  // namespace calligraphy

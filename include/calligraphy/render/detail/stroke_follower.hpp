@@ -1,6 +1,7 @@
 // How much of a stroke a pen has written, in order: a corridor about the stroke, decided tick by tick.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -44,15 +45,15 @@ class StrokeFollower {
     Point point, tangent;
   };
 
-  /// Where the pen is relative to one point of the stroke, the offset at the beginning allowed for.
-  struct Place {
-    double along;   ///< how far the pen is ahead of it, beyond what it is off by [m]
-    double square;  ///< of the distance, with the pen's own offset [m^2]
-    bool free;
+  /// Where the pen is relative to the points of the stroke, the offset at the beginning allowed for.
+  struct Places {
+    std::array<double, max_points> along;   ///< how far the pen is ahead of each, beyond what it is off by [m]
+    std::array<double, max_points> square;  ///< of the distance, with the pen's own offset [m^2]
+    std::uint64_t free;                     ///< bit i: the pen passes point i
   };
 
   const RowPoint& row(int point) const noexcept { return row_[static_cast<std::size_t>(point)]; }
-  Place place(const Point& tip, int point) const noexcept;
+  void place(const Point& tip, int point, Places& places) const noexcept;
   double across(const Point& from_stroke, const Point& tangent) const noexcept;
   void look_along() noexcept;
   void look(const Point& tip, double way) noexcept;
@@ -65,13 +66,14 @@ class StrokeFollower {
   double lead_ = 0.0;       ///< a point this far ahead or behind is abreast of the pen
   double exact_way_ = 0.0;  ///< of a pen that draws the stroke exactly
   double share_ = 0.0, slack_ = 0.0;
-  std::vector<RowPoint> row_;
+  std::vector<RowPoint> row_;  ///< and the last one again: they are placed in pairs
   std::uint64_t corners_ = 0;  ///< bit i: the stroke bends sharply at point i
 
   // The pen. [m]
   std::uint64_t reached_ = 0;         ///< bit i: point i can have been reached in order
   Point own_ = Point::Zero();         ///< offset from the stroke
   Point late_ = Point::Zero();        ///< what of it was a start beyond the stroke's
+  bool is_late_ = false;
   Point misplaced_ = Point::Zero();   ///< that of the character
   Point tip_ = Point::Zero();         ///< of the last sample
   Point pull_ = Point::Zero();        ///< from there to where the hand means to be
