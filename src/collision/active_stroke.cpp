@@ -79,7 +79,9 @@ void ActiveStroke::rest(const StrokeContact& nearest) noexcept {
     const double window = rules.window * em_;
     range = {element.parameter_at(arc_ - window), element.parameter_at(arc_ + window)};
   }
-  StrokeContact contact{.element = index, .closest = nearest_point(element, tip, rules.nearest, range, parameter_)};
+  StrokeContact contact;
+  contact.element = index;
+  contact.closest = nearest_point(element, tip, rules.nearest, range, parameter_);
   contact.weight = guidance_weight(rules.space, em_, element, tip, contact.closest);
   const double arc = element.arc_length(contact.closest.parameter);
   contact.arc = here.first_arc + arc;

@@ -79,21 +79,20 @@ void ForceOutput::restart() noexcept {
 
 const SentForce& ForceOutput::update(const PenState& pen, const GuidanceForce& guidance,
                                      const PaperForce& paper) noexcept {
-  const Point in_plane = guidance.total + paper.friction;
-  const Eigen::Vector3d wanted =
-      pen.holds_force ? sent_.page : Eigen::Vector3d(in_plane.x(), in_plane.y(), paper.normal);
+  Eigen::Vector3d force(guidance.total.x() + paper.friction.x(), guidance.total.y() + paper.friction.y(), paper.normal);
+  if (pen.holds_force) force = sent_.page;
+  // Where nothing was sent, nothing is held, the brake of an exhausted budget included.
+  const bool is_trusted = pen.status == TickStatus::ok || (pen.holds_force && norm(force) > 0.0);
   sent_.viscous = {paper.viscous.x() + guidance.viscous.x(), paper.viscous.y() + guidance.viscous.y(),
                    paper.viscous.z()};
 
   double max_force = thermal_.peak > 0.0 ? thermal_.max_force() : ForceLimiter::no_limit;
-  Eigen::Vector3d force = wanted;
   if (observes_energy_) {
     account(pen);
-    force = passive(pen, shortened(wanted, std::min(limiter_.peak, max_force)));
+    force = passive(pen, shortened(force, std::min(limiter_.peak, max_force)));
     max_force = std::min(max_force, passivity_.max_force());
   }
-  // Where nothing was sent, nothing is held, the brake of an exhausted budget included.
-  if (pen.status != TickStatus::ok && !(pen.holds_force && norm(wanted) > 0.0)) {
+  if (!is_trusted) {
     sent_.page = limiter_.release(sent_.page);
   } else if (limiter_.reaches(sent_.page, force, max_force)) {
     sent_.page = force;

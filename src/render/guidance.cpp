@@ -52,8 +52,9 @@ const GuidanceForce& Guidance::update(const PenState& pen, const WriterState& wr
     if (!pen.holds_force) release();
     return force_;
   }
-  const bool is_free = writer.phase == WritingPhase::lifted && writer.events == TickEvent::none && !released_.acts();
-  if (is_free) return force_;  // nothing guides a pen in the air, and nothing is left to withdraw
+  if (writer.phase == WritingPhase::lifted && !released_.acts() && writer.events == TickEvent::none) {
+    return force_;  // nothing guides a pen in the air, and nothing is left to withdraw
+  }
   assistance_.update(pen.tip.head<2>(), writer);
   force_.assistance = assistance_.factor();
   pull(pen, writer);

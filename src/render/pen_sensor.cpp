@@ -74,7 +74,10 @@ TickStatus PenSensor::accept(const DeviceState& sample) noexcept {
   if (sample.status == DeviceStatus::stale) return TickStatus::stale;
   const Eigen::Vector3d position = mapping_.to_page(sample.position);
   if (!is_on_page(position) || !std::isfinite(sample.time)) return TickStatus::bad_sample;
-  if (!is_plausible(position, sample.time)) {
+  // A clock that stands or runs backwards must not turn a small motion into a fast one.
+  const double passed = sample.time - time_;
+  double elapsed = passed > period_ ? passed : period_;
+  if (!is_plausible(position, elapsed)) {
     rejected_ = position;
     return TickStatus::bad_sample;
   }
@@ -83,8 +86,7 @@ TickStatus PenSensor::accept(const DeviceState& sample) noexcept {
     has_sample_ = false;
     rejected_.reset();
   }
-  // A clock that stands or runs backwards must not turn a small motion into a fast one.
-  const double elapsed = has_sample_ ? std::max(sample.time - time_, period_) : period_;
+  if (!has_sample_) elapsed = period_;
   move_device_point(sample, position);
   estimate_motion(position, elapsed);
   feel_paper(elapsed);
@@ -95,10 +97,10 @@ TickStatus PenSensor::accept(const DeviceState& sample) noexcept {
 
 /// A pen cannot jump: a single sample far away is rejected. A second one near the first is accepted, because then the
 /// device really is elsewhere.
-bool PenSensor::is_plausible(const Eigen::Vector3d& position, double time) const noexcept {
+bool PenSensor::is_plausible(const Eigen::Vector3d& position, double elapsed) const noexcept {
   if (!has_sample_) return true;
   const double max_speed = options_.max_speed * mapping_.scale;
-  const double reach = max_speed * std::max(time - time_, period_);
+  const double reach = max_speed * elapsed;
   const Eigen::Vector3d way = position - pen_.position;
   if (dot(way, way) <= reach * reach) return true;
   return rejected_ && norm(position - *rejected_) <= max_speed * period_;

@@ -38,9 +38,10 @@ class VelocityEstimator {
   /// Intervals differ by no more than this, in the exponent of the low-pass, where a clock only jitters.
   static constexpr double max_jitter = 0.02;
 
-  /// 1 - exp(-x), to 1e-13 for |x| <= max_jitter.
+  /// 1 - exp(-x), to 1e-13 for |x| <= max_jitter. By Estrin's scheme: forces wait for the velocity.
   static double rise(double x) noexcept {
-    return x * (1.0 + x * (-1.0 / 2.0 + x * (1.0 / 6.0 + x * (-1.0 / 24.0 + x * (1.0 / 120.0)))));
+    const double square = x * x;
+    return (x - 1.0 / 2.0 * square) + x * square * ((1.0 / 6.0 - 1.0 / 24.0 * x) + 1.0 / 120.0 * square);
   }
   void learn_share() noexcept;
 
@@ -60,7 +61,7 @@ inline const Eigen::Vector3d& VelocityEstimator::update(const Eigen::Vector3d& p
   } else {
     if (!(elapsed > 0.0 && elapsed < std::numeric_limits<double>::infinity())) return velocity_;
     since_position_ += elapsed;
-    const Eigen::Vector3d difference = (position - position_) / since_position_;
+    const Eigen::Vector3d difference = (position - position_) * (1.0 / since_position_);
     // What is left after this interval is left after the one whose share is known, and after what it is longer by.
     if (!(std::abs(since_position_ - share_time_) * cutoff_ <= max_jitter)) learn_share();
     const double share = share_ + (1.0 - share_) * rise(cutoff_ * (since_position_ - share_time_));

@@ -30,7 +30,7 @@ class PenSensor {
  private:
   void count_ticks(const DeviceState& sample) noexcept;
   TickStatus accept(const DeviceState& sample) noexcept;
-  bool is_plausible(const Eigen::Vector3d& position, double time) const noexcept;
+  bool is_plausible(const Eigen::Vector3d& position, double elapsed) const noexcept;
   void move_device_point(const DeviceState& sample, const Eigen::Vector3d& position) noexcept;
   void estimate_motion(const Eigen::Vector3d& position, double elapsed) noexcept;
   void feel_paper(double elapsed) noexcept;
