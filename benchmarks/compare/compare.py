@@ -19,16 +19,20 @@ parser.add_argument("after")
 parser.add_argument("--rounds", type=int, default=60)
 parser.add_argument("--cold-rounds", type=int, default=12, help="with caches emptied before a tick")
 parser.add_argument("--options", default="default,everything", help="those whose time is measured")
+parser.add_argument("--noise", default="0", help="added to the pens' positions [um]")
+parser.add_argument("--step", default="0", help="of a coarser encoder [um]")
 parser.add_argument("--no-instructions", action="store_true")
 parser.add_argument("--stages", type=int, default=14, help="number of files to list")
 arguments = parser.parse_args()
 programs = [arguments.before, arguments.after]
 measured = arguments.options.split(",")
-everything = ["default", "exact", "wang2006", "friction", "hayward_armstrong", "saturating", "guide_to_start", "assist",
-              "passivity", "budget", "thermal", "everything"]
+# The result of `tracked` depends on how a revision finds it, within its tolerance; `exact` shows the rest.
+everything = ["default", "everything", "wang2006"]
+everything += [name + "+exact" for name in ("default", "friction", "hayward_armstrong", "saturating", "guide_to_start",
+                                            "assist", "passivity", "budget", "thermal", "everything")]
 folder = tempfile.TemporaryDirectory()
 pens = str(Path(folder.name) / "pens")
-subprocess.run([programs[0], "record", pens], check=True)
+subprocess.run([programs[0], "record", pens, arguments.noise, arguments.step], check=True)
 
 
 class Server:
@@ -75,7 +79,7 @@ def instructions(program, options):
                "--toggle-collect=measured", program, "count", pens, options]
     result = subprocess.run(command, capture_output=True, text=True, check=True)
     ticks = int(result.stdout.split()[-1])
-    names, costs, stage, is_call = {}, {}, "", False
+    names, functions, costs, calls, stage, called, is_call = {}, {}, {}, {}, "", "", False
     for line in out.read_text().splitlines():
         found = re.match(r"(fl|fi|fe|cfl|cfi)=\((\d+)\)(?: (.*))?", line)
         if found:
@@ -87,13 +91,26 @@ def instructions(program, options):
                     stage = Path(file).stem
                 elif found[1] == "fl":
                     stage = "other libraries"
+        elif found := re.match(r"cfn=\((\d+)\)(?: (.*))?", line):
+            if found[2]:
+                functions[found[1]] = found[2]
+            called = functions.get(found[1], "")
+        elif found := re.match(r"fn=\((\d+)\) (.*)", line):
+            functions[found[1]] = found[2]
         elif line.startswith("calls="):
+            calls[called] = calls.get(called, 0) + int(line[6:].split()[0])
             is_call = True
         elif re.match(r"[+\-*\d]", line):
             if not is_call:
                 costs[stage] = costs.get(stage, 0.0) + int(line.split()[1]) / ticks
             is_call = False
-    return costs
+
+    def calls_of(kind):
+        return sum(count for name, count in calls.items() if kind in name)
+
+    asked = max(calls_of("::tracked<"), calls_of("::tracked_nearest_point("))  # one may be inlined into the other
+    searched = calls_of("::certified_avx2<") + calls_of("::certified_baseline<")
+    return costs, 1.0 - searched / asked
 
 
 print("pens: " + "; ".join(f"{int(strokes)} strokes finished in {int(ticks)} ticks"
@@ -133,10 +150,12 @@ if arguments.no_instructions or not shutil.which("valgrind"):
     print("\nleft out: instructions" + ("" if arguments.no_instructions else " (needs valgrind)"))
 else:
     for options in measured:
-        before, after = (instructions(program, options) for program in programs)
+        (before, tracked_before), (after, tracked_after) = (instructions(program, options) for program in programs)
         totals = [sum(costs.values()) for costs in (before, after)]
         rows = [["all", f"{totals[0]:.0f}", f"{totals[1]:.0f}", f"{totals[1] / totals[0]:.3f}"]]
         names = sorted(before | after, key=lambda name: -max(before.get(name, 0.0), after.get(name, 0.0)))
         for name in names[:arguments.stages]:
             rows.append([name, f"{before.get(name, 0.0):.0f}", f"{after.get(name, 0.0):.0f}", ""])
+        rows.append(["nearest points on curves without a general search [%]", f"{100 * tracked_before:.1f}",
+                     f"{100 * tracked_after:.1f}", ""])
         table([f"instructions per tick, {options}, by file", "before", "after", "ratio"], rows)

@@ -1,11 +1,12 @@
 // Replays recorded pens through HapticRenderer::update, for compare.py, which runs this program on two trees in turn.
 // It is compiled on both, so it uses only what old trees have too.
 //
-// tick_replay record FILE          writes the pens
-// tick_replay count FILE OPTIONS   replays them once, for callgrind, which counts within `measured`
-// tick_replay serve FILE           answers commands on standard input, a line each: see serve()
+// tick_replay record FILE [NOISE STEP]   writes the pens, with more noise and encoder steps [um]
+// tick_replay count FILE OPTIONS         replays them once, for callgrind, which counts within `measured`
+// tick_replay serve FILE                 answers commands on standard input, a line each: see serve()
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <functional>
@@ -54,9 +55,9 @@ PracticePage written_page() {
   return lay_out(text).at(0);
 }
 
-/// Guided writers, sampled by a clock that jitters by 20 us. Half of them sit at an encoder with steps of 23 um and
-/// half at one with noise of 10 um besides.
-std::vector<Pen> record_pens() {
+/// Guided writers at an encoder with steps of 23 um, sampled by a clock that jitters by 20 us. Noise [m] and a coarser
+/// encoder [m] are added.
+std::vector<Pen> record_pens(double noise, double step) {
   const PracticePage page = written_page();
   const MotionMapping mapping = upright_page(page.width, page.height);
   std::vector<Pen> pens;
@@ -71,7 +72,10 @@ std::vector<Pen> record_pens() {
     Pen pen;
     for (const DeviceState& state : device_states(write_page(page, session), mapping)) {
       Sample sample{state.time + random.between(-20e-6, 20e-6), state.position};
-      for (double& x : sample.position) x += seed % 2 == 0 ? 10e-6 * random.normal() : 0.0;
+      for (double& x : sample.position) {
+        x += noise * random.normal();
+        if (step > 0.0) x = step * std::round(x / step);
+      }
       pen.push_back(sample);
     }
     pens.push_back(pen);
@@ -101,32 +105,38 @@ std::vector<Pen> read_pens(const std::string& file) {
   return pens;
 }
 
-RendererOptions options_of(const std::string& name) {
+/// Names joined by +: "everything+exact".
+RendererOptions options_of(const std::string& names) {
   RendererOptions options = RendererOptions::for_device(device());
-  if (name == "default") return options;
-  if (name == "everything") return RendererOptions::everything(device());
-  if (name == "wang2006") return RendererOptions::wang2006();
-  if (name == "exact") {
-    options.stroke.nearest.method = NearestPointMethod::exact;
-  } else if (name == "friction") {
-    options.friction.coefficient = 0.15;
-  } else if (name == "hayward_armstrong") {
-    options.friction.coefficient = 0.15;
-    options.friction.model = FrictionModel::hayward_armstrong;
-  } else if (name == "saturating") {
-    options.guidance = GuidanceLaw::saturating;
-  } else if (name == "guide_to_start") {
-    options.guide_to_start = true;
-  } else if (name == "assist") {
-    options.assist.enabled = true;
-  } else if (name == "passivity") {
-    options.passivity_control = true;
-  } else if (name == "budget") {
-    options.energy_budget = 0.1;
-  } else if (name == "thermal") {
-    options.thermal_time_constant = 10.0;
-  } else {
-    throw std::runtime_error("no such options: " + name);
+  std::istringstream list(names);
+  for (std::string name; std::getline(list, name, '+');) {
+    if (name == "default") {
+    } else if (name == "everything") {
+      options = RendererOptions::everything(device());
+    } else if (name == "wang2006") {
+      options = RendererOptions::wang2006();
+    } else if (name == "exact") {
+      options.stroke.nearest.method = NearestPointMethod::exact;
+    } else if (name == "friction") {
+      options.friction.coefficient = 0.15;
+    } else if (name == "hayward_armstrong") {
+      options.friction.coefficient = 0.15;
+      options.friction.model = FrictionModel::hayward_armstrong;
+    } else if (name == "saturating") {
+      options.guidance = GuidanceLaw::saturating;
+    } else if (name == "guide_to_start") {
+      options.guide_to_start = true;
+    } else if (name == "assist") {
+      options.assist.enabled = true;
+    } else if (name == "passivity") {
+      options.passivity_control = true;
+    } else if (name == "budget") {
+      options.energy_budget = 0.1;
+    } else if (name == "thermal") {
+      options.thermal_time_constant = 10.0;
+    } else {
+      throw std::runtime_error("no such options: " + name);
+    }
   }
   return options;
 }
@@ -297,8 +307,10 @@ extern "C" __attribute__((noinline)) void measured(Replay& replay) { replay.run(
 int main(int argc, char** argv) try {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   const std::string command = arguments.empty() ? "" : arguments[0];
-  if (command == "record" && arguments.size() == 2) {
-    write_pens(arguments[1], record_pens());
+  if (command == "record" && (arguments.size() == 2 || arguments.size() == 4)) {
+    const bool is_given = arguments.size() == 4;
+    write_pens(arguments[1], record_pens(is_given ? 1e-6 * std::stod(arguments[2]) : 0.0,
+                                         is_given ? 1e-6 * std::stod(arguments[3]) : 0.0));
   } else if (command == "count" && arguments.size() == 3) {
     Replay replay(arguments[1], arguments[2]);
     measured(replay);
@@ -306,7 +318,7 @@ int main(int argc, char** argv) try {
   } else if (command == "serve" && arguments.size() == 2) {
     serve(arguments[1]);
   } else {
-    throw std::runtime_error("usage: tick_replay record FILE | count FILE OPTIONS | serve FILE");
+    throw std::runtime_error("usage: tick_replay record FILE [NOISE STEP] | count FILE OPTIONS | serve FILE");
   }
   return 0;
 } catch (const std::exception& error) {

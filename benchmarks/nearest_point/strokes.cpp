@@ -1,7 +1,9 @@
 // Whole strokes at 1 kHz: the nearest point over all elements at each tick.
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
+#include <calligraphy/base/random.hpp>
 #include <calligraphy/model/bezier.hpp>
 #include <calligraphy/model/character_list.hpp>
 
@@ -24,6 +26,20 @@ ControlPoints as_cubic(const ControlPoints& points) {
   return {cubic.control_points.begin(), cubic.control_points.end()};
 }
 
+/// As a real encoder gives it: with noise [m], in steps [m].
+std::vector<StrokeQueries> sampled(std::vector<StrokeQueries> strokes, double noise, double step) {
+  calligraphy::Random random(1);
+  for (StrokeQueries& stroke : strokes) {
+    for (Point& tip : stroke.path) {
+      for (double& x : tip) {
+        x += noise * random.normal();
+        if (step > 0.0) x = step * std::round(x / step);
+      }
+    }
+  }
+  return strokes;
+}
+
 /// Most elements of Chinese characters are lines, which are cheap with any method. Therefore also only the strokes with
 /// a curve, and every line written as a cubic, as drawing programs do: all strokes, and the compound ones.
 std::vector<StrokeSet> stroke_sets(int characters) {
@@ -42,6 +58,8 @@ std::vector<StrokeSet> stroke_sets(int characters) {
   sets.push_back({"compound strokes of cubics", {}});
   std::copy_if(sets[2].strokes.begin(), sets[2].strokes.end(), std::back_inserter(sets[3].strokes),
                [](const StrokeQueries& stroke) { return stroke.elements.size() > 1; });
+  sets.push_back({"compound strokes of cubics with noise of 10 um", sampled(sets[3].strokes, 10e-6, 0.0)});
+  sets.push_back({"compound strokes of cubics in steps of 55 um", sampled(sets[3].strokes, 0.0, 55e-6)});
   return sets;
 }
 
