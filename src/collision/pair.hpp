@@ -8,6 +8,10 @@
 
 #include <calligraphy/model/point.hpp>
 
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
 namespace calligraphy {
 
 /// Both in one register: for a single query.
@@ -45,6 +49,31 @@ template <typename Vector>
 [[gnu::always_inline]] inline double dot(Vector a, Vector b) {
   const Vector product = a * b;
   return x_of(product) + y_of(product);
+}
+
+[[gnu::always_inline]] inline Pair smaller(Pair a, Pair b) {
+#if defined(__SSE2__)
+  return _mm_min_pd(a, b);
+#else
+  return a < b ? a : b;
+#endif
+}
+
+[[gnu::always_inline]] inline Pair larger(Pair a, Pair b) {
+#if defined(__SSE2__)
+  return _mm_max_pd(a, b);
+#else
+  return a > b ? a : b;
+#endif
+}
+
+/// Bit i: `a` is at most `b` in coordinate i; false for NaN.
+[[gnu::always_inline]] inline unsigned at_most(Pair a, Pair b) {
+#if defined(__SSE2__)
+  return static_cast<unsigned>(_mm_movemask_pd(_mm_cmple_pd(a, b)));
+#else
+  return static_cast<unsigned>(a[0] <= b[0]) | static_cast<unsigned>(a[1] <= b[1]) << 1;
+#endif
 }
 
 /// Also false for NaN.

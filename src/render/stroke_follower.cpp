@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 
 #include "collision/pair.hpp"
 
@@ -44,8 +45,6 @@ double beyond(double value, double low, double high) {
   return value > high ? value - high : std::min(value - low, 0.0);
 }
 
-Pair smaller(Pair a, Pair b) { return a < b ? a : b; }
-Pair larger(Pair a, Pair b) { return a > b ? a : b; }
 Pair beyond(Pair values, Pair low, Pair high) {
   return larger(values - high, Pair{}) + smaller(values - low, Pair{});
 }
@@ -83,14 +82,14 @@ void StrokeFollower::load(const ActiveStroke& stroke, double em, const StrokeTol
   const auto point = [&](int i) { return row(std::clamp(i, 0, count_ - 1)).point; };
   const int apart =
       spacing_ > 0.0 ? std::max(1, static_cast<int>(std::min(bend * em / spacing_, 1.0 * max_points))) : 1;
-  corners_ = 0;
+  special_ = std::uint64_t{1} | std::uint64_t{1} << (count_ - 1);
   for (int i = 0; i < count_; ++i) {
     const Point chord_here = point(i + 1) - point(i - 1);
     const double size = chord_here.norm();
     if (size > 0.0) row_[static_cast<std::size_t>(i)].tangent = chord_here / size;
     const Point in = point(i) - point(i - apart), out = point(i + apart) - point(i);
     const bool is_inside = i > 0 && i + 1 < count_;
-    if (is_inside && in.dot(out) < bend_cosine * in.norm() * out.norm()) corners_ |= std::uint64_t{1} << i;
+    if (is_inside && in.dot(out) < bend_cosine * in.norm() * out.norm()) special_ |= std::uint64_t{1} << i;
   }
 
   // Less than the length where the stroke doubles back.
@@ -140,7 +139,7 @@ double StrokeFollower::across(const Point& from_stroke, const Point& tangent) co
 }
 
 /// Two points at a time, this one and the next.
-void StrokeFollower::place(const Point& tip, int point, Places& places) const noexcept {
+[[gnu::always_inline]] inline void StrokeFollower::place(const Point& tip, int point, Places& places) const noexcept {
   const RowPoint &one = row(point), &other = row(point + 1);
   const Pair x = tip.x() - Pair{one.point.x(), other.point.x()}, y = tip.y() - Pair{one.point.y(), other.point.y()};
   const Pair tx = {one.tangent.x(), other.tangent.x()}, ty = {one.tangent.y(), other.tangent.y()};
@@ -155,17 +154,29 @@ void StrokeFollower::place(const Point& tip, int point, Places& places) const no
   const Pair off = beyond(y * tx - x * ty, smaller(smaller(own, misplaced), zero), larger(larger(own, misplaced), zero));
   const Pair square = off * off;
 
-  const int last = count_ - 1;
-  for (int k = 0; k < 2; ++k) {
-    const auto i = static_cast<std::size_t>(point + k);
-    const bool is_outside = (point + k == 0 && along[k] < 0.0) || (point + k == last && along[k] > 0.0);
-    const bool is_corner = (corners_ >> i & 1) != 0;
-    const bool is_near = square[k] <= width_ * width_ && (is_outside || std::abs(along[k]) <= lead_);
-    const bool is_free = is_near || (is_corner && along[k] * along[k] + square[k] <= width_ * width_);
-    places.along[i] = along[k];
-    places.square[i] = is_outside ? square[k] : own_along[k] * own_along[k] + square[k];
-    places.free |= static_cast<std::uint64_t>(is_free) << i;
+  const Pair width = {width_ * width_, width_ * width_}, lead = {lead_, lead_};
+  const Pair away = own_along * own_along + square;
+  const auto i = static_cast<std::size_t>(point);
+  std::memcpy(&places.along[i], &along, sizeof along);
+  std::memcpy(&places.square[i], &away, sizeof away);
+  places.free |= static_cast<std::uint64_t>(at_most(square, width) & at_most(larger(along, -along), lead)) << i;
+  for (std::uint64_t special = special_ >> i & 3; special != 0; special &= special - 1) {
+    const int k = std::countr_zero(special);
+    pass_special(point + k, square[k], places);
   }
+}
+
+/// An end is also passed by a pen beyond it, and a corner by one that is near.
+[[gnu::noinline]] void StrokeFollower::pass_special(int point, double square, Places& places) const noexcept {
+  const auto i = static_cast<std::size_t>(point);
+  const double along = places.along[i], width = width_ * width_;
+  bool is_free = along * along + square <= width;
+  if (point == 0 || point == count_ - 1) {
+    const bool is_beyond = point == 0 ? along < 0.0 : along > 0.0;
+    if (is_beyond) places.square[i] = square;
+    is_free = is_beyond && square <= width;
+  }
+  places.free |= static_cast<std::uint64_t>(is_free) << i;
 }
 
 void StrokeFollower::look(const Point& tip, double way) noexcept {

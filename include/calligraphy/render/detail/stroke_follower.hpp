@@ -54,6 +54,7 @@ class StrokeFollower {
 
   const RowPoint& row(int point) const noexcept { return row_[static_cast<std::size_t>(point)]; }
   void place(const Point& tip, int point, Places& places) const noexcept;
+  void pass_special(int point, double square, Places& places) const noexcept;
   double across(const Point& from_stroke, const Point& tangent) const noexcept;
   void look_along() noexcept;
   void look(const Point& tip, double way) noexcept;
@@ -67,7 +68,7 @@ class StrokeFollower {
   double exact_way_ = 0.0;  ///< of a pen that draws the stroke exactly
   double share_ = 0.0, slack_ = 0.0;
   std::vector<RowPoint> row_;  ///< and the last one again: they are placed in pairs
-  std::uint64_t corners_ = 0;  ///< bit i: the stroke bends sharply at point i
+  std::uint64_t special_ = 0;  ///< bit i: the stroke bends sharply at point i, or ends there
 
   // The pen. [m]
   std::uint64_t reached_ = 0;         ///< bit i: point i can have been reached in order
