@@ -42,7 +42,7 @@ void PenSensor::restart() noexcept {
   rejected_.reset();
 }
 
-[[gnu::flatten, gnu::noinline]] const PenState& PenSensor::update(const DeviceState& sample) noexcept {
+const PenState& PenSensor::update(const DeviceState& sample) noexcept {
   pen_.time = sample.time;
   pen_.force = sample.force;
   if (counts_pauses_) count_ticks(sample);
