@@ -23,7 +23,7 @@ double percentile(std::vector<double>& values, double share) {
   return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
-/// Four characters as a guided novice wrote them on a Desktop.
+/// Four characters as a guided novice wrote them on a Desktop, sampled by a clock that jitters by 20 us.
 struct WrittenPage {
   PracticePage page;
   MotionMapping mapping;
@@ -41,6 +41,8 @@ struct WrittenPage {
     session.skill = WriterSkill::novice();
     capabilities = session.device;
     states = device_states(write_page(page, session), mapping);
+    Random random(1);
+    for (DeviceState& state : states) state.time += random.between(-20e-6, 20e-6);
   }
 };
 

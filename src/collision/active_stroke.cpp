@@ -17,16 +17,18 @@ constexpr double max_early_turn = 0.05;
 
 void ActiveStroke::load(const Stroke& stroke, const Placement& placement) {
   em_ = placement.em;
+  const std::vector<StrokeElement> elements = place_elements(stroke, placement);
   parts_.clear();
+  parts_.reserve(elements.size());
   double arc = 0.0;
-  for (const StrokeElement& element : place_elements(stroke, placement)) {
+  for (const StrokeElement& element : elements) {
     const std::size_t i = parts_.size();
     const double end = arc + element.length();
     parts_.push_back(
         {element, end_plane(element), arc, end, stroke.attraction_factors[i], stroke.attraction_factors[i + 1]});
     arc = end;
   }
-  element_count_ = static_cast<int>(parts_.size());
+  element_count_ = static_cast<int>(elements.size());
   start_ = parts_.front().element.origin();
   reload();
 }

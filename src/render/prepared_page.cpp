@@ -41,6 +41,7 @@ PreparedPage::PreparedPage(std::vector<PlacedCharacter> characters, const Render
     box.min().array() -= options.box_margin * placed.placement.em;
     box.max().array() += options.box_margin * placed.placement.em;
     std::vector<PreparedStroke> prepared;
+    prepared.reserve(static_cast<std::size_t>(placed.character.stroke_count()));
     for (const Stroke& stroke : strokes(placed.character)) {
       PreparedStroke& next = prepared.emplace_back();
       next.geometry.load(stroke, placed.placement);

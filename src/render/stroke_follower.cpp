@@ -45,9 +45,7 @@ double beyond(double value, double low, double high) {
   return value > high ? value - high : std::min(value - low, 0.0);
 }
 
-Pair beyond(Pair values, Pair low, Pair high) {
-  return larger(values - high, Pair{}) + smaller(values - low, Pair{});
-}
+Pair beyond(Pair values, Pair low, Pair high) { return larger(values - high, Pair{}) + smaller(values - low, Pair{}); }
 
 /// Of a vector, to the left of a direction.
 double left(const Point& vector, const Point& direction) {
@@ -68,6 +66,7 @@ void StrokeFollower::load(const ActiveStroke& stroke, double em, const StrokeTol
   lead_ = std::max(std::min(max_lead * em, max_lead_share * length_), step * em) + spacing_;
 
   row_.clear();
+  row_.reserve(static_cast<std::size_t>(count_) + 1);
   int element = 0;
   double before = 0.0;
   for (int i = 0; i < count_; ++i) {
@@ -151,7 +150,8 @@ double StrokeFollower::across(const Point& from_stroke, const Point& tangent) co
     along = beyond(own_along, smaller(-late, zero), larger(-late, zero));
   }
   const Pair own = own_.y() * tx - own_.x() * ty, misplaced = misplaced_.y() * tx - misplaced_.x() * ty;
-  const Pair off = beyond(y * tx - x * ty, smaller(smaller(own, misplaced), zero), larger(larger(own, misplaced), zero));
+  const Pair off =
+      beyond(y * tx - x * ty, smaller(smaller(own, misplaced), zero), larger(larger(own, misplaced), zero));
   const Pair square = off * off;
 
   const Pair width = {width_ * width_, width_ * width_}, lead = {lead_, lead_};

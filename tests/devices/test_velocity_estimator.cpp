@@ -2,17 +2,20 @@
 #include <cmath>
 #include <initializer_list>
 #include <numbers>
+#include <vector>
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/velocity_estimator.hpp>
 
 #include "../allocation_counter.hpp"
 #include "../catch.hpp"
+#include "../hard_cases.hpp"
 #include "../special_values.hpp"
 
 using namespace calligraphy;
 using calligraphy_test::infinity;
 using calligraphy_test::not_a_number;
+using calligraphy_test::Sequence;
 using Eigen::Vector3d;
 
 namespace {
@@ -83,6 +86,37 @@ TEST_CASE("a lost sample or a clock that stands leaves the estimate, and the nex
     }
     CHECK(estimator.update(at(), 1e-3).y() == Approx(speed));
   }
+}
+
+TEST_CASE("a clock that jitters or pauses gives the estimate of the exact low-pass", "[velocity]") {
+  Sequence random(3);
+  for (const double cutoff : {5.0, 50.0, 400.0}) {
+    VelocityEstimator estimator(cutoff);
+    Vector3d position = Vector3d::Zero(), expected = Vector3d::Zero();
+    estimator.update(position, 1e-3);
+    double largest = 0.0;
+    for (int i = 0; i < 20'000; ++i) {
+      double elapsed = 1e-3 + random.between(-40e-6, 40e-6);
+      if (i % 500 == 250) elapsed = random.between(1e-6, 20e-3);  // from then on the share is that of this interval
+      const Vector3d way(random.between(-1e-4, 1e-4), random.between(-1e-4, 1e-4), random.between(-1e-4, 1e-4));
+      position += way;
+      expected += -std::expm1(-two_pi * cutoff * elapsed) * (way / elapsed - expected);
+      largest = std::max(largest, (estimator.update(position, elapsed) - expected).norm());
+    }
+    CHECK(largest <= 1e-11);  // of 0.1 m/s and 1e-4 m a sample, whose differences round to 1e-13 m/s
+  }
+}
+
+TEST_CASE("a restarted estimator gives the same bits again, whatever intervals were before", "[velocity]") {
+  const auto estimates = [](VelocityEstimator& estimator) {
+    std::vector<Vector3d> all;
+    for (int i = 0; i < 20; ++i) all.push_back(estimator.update({1e-4 * i * i, 0.0, 0.0}, 1e-3 + 1e-6 * (i % 7)));
+    return all;
+  };
+  VelocityEstimator fresh, used;
+  for (int i = 0; i < 10; ++i) used.update({0.01 * i, 0.0, 0.0}, 1.013e-3);
+  used.restart();
+  CHECK(estimates(fresh) == estimates(used));
 }
 
 TEST_CASE("a restarted estimator has forgotten where the point was", "[velocity]") {

@@ -73,6 +73,28 @@ TEST_CASE("a target within reach is reached and held", "[render]") {
   }
 }
 
+TEST_CASE("what reaches() says is reached is the next force, at any allowance, and what is not would take one",
+          "[render]") {
+  Sequence random(14);
+  int reached = 0;
+  for (const bool limits_rate : {true, false}) {
+    const ForceLimiter one{0.1, 0.4, 3.3, limits_rate};
+    for (int i = 0; i < 20'000; ++i) {
+      const Vector3d previous = random_force(random, 1.9);
+      const Vector3d target = previous + random_force(random, i % 3 == 0 ? 0.05 : i % 3 == 1 ? 0.5 : 3.0);
+      const double longest = i % 4 == 0 ? 2.0 : ForceLimiter::no_limit;
+      const double allowed = i % 5 == 0 ? 0.3 : 0.0;
+      const bool is_reached = one.reaches(previous, target, longest);
+      const bool is_next = (one.next(previous, target, {}, longest) - target).norm() <= 1e-14;
+      REQUIRE(is_reached == is_next);
+      if (is_reached) REQUIRE((one.next(previous, target, {allowed, allowed}, longest) - target).norm() <= 1e-14);
+      reached += is_reached;
+    }
+  }
+  CHECK(reached > 10'000);
+  CHECK(reached < 30'000);
+}
+
 TEST_CASE("a target above the peak is approached in its direction", "[render]") {
   const Vector3d target(6.0, -8.0, 24.0);
   Vector3d force = Vector3d::Zero();
