@@ -188,7 +188,6 @@ bool StrokeSequencer::is_finished(bool leaves) const noexcept {
   character_ = character < page_.size() ? &page_[character] : nullptr;
   if (all_written()) return;
   due_ = &character_->strokes[static_cast<std::size_t>(stroke)];
-  due_->geometry.reload();
   writer_.em = character_->em;
   writer_.direction = character_->starts[static_cast<std::size_t>(stroke)].direction;
 }

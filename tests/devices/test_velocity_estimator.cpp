@@ -79,6 +79,10 @@ TEST_CASE("a lost sample or a clock that stands leaves the estimate, and the nex
       CHECK(estimator.update({0.0, bad, 0.0}, 1e-3) == before);
     }
     CHECK(estimator.update(at(), 1e-3).y() == Approx(speed));
+    // The next difference is from the last good position, over both intervals.
+    estimator.update({not_a_number, 0.0, 0.0}, 1e-3);
+    const double share = 1.0 - std::exp(-two_pi * 50.0 * 2e-3);
+    CHECK(estimator.update(at(), 1e-3).y() == Approx((1.0 - share) * speed));
   }
   SECTION("times that are not above zero") {
     for (const double elapsed : {0.0, -1e-3, not_a_number, infinity}) {

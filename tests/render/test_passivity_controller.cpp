@@ -446,6 +446,24 @@ TEST_CASE("a budget of 0.1 J leaves 2.3 N to a pen of 45 g at rest", "[render]")
   CHECK(root == Approx(2.33).epsilon(0.005));
 }
 
+TEST_CASE("a pen faster than a hand leaves as much force as a hand of its speed would", "[render]") {
+  PassivityOptions options;
+  options.energy_budget = 0.1;
+  options.hand_speed = hand_speed;
+  options.mass = 0.045;
+  for (const double speed : {0.5, 2.0, 4.0, 8.0}) {
+    PassivityController passivity(options, 0.001);
+    Vector3d force = Vector3d::Zero();
+    for (int i = 0; i < 3; ++i) {  // nothing is wanted until it is known how fast the pen is
+      force = passivity.next({0.001 * speed * i, 0.0, 0.0}, {i < 2 ? 0.0 : 1e3, 0.0, 0.0});
+      passivity.sent(force);
+    }
+    const double time = 0.017, reserved = 0.1 * hand_speed * time;
+    const double given = force.x() * std::max(speed, hand_speed) * time + std::pow(force.x() * time, 2) / (2.0 * 0.045);
+    CHECK(given == Approx(0.1 - reserved));
+  }
+}
+
 TEST_CASE("an exhausted budget leaves a brake of 0.02 N, and less where samples are older than 10 ms", "[render]") {
   struct Case {
     double rate;

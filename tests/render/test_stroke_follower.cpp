@@ -263,6 +263,15 @@ TEST_CASE("a fine tremor does not make half a stroke the whole", "[render]") {
   CHECK_FALSE(write(line_of(0.06), path).accepted);
 }
 
+TEST_CASE("what a pen has not reached is not covered, whatever the number of points of the row", "[render]") {
+  for (double length = 0.3; length < 0.4; length += 0.01) {
+    const Character character = line_of(length);
+    std::vector<Point> path = {from_start(0, 0)};
+    draw_line(path, from_start(length - 0.004, 0), 1e-5);
+    CHECK(write(character, path).covered == Approx(1.0 - 0.004 / length).margin(0.001));
+  }
+}
+
 TEST_CASE("the way is that of the hand, which guidance holds back across the stroke", "[render]") {
   // Half of a short stroke along it, as much across it.
   constexpr double length = 0.08;
