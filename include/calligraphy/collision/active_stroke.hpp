@@ -46,7 +46,7 @@ struct StrokeContact {
   bool finished = false;        ///< the last feature point has been passed
 };
 
-/// One stroke of the page, so that the others take no time. Only load() allocates.
+/// One stroke of the page, so that the others take no time. load() comes first, and nothing else allocates.
 class ActiveStroke {
  public:
   /// Prepares the stroke and fills its stack of feature points. Takes a microsecond.
@@ -75,7 +75,7 @@ class ActiveStroke {
   double first_attraction() const noexcept { return parts_.front().first_attraction; }
   double length() const noexcept { return parts_.back().last_arc; }
   const StrokeElement& element(int index) const noexcept { return parts_[static_cast<std::size_t>(index)].element; }
-  int element_count() const noexcept { return static_cast<int>(parts_.size()); }
+  int element_count() const noexcept { return element_count_; }
 
  private:
   /// From one feature point to the next.
@@ -94,7 +94,7 @@ class ActiveStroke {
 
   std::vector<Part> parts_;
   int element_count_ = 0;
-  Point start_ = Point::Zero();
+  Point start_ = Point::Zero();      ///< [m]
   double em_ = 0.0;                  ///< [m]
   Point misplaced_ = Point::Zero();  ///< offset from the start at which the stroke was begun [m]
   double misplacement_ = 0.0;        ///< its length [m]
