@@ -23,6 +23,11 @@ inline double dot(const Eigen::Vector3d& a, const Eigen::Vector3d& b) noexcept {
   return a.x() * b.x() + a.y() * b.y() + a.z() * b.z();
 }
 
+/// Without a loop over the coordinates, as allFinite() is: zero times infinity or NaN is NaN.
+inline bool is_finite(const Eigen::Vector3d& vector) noexcept {
+  return dot(Eigen::Vector3d(0.0, 0.0, 0.0), vector) == 0.0;
+}
+
 /// Norm of a force or displacement in space, whose squares are finite.
 inline double norm(const Eigen::Vector3d& vector) noexcept { return std::sqrt(dot(vector, vector)); }
 

@@ -1,4 +1,3 @@
-#include <calligraphy/devices/detail/finite.hpp>
 #include <calligraphy/render/detail/force_output.hpp>
 
 #include <algorithm>

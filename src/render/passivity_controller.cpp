@@ -1,4 +1,3 @@
-#include <calligraphy/devices/detail/finite.hpp>
 #include <calligraphy/render/passivity_controller.hpp>
 
 #include <algorithm>

@@ -1,9 +1,10 @@
-#include <calligraphy/devices/detail/finite.hpp>
 #include <calligraphy/render/detail/stroke_sequencer.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <utility>
+
+#include "collision/length.hpp"
 
 namespace calligraphy {
 namespace {

@@ -6,8 +6,6 @@
 
 #include <Eigen/Core>
 
-#include <calligraphy/devices/detail/finite.hpp>
-
 namespace calligraphy {
 
 /// Backward differences of successive positions, smoothed by a first-order low-pass: what a device without a
@@ -42,6 +40,10 @@ class VelocityEstimator {
   static double rise(double x) noexcept {
     const double square = x * x;
     return (x - 1.0 / 2.0 * square) + x * square * ((1.0 / 6.0 - 1.0 / 24.0 * x) + 1.0 / 120.0 * square);
+  }
+  /// Zero times infinity or NaN is NaN.
+  static bool is_finite(const Eigen::Vector3d& vector) noexcept {
+    return 0.0 * vector.x() + 0.0 * vector.y() + 0.0 * vector.z() == 0.0;
   }
   void learn_share() noexcept;
 
