@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 [[ $# -gt 0 ]] || { echo "usage: $0 REVISION [--rounds N] [--options NAME,NAME] [--no-instructions]" >&2; exit 2; }
 
-revision=$(git rev-parse --verify "$1^{commit}")
+revision=$(git rev-parse --quiet --verify "$1^{commit}") || { echo "$0: no such revision: $1" >&2; exit 2; }
 shift
 work=$PWD/build-compare
 tree=$work/$revision
