@@ -3,7 +3,7 @@
 # usage: compare.sh REVISION [options of compare/compare.py]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-[[ $# -gt 0 ]] || { echo "usage: $0 REVISION [--rounds N] [--options NAME,NAME] [--no-instructions]" >&2; exit 2; }
+[[ $# -gt 0 ]] || { echo "usage: $0 REVISION [--rounds N] [--cold-rounds N] [--options NAME,NAME] [--noise UM] [--step UM] [--no-instructions]" >&2; exit 2; }
 
 revision=$(git rev-parse --quiet --verify "$1^{commit}") || { echo "$0: no such revision: $1" >&2; exit 2; }
 shift

@@ -10,29 +10,32 @@ import shutil
 import statistics
 import struct
 import subprocess
+import sys
 import tempfile
 from pathlib import Path
 
 parser = argparse.ArgumentParser()
 parser.add_argument("before")
 parser.add_argument("after")
-parser.add_argument("--rounds", type=int, default=60)
+parser.add_argument("--rounds", type=int, default=60, help="fewer than 10 say little")
 parser.add_argument("--cold-rounds", type=int, default=12, help="with caches emptied before a tick")
-parser.add_argument("--options", default="default,everything", help="those whose time is measured")
-parser.add_argument("--noise", default="0", help="added to the pens' positions [um]")
-parser.add_argument("--step", default="0", help="of a coarser encoder [um]")
+parser.add_argument("--options", default="default,everything", help="those whose time is measured, joined by ,")
+parser.add_argument("--noise", type=float, default=0.0, help="added to the pens' positions [um]")
+parser.add_argument("--step", type=float, default=0.0, help="of a coarser encoder [um]")
 parser.add_argument("--no-instructions", action="store_true")
 parser.add_argument("--stages", type=int, default=14, help="number of files to list")
 arguments = parser.parse_args()
 programs = [arguments.before, arguments.after]
 measured = arguments.options.split(",")
+if arguments.rounds < 1 or arguments.cold_rounds < 0 or arguments.noise < 0.0 or arguments.step < 0.0:
+    parser.error("--rounds must be at least 1; --cold-rounds, --noise and --step at least 0")
 # The result of `tracked` depends on how a revision finds it, within its tolerance; `exact` shows the rest.
 everything = ["default", "everything", "wang2006"]
 everything += [name + "+exact" for name in ("default", "friction", "hayward_armstrong", "saturating", "guide_to_start",
                                             "assist", "passivity", "budget", "thermal", "everything")]
 folder = tempfile.TemporaryDirectory()
 pens = str(Path(folder.name) / "pens")
-subprocess.run([programs[0], "record", pens, arguments.noise, arguments.step], check=True)
+subprocess.run([programs[0], "record", pens, str(arguments.noise), str(arguments.step)], check=True)
 
 
 class Server:
@@ -43,7 +46,8 @@ class Server:
     def ask(self, *words):
         self.process.stdin.write(" ".join(words) + "\n")
         self.process.stdin.flush()
-        return [float(word) for word in self.process.stdout.readline().split()]
+        answer = self.process.stdout.readline()
+        return [float(word) for word in answer.split()] if answer else sys.exit(1)  # it has said why
 
 
 servers = [Server(program) for program in programs]
@@ -68,8 +72,8 @@ def row(name, pairs):
     ratios = sorted(after / before for before, after in pairs)
     before, after = (statistics.median(side) for side in zip(*pairs))
     quarter = len(ratios) // 4
-    return [name, f"{before:.1f}", f"{after:.1f}", f"{statistics.median(ratios):.3f}",
-            f"{ratios[quarter]:.3f} to {ratios[-1 - quarter]:.3f}"]
+    quartiles = f"{ratios[quarter]:.3f} to {ratios[-1 - quarter]:.3f}" if len(ratios) > 1 else ""
+    return [name, f"{before:.1f}", f"{after:.1f}", f"{statistics.median(ratios):.3f}", quartiles]
 
 
 def instructions(program, options):
@@ -112,6 +116,9 @@ def instructions(program, options):
     searched = calls_of("::certified_avx2<") + calls_of("::certified_baseline<")
     return costs, 1.0 - searched / asked
 
+
+for options in measured:
+    servers[1].ask("strokes", options)  # stops here if there are no such options
 
 print("pens: " + "; ".join(f"{int(strokes)} strokes finished in {int(ticks)} ticks"
                            for strokes, ticks in (server.ask("strokes", "default") for server in servers)))

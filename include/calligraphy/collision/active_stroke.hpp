@@ -49,7 +49,7 @@ struct StrokeContact {
 /// One stroke of the page, so that the others take no time. load() comes first, and nothing else allocates.
 class ActiveStroke {
  public:
-  /// Prepares the stroke and fills its stack of feature points. Takes a microsecond.
+  /// Prepares the stroke and fills its stack of feature points. Takes some microseconds.
   void load(const Stroke& stroke, const Placement& placement);
 
   /// Refills the stack of feature points: the pen was lifted before the end (sec. 4.3).
@@ -66,7 +66,7 @@ class ActiveStroke {
   StrokeContact update(const Point& tip, const StrokeRules& rules) noexcept;
 
   /// Position of a pen at `tip` [m, page] that is not writing the stroke: its nearest point on the whole of it, without
-  /// effect on its progress.
+  /// effect on its progress, and without its attraction factor.
   StrokeContact nearest(const Point& tip, const StrokeRules& rules) const noexcept;
 
   const Point& start() const noexcept { return start_; }
