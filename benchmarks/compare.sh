@@ -3,7 +3,10 @@
 # usage: compare.sh REVISION [options of compare/compare.py]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-[[ $# -gt 0 ]] || { echo "usage: $0 REVISION [--rounds N] [--cold-rounds N] [--options NAME,NAME] [--noise UM] [--step UM] [--no-instructions]" >&2; exit 2; }
+if [[ $# -eq 0 ]]; then
+  echo "usage: $0 REVISION [--rounds N] [--cold-rounds N] [--options NAME,NAME] [--noise UM] [--step UM]" >&2
+  exit 2
+fi
 
 revision=$(git rev-parse --quiet --verify "$1^{commit}") || { echo "$0: no such revision: $1" >&2; exit 2; }
 shift
