@@ -27,6 +27,7 @@ class HapticRenderer {
   HapticRenderer(std::vector<PlacedCharacter> page, const MotionMapping& mapping, const Capabilities& capabilities,
                  const RendererOptions& options = {});
 
+  /// One that was moved from may only be destroyed or assigned to.
   HapticRenderer(HapticRenderer&&) noexcept = default;
   HapticRenderer& operator=(HapticRenderer&&) noexcept = default;
 
