@@ -10,18 +10,12 @@
 #include <calligraphy/calligraphy.hpp>
 #include <calligraphy/devices/detail/flush_denormals.hpp>
 
+#include "timing.hpp"
+
 namespace {
 
 using namespace calligraphy;
-using Clock = std::chrono::steady_clock;
-
-double nanoseconds(Clock::duration duration) { return std::chrono::duration<double, std::nano>(duration).count(); }
-
-/// Sorts `values`.
-double percentile(std::vector<double>& values, double share) {
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-}
+using namespace timing;
 
 /// Four characters as a guided novice wrote them on a Desktop, sampled by a clock that jitters by 20 us.
 struct WrittenPage {

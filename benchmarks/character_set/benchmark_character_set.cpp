@@ -20,12 +20,13 @@
 
 #include <calligraphy/calligraphy.hpp>
 
+#include "../timing.hpp"
 #include "resident.hpp"
 
 namespace {
 
 using namespace calligraphy;
-using Clock = std::chrono::steady_clock;
+using timing::Clock, timing::nanoseconds, timing::percentile;
 using Json = nlohmann::json;
 
 constexpr int queries_per_round = 256;  // enough to make the overhead of the clock negligible
@@ -102,12 +103,6 @@ class Corpus {
 };
 
 std::optional<Corpus> corpus;
-
-/// Sorts `values`.
-double percentile(std::vector<double>& values, double share) {
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-}
 
 /// One way to do the same work: its times per query [ns].
 class Way {
@@ -241,7 +236,7 @@ void first_find(benchmark::State& state, CoordinatePrecision precision) {
     for (auto code = set.next(0); code; code = set.next((*code | 63) + 1)) {
       const auto start = Clock::now();
       benchmark::DoNotOptimize(set.find(*code));
-      times.push_back(std::chrono::duration<double, std::nano>(Clock::now() - start).count());
+      times.push_back(nanoseconds(Clock::now() - start));
     }
   }
   state.counters["p50_ns"] = percentile(times, 0.5);

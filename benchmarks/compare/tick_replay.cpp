@@ -20,18 +20,12 @@
 
 #include <calligraphy/calligraphy.hpp>
 
+#include "../timing.hpp"
+
 namespace {
 
 using namespace calligraphy;
-using Clock = std::chrono::steady_clock;
-
-double nanoseconds(Clock::duration duration) { return std::chrono::duration<double, std::nano>(duration).count(); }
-
-/// Sorts `values`.
-double percentile(std::vector<double>& values, double share) {
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-}
+using namespace timing;
 
 /// Mean of the middle half: finer than the steps of a clock, and without outliers. Sorts `values`.
 double middle(std::vector<double>& values) {

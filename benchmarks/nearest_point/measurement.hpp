@@ -10,15 +10,12 @@
 #include <string>
 #include <vector>
 
+#include "../timing.hpp"
 #include "method.hpp"
 
 namespace nearest_point_benchmark {
 
-using Clock = std::chrono::steady_clock;
-
-inline double nanoseconds(Clock::duration duration) {
-  return std::chrono::duration<double, std::nano>(duration).count();
-}
+using timing::Clock, timing::nanoseconds, timing::percentile;
 
 /// Processor time of this thread [ns]: unaffected by other programs while it waits. Too expensive for a single call.
 inline double computed_nanoseconds() {
@@ -29,12 +26,6 @@ inline double computed_nanoseconds() {
 #else
   return 1e9 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 #endif
-}
-
-/// Sorts `values`.
-inline double percentile(std::vector<double>& values, double share) {
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(std::lround(share * static_cast<double>(values.size() - 1)))];
 }
 
 /// Over the rounds of a run.

@@ -28,8 +28,6 @@ void ActiveStroke::load(const Stroke& stroke, const Placement& placement) {
         {element, end_plane(element), arc, end, stroke.attraction_factors[i], stroke.attraction_factors[i + 1]});
     arc = end;
   }
-  element_count_ = static_cast<int>(elements.size());
-  start_ = parts_.front().element.origin();
   reload();
 }
 
@@ -39,19 +37,17 @@ void ActiveStroke::reload() noexcept {
   parameter_ = 0.0;
   furthest_ = 0.0;
   misplaced_ = Point::Zero();
-  misplacement_ = 0.0;
 }
 
 void ActiveStroke::begin(const Point& tip) noexcept {
   reload();
   misplaced_ = tip - start();
-  misplacement_ = misplaced_.norm();
 }
 
 StrokeContact ActiveStroke::nearest(const Point& tip, const StrokeRules& rules) const noexcept {
   StrokeContact contact;
   contact.closest.distance = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < element_count_; ++i) {
+  for (int i = 0; i < element_count(); ++i) {
     const StrokeElement& element = part(i).element;
     const NearestPoint closest = nearest_point(element, tip, rules.nearest);
     if (!(closest.distance < contact.closest.distance)) continue;
@@ -73,7 +69,7 @@ void ActiveStroke::rest(const StrokeContact& nearest) noexcept {
 
 [[gnu::always_inline]] inline StrokeContact ActiveStroke::locate(const Point& tip,
                                                                  const StrokeRules& rules) const noexcept {
-  const int index = std::min(active_, element_count_ - 1);
+  const int index = std::min(active_, element_count() - 1);
   const Part& here = part(index);
   const StrokeElement& element = here.element;
   ParameterRange range;
@@ -103,17 +99,17 @@ void ActiveStroke::rest(const StrokeContact& nearest) noexcept {
   if (contact.weight < min_weight) return false;
   const double length = here.element.length();
   const double tolerance = std::min(rules.plane_tolerance * em_, 0.3 * length);
-  const double left = here.last_arc - contact.arc;
   // Near the feature point along the stroke too: a plane also crosses other parts of the same stroke. On a curve the
   // closest point may lag behind the plane by more than the tolerance, but not by more than twice the tolerance unless
   // the pen is far away.
-  if (left > 2.0 * tolerance + misplacement_ + 1e-6 * length) return false;
+  const double beyond = here.last_arc - contact.arc - 2.0 * tolerance - 1e-6 * length;
+  if (beyond > 0.0 && beyond * beyond > misplaced_.squaredNorm()) return false;
   // One who began the stroke before its start may turn as much before the corner.
   const double early = std::clamp(-here.end.normal.dot(misplaced_), 0.0, max_early_turn * em_);
   if (here.end.signed_distance(tip) >= -tolerance - early) return true;
   // A pen that stays on the inside of a corner never reaches the plane: it passes on the bisector, where both elements
   // attract it equally.
-  if (contact.element + 1 == element_count_) return false;
+  if (contact.element + 1 == element_count()) return false;
   const StrokeElement& next = part(contact.element + 1).element;
   const ParameterRange range = {0.0, rules.window > 0.0 ? next.parameter_at(rules.window * em_) : 1.0};
   return nearest_point(next, tip, rules.nearest, range, 0.0).distance < contact.closest.distance;

@@ -105,7 +105,6 @@ void StrokeFollower::begin(const Point& tip, const Point& misplaced) noexcept {
   own_ = tip - row_.front().point;
   const Point towards = (row(std::min(first_points, count_ - 1)).point - row_.front().point).normalized();
   late_ = std::max(0.0, own_.dot(towards)) * towards;
-  is_late_ = own_.dot(towards) > 0.0;
   misplaced_ = misplaced;
   tip_ = seen_ = chord_from_ = tip;
   nearest_ = covered_ = way_ = outside_ = chords_ = 0.0;
@@ -145,7 +144,7 @@ double StrokeFollower::across(const Point& from_stroke, const Point& tangent) co
   const Pair zero = {};
   const Pair own_along = (x - own_.x()) * tx + (y - own_.y()) * ty;
   Pair along = own_along;
-  if (is_late_) {
+  if (late_ != Point::Zero()) {
     const Pair late = late_.x() * tx + late_.y() * ty;
     along = beyond(own_along, smaller(-late, zero), larger(-late, zero));
   }

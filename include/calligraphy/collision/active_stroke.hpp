@@ -69,13 +69,13 @@ class ActiveStroke {
   /// effect on its progress, and without its attraction factor.
   StrokeContact nearest(const Point& tip, const StrokeRules& rules) const noexcept;
 
-  const Point& start() const noexcept { return start_; }
+  const Point& start() const noexcept { return parts_.front().element.origin(); }
   Point end() const noexcept { return parts_.back().end.point; }
   /// Attraction factor at the start.
   double first_attraction() const noexcept { return parts_.front().first_attraction; }
   double length() const noexcept { return parts_.back().last_arc; }
   const StrokeElement& element(int index) const noexcept { return parts_[static_cast<std::size_t>(index)].element; }
-  int element_count() const noexcept { return element_count_; }
+  int element_count() const noexcept { return static_cast<int>(parts_.size()); }
 
  private:
   /// From one feature point to the next.
@@ -87,18 +87,15 @@ class ActiveStroke {
   };
 
   const Part& part(int index) const noexcept { return parts_[static_cast<std::size_t>(index)]; }
-  bool is_finished() const noexcept { return active_ == element_count_; }
+  bool is_finished() const noexcept { return active_ == element_count(); }
   StrokeContact locate(const Point& tip, const StrokeRules& rules) const noexcept;
   void pass_feature(const Point& tip, const StrokeRules& rules, StrokeContact& contact) noexcept;
   bool passes(const Point& tip, const StrokeContact& contact, const StrokeRules& rules) const noexcept;
 
   std::vector<Part> parts_;
-  int element_count_ = 0;
-  Point start_ = Point::Zero();      ///< [m]
   double em_ = 0.0;                  ///< [m]
   Point misplaced_ = Point::Zero();  ///< offset from the start at which the stroke was begun [m]
-  double misplacement_ = 0.0;        ///< its length [m]
-  int active_ = 0;                   ///< element being written; element_count_ once finished
+  int active_ = 0;                   ///< element being written; element_count() once finished
   double arc_ = 0.0;                 ///< arc length of the last closest point, within the active element
   double parameter_ = 0.0;           ///< of the last closest point
   double furthest_ = 0.0;            ///< arc length from the start of the stroke

@@ -74,7 +74,6 @@ class StrokeFollower {
   std::uint64_t reached_ = 0;         ///< bit i: point i can have been reached in order
   Point own_ = Point::Zero();         ///< offset from the stroke
   Point late_ = Point::Zero();        ///< what of it was a start beyond the stroke's
-  bool is_late_ = false;
   Point misplaced_ = Point::Zero();   ///< that of the character
   Point tip_ = Point::Zero();         ///< of the last sample
   Point pull_ = Point::Zero();        ///< from there to where the hand means to be
