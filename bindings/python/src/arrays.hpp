@@ -188,55 +188,6 @@ Doubles as_numbers(const Numbers& values) {
   return Doubles(static_cast<py::ssize_t>(values.size()), values.data());
 }
 
-/// The columns of a structured array whose rows are C++ structs: name, type and offset of each member.
-template <class Row>
-class Columns {
- public:
-  template <class Member>
-  void add(const char* name, const Row& row, const Member& member) {
-    names_.append(name);
-    formats_.append(format<Member>());
-    offsets_.append(reinterpret_cast<const char*>(&member) - reinterpret_cast<const char*>(&row));
-  }
-  py::dtype dtype() const { return py::dtype(names_, formats_, offsets_, sizeof(Row)); }
-
- private:
-  template <class Member>
-  static std::string format() {
-    if constexpr (std::is_same_v<Member, bool>) {
-      return "?";
-    } else if constexpr (std::is_enum_v<Member>) {
-      return (std::is_signed_v<std::underlying_type_t<Member>> ? "i" : "u") + std::to_string(sizeof(Member));
-    } else if constexpr (std::is_arithmetic_v<Member>) {
-      return (std::is_floating_point_v<Member> ? "f" : "i") + std::to_string(sizeof(Member));
-    } else {
-      return "(" + std::to_string(Member::RowsAtCompileTime) + ",)f8";
-    }
-  }
-
-  py::list names_, formats_, offsets_;
-};
-
-/// The dtype of rows like `row`, from names and members of its columns.
-template <class Row, class... Rest>
-py::dtype columns_of(const Row& row, const Rest&... rest) {
-  Columns<Row> columns;
-  const auto add = [&](auto&& self, const char* name, const auto& member, const auto&... more) -> void {
-    columns.add(name, row, member);
-    if constexpr (sizeof...(more) > 0) self(self, more...);
-  };
-  add(add, rest...);
-  return columns.dtype();
-}
-
-/// A structured array that takes ownership of the rows.
-template <class Row>
-py::array structured(const py::dtype& dtype, std::vector<Row>&& rows) {
-  auto* const owned = new std::vector<Row>(std::move(rows));
-  const py::capsule owner(owned, [](void* pointer) { delete static_cast<std::vector<Row>*>(pointer); });
-  return py::array(dtype, owned->size(), owned->data(), owner);
-}
-
 /// The columns of a table from words "name:format", with formats of numpy.dtype.
 inline py::list dtype_of(const std::string& columns) {
   py::list result;

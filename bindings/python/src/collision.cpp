@@ -88,101 +88,83 @@ auto at_parameters(Function function) {
 
 }  // namespace
 
-void add_collision(py::module_& module) {
-  add_enum(module, "NearestPointMethod", "Method of finding the nearest point.", NearestPointMethod::wang2006,
-           "exact tracked sampled wang2006");
-  add_enum(module, "NearestPointStatus", "Validity of a nearest point.", NearestPointStatus::not_finite,
-           "certified approximate unsafe_stop not_finite");
-  add_struct<NearestPointOptions>(
-      module, "NearestPointOptions", "Method and settings of a nearest point.", &NearestPointOptions::method,
-      "method: NearestPointMethod", &NearestPointOptions::tolerance,
-      "tolerance: error of the point relative to the element's size (0, 1]", &NearestPointOptions::samples,
-      "samples: sampled: points at equal parameter spacing, 2 to 64", &NearestPointOptions::refinements,
-      "refinements: sampled: steps of Halley's method, 0 to 8");
+template <>
+inline constexpr std::string_view name_of<NearestPoints> = "NearestPoints";
 
-  py::class_<NearestPoints>(module, "NearestPoints", "Results of N queries, one array per property.")
+void add_collision(Module& module) {
+  add_enum<NearestPointMethod>(module);
+  add_enum<NearestPointStatus>(module);
+  add_struct<NearestPointOptions>(module);
+
+  Class<NearestPoints>(module, "Results of N queries, one array per property.")
       .def(py::init([](Doubles parameter, Doubles point, Doubles distance, Doubles tangent,
                        py::array_t<std::uint8_t> status) {
              return NearestPoints{parameter, point, distance, tangent, status};
            }),
            "parameter"_a, "point"_a, "distance"_a, "tangent"_a, "status"_a)
-      .def_readonly("parameter", &NearestPoints::parameter, "(N,) in [0, 1]")
-      .def_readonly("point", &NearestPoints::point, "(N, 2), on the element, in the unit of the control points")
-      .def_readonly("distance", &NearestPoints::distance, "(N,), from query to point; infinite if not finite")
-      .def_readonly("tangent", &NearestPoints::tangent, "(N, 2), unit vectors in writing direction")
-      .def_readonly("status", &NearestPoints::status, "(N,), values of NearestPointStatus, uint8")
+      .def_readonly(InPython{"parameter", "(N,) in [0, 1]"}, &NearestPoints::parameter)
+      .def_readonly(InPython{"point", "(N, 2), on the element, in the unit of the control points"},
+                    &NearestPoints::point)
+      .def_readonly(InPython{"distance", "(N,), from query to point; infinite if not finite"}, &NearestPoints::distance)
+      .def_readonly(InPython{"tangent", "(N, 2), unit vectors in writing direction"}, &NearestPoints::tangent)
+      .def_readonly(InPython{"status", "(N,), values of NearestPointStatus, uint8"}, &NearestPoints::status)
       .def_property_readonly(
-          "certified",
+          InPython{"certified",
+                   "(N,), bool: no other point of the element is nearer, within the tolerance and rounding"},
           [](const NearestPoints& self) -> py::array_t<bool> {
             return self.status.attr("__eq__")(static_cast<int>(NearestPointStatus::certified));
-          },
-          "(N,), bool: no other point of the element is nearer, within the tolerance and rounding")
+          })
       .def("__len__", [](const NearestPoints& self) { return self.parameter.size(); })
       .attr("__match_args__") = py::make_tuple("parameter", "point", "distance", "tangent", "status");
 
-  py::class_<StrokeElement>(module, "StrokeElement",
-                            "A Bezier curve of degree 1 to 4, prepared for queries. Control points (2, 2) to (5, 2), "
-                            "in any unit; all other lengths are in the same unit.")
+  Class<StrokeElement>(module,
+                       "A Bezier curve of degree 1 to 4, prepared for queries. Control points (2, 2) to (5, 2), in any "
+                       "unit; all other lengths are in the same unit.")
       .def(py::init(&element_of), "control_points"_a)
-      .def_property_readonly("degree", &StrokeElement::degree, "1 to 4")
-      .def_property_readonly("size", &StrokeElement::size,
-                             "diagonal of the bounding box of the control points; 0 for a point")
-      .def_property_readonly("length", &StrokeElement::length, "arc length")
-      .def("point", at_parameters(&StrokeElement::point), "t"_a, "(2,) at one parameter, (N, 2) at N.")
-      .def("derivative", at_parameters(&StrokeElement::derivative), "t"_a, "dB/dt: (2,) at one parameter, (N, 2) at N.")
-      .def("tangent", at_parameters(&StrokeElement::tangent), "t"_a,
-           "Unit tangent in writing direction: (2,) at one parameter, (N, 2) at N.")
-      .def("arc_length", &StrokeElement::arc_length, "t"_a, "Arc length from 0 to t, to 3e-3 of the size.")
-      .def("parameter_at", &StrokeElement::parameter_at, "arc_length"_a, "The parameter at an arc length.")
+      .def_property_readonly("degree", &StrokeElement::degree)
+      .def_property_readonly("size", &StrokeElement::size)
+      .def_property_readonly("length", &StrokeElement::length)
+      .def(Also{"point", "(2,) at one parameter, (N, 2) at N."}, at_parameters(&StrokeElement::point), "t"_a)
+      .def(Also{"derivative", "(2,) at one parameter, (N, 2) at N."}, at_parameters(&StrokeElement::derivative), "t"_a)
+      .def(Also{"tangent", "(2,) at one parameter, (N, 2) at N."}, at_parameters(&StrokeElement::tangent), "t"_a)
+      .def("arc_length", &StrokeElement::arc_length, "t"_a)
+      .def("parameter_at", &StrokeElement::parameter_at, "arc_length"_a)
       .def("__repr__", [](const StrokeElement& self) {
         return told("StrokeElement(degree {}, length {:.6g})", self.degree(), self.length());
       });
 
-  module.def("nearest_point", &ask, "control_points"_a, "queries"_a, "method"_a = "exact", "tolerance"_a = 1e-9,
-             "samples"_a = 16, "refinements"_a = 2,
-             "Nearest points of N queries on one element. Releases the GIL.\n\ncontrol_points: (2, 2) to (5, 2), a "
-             "Bezier curve of degree 1 to 4, or a prepared StrokeElement; queries: (N, 2), not copied if they are "
-             "contiguous float64; both in the same unit. method: a NearestPointMethod or its name; tolerance: relative "
-             "to the element's size. A query that is not finite has an infinite distance and is not certified. Raises "
-             "InvalidValue naming the argument.");
+  module.def(
+      InPython{"nearest_point",
+               "Nearest points of N queries on one element. Releases the GIL.\n\ncontrol_points: (2, 2) to (5, 2), a "
+               "Bezier curve of degree 1 to 4, or a prepared StrokeElement; queries: (N, 2), not copied if they are "
+               "contiguous float64; both in the same unit. method: a NearestPointMethod or its name; tolerance: "
+               "relative to the element's size. A query that is not finite has an infinite distance and is not "
+               "certified. Raises InvalidValue naming the argument."},
+      &ask, "control_points"_a, "queries"_a, "method"_a = "exact", "tolerance"_a = 1e-9, "samples"_a = 16,
+      "refinements"_a = 2);
 
-  add_enum(module, "ConstraintSpaceRule", "Shape of a constraint space.", ConstraintSpaceRule::wang2006,
-           "tube wang2006");
-  add_enum(module, "FeaturePlaneRule", "When a feature point counts as passed.", FeaturePlaneRule::wang2006,
-           "bounded wang2006");
-  add_enum(module, "AttractionRule", "Which attraction factor applies between two feature points.",
-           AttractionRule::wang2006, "interpolated wang2006");
-  add_struct<ConstraintSpace>(module, "ConstraintSpace", "Region of attraction of an element.", &ConstraintSpace::rule,
-                              "rule: ConstraintSpaceRule", &ConstraintSpace::radius, "radius [em]",
-                              &ConstraintSpace::fade_width,
-                              "fade_width: outermost part, where attraction fades out [em]");
-  add_struct<StrokeRules>(module, "StrokeRules", "How the pen is tracked along the active stroke.",
-                          &StrokeRules::nearest, "nearest: NearestPointOptions", &StrokeRules::space,
-                          "space: ConstraintSpace", &StrokeRules::plane, "plane: FeaturePlaneRule",
-                          &StrokeRules::attraction, "attraction: AttractionRule", &StrokeRules::plane_tolerance,
-                          "plane_tolerance: a plane counts as crossed this far before it [em]", &StrokeRules::window,
-                          "window: arc length to search for the closest point; 0: the whole element [em]");
-  add_struct<Placement>(module, "Placement", "em coordinates to metres: page point = origin + em * point.",
-                        &Placement::origin, "origin: lower left corner of the em square, (2,) [m]", &Placement::em,
-                        "em: edge of the em square [m]")
-      .def(
-          "to_page",
-          [](const Placement& self, const ArrayLike& value) {
-            std::vector<Point> result = points(value, "points");
-            for (Point& each : result) each = self.to_page(each);
-            return array_of_points(result);
-          },
-          "points"_a, "(n, 2) [em] to (n, 2) [m].");
-  py::class_<PlacedCharacter>(module, "PlacedCharacter", "A character placed on the page.")
+  add_enum<ConstraintSpaceRule>(module);
+  add_enum<FeaturePlaneRule>(module);
+  add_enum<AttractionRule>(module);
+  add_struct<ConstraintSpace>(module);
+  add_struct<StrokeRules>(module);
+  add_struct<Placement>(module).def(
+      Also{"to_page", "(n, 2) [em] to (n, 2) [m]."},
+      [](const Placement& self, const ArrayLike& value) {
+        std::vector<Point> result = points(value, "points");
+        for (Point& each : result) each = self.to_page(each);
+        return array_of_points(result);
+      },
+      "points"_a);
+  Class<PlacedCharacter>(module)
       .def(py::init([](const Character& character, const Placement& placement) {
              return PlacedCharacter{character, placement};
            }),
            "character"_a, "placement"_a = Placement{})
-      .def_readonly("character", &PlacedCharacter::character, "Character")
-      .def_readonly("placement", &PlacedCharacter::placement, "Placement")
+      .def_readonly("character", &PlacedCharacter::character)
+      .def_readonly("placement", &PlacedCharacter::placement)
       .attr("__match_args__") = py::make_tuple("character", "placement");
-  module.def("place_elements", &place_elements, "stroke"_a, "placement"_a,
-             "The elements of a placed stroke, in writing order, prepared for queries [m].");
+  module.def("place_elements", &place_elements, "stroke"_a, "placement"_a);
 }
 
 }  // namespace calligraphy::python

@@ -4,11 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <initializer_list>
 #include <limits>
 #include <optional>
-#include <sstream>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -17,7 +16,10 @@
 
 #include <Eigen/Geometry>
 
+#include <calligraphy/devices/device_state.hpp>
+
 #include "arrays.hpp"
+#include "documented.hpp"
 
 /// Members of an enumeration, also by name.
 template <class Enum>
@@ -46,22 +48,23 @@ std::string told(const char* format, Values&&... values) {
   return py::str(format).format(std::forward<Values>(values)...).template cast<std::string>();
 }
 
-/// A C++ enumeration from its last member and the names of all members, in C++ order. Values count from 0, flags from
-/// bit 0.
+/// A C++ enumeration. The text of each member also follows that of the class, because help() shows only this.
 template <class Enum>
-void add_enum(py::module_& module, const char* name, const char* documentation, Enum last, const std::string& names,
-              bool flags = false) {
-  py::native_enum<Enum> type(module, name, flags ? "enum.IntFlag" : "enum.IntEnum", documentation);
-  std::istringstream words(names);
-  int index = -1;
-  for (std::string word; words >> word;) {
-    ++index;
-    type.value(word.c_str(), static_cast<Enum>(flags ? 1 << index : index));
+void add_enum(Module& module) {
+  std::string documentation = text_of("", name_of<Enum>);
+  for (const auto& member : members_of<Enum>) {
+    if (*member.text != '\0') documentation += std::string("\n\n") + member.name + ": " + member.text;
   }
+  const char* const base = is_flags<Enum> ? "enum.IntFlag" : "enum.IntEnum";
+  py::native_enum<Enum> type(module, name_of<Enum>.data(), base, documentation.c_str());
+  for (const auto& member : members_of<Enum>) type.value(member.name, member.value, member.text);
   type.finalize();
-  if (static_cast<Enum>(flags ? 1 << index : index) != last) {
-    throw py::import_error(std::string(name) + ": the members listed in the module differ from those in C++");
-  }
+}
+
+/// Calls visit(field) for each field of a struct, in order.
+template <class Struct, class Visit>
+void each_field(Visit&& visit) {
+  std::apply([&](const auto&... field) { (visit(field), ...); }, fields_of<Struct>);
 }
 
 template <class Type>
@@ -157,20 +160,12 @@ class Place {
   std::ptrdiff_t offset_ = 0;
 };
 
-/// "name: description [unit]" or "name [unit]"
-struct NamedText {
-  explicit NamedText(const std::string& text)
-      : name(text.substr(0, text.find_first_of(": "))), documentation(text.substr(text.find_first_of(' ') + 1)) {}
-
-  std::string name, documentation;
-};
-
 /// A writable field. Vectors and structs are views into the struct, which they keep alive, so that
 /// `state.position[2] = 0.1` changes it. Lists are copies, because their elements may move.
 template <class Struct, class Member>
-void add_field(py::class_<Struct>& type, py::list& names, Member Struct::*member, const char* text) {
-  const NamedText named(text);
-  const Place place(member);
+void add_field(py::class_<Struct>& type, const Field<Struct, Member>& field) {
+  const Place place(field.member);
+  const char* const name = field.name;
   py::cpp_function get, set;
   if constexpr (is_matrix<Member>) {
     get = [place](const py::object& self) {
@@ -179,18 +174,18 @@ void add_field(py::class_<Struct>& type, py::list& names, Member Struct::*member
       if (value.cols() == 1) return py::array_t<double>(value.rows(), value.data(), self);
       return py::array_t<double>({value.rows(), value.cols()}, {step, value.rows() * step}, value.data(), self);
     };
-    set = [place, name = named.name](const py::object& self, const ArrayLike& value) {
+    set = [place, name](const py::object& self, const ArrayLike& value) {
       using Matrix = std::remove_cvref_t<decltype(std::declval<Member&>().matrix().derived())>;
-      place.of<Member>(self).matrix() = matrix_of<Matrix>(value, name.c_str());
+      place.of<Member>(self).matrix() = matrix_of<Matrix>(value, name);
     };
   } else if constexpr (is_array<Member>) {
     get = [place](const py::object& self) {
       auto& value = place.of<Member>(self);
       return py::array_t<double>(static_cast<py::ssize_t>(value.size()), value.data(), self);
     };
-    set = [place, name = named.name](const py::object& self, const ArrayLike& value) {
+    set = [place, name](const py::object& self, const ArrayLike& value) {
       auto& to = place.of<Member>(self);
-      std::copy_n(fixed_doubles(value, name.c_str(), static_cast<py::ssize_t>(to.size())).data(), to.size(),
+      std::copy_n(fixed_doubles(value, name, static_cast<py::ssize_t>(to.size())).data(), to.size(),
                   to.begin());
     };
   } else {
@@ -200,27 +195,97 @@ void add_field(py::class_<Struct>& type, py::list& names, Member Struct::*member
       get = py::cpp_function([place](const py::object& self) -> Member& { return place.of<Member>(self); },
                              py::return_value_policy::reference_internal);
     }
-    set = [place, name = named.name](const py::object& self, const Given<Member>& value) {
+    set = [place, name](const py::object& self, const Given<Member>& value) {
       place.of<Member>(self) = converted(value, name);
     };
   }
-  type.def_property(named.name.c_str(), get, set, named.documentation.c_str());
-  names.append(named.name);
+  type.def_property(name, get, set, field.text);
 }
 
-/// The class of a struct, from pairs of a member and the text for add_field().
-template <class Struct, class... Fields>
-py::class_<Struct> add_struct(py::module_& module, const char* name, const char* documentation, Fields... fields) {
-  py::class_<Struct> type(module, name, documentation);
-  type.def(py::init<>());
+template <class Struct>
+py::tuple field_names() {
   py::list names;
-  const auto add = [&](auto&& self, auto member, const char* text, auto... more) -> void {
-    add_field<Struct>(type, names, member, text);
-    if constexpr (sizeof...(more) > 0) self(self, more...);
-  };
-  add(add, fields...);
-  type.attr("fields") = py::tuple(names);
+  each_field<Struct>([&](const auto& field) { names.append(field.name); });
+  return names;
+}
+
+/// The class of a struct, with all its fields.
+template <class Struct>
+Class<Struct> add_struct(py::module_& module) {
+  Class<Struct> type(module);
+  type.def(py::init<>());
+  each_field<Struct>([&](const auto& field) { add_field<Struct>(type, field); });
+  type.attr("fields") = field_names<Struct>();
   return type;
+}
+
+template <class Type>
+inline constexpr bool has_fields = std::tuple_size_v<std::remove_cvref_t<decltype(fields_of<Type>)>> > 0;
+
+/// The results in a struct, by name; counts of faults by DeviceFault.
+template <class Struct>
+py::dict as_dict(const Struct& results) {
+  py::dict dict;
+  each_field<Struct>([&](const auto& field) {
+    const auto& value = results.*field.member;
+    using Value = std::remove_cvref_t<decltype(value)>;
+    if constexpr (has_fields<Value>) {
+      dict[field.name] = as_dict(value);
+    } else if constexpr (std::is_same_v<Value, std::array<std::uint64_t, device_fault_count>>) {
+      py::dict counts;
+      for (std::size_t i = 0; i < value.size(); ++i) counts[py::cast(static_cast<DeviceFault>(i))] = value[i];
+      dict[field.name] = counts;
+    } else {
+      dict[field.name] = as_python(value);
+    }
+  });
+  return dict;
+}
+
+/// The columns of a structured array whose rows are C++ structs: name, type and offset of each member.
+template <class Row>
+class Columns {
+ public:
+  template <class Member>
+  void add(const char* name, const Row& row, const Member& member) {
+    names_.append(name);
+    formats_.append(format<Member>());
+    offsets_.append(reinterpret_cast<const char*>(&member) - reinterpret_cast<const char*>(&row));
+  }
+  py::dtype dtype() const { return py::dtype(names_, formats_, offsets_, sizeof(Row)); }
+
+ private:
+  template <class Member>
+  static std::string format() {
+    if constexpr (std::is_same_v<Member, bool>) {
+      return "?";
+    } else if constexpr (std::is_enum_v<Member>) {
+      return (std::is_signed_v<std::underlying_type_t<Member>> ? "i" : "u") + std::to_string(sizeof(Member));
+    } else if constexpr (std::is_arithmetic_v<Member>) {
+      return (std::is_floating_point_v<Member> ? "f" : "i") + std::to_string(sizeof(Member));
+    } else {
+      return "(" + std::to_string(Member::RowsAtCompileTime) + ",)f8";
+    }
+  }
+
+  py::list names_, formats_, offsets_;
+};
+
+/// The dtype of an array whose rows are the structs as in memory.
+template <class Row>
+py::dtype dtype_of_struct() {
+  const Row row{};
+  Columns<Row> columns;
+  each_field<Row>([&](const auto& field) { columns.add(field.name, row, row.*field.member); });
+  return columns.dtype();
+}
+
+/// A structured array that takes ownership of the rows.
+template <class Row>
+py::array structured(std::vector<Row>&& rows, const py::dtype& dtype = dtype_of_struct<Row>()) {
+  auto* const owned = new std::vector<Row>(std::move(rows));
+  const py::capsule owner(owned, [](void* pointer) { delete static_cast<std::vector<Row>*>(pointer); });
+  return py::array(dtype, owned->size(), owned->data(), owner);
 }
 
 }  // namespace calligraphy::python

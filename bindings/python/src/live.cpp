@@ -91,7 +91,7 @@ class Loop {
 
   bool is_running() const { return loop_->running(); }
   ServoStatus status() const { return loop_->status(); }
-  py::dict statistics() const { return servo_statistics(loop_->statistics()); }
+  py::dict statistics() const { return as_dict(loop_->statistics()); }
   const std::vector<std::string>& warnings() const { return warnings_; }
   py::object error() const { return python_law_ ? python_law_->error : py::none(); }
   std::size_t errors() const { return python_law_ ? python_law_->errors : 0; }
@@ -199,28 +199,30 @@ LiveResult write_live(const PracticePage& page, HapticDevice& device, LiveOption
 
 void stop_orphans() { Loop::stop_orphans(); }
 
-void add_live(py::module_& module) {
-  py::class_<Loop>(
-      module, "ServoLoop",
-      "A servo loop in real time, in its own thread or on the device's own clock, with a watchdog. The law is a "
-      "HapticRenderer, which runs without Python, or a callable that maps a DeviceState to a force (3,) [N], which "
-      "needs the GIL in every tick (docs/python.md). A `with` block starts and stops the loop.")
+template <>
+inline constexpr std::string_view name_of<Loop> = "ServoLoop";
+
+void add_live(Module& module) {
+  Class<Loop>(module,
+              "A servo loop in real time, in its own thread or on the device's own clock, with a watchdog. The law is a "
+              "HapticRenderer, which runs without Python, or a callable that maps a DeviceState to a force (3,) [N], "
+              "which needs the GIL in every tick (docs/python.md). A `with` block starts and stops the loop.")
       .def(py::init<HapticDevice&, HapticRenderer&, const ServoLoopOptions&>(), "device"_a, "law"_a,
            "options"_a = ServoLoopOptions{})
       .def(py::init<HapticDevice&, const Law&, const ServoLoopOptions&>(), "device"_a, "law"_a,
            "options"_a = ServoLoopOptions{})
-      .def("start", &Loop::start,
-           "Starts with zero force and ramps it up. Returns refused privileges, each with a remedy.")
-      .def("stop", &Loop::stop,
-           "Ramps the force down to zero, then ends the thread. From within the law it only begins the ramp-down.")
-      .def_property_readonly("running", &Loop::is_running, "whether the loop has been started and not stopped")
-      .def_property_readonly("status", &Loop::status, "ServoStatus, while the loop runs and afterwards")
-      .def_property_readonly("statistics", &Loop::statistics, "as Servo.statistics, while the loop runs and afterwards")
-      .def_property_readonly("warnings", &Loop::warnings, "what the last start() returned")
-      .def_property_readonly(
-          "error", &Loop::error,
-          "the last exception of a Python law since start(), or None; sys.unraisablehook gets the first")
-      .def_property_readonly("errors", &Loop::errors, "number of exceptions of a Python law since start()")
+      .def("start", &Loop::start)
+      .def(Also{"stop", "From within the law it only begins the ramp-down."}, &Loop::stop)
+      .def_property_readonly("running", &Loop::is_running)
+      .def_property_readonly("status", &Loop::status)
+      .def_property_readonly(InPython{"statistics", "as Servo.statistics, while the loop runs and afterwards"},
+                             &Loop::statistics)
+      .def_property_readonly(InPython{"warnings", "what the last start() returned"}, &Loop::warnings)
+      .def_property_readonly(InPython{"error",
+                                      "the last exception of a Python law since start(), or None; sys.unraisablehook "
+                                      "gets the first"},
+                             &Loop::error)
+      .def_property_readonly(InPython{"errors", "number of exceptions of a Python law since start()"}, &Loop::errors)
       .def("__enter__",
            [](const py::object& self) {
              self.cast<Loop&>().start();
@@ -228,43 +230,29 @@ void add_live(py::module_& module) {
            })
       .def("__exit__", [](Loop& self, const py::args&) { self.stop(); });
 
-  py::class_<LiveView>(module, "LiveView", "What a display shows, updated about 50 times per second.")
-      .def_property_readonly(
-          "newest",
-          [](const LiveView& self) {
-            const py::object type = py::module_::import("calligraphy._calligraphy").attr("sample_dtype");
-            return py::array(type.cast<py::dtype>(), py::array::ShapeContainer{}, &self.newest);
-          },
-          "the latest tick, all zero before the first one: a structured array () of sample_dtype, copied")
-      .def_readonly("hint", &LiveView::hint, "why a pen on the paper is not guided in that tick; see hint_text()")
-      .def_property_readonly(
-          "to_start", [](const LiveView& self) { return array_of(self.to_start); },
-          "from its pen tip to the start of the stroke that is due, array (2,) [m, page]")
-      .def_property_readonly(
-          "servo", [](const LiveView& self) { return self.servo; }, "ServoStatus")
-      .def_readonly("progress", &LiveView::progress, "share of the page that is written, in [0, 1]")
-      .def_readonly("started", &LiveView::started,
-                    "the pen has been in front of the paper; until then, no force and no recording");
-  add_struct<LiveOptions>(
-      module, "LiveOptions", "Options of a person writing on a device.", &LiveOptions::mode, "mode: FeedbackMode",
-      &LiveOptions::renderer, "renderer: RendererOptions; its servo rate applies to the loop as well",
-      &LiveOptions::mapping, "mapping: MotionMapping; None: upright_page() of the page", &LiveOptions::servo,
-      "servo: ServoLoopOptions; its rate is ignored", &LiveOptions::peak_force,
-      "peak_force: upper bound, besides the device's own [N]", &LiveOptions::timeout, "timeout: of the session [s]");
-  py::class_<LiveResult>(module, "LiveResult", "Result of write_with_device.")
-      .def_readonly("recording", &LiveResult::recording, "Recording")
-      .def_property_readonly(
-          "statistics", [](const LiveResult& self) { return servo_statistics(self.statistics); }, "as Servo.statistics")
-      .def_readonly("dropped", &LiveResult::dropped, "ticks not recorded because `watch` took 2 s or more")
-      .def_readonly("warnings", &LiveResult::warnings, "privileges that the servo loop was refused");
-  module.def("with_peak_force", &with_peak_force, "capabilities"_a, "peak_force"_a,
-             "The capabilities with their forces limited to a peak [N].");
-  module.def("write_with_device", &write_live, "page"_a, "device"_a, "options"_a = LiveOptions{},
-             "watch"_a = py::none(),
-             "A person writes the page in real time, in C++ without the GIL. Ends when the page is written and the pen "
-             "lifted, when `watch`, called with a LiveView about 50 times per second, returns False, or when the "
-             "timeout expires; the force is then zero and the device still open. Likewise on Ctrl-C or an exception of "
-             "`watch`, which has the LiveResult as its attribute `result`.");
+  Class<LiveView>(module)
+      .def_property_readonly(Also{"newest", "A structured array () of sample_dtype, copied."},
+                             [](const LiveView& self) {
+                               return py::array(dtype_of_struct<RecordedSample>(), py::array::ShapeContainer{},
+                                                &self.newest);
+                             })
+      .def_readonly("hint", &LiveView::hint)
+      .def_property_readonly("to_start", [](const LiveView& self) { return array_of(self.to_start); })
+      .def_property_readonly("servo", [](const LiveView& self) { return self.servo; })
+      .def_readonly("progress", &LiveView::progress)
+      .def_readonly("started", &LiveView::started);
+  add_struct<LiveOptions>(module);
+  Class<LiveResult>(module)
+      .def_readonly("recording", &LiveResult::recording)
+      .def_property_readonly(InPython{"statistics", "as Servo.statistics"},
+                             [](const LiveResult& self) { return as_dict(self.statistics); })
+      .def_readonly("dropped", &LiveResult::dropped)
+      .def_readonly("warnings", &LiveResult::warnings);
+  module.def("with_peak_force", &with_peak_force, "capabilities"_a, "peak_force"_a);
+  module.def(Also{"write_with_device",
+                  "`watch` is called with a LiveView about 50 times per second. Ends likewise on Ctrl-C or an "
+                  "exception of `watch`, which has the LiveResult as its attribute `result`."},
+             &write_live, "page"_a, "device"_a, "options"_a = LiveOptions{}, "watch"_a = py::none());
   // At exit no force may remain, nor threads that would call into a finalised interpreter.
   py::module_::import("atexit").attr("register")(py::cpp_function(&end_all));
 }

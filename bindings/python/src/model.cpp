@@ -60,12 +60,10 @@ Character at(const Characters& characters, char32_t code) {
   throw py::key_error(encode_utf8(code));
 }
 
-void add_ink(py::module_& module) {
+void add_ink(Module& module) {
+  module.def(Also{"ink_knots", "(8,)."}, [](double length) { return as_numbers(ink_knots(length)); }, "length"_a);
   module.def(
-      "ink_knots", [](double length) { return as_numbers(ink_knots(length)); }, "length"_a,
-      "Where the knots lie along a drawn out path of this length [em], as shares of it, (8,).");
-  module.def(
-      "ink_discs",
+      InPython{"ink_discs", "Ink along a path (n, 2) as discs at most `spacing` apart: x, y, radius, (m, 3) [em]."},
       [](const ArrayLike& path, const StrokeInk& ink, double spacing) {
         const std::vector<InkDisc> discs = ink_discs(points(path, "path"), ink, spacing);
         Doubles result({static_cast<py::ssize_t>(discs.size()), py::ssize_t{3}});
@@ -77,145 +75,121 @@ void add_ink(py::module_& module) {
         }
         return result;
       },
-      "path"_a, "ink"_a, "spacing"_a = 0.004,
-      "Ink along a path (n, 2) as discs at most `spacing` apart: x, y, radius, (m, 3) [em].");
+      "path"_a, "ink"_a, "spacing"_a = 0.004);
   module.def(
-      "ink_outline",
+      Also{"ink_outline", "(n, 2) [em]."},
       [](const Stroke& stroke, double tolerance) { return array_of_points(ink_outline(stroke, tolerance)); },
-      "stroke"_a, "tolerance"_a = 5e-4,
-      "Outline of a stroke's ink, a polygon to be filled by the nonzero rule, (n, 2) [em]. Raises InvalidValue if the "
-      "stroke has none.");
+      "stroke"_a, "tolerance"_a = 5e-4);
   module.def(
-      "ink_outline",
+      InPython{"ink_outline", "The same along any path (n, 2) [em]."},
       [](const ArrayLike& path, const StrokeInk& ink, double tolerance) {
         return array_of_points(ink_outline(points(path, "path"), ink, tolerance));
       },
-      "path"_a, "ink"_a, "tolerance"_a = 5e-4, "The same along any path (n, 2) [em].");
-  module.def("typical_half_width", &typical_half_width, "id"_a, "stroke_count"_a, "length"_a,
-             "The usual half-width of a stroke of a kind and length in a character of so many strokes [em].");
-  module.def("typical_ink", &typical_ink, "id"_a, "half_width"_a,
-             "The typical StrokeInk of a kind of stroke, scaled to a half-width [em].");
+      "path"_a, "ink"_a, "tolerance"_a = 5e-4);
+  module.def("typical_half_width", &typical_half_width, "id"_a, "stroke_count"_a, "length"_a);
+  module.def("typical_ink", &typical_ink, "id"_a, "half_width"_a);
   module.def(
-      "stroke_polyline",
+      Also{"stroke_polyline", "(n, 2) [em]."},
       [](const Stroke& stroke, double tolerance) { return array_of_points(stroke_polyline(stroke, tolerance)); },
-      "stroke"_a, "tolerance"_a = 1e-4,
-      "The path of a stroke as a polyline within `tolerance` of it, (n, 2) [em].");
+      "stroke"_a, "tolerance"_a = 1e-4);
 }
 
 }  // namespace
 
-void add_model(py::module_& module) {
-  py::class_<TypicalStroke>(module, "TypicalStroke", "One of the 39 typical strokes (Wang 2006, Fig. 7). Read only.")
-      .def_readonly("id", &TypicalStroke::id, "1 to 39")
-      .def_readonly("name", &TypicalStroke::name, "Chinese name")
-      .def_readonly("pinyin", &TypicalStroke::pinyin, "its pronunciation")
-      .def_readonly("code", &TypicalStroke::code, "letter code as used for CJK strokes")
-      .def_readonly("unicode", &TypicalStroke::unicode, "code point of the CJK stroke in hexadecimal")
-      .def_readonly("elements", &TypicalStroke::elements,
-                    "its composition: 'L' (line) or 'C' (curve) per element, in writing order")
-      .def_readonly("printed_elements", &TypicalStroke::printed_elements,
-                    "its composition as the paper counts it, if that differs; otherwise empty")
-      .def_readonly("joints", &TypicalStroke::joints, "'c' (corner) or 's' (smooth) per inner feature point")
-      .def_readonly("example", &TypicalStroke::example, "characters that contain it")
-      .def_property_readonly("shape", array_within<TypicalStroke>(&TypicalStroke::shape),
-                             "typical control points of cubic curves, (n, 2) [em]")
+void add_model(Module& module) {
+  Class<TypicalStroke>(module)
+      .def_readonly("id", &TypicalStroke::id)
+      .def_readonly("name", &TypicalStroke::name)
+      .def_readonly("pinyin", &TypicalStroke::pinyin)
+      .def_readonly("code", &TypicalStroke::code)
+      .def_readonly("unicode", &TypicalStroke::unicode)
+      .def_readonly("elements", &TypicalStroke::elements)
+      .def_readonly("printed_elements", &TypicalStroke::printed_elements)
+      .def_readonly("joints", &TypicalStroke::joints)
+      .def_readonly("example", &TypicalStroke::example)
+      .def_property_readonly(InPython{"shape", "typical control points of cubic curves, (n, 2) [em]"},
+                             array_within<TypicalStroke>(&TypicalStroke::shape))
       .def("__reduce__",
            [](const TypicalStroke& self) -> py::tuple {
              return py::make_tuple(py::module_::import("calligraphy").attr("typical_stroke"), py::make_tuple(self.id));
            })
       .def("__repr__", [](const TypicalStroke& self) { return told("TypicalStroke({}, {})", self.id, self.name); });
-  module.def(
-      "typical_strokes",
-      [] {
-        py::typing::List<TypicalStroke> result;
-        for (const TypicalStroke& stroke : typical_strokes()) {
-          result.append(py::cast(&stroke, py::return_value_policy::reference));
-        }
-        return result;
-      },
-      "All typical strokes, in order of id.");
-  module.def("typical_stroke", &typical_stroke, py::return_value_policy::reference, "id"_a,
-             "The typical stroke with this id, 1 to 39. Raises InvalidValue for any other id.");
+  module.def("typical_strokes", [] {
+    py::typing::List<TypicalStroke> result;
+    for (const TypicalStroke& stroke : typical_strokes()) {
+      result.append(py::cast(&stroke, py::return_value_policy::reference));
+    }
+    return result;
+  });
+  module.def("typical_stroke", &typical_stroke, py::return_value_policy::reference, "id"_a);
 
-  add_struct<StrokeInk>(
-      module, "StrokeInk",
-      "What a brush leaves of a stroke: how wide it is along the path, which is drawn out at both ends, and how far its "
-      "centre lies to the left of it. Values at eight knots, linear in arc length between them.",
-      &StrokeInk::start, "start: by which the path is drawn out before its start [em]", &StrokeInk::end,
-      "end: by which it is drawn out beyond its end [em]", &StrokeInk::half_widths, "half_widths: (8,) [em]",
-      &StrokeInk::offsets, "offsets: of the centre line, to the left as the stroke is written, (8,) [em]");
-
-  py::class_<StrokeInput>(module, "StrokeInput", "A stroke as input to make_character.")
+  add_struct<StrokeInk>(module);
+  Class<StrokeInput>(module)
       .def(py::init([](int id, const ArrayLike& control_points, const std::vector<double>& factors,
                        const std::string& elements, const std::optional<StrokeInk>& ink) {
              return StrokeInput{id, points(control_points, "control_points"), factors, elements, ink};
            }),
            "id"_a, "control_points"_a, "attraction_factors"_a = std::vector<double>{}, "elements"_a = "",
            "ink"_a = py::none())
-      .def_readwrite("id", &StrokeInput::id, "id of the typical stroke, 1 to 39")
+      .def_readwrite("id", &StrokeInput::id)
       .def_property(
-          "control_points", [](const StrokeInput& self) { return array_of_points(self.control_points); },
-          [](StrokeInput& self, const ArrayLike& value) { self.control_points = points(value, "control_points"); },
-          "(n, 2), copied [em]")
-      .def_readwrite("attraction_factors", &StrokeInput::attraction_factors,
-                     "one per feature point; empty: all 1; copied [1]")
+          InPython{"control_points", "(n, 2), copied [em]"},
+          [](const StrokeInput& self) { return array_of_points(self.control_points); },
+          [](StrokeInput& self, const ArrayLike& value) { self.control_points = points(value, "control_points"); })
+      .def_readwrite("attraction_factors", &StrokeInput::attraction_factors)
       .def_property(
           "elements", [](const StrokeInput& self) { return self.elements.elements(); },
-          [](StrokeInput& self, const std::string& value) { self.elements = value; },
-          "composition: 'L' or 'C' for each element of the typical stroke; empty: as there")
-      .def_readwrite("ink", &StrokeInput::ink, "StrokeInk, or None; of all strokes of a character or of none; copied")
+          [](StrokeInput& self, const std::string& value) { self.elements = value; })
+      .def_readwrite("ink", &StrokeInput::ink)
       .attr("__match_args__") = py::make_tuple("id", "control_points", "attraction_factors", "elements", "ink");
 
-  py::class_<Stroke>(module, "Stroke", "One stroke of a character: a view that keeps the character alive.")
+  Class<Stroke>(module, "One stroke of a character: a view that keeps the character alive.")
       .def_property_readonly(
-          "type", [](const Stroke& self) { return self.type; }, py::return_value_policy::reference, "TypicalStroke")
-      .def_readonly("elements", &Stroke::elements, "its composition: 'L' (line) or 'C' (curve) per element")
-      .def_readonly("curve_degree", &Stroke::curve_degree, "3, or 4 as eq. (1) prints")
-      .def("input", &input_of, "A copy as input to make_character, to be changed.")
-      .def_property_readonly("control_points", array_within<Stroke>(&Stroke::control_points), "(n, 2), read only [em]")
-      .def_property_readonly("attraction_factors", array_within<Stroke>(&Stroke::attraction_factors),
-                             "one per feature point, read only [1]")
+          "type", [](const Stroke& self) { return self.type; }, py::return_value_policy::reference)
+      .def_readonly("elements", &Stroke::elements)
+      .def_readonly("curve_degree", &Stroke::curve_degree)
+      .def(InPython{"input", "A copy as input to make_character, to be changed."}, &input_of)
+      .def_property_readonly(InPython{"control_points", "(n, 2), read only [em]"},
+                             array_within<Stroke>(&Stroke::control_points))
+      .def_property_readonly(InPython{"attraction_factors", "one per feature point, read only [1]"},
+                             array_within<Stroke>(&Stroke::attraction_factors))
       .def_property_readonly(
-          "ink", [](const Stroke& self) { return self.ink == nullptr ? std::nullopt : std::optional(*self.ink); },
-          "StrokeInk, copied, or None")
+          InPython{"ink", "StrokeInk, copied, or None"},
+          [](const Stroke& self) { return self.ink == nullptr ? std::nullopt : std::optional(*self.ink); })
       .def("__repr__", [](const Stroke& self) {
         return told("Stroke({}, {} control points)", self.type->name, self.control_points.size());
       });
 
   add_ink(module);
 
-  py::class_<Character>(module, "Character",
-                        "A character: shape, stroke order and feel. Immutable. Made by make_character, or read from a "
-                        "file. Frame: em square, y up.")
+  Class<Character>(module,
+                   "A character: shape, stroke order and feel. Immutable. Made by make_character, or read from a file. "
+                   "Frame: em square, y up.")
       .def(py::init(&character_of), "code"_a, "order"_a, "curve_degree"_a, "control_points"_a, "stroke_ids"_a,
            "feature_points"_a, "elements"_a, "attraction_factors"_a, "ink"_a = std::vector<StrokeInk>(),
            "From the fields below; make_character() is simpler.")
-      .def_readonly("code", &Character::code, "the character, a str of length 1")
-      .def_readonly("order", &Character::order, "name of an alternate stroke order; empty for the standard one")
-      .def_readonly("curve_degree", &Character::curve_degree, "3, or 4 as eq. (1) prints")
-      .def_property_readonly("stroke_count", &Character::stroke_count, "number of strokes")
-      .def_property_readonly("control_points",
-                             array_within<Character>(&Character::structure, &StructuralData::control_points),
-                             "of all strokes, concatenated, (n, 2), read only [em]")
-      .def_property_readonly("stroke_ids", array_within<Character>(&Character::sequence, &SequenceData::stroke_ids),
-                             "typical stroke ids in writing order, read only")
-      .def_property_readonly("feature_points",
-                             array_within<Character>(&Character::sequence, &SequenceData::feature_points),
-                             "indices into control_points in writing order, read only")
+      .def_readonly("code", &Character::code)
+      .def_readonly("order", &Character::order)
+      .def_readonly("curve_degree", &Character::curve_degree)
+      .def_property_readonly("stroke_count", &Character::stroke_count)
+      .def_property_readonly(InPython{"control_points", "of all strokes, concatenated, (n, 2), read only [em]"},
+                             array_within<Character>(&Character::structure, &StructuralData::control_points))
+      .def_property_readonly(InPython{"stroke_ids", "typical stroke ids in writing order, read only"},
+                             array_within<Character>(&Character::sequence, &SequenceData::stroke_ids))
+      .def_property_readonly(InPython{"feature_points", "indices into control_points in writing order, read only"},
+                             array_within<Character>(&Character::sequence, &SequenceData::feature_points))
       .def_property_readonly(
-          "elements",
+          InPython{"elements", "composition of each stroke: 'L' (line) or 'C' (curve) per element; copied"},
           [](const Character& self) {
             std::vector<std::string_view> elements;
             for (const ElementList composition : self.sequence.elements) elements.push_back(composition.elements());
             return elements;
-          },
-          "composition of each stroke: 'L' (line) or 'C' (curve) per element; copied")
-      .def_property_readonly("attraction_factors",
-                             array_within<Character>(&Character::physics, &PhysicalData::attraction_factors),
-                             "one per feature point, read only [1]")
-      .def_property_readonly(
-          "ink", [](const Character& self) { return self.physics.ink; }, "StrokeInk of each stroke, or empty; copied")
-      .def("strokes", &strokes_of, "The strokes in writing order.")
+          })
+      .def_property_readonly(InPython{"attraction_factors", "one per feature point, read only [1]"},
+                             array_within<Character>(&Character::physics, &PhysicalData::attraction_factors))
+      .def_property_readonly(InPython{"ink", "StrokeInk of each stroke, or empty; copied"},
+                             [](const Character& self) { return self.physics.ink; })
+      .def(InPython{"strokes", "The strokes in writing order."}, &strokes_of)
       .def("__repr__",
            [](const Character& self) {
              return told("Character({}, {} strokes)", encode_utf8(self.code), self.stroke_count());
@@ -228,30 +202,20 @@ void add_model(py::module_& module) {
       [](char32_t code, const std::vector<StrokeInput>& inputs, int curve_degree) {
         return make_character(code, inputs, curve_degree);
       },
-      "code"_a, "strokes"_a, "curve_degree"_a = 3,
-      "Builds a character from its strokes in writing order. Raises InvalidValue naming the stroke.");
-  module.def("with_quartic_curves", &with_quartic_curves, "character"_a,
-             "The same shape with quartic curves, as eq. (1) prints.");
-  module.def("with_typical_ink", &with_typical_ink, "character"_a,
-             "The same character with typical ink, or as it is if it has ink of its own.");
-  module.def("paper_example", &paper_example, py::return_value_policy::copy, "The character of Table 3.");
+      "code"_a, "strokes"_a, "curve_degree"_a = 3);
+  module.def("with_quartic_curves", &with_quartic_curves, "character"_a);
+  module.def("with_typical_ink", &with_typical_ink, "character"_a);
+  module.def("paper_example", &paper_example, py::return_value_policy::copy);
 
-  add_struct<Provenance>(module, "Provenance", "Origin of characters, and the terms of their use.", &Provenance::source,
-                         "source: author of the characters, one line", &Provenance::licence,
-                         "licence: terms of use, one line", &Provenance::attribution,
-                         "attribution: required attribution, one line", &Provenance::licence_text,
-                         "licence_text: full text, if it must accompany the characters");
-
-  py::class_<CharacterList> type(module, "CharacterList", "Characters and their provenance.");
-  py::list fields;
-  add_field(type, fields, &CharacterList::characters, "characters: list of Character, copied");
-  add_field(type, fields, &CharacterList::provenance, "provenance: Provenance");
+  add_struct<Provenance>(module);
+  Class<CharacterList> type(module);
+  std::apply([&](const auto&... field) { (add_field(type, field), ...); }, fields_of<CharacterList>);
   type.def(py::init([](std::vector<Character> characters, Provenance provenance) {
              return CharacterList{std::move(provenance), std::move(characters)};
            }),
            "characters"_a = std::vector<Character>{}, "provenance"_a = Provenance{})
-      .def("find", &find<CharacterList>, "code"_a, "order"_a = "",
-           "The Character in the stroke order of this name (empty: the standard one), or None.")
+      .def(InPython{"find", "The Character in the stroke order of this name (empty: the standard one), or None."},
+           &find<CharacterList>, "code"_a, "order"_a = "")
       .def("__getitem__", &at<CharacterList>, "code"_a)
       .def(
           "__contains__", [](const CharacterList& self, char32_t code) { return self.find(code) != nullptr; }, "code"_a)
@@ -260,39 +224,36 @@ void add_model(py::module_& module) {
            [](const CharacterList& self) {
              return py::typing::Iterator<Character>(py::iter(py::cast(std::vector<Character>(self.characters))));
            })
-      .attr("__match_args__") = py::tuple(fields);
-  module.def("built_in_characters", &built_in_characters, py::return_value_policy::copy,
-             "The characters drawn for this library; every typical stroke occurs in at least one.");
-  module.def("read_characters",
-             released(+[](const std::filesystem::path& path) { return read_characters(path.string()); }), "path"_a,
-             "Reads the text format of docs/character-format.md. Raises FileError, or FormatError naming the line.");
-  module.def("write_characters", released(+[](const std::filesystem::path& path, const CharacterList& characters) {
+      .attr("__match_args__") = py::make_tuple("characters", "provenance");
+  module.def("built_in_characters", &built_in_characters, py::return_value_policy::copy);
+  module.def(
+      InPython{"read_characters",
+               "Reads the text format of docs/character-format.md. Raises FileError, or FormatError naming the line."},
+      released(+[](const std::filesystem::path& path) { return read_characters(path.string()); }), "path"_a);
+  module.def(InPython{"write_characters", "Writes the text format, atomically. Raises FileError."},
+             released(+[](const std::filesystem::path& path, const CharacterList& characters) {
                std::ostringstream out;
                write_characters(out, characters);
                write_file(path, out.str());
              }),
-             "path"_a, "characters"_a, "Writes the text format, atomically. Raises FileError.");
+             "path"_a, "characters"_a);
 
-  add_enum(module, "CoordinatePrecision", "Precision of the control points in a set file.", CoordinatePrecision::exact,
-           "coarse standard fine exact");
+  add_enum<CoordinatePrecision>(module);
   module.def(
-      "encode_character_set",
+      InPython{"encode_character_set", "The characters as the bytes of a set file."},
       [](const CharacterList& list, CoordinatePrecision precision) {
         const std::vector<std::byte> bytes = released(&encode_character_set)(list, precision);
         return py::bytes(reinterpret_cast<const char*>(bytes.data()), bytes.size());
       },
-      "characters"_a, "precision"_a = CoordinatePrecision::standard, "The characters as the bytes of a set file.");
+      "characters"_a, "precision"_a = CoordinatePrecision::standard);
 
-  py::class_<CharacterSet>(module, "CharacterSet",
-                           "An immutable set of characters: a memory-mapped set file, characters in memory, or several "
-                           "layered sets. Any number of threads may use it.")
+  Class<CharacterSet>(module)
       .def(py::init<>())
       .def(py::init(released(+[](const CharacterList& characters) { return CharacterSet(characters); })),
            "characters"_a)
-      .def_static(
-          "open", released(+[](const std::filesystem::path& path) { return CharacterSet::open(path.string()); }),
-          "path"_a,
-          "Opens a set file, reading only its index, or a file in the text format. Raises FileError or FormatError.")
+      .def_static("open",
+                  released(+[](const std::filesystem::path& path) { return CharacterSet::open(path.string()); }),
+                  "path"_a)
       .def_static(
           "from_bytes",
           [](const py::bytes& bytes, const std::string& name) {
@@ -300,33 +261,25 @@ void add_model(py::module_& module) {
             const auto* const first = reinterpret_cast<const std::byte*>(view.data());
             return CharacterSet::from_bytes({first, first + view.size()}, name);
           },
-          "bytes"_a, "name"_a = "bytes", "A set from the bytes of a set file; `name` is used in messages.")
+          "bytes"_a, "name"_a = "bytes")
       .def_static(
-          "layered", [](const std::vector<CharacterSet>& sets) { return CharacterSet::layered(sets); }, "sets"_a,
-          "Several sets as one. If several have a character, that of the first set is found.")
-      .def("find", &find<CharacterSet>, "code"_a, "order"_a = "",
-           "The Character, decoded, in the stroke order of this name (empty: the standard or else the first), or None. "
-           "Raises FormatError.")
+          "layered", [](const std::vector<CharacterSet>& sets) { return CharacterSet::layered(sets); }, "sets"_a)
+      .def("find", &find<CharacterSet>, "code"_a, "order"_a = "")
       .def("__getitem__", &at<CharacterSet>, "code"_a)
       .def(
           "__contains__", [](const CharacterSet& self, char32_t code) { return self.find(code).has_value(); }, "code"_a)
       .def("__len__", &CharacterSet::size)
-      .def(
-          "__iter__",
-          [](const CharacterSet& self) {
-            py::list codes;
-            for (const StoredCharacter& stored : self) codes.append(stored.code());
-            return py::typing::Iterator<py::str>(py::iter(codes));
-          },
-          "Every character once, as a str, in ascending code point order.")
-      .def("orders", &CharacterSet::orders, "code"_a, "Names of the stroke orders of a character; '' is the standard.")
-      .def("provenances", &CharacterSet::provenances, "Provenance of each layer.")
-      .def("coordinate_error", &CharacterSet::coordinate_error,
-           "Maximum distance between a stored control point and the original [em].")
-      .def("list", released(+[](const CharacterSet& self) { return self.list(); }),
-           "Every character in every order, decoded, as a CharacterList.")
-      .def("check", released(+[](const CharacterSet& self) { self.check(); }),
-           "Decodes every character in every order. Raises FormatError naming the damage.")
+      .def(InPython{"__iter__", "Every character once, as a str, in ascending code point order."},
+           [](const CharacterSet& self) {
+             py::list codes;
+             for (const StoredCharacter& stored : self) codes.append(stored.code());
+             return py::typing::Iterator<py::str>(py::iter(codes));
+           })
+      .def("orders", &CharacterSet::orders, "code"_a)
+      .def("provenances", &CharacterSet::provenances)
+      .def("coordinate_error", &CharacterSet::coordinate_error)
+      .def("list", released(+[](const CharacterSet& self) { return self.list(); }))
+      .def("check", released(+[](const CharacterSet& self) { self.check(); }))
       .def("__repr__", [](const CharacterSet& self) { return told("CharacterSet({} characters)", self.size()); });
 }
 

@@ -11,7 +11,7 @@ py::handle type_of_error;
 /// A library error that also derives from the built-in exception that Python programs expect. Messages may quote
 /// arbitrary bytes of a file or path: those that are not UTF-8 are escaped.
 template <class Exception>
-void add_error(py::module_& module, const char* name, PyObject* built_in, const char* documentation) {
+void add_error(const py::module_& module, const char* name, PyObject* built_in, const char* documentation) {
   py::list bases;
   if (!std::is_same_v<Exception, Error>) bases.append(type_of_error<Error>);
   bases.append(py::handle(built_in));
@@ -49,7 +49,8 @@ void guard_classes(const py::module_& module) {
 }  // namespace
 }  // namespace calligraphy::python
 
-PYBIND11_MODULE(_calligraphy, module) {
+PYBIND11_MODULE(_calligraphy, extension) {
+  calligraphy::python::Module module(extension);
   module.attr("__version__") = CALLIGRAPHY_VERSION;
   module.attr("backends") = pybind11::make_tuple(CALLIGRAPHY_BACKENDS);
   module.doc() = "Haptic guidance for writing Chinese characters: the C++ library. SI units; character shapes in em.";

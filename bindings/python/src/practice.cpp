@@ -13,17 +13,9 @@
 namespace calligraphy::python {
 namespace {
 
-/// The columns of a recording, whose rows are RecordedSample as in memory.
-py::dtype sample_type() {
-  const RecordedSample s;
-  return columns_of(s, "time", s.time, "device_point", s.device_point, "pen_tip", s.pen_tip, "force", s.force, "state",
-                    s.state, "events", s.events, "status", s.status, "character", s.character, "stroke", s.stroke,
-                    "tick_ns", s.tick_ns);
-}
-
 /// A recording from a structured array with these columns.
 Recording recording_of(double rate, const ArrayLike& samples) {
-  const py::array rows = py::module_::import("numpy").attr("asarray")(samples, sample_type());
+  const py::array rows = py::module_::import("numpy").attr("asarray")(samples, dtype_of_struct<RecordedSample>());
   if (rows.ndim() != 1) throw ValueError("samples: expected shape (n,), got " + shape_of(rows));
   if (!(std::isfinite(rate) && rate > 0.0))
     throw ValueError("rate: expected a finite number above 0, got " + std::to_string(rate));
@@ -41,7 +33,7 @@ Recording recording_of(double rate, const ArrayLike& samples) {
 
 py::array samples_of(const py::object& self) {
   const auto& samples = self.cast<const Recording&>().samples;
-  py::array result(sample_type(), samples.size(), samples.data(), self);
+  py::array result(dtype_of_struct<RecordedSample>(), samples.size(), samples.data(), self);
   result.attr("flags").attr("writeable") = false;
   return result;
 }
@@ -80,7 +72,7 @@ Arrays pen_downs(const PenTrace& trace) {
   return result;
 }
 
-py::dict as_dict(const ImportReport& report) {
+py::dict told_report(const ImportReport& report) {
   py::list within, worst, measures, skipped;
   for (const FitCount& count : report.within) {
     within.append(py::make_tuple(count.error, count.strokes, count.characters));
@@ -110,176 +102,125 @@ py::dict as_dict(const ImportReport& report) {
 
 }  // namespace
 
-void add_practice(py::module_& module) {
-  module.attr("sample_dtype") = sample_type();
-  py::class_<Recording>(module, "Recording", "Recording of a session, tick by tick. Immutable.")
+void add_practice(Module& module) {
+  module.attr("sample_dtype") = dtype_of_struct<RecordedSample>();
+  Class<Recording>(module)
       .def(py::init(&recording_of), "rate"_a, "samples"_a)
-      .def_readonly("rate", &Recording::rate, "[Hz]")
+      .def_readonly("rate", &Recording::rate)
       .def_property_readonly(
-          "samples", &samples_of,
-          "A structured array (n,), a read-only view of the recording (sample_dtype): time [s], device_point, pen_tip "
-          "[m] and force [N] in page axes, state, events, status, character, stroke, tick_ns [ns].")
+          InPython{"samples",
+                   "A structured array (n,), a read-only view of the recording (sample_dtype): time [s], device_point, "
+                   "pen_tip [m] and force [N] in page axes, state, events, status, character, stroke, tick_ns [ns]."},
+          &samples_of)
       .def("__len__", [](const Recording& self) { return self.samples.size(); })
       .attr("__match_args__") = py::make_tuple("rate", "samples");
-  module.def("write_recording", released(+[](const std::filesystem::path& path, const Recording& recording) {
+  module.def(Also{"write_recording", "Atomically. Raises FileError."},
+             released(+[](const std::filesystem::path& path, const Recording& recording) {
                std::ostringstream out;
                write_recording(out, recording);
                write_file(path, out.str());
              }),
-             "path"_a, "recording"_a, "Writes a recording, atomically. Raises FileError.");
+             "path"_a, "recording"_a);
   module.def(
-      "read_recording", released(+[](const std::filesystem::path& path) { return read_recording(path); }), "path"_a,
-      "Reads exactly what write_recording wrote. Raises FileError, or FormatError naming the line and the value.");
-  module.def("device_states", released(&device_states), "recording"_a, "mapping"_a,
-             "The samples in device axes, for a ReplayDevice.");
+      InPython{"read_recording",
+               "Reads exactly what write_recording wrote. Raises FileError, or FormatError naming the line and the "
+               "value."},
+      released(+[](const std::filesystem::path& path) { return read_recording(path); }), "path"_a);
+  module.def("device_states", released(&device_states), "recording"_a, "mapping"_a);
 
-  add_struct<PageLayout>(module, "PageLayout", "Characters in rows.", &PageLayout::width, "width [m]",
-                         &PageLayout::height, "height [m]", &PageLayout::em, "em: edge of a character's square [m]",
-                         &PageLayout::gap, "gap: between and around squares [m]");
-  add_struct<PracticePage>(module, "PracticePage", "A page of placed characters.", &PracticePage::width, "width [m]",
-                           &PracticePage::height, "height [m]", &PracticePage::characters,
-                           "characters: list of PlacedCharacter, copied");
-  module.def("workspace_layout", &workspace_layout, "device"_a, "mapping"_a = MotionMapping{},
-             "The PageLayout that fills the workspace of a device (Capabilities) along the axes that the rotation of a "
-             "MotionMapping uses, times its scale.");
+  add_struct<PageLayout>(module);
+  add_struct<PracticePage>(module);
+  module.def("workspace_layout", &workspace_layout, "device"_a, "mapping"_a = MotionMapping{});
   module.def(
       "lay_out",
       [](const std::vector<Character>& characters, const PageLayout& layout) { return lay_out(characters, layout); },
-      "characters"_a, "layout"_a = PageLayout{},
-      "As many pages as needed. Raises InvalidValue unless lengths are positive and a square fits.");
+      "characters"_a, "layout"_a = PageLayout{});
 
-  py::class_<PenTrace>(module, "PenTrace", "A person's recorded pen while writing a character. Immutable.")
+  Class<PenTrace>(module)
       .def(py::init(&trace_of), "character"_a, "strokes"_a, "set"_a = "unnamed", "em"_a = 1000.0)
-      .def_readonly("character", &PenTrace::character, "the character to be written")
-      .def_property_readonly("strokes", &pen_downs, "one array (n, 3) per pen-down, copied: x, y [em], time [s]")
-      .def_readonly("set", &PenTrace::set, "one word for the source: a writer, a session, a corpus")
-      .def_readonly("em", &PenTrace::em, "edge length of the square in the file's units [1]")
+      .def_readonly("character", &PenTrace::character)
+      .def_property_readonly(InPython{"strokes", "one array (n, 3) per pen-down, copied: x, y [em], time [s]"},
+                             &pen_downs)
+      .def_readonly("set", &PenTrace::set)
+      .def_readonly("em", &PenTrace::em)
       .attr("__match_args__") = py::make_tuple("character", "strokes", "set", "em");
-  module.def("read_pen_traces",
-             released(+[](const std::filesystem::path& path) { return read_pen_traces(path.string()); }), "path"_a,
-             "Reads the format of docs/pen-traces.md. Raises FileError, or FormatError naming the line and the value.");
   module.def(
-      "write_pen_traces",
+      InPython{"read_pen_traces",
+               "Reads the format of docs/pen-traces.md. Raises FileError, or FormatError naming the line and the value."},
+      released(+[](const std::filesystem::path& path) { return read_pen_traces(path.string()); }), "path"_a);
+  module.def(
+      InPython{"write_pen_traces",
+               "Writes the format of docs/pen-traces.md; each line of `notice` becomes a comment. Raises FileError, and "
+               "InvalidValue naming a trace that cannot be written."},
       released(+[](const std::filesystem::path& path, const std::vector<PenTrace>& traces, const std::string& notice) {
         std::ostringstream out;
         write_pen_traces(out, traces, notice);
         write_file(path, out.str());
       }),
-      "path"_a, "traces"_a, "notice"_a = "",
-      "Writes the format of docs/pen-traces.md; each line of `notice` becomes a comment. Raises FileError, and "
-      "InvalidValue naming a trace that cannot be written.");
+      "path"_a, "traces"_a, "notice"_a = "");
 
-  using W = WriterSkill;
-  add_struct<W>(
-      module, "WriterSkill", "Skill of a simulated writer (docs/practice.md).", &W::grip,
-      "grip: GripImpedance: impedance between the plan and the device", &W::offset,
-      "offset: spread of the believed position [em]", &W::bias, "bias: an additional offset in a random direction [em]",
-      &W::scale, "scale: spread of the believed scale [1]", &W::tilt, "tilt: spread of the believed tilt [rad]",
-      &W::shape, "shape: spread of the believed place of each stroke [em]", &W::drift,
-      "drift: random walk off the plan [em/s^0.5]", &W::tremor, "tremor: amplitude, at 8 to 12 Hz [m]", &W::aim,
-      "aim: spread of where a stroke is begun [em]", &W::wrong_order,
-      "wrong_order: share of strokes replaced by another one [1]", &W::wrong_direction,
-      "wrong_direction: share of strokes begun at their end [1]", &W::speed, "speed: mean speed along a stroke [em/s]",
-      &W::pause, "pause: before the pen moves to a stroke [s]", &W::visual_delay, "visual_delay [s]", &W::correction,
-      "correction: share of the perceived error corrected per second [1/s]", &W::caution,
-      "caution: perceived error at which the speed is halved [em]")
-      .def_static("novice", &W::novice, "The novice of the experiments.")
-      .def_static("skilled", &W::skilled, "The skilled writer of the experiments.");
+  add_struct<WriterSkill>(module)
+      .def_static("novice", &WriterSkill::novice)
+      .def_static("skilled", &WriterSkill::skilled);
 
-  add_enum(module, "FeedbackMode", "The two modes of the paper's experiment.", FeedbackMode::force, "vision force");
-  add_struct<SessionOptions>(
-      module, "SessionOptions", "Options of a writer, a device and a renderer in closed loop.", &SessionOptions::mode,
-      "mode: FeedbackMode", &SessionOptions::device, "device: Capabilities", &SessionOptions::renderer,
-      "renderer: RendererOptions", &SessionOptions::mapping, "mapping: MotionMapping; None: upright_page() of the page",
-      &SessionOptions::skill, "skill: WriterSkill", &SessionOptions::seed,
-      "seed: of the writer's beliefs and mistakes; each character draws its own", &SessionOptions::measure_ticks,
-      "measure_ticks: measure execution times", &SessionOptions::character_timeout,
-      "character_timeout: virtual time until a character is aborted [s]");
+  add_enum<FeedbackMode>(module);
+  add_struct<SessionOptions>(module);
   const auto with = [](SessionOptions options, const Progress& progress) {
     options.progress = interruptible(progress);
     return options;
   };
   module.def(
-      "write_page",
+      Also{"write_page", "progress(share) is called from time to time."},
       [with](const PracticePage& page, const SessionOptions& options, const Progress& progress) {
         return released(&write_page)(page, with(options, progress));
       },
-      "page"_a, "options"_a, "progress"_a = py::none(),
-      "Writes the page once, in virtual time. Deterministic per seed. progress(share) is called from time to time. "
-      "Raises InvalidValue when an option is out of range.");
+      "page"_a, "options"_a, "progress"_a = py::none());
   module.def(
-      "follow_trace",
+      Also{"follow_trace", "See write_page for progress."},
       [with](const PracticePage& page, const PenTrace& trace, const SessionOptions& options, const Progress& progress) {
         return released(&follow_trace)(page, trace, with(options, progress));
       },
-      "page"_a, "trace"_a, "options"_a, "progress"_a = py::none(),
-      "A session in which the hand follows a recorded pen, on a page of one character. See write_page for progress.");
+      "page"_a, "trace"_a, "options"_a, "progress"_a = py::none());
   module.def(
-      "replay_page",
+      Also{"replay_page", "See write_page for progress."},
       [with](const PracticePage& page, ReplayDevice& device, const SessionOptions& options, const Progress& progress) {
         const AtWork at_work({AtWork::User::call}, &device);
         return released(+[](const PracticePage& on, ReplayDevice* const& of, const SessionOptions& chosen) {
           return replay_page(on, *of, chosen);
         })(page, &device, with(options, progress));
       },
-      "page"_a, "device"_a, "options"_a, "progress"_a = py::none(),
-      "Runs the renderer on recorded samples. See write_page for progress.");
+      "page"_a, "device"_a, "options"_a, "progress"_a = py::none());
   module.def(
-      "run_session",
+      Also{"run_session",
+           "motion(tick, seconds) returns an Intention on the page, or None to end. Takes about 3 us per tick. See "
+           "write_page for progress."},
       [with](const PracticePage& page, const SessionOptions& options, const PenMotion& motion,
              const Progress& progress) { return released(&run_session)(page, with(options, progress), motion); },
-      "page"_a, "options"_a, "motion"_a, "progress"_a = py::none(),
-      "Runs the closed loop with your own motion: motion(tick, seconds) returns an Intention on the page, or None to "
-      "end. Takes about 3 us per tick. See write_page for progress.");
+      "page"_a, "options"_a, "motion"_a, "progress"_a = py::none());
 
-  add_enum(module, "WritingMistakeKind", "Kind of mistake.", WritingMistakeKind::direction, "order direction");
-  add_struct<WritingMistake>(module, "WritingMistake", "A mistake of the writer.", &WritingMistake::kind,
-                             "kind: WritingMistakeKind", &WritingMistake::stroke, "stroke: the expected stroke, from 0",
-                             &WritingMistake::time, "time: of the pen-down [s]", &WritingMistake::reason,
-                             "reason: one line for people");
-  using S = CharacterScore;
-  add_struct<S>(module, "CharacterScore", "Score of a written character.", &S::character,
-                "character: a str of length 1", &S::time, "time [s]", &S::rms_error,
-                "rms_error: lateral, over the completed strokes [m]", &S::max_error, "max_error: lateral [m]",
-                &S::stroke_count, "stroke_count: strokes of the character", &S::strokes_completed,
-                "strokes_completed: by the writer", &S::peak_force, "peak_force [N]", &S::max_force_step,
-                "max_force_step: per tick [N]", &S::mistakes, "mistakes: list of WritingMistake, copied", &S::contour,
-                "contour: exp(-rms error / 5 % of the em), [0, 1]", &S::external_sequence,
-                "external_sequence: completed / (completed + order mistakes)", &S::internal_sequence,
-                "internal_sequence: completed / (completed + direction mistakes)", &S::fidelity,
-                "fidelity: geometric mean of the three")
-      .def("order_mistakes", &S::order_mistakes, "Number of order mistakes.")
-      .def("direction_mistakes", &S::direction_mistakes, "Number of direction mistakes.");
-  module.def("score_page", released(&score_page), "page"_a, "recording"_a, "One score per character of the page.");
+  add_enum<WritingMistakeKind>(module);
+  add_struct<WritingMistake>(module);
+  add_struct<CharacterScore>(module)
+      .def("order_mistakes", &CharacterScore::order_mistakes)
+      .def("direction_mistakes", &CharacterScore::direction_mistakes);
+  module.def("score_page", released(&score_page), "page"_a, "recording"_a);
 
-  add_enum(module, "WritingDirection", "Direction of a pen-down along what it wrote.", WritingDirection::unknown,
-           "forwards backwards neither unknown");
-  add_enum(module, "StrokeRemarkKind", "What there is to remark on a stroke.", StrokeRemarkKind::extra,
-           "order direction shape joined broken missing extra");
-  using D = DrawnStroke;
-  add_struct<D>(module, "DrawnStroke", "What a pen-down wrote.", &D::stroke, "stroke: from 0; -1: none",
-                &D::stroke_count, "stroke_count: strokes that it wrote; above 1: joined", &D::continues,
-                "continues: it continues the stroke that the previous pen-down began", &D::in_turn,
-                "in_turn: written in order", &D::tap, "tap: shorter than 2 % of the em", &D::direction,
-                "direction: WritingDirection", &D::distance, "distance: mean, once both are aligned [em]");
-  add_struct<StrokeRemark>(module, "StrokeRemark", "A remark on a stroke.", &StrokeRemark::kind,
-                           "kind: StrokeRemarkKind", &StrokeRemark::path, "path: the pen-down, from 0; -1: none",
-                           &StrokeRemark::stroke, "stroke: from 0; -1: none", &StrokeRemark::reason,
-                           "reason: one sentence for people");
-  py::class_<MatchResult>(module, "MatchResult", "Result of match_strokes.")
-      .def_readonly("drawn", &MatchResult::drawn, "list of DrawnStroke, one per pen-down, copied")
-      .def_readonly("remarks", &MatchResult::remarks, "list of StrokeRemark, copied")
-      .def("count", &MatchResult::count, "kind"_a, "Number of remarks of a kind.");
-  module.def("match_strokes", &match_of, "character"_a, "paths"_a, "tolerances"_a = StrokeTolerances(),
-             "Which stroke each pen-down (n, 2) [em] wrote, in which order and direction, from geometry alone. Of the "
-             "tolerances `direction` and `distinction` apply. Raises InvalidValue.");
+  add_enum<WritingDirection>(module);
+  add_enum<StrokeRemarkKind>(module);
+  add_struct<DrawnStroke>(module);
+  add_struct<StrokeRemark>(module);
+  Class<MatchResult>(module)
+      .def_readonly("drawn", &MatchResult::drawn)
+      .def_readonly("remarks", &MatchResult::remarks)
+      .def("count", &MatchResult::count, "kind"_a);
+  module.def(Also{"match_strokes", "Each path is an array (n, 2) [em]."}, &match_of, "character"_a, "paths"_a,
+             "tolerances"_a = StrokeTolerances());
 
-  add_struct<MeanInterval>(module, "MeanInterval", "A mean with its 95 % confidence interval.", &MeanInterval::mean,
-                           "mean: of the values; NaN if there are none", &MeanInterval::half_width,
-                           "half_width: of the interval; NaN with fewer than two draws", &MeanInterval::values,
-                           "values: number of values", &MeanInterval::draws, "draws: number of independent draws");
+  add_struct<MeanInterval>(module);
   module.def(
-      "mean_interval",
+      InPython{"mean_interval",
+               "The MeanInterval of values (n,), clustered by the independent draw that each belongs to, an integer "
+               "(n,): Student's t with one degree of freedom less than there are draws."},
       [](const ArrayLike& values, const std::vector<std::uint64_t>& draws) {
         const Doubles numbers = doubles(values, "values");
         if (static_cast<std::size_t>(numbers.size()) != draws.size()) {
@@ -289,14 +230,17 @@ void add_practice(py::module_& module) {
         for (std::size_t i = 0; i < drawn.size(); ++i) drawn[i] = {numbers.data()[i], draws[i]};
         return mean_interval(drawn);
       },
-      "values"_a, "draws"_a,
-      "The MeanInterval of values (n,), clustered by the independent draw that each belongs to, an integer (n,): "
-      "Student's t with one degree of freedom less than there are draws.");
+      "values"_a, "draws"_a);
 
-  add_enum(module, "InkDetail", "How closely imported ink follows the outlines of its source.", InkDetail::full,
-           "none half_widths full");
+  add_enum<InkDetail>(module);
   module.def(
-      "import_characters",
+      Also{"import_characters",
+           "Returns a CharacterList and a report (docs/import.md): kind, characters, strokes, labelled, agreed, "
+           "allowed, ids_used by id, letters_unused, notes; within: strokes and characters within an error [em]; "
+           "worst: code, order, stroke (from 1), id, error [em]; skipped files with reasons. With `report`, every "
+           "stroke is measured against its source (docs/strokes.md): measures, a row for each, lengths in em; "
+           "crossings: in the source, kept; ink: of each stroke, intersection over union with its outline. `ink` is "
+           "kept of hanzi-writer-data."},
       [](const std::filesystem::path& source, const std::optional<std::filesystem::path>& letters,
          const std::u32string& only, bool alternates, bool ideographs_only, const std::string& date, int threads,
          bool report, const Progress& progress, InkDetail ink) {
@@ -305,18 +249,11 @@ void add_practice(py::module_& module) {
                                        report,               {},         interruptible(progress)};
         ImportResult imported = released(&import_characters)(source, options);
         return py::typing::Tuple<CharacterList, py::dict>(
-            py::make_tuple(std::move(imported.list), as_dict(imported.report)));
+            py::make_tuple(std::move(imported.list), told_report(imported.report)));
       },
       "source"_a, "letters"_a = py::none(), "only"_a = std::u32string(), "alternates"_a = false,
       "ideographs_only"_a = true, "date"_a = "", "threads"_a = 0, "report"_a = false, "progress"_a = py::none(),
-      "ink"_a = InkDetail::full,
-      "Imports hanzi-writer-data or KanjiVG (a directory or a tarball), a set file or the text format. Returns a "
-      "CharacterList and a report (docs/import.md): kind, characters, strokes, labelled, agreed, allowed, ids_used "
-      "by id, letters_unused, notes; within: strokes and characters within an error [em]; worst: code, order, stroke "
-      "(from 1), id, error [em]; skipped files with reasons. With `report`, every stroke is measured against its "
-      "source (docs/strokes.md): measures, a row for each, lengths in em; crossings: in the source, kept; ink: of each "
-      "stroke, intersection over union with its outline. `ink` is kept of hanzi-writer-data. Raises "
-      "FileError, FormatError, InvalidValue.");
+      "ink"_a = InkDetail::full);
 }
 
 }  // namespace calligraphy::python
