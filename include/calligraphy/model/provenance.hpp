@@ -5,6 +5,7 @@
 
 namespace calligraphy {
 
+/// Origin of characters, and the terms of their use.
 struct Provenance {
   std::string source;        ///< origin of the drawings, one line
   std::string licence;       ///< name of the licence, one line
