@@ -23,7 +23,7 @@ struct OpenHapticsOptions {
   std::string library;
   /// Name given to the device in the vendor's setup program; empty: the runtime's default device.
   std::string device;
-  CalibrationStyle calibration = CalibrationStyle::inkwell;  ///< used where the device supports it
+  CalibrationStyle calibration = CalibrationStyle::inkwell;  ///< what the runtime is asked for until it has calibrated
   double (*time)() noexcept = nullptr;                       ///< a monotonic clock [s]; null: the system's
 };
 

@@ -20,7 +20,7 @@ struct CaptureOptions {
 /// One transfer from the device: a bus packet of a serial device, a report of a HID.
 struct CapturedTransfer {
   double time = 0.0;             ///< since the device was opened [s]
-  std::vector<std::byte> bytes;  ///< as received, without the id of a HID report if it has none
+  std::vector<std::byte> bytes;  ///< as received; of a HID with numbered reports the number first
 };
 
 /// What a device has sent.

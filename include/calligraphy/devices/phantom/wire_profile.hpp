@@ -83,7 +83,7 @@ struct WireProfile {
   std::size_t report_size = 0;                    ///< device to host, without framing [bytes]
   PerJoint<Field> encoders;                       ///< incremental; they wrap at their width
   PerJoint<std::optional<Field>> encoder_copies;  ///< redundant; a report in which one disagrees is corrupted
-  PerJoint<std::optional<Field>> gimbal;          ///< gimbal angles, which are only compared with their copies
+  PerJoint<std::optional<Field>> gimbal;          ///< potentiometers of the pen, read only for checking
   PerJoint<std::optional<Field>> gimbal_copies;   ///< redundant, likewise
   std::vector<Field> buttons;                     ///< nonzero while pressed; the first is bit 0 of DeviceState::buttons
   std::optional<Field> docked;                    ///< the pen is in the inkwell
@@ -94,10 +94,10 @@ struct WireProfile {
 
   std::size_t command_size = 0;           ///< host to device, without framing [bytes]
   PerJoint<std::optional<DacField>> dac;  ///< motor torques
-  std::vector<Constant> constants;        ///< sent in every command
+  std::vector<Constant> constants;        ///< written first into every command; the other fields overwrite it
   std::optional<Field> motors_on;         ///< motor enable bit
   std::optional<Field> toggle;      ///< dead-man bit: changes with each command; otherwise the amplifiers switch off
-  std::optional<Field> dock_light;  ///< light of the inkwell
+  std::optional<Field> dock_light;  ///< light of the inkwell, kept off
   std::optional<Checksum> command_checksum;  ///< computed for every command
 
   std::vector<std::vector<std::byte>> start;  ///< sent in order whenever the link comes up
