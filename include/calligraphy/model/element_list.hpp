@@ -59,6 +59,7 @@ class ElementList {
   constexpr unsigned curves() const noexcept { return curves_; }
   /// "LCL", in static storage.
   std::string_view elements() const noexcept { return {all_[curves_].data(), size_}; }
+  /// Whether they have the same elements in the same order.
   bool operator==(const ElementList&) const = default;
 
  private:

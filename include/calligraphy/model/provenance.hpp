@@ -12,6 +12,7 @@ struct Provenance {
   std::string attribution;   ///< who must be credited, one line
   std::string licence_text;  ///< text of the licence, where its terms require that it is included; any number of lines
 
+  /// Whether all four texts are equal.
   bool operator==(const Provenance&) const = default;
 };
 

@@ -23,6 +23,7 @@ struct StrokeInk {
   std::array<double, ink_knot_count>
       offsets{};  ///< at the knots, of the centre line, to the left as the stroke is written [em]
 
+  /// Whether all lengths are equal.
   bool operator==(const StrokeInk&) const = default;
 };
 

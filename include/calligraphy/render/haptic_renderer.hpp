@@ -30,6 +30,7 @@ class HapticRenderer {
 
   /// One that was moved from may only be destroyed or assigned to.
   HapticRenderer(HapticRenderer&&) noexcept = default;
+  /// Likewise.
   HapticRenderer& operator=(HapticRenderer&&) noexcept = default;
 
   /// Processes one sample. Write `force` of the result to the device.
