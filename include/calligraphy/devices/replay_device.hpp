@@ -20,7 +20,9 @@ class ReplayDevice final : public HapticDevice {
   void write(const Eigen::Vector3d& force) noexcept override;
   void close() noexcept override;
 
+  /// Whether no sample is left, or the device is closed.
   bool finished() const noexcept { return !open_ || next_ >= samples_.size(); }
+  /// The force last written [N].
   const Eigen::Vector3d& last_force() const noexcept { return force_; }
 
  private:

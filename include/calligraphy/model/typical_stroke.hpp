@@ -11,6 +11,7 @@
 
 namespace calligraphy {
 
+/// Number of entries of the stroke library; their ids run from 1 to this.
 inline constexpr int typical_stroke_count = 39;
 
 /// One entry of the stroke library. The id is independent of the size and position of a stroke.
@@ -32,6 +33,7 @@ struct TypicalStroke {
   /// Files of format 1 have this one.
   std::string_view printed_elements = {};
 
+  /// `printed_elements`, or `elements` where the paper counts no other.
   constexpr std::string_view as_printed() const noexcept {
     return printed_elements.empty() ? elements : printed_elements;
   }

@@ -35,7 +35,10 @@ struct WriterSkill {
   double correction = 2.0;       ///< share of the perceived error corrected per second [1/s]
   double caution = 0.025;        ///< perceived lateral error at which the speed is halved [em]
 
+  /// An unskilled writer, who believes characters to be several percent of the em off and begins some strokes out of
+  /// order or backwards (docs/practice.md).
   static WriterSkill novice();
+  /// A skilled writer: a third of the novice's spreads, faster, and without mistakes of order or direction.
   static WriterSkill skilled();
 };
 
