@@ -42,7 +42,7 @@ enum class NearestPointStatus {
 
 /// The point of an element that is nearest to a query, in the unit of its control points.
 struct NearestPoint {
-  double parameter = 0.0;         ///< in [0, 1]
+  double parameter = 0.0;         ///< of the point on the element, in [0, 1]
   Point point = Point::Zero();    ///< on the curve (wang2006: the midpoint of two points of it)
   double distance = 0.0;          ///< from the query to `point`; infinite if one is not finite
   Point tangent = Point::Zero();  ///< unit vector in writing direction; zero for a point

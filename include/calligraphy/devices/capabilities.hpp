@@ -67,7 +67,8 @@ void validate(const Capabilities& capabilities);
 /// exceed the peak. A force that is not finite counts as zero.
 Eigen::Vector3d output_force(const Capabilities& capabilities, const Eigen::Vector3d& commanded) noexcept;
 
-/// @throws ValueError naming `user` and the axes unless x, y and z are both sensed and driven
+/// Checks that a device has all three translations. @throws ValueError naming `user` and the axes unless x, y and z are
+/// both sensed and driven
 void require_translations(const Capabilities& capabilities, const char* user);
 
 }  // namespace calligraphy

@@ -30,6 +30,7 @@ struct PointerOptions {
 /// the pen there, not at the pointer. Mapping the pixels of a window to the paper is left to the caller.
 class PointerDevice final : public HapticDevice {
  public:
+  /// A simulated device, and the hand with this grip that the pointer moves.
   /// @throws ValueError naming the value when the device, the grip or an option is invalid
   explicit PointerDevice(const Capabilities& device, const GripImpedance& grip = {},
                          const PointerOptions& options = {});

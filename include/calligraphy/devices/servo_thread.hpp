@@ -33,7 +33,7 @@ NextDeadline next_deadline(double deadline, double period, double now) noexcept;
 /// warnings() reports it.
 class ServoThread final : public ServoClock {
  public:
-  /// @throws ValueError naming the value when an option is out of range
+  /// A clock that does not run yet. @throws ValueError naming the value when an option is out of range
   explicit ServoThread(const ServoThreadOptions& options = {});
   /// Calls stop().
   ~ServoThread() override;

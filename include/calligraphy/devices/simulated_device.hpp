@@ -21,6 +21,7 @@ struct Intention {
 /// under Coulomb friction: the result does not depend on the step size.
 class SimulatedDevice final : public HapticDevice {
  public:
+  /// A device at rest at this position [m], held with this grip; by default nobody holds it.
   /// @throws ValueError naming the value when the device or the grip is not physical, when the apparent mass is
   /// unknown, or when a translation is not sensed or not driven
   explicit SimulatedDevice(const Capabilities& device, const GripImpedance& grip = {0.0, 0.0, 0.0},

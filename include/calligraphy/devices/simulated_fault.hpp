@@ -19,7 +19,7 @@ enum class SimulatedFaultKind : std::uint8_t {
 /// One fault: active at every virtual time from `begin` until before `begin` + `duration`.
 struct SimulatedFault {
   double begin = 0.0;                                   ///< virtual time of the device [s]
-  double duration = 0.0;                                ///< infinity: for good [s]
+  double duration = 0.0;                                ///< how long it lasts; infinity: for good [s]
   SimulatedFaultKind kind = SimulatedFaultKind::stale;  ///< what the device shows
   int ticks = 1;                              ///< late: 1 to 1000 advances more than the device's sample delay
   DeviceStatus status = DeviceStatus::fault;  ///< reported: the status of every sample

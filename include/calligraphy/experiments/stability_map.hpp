@@ -54,15 +54,15 @@ struct StabilityLine {
 
 /// Variation of one property of the loop, all others kept constant.
 struct StabilitySweep {
-  std::string name;                  ///< "damping"
-  std::string label;                 ///< with its unit, for people
-  std::vector<std::string> values;   ///< one per line
+  std::string name;                  ///< of the property: "damping"
+  std::string label;                 ///< the property with its unit, for people
+  std::vector<std::string> values;   ///< of the property, one per line
   std::vector<StabilityLine> lines;  ///< by increasing value
 };
 
 /// What a stability map simulates; its grid has every combination of the lists.
 struct StabilityMapOptions {
-  Capabilities device = point_mass();  ///< of the sweeps, which vary one property at a time
+  Capabilities device = point_mass();  ///< the properties that a sweep or the grid does not vary
   WallContact contact;                 ///< `controlled` is ignored: both are simulated
   int per_decade = 8;                  ///< number of stiffnesses per decade
   double min_stiffness = 10.0;         ///< lowest stiffness simulated [N/m]

@@ -29,9 +29,9 @@ struct NearestPointCost {
   double ns = 0.0;           ///< per query, median over the rounds
   double ns_p90 = 0.0;       ///< per query, 90th percentile of the rounds
   double batch_ns = 0.0;     ///< per query, with all queries to a curve in one call, median
-  double error = 0.0;        ///< median
-  double error_p99 = 0.0;    ///< 99th percentile
-  double error_worst = 0.0;  ///< maximum
+  double error = 0.0;        ///< median [1]
+  double error_p99 = 0.0;    ///< 99th percentile [1]
+  double error_worst = 0.0;  ///< maximum [1]
   double wrong = 0.0;        ///< share of wrong branches: error above 1e-3
 };
 
@@ -77,7 +77,7 @@ struct ServoRateTradeoff {
   double stiffness = 0.0;    ///< default paper stiffness at this rate [N/m]
   bool stable = false;       ///< a pen pressed onto this paper comes to rest
   double penetration = 0.0;  ///< maximum, while the paper is solid [m]
-  double path_error = 0.0;   ///< RMS, lateral [m]
+  double path_error = 0.0;   ///< RMS of the lateral error [m]
   double force_step = 0.0;   ///< maximum change of the force per tick [N]
   double written = 0.0;      ///< share of the strokes completed
 
@@ -107,7 +107,7 @@ std::vector<ServoRateTradeoff> servo_rate_tradeoff(std::span<const Character> ch
 
 /// Control points rounded to a grid of 2^bits positions along each edge of the em square.
 struct CoordinateWidthTradeoff {
-  int bits = 0;            ///< per coordinate
+  int bits = 0;            ///< of a stored coordinate
   double step = 0.0;       ///< of the grid [em]
   double max_error = 0.0;  ///< maximum distance between the original and the stored strokes, in both directions [em]
   double rms_error = 0.0;  ///< over their length, in both directions [em]

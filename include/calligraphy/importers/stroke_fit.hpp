@@ -16,13 +16,13 @@ struct StrokeFitOptions {
 
 /// A stroke recognised and fitted.
 struct FittedStroke {
-  StrokeInput stroke;         ///< without ink, all attraction factors 1
+  StrokeInput stroke;         ///< its typical stroke, control points and elements
   double error = 0.0;         ///< discrete Fréchet distance of stroke and path, which keeps the order; the stroke may
                               ///< begin and end within `half_width` of the path's ends [em]
   double unbent_error = 0.0;  ///< the same before lines of the typical stroke became curves [em]
   double half_width = 0.0;  ///< of the brush: median of the radii that fit into the outline along the path, at most 15
                             ///< % of its length; 0 without an outline [em]
-  int recognised = 0;  ///< the typical stroke by geometry alone
+  int recognised = 0;       ///< the typical stroke by geometry alone
 };
 
 /// Finds the typical stroke and its control points for a path, a polyline in em, y up. The stroke follows all of the

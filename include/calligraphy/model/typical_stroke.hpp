@@ -19,7 +19,7 @@ inline constexpr int typical_stroke_count = 39;
 /// Ids 1, 2, 4, 10, 16, 20 and 31 are the paper's, inferred from Table 3 and Figs. 11 and 12. Fig. 7 is lost, so the
 /// other ids are this library's.
 struct TypicalStroke {
-  int id;                     ///< 1 to 39
+  int id;                     ///< number in the stroke library, 1 to 39
   std::string_view name;      ///< Chinese name
   std::string_view pinyin;    ///< romanised name
   std::string_view code;      ///< letter code as used for CJK strokes

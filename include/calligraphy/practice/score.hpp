@@ -30,7 +30,7 @@ struct CharacterScore {
   /// From the first pen-down (or the end of the previous character) to the end of the last stroke [s].
   double time = 0.0;
   double rms_error = 0.0;                ///< lateral, over the arc length of the completed strokes [m]
-  double max_error = 0.0;                ///< lateral [m]
+  double max_error = 0.0;                ///< lateral, over the same [m]
   int stroke_count = 0;                  ///< strokes of the character
   int strokes_completed = 0;             ///< of these, strokes that the writer finished
   double peak_force = 0.0;               ///< on the page (RecordedSample::force) [N]

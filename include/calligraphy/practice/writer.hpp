@@ -44,7 +44,7 @@ struct WriterSkill {
 
 /// What the display shows. It reveals neither forces nor the mode.
 struct VisualFeedback {
-  Eigen::Vector3d pen_tip = Eigen::Vector3d::Zero();  ///< page [m]
+  Eigen::Vector3d pen_tip = Eigen::Vector3d::Zero();  ///< virtual pen tip, page frame [m]
   int character = 0;                                  ///< index of the active character, shown in yellow
   int stroke = 0;                                     ///< index of the active stroke, whose start has the red ellipse
   bool writing = false;                               ///< a green trace grows from the pen
@@ -66,6 +66,7 @@ VisualFeedback visual_feedback(const HapticTick& tick) noexcept;
 /// pages; the same character at the same index with the same seed is the same draw.
 class SimulatedWriter {
  public:
+  /// A writer before the first stroke of the page.
   /// @throws ValueError when the page is empty or a parameter of the skill is out of its domain
   SimulatedWriter(const PracticePage& page, const WriterSkill& skill, std::uint64_t seed);
 

@@ -10,7 +10,7 @@ namespace calligraphy {
 ///
 /// With K_S constant, eq. (2) and (3) integrate to this map of positions, which neither drifts nor depends on the rate.
 struct MotionMapping {
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< device axes to page axes
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< from device axes to page axes
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();        ///< position of the device origin on the page [m]
   double scale = 1.0;  ///< K_S: how far the pen moves on the page for each metre of the device [1]
 

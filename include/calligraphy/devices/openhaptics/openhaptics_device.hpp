@@ -41,6 +41,7 @@ struct OpenHapticsOptions {
 /// Never run on hardware: written from the public interface and tested against a stub.
 class OpenHapticsDevice final : public HapticDevice {
  public:
+  /// Loads the runtime and opens the device.
   /// @throws DeviceError when the runtime is missing or incomplete, when it has no such device, or while a loop runs on
   /// another of its devices; the message says what to do
   explicit OpenHapticsDevice(const OpenHapticsOptions& options = {});

@@ -15,7 +15,7 @@ using Joints = Eigen::Vector3d;
 
 /// Joint limits of an arm.
 struct JointLimits {
-  double waist = std::numeric_limits<double>::infinity();          ///< in both directions [rad]
+  double waist = std::numeric_limits<double>::infinity();          ///< largest waist angle, in both directions [rad]
   double shoulder_min = -std::numeric_limits<double>::infinity();  ///< lowest shoulder angle [rad]
   double shoulder_max = std::numeric_limits<double>::infinity();   ///< highest shoulder angle [rad]
   double elbow_min = -1.5707963267948966;  ///< lowest elbow minus shoulder; the arm is singular at a right angle [rad]
@@ -32,8 +32,8 @@ struct JointLimits {
 /// Reality Haptics, TVCG 2009], s = 1 the Premium [facts from mahilab/Phantom, with the axes rotated and the origin
 /// moved to p = 0].
 struct Linkage {
-  double upper_arm = 0.0;    ///< l1 [m]
-  double forearm = 0.0;      ///< l2 [m]
+  double upper_arm = 0.0;    ///< its length l1 [m]
+  double forearm = 0.0;      ///< its length l2 [m]
   double waist_sense = 1.0;  ///< s: 1 or -1
   JointLimits limits;        ///< beyond which the arm cannot turn
   /// Origin of the device axes in this library, chosen so that the workspace box centred on it stays as far as possible

@@ -48,7 +48,7 @@ struct PhantomStatistics {
   std::uint64_t commands = 0;          ///< commands passed to the link
   std::uint64_t refused_commands = 0;  ///< commands that the link did not accept
   std::uint64_t released = 0;          ///< times that the motors were switched off for lack of a command
-  std::array<std::uint64_t, device_fault_count> faults{};  ///< indexed by DeviceFault
+  std::array<std::uint64_t, device_fault_count> faults{};  ///< occurrences of each fault, by DeviceFault
   std::uint64_t transfers_failed = 0;                      ///< transfers that the bus did not complete
   std::uint64_t commands_replaced = 0;                     ///< commands superseded by a newer one before they were sent
   std::uint64_t opened = 0;                                ///< times that the device was found

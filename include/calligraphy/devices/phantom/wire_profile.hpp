@@ -35,7 +35,7 @@ struct Constant {
 
 /// A bit by which the device reports a fault.
 struct FaultBit {
-  DeviceFault fault = DeviceFault::runtime_error;  ///< the fault
+  DeviceFault fault = DeviceFault::runtime_error;  ///< what it stands for
   Field field;                                     ///< nonzero while the fault lasts
 };
 
