@@ -62,10 +62,6 @@ class Item:
     def qualified(self) -> str:
         return "::".join(("", self.namespace, *self.scope, self.name))
 
-    @property
-    def text(self) -> str:
-        return with_type(in_python("\n".join(self.behind or self.above)), result_type(self))
-
 
 def in_python(comment: str) -> str:
     """The text of a comment: paragraphs on one line each, commands as sentences."""
@@ -87,23 +83,26 @@ def without_brackets(code: str, brackets: str = "<>") -> str:
     return code
 
 
-def result_type(item: Item) -> str:
-    """The type of a field, or of what a function without arguments returns."""
-    found = re.match(r"(.*?)\s*\b\w+\s*\(\s*\)", item.code) if item.kind == "function" else None
-    code = found[1] if found else item.code if item.kind == "field" else ""
-    return re.sub(r"\b(?:const|constexpr|static|virtual|inline|explicit)\b|\[\[.*?\]\]|&", "", code).strip()
-
-
-def with_type(text: str, kind: str) -> str:
-    """The text with what NumPy or Python makes of the type, before the unit if it ends with one."""
-    array = re.fullmatch(r"std::array<double, (\w+)>", kind)
-    told = f"({array[1]},)" if array else SHAPES.get(kind.removeprefix("phantom::"))
-    told = "copied" if kind.startswith("std::vector<") else told
-    if told is None or told in text:
+def text_of(item: Item, kinds: set[str]) -> str:
+    """The documentation of an item: its comment, and what Python makes of its type, where that is one of these kinds or
+    an array."""
+    text = in_python("\n".join(item.behind or item.above))
+    result = re.match(r"(.*?)\s*\b\w+\s*\(\s*\)", item.code) if item.kind == "function" else None
+    kind = result[1] if result else item.code if item.kind == "field" else ""
+    kind = re.sub(r"\b(?:const|constexpr|static|virtual|inline|explicit)\b|&|\bphantom::", "", kind).strip()
+    container, _, element = re.sub(r"^std::(\w+)<(.*)>$", r"\1/\2", kind).rpartition("/")
+    if item.kind == "field" and element in kinds:
+        told = {"": element, "vector": f"list of {element}", "optional": f"{element} or None"}.get(container, "")
+        text = f"{told}: {text}" if told and text else told or text
+    shape = SHAPES.get(kind) or re.sub(r"array/double, (\w+)", r"(\1,)", f"{container}/{element}")
+    added = "copied" if container == "vector" else shape if shape.startswith("(") else ""
+    if not added or added in text:
         return text
-    found = re.search(r"\s*(\[[^\]]*\])?(\.?)$", text)
-    before, unit, stop = text[: found.start()], found[1], found[2]
-    return (f"{before}, {told}" if before else told) + (f" {unit}" if unit else "") + stop
+    text, unit = re.fullmatch(r"([\s\S]*?)((?:\s*\[[^\]]*\])?)", text).groups()
+    if text.endswith("."):
+        return f"{text} {added.capitalize()}{unit}."
+    comma = ";" if added == "copied" else ","
+    return (f"{text}{comma} {added}{unit}" if text else f"{added} {unit}").strip()
 
 
 class Header:
@@ -157,7 +156,8 @@ class Header:
                 code, comment = "", []
             else:
                 self.skip_block()
-                function = re.match(r"[^=(]*\(", without_brackets(code)) is not None
+                argument = code.count("(") > code.count(")")
+                function = not argument and re.match(r"[^=(]*(?:\boperator\W+)?\(", without_brackets(code)) is not None
         end()
 
     def skip_block(self) -> None:
@@ -179,8 +179,8 @@ def declared(found: Item, kind: str) -> list[Item]:
         return [item("member", name.strip(), value.strip())]
     if re.match(r"(using|typedef|friend|static_assert|extern|struct|class|enum)\b", plain) or "operator" in plain:
         return []
-    if function := re.match(r"[^=(]*?(~?\b\w+)\s*\((?!\*)", plain):
-        return [item("function", function[1], code)]
+    if function := re.match(r"[^=(]*?(~?\b[\w:]+)\s*\((?!\*)", plain):
+        return [] if "::" in function[1] else [item("function", function[1], code)]
     if not found.scope or re.match(r"(inline )?static\b", plain) or "(" in plain.partition("=")[0]:
         return []
     value = r"\s*(?:=.*|\[.*)$"  # initialisers in braces have been skipped
@@ -198,13 +198,14 @@ def generated(headers: dict[str, str]) -> str:
     """The header, from the text of each header by its name."""
     aliases = {name: kind for text in headers.values() for name, kind in re.findall(r"using (\w+) = ([^;]+);", text)}
     files = {name: Header(text).items for name, text in headers.items()}
+    kinds = {each.name for items in files.values() for each in items if each.kind in ("struct", "class", "enum")}
     texts: dict[tuple[str, str], str] = {}
     for item in (item for items in files.values() for item in items if item.kind != "member"):
         owner = "::".join(item.scope)
         if item.kind == "function" and (first := re.search(r"\((?:const )?([\w:]+)", item.code)):
-            texts.setdefault((owner, f"{item.name}({first[1]})"), item.text)
+            texts.setdefault((owner, f"{item.name}({first[1]})"), text_of(item, kinds))
         if not texts.get((owner, item.name)):
-            texts[owner, item.name] = item.text
+            texts[owner, item.name] = text_of(item, kinds)
     parts = [HEAD]
     for name, items in files.items():
         parts.append(f"#if __has_include(<{name}>)\n#include <{name}>\nnamespace calligraphy::python {{")
@@ -216,7 +217,7 @@ def generated(headers: dict[str, str]) -> str:
                 members = [e for e in within if e.kind == "member"]
                 flags = any("<<" in member.code for member in members)
                 entries = [
-                    f"Member{{{member.qualified}, {quoted(member.name)}, {quoted(member.text)}}}"
+                    f"Member{{{member.qualified}, {quoted(member.name)}, {quoted(text_of(member, kinds))}}}"
                     for member in members
                     if not (flags and member.code == "0")  # Python's flags have it already
                 ]
@@ -225,7 +226,7 @@ def generated(headers: dict[str, str]) -> str:
                 parts.append(f"template <>\ninline constexpr bool is_flags<{kind.qualified}> = {str(flags).lower()};")
             elif kind.kind == "struct":
                 entries = [
-                    f"\n    Field{{&{field.qualified}, {quoted(field.name)}, {quoted(field.text)}}}"
+                    f"\n    Field{{&{field.qualified}, {quoted(field.name)}, {quoted(text_of(field, kinds))}}}"
                     for field in within
                     if field.kind == "field" and not cannot_be_bound(field.code, aliases)
                 ]

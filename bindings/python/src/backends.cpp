@@ -57,15 +57,16 @@ void add_kinematics(Module& module) {
   add_struct<JointLimits>(module);
   add_struct<Linkage>(module);
   module.def("linkage", &phantom::linkage, py::return_value_policy::copy, "model"_a);
-  module.def(Also{"tip_position", "For joints (3,) or (n, 3) [rad]; same shape [m]."}, of_joints(&phantom::tip_position),
-             "linkage"_a, "joints"_a);
+  module.def(Also{"tip_position", "For joints (3,) or (n, 3) [rad]; same shape [m]."},
+             of_joints(&phantom::tip_position), "linkage"_a, "joints"_a);
   module.def(Also{"tip_jacobian", "For joints (3,) or (n, 3) [rad]: (3, 3) or (n, 3, 3) [m/rad]."},
              of_joints(&phantom::tip_jacobian), "linkage"_a, "joints"_a);
-  module.def(Also{"manipulability", "For joints (3,) or (n, 3) [rad]: () or (n,)."}, of_joints(&phantom::manipulability),
-             "linkage"_a, "joints"_a);
+  module.def(Also{"manipulability", "For joints (3,) or (n, 3) [rad]: () or (n,)."},
+             of_joints(&phantom::manipulability), "linkage"_a, "joints"_a);
   module.def(
       Also{"inverse_kinematics",
-           "Returns joints and whether each position is reachable: for (3,) or (n, 3) [m] joints of the same shape [rad] "
+           "Returns joints and whether each position is reachable: for (3,) or (n, 3) [m] joints of the same shape "
+           "[rad] "
            "and bool, () or (n,)."},
       [](const Linkage& arm, const ArrayLike& position) {
         const auto joints = [&](const auto& place, py::ssize_t) -> Eigen::Vector3d {
@@ -211,8 +212,8 @@ void add_openhaptics(Module& module) {
       "A Touch, Phantom or Omni through the vendor's runtime, which is loaded while a device is open. The runtime's "
       "scheduler clocks ServoLoop and write_with_device; while no loop runs, read() returns the last sample as stale. "
       "Never run on hardware. Raises DeviceError with a remedy.")
-      .def(py::init(
-               released(+[](const OpenHapticsOptions& options) { return std::make_unique<OpenHapticsDevice>(options); })),
+      .def(py::init(released(
+               +[](const OpenHapticsOptions& options) { return std::make_unique<OpenHapticsDevice>(options); })),
            "options"_a = OpenHapticsOptions{})
       .def_property_readonly("serial", &OpenHapticsDevice::serial)
       .def_property_readonly("library", &OpenHapticsDevice::library)

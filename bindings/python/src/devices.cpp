@@ -62,7 +62,8 @@ class VirtualServo {
  private:
   void refuse_inside_a_tick() const {
     if (!stepping_) return;
-    throw Error("this Servo is already inside a tick: step or reset it from one thread only, and not from its force law");
+    throw Error(
+        "this Servo is already inside a tick: step or reset it from one thread only, and not from its force law");
   }
 
   HapticDevice& device_;

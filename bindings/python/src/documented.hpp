@@ -110,9 +110,9 @@ class Class : public py::class_<Type, Options...> {
       : Base(module, name_of<Type>.data(), class_text<Extra...>(), extra...) {}
 
   template <class Constructor, class... Extra>
-    requires requires(const Constructor& init, Base& type) { init.execute(type); }
-  Class& def(const Constructor& init, const Extra&... extra) {
-    Base::def(init, extra...);
+  requires requires(Constructor init, Base& type) { std::move(init).execute(type); }
+  Class& def(Constructor init, const Extra&... extra) {
+    Base::def(std::move(init), extra...);
     return *this;
   }
   template <class Function, class... Extra>

@@ -185,8 +185,7 @@ void add_field(py::class_<Struct>& type, const Field<Struct, Member>& field) {
     };
     set = [place, name](const py::object& self, const ArrayLike& value) {
       auto& to = place.of<Member>(self);
-      std::copy_n(fixed_doubles(value, name, static_cast<py::ssize_t>(to.size())).data(), to.size(),
-                  to.begin());
+      std::copy_n(fixed_doubles(value, name, static_cast<py::ssize_t>(to.size())).data(), to.size(), to.begin());
     };
   } else {
     if constexpr (is_vector<Member>) {

@@ -203,10 +203,11 @@ template <>
 inline constexpr std::string_view name_of<Loop> = "ServoLoop";
 
 void add_live(Module& module) {
-  Class<Loop>(module,
-              "A servo loop in real time, in its own thread or on the device's own clock, with a watchdog. The law is a "
-              "HapticRenderer, which runs without Python, or a callable that maps a DeviceState to a force (3,) [N], "
-              "which needs the GIL in every tick (docs/python.md). A `with` block starts and stops the loop.")
+  Class<Loop>(
+      module,
+      "A servo loop in real time, in its own thread or on the device's own clock, with a watchdog. The law is a "
+      "HapticRenderer, which runs without Python, or a callable that maps a DeviceState to a force (3,) [N], "
+      "which needs the GIL in every tick (docs/python.md). A `with` block starts and stops the loop.")
       .def(py::init<HapticDevice&, HapticRenderer&, const ServoLoopOptions&>(), "device"_a, "law"_a,
            "options"_a = ServoLoopOptions{})
       .def(py::init<HapticDevice&, const Law&, const ServoLoopOptions&>(), "device"_a, "law"_a,

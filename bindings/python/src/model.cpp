@@ -61,7 +61,8 @@ Character at(const Characters& characters, char32_t code) {
 }
 
 void add_ink(Module& module) {
-  module.def(Also{"ink_knots", "(8,)."}, [](double length) { return as_numbers(ink_knots(length)); }, "length"_a);
+  module.def(
+      Also{"ink_knots", "(8,)."}, [](double length) { return as_numbers(ink_knots(length)); }, "length"_a);
   module.def(
       InPython{"ink_discs", "Ink along a path (n, 2) as discs at most `spacing` apart: x, y, radius, (m, 3) [em]."},
       [](const ArrayLike& path, const StrokeInk& ink, double spacing) {

@@ -88,8 +88,7 @@ py::dict told_report(const ImportReport& report) {
   for (const SkippedFile& file : report.skipped) skipped.append(py::make_tuple(file.path, file.reason));
   return py::dict("kind"_a = to_string(report.kind), "characters"_a = report.characters, "strokes"_a = report.strokes,
                   "labelled"_a = report.labelled, "agreed"_a = report.agreed, "allowed"_a = report.allowed,
-                  "ids_used"_a = report.ids_used,
-                  "letters_unused"_a = report.letters_unused, "notes"_a = report.notes,
+                  "ids_used"_a = report.ids_used, "letters_unused"_a = report.letters_unused, "notes"_a = report.notes,
                   "within"_a = table(within, dtype_of("error:f8 strokes:i4 characters:i4")),
                   "worst"_a = table(worst, dtype_of("code:U1 order:U32 stroke:i4 id:i4 error:f8")),
                   "measures"_a = table(measures, dtype_of("code:U1 order:U32 stroke:i4 id:i4 frechet:f8 backward:f8 "
@@ -145,13 +144,15 @@ void add_practice(Module& module) {
       .def_readonly("em", &PenTrace::em)
       .attr("__match_args__") = py::make_tuple("character", "strokes", "set", "em");
   module.def(
-      InPython{"read_pen_traces",
-               "Reads the format of docs/pen-traces.md. Raises FileError, or FormatError naming the line and the value."},
+      InPython{
+          "read_pen_traces",
+          "Reads the format of docs/pen-traces.md. Raises FileError, or FormatError naming the line and the value."},
       released(+[](const std::filesystem::path& path) { return read_pen_traces(path.string()); }), "path"_a);
   module.def(
-      InPython{"write_pen_traces",
-               "Writes the format of docs/pen-traces.md; each line of `notice` becomes a comment. Raises FileError, and "
-               "InvalidValue naming a trace that cannot be written."},
+      InPython{
+          "write_pen_traces",
+          "Writes the format of docs/pen-traces.md; each line of `notice` becomes a comment. Raises FileError, and "
+          "InvalidValue naming a trace that cannot be written."},
       released(+[](const std::filesystem::path& path, const std::vector<PenTrace>& traces, const std::string& notice) {
         std::ostringstream out;
         write_pen_traces(out, traces, notice);
@@ -245,8 +246,9 @@ void add_practice(Module& module) {
          const std::u32string& only, bool alternates, bool ideographs_only, const std::string& date, int threads,
          bool report, const Progress& progress, InkDetail ink) {
         // Optional, because an empty C++ path would become "." in Python.
-        const ImportOptions options = {letters.value_or(""), alternates, ideographs_only, ink, only, date, threads,
-                                       report,               {},         interruptible(progress)};
+        const ImportOptions options = {
+            letters.value_or(""),   alternates, ideographs_only, ink, only, date, threads, report, {},
+            interruptible(progress)};
         ImportResult imported = released(&import_characters)(source, options);
         return py::typing::Tuple<CharacterList, py::dict>(
             py::make_tuple(std::move(imported.list), told_report(imported.report)));

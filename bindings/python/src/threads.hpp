@@ -97,7 +97,8 @@ class InLaw {
 void stop_orphans();
 
 /// During its lifetime the device and the renderer, either of which may be null, belong to a loop, to one tick of a
-/// Servo, or to one call that has released the GIL. idle() refuses any other use, which would be a data race. Requires the GIL.
+/// Servo, or to one call that has released the GIL. idle() refuses any other use, which would be a data race. Requires
+/// the GIL.
 class AtWork {
  public:
   enum class User { loop, tick, call };
