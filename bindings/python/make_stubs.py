@@ -31,6 +31,13 @@ import calligraphy._calligraphy as module, enum
 kinds = [kind for kind in vars(module).values() if isinstance(kind, enum.EnumMeta)]
 print({kind.__name__: {member.name: member.value for member in kind} for kind in kinds})
 """
+#: pybind11-stubgen prefers Python's signatures, which have no types, to the first lines of docstrings.
+GENERATE = """
+import inspect, pybind11_stubgen
+def refuse(function): raise TypeError
+inspect.getfullargspec = refuse
+pybind11_stubgen.main()
+"""
 
 
 class Finish(ast.NodeTransformer):
@@ -62,7 +69,7 @@ def main(module: pathlib.Path, stub: pathlib.Path) -> None:
         paths = os.pathsep.join([directory, *filter(None, sys.path)])  # NumPy may be of an isolated build alone
         run = {"check": True, "env": {**os.environ, "PYTHONPATH": paths}, "cwd": directory, "text": True}
         told = subprocess.run([sys.executable, "-c", MEMBERS], stdout=subprocess.PIPE, **run).stdout
-        words = ["-m", "pybind11_stubgen", "calligraphy._calligraphy", "-o", ".", "--enum-class-locations", ".*:calligraphy._calligraphy"]
+        words = ["-c", GENERATE, "calligraphy._calligraphy", "-o", ".", "--enum-class-locations", ".*:calligraphy._calligraphy"]
         subprocess.run([sys.executable, *words], stderr=subprocess.DEVNULL, **run)
         tree = ast.parse((package / "_calligraphy.pyi").read_text(encoding="utf-8"))
     enumerations = ast.literal_eval(told)

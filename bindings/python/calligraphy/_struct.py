@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
+from inspect import Parameter, Signature
 from typing import Any
 
 import numpy as np
@@ -61,6 +62,20 @@ class Struct:
     __deepcopy__ = __copy__
 
 
+def default(value: Any) -> Any:
+    """The value if it is a short literal, otherwise `...`."""
+    plain = value.tolist() if isinstance(value, np.ndarray) else value
+    parts = plain if isinstance(plain, list) else [plain]
+    return plain if len(parts) <= 8 and all(isinstance(part, (float, int, str, type(None))) for part in parts) else ...
+
+
+def signature(kind: Any) -> Signature:
+    """Of a constructor that takes the fields as keywords."""
+    made = kind()
+    fields = [Parameter(n, Parameter.KEYWORD_ONLY, default=default(getattr(made, n))) for n in kind.fields]
+    return Signature([Parameter("self", Parameter.POSITIONAL_OR_KEYWORD), *fields])
+
+
 def finish(kind: Any) -> None:
     """Completes a class of the extension."""
     own, made = dict(vars(kind)), kind.__init__
@@ -73,6 +88,7 @@ def finish(kind: Any) -> None:
             setattr(self, name, value)
 
     if "fields" in own:
+        setattr(with_keywords, "__signature__", signature(kind))
         kind.__init__ = with_keywords
         setattr(kind, "__match_args__", kind.fields)
     if hasattr(kind, "__match_args__"):
