@@ -202,8 +202,6 @@ def generated(headers: dict[str, str]) -> str:
     texts: dict[tuple[str, str], str] = {}
     for item in (item for items in files.values() for item in items if item.kind != "member"):
         owner = "::".join(item.scope)
-        if item.kind == "function" and (first := re.search(r"\((?:const )?([\w:]+)", item.code)):
-            texts.setdefault((owner, f"{item.name}({first[1]})"), text_of(item, kinds))
         if not texts.get((owner, item.name)):
             texts[owner, item.name] = text_of(item, kinds)
     parts = [HEAD]
@@ -212,7 +210,7 @@ def generated(headers: dict[str, str]) -> str:
         for kind in (item for item in items if item.kind in ("struct", "class", "enum")):
             within = [each for each in items if each.scope == (*kind.scope, kind.name)]
             called = "::".join((*kind.scope, kind.name))
-            parts.append(f"template <>\ninline constexpr std::string_view name_of<{kind.qualified}> = {quoted(called)};")
+            parts.append(f"template <>\ninline constexpr const char* name_of<{kind.qualified}> = {quoted(called)};")
             if kind.kind == "enum":
                 members = [e for e in within if e.kind == "member"]
                 flags = any("<<" in member.code for member in members)
@@ -226,7 +224,7 @@ def generated(headers: dict[str, str]) -> str:
                 parts.append(f"template <>\ninline constexpr bool is_flags<{kind.qualified}> = {str(flags).lower()};")
             elif kind.kind == "struct":
                 entries = [
-                    f"\n    Field{{&{field.qualified}, {quoted(field.name)}, {quoted(text_of(field, kinds))}}}"
+                    f"\n    Field{{&{field.qualified}, {quoted(field.name)}}}"
                     for field in within
                     if field.kind == "field" and not cannot_be_bound(field.code, aliases)
                 ]

@@ -53,21 +53,18 @@ auto of_joints(Answer (*function)(const Linkage&, const phantom::Joints&) noexce
 
 }  // namespace
 
-void add_kinematics(Module& module) {
+void add_kinematics(py::module_& module) {
   add_struct<JointLimits>(module);
   add_struct<Linkage>(module);
   module.def("linkage", &phantom::linkage, py::return_value_policy::copy, "model"_a);
-  module.def(Also{"tip_position", "For joints (3,) or (n, 3) [rad]; same shape [m]."},
-             of_joints(&phantom::tip_position), "linkage"_a, "joints"_a);
-  module.def(Also{"tip_jacobian", "For joints (3,) or (n, 3) [rad]: (3, 3) or (n, 3, 3) [m/rad]."},
-             of_joints(&phantom::tip_jacobian), "linkage"_a, "joints"_a);
-  module.def(Also{"manipulability", "For joints (3,) or (n, 3) [rad]: () or (n,)."},
-             of_joints(&phantom::manipulability), "linkage"_a, "joints"_a);
+  module.def("tip_position", of_joints(&phantom::tip_position), "linkage"_a, "joints"_a,
+             "+ For joints (3,) or (n, 3) [rad]; same shape [m].");
+  module.def("tip_jacobian", of_joints(&phantom::tip_jacobian), "linkage"_a, "joints"_a,
+             "+ For joints (3,) or (n, 3) [rad]: (3, 3) or (n, 3, 3) [m/rad].");
+  module.def("manipulability", of_joints(&phantom::manipulability), "linkage"_a, "joints"_a,
+             "+ For joints (3,) or (n, 3) [rad]: () or (n,).");
   module.def(
-      Also{"inverse_kinematics",
-           "Returns joints and whether each position is reachable: for (3,) or (n, 3) [m] joints of the same shape "
-           "[rad] "
-           "and bool, () or (n,)."},
+      "inverse_kinematics",
       [](const Linkage& arm, const ArrayLike& position) {
         const auto joints = [&](const auto& place, py::ssize_t) -> Eigen::Vector3d {
           return inverse_kinematics(arm, place).joints;
@@ -75,15 +72,18 @@ void add_kinematics(Module& module) {
         const auto reachable = [&](const auto& place, py::ssize_t) { return inverse_kinematics(arm, place).reachable; };
         return std::tuple(per_row(position, "position", joints), per_row(position, "position", reachable));
       },
-      "linkage"_a, "position"_a);
+      "linkage"_a, "position"_a,
+      "+ Returns joints and whether each position is reachable: for (3,) or (n, 3) [m] joints of the same shape "
+      "[rad] "
+      "and bool, () or (n,).");
   module.def(
-      Also{"within_limits", "For joints (3,) or (n, 3) [rad]: bool, () or (n,)."},
+      "within_limits",
       [](const Linkage& arm, const ArrayLike& joints, double margin) {
         return per_row(joints, "joints", [&](const auto& row, py::ssize_t) { return within_limits(arm, row, margin); });
       },
-      "linkage"_a, "joints"_a, "margin"_a = 0.0);
+      "linkage"_a, "joints"_a, "margin"_a = 0.0, "+ For joints (3,) or (n, 3) [rad]: bool, () or (n,).");
   module.def(
-      Also{"joint_torque", "Joints [rad], force [N] and torque [N m] are all (3,) or all (n, 3)."},
+      "joint_torque",
       [](const Linkage& arm, const ArrayLike& joints, const ArrayLike& force) {
         const py::array rows = real_numbers(joints, "joints"), forces = real_numbers(force, "force");
         if (!rows.attr("shape").equal(forces.attr("shape")))
@@ -93,16 +93,16 @@ void add_kinematics(Module& module) {
           return joint_torque(arm, row, vector_at(numbers.data(), i));
         });
       },
-      "linkage"_a, "joints"_a, "force"_a);
+      "linkage"_a, "joints"_a, "force"_a, "+ Joints [rad], force [N] and torque [N m] are all (3,) or all (n, 3).");
   module.def(
-      Also{"gravity_torque", "For gravity (2,) [N m] and joints (3,) or (n, 3) [rad]; the shape of these [N m]."},
+      "gravity_torque",
       [](const ArrayLike& gravity, const ArrayLike& joints) {
         const Eigen::Vector2d weight = point(gravity, "gravity");
         return per_row(joints, "joints", [&](const auto& row, py::ssize_t) -> Eigen::Vector3d {
           return phantom::gravity_torque(weight, row);
         });
       },
-      "gravity"_a, "joints"_a);
+      "gravity"_a, "joints"_a, "+ For gravity (2,) [N m] and joints (3,) or (n, 3) [rad]; the shape of these [N m].");
 }
 
 #ifdef CALLIGRAPHY_HAS_PHANTOM
@@ -139,25 +139,19 @@ py::array captured(const PluggedDevice& device, std::size_t transfers, double se
 
 }  // namespace
 
-void add_phantom(Module& module) {
+void add_phantom(py::module_& module) {
   add_enum<LinkKind>(module);
   add_struct<PluggedDevice>(module).def("__str__", &describe_device);
   module.def("plugged_devices", released(&plugged_devices));
   module.def("dump_descriptors", released(&dump_descriptors), "device"_a);
-  module.def(
-      Also{"capture_packets",
-           "Ends after `transfers`, after `seconds` [s], or when stop(), polled ten times a second, returns True. "
-           "Returns a structured array: time since the device was opened [s], and bytes. path: text file to write as "
-           "well: the device after #, then a line per transfer with time and hexadecimal bytes."},
-      &captured, "device"_a, "transfers"_a = CaptureOptions{}.transfers, "seconds"_a = CaptureOptions{}.seconds,
-      "stop"_a = py::none(), "path"_a = py::none());
+  module.def("capture_packets", &captured, "device"_a, "transfers"_a = CaptureOptions{}.transfers,
+             "seconds"_a = CaptureOptions{}.seconds, "stop"_a = py::none(), "path"_a = py::none(),
+             "+ Ends after `transfers`, after `seconds` [s], or when stop(), polled ten times a second, returns True. "
+             "Returns a structured array: time since the device was opened [s], and bytes. path: text file to write as "
+             "well: the device after #, then a line per transfer with time and hexadecimal bytes.");
 
   module.def(
-      InPython{"read_wire_profile",
-               "Reads and validates a built-in profile, by name, or a file as described in docs/wire-profile.md. "
-               "Returns a dict: name, source, licence, rate of reports [Hz], report_size and command_size [bytes], and "
-               "the lines missing_for_position and missing_for_force. Raises FileError, or FormatError naming the line "
-               "and the value."},
+      "read_wire_profile",
       [](const std::filesystem::path& path) {
         const auto read = +[](const std::filesystem::path& from) {
           const std::vector<std::string> shipped = phantom::wire_profile_names();
@@ -171,11 +165,15 @@ void add_phantom(Module& module) {
                         "missing_for_position"_a = missing_for_position(profile),
                         "missing_for_force"_a = missing_for_force(profile));
       },
-      "path"_a);
+      "path"_a,
+      "Reads and validates a built-in profile, by name, or a file as described in docs/wire-profile.md. "
+      "Returns a dict: name, source, licence, rate of reports [Hz], report_size and command_size [bytes], and "
+      "the lines missing_for_position and missing_for_force. Raises FileError, or FormatError naming the line "
+      "and the value.");
 
   add_struct<PhantomOptions>(module);
-  Class<PhantomDevice, HapticDevice>(
-      module, py::is_final(),
+  py::class_<PhantomDevice, HapticDevice>(
+      module, "PhantomDevice", py::is_final(),
       "An open Phantom or Touch on USB. A C++ thread receives and checks reports; after 20 ms without a write() it "
       "switches the motors off. Never run on hardware. Raises DeviceError naming device, cause and remedy.")
       .def(py::init(released(+[](const PhantomOptions& options) { return std::make_unique<PhantomDevice>(options); })),
@@ -186,29 +184,29 @@ void add_phantom(Module& module) {
       .def_property_readonly("joints", when_idle(&PhantomDevice::joints))
       .def_property_readonly("docked", when_idle(&PhantomDevice::docked))
       .def_property_readonly(
-          InPython{"statistics",
-                   "A dict of counts since the device was opened: reports, good and bad; used_reports, which gave a "
-                   "position; lost_reports and repeated_reports, by the sequence number; skipped_bytes of a stream; "
-                   "commands passed to the link, refused_commands, commands_replaced by a newer one; released, times "
-                   "that the motors were switched off for lack of a command; faults by DeviceFault; transfers_failed; "
-                   "opened, times that the device was found; warmest_motor, 0 cold, 1 the limit that it sustains "
-                   "indefinitely."},
-          [](const PhantomDevice& self) { return as_dict(self.statistics()); })
+          "statistics", [](const PhantomDevice& self) { return as_dict(self.statistics()); },
+          "A dict of counts since the device was opened: reports, good and bad; used_reports, which gave a "
+          "position; lost_reports and repeated_reports, by the sequence number; skipped_bytes of a stream; "
+          "commands passed to the link, refused_commands, commands_replaced by a newer one; released, times "
+          "that the motors were switched off for lack of a command; faults by DeviceFault; transfers_failed; "
+          "opened, times that the device was found; warmest_motor, 0 cold, 1 the limit that it sustains "
+          "indefinitely.")
       .def_property_readonly("description", &PhantomDevice::description)
       .def_property_readonly("warnings", &PhantomDevice::warnings);
 }
 #endif
 
 #ifdef CALLIGRAPHY_HAS_OPENHAPTICS
-void add_openhaptics(Module& module) {
+void add_openhaptics(py::module_& module) {
   add_enum<CalibrationStyle>(module);
   add_struct<OpenHapticsOptions>(module);
   module.def(
-      Also{"openhaptics_runtime", "Returns a dict."},
-      [](const std::string& library) { return as_dict(released(&openhaptics_runtime)(library)); }, "library"_a = "");
+      "openhaptics_runtime",
+      [](const std::string& library) { return as_dict(released(&openhaptics_runtime)(library)); }, "library"_a = "",
+      "+ Returns a dict.");
   module.def("openhaptics_error_name", &openhaptics_error_name, "code"_a);
-  Class<OpenHapticsDevice, HapticDevice>(
-      module, py::is_final(),
+  py::class_<OpenHapticsDevice, HapticDevice>(
+      module, "OpenHapticsDevice", py::is_final(),
       "A Touch, Phantom or Omni through the vendor's runtime, which is loaded while a device is open. The runtime's "
       "scheduler clocks ServoLoop and write_with_device; while no loop runs, read() returns the last sample as stale. "
       "Never run on hardware. Raises DeviceError with a remedy.")

@@ -88,60 +88,55 @@ auto at_parameters(Function function) {
 
 }  // namespace
 
-template <>
-inline constexpr std::string_view name_of<NearestPoints> = "NearestPoints";
-
-void add_collision(Module& module) {
+void add_collision(py::module_& module) {
   add_enum<NearestPointMethod>(module);
   add_enum<NearestPointStatus>(module);
   add_struct<NearestPointOptions>(module);
 
-  Class<NearestPoints>(module, "Results of N queries, one array per property.")
+  py::class_<NearestPoints>(module, "NearestPoints", "Results of N queries, one array per property.")
       .def(py::init([](Doubles parameter, Doubles point, Doubles distance, Doubles tangent,
                        py::array_t<std::uint8_t> status) {
              return NearestPoints{parameter, point, distance, tangent, status};
            }),
            "parameter"_a, "point"_a, "distance"_a, "tangent"_a, "status"_a)
-      .def_readonly(InPython{"parameter", "(N,) in [0, 1]"}, &NearestPoints::parameter)
-      .def_readonly(InPython{"point", "(N, 2), on the element, in the unit of the control points"},
-                    &NearestPoints::point)
-      .def_readonly(InPython{"distance", "(N,), from query to point; infinite if not finite"}, &NearestPoints::distance)
-      .def_readonly(InPython{"tangent", "(N, 2), unit vectors in writing direction"}, &NearestPoints::tangent)
-      .def_readonly(InPython{"status", "(N,), values of NearestPointStatus, uint8"}, &NearestPoints::status)
+      .def_readonly("parameter", &NearestPoints::parameter, "(N,) in [0, 1]")
+      .def_readonly("point", &NearestPoints::point, "(N, 2), on the element, in the unit of the control points")
+      .def_readonly("distance", &NearestPoints::distance, "(N,), from query to point; infinite if not finite")
+      .def_readonly("tangent", &NearestPoints::tangent, "(N, 2), unit vectors in writing direction")
+      .def_readonly("status", &NearestPoints::status, "(N,), values of NearestPointStatus, uint8")
       .def_property_readonly(
-          InPython{"certified",
-                   "(N,), bool: no other point of the element is nearer, within the tolerance and rounding"},
+          "certified",
           [](const NearestPoints& self) -> py::array_t<bool> {
             return self.status.attr("__eq__")(static_cast<int>(NearestPointStatus::certified));
-          })
+          },
+          "(N,), bool: no other point of the element is nearer, within the tolerance and rounding")
       .def("__len__", [](const NearestPoints& self) { return self.parameter.size(); })
       .attr("__match_args__") = py::make_tuple("parameter", "point", "distance", "tangent", "status");
 
-  Class<StrokeElement>(module,
-                       "A Bezier curve of degree 1 to 4, prepared for queries. Control points (2, 2) to (5, 2), in any "
-                       "unit; all other lengths are in the same unit.")
+  py::class_<StrokeElement>(
+      module, "StrokeElement",
+      "A Bezier curve of degree 1 to 4, prepared for queries. Control points (2, 2) to (5, 2), in any "
+      "unit; all other lengths are in the same unit.")
       .def(py::init(&element_of), "control_points"_a)
       .def_property_readonly("degree", &StrokeElement::degree)
       .def_property_readonly("size", &StrokeElement::size)
       .def_property_readonly("length", &StrokeElement::length)
-      .def(Also{"point", "(2,) at one parameter, (N, 2) at N."}, at_parameters(&StrokeElement::point), "t"_a)
-      .def(Also{"derivative", "(2,) at one parameter, (N, 2) at N."}, at_parameters(&StrokeElement::derivative), "t"_a)
-      .def(Also{"tangent", "(2,) at one parameter, (N, 2) at N."}, at_parameters(&StrokeElement::tangent), "t"_a)
+      .def("point", at_parameters(&StrokeElement::point), "t"_a, "+ (2,) at one parameter, (N, 2) at N.")
+      .def("derivative", at_parameters(&StrokeElement::derivative), "t"_a, "+ (2,) at one parameter, (N, 2) at N.")
+      .def("tangent", at_parameters(&StrokeElement::tangent), "t"_a, "+ (2,) at one parameter, (N, 2) at N.")
       .def("arc_length", &StrokeElement::arc_length, "t"_a)
       .def("parameter_at", &StrokeElement::parameter_at, "arc_length"_a)
       .def("__repr__", [](const StrokeElement& self) {
         return told("StrokeElement(degree {}, length {:.6g})", self.degree(), self.length());
       });
 
-  module.def(
-      InPython{"nearest_point",
-               "Nearest points of N queries on one element. Releases the GIL.\n\ncontrol_points: (2, 2) to (5, 2), a "
-               "Bezier curve of degree 1 to 4, or a prepared StrokeElement; queries: (N, 2), not copied if they are "
-               "contiguous float64; both in the same unit. method: a NearestPointMethod or its name; tolerance: "
-               "relative to the element's size. A query that is not finite has an infinite distance and is not "
-               "certified. Raises InvalidValue naming the argument."},
-      &ask, "control_points"_a, "queries"_a, "method"_a = "exact", "tolerance"_a = 1e-9, "samples"_a = 16,
-      "refinements"_a = 2);
+  module.def("nearest_point", &ask, "control_points"_a, "queries"_a, "method"_a = "exact", "tolerance"_a = 1e-9,
+             "samples"_a = 16, "refinements"_a = 2,
+             "Nearest points of N queries on one element. Releases the GIL.\n\ncontrol_points: (2, 2) to (5, 2), a "
+             "Bezier curve of degree 1 to 4, or a prepared StrokeElement; queries: (N, 2), not copied if they are "
+             "contiguous float64; both in the same unit. method: a NearestPointMethod or its name; tolerance: "
+             "relative to the element's size. A query that is not finite has an infinite distance and is not "
+             "certified. Raises InvalidValue naming the argument.");
 
   add_enum<ConstraintSpaceRule>(module);
   add_enum<FeaturePlaneRule>(module);
@@ -149,14 +144,14 @@ void add_collision(Module& module) {
   add_struct<ConstraintSpace>(module);
   add_struct<StrokeRules>(module);
   add_struct<Placement>(module).def(
-      Also{"to_page", "(n, 2) [em] to (n, 2) [m]."},
+      "to_page",
       [](const Placement& self, const ArrayLike& value) {
         std::vector<Point> result = points(value, "points");
         for (Point& each : result) each = self.to_page(each);
         return array_of_points(result);
       },
-      "points"_a);
-  Class<PlacedCharacter>(module)
+      "points"_a, "+ (n, 2) [em] to (n, 2) [m].");
+  py::class_<PlacedCharacter>(module, "PlacedCharacter")
       .def(py::init([](const Character& character, const Placement& placement) {
              return PlacedCharacter{character, placement};
            }),

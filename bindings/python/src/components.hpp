@@ -23,15 +23,17 @@
 
 namespace calligraphy::python {
 
-void add_model(Module& module);
-void add_collision(Module& module);
-void add_devices(Module& module);
-void add_kinematics(Module& module);
-void add_phantom(Module& module);
-void add_openhaptics(Module& module);
-void add_render(Module& module);
-void add_practice(Module& module);
-void add_live(Module& module);
-void add_experiments(Module& module);
+void add_model(py::module_& module);
+void add_collision(py::module_& module);
+void add_devices(py::module_& module);
+void add_kinematics(py::module_& module);
+void add_phantom(py::module_& module);
+void add_openhaptics(py::module_& module);
+void add_render(py::module_& module);
+void add_practice(py::module_& module);
+void add_live(py::module_& module);
+void add_experiments(py::module_& module);
+/// Documentation and signatures of everything in the module.
+void finish(const py::module_& module);
 
 }  // namespace calligraphy::python

@@ -99,10 +99,7 @@ void install_for_python() {
 
 }  // namespace
 
-template <>
-inline constexpr std::string_view name_of<VirtualServo> = "Servo";
-
-void add_devices(Module& module) {
+void add_devices(py::module_& module) {
   add_enum<DeviceStatus>(module);
   add_enum<DeviceFault>(module);
   add_struct<PenOrientation>(module);
@@ -114,14 +111,14 @@ void add_devices(Module& module) {
   add_struct<Intention>(module);
   add_enum<SimulatedFaultKind>(module);
   add_struct<SimulatedFault>(module);
-  Class<VelocityEstimator>(module)
+  py::class_<VelocityEstimator>(module, "VelocityEstimator")
       .def(py::init<double>(), "cutoff"_a = VelocityEstimator::default_cutoff)
       .def(
-          Also{"update", "(3,) [m] to (3,) [m/s]."},
+          "update",
           [](VelocityEstimator& self, const ArrayLike& position, double elapsed) {
             return array_of(self.update(vector(position, "position"), elapsed));
           },
-          "position"_a, "elapsed"_a)
+          "position"_a, "elapsed"_a, "+ (3,) [m] to (3,) [m/s].")
       .def_property_readonly("velocity", [](const VelocityEstimator& self) { return array_of(self.velocity()); })
       .def("restart", &VelocityEstimator::restart);
   module.def("device_profiles", [] {
@@ -130,8 +127,8 @@ void add_devices(Module& module) {
   });
   module.def("device_profile", &device_profile, py::return_value_policy::copy, "name"_a);
 
-  Class<HapticDevice, PythonDevice>(
-      module,
+  py::class_<HapticDevice, PythonDevice>(
+      module, "HapticDevice",
       "A force-feedback device. A subclass defines capabilities(), read(), write(force) and close(). Their exceptions "
       "are passed to sys.unraisablehook, once until the method works again, and the sample has status `fault`. A "
       "`with` block closes the device. While a loop runs on a C++ device, any use outside the force law of that loop "
@@ -140,15 +137,15 @@ void add_devices(Module& module) {
       .def("capabilities", [](const HapticDevice& self) { return self.capabilities(); })
       .def("read", [](HapticDevice& self) { return idle(self).read(); })
       .def(
-          InPython{"write",
-                   "Commands a force in device axes (3,) [N], held until the next call. If it is not finite, commands "
-                   "zero and raises InvalidValue."},
-          [](HapticDevice& self, const ArrayLike& force) { write(idle(self), vector(force, "force")); }, "force"_a)
+          "write", [](HapticDevice& self, const ArrayLike& force) { write(idle(self), vector(force, "force")); },
+          "force"_a,
+          "Commands a force in device axes (3,) [N], held until the next call. If it is not finite, commands "
+          "zero and raises InvalidValue.")
       .def("close", when_idle(&HapticDevice::close))
       .def("__enter__", [](const py::object& self) { return self; })
       .def("__exit__", [](const py::object& self, const py::args&) { self.attr("close")(); });
 
-  Class<SimulatedDevice, HapticDevice>(module, py::is_final())
+  py::class_<SimulatedDevice, HapticDevice>(module, "SimulatedDevice", py::is_final())
       .def(py::init([](const Capabilities& profile, const GripImpedance& grip, const ArrayLike& position) {
              return SimulatedDevice(profile, grip, vector(position, "position"));
            }),
@@ -164,23 +161,22 @@ void add_devices(Module& module) {
       .def_property_readonly("refused_forces", when_idle(&SimulatedDevice::refused_forces))
       .def_property_readonly("time", when_idle(&SimulatedDevice::time));
 
-  Class<ReplayDevice, HapticDevice>(module, py::is_final())
+  py::class_<ReplayDevice, HapticDevice>(module, "ReplayDevice", py::is_final())
       .def(py::init<std::vector<DeviceState>, Capabilities>(), "samples"_a, "capabilities"_a)
       .def_property_readonly("finished", when_idle(&ReplayDevice::finished))
       .def_property_readonly("last_force", when_idle(&ReplayDevice::last_force));
 
   add_struct<PointerOptions>(module);
-  Class<PointerDevice, HapticDevice>(module, py::is_final())
+  py::class_<PointerDevice, HapticDevice>(module, "PointerDevice", py::is_final())
       .def(py::init<const Capabilities&, const GripImpedance&, const PointerOptions&>(), "profile"_a,
            "grip"_a = GripImpedance{}, "options"_a = PointerOptions{})
       .def("move", &PointerDevice::move, "x"_a, "y"_a, "pressure"_a, "buttons"_a = 0)
       .def_property_readonly("intention", when_idle(&PointerDevice::intention));
 
-  module.def(Also{"install_emergency_stop",
-                  "Ctrl-C still raises KeyboardInterrupt. Call it once, in the main thread, after any signal.signal(). "
-                  "At a signal a device written in Python gets its zero only from the next tick of its loop, if there "
-                  "is one."},
-             &install_for_python);
+  module.def("install_emergency_stop", &install_for_python,
+             "+ Ctrl-C still raises KeyboardInterrupt. Call it once, in the main thread, after any signal.signal(). "
+             "At a signal a device written in Python gets its zero only from the next tick of its loop, if there "
+             "is one.");
   module.def("emergency_stop", &emergency_stop, py::call_guard<py::gil_scoped_release>());
   module.def("emergency_stopped", &emergency_stopped);
   module.def("clear_emergency_stop", &clear_emergency_stop);
@@ -191,28 +187,27 @@ void add_devices(Module& module) {
 
   add_enum<ServoPhase>(module);
   add_struct<ServoStatus>(module);
-  Class<VirtualServo>(module,
-                      "A servo loop in virtual time: step(now) reads the device, calls the force law, which maps a "
-                      "DeviceState to a force (3,) [N] in device axes, guards the force and writes it. If the law "
-                      "raises, the force ramps down to zero and the exception is in `error`; the first is also passed "
-                      "to sys.unraisablehook. About 400 times as fast as real time at 1 kHz.")
+  py::class_<VirtualServo>(
+      module, "Servo",
+      "A servo loop in virtual time: step(now) reads the device, calls the force law, which maps a "
+      "DeviceState to a force (3,) [N] in device axes, guards the force and writes it. If the law "
+      "raises, the force ramps down to zero and the exception is in `error`; the first is also passed "
+      "to sys.unraisablehook. About 400 times as fast as real time at 1 kHz.")
       .def(py::init(&make_servo), py::keep_alive<1, 2>(), "device"_a, "law"_a, py::kw_only(), "rate"_a = 1000.0,
            "timeout"_a = 4e-3, "ramp_down"_a = 10e-3, "ramp_up"_a = 0.2)
       .def("step", &VirtualServo::step, "now"_a)
       .def("release", &VirtualServo::release)
       .def("reset", &VirtualServo::reset)
-      .def_property_readonly(
-          InPython{"error", "the last exception of the force law since construction or reset(), or None"},
-          &VirtualServo::error)
-      .def_property_readonly(InPython{"errors", "number of exceptions of the force law"}, &VirtualServo::errors)
+      .def_property_readonly("error", &VirtualServo::error,
+                             "the last exception of the force law since construction or reset(), or None")
+      .def_property_readonly("errors", &VirtualServo::errors, "number of exceptions of the force law")
       .def_property_readonly("status", &VirtualServo::status)
       .def_property_readonly(
-          InPython{"statistics",
-                   "A dict: `period` from tick to tick and `work` per tick (0 in virtual time), each with count, p50, "
-                   "p99, p99_9 and worst [s]; ticks that reached the device; missed_deadlines; stale_samples, ticks "
-                   "without a fresh sample; stalled_clock, ticks no later than the previous one; watchdog_takeovers of "
-                   "the device; idle_ticks, which wrote nothing; faults, by DeviceFault."},
-          &VirtualServo::statistics);
+          "statistics", &VirtualServo::statistics,
+          "A dict: `period` from tick to tick and `work` per tick (0 in virtual time), each with count, p50, "
+          "p99, p99_9 and worst [s]; ticks that reached the device; missed_deadlines; stale_samples, ticks "
+          "without a fresh sample; stalled_clock, ticks no later than the previous one; watchdog_takeovers of "
+          "the device; idle_ticks, which wrote nothing; faults, by DeviceFault.");
 }
 
 }  // namespace calligraphy::python

@@ -64,22 +64,17 @@ py::array coordinate_widths_cost(const std::vector<Character>& characters, const
 
 }  // namespace
 
-void add_experiments(Module& module) {
+void add_experiments(py::module_& module) {
   add_struct<WallContact>(module);
   module.def(
-      Also{"simulate_wall_contact", "In virtual time; returns a dict."},
+      "simulate_wall_contact",
       [](const SampledLoop& loop, double stiffness, const WallContact& contact) {
         return as_dict(released(&simulate_wall_contact)(loop, stiffness, contact));
       },
-      "loop"_a, "stiffness"_a, "contact"_a = WallContact{});
+      "loop"_a, "stiffness"_a, "contact"_a = WallContact{}, "+ In virtual time; returns a dict.");
   add_struct<StabilityMapOptions>(module);
   module.def(
-      Also{"stability_map",
-           "progress(share) is called from time to time. Takes minutes with the defaults. Returns a dict: "
-           "`stiffnesses` (n,) [N/m]; `grid`, a structured array with one row per loop: its properties, the bounds "
-           "passive, quantised, stable and approximate [N/m], stable_at (n,), per stiffness, and max_stable, below "
-           "which all are stable [N/m]; controlled_: with a passivity controller; below_peak: and the force below the "
-           "peak; `sweeps`, by name: label, values, and lines as in the grid."},
+      "stability_map",
       [](StabilityMapOptions options, const Progress& progress) {
         options.progress = interruptible(progress);
         const StabilityMap map = released(&stability_map)(options);
@@ -92,36 +87,33 @@ void add_experiments(Module& module) {
         return py::dict("stiffnesses"_a = as_numbers(map.stiffnesses), "sweeps"_a = sweeps,
                         "grid"_a = as_table(map.grid, count));
       },
-      "options"_a = StabilityMapOptions{}, "progress"_a = py::none());
+      "options"_a = StabilityMapOptions{}, "progress"_a = py::none(),
+      "+ progress(share) is called from time to time. Takes minutes with the defaults. Returns a dict: "
+      "`stiffnesses` (n,) [N/m]; `grid`, a structured array with one row per loop: its properties, the bounds "
+      "passive, quantised, stable and approximate [N/m], stable_at (n,), per stiffness, and max_stable, below "
+      "which all are stable [N/m]; controlled_: with a passivity controller; below_peak: and the force below the "
+      "peak; `sweeps`, by name: label, values, and lines as in the grid.");
 
   module.def(
-      Also{"nearest_point_tradeoff",
-           "Returns a structured array: name, method, tolerance, samples and refinements; on `real` strokes, `hard` "
-           "curves and tracking a pen in `ticks`: ns per query (median), ns_p90 and batch_ns; error (median), "
-           "error_p99 and error_worst, relative to the size of the curve; wrong, the share of wrong branches."},
-      &nearest_points_cost, "characters"_a, "queries"_a = 4000, "rounds"_a = 21, "seed"_a = 1,
-      "progress"_a = py::none());
+      "nearest_point_tradeoff", &nearest_points_cost, "characters"_a, "queries"_a = 4000, "rounds"_a = 21, "seed"_a = 1,
+      "progress"_a = py::none(),
+      "+ Returns a structured array: name, method, tolerance, samples and refinements; on `real` strokes, `hard` "
+      "curves and tracking a pen in `ticks`: ns per query (median), ns_p90 and batch_ns; error (median), "
+      "error_p99 and error_worst, relative to the size of the curve; wrong, the share of wrong branches.");
+  module.def("servo_rate_tradeoff", &servo_rates_cost, "characters"_a, "rates"_a = ServoRateTradeoffOptions{}.rates,
+             "seeds"_a = 3, "seed"_a = 1, "device"_a = "desktop", "progress"_a = py::none(),
+             "+ Returns a structured array: stiffness of the paper [N/m], stable, penetration [m], RMS path_error [m], "
+             "force_step [N], written, the share of strokes completed, and maximum stable stiffnesses [N/m]: loop_, "
+             "unlimited_ without a limit on the rate of the normal force, held_ in the writer's hand, free_ with the "
+             "device released; hard_: half of unlimited_stiffness, and its results. Takes minutes with the defaults.");
   module.def(
-      Also{"servo_rate_tradeoff",
-           "Returns a structured array: stiffness of the paper [N/m], stable, penetration [m], RMS path_error [m], "
-           "force_step [N], written, the share of strokes completed, and maximum stable stiffnesses [N/m]: loop_, "
-           "unlimited_ without a limit on the rate of the normal force, held_ in the writer's hand, free_ with the "
-           "device released; hard_: half of unlimited_stiffness, and its results. Takes minutes with the defaults."},
-      &servo_rates_cost, "characters"_a, "rates"_a = ServoRateTradeoffOptions{}.rates, "seeds"_a = 3, "seed"_a = 1,
-      "device"_a = "desktop", "progress"_a = py::none());
-  module.def(
-      Also{"coordinate_width_tradeoff",
-           "Returns a structured array: step of the grid, max_error and rms_error of the strokes, in both directions "
-           "[em]; bytes per character."},
-      &coordinate_widths_cost, "characters"_a, "progress"_a = py::none());
+      "coordinate_width_tradeoff", &coordinate_widths_cost, "characters"_a, "progress"_a = py::none(),
+      "+ Returns a structured array: step of the grid, max_error and rms_error of the strokes, in both directions "
+      "[em]; bytes per character.");
 
   add_enum<Attractor>(module);
   module.def(
-      Also{"guidance_field",
-           "`corner` (2,) is the lower left of the square [m]. Returns a dict: `forces` (rows, columns, 2), bottom row "
-           "first [N]; `jumps`, a structured array of the segments across which the force jumps: begin, end (2,) [m], "
-           "size [N], from_stroke, the distance from the active stroke [m], passes_feature, crossed only once, in "
-           "order."},
+      "guidance_field",
       [](const PlacedCharacter& placed, int stroke, double progress, const ArrayLike& corner, double edge, int columns,
          double stiffness, Attractor attractor, const StrokeRules& rules) {
         ForceFieldOptions options;
@@ -135,7 +127,11 @@ void add_experiments(Module& module) {
         return py::dict("forces"_a = forces, "jumps"_a = structured(std::move(field.jumps)));
       },
       "placed"_a, "stroke"_a, "progress"_a, "corner"_a, "edge"_a, "columns"_a = 96, "stiffness"_a = 600.0,
-      "attractor"_a = Attractor::active_stroke, "rules"_a = StrokeRules{});
+      "attractor"_a = Attractor::active_stroke, "rules"_a = StrokeRules{},
+      "+ `corner` (2,) is the lower left of the square [m]. Returns a dict: `forces` (rows, columns, 2), bottom row "
+      "first [N]; `jumps`, a structured array of the segments across which the force jumps: begin, end (2,) [m], "
+      "size [N], from_stroke, the distance from the active stroke [m], passes_feature, crossed only once, in "
+      "order.");
 }
 
 }  // namespace calligraphy::python

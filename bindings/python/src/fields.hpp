@@ -50,21 +50,15 @@ std::string told(const char* format, Values&&... values) {
 
 /// A C++ enumeration. The text of each member also follows that of the class, because help() shows only this.
 template <class Enum>
-void add_enum(Module& module) {
+void add_enum(py::module_& module) {
   std::string documentation = text_of("", name_of<Enum>);
   for (const auto& member : members_of<Enum>) {
     if (*member.text != '\0') documentation += std::string("\n\n") + member.name + ": " + member.text;
   }
   const char* const base = is_flags<Enum> ? "enum.IntFlag" : "enum.IntEnum";
-  py::native_enum<Enum> type(module, name_of<Enum>.data(), base, documentation.c_str());
+  py::native_enum<Enum> type(module, name_of<Enum>, base, documentation.c_str());
   for (const auto& member : members_of<Enum>) type.value(member.name, member.value, member.text);
   type.finalize();
-}
-
-/// Calls visit(field) for each field of a struct, in order.
-template <class Struct, class Visit>
-void each_field(Visit&& visit) {
-  std::apply([&](const auto&... field) { (visit(field), ...); }, fields_of<Struct>);
 }
 
 template <class Type>
@@ -198,7 +192,7 @@ void add_field(py::class_<Struct>& type, const Field<Struct, Member>& field) {
       place.of<Member>(self) = converted(value, name);
     };
   }
-  type.def_property(name, get, set, field.text);
+  type.def_property(name, get, set);
 }
 
 template <class Struct>
@@ -210,16 +204,13 @@ py::tuple field_names() {
 
 /// The class of a struct, with all its fields.
 template <class Struct>
-Class<Struct> add_struct(py::module_& module) {
-  Class<Struct> type(module);
+py::class_<Struct> add_struct(py::module_& module) {
+  py::class_<Struct> type(module, name_of<Struct>);
   type.def(py::init<>());
   each_field<Struct>([&](const auto& field) { add_field<Struct>(type, field); });
   type.attr("fields") = field_names<Struct>();
   return type;
 }
-
-template <class Type>
-inline constexpr bool has_fields = std::tuple_size_v<std::remove_cvref_t<decltype(fields_of<Type>)>> > 0;
 
 /// The results in a struct, by name; counts of faults by DeviceFault.
 template <class Struct>

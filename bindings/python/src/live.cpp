@@ -199,12 +199,9 @@ LiveResult write_live(const PracticePage& page, HapticDevice& device, LiveOption
 
 void stop_orphans() { Loop::stop_orphans(); }
 
-template <>
-inline constexpr std::string_view name_of<Loop> = "ServoLoop";
-
-void add_live(Module& module) {
-  Class<Loop>(
-      module,
+void add_live(py::module_& module) {
+  py::class_<Loop>(
+      module, "ServoLoop",
       "A servo loop in real time, in its own thread or on the device's own clock, with a watchdog. The law is a "
       "HapticRenderer, which runs without Python, or a callable that maps a DeviceState to a force (3,) [N], "
       "which needs the GIL in every tick (docs/python.md). A `with` block starts and stops the loop.")
@@ -213,17 +210,15 @@ void add_live(Module& module) {
       .def(py::init<HapticDevice&, const Law&, const ServoLoopOptions&>(), "device"_a, "law"_a,
            "options"_a = ServoLoopOptions{})
       .def("start", &Loop::start)
-      .def(Also{"stop", "From within the law it only begins the ramp-down."}, &Loop::stop)
+      .def("stop", &Loop::stop, "+ From within the law it only begins the ramp-down.")
       .def_property_readonly("running", &Loop::is_running)
       .def_property_readonly("status", &Loop::status)
-      .def_property_readonly(InPython{"statistics", "as Servo.statistics, while the loop runs and afterwards"},
-                             &Loop::statistics)
-      .def_property_readonly(InPython{"warnings", "what the last start() returned"}, &Loop::warnings)
-      .def_property_readonly(InPython{"error",
-                                      "the last exception of a Python law since start(), or None; sys.unraisablehook "
-                                      "gets the first"},
-                             &Loop::error)
-      .def_property_readonly(InPython{"errors", "number of exceptions of a Python law since start()"}, &Loop::errors)
+      .def_property_readonly("statistics", &Loop::statistics, "as Servo.statistics, while the loop runs and afterwards")
+      .def_property_readonly("warnings", &Loop::warnings, "what the last start() returned")
+      .def_property_readonly("error", &Loop::error,
+                             "the last exception of a Python law since start(), or None; sys.unraisablehook "
+                             "gets the first")
+      .def_property_readonly("errors", &Loop::errors, "number of exceptions of a Python law since start()")
       .def("__enter__",
            [](const py::object& self) {
              self.cast<Loop&>().start();
@@ -231,29 +226,30 @@ void add_live(Module& module) {
            })
       .def("__exit__", [](Loop& self, const py::args&) { self.stop(); });
 
-  Class<LiveView>(module)
-      .def_property_readonly(Also{"newest", "A structured array () of sample_dtype, copied."},
-                             [](const LiveView& self) {
-                               return py::array(dtype_of_struct<RecordedSample>(), py::array::ShapeContainer{},
-                                                &self.newest);
-                             })
+  py::class_<LiveView>(module, "LiveView")
+      .def_property_readonly(
+          "newest",
+          [](const LiveView& self) {
+            return py::array(dtype_of_struct<RecordedSample>(), py::array::ShapeContainer{}, &self.newest);
+          },
+          "+ A structured array () of sample_dtype, copied.")
       .def_readonly("hint", &LiveView::hint)
       .def_property_readonly("to_start", [](const LiveView& self) { return array_of(self.to_start); })
       .def_property_readonly("servo", [](const LiveView& self) { return self.servo; })
       .def_readonly("progress", &LiveView::progress)
       .def_readonly("started", &LiveView::started);
   add_struct<LiveOptions>(module);
-  Class<LiveResult>(module)
+  py::class_<LiveResult>(module, "LiveResult")
       .def_readonly("recording", &LiveResult::recording)
-      .def_property_readonly(InPython{"statistics", "as Servo.statistics"},
-                             [](const LiveResult& self) { return as_dict(self.statistics); })
+      .def_property_readonly(
+          "statistics", [](const LiveResult& self) { return as_dict(self.statistics); }, "as Servo.statistics")
       .def_readonly("dropped", &LiveResult::dropped)
       .def_readonly("warnings", &LiveResult::warnings);
   module.def("with_peak_force", &with_peak_force, "capabilities"_a, "peak_force"_a);
-  module.def(Also{"write_with_device",
-                  "`watch` is called with a LiveView about 50 times per second. Ends likewise on Ctrl-C or an "
-                  "exception of `watch`, which has the LiveResult as its attribute `result`."},
-             &write_live, "page"_a, "device"_a, "options"_a = LiveOptions{}, "watch"_a = py::none());
+  module.def("write_with_device", &write_live, "page"_a, "device"_a, "options"_a = LiveOptions{},
+             "watch"_a = py::none(),
+             "+ `watch` is called with a LiveView about 50 times per second. Ends likewise on Ctrl-C or an "
+             "exception of `watch`, which has the LiveResult as its attribute `result`.");
   // At exit no force may remain, nor threads that would call into a finalised interpreter.
   py::module_::import("atexit").attr("register")(py::cpp_function(&end_all));
 }

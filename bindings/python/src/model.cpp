@@ -60,11 +60,11 @@ Character at(const Characters& characters, char32_t code) {
   throw py::key_error(encode_utf8(code));
 }
 
-void add_ink(Module& module) {
+void add_ink(py::module_& module) {
   module.def(
-      Also{"ink_knots", "(8,)."}, [](double length) { return as_numbers(ink_knots(length)); }, "length"_a);
+      "ink_knots", [](double length) { return as_numbers(ink_knots(length)); }, "length"_a, "+ (8,).");
   module.def(
-      InPython{"ink_discs", "Ink along a path (n, 2) as discs at most `spacing` apart: x, y, radius, (m, 3) [em]."},
+      "ink_discs",
       [](const ArrayLike& path, const StrokeInk& ink, double spacing) {
         const std::vector<InkDisc> discs = ink_discs(points(path, "path"), ink, spacing);
         Doubles result({static_cast<py::ssize_t>(discs.size()), py::ssize_t{3}});
@@ -76,29 +76,30 @@ void add_ink(Module& module) {
         }
         return result;
       },
-      "path"_a, "ink"_a, "spacing"_a = 0.004);
+      "path"_a, "ink"_a, "spacing"_a = 0.004,
+      "Ink along a path (n, 2) as discs at most `spacing` apart: x, y, radius, (m, 3) [em].");
   module.def(
-      Also{"ink_outline", "(n, 2) [em]."},
+      "ink_outline",
       [](const Stroke& stroke, double tolerance) { return array_of_points(ink_outline(stroke, tolerance)); },
-      "stroke"_a, "tolerance"_a = 5e-4);
+      "stroke"_a, "tolerance"_a = 5e-4, "+ (n, 2) [em].");
   module.def(
-      InPython{"ink_outline", "The same along any path (n, 2) [em]."},
+      "ink_outline",
       [](const ArrayLike& path, const StrokeInk& ink, double tolerance) {
         return array_of_points(ink_outline(points(path, "path"), ink, tolerance));
       },
-      "path"_a, "ink"_a, "tolerance"_a = 5e-4);
+      "path"_a, "ink"_a, "tolerance"_a = 5e-4, "The same along any path (n, 2) [em].");
   module.def("typical_half_width", &typical_half_width, "id"_a, "stroke_count"_a, "length"_a);
   module.def("typical_ink", &typical_ink, "id"_a, "half_width"_a);
   module.def(
-      Also{"stroke_polyline", "(n, 2) [em]."},
+      "stroke_polyline",
       [](const Stroke& stroke, double tolerance) { return array_of_points(stroke_polyline(stroke, tolerance)); },
-      "stroke"_a, "tolerance"_a = 1e-4);
+      "stroke"_a, "tolerance"_a = 1e-4, "+ (n, 2) [em].");
 }
 
 }  // namespace
 
-void add_model(Module& module) {
-  Class<TypicalStroke>(module)
+void add_model(py::module_& module) {
+  py::class_<TypicalStroke>(module, "TypicalStroke")
       .def_readonly("id", &TypicalStroke::id)
       .def_readonly("name", &TypicalStroke::name)
       .def_readonly("pinyin", &TypicalStroke::pinyin)
@@ -108,8 +109,8 @@ void add_model(Module& module) {
       .def_readonly("printed_elements", &TypicalStroke::printed_elements)
       .def_readonly("joints", &TypicalStroke::joints)
       .def_readonly("example", &TypicalStroke::example)
-      .def_property_readonly(InPython{"shape", "typical control points of cubic curves, (n, 2) [em]"},
-                             array_within<TypicalStroke>(&TypicalStroke::shape))
+      .def_property_readonly("shape", array_within<TypicalStroke>(&TypicalStroke::shape),
+                             "typical control points of cubic curves, (n, 2) [em]")
       .def("__reduce__",
            [](const TypicalStroke& self) -> py::tuple {
              return py::make_tuple(py::module_::import("calligraphy").attr("typical_stroke"), py::make_tuple(self.id));
@@ -125,7 +126,7 @@ void add_model(Module& module) {
   module.def("typical_stroke", &typical_stroke, py::return_value_policy::reference, "id"_a);
 
   add_struct<StrokeInk>(module);
-  Class<StrokeInput>(module)
+  py::class_<StrokeInput>(module, "StrokeInput")
       .def(py::init([](int id, const ArrayLike& control_points, const std::vector<double>& factors,
                        const std::string& elements, const std::optional<StrokeInk>& ink) {
              return StrokeInput{id, points(control_points, "control_points"), factors, elements, ink};
@@ -134,9 +135,9 @@ void add_model(Module& module) {
            "ink"_a = py::none())
       .def_readwrite("id", &StrokeInput::id)
       .def_property(
-          InPython{"control_points", "(n, 2), copied [em]"},
-          [](const StrokeInput& self) { return array_of_points(self.control_points); },
-          [](StrokeInput& self, const ArrayLike& value) { self.control_points = points(value, "control_points"); })
+          "control_points", [](const StrokeInput& self) { return array_of_points(self.control_points); },
+          [](StrokeInput& self, const ArrayLike& value) { self.control_points = points(value, "control_points"); },
+          "(n, 2), copied [em]")
       .def_readwrite("attraction_factors", &StrokeInput::attraction_factors)
       .def_property(
           "elements", [](const StrokeInput& self) { return self.elements.elements(); },
@@ -144,28 +145,28 @@ void add_model(Module& module) {
       .def_readwrite("ink", &StrokeInput::ink)
       .attr("__match_args__") = py::make_tuple("id", "control_points", "attraction_factors", "elements", "ink");
 
-  Class<Stroke>(module, "One stroke of a character: a view that keeps the character alive.")
+  py::class_<Stroke>(module, "Stroke", "One stroke of a character: a view that keeps the character alive.")
       .def_property_readonly(
           "type", [](const Stroke& self) { return self.type; }, py::return_value_policy::reference)
       .def_readonly("elements", &Stroke::elements)
       .def_readonly("curve_degree", &Stroke::curve_degree)
-      .def(InPython{"input", "A copy as input to make_character, to be changed."}, &input_of)
-      .def_property_readonly(InPython{"control_points", "(n, 2), read only [em]"},
-                             array_within<Stroke>(&Stroke::control_points))
-      .def_property_readonly(InPython{"attraction_factors", "one per feature point, read only [1]"},
-                             array_within<Stroke>(&Stroke::attraction_factors))
+      .def("input", &input_of, "A copy as input to make_character, to be changed.")
+      .def_property_readonly("control_points", array_within<Stroke>(&Stroke::control_points), "(n, 2), read only [em]")
+      .def_property_readonly("attraction_factors", array_within<Stroke>(&Stroke::attraction_factors),
+                             "one per feature point, read only [1]")
       .def_property_readonly(
-          InPython{"ink", "StrokeInk, copied, or None"},
-          [](const Stroke& self) { return self.ink == nullptr ? std::nullopt : std::optional(*self.ink); })
+          "ink", [](const Stroke& self) { return self.ink == nullptr ? std::nullopt : std::optional(*self.ink); },
+          "StrokeInk, copied, or None")
       .def("__repr__", [](const Stroke& self) {
         return told("Stroke({}, {} control points)", self.type->name, self.control_points.size());
       });
 
   add_ink(module);
 
-  Class<Character>(module,
-                   "A character: shape, stroke order and feel. Immutable. Made by make_character, or read from a file. "
-                   "Frame: em square, y up.")
+  py::class_<Character>(
+      module, "Character",
+      "A character: shape, stroke order and feel. Immutable. Made by make_character, or read from a file. "
+      "Frame: em square, y up.")
       .def(py::init(&character_of), "code"_a, "order"_a, "curve_degree"_a, "control_points"_a, "stroke_ids"_a,
            "feature_points"_a, "elements"_a, "attraction_factors"_a, "ink"_a = std::vector<StrokeInk>(),
            "From the fields below; make_character() is simpler.")
@@ -173,24 +174,28 @@ void add_model(Module& module) {
       .def_readonly("order", &Character::order)
       .def_readonly("curve_degree", &Character::curve_degree)
       .def_property_readonly("stroke_count", &Character::stroke_count)
-      .def_property_readonly(InPython{"control_points", "of all strokes, concatenated, (n, 2), read only [em]"},
-                             array_within<Character>(&Character::structure, &StructuralData::control_points))
-      .def_property_readonly(InPython{"stroke_ids", "typical stroke ids in writing order, read only"},
-                             array_within<Character>(&Character::sequence, &SequenceData::stroke_ids))
-      .def_property_readonly(InPython{"feature_points", "indices into control_points in writing order, read only"},
-                             array_within<Character>(&Character::sequence, &SequenceData::feature_points))
+      .def_property_readonly("control_points",
+                             array_within<Character>(&Character::structure, &StructuralData::control_points),
+                             "of all strokes, concatenated, (n, 2), read only [em]")
+      .def_property_readonly("stroke_ids", array_within<Character>(&Character::sequence, &SequenceData::stroke_ids),
+                             "typical stroke ids in writing order, read only")
+      .def_property_readonly("feature_points",
+                             array_within<Character>(&Character::sequence, &SequenceData::feature_points),
+                             "indices into control_points in writing order, read only")
       .def_property_readonly(
-          InPython{"elements", "composition of each stroke: 'L' (line) or 'C' (curve) per element; copied"},
+          "elements",
           [](const Character& self) {
             std::vector<std::string_view> elements;
             for (const ElementList composition : self.sequence.elements) elements.push_back(composition.elements());
             return elements;
-          })
-      .def_property_readonly(InPython{"attraction_factors", "one per feature point, read only [1]"},
-                             array_within<Character>(&Character::physics, &PhysicalData::attraction_factors))
-      .def_property_readonly(InPython{"ink", "StrokeInk of each stroke, or empty; copied"},
-                             [](const Character& self) { return self.physics.ink; })
-      .def(InPython{"strokes", "The strokes in writing order."}, &strokes_of)
+          },
+          "composition of each stroke: 'L' (line) or 'C' (curve) per element; copied")
+      .def_property_readonly("attraction_factors",
+                             array_within<Character>(&Character::physics, &PhysicalData::attraction_factors),
+                             "one per feature point, read only [1]")
+      .def_property_readonly(
+          "ink", [](const Character& self) { return self.physics.ink; }, "StrokeInk of each stroke, or empty; copied")
+      .def("strokes", &strokes_of, "The strokes in writing order.")
       .def("__repr__",
            [](const Character& self) {
              return told("Character({}, {} strokes)", encode_utf8(self.code), self.stroke_count());
@@ -209,14 +214,14 @@ void add_model(Module& module) {
   module.def("paper_example", &paper_example, py::return_value_policy::copy);
 
   add_struct<Provenance>(module);
-  Class<CharacterList> type(module);
+  py::class_<CharacterList> type(module, "CharacterList");
   std::apply([&](const auto&... field) { (add_field(type, field), ...); }, fields_of<CharacterList>);
   type.def(py::init([](std::vector<Character> characters, Provenance provenance) {
              return CharacterList{std::move(provenance), std::move(characters)};
            }),
            "characters"_a = std::vector<Character>{}, "provenance"_a = Provenance{})
-      .def(InPython{"find", "The Character in the stroke order of this name (empty: the standard one), or None."},
-           &find<CharacterList>, "code"_a, "order"_a = "")
+      .def("find", &find<CharacterList>, "code"_a, "order"_a = "",
+           "The Character in the stroke order of this name (empty: the standard one), or None.")
       .def("__getitem__", &at<CharacterList>, "code"_a)
       .def(
           "__contains__", [](const CharacterList& self, char32_t code) { return self.find(code) != nullptr; }, "code"_a)
@@ -227,28 +232,26 @@ void add_model(Module& module) {
            })
       .attr("__match_args__") = py::make_tuple("characters", "provenance");
   module.def("built_in_characters", &built_in_characters, py::return_value_policy::copy);
-  module.def(
-      InPython{"read_characters",
-               "Reads the text format of docs/character-format.md. Raises FileError, or FormatError naming the line."},
-      released(+[](const std::filesystem::path& path) { return read_characters(path.string()); }), "path"_a);
-  module.def(InPython{"write_characters", "Writes the text format, atomically. Raises FileError."},
-             released(+[](const std::filesystem::path& path, const CharacterList& characters) {
+  module.def("read_characters",
+             released(+[](const std::filesystem::path& path) { return read_characters(path.string()); }), "path"_a,
+             "Reads the text format of docs/character-format.md. Raises FileError, or FormatError naming the line.");
+  module.def("write_characters", released(+[](const std::filesystem::path& path, const CharacterList& characters) {
                std::ostringstream out;
                write_characters(out, characters);
                write_file(path, out.str());
              }),
-             "path"_a, "characters"_a);
+             "path"_a, "characters"_a, "Writes the text format, atomically. Raises FileError.");
 
   add_enum<CoordinatePrecision>(module);
   module.def(
-      InPython{"encode_character_set", "The characters as the bytes of a set file."},
+      "encode_character_set",
       [](const CharacterList& list, CoordinatePrecision precision) {
         const std::vector<std::byte> bytes = released(&encode_character_set)(list, precision);
         return py::bytes(reinterpret_cast<const char*>(bytes.data()), bytes.size());
       },
-      "characters"_a, "precision"_a = CoordinatePrecision::standard);
+      "characters"_a, "precision"_a = CoordinatePrecision::standard, "The characters as the bytes of a set file.");
 
-  Class<CharacterSet>(module)
+  py::class_<CharacterSet>(module, "CharacterSet")
       .def(py::init<>())
       .def(py::init(released(+[](const CharacterList& characters) { return CharacterSet(characters); })),
            "characters"_a)
@@ -270,12 +273,14 @@ void add_model(Module& module) {
       .def(
           "__contains__", [](const CharacterSet& self, char32_t code) { return self.find(code).has_value(); }, "code"_a)
       .def("__len__", &CharacterSet::size)
-      .def(InPython{"__iter__", "Every character once, as a str, in ascending code point order."},
-           [](const CharacterSet& self) {
-             py::list codes;
-             for (const StoredCharacter& stored : self) codes.append(stored.code());
-             return py::typing::Iterator<py::str>(py::iter(codes));
-           })
+      .def(
+          "__iter__",
+          [](const CharacterSet& self) {
+            py::list codes;
+            for (const StoredCharacter& stored : self) codes.append(stored.code());
+            return py::typing::Iterator<py::str>(py::iter(codes));
+          },
+          "Every character once, as a str, in ascending code point order.")
       .def("orders", &CharacterSet::orders, "code"_a)
       .def("provenances", &CharacterSet::provenances)
       .def("coordinate_error", &CharacterSet::coordinate_error)

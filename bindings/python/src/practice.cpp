@@ -101,30 +101,27 @@ py::dict told_report(const ImportReport& report) {
 
 }  // namespace
 
-void add_practice(Module& module) {
+void add_practice(py::module_& module) {
   module.attr("sample_dtype") = dtype_of_struct<RecordedSample>();
-  Class<Recording>(module)
+  py::class_<Recording>(module, "Recording")
       .def(py::init(&recording_of), "rate"_a, "samples"_a)
       .def_readonly("rate", &Recording::rate)
       .def_property_readonly(
-          InPython{"samples",
-                   "A structured array (n,), a read-only view of the recording (sample_dtype): time [s], device_point, "
-                   "pen_tip [m] and force [N] in page axes, state, events, status, character, stroke, tick_ns [ns]."},
-          &samples_of)
+          "samples", &samples_of,
+          "A structured array (n,), a read-only view of the recording (sample_dtype): time [s], device_point, "
+          "pen_tip [m] and force [N] in page axes, state, events, status, character, stroke, tick_ns [ns].")
       .def("__len__", [](const Recording& self) { return self.samples.size(); })
       .attr("__match_args__") = py::make_tuple("rate", "samples");
-  module.def(Also{"write_recording", "Atomically. Raises FileError."},
-             released(+[](const std::filesystem::path& path, const Recording& recording) {
+  module.def("write_recording", released(+[](const std::filesystem::path& path, const Recording& recording) {
                std::ostringstream out;
                write_recording(out, recording);
                write_file(path, out.str());
              }),
-             "path"_a, "recording"_a);
-  module.def(
-      InPython{"read_recording",
-               "Reads exactly what write_recording wrote. Raises FileError, or FormatError naming the line and the "
-               "value."},
-      released(+[](const std::filesystem::path& path) { return read_recording(path); }), "path"_a);
+             "path"_a, "recording"_a, "+ Atomically. Raises FileError.");
+  module.def("read_recording", released(+[](const std::filesystem::path& path) { return read_recording(path); }),
+             "path"_a,
+             "Reads exactly what write_recording wrote. Raises FileError, or FormatError naming the line and the "
+             "value.");
   module.def("device_states", released(&device_states), "recording"_a, "mapping"_a);
 
   add_struct<PageLayout>(module);
@@ -135,30 +132,26 @@ void add_practice(Module& module) {
       [](const std::vector<Character>& characters, const PageLayout& layout) { return lay_out(characters, layout); },
       "characters"_a, "layout"_a = PageLayout{});
 
-  Class<PenTrace>(module)
+  py::class_<PenTrace>(module, "PenTrace")
       .def(py::init(&trace_of), "character"_a, "strokes"_a, "set"_a = "unnamed", "em"_a = 1000.0)
       .def_readonly("character", &PenTrace::character)
-      .def_property_readonly(InPython{"strokes", "one array (n, 3) per pen-down, copied: x, y [em], time [s]"},
-                             &pen_downs)
+      .def_property_readonly("strokes", &pen_downs, "one array (n, 3) per pen-down, copied: x, y [em], time [s]")
       .def_readonly("set", &PenTrace::set)
       .def_readonly("em", &PenTrace::em)
       .attr("__match_args__") = py::make_tuple("character", "strokes", "set", "em");
+  module.def("read_pen_traces",
+             released(+[](const std::filesystem::path& path) { return read_pen_traces(path.string()); }), "path"_a,
+             "Reads the format of docs/pen-traces.md. Raises FileError, or FormatError naming the line and the value.");
   module.def(
-      InPython{
-          "read_pen_traces",
-          "Reads the format of docs/pen-traces.md. Raises FileError, or FormatError naming the line and the value."},
-      released(+[](const std::filesystem::path& path) { return read_pen_traces(path.string()); }), "path"_a);
-  module.def(
-      InPython{
-          "write_pen_traces",
-          "Writes the format of docs/pen-traces.md; each line of `notice` becomes a comment. Raises FileError, and "
-          "InvalidValue naming a trace that cannot be written."},
+      "write_pen_traces",
       released(+[](const std::filesystem::path& path, const std::vector<PenTrace>& traces, const std::string& notice) {
         std::ostringstream out;
         write_pen_traces(out, traces, notice);
         write_file(path, out.str());
       }),
-      "path"_a, "traces"_a, "notice"_a = "");
+      "path"_a, "traces"_a, "notice"_a = "",
+      "Writes the format of docs/pen-traces.md; each line of `notice` becomes a comment. Raises FileError, and "
+      "InvalidValue naming a trace that cannot be written.");
 
   add_struct<WriterSkill>(module)
       .def_static("novice", &WriterSkill::novice)
@@ -171,33 +164,33 @@ void add_practice(Module& module) {
     return options;
   };
   module.def(
-      Also{"write_page", "progress(share) is called from time to time."},
+      "write_page",
       [with](const PracticePage& page, const SessionOptions& options, const Progress& progress) {
         return released(&write_page)(page, with(options, progress));
       },
-      "page"_a, "options"_a, "progress"_a = py::none());
+      "page"_a, "options"_a, "progress"_a = py::none(), "+ progress(share) is called from time to time.");
   module.def(
-      Also{"follow_trace", "See write_page for progress."},
+      "follow_trace",
       [with](const PracticePage& page, const PenTrace& trace, const SessionOptions& options, const Progress& progress) {
         return released(&follow_trace)(page, trace, with(options, progress));
       },
-      "page"_a, "trace"_a, "options"_a, "progress"_a = py::none());
+      "page"_a, "trace"_a, "options"_a, "progress"_a = py::none(), "+ See write_page for progress.");
   module.def(
-      Also{"replay_page", "See write_page for progress."},
+      "replay_page",
       [with](const PracticePage& page, ReplayDevice& device, const SessionOptions& options, const Progress& progress) {
         const AtWork at_work({AtWork::User::call}, &device);
         return released(+[](const PracticePage& on, ReplayDevice* const& of, const SessionOptions& chosen) {
           return replay_page(on, *of, chosen);
         })(page, &device, with(options, progress));
       },
-      "page"_a, "device"_a, "options"_a, "progress"_a = py::none());
+      "page"_a, "device"_a, "options"_a, "progress"_a = py::none(), "+ See write_page for progress.");
   module.def(
-      Also{"run_session",
-           "motion(tick, seconds) returns an Intention on the page, or None to end. Takes about 3 us per tick. See "
-           "write_page for progress."},
+      "run_session",
       [with](const PracticePage& page, const SessionOptions& options, const PenMotion& motion,
              const Progress& progress) { return released(&run_session)(page, with(options, progress), motion); },
-      "page"_a, "options"_a, "motion"_a, "progress"_a = py::none());
+      "page"_a, "options"_a, "motion"_a, "progress"_a = py::none(),
+      "+ motion(tick, seconds) returns an Intention on the page, or None to end. Takes about 3 us per tick. See "
+      "write_page for progress.");
 
   add_enum<WritingMistakeKind>(module);
   add_struct<WritingMistake>(module);
@@ -210,18 +203,16 @@ void add_practice(Module& module) {
   add_enum<StrokeRemarkKind>(module);
   add_struct<DrawnStroke>(module);
   add_struct<StrokeRemark>(module);
-  Class<MatchResult>(module)
+  py::class_<MatchResult>(module, "MatchResult")
       .def_readonly("drawn", &MatchResult::drawn)
       .def_readonly("remarks", &MatchResult::remarks)
       .def("count", &MatchResult::count, "kind"_a);
-  module.def(Also{"match_strokes", "Each path is an array (n, 2) [em]."}, &match_of, "character"_a, "paths"_a,
-             "tolerances"_a = StrokeTolerances());
+  module.def("match_strokes", &match_of, "character"_a, "paths"_a, "tolerances"_a = StrokeTolerances(),
+             "+ Each path is an array (n, 2) [em].");
 
   add_struct<MeanInterval>(module);
   module.def(
-      InPython{"mean_interval",
-               "The MeanInterval of values (n,), clustered by the independent draw that each belongs to, an integer "
-               "(n,): Student's t with one degree of freedom less than there are draws."},
+      "mean_interval",
       [](const ArrayLike& values, const std::vector<std::uint64_t>& draws) {
         const Doubles numbers = doubles(values, "values");
         if (static_cast<std::size_t>(numbers.size()) != draws.size()) {
@@ -231,17 +222,13 @@ void add_practice(Module& module) {
         for (std::size_t i = 0; i < drawn.size(); ++i) drawn[i] = {numbers.data()[i], draws[i]};
         return mean_interval(drawn);
       },
-      "values"_a, "draws"_a);
+      "values"_a, "draws"_a,
+      "The MeanInterval of values (n,), clustered by the independent draw that each belongs to, an integer "
+      "(n,): Student's t with one degree of freedom less than there are draws.");
 
   add_enum<InkDetail>(module);
   module.def(
-      Also{"import_characters",
-           "Returns a CharacterList and a report (docs/import.md): kind, characters, strokes, labelled, agreed, "
-           "allowed, ids_used by id, letters_unused, notes; within: strokes and characters within an error [em]; "
-           "worst: code, order, stroke (from 1), id, error [em]; skipped files with reasons. With `report`, every "
-           "stroke is measured against its source (docs/strokes.md): measures, a row for each, lengths in em; "
-           "crossings: in the source, kept; ink: of each stroke, intersection over union with its outline. `ink` is "
-           "kept of hanzi-writer-data."},
+      "import_characters",
       [](const std::filesystem::path& source, const std::optional<std::filesystem::path>& letters,
          const std::u32string& only, bool alternates, bool ideographs_only, const std::string& date, int threads,
          bool report, const Progress& progress, InkDetail ink) {
@@ -255,7 +242,13 @@ void add_practice(Module& module) {
       },
       "source"_a, "letters"_a = py::none(), "only"_a = std::u32string(), "alternates"_a = false,
       "ideographs_only"_a = true, "date"_a = "", "threads"_a = 0, "report"_a = false, "progress"_a = py::none(),
-      "ink"_a = InkDetail::full);
+      "ink"_a = InkDetail::full,
+      "+ Returns a CharacterList and a report (docs/import.md): kind, characters, strokes, labelled, agreed, "
+      "allowed, ids_used by id, letters_unused, notes; within: strokes and characters within an error [em]; "
+      "worst: code, order, stroke (from 1), id, error [em]; skipped files with reasons. With `report`, every "
+      "stroke is measured against its source (docs/strokes.md): measures, a row for each, lengths in em; "
+      "crossings: in the source, kept; ink: of each stroke, intersection over union with its outline. `ink` is "
+      "kept of hanzi-writer-data.");
 }
 
 }  // namespace calligraphy::python

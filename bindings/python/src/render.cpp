@@ -18,7 +18,7 @@ auto mapped(Eigen::Vector3d (MotionMapping::*function)(const Eigen::Vector3d&) c
 /// Of the contact on the stroke some members are columns.
 class TickColumns {
  public:
-  explicit TickColumns(Module& module) : type_(module) {
+  explicit TickColumns(py::module_& module) : type_(module, "HapticTick") {
     each_field<HapticTick>([this](const auto& field) {
       using Value = std::remove_cvref_t<decltype(tick_.*field.member)>;
       if constexpr (std::is_same_v<Value, StrokeContact>) {
@@ -30,7 +30,7 @@ class TickColumns {
         add("weight", contact.weight, text_of("StrokeContact", "weight"));
         add("arc", contact.arc, text_of("StrokeContact", "arc"));
       } else {
-        add(field.name, tick_.*field.member, field.text);
+        add(field.name, tick_.*field.member);
       }
     });
     module.attr("tick_dtype") = columns_.dtype();
@@ -38,17 +38,17 @@ class TickColumns {
 
  private:
   template <class Member>
-  void add(const char* name, const Member& member, const char* text) {
+  void add(const char* name, const Member& member, const char* text = "") {
     const auto offset = reinterpret_cast<const char*>(&member) - reinterpret_cast<const char*>(&tick_);
     const auto get = [offset](const HapticTick& self) {
       return as_python(*reinterpret_cast<const Member*>(reinterpret_cast<const char*>(&self) + offset));
     };
     columns_.add(name, tick_, member);
-    type_.def_property_readonly(InPython{name, text}, get);
+    type_.def_property_readonly(name, get, text);
   }
 
   const HapticTick tick_;  ///< gives the offsets of the members
-  Class<HapticTick> type_;
+  py::class_<HapticTick> type_;
   Columns<HapticTick> columns_;
 };
 
@@ -84,7 +84,7 @@ py::array trace(HapticRenderer& renderer, const ArrayLike& positions, const std:
 
 }  // namespace
 
-void add_render(Module& module) {
+void add_render(py::module_& module) {
   add_enum<PenTipRule>(module);
   add_enum<GuidanceLaw>(module);
   add_enum<StiffnessCheck>(module);
@@ -102,16 +102,16 @@ void add_render(Module& module) {
       .def_static("wang2006", &RendererOptions::wang2006)
       .def_static("for_device", &RendererOptions::for_device, "capabilities"_a, "scale"_a = 1.0)
       .def_static("everything", &RendererOptions::everything, "capabilities"_a, "scale"_a = 1.0);
-  module.def(Also{"clip_stiffness", "Changes the options in place."}, &clip_stiffness, "options"_a, "capabilities"_a,
-             "scale"_a = 1.0);
-  module.def(As{"validate", "validate(RendererOptions)"},
-             py::overload_cast<const RendererOptions&, const Capabilities&, double>(&validate), "options"_a,
-             "capabilities"_a, "scale"_a = 1.0);
+  module.def("clip_stiffness", &clip_stiffness, "options"_a, "capabilities"_a, "scale"_a = 1.0,
+             "+ Changes the options in place.");
+  module.def("validate", py::overload_cast<const RendererOptions&, const Capabilities&, double>(&validate), "options"_a,
+             "capabilities"_a, "scale"_a = 1.0,
+             "Raises InvalidValue naming an option out of range, or a stiffness or damping that would be clipped.");
 
   add_struct<MotionMapping>(module)
-      .def(Also{"to_page", "(3,) [m] to (3,) [m]."}, mapped(&MotionMapping::to_page, "device"), "device"_a)
-      .def(Also{"to_device", "(3,) [m] to (3,) [m]."}, mapped(&MotionMapping::to_device, "page"), "page"_a)
-      .def(Also{"force_to_device", "(3,) [N] to (3,) [N]."}, mapped(&MotionMapping::force_to_device, "page"), "page"_a);
+      .def("to_page", mapped(&MotionMapping::to_page, "device"), "device"_a, "+ (3,) [m] to (3,) [m].")
+      .def("to_device", mapped(&MotionMapping::to_device, "page"), "page"_a, "+ (3,) [m] to (3,) [m].")
+      .def("force_to_device", mapped(&MotionMapping::force_to_device, "page"), "page"_a, "+ (3,) [N] to (3,) [N].");
   module.def("upright_page", &upright_page, "width"_a, "height"_a, "scale"_a = 1.0);
   module.def("desk_page", &desk_page, "width"_a, "height"_a, "scale"_a = 1.0);
 
@@ -119,26 +119,27 @@ void add_render(Module& module) {
   add_enum<TickEvent>(module);
   add_enum<TickStatus>(module);
   add_enum<WritingHint>(module);
-  module.def(As{"to_string", "to_string(WritingHint)"}, py::overload_cast<WritingHint>(&to_string), "hint"_a);
+  module.def("to_string", py::overload_cast<WritingHint>(&to_string), "hint"_a,
+             "The words of a hint, such as \"too far from the start\"; \"\" for `none`.");
   module.def(
       "hint_text",
       [](WritingHint hint, const ArrayLike& to_start) { return hint_text(hint, point(to_start, "to_start")); },
       "hint"_a, "to_start"_a);
   const TickColumns columns(module);
 
-  Class<HapticRenderer>(module, py::is_final(),
-                        "Guides a pen through the characters of a page, stroke by stroke in the correct order and "
-                        "direction. Use one per device and thread: one that a running ServoLoop or another thread "
-                        "uses raises Error. Raises InvalidValue naming the option, the character or its placement.")
+  py::class_<HapticRenderer>(
+      module, "HapticRenderer", py::is_final(),
+      "Guides a pen through the characters of a page, stroke by stroke in the correct order and "
+      "direction. Use one per device and thread: one that a running ServoLoop or another thread "
+      "uses raises Error. Raises InvalidValue naming the option, the character or its placement.")
       .def(py::init<std::vector<PlacedCharacter>, const MotionMapping&, const Capabilities&, const RendererOptions&>(),
            "page"_a, "mapping"_a, "capabilities"_a, "options"_a = RendererOptions{})
       .def(
           "update", [](HapticRenderer& self, const DeviceState& state) { return idle(self).update(state); }, "state"_a)
-      .def(InPython{"trace",
-                    "Processes positions (N, 3) in device axes [m], one per tick, at increasing times (N,) [s], by "
-                    "default at the servo rate from the last tick on. Returns N ticks (tick_dtype). Releases the GIL. "
-                    "After Ctrl-C, call restart()."},
-           &trace, "positions"_a, "times"_a = py::none())
+      .def("trace", &trace, "positions"_a, "times"_a = py::none(),
+           "Processes positions (N, 3) in device axes [m], one per tick, at increasing times (N,) [s], by "
+           "default at the servo rate from the last tick on. Returns N ticks (tick_dtype). Releases the GIL. "
+           "After Ctrl-C, call restart().")
       .def("restart", [](HapticRenderer& self) { idle(self).restart(); })
       .def_property_readonly("last", [](const HapticRenderer& self) { return idle(self).last(); })
       .def_property_readonly("options", &HapticRenderer::options, py::return_value_policy::copy)
@@ -155,8 +156,8 @@ void add_render(Module& module) {
   module.def("critical_stiffness", released(&critical_stiffness), "loop"_a);
   module.def("stiffness_for_any_hand", released(&stiffness_for_any_hand), "loop"_a, "velocity_cutoff"_a, "most"_a);
   module.def(
-      Also{"advise_stiffness", "Returns a dict of the bounds, each a dict: value [N/m], formula and validity."},
-      [](const SampledLoop& loop) { return as_dict(released(&advise_stiffness)(loop)); }, "loop"_a);
+      "advise_stiffness", [](const SampledLoop& loop) { return as_dict(released(&advise_stiffness)(loop)); }, "loop"_a,
+      "+ Returns a dict of the bounds, each a dict: value [N/m], formula and validity.");
   module.def("injectable_damping", released(&injectable_damping), "loop"_a);
 }
 

@@ -1,0 +1,111 @@
+// Documentation from the C++ headers, and signatures for inspect.signature().
+#include <cstdlib>
+
+#include "components.hpp"
+
+namespace calligraphy::python {
+namespace {
+
+/// Own text of a binding replaces that of the headers, or follows it if it begins with "+ ".
+std::string complete(std::string_view owner, std::string_view name, std::string own) {
+  if (!own.empty() && own[0] != '+') return own;
+  return text_of(owner, name) + (own.empty() ? own : own.substr(1));
+}
+
+/// A value as a literal, or "..." if it has none.
+std::string literal(py::handle value) {
+  const py::object text = py::repr(value);
+  try {
+    py::module_::import("ast").attr("literal_eval")(text);
+    return text.cast<std::string>();
+  } catch (const py::error_already_set&) {
+    return "...";
+  }
+}
+
+/// "(self, path, tolerance=0.0005)": pybind11's own signature has types, which inspect.signature() refuses.
+std::string parameters(const py::detail::function_record& function) {
+  if (function.next != nullptr) return "(*args, **kwargs)";  // overloaded
+  std::string text;
+  for (std::size_t i = 0; i < function.nargs; ++i) {
+    if (i > 0) text += ", ";
+    if (i == function.nargs_pos) text += function.has_args ? "*" : "*, ";
+    if (i >= function.args.size() || function.args[i].name == nullptr) {
+      text += i == 0 && function.is_method ? "self" : "args";
+      continue;
+    }
+    text += function.args[i].name;
+    if (function.args[i].value) text += "=" + literal(function.args[i].value);
+  }
+  return "(" + text + ")";
+}
+
+/// Replaces a text of Python's, which begins with the signature so that inspect.signature() finds it.
+template <class Allocate, class Free>
+void replace(const char*& old, const std::string& signature, const std::string& text, Allocate allocate, Free free) {
+  const std::string all = signature + "\n--\n\n" + text;
+  free(const_cast<char*>(old));
+  old = std::strcpy(static_cast<char*>(allocate(all.size() + 1)), all.c_str());
+}
+
+/// Completes the functions and properties of a class or module. Returns the parameters of a constructor without `self`.
+std::string document_members(const py::object& owner, const std::string& name) {
+  std::string constructor = "()";
+  for (const auto& item : owner.attr("__dict__").cast<py::dict>()) {
+    const auto called = item.first.cast<std::string>();
+    if (py::isinstance(item.second, py::module_::import("builtins").attr("property"))) {
+      item.second.attr("__doc__") = complete(name, called, py::str(item.second.attr("__doc__")));
+    }
+    const py::object member = owner.attr(item.first);
+    const py::handle function = py::detail::get_function(member);  // of a method
+    if (!function || PyCFunction_Check(function.ptr()) == 0) continue;
+    const auto* const record = py::detail::function_record_ptr_from_PyObject(PyCFunction_GET_SELF(function.ptr()));
+    if (record == nullptr || record->def->ml_doc == nullptr) continue;  // not of this module
+    std::string text = record->def->ml_doc;  // the types, and the text of the binding
+    const std::string own = record->doc != nullptr ? record->doc : "";
+    const std::string told = called.starts_with("__") ? own : complete(name, called, own);
+    if (own.empty() && !told.empty()) text += '\n' + told + '\n';
+    if (!own.empty()) text.replace(text.rfind(own), own.size(), told);
+    replace(record->def->ml_doc, called + parameters(*record), text, std::malloc, std::free);
+    if (record->is_constructor) {
+      const std::string given = parameters(*record);
+      constructor = "(" + given.substr(std::min(given.find_first_not_of(", ", 5), given.size() - 1));
+    }
+  }
+  return constructor;
+}
+
+[[noreturn]] void* refuse_unfinished(std::size_t) {
+  throw py::type_error("this object is not initialised: its __init__() has not been called");
+}
+
+}  // namespace
+
+const char* text_of(std::string_view owner, std::string_view name) {
+  const std::tuple sought(owner, name);
+  const auto before = [&](const Text& each) { return std::tuple(each.owner, each.name) < sought; };
+  const Text* const found = std::partition_point(std::begin(texts), std::end(texts), before);
+  return found != std::end(texts) && std::tuple(found->owner, found->name) == sought ? found->text : "";
+}
+
+void finish(const py::module_& module) {
+  document_members(module, "");
+  for (const auto& item : module.attr("__dict__").cast<py::dict>()) {
+    if (PyType_Check(item.second.ptr()) == 0) continue;
+    const auto type = py::reinterpret_borrow<py::object>(item.second);
+    auto* const built = reinterpret_cast<PyTypeObject*>(type.ptr());
+    const auto name = type.attr("__name__").cast<std::string>();
+    if (py::detail::type_info* const info = py::detail::get_type_info(built)) {
+      // Objects created by __new__ alone, or used by a subclass before super().__init__(), are empty: pybind11 would
+      // allocate memory for them on use and let C++ read it uninitialised. It allocates through operator_new only.
+      info->operator_new = refuse_unfinished;
+      const py::object own = type.attr("__doc__");
+      type.attr("__doc__") = complete("", name, own.is_none() ? "" : own.cast<std::string>());
+      replace(built->tp_doc, name + document_members(type, name), "", PyObject_Malloc, PyObject_Free);
+    } else if (PyType_IsSubtype(built, reinterpret_cast<PyTypeObject*>(PyExc_Exception)) != 0) {
+      replace(built->tp_doc, name + "(*args)", "", PyObject_Malloc, PyObject_Free);
+    }
+  }
+}
+
+}  // namespace calligraphy::python
