@@ -25,6 +25,7 @@ SHAPES = {"Eigen::Vector3d": "(3,)", "Joints": "(3,)", "Point": "(2,)", "Eigen::
 }
 #: What C++ and Python call differently.
 WORDS = {
+    r"^(Reads [^\n]*?\.) `name` is used in (?:error )?messages\.": r"\1",
     r"(?s)(?:\s*@throws|^Throws)\s+": " Raises ",
     r"(?s)\s*@return\s+": " Returns ",
     r"(?s)\s*@param\s+(\w+)": r" `\1`:",
@@ -95,7 +96,7 @@ def text_of(item: Item, kinds: set[str]) -> str:
         told = {"": element, "vector": f"list of {element}", "optional": f"{element} or None"}.get(container, "")
         text = f"{told}: {text}" if told and text else told or text
     shape = SHAPES.get(kind) or re.sub(r"array/double, (\w+)", r"(\1,)", f"{container}/{element}")
-    added = "copied" if container == "vector" else shape if shape.startswith("(") else ""
+    added = "copied" if container == "vector" and item.kind == "field" else shape if shape.startswith("(") else ""
     if not added or added in text:
         return text
     text, unit = re.fullmatch(r"([\s\S]*?)((?:\s*\[[^\]]*\])?)", text).groups()

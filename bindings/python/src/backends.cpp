@@ -54,8 +54,7 @@ auto of_joints(Answer (*function)(const Linkage&, const phantom::Joints&) noexce
 }  // namespace
 
 void add_kinematics(py::module_& module) {
-  add_struct<JointLimits>(module);
-  add_struct<Linkage>(module);
+  add_types<JointLimits, Linkage>(module);
   module.def("linkage", &phantom::linkage, py::return_value_policy::copy, "model"_a);
   module.def("tip_position", of_joints(&phantom::tip_position), "linkage"_a, "joints"_a,
              "+ For joints (3,) or (n, 3) [rad]; same shape [m].");
@@ -140,7 +139,7 @@ py::array captured(const PluggedDevice& device, std::size_t transfers, double se
 }  // namespace
 
 void add_phantom(py::module_& module) {
-  add_enum<LinkKind>(module);
+  add_types<LinkKind, PhantomOptions>(module);
   add_struct<PluggedDevice>(module).def("__str__", &describe_device);
   module.def("plugged_devices", released(&plugged_devices));
   module.def("dump_descriptors", released(&dump_descriptors), "device"_a);
@@ -171,11 +170,7 @@ void add_phantom(py::module_& module) {
       "the lines missing_for_position and missing_for_force. Raises FileError, or FormatError naming the line "
       "and the value.");
 
-  add_struct<PhantomOptions>(module);
-  py::class_<PhantomDevice, HapticDevice>(
-      module, "PhantomDevice", py::is_final(),
-      "An open Phantom or Touch on USB. A C++ thread receives and checks reports; after 20 ms without a write() it "
-      "switches the motors off. Never run on hardware. Raises DeviceError naming device, cause and remedy.")
+  py::class_<PhantomDevice, HapticDevice>(module, "PhantomDevice", py::is_final())
       .def(py::init(released(+[](const PhantomOptions& options) { return std::make_unique<PhantomDevice>(options); })),
            "options"_a)
       .def(
@@ -185,12 +180,7 @@ void add_phantom(py::module_& module) {
       .def_property_readonly("docked", when_idle(&PhantomDevice::docked))
       .def_property_readonly(
           "statistics", [](const PhantomDevice& self) { return as_dict(self.statistics()); },
-          "A dict of counts since the device was opened: reports, good and bad; used_reports, which gave a "
-          "position; lost_reports and repeated_reports, by the sequence number; skipped_bytes of a stream; "
-          "commands passed to the link, refused_commands, commands_replaced by a newer one; released, times "
-          "that the motors were switched off for lack of a command; faults by DeviceFault; transfers_failed; "
-          "opened, times that the device was found; warmest_motor, 0 cold, 1 the limit that it sustains "
-          "indefinitely.")
+          fields_text<PhantomStatistics>().c_str())
       .def_property_readonly("description", &PhantomDevice::description)
       .def_property_readonly("warnings", &PhantomDevice::warnings);
 }
@@ -198,18 +188,13 @@ void add_phantom(py::module_& module) {
 
 #ifdef CALLIGRAPHY_HAS_OPENHAPTICS
 void add_openhaptics(py::module_& module) {
-  add_enum<CalibrationStyle>(module);
-  add_struct<OpenHapticsOptions>(module);
+  add_types<CalibrationStyle, OpenHapticsOptions>(module);
   module.def(
       "openhaptics_runtime",
       [](const std::string& library) { return as_dict(released(&openhaptics_runtime)(library)); }, "library"_a = "",
       "+ Returns a dict.");
   module.def("openhaptics_error_name", &openhaptics_error_name, "code"_a);
-  py::class_<OpenHapticsDevice, HapticDevice>(
-      module, "OpenHapticsDevice", py::is_final(),
-      "A Touch, Phantom or Omni through the vendor's runtime, which is loaded while a device is open. The runtime's "
-      "scheduler clocks ServoLoop and write_with_device; while no loop runs, read() returns the last sample as stale. "
-      "Never run on hardware. Raises DeviceError with a remedy.")
+  py::class_<OpenHapticsDevice, HapticDevice>(module, "OpenHapticsDevice", py::is_final())
       .def(py::init(released(
                +[](const OpenHapticsOptions& options) { return std::make_unique<OpenHapticsDevice>(options); })),
            "options"_a = OpenHapticsOptions{})

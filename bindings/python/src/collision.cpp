@@ -89,9 +89,8 @@ auto at_parameters(Function function) {
 }  // namespace
 
 void add_collision(py::module_& module) {
-  add_enum<NearestPointMethod>(module);
-  add_enum<NearestPointStatus>(module);
-  add_struct<NearestPointOptions>(module);
+  add_types<NearestPointMethod, NearestPointStatus, NearestPointOptions, ConstraintSpaceRule, FeaturePlaneRule,
+            AttractionRule, ConstraintSpace, StrokeRules>(module);
 
   py::class_<NearestPoints>(module, "NearestPoints", "Results of N queries, one array per property.")
       .def(py::init([](Doubles parameter, Doubles point, Doubles distance, Doubles tangent,
@@ -113,10 +112,8 @@ void add_collision(py::module_& module) {
       .def("__len__", [](const NearestPoints& self) { return self.parameter.size(); })
       .attr("__match_args__") = py::make_tuple("parameter", "point", "distance", "tangent", "status");
 
-  py::class_<StrokeElement>(
-      module, "StrokeElement",
-      "A Bezier curve of degree 1 to 4, prepared for queries. Control points (2, 2) to (5, 2), in any "
-      "unit; all other lengths are in the same unit.")
+  py::class_<StrokeElement>(module, "StrokeElement",
+                            "+ Control points (2, 2) to (5, 2), in any unit; all other lengths are in the same unit.")
       .def(py::init(&element_of), "control_points"_a)
       .def_property_readonly("degree", &StrokeElement::degree)
       .def_property_readonly("size", &StrokeElement::size)
@@ -138,11 +135,6 @@ void add_collision(py::module_& module) {
              "relative to the element's size. A query that is not finite has an infinite distance and is not "
              "certified. Raises InvalidValue naming the argument.");
 
-  add_enum<ConstraintSpaceRule>(module);
-  add_enum<FeaturePlaneRule>(module);
-  add_enum<AttractionRule>(module);
-  add_struct<ConstraintSpace>(module);
-  add_struct<StrokeRules>(module);
   add_struct<Placement>(module).def(
       "to_page",
       [](const Placement& self, const ArrayLike& value) {

@@ -100,17 +100,9 @@ void install_for_python() {
 }  // namespace
 
 void add_devices(py::module_& module) {
-  add_enum<DeviceStatus>(module);
-  add_enum<DeviceFault>(module);
-  add_struct<PenOrientation>(module);
-  add_struct<DeviceState>(module);
-  add_enum<VelocitySource>(module);
-  add_struct<DeviceAxes>(module);
-  add_struct<Capabilities>(module);
-  add_struct<GripImpedance>(module);
-  add_struct<Intention>(module);
-  add_enum<SimulatedFaultKind>(module);
-  add_struct<SimulatedFault>(module);
+  add_types<DeviceStatus, DeviceFault, PenOrientation, DeviceState, VelocitySource, DeviceAxes, Capabilities,
+            GripImpedance, Intention, SimulatedFaultKind, SimulatedFault, PointerOptions, ServoOptions,
+            ServoThreadOptions, ServoLoopOptions, ServoPhase, ServoStatus>(module);
   py::class_<VelocityEstimator>(module, "VelocityEstimator")
       .def(py::init<double>(), "cutoff"_a = VelocityEstimator::default_cutoff)
       .def(
@@ -129,18 +121,15 @@ void add_devices(py::module_& module) {
 
   py::class_<HapticDevice, PythonDevice>(
       module, "HapticDevice",
-      "A force-feedback device. A subclass defines capabilities(), read(), write(force) and close(). Their exceptions "
-      "are passed to sys.unraisablehook, once until the method works again, and the sample has status `fault`. A "
-      "`with` block closes the device. While a loop runs on a C++ device, any use outside the force law of that loop "
-      "raises Error.")
+      "+ A subclass defines capabilities(), read(), write(force) and close(). Their exceptions are passed to "
+      "sys.unraisablehook, once until the method works again, and the sample has status `fault`. A `with` block closes "
+      "the device. While a loop runs on a C++ device, any use outside the force law of that loop raises Error.")
       .def(py::init<>())
       .def("capabilities", [](const HapticDevice& self) { return self.capabilities(); })
       .def("read", [](HapticDevice& self) { return idle(self).read(); })
       .def(
           "write", [](HapticDevice& self, const ArrayLike& force) { write(idle(self), vector(force, "force")); },
-          "force"_a,
-          "Commands a force in device axes (3,) [N], held until the next call. If it is not finite, commands "
-          "zero and raises InvalidValue.")
+          "force"_a, "+ (3,). If it is not finite, also raises InvalidValue.")
       .def("close", when_idle(&HapticDevice::close))
       .def("__enter__", [](const py::object& self) { return self; })
       .def("__exit__", [](const py::object& self, const py::args&) { self.attr("close")(); });
@@ -166,33 +155,25 @@ void add_devices(py::module_& module) {
       .def_property_readonly("finished", when_idle(&ReplayDevice::finished))
       .def_property_readonly("last_force", when_idle(&ReplayDevice::last_force));
 
-  add_struct<PointerOptions>(module);
   py::class_<PointerDevice, HapticDevice>(module, "PointerDevice", py::is_final())
       .def(py::init<const Capabilities&, const GripImpedance&, const PointerOptions&>(), "profile"_a,
            "grip"_a = GripImpedance{}, "options"_a = PointerOptions{})
       .def("move", &PointerDevice::move, "x"_a, "y"_a, "pressure"_a, "buttons"_a = 0)
       .def_property_readonly("intention", when_idle(&PointerDevice::intention));
 
-  module.def("install_emergency_stop", &install_for_python,
-             "+ Ctrl-C still raises KeyboardInterrupt. Call it once, in the main thread, after any signal.signal(). "
-             "At a signal a device written in Python gets its zero only from the next tick of its loop, if there "
-             "is one.");
+  module.def(
+      "install_emergency_stop", &install_for_python,
+      "+ After any signal.signal(). A device written in Python gets its zero at a signal only from the next tick "
+      "of its loop, if there is one.");
   module.def("emergency_stop", &emergency_stop, py::call_guard<py::gil_scoped_release>());
   module.def("emergency_stopped", &emergency_stopped);
   module.def("clear_emergency_stop", &clear_emergency_stop);
 
-  add_struct<ServoOptions>(module);
-  add_struct<ServoThreadOptions>(module);
-  add_struct<ServoLoopOptions>(module);
-
-  add_enum<ServoPhase>(module);
-  add_struct<ServoStatus>(module);
   py::class_<VirtualServo>(
       module, "Servo",
-      "A servo loop in virtual time: step(now) reads the device, calls the force law, which maps a "
-      "DeviceState to a force (3,) [N] in device axes, guards the force and writes it. If the law "
-      "raises, the force ramps down to zero and the exception is in `error`; the first is also passed "
-      "to sys.unraisablehook. About 400 times as fast as real time at 1 kHz.")
+      "A servo loop in virtual time: step(now) reads the device, calls the force law, which maps a DeviceState to a "
+      "force (3,) [N] in device axes, guards the force and writes it. If the law raises, the force ramps down to zero "
+      "and the exception is in `error`; the first is also passed to sys.unraisablehook.")
       .def(py::init(&make_servo), py::keep_alive<1, 2>(), "device"_a, "law"_a, py::kw_only(), "rate"_a = 1000.0,
            "timeout"_a = 4e-3, "ramp_down"_a = 10e-3, "ramp_up"_a = 0.2)
       .def("step", &VirtualServo::step, "now"_a)
@@ -202,12 +183,7 @@ void add_devices(py::module_& module) {
                              "the last exception of the force law since construction or reset(), or None")
       .def_property_readonly("errors", &VirtualServo::errors, "number of exceptions of the force law")
       .def_property_readonly("status", &VirtualServo::status)
-      .def_property_readonly(
-          "statistics", &VirtualServo::statistics,
-          "A dict: `period` from tick to tick and `work` per tick (0 in virtual time), each with count, p50, "
-          "p99, p99_9 and worst [s]; ticks that reached the device; missed_deadlines; stale_samples, ticks "
-          "without a fresh sample; stalled_clock, ticks no later than the previous one; watchdog_takeovers of "
-          "the device; idle_ticks, which wrote nothing; faults, by DeviceFault.");
+      .def_property_readonly("statistics", &VirtualServo::statistics, fields_text<ServoStatistics>().c_str());
 }
 
 }  // namespace calligraphy::python

@@ -61,7 +61,7 @@ std::string document_members(const py::object& owner, const std::string& name) {
     if (!function || PyCFunction_Check(function.ptr()) == 0) continue;
     const auto* const record = py::detail::function_record_ptr_from_PyObject(PyCFunction_GET_SELF(function.ptr()));
     if (record == nullptr || record->def->ml_doc == nullptr) continue;  // not of this module
-    std::string text = record->def->ml_doc;  // the types, and the text of the binding
+    std::string text = record->def->ml_doc;                             // the types, and the text of the binding
     const std::string own = record->doc != nullptr ? record->doc : "";
     const std::string told = called.starts_with("__") ? own : complete(name, called, own);
     if (own.empty() && !told.empty()) text += '\n' + told + '\n';

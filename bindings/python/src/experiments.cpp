@@ -65,14 +65,13 @@ py::array coordinate_widths_cost(const std::vector<Character>& characters, const
 }  // namespace
 
 void add_experiments(py::module_& module) {
-  add_struct<WallContact>(module);
+  add_types<WallContact, StabilityMapOptions, Attractor>(module);
   module.def(
       "simulate_wall_contact",
       [](const SampledLoop& loop, double stiffness, const WallContact& contact) {
         return as_dict(released(&simulate_wall_contact)(loop, stiffness, contact));
       },
       "loop"_a, "stiffness"_a, "contact"_a = WallContact{}, "+ In virtual time; returns a dict.");
-  add_struct<StabilityMapOptions>(module);
   module.def(
       "stability_map",
       [](StabilityMapOptions options, const Progress& progress) {
@@ -111,7 +110,6 @@ void add_experiments(py::module_& module) {
       "+ Returns a structured array: step of the grid, max_error and rms_error of the strokes, in both directions "
       "[em]; bytes per character.");
 
-  add_enum<Attractor>(module);
   module.def(
       "guidance_field",
       [](const PlacedCharacter& placed, int stroke, double progress, const ArrayLike& corner, double edge, int columns,

@@ -179,7 +179,8 @@ void add_field(py::class_<Struct>& type, const Field<Struct, Member>& field) {
     };
     set = [place, name](const py::object& self, const ArrayLike& value) {
       auto& to = place.of<Member>(self);
-      std::copy_n(fixed_doubles(value, name, static_cast<py::ssize_t>(to.size())).data(), to.size(), to.begin());
+      const Doubles numbers = fixed_doubles(value, name, static_cast<py::ssize_t>(to.size()));
+      std::copy_n(numbers.data(), to.size(), to.begin());
     };
   } else {
     if constexpr (is_vector<Member>) {
@@ -195,21 +196,31 @@ void add_field(py::class_<Struct>& type, const Field<Struct, Member>& field) {
   type.def_property(name, get, set);
 }
 
-template <class Struct>
-py::tuple field_names() {
-  py::list names;
-  each_field<Struct>([&](const auto& field) { names.append(field.name); });
-  return names;
-}
-
 /// The class of a struct, with all its fields.
 template <class Struct>
 py::class_<Struct> add_struct(py::module_& module) {
   py::class_<Struct> type(module, name_of<Struct>);
   type.def(py::init<>());
-  each_field<Struct>([&](const auto& field) { add_field<Struct>(type, field); });
-  type.attr("fields") = field_names<Struct>();
+  py::list names;
+  each_field<Struct>([&](const auto& field) {
+    add_field<Struct>(type, field);
+    names.append(field.name);
+  });
+  type.attr("fields") = py::tuple(names);
   return type;
+}
+
+/// Structs and enumerations, each after those that it contains.
+template <class... Types>
+void add_types(py::module_& module) {
+  const auto add = [&]<class Type>(std::type_identity<Type>) {
+    if constexpr (std::is_enum_v<Type>) {
+      add_enum<Type>(module);
+    } else {
+      add_struct<Type>(module);
+    }
+  };
+  (add(std::type_identity<Types>()), ...);
 }
 
 /// The results in a struct, by name; counts of faults by DeviceFault.
@@ -230,6 +241,16 @@ py::dict as_dict(const Struct& results) {
     }
   });
   return dict;
+}
+
+/// What as_dict() gives.
+template <class Struct>
+std::string fields_text() {
+  std::string text = "A dict:";
+  each_field<Struct>([&](const auto& field) {
+    text += (text.back() == ':' ? " " : "; ") + std::string(field.name) + ", " + text_of(name_of<Struct>, field.name);
+  });
+  return text + '.';
 }
 
 /// The columns of a structured array whose rows are C++ structs: name, type and offset of each member.

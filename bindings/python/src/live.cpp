@@ -200,11 +200,10 @@ LiveResult write_live(const PracticePage& page, HapticDevice& device, LiveOption
 void stop_orphans() { Loop::stop_orphans(); }
 
 void add_live(py::module_& module) {
-  py::class_<Loop>(
-      module, "ServoLoop",
-      "A servo loop in real time, in its own thread or on the device's own clock, with a watchdog. The law is a "
-      "HapticRenderer, which runs without Python, or a callable that maps a DeviceState to a force (3,) [N], "
-      "which needs the GIL in every tick (docs/python.md). A `with` block starts and stops the loop.")
+  py::class_<Loop>(module, "ServoLoop",
+                   "+ The law is a HapticRenderer, which runs without Python, or a callable that maps a DeviceState to "
+                   "a force (3,) [N], which needs the GIL in every tick (docs/python.md). A `with` block starts and "
+                   "stops the loop.")
       .def(py::init<HapticDevice&, HapticRenderer&, const ServoLoopOptions&>(), "device"_a, "law"_a,
            "options"_a = ServoLoopOptions{})
       .def(py::init<HapticDevice&, const Law&, const ServoLoopOptions&>(), "device"_a, "law"_a,
@@ -238,7 +237,7 @@ void add_live(py::module_& module) {
       .def_property_readonly("servo", [](const LiveView& self) { return self.servo; })
       .def_readonly("progress", &LiveView::progress)
       .def_readonly("started", &LiveView::started);
-  add_struct<LiveOptions>(module);
+  add_types<LiveOptions>(module);
   py::class_<LiveResult>(module, "LiveResult")
       .def_readonly("recording", &LiveResult::recording)
       .def_property_readonly(

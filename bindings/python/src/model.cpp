@@ -125,7 +125,7 @@ void add_model(py::module_& module) {
   });
   module.def("typical_stroke", &typical_stroke, py::return_value_policy::reference, "id"_a);
 
-  add_struct<StrokeInk>(module);
+  add_types<StrokeInk, Provenance, CoordinatePrecision>(module);
   py::class_<StrokeInput>(module, "StrokeInput")
       .def(py::init([](int id, const ArrayLike& control_points, const std::vector<double>& factors,
                        const std::string& elements, const std::optional<StrokeInk>& ink) {
@@ -213,7 +213,6 @@ void add_model(py::module_& module) {
   module.def("with_typical_ink", &with_typical_ink, "character"_a);
   module.def("paper_example", &paper_example, py::return_value_policy::copy);
 
-  add_struct<Provenance>(module);
   py::class_<CharacterList> type(module, "CharacterList");
   std::apply([&](const auto&... field) { (add_field(type, field), ...); }, fields_of<CharacterList>);
   type.def(py::init([](std::vector<Character> characters, Provenance provenance) {
@@ -242,7 +241,6 @@ void add_model(py::module_& module) {
              }),
              "path"_a, "characters"_a, "Writes the text format, atomically. Raises FileError.");
 
-  add_enum<CoordinatePrecision>(module);
   module.def(
       "encode_character_set",
       [](const CharacterList& list, CoordinatePrecision precision) {

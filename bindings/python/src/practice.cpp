@@ -102,6 +102,16 @@ py::dict told_report(const ImportReport& report) {
 }  // namespace
 
 void add_practice(py::module_& module) {
+  add_types<PageLayout, PracticePage, FeedbackMode, WritingMistakeKind, WritingMistake, WritingDirection,
+            StrokeRemarkKind, DrawnStroke, StrokeRemark, MeanInterval, InkDetail>(module);
+  add_struct<WriterSkill>(module)
+      .def_static("novice", &WriterSkill::novice)
+      .def_static("skilled", &WriterSkill::skilled);
+  add_struct<SessionOptions>(module);
+  add_struct<CharacterScore>(module)
+      .def("order_mistakes", &CharacterScore::order_mistakes)
+      .def("direction_mistakes", &CharacterScore::direction_mistakes);
+
   module.attr("sample_dtype") = dtype_of_struct<RecordedSample>();
   py::class_<Recording>(module, "Recording")
       .def(py::init(&recording_of), "rate"_a, "samples"_a)
@@ -124,8 +134,6 @@ void add_practice(py::module_& module) {
              "value.");
   module.def("device_states", released(&device_states), "recording"_a, "mapping"_a);
 
-  add_struct<PageLayout>(module);
-  add_struct<PracticePage>(module);
   module.def("workspace_layout", &workspace_layout, "device"_a, "mapping"_a = MotionMapping{});
   module.def(
       "lay_out",
@@ -153,12 +161,6 @@ void add_practice(py::module_& module) {
       "Writes the format of docs/pen-traces.md; each line of `notice` becomes a comment. Raises FileError, and "
       "InvalidValue naming a trace that cannot be written.");
 
-  add_struct<WriterSkill>(module)
-      .def_static("novice", &WriterSkill::novice)
-      .def_static("skilled", &WriterSkill::skilled);
-
-  add_enum<FeedbackMode>(module);
-  add_struct<SessionOptions>(module);
   const auto with = [](SessionOptions options, const Progress& progress) {
     options.progress = interruptible(progress);
     return options;
@@ -192,17 +194,8 @@ void add_practice(py::module_& module) {
       "+ motion(tick, seconds) returns an Intention on the page, or None to end. Takes about 3 us per tick. See "
       "write_page for progress.");
 
-  add_enum<WritingMistakeKind>(module);
-  add_struct<WritingMistake>(module);
-  add_struct<CharacterScore>(module)
-      .def("order_mistakes", &CharacterScore::order_mistakes)
-      .def("direction_mistakes", &CharacterScore::direction_mistakes);
   module.def("score_page", released(&score_page), "page"_a, "recording"_a);
 
-  add_enum<WritingDirection>(module);
-  add_enum<StrokeRemarkKind>(module);
-  add_struct<DrawnStroke>(module);
-  add_struct<StrokeRemark>(module);
   py::class_<MatchResult>(module, "MatchResult")
       .def_readonly("drawn", &MatchResult::drawn)
       .def_readonly("remarks", &MatchResult::remarks)
@@ -210,7 +203,6 @@ void add_practice(py::module_& module) {
   module.def("match_strokes", &match_of, "character"_a, "paths"_a, "tolerances"_a = StrokeTolerances(),
              "+ Each path is an array (n, 2) [em].");
 
-  add_struct<MeanInterval>(module);
   module.def(
       "mean_interval",
       [](const ArrayLike& values, const std::vector<std::uint64_t>& draws) {
@@ -226,7 +218,6 @@ void add_practice(py::module_& module) {
       "The MeanInterval of values (n,), clustered by the independent draw that each belongs to, an integer "
       "(n,): Student's t with one degree of freedom less than there are draws.");
 
-  add_enum<InkDetail>(module);
   module.def(
       "import_characters",
       [](const std::filesystem::path& source, const std::optional<std::filesystem::path>& letters,

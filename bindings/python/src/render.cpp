@@ -85,15 +85,8 @@ py::array trace(HapticRenderer& renderer, const ArrayLike& positions, const std:
 }  // namespace
 
 void add_render(py::module_& module) {
-  add_enum<PenTipRule>(module);
-  add_enum<GuidanceLaw>(module);
-  add_enum<StiffnessCheck>(module);
-  add_enum<ForceSign>(module);
-  add_enum<MotionMappingRule>(module);
-  add_enum<FrictionModel>(module);
-
-  add_struct<AssistPolicy>(module);
-  add_struct<FrictionOptions>(module);
+  add_types<PenTipRule, GuidanceLaw, StiffnessCheck, ForceSign, MotionMappingRule, FrictionModel, AssistPolicy,
+            FrictionOptions, InteractionState, TickEvent, TickStatus, WritingHint, SampledLoop>(module);
   add_struct<StrokeTolerances>(module)
       .def_static("lenient", &StrokeTolerances::lenient)
       .def_static("normal", &StrokeTolerances::normal)
@@ -115,10 +108,6 @@ void add_render(py::module_& module) {
   module.def("upright_page", &upright_page, "width"_a, "height"_a, "scale"_a = 1.0);
   module.def("desk_page", &desk_page, "width"_a, "height"_a, "scale"_a = 1.0);
 
-  add_enum<InteractionState>(module);
-  add_enum<TickEvent>(module);
-  add_enum<TickStatus>(module);
-  add_enum<WritingHint>(module);
   module.def("to_string", py::overload_cast<WritingHint>(&to_string), "hint"_a,
              "The words of a hint, such as \"too far from the start\"; \"\" for `none`.");
   module.def(
@@ -127,11 +116,8 @@ void add_render(py::module_& module) {
       "hint"_a, "to_start"_a);
   const TickColumns columns(module);
 
-  py::class_<HapticRenderer>(
-      module, "HapticRenderer", py::is_final(),
-      "Guides a pen through the characters of a page, stroke by stroke in the correct order and "
-      "direction. Use one per device and thread: one that a running ServoLoop or another thread "
-      "uses raises Error. Raises InvalidValue naming the option, the character or its placement.")
+  py::class_<HapticRenderer>(module, "HapticRenderer", py::is_final(),
+                             "+ One that a running ServoLoop or another thread uses raises Error.")
       .def(py::init<std::vector<PlacedCharacter>, const MotionMapping&, const Capabilities&, const RendererOptions&>(),
            "page"_a, "mapping"_a, "capabilities"_a, "options"_a = RendererOptions{})
       .def(
@@ -152,7 +138,6 @@ void add_render(py::module_& module) {
         return told("HapticRenderer(page of {} at {:g} Hz)", self.page().size(), self.options().servo_rate);
       });
 
-  add_struct<SampledLoop>(module);
   module.def("critical_stiffness", released(&critical_stiffness), "loop"_a);
   module.def("stiffness_for_any_hand", released(&stiffness_for_any_hand), "loop"_a, "velocity_cutoff"_a, "most"_a);
   module.def(
