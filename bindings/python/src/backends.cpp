@@ -43,11 +43,12 @@ auto per_row(const ArrayLike& value, const char* name, Function&& function) {
   }
 }
 
-/// A function of an arm and its joints.
-template <class Answer>
-auto of_joints(Answer (*function)(const Linkage&, const phantom::Joints&) noexcept) {
-  return [function](const Linkage& arm, const ArrayLike& joints) {
-    return per_row(joints, "joints", [&](const auto& row, py::ssize_t) -> Answer { return function(arm, row); });
+/// A function of an arm, its joints and more.
+template <class Answer, class... More>
+auto of_joints(Answer (*function)(const Linkage&, const phantom::Joints&, More...) noexcept) {
+  return [function](const Linkage& arm, const ArrayLike& joints, More... more) {
+    return per_row(joints, "joints",
+                   [&](const auto& row, py::ssize_t) -> Answer { return function(arm, row, more...); });
   };
 }
 
@@ -71,16 +72,9 @@ void add_kinematics(py::module_& module) {
         const auto reachable = [&](const auto& place, py::ssize_t) { return inverse_kinematics(arm, place).reachable; };
         return std::tuple(per_row(position, "position", joints), per_row(position, "position", reachable));
       },
-      "linkage"_a, "position"_a,
-      "+ Returns joints and whether each position is reachable: for (3,) or (n, 3) [m] joints of the same shape "
-      "[rad] "
-      "and bool, () or (n,).");
-  module.def(
-      "within_limits",
-      [](const Linkage& arm, const ArrayLike& joints, double margin) {
-        return per_row(joints, "joints", [&](const auto& row, py::ssize_t) { return within_limits(arm, row, margin); });
-      },
-      "linkage"_a, "joints"_a, "margin"_a = 0.0, "+ For joints (3,) or (n, 3) [rad]: bool, () or (n,).");
+      "linkage"_a, "position"_a, "+ Returns the joints and whether each is reachable, for (3,) or (n, 3).");
+  module.def("within_limits", of_joints(&phantom::within_limits), "linkage"_a, "joints"_a, "margin"_a = 0.0,
+             "+ For joints (3,) or (n, 3) [rad]: bool, () or (n,).");
   module.def(
       "joint_torque",
       [](const Linkage& arm, const ArrayLike& joints, const ArrayLike& force) {
@@ -146,8 +140,8 @@ void add_phantom(py::module_& module) {
   module.def("capture_packets", &captured, "device"_a, "transfers"_a = CaptureOptions{}.transfers,
              "seconds"_a = CaptureOptions{}.seconds, "stop"_a = py::none(), "path"_a = py::none(),
              "+ Ends after `transfers`, after `seconds` [s], or when stop(), polled ten times a second, returns True. "
-             "Returns a structured array: time since the device was opened [s], and bytes. path: text file to write as "
-             "well: the device after #, then a line per transfer with time and hexadecimal bytes.");
+             "Returns a "
+             "structured array: time [s] and bytes, which it also writes to the text file `path`.");
 
   module.def(
       "read_wire_profile",
@@ -165,10 +159,8 @@ void add_phantom(py::module_& module) {
                         "missing_for_force"_a = missing_for_force(profile));
       },
       "path"_a,
-      "Reads and validates a built-in profile, by name, or a file as described in docs/wire-profile.md. "
-      "Returns a dict: name, source, licence, rate of reports [Hz], report_size and command_size [bytes], and "
-      "the lines missing_for_position and missing_for_force. Raises FileError, or FormatError naming the line "
-      "and the value.");
+      "+ `path` may be the name of a built-in profile. Returns a dict, with the lines missing_for_position and "
+      "missing_for_force.");
 
   py::class_<PhantomDevice, HapticDevice>(module, "PhantomDevice", py::is_final())
       .def(py::init(released(+[](const PhantomOptions& options) { return std::make_unique<PhantomDevice>(options); })),

@@ -71,7 +71,7 @@ void add_experiments(py::module_& module) {
       [](const SampledLoop& loop, double stiffness, const WallContact& contact) {
         return as_dict(released(&simulate_wall_contact)(loop, stiffness, contact));
       },
-      "loop"_a, "stiffness"_a, "contact"_a = WallContact{}, "+ In virtual time; returns a dict.");
+      "loop"_a, "stiffness"_a, "contact"_a = WallContact{}, ("+ " + fields_text<WallContactResult>()).c_str());
   module.def(
       "stability_map",
       [](StabilityMapOptions options, const Progress& progress) {
@@ -87,11 +87,11 @@ void add_experiments(py::module_& module) {
                         "grid"_a = as_table(map.grid, count));
       },
       "options"_a = StabilityMapOptions{}, "progress"_a = py::none(),
-      "+ progress(share) is called from time to time. Takes minutes with the defaults. Returns a dict: "
-      "`stiffnesses` (n,) [N/m]; `grid`, a structured array with one row per loop: its properties, the bounds "
-      "passive, quantised, stable and approximate [N/m], stable_at (n,), per stiffness, and max_stable, below "
-      "which all are stable [N/m]; controlled_: with a passivity controller; below_peak: and the force below the "
-      "peak; `sweeps`, by name: label, values, and lines as in the grid.");
+      "+ Takes minutes with the defaults. Returns a dict: `stiffnesses` (n,) [N/m]; `grid`, a structured array of "
+      "loops: "
+      "their properties and bounds [N/m], `stable_at` (n,), whether each stiffness is stable, and `max_stable`, below "
+      "which all are; controlled_: with a passivity controller; `sweeps` by name: label, values, and lines as in the "
+      "grid.");
 
   module.def(
       "nearest_point_tradeoff", &nearest_points_cost, "characters"_a, "queries"_a = 4000, "rounds"_a = 21, "seed"_a = 1,
@@ -101,14 +101,9 @@ void add_experiments(py::module_& module) {
       "error_p99 and error_worst, relative to the size of the curve; wrong, the share of wrong branches.");
   module.def("servo_rate_tradeoff", &servo_rates_cost, "characters"_a, "rates"_a = ServoRateTradeoffOptions{}.rates,
              "seeds"_a = 3, "seed"_a = 1, "device"_a = "desktop", "progress"_a = py::none(),
-             "+ Returns a structured array: stiffness of the paper [N/m], stable, penetration [m], RMS path_error [m], "
-             "force_step [N], written, the share of strokes completed, and maximum stable stiffnesses [N/m]: loop_, "
-             "unlimited_ without a limit on the rate of the normal force, held_ in the writer's hand, free_ with the "
-             "device released; hard_: half of unlimited_stiffness, and its results. Takes minutes with the defaults.");
-  module.def(
-      "coordinate_width_tradeoff", &coordinate_widths_cost, "characters"_a, "progress"_a = py::none(),
-      "+ Returns a structured array: step of the grid, max_error and rms_error of the strokes, in both directions "
-      "[em]; bytes per character.");
+             ("+ Takes minutes with the defaults. " + fields_text<ServoRateTradeoff>("A structured array")).c_str());
+  module.def("coordinate_width_tradeoff", &coordinate_widths_cost, "characters"_a, "progress"_a = py::none(),
+             ("+ " + fields_text<CoordinateWidthTradeoff>("A structured array")).c_str());
 
   module.def(
       "guidance_field",
@@ -126,10 +121,11 @@ void add_experiments(py::module_& module) {
       },
       "placed"_a, "stroke"_a, "progress"_a, "corner"_a, "edge"_a, "columns"_a = 96, "stiffness"_a = 600.0,
       "attractor"_a = Attractor::active_stroke, "rules"_a = StrokeRules{},
-      "+ `corner` (2,) is the lower left of the square [m]. Returns a dict: `forces` (rows, columns, 2), bottom row "
-      "first [N]; `jumps`, a structured array of the segments across which the force jumps: begin, end (2,) [m], "
-      "size [N], from_stroke, the distance from the active stroke [m], passes_feature, crossed only once, in "
-      "order.");
+      ("+ `corner` (2,) is the lower left of the square [m]. Returns a dict: forces (rows, columns, 2), bottom row "
+       "first [N]; "
+       "jumps: " +
+       fields_text<ForceJump>("A structured array"))
+          .c_str());
 }
 
 }  // namespace calligraphy::python

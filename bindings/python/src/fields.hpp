@@ -243,14 +243,14 @@ py::dict as_dict(const Struct& results) {
   return dict;
 }
 
-/// What as_dict() gives.
+/// What as_dict() gives, or the columns of rows of structs.
 template <class Struct>
-std::string fields_text() {
-  std::string text = "A dict:";
+std::string fields_text(const std::string& what = "A dict") {
+  std::string text;
   each_field<Struct>([&](const auto& field) {
-    text += (text.back() == ':' ? " " : "; ") + std::string(field.name) + ", " + text_of(name_of<Struct>, field.name);
+    text += (text.empty() ? ": " : "; ") + std::string(field.name) + ", " + text_of(name_of<Struct>, field.name);
   });
-  return text + '.';
+  return what + text + '.';
 }
 
 /// The columns of a structured array whose rows are C++ structs: name, type and offset of each member.

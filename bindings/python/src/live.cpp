@@ -19,13 +19,21 @@ void refuse_at_the_end() {
 /// because its law may need the GIL to return.
 class Loop {
  public:
-  Loop(HapticDevice& device, HapticRenderer& renderer, const ServoLoopOptions& options)
-      : Loop(
-            device, py::cast(&renderer), &renderer, nullptr,
-            [&renderer](const DeviceState& state) { return renderer.update(state).force; }, options) {}
   // A vendor's clock may end its thread only when the device is closed, with the GIL held.
-  Loop(HapticDevice& device, const Law& law, const ServoLoopOptions& options)
-      : Loop(device, PythonLaw::make(law), options) {}
+  Loop(HapticDevice& device, const std::variant<HapticRenderer*, Law>& law, const ServoLoopOptions& options)
+      : device_(py::cast(&device)) {
+    ForceLaw force;
+    if (const auto* const renderer = std::get_if<HapticRenderer*>(&law)) {
+      if (*renderer == nullptr) throw py::type_error("law: expected a HapticRenderer or a callable, got None");
+      renderer_ = *renderer;
+      renderer_of_python_ = py::cast(renderer_);
+      force = [of = *renderer](const DeviceState& state) { return of->update(state).force; };
+    } else {
+      python_law_ = PythonLaw::make(std::get<Law>(law));
+      force = PythonLaw::force_law(python_law_, device.clock() == nullptr);
+    }
+    loop_ = std::make_unique<ServoLoop>(device, std::move(force), options);
+  }
   ~Loop() {
     stop();
     if (!loop_->running()) return;
@@ -97,16 +105,6 @@ class Loop {
   std::size_t errors() const { return python_law_ ? python_law_->errors : 0; }
 
  private:
-  Loop(HapticDevice& device, const std::shared_ptr<PythonLaw>& law, const ServoLoopOptions& options)
-      : Loop(device, py::none(), nullptr, law, PythonLaw::force_law(law, device.clock() == nullptr), options) {}
-  Loop(HapticDevice& device, py::object renderer_of_python, HapticRenderer* renderer, std::shared_ptr<PythonLaw> law,
-       ForceLaw force, const ServoLoopOptions& options)
-      : device_(py::cast(&device)),
-        renderer_of_python_(std::move(renderer_of_python)),
-        renderer_(renderer),
-        python_law_(std::move(law)),
-        loop_(std::make_unique<ServoLoop>(device, std::move(force), options)) {}
-
   bool is_of_a_parent() const { return process_ != 0 && process_ != getpid(); }
 
   /// Remains of loops that were destroyed inside their own law.
@@ -122,7 +120,7 @@ class Loop {
   static std::vector<Orphan>& orphans;
 
   py::object device_, renderer_of_python_;  ///< kept alive
-  const HapticRenderer* renderer_;
+  const HapticRenderer* renderer_ = nullptr;
   std::shared_ptr<PythonLaw> python_law_;  ///< null if the law is a renderer
   std::unique_ptr<ServoLoop> loop_;
   std::unique_ptr<AtWork> at_work_;
@@ -204,10 +202,8 @@ void add_live(py::module_& module) {
                    "+ The law is a HapticRenderer, which runs without Python, or a callable that maps a DeviceState to "
                    "a force (3,) [N], which needs the GIL in every tick (docs/python.md). A `with` block starts and "
                    "stops the loop.")
-      .def(py::init<HapticDevice&, HapticRenderer&, const ServoLoopOptions&>(), "device"_a, "law"_a,
-           "options"_a = ServoLoopOptions{})
-      .def(py::init<HapticDevice&, const Law&, const ServoLoopOptions&>(), "device"_a, "law"_a,
-           "options"_a = ServoLoopOptions{})
+      .def(py::init<HapticDevice&, const std::variant<HapticRenderer*, Law>&, const ServoLoopOptions&>(), "device"_a,
+           "law"_a, "options"_a = ServoLoopOptions{})
       .def("start", &Loop::start)
       .def("stop", &Loop::stop, "+ From within the law it only begins the ramp-down.")
       .def_property_readonly("running", &Loop::is_running)

@@ -1,5 +1,4 @@
 // Characters, typical strokes, character sets.
-#include <calligraphy/base/file.hpp>
 #include <calligraphy/base/text.hpp>
 #include <calligraphy/model/character_list.hpp>
 #include <calligraphy/model/character_set.hpp>
@@ -145,15 +144,14 @@ void add_model(py::module_& module) {
       .def_readwrite("ink", &StrokeInput::ink)
       .attr("__match_args__") = py::make_tuple("id", "control_points", "attraction_factors", "elements", "ink");
 
-  py::class_<Stroke>(module, "Stroke", "One stroke of a character: a view that keeps the character alive.")
+  py::class_<Stroke>(module, "Stroke", "+ A view that keeps the character alive.")
       .def_property_readonly(
           "type", [](const Stroke& self) { return self.type; }, py::return_value_policy::reference)
       .def_readonly("elements", &Stroke::elements)
       .def_readonly("curve_degree", &Stroke::curve_degree)
-      .def("input", &input_of, "A copy as input to make_character, to be changed.")
+      .def("input", &input_of, "A copy as input to make_character.")
       .def_property_readonly("control_points", array_within<Stroke>(&Stroke::control_points), "(n, 2), read only [em]")
-      .def_property_readonly("attraction_factors", array_within<Stroke>(&Stroke::attraction_factors),
-                             "one per feature point, read only [1]")
+      .def_property_readonly("attraction_factors", array_within<Stroke>(&Stroke::attraction_factors))
       .def_property_readonly(
           "ink", [](const Stroke& self) { return self.ink == nullptr ? std::nullopt : std::optional(*self.ink); },
           "StrokeInk, copied, or None")
@@ -163,10 +161,7 @@ void add_model(py::module_& module) {
 
   add_ink(module);
 
-  py::class_<Character>(
-      module, "Character",
-      "A character: shape, stroke order and feel. Immutable. Made by make_character, or read from a file. "
-      "Frame: em square, y up.")
+  py::class_<Character>(module, "Character", "+ Immutable. Made by make_character, or read from a file.")
       .def(py::init(&character_of), "code"_a, "order"_a, "curve_degree"_a, "control_points"_a, "stroke_ids"_a,
            "feature_points"_a, "elements"_a, "attraction_factors"_a, "ink"_a = std::vector<StrokeInk>(),
            "From the fields below; make_character() is simpler.")
@@ -231,16 +226,9 @@ void add_model(py::module_& module) {
            })
       .attr("__match_args__") = py::make_tuple("characters", "provenance");
   module.def("built_in_characters", &built_in_characters, py::return_value_policy::copy);
-  module.def("read_characters",
-             released(+[](const std::filesystem::path& path) { return read_characters(path.string()); }), "path"_a,
-             "Reads the text format of docs/character-format.md. Raises FileError, or FormatError naming the line.");
-  module.def("write_characters", released(+[](const std::filesystem::path& path, const CharacterList& characters) {
-               std::ostringstream out;
-               write_characters(out, characters);
-               write_file(path, out.str());
-             }),
-             "path"_a, "characters"_a, "Writes the text format, atomically. Raises FileError.");
-
+  module.def("read_characters", from_file(&read_characters), "path"_a);
+  module.def("write_characters", to_file(&write_characters), "path"_a, "characters"_a,
+             "+ Atomically. Raises FileError.");
   module.def(
       "encode_character_set",
       [](const CharacterList& list, CoordinatePrecision precision) {
@@ -253,9 +241,7 @@ void add_model(py::module_& module) {
       .def(py::init<>())
       .def(py::init(released(+[](const CharacterList& characters) { return CharacterSet(characters); })),
            "characters"_a)
-      .def_static("open",
-                  released(+[](const std::filesystem::path& path) { return CharacterSet::open(path.string()); }),
-                  "path"_a)
+      .def_static("open", from_file(&CharacterSet::open), "path"_a)
       .def_static(
           "from_bytes",
           [](const py::bytes& bytes, const std::string& name) {

@@ -1,5 +1,4 @@
 // Pages, writers, recordings, scores and imports.
-#include <calligraphy/base/file.hpp>
 #include <calligraphy/base/text.hpp>
 #include <calligraphy/devices/replay_device.hpp>
 #include <calligraphy/importers/character_import.hpp>
@@ -116,22 +115,12 @@ void add_practice(py::module_& module) {
   py::class_<Recording>(module, "Recording")
       .def(py::init(&recording_of), "rate"_a, "samples"_a)
       .def_readonly("rate", &Recording::rate)
-      .def_property_readonly(
-          "samples", &samples_of,
-          "A structured array (n,), a read-only view of the recording (sample_dtype): time [s], device_point, "
-          "pen_tip [m] and force [N] in page axes, state, events, status, character, stroke, tick_ns [ns].")
+      .def_property_readonly("samples", &samples_of,
+                             "A structured array (n,), a read-only view of the recording (sample_dtype).")
       .def("__len__", [](const Recording& self) { return self.samples.size(); })
       .attr("__match_args__") = py::make_tuple("rate", "samples");
-  module.def("write_recording", released(+[](const std::filesystem::path& path, const Recording& recording) {
-               std::ostringstream out;
-               write_recording(out, recording);
-               write_file(path, out.str());
-             }),
-             "path"_a, "recording"_a, "+ Atomically. Raises FileError.");
-  module.def("read_recording", released(+[](const std::filesystem::path& path) { return read_recording(path); }),
-             "path"_a,
-             "Reads exactly what write_recording wrote. Raises FileError, or FormatError naming the line and the "
-             "value.");
+  module.def("write_recording", to_file(&write_recording), "path"_a, "recording"_a, "+ Atomically. Raises FileError.");
+  module.def("read_recording", from_file(&read_recording), "path"_a);
   module.def("device_states", released(&device_states), "recording"_a, "mapping"_a);
 
   module.def("workspace_layout", &workspace_layout, "device"_a, "mapping"_a = MotionMapping{});
@@ -147,19 +136,9 @@ void add_practice(py::module_& module) {
       .def_readonly("set", &PenTrace::set)
       .def_readonly("em", &PenTrace::em)
       .attr("__match_args__") = py::make_tuple("character", "strokes", "set", "em");
-  module.def("read_pen_traces",
-             released(+[](const std::filesystem::path& path) { return read_pen_traces(path.string()); }), "path"_a,
-             "Reads the format of docs/pen-traces.md. Raises FileError, or FormatError naming the line and the value.");
-  module.def(
-      "write_pen_traces",
-      released(+[](const std::filesystem::path& path, const std::vector<PenTrace>& traces, const std::string& notice) {
-        std::ostringstream out;
-        write_pen_traces(out, traces, notice);
-        write_file(path, out.str());
-      }),
-      "path"_a, "traces"_a, "notice"_a = "",
-      "Writes the format of docs/pen-traces.md; each line of `notice` becomes a comment. Raises FileError, and "
-      "InvalidValue naming a trace that cannot be written.");
+  module.def("read_pen_traces", from_file(&read_pen_traces), "path"_a);
+  module.def("write_pen_traces", to_file(&write_pen_traces), "path"_a, "traces"_a, "notice"_a = "",
+             "+ Atomically. Raises FileError.");
 
   const auto with = [](SessionOptions options, const Progress& progress) {
     options.progress = interruptible(progress);
@@ -191,8 +170,7 @@ void add_practice(py::module_& module) {
       [with](const PracticePage& page, const SessionOptions& options, const PenMotion& motion,
              const Progress& progress) { return released(&run_session)(page, with(options, progress), motion); },
       "page"_a, "options"_a, "motion"_a, "progress"_a = py::none(),
-      "+ motion(tick, seconds) returns an Intention on the page, or None to end. Takes about 3 us per tick. See "
-      "write_page for progress.");
+      "+ motion(tick, seconds) takes a HapticTick and returns an Intention, or None to end.");
 
   module.def("score_page", released(&score_page), "page"_a, "recording"_a);
 
@@ -214,9 +192,7 @@ void add_practice(py::module_& module) {
         for (std::size_t i = 0; i < drawn.size(); ++i) drawn[i] = {numbers.data()[i], draws[i]};
         return mean_interval(drawn);
       },
-      "values"_a, "draws"_a,
-      "The MeanInterval of values (n,), clustered by the independent draw that each belongs to, an integer "
-      "(n,): Student's t with one degree of freedom less than there are draws.");
+      "values"_a, "draws"_a, "+ values (n,); draws, an integer for each.");
 
   module.def(
       "import_characters",
@@ -234,12 +210,11 @@ void add_practice(py::module_& module) {
       "source"_a, "letters"_a = py::none(), "only"_a = std::u32string(), "alternates"_a = false,
       "ideographs_only"_a = true, "date"_a = "", "threads"_a = 0, "report"_a = false, "progress"_a = py::none(),
       "ink"_a = InkDetail::full,
-      "+ Returns a CharacterList and a report (docs/import.md): kind, characters, strokes, labelled, agreed, "
-      "allowed, ids_used by id, letters_unused, notes; within: strokes and characters within an error [em]; "
-      "worst: code, order, stroke (from 1), id, error [em]; skipped files with reasons. With `report`, every "
-      "stroke is measured against its source (docs/strokes.md): measures, a row for each, lengths in em; "
-      "crossings: in the source, kept; ink: of each stroke, intersection over union with its outline. `ink` is "
-      "kept of hanzi-writer-data.");
+      "+ Returns a CharacterList and a report (docs/import.md): a dict, with the tables `within`, `worst` and "
+      "`measures` as "
+      "structured arrays, `ids_used` by id, `crossings` in the source and kept, and `ink`, for each stroke "
+      "intersection "
+      "over union with its outline.");
 }
 
 }  // namespace calligraphy::python

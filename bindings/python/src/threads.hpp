@@ -2,9 +2,11 @@
 #pragma once
 
 #include <chrono>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -12,6 +14,7 @@
 #include <pybind11/pybind11.h>
 
 #include <calligraphy/base/error.hpp>
+#include <calligraphy/base/file.hpp>
 #include <calligraphy/devices/haptic_device.hpp>
 #include <calligraphy/model/character_set.hpp>
 #include <calligraphy/practice/pen_trace.hpp>
@@ -39,6 +42,26 @@ auto released(Result (*function)(Arguments...)) {
     const std::tuple<Kept<Arguments>...> kept(given...);
     const pybind11::gil_scoped_release release;
     return std::apply(function, kept);
+  };
+}
+
+/// Reads a file without the GIL.
+template <class Value, class Path>
+auto from_file(Value (*read)(const Path&)) {
+  return [read](const std::filesystem::path& path) {
+    const pybind11::gil_scoped_release release;
+    return read(path.string());
+  };
+}
+/// Writes a file without the GIL: all of it or nothing.
+template <class... Arguments>
+auto to_file(void (*write)(std::ostream&, Arguments...)) {
+  return [write](const std::filesystem::path& path, const std::remove_cvref_t<Arguments>&... given) {
+    const std::tuple<Kept<Arguments>...> kept(given...);
+    const pybind11::gil_scoped_release release;
+    std::ostringstream out;
+    std::apply([&](const auto&... each) { write(out, each...); }, kept);
+    write_file(path, out.str());
   };
 }
 
