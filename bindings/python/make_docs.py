@@ -145,6 +145,7 @@ class Header:
                 end()
             elif text != "{":
                 code += "" if token["ignored"] else text
+                function = function and not text.strip()
             elif head := re.match(r"\s*(?:inline )?(namespace|struct|class|enum)\s(?:class )?\s*([\w:]+)", code):
                 if head[1] == "namespace":
                     self.namespaces.append(head[2])
