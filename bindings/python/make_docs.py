@@ -39,7 +39,7 @@ WORDS = {
     ),
     r"\bif false\b": "if False",
     r"; false ends": "; False ends",
-    r"\bthrows\b": "raises",
+    r"\bthrow(s?)\b": r"raise\1",
     r"\bthrew\b": "raised",
 }
 
@@ -193,7 +193,7 @@ def declared(found: Item, kind: str) -> list[Item]:
 
 
 def cannot_be_bound(kind: str, aliases: dict[str, str]) -> bool:
-    return re.search(r"std::(function|span|string_view|unique_ptr)\b|[*&]", aliases.get(kind, kind)) is not None
+    return re.search(r"std::(function|span|unique_ptr)\b|[*&]", aliases.get(kind, kind)) is not None
 
 
 def generated(headers: dict[str, str]) -> str:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+import inspect
 from functools import partial
-from inspect import Parameter, Signature
 from typing import Any
 
 import numpy as np
@@ -69,11 +69,12 @@ def default(value: Any) -> Any:
     return plain if len(parts) <= 8 and all(isinstance(part, (float, int, str, type(None))) for part in parts) else ...
 
 
-def signature(kind: Any) -> Signature:
+def signature(kind: Any) -> inspect.Signature:
     """Of a constructor that takes the fields as keywords."""
     made = kind()
-    fields = [Parameter(n, Parameter.KEYWORD_ONLY, default=default(getattr(made, n))) for n in kind.fields]
-    return Signature([Parameter("self", Parameter.POSITIONAL_OR_KEYWORD), *fields])
+    one = inspect.Parameter
+    fields = [one(name, one.KEYWORD_ONLY, default=default(getattr(made, name))) for name in kind.fields]
+    return inspect.Signature([one("self", one.POSITIONAL_OR_KEYWORD), *fields])
 
 
 def finish(kind: Any) -> None:
@@ -91,6 +92,10 @@ def finish(kind: Any) -> None:
         setattr(with_keywords, "__signature__", signature(kind))
         kind.__init__ = with_keywords
         setattr(kind, "__match_args__", kind.fields)
+    elif "__init__" in own:  # a record, if the constructor takes the values of properties
+        taken = tuple(inspect.signature(kind).parameters)
+        if taken and all(isinstance(own.get(name), property) for name in taken):
+            setattr(kind, "__match_args__", taken)
     if hasattr(kind, "__match_args__"):
         for name in {"__eq__", "__repr__", "__reduce__", "__copy__", "__deepcopy__"} - ({"__repr__"} & set(own)):
             setattr(kind, name, vars(Struct)[name])

@@ -140,8 +140,7 @@ void add_phantom(py::module_& module) {
   module.def("capture_packets", &captured, "device"_a, "transfers"_a = CaptureOptions{}.transfers,
              "seconds"_a = CaptureOptions{}.seconds, "stop"_a = py::none(), "path"_a = py::none(),
              "+ Ends after `transfers`, after `seconds` [s], or when stop(), polled ten times a second, returns True. "
-             "Returns a "
-             "structured array: time [s] and bytes, which it also writes to the text file `path`.");
+             "Returns a structured array: time [s] and bytes, which it also writes to the text file `path`.");
 
   module.def(
       "read_wire_profile",

@@ -109,8 +109,7 @@ void add_collision(py::module_& module) {
             return self.status.attr("__eq__")(static_cast<int>(NearestPointStatus::certified));
           },
           "(N,), bool: no other point of the element is nearer, within the tolerance and rounding")
-      .def("__len__", [](const NearestPoints& self) { return self.parameter.size(); })
-      .attr("__match_args__") = py::make_tuple("parameter", "point", "distance", "tangent", "status");
+      .def("__len__", [](const NearestPoints& self) { return self.parameter.size(); });
 
   py::class_<StrokeElement>(module, "StrokeElement",
                             "+ Control points (2, 2) to (5, 2), in any unit; all other lengths are in the same unit.")
@@ -131,9 +130,9 @@ void add_collision(py::module_& module) {
              "samples"_a = 16, "refinements"_a = 2,
              "Nearest points of N queries on one element. Releases the GIL.\n\ncontrol_points: (2, 2) to (5, 2), a "
              "Bezier curve of degree 1 to 4, or a prepared StrokeElement; queries: (N, 2), not copied if they are "
-             "contiguous float64; both in the same unit. method: a NearestPointMethod or its name; tolerance: "
-             "relative to the element's size. A query that is not finite has an infinite distance and is not "
-             "certified. Raises InvalidValue naming the argument.");
+             "contiguous float64; both in the same unit. method: a NearestPointMethod or its name; tolerance: relative "
+             "to the element's size. A query that is not finite has an infinite distance and is not certified. Raises "
+             "InvalidValue naming the argument.");
 
   add_struct<Placement>(module).def(
       "to_page",
@@ -149,8 +148,7 @@ void add_collision(py::module_& module) {
            }),
            "character"_a, "placement"_a = Placement{})
       .def_readonly("character", &PlacedCharacter::character)
-      .def_readonly("placement", &PlacedCharacter::placement)
-      .attr("__match_args__") = py::make_tuple("character", "placement");
+      .def_readonly("placement", &PlacedCharacter::placement);
   module.def("place_elements", &place_elements, "stroke"_a, "placement"_a);
 }
 

@@ -161,10 +161,9 @@ void add_devices(py::module_& module) {
       .def("move", &PointerDevice::move, "x"_a, "y"_a, "pressure"_a, "buttons"_a = 0)
       .def_property_readonly("intention", when_idle(&PointerDevice::intention));
 
-  module.def(
-      "install_emergency_stop", &install_for_python,
-      "+ After any signal.signal(). A device written in Python gets its zero at a signal only from the next tick "
-      "of its loop, if there is one.");
+  module.def("install_emergency_stop", &install_for_python,
+             "+ After any signal.signal(). A device written in Python gets its zero at a signal only from the next "
+             "tick of its loop, if there is one.");
   module.def("emergency_stop", &emergency_stop, py::call_guard<py::gil_scoped_release>());
   module.def("emergency_stopped", &emergency_stopped);
   module.def("clear_emergency_stop", &clear_emergency_stop);

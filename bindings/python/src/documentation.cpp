@@ -31,7 +31,7 @@ std::string parameters(const py::detail::function_record& function) {
     if (i > 0) text += ", ";
     if (i == function.nargs_pos) text += function.has_args ? "*" : "*, ";
     if (i >= function.args.size() || function.args[i].name == nullptr) {
-      text += i == 0 && function.is_method ? "self" : "args";
+      text += i == 0 && function.is_method ? "self" : i == function.nargs_pos ? "args" : "arg" + std::to_string(i);
       continue;
     }
     text += function.args[i].name;

@@ -88,17 +88,15 @@ void add_experiments(py::module_& module) {
       },
       "options"_a = StabilityMapOptions{}, "progress"_a = py::none(),
       "+ Takes minutes with the defaults. Returns a dict: `stiffnesses` (n,) [N/m]; `grid`, a structured array of "
-      "loops: "
-      "their properties and bounds [N/m], `stable_at` (n,), whether each stiffness is stable, and `max_stable`, below "
-      "which all are; controlled_: with a passivity controller; `sweeps` by name: label, values, and lines as in the "
-      "grid.");
+      "loops: their properties and bounds [N/m], `stable_at` (n,), whether each stiffness is stable, and `max_stable`, "
+      "below which all are; controlled_: with a passivity controller; `sweeps` by name: label, values, and lines as in "
+      "the grid.");
 
-  module.def(
-      "nearest_point_tradeoff", &nearest_points_cost, "characters"_a, "queries"_a = 4000, "rounds"_a = 21, "seed"_a = 1,
-      "progress"_a = py::none(),
-      "+ Returns a structured array: name, method, tolerance, samples and refinements; on `real` strokes, `hard` "
-      "curves and tracking a pen in `ticks`: ns per query (median), ns_p90 and batch_ns; error (median), "
-      "error_p99 and error_worst, relative to the size of the curve; wrong, the share of wrong branches.");
+  module.def("nearest_point_tradeoff", &nearest_points_cost, "characters"_a, "queries"_a = 4000, "rounds"_a = 21,
+             "seed"_a = 1, "progress"_a = py::none(),
+             "+ Returns a structured array: name, method, tolerance, samples and refinements; on `real` strokes, "
+             "`hard` curves and tracking a pen in `ticks`: ns per query (median), ns_p90 and batch_ns; error (median), "
+             "error_p99 and error_worst, relative to the size of the curve; wrong, the share of wrong branches.");
   module.def("servo_rate_tradeoff", &servo_rates_cost, "characters"_a, "rates"_a = ServoRateTradeoffOptions{}.rates,
              "seeds"_a = 3, "seed"_a = 1, "device"_a = "desktop", "progress"_a = py::none(),
              ("+ Takes minutes with the defaults. " + fields_text<ServoRateTradeoff>("A structured array")).c_str());
@@ -122,8 +120,7 @@ void add_experiments(py::module_& module) {
       "placed"_a, "stroke"_a, "progress"_a, "corner"_a, "edge"_a, "columns"_a = 96, "stiffness"_a = 600.0,
       "attractor"_a = Attractor::active_stroke, "rules"_a = StrokeRules{},
       ("+ `corner` (2,) is the lower left of the square [m]. Returns a dict: forces (rows, columns, 2), bottom row "
-       "first [N]; "
-       "jumps: " +
+       "first [N]; jumps: " +
        fields_text<ForceJump>("A structured array"))
           .c_str());
 }

@@ -246,11 +246,13 @@ py::dict as_dict(const Struct& results) {
 /// What as_dict() gives, or the columns of rows of structs.
 template <class Struct>
 std::string fields_text(const std::string& what = "A dict") {
-  std::string text;
+  std::string text = what;
   each_field<Struct>([&](const auto& field) {
-    text += (text.empty() ? ": " : "; ") + std::string(field.name) + ", " + text_of(name_of<Struct>, field.name);
+    std::string_view told = text_of(name_of<Struct>, field.name);
+    if (told.ends_with('.')) told.remove_suffix(1);
+    text += (text == what ? ": " : "; ") + std::string(field.name) + " (" + std::string(told) + ")";
   });
-  return what + text + '.';
+  return text + '.';
 }
 
 /// The columns of a structured array whose rows are C++ structs: name, type and offset of each member.

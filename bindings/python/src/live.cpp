@@ -198,10 +198,10 @@ LiveResult write_live(const PracticePage& page, HapticDevice& device, LiveOption
 void stop_orphans() { Loop::stop_orphans(); }
 
 void add_live(py::module_& module) {
-  py::class_<Loop>(module, "ServoLoop",
-                   "+ The law is a HapticRenderer, which runs without Python, or a callable that maps a DeviceState to "
-                   "a force (3,) [N], which needs the GIL in every tick (docs/python.md). A `with` block starts and "
-                   "stops the loop.")
+  py::class_<Loop>(
+      module, "ServoLoop",
+      "+ The law is a HapticRenderer, which runs without Python, or a callable that maps a DeviceState to a force (3,) "
+      "[N], which needs the GIL in every tick (docs/python.md). A `with` block starts and stops the loop.")
       .def(py::init<HapticDevice&, const std::variant<HapticRenderer*, Law>&, const ServoLoopOptions&>(), "device"_a,
            "law"_a, "options"_a = ServoLoopOptions{})
       .def("start", &Loop::start)
@@ -210,9 +210,9 @@ void add_live(py::module_& module) {
       .def_property_readonly("status", &Loop::status)
       .def_property_readonly("statistics", &Loop::statistics, "as Servo.statistics, while the loop runs and afterwards")
       .def_property_readonly("warnings", &Loop::warnings, "what the last start() returned")
-      .def_property_readonly("error", &Loop::error,
-                             "the last exception of a Python law since start(), or None; sys.unraisablehook "
-                             "gets the first")
+      .def_property_readonly(
+          "error", &Loop::error,
+          "the last exception of a Python law since start(), or None; sys.unraisablehook gets the first")
       .def_property_readonly("errors", &Loop::errors, "number of exceptions of a Python law since start()")
       .def("__enter__",
            [](const py::object& self) {

@@ -98,18 +98,9 @@ void add_ink(py::module_& module) {
 }  // namespace
 
 void add_model(py::module_& module) {
-  py::class_<TypicalStroke>(module, "TypicalStroke")
-      .def_readonly("id", &TypicalStroke::id)
-      .def_readonly("name", &TypicalStroke::name)
-      .def_readonly("pinyin", &TypicalStroke::pinyin)
-      .def_readonly("code", &TypicalStroke::code)
-      .def_readonly("unicode", &TypicalStroke::unicode)
-      .def_readonly("elements", &TypicalStroke::elements)
-      .def_readonly("printed_elements", &TypicalStroke::printed_elements)
-      .def_readonly("joints", &TypicalStroke::joints)
-      .def_readonly("example", &TypicalStroke::example)
-      .def_property_readonly("shape", array_within<TypicalStroke>(&TypicalStroke::shape),
-                             "typical control points of cubic curves, (n, 2) [em]")
+  py::class_<TypicalStroke> typical(module, "TypicalStroke");
+  each_field<TypicalStroke>([&](const auto& field) { typical.def_readonly(field.name, field.member); });
+  typical.def_property_readonly("shape", array_within<TypicalStroke>(&TypicalStroke::shape), "+ (n, 2).")
       .def("__reduce__",
            [](const TypicalStroke& self) -> py::tuple {
              return py::make_tuple(py::module_::import("calligraphy").attr("typical_stroke"), py::make_tuple(self.id));
@@ -141,8 +132,7 @@ void add_model(py::module_& module) {
       .def_property(
           "elements", [](const StrokeInput& self) { return self.elements.elements(); },
           [](StrokeInput& self, const std::string& value) { self.elements = value; })
-      .def_readwrite("ink", &StrokeInput::ink)
-      .attr("__match_args__") = py::make_tuple("id", "control_points", "attraction_factors", "elements", "ink");
+      .def_readwrite("ink", &StrokeInput::ink);
 
   py::class_<Stroke>(module, "Stroke", "+ A view that keeps the character alive.")
       .def_property_readonly(
@@ -191,12 +181,9 @@ void add_model(py::module_& module) {
       .def_property_readonly(
           "ink", [](const Character& self) { return self.physics.ink; }, "StrokeInk of each stroke, or empty; copied")
       .def("strokes", &strokes_of, "The strokes in writing order.")
-      .def("__repr__",
-           [](const Character& self) {
-             return told("Character({}, {} strokes)", encode_utf8(self.code), self.stroke_count());
-           })
-      .attr("__match_args__") = py::make_tuple("code", "order", "curve_degree", "control_points", "stroke_ids",
-                                               "feature_points", "elements", "attraction_factors", "ink");
+      .def("__repr__", [](const Character& self) {
+        return told("Character({}, {} strokes)", encode_utf8(self.code), self.stroke_count());
+      });
 
   module.def(
       "make_character",
@@ -209,7 +196,7 @@ void add_model(py::module_& module) {
   module.def("paper_example", &paper_example, py::return_value_policy::copy);
 
   py::class_<CharacterList> type(module, "CharacterList");
-  std::apply([&](const auto&... field) { (add_field(type, field), ...); }, fields_of<CharacterList>);
+  each_field<CharacterList>([&](const auto& field) { add_field(type, field); });
   type.def(py::init([](std::vector<Character> characters, Provenance provenance) {
              return CharacterList{std::move(provenance), std::move(characters)};
            }),
@@ -223,8 +210,7 @@ void add_model(py::module_& module) {
       .def("__iter__",  // over a copy, because the list may change
            [](const CharacterList& self) {
              return py::typing::Iterator<Character>(py::iter(py::cast(std::vector<Character>(self.characters))));
-           })
-      .attr("__match_args__") = py::make_tuple("characters", "provenance");
+           });
   module.def("built_in_characters", &built_in_characters, py::return_value_policy::copy);
   module.def("read_characters", from_file(&read_characters), "path"_a);
   module.def("write_characters", to_file(&write_characters), "path"_a, "characters"_a,

@@ -85,17 +85,17 @@ py::dict told_report(const ImportReport& report) {
                                    m.lost_inside));
   }
   for (const SkippedFile& file : report.skipped) skipped.append(py::make_tuple(file.path, file.reason));
-  return py::dict("kind"_a = to_string(report.kind), "characters"_a = report.characters, "strokes"_a = report.strokes,
-                  "labelled"_a = report.labelled, "agreed"_a = report.agreed, "allowed"_a = report.allowed,
-                  "ids_used"_a = report.ids_used, "letters_unused"_a = report.letters_unused, "notes"_a = report.notes,
-                  "within"_a = table(within, dtype_of("error:f8 strokes:i4 characters:i4")),
-                  "worst"_a = table(worst, dtype_of("code:U1 order:U32 stroke:i4 id:i4 error:f8")),
-                  "measures"_a = table(measures, dtype_of("code:U1 order:U32 stroke:i4 id:i4 frechet:f8 backward:f8 "
-                                                          "length:f8 source_length:f8 half_width:f8 false_corners:i4 "
-                                                          "lost_corners:i4 lost_inside:f8")),
-                  "ink"_a = as_numbers(report.ink.strokes),
-                  "crossings"_a = py::make_tuple(report.crossings.source, report.crossings.kept),
-                  "skipped"_a = skipped);
+  return py::dict(
+      "kind"_a = to_string(report.kind), "characters"_a = report.characters, "strokes"_a = report.strokes,
+      "labelled"_a = report.labelled, "agreed"_a = report.agreed, "allowed"_a = report.allowed,
+      "ids_used"_a = report.ids_used, "letters_unused"_a = report.letters_unused, "notes"_a = report.notes,
+      "within"_a = table(within, dtype_of("error:f8 strokes:i4 characters:i4")),
+      "worst"_a = table(worst, dtype_of("code:U1 order:U32 stroke:i4 id:i4 error:f8")),
+      "measures"_a =
+          table(measures, dtype_of("code:U1 order:U32 stroke:i4 id:i4 frechet:f8 backward:f8 length:f8 "
+                                   "source_length:f8 half_width:f8 false_corners:i4 lost_corners:i4 lost_inside:f8")),
+      "ink"_a = as_numbers(report.ink.strokes),
+      "crossings"_a = py::make_tuple(report.crossings.source, report.crossings.kept), "skipped"_a = skipped);
 }
 
 }  // namespace
@@ -117,8 +117,7 @@ void add_practice(py::module_& module) {
       .def_readonly("rate", &Recording::rate)
       .def_property_readonly("samples", &samples_of,
                              "A structured array (n,), a read-only view of the recording (sample_dtype).")
-      .def("__len__", [](const Recording& self) { return self.samples.size(); })
-      .attr("__match_args__") = py::make_tuple("rate", "samples");
+      .def("__len__", [](const Recording& self) { return self.samples.size(); });
   module.def("write_recording", to_file(&write_recording), "path"_a, "recording"_a, "+ Atomically. Raises FileError.");
   module.def("read_recording", from_file(&read_recording), "path"_a);
   module.def("device_states", released(&device_states), "recording"_a, "mapping"_a);
@@ -134,8 +133,7 @@ void add_practice(py::module_& module) {
       .def_readonly("character", &PenTrace::character)
       .def_property_readonly("strokes", &pen_downs, "one array (n, 3) per pen-down, copied: x, y [em], time [s]")
       .def_readonly("set", &PenTrace::set)
-      .def_readonly("em", &PenTrace::em)
-      .attr("__match_args__") = py::make_tuple("character", "strokes", "set", "em");
+      .def_readonly("em", &PenTrace::em);
   module.def("read_pen_traces", from_file(&read_pen_traces), "path"_a);
   module.def("write_pen_traces", to_file(&write_pen_traces), "path"_a, "traces"_a, "notice"_a = "",
              "+ Atomically. Raises FileError.");
@@ -211,9 +209,8 @@ void add_practice(py::module_& module) {
       "ideographs_only"_a = true, "date"_a = "", "threads"_a = 0, "report"_a = false, "progress"_a = py::none(),
       "ink"_a = InkDetail::full,
       "+ Returns a CharacterList and a report (docs/import.md): a dict, with the tables `within`, `worst` and "
-      "`measures` as "
-      "structured arrays, `ids_used` by id, `crossings` in the source and kept, and `ink`, for each stroke "
-      "intersection "
+      "`measures` as structured arrays, `ids_used` by id, `crossings` in the source and kept, and `ink`, for each "
+      "stroke intersection "
       "over union with its outline.");
 }
 

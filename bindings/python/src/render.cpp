@@ -123,9 +123,9 @@ void add_render(py::module_& module) {
       .def(
           "update", [](HapticRenderer& self, const DeviceState& state) { return idle(self).update(state); }, "state"_a)
       .def("trace", &trace, "positions"_a, "times"_a = py::none(),
-           "Processes positions (N, 3) in device axes [m], one per tick, at increasing times (N,) [s], by "
-           "default at the servo rate from the last tick on. Returns N ticks (tick_dtype). Releases the GIL. "
-           "After Ctrl-C, call restart().")
+           "Processes positions (N, 3) in device axes [m], one per tick, at increasing times (N,) [s], by default at "
+           "the servo rate from the last tick on. Returns N ticks (tick_dtype). Releases the GIL. After Ctrl-C, call "
+           "restart().")
       .def("restart", [](HapticRenderer& self) { idle(self).restart(); })
       .def_property_readonly("last", [](const HapticRenderer& self) { return idle(self).last(); })
       .def_property_readonly("options", &HapticRenderer::options, py::return_value_policy::copy)

@@ -78,7 +78,7 @@ def test_every_public_name_is_documented():
 def documentation(value):
     """Without the line that has the types."""
     text = value.__doc__ or ""
-    return text.partition("\n\n")[2] if text.startswith(f"{getattr(value, '__name__', '')}(") else text
+    return text.partition("\n\n")[2] if callable(value) and text.startswith(f"{value.__name__}(") else text
 
 
 def test_the_types_of_arguments_precede_the_documentation():
