@@ -146,22 +146,14 @@ void add_collision(py::module_& module) {
              "to the element's size. A query that is not finite has an infinite distance and is not certified. Raises "
              "InvalidValue naming the argument.");
 
-  add_enum(module, "ConstraintSpaceRule", "Shape of a constraint space.", ConstraintSpaceRule::wang2006,
-           "tube wang2006");
-  add_enum(module, "FeaturePlaneRule", "When a feature point counts as passed.", FeaturePlaneRule::wang2006,
-           "bounded wang2006");
-  add_enum(module, "AttractionRule", "Which attraction factor applies between two feature points.",
-           AttractionRule::wang2006, "interpolated wang2006");
-  add_struct<ConstraintSpace>(module, "ConstraintSpace", "Region of attraction of an element.", &ConstraintSpace::rule,
-                              "rule: ConstraintSpaceRule", &ConstraintSpace::radius, "radius [em]",
-                              &ConstraintSpace::fade_width,
+  add_enum(module, "Rules", "The rules of the paper, as revised or as printed.", Rules::wang2006_signs,
+           "revised wang2006 wang2006_signs");
+  add_struct<ConstraintSpace>(module, "ConstraintSpace", "A tube around an element, within which it attracts the pen.",
+                              &ConstraintSpace::radius, "radius [em]", &ConstraintSpace::fade_width,
                               "fade_width: outermost part, where attraction fades out [em]");
-  add_struct<StrokeRules>(module, "StrokeRules", "How the pen is tracked along the active stroke.",
-                          &StrokeRules::nearest, "nearest: NearestPointOptions", &StrokeRules::space,
-                          "space: ConstraintSpace", &StrokeRules::plane, "plane: FeaturePlaneRule",
-                          &StrokeRules::attraction, "attraction: AttractionRule", &StrokeRules::plane_tolerance,
-                          "plane_tolerance: a plane counts as crossed this far before it [em]", &StrokeRules::window,
-                          "window: arc length to search for the closest point; 0: the whole element [em]");
+  add_struct<StrokeOptions>(module, "StrokeOptions", "How a pen is followed along a stroke.", &StrokeOptions::nearest,
+                            "nearest: NearestPointOptions", &StrokeOptions::space, "space: ConstraintSpace",
+                            &StrokeOptions::rules, "rules: Rules");
   add_struct<Placement>(module, "Placement", "em coordinates to metres: page point = origin + em * point.",
                         &Placement::origin, "origin: lower left corner of the em square, (2,) [m]", &Placement::em,
                         "em: edge of the em square [m]")

@@ -147,10 +147,10 @@ void add_experiments(py::module_& module) {
   module.def(
       "guidance_field",
       [](const PlacedCharacter& placed, int stroke, double progress, const ArrayLike& corner, double edge, int columns,
-         double stiffness, Attractor attractor, const StrokeRules& rules) {
+         double stiffness, Attractor attractor, const StrokeOptions& stroke_options) {
         ForceFieldOptions options;
         options.attractor = attractor;
-        options.rules = rules;
+        options.stroke = stroke_options;
         options.stiffness = stiffness;
         options.columns = columns;
         options.progress = interruptible(std::nullopt);
@@ -162,7 +162,7 @@ void add_experiments(py::module_& module) {
         return py::dict("forces"_a = forces, "jumps"_a = structured(jump_type, std::move(field.jumps)));
       },
       "placed"_a, "stroke"_a, "progress"_a, "corner"_a, "edge"_a, "columns"_a = 96, "stiffness"_a = 600.0,
-      "attractor"_a = Attractor::active_stroke, "rules"_a = StrokeRules{},
+      "attractor"_a = Attractor::active_stroke, "options"_a = StrokeOptions{},
       "Attraction of eq. (8) on a pen that has written a share `progress` of a stroke, at each cell of a square with "
       "lower left `corner` (2,) and this edge [m]. Returns a dict: `forces` (rows, columns, 2), bottom row first [N]; "
       "`jumps`, a structured array of the segments across which the force jumps: begin, end (2,) [m], size [N], "

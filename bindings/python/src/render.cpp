@@ -80,13 +80,9 @@ py::dict as_dict(const StiffnessBound& bound) {
 }  // namespace
 
 void add_render(py::module_& module) {
-  add_enum(module, "PenTipRule", "Where the virtual pen tip is.", PenTipRule::wang2006, "projected wang2006");
   add_enum(module, "GuidanceLaw", "Guidance force over the distance.", GuidanceLaw::saturating, "linear saturating");
   add_enum(module, "StiffnessCheck", "What to do with an unstable stiffness; `off` is for simulated devices only.",
            StiffnessCheck::off, "reject clip off");
-  add_enum(module, "ForceSign", "The signs of eq. (8) and (9).", ForceSign::wang2006, "attracting wang2006");
-  add_enum(module, "MotionMappingRule", "How device axes map to the page.", MotionMappingRule::wang2006,
-           "affine wang2006");
   add_enum(module, "FrictionModel", "Friction between pen and paper.", FrictionModel::hayward_armstrong,
            "breakaway hayward_armstrong");
 
@@ -114,39 +110,37 @@ void add_render(py::module_& module) {
       .def_static("lenient", &T::lenient, "For beginners and for large devices held loosely.")
       .def_static("normal", &T::normal, "The default.")
       .def_static("strict", &T::strict, "For examinations.");
+  using P = PaperOptions;
+  add_struct<P>(module, "PaperOptions", "The paper under the pen.", &P::stiffness, "stiffness: K_en of eq. (9) [N/m]",
+                &P::damping, "damping: against motion in the paper, along its normal [N s/m]", &P::onset,
+                "onset: depth over which the paper becomes as stiff and as damped as that [m]", &P::solid,
+                "solid: normal force in the adjusting state too", &P::friction, "friction: FrictionOptions");
+  using G = GuidanceOptions;
+  add_struct<G>(module, "GuidanceOptions", "The lateral force.", &G::stiffness, "stiffness: K_et of eq. (8) [N/m]",
+                &G::damping, "damping: against motion across the stroke [N s/m]", &G::law, "law: GuidanceLaw",
+                &G::limit, "limit: saturating: maximum force [N]", &G::to_start, "to_start: pull the pen to the start",
+                &G::space, "space: ConstraintSpace", &G::fade_in, "fade_in: time [s]", &G::fade_out,
+                "fade_out: time [s]", &G::wrong_way_stiffness, "wrong_way_stiffness: 0: none [N/m]",
+                &G::wrong_way_limit, "wrong_way_limit: maximum force [N]", &G::wrong_way_slack,
+                "wrong_way_slack: dead band [em]", &G::assist, "assist: AssistPolicy");
+  using K = ContactOptions;
+  add_struct<K>(module, "ContactOptions", "When the pen touches the paper.", &K::lift_time, "lift_time: [s]",
+                &K::lift_clearance, "lift_clearance: [m]", &K::lift_between_strokes,
+                "lift_between_strokes: the next stroke begins with a new contact", &K::box_margin, "box_margin: [em]");
+  using L = ForceLimits;
+  add_struct<L>(module, "ForceLimits", "What bounds the force.", &L::in_plane_rate, "in_plane_rate: [N/s]",
+                &L::normal_rate, "normal_rate: [N/s]", &L::thermal_time_constant, "thermal_time_constant: [s]",
+                &L::max_speed, "max_speed: [m/s]");
+  using E = EnergyOptions;
+  add_struct<E>(module, "EnergyOptions", "What energy the force may deliver.", &E::passivity_control,
+                "passivity_control: dissipate energy", &E::budget, "budget: [J]", &E::max_gap, "max_gap: [s]");
   using O = RendererOptions;
-  add_struct<O>(
-      module, "RendererOptions", "Options of the haptic renderer.", &O::servo_rate, "servo_rate [Hz]",
-      &O::paper_stiffness, "paper_stiffness: K_en of eq. (9) [N/m]", &O::paper_onset,
-      "paper_onset: depth over which the paper becomes as stiff and as damped as that [m]", &O::paper_damping,
-      "paper_damping: against motion in the paper, along its normal [N s/m]", &O::guidance_stiffness,
-      "guidance_stiffness: K_et of eq. (8) where the attraction factor is 1 [N/m]", &O::guidance_damping,
-      "guidance_damping: where guidance acts, against motion across the stroke [N s/m]", &O::velocity_cutoff,
-      "velocity_cutoff: of the low-pass on the velocity for both [Hz]", &O::guidance_fade_in,
-      "guidance_fade_in: time [s]", &O::guidance_fade_out, "guidance_fade_out: time when guidance lets go [s]",
-      &O::wrong_way_stiffness, "wrong_way_stiffness: against writing backwards; 0: none [N/m]", &O::wrong_way_limit,
-      "wrong_way_limit: maximum force [N]", &O::wrong_way_slack, "wrong_way_slack: dead band [em]", &O::stiffness_check,
-      "stiffness_check: StiffnessCheck", &O::guidance, "guidance: GuidanceLaw", &O::guidance_limit,
-      "guidance_limit: saturating: maximum guidance force [N]", &O::guide_to_start,
-      "guide_to_start: before a stroke, pull the pen to its start", &O::assist, "assist: AssistPolicy", &O::friction,
-      "friction: FrictionOptions", &O::tolerances, "tolerances: StrokeTolerances", &O::stroke, "stroke: StrokeRules",
-      &O::box_margin, "box_margin: around the active character [em]", &O::lift_height,
-      "lift_height: hysteresis of the contact [m]", &O::lift_time,
-      "lift_time: the pen counts as lifted once it has been above the paper for this time [s]", &O::lift_clearance,
-      "lift_clearance: or at once this far above it; until then it may bounce [m]", &O::box_hysteresis,
-      "box_hysteresis: the box is left this far outside its edge [em]", &O::lift_between_strokes,
-      "lift_between_strokes: the next stroke begins with a new contact", &O::solid_paper,
-      "solid_paper: normal force in the adjusting state too", &O::in_plane_force_rate,
-      "in_plane_force_rate: in the paper plane, beyond what springs and dampers change as the pen moves [N/s]",
-      &O::normal_force_rate, "normal_force_rate: likewise along the normal [N/s]", &O::limit_force_rate,
-      "limit_force_rate: False: forces step at every transition", &O::passivity_control,
-      "passivity_control: dissipate energy generated by sampling, delay and limits", &O::energy_budget,
-      "energy_budget: net energy to the hand; infinite: no limit [J]", &O::max_gap,
-      "max_gap: with a budget: longest time without a fresh sample [s]", &O::thermal_time_constant,
-      "thermal_time_constant: of the motors; 0: no limit [s]", &O::grip_stiffness,
-      "grip_stiffness: of a usual hand [N/m, device]", &O::max_speed, "max_speed: a faster sample is a fault [m/s]",
-      &O::force_sign, "force_sign: ForceSign", &O::pen_tip, "pen_tip: PenTipRule", &O::motion,
-      "motion: MotionMappingRule")
+  add_struct<O>(module, "RendererOptions", "Options of the haptic renderer.", &O::servo_rate, "servo_rate: [Hz]",
+                &O::rules, "rules: Rules", &O::stiffness_check, "stiffness_check: StiffnessCheck", &O::nearest,
+                "nearest: NearestPointOptions", &O::velocity_cutoff, "velocity_cutoff: [Hz]", &O::grip_stiffness,
+                "grip_stiffness: [N/m, device]", &O::paper, "paper: PaperOptions", &O::guidance,
+                "guidance: GuidanceOptions", &O::contact, "contact: ContactOptions", &O::tolerances,
+                "tolerances: StrokeTolerances", &O::limits, "limits: ForceLimits", &O::energy, "energy: EnergyOptions")
       .def_static("wang2006", &O::wang2006, "Every rule as printed, except the signs of eq. (8) and (9).")
       .def_static("for_device", &O::for_device, "capabilities"_a, "scale"_a = 1.0,
                   "The defaults at the device's rate, stiffnesses clipped to what is usable and stable; the hand feels "

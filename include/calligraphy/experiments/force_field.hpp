@@ -20,7 +20,7 @@ enum class Attractor {
 
 struct ForceFieldOptions {
   Attractor attractor = Attractor::active_stroke;
-  StrokeRules rules;  ///< with nearest_stroke only those for the nearest point, the constraint space and the attraction
+  StrokeOptions stroke;      ///< with nearest_stroke, feature planes do not count
   double stiffness = 600.0;  ///< of the guidance where the attraction factor is 1 [N/m]
   int columns = 96;          ///< cells per edge of the square
   double min_jump = 0.1;     ///< smaller jumps of the force are omitted [N]

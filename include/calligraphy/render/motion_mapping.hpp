@@ -49,9 +49,4 @@ MotionMapping upright_page(double width, double height, double scale = 1.0);
 /// Page flat on the desk: page y points away from the user (-z of the device), page z up. Otherwise as upright_page().
 MotionMapping desk_page(double width, double height, double scale = 1.0);
 
-enum class MotionMappingRule {
-  affine,   ///< MotionMapping::to_page
-  wang2006  ///< eq. (3) as printed: integrates the velocity tick by tick, starting from the first position
-};
-
 }  // namespace calligraphy
