@@ -10,7 +10,7 @@ packages=(cmake g++ gnuplot-nox libarchive-dev libcli11-dev libeigen3-dev libfmt
           libpugixml-dev libspdlog-dev libusb-1.0-0-dev libutfcpp-dev ninja-build nlohmann-json3-dev pkg-config zlib1g-dev)
 if [[ ${1:-} == tests || ${1:-} == full ]]; then
   # clang, its run-time libraries and libc++ by unversioned names, which all of these systems have.
-  packages+=(ca-certificates catch2 clang emscripten fish groff-base libbenchmark-dev libc++-dev libc++abi-dev
+  packages+=(ca-certificates catch2 clang doxygen emscripten fish groff-base libbenchmark-dev libc++-dev libc++abi-dev
              libclang-rt-dev libumockdev-dev python3 python3-dev python3-venv udev umockdev zsh)
   command -v npm > /dev/null || packages+=(npm)
   if [[ $1 == full ]]; then

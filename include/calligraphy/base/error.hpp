@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+/// Haptic guidance for writing Chinese characters. Everything public is declared here, except what serves the backend
+/// for Phantom devices alone (calligraphy::phantom).
 namespace calligraphy {
 
 /// Base class of all exceptions thrown by this library.

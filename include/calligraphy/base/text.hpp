@@ -6,6 +6,7 @@
 
 namespace calligraphy {
 
+/// Whether the text is valid UTF-8 throughout; an empty text is.
 bool is_utf8(std::string_view text) noexcept;
 
 /// Code points of a UTF-8 text. @throws FormatError naming the byte offset of the first invalid sequence

@@ -13,7 +13,7 @@ namespace calligraphy {
 /// How a pen is followed along a stroke.
 struct StrokeOptions {
   NearestPointOptions nearest = {.method = NearestPointMethod::tracked};  ///< method and accuracy of the nearest point
-  ConstraintSpace space = {};                                                  ///< within which the stroke attracts the pen
+  ConstraintSpace space = {};                                             ///< within which the stroke attracts the pen
   Rules rules = Rules::revised;  ///< of feature planes, attraction and constraint space
 };
 
@@ -52,12 +52,17 @@ class ActiveStroke {
   /// effect on its progress, and without its attraction factor.
   StrokeContact nearest(const Point& tip, const StrokeOptions& options) const noexcept;
 
+  /// First point of the stroke [m, page].
   const Point& start() const noexcept { return parts_.front().element.origin(); }
+  /// Last point of the stroke [m, page].
   Point end() const noexcept { return parts_.back().end.point; }
   /// Attraction factor at the start.
   double first_attraction() const noexcept { return parts_.front().first_attraction; }
+  /// Arc length of the whole stroke [m].
   double length() const noexcept { return parts_.back().last_arc; }
+  /// The element with this index, in writing order.
   const StrokeElement& element(int index) const noexcept { return parts_[static_cast<std::size_t>(index)].element; }
+  /// Number of elements; 0 before load().
   int element_count() const noexcept { return static_cast<int>(parts_.size()); }
 
  private:

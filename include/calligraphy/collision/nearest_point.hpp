@@ -18,8 +18,9 @@ enum class NearestPointMethod {
 /// "exact", "tracked", "sampled", "wang2006".
 const char* to_string(NearestPointMethod method) noexcept;
 
+/// Method and settings of a nearest point.
 struct NearestPointOptions {
-  NearestPointMethod method = NearestPointMethod::exact;
+  NearestPointMethod method = NearestPointMethod::exact;  ///< how it is found; the other options serve some of them
   /// exact, tracked: error of the point; wang2006: epsilon. Both relative to the size of the element, in (0, 1]. A
   /// value of 0 or less requests more than rounding allows: the result may then be only approximate.
   double tolerance = 1e-9;
@@ -30,6 +31,7 @@ struct NearestPointOptions {
 /// For set-up: rejects what nearest_point() would clamp. @throws ValueError naming the option and its value
 void validate(const NearestPointOptions& options);
 
+/// Validity of a nearest point.
 enum class NearestPointStatus {
   certified,    ///< no other point of the range is nearer, within the tolerance and rounding
   approximate,  ///< not certified: sampled or wang2006 on a curve, or exact at its work limit
@@ -38,21 +40,23 @@ enum class NearestPointStatus {
                 ///< nonzero size: returns the start of the range and an infinite distance
 };
 
+/// The point of an element that is nearest to a query, in the unit of its control points.
 struct NearestPoint {
-  double parameter = 0.0;         ///< in [0, 1]
+  double parameter = 0.0;         ///< of the point on the element, in [0, 1]
   Point point = Point::Zero();    ///< on the curve (wang2006: the midpoint of two points of it)
-  double distance = 0.0;          ///< from the query to `point`
+  double distance = 0.0;          ///< from the query to `point`; infinite if one is not finite
   Point tangent = Point::Zero();  ///< unit vector in writing direction; zero for a point
-  NearestPointStatus status = NearestPointStatus::approximate;
+  NearestPointStatus status = NearestPointStatus::approximate;  ///< how far the result may be trusted
 
+  /// Whether no other point of the range is nearer, within the tolerance and rounding.
   bool certified() const noexcept { return status == NearestPointStatus::certified; }
 };
 
 /// Part of an element. Values outside [0, 1] are clamped, NaN becomes 0 for `begin` and 1 for `end`, and an end before
 /// the beginning becomes the beginning.
 struct ParameterRange {
-  double begin = 0.0;
-  double end = 1.0;
+  double begin = 0.0;  ///< first parameter
+  double end = 1.0;    ///< last parameter, included
 };
 
 /// Nearest point of the element within the range. Of equal distances the smaller parameter wins. `start` is for

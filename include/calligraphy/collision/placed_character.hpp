@@ -15,12 +15,14 @@ struct Placement {
   Point origin = Point::Zero();  ///< lower left corner of the em square on the page [m]
   double em = 0.04;              ///< edge of the em square [m]
 
+  /// From em coordinates [em] to the page [m].
   Point to_page(const Point& point) const noexcept { return origin + em * point; }
 };
 
+/// A character placed on the page.
 struct PlacedCharacter {
-  Character character;
-  Placement placement;
+  Character character;  ///< its strokes, in em coordinates
+  Placement placement;  ///< where its em square lies, and how large it is
 };
 
 /// The elements of a stroke as placed, in writing order, prepared for queries [m].

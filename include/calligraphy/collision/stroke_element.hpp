@@ -12,19 +12,24 @@ namespace calligraphy {
 
 /// A line or a curve, with their common interface.
 struct StrokeElement {
-  std::variant<LineElement, CurveElement> kind;
+  std::variant<LineElement, CurveElement> kind;  ///< prepared for queries; the functions below serve either
 
+  /// The line, or null if it is a curve.
   const LineElement* line() const noexcept { return std::get_if<LineElement>(&kind); }
+  /// The curve, or null if it is a line.
   const CurveElement* curve() const noexcept { return std::get_if<CurveElement>(&kind); }
 
+  /// 1 for a line or a point, 2 to 4 for a curve.
   int degree() const noexcept { return curve() ? curve()->degree : 1; }
   /// First control point.
   const Point& origin() const noexcept { return curve() ? curve()->origin : line()->origin; }
   /// Diagonal of the bounding box of the control points [m]; 0 for a point.
   double size() const noexcept { return curve() ? curve()->size : line()->length; }
+  /// Arc length, as accurate as arc_length() [m].
   double length() const noexcept { return curve() ? curve()->arc.back() : line()->length; }
+  /// Point at a parameter in [0, 1] [m].
   Point point(double t) const noexcept { return curve() ? curve()->point(t) : line()->point(t); }
-  /// dB/dt
+  /// First derivative with respect to the parameter, dB/dt [m].
   Point derivative(double t) const noexcept { return curve() ? curve()->derivative(t) : line()->edge; }
   /// Unit tangent in writing direction, also where dB/dt vanishes; zero for a point.
   Point tangent(double t) const noexcept { return curve() ? curve()->tangent(t) : line()->direction; }

@@ -11,8 +11,8 @@ namespace calligraphy {
 
 /// A point on a stroke.
 struct StrokePoint {
-  int element = 0;  ///< index
-  NearestPoint closest;
+  int element = 0;       ///< index of the element that it lies on
+  NearestPoint closest;  ///< on that element
 };
 
 /// Finds the nearest point of the whole stroke for each position of a pen, certified, and fast where the pen moves
@@ -25,8 +25,9 @@ class StrokeTracker {
   explicit StrokeTracker(std::span<const StrokeElement> elements, double tolerance = 1e-9);
   StrokeTracker(std::vector<StrokeElement>&&, double = 0.0) = delete;  // would dangle before the first update
 
-  /// For a query that is not finite, returns the start of the element that was nearest last, with status not_finite,
-  /// and does not remember the query. For a stroke without elements, always returns the origin with status not_finite.
+  /// Nearest point of the whole stroke to the next position of the pen. For a query that is not finite, returns the
+  /// start of the element that was nearest last, with status not_finite, and does not remember the query. For a stroke
+  /// without elements, always returns the origin with status not_finite.
   StrokePoint update(const Point& query) noexcept;
 
  private:

@@ -10,9 +10,12 @@ namespace calligraphy {
 
 /// Degrees of freedom of a device.
 struct DeviceAxes {
-  bool x = true, y = true, z = true;  ///< translations, along the device axes
-  bool rotations = false;             ///< pen orientation, sensed as DeviceState::orientation
+  bool x = true;           ///< translation along this device axis
+  bool y = true;           ///< translation along this device axis
+  bool z = true;           ///< translation along this device axis
+  bool rotations = false;  ///< pen orientation, sensed as DeviceState::orientation
 
+  /// Whether x, y and z are all there, as the renderer and the simulation need them.
   bool all_translations() const noexcept { return x && y && z; }
 };
 
@@ -31,22 +34,22 @@ const char* to_string(VelocitySource source) noexcept;
 /// Limits of a device, and its properties as a point mass, equal along all axes. The simulation, the stiffness bounds
 /// and the renderer all use this struct.
 struct Capabilities {
-  std::string name;                                     ///< name of the built-in profile; may be empty
-  std::string model;                                    ///< display name: "Phantom Omni"
+  std::string name;        ///< name of the built-in profile; may be empty
+  std::string model;       ///< display name: "Phantom Omni"
   bool simulated = false;  ///< nobody can be hurt: unstable stiffnesses may be tried (StiffnessCheck::off)
-  DeviceAxes sensed;                                    ///< axes that read() measures
-  DeviceAxes driven;                                    ///< axes along which write() exerts a force
+  DeviceAxes sensed;       ///< axes that read() measures
+  DeviceAxes driven;       ///< axes along which write() exerts a force
   Eigen::Vector3d workspace = Eigen::Vector3d::Zero();  ///< extent along each device axis, centred on zero [m]
-  double peak_force = 0.0;                              ///< [N]
-  double continuous_force = 0.0;                        ///< [N]
+  double peak_force = 0.0;                              ///< maximum force; 0: unknown, no limit [N]
+  double continuous_force = 0.0;                        ///< force that it sustains indefinitely; 0: unknown [N]
   double usable_stiffness = 0.0;                        ///< maximum stiffness reported by users of the device [N/m]
   double force_step = 0.0;    ///< forces are rounded to multiples of it (DAC); 0: unknown, or not quantised [N]
   double encoder_step = 0.0;  ///< positions are rounded to multiples of it; 0: unknown, or not quantised [m]
-  VelocitySource velocity = VelocitySource::estimated;
+  VelocitySource velocity = VelocitySource::estimated;  ///< how it has the velocity of a sample
   double velocity_cutoff = 50.0;  ///< cut-off frequency of the filter of an estimated velocity [Hz]
-  double update_rate = 1000.0;    ///< [Hz]
+  double update_rate = 1000.0;    ///< rate of its samples and of the servo loop [Hz]
   double apparent_mass = 0.0;     ///< at the tip; 0: unknown [kg]
-  double viscous_friction = 0.0;  ///< [N s/m]
+  double viscous_friction = 0.0;  ///< damping of the mechanism itself [N s/m]
   double coulomb_friction = 0.0;  ///< back-drive friction [N]
   int sample_delay = 0;           ///< age of a sample when it is read [ticks]
 };
@@ -64,7 +67,8 @@ void validate(const Capabilities& capabilities);
 /// exceed the peak. A force that is not finite counts as zero.
 Eigen::Vector3d output_force(const Capabilities& capabilities, const Eigen::Vector3d& commanded) noexcept;
 
-/// @throws ValueError naming `user` and the axes unless x, y and z are both sensed and driven
+/// Checks that a device has all three translations. @throws ValueError naming `user` and the axes unless x, y and z are
+/// both sensed and driven
 void require_translations(const Capabilities& capabilities, const char* user);
 
 }  // namespace calligraphy

@@ -25,7 +25,7 @@ const char* to_string(DeviceStatus status) noexcept;
 /// Cause of a fault in a device, its link or its servo loop. Some are detected by the link, others by the codec, the
 /// device or the servo loop.
 enum class DeviceFault : std::uint8_t {
-  none,
+  none,               ///< no fault, or its cause is not known
   unplugged,          ///< no longer on the bus
   stalled,            ///< an endpoint refuses transfers
   timed_out,          ///< a transfer, or a call of the device, did not complete in time
@@ -50,6 +50,7 @@ enum class DeviceFault : std::uint8_t {
   device_error        ///< the device cannot continue and gives no reason
 };
 
+/// Number of values of DeviceFault, for arrays indexed by it.
 inline constexpr std::size_t device_fault_count = static_cast<std::size_t>(DeviceFault::device_error) + 1;
 
 /// Display text: "unplugged", "short frame".
@@ -65,11 +66,12 @@ struct PenOrientation {
   double azimuth = std::numeric_limits<double>::quiet_NaN();  ///< from the x axis towards the y axis, -pi to pi [rad]
 };
 
-/// One sample.
+/// One sample of a device.
 struct DeviceState {
   double time = 0.0;                                   ///< since the device was opened [s]
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< haptic interface point, device axes [m]
-  /// [m/s]; NaN only if the device neither measures nor estimates it. A force law never sees that: Servo fills it in.
+  /// Of the haptic interface point, device axes [m/s]; NaN only if the device neither measures nor estimates it. A
+  /// force law never sees that: Servo fills it in.
   Eigen::Vector3d velocity = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   bool velocity_estimated = false;  ///< from positions, by a VelocityEstimator or the vendor's filter: late and noisy
   /// The force at work when the sample is read, device axes [N]: the last one written, after every limit, guard and
@@ -78,18 +80,18 @@ struct DeviceState {
   /// How long after the last sample that the force law was asked about a force other than `force` may have been at
   /// work [s]. Servo fills it in; 0 also if nobody knows.
   double force_settling = 0.0;
-  std::uint32_t buttons = 0;  ///< one bit per button
-  DeviceStatus status = DeviceStatus::ok;
-  DeviceFault fault = DeviceFault::none;  ///< the cause of a status other than ok, if known
-  PenOrientation orientation;
+  std::uint32_t buttons = 0;               ///< one bit per button
+  DeviceStatus status = DeviceStatus::ok;  ///< whether it is fresh and valid
+  DeviceFault fault = DeviceFault::none;   ///< the cause of a status other than ok, if known
+  PenOrientation orientation;              ///< of the pen; NaN if the device does not sense rotations
 };
 
 /// Impedance of the grip about the intended position, equal along all axes. Typical grips: soft (0.05, 1, 100), normal
 /// (0.1, 3, 300), firm (0.15, 5, 500).
 struct GripImpedance {
-  double mass = 0.1;         ///< [kg]
-  double damping = 3.0;      ///< [N s/m]
-  double stiffness = 300.0;  ///< [N/m]
+  double mass = 0.1;         ///< that moves with the device [kg]
+  double damping = 3.0;      ///< against motion relative to the intended one [N s/m]
+  double stiffness = 300.0;  ///< of the spring towards the intended position [N/m]
 };
 
 }  // namespace calligraphy

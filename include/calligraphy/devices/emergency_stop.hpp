@@ -37,6 +37,7 @@ void clear_emergency_stop() noexcept;
 /// removing it must not be done in a signal handler; both are thread-safe.
 class EmergencyStopEntry {
  public:
+  /// Takes the force from an object.
   using Stop = void (*)(void* object) noexcept;
 
   /// Entries at a time, in the whole program.
@@ -47,6 +48,7 @@ class EmergencyStopEntry {
   explicit EmergencyStopEntry(HapticDevice& device);
   /// `stop` must be async-signal-safe and return within 0.1 s. @throws as above
   EmergencyStopEntry(void* object, Stop stop);
+  /// Calls remove().
   ~EmergencyStopEntry() { remove(); }
   EmergencyStopEntry(const EmergencyStopEntry&) = delete;
   EmergencyStopEntry& operator=(const EmergencyStopEntry&) = delete;

@@ -20,6 +20,7 @@ class HapticDevice {
  public:
   virtual ~HapticDevice() = default;
 
+  /// Its axes, limits and properties; the same for as long as it is open.
   virtual const Capabilities& capabilities() const noexcept = 0;
 
   /// The newest sample.

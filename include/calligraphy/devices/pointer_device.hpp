@@ -11,8 +11,8 @@
 
 namespace calligraphy {
 
-/// By default the hand moves like the simulated writer's: 8 mm above the paper between strokes, 2.5 mm deep at half
-/// pressure.
+/// How the simulated hand follows a pointer. By default it moves like the simulated writer's: 8 mm above the paper
+/// between strokes, 2.5 mm deep at half pressure.
 struct PointerOptions {
   double rate = 1000.0;          ///< rate at which read() is called [Hz]
   double smoothing_time = 0.03;  ///< lag of the intended position behind the pointer: smooths events that arrive 60 to
@@ -30,6 +30,7 @@ struct PointerOptions {
 /// the pen there, not at the pointer. Mapping the pixels of a window to the paper is left to the caller.
 class PointerDevice final : public HapticDevice {
  public:
+  /// A simulated device, and the hand with this grip that the pointer moves.
   /// @throws ValueError naming the value when the device, the grip or an option is invalid
   explicit PointerDevice(const Capabilities& device, const GripImpedance& grip = {},
                          const PointerOptions& options = {});
@@ -47,6 +48,7 @@ class PointerDevice final : public HapticDevice {
 
   /// Intended position of the hand, in device axes. Only for the thread that calls read().
   const Intention& intention() const noexcept { return intention_; }
+  /// The simulated device that the hand holds. Only for the thread that calls read().
   const SimulatedDevice& device() const noexcept { return device_; }
 
  private:

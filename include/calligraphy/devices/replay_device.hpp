@@ -12,6 +12,7 @@ namespace calligraphy {
 /// recorded (NaN) is estimated from the positions. Forces are stored and have no effect. close() ends playback.
 class ReplayDevice final : public HapticDevice {
  public:
+  /// Plays these samples back as a device with these capabilities.
   /// @throws ValueError when there are no samples, their times do not increase, or the velocity cut-off is not above 0
   ReplayDevice(std::vector<DeviceState> samples, Capabilities capabilities);
 
@@ -20,7 +21,9 @@ class ReplayDevice final : public HapticDevice {
   void write(const Eigen::Vector3d& force) noexcept override;
   void close() noexcept override;
 
+  /// Whether no sample is left, or the device is closed.
   bool finished() const noexcept { return !open_ || next_ >= samples_.size(); }
+  /// The force last written [N].
   const Eigen::Vector3d& last_force() const noexcept { return force_; }
 
  private:

@@ -21,8 +21,9 @@ namespace calligraphy {
 /// down when it throws or takes too long.
 using ForceLaw = std::function<Eigen::Vector3d(const DeviceState&)>;
 
+/// Rate and safety limits of a servo loop.
 struct ServoOptions {
-  double rate = 1000.0;      ///< [Hz]
+  double rate = 1000.0;      ///< ticks per second [Hz]
   double timeout = 4e-3;     ///< time without a fresh sample, a tick or a result of the force law before the force
                              ///< ramps down; real devices pause for up to 2.4 ms [s]
   double ramp_down = 10e-3;  ///< linear ramp from the last force to zero [s]
@@ -43,7 +44,7 @@ const char* to_string(ServoPhase phase) noexcept;
 
 /// Current state of a servo loop.
 struct ServoStatus {
-  ServoPhase phase = ServoPhase::zero;
+  ServoPhase phase = ServoPhase::zero;     ///< what the force output does
   DeviceFault fault = DeviceFault::none;   ///< cause of the ramp-down, until the force has ramped up again
   DeviceStatus device = DeviceStatus::ok;  ///< status of the last sample
   double gain = 0.0;                       ///< on the desired force, or on the held one while it ramps down [1]
@@ -97,8 +98,9 @@ class Servo {
   /// Whether the last force written is the zero of an emergency stop. Thread-safe, async-signal-safe.
   bool halted() const noexcept { return halted_.load(std::memory_order_acquire); }
 
-  /// Thread-safe.
+  /// State after the last tick or ramp of the watchdog. Thread-safe.
   ServoStatus status() const noexcept;
+  /// Statistics since construction; reset() keeps them. Thread-safe.
   ServoStatistics statistics() const noexcept;
 
  private:
@@ -135,10 +137,10 @@ class Servo {
   DeviceStatus device_status_ = DeviceStatus::ok;
   DeviceFault last_fault_ = DeviceFault::none;  ///< of the previous tick
   Eigen::Vector3d written_ = Eigen::Vector3d::Zero();
-  bool watchdog_fell_ = false;                  ///< the watchdog has ramped down since the last tick
-  bool watchdog_wrote_ = false;                 ///< the last change of the force was the watchdog's
-  double since_asked_ = 0.0;                    ///< from the last call of the force law to the last tick [s]
-  double settling_ = 0.0;                       ///< of it, until a tick last changed the force [s]
+  bool watchdog_fell_ = false;   ///< the watchdog has ramped down since the last tick
+  bool watchdog_wrote_ = false;  ///< the last change of the force was the watchdog's
+  double since_asked_ = 0.0;     ///< from the last call of the force law to the last tick [s]
+  double settling_ = 0.0;        ///< of it, until a tick last changed the force [s]
 
   std::atomic<std::uint64_t> passed_over_ = 0;  ///< the watchdog's ramp as the last tick saw it
 

@@ -17,6 +17,7 @@ class ServoClock {
   /// After it returns, no tick is running or will run. Do not call it from within a tick.
   virtual void stop() noexcept = 0;
 
+  /// Whether it has been started and not stopped since.
   virtual bool running() const noexcept = 0;
 };
 

@@ -12,8 +12,9 @@
 
 namespace calligraphy {
 
+/// Options of a real-time loop.
 struct ServoLoopOptions {
-  ServoOptions servo;
+  ServoOptions servo;  ///< rate and safety limits
   /// Options of the loop's own thread; its rate is taken from the servo. Unused if the device has its own clock.
   ServoThreadOptions thread;
 };
@@ -39,9 +40,11 @@ class ServoLoop {
   /// the ramp-down and returns; the loop ends when stop() is called from outside.
   void stop() noexcept;
 
-  /// Thread-safe, as are the two below. True from the first tick until stop() is called from outside the force law.
+  /// True from the first tick until stop() is called from outside the force law. Thread-safe.
   bool running() const noexcept { return running_; }
+  /// Current phase, fault and gain. Thread-safe.
   ServoStatus status() const noexcept { return servo_.status(); }
+  /// Statistics of all runs of this loop. Thread-safe.
   ServoStatistics statistics() const noexcept { return servo_.statistics(); }
 
  private:

@@ -11,18 +11,21 @@
 
 namespace calligraphy {
 
+/// Rate and privileges of the thread of a servo loop.
 struct ServoThreadOptions {
-  double rate = 1000.0;     ///< [Hz]
+  double rate = 1000.0;     ///< ticks per second, 1 to 100,000 [Hz]
   int priority = 80;        ///< real-time priority (SCHED_FIFO), 1 to 99; 0: a normal thread
   bool lock_memory = true;  ///< lock the memory of the whole process into RAM, from the start on
   int core = -1;            ///< processor core that the thread is bound to; -1: any
 };
 
-/// The next deadline after `now` on the grid defined by `deadline` and `period`, and the number of deadlines skipped.
+/// A deadline of a servo thread.
 struct NextDeadline {
-  double time = 0.0;  ///< [s]
-  std::uint64_t skipped = 0;
+  double time = 0.0;          ///< when the next tick is due [s]
+  std::uint64_t skipped = 0;  ///< deadlines before it that have passed without a tick
 };
+
+/// The next deadline after `now` on the grid that `deadline`, the one of the last tick, and `period` define [s].
 NextDeadline next_deadline(double deadline, double period, double now) noexcept;
 
 /// Calls the tick at deadlines that do not drift. A late tick is not caught up: the next one runs at the next deadline
@@ -30,13 +33,13 @@ NextDeadline next_deadline(double deadline, double period, double now) noexcept;
 /// warnings() reports it.
 class ServoThread final : public ServoClock {
  public:
-  /// @throws ValueError naming the value when an option is out of range
+  /// A clock that does not run yet. @throws ValueError naming the value when an option is out of range
   explicit ServoThread(const ServoThreadOptions& options = {});
+  /// Calls stop().
   ~ServoThread() override;
 
   /// `now` is the time of the system's monotonic clock when the tick is called; it goes on while the machine is
-  /// suspended. An exception from the tick terminates
-  /// the program.
+  /// suspended. An exception from the tick terminates the program.
   void start(std::function<void(double now)> tick) override;
   void stop() noexcept override;
   bool running() const noexcept override { return thread_.joinable(); }

@@ -12,8 +12,8 @@ namespace calligraphy {
 
 /// Intended position and velocity of the pen, in device axes.
 struct Intention {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s]
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< where the hand means the pen to be [m]
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< at which that position moves on [m/s]
 };
 
 /// A point mass held by a hand, in virtual time. During advance() the commanded force is held and the intended position
@@ -21,6 +21,7 @@ struct Intention {
 /// under Coulomb friction: the result does not depend on the step size.
 class SimulatedDevice final : public HapticDevice {
  public:
+  /// A device at rest at this position [m], held with this grip; by default nobody holds it.
   /// @throws ValueError naming the value when the device or the grip is not physical, when the apparent mass is
   /// unknown, or when a translation is not sensed or not driven
   explicit SimulatedDevice(const Capabilities& device, const GripImpedance& grip = {0.0, 0.0, 0.0},
@@ -38,9 +39,10 @@ class SimulatedDevice final : public HapticDevice {
   /// Sets the intended position, initially the start position. It moves on at its velocity with every advance(). Values
   /// that are not finite are ignored.
   void set_intention(const Intention& intention) noexcept;
+  /// Sets the grip of the hand that holds the device; all zero: nobody holds it.
   /// @throws ValueError naming the value when the grip is not physical
   void set_grip(const GripImpedance& grip);
-  /// Takes effect with the next advance().
+  /// Sets the pressed buttons, one bit for each; takes effect with the next advance().
   void set_buttons(std::uint32_t buttons) noexcept { buttons_ = buttons; }
 
   /// Replaces the schedule of faults, by default empty. Of several that are active at once the first counts. Allocates:
@@ -52,12 +54,15 @@ class SimulatedDevice final : public HapticDevice {
   /// finite
   void advance(double seconds);
 
-  /// The unquantised motion and the force applied.
+  /// Position, not quantised, of the haptic interface point [m].
   const Eigen::Vector3d& true_position() const noexcept { return position_; }
+  /// Its velocity, neither quantised nor filtered [m/s].
   const Eigen::Vector3d& true_velocity() const noexcept { return velocity_; }
+  /// The force at work, after every limit of the device [N].
   const Eigen::Vector3d& applied_force() const noexcept { return force_; }
   /// Forces written so far that were not finite.
   std::uint64_t refused_forces() const noexcept { return refused_forces_; }
+  /// Virtual time, the sum of all advances [s].
   double time() const noexcept { return time_; }
 
  private:

@@ -7,6 +7,7 @@
 
 namespace calligraphy {
 
+/// What a simulated device shows during a fault.
 enum class SimulatedFaultKind : std::uint8_t {
   stale,      ///< no new sample arrives: the last one again, with status `stale` and the cause `fault`
   late,       ///< samples are `ticks` older than usual, as their time tells
@@ -17,12 +18,12 @@ enum class SimulatedFaultKind : std::uint8_t {
 
 /// One fault: active at every virtual time from `begin` until before `begin` + `duration`.
 struct SimulatedFault {
-  double begin = 0.0;     ///< [s]
-  double duration = 0.0;  ///< infinity: for good [s]
-  SimulatedFaultKind kind = SimulatedFaultKind::stale;
+  double begin = 0.0;                                   ///< virtual time of the device [s]
+  double duration = 0.0;                                ///< how long it lasts; infinity: for good [s]
+  SimulatedFaultKind kind = SimulatedFaultKind::stale;  ///< what the device shows
   int ticks = 1;                              ///< late: 1 to 1000 advances more than the device's sample delay
-  DeviceStatus status = DeviceStatus::fault;  ///< reported
-  DeviceFault fault = DeviceFault::none;      ///< stale, reported
+  DeviceStatus status = DeviceStatus::fault;  ///< reported: the status of every sample
+  DeviceFault fault = DeviceFault::none;      ///< stale, reported: the cause in every sample
 };
 
 }  // namespace calligraphy

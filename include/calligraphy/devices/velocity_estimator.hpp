@@ -15,7 +15,7 @@ namespace calligraphy {
 /// Any coordinates will do (device or page axes, joint angles). No call allocates or throws but the constructor.
 class VelocityEstimator {
  public:
-  static constexpr double default_cutoff = 50.0;  ///< [Hz]
+  static constexpr double default_cutoff = 50.0;  ///< cut-off frequency of the low-pass where none is given [Hz]
 
   /// `cutoff`: cut-off frequency of the low-pass [Hz]. @throws ValueError unless it is finite and above 0
   explicit VelocityEstimator(double cutoff = default_cutoff);

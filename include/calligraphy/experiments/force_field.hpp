@@ -18,9 +18,10 @@ enum class Attractor {
   nearest_stroke  ///< the nearest stroke of the character: the ambiguity that active strokes are to remove
 };
 
+/// Rules and resolution of a force field.
 struct ForceFieldOptions {
-  Attractor attractor = Attractor::active_stroke;
-  StrokeOptions stroke;      ///< with nearest_stroke, feature planes do not count
+  Attractor attractor = Attractor::active_stroke;  ///< what attracts the pen
+  StrokeOptions stroke;      ///< how it is followed; with nearest_stroke, feature planes do not count
   double stiffness = 600.0;  ///< of the guidance where the attraction factor is 1 [N/m]
   int columns = 96;          ///< cells per edge of the square
   double min_jump = 0.1;     ///< smaller jumps of the force are omitted [N]
@@ -30,23 +31,26 @@ struct ForceFieldOptions {
 
 /// A segment of a line across which the force jumps.
 struct ForceJump {
-  Point begin, end;     ///< [m, page]
+  Point begin;          ///< one end [m, page]
+  Point end;            ///< the other end [m, page]
   double size;          ///< magnitude of the change in force [N]
   double from_stroke;   ///< distance from the active stroke [m]
   bool passes_feature;  ///< a feature point is passed on one side of it, so it is crossed only once, in order
 };
 
+/// The force on a pen at rest in each cell of a square.
 struct ForceField {
   Point corner = Point::Zero();  ///< lower left corner of the square [m, page]
-  double edge = 0.0;             ///< [m]
+  double edge = 0.0;             ///< of the square [m]
   int columns = 0;               ///< number of columns, and of rows
   std::vector<Point> forces;     ///< row by row, bottom row first [N, page]
-  std::vector<ForceJump> jumps;
+  std::vector<ForceJump> jumps;  ///< where the force steps, as segments of lines
 
   /// Centre of a cell, where its force is evaluated [m, page].
   Point place(int column, int row) const noexcept;
+  /// Force in a cell [N, page].
   const Point& force(int column, int row) const noexcept;
-  double max_force() const noexcept;  ///< [N]
+  double max_force() const noexcept;  ///< largest magnitude in a cell [N]
 };
 
 /// Computes, for each cell of the square, the attraction of eq. (8) on a pen there that has written `stroke` (index)
@@ -58,18 +62,19 @@ ForceField guidance_field(const PlacedCharacter& placed, int stroke, double prog
 
 /// One case of ambiguity on a real stroke: the same pen under different rules.
 struct ForceFieldFigure {
+  /// The force field under one set of rules.
   struct Panel {
-    std::string name;
-    bool fades_in;  ///< the guidance fades in where a feature point is passed
-    ForceField field;
+    std::string name;  ///< of the rules
+    bool fades_in;     ///< the guidance fades in where a feature point is passed
+    ForceField field;  ///< under these rules
   };
-  std::string name;   ///< "bend", "corner", "parallel", "crossed"
-  std::string title;  ///< for people
-  PlacedCharacter placed;
-  int stroke = 0;         ///< index of the active stroke
-  double progress = 0.0;  ///< share of its length
-  Point pen;              ///< the stroke's point at `progress` [m, page]
-  std::vector<Panel> panels;
+  std::string name;           ///< "bend", "corner", "parallel", "crossed"
+  std::string title;          ///< for people
+  PlacedCharacter placed;     ///< the character on which it occurs
+  int stroke = 0;             ///< index of the active stroke
+  double progress = 0.0;      ///< share of its length
+  Point pen;                  ///< the stroke's point at `progress` [m, page]
+  std::vector<Panel> panels;  ///< one for each set of rules
 };
 
 /// Figs. 25 to 28 with built-in characters, each with the nearest stroke, the rules as printed and the default.

@@ -20,6 +20,7 @@ struct WallContact {
   double reordered = 0.0;   ///< share of the samples that are swapped with the next one
 };
 
+/// What a simulated contact with the wall came to.
 struct WallContactResult {
   /// The pen comes to rest: its peak-to-peak amplitude drops below 0.1 um, or decreases in each sixteenth of the second
   /// half of the time, by at least 5 % in total and at least 1 % in the last quarter.
@@ -37,47 +38,54 @@ WallContactResult simulate_wall_contact(const SampledLoop& loop, double stiffnes
 
 /// The results for one loop at every stiffness of the map.
 struct StabilityLine {
-  SampledLoop loop;
-  double passive = 0.0, quantised = 0.0, stable = 0.0, approximate = 0.0;  ///< the bounds of advise_stiffness() [N/m]
+  SampledLoop loop;                        ///< its wall has every stiffness in turn
+  double passive = 0.0;                    ///< StiffnessAdvice::passive [N/m]
+  double quantised = 0.0;                  ///< StiffnessAdvice::quantised [N/m]
+  double stable = 0.0;                     ///< StiffnessAdvice::stable [N/m]
+  double approximate = 0.0;                ///< StiffnessAdvice::approximate [N/m]
   std::vector<bool> stable_at;             ///< per stiffness of the map, without the controller
   std::vector<bool> controlled_stable_at;  ///< likewise, with the controller
   /// Maximum stiffness below which every simulated one is stable, to 2 %; 0 if the lowest is unstable, the map's
   /// maximum if all are stable [N/m].
-  double max_stable = 0.0, controlled_max_stable = 0.0;
-  double controlled_max_stable_below_peak = 0.0;  ///< likewise, with the force staying below the peak [N/m]
+  double max_stable = 0.0;
+  double controlled_max_stable = 0.0;             ///< likewise, with the controller [N/m]
+  double controlled_max_stable_below_peak = 0.0;  ///< as that, and the force stays below the peak [N/m]
 };
 
 /// Variation of one property of the loop, all others kept constant.
 struct StabilitySweep {
-  std::string name;                 ///< "damping"
-  std::string label;                ///< with its unit, for people
-  std::vector<std::string> values;  ///< one per line
-  std::vector<StabilityLine> lines;
+  std::string name;                  ///< of the property: "damping"
+  std::string label;                 ///< the property with its unit, for people
+  std::vector<std::string> values;   ///< of the property, one per line
+  std::vector<StabilityLine> lines;  ///< by increasing value
 };
 
+/// What a stability map simulates; its grid has every combination of the lists.
 struct StabilityMapOptions {
-  Capabilities device = point_mass();
-  WallContact contact;             ///< `controlled` is ignored: both are simulated
-  int per_decade = 8;              ///< number of stiffnesses per decade
-  double min_stiffness = 10.0;     ///< [N/m]
-  double max_stiffness = 1e5;      ///< [N/m]
-  double coulomb_friction = 0.06;  ///< of loops with quantised positions; the others have none [N]
+  Capabilities device = point_mass();  ///< the properties that a sweep or the grid does not vary
+  WallContact contact;                 ///< `controlled` is ignored: both are simulated
+  int per_decade = 8;                  ///< number of stiffnesses per decade
+  double min_stiffness = 10.0;         ///< lowest stiffness simulated [N/m]
+  double max_stiffness = 1e5;          ///< highest stiffness simulated [N/m]
+  double coulomb_friction = 0.06;      ///< of loops with quantised positions; the others have none [N]
   std::vector<double> dampings = {0.05, 0.1, 0.5, 2.0};     ///< viscous, of the grid [N s/m]
-  std::vector<double> rates = {500.0, 1000.0, 4000.0};      ///< [Hz]
-  std::vector<int> delays = {0, 1, 2, 5};                   ///< [ticks]
-  std::vector<double> encoder_steps = {0.0, 23e-6, 55e-6};  ///< [m]
-  std::vector<double> wall_dampings = {0.0, 1.0};           ///< [N s/m]
-  std::vector<GripImpedance> grips = {{0.0, 0.0, 0.0}, {0.1, 3.0, 300.0}};
-  bool with_sweeps = true, with_grid = true;       ///< which parts to simulate
+  std::vector<double> rates = {500.0, 1000.0, 4000.0};      ///< of the servo loops of the grid [Hz]
+  std::vector<int> delays = {0, 1, 2, 5};                   ///< age of a sample when it is read, of the grid [ticks]
+  std::vector<double> encoder_steps = {0.0, 23e-6, 55e-6};  ///< of the grid [m]
+  std::vector<double> wall_dampings = {0.0, 1.0};           ///< of the grid [N s/m]
+  std::vector<GripImpedance> grips = {{0.0, 0.0, 0.0}, {0.1, 3.0, 300.0}};  ///< of the grid; all zero: no grip
+  bool with_sweeps = true;                                                  ///< whether to vary one property at a time
+  bool with_grid = true;                                                    ///< whether to simulate the grid
   std::function<void(double)> progress = nullptr;  ///< called from time to time with the share completed
 
   /// 45 g, 0.1 N s/m, the Desktop's peak force of 7.9 N; no Coulomb friction, quantisation or delay.
   static Capabilities point_mass();
 };
 
+/// Stable stiffnesses, simulated, beside the bounds of theory.
 struct StabilityMap {
-  Capabilities device;
-  WallContact contact;
+  Capabilities device;                 ///< as in the options
+  WallContact contact;                 ///< as in the options
   std::vector<double> stiffnesses;     ///< simulated for every line [N/m]
   std::vector<StabilitySweep> sweeps;  ///< variations of the device, free (no grip) and at 1 kHz
   std::vector<StabilityLine> grid;     ///< every combination of the options' lists

@@ -15,8 +15,8 @@ namespace calligraphy {
 
 /// A nearest-point method with its settings.
 struct NearestPointSetting {
-  std::string name;  ///< "exact 1e-09", "sampled 16 x 2"
-  NearestPointOptions options;
+  std::string name;             ///< "exact 1e-09", "sampled 16 x 2"
+  NearestPointOptions options;  ///< method and settings
 };
 
 /// All methods, each at settings from fast to accurate.
@@ -25,14 +25,14 @@ std::vector<NearestPointSetting> nearest_point_settings();
 /// Cost and accuracy of a method. Errors are those of the distance compared with `exact` at 1e-12, relative to the size
 /// of the curve (the diagonal of the bounding box of its control points).
 struct NearestPointCost {
-  std::string queries;    ///< name of the queries
-  double ns = 0.0;        ///< per query, median over the rounds
-  double ns_p90 = 0.0;    ///< per query, 90th percentile of the rounds
-  double batch_ns = 0.0;  ///< per query, with all queries to a curve in one call, median
-  double error = 0.0;     ///< median
-  double error_p99 = 0.0;
-  double error_worst = 0.0;
-  double wrong = 0.0;  ///< share of wrong branches: error above 1e-3
+  std::string queries;       ///< name of the queries
+  double ns = 0.0;           ///< per query, median over the rounds
+  double ns_p90 = 0.0;       ///< per query, 90th percentile of the rounds
+  double batch_ns = 0.0;     ///< per query, with all queries to a curve in one call, median
+  double error = 0.0;        ///< median [1]
+  double error_p99 = 0.0;    ///< 99th percentile [1]
+  double error_worst = 0.0;  ///< maximum [1]
+  double wrong = 0.0;        ///< share of wrong branches: error above 1e-3
 };
 
 /// What the user feels when moving a pen along curves, with the force K (closest - tip).
@@ -41,10 +41,11 @@ struct PenFeel {
   double wrong = 0.0;     ///< share of the ticks on a wrong branch
 };
 
+/// Cost and accuracy of one method at one setting.
 struct NearestPointTradeoff {
-  NearestPointSetting setting;
-  NearestPointCost real;  ///< all workloads on real strokes together; times are means over the workloads
-  NearestPointCost hard;  ///< all other workloads together, likewise
+  NearestPointSetting setting;  ///< method and settings
+  NearestPointCost real;        ///< all workloads on real strokes together; times are means over the workloads
+  NearestPointCost hard;        ///< all other workloads together, likewise
   std::vector<NearestPointCost> workloads;  ///< each workload separately, see nearest_point_workload.hpp
   /// Tracking a pen along whole strokes: each tick queries every element, or a StrokeTracker if the method is
   /// `tracked`. No batches.
@@ -53,10 +54,11 @@ struct NearestPointTradeoff {
   PenFeel arcs;     ///< along gentle arcs of 15 to 40 mm radius, at a constant distance of 1 to 4 mm
 };
 
+/// How nearest_point_tradeoff() measures.
 struct NearestPointTradeoffOptions {
-  int queries = 4000;  ///< per workload (there are 19)
-  int rounds = 21;     ///< each round runs every method on every workload
-  std::uint64_t seed = 1;
+  int queries = 4000;                              ///< per workload (there are 19)
+  int rounds = 21;                                 ///< each round runs every method on every workload
+  std::uint64_t seed = 1;                          ///< of the random queries and curves
   double stiffness = 1000.0;                       ///< K [N/m]
   double speed = 0.05;                             ///< of the pen [m/s]
   double rate = 1000.0;                            ///< ticks per second [Hz]
@@ -70,12 +72,12 @@ std::vector<NearestPointTradeoff> nearest_point_tradeoff(std::span<const Charact
 
 /// A simulated novice writing in closed loop at one servo rate.
 struct ServoRateTradeoff {
-  double rate = 0.0;  ///< [Hz]
+  double rate = 0.0;  ///< of the servo loop [Hz]
 
   double stiffness = 0.0;    ///< default paper stiffness at this rate [N/m]
   bool stable = false;       ///< a pen pressed onto this paper comes to rest
   double penetration = 0.0;  ///< maximum, while the paper is solid [m]
-  double path_error = 0.0;   ///< RMS, lateral [m]
+  double path_error = 0.0;   ///< RMS of the lateral error [m]
   double force_step = 0.0;   ///< maximum change of the force per tick [N]
   double written = 0.0;      ///< share of the strokes completed
 
@@ -89,11 +91,12 @@ struct ServoRateTradeoff {
   double hard_force_step = 0.0;   ///< on such paper [N]
 };
 
+/// How servo_rate_tradeoff() measures.
 struct ServoRateTradeoffOptions {
-  std::vector<double> rates = {250.0, 500.0, 1000.0, 2000.0, 4000.0, 10000.0, 20000.0};  ///< [Hz]
-  int seeds = 3;  ///< how many times each character is written
-  std::uint64_t seed = 1;
-  std::string device = "desktop";                  ///< name of a device profile
+  std::vector<double> rates = {250.0, 500.0, 1000.0, 2000.0, 4000.0, 10000.0, 20000.0};  ///< of the servo loop [Hz]
+  int seeds = 3;                   ///< how many times each character is written
+  std::uint64_t seed = 1;          ///< of the first writing of a character; each further one has the next
+  std::string device = "desktop";  ///< name of a device profile
   std::function<void(double)> progress = nullptr;  ///< called from time to time with the share completed
 };
 
@@ -104,7 +107,7 @@ std::vector<ServoRateTradeoff> servo_rate_tradeoff(std::span<const Character> ch
 
 /// Control points rounded to a grid of 2^bits positions along each edge of the em square.
 struct CoordinateWidthTradeoff {
-  int bits = 0;            ///< per coordinate
+  int bits = 0;            ///< of a stored coordinate
   double step = 0.0;       ///< of the grid [em]
   double max_error = 0.0;  ///< maximum distance between the original and the stored strokes, in both directions [em]
   double rms_error = 0.0;  ///< over their length, in both directions [em]
@@ -121,12 +124,14 @@ Character with_coordinate_width(const Character& character, int bits);
 std::vector<CoordinateWidthTradeoff> coordinate_width_tradeoff(std::span<const Character> characters,
                                                                const std::function<void(double)>& progress = {});
 
-/// SVG plots by gnuplot, log-log: cost against maximum error of every method and setting, on real strokes and on the
-/// hard workloads; penetration, path error, force step and stability over the servo rate; error and bytes over the
-/// width.
+/// SVG plot by gnuplot, log-log: cost against maximum error of every method and setting, on real strokes and on the
+/// hard workloads.
 /// @throws ValueError when there are no entries, Error with gnuplot's message when it cannot be started or fails
 std::string nearest_point_tradeoff_plot(std::span<const NearestPointTradeoff> tradeoff);
+/// SVG plot by gnuplot, log-log: penetration, path error, force step and stability over the servo rate. @throws as
+/// above
 std::string servo_rate_tradeoff_plot(std::span<const ServoRateTradeoff> tradeoff);
+/// SVG plot by gnuplot, log-log: error and bytes over the width. @throws as above
 std::string coordinate_width_tradeoff_plot(std::span<const CoordinateWidthTradeoff> tradeoff);
 
 }  // namespace calligraphy

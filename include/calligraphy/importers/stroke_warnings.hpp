@@ -10,6 +10,7 @@
 
 namespace calligraphy {
 
+/// What looks wrong about a stroke.
 enum class StrokeWarningKind {
   type,       ///< it has the shape of another typical stroke
   direction,  ///< it starts against the direction in which its typical stroke is written
@@ -26,10 +27,11 @@ enum class StrokeWarningKind {
 /// "type", "direction", and so on.
 const char* to_string(StrokeWarningKind kind) noexcept;
 
+/// A warning about one stroke.
 struct StrokeWarning {
-  int stroke;  ///< from 1
-  StrokeWarningKind kind;
-  std::string what;
+  int stroke;              ///< from 1
+  StrokeWarningKind kind;  ///< what looks wrong
+  std::string what;        ///< the same in words, with the values, for people
 };
 
 /// Angle between the chord of a stroke's first element and that of its typical stroke [rad], 0 to pi; 0 if one of them
@@ -41,10 +43,11 @@ double start_direction_error(const Stroke& stroke);
 /// clearly not of the recorded one. O(strokes^2), about one fit per stroke.
 std::vector<StrokeWarning> stroke_warnings(const Character& character);
 
+/// The warnings about the strokes of one character.
 struct CharacterWarnings {
-  char32_t code;
-  std::string order;  ///< empty for the standard one
-  std::vector<StrokeWarning> warnings;
+  char32_t code;                        ///< Unicode code point
+  std::string order;                    ///< name of the stroke order; empty for the standard one
+  std::vector<StrokeWarning> warnings;  ///< at least one
 };
 
 /// The characters with warnings, in the order of the list, from `threads` threads (0: one per core): those of

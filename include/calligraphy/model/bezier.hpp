@@ -15,7 +15,7 @@ template <int Degree>
 struct Bezier {
   static_assert(Degree >= 1);
 
-  std::array<Point, Degree + 1> control_points;
+  std::array<Point, Degree + 1> control_points;  ///< the first and the last are the ends of the curve
 
   /// Point at parameter t in [0, 1], by de Casteljau's algorithm.
   Point point(double t) const {

@@ -13,9 +13,9 @@
 
 namespace calligraphy {
 
-/// Shape: the control points of all strokes, one stroke after the other [em].
+/// Shape: the control points of all strokes, one stroke after the other.
 struct StructuralData {
-  std::vector<Point> control_points;
+  std::vector<Point> control_points;  ///< neighbouring elements of a stroke share one, neighbouring strokes none [em]
 };
 
 /// Order: the typical strokes in writing order, what they consist of, and which control points are feature points.
@@ -34,34 +34,37 @@ struct PhysicalData {
 
 /// One stroke of a character: a view, valid as long as the character.
 struct Stroke {
-  const TypicalStroke* type;
-  std::string_view elements;  ///< its composition: "LCL"; in static storage
-  int curve_degree;
-  std::span<const Point> control_points;       ///< [em]
+  const TypicalStroke* type;                   ///< its entry of the stroke library; never null
+  std::string_view elements;                   ///< its composition, a letter per element: "LCL"; in static storage
+  int curve_degree;                            ///< of every CSE: 3, or 4 as printed in eq. (1)
+  std::span<const Point> control_points;       ///< of its elements, which share their ends, in writing order [em]
   std::span<const double> attraction_factors;  ///< one per feature point [1]
   const StrokeInk* ink = nullptr;              ///< null if it has none
 };
 
 /// A character, with structural, sequence and physical data kept separate. Frame: em square, y up.
 struct Character {
-  char32_t code = 0;     ///< Unicode code point
-  std::string order;     ///< name of an alternate stroke order; empty for the standard one
-  int curve_degree = 3;  ///< degree of every CSE: 3, or 4 as printed in eq. (1)
-  StructuralData structure;
-  SequenceData sequence;
-  PhysicalData physics;
+  char32_t code = 0;         ///< Unicode code point
+  std::string order;         ///< name of an alternate stroke order; empty for the standard one
+  int curve_degree = 3;      ///< degree of every CSE: 3, or 4 as printed in eq. (1)
+  StructuralData structure;  ///< control points
+  SequenceData sequence;     ///< strokes in writing order, their elements and feature points
+  PhysicalData physics;      ///< attraction factors and ink
 
+  /// Number of strokes.
   int stroke_count() const { return static_cast<int>(sequence.stroke_ids.size()); }
 };
 
 /// A stroke as input to make_character().
 struct StrokeInput {
-  int id;                                       ///< of the typical stroke
-  std::vector<Point> control_points;            ///< [em]
+  int id;                                       ///< of the typical stroke, 1 to 39
+  std::vector<Point> control_points;            ///< of its elements, which share their ends, in writing order [em]
   std::vector<double> attraction_factors = {};  ///< one per feature point [1]; empty: all 1
-  ElementList elements = {};  ///< as many as the typical stroke has; empty: those
+  ElementList elements = {};                    ///< as many as the typical stroke has; empty: those
   std::optional<StrokeInk> ink = std::nullopt;  ///< of all strokes of a character, or of none
 
+  /// Its elements, or those of the typical stroke where `elements` is empty. @throws ValueError if there is no such
+  /// typical stroke
   ElementList composition() const { return elements.empty() ? ElementList(typical_stroke(id).elements) : elements; }
 };
 
@@ -78,16 +81,16 @@ std::vector<Stroke> strokes(const Character& character);
 /// The same shape with quartic curves, as printed in eq. (1) (exact degree elevation).
 Character with_quartic_curves(const Character& character);
 
-/// A finding of validate(): the stroke, counted from 1 (0: the whole character), and what is wrong.
+/// A finding of validate().
 struct ValidationIssue {
-  int stroke;
-  std::string what;
+  int stroke;        ///< counted from 1; 0: the whole character
+  std::string what;  ///< what is wrong, with the value
 };
 
 /// Everything that makes a character unusable: wrong counts, ids, compositions or indices, points that are not finite
 /// or far outside the em square, missing factors, elements of zero length (except that a stroke of a single LSE may be
-/// a point), joints that bend by more than 15 degrees although smooth in their typical stroke, and ink that is negative,
-/// beyond 1 em or not finite. Empty if the character is valid.
+/// a point), joints that bend by more than 15 degrees although smooth in their typical stroke, and ink that is
+/// negative, beyond 1 em or not finite. Empty if the character is valid.
 std::vector<ValidationIssue> validate(const Character& character);
 
 }  // namespace calligraphy

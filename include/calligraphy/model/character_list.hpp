@@ -13,8 +13,9 @@ namespace calligraphy {
 
 /// Characters and their provenance.
 struct CharacterList {
-  Provenance provenance;
-  std::vector<Character> characters;
+  Provenance provenance;  ///< of all of them
+  std::vector<Character>
+      characters;  ///< in any order; one that is written in several stroke orders occurs once for each
 
   /// The character in the stroke order of this name (empty: the standard one), or null. O(characters).
   const Character* find(char32_t code, std::string_view order = {}) const noexcept;
@@ -32,7 +33,7 @@ const Character& paper_example();
 /// Reads the text format of docs/character-format.md. `name` is used in messages.
 /// @throws FormatError naming the line and the value
 CharacterList read_characters(std::istream& in, std::string_view name);
-/// @throws FileError if the file cannot be opened; FormatError as above
+/// Reads a file in this format. @throws FileError if it cannot be opened; FormatError as above
 CharacterList read_characters(const std::string& path);
 
 /// Writes the text format. read_characters() restores the same list: numbers are written in their shortest form that

@@ -23,22 +23,24 @@ class SetFile;
 /// Encoding of control point coordinates.
 struct CoordinateEncoding {
   std::uint32_t steps_per_em = 0;  ///< 0: unquantised doubles
-  std::int32_t x_origin = 0;       ///< coordinate that is stored as 0 [steps]
-  std::int32_t y_origin = 0;
-  std::uint8_t x_bits = 64;
-  std::uint8_t y_bits = 64;
+  std::int32_t x_origin = 0;       ///< x coordinate that is stored as 0 [steps]
+  std::int32_t y_origin = 0;       ///< y coordinate that is stored as 0 [steps]
+  std::uint8_t x_bits = 64;        ///< width of a stored x coordinate
+  std::uint8_t y_bits = 64;        ///< width of a stored y coordinate
 };
 
 /// One stroke of a set, decoded, without its ink.
 struct StoredStroke {
+  /// Leaves all members uninitialised.
   StoredStroke() noexcept {}  // not `= default`, which lets the decoder zero what it is about to write
 
-  const TypicalStroke* type;
+  const TypicalStroke* type;  ///< its entry of the stroke library
   std::string_view elements;  ///< its composition, in static storage
-  int curve_degree;
-  std::array<Point, max_control_points_per_stroke> points;  ///< [em]
+  int curve_degree;           ///< of every CSE: 3, or 4 as printed in eq. (1)
+  std::array<Point, max_control_points_per_stroke>
+      points;  ///< control points, the first `point_count` of the array [em]
   std::array<double, max_elements_per_stroke + 1> factors;  ///< one per feature point [1]
-  std::size_t point_count;
+  std::size_t point_count;                                  ///< number of control points
 
   /// A view, valid as long as this object.
   Stroke stroke() const noexcept {
@@ -51,17 +53,19 @@ struct StoredStroke {
 /// has no strokes, and neither has a damaged one.
 class StoredCharacter {
  public:
+  /// Unicode code point.
   char32_t code() const noexcept { return code_; }
   /// Name of an alternate stroke order; empty for the standard one.
   std::string_view order() const noexcept { return order_; }
+  /// Degree of every CSE: 3, or 4 as printed in eq. (1).
   int curve_degree() const noexcept { return curve_degree_; }
-  /// 0 if the record is damaged.
+  /// Number of strokes; 0 if the record is damaged.
   int stroke_count() const noexcept { return stroke_count_; }
   /// Typical stroke id of the stroke with this index; 0 if there is no such stroke or it is damaged. O(index).
   int stroke_id(int index) const noexcept;
   /// The stroke with this index, without its ink; empty if there is no such stroke or it is damaged. Safe in the servo
-  /// loop: does not allocate, lock or throw; O(index). Counts, ids and coordinates (finite, within 16 em) are valid, but
-  /// only character() checks for elements of zero length and for joints that are not smooth.
+  /// loop: does not allocate, lock or throw; O(index). Counts, ids and coordinates (finite, within 16 em) are valid,
+  /// but only character() checks for elements of zero length and for joints that are not smooth.
   std::optional<StoredStroke> stroke(int index) const noexcept;
   /// Whether the character has ink. False if the record is damaged.
   bool has_ink() const noexcept { return has_ink_; }
@@ -120,6 +124,7 @@ class CharacterSet {
   class Iterator;
   /// Every character once, as returned by find(code), in ascending code point order.
   Iterator begin() const noexcept;
+  /// Past the character with the highest code point.
   Iterator end() const noexcept;
 
   /// Number of characters. O(index) for one set, O(characters) for layered ones.
@@ -148,19 +153,23 @@ class CharacterSet {
 /// Input iterator over a set; valid as long as the set.
 class CharacterSet::Iterator {
  public:
-  using iterator_category = std::input_iterator_tag;
-  using value_type = StoredCharacter;
-  using difference_type = std::ptrdiff_t;
-  using pointer = const StoredCharacter*;
-  using reference = StoredCharacter;
+  using iterator_category = std::input_iterator_tag;  ///< each character is decoded anew
+  using value_type = StoredCharacter;                 ///< a view that outlives the iterator
+  using difference_type = std::ptrdiff_t;             ///< required of an iterator; there is no subtraction
+  using pointer = const StoredCharacter*;             ///< required of an iterator; there is no arrow
+  using reference = StoredCharacter;                  ///< by value
 
   Iterator() = default;
+  /// The character, as found by CharacterSet::find() in the standard order or else the first one. Not at the end.
   StoredCharacter operator*() const noexcept { return *set_->find(*code_); }
+  /// To the next higher code point of the set. Not at the end.
   Iterator& operator++() noexcept {
     code_ = set_->next(*code_ + 1);
     return *this;
   }
+  /// The same; returns nothing, as an input iterator may.
   void operator++(int) noexcept { ++*this; }
+  /// Whether both are at the same code point, or both at the end; they must be of the same set.
   bool operator==(const Iterator& other) const noexcept { return code_ == other.code_; }
 
  private:

@@ -12,11 +12,16 @@
 namespace calligraphy {
 
 /// Kind of a stroke element (Wang 2006, sec. 3.2): line segment (LSE) or Bezier curve segment (CSE).
-enum class ElementKind : char { line = 'L', curve = 'C' };
+enum class ElementKind : char {
+  line = 'L',  ///< LSE: two control points
+  curve = 'C'  ///< CSE: one more control point than its degree
+};
 
-/// A stroke of any composition, quartic curves included, fits in storage of this size.
+/// No stroke has more elements than the typical strokes with the most.
 inline constexpr int max_elements_per_stroke = 5;
+/// No curve of a character has a higher degree: quartics are those printed in eq. (1).
 inline constexpr int max_curve_degree = 4;
+/// A stroke of any composition fits in storage of this size.
 inline constexpr int max_control_points_per_stroke = max_elements_per_stroke * max_curve_degree + 1;
 
 /// Up to five elements, each a line or a curve; written as "LCL". In two bytes, as characters have many.
@@ -24,7 +29,7 @@ class ElementList {
  public:
   /// No elements: wherever a composition is given, that of the typical stroke.
   constexpr ElementList() = default;
-  /// @throws ValueError unless these are at most five of 'L' and 'C'
+  /// From letters, one per element. @throws ValueError unless these are at most five of 'L' and 'C'
   constexpr ElementList(std::string_view elements) {
     size_ = static_cast<std::uint8_t>(elements.size());
     if (elements.size() > max_elements_per_stroke) refuse(elements);
@@ -34,7 +39,9 @@ class ElementList {
       if (is_curve) curves_ = static_cast<std::uint8_t>(curves_ | 1U << i);
     }
   }
+  /// From a literal: "LCL". @throws ValueError as above
   constexpr ElementList(const char* elements) : ElementList(std::string_view(elements)) {}
+  /// The same from a string. @throws ValueError as above
   ElementList(const std::string& elements) : ElementList(std::string_view(elements)) {}
   /// `size` elements, of which element i is a curve if bit i of `curves` is set.
   static constexpr ElementList of(std::size_t size, unsigned curves) noexcept {
@@ -44,12 +51,15 @@ class ElementList {
     return result;
   }
 
+  /// Number of elements.
   constexpr std::size_t size() const noexcept { return size_; }
+  /// Whether there is no element, which stands for those of the typical stroke.
   constexpr bool empty() const noexcept { return size_ == 0; }
   /// Which elements are curves, the first one in the lowest bit.
   constexpr unsigned curves() const noexcept { return curves_; }
   /// "LCL", in static storage.
   std::string_view elements() const noexcept { return {all_[curves_].data(), size_}; }
+  /// Whether they have the same elements in the same order.
   bool operator==(const ElementList&) const = default;
 
  private:

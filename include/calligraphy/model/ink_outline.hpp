@@ -12,8 +12,8 @@ namespace calligraphy {
 
 /// A disc of ink.
 struct InkDisc {
-  Point centre;   ///< [em]
-  double radius;  ///< [em]
+  Point centre;   ///< on the centre line of the ink [em]
+  double radius;  ///< half the width of the brush there [em]
 };
 
 /// Ink along a path, a polyline [em], as discs equally far along it once it is drawn out: at most `spacing` apart, but

@@ -11,6 +11,7 @@
 
 namespace calligraphy {
 
+/// Number of entries of the stroke library; their ids run from 1 to this.
 inline constexpr int typical_stroke_count = 39;
 
 /// One entry of the stroke library. The id is independent of the size and position of a stroke.
@@ -18,7 +19,7 @@ inline constexpr int typical_stroke_count = 39;
 /// Ids 1, 2, 4, 10, 16, 20 and 31 are the paper's, inferred from Table 3 and Figs. 11 and 12. Fig. 7 is lost, so the
 /// other ids are this library's.
 struct TypicalStroke {
-  int id;                     ///< 1 to 39
+  int id;                     ///< number in the stroke library, 1 to 39
   std::string_view name;      ///< Chinese name
   std::string_view pinyin;    ///< romanised name
   std::string_view code;      ///< letter code as used for CJK strokes
@@ -32,6 +33,7 @@ struct TypicalStroke {
   /// Files of format 1 have this one.
   std::string_view printed_elements = {};
 
+  /// `printed_elements`, or `elements` where the paper counts no other.
   constexpr std::string_view as_printed() const noexcept {
     return printed_elements.empty() ? elements : printed_elements;
   }

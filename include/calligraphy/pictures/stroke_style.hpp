@@ -3,8 +3,10 @@
 
 namespace calligraphy {
 
-/// As a brush leaves them, with the typical width profile of their kind where they have none of their own, or as lines
-/// of one width along their paths (Wang 2006, sec. 3.2).
-enum class StrokeStyle { ink, lines };
+/// How pictures draw strokes.
+enum class StrokeStyle {
+  ink,   ///< as a brush leaves them, with the typical width profile of their kind where they have none of their own
+  lines  ///< as lines of one width along their paths (Wang 2006, sec. 3.2)
+};
 
 }  // namespace calligraphy

@@ -27,9 +27,10 @@ struct LiveView {
   bool started = false;  ///< the pen has been in front of the paper; until then no force is sent and nothing recorded
 };
 
+/// Options of a person writing on a device.
 struct LiveOptions {
-  FeedbackMode mode = FeedbackMode::force;
-  RendererOptions renderer;  ///< its servo rate applies to the loop as well
+  FeedbackMode mode = FeedbackMode::force;  ///< whether the device receives the renderer's force
+  RendererOptions renderer;                 ///< its servo rate applies to the loop as well
   /// Device axes to page axes; by default upright_page() of the page. On a desk: desk_page().
   std::optional<MotionMapping> mapping = std::nullopt;
   ServoLoopOptions servo;                                       ///< its rate is ignored
@@ -38,9 +39,10 @@ struct LiveOptions {
   std::function<bool(const LiveView&)> watch = nullptr;  ///< called on the calling thread; false ends the session
 };
 
+/// Result of write_with_device().
 struct LiveResult {
-  Recording recording;
-  ServoStatistics statistics;
+  Recording recording;                ///< from the moment when the pen was in front of the paper
+  ServoStatistics statistics;         ///< of the servo loop, from its start
   std::uint64_t dropped = 0;          ///< ticks missing from the recording because the calling thread was too late
   std::vector<std::string> warnings;  ///< what the servo loop could not obtain: priority, locked memory, a core
 };

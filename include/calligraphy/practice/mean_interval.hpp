@@ -7,17 +7,19 @@
 
 namespace calligraphy {
 
-/// For example by how much force reduced the error of a character in one pair of runs.
+/// A value and the draw on which it depends: for example by how much force reduced the error of a character in one pair
+/// of runs.
 struct DrawnValue {
-  double value = 0.0;
+  double value = 0.0;      ///< in any unit
   std::uint64_t draw = 0;  ///< values that share a draw, as those of one run (page and seed), have the same number
 };
 
+/// A mean with its 95 % confidence interval, both in the unit of the values.
 struct MeanInterval {
   double mean = 0.0;        ///< of the values; NaN if there are none
   double half_width = 0.0;  ///< of the 95 % confidence interval of the mean; NaN with fewer than two draws
-  std::size_t values = 0;
-  std::size_t draws = 0;  ///< independent ones
+  std::size_t values = 0;   ///< number of values
+  std::size_t draws = 0;    ///< number of independent draws
 };
 
 /// The mean of values in clusters, by draw. With S_g the sum of a cluster's deviations from the mean of all n values,

@@ -10,11 +10,12 @@
 
 namespace calligraphy {
 
+/// Size of a page, and of the squares on it.
 struct PageLayout {
-  double width = 0.16;   ///< [m]
-  double height = 0.12;  ///< [m]
+  double width = 0.16;   ///< of the page [m]
+  double height = 0.12;  ///< of the page [m]
   double em = 0.04;      ///< edge length of a character's square [m]
-  double gap = 0.008;    ///< between and around the squares [m]
+  double gap = 0.008;    ///< between the squares, and between them and the edge of the page [m]
 };
 
 /// The layout that fills the workspace of a device, given the rotation and the scale K_S of a mapping: the extents of
@@ -22,10 +23,11 @@ struct PageLayout {
 /// desk, times K_S. Squares are of the usual size, or smaller where not one of them would fit.
 PageLayout workspace_layout(const Capabilities& device, const MotionMapping& mapping = {});
 
+/// A page of placed characters.
 struct PracticePage {
-  double width = 0.0;   ///< [m]
-  double height = 0.0;  ///< [m]
-  std::vector<PlacedCharacter> characters;
+  double width = 0.0;                       ///< of the paper, from its lower left corner [m]
+  double height = 0.0;                      ///< of the paper, from its lower left corner [m]
+  std::vector<PlacedCharacter> characters;  ///< in the order in which they are to be written
 };
 
 /// Lays the characters out from left to right and top to bottom on as many pages as needed, the rows centred on each.

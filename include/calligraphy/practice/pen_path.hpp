@@ -15,6 +15,7 @@ using PenPath = std::vector<Point>;  ///< one pen-down, at least one point [em]
 /// A shorter pen-down leaves only a point: a dot, a touch or a bounce [em].
 inline constexpr double tap_length = 0.02;
 
+/// Length of a polyline, in the unit of its points; 0 for fewer than two.
 double path_length(std::span<const Point> path) noexcept;
 
 /// The pen-downs of a trace, in the coordinates of the square that the person wrote in.
@@ -27,9 +28,10 @@ std::vector<PenPath> pen_paths(const Recording& recording, const Placement& plac
 
 /// Translates the em square and scales it along x and y, without rotation.
 struct BoxMap {
-  Point scale = Point::Ones();
-  Point offset = Point::Zero();  ///< [em]
+  Point scale = Point::Ones();   ///< factors along x and y [1]
+  Point offset = Point::Zero();  ///< added afterwards [em]
 
+  /// Maps a point [em].
   Point operator()(const Point& point) const noexcept { return scale.cwiseProduct(point) + offset; }
 };
 

@@ -10,6 +10,7 @@
 
 namespace calligraphy {
 
+/// A sample of a recorded pen.
 struct TimedPoint {
   Point point = Point::Zero();  ///< in the square that the person wrote in: unit square, y up [em]
   double time = 0.0;            ///< never decreases within a trace [s]
@@ -17,18 +18,19 @@ struct TimedPoint {
 
 using PenStroke = std::vector<TimedPoint>;  ///< one pen-down, at least one point
 
+/// The recorded pen of a person writing one character.
 struct PenTrace {
-  char32_t character = 0;  ///< the character to be written
-  std::string set;         ///< one word for the source: a writer, a session, a corpus
-  double em = 1000.0;      ///< edge length of the square in the file's units [1]
-  std::vector<PenStroke> strokes;
+  char32_t character = 0;          ///< the character to be written
+  std::string set;                 ///< one word for the source: a writer, a session, a corpus
+  double em = 1000.0;              ///< edge length of the square in the file's units [1]
+  std::vector<PenStroke> strokes;  ///< pen-downs in the order of writing, which need not match strokes of the character
 };
 
 /// Reads the text format. `name` is used in messages.
 /// @throws FormatError naming the line and the value, also when the file is truncated; FileError when the stream fails.
 /// Never returns part of a file
 std::vector<PenTrace> read_pen_traces(std::istream& in, std::string_view name);
-/// @throws FileError when the file cannot be opened, FormatError as above
+/// Reads a file in this format. @throws FileError when it cannot be opened, FormatError as above
 std::vector<PenTrace> read_pen_traces(const std::string& path);
 
 /// Writes the text format: coordinates to 1e-6 of its unit, times to 1e-6 ms. Each line of `notice` becomes a comment.

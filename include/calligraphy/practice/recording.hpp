@@ -13,23 +13,25 @@
 
 namespace calligraphy {
 
+/// One tick of a recording.
 struct RecordedSample {
-  double time = 0.0;                                       ///< [s]
-  Eigen::Vector3d device_point = Eigen::Vector3d::Zero();  ///< page frame [m]
-  Eigen::Vector3d pen_tip = Eigen::Vector3d::Zero();       ///< page frame [m]
+  double time = 0.0;                                       ///< sample time, since the device was opened [s]
+  Eigen::Vector3d device_point = Eigen::Vector3d::Zero();  ///< haptic interface point, page frame [m]
+  Eigen::Vector3d pen_tip = Eigen::Vector3d::Zero();       ///< virtual pen tip, page frame [m]
   /// Applied to the pen on the page, page axes [N]; with a motion scale K_S the hand feels K_S times as much.
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
-  InteractionState state = InteractionState::separation;
-  TickEvent events = TickEvent::none;
-  TickStatus status = TickStatus::ok;
-  int character = 0;  ///< index of the active character on the page
-  int stroke = 0;     ///< index of the active stroke within the character
-  float tick_ns = 0;  ///< execution time of the renderer; 0 if not measured [ns]
+  InteractionState state = InteractionState::separation;  ///< after this tick
+  TickEvent events = TickEvent::none;                     ///< what happened in it
+  TickStatus status = TickStatus::ok;                     ///< whether its sample was usable
+  int character = 0;                                      ///< index of the active character on the page
+  int stroke = 0;                                         ///< index of the active stroke within the character
+  float tick_ns = 0;                                      ///< execution time of the renderer; 0 if not measured [ns]
 };
 
+/// A page being written, tick by tick.
 struct Recording {
-  double rate = 1000.0;  ///< samples per second [Hz]
-  std::vector<RecordedSample> samples;
+  double rate = 1000.0;                 ///< samples per second [Hz]
+  std::vector<RecordedSample> samples;  ///< one per tick, in order
 };
 
 /// Writes comma-separated values: the first line names columns and units, the second, a comment, gives the rate.
@@ -41,7 +43,7 @@ void write_recording(std::ostream& out, const Recording& recording);
 /// @throws FormatError naming the line and the value, also when the file is truncated within a line; FileError when the
 /// stream fails
 Recording read_recording(std::istream& in, std::string_view name);
-/// @throws FileError when the file cannot be opened, FormatError as above
+/// Reads a file in this format. @throws FileError when it cannot be opened, FormatError as above
 Recording read_recording(const std::filesystem::path& path);
 
 /// The device point of each sample in device axes, for a ReplayDevice with the same mapping. A bad sample has no

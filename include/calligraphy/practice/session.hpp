@@ -25,15 +25,16 @@ enum class FeedbackMode {
 /// "vision", "force".
 const char* to_string(FeedbackMode mode) noexcept;
 
+/// Options of a writer, a device and a renderer in closed loop.
 struct SessionOptions {
-  FeedbackMode mode = FeedbackMode::force;
-  Capabilities device;
-  RendererOptions renderer;
+  FeedbackMode mode = FeedbackMode::force;  ///< whether the device receives the renderer's force
+  Capabilities device;                      ///< the simulated device, such as device_profile("desktop")
+  RendererOptions renderer;                 ///< its servo rate is that of the loop
   /// Device axes to page axes; by default upright_page() of the page. On a desk: desk_page(). With a motion scale K_S
   /// the hand moves 1 / K_S times as far as the pen on the page, and feels K_S^2 times its stiffness:
   /// RendererOptions::for_device(device, K_S) makes up for that.
   std::optional<MotionMapping> mapping = std::nullopt;
-  WriterSkill skill;
+  WriterSkill skill;               ///< of the simulated writer; its grip holds the device
   std::uint64_t seed = 1;          ///< of the writer's beliefs and mistakes (SimulatedWriter)
   bool measure_ticks = false;      ///< measure the execution time of the renderer in every tick
   double character_timeout = 120;  ///< virtual time after which a character is abandoned, per character [s]

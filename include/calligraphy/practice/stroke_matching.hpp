@@ -13,10 +13,10 @@ namespace calligraphy {
 
 /// Direction of a pen-down along what it wrote.
 enum class WritingDirection {
-  forwards,
-  backwards,
-  neither,  ///< it was drawn as another shape
-  unknown   ///< a tap has no direction
+  forwards,   ///< as the stroke is to be written
+  backwards,  ///< from its end to its start
+  neither,    ///< it was drawn as another shape
+  unknown     ///< a tap has no direction
 };
 
 /// "forwards", "backwards", "neither", "unknown".
@@ -29,10 +29,11 @@ struct DrawnStroke {
   bool continues = false;  ///< it continues the stroke that the previous pen-down began
   bool in_turn = true;     ///< written in order, as far as the order can be determined
   bool tap = false;        ///< shorter than tap_length
-  WritingDirection direction = WritingDirection::unknown;
+  WritingDirection direction = WritingDirection::unknown;  ///< along what it wrote
   double distance = 0.0;  ///< mean distance from what it wrote, once both are aligned [em]
 };
 
+/// What there is to remark on a stroke or a pen-down.
 enum class StrokeRemarkKind {
   order,      ///< a stroke out of order
   direction,  ///< a stroke written backwards
@@ -46,18 +47,21 @@ enum class StrokeRemarkKind {
 /// "order", "direction", "shape", "joined", "broken", "missing", "extra".
 const char* to_string(StrokeRemarkKind kind) noexcept;
 
+/// A remark on a stroke or a pen-down.
 struct StrokeRemark {
-  StrokeRemarkKind kind;
-  int path;            ///< the pen-down, from 0; -1: none
-  int stroke;          ///< the stroke of the character, from 0; -1: none
-  std::string reason;  ///< one sentence for people
+  StrokeRemarkKind kind;  ///< what there is to remark
+  int path;               ///< the pen-down, from 0; -1: none
+  int stroke;             ///< the stroke of the character, from 0; -1: none
+  std::string reason;     ///< one sentence for people
 };
 
+/// Result of match_strokes().
 struct MatchResult {
   std::vector<DrawnStroke> drawn;     ///< one per pen-down, in the order of writing
   std::vector<StrokeRemark> remarks;  ///< by pen-down, then missing strokes
   BoxMap fit;                         ///< maps the pen-downs onto the character
 
+  /// Number of remarks of a kind.
   int count(StrokeRemarkKind kind) const noexcept;
 };
 

@@ -35,13 +35,16 @@ struct WriterSkill {
   double correction = 2.0;       ///< share of the perceived error corrected per second [1/s]
   double caution = 0.025;        ///< perceived lateral error at which the speed is halved [em]
 
+  /// An unskilled writer, who believes characters to be several percent of the em off and begins some strokes out of
+  /// order or backwards (docs/practice.md).
   static WriterSkill novice();
+  /// A skilled writer: a third of the novice's spreads, faster, and without mistakes of order or direction.
   static WriterSkill skilled();
 };
 
 /// What the display shows. It reveals neither forces nor the mode.
 struct VisualFeedback {
-  Eigen::Vector3d pen_tip = Eigen::Vector3d::Zero();  ///< page [m]
+  Eigen::Vector3d pen_tip = Eigen::Vector3d::Zero();  ///< virtual pen tip, page frame [m]
   int character = 0;                                  ///< index of the active character, shown in yellow
   int stroke = 0;                                     ///< index of the active stroke, whose start has the red ellipse
   bool writing = false;                               ///< a green trace grows from the pen
@@ -63,6 +66,7 @@ VisualFeedback visual_feedback(const HapticTick& tick) noexcept;
 /// pages; the same character at the same index with the same seed is the same draw.
 class SimulatedWriter {
  public:
+  /// A writer before the first stroke of the page.
   /// @throws ValueError when the page is empty or a parameter of the skill is out of its domain
   SimulatedWriter(const PracticePage& page, const WriterSkill& skill, std::uint64_t seed);
 

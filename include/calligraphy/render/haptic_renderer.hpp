@@ -23,12 +23,14 @@ namespace calligraphy {
 /// update() neither allocates, locks, throws nor logs, and its work is bounded. Use one renderer per device.
 class HapticRenderer {
  public:
+  /// Prepares a page, with nothing written.
   /// @throws ValueError naming the option, the mapping, the character or its placement that is invalid
   HapticRenderer(std::vector<PlacedCharacter> page, const MotionMapping& mapping, const Capabilities& capabilities,
                  const RendererOptions& options = {});
 
   /// One that was moved from may only be destroyed or assigned to.
   HapticRenderer(HapticRenderer&&) noexcept = default;
+  /// Likewise.
   HapticRenderer& operator=(HapticRenderer&&) noexcept = default;
 
   /// Processes one sample. Write `force` of the result to the device.
@@ -44,7 +46,9 @@ class HapticRenderer {
   const RendererOptions& options() const noexcept { return effective_.options; }
   /// What was clipped, one line per value, with the reason.
   const std::vector<std::string>& clipped() const noexcept { return effective_.clipped; }
+  /// From device axes to page axes, as given to the constructor.
   const MotionMapping& mapping() const noexcept { return mapping_; }
+  /// The characters to be written, in this order.
   const std::vector<PlacedCharacter>& page() const noexcept { return sequencer_.page(); }
   /// Maximum change of the force per tick [N], reached by a pen of 1 m/s or more; a budget of energy or heat may cut
   /// the force faster. Infinite when the rate is not limited.

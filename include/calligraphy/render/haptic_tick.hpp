@@ -12,28 +12,31 @@ namespace calligraphy {
 
 /// What happened in a tick; bit flags.
 enum class TickEvent : std::uint16_t {
-  none = 0,
-  contact = 1 << 0,  ///< the pen touched the paper
-  lift = 1 << 1,     ///< the pen left the paper
-  stroke_started = 1 << 2,
-  feature_passed = 1 << 3,
-  stroke_finished = 1 << 4,
-  stroke_abandoned = 1 << 5,  ///< left before its end; its trace is to be cleared
-  character_finished = 1 << 6,
-  page_finished = 1 << 7
+  none = 0,                     ///< nothing but the passing of time
+  contact = 1 << 0,             ///< the pen touched the paper
+  lift = 1 << 1,                ///< the pen left the paper
+  stroke_started = 1 << 2,      ///< the first stretch of the active stroke was written: guidance begins
+  feature_passed = 1 << 3,      ///< a feature point of the active stroke was passed
+  stroke_finished = 1 << 4,     ///< the active stroke was written to its end; the next one becomes active
+  stroke_abandoned = 1 << 5,    ///< left before its end; its trace is to be cleared
+  character_finished = 1 << 6,  ///< its last stroke was finished
+  page_finished = 1 << 7        ///< its last character was finished
 };
 
+/// The events of both.
 constexpr TickEvent operator|(TickEvent a, TickEvent b) noexcept {
   return static_cast<TickEvent>(static_cast<std::uint16_t>(a) | static_cast<std::uint16_t>(b));
 }
+/// Adds the events of `b` to `a`.
 constexpr TickEvent& operator|=(TickEvent& a, TickEvent b) noexcept { return a = a | b; }
+/// Whether `event`, or one of several, is among the events.
 constexpr bool has_event(TickEvent events, TickEvent event) noexcept {
   return (static_cast<std::uint16_t>(events) & static_cast<std::uint16_t>(event)) != 0;
 }
 
 /// Whether the sample of this tick was usable.
 enum class TickStatus : std::uint8_t {
-  ok,
+  ok,           ///< a fresh sample
   stale,        ///< the sample before again: the force is held for 4 ms, then ramps down to zero
   bad_sample,   ///< not finite, or farther away than a pen can have moved: the force ramps down to zero
   device_fault  ///< reported by the device: the force ramps down to zero
@@ -63,11 +66,12 @@ const char* to_string(WritingHint hint) noexcept;
 /// "too far from the start: 12 mm to the upper left", "at the stroke's end: the start is 30 mm to the left".
 std::string hint_text(WritingHint hint, const Point& to_start);
 
+/// Result of one servo tick.
 struct HapticTick {
-  double time = 0.0;  ///< sample time [s]
-  TickStatus status = TickStatus::ok;
-  InteractionState state = InteractionState::separation;
-  TickEvent events = TickEvent::none;
+  double time = 0.0;                                      ///< sample time [s]
+  TickStatus status = TickStatus::ok;                     ///< whether the sample was usable
+  InteractionState state = InteractionState::separation;  ///< after this sample
+  TickEvent events = TickEvent::none;                     ///< what this sample brought about
   int character = 0;  ///< index of the active character; the number of characters once all are written
   int stroke = 0;     ///< index of the active stroke; the number of strokes from the end of the last one until the lift
   Eigen::Vector3d device_point = Eigen::Vector3d::Zero();  ///< haptic interface point, page frame [m]
@@ -75,20 +79,20 @@ struct HapticTick {
   double penetration = 0.0;                                ///< of the device point into the paper [m]
   StrokeContact contact;  ///< valid in the writing state, in the tick that leaves it, and for hints on the stroke
   double covered = 0.0;   ///< share of the stroke written last that was covered in order [1]
-  WritingHint hint = WritingHint::none;
-  Point to_start = Point::Zero();    ///< from the pen tip to the start of the active, or last, stroke [m, page]
-  Point attraction = Point::Zero();  ///< force term, including assistance, before fade-in and limits [N, page]
-  Point wrong_way = Point::Zero();   ///< force term, before fade-in and limits [N, page]
-  Point friction = Point::Zero();    ///< force term, before limits [N, page]
-  double normal = 0.0;               ///< force term, damping included, before limits [N, out of the paper]
+  WritingHint hint = WritingHint::none;  ///< why a pen on the paper is not guided
+  Point to_start = Point::Zero();        ///< from the pen tip to the start of the active, or last, stroke [m, page]
+  Point attraction = Point::Zero();      ///< force term, including assistance, before fade-in and limits [N, page]
+  Point wrong_way = Point::Zero();       ///< force term, before fade-in and limits [N, page]
+  Point friction = Point::Zero();        ///< force term, before limits [N, page]
+  double normal = 0.0;                   ///< force term, damping included, before limits [N, out of the paper]
   /// Damping by guidance, before fade-in, by friction and by the paper, before limits [N, page].
   Eigen::Vector3d viscous = Eigen::Vector3d::Zero();
   Eigen::Vector3d damping = Eigen::Vector3d::Zero();  ///< by the passivity controller, before limits [N, page]
   double assistance = 1.0;                            ///< factor on the guidance, from the assist policy [1]
   double energy_given = 0.0;  ///< net energy delivered to the hand, as observed; 0 without observer [J]
   double heat = 0.0;  ///< of the motors; 1: in equilibrium at the continuous force; 0 without thermal budget [1]
-  Eigen::Vector3d page_force = Eigen::Vector3d::Zero();  ///< as sent, page axes [N]
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();       ///< as sent, device axes [N]
+  Eigen::Vector3d page_force = Eigen::Vector3d::Zero();  ///< the force as sent, on the pen, page axes [N]
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< the force as sent, to be written to the device, device axes [N]
 };
 
 static_assert(std::is_trivially_destructible_v<HapticTick>);

@@ -5,6 +5,7 @@
 
 namespace calligraphy {
 
+/// Where the pen is, and whether it writes (Table 1, Fig. 6).
 enum class InteractionState : std::uint8_t {
   separation,   ///< SS: the pen does not touch the paper
   adjusting,    ///< AS: the pen touches the paper outside the active character's box
@@ -21,8 +22,8 @@ struct TransitionInput {
   bool inside_box = false;  ///< inside the active character's box
   bool begins = false;      ///< has written the first stretch of the active stroke
   bool may_start = false;   ///< there is an active stroke and, if required, the pen was lifted since the last one
-  bool stroke_finished =
-      false;  ///< the active stroke has just been finished: it is covered, at its end or where the pen leaves it
+  /// The active stroke has just been finished: it is covered, at its end or where the pen leaves it.
+  bool stroke_finished = false;
 };
 
 /// The state graph as a pure function:

@@ -44,8 +44,8 @@ struct GuidanceOptions {
   double stiffness = 600.0;  ///< K_et of eq. (8) where the attraction factor is 1 [N/m]
   /// Where guidance acts, against motion across the stroke; elsewhere on the paper 15 % of it, against any [N s/m].
   double damping = 4.0;
-  GuidanceLaw law = GuidanceLaw::linear;
-  double limit = 2.0;  ///< saturating: maximum guidance force [N]
+  GuidanceLaw law = GuidanceLaw::linear;  ///< how the force depends on the distance from the stroke
+  double limit = 2.0;                     ///< saturating: maximum guidance force [N]
   /// Before a stroke, guidance pulls a pen to the stroke's start that was put down nearer to it than to any to come,
   /// though not on the stroke.
   bool to_start = false;
@@ -91,20 +91,20 @@ struct EnergyOptions {
 
 /// What the renderer does, room by room; everything has a default that suits any device and hand.
 struct RendererOptions {
-  double servo_rate = 1000.0;    ///< [Hz]
-  Rules rules = Rules::revised;  ///< wang2006: as printed
-  StiffnessCheck stiffness_check = StiffnessCheck::reject;
+  double servo_rate = 1000.0;                               ///< samples and forces per second [Hz]
+  Rules rules = Rules::revised;                             ///< wang2006: as printed
+  StiffnessCheck stiffness_check = StiffnessCheck::reject;  ///< what to do with one that the device cannot render
   NearestPointOptions nearest = {.method = NearestPointMethod::tracked};  ///< method and accuracy, against time
   double velocity_cutoff = 50.0;  ///< of the low-pass on the velocity that the dampers act on (VelocityEstimator) [Hz]
   /// Stiffness of a usual grip, about which people's vary: from it and the force at work follows where the hand means
   /// to be [N/m, device].
   double grip_stiffness = 300.0;
-  PaperOptions paper;
-  GuidanceOptions guidance;
-  ContactOptions contact;
+  PaperOptions paper;           ///< how the paper feels
+  GuidanceOptions guidance;     ///< how the pen is led along the stroke
+  ContactOptions contact;       ///< when the pen counts as on the paper, and at a character
   StrokeTolerances tolerances;  ///< which pen-down begins the stroke that is due, and when it is finished
-  ForceLimits limits;
-  EnergyOptions energy;
+  ForceLimits limits;           ///< of the force, its rate and the motors' heat
+  EnergyOptions energy;         ///< passivity and the energy budget
 
   /// Every rule as printed, except the signs of eq. (8) and (9), which the available text may have lost: with the signs
   /// as printed nothing can be written (Rules::wang2006_signs). Widths and stiffnesses are the defaults. Without

@@ -17,8 +17,8 @@ struct SampledLoop {
   double wall_damping = 0.0;             ///< B: of the wall, on the backward difference of the samples [N s/m]
 };
 
-/// @throws ValueError naming the field and its value: not finite, negative or above 1e9; a rate outside [1, 1e6] Hz, an
-/// apparent mass below 1e-9 kg (0 means "unknown"), a sample delay outside [0, 1000] ticks
+/// Checks a loop. @throws ValueError naming the field and its value: not finite, negative or above 1e9; a rate outside
+/// [1, 1e6] Hz, an apparent mass below 1e-9 kg (0 means "unknown"), a sample delay outside [0, 1000] ticks
 void validate(const SampledLoop& loop);
 
 /// Minimum stiffness of a bilateral wall at which a linear motion of device and grip no longer decays, without Coulomb
@@ -47,11 +47,12 @@ double stiffness_for_any_hand(const SampledLoop& loop, double velocity_cutoff, d
 
 /// A bound on the stiffness of the wall, with its validity.
 struct StiffnessBound {
-  double value = 0.0;    ///< [N/m]
+  double value = 0.0;    ///< of the wall's stiffness [N/m]
   std::string formula;   ///< as text, in the symbols of SampledLoop
   std::string validity;  ///< one line: where it holds and what it does not model
 };
 
+/// Bounds on the stiffness of the wall in one loop.
 struct StiffnessAdvice {
   StiffnessBound passive;      ///< the wall generates no energy, whoever holds the device
   StiffnessBound quantised;    ///< passive, and the quantisation of positions cannot sustain an oscillation either

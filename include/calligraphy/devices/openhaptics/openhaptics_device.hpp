@@ -16,14 +16,15 @@ enum class CalibrationStyle : std::uint8_t {
   inkwell         ///< the user puts the pen into the inkwell
 };
 
+/// Selects a device of the vendor's runtime, and how it is calibrated.
 struct OpenHapticsOptions {
   /// File name of the runtime; empty: the environment variable CALLIGRAPHY_LIBHD, otherwise libHD.so on the system's
   /// library path.
   std::string library;
   /// Name given to the device in the vendor's setup program; empty: the runtime's default device.
   std::string device;
-  CalibrationStyle calibration = CalibrationStyle::inkwell;
-  double (*time)() noexcept = nullptr;  ///< a monotonic clock [s]; null: the system's
+  CalibrationStyle calibration = CalibrationStyle::inkwell;  ///< what the runtime is asked for until it has calibrated
+  double (*time)() noexcept = nullptr;                       ///< a monotonic clock [s]; null: the system's
 };
 
 /// The runtime is loaded while a device is open and never linked; this library contains no vendor code.
@@ -40,6 +41,7 @@ struct OpenHapticsOptions {
 /// Never run on hardware: written from the public interface and tested against a stub.
 class OpenHapticsDevice final : public HapticDevice {
  public:
+  /// Loads the runtime and opens the device.
   /// @throws DeviceError when the runtime is missing or incomplete, when it has no such device, or while a loop runs on
   /// another of its devices; the message says what to do
   explicit OpenHapticsDevice(const OpenHapticsOptions& options = {});
@@ -56,6 +58,7 @@ class OpenHapticsDevice final : public HapticDevice {
   /// That the vendor documents no watchdog.
   std::vector<std::string> warnings() const override;
 
+  /// Serial number of the device, as the runtime reports it.
   const std::string& serial() const noexcept;
   /// File name of the runtime.
   const std::string& library() const noexcept;
@@ -75,10 +78,12 @@ std::string openhaptics_error_name(std::uint32_t code);
 
 /// Whether the runtime is installed and complete, determined without opening a device.
 struct OpenHapticsRuntime {
-  bool found = false;
+  bool found = false;   ///< it is installed and has every function that this library calls
   std::string library;  ///< file name
   std::string advice;   ///< what to do if it was not found
 };
+
+/// Looks for the runtime without opening a device. `library` is as OpenHapticsOptions::library.
 OpenHapticsRuntime openhaptics_runtime(const std::string& library = {});
 
 }  // namespace calligraphy

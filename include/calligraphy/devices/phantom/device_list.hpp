@@ -18,13 +18,13 @@ const char* to_string(LinkKind link) noexcept;
 
 /// A device on the bus, open or not. Identified by its ids only; communication begins when it is opened.
 struct PluggedDevice {
-  std::uint16_t vendor_id = 0;
-  std::uint16_t product_id = 0;
-  std::string model;  ///< display name for these ids
-  LinkKind link = LinkKind::usb;
-  int bus = 0;
+  std::uint16_t vendor_id = 0;     ///< USB vendor id
+  std::uint16_t product_id = 0;    ///< USB product id
+  std::string model;               ///< display name for these ids
+  LinkKind link = LinkKind::usb;   ///< how it communicates
+  int bus = 0;                     ///< number of the USB bus
   std::string port;                ///< path from the root of the bus, "2" or "1.4"
-  std::vector<std::string> nodes;  ///< /dev/bus/usb/001/002, /dev/hidraw0
+  std::vector<std::string> nodes;  ///< paths of its device nodes: /dev/bus/usb/001/002, /dev/hidraw0
   std::string serial;              ///< serial number; empty: none, or not readable
   bool may_open = false;           ///< this user may read and write the node that this library would open
   std::string advice;              ///< what to do if it may not be opened; otherwise empty

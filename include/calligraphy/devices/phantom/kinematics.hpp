@@ -6,18 +6,20 @@
 
 #include <Eigen/Core>
 
+/// Kinematics and wire profiles of Phantom devices.
 namespace calligraphy::phantom {
 
 /// Angles of waist, shoulder and elbow [rad]. Shoulder and elbow are both measured relative to the base, where their
 /// motors are mounted: turning the shoulder alone does not change the elbow angle.
 using Joints = Eigen::Vector3d;
 
+/// Joint limits of an arm.
 struct JointLimits {
-  double waist = std::numeric_limits<double>::infinity();          ///< in both directions [rad]
-  double shoulder_min = -std::numeric_limits<double>::infinity();  ///< [rad]
-  double shoulder_max = std::numeric_limits<double>::infinity();   ///< [rad]
-  double elbow_min = -1.5707963267948966;  ///< elbow minus shoulder; the arm is singular at a right angle [rad]
-  double elbow_max = 1.5707963267948966;   ///< [rad]
+  double waist = std::numeric_limits<double>::infinity();          ///< largest waist angle, in both directions [rad]
+  double shoulder_min = -std::numeric_limits<double>::infinity();  ///< lowest shoulder angle [rad]
+  double shoulder_max = std::numeric_limits<double>::infinity();   ///< highest shoulder angle [rad]
+  double elbow_min = -1.5707963267948966;  ///< lowest elbow minus shoulder; the arm is singular at a right angle [rad]
+  double elbow_max = 1.5707963267948966;   ///< highest elbow minus shoulder, likewise [rad]
 };
 
 /// An arm of two links on a waist joint; x right, y up, z towards the user:
@@ -30,10 +32,10 @@ struct JointLimits {
 /// Reality Haptics, TVCG 2009], s = 1 the Premium [facts from mahilab/Phantom, with the axes rotated and the origin
 /// moved to p = 0].
 struct Linkage {
-  double upper_arm = 0.0;    ///< l1 [m]
-  double forearm = 0.0;      ///< l2 [m]
+  double upper_arm = 0.0;    ///< its length l1 [m]
+  double forearm = 0.0;      ///< its length l2 [m]
   double waist_sense = 1.0;  ///< s: 1 or -1
-  JointLimits limits;
+  JointLimits limits;        ///< beyond which the arm cannot turn
   /// Origin of the device axes in this library, chosen so that the workspace box centred on it stays as far as possible
   /// from the joint limits. Not the vendor's origin. [m]
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
@@ -50,9 +52,10 @@ Eigen::Vector3d tip_position(const Linkage& linkage, const Joints& joints) noexc
 /// Jacobian dp/dq [m/rad].
 Eigen::Matrix3d tip_jacobian(const Linkage& linkage, const Joints& joints) noexcept;
 
+/// The pose that puts the tip at a position.
 struct InverseKinematics {
-  Joints joints = Joints::Zero();
-  bool reachable = false;  ///< if false, the joints give the nearest pose along the ray from the shoulder
+  Joints joints = Joints::Zero();  ///< angles of waist, shoulder and elbow [rad]
+  bool reachable = false;          ///< if false, the joints give the nearest pose along the ray from the shoulder
 };
 
 /// Joint angles that put the tip at p [m], with the elbow up and the tip in front of the waist. Joint limits are not

@@ -10,6 +10,7 @@
 
 namespace calligraphy {
 
+/// When a capture ends: at whichever comes first.
 struct CaptureOptions {
   std::size_t transfers = 1000;          ///< ends after this many transfers
   double seconds = 10.0;                 ///< or after this time [s]
@@ -18,13 +19,14 @@ struct CaptureOptions {
 
 /// One transfer from the device: a bus packet of a serial device, a report of a HID.
 struct CapturedTransfer {
-  double time = 0.0;  ///< since the device was opened [s]
-  std::vector<std::byte> bytes;
+  double time = 0.0;             ///< since the device was opened [s]
+  std::vector<std::byte> bytes;  ///< as received; of a HID with numbered reports the number first
 };
 
+/// What a device has sent.
 struct PacketCapture {
-  PluggedDevice device;
-  std::vector<CapturedTransfer> transfers;
+  PluggedDevice device;                     ///< from which the transfers come
+  std::vector<CapturedTransfer> transfers;  ///< in the order of their arrival
 };
 
 /// Opens the device and listens without sending packets. @throws DeviceError when it cannot be opened, ValueError when

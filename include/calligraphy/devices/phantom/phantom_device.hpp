@@ -19,6 +19,7 @@ namespace phantom {
 class Link;
 }  // namespace phantom
 
+/// Selects a Phantom, and how it is driven.
 struct PhantomOptions {
   std::string serial;             ///< serial number; empty: the only connected device
   std::string wire_profile;       ///< name of a built-in profile, or a file as described in docs/wire-profile.md
@@ -47,11 +48,11 @@ struct PhantomStatistics {
   std::uint64_t commands = 0;          ///< commands passed to the link
   std::uint64_t refused_commands = 0;  ///< commands that the link did not accept
   std::uint64_t released = 0;          ///< times that the motors were switched off for lack of a command
-  std::array<std::uint64_t, device_fault_count> faults{};  ///< indexed by DeviceFault
-  std::uint64_t transfers_failed = 0;
-  std::uint64_t commands_replaced = 0;  ///< commands superseded by a newer one before they were sent
-  std::uint64_t opened = 0;             ///< times that the device was found
-  double warmest_motor = 0.0;           ///< estimated temperature: 0 cold, 1 the limit that it sustains indefinitely
+  std::array<std::uint64_t, device_fault_count> faults{};  ///< occurrences of each fault, by DeviceFault
+  std::uint64_t transfers_failed = 0;                      ///< transfers that the bus did not complete
+  std::uint64_t commands_replaced = 0;                     ///< commands superseded by a newer one before they were sent
+  std::uint64_t opened = 0;                                ///< times that the device was found
+  double warmest_motor = 0.0;  ///< estimated temperature: 0 cold, 1 the limit that it sustains indefinitely
 };
 
 /// The link's thread receives and checks reports; read() returns the newest. Every fault, however short, is reported
@@ -74,10 +75,12 @@ class PhantomDevice final : public HapticDevice {
   /// tests. @throws as above
   PhantomDevice(std::unique_ptr<phantom::Link> link, const PhantomOptions& options,
                 std::function<double()> clock = nullptr);
+  /// Calls close().
   ~PhantomDevice() override;
   PhantomDevice(const PhantomDevice&) = delete;
   PhantomDevice& operator=(const PhantomDevice&) = delete;
 
+  /// Those of the model, with the rate of the profile and the velocity filter of the options.
   const Capabilities& capabilities() const noexcept override;
   /// `stale` when no report has arrived since the last call. The velocity is computed from filtered joint velocities.
   DeviceState read() noexcept override;
@@ -96,6 +99,7 @@ class PhantomDevice final : public HapticDevice {
 
   /// Joint angles of the sample last returned by read() [rad].
   const phantom::Joints& joints() const noexcept;
+  /// Whether the pen was in the inkwell in that sample.
   bool docked() const noexcept;
 
   /// Callable from any thread, before close().

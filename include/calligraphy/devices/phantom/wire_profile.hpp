@@ -18,45 +18,48 @@ namespace calligraphy::phantom {
 
 /// Location of a number in a frame: contiguous bits of an integer of one to four bytes.
 struct Field {
-  int offset = 0;  ///< of the first byte of the integer, from 0
-  int bytes = 1;   ///< length of the integer, 1 to 4
-  int low_bit = 0;
-  int bits = 8;
-  bool big_endian = false;
-  bool is_signed = false;  ///< two's complement over `bits`
-  bool inverted = false;   ///< all bits inverted: a complement for checking, or an active-low flag
+  int offset = 0;           ///< of the first byte of the integer, from 0
+  int bytes = 1;            ///< length of the integer, 1 to 4
+  int low_bit = 0;          ///< lowest of the bits within the integer; 0: the least significant one
+  int bits = 8;             ///< number of bits
+  bool big_endian = false;  ///< the first byte of the integer is the most significant one
+  bool is_signed = false;   ///< two's complement over `bits`
+  bool inverted = false;    ///< all bits inverted: a complement for checking, or an active-low flag
 };
 
 /// A field with a fixed value.
 struct Constant {
-  Field field;
-  std::int64_t value = 0;
+  Field field;             ///< where it is
+  std::int64_t value = 0;  ///< what it holds
 };
 
 /// A bit by which the device reports a fault.
 struct FaultBit {
-  DeviceFault fault = DeviceFault::runtime_error;
-  Field field;
+  DeviceFault fault = DeviceFault::runtime_error;  ///< what it stands for
+  Field field;                                     ///< nonzero while the fault lasts
 };
 
+/// How a checksum is computed.
 enum class ChecksumKind : std::uint8_t {
   sum,          ///< sum of the bytes, truncated to the width of the field
   exclusive_or  ///< exclusive or of the bytes
 };
 
+/// A checksum over part of a frame.
 struct Checksum {
-  ChecksumKind kind = ChecksumKind::sum;
-  int first = 0;  ///< first byte
-  int last = 0;   ///< last byte, inclusive
-  Field field;
+  ChecksumKind kind = ChecksumKind::sum;  ///< how it is computed
+  int first = 0;                          ///< first byte that it covers
+  int last = 0;                           ///< last byte that it covers, inclusive
+  Field field;                            ///< where it is
 };
 
 /// A motor's digital-to-analogue converter.
 struct DacField {
-  Field field;
+  Field field;            ///< where its value is in a command
   std::int64_t zero = 0;  ///< the value for zero torque
 };
 
+/// How frames are delimited.
 enum class Framing : std::uint8_t {
   packet,  ///< one transfer is one frame
   serial   ///< a stream of frames: A5 5A code length payload
@@ -68,34 +71,34 @@ using PerJoint = std::array<Value, 3>;
 
 /// Packet layout in both directions, and scale factors. docs/wire-profile.md describes the text format.
 struct WireProfile {
-  std::string name;
-  std::string source;
-  std::string licence;
+  std::string name;     ///< of the device or the layout, for messages
+  std::string source;   ///< where the layout comes from
+  std::string licence;  ///< of that source
 
-  double rate = 1000.0;  ///< report rate [Hz]
-  Framing framing = Framing::packet;
-  std::uint8_t report_code = 0;   ///< code of report frames, with serial framing
-  std::uint8_t command_code = 0;  ///< code of command frames, with serial framing
+  double rate = 1000.0;               ///< report rate [Hz]
+  Framing framing = Framing::packet;  ///< of both directions
+  std::uint8_t report_code = 0;       ///< code of report frames, with serial framing
+  std::uint8_t command_code = 0;      ///< code of command frames, with serial framing
 
-  std::size_t report_size = 0;  ///< device to host, without framing [bytes]
-  PerJoint<Field> encoders;     ///< incremental; they wrap at their width
-  PerJoint<std::optional<Field>> encoder_copies;
-  PerJoint<std::optional<Field>> gimbal;
-  PerJoint<std::optional<Field>> gimbal_copies;
-  std::vector<Field> buttons;
-  std::optional<Field> docked;    ///< the pen is in the inkwell
-  std::optional<Field> sequence;  ///< incremented with each report; wraps at its width
-  std::vector<FaultBit> faults;
-  std::vector<Constant> expected;
-  std::optional<Checksum> report_checksum;
+  std::size_t report_size = 0;                    ///< device to host, without framing [bytes]
+  PerJoint<Field> encoders;                       ///< incremental; they wrap at their width
+  PerJoint<std::optional<Field>> encoder_copies;  ///< redundant; a report in which one disagrees is corrupted
+  PerJoint<std::optional<Field>> gimbal;          ///< potentiometers of the pen, read only for checking
+  PerJoint<std::optional<Field>> gimbal_copies;   ///< redundant, likewise
+  std::vector<Field> buttons;                     ///< nonzero while pressed; the first is bit 0 of DeviceState::buttons
+  std::optional<Field> docked;                    ///< the pen is in the inkwell
+  std::optional<Field> sequence;                  ///< incremented with each report; wraps at its width
+  std::vector<FaultBit> faults;                   ///< faults that a report can tell
+  std::vector<Constant> expected;                 ///< a report in which one differs is corrupted
+  std::optional<Checksum> report_checksum;        ///< a report in which it differs is corrupted
 
-  std::size_t command_size = 0;  ///< host to device, without framing [bytes]
-  PerJoint<std::optional<DacField>> dac;
-  std::vector<Constant> constants;
-  std::optional<Field> motors_on;  ///< motor enable bit
-  std::optional<Field> toggle;     ///< dead-man bit: changes with each command; otherwise the amplifiers switch off
-  std::optional<Field> dock_light;
-  std::optional<Checksum> command_checksum;
+  std::size_t command_size = 0;           ///< host to device, without framing [bytes]
+  PerJoint<std::optional<DacField>> dac;  ///< motor torques
+  std::vector<Constant> constants;        ///< written first into every command; the other fields overwrite it
+  std::optional<Field> motors_on;         ///< motor enable bit
+  std::optional<Field> toggle;      ///< dead-man bit: changes with each command; otherwise the amplifiers switch off
+  std::optional<Field> dock_light;  ///< light of the inkwell, kept off
+  std::optional<Checksum> command_checksum;  ///< computed for every command
 
   std::vector<std::vector<std::byte>> start;  ///< sent in order whenever the link comes up
   std::vector<std::vector<std::byte>> stop;   ///< sent in order before the device is released
@@ -118,14 +121,16 @@ std::string_view wire_profile_text(std::string_view name);
 /// Reads and validates a profile in the text format of docs/wire-profile.md. `name` is used in error messages.
 /// @throws FormatError naming the line and the value
 WireProfile read_wire_profile(std::istream& in, std::string_view name);
-/// @throws FileError when the file cannot be opened, FormatError as above
+/// Reads a file in this format. @throws FileError when it cannot be opened, FormatError as above
 WireProfile read_wire_profile(const std::string& path);
 
-/// @throws ValueError naming the field and the value, for example outside its frame, overlapping, or not a number
+/// Checks a profile for what no packet could satisfy. @throws ValueError naming the field and the value, for example
+/// outside its frame, overlapping, or not a number
 void validate(const WireProfile& profile);
 
-/// The statements that the profile lacks for computing positions or forces; empty: none.
+/// The statements that the profile lacks for computing positions; empty: none.
 std::vector<std::string> missing_for_position(const WireProfile& profile);
+/// The statements that the profile lacks for computing forces; empty: none.
 std::vector<std::string> missing_for_force(const WireProfile& profile);
 
 }  // namespace calligraphy::phantom
