@@ -72,8 +72,8 @@ const CurveQueries& curve_queries() {
 template <NearestPointMethod method, int digits>
 RendererOptions with_method() {
   RendererOptions options = RendererOptions::for_device(written_page().capabilities);
-  options.stroke.nearest.method = method;
-  options.stroke.nearest.tolerance = std::pow(10.0, -digits);
+  options.nearest.method = method;
+  options.nearest.tolerance = std::pow(10.0, -digits);
   return options;
 }
 
@@ -137,20 +137,20 @@ void tick_with(benchmark::State& state, void (*add)(RendererOptions&)) {
   state.counters["added_ns"] = percentile(added, 0.5);
 }
 void nothing(RendererOptions&) {}
-void friction(RendererOptions& options) { options.friction.coefficient = 0.15; }
+void friction(RendererOptions& options) { options.paper.friction.coefficient = 0.15; }
 void friction_hayward_armstrong(RendererOptions& options) {
   friction(options);
-  options.friction.model = FrictionModel::hayward_armstrong;
+  options.paper.friction.model = FrictionModel::hayward_armstrong;
 }
-void saturating_guidance(RendererOptions& options) { options.guidance = GuidanceLaw::saturating; }
-void guidance_to_start(RendererOptions& options) { options.guide_to_start = true; }
-void assist_policy(RendererOptions& options) { options.assist.enabled = true; }
-void passivity_control(RendererOptions& options) { options.passivity_control = true; }
+void saturating_guidance(RendererOptions& options) { options.guidance.law = GuidanceLaw::saturating; }
+void guidance_to_start(RendererOptions& options) { options.guidance.to_start = true; }
+void assist_policy(RendererOptions& options) { options.guidance.assist.enabled = true; }
+void passivity_control(RendererOptions& options) { options.energy.passivity_control = true; }
 void energy_budget(RendererOptions& options) {
   passivity_control(options);
-  options.energy_budget = 0.1;
+  options.energy.budget = 0.1;
 }
-void thermal_budget(RendererOptions& options) { options.thermal_time_constant = 10.0; }
+void thermal_budget(RendererOptions& options) { options.limits.thermal_time_constant = 10.0; }
 void everything(RendererOptions& options) { options = RendererOptions::everything(written_page().capabilities); }
 BENCHMARK_CAPTURE(tick_with, nothing_added, nothing);
 BENCHMARK_CAPTURE(tick_with, friction_breakaway, friction);
@@ -216,21 +216,19 @@ void stage_active_stroke_load(benchmark::State& state) {
 }
 BENCHMARK(stage_active_stroke_load);
 
-void stage_constraint_share(benchmark::State& state, ConstraintSpaceRule rule) {
+void stage_constraint_share(benchmark::State& state, Rules rules) {
   const CurveQueries& queries = curve_queries();
   constexpr double em = 0.04;  // [m]
-  ConstraintSpace space;
-  space.rule = rule;
   std::vector<NearestPoint> closest_points;
   for (const Point& tip : queries.tips) closest_points.push_back(nearest_point(queries.element, tip));
   std::size_t i = 0;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(guidance_weight(space, em, queries.element, queries.tips[i], closest_points[i]));
+    benchmark::DoNotOptimize(guidance_weight({}, em, queries.element, queries.tips[i], closest_points[i], rules));
     i = (i + 1) % closest_points.size();
   }
 }
-BENCHMARK_CAPTURE(stage_constraint_share, tube, ConstraintSpaceRule::tube);
-BENCHMARK_CAPTURE(stage_constraint_share, wang2006, ConstraintSpaceRule::wang2006);
+BENCHMARK_CAPTURE(stage_constraint_share, tube, Rules::revised);
+BENCHMARK_CAPTURE(stage_constraint_share, wang2006, Rules::wang2006);
 
 void stage_limiter(benchmark::State& state) {
   ForceLimiter limiter{0.1, 0.4, 7.9};

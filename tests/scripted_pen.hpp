@@ -121,20 +121,24 @@ class ScriptedPen {
       const auto& factors = placed.character.physics.attraction_factors;
       attraction = std::max(attraction, *std::max_element(factors.begin(), factors.end()));
     }
-    const bool rubs = options.friction.coefficient > 0.0;
-    const double spring = options.guidance_stiffness * attraction + options.wrong_way_stiffness +
-                          (rubs ? options.friction.stiffness : 0.0);
-    const double damper = options.guidance_damping + (rubs ? options.friction.damping : 0.0);
+    const bool rubs = options.paper.friction.coefficient > 0.0;
+    const double spring = options.guidance.stiffness * attraction + options.guidance.wrong_way_stiffness +
+                          (rubs ? options.paper.friction.stiffness : 0.0);
+    const double damper = options.guidance.damping + (rubs ? options.paper.friction.damping : 0.0);
     const double furthest = 1.0 * scale * period, hardest = 0.3 * scale;
     const double in_plane =
         spring * capped(way.head<2>().norm(), furthest) + damper * capped(kick.head<2>().norm(), hardest);
     const double down = std::abs(way.z());
-    const double entered = down < options.paper_onset ? down / options.paper_onset : 1.0;
+    const double entered = down < options.paper.onset ? down / options.paper.onset : 1.0;
     const double shoved = std::abs(kick.z()) + entered * std::abs(velocity_.velocity().z());
     const double normal =
-        options.paper_stiffness * capped(down, furthest) + options.paper_damping * capped(shoved, hardest);
-    return std::hypot(options.in_plane_force_rate * period + scale * in_plane,
-                      options.normal_force_rate * period + scale * normal);
+        options.paper.stiffness * capped(down, furthest) + options.paper.damping * capped(shoved, hardest);
+    // Without a limit on the rate, steps are compared with the default's.
+    const calligraphy::ForceLimits usual;
+    const bool is_limited = std::isfinite(options.limits.in_plane_rate);
+    const double steps_in_plane = is_limited ? options.limits.in_plane_rate : usual.in_plane_rate;
+    const double steps_normal = is_limited ? options.limits.normal_rate : usual.normal_rate;
+    return std::hypot(steps_in_plane * period + scale * in_plane, steps_normal * period + scale * normal);
   }
 
   calligraphy::HapticRenderer& renderer_;

@@ -77,15 +77,15 @@ RendererOptions chosen_renderer(const WriteArguments& options, const Capabilitie
       throw UsageError("--renderer everything: cannot be combined with --rules wang2006");
     RendererOptions rules = printed;
     rules.servo_rate = renderer.servo_rate;
-    rules.paper_stiffness = renderer.paper_stiffness;
-    rules.guidance_stiffness = renderer.guidance_stiffness;
-    rules.wrong_way_stiffness = renderer.wrong_way_stiffness;
-    rules.wrong_way_limit = renderer.wrong_way_limit;
+    rules.paper.stiffness = renderer.paper.stiffness;
+    rules.guidance.stiffness = renderer.guidance.stiffness;
+    rules.guidance.wrong_way_stiffness = renderer.guidance.wrong_way_stiffness;
+    rules.guidance.wrong_way_limit = renderer.guidance.wrong_way_limit;
     renderer = rules;
   }
-  if (options.method == "exact") renderer.stroke.nearest = RendererOptions().stroke.nearest;
-  if (options.method == "wang2006") renderer.stroke.nearest = printed.stroke.nearest;
-  if (options.tolerance) renderer.stroke.nearest.tolerance = *options.tolerance;
+  if (options.method == "exact") renderer.nearest = RendererOptions().nearest;
+  if (options.method == "wang2006") renderer.nearest = printed.nearest;
+  if (options.tolerance) renderer.nearest.tolerance = *options.tolerance;
   if (options.rate) renderer.servo_rate = *options.rate;
   return renderer;
 }
@@ -305,7 +305,8 @@ class WriteRun {
     spdlog::warn("not completed: {} of {}", unfinished, counted(results.size(), "character"));
     if (pen_.is_replay()) {
       spdlog::warn(
-          "a trace is replayed with the TEXT and the page options with which it was recorded: that of a text of several "
+          "a trace is replayed with the TEXT and the page options with which it was recorded: that of a text of "
+          "several "
           "characters is page-1-....csv, with the whole text");
     }
   }

@@ -99,6 +99,30 @@ std::vector<Pen> read_pens(const std::string& file) {
   return pens;
 }
 
+/// One name of `options_of`, for trees whose options are in groups and for those before.
+template <class Options>
+bool set(Options& options, const std::string& name) {
+  if constexpr (requires { options.guidance.stiffness; }) {
+    if (name == "exact") options.nearest.method = NearestPointMethod::exact;
+    if (name == "friction") options.paper.friction.coefficient = 0.15;
+    if (name == "saturating") options.guidance.law = GuidanceLaw::saturating;
+    if (name == "guide_to_start") options.guidance.to_start = true;
+    if (name == "assist") options.guidance.assist.enabled = true;
+    if (name == "budget") options.energy.budget = 0.1;
+    if (name == "thermal") options.limits.thermal_time_constant = 10.0;
+  } else {
+    if (name == "exact") options.stroke.nearest.method = NearestPointMethod::exact;
+    if (name == "friction") options.friction.coefficient = 0.15;
+    if (name == "saturating") options.guidance = GuidanceLaw::saturating;
+    if (name == "guide_to_start") options.guide_to_start = true;
+    if (name == "assist") options.assist.enabled = true;
+    if (name == "budget") options.energy_budget = 0.1;
+    if (name == "thermal") options.thermal_time_constant = 10.0;
+  }
+  const auto names = {"exact", "friction", "saturating", "guide_to_start", "assist", "budget", "thermal"};
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
 /// Names joined by +: "everything+exact".
 RendererOptions options_of(const std::string& names) {
   RendererOptions options = RendererOptions::for_device(device());
@@ -109,26 +133,7 @@ RendererOptions options_of(const std::string& names) {
       options = RendererOptions::everything(device());
     } else if (name == "wang2006") {
       options = RendererOptions::wang2006();
-    } else if (name == "exact") {
-      options.stroke.nearest.method = NearestPointMethod::exact;
-    } else if (name == "friction") {
-      options.friction.coefficient = 0.15;
-    } else if (name == "hayward_armstrong") {
-      options.friction.coefficient = 0.15;
-      options.friction.model = FrictionModel::hayward_armstrong;
-    } else if (name == "saturating") {
-      options.guidance = GuidanceLaw::saturating;
-    } else if (name == "guide_to_start") {
-      options.guide_to_start = true;
-    } else if (name == "assist") {
-      options.assist.enabled = true;
-    } else if (name == "passivity") {
-      options.passivity_control = true;
-    } else if (name == "budget") {
-      options.energy_budget = 0.1;
-    } else if (name == "thermal") {
-      options.thermal_time_constant = 10.0;
-    } else {
+    } else if (!set(options, name)) {
       throw std::runtime_error("no such options: " + name);
     }
   }

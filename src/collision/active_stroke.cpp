@@ -10,6 +10,14 @@ namespace {
 /// A pen with less than this fraction of the guidance is not writing the stroke: it may be on a nearby stroke.
 constexpr double min_weight = 0.5;
 
+/// A feature plane counts as crossed this far before it is reached, at most this share of the element's length: people
+/// stop short [em].
+constexpr double plane_tolerance = 0.0375, plane_tolerance_share = 0.3;
+
+/// The closest point is searched within this arc length of the last one, so that a sharp bend, a loop or a nearby part
+/// of the stroke cannot attract the pen out of order [em].
+constexpr double window = 0.2;
+
 /// Most that an offset at the start may bring a corner forward [em].
 constexpr double max_early_turn = 0.05;
 
@@ -44,16 +52,16 @@ void ActiveStroke::begin(const Point& tip) noexcept {
   misplaced_ = tip - start();
 }
 
-StrokeContact ActiveStroke::nearest(const Point& tip, const StrokeRules& rules) const noexcept {
+StrokeContact ActiveStroke::nearest(const Point& tip, const StrokeOptions& options) const noexcept {
   StrokeContact contact;
   contact.closest.distance = std::numeric_limits<double>::infinity();
   for (int i = 0; i < element_count(); ++i) {
     const StrokeElement& element = part(i).element;
-    const NearestPoint closest = nearest_point(element, tip, rules.nearest);
+    const NearestPoint closest = nearest_point(element, tip, options.nearest);
     if (!(closest.distance < contact.closest.distance)) continue;
     contact.element = i;
     contact.closest = closest;
-    contact.weight = guidance_weight(rules.space, em_, element, tip, closest);
+    contact.weight = guidance_weight(options.space, em_, element, tip, closest, options.rules);
     contact.arc = part(i).first_arc + element.arc_length(closest.parameter);
   }
   return contact;
@@ -68,24 +76,22 @@ void ActiveStroke::rest(const StrokeContact& nearest) noexcept {
 }
 
 [[gnu::always_inline]] inline StrokeContact ActiveStroke::locate(const Point& tip,
-                                                                 const StrokeRules& rules) const noexcept {
+                                                                 const StrokeOptions& options) const noexcept {
   const int index = std::min(active_, element_count() - 1);
   const Part& here = part(index);
   const StrokeElement& element = here.element;
   ParameterRange range;
-  if (rules.window > 0.0) {
-    const double window = rules.window * em_;
-    range = {element.parameter_at(arc_ - window), element.parameter_at(arc_ + window)};
+  if (!is_printed(options.rules)) {
+    range = {element.parameter_at(arc_ - window * em_), element.parameter_at(arc_ + window * em_)};
   }
   StrokeContact contact;
   contact.element = index;
-  contact.closest = nearest_point(element, tip, rules.nearest, range, parameter_);
-  contact.weight = guidance_weight(rules.space, em_, element, tip, contact.closest);
+  contact.closest = nearest_point(element, tip, options.nearest, range, parameter_);
+  contact.weight = guidance_weight(options.space, em_, element, tip, contact.closest, options.rules);
   const double arc = element.arc_length(contact.closest.parameter);
   contact.arc = here.first_arc + arc;
   contact.attraction = here.first_attraction;
-  if (rules.attraction == AttractionRule::interpolated && here.last_attraction != here.first_attraction &&
-      element.length() > 0.0) {
+  if (!is_printed(options.rules) && here.last_attraction != here.first_attraction && element.length() > 0.0) {
     contact.attraction += (here.last_attraction - here.first_attraction) * arc / element.length();
   }
   contact.finished = is_finished();
@@ -93,12 +99,12 @@ void ActiveStroke::rest(const StrokeContact& nearest) noexcept {
 }
 
 [[gnu::always_inline]] inline bool ActiveStroke::passes(const Point& tip, const StrokeContact& contact,
-                                                        const StrokeRules& rules) const noexcept {
+                                                        const StrokeOptions& options) const noexcept {
   const Part& here = part(contact.element);
-  if (rules.plane == FeaturePlaneRule::wang2006) return here.end.signed_distance(tip) > 0.0;
+  if (is_printed(options.rules)) return here.end.signed_distance(tip) > 0.0;
   if (contact.weight < min_weight) return false;
   const double length = here.element.length();
-  const double tolerance = std::min(rules.plane_tolerance * em_, 0.3 * length);
+  const double tolerance = std::min(plane_tolerance * em_, plane_tolerance_share * length);
   // Near the feature point along the stroke too: a plane also crosses other parts of the same stroke. On a curve the
   // closest point may lag behind the plane by more than the tolerance, but not by more than twice the tolerance unless
   // the pen is far away.
@@ -111,25 +117,25 @@ void ActiveStroke::rest(const StrokeContact& nearest) noexcept {
   // attract it equally.
   if (contact.element + 1 == element_count()) return false;
   const StrokeElement& next = part(contact.element + 1).element;
-  const ParameterRange range = {0.0, rules.window > 0.0 ? next.parameter_at(rules.window * em_) : 1.0};
-  return nearest_point(next, tip, rules.nearest, range, 0.0).distance < contact.closest.distance;
+  const ParameterRange range = {0.0, next.parameter_at(window * em_)};
+  return nearest_point(next, tip, options.nearest, range, 0.0).distance < contact.closest.distance;
 }
 
-[[gnu::noinline]] void ActiveStroke::pass_feature(const Point& tip, const StrokeRules& rules,
+[[gnu::noinline]] void ActiveStroke::pass_feature(const Point& tip, const StrokeOptions& options,
                                                   StrokeContact& contact) noexcept {
   ++active_;
   if (!is_finished()) {
     arc_ = 0.0;
     parameter_ = 0.0;
-    contact = locate(tip, rules);
+    contact = locate(tip, options);
   }
   contact.passed_feature = true;
   contact.finished = is_finished();
 }
 
-StrokeContact ActiveStroke::update(const Point& tip, const StrokeRules& rules) noexcept {
-  StrokeContact contact = locate(tip, rules);
-  if (!is_finished() && passes(tip, contact, rules)) pass_feature(tip, rules, contact);
+StrokeContact ActiveStroke::update(const Point& tip, const StrokeOptions& options) noexcept {
+  StrokeContact contact = locate(tip, options);
+  if (!is_finished() && passes(tip, contact, options)) pass_feature(tip, options, contact);
   parameter_ = contact.closest.parameter;
   // A pen at the edge of the constraint space or outside makes no progress: a stroke cannot be finished without being
   // written.

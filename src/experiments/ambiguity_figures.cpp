@@ -75,11 +75,11 @@ std::vector<ForceFieldFigure> ambiguity_figures(int columns) {
     figure.pen = middle_line(figure.placed, figure.stroke, shown.progress);
     ForceFieldOptions options;
     options.columns = columns;
-    options.stiffness = RendererOptions().guidance_stiffness;
+    options.stiffness = RendererOptions().guidance.stiffness;
     const auto add = [&](std::string name, const RendererOptions& renderer) {
-      options.rules = renderer.stroke;
+      options.stroke = {renderer.nearest, renderer.guidance.space, renderer.rules};
       const Placement& placement = figure.placed.placement;
-      figure.panels.push_back({std::move(name), renderer.guidance_fade_in > 0.0,
+      figure.panels.push_back({std::move(name), renderer.guidance.fade_in > 0.0,
                                guidance_field(figure.placed, figure.stroke, figure.progress,
                                               placement.to_page(shown.corner), placement.em * shown.edge, options)});
     };

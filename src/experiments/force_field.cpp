@@ -33,7 +33,7 @@ Pull pull(const StrokeContact& contact, const Point& tip, double stiffness) {
 }
 
 /// The stroke as it is once a pen on its middle line has come as far as `progress`.
-ActiveStroke written(const Stroke& stroke, const Placement& placement, double progress, const StrokeRules& rules) {
+ActiveStroke written(const Stroke& stroke, const Placement& placement, double progress, const StrokeOptions& options) {
   ActiveStroke active;
   active.load(stroke, placement);
   const double end = progress * active.length();
@@ -43,20 +43,20 @@ ActiveStroke written(const Stroke& stroke, const Placement& placement, double pr
     const double length = element.length();
     const double here = std::min(end - before, length);
     const int steps = static_cast<int>(std::ceil(here / writing_step));
-    for (int k = 0; k <= steps; ++k) active.update(element.point(element.parameter_at(here * k / steps)), rules);
+    for (int k = 0; k <= steps; ++k) active.update(element.point(element.parameter_at(here * k / steps)), options);
     before += length;
     if (before >= end) break;
-    active.update(element.point(1.0) + overshoot * element.tangent(1.0), rules);
+    active.update(element.point(1.0) + overshoot * element.tangent(1.0), options);
   }
   return active;
 }
 
 Field active_stroke_field(const Stroke& stroke, const Placement& placement, double progress,
                           const ForceFieldOptions& options) {
-  const ActiveStroke active = written(stroke, placement, progress, options.rules);
+  const ActiveStroke active = written(stroke, placement, progress, options.stroke);
   return [active, options](const Point& tip) {
     ActiveStroke copy = active;
-    return pull(copy.update(tip, options.rules), tip, options.stiffness);
+    return pull(copy.update(tip, options.stroke), tip, options.stiffness);
   };
 }
 
@@ -71,7 +71,7 @@ Field nearest_stroke_field(const PlacedCharacter& placed, const ForceFieldOption
     const std::vector<StrokeElement> elements = place_elements(stroke, placed.placement);
     for (std::size_t i = 0; i < elements.size(); ++i) {
       const double first = stroke.attraction_factors[i];
-      const bool linear = options.rules.attraction == AttractionRule::interpolated;
+      const bool linear = !is_printed(options.stroke.rules);
       candidates.push_back({elements[i], first, linear ? stroke.attraction_factors[i + 1] : first});
     }
   }
@@ -79,14 +79,14 @@ Field nearest_stroke_field(const PlacedCharacter& placed, const ForceFieldOption
     const Candidate* nearest = nullptr;
     NearestPoint closest;
     for (const Candidate& candidate : candidates) {
-      const NearestPoint found = nearest_point(candidate.element, tip, options.rules.nearest);
+      const NearestPoint found = nearest_point(candidate.element, tip, options.stroke.nearest);
       if (nearest != nullptr && !(found.distance < closest.distance)) continue;
       nearest = &candidate;
       closest = found;
     }
     StrokeContact contact;
     contact.closest = closest;
-    contact.weight = guidance_weight(options.rules.space, em, nearest->element, tip, closest);
+    contact.weight = guidance_weight(options.stroke.space, em, nearest->element, tip, closest, options.stroke.rules);
     const double length = nearest->element.length();
     const double along = length > 0.0 ? nearest->element.arc_length(closest.parameter) / length : 0.0;
     contact.attraction = nearest->first_factor + along * (nearest->last_factor - nearest->first_factor);

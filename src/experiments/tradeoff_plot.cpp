@@ -181,7 +181,8 @@ std::string servo_rate_tradeoff_plot(std::span<const ServoRateTradeoff> tradeoff
       "\nset logscale y\nset yrange [*:*]\n"
       "set title 'maximum force step [N per tick]'\nset yrange [0.01:10]\nset key default samplen 2 top right\nplot " +
       line(5, blue, "default paper") + ", " + line(6, orange, "hardest paper") +
-      "\nset title 'maximum stable stiffness [N/m]'\nset yrange [10:1e10]\nset format y '%.0e'\nset key default samplen "
+      "\nset title 'maximum stable stiffness [N/m]'\nset yrange [10:1e10]\nset format y '%.0e'\nset key default "
+      "samplen "
       "2 top left Left reverse\nplot " +
       line(8, orange, "no limit on the rate of the normal force") + ", " + line(9, green, "theory: linear, held") +
       ", " + line(7, blue, "default paper") + ", " + line(10, grey, "theory: linear, free") + "\n";

@@ -27,8 +27,8 @@ constexpr double resting_swing = 5e-6;                      ///< peak to peak, a
 constexpr double softest = 50.0, hardest = 1e6;  ///< stiffnesses that are tried [N/m]
 
 RendererOptions with_paper(RendererOptions options, double stiffness, bool limit) {
-  options.paper_stiffness = stiffness;
-  if (!limit) options.normal_force_rate = no_rate_limit;
+  options.paper.stiffness = stiffness;
+  if (!limit) options.limits.normal_rate = no_rate_limit;
   return options;
 }
 
@@ -142,7 +142,7 @@ std::vector<ServoRateTradeoff> servo_rate_tradeoff(std::span<const Character> ch
     const GripImpedance grip = WriterSkill::novice().grip;
     ServoRateTradeoff entry;
     entry.rate = rate;
-    entry.stiffness = renderer.paper_stiffness;
+    entry.stiffness = renderer.paper.stiffness;
     entry.stable = comes_to_rest(page, device, grip, renderer);
     const Written written = write_all(characters, device, renderer, options, pause);
     entry.penetration = written.penetration;

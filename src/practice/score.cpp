@@ -76,10 +76,9 @@ std::vector<Point> points_of(std::span<const RecordedSample> path) {
 double backwards(const PlacedCharacter& placed, std::size_t stroke, std::span<const RecordedSample> path) {
   ActiveStroke active;
   active.load(strokes(placed.character)[stroke], placed.placement);
-  const StrokeRules rules;
   double most = 0.0;
   for (const RecordedSample& sample : path)
-    most = std::max(most, active.update(sample.pen_tip.head<2>(), rules).backwards);
+    most = std::max(most, active.update(sample.pen_tip.head<2>(), {}).backwards);
   return most;
 }
 

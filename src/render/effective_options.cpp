@@ -25,10 +25,10 @@ EffectiveOptions effective_options(const RendererOptions& options, const std::ve
       effective.max_attraction = std::max(effective.max_attraction, factor);
     }
   }
-  const double stiffness = effective.options.guidance_stiffness;
+  const double stiffness = effective.options.guidance.stiffness;
   if (stiffness * effective.max_attraction <= effective.guidance_limit) return effective;
   std::ostringstream message;
-  message << "guidance_stiffness = " << stiffness << " N/m times the maximum attraction factor "
+  message << "guidance.stiffness = " << stiffness << " N/m times the maximum attraction factor "
           << effective.max_attraction << " is above " << effective.guidance_limit << " N/m, the maximum on the device "
           << device_label(capabilities);
   if (!clips) throw ValueError(message.str());

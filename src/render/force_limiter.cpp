@@ -6,15 +6,12 @@
 #include "collision/length.hpp"
 
 namespace calligraphy {
-double ForceLimiter::max_step() const noexcept {
-  return limit_rate ? Eigen::Vector2d(in_plane_step, normal_step).norm() : no_limit;
-}
+double ForceLimiter::max_step() const noexcept { return Eigen::Vector2d(in_plane_step, normal_step).norm(); }
 
 Eigen::Vector3d ForceLimiter::next(const Eigen::Vector3d& previous, const Eigen::Vector3d& target,
                                    const ForceAllowance& allowance, double max_length) const noexcept {
   const double most = std::min(peak, max_length);
   Eigen::Vector3d force = shortened(target, most);
-  if (!limit_rate) return force;
   const Eigen::Vector2d change = (force - previous).head<2>();
   const double length = change.norm();
   const double reach = in_plane_step + allowance.in_plane;

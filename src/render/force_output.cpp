@@ -24,9 +24,9 @@ PassivityController passivity_controller(const RendererOptions& options, const C
                                          double scale) {
   PassivityOptions passivity;
   passivity.delay = capabilities.sample_delay;
-  if (options.passivity_control) {
+  if (options.energy.passivity_control) {
     // Half of what the mass tolerates alone, less what guidance and paper damp already: a hand has a spring.
-    const double damped = scale * scale * std::max(options.paper_damping, options.guidance_damping);
+    const double damped = scale * scale * std::max(options.paper.damping, options.guidance.damping);
     passivity.max_damping = std::max(0.0, 0.5 * injectable_damping({capabilities, options.servo_rate}) - damped);
     if (capabilities.encoder_step > 0.0) {
       passivity.max_damping =
@@ -34,11 +34,11 @@ PassivityController passivity_controller(const RendererOptions& options, const C
     }
     passivity.max_damping /= scale * scale;
   }
-  passivity.energy_budget = options.energy_budget;
+  passivity.energy_budget = options.energy.budget;
   if (capabilities.apparent_mass > 0.0) passivity.mass = capabilities.apparent_mass / (scale * scale);
   passivity.hand_speed *= scale;
   passivity.scale = scale;
-  passivity.max_gap = options.max_gap;
+  passivity.max_gap = options.energy.max_gap;
   return PassivityController(passivity, 1.0 / options.servo_rate);
 }
 
@@ -48,25 +48,24 @@ ForceOutput::ForceOutput(const RendererOptions& options, const Capabilities& cap
                          double max_guidance_stiffness)
     : mapping_(mapping),
       period_(1.0 / options.servo_rate),
-      in_plane_{max_guidance_stiffness + options.wrong_way_stiffness, options.guidance_damping},
-      normal_{options.paper_stiffness, options.paper_damping},
-      paper_onset_(options.paper_onset),
-      observes_energy_(options.observes_energy()) {
+      in_plane_{max_guidance_stiffness + options.guidance.wrong_way_stiffness, options.guidance.damping},
+      normal_{options.paper.stiffness, options.paper.damping},
+      paper_onset_(options.paper.onset),
+      observes_energy_(options.energy.observed()) {
   require(capabilities.peak_force > 0.0, "peak force of the device", capabilities.peak_force, "N", "above 0");
-  const FrictionOptions& friction = options.friction;
+  const FrictionOptions& friction = options.paper.friction;
   if (friction.coefficient > 0.0) {
     in_plane_.stiffness += friction.stiffness;
     in_plane_.damping += friction.damping;
   }
-  limiter_.in_plane_step = options.in_plane_force_rate / options.servo_rate / mapping.scale;
-  limiter_.normal_step = options.normal_force_rate / options.servo_rate / mapping.scale;
+  limiter_.in_plane_step = options.limits.in_plane_rate / options.servo_rate / mapping.scale;
+  limiter_.normal_step = options.limits.normal_rate / options.servo_rate / mapping.scale;
   limiter_.peak = capabilities.peak_force / mapping.scale;
-  limiter_.limit_rate = options.limit_force_rate;
   if (observes_energy_) passivity_ = passivity_controller(options, capabilities, mapping.scale);
-  if (options.thermal_time_constant > 0.0) {
+  if (options.limits.thermal_time_constant > 0.0) {
     thermal_.peak = limiter_.peak;
     thermal_.continuous = std::min(capabilities.continuous_force, capabilities.peak_force) / mapping.scale;
-    thermal_.time_constant = options.thermal_time_constant;
+    thermal_.time_constant = options.limits.thermal_time_constant;
   }
 }
 
@@ -144,7 +143,6 @@ ForceAllowance ForceOutput::allowance(Point way, Point velocity_change) const no
 }
 
 double ForceOutput::max_step() const noexcept {
-  if (!limiter_.limit_rate) return ForceLimiter::no_limit;
   constexpr double any = std::numeric_limits<double>::max();
   const ForceAllowance most = allowance({any, any}, {any, any});
   return Eigen::Vector2d(limiter_.in_plane_step + most.in_plane, limiter_.normal_step + most.normal).norm();

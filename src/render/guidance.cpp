@@ -12,7 +12,7 @@ namespace {
 /// not coast on.
 constexpr double unguided_damping = 0.15;
 
-/// guide_to_start stops short of the start along the stroke by this share of the tolerance.
+/// Guidance to the start stops short of the start along the stroke by this share of the tolerance.
 constexpr double unguided_start = 0.5;
 
 /// A pen this far from the normal of its closest point is beyond an end: as a share of the distance, plus a slack [m].
@@ -29,9 +29,11 @@ Point damped_part(const Point& velocity, const Point& way, const Point& tangent)
 }  // namespace
 
 Guidance::Guidance(const EffectiveOptions& effective)
-    : effective_(effective), period_(1.0 / effective.options.servo_rate), assistance_(effective.options.assist) {
-  const RendererOptions& options = effective.options;
-  fade_step_ = options.guidance_fade_in > 0.0 ? 1.0 / (options.guidance_fade_in * options.servo_rate) : 1.0;
+    : effective_(effective),
+      period_(1.0 / effective.options.servo_rate),
+      assistance_(effective.options.guidance.assist) {
+  const double fade_in = effective.options.guidance.fade_in;
+  fade_step_ = fade_in > 0.0 ? 1.0 / (fade_in * effective.options.servo_rate) : 1.0;
 }
 
 /// No force, and none to withdraw.
@@ -66,8 +68,8 @@ const GuidanceForce& Guidance::update(const PenState& pen, const WriterState& wr
 void Guidance::pull(const PenState& pen, const WriterState& writer) noexcept {
   force_.attraction = force_.wrong_way = force_.viscous = Point::Zero();
   if (writer.phase == WritingPhase::lifted || writer.phase == WritingPhase::page_written) return;
-  const RendererOptions& options = effective_.options;
-  const bool saturating = options.guidance == GuidanceLaw::saturating;
+  const GuidanceOptions& options = effective_.options.guidance;
+  const bool saturating = options.law == GuidanceLaw::saturating;
   const bool writing = writer.state == InteractionState::writing;
   const StrokeContact& contact = writer.contact;
   const Point tip = pen.tip.head<2>();
@@ -91,7 +93,7 @@ void Guidance::pull(const PenState& pen, const WriterState& writer) noexcept {
     if (writer.rests) resistance = contact.weight;
   }
   const double stiffness = effective_.guidance_stiffness(writer.attraction);
-  force_.attraction = attraction_force(stiffness * share, tip, tip + way, options.force_sign);
+  force_.attraction = attraction_force(stiffness * share, tip, tip + way, effective_.options.rules);
   if (writer.attraction < 1.0) share *= writer.attraction;
   const double slack = options.wrong_way_slack * writer.em;
   const bool resisted = resistance > 0.0 && contact.backwards > slack;
@@ -101,7 +103,7 @@ void Guidance::pull(const PenState& pen, const WriterState& writer) noexcept {
   }
   if (saturating) {
     const double linear = force_.attraction.norm();
-    force_.attraction = saturated_force(force_.attraction, options.guidance_limit);
+    force_.attraction = saturated_force(force_.attraction, options.limit);
     // Across the stroke the stiffness falls with the square of what this falls by.
     if (linear > 0.0) share *= std::sqrt(force_.attraction.norm() / linear);
   }
@@ -109,18 +111,18 @@ void Guidance::pull(const PenState& pen, const WriterState& writer) noexcept {
   // Resistance to writing backwards is not weakened by assistance, nor is its damper.
   const Point guided =
       resisted ? Point(std::max(share, resistance) * velocity) : Point(share * damped_part(velocity, way, tangent));
-  force_.viscous = -options.guidance_damping * (guided + unguided_damping * (velocity - guided));
+  force_.viscous = -options.damping * (guided + unguided_damping * (velocity - guided));
 }
 
 /// Until the first stretch has shown its direction, guidance acts across that direction only, so that it does not hide
-/// it; with guide_to_start also along it, though not up to the start itself, which the pen is about to leave, nor from
-/// the stroke, along which a pen that moves backwards is resisted.
+/// it; with GuidanceOptions::to_start also along it, though not up to the start itself, which the pen is about to
+/// leave, nor from the stroke, along which a pen that moves backwards is resisted.
 Point Guidance::way_to_start(const WriterState& writer) const noexcept {
-  const RendererOptions& options = effective_.options;
+  const GuidanceOptions& options = effective_.options.guidance;
   const double along = writer.to_start.dot(writer.direction);
   const Point across = writer.to_start - along * writer.direction;
-  if (!options.guide_to_start || writer.rests) return across;
-  const double free = unguided_start * options.tolerances.start_distance * writer.em;
+  if (!options.to_start || writer.rests) return across;
+  const double free = unguided_start * effective_.options.tolerances.start_distance * writer.em;
   return across + std::copysign(std::max(0.0, std::abs(along) - free), along) * writer.direction;
 }
 
@@ -130,15 +132,14 @@ Point Guidance::way_to_start(const WriterState& writer) const noexcept {
 Point Guidance::faded(const PenState& pen, const WriterState& writer, const Point& sent) noexcept {
   constexpr TickEvent jumps = TickEvent::stroke_started | TickEvent::feature_passed | TickEvent::contact;
   constexpr TickEvent ends = TickEvent::stroke_finished | TickEvent::stroke_abandoned | TickEvent::lift;
-  const RendererOptions& options = effective_.options;
+  const GuidanceOptions& options = effective_.options.guidance;
   const bool changed = writer.guided != guided_;
   guided_ = writer.guided;
   const bool lets_go = has_event(writer.events, ends) || (changed && !guided_);
   const Point tip = pen.tip.head<2>(), velocity = pen.velocity.head<2>();
   if (lets_go || changed || has_event(writer.events, jumps)) {
-    const double seconds = lets_go ? options.guidance_fade_out : options.guidance_fade_in;
-    released_.take_over(sent, tip, velocity, effective_.guidance_stiffness(1.0), options.guidance_damping,
-                        seconds / period_);
+    const double seconds = lets_go ? options.fade_out : options.fade_in;
+    released_.take_over(sent, tip, velocity, effective_.guidance_stiffness(1.0), options.damping, seconds / period_);
     fade_ = 0.0;
   }
   Point force = force_.attraction + force_.wrong_way + force_.viscous;

@@ -9,7 +9,8 @@
 namespace calligraphy {
 
 Paper::Paper(const RendererOptions& options)
-    : options_(options),
+    : options_(options.paper),
+      rules_(options.rules),
       period_(1.0 / options.servo_rate),
       rate_filter_(-std::expm1(-2.0 * std::numbers::pi * options.velocity_cutoff * period_)) {}
 
@@ -29,7 +30,7 @@ const PaperForce& Paper::update(const PenState& pen, const WriterState& writer, 
     return force_;
   }
   const bool is_solid = writer.state == InteractionState::calibration || writer.state == InteractionState::writing ||
-                        (writer.state == InteractionState::adjusting && options_.solid_paper);
+                        (writer.state == InteractionState::adjusting && options_.solid);
   force_ = {};
   if (is_solid) press(pen);
   if (force_.normal > 0.0) {
@@ -44,13 +45,13 @@ const PaperForce& Paper::update(const PenState& pen, const WriterState& writer, 
 /// spring, so that it is never stiffer than the damper at that depth is good for. Paper does not pull, however fast the
 /// pen is lifted.
 void Paper::press(const PenState& pen) noexcept {
-  const double depth = pen.penetration, onset = options_.paper_onset;
+  const double depth = pen.penetration, onset = options_.onset;
   const double share = depth < onset ? depth / onset : 1.0;
   const double strained = depth < onset ? 0.5 * depth * share : depth - 0.5 * onset;
-  const double spring = normal_force(options_.paper_stiffness, strained, options_.force_sign);
+  const double spring = normal_force(options_.stiffness, strained, rules_);
   force_.normal = spring;
   if (!(depth > 0.0)) return;
-  const double damping = -share * options_.paper_damping * pen.velocity.z();
+  const double damping = -share * options_.damping * pen.velocity.z();
   force_.viscous.z() = spring >= 0.0 ? std::max(damping, -spring) : damping;
   force_.normal += force_.viscous.z();
 }

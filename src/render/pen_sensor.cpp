@@ -14,6 +14,9 @@ constexpr double max_integration_time = 0.1;
 /// For how long the force is held while samples are stale [s].
 constexpr double max_hold_time = 4e-3;
 
+/// Hysteresis: the pen is above the paper once it is this far above it [m].
+constexpr double lift_height = 0.0005;
+
 /// A pause is at least this long; what is shorter is jitter [ticks].
 constexpr double min_pause = 1.75;
 
@@ -27,10 +30,12 @@ bool is_on_page(const Eigen::Vector3d& position) noexcept {
 }  // namespace
 
 PenSensor::PenSensor(const RendererOptions& options, const MotionMapping& mapping)
-    : options_(options),
+    : contact_(options.contact),
       mapping_(mapping),
+      is_printed_(is_printed(options.rules)),
+      max_speed_(options.limits.max_speed * mapping.scale),
       period_(1.0 / options.servo_rate),
-      counts_pauses_(options.observes_energy()),
+      counts_pauses_(options.energy.observed()),
       velocity_(options.velocity_cutoff) {}
 
 void PenSensor::restart() noexcept {
@@ -99,25 +104,24 @@ TickStatus PenSensor::accept(const DeviceState& sample) noexcept {
 /// device really is elsewhere.
 bool PenSensor::is_plausible(const Eigen::Vector3d& position, double elapsed) const noexcept {
   if (!has_sample_) return true;
-  const double max_speed = options_.max_speed * mapping_.scale;
-  const double reach = max_speed * elapsed;
+  const double reach = max_speed_ * elapsed;
   const Eigen::Vector3d way = position - pen_.position;
   if (dot(way, way) <= reach * reach) return true;
-  return rejected_ && norm(position - *rejected_) <= max_speed * period_;
+  return rejected_ && norm(position - *rejected_) <= max_speed_ * period_;
 }
 
 void PenSensor::move_device_point(const DeviceState& sample, const Eigen::Vector3d& position) noexcept {
-  if (options_.motion == MotionMappingRule::wang2006 && has_sample_) {
+  if (is_printed_ && has_sample_) {
     const double elapsed = std::clamp(sample.time - time_, 0.0, max_integration_time);
     const Eigen::Vector3d velocity = mapping_.velocity_to_page(sample.velocity);
-    const bool is_measured = norm(velocity) <= options_.max_speed * mapping_.scale;  // false for NaN too
+    const bool is_measured = norm(velocity) <= max_speed_;  // false for NaN too
     pen_.device_point += is_measured ? Eigen::Vector3d(velocity * elapsed) : Eigen::Vector3d(position - pen_.position);
   } else {
     pen_.device_point = position;
   }
   pen_.penetration = std::max(0.0, -pen_.device_point.z());
   pen_.tip = pen_.device_point;
-  if (options_.pen_tip == PenTipRule::projected && pen_.tip.z() < 0.0) pen_.tip.z() = 0.0;
+  if (!is_printed_ && pen_.tip.z() < 0.0) pen_.tip.z() = 0.0;
 }
 
 void PenSensor::estimate_motion(const Eigen::Vector3d& position, double elapsed) noexcept {
@@ -134,7 +138,7 @@ void PenSensor::estimate_motion(const Eigen::Vector3d& position, double elapsed)
 /// A pen that bounces on the paper has not been lifted.
 void PenSensor::feel_paper(double elapsed) noexcept {
   const double height = pen_.device_point.z();
-  pen_.on_paper = height <= options_.lift_height;
+  pen_.on_paper = height <= (is_printed_ ? 0.0 : lift_height);
   above_for_ += elapsed;
   if (!pen_.contact) {
     above_for_ = 0.0;
@@ -142,7 +146,7 @@ void PenSensor::feel_paper(double elapsed) noexcept {
   } else if (pen_.on_paper) {
     above_for_ = 0.0;
   } else {
-    pen_.contact = height <= options_.lift_clearance && above_for_ < options_.lift_time;
+    pen_.contact = height <= contact_.lift_clearance && above_for_ < contact_.lift_time;
   }
 }
 

@@ -38,8 +38,8 @@ PreparedPage::PreparedPage(std::vector<PlacedCharacter> characters, const Render
     : characters_(std::move(characters)) {
   for (const PlacedCharacter& placed : characters_) {
     Eigen::AlignedBox2d box = bounding_box(placed);
-    box.min().array() -= options.box_margin * placed.placement.em;
-    box.max().array() += options.box_margin * placed.placement.em;
+    box.min().array() -= options.contact.box_margin * placed.placement.em;
+    box.max().array() += options.contact.box_margin * placed.placement.em;
     std::vector<PreparedStroke> prepared;
     prepared.reserve(static_cast<std::size_t>(placed.character.stroke_count()));
     for (const Stroke& stroke : strokes(placed.character)) {

@@ -155,45 +155,45 @@ std::vector<std::string> clip_stiffness(RendererOptions& options, const Capabili
     clipped.push_back(message.str());
     damping = best;
   };
-  clip_damping("paper_damping", options.paper_damping, options.paper_stiffness);
-  clip("paper_stiffness", options.paper_stiffness, limits.both(options.paper_damping));
-  clip_damping("guidance_damping", options.guidance_damping, options.guidance_stiffness);
-  const StiffnessLimit guidance = limits.both(options.guidance_damping);
-  clip("guidance_stiffness", options.guidance_stiffness, guidance);
-  clip("wrong_way_stiffness", options.wrong_way_stiffness, guidance);
-  if (options.friction.coefficient > 0.0) {
-    FrictionOptions& friction = options.friction;
+  clip_damping("paper.damping", options.paper.damping, options.paper.stiffness);
+  clip("paper.stiffness", options.paper.stiffness, limits.both(options.paper.damping));
+  clip_damping("guidance.damping", options.guidance.damping, options.guidance.stiffness);
+  const StiffnessLimit guidance = limits.both(options.guidance.damping);
+  clip("guidance.stiffness", options.guidance.stiffness, guidance);
+  clip("guidance.wrong_way_stiffness", options.guidance.wrong_way_stiffness, guidance);
+  if (options.paper.friction.coefficient > 0.0) {
+    FrictionOptions& friction = options.paper.friction;
     // `usable_stiffness` applies to each of the two springs, one along the stroke and one across; stability requires
     // counting both.
-    const double both = options.guidance_stiffness + friction.stiffness;
-    clip_damping("friction.damping", friction.damping, both, options.guidance_damping);
+    const double both = options.guidance.stiffness + friction.stiffness;
+    clip_damping("paper.friction.damping", friction.damping, both, options.guidance.damping);
     const StiffnessLimit alone = limits.both(friction.damping);
-    const StiffnessLimit sum = limits.stable(options.guidance_damping + friction.damping);
+    const StiffnessLimit sum = limits.stable(options.guidance.damping + friction.damping);
     if (std::min(alone.value, friction_share * sum.value) < min_friction_stiffness) {
       std::ostringstream message;
-      message << "friction.coefficient = " << friction.coefficient << sum.reason << ", too soft for friction";
+      message << "paper.friction.coefficient = " << friction.coefficient << sum.reason << ", too soft for friction";
       clipped.push_back(message.str());
       friction.coefficient = 0.0;
       return clipped;
     }
-    clip("friction.stiffness", friction.stiffness, alone);
+    clip("paper.friction.stiffness", friction.stiffness, alone);
     std::ostringstream reason;
-    reason << " in addition to " << options.guidance_stiffness << " N/m of guidance" << sum.reason;
-    clip("friction.stiffness", friction.stiffness,
-         {std::max(sum.value - options.guidance_stiffness, friction_share * sum.value), reason.str()});
+    reason << " in addition to " << options.guidance.stiffness << " N/m of guidance" << sum.reason;
+    clip("paper.friction.stiffness", friction.stiffness,
+         {std::max(sum.value - options.guidance.stiffness, friction_share * sum.value), reason.str()});
     reason.str("");
     reason << " in addition to " << friction.stiffness << " N/m of friction" << sum.reason;
-    clip("guidance_stiffness", options.guidance_stiffness, {sum.value - friction.stiffness, reason.str()});
+    clip("guidance.stiffness", options.guidance.stiffness, {sum.value - friction.stiffness, reason.str()});
   }
   return clipped;
 }
 
 double max_guidance_stiffness(const RendererOptions& options, const Capabilities& capabilities, double scale) {
   const Limits limits(options, capabilities, scale);
-  double most = limits.both(options.guidance_damping).value;
-  if (options.friction.coefficient > 0.0) {
-    const double sum = limits.stable(options.guidance_damping + options.friction.damping).value;
-    most = std::min(most, sum - options.friction.stiffness);
+  double most = limits.both(options.guidance.damping).value;
+  if (options.paper.friction.coefficient > 0.0) {
+    const double sum = limits.stable(options.guidance.damping + options.paper.friction.damping).value;
+    most = std::min(most, sum - options.paper.friction.stiffness);
   }
   return most;
 }

@@ -9,9 +9,9 @@
 namespace calligraphy {
 namespace {
 
-/// A pen that writes must go this much farther out of the box than another one to leave it: it is under force there,
+/// The box is left this far outside its edge [em]; by a pen that writes, so many times as far: it is under force there,
 /// and would be thrown where the stroke is abandoned.
-constexpr double writing_hysteresis = 3.0;
+constexpr double box_hysteresis = 0.05, writing_hysteresis = 3.0;
 
 /// A pen put down on the stroke this far along it is at its end.
 constexpr double end_share = 0.75;
@@ -33,10 +33,15 @@ bool is_within(const Eigen::AlignedBox2d& box, const Point& point) {
 StrokeSequencer::StrokeSequencer(std::vector<PlacedCharacter> page, const RendererOptions& options,
                                  const Capabilities& capabilities, const MotionMapping& mapping)
     : page_(std::move(page), options),
-      options_(options),
+      stroke_{options.nearest, options.guidance.space, options.rules},
+      tolerances_(options.tolerances),
+      box_hysteresis_(is_printed(options.rules) ? 0.0 : box_hysteresis),
+      lift_between_strokes_(options.contact.lift_between_strokes),
+      leads_to_start_(options.guidance.to_start),
+      lets_go_(!is_printed(options.rules) && options.guidance.law != GuidanceLaw::saturating),
       mapping_(mapping),
       compliance_(mapping.scale * mapping.scale / options.grip_stiffness) {
-  const double dry_friction = capabilities.coulomb_friction + options.friction.coefficient * usual_pressure;
+  const double dry_friction = capabilities.coulomb_friction + options.paper.friction.coefficient * usual_pressure;
   hidden_way_ = mapping.scale * dry_friction / options.grip_stiffness;
   restart();
 }
@@ -80,7 +85,7 @@ TransitionInput StrokeSequencer::advance(const PenState& pen) noexcept {
   if (is_within(box, tip)) {
     inside_box_ = true;
   } else if (inside_box_) {
-    const double hysteresis = options_.box_hysteresis * writer_.em * (writing ? writing_hysteresis : 1.0);
+    const double hysteresis = box_hysteresis_ * writer_.em * (writing ? writing_hysteresis : 1.0);
     inside_box_ = box.exteriorDistance(tip) <= hysteresis;
   }
   input.inside_box = inside_box_;
@@ -100,9 +105,9 @@ TransitionInput StrokeSequencer::advance(const PenState& pen) noexcept {
 [[gnu::noinline]] void StrokeSequencer::put_down(const Point& tip) noexcept {
   writer_.covered = 0.0;
   capture_.put_down(tip, character_->starts, static_cast<std::size_t>(writer_.stroke));
-  if (options_.tolerances.coverage == 0.0) return;
-  const StrokeContact nearest = due_->geometry.nearest(tip, options_.stroke);
-  writer_.rests = nearest.closest.distance <= options_.tolerances.corridor * writer_.em;
+  if (tolerances_.coverage == 0.0) return;
+  const StrokeContact nearest = due_->geometry.nearest(tip, stroke_);
+  writer_.rests = nearest.closest.distance <= tolerances_.corridor * writer_.em;
   if (!writer_.rests) return;
   due_->geometry.rest(nearest);
   writer_.contact = nearest;
@@ -110,16 +115,16 @@ TransitionInput StrokeSequencer::advance(const PenState& pen) noexcept {
 
 bool StrokeSequencer::begins(const Point& tip) noexcept {
   const auto due = static_cast<std::size_t>(writer_.stroke);
-  const CaptureVerdict verdict = capture_.update(tip, character_->starts, due, writer_.em, options_.tolerances);
+  const CaptureVerdict verdict = capture_.update(tip, character_->starts, due, writer_.em, tolerances_);
   if (verdict == CaptureVerdict::begun) return true;
   if (verdict == CaptureVerdict::another_stroke) writer_.rests = false;
-  if (writer_.rests) writer_.contact = due_->geometry.update(tip, options_.stroke);
+  if (writer_.rests) writer_.contact = due_->geometry.update(tip, stroke_);
   return false;
 }
 
 void StrokeSequencer::write_on(const PenState& pen) noexcept {
   const Point tip = pen.tip.head<2>();
-  writer_.contact = due_->geometry.update(tip, options_.stroke);
+  writer_.contact = due_->geometry.update(tip, stroke_);
   if (writer_.contact.passed_feature) writer_.events |= TickEvent::feature_passed;
   hand_ = hand(pen);
   if (pen.on_paper) due_->follower.update(tip, hand_);
@@ -128,7 +133,7 @@ void StrokeSequencer::write_on(const PenState& pen) noexcept {
 
 /// At its end, or where the pen `leaves` it before.
 bool StrokeSequencer::is_finished(bool leaves) const noexcept {
-  if (options_.tolerances.coverage == 0.0) return writer_.contact.finished;
+  if (tolerances_.coverage == 0.0) return writer_.contact.finished;
   return (leaves || due_->follower.is_at_end(hidden_way_)) && due_->follower.accepts(2.0 * hidden_way_);
 }
 
@@ -151,13 +156,13 @@ bool StrokeSequencer::is_finished(bool leaves) const noexcept {
     if (writer_.character + 1 == page_.size()) writer_.events |= TickEvent::page_finished;
     // The box of the next character is elsewhere, and outside a box the paper does not press back: it would give way
     // under a pen that is still pressed on this character.
-    if (options_.lift_between_strokes) {
+    if (lift_between_strokes_) {
       writer_.stroke = next;
     } else {
       activate(writer_.character + 1, 0);
     }
   }
-  if (options_.lift_between_strokes) {
+  if (lift_between_strokes_) {
     writer_.phase = WritingPhase::finished;
   } else if (!all_written()) {
     capture_.put_down(tip, character_->starts, static_cast<std::size_t>(writer_.stroke));
@@ -210,7 +215,7 @@ WritingPhase StrokeSequencer::phase_before_stroke(const Point& tip) const noexce
   const double from_start = std::min(writer_.to_start.norm(), (capture_.begin() - due_->geometry.start()).norm());
   const bool is_late = writer_.rests && writer_.contact.arc > end_share * due_->geometry.length();
   if (is_late && (tip - due_->geometry.end()).norm() < from_start) return WritingPhase::at_end;
-  if (from_start <= options_.tolerances.start_distance * writer_.em) {
+  if (from_start <= tolerances_.start_distance * writer_.em) {
     return verdict == CaptureVerdict::wrong_direction ? WritingPhase::turned_away : WritingPhase::at_start;
   }
   return writer_.rests ? WritingPhase::in_middle : WritingPhase::away;
@@ -227,12 +232,10 @@ Point StrokeSequencer::hand(const PenState& pen) const noexcept {
 /// again where both are back: a pen that slipped out of the tube would be thrown, and one that another stroke was meant
 /// for would be dragged along.
 bool StrokeSequencer::keeps_hold() const noexcept {
-  const bool lets_go =
-      options_.stroke.space.rule == ConstraintSpaceRule::tube && options_.guidance != GuidanceLaw::saturating;
-  if (!lets_go || has_event(writer_.events, TickEvent::stroke_started)) return true;
+  if (!lets_go_ || has_event(writer_.events, TickEvent::stroke_started)) return true;
   const StrokeContact& contact = writer_.contact;
   const double detour = due_->follower.astray(hand_, contact);
-  const double corridor = options_.tolerances.corridor * writer_.em;
+  const double corridor = tolerances_.corridor * writer_.em;
   if (writer_.guided) return contact.weight >= min_held_weight && detour <= max_detour * corridor;
   return contact.closest.distance <= corridor && detour <= corridor;
 }
@@ -250,7 +253,7 @@ bool StrokeSequencer::is_guided() const noexcept {
     case WritingPhase::at_start:
       return capture_.is_nearest();
     default:
-      return options_.guide_to_start && capture_.is_nearest() && !writer_.rests;
+      return leads_to_start_ && capture_.is_nearest() && !writer_.rests;
   }
 }
 

@@ -21,13 +21,7 @@ namespace {
 const Placement place{{0.013, 0.021}, 0.04};
 constexpr double pen_step = 0.0001;  // 100 mm/s at 1 kHz
 
-StrokeRules printed_rules() {
-  StrokeRules rules;
-  rules.plane = FeaturePlaneRule::wang2006;
-  rules.attraction = AttractionRule::wang2006;
-  rules.window = 0.0;
-  return rules;
-}
+const StrokeOptions as_printed = {.rules = Rules::wang2006};
 
 struct Trace {
   int passed = 0;
@@ -36,11 +30,11 @@ struct Trace {
   double max_step = 0.0;  ///< maximum change of the closest point's arc length, except at feature points [m]
 };
 
-Trace trace(ActiveStroke& active, const std::vector<Point>& path, const StrokeRules& rules = {}) {
+Trace trace(ActiveStroke& active, const std::vector<Point>& path, const StrokeOptions& options = {}) {
   Trace result;
   StrokeContact last;
   for (std::size_t i = 0; i < path.size() && !result.finished; ++i) {
-    const StrokeContact contact = active.update(path[i], rules);
+    const StrokeContact contact = active.update(path[i], options);
     result.passed += contact.passed_feature;
     result.falls += contact.element < last.element;
     if (i > 0 && !contact.passed_feature) result.max_step = std::max(result.max_step, std::abs(contact.arc - last.arc));
@@ -127,11 +121,11 @@ TEST_CASE("a pen far from a feature point passes its plane only as printed", "[c
   const Point corner = place.to_page(stroke.control_points[1]);
   const Point beyond = corner + 0.5 * (corner - active.start()) + Point(0.0, 0.02);
   CHECK_FALSE(active.update(beyond, {}).passed_feature);
-  CHECK(active.update(beyond, printed_rules()).passed_feature);
+  CHECK(active.update(beyond, as_printed).passed_feature);
   // As printed, a pen that jumps back and forth across the planes finishes a stroke that it never touched.
   active.reload();
-  CHECK(active.update(beyond, printed_rules()).passed_feature);
-  CHECK(active.update(place.to_page(stroke.control_points[2]) + Point(0.05, -0.03), printed_rules()).finished);
+  CHECK(active.update(beyond, as_printed).passed_feature);
+  CHECK(active.update(place.to_page(stroke.control_points[2]) + Point(0.05, -0.03), as_printed).finished);
 }
 
 TEST_CASE("a finished stroke keeps its closest point where the pen is", "[collision]") {
@@ -199,11 +193,9 @@ TEST_CASE("the attraction factor is linear in arc length, and as printed it step
   ActiveStroke active, printed;
   active.load(stroke, place);
   printed.load(stroke, place);
-  StrokeRules rules = printed_rules();
-  rules.plane = FeaturePlaneRule::bounded;
   double worst = 0.0, last = 1.0, max_step = 0.0;
   for (const Point& tip : path) {
-    const StrokeContact contact = active.update(tip, {}), step = printed.update(tip, rules);
+    const StrokeContact contact = active.update(tip, {}), step = printed.update(tip, as_printed);
     const double expected =
         contact.arc <= first ? 1.0 + contact.arc / first : 2.0 - 1.5 * (contact.arc - first) / second;
     worst = std::max(worst, std::abs(contact.attraction - expected));
@@ -249,12 +241,11 @@ TEST_CASE("a pen that leaves a stroke at its start and returns at its end does n
   const Point aside = 0.015 * Point(begin.y() - end.y(), end.x() - begin.x()).normalized();
   ActiveStroke active;
   active.load(heng, em_40_mm);
-  const StrokeRules rules;
   const Point corners[] = {begin, begin + aside, end + aside, end + 0.002 * (end - begin).normalized()};
   for (int leg = 0; leg < 3; ++leg) {
     for (int i = 0; i <= 300; ++i) {
       const Point tip = corners[leg] + (i / 300.0) * (corners[leg + 1] - corners[leg]);
-      REQUIRE_FALSE(active.update(tip, rules).passed_feature);
+      REQUIRE_FALSE(active.update(tip, {}).passed_feature);
     }
   }
 }

@@ -30,13 +30,13 @@ struct Run {
   double furthest_back = 0.0;  ///< [m]
 };
 
-Run follow(const Character& character, const std::vector<Point>& path, const StrokeRules& rules = {}) {
+Run follow(const Character& character, const std::vector<Point>& path, const StrokeOptions& options = {}) {
   ActiveStroke active;
   active.load(strokes(character)[0], at_origin);
   Run run;
   StrokeContact last;
   for (std::size_t i = 0; i < path.size() && !run.finished; ++i) {
-    const StrokeContact contact = active.update(path[i], rules);
+    const StrokeContact contact = active.update(path[i], options);
     run.finished = contact.finished;
     run.furthest_back = std::max(run.furthest_back, contact.backwards);
     if (i > 0) run.max_jump = std::max(run.max_jump, (contact.closest.point - last.closest.point).norm());
@@ -55,11 +55,9 @@ TEST_CASE("Fig. 25, sharp bend: the closest point stays on its own limb of a hai
   const Run windowed = follow(hairpin, first_limb);
   CHECK(windowed.furthest_back == Approx(0.0).margin(1e-6));
   CHECK(windowed.max_jump < 3.0 * drawn_step);
-  StrokeRules whole;
-  whole.window = 0.0;
   CHECK_FALSE(windowed.finished);
-  CHECK(follow(hairpin, first_limb, whole)
-            .finished);  // searched on the whole element, the closest point is on the other limb at once
+  // Searched on the whole element, as printed, the closest point is on the other limb at once.
+  CHECK(follow(hairpin, first_limb, {.rules = Rules::wang2006}).finished);
   CHECK(follow(hairpin, path_of(strokes(hairpin)[0], at_origin, drawn_step)).finished);
 }
 

@@ -18,6 +18,8 @@ using namespace calligraphy;
 
 namespace {
 
+const StrokeOptions as_printed = {.nearest = RendererOptions::wang2006().nearest, .rules = Rules::wang2006};
+
 using calligraphy_test::not_a_number;
 
 PlacedCharacter placed(char32_t code) { return {*built_in_characters().find(code), {}}; }
@@ -76,7 +78,7 @@ TEST_CASE("the default field of one line has no jump, the printed one jumps at i
   options.columns = 40;
   options.min_jump = 0.01;
   CHECK(guidance_field(straight_line(), 0, 0.5, {0.0, 0.0}, 0.04, options).jumps.empty());
-  options.rules = RendererOptions::wang2006().stroke;
+  options.stroke = as_printed;
   const ForceField field = guidance_field(straight_line(), 0, 0.5, {0.0, 0.0}, 0.04, options);
   REQUIRE_FALSE(field.jumps.empty());
   // Sec. 4.3.1 (a)-(d): the half disc around the start, with the stroke's length as radius, and the feature plane.
@@ -131,14 +133,13 @@ TEST_CASE("at its current progress the pen is held by its own stroke, as printed
   const ForceFieldFigure& shown = figure(name);
   ForceFieldOptions options;
   options.columns = 5;
-  const bool as_printed = GENERATE(true, false);
-  options.rules = as_printed ? RendererOptions::wang2006().stroke : RendererOptions().stroke;
+  if (GENERATE(true, false)) options.stroke = as_printed;
   constexpr double edge = 1e-4;
   const Point corner = shown.pen - Point(0.5 * edge, 0.5 * edge);
   const ForceField field = guidance_field(shown.placed, shown.stroke, shown.progress, corner, edge, options);
   CHECK(field.max_force() > 0.0);
   // Subdivision as printed may stop half a millimetre away; the previous element is many millimetres away.
-  CHECK(field.max_force() < (as_printed ? 1.0 : options.stiffness * edge));
+  CHECK(field.max_force() < (is_printed(options.stroke.rules) ? 1.0 : options.stiffness * edge));
 }
 
 TEST_CASE("with the rules as printed the force jumps on the stroke itself", "[force field]") {

@@ -90,18 +90,18 @@ class StrainedHand {
 class EndlessGuidance {
  public:
   EndlessGuidance(const StrokeLine& line, const HapticTick& before, const RendererOptions& options)
-      : before_(before), arc_(before.contact.arc), damping_(options.guidance_damping) {
+      : before_(before), arc_(before.contact.arc), damping_(options.guidance.damping) {
     const bool writing = before.state == InteractionState::writing;
     std::vector<Point> points = writing ? line.points() : std::vector<Point>{line.at(0.0), line.at(0.0)};
     if (writing) points.push_back(points.back() + 0.1 * line.tangent(line.length()));
     line_ = StrokeLine(std::move(points));
     if (!writing) arc_ = 0.0;
     window_ = 0.2 * line.length();
-    if (options.guidance == GuidanceLaw::saturating) limit_ = options.guidance_limit;
-    stiffness_ = options.guidance_stiffness * before.assistance;
+    if (options.guidance.law == GuidanceLaw::saturating) limit_ = options.guidance.limit;
+    stiffness_ = options.guidance.stiffness * before.assistance;
     if (writing) stiffness_ *= before.contact.attraction;
-    if (writing && options.guidance == GuidanceLaw::linear) stiffness_ *= before.contact.weight;
-    fade_in_ = std::max(options.guidance_fade_in, 0.001);
+    if (writing && options.guidance.law == GuidanceLaw::linear) stiffness_ *= before.contact.weight;
+    fade_in_ = std::max(options.guidance.fade_in, 0.001);
     missing_ = guidance_of(before) - spring(before.pen_tip.head<2>());
   }
 

@@ -100,8 +100,8 @@ int main() {
   for (const char* name : {"desktop", "omni"}) {
     const Capabilities device = device_profile(name);
     RendererOptions printed = RendererOptions::wang2006();
-    printed.paper_stiffness = printed.guidance_stiffness = 200.0;
-    printed.wrong_way_stiffness = 100.0;
+    printed.paper.stiffness = printed.guidance.stiffness = 200.0;
+    printed.guidance.wrong_way_stiffness = 100.0;
     for (const RendererOptions& options :
          {RendererOptions::for_device(device), printed, RendererOptions::everything(device)}) {
       for (const char32_t code : {U'永', U'北', U'和'}) {

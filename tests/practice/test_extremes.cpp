@@ -21,6 +21,12 @@ using Eigen::Vector3d;
 
 namespace {
 
+/// Every spring of the options.
+constexpr double& (*springs[])(RendererOptions&) = {
+    [](RendererOptions& options) -> double& { return options.paper.stiffness; },
+    [](RendererOptions& options) -> double& { return options.guidance.stiffness; },
+    [](RendererOptions& options) -> double& { return options.guidance.wrong_way_stiffness; }};
+
 using calligraphy_test::infinity;
 using calligraphy_test::not_a_number;
 constexpr GripImpedance normal_grip = {0.1, 3.0, 300.0};
@@ -146,7 +152,7 @@ TEST_CASE("with delays of 0 to 5 samples the stiffness is clipped and a pen pres
         Capabilities profile = device_profile(name);
         profile.sample_delay = delay;
         const Writing writing = write_beside(profile, composition.options(profile), 0.002);
-        CAPTURE(name, composition.name, delay, writing.options.paper_stiffness);
+        CAPTURE(name, composition.name, delay, writing.options.paper.stiffness);
         check_kept(writing, profile);
         CHECK(writing.late_swing < 2e-5);
       }
@@ -172,11 +178,10 @@ TEST_CASE("every stiffness has a defined outcome: accepted, clipped with a reaso
   const Capabilities& capabilities = device_profile("omni");
   for (const Composition& composition : compositions) {
     const RendererOptions base = composition.options(capabilities);
-    for (double RendererOptions::*stiffness : {&RendererOptions::paper_stiffness, &RendererOptions::guidance_stiffness,
-                                               &RendererOptions::wrong_way_stiffness}) {
+    for (const auto stiffness : springs) {
       for (const double value : {not_a_number, -1e-300, -600.0, infinity}) {
         RendererOptions options = base;
-        options.*stiffness = value;
+        stiffness(options) = value;
         for (const StiffnessCheck check : {StiffnessCheck::reject, StiffnessCheck::clip}) {
           options.stiffness_check = check;
           CHECK_THROWS_WITH(HapticRenderer({one_stroke()}, {}, capabilities, options),
@@ -185,19 +190,21 @@ TEST_CASE("every stiffness has a defined outcome: accepted, clipped with a reaso
       }
       for (const double value : {0.0, 1e-12, 1e-310}) {
         RendererOptions options = base;
-        options.*stiffness = value;
+        stiffness(options) = value;
         HapticRenderer renderer({one_stroke()}, {}, capabilities, options);
-        CHECK(renderer.options().*stiffness == value);
+        RendererOptions effective = renderer.options();
+        CHECK(stiffness(effective) == value);
         CHECK(renderer.clipped().empty());
       }
       RendererOptions options = base;
       options.stiffness_check = StiffnessCheck::reject;
-      options.*stiffness = 1e6;
+      stiffness(options) = 1e6;
       CHECK_THROWS_WITH(HapticRenderer({one_stroke()}, {}, capabilities, options),
                         Catch::Matchers::Contains("Phantom Omni") && Catch::Matchers::Contains("1e+06 N/m"));
       options.stiffness_check = StiffnessCheck::clip;
       HapticRenderer renderer({one_stroke()}, {}, capabilities, options);
-      CHECK(renderer.options().*stiffness == Approx(capabilities.usable_stiffness));
+      RendererOptions effective = renderer.options();
+      CHECK(stiffness(effective) == Approx(capabilities.usable_stiffness));
       REQUIRE(!renderer.clipped().empty());
       CHECK_THAT(renderer.clipped().front(), Catch::Matchers::Contains("usable up to 700"));
     }
@@ -213,13 +220,13 @@ TEST_CASE("at a rate too low for it, the stiffness is clipped to what is stable 
   options.stiffness_check = StiffnessCheck::clip;
   HapticRenderer renderer({one_stroke()}, {}, capabilities, options);
   SampledLoop loop{capabilities, 200.0};
-  loop.wall_damping = renderer.options().paper_damping;
+  loop.wall_damping = renderer.options().paper.damping;
   const double stable = stiffness_for_any_hand(loop, options.velocity_cutoff, 1e6);
   CHECK(stable < 600.0);
-  CHECK(renderer.options().paper_stiffness == Approx(stable));
+  CHECK(renderer.options().paper.stiffness == Approx(stable));
   const std::vector<std::string>& clipped = renderer.clipped();
   CHECK(std::any_of(clipped.begin(), clipped.end(), [](const std::string& line) {
-    return line.find("paper_stiffness = 600") == 0 && line.find("stiffness_for_any_hand") != std::string::npos;
+    return line.find("paper.stiffness = 600") == 0 && line.find("stiffness_for_any_hand") != std::string::npos;
   }));
 }
 
@@ -256,15 +263,15 @@ TEST_CASE("paper as stiff as is accepted: the oscillation of a tap decays in any
     for (const double force_rate : {100.0, 400.0, 2000.0}) {
       RendererOptions options;
       options.servo_rate = rate;
-      options.normal_force_rate = force_rate;
+      options.limits.normal_rate = force_rate;
       options.stiffness_check = StiffnessCheck::clip;
-      options.paper_stiffness = 1e6;
+      options.paper.stiffness = 1e6;
       HapticRenderer renderer({one_stroke()}, {}, profile, options);
-      CHECK(renderer.options().paper_stiffness > 1000.0);
+      CHECK(renderer.options().paper.stiffness > 1000.0);
       for (const GripImpedance& grip : {GripImpedance{0.02, 0.3, 30.0}, GripImpedance{0.05, 1.0, 100.0}, normal_grip,
                                         GripImpedance{0.15, 5.0, 500.0}}) {
         for (const double speed : {0.1, 0.2, 0.4}) {
-          CAPTURE(rate, force_rate, grip.mass, speed, renderer.options().paper_stiffness);
+          CAPTURE(rate, force_rate, grip.mass, speed, renderer.options().paper.stiffness);
           CHECK(swing_after_a_tap(profile, renderer.options(), grip, speed) < 5e-5);
         }
       }
@@ -329,7 +336,7 @@ TEST_CASE("denormal positions, depths and stiffnesses give finite forces, with a
       std::unique_ptr<FlushDenormals> as_a_servo_thread;
       if (flush) as_a_servo_thread = std::make_unique<FlushDenormals>();
       RendererOptions options = composition.options(capabilities);
-      options.paper_stiffness = 1e-310;
+      options.paper.stiffness = 1e-310;
       HapticRenderer renderer({{one_stroke().character, {{0.0, 0.0}, 0.04}}}, {}, capabilities, options);
       for (int i = 0; i < 2000; ++i) {
         DeviceState state;

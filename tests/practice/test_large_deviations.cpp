@@ -72,10 +72,10 @@ RendererOptions options_of(Law law, const Capabilities& capabilities) {
   RendererOptions options = RendererOptions::for_device(capabilities);
   if (law == Law::linear) return options;
   const RendererOptions all = RendererOptions::everything(capabilities);
-  options.guidance = all.guidance;
-  options.guidance_limit = all.guidance_limit;
-  options.guide_to_start = all.guide_to_start;
-  options.box_margin = all.box_margin;
+  options.guidance.law = all.guidance.law;
+  options.guidance.limit = all.guidance.limit;
+  options.guidance.to_start = all.guidance.to_start;
+  options.contact.box_margin = all.contact.box_margin;
   return options;
 }
 

@@ -48,10 +48,10 @@ SessionOptions similar(SessionOptions at_one, double scale) {
     *impedance *= square;
   }
   for (double* force : {&device.peak_force, &device.continuous_force, &device.force_step, &device.coulomb_friction,
-                        &at_one.renderer.in_plane_force_rate, &at_one.renderer.normal_force_rate}) {
+                        &at_one.renderer.limits.in_plane_rate, &at_one.renderer.limits.normal_rate}) {
     *force *= scale;
   }
-  for (double* length : {&device.encoder_step, &at_one.renderer.max_speed}) *length /= scale;
+  for (double* length : {&device.encoder_step, &at_one.renderer.limits.max_speed}) *length /= scale;
   return at_one;
 }
 

@@ -35,8 +35,8 @@ double max_step(const Recording& recording) {
 TEST_CASE("with all stiffness and damping at zero, force mode equals vision mode to the last digit", "[practice]") {
   const PracticePage page = page_of("永北");
   SessionOptions with = session(WriterSkill::novice(), FeedbackMode::force, 7);
-  with.renderer.paper_stiffness = with.renderer.guidance_stiffness = with.renderer.wrong_way_stiffness = 0.0;
-  with.renderer.paper_damping = with.renderer.guidance_damping = 0.0;
+  with.renderer.paper.stiffness = with.renderer.guidance.stiffness = with.renderer.guidance.wrong_way_stiffness = 0.0;
+  with.renderer.paper.damping = with.renderer.guidance.damping = 0.0;
   SessionOptions without = session(WriterSkill::novice(), FeedbackMode::vision, 7);
   const Recording felt = write_page(page, with);
   CHECK(same(felt, write_page(page, without)));
@@ -64,9 +64,9 @@ TEST_CASE("the simulated device and the stiffness advice use the same sample del
   late.sample_delay = 15;
   const RendererOptions advised = RendererOptions::for_device(late);
   SampledLoop loop{late, late.update_rate};
-  loop.wall_damping = advised.paper_damping;
-  CHECK(advised.paper_stiffness == Approx(stiffness_for_any_hand(loop, advised.velocity_cutoff, 1e6)));
-  CHECK(advised.paper_stiffness < 100.0);
+  loop.wall_damping = advised.paper.damping;
+  CHECK(advised.paper.stiffness == Approx(stiffness_for_any_hand(loop, advised.velocity_cutoff, 1e6)));
+  CHECK(advised.paper.stiffness < 100.0);
 
   const PracticePage page = page_of("永");
   const auto strokes_written = [&page](const Capabilities& device, const RendererOptions& renderer) {
@@ -78,7 +78,7 @@ TEST_CASE("the simulated device and the stiffness advice use the same sample del
   CHECK(strokes_written(late, advised) == 5);
   // A stiffness that ignores the delay is rejected: the loop oscillates, and at most one stroke is written.
   RendererOptions careless = RendererOptions::for_device(device_profile("desktop"));
-  CHECK(careless.paper_stiffness == 600.0);
+  CHECK(careless.paper.stiffness == 600.0);
   careless.stiffness_check = StiffnessCheck::reject;
   CHECK_THROWS_AS(strokes_written(late, careless), ValueError);
   careless.stiffness_check = StiffnessCheck::off;

@@ -19,7 +19,7 @@ namespace {
 
 RendererOptions with_assistance() {
   RendererOptions options;
-  options.assist.enabled = true;
+  options.guidance.assist.enabled = true;
   return options;
 }
 

@@ -97,8 +97,8 @@ TEST_CASE("before its start guidance damps along the stroke fully, where the spr
   CHECK(test.against(test.along) == Approx(damping * test.speed()).epsilon(1e-3));
   // And a pen astray that is led to the start.
   RendererOptions options;
-  options.guide_to_start = true;
-  options.box_margin = 0.75;
+  options.guidance.to_start = true;
+  options.contact.box_margin = 0.75;
   OnStroke led(options);
   led.go(0.016, 0.0, 0.005);
   led.go(0.016, 0.015, 0.005);
@@ -126,7 +126,7 @@ TEST_CASE("where no spring guides, 15 % of the damping is left on the paper, and
 
 TEST_CASE("the damping of guidance fades with assistance as its spring does", "[render]") {
   RendererOptions options;
-  options.assist.enabled = true;
+  options.guidance.assist.enabled = true;
   OnStroke test(options);
   test.go(0.035, 0.0);
   test.go(0.035, 0.0, 0.005);
@@ -169,9 +169,9 @@ TEST_CASE("the damper of the paper acts along its normal, within the normal forc
 }
 
 TEST_CASE("spring and damper of the paper set in over paper_onset, so that a touch is no step", "[render]") {
-  for (const double onset : {RendererOptions{}.paper_onset, 0.002, 0.0}) {
+  for (const double onset : {RendererOptions{}.paper.onset, 0.002, 0.0}) {
     RendererOptions options;
-    options.paper_onset = onset;
+    options.paper.onset = onset;
     OnStroke test(options);
     test.go(0.010, 0.0, 0.0002);
     test.pen.speed = 0.002;  // 2 um per tick
@@ -196,7 +196,7 @@ TEST_CASE("spring and damper of the paper set in over paper_onset, so that a tou
     CHECK(spring_off < 1e-12);
     CHECK(stiffest == Approx(600.0 / damping).epsilon(1e-3));
   }
-  CHECK(RendererOptions{}.paper_onset == 0.0005);
+  CHECK(RendererOptions{}.paper.onset == 0.0005);
 }
 
 TEST_CASE("a pen at rest in the paper feels K d^2 / (2 onset) up to the onset and K (d - onset / 2) beyond",
@@ -213,9 +213,9 @@ TEST_CASE("a pen at rest in the paper feels K d^2 / (2 onset) up to the onset an
 
 TEST_CASE("where the saturating law is softer, its damping falls by the square root of that", "[render]") {
   RendererOptions options;
-  options.guidance = GuidanceLaw::saturating;
-  options.guidance_limit = 1.2;
-  options.box_margin = 1.5;
+  options.guidance.law = GuidanceLaw::saturating;
+  options.guidance.limit = 1.2;
+  options.contact.box_margin = 1.5;
   for (const double distance : {0.015, 0.03}) {
     OnStroke test(options);
     test.go(0.010, distance);
@@ -254,7 +254,7 @@ TEST_CASE("paper never pulls, however fast the pen is lifted", "[render]") {
 
 TEST_CASE("friction is damped where its spring changes, and not where the anchor slides along", "[render]") {
   RendererOptions options;
-  options.friction.coefficient = 0.2;
+  options.paper.friction.coefficient = 0.2;
   OnStroke test(options);
   test.pen.speed = 0.01;
   test.go(0.016, 0.0);  // N = 1.05 N, mu N / k = 0.42 mm: it slides
@@ -268,7 +268,7 @@ TEST_CASE("friction is damped where its spring changes, and not where the anchor
 
 TEST_CASE("the damping of friction is filtered as that of guidance is", "[render]") {
   RendererOptions options;
-  options.friction.coefficient = 0.2;
+  options.paper.friction.coefficient = 0.2;
   OnStroke test(options);
   test.pen.speed = 0.01;
   test.go(0.016, 0.0);

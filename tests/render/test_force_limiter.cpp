@@ -16,7 +16,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr ForceLimiter limiter{0.1, 0.4, 3.3, true};
+constexpr ForceLimiter limiter{0.1, 0.4, 3.3};
+constexpr ForceLimiter unlimited{ForceLimiter::no_limit, ForceLimiter::no_limit, 3.3};
 
 Vector3d random_force(Sequence& random, double largest) {
   const double x = random.between(-largest, largest), y = random.between(-largest, largest);
@@ -78,7 +79,7 @@ TEST_CASE("what reaches() says is reached is the next force, at any allowance, a
   Sequence random(14);
   int reached = 0;
   for (const bool limits_rate : {true, false}) {
-    const ForceLimiter one{0.1, 0.4, 3.3, limits_rate};
+    const ForceLimiter& one = limits_rate ? limiter : unlimited;
     for (int i = 0; i < 20'000; ++i) {
       const Vector3d previous = random_force(random, 1.9);
       const Vector3d target = previous + random_force(random, i % 3 == 0 ? 0.05 : i % 3 == 1 ? 0.5 : 3.0);
@@ -100,12 +101,10 @@ TEST_CASE("a target above the peak is approached in its direction", "[render]") 
   Vector3d force = Vector3d::Zero();
   for (int i = 0; i < 5000; ++i) force = limiter.next(force, target);
   CHECK(force.isApprox(3.3 * target.normalized()));
-  const ForceLimiter unlimited{0.1, 0.4, 3.3, false};
   CHECK(unlimited.next({0, 0, 0}, target).isApprox(3.3 * target.normalized()));
 }
 
 TEST_CASE("without a rate limit the force follows its target at once, up to the requested length", "[render]") {
-  const ForceLimiter unlimited{0.1, 0.4, 3.3, false};
   CHECK(unlimited.next({0, 0, 0}, {1.0, -2.0, 0.5}) == Vector3d(1.0, -2.0, 0.5));
   CHECK(unlimited.next({0, 0, 0}, {3.0, -4.0, 0.0}, {}, 2.0).isApprox(Vector3d(1.2, -1.6, 0.0)));
   CHECK(std::isinf(unlimited.max_step()));

@@ -70,7 +70,7 @@ TEST_CASE("a pen that writes 永 accurately finishes each of its strokes in orde
   CHECK(renderer.last().character == 1);
   // On the path there is no guidance force except in the last 1.5 mm before a corner, where the next element already
   // attracts.
-  CHECK(max_attraction <= renderer.options().guidance_stiffness * 0.0016);
+  CHECK(max_attraction <= renderer.options().guidance.stiffness * 0.0016);
 }
 
 TEST_CASE("characters are written one after another, and writing after the last changes nothing", "[render]") {
@@ -135,7 +135,7 @@ TEST_CASE("before a stroke only a pen that is nearer to its start than to any to
   const PlacedCharacter two{make_character(U'\u4E8C', lines), {{0.02, 0.02}, 0.04}};
   for (const bool guide_to_start : {false, true}) {
     RendererOptions options;
-    options.guide_to_start = guide_to_start;
+    options.guidance.to_start = guide_to_start;
     for (const bool nearer : {true, false}) {
       HapticRenderer renderer({two}, {}, test_device(), options);
       ScriptedPen pen(renderer);
@@ -199,7 +199,7 @@ TEST_CASE("lifting the pen in mid-stroke abandons the stroke, which begins again
 
 TEST_CASE("the next stroke begins with a new contact, or by sliding where that is selected", "[render]") {
   RendererOptions sliding;
-  sliding.lift_between_strokes = false;
+  sliding.contact.lift_between_strokes = false;
   for (const bool slides : {false, true}) {
     HapticRenderer renderer = renderer_of(U"三", slides ? sliding : RendererOptions{});
     ScriptedPen pen(renderer);
@@ -213,7 +213,7 @@ TEST_CASE("the next stroke begins with a new contact, or by sliding where that i
 
 TEST_CASE("Table 2: the force of each state and where it keeps the pen tip", "[render]") {
   RendererOptions options;
-  options.paper_onset = 0.0;  // eq. (9) as it is
+  options.paper.onset = 0.0;  // eq. (9) as it is
   HapticRenderer renderer = renderer_of(U"三", options);
   ScriptedPen pen(renderer);
   const Placement place = renderer.page()[0].placement;
@@ -230,7 +230,7 @@ TEST_CASE("Table 2: the force of each state and where it keeps the pen tip", "[r
   CHECK(renderer.last().pen_tip == renderer.last().device_point);
 
   CHECK(settle(middle, -0.002).state == InteractionState::calibration);
-  CHECK(renderer.last().force.isApprox(Vector3d(0, 0, 0.002 * renderer.options().paper_stiffness)));
+  CHECK(renderer.last().force.isApprox(Vector3d(0, 0, 0.002 * renderer.options().paper.stiffness)));
   CHECK(renderer.last().pen_tip.isApprox(at(middle, 0.0)));
 
   settle(middle, 0.01);
@@ -245,30 +245,30 @@ TEST_CASE("Table 2: the force of each state and where it keeps the pen tip", "[r
   settle(start + 0.01 * along + 0.003 * left, -0.002);
   CHECK(renderer.last().state == InteractionState::writing);
   const Point expected =
-      -renderer.options().guidance_stiffness * 0.003 * left;  // eq. (8), with attraction factor and guidance weight 1
-  CHECK(renderer.last().force.isApprox(Vector3d(expected.x(), expected.y(), 0.002 * renderer.options().paper_stiffness),
+      -renderer.options().guidance.stiffness * 0.003 * left;  // eq. (8), with attraction factor and guidance weight 1
+  CHECK(renderer.last().force.isApprox(Vector3d(expected.x(), expected.y(), 0.002 * renderer.options().paper.stiffness),
                                        1e-9));
   CHECK(renderer.last().pen_tip.z() == 0.0);
 }
 
 TEST_CASE("solid paper is felt outside the character too", "[render]") {
   RendererOptions options;
-  options.solid_paper = true;
-  options.paper_onset = 0.0;
+  options.paper.solid = true;
+  options.paper.onset = 0.0;
   HapticRenderer renderer = renderer_of(U"三", options);
   ScriptedPen pen(renderer);
   pen.go({0.15, 0.15, 0.01});
   pen.go({0.15, 0.15, -0.002});
   for (int i = 0; i < 100; ++i) pen.at({0.15, 0.15, -0.002});
   CHECK(renderer.last().state == InteractionState::adjusting);
-  CHECK(renderer.last().force.isApprox(Vector3d(0, 0, 0.002 * renderer.options().paper_stiffness)));
+  CHECK(renderer.last().force.isApprox(Vector3d(0, 0, 0.002 * renderer.options().paper.stiffness)));
 }
 
 TEST_CASE("a pen that moves back along a stroke meets resistance, Fig. 4", "[render]") {
   RendererOptions options;
-  options.wrong_way_stiffness = 200.0;
-  options.wrong_way_limit = 1.0;
-  options.wrong_way_slack = 0.05;  // 2 mm
+  options.guidance.wrong_way_stiffness = 200.0;
+  options.guidance.wrong_way_limit = 1.0;
+  options.guidance.wrong_way_slack = 0.05;  // 2 mm
   HapticRenderer renderer = renderer_of(U"三", options);
   ScriptedPen pen(renderer);
   pen.speed = 0.02;  // the guidance has faded in before the first check

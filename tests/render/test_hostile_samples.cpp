@@ -193,8 +193,8 @@ TEST_CASE("while samples are stale the force is held for 4 ms, then ramps down, 
 
 TEST_CASE("while the force is held so are its terms, and a device that cannot be trusted has none", "[render]") {
   RendererOptions options;
-  options.friction.coefficient = 0.2;
-  options.friction.stiffness = 200.0;
+  options.paper.friction.coefficient = 0.2;
+  options.paper.friction.stiffness = 200.0;
   MidStroke test(options);
   test.pen.at(test.place + Vector3d(0.0001, 0, 0));
   test.pen.at(test.place + Vector3d(0.0002, 0, 0));  // drags the friction spring, and is damped
@@ -264,9 +264,9 @@ TEST_CASE("on a moving pen clocks that stop, run backwards or jump change no sta
   for (const double leap : {0.0, -1.0, 0.0005, 0.004, 10.0, 1e300}) {
     for (const bool is_damped : {false, true}) {
       RendererOptions options;
-      options.lift_clearance = options.lift_height;  // only the height decides on a lift, not its time
+      options.contact.lift_clearance = 0.0005;  // only the height decides on a lift, not its time
       if (!is_damped) {
-        options.guidance_damping = options.paper_damping = 0.0;
+        options.guidance.damping = options.paper.damping = 0.0;
         options.stiffness_check = StiffnessCheck::off;
       }
       HapticRenderer renderer({placed(U'三')}, {}, test_device(), options),
@@ -300,14 +300,12 @@ TEST_CASE("on a moving pen clocks that stop, run backwards or jump change no sta
 
 TEST_CASE("no sequence of samples makes the force step, exceed the peak or lose finiteness", "[render]") {
   std::vector<RendererOptions> all(5);
-  all[1].lift_between_strokes = false;
-  all[1].solid_paper = true;
+  all[1].contact.lift_between_strokes = false;
+  all[1].paper.solid = true;
   all[2] = RendererOptions::wang2006();
-  all[2].limit_force_rate = true;
-  all[3].motion = MotionMappingRule::wang2006;
-  all[3].force_sign = ForceSign::wang2006;
-  all[4].stroke.window = 0.0;
-  all[4].max_speed = 1e9;
+  all[2].limits = {};
+  all[3].rules = Rules::wang2006_signs;
+  all[4].limits.max_speed = 1e9;
   for (std::size_t i = 0; i < all.size(); ++i) {
     HapticRenderer renderer({placed(U'永'), placed(U'北', {0.03, 0.02})}, {}, test_device(), all[i]);
     INFO("options " << i);
@@ -341,8 +339,8 @@ TEST_CASE("huge velocities leave the pen tip of eq. (3) finite", "[render]") {
 
 TEST_CASE("without stiffness and damping there is no force, whatever the pen does", "[render]") {
   RendererOptions options;
-  options.paper_stiffness = options.guidance_stiffness = options.wrong_way_stiffness = 0.0;
-  options.paper_damping = options.guidance_damping = 0.0;
+  options.paper.stiffness = options.guidance.stiffness = options.guidance.wrong_way_stiffness = 0.0;
+  options.paper.damping = options.guidance.damping = 0.0;
   HapticRenderer renderer({placed(U'永')}, {}, test_device(), options);
   ScriptedPen pen(renderer);
   pen.write(renderer.page()[0], 0.002);
@@ -364,7 +362,7 @@ TEST_CASE("a pause before bad samples is charged once, not with each of them", "
   Capabilities device = calligraphy_test::test_device();
   device.apparent_mass = 0.045;
   RendererOptions options;
-  options.energy_budget = 0.1;
+  options.energy.budget = 0.1;
   options.stiffness_check = StiffnessCheck::clip;
   const auto given = [&](int bad) {
     HapticRenderer renderer({calligraphy_test::placed(U'永')}, {}, device, options);

@@ -32,12 +32,12 @@ MotionMapping random_mapping(Sequence& random) {
 }
 
 /// Maximum position error of a circle of 20 mm at 1 Hz after a quarter, half, three quarters and a whole turn [m].
-double error_on_a_circle(MotionMappingRule rule, double rate) {
+double error_on_a_circle(Rules rules, double rate) {
   Capabilities device;
   device.peak_force = 3.3;
   RendererOptions options;
   options.servo_rate = rate;
-  options.motion = rule;
+  options.rules = rules;
   options.stiffness_check = StiffnessCheck::clip;  // nothing is touched here
   HapticRenderer renderer({{paper_example(), {}}}, MotionMapping{}, device, options);
   constexpr double radius = 0.02, turn = 2.0 * std::numbers::pi;
@@ -108,20 +108,20 @@ TEST_CASE("the centre of a page lies at the device origin for every motion scale
 
 TEST_CASE("eq. (3) as printed depends on the rate and misses the position, the affine map does not", "[render]") {
   // Rectangle rule for the velocity on a circle: after half a turn the error is |v| dt = 2 pi r / rate, to first order.
-  const double at_100 = error_on_a_circle(MotionMappingRule::wang2006, 100.0);
-  const double at_1000 = error_on_a_circle(MotionMappingRule::wang2006, 1000.0);
+  const double at_100 = error_on_a_circle(Rules::wang2006, 100.0);
+  const double at_1000 = error_on_a_circle(Rules::wang2006, 1000.0);
   constexpr double speed = 2.0 * std::numbers::pi * 0.02;
   CHECK(at_100 == Approx(speed / 100.0).epsilon(0.05));    // 1.26 mm
   CHECK(at_1000 == Approx(speed / 1000.0).epsilon(0.05));  // 0.126 mm
-  CHECK(error_on_a_circle(MotionMappingRule::affine, 100.0) < 1e-15);
-  CHECK(error_on_a_circle(MotionMappingRule::affine, 1000.0) < 1e-15);
+  CHECK(error_on_a_circle(Rules::revised, 100.0) < 1e-15);
+  CHECK(error_on_a_circle(Rules::revised, 1000.0) < 1e-15);
 }
 
 TEST_CASE("eq. (3) as printed never recovers from a small constant error of the velocity", "[render]") {
   Capabilities device;
   device.peak_force = 3.3;
   RendererOptions options;
-  options.motion = MotionMappingRule::wang2006;
+  options.rules = Rules::wang2006;
   HapticRenderer renderer({{paper_example(), {}}}, MotionMapping{}, device, options);
   DeviceState state;
   state.position = {0.0, 0.0, 0.01};

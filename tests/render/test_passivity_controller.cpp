@@ -100,7 +100,8 @@ double max_given(const Setting& setting, const Pen& pen, const Field& field, dou
   options.hand_speed = hand_speed;
   options.max_gap = max_gap;
   PassivityController passivity(options, period);
-  const ForceLimiter limiter{force_rate * period, 4.0 * force_rate * period, peak, setting.limited};
+  const double step = setting.limited ? force_rate * period : ForceLimiter::no_limit;
+  const ForceLimiter limiter{step, 4.0 * step, peak};
   Sequence random(3);
   Vector3d sent(0, 0, 0), place = pen(0.0);
   double given = 0.0, most = 0.0;
@@ -511,10 +512,10 @@ TEST_CASE("with the budget of everything() guidance keeps at least 1 N on every 
           "[render]") {
   for (const Capabilities& profile : device_profiles()) {
     const RendererOptions renderer = RendererOptions::everything(profile);
-    CHECK(renderer.energy_budget == 0.1);
+    CHECK(renderer.energy.budget == 0.1);
     for (int delay = 0; delay <= 5; ++delay) {
-      PassivityOptions options = budget_of(renderer.energy_budget, profile.apparent_mass, delay);
-      options.max_gap = renderer.max_gap;
+      PassivityOptions options = budget_of(renderer.energy.budget, profile.apparent_mass, delay);
+      options.max_gap = renderer.energy.max_gap;
       PassivityController passivity(options, 1.0 / profile.update_rate);
       double least = infinity;
       for (int i = 0; i < 200; ++i) {

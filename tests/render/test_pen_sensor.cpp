@@ -43,7 +43,7 @@ TEST_CASE("the pen is where the mapping says, and its tip on the paper as long a
   mapping.offset = {0.1, 0.2, 0.0};
   mapping.scale = 2.0;
   RendererOptions options;
-  options.max_speed = 100.0;
+  options.limits.max_speed = 100.0;
   Sampled pen(options, mapping);
   const PenState& above = pen.at({0.01, 0.02, 0.03});
   CHECK(above.device_point.isApprox(Vector3d(0.16, 0.22, 0.04)));
@@ -109,7 +109,7 @@ TEST_CASE("a bounce is contact but not on the paper, and what is higher or longe
 TEST_CASE("a pause is counted in ticks only where energy is accounted for", "[render]") {
   for (const bool accounts : {false, true}) {
     RendererOptions options;
-    if (accounts) options.energy_budget = 0.1;
+    if (accounts) options.energy.budget = 0.1;
     Sampled pen(options);
     pen.at({0, 0, 0});
     pen.sample.time += 0.004;

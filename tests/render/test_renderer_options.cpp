@@ -21,6 +21,12 @@ using calligraphy_test::test_device;
 
 namespace {
 
+/// Every spring of the options.
+constexpr double& (*springs[])(RendererOptions&) = {
+    [](RendererOptions& options) -> double& { return options.paper.stiffness; },
+    [](RendererOptions& options) -> double& { return options.guidance.stiffness; },
+    [](RendererOptions& options) -> double& { return options.guidance.wrong_way_stiffness; }};
+
 using calligraphy_test::infinity;
 using calligraphy_test::not_a_number;
 
@@ -49,22 +55,21 @@ struct Domain {
 
 const Domain domains[] = {
     {"servo_rate", [](RendererOptions& o) -> double& { return o.servo_rate; }, false},
-    {"paper_stiffness", [](RendererOptions& o) -> double& { return o.paper_stiffness; }, true},
-    {"paper_onset", [](RendererOptions& o) -> double& { return o.paper_onset; }, true},
-    {"paper_damping", [](RendererOptions& o) -> double& { return o.paper_damping; }, true},
-    {"guidance_stiffness", [](RendererOptions& o) -> double& { return o.guidance_stiffness; }, true},
-    {"guidance_damping", [](RendererOptions& o) -> double& { return o.guidance_damping; }, true},
+    {"paper.stiffness", [](RendererOptions& o) -> double& { return o.paper.stiffness; }, true},
+    {"paper.onset", [](RendererOptions& o) -> double& { return o.paper.onset; }, true},
+    {"paper.damping", [](RendererOptions& o) -> double& { return o.paper.damping; }, true},
+    {"guidance.stiffness", [](RendererOptions& o) -> double& { return o.guidance.stiffness; }, true},
+    {"guidance.damping", [](RendererOptions& o) -> double& { return o.guidance.damping; }, true},
     {"velocity_cutoff", [](RendererOptions& o) -> double& { return o.velocity_cutoff; }, false},
-    {"guidance_fade_in", [](RendererOptions& o) -> double& { return o.guidance_fade_in; }, true},
-    {"guidance_fade_out", [](RendererOptions& o) -> double& { return o.guidance_fade_out; }, true},
-    {"wrong_way_stiffness", [](RendererOptions& o) -> double& { return o.wrong_way_stiffness; }, true},
-    {"wrong_way_limit", [](RendererOptions& o) -> double& { return o.wrong_way_limit; }, true},
-    {"wrong_way_slack", [](RendererOptions& o) -> double& { return o.wrong_way_slack; }, true},
-    {"stroke.nearest.tolerance", [](RendererOptions& o) -> double& { return o.stroke.nearest.tolerance; }, false},
-    {"stroke.space.radius", [](RendererOptions& o) -> double& { return o.stroke.space.radius; }, false},
-    {"stroke.space.fade_width", [](RendererOptions& o) -> double& { return o.stroke.space.fade_width; }, false},
-    {"stroke.plane_tolerance", [](RendererOptions& o) -> double& { return o.stroke.plane_tolerance; }, true},
-    {"stroke.window", [](RendererOptions& o) -> double& { return o.stroke.window; }, true},
+    {"guidance.fade_in", [](RendererOptions& o) -> double& { return o.guidance.fade_in; }, true},
+    {"guidance.fade_out", [](RendererOptions& o) -> double& { return o.guidance.fade_out; }, true},
+    {"guidance.wrong_way_stiffness", [](RendererOptions& o) -> double& { return o.guidance.wrong_way_stiffness; },
+     true},
+    {"guidance.wrong_way_limit", [](RendererOptions& o) -> double& { return o.guidance.wrong_way_limit; }, true},
+    {"guidance.wrong_way_slack", [](RendererOptions& o) -> double& { return o.guidance.wrong_way_slack; }, true},
+    {"nearest.tolerance", [](RendererOptions& o) -> double& { return o.nearest.tolerance; }, false},
+    {"guidance.space.radius", [](RendererOptions& o) -> double& { return o.guidance.space.radius; }, false},
+    {"guidance.space.fade_width", [](RendererOptions& o) -> double& { return o.guidance.space.fade_width; }, false},
     {"tolerances.start_distance", [](RendererOptions& o) -> double& { return o.tolerances.start_distance; }, false},
     {"tolerances.direction", [](RendererOptions& o) -> double& { return o.tolerances.direction; }, false},
     {"tolerances.first_stretch", [](RendererOptions& o) -> double& { return o.tolerances.first_stretch; }, true},
@@ -72,25 +77,25 @@ const Domain domains[] = {
     {"tolerances.corridor", [](RendererOptions& o) -> double& { return o.tolerances.corridor; }, false},
     {"tolerances.coverage", [](RendererOptions& o) -> double& { return o.tolerances.coverage; }, true},
     {"tolerances.slack", [](RendererOptions& o) -> double& { return o.tolerances.slack; }, true},
-    {"box_margin", [](RendererOptions& o) -> double& { return o.box_margin; }, true},
-    {"lift_height", [](RendererOptions& o) -> double& { return o.lift_height; }, true},
-    {"lift_time", [](RendererOptions& o) -> double& { return o.lift_time; }, true},
-    {"lift_clearance", [](RendererOptions& o) -> double& { return o.lift_clearance; }, true},
-    {"box_hysteresis", [](RendererOptions& o) -> double& { return o.box_hysteresis; }, true},
-    {"in_plane_force_rate", [](RendererOptions& o) -> double& { return o.in_plane_force_rate; }, false},
-    {"normal_force_rate", [](RendererOptions& o) -> double& { return o.normal_force_rate; }, false},
+    {"contact.box_margin", [](RendererOptions& o) -> double& { return o.contact.box_margin; }, true},
+    {"contact.lift_time", [](RendererOptions& o) -> double& { return o.contact.lift_time; }, true},
+    {"contact.lift_clearance", [](RendererOptions& o) -> double& { return o.contact.lift_clearance; }, true},
+    {"limits.in_plane_rate", [](RendererOptions& o) -> double& { return o.limits.in_plane_rate; }, false, true},
+    {"limits.normal_rate", [](RendererOptions& o) -> double& { return o.limits.normal_rate; }, false, true},
     {"grip_stiffness", [](RendererOptions& o) -> double& { return o.grip_stiffness; }, false},
-    {"max_speed", [](RendererOptions& o) -> double& { return o.max_speed; }, false},
-    {"guidance_limit", [](RendererOptions& o) -> double& { return o.guidance_limit; }, false},
-    {"assist.retention", [](RendererOptions& o) -> double& { return o.assist.retention; }, true},
-    {"assist.full_assistance_error", [](RendererOptions& o) -> double& { return o.assist.full_assistance_error; },
-     false},
-    {"min_assistance", [](RendererOptions& o) -> double& { return o.assist.min_assistance; }, true},
-    {"friction.coefficient", [](RendererOptions& o) -> double& { return o.friction.coefficient; }, true},
-    {"friction.stiffness", [](RendererOptions& o) -> double& { return o.friction.stiffness; }, false},
-    {"energy_budget", [](RendererOptions& o) -> double& { return o.energy_budget; }, true, true},
-    {"max_gap", [](RendererOptions& o) -> double& { return o.max_gap; }, true},
-    {"thermal_time_constant", [](RendererOptions& o) -> double& { return o.thermal_time_constant; }, true},
+    {"limits.max_speed", [](RendererOptions& o) -> double& { return o.limits.max_speed; }, false},
+    {"guidance.limit", [](RendererOptions& o) -> double& { return o.guidance.limit; }, false},
+    {"guidance.assist.retention", [](RendererOptions& o) -> double& { return o.guidance.assist.retention; }, true},
+    {"guidance.assist.full_assistance_error",
+     [](RendererOptions& o) -> double& { return o.guidance.assist.full_assistance_error; }, false},
+    {"guidance.assist.min_assistance", [](RendererOptions& o) -> double& { return o.guidance.assist.min_assistance; },
+     true},
+    {"paper.friction.coefficient", [](RendererOptions& o) -> double& { return o.paper.friction.coefficient; }, true},
+    {"paper.friction.stiffness", [](RendererOptions& o) -> double& { return o.paper.friction.stiffness; }, false},
+    {"energy.budget", [](RendererOptions& o) -> double& { return o.energy.budget; }, true, true},
+    {"energy.max_gap", [](RendererOptions& o) -> double& { return o.energy.max_gap; }, true},
+    {"limits.thermal_time_constant", [](RendererOptions& o) -> double& { return o.limits.thermal_time_constant; },
+     true},
 };
 
 }  // namespace
@@ -120,18 +125,18 @@ TEST_CASE("each option out of range is named with its value", "[render]") {
 TEST_CASE("the damping of friction out of range is named, where there is friction", "[render]") {
   for (const double bad : {-0.25, infinity, not_a_number}) {
     RendererOptions options;
-    options.friction.coefficient = 0.2;
-    options.friction.damping = bad;
-    CHECK(contains(complaint(options), "friction.damping = "));
+    options.paper.friction.coefficient = 0.2;
+    options.paper.friction.damping = bad;
+    CHECK(contains(complaint(options), "paper.friction.damping = "));
   }
 }
 
 TEST_CASE("a scale out of range is named and clips no stiffness", "[render]") {
   for (const double bad : {0.0, -infinity, infinity, not_a_number}) {
     RendererOptions options;
-    options.guidance_stiffness = 1e9;
+    options.guidance.stiffness = 1e9;
     CHECK(contains(complaint([&] { clip_stiffness(options, test_device(), bad); }), "scale"));
-    CHECK(options.guidance_stiffness == 1e9);
+    CHECK(options.guidance.stiffness == 1e9);
     CHECK(contains(complaint(RendererOptions{}, test_device(), bad), "scale"));
   }
 }
@@ -141,21 +146,21 @@ TEST_CASE("options above their upper bounds are named too", "[render]") {
   options.servo_rate = 2e6;
   CHECK(contains(complaint(options), "servo_rate"));
   options = {};
-  options.stroke.space.fade_width = 2.0 * options.stroke.space.radius;
-  CHECK(contains(complaint(options), "stroke.space.fade_width"));
+  options.guidance.space.fade_width = 2.0 * options.guidance.space.radius;
+  CHECK(contains(complaint(options), "guidance.space.fade_width"));
   options = {};
   for (const int samples : {1, 65, -3}) {
     RendererOptions coarse = options;
-    coarse.stroke.nearest.samples = samples;
-    CHECK(contains(complaint(coarse), "stroke.nearest.samples = " + std::to_string(samples)));
+    coarse.nearest.samples = samples;
+    CHECK(contains(complaint(coarse), "nearest.samples = " + std::to_string(samples)));
   }
   for (const int refinements : {-1, 9}) {
     RendererOptions coarse = options;
-    coarse.stroke.nearest.refinements = refinements;
-    CHECK(contains(complaint(coarse), "stroke.nearest.refinements = " + std::to_string(refinements)));
+    coarse.nearest.refinements = refinements;
+    CHECK(contains(complaint(coarse), "nearest.refinements = " + std::to_string(refinements)));
   }
-  options.stroke.nearest.tolerance = 1.5;
-  CHECK(contains(complaint(options), "stroke.nearest.tolerance"));
+  options.nearest.tolerance = 1.5;
+  CHECK(contains(complaint(options), "nearest.tolerance"));
 }
 
 TEST_CASE("fractions and ratios of the stages have upper and lower bounds", "[render]") {
@@ -166,7 +171,7 @@ TEST_CASE("fractions and ratios of the stages have upper and lower bounds", "[re
     }
     return contains(complaint(options), name);
   };
-  for (const char* name : {"assist.retention", "min_assistance"}) {
+  for (const char* name : {"guidance.assist.retention", "guidance.assist.min_assistance"}) {
     CHECK_FALSE(refused(name, 1.0));
     CHECK(refused(name, 1.0 + 1e-9));
   }
@@ -176,40 +181,40 @@ TEST_CASE("fractions and ratios of the stages have upper and lower bounds", "[re
   CHECK(refused("tolerances.direction", 3.1416));
   CHECK_FALSE(refused("tolerances.distinction", 1.0));
   CHECK(refused("tolerances.distinction", 1.0 - 1e-9));
-  CHECK_FALSE(refused("friction.coefficient", 10.0));
-  CHECK(refused("friction.coefficient", 10.5));
-  CHECK(refused("friction.stiffness", 2e6));
+  CHECK_FALSE(refused("paper.friction.coefficient", 10.0));
+  CHECK(refused("paper.friction.coefficient", 10.5));
+  CHECK(refused("paper.friction.stiffness", 2e6));
 }
 
 TEST_CASE("a stage that needs a property of the device names it when it is missing", "[render]") {
   RendererOptions options;
-  options.passivity_control = true;
+  options.energy.passivity_control = true;
   for (const double mass : {0.0, -0.1, not_a_number}) {
     Capabilities device = test_device();
     device.apparent_mass = mass;
     CHECK(contains(complaint(options, device), "apparent_mass of the device, for passivity_control"));
-    options.passivity_control = false;
-    options.energy_budget = 0.1;
-    CHECK(contains(complaint(options, device), "apparent_mass of the device, for energy_budget"));
-    options.passivity_control = true;
-    options.energy_budget = infinity;
+    options.energy.passivity_control = false;
+    options.energy.budget = 0.1;
+    CHECK(contains(complaint(options, device), "apparent_mass of the device, for energy.budget"));
+    options.energy.passivity_control = true;
+    options.energy.budget = infinity;
   }
   Capabilities heavy = test_device();
   heavy.apparent_mass = infinity;
   CHECK(contains(complaint(options, heavy), "mass = inf"));
   options = {};
-  options.thermal_time_constant = 10.0;
+  options.limits.thermal_time_constant = 10.0;
   for (const double force : {0.0, -1.0, infinity, not_a_number}) {
     Capabilities device = test_device();
     device.continuous_force = force;
-    CHECK(contains(complaint(options, device), "continuous_force of the device, for thermal_time_constant"));
+    CHECK(contains(complaint(options, device), "continuous_force of the device, for limits.thermal_time_constant"));
   }
   Capabilities late = test_device();
   late.sample_delay = 16;
   late.apparent_mass = 0.045;
   options = {};
   options.stiffness_check = StiffnessCheck::clip;
-  options.energy_budget = 0.1;
+  options.energy.budget = 0.1;
   CHECK(contains(complaint([&] { HapticRenderer({placed(U'永')}, {}, late, options); }), "delay = 16"));
 }
 
@@ -218,21 +223,21 @@ TEST_CASE("with the check off any stiffness from 0 to 1e6 N/m is accepted, on a 
   device.usable_stiffness = 100.0;
   device.apparent_mass = 0.045;
   RendererOptions options;
-  options.paper_stiffness = 5000.0;
-  CHECK(contains(complaint(options, device), "paper_stiffness = 5000"));
+  options.paper.stiffness = 5000.0;
+  CHECK(contains(complaint(options, device), "paper.stiffness = 5000"));
   options.stiffness_check = StiffnessCheck::off;
   CHECK(complaint(options, device).empty());
-  CHECK(HapticRenderer({placed(U'永')}, {}, device, options).options().paper_stiffness == 5000.0);
+  CHECK(HapticRenderer({placed(U'永')}, {}, device, options).options().paper.stiffness == 5000.0);
   device.simulated = false;
   CHECK(contains(complaint(options, device), "stiffness_check = off"));
   CHECK(contains(complaint([&] { HapticRenderer({placed(U'永')}, {}, device, options); }), "test device"));
   CHECK(contains(complaint([&] { HapticRenderer({placed(U'永')}, {}, device, RendererOptions::wang2006()); }),
                  "stiffness_check = off"));
   device.simulated = true;
-  options.paper_stiffness = 2e6;
-  CHECK(contains(complaint(options, device), "paper_stiffness = 2e+06"));
-  options.paper_stiffness = -1.0;
-  CHECK(contains(complaint(options, device), "paper_stiffness = -1"));
+  options.paper.stiffness = 2e6;
+  CHECK(contains(complaint(options, device), "paper.stiffness = 2e+06"));
+  options.paper.stiffness = -1.0;
+  CHECK(contains(complaint(options, device), "paper.stiffness = -1"));
 }
 
 TEST_CASE("a renderer needs a device that senses and drives three translations", "[render]") {
@@ -274,15 +279,15 @@ TEST_CASE(
       CHECK(complaint(options, device).empty());
       CHECK(complaint([&] { HapticRenderer({placed(U'永')}, {}, device, options); }).empty());
       CHECK(options.servo_rate == rate);
-      CHECK(options.guidance == GuidanceLaw::saturating);
-      CHECK(options.guide_to_start);
-      CHECK_FALSE(options.assist.enabled);  // it withdraws guidance by intent
-      CHECK(options.friction.coefficient == 0.15);
-      CHECK_FALSE(options.passivity_control);  // the springs are damped already
-      CHECK(std::isfinite(options.energy_budget));
+      CHECK(options.guidance.law == GuidanceLaw::saturating);
+      CHECK(options.guidance.to_start);
+      CHECK_FALSE(options.guidance.assist.enabled);  // it withdraws guidance by intent
+      CHECK(options.paper.friction.coefficient == 0.15);
+      CHECK_FALSE(options.energy.passivity_control);  // the springs are damped already
+      CHECK(std::isfinite(options.energy.budget));
       const bool warms = shipped.continuous > 0.0 && shipped.continuous < shipped.peak;
-      CHECK((options.thermal_time_constant > 0.0) == warms);
-      CHECK(options.guidance_limit <= 0.75 * shipped.peak);
+      CHECK((options.limits.thermal_time_constant > 0.0) == warms);
+      CHECK(options.guidance.limit <= 0.75 * shipped.peak);
     }
   }
 }
@@ -292,7 +297,7 @@ TEST_CASE("everything() adds to the dry friction of the device what paper has mo
   for (const double own : {0.0, 0.05, 0.15, 0.26}) {  // [N], at 1 N
     Capabilities device = test_device();
     device.coulomb_friction = own;
-    CHECK(RendererOptions::everything(device).friction.coefficient == Approx(std::max(0.0, 0.15 - own)));
+    CHECK(RendererOptions::everything(device).paper.friction.coefficient == Approx(std::max(0.0, 0.15 - own)));
   }
 }
 
@@ -320,7 +325,7 @@ TEST_CASE("tolerances are sensible in every preset, stricter ones in every respe
 }
 
 TEST_CASE("a stiffness above the device's usable one is rejected", "[render]") {
-  for (const char* name : {"paper_stiffness", "guidance_stiffness", "wrong_way_stiffness"}) {
+  for (const char* name : {"paper.stiffness", "guidance.stiffness", "guidance.wrong_way_stiffness"}) {
     RendererOptions options;
     for (const Domain& domain : domains) {
       if (std::string(name) == domain.name) domain.option(options) = 1001.0;
@@ -356,18 +361,17 @@ TEST_CASE("every spring is held to what is stable in any hand, rejected above wi
   RendererOptions options;
   options.servo_rate = device.update_rate;
   const double most = bound(device, 4.0);
-  for (double RendererOptions::*spring : {&RendererOptions::paper_stiffness, &RendererOptions::guidance_stiffness,
-                                          &RendererOptions::wrong_way_stiffness}) {
+  for (const auto spring : springs) {
     RendererOptions stiff = options;
-    stiff.*spring = 0.999 * most;
+    spring(stiff) = 0.999 * most;
     CHECK(complaint(stiff, device).empty());
-    stiff.*spring = 1.001 * most;
+    spring(stiff) = 1.001 * most;
     const std::string found = complaint(stiff, device);
     CHECK(contains(found, "stiffness_for_any_hand"));
     CHECK(contains(found, "a delay of 1 ticks"));
     CHECK(contains(found, "1000 Hz"));
     CHECK(clip_stiffness(stiff, device).size() == 1);
-    CHECK(stiff.*spring == Approx(most).epsilon(1e-6));
+    CHECK(spring(stiff) == Approx(most).epsilon(1e-6));
     CHECK(complaint(stiff, device).empty());
   }
   CHECK(max_guidance_stiffness(options, device) == Approx(most).epsilon(1e-6));
@@ -379,7 +383,7 @@ TEST_CASE("every spring is held to what is stable in any hand, rejected above wi
 TEST_CASE("on a page with a motion scale stiffness and damping count as the device renders them", "[render]") {
   const Capabilities device = light_device(0.045, 1);
   RendererOptions options;
-  options.guidance_damping = 1.0;
+  options.guidance.damping = 1.0;
   CHECK(max_guidance_stiffness(options, device, 2.0) == Approx(bound(device, 4.0) / 4.0).epsilon(1e-6));
 }
 
@@ -394,38 +398,39 @@ TEST_CASE("a device of unknown mass is taken to weigh 20 g", "[render]") {
 TEST_CASE("a damping too strong for the loop's lag is lowered when clipping, and rejected otherwise", "[render]") {
   const Capabilities slow = light_device(0.045, 5);
   RendererOptions options;
-  options.paper_damping = options.guidance_damping = 20.0;
+  options.paper.damping = options.guidance.damping = 20.0;
   CHECK(bound(slow, 20.0) == 0.0);
-  CHECK(contains(complaint(options, slow), "paper_damping = 20 N s/m"));
+  CHECK(contains(complaint(options, slow), "paper.damping = 20 N s/m"));
   const std::vector<std::string> clipped = clip_stiffness(options, slow);
   CHECK(std::count_if(clipped.begin(), clipped.end(),
-                      [](const std::string& line) { return contains(line, "_damping = 20 N s/m"); }) == 2);
-  for (const double damping : {options.paper_damping, options.guidance_damping}) {
+                      [](const std::string& line) { return contains(line, ".damping = 20 N s/m"); }) == 2);
+  for (const double damping : {options.paper.damping, options.guidance.damping}) {
     CHECK(damping < 10.0);
     CHECK(bound(slow, damping) > 100.0);
   }
   // Where the stiffness is stable with the damping wanted, that stays.
   options = {};
   CHECK(clip_stiffness(options, light_device(0.045)).empty());
-  CHECK(options.paper_damping == RendererOptions{}.paper_damping);
+  CHECK(options.paper.damping == RendererOptions{}.paper.damping);
 }
 
 TEST_CASE("guidance and friction together are held to what is stable with both dampers", "[render]") {
   for (const int delay : {0, 1, 3}) {
     const Capabilities device = light_device(0.045, delay);
     RendererOptions options;
-    options.friction.coefficient = 0.2;
-    options.guidance_stiffness = options.friction.stiffness = 5000.0;
+    options.paper.friction.coefficient = 0.2;
+    options.guidance.stiffness = options.paper.friction.stiffness = 5000.0;
     clip_stiffness(options, device);
-    const double both = bound(device, options.guidance_damping + options.friction.damping);
-    CAPTURE(delay, both, options.guidance_stiffness, options.friction.stiffness);
-    CHECK(options.guidance_stiffness + options.friction.stiffness <= both * (1.0 + 1e-6));
-    CHECK(options.guidance_stiffness > 0.1 * both);
+    const double both = bound(device, options.guidance.damping + options.paper.friction.damping);
+    CAPTURE(delay, both, options.guidance.stiffness, options.paper.friction.stiffness);
+    CHECK(options.guidance.stiffness + options.paper.friction.stiffness <= both * (1.0 + 1e-6));
+    CHECK(options.guidance.stiffness > 0.1 * both);
     // A share of 35 %, unless so little damping is left to friction that its spring would be unstable alone.
-    CHECK(options.friction.stiffness >= std::min(0.35 * both, bound(device, options.friction.damping)) * (1.0 - 1e-6));
+    CHECK(options.paper.friction.stiffness >=
+          std::min(0.35 * both, bound(device, options.paper.friction.damping)) * (1.0 - 1e-6));
     CHECK(complaint(options, device).empty());
-    CHECK(max_guidance_stiffness(options, device) + options.friction.stiffness <= both * (1.0 + 1e-6));
-    options.guidance_stiffness = options.friction.stiffness = 0.51 * both;
+    CHECK(max_guidance_stiffness(options, device) + options.paper.friction.stiffness <= both * (1.0 + 1e-6));
+    options.guidance.stiffness = options.paper.friction.stiffness = 0.51 * both;
     CHECK_FALSE(complaint(options, device).empty());
   }
 }
@@ -435,37 +440,37 @@ TEST_CASE("friction that would be softer than 1 N/m is left out, with a line tha
     const Capabilities device = light_device(0.045, delay, rate);
     RendererOptions options;
     options.servo_rate = rate;
-    options.friction.coefficient = 0.2;
+    options.paper.friction.coefficient = 0.2;
     CAPTURE(delay, rate);
     CHECK_FALSE(complaint(options, device).empty());
     const std::vector<std::string> clipped = clip_stiffness(options, device);
-    CHECK(options.friction.coefficient == 0.0);
+    CHECK(options.paper.friction.coefficient == 0.0);
     CHECK(std::count_if(clipped.begin(), clipped.end(), [](const std::string& line) {
-            return contains(line, "friction.coefficient = 0.2") && contains(line, "too soft for friction");
+            return contains(line, "paper.friction.coefficient = 0.2") && contains(line, "too soft for friction");
           }) == 1);
     CHECK(complaint(options, device) == "");
     CHECK(clip_stiffness(options, device).empty());
     const RendererOptions all = RendererOptions::everything(device);
-    CHECK(all.friction.coefficient == 0.0);
+    CHECK(all.paper.friction.coefficient == 0.0);
     CHECK(complaint(all, device) == "");
   }
   // Without a damper friction alone would be that soft, whatever guidance has.
   Capabilities undamped = light_device(0.045);
   undamped.viscous_friction = 0.0;
   RendererOptions bare;
-  bare.friction.coefficient = 0.2;
-  bare.friction.damping = 0.0;
+  bare.paper.friction.coefficient = 0.2;
+  bare.paper.friction.damping = 0.0;
   CHECK(clip_stiffness(bare, undamped).size() >= 1);
-  CHECK(bare.friction.coefficient == 0.0);
+  CHECK(bare.paper.friction.coefficient == 0.0);
   CHECK(complaint(bare, undamped) == "");
   // Where 1 N/m or more remains, friction remains.
   for (const int delay : {0, 1, 2, 3, 5}) {
     RendererOptions options;
-    options.friction.coefficient = 0.2;
+    options.paper.friction.coefficient = 0.2;
     clip_stiffness(options, light_device(0.045, delay));
     CAPTURE(delay);
-    CHECK(options.friction.coefficient == 0.2);
-    CHECK(options.friction.stiffness >= 1.0);
+    CHECK(options.paper.friction.coefficient == 0.2);
+    CHECK(options.paper.friction.stiffness >= 1.0);
   }
 }
 
@@ -500,7 +505,7 @@ TEST_CASE("attraction factors beyond what the device permits throw, or are limit
   HapticRenderer renderer({strong}, {}, device, options);
   REQUIRE(renderer.clipped().size() == 1);
   CHECK(contains(renderer.clipped()[0], "maximum attraction factor 2"));
-  CHECK(renderer.options().guidance_stiffness == 600.0);  // where the factor is 1 nothing changes
+  CHECK(renderer.options().guidance.stiffness == 600.0);  // where the factor is 1 nothing changes
   const double most = max_guidance_stiffness(renderer.options(), device);
   REQUIRE(most < 1200.0);
   calligraphy_test::ScriptedPen pen(renderer);
@@ -525,8 +530,8 @@ TEST_CASE("every accepted stiffness gives finite forces on a device that states 
   for (const double stiffness : {1e-300, 1e-12, 1e6, 1e12, 1e306, 1.7e308}) {
     RendererOptions options;
     options.stiffness_check = StiffnessCheck::off;
-    options.paper_stiffness = options.guidance_stiffness = options.wrong_way_stiffness = stiffness;
-    if (stiffness > 1e6) CHECK(contains(complaint(options, device), "paper_stiffness"));
+    options.paper.stiffness = options.guidance.stiffness = options.guidance.wrong_way_stiffness = stiffness;
+    if (stiffness > 1e6) CHECK(contains(complaint(options, device), "paper.stiffness"));
     if (stiffness > 1e6) continue;
     HapticRenderer renderer({placed(U'永')}, {}, device, options);
     calligraphy_test::ScriptedPen pen(renderer);
@@ -592,11 +597,11 @@ TEST_CASE("for_device takes the device's rate and stays within its stiffness", "
   device.update_rate = 500.0;
   const RendererOptions options = RendererOptions::for_device(device);
   CHECK(options.servo_rate == 500.0);
-  CHECK(options.paper_stiffness == 150.0);
-  CHECK(options.guidance_stiffness == 150.0);
-  CHECK(options.wrong_way_stiffness == 150.0);
+  CHECK(options.paper.stiffness == 150.0);
+  CHECK(options.guidance.stiffness == 150.0);
+  CHECK(options.guidance.wrong_way_stiffness == 150.0);
   CHECK(complaint(options, device).empty());
-  CHECK(RendererOptions::for_device(test_device()).paper_stiffness == RendererOptions{}.paper_stiffness);
+  CHECK(RendererOptions::for_device(test_device()).paper.stiffness == RendererOptions{}.paper.stiffness);
 }
 
 TEST_CASE("the hand feels the same stiffness, damping and force at every motion scale", "[render]") {
@@ -604,19 +609,19 @@ TEST_CASE("the hand feels the same stiffness, damping and force at every motion 
     const auto felt = [&](RendererOptions options, double scale) {
       CHECK(complaint([&] { validate(options, device, scale); }).empty());
       const double square = scale * scale;
-      return std::vector<double>{options.paper_stiffness * square,
-                                 options.paper_damping * square,
-                                 options.guidance_stiffness * square,
-                                 options.guidance_damping * square,
-                                 options.wrong_way_stiffness * square,
-                                 options.friction.stiffness * square,
-                                 options.friction.damping * square,
-                                 options.guidance_limit * scale,
-                                 options.wrong_way_limit * scale,
-                                 options.friction.coefficient,
-                                 options.in_plane_force_rate,
-                                 options.normal_force_rate,
-                                 options.energy_budget};
+      return std::vector<double>{options.paper.stiffness * square,
+                                 options.paper.damping * square,
+                                 options.guidance.stiffness * square,
+                                 options.guidance.damping * square,
+                                 options.guidance.wrong_way_stiffness * square,
+                                 options.paper.friction.stiffness * square,
+                                 options.paper.friction.damping * square,
+                                 options.guidance.limit * scale,
+                                 options.guidance.wrong_way_limit * scale,
+                                 options.paper.friction.coefficient,
+                                 options.limits.in_plane_rate,
+                                 options.limits.normal_rate,
+                                 options.energy.budget};
     };
     for (const double scale : {0.5, 2.0}) {  // powers of two: nothing is rounded
       CAPTURE(device.name, scale);
@@ -634,19 +639,19 @@ TEST_CASE("a damper that drives the pen by itself is refused beside no spring to
   device.apparent_mass = 0.045;
   device.sample_delay = 2;
   RendererOptions options;
-  options.guidance_stiffness = options.wrong_way_stiffness = 0.0;
-  options.guidance_damping = 300.0;
-  CHECK(contains(complaint(options, device), "guidance_damping = 300"));
+  options.guidance.stiffness = options.guidance.wrong_way_stiffness = 0.0;
+  options.guidance.damping = 300.0;
+  CHECK(contains(complaint(options, device), "guidance.damping = 300"));
   clip_stiffness(options, device);
-  CHECK(options.guidance_damping < 30.0);
-  CHECK(options.guidance_damping > 4.0);
+  CHECK(options.guidance.damping < 30.0);
+  CHECK(options.guidance.damping > 4.0);
   CHECK(complaint(options, device).empty());
   // As is one that turns the steps of a coarse encoder into clicks.
   device.sample_delay = 0;
   device.encoder_step = 1e-4;
-  options.guidance_damping = 8.0;
-  options.paper_damping = 3.0;
-  CHECK(contains(complaint(options, device), "guidance_damping = 8"));
+  options.guidance.damping = 8.0;
+  options.paper.damping = 3.0;
+  CHECK(contains(complaint(options, device), "guidance.damping = 8"));
   device.coulomb_friction = 0.26;  // holds them
   CHECK(complaint(options, device).empty());
 }
@@ -661,7 +666,7 @@ TEST_CASE("what has been clipped is not clipped again, with any scale", "[render
     device.sample_delay = static_cast<int>(random.between(0.0, 5.99));
     RendererOptions options;
     options.servo_rate = random.between(300.0, 5000.0);
-    options.friction.coefficient = 0.2;
+    options.paper.friction.coefficient = 0.2;
     const double scale = random.between(0.3, 3.0);
     clip_stiffness(options, device, scale);
     CHECK(clip_stiffness(options, device, scale).empty());
@@ -742,7 +747,7 @@ TEST_CASE("a stiffness counts with the square of the motion scale, as the device
         }).find("times the square of the motion scale 2") != std::string::npos);
   RendererOptions options;
   options.stiffness_check = StiffnessCheck::clip;
-  CHECK(HapticRenderer({placed(U'永')}, mapping, test_device(), options).options().paper_stiffness == Approx(250.0));
+  CHECK(HapticRenderer({placed(U'永')}, mapping, test_device(), options).options().paper.stiffness == Approx(250.0));
   for (const double scale : {1e300, 1e-300, 1e7, 0.0}) {
     mapping.scale = scale;
     CHECK(complaint([&] { HapticRenderer({placed(U'永')}, mapping, test_device(), options); }).find("scale = ") !=

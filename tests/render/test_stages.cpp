@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <calligraphy/render/force_terms.hpp>
+
 #include "../hard_cases.hpp"
 #include "../sanitized.hpp"
 #include "../scripted_pen.hpp"
@@ -33,9 +35,9 @@ RendererOptions everything() { return RendererOptions::everything(warm_device())
 
 RendererOptions saturating() {
   RendererOptions options;
-  options.guidance = GuidanceLaw::saturating;
-  options.guidance_limit = 1.2;
-  options.box_margin = 1.5;
+  options.guidance.law = GuidanceLaw::saturating;
+  options.guidance.limit = 1.2;
+  options.contact.box_margin = 1.5;
   return options;
 }
 
@@ -91,7 +93,7 @@ struct Watch {
 void check_steps(const ScriptedPen& pen, const HapticRenderer& renderer) {
   CHECK(pen.finite);
   // The energy budget may take a force away at once.
-  if (std::isinf(renderer.options().energy_budget)) CHECK(pen.max_unexplained <= 1e-12);
+  if (std::isinf(renderer.options().energy.budget)) CHECK(pen.max_unexplained <= 1e-12);
   CHECK(pen.max_force <= 3.3 * (1.0 + 1e-12));
 }
 
@@ -117,7 +119,7 @@ TEST_CASE("saturating guidance has the stiffness of eq. (8) near the stroke and 
   HapticRenderer renderer = renderer_of(U'三', saturating());
   ScriptedPen pen(renderer);
   const FirstStroke stroke = begin_writing(pen, renderer);
-  const double stiffness = renderer.options().guidance_stiffness;
+  const double stiffness = renderer.options().guidance.stiffness;
   double last = 0.0;
   for (const double distance : {0.00005, 0.0001, 0.001, 0.002, 0.005, 0.011, 0.013, 0.02, 0.03, 0.05}) {
     pen.go(at(stroke.start + 0.01 * stroke.along + distance * stroke.left, -0.002));
@@ -137,7 +139,7 @@ TEST_CASE("saturating guidance has the stiffness of eq. (8) near the stroke and 
 TEST_CASE("the linear law ends where the saturating one still guides", "[render]") {
   for (const bool saturates : {false, true}) {
     RendererOptions options = saturating();
-    if (!saturates) options.guidance = GuidanceLaw::linear;
+    if (!saturates) options.guidance.law = GuidanceLaw::linear;
     HapticRenderer renderer = renderer_of(U'三', options);
     ScriptedPen pen(renderer);
     const FirstStroke stroke = begin_writing(pen, renderer);
@@ -151,7 +153,7 @@ TEST_CASE("the linear law ends where the saturating one still guides", "[render]
 TEST_CASE("a misplaced pen is pulled to the stroke's start, but only on the paper and before the stroke", "[render]") {
   for (const bool leads : {false, true}) {
     RendererOptions options = saturating();
-    options.guide_to_start = leads;
+    options.guidance.to_start = leads;
     HapticRenderer renderer = renderer_of(U'三', options);
     const FirstStroke stroke(renderer);
     const Point astray = stroke.start + 0.03 * stroke.along + 0.02 * stroke.left;
@@ -216,8 +218,8 @@ TEST_CASE("a pen returns from anywhere without a force step, whatever the stages
 TEST_CASE("friction opposes the writing motion with mu N, and there is none in the air", "[render]") {
   for (const FrictionModel model : {FrictionModel::breakaway, FrictionModel::hayward_armstrong}) {
     RendererOptions options;
-    options.friction.coefficient = 0.2;
-    options.friction.model = model;
+    options.paper.friction.coefficient = 0.2;
+    options.paper.friction.model = model;
     HapticRenderer renderer = renderer_of(U'三', options);
     ScriptedPen pen(renderer);
     const FirstStroke stroke = begin_writing(pen, renderer);
@@ -242,7 +244,7 @@ TEST_CASE("friction opposes the writing motion with mu N, and there is none in t
 
 TEST_CASE("a pen at rest on the paper feels no friction, nor does the next contact at first", "[render]") {
   RendererOptions options;
-  options.friction.coefficient = 0.3;
+  options.paper.friction.coefficient = 0.3;
   HapticRenderer renderer = renderer_of(U'三', options);
   ScriptedPen pen(renderer);
   const FirstStroke stroke = begin_writing(pen, renderer);
@@ -260,9 +262,9 @@ TEST_CASE("a pen at rest on the paper feels no friction, nor does the next conta
 TEST_CASE("a pen pressed for a minute: warm motors reduce the force to the continuous one, in the same direction",
           "[render]") {
   RendererOptions plain;
-  plain.thermal_time_constant = 10.0;
+  plain.limits.thermal_time_constant = 10.0;
   RendererOptions all = everything();
-  all.energy_budget = std::numeric_limits<double>::infinity();  // it would not let the force reach the peak
+  all.energy.budget = std::numeric_limits<double>::infinity();  // it would not let the force reach the peak
   for (const RendererOptions& options : {plain, all}) {
     HapticRenderer renderer = renderer_of(U'三', options);
     ScriptedPen pen(renderer);
@@ -299,7 +301,7 @@ TEST_CASE("a pen pressed for a minute: warm motors reduce the force to the conti
 
 TEST_CASE("with passivity control the paper still never pulls, however fast the pen is lifted", "[render]") {
   RendererOptions controlled, all = everything();
-  controlled.passivity_control = all.passivity_control = true;
+  controlled.energy.passivity_control = all.energy.passivity_control = true;
   for (const RendererOptions& options : {controlled, all}) {
     HapticRenderer renderer = renderer_of(U'三', options);
     ScriptedPen pen(renderer);
@@ -324,7 +326,7 @@ TEST_CASE("with passivity control the paper still never pulls, however fast the 
 TEST_CASE("passivity control dissipates what sampling adds where the pen moves in the paper, and nothing at rest",
           "[render]") {
   RendererOptions options;
-  options.passivity_control = true;
+  options.energy.passivity_control = true;
   HapticRenderer renderer = renderer_of(U'三', options);
   ScriptedPen pen(renderer);
   const FirstStroke stroke(renderer);
@@ -345,14 +347,14 @@ TEST_CASE("passivity control dissipates what sampling adds where the pen moves i
 
 TEST_CASE("a disabled stage changes no bit, whatever its parameters", "[render]") {
   RendererOptions changed;
-  changed.guidance_limit = 0.01;
-  changed.assist.retention = 0.1;
-  changed.assist.full_assistance_error = 1e-5;
-  changed.assist.min_assistance = 0.9;
-  changed.friction.model = FrictionModel::hayward_armstrong;
-  changed.friction.stiffness = 10.0;
-  changed.friction.damping = 1.0;
-  changed.max_gap = 1.0;
+  changed.guidance.limit = 0.01;
+  changed.guidance.assist.retention = 0.1;
+  changed.guidance.assist.full_assistance_error = 1e-5;
+  changed.guidance.assist.min_assistance = 0.9;
+  changed.paper.friction.model = FrictionModel::hayward_armstrong;
+  changed.paper.friction.stiffness = 10.0;
+  changed.paper.friction.damping = 1.0;
+  changed.energy.max_gap = 1.0;
   for (const char32_t code : {U'三', U'永'}) {
     HapticRenderer one = renderer_of(code, RendererOptions{}), other = renderer_of(code, changed);
     ScriptedPen pen(one);
@@ -373,10 +375,10 @@ TEST_CASE("a disabled stage changes no bit, whatever its parameters", "[render]"
 
 TEST_CASE("with every stage disabled the force is the plain composition: terms, sum, limits", "[render]") {
   RendererOptions options;
-  options.guidance_fade_in = options.guidance_fade_out = 0.0;
+  options.guidance.fade_in = options.guidance.fade_out = 0.0;
   HapticRenderer renderer = renderer_of(U'永', options);
   ScriptedPen pen(renderer);
-  const ForceLimiter limiter{0.1, 0.4, 3.3, true};
+  const ForceLimiter limiter{0.1, 0.4, 3.3};
   VelocityEstimator velocity;
   Vector3d force(0, 0, 0), last(0, 0, 0);
   bool first = true;
@@ -463,7 +465,7 @@ TEST_CASE("a pen on the feature plane or chattering across it passes one feature
     const Point start = corner.placement.to_page(stroke.control_points[0]);
     const Point turn = corner.placement.to_page(stroke.control_points[1]);
     const Point along = (turn - start).normalized();
-    for (const double before : {0.0, 0.04 * options.stroke.plane_tolerance}) {
+    for (const double before : {0.0, 0.0015}) {
       HapticRenderer renderer({corner}, {}, warm_device(), options);
       ScriptedPen pen(renderer);
       pen.go(at(start, 0.005));
@@ -555,7 +557,7 @@ namespace {
 /// energy given with the work of that force, all in device axes. Relative to the maximum work.
 double error_of_energy(double share, bool says_so, int pause) {
   RendererOptions options = everything();
-  options.energy_budget = 10.0;
+  options.energy.budget = 10.0;
   MotionMapping mapping = desk_page(0.2, 0.2);
   mapping.scale = 2.0;
   options.stiffness_check = StiffnessCheck::clip;
@@ -615,6 +617,6 @@ TEST_CASE("behind a guard that halves the force, and pauses, no more than the bu
     strongest = std::max(strongest, tick.force.norm());
     at_work = (random.next() < 0.5 ? 0.5 : 1.0) * tick.force;
   }
-  CHECK(most <= options.energy_budget * (1.0 + 1e-9));
+  CHECK(most <= options.energy.budget * (1.0 + 1e-9));
   CHECK(strongest > 1.0);
 }

@@ -84,19 +84,18 @@ bool is_drawn(Phase from, Phase to, const RendererOptions& options) {
   if (is_before(from)) return is_before(to) || is_one(to, {Phase::other_stroke, Phase::guided});
   if (!writes(from)) return false;  // finished, another stroke, page written: until the pen is lifted
   if (writes(to)) return true;
-  if (to == Phase::finished) return options.lift_between_strokes;
-  return is_before(to) || (to == Phase::page_written && !options.lift_between_strokes);
+  if (to == Phase::finished) return options.contact.lift_between_strokes;
+  return is_before(to) || (to == Phase::page_written && !options.contact.lift_between_strokes);
 }
 
 }  // namespace
 
 TEST_CASE("the state of the writer moves along the arrows that are drawn, and refines the paper's", "[render]") {
   RendererOptions sliding;
-  sliding.lift_between_strokes = false;
-  sliding.guide_to_start = true;
+  sliding.contact.lift_between_strokes = false;
+  sliding.guidance.to_start = true;
   RendererOptions narrow;
-  narrow.box_margin = 0.0;
-  narrow.box_hysteresis = 0.0;
+  narrow.contact.box_margin = 0.0;
   std::set<std::pair<Phase, Phase>> seen;
   for (const RendererOptions& options : {RendererOptions(), sliding, narrow}) {
     for (const char32_t code : {U'三', U'永', U'北'}) {
@@ -124,7 +123,7 @@ TEST_CASE("the state of the writer moves along the arrows that are drawn, and re
           return writer;
         });
       }
-      CAPTURE(static_cast<int>(code), options.lift_between_strokes, options.box_margin);
+      CAPTURE(static_cast<int>(code), options.contact.lift_between_strokes, options.contact.box_margin);
       CHECK(wrong == 0);
       CHECK(unlike_paper == 0);
       CHECK(guided_wrongly == 0);
@@ -143,8 +142,8 @@ TEST_CASE("the state of the writer moves along the arrows that are drawn, and re
 
 TEST_CASE("a page that is finished by sliding guides nobody, from that tick on", "[render]") {
   RendererOptions options;
-  options.lift_between_strokes = false;
-  options.guide_to_start = true;
+  options.contact.lift_between_strokes = false;
+  options.guidance.to_start = true;
   StrokeSequencer sequencer = sequencer_of(U'一', options);
   bool finished = false;
   sequencer.update(pen_at(way_along(sequencer, 0).front(), false));
@@ -187,7 +186,7 @@ TEST_CASE("a pen put down beside a stroke that it begins at once, but out of the
   // A line, and above its middle a dot without length, whose start is the whole of it.
   const std::vector<StrokeInput> inputs = {{1, {{0.2, 0.5}, {0.8, 0.5}}}, {1, {{0.5, 0.8}, {0.5, 0.8}}}};
   RendererOptions options;
-  options.box_margin = 0.05;
+  options.contact.box_margin = 0.05;
   StrokeSequencer sequencer({{make_character(U'\u4E0A', inputs), {{0.0, 0.0}, 0.04}}}, options, test_device(), {});
   sequencer.update(pen_at(0.04 * Point(0.2, 0.5), false));
   for (int i = 0; i <= 110; ++i) sequencer.update(pen_at(0.04 * Point(0.2 + 0.005 * i, 0.5), true));

@@ -149,8 +149,8 @@ TEST_CASE("a pen that chatters at the border of the box changes its state once",
   const RendererOptions& options = renderer.options();
   const Eigen::AlignedBox2d box = bounding_box(renderer.page()[0]);
   const double y = box.center().y();
-  for (const double border : {box.min().x() - 0.04 * options.box_margin,
-                              box.min().x() - 0.04 * (options.box_margin + options.box_hysteresis)}) {
+  for (const double border : {box.min().x() - 0.04 * options.contact.box_margin,
+                              box.min().x() - 0.04 * (options.contact.box_margin + 0.05)}) {
     renderer.restart();
     ScriptedPen pen(renderer);
     pen.go({0.0, y, 0.005});

@@ -21,12 +21,12 @@ constexpr double stiffness = 400.0;
 /// The defaults with the raw force of the springs: no rate limit, no fade-in, no onset, no damping.
 RendererOptions direct() {
   RendererOptions options;
-  options.paper_stiffness = options.guidance_stiffness = stiffness;
-  options.wrong_way_stiffness = 0.0;
-  options.guidance_fade_in = 0.0;
-  options.limit_force_rate = false;
-  options.paper_onset = 0.0;
-  options.paper_damping = options.guidance_damping = 0.0;
+  options.paper.stiffness = options.guidance.stiffness = stiffness;
+  options.guidance.wrong_way_stiffness = 0.0;
+  options.guidance.fade_in = 0.0;
+  options.limits.in_plane_rate = options.limits.normal_rate = std::numeric_limits<double>::infinity();
+  options.paper.onset = 0.0;
+  options.paper.damping = options.guidance.damping = 0.0;
   options.stiffness_check = StiffnessCheck::off;
   return options;
 }
@@ -62,9 +62,8 @@ std::vector<Point> page_path(const Character& character, double offset) {
 TEST_CASE("the half disc drops K d before the end of a stroke, the tube does not", "[render]") {
   RendererOptions whole = direct();
   whole.tolerances.coverage = 0.0;
-  whole.stroke.plane_tolerance = 0.0;  // the disc ends d^2 / 2L before the stroke
   RendererOptions printed = whole;
-  printed.stroke.space.rule = ConstraintSpaceRule::wang2006;
+  printed.rules = Rules::wang2006;  // the disc ends d^2 / 2L before the stroke
   constexpr double slow = 0.005;
   for (const double deviation : {0.001, 0.002, 0.004}) {
     INFO("deviation " << deviation << " m");
@@ -92,13 +91,13 @@ TEST_CASE("entering a stroke steps the force by K d as printed, within the rate 
     pen.go({inside.x(), inside.y(), -0.001});
     pen.go({further.x(), further.y(), -0.001});  // where the direction counts too
     CHECK(renderer.last().state == InteractionState::writing);
-    if (options.limit_force_rate) CHECK(pen.max_unexplained <= 0.1 + 1e-9);
+    if (std::isfinite(options.limits.in_plane_rate)) CHECK(pen.max_unexplained <= 0.1 + 1e-9);
     return step;
   };
   RendererOptions printed = RendererOptions::wang2006(), limited;
-  printed.guidance_stiffness = limited.guidance_stiffness = stiffness;
+  printed.guidance.stiffness = limited.guidance.stiffness = stiffness;
   printed.tolerances.start_distance = limited.tolerances.start_distance = 0.1;  // 4 mm
-  printed.box_margin = 0.25;
+  printed.contact.box_margin = 0.25;
   const double deviation = std::sqrt(0.004 * 0.004 - 0.001 * 0.001);        // where the pen crosses the start circle
   CHECK(entering(printed) == Approx(stiffness * deviation).epsilon(0.03));  // 1.55 N
   CHECK(entering(limited) < 0.2 * entering(printed));
@@ -106,13 +105,27 @@ TEST_CASE("entering a stroke steps the force by K d as printed, within the rate 
 
 TEST_CASE("as printed, a factor that changes at a feature point steps the force by K d times its change", "[render]") {
   const Character bend = calligraphy_test::typical_character(30, {1.0, 2.0, 2.0, 2.0});  // smooth joints
-  RendererOptions printed = direct(), whole = direct();
-  printed.stroke.attraction = AttractionRule::wang2006;
-  printed.stroke.plane_tolerance = whole.stroke.plane_tolerance = 0.0;
-  constexpr double deviation = 0.001;
-  CHECK(max_in_plane_step(bend, page_path(bend, deviation), printed) ==
-        Approx(stiffness * deviation * 1.0).epsilon(0.05));
-  CHECK(max_in_plane_step(bend, page_path(bend, deviation), whole) < 0.1 * stiffness * deviation);
+  // By how much the spring that is felt, force over distance, changes between two ticks in which it acts.
+  const auto max_change = [&](Rules rules) {
+    RendererOptions options = direct();
+    options.rules = rules;
+    HapticRenderer renderer({{bend, {{0.02, 0.02}, 0.04}}}, {}, test_device(), options);
+    ScriptedPen pen(renderer);
+    double last = 0.0, largest = 0.0;
+    pen.on_tick = [&](const HapticTick& tick) {
+      if (tick.state != InteractionState::writing || tick.contact.weight == 0.0) return;
+      const double spring = tick.attraction.norm() / tick.contact.closest.distance / tick.contact.weight;
+      if (last > 0.0) largest = std::max(largest, std::abs(spring - last));
+      last = spring;
+    };
+    const std::vector<Point> path = page_path(bend, 0.001);
+    pen.speed = 0.02;
+    pen.go({path.front().x(), path.front().y(), 0.005});
+    for (const Point& point : path) pen.go({point.x(), point.y(), -0.001});
+    return largest;
+  };
+  CHECK(max_change(Rules::wang2006) == Approx(stiffness).epsilon(1e-6));  // from 1 to 2
+  CHECK(max_change(Rules::revised) < 0.1 * stiffness);
 }
 
 TEST_CASE("as printed, crossing the edge of the box while pressing steps the normal force by K d", "[render]") {
@@ -128,8 +141,8 @@ TEST_CASE("as printed, crossing the edge of the box while pressing steps the nor
     return pen.max_step;
   };
   RendererOptions printed = RendererOptions::wang2006(), limited, solid;
-  printed.paper_stiffness = limited.paper_stiffness = solid.paper_stiffness = stiffness;
-  solid.solid_paper = true;
+  printed.paper.stiffness = limited.paper.stiffness = solid.paper.stiffness = stiffness;
+  solid.paper.solid = true;
   CHECK(crossing(printed) == Approx(stiffness * 0.003).epsilon(1e-9));  // 1.2 N
   CHECK(crossing(limited) <= std::hypot(0.4, 0.02));                    // 400 N/s at 1 kHz, and the slight
   CHECK(crossing(solid) <= 0.02);                                       // damping along the paper
@@ -137,7 +150,7 @@ TEST_CASE("as printed, crossing the edge of the box while pressing steps the nor
 
 TEST_CASE("the signs as printed push away from the stroke and into the paper", "[render]") {
   RendererOptions printed = direct();
-  printed.force_sign = ForceSign::wang2006;
+  printed.rules = Rules::wang2006_signs;
   HapticRenderer renderer({{line, {{0.02, 0.02}, 0.04}}}, {}, test_device(), printed);
   ScriptedPen pen(renderer);
   const std::vector<Point> path = page_path(line, 0.002);
@@ -150,13 +163,13 @@ TEST_CASE("the signs as printed push away from the stroke and into the paper", "
 }
 
 TEST_CASE("eq. (5) moves the pen tip into the paper, Table 2 keeps it on the surface", "[render]") {
-  for (const PenTipRule rule : {PenTipRule::wang2006, PenTipRule::projected}) {
+  for (const Rules rules : {Rules::wang2006, Rules::revised}) {
     RendererOptions options;
-    options.pen_tip = rule;
+    options.rules = rules;
     HapticRenderer renderer({placed(U'三')}, {}, test_device(), options);
     ScriptedPen pen(renderer);
     pen.go({0.03, 0.03, -0.004});
-    CHECK(renderer.last().pen_tip.z() == (rule == PenTipRule::projected ? 0.0 : -0.004));
+    CHECK(renderer.last().pen_tip.z() == (rules == Rules::revised ? 0.0 : -0.004));
     CHECK(renderer.last().pen_tip.head<2>() == renderer.last().device_point.head<2>());
     CHECK(renderer.last().penetration == Approx(0.004));
   }
@@ -177,20 +190,15 @@ TEST_CASE("with every rule as printed the same pen feels steps that its motion d
 
 TEST_CASE("wang2006() selects every printed rule except the signs", "[render]") {
   const RendererOptions options = RendererOptions::wang2006();
-  CHECK(options.stroke.nearest.method == NearestPointMethod::wang2006);
-  CHECK(options.stroke.space.rule == ConstraintSpaceRule::wang2006);
-  CHECK(options.stroke.plane == FeaturePlaneRule::wang2006);
-  CHECK(options.stroke.attraction == AttractionRule::wang2006);
-  CHECK(options.stroke.window == 0.0);
-  CHECK(options.pen_tip == PenTipRule::wang2006);
-  CHECK(options.motion == MotionMappingRule::wang2006);
-  CHECK_FALSE(options.limit_force_rate);
-  CHECK(options.lift_time == 0.0);
-  CHECK(options.paper_onset == 0.0);
-  CHECK(options.paper_damping == 0.0);
-  CHECK(options.guidance_damping == 0.0);
+  CHECK(options.nearest.method == NearestPointMethod::wang2006);
+  CHECK(options.rules == Rules::wang2006);
+  CHECK(std::isinf(options.limits.in_plane_rate));
+  CHECK(std::isinf(options.limits.normal_rate));
+  CHECK(options.contact.lift_time == 0.0);
+  CHECK(options.paper.onset == 0.0);
+  CHECK(options.paper.damping == 0.0);
+  CHECK(options.guidance.damping == 0.0);
   CHECK(options.stiffness_check == StiffnessCheck::off);
-  CHECK_FALSE(options.solid_paper);
-  CHECK(options.force_sign == ForceSign::attracting);
+  CHECK_FALSE(options.paper.solid);
   CHECK_NOTHROW(validate(options, test_device()));
 }

@@ -70,7 +70,7 @@ Watched soak(const SoakOptions& options, const std::function<void(double)>& prog
 }
 
 std::vector<Guarantee> guarantees(const SoakOptions& options, const Watched& watched) {
-  const double budget = options.renderer_options().energy_budget;
+  const double budget = options.renderer_options().energy.budget;
   std::vector<Guarantee> all = {{"no allocations", watched.allocations == 0},
                                 {"every force is finite", watched.not_finite == 0},
                                 {"no force above the peak", watched.above_peak == 0},

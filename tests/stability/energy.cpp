@@ -33,8 +33,8 @@ Vector3d along_page(Random& random) {
 
 template <typename Options>
 double max_gap_of(const Options& options) {
-  if constexpr (requires { options.max_gap; }) {
-    return options.max_gap;
+  if constexpr (requires { options.energy.max_gap; }) {
+    return options.energy.max_gap;
   } else {
     return 0.016;
   }
@@ -260,7 +260,7 @@ EnergyResult run_energy(const EnergyRun& run) {
   std::optional<HapticRenderer> made;
   try {
     RendererOptions options = RendererOptions::everything(run.device);
-    options.energy_budget = run.budget;
+    options.energy.budget = run.budget;
     options.stiffness_check = StiffnessCheck::clip;
     made.emplace(std::move(page), mapping, run.device, options);
   } catch (const Error& error) {

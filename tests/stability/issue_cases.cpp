@@ -148,7 +148,7 @@ HandRun pressed(const std::string& profile, double force) {
 
 HandRun pulled_aside(double force) {
   HandRun run = jogged("desktop", light, 0.0);
-  run.options.guidance = GuidanceLaw::linear;
+  run.options.guidance.law = GuidanceLaw::linear;
   run.force = [force](double time, const Vector3d&) {
     const double press = std::clamp((time - 0.2) / 0.1, 0.0, 1.0);
     return Vector3d(0.0, time >= 1.0 && time < 1.04 ? force : 0.0, -press);
@@ -253,20 +253,20 @@ std::vector<IssueFigure> issue_figures(int threads, int grips) {
   for (const auto& [profile, reported, controlled] : profiles) {
     count("for_device()", reported, profile, grips, {});
     count("passivity control", controlled, profile, grips,
-          [](RendererOptions& options) { options.passivity_control = true; });
+          [](RendererOptions& options) { options.energy.passivity_control = true; });
     count("everything()", "0", profile, grips, {}, true);
   }
   count("400 N/s in the plane", "0 of 400", "desktop", grips,
-        [](RendererOptions& options) { options.in_plane_force_rate = 400.0; });
+        [](RendererOptions& options) { options.limits.in_plane_rate = 400.0; });
   count("guidance of 500 N/m", "54 of 150", "desktop", grips,
-        [](RendererOptions& options) { options.guidance_stiffness = std::min(500.0, options.guidance_stiffness); });
+        [](RendererOptions& options) { options.guidance.stiffness = std::min(500.0, options.guidance.stiffness); });
   count("20 N/s in the plane", "46 of 60", "desktop", std::min(grips, 60),
-        [](RendererOptions& options) { options.in_plane_force_rate = 20.0; });
+        [](RendererOptions& options) { options.limits.in_plane_rate = 20.0; });
 
   count("guidance of 1500 N/m", "accepted, 5 N", "ideal", grips,
-        [](RendererOptions& options) { options.guidance_stiffness = 1500.0; });
+        [](RendererOptions& options) { options.guidance.stiffness = 1500.0; });
   HandRun stiff = jogged("ideal", soft);
-  stiff.options.guidance_stiffness = 1500.0;
+  stiff.options.guidance.stiffness = 1500.0;
   rows.push_back(swings("ideal, guidance of 1500 N/m, jogged in a soft grip", "forces of 5 N", stiff));
   for (const double force : {0.3, 1.0, 3.0}) {
     rows.push_back(swings(text("Desktop, bare pen pressed with %.1f N", force), force == 3.0 ? "bounces to 7.9 N" : "",

@@ -46,9 +46,9 @@ template <typename Options>
 void draw_damping(Options& options, Random& random) {
   const double guidance = random.between(0.0, 10.0), paper = random.between(0.0, 20.0);
   const bool drawn = random.next() < 0.5;
-  if constexpr (requires { options.guidance_damping; }) {
-    if (drawn) options.guidance_damping = guidance;
-    if (drawn) options.paper_damping = paper;
+  if constexpr (requires { options.guidance.damping; }) {
+    if (drawn) options.guidance.damping = guidance;
+    if (drawn) options.paper.damping = paper;
   }
 }
 
@@ -65,21 +65,22 @@ void draw_options(SweepCase& drawn, Random& random) {
   const bool other_law = random.next() < 0.5, controlled = random.next() < 0.25;
   if (drawn.composition == Composition::force_rates || drawn.composition == Composition::stiffness) {
     if (other_law) {
-      options.guidance = options.guidance == GuidanceLaw::linear ? GuidanceLaw::saturating : GuidanceLaw::linear;
+      options.guidance.law =
+          options.guidance.law == GuidanceLaw::linear ? GuidanceLaw::saturating : GuidanceLaw::linear;
     }
-    if (controlled) options.passivity_control = !options.passivity_control;
+    if (controlled) options.energy.passivity_control = !options.energy.passivity_control;
   }
   if (drawn.composition == Composition::force_rates) {
-    options.in_plane_force_rate = log_between(random, 20.0, 2000.0);
-    options.normal_force_rate = log_between(random, 20.0, 2000.0);
+    options.limits.in_plane_rate = log_between(random, 20.0, 2000.0);
+    options.limits.normal_rate = log_between(random, 20.0, 2000.0);
   } else if (drawn.composition == Composition::stiffness) {
-    options.guidance_stiffness = log_between(random, 150.0, 3000.0);
-    options.paper_stiffness = log_between(random, 150.0, 3000.0);
+    options.guidance.stiffness = log_between(random, 150.0, 3000.0);
+    options.paper.stiffness = log_between(random, 150.0, 3000.0);
     draw_damping(options, random);
   } else if (drawn.composition == Composition::friction) {
-    options.friction.coefficient = random.between(0.05, 0.5);
+    options.paper.friction.coefficient = random.between(0.05, 0.5);
     const bool smooth = random.next() < 0.3;
-    options.friction.model = smooth ? FrictionModel::hayward_armstrong : FrictionModel::breakaway;
+    options.paper.friction.model = smooth ? FrictionModel::hayward_armstrong : FrictionModel::breakaway;
   }
 }
 
@@ -305,7 +306,7 @@ SweepCase draw_case(std::uint64_t seed, int index) {
   const double depth = random.between(0.0005, 0.002);
   const bool presses = drawn.bare || random.next() < 0.5;
   drawn.press = presses ? press : 0.0;
-  drawn.options.thermal_time_constant = 0.0;  // motors that warm up give way, slowly and on purpose
+  drawn.options.limits.thermal_time_constant = 0.0;  // motors that warm up give way, slowly and on purpose
   drawn.depth = presses ? 0.0 : depth;
 
   draw_disturbance(drawn, random);
@@ -330,11 +331,11 @@ SweepResult run_case(const SweepCase& drawn, const std::function<void(const Swee
   const auto& factors = placed.character.physics.attraction_factors;
   const double factor = std::max(1.0, *std::max_element(factors.begin(), factors.end()));
   const RendererOptions& options = renderer.options();
-  result.guidance_stiffness = options.guidance_stiffness * factor;
-  result.paper_stiffness = options.paper_stiffness;
-  const double in_plane = result.guidance_stiffness + options.wrong_way_stiffness +
-                          (options.friction.coefficient > 0.0 ? options.friction.stiffness : 0.0);
-  const double stiffest = std::max(in_plane, options.paper_stiffness);
+  result.guidance_stiffness = options.guidance.stiffness * factor;
+  result.paper_stiffness = options.paper.stiffness;
+  const double in_plane = result.guidance_stiffness + options.guidance.wrong_way_stiffness +
+                          (options.paper.friction.coefficient > 0.0 ? options.paper.friction.stiffness : 0.0);
+  const double stiffest = std::max(in_plane, options.paper.stiffness);
 
   const double mass = drawn.device.apparent_mass;
   const DisturbedHand hand(drawn, mass, placed, false), twin_hand(drawn, mass, placed, true);
@@ -411,10 +412,10 @@ std::string describe(const SweepCase& drawn) {
       "%.2f m/s%s",
       static_cast<unsigned long long>(drawn.seed), drawn.index, drawn.device.name.c_str(), drawn.device.update_rate,
       drawn.device.sample_delay, composition_names[static_cast<std::size_t>(drawn.composition)],
-      options.guidance_stiffness, options.paper_stiffness,
-      options.guidance == GuidanceLaw::linear ? "linear" : "saturating", options.in_plane_force_rate,
-      options.normal_force_rate, options.passivity_control, options.friction.coefficient,
-      static_cast<int>(options.friction.model), drawn.attraction, drawn.flat ? "flat" : "upright",
+      options.guidance.stiffness, options.paper.stiffness,
+      options.guidance.law == GuidanceLaw::linear ? "linear" : "saturating", options.limits.in_plane_rate,
+      options.limits.normal_rate, options.energy.passivity_control, options.paper.friction.coefficient,
+      static_cast<int>(options.paper.friction.model), drawn.attraction, drawn.flat ? "flat" : "upright",
       std::array{"true", "estimated", "unknown"}[static_cast<std::size_t>(drawn.velocity)], name.c_str(),
       drawn.bare ? (drawn.carried ? "bare pen carried" : "bare pen") : "grip", drawn.grip.mass, drawn.grip.damping,
       drawn.grip.stiffness, 1e3 * drawn.beside.x(), 1e3 * drawn.beside.y(), drawn.keeps_beside ? " kept" : "",

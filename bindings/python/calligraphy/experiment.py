@@ -200,11 +200,11 @@ def trial(grid: Grid, condition: Condition) -> Row:
     renderer = options.renderer
     renderer.servo_rate = condition.rate
     square = grid.motion_scale**2
-    renderer.paper_stiffness = renderer.guidance_stiffness = condition.stiffness / square
+    renderer.paper.stiffness = renderer.guidance.stiffness = condition.stiffness / square
     if renderer.stiffness_check == cal.StiffnessCheck.reject:
         renderer.stiffness_check = cal.StiffnessCheck.clip
-    renderer.stroke.nearest.method = getattr(cal.NearestPointMethod, condition.method)
-    renderer.stroke.nearest.tolerance = condition.tolerance
+    renderer.nearest.method = getattr(cal.NearestPointMethod, condition.method)
+    renderer.nearest.tolerance = condition.tolerance
     # Clipped here as the session's renderer would, which does not report the effective values.
     cal.clip_stiffness(renderer, grid.device, grid.motion_scale)
     page = cal.lay_out([character], grid.layout)[0]
@@ -212,8 +212,8 @@ def trial(grid: Grid, condition: Condition) -> Row:
     score = cal.score_page(page, recording)[0]
     return {
         **condition._asdict(),
-        "guidance_stiffness": square * renderer.guidance_stiffness,
-        "paper_stiffness": square * renderer.paper_stiffness,
+        "guidance_stiffness": square * renderer.guidance.stiffness,
+        "paper_stiffness": square * renderer.paper.stiffness,
         "time": score.time,
         "rms_error": score.rms_error,
         "max_error": score.max_error,

@@ -89,8 +89,7 @@ auto at_parameters(Function function) {
 }  // namespace
 
 void add_collision(py::module_& module) {
-  add_types<NearestPointMethod, NearestPointStatus, NearestPointOptions, ConstraintSpaceRule, FeaturePlaneRule,
-            AttractionRule, ConstraintSpace, StrokeRules>(module);
+  add_types<NearestPointStatus, StrokeOptions>(module);
 
   py::class_<NearestPoints>(module, "NearestPoints", "Results of N queries, one array per property.")
       .def(py::init([](Doubles parameter, Doubles point, Doubles distance, Doubles tangent,

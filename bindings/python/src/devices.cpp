@@ -100,9 +100,8 @@ void install_for_python() {
 }  // namespace
 
 void add_devices(py::module_& module) {
-  add_types<DeviceStatus, DeviceFault, PenOrientation, DeviceState, VelocitySource, DeviceAxes, Capabilities,
-            GripImpedance, Intention, SimulatedFaultKind, SimulatedFault, PointerOptions, ServoOptions,
-            ServoThreadOptions, ServoLoopOptions, ServoPhase, ServoStatus>(module);
+  add_types<DeviceState, Capabilities, GripImpedance, Intention, SimulatedFault, PointerOptions, ServoLoopOptions,
+            ServoStatus>(module);
   py::class_<VelocityEstimator>(module, "VelocityEstimator")
       .def(py::init<double>(), "cutoff"_a = VelocityEstimator::default_cutoff)
       .def(

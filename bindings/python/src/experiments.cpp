@@ -106,10 +106,10 @@ void add_experiments(py::module_& module) {
   module.def(
       "guidance_field",
       [](const PlacedCharacter& placed, int stroke, double progress, const ArrayLike& corner, double edge, int columns,
-         double stiffness, Attractor attractor, const StrokeRules& rules) {
+         double stiffness, Attractor attractor, const StrokeOptions& rules) {
         ForceFieldOptions options;
         options.attractor = attractor;
-        options.rules = rules;
+        options.stroke = rules;
         options.stiffness = stiffness;
         options.columns = columns;
         options.progress = interruptible(std::nullopt);
@@ -118,7 +118,7 @@ void add_experiments(py::module_& module) {
         return py::dict("forces"_a = forces, "jumps"_a = structured(std::move(field.jumps)));
       },
       "placed"_a, "stroke"_a, "progress"_a, "corner"_a, "edge"_a, "columns"_a = 96, "stiffness"_a = 600.0,
-      "attractor"_a = Attractor::active_stroke, "rules"_a = StrokeRules{},
+      "attractor"_a = Attractor::active_stroke, "options"_a = StrokeOptions{},
       ("+ `corner` (2,) is the lower left of the square [m]. Returns a dict: forces (rows, columns, 2), bottom row "
        "first [N]; jumps: " +
        fields_text<ForceJump>("A structured array"))

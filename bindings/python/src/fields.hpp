@@ -16,6 +16,7 @@
 
 #include <Eigen/Geometry>
 
+#include <calligraphy/collision/placed_character.hpp>
 #include <calligraphy/devices/device_state.hpp>
 
 #include "arrays.hpp"
@@ -196,9 +197,39 @@ void add_field(py::class_<Struct>& type, const Field<Struct, Member>& field) {
   type.def_property(name, get, set);
 }
 
-/// The class of a struct, with all its fields.
+template <class Type>
+struct ElementOf : std::type_identity<Type> {};
+template <class Type>
+requires(is_vector<Type> || is_optional<Type>) struct ElementOf<Type> : std::type_identity<typename Type::value_type> {
+};
+
+/// Structs whose class is not made by add_struct().
+template <class Struct>
+inline constexpr bool is_bound_by_hand = false;
+template <>
+inline constexpr bool is_bound_by_hand<PlacedCharacter> = true;
+
+template <class Struct>
+py::class_<Struct> add_struct(py::module_& module);
+
+/// Structs and enumerations, unless the module has them already.
+template <class... Types>
+void add_types(py::module_& module) {
+  const auto add = [&]<class Type>(std::type_identity<Type>) {
+    if constexpr (std::is_enum_v<Type>) {
+      if (!py::hasattr(module, name_of<Type>)) add_enum<Type>(module);
+    } else if constexpr (has_fields<Type> && !is_bound_by_hand<Type>) {
+      if (!py::hasattr(module, name_of<Type>)) add_struct<Type>(module);
+    }
+  };
+  (add(std::type_identity<Types>()), ...);
+}
+
+/// The class of a struct, with all its fields, after the types of these.
 template <class Struct>
 py::class_<Struct> add_struct(py::module_& module) {
+  each_field<Struct>(
+      [&]<class Type>(const Field<Struct, Type>&) { add_types<typename ElementOf<Type>::type>(module); });
   py::class_<Struct> type(module, name_of<Struct>);
   type.def(py::init<>());
   py::list names;
@@ -208,19 +239,6 @@ py::class_<Struct> add_struct(py::module_& module) {
   });
   type.attr("fields") = py::tuple(names);
   return type;
-}
-
-/// Structs and enumerations, each after those that it contains.
-template <class... Types>
-void add_types(py::module_& module) {
-  const auto add = [&]<class Type>(std::type_identity<Type>) {
-    if constexpr (std::is_enum_v<Type>) {
-      add_enum<Type>(module);
-    } else {
-      add_struct<Type>(module);
-    }
-  };
-  (add(std::type_identity<Types>()), ...);
 }
 
 /// The results in a struct, by name; counts of faults by DeviceFault.

@@ -101,8 +101,7 @@ py::dict told_report(const ImportReport& report) {
 }  // namespace
 
 void add_practice(py::module_& module) {
-  add_types<PageLayout, PracticePage, FeedbackMode, WritingMistakeKind, WritingMistake, WritingDirection,
-            StrokeRemarkKind, DrawnStroke, StrokeRemark, MeanInterval, InkDetail>(module);
+  add_types<PageLayout, PracticePage, DrawnStroke, StrokeRemark, MeanInterval, InkDetail>(module);
   add_struct<WriterSkill>(module)
       .def_static("novice", &WriterSkill::novice)
       .def_static("skilled", &WriterSkill::skilled);

@@ -85,8 +85,7 @@ py::array trace(HapticRenderer& renderer, const ArrayLike& positions, const std:
 }  // namespace
 
 void add_render(py::module_& module) {
-  add_types<PenTipRule, GuidanceLaw, StiffnessCheck, ForceSign, MotionMappingRule, FrictionModel, AssistPolicy,
-            FrictionOptions, InteractionState, TickEvent, TickStatus, WritingHint, SampledLoop>(module);
+  add_types<InteractionState, TickEvent, TickStatus, WritingHint, SampledLoop>(module);
   add_struct<StrokeTolerances>(module)
       .def_static("lenient", &StrokeTolerances::lenient)
       .def_static("normal", &StrokeTolerances::normal)

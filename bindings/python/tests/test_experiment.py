@@ -384,11 +384,11 @@ def by_hand(condition, device, renderer):
     """The trial of a condition, computed step by step."""
     renderer = copy.deepcopy(renderer)
     renderer.servo_rate = condition.rate
-    renderer.paper_stiffness = renderer.guidance_stiffness = condition.stiffness
+    renderer.paper.stiffness = renderer.guidance.stiffness = condition.stiffness
     renderer.stiffness_check = cal.StiffnessCheck.clip
     clipped = copy.deepcopy(renderer)
     cal.clip_stiffness(clipped, device)
-    renderer.stroke.nearest = cal.NearestPointOptions(
+    renderer.nearest = cal.NearestPointOptions(
         method=cal.NearestPointMethod.__members__[condition.method], tolerance=condition.tolerance
     )
     options = cal.SessionOptions(
@@ -402,7 +402,7 @@ def by_hand(condition, device, renderer):
     figures = {name: getattr(score, name) for name in score.fields if name not in ("character", "mistakes")}
     return {
         **condition._asdict(), **figures, "order_mistakes": score.order_mistakes(),
-        "guidance_stiffness": clipped.guidance_stiffness, "paper_stiffness": clipped.paper_stiffness,
+        "guidance_stiffness": clipped.guidance.stiffness, "paper_stiffness": clipped.paper.stiffness,
         "direction_mistakes": score.direction_mistakes(), "simulated_time": len(recording) / recording.rate,
     }  # fmt: skip
 
@@ -586,22 +586,22 @@ def test_the_table_has_the_effective_stiffness(factor):
     assert table["stiffness"] == [600.0, 600.0, 1e6, 1e6]
     able = cal.device_profile("desktop")
     page = cal.lay_out([character], cal.PageLayout(width=able.workspace[0], height=able.workspace[1]))[0]
-    for name in ("guidance_stiffness", "paper_stiffness"):
+    for group in ("guidance", "paper"):
         for row, (asked, rate) in enumerate(zip(table["stiffness"], table["rate"])):
             options = cal.RendererOptions.for_device(able)
-            options.guidance_stiffness = options.paper_stiffness = asked
+            options.guidance.stiffness = options.paper.stiffness = asked
             options.servo_rate = rate
             options.stiffness_check = cal.StiffnessCheck.clip
             renderer = cal.HapticRenderer(page.characters, cal.upright_page(page.width, page.height), able, options)
-            assert table[name][row] == getattr(renderer.options, name)
-        assert table[name][3] < 1e5
+            assert table[f"{group}_stiffness"][row] == getattr(renderer.options, group).stiffness
+        assert table[f"{group}_stiffness"][3] < 1e5
     assert table["paper_stiffness"][1] == 600.0 < table["paper_stiffness"][3]
 
 
 def test_the_rules_of_the_paper_are_tried_with_their_stiffness():
     """Without dampers no stiffness is stable in any hand: clipped, the pen would feel nothing."""
     usual, undamped = cal.RendererOptions.for_device(cal.device_profile("desktop")), cal.RendererOptions.wang2006()
-    usual.guidance_damping = usual.paper_damping = 0.0
+    usual.guidance.damping = usual.paper.damping = 0.0
     for options, effective in ((usual, 0.0), (undamped, 600.0)):
         grid = experiment.Grid("一", modes=["force"], options=options)
         table = columns(experiment.run(grid, progress=False))
@@ -672,7 +672,7 @@ def test_the_motion_scale_sets_page_and_stiffness():
     grid = experiment.Grid("一", page="desk", motion_scale=2.0, device="omni")
     assert (grid.layout.width, grid.layout.height) == (0.32, 0.14)
     assert grid.mapping == cal.desk_page(0.32, 0.14, 2.0)
-    assert grid.options.guidance_stiffness == 600.0 / 4  # felt K_S^2 times
+    assert grid.options.guidance.stiffness == 600.0 / 4  # felt K_S^2 times
     row = experiment.trial(grid, experiment.conditions(grid)[0])
     assert row["guidance_stiffness"] == row["paper_stiffness"] == 600.0
     stiff = experiment.Grid("一", page="desk", motion_scale=2.0, device="omni", stiffness=[900.0])

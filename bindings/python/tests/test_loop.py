@@ -452,7 +452,7 @@ def test_a_forked_process_writes_identically():
 def test_structs_differ_if_a_field_differs():
     one, other = session(), session()
     assert one == other
-    other.renderer.stroke.space.radius = 0.01
+    other.renderer.guidance.space.radius = 0.01
     assert one != other and one != 3
 
 
@@ -464,11 +464,11 @@ def test_a_simulated_device_rejects_unphysical_properties():
 def test_unstable_stiffness_is_rejected_or_clipped():
     page = one_page()
     mapping = cal.upright_page(page.width, page.height)
-    options = cal.RendererOptions(paper_stiffness=1e6)
-    with pytest.raises(cal.InvalidValue, match="paper_stiffness"):
+    options = cal.RendererOptions(paper=cal.PaperOptions(stiffness=1e6))
+    with pytest.raises(cal.InvalidValue, match="paper.stiffness"):
         cal.HapticRenderer(page.characters, mapping, PROFILE, options)
     assert cal.clip_stiffness(options, PROFILE)
-    assert options.paper_stiffness < 1e6
+    assert options.paper.stiffness < 1e6
     cal.validate(options, PROFILE)
 
 

@@ -292,10 +292,10 @@ def test_the_force_is_limited_to_the_peak_of_your_own_device():
 def test_a_renderer_reports_what_it_clipped_and_can_be_restarted():
     page = cal.lay_out([CHARACTERS["一"]])[0]
     mapping = cal.upright_page(page.width, page.height)
-    options = cal.RendererOptions(paper_stiffness=1e6, stiffness_check=cal.StiffnessCheck.clip)
+    options = cal.RendererOptions(paper=cal.PaperOptions(stiffness=1e6), stiffness_check=cal.StiffnessCheck.clip)
     renderer = cal.HapticRenderer(page.characters, mapping, PROFILE, options)
-    assert any("paper_stiffness" in reason for reason in renderer.clipped)
-    assert renderer.options.paper_stiffness < 1e6 and renderer.page == page.characters
+    assert any("paper.stiffness" in reason for reason in renderer.clipped)
+    assert renderer.options.paper.stiffness < 1e6 and renderer.page == page.characters
     renderer.trace(np.zeros((10, 3)))
     assert renderer.last.time == pytest.approx(0.01)
     again = renderer.trace(np.zeros((10, 3)))
@@ -405,7 +405,7 @@ def test_a_force_field_uses_the_given_stroke_progress_and_options():
     assert forces(columns=9).shape == (9, 9, 2) and forces(corner=(0, 0), columns=96).shape[0] == 96
     for other in (
         forces(stroke=2), forces(progress=0.9), forces(attractor=cal.Attractor.nearest_stroke),
-        forces(rules=cal.StrokeRules(space=cal.ConstraintSpace(radius=0.004, fade_width=0.002))),
+        forces(options=cal.StrokeOptions(space=cal.ConstraintSpace(radius=0.004, fade_width=0.002))),
         forces(corner=(0.0, 0.0)), forces(edge=0.02),
     ):  # fmt: skip
         assert not np.allclose(other, usual)

@@ -149,7 +149,7 @@ def test_a_value_of_another_type_is_rejected_with_the_name_of_its_field_what_is_
         (cal.SessionOptions(), {"mapping": 3}, "mapping: expected a MotionMapping or None, got 3"),
         (cal.SessionOptions(), {"measure_ticks": "no"}, "measure_ticks: expected True or False, got 'no'"),
         (cal.LiveOptions(), {"renderer": "soft"}, "renderer: expected a RendererOptions, got 'soft'"),
-        (cal.RendererOptions(), {"assist": 1}, "assist: expected an AssistPolicy, got 1"),
+        (cal.GuidanceOptions(), {"assist": 1}, "assist: expected an AssistPolicy, got 1"),
         (cal.DeviceState(), {"buttons": -1}, "buttons: expected an integer from 0 to 4294967295, got -1"),
         (cal.StabilityMapOptions(), {"rates": [1.0, "x"]}, "rates: expected a list of numbers, got [1.0, 'x']"),
         (cal.StabilityMapOptions(), {"grips": 3}, "grips: expected a list of GripImpedance, got 3"),

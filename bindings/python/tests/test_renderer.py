@@ -15,9 +15,10 @@ START = cal.place_elements(PLACED.character.strokes()[0], PLACED.placement)[0].p
 AWAY = START + (0.0, 0.009)  # within the box of the character, too far from the start of the stroke to begin it
 
 
-def renderer(**options):
+def renderer(paper=None, **options):
     """At 1 kHz, with paper that also presses back where nothing is being written."""
-    return cal.HapticRenderer(PAGE.characters, MAPPING, DESKTOP, cal.RendererOptions(solid_paper=True, **options))
+    options = cal.RendererOptions(paper=cal.PaperOptions(solid=True, **(paper or {})), **options)
+    return cal.HapticRenderer(PAGE.characters, MAPPING, DESKTOP, options)
 
 
 def trace(heights, at=AWAY, speed=0.0, **options):
@@ -29,17 +30,17 @@ def trace(heights, at=AWAY, speed=0.0, **options):
 
 def test_paper_presses_back_more_softly_in_its_first_half_millimetre():
     depths = np.array([0.0, 0.1e-3, 0.25e-3, 0.5e-3, 1e-3])
-    ticks = trace(np.repeat(-depths, 500), paper_stiffness=600.0, paper_onset=0.5e-3)
+    ticks = trace(np.repeat(-depths, 500), paper={"stiffness": 600.0, "onset": 0.5e-3})
     strained = np.where(depths < 0.5e-3, depths**2 / 1e-3, depths - 0.25e-3)  # the integral of min(1, depth / onset)
     assert ticks["normal"][499::500] == pytest.approx(600.0 * strained, abs=1e-6)
 
 
 def test_paper_damps_motion_along_its_normal():
     sinking = -0.001 - 0.01e-3 * np.arange(200)  # 10 mm/s
-    ticks = trace(sinking, paper_damping=3.0, velocity_cutoff=50.0)
+    ticks = trace(sinking, paper={"damping": 3.0}, velocity_cutoff=50.0)
     assert ticks["viscous"][-1] == pytest.approx((0, 0, 0.03))
     assert ticks["normal"][-1] == pytest.approx(600.0 * (ticks["penetration"][-1] - 0.25e-3) + 0.03)
-    assert not trace(sinking, paper_damping=0.0, paper_stiffness=0.0)["viscous"].any()
+    assert not trace(sinking, paper={"damping": 0.0, "stiffness": 0.0})["viscous"].any()
     settled = 1.0 - math.exp(-2.0 * math.pi * 50.0 * 5e-3)  # of the low-pass, five ticks after the first
     assert ticks["viscous"][5, 2] == pytest.approx(0.03 * settled)
 
@@ -49,7 +50,7 @@ def test_guidance_damps_motion_across_the_stroke_more_than_along_it():
     across = np.array([-tangent[1], tangent[0]])
     steps = 0.02e-3 * np.arange(1, 201)[:, None]  # 20 mm/s: 4 mm along the stroke, then 2 mm across it
     path = np.vstack([START + steps * tangent, START + 0.004 * tangent + steps[:100] * across])
-    ticks = renderer(guidance_damping=4.0).trace(np.column_stack([path, np.full(300, -0.001)]))
+    ticks = renderer(guidance=cal.GuidanceOptions(damping=4.0)).trace(np.column_stack([path, np.full(300, -0.001)]))
     assert (ticks["state"][[199, 299]] == int(cal.InteractionState.writing)).all()
     drag = -ticks["viscous"][199, :2] @ tangent
     assert 0.0 <= drag < 0.25 * 4.0 * 0.02
@@ -60,8 +61,8 @@ def test_guidance_damps_motion_across_the_stroke_more_than_along_it():
 def test_friction_damps_its_spring_and_not_a_sliding_pen():
     heights = np.full(2000, -0.002)
     friction = cal.FrictionOptions(coefficient=0.5, stiffness=300.0, damping=2.0)
-    unguided = {"guidance_stiffness": 0.0, "guidance_damping": 0.0, "wrong_way_stiffness": 0.0}
-    ticks = trace(heights, speed=0.002, friction=friction, **unguided)
+    unguided = cal.GuidanceOptions(stiffness=0.0, damping=0.0, wrong_way_stiffness=0.0)
+    ticks = trace(heights, speed=0.002, paper={"friction": friction}, guidance=unguided)
     pressed = 600.0 * (0.002 - 0.25e-3)
     sticking = ticks["friction"][200] - (-300.0 * 200 * 2e-6, 0.0)  # 0.4 mm from the anchor
     assert sticking == pytest.approx((-2.0 * 0.002, 0.0), rel=0.05)
@@ -73,14 +74,14 @@ def test_friction_damps_its_spring_and_not_a_sliding_pen():
 def test_a_pen_that_bounces_has_not_been_lifted():
     def lifts_after(height, **options):
         heights = [-0.001] * 10 + [height] * 100
-        lifts = trace(heights, **options)["events"] & int(cal.TickEvent.lift) != 0
+        lifts = trace(heights, contact=cal.ContactOptions(**options))["events"] & int(cal.TickEvent.lift) != 0
         return int(np.argmax(lifts)) - 10 if lifts.any() else None
 
     assert lifts_after(0.001, lift_time=0.05) in (49, 50)
     assert lifts_after(0.001, lift_time=0.02) in (19, 20)
     assert lifts_after(0.004, lift_time=0.05, lift_clearance=0.003) == 0
     assert lifts_after(0.001, lift_time=0.05, lift_clearance=0.0008) == 0
-    assert lifts_after(0.0004, lift_time=0.05) is None  # within lift_height
+    assert lifts_after(0.0004, lift_time=0.05) is None  # within the hysteresis of the contact
 
 
 def test_a_stale_sample_holds_the_force_for_4_ms():
@@ -99,19 +100,19 @@ def test_a_stale_sample_holds_the_force_for_4_ms():
 
 def test_with_a_longer_permitted_gap_less_of_the_energy_budget_is_given_at_once():
     def pushed(max_gap):
-        ticks = trace(np.full(100, -0.003), energy_budget=0.1, max_gap=max_gap)
+        ticks = trace(np.full(100, -0.003), energy=cal.EnergyOptions(budget=0.1, max_gap=max_gap))
         return ticks["force"][-1, 2]
 
     assert 0.0 < pushed(0.05) < pushed(0.016)
-    with pytest.raises(cal.InvalidValue, match="max_gap = -1 s"):
+    with pytest.raises(cal.InvalidValue, match="energy.max_gap = -1 s"):
         pushed(-1.0)
 
 
 def test_only_a_simulated_device_may_be_unstable():
-    unstable = cal.RendererOptions(paper_stiffness=1e5, stiffness_check=cal.StiffnessCheck.off)
+    unstable = cal.RendererOptions(paper=cal.PaperOptions(stiffness=1e5), stiffness_check=cal.StiffnessCheck.off)
     real = cal.Capabilities(peak_force=3.0, apparent_mass=0.05)
     assert DESKTOP.simulated and not real.simulated
-    assert cal.HapticRenderer(PAGE.characters, MAPPING, DESKTOP, unstable).options.paper_stiffness == 1e5
+    assert cal.HapticRenderer(PAGE.characters, MAPPING, DESKTOP, unstable).options.paper.stiffness == 1e5
     with pytest.raises(cal.InvalidValue, match="stiffness_check = off.*only simulated devices may be unstable"):
         cal.HapticRenderer(PAGE.characters, MAPPING, real, unstable)
     assert cal.SimulatedDevice(real).capabilities().simulated
@@ -124,9 +125,9 @@ def test_stiffnesses_are_clipped_to_what_is_stable_in_any_hand():
     assert 0.0 < stable < cal.critical_stiffness(loop) and cal.stiffness_for_any_hand(loop, 50.0, 100.0) == 100.0
     bare = cal.SampledLoop(device=cal.Capabilities(apparent_mass=0.05), rate=1000.0)
     assert cal.stiffness_for_any_hand(bare, 50.0, 1e6) == 0.0  # without damping none is
-    options = cal.RendererOptions(paper_stiffness=1e5)
+    options = cal.RendererOptions(paper=cal.PaperOptions(stiffness=1e5))
     (reason,) = cal.clip_stiffness(options, device)
-    assert options.paper_stiffness == pytest.approx(stable, rel=1e-6) and "stiffness_for_any_hand" in reason
+    assert options.paper.stiffness == pytest.approx(stable, rel=1e-6) and "stiffness_for_any_hand" in reason
     cal.validate(options, device)
 
 
@@ -135,14 +136,14 @@ def test_the_presets_clip_and_leave_passivity_control_off():
         device = cal.device_profile(name)
         usual, full = cal.RendererOptions.for_device(device), cal.RendererOptions.everything(device)
         for options in (usual, full):
-            assert options.stiffness_check == cal.StiffnessCheck.clip and not options.passivity_control
+            assert options.stiffness_check == cal.StiffnessCheck.clip and not options.energy.passivity_control
             cal.validate(options, device)
-            stiffest = max(options.paper_stiffness, options.guidance_stiffness)
+            stiffest = max(options.paper.stiffness, options.guidance.stiffness)
             assert stiffest <= (device.usable_stiffness or math.inf)
-        assert math.isinf(usual.energy_budget) and full.energy_budget < math.inf
+        assert math.isinf(usual.energy.budget) and full.energy.budget < math.inf
         own = device.coulomb_friction / 1.0  # under a pen pressed with 1 N
-        assert usual.friction.coefficient == 0.0
-        assert full.friction.coefficient == pytest.approx(max(0.0, 0.15 - own))
+        assert usual.paper.friction.coefficient == 0.0
+        assert full.paper.friction.coefficient == pytest.approx(max(0.0, 0.15 - own))
 
 
 def test_the_presets_feel_the_same_at_every_motion_scale():
@@ -152,10 +153,11 @@ def test_the_presets_feel_the_same_at_every_motion_scale():
         for scale in (0.5, 2.0):  # powers of two: nothing is rounded
             options = preset(device, scale=scale)
             cal.validate(options, device, scale)
-            for name in ("paper_stiffness", "guidance_stiffness", "guidance_damping", "wrong_way_stiffness"):
-                assert scale**2 * getattr(options, name) == getattr(at_one, name)
-            for name in ("guidance_limit", "wrong_way_limit"):
-                assert scale * getattr(options, name) == getattr(at_one, name)
+            for name in ("stiffness", "damping", "wrong_way_stiffness"):
+                assert scale**2 * getattr(options.guidance, name) == getattr(at_one.guidance, name)
+            for name in ("limit", "wrong_way_limit"):
+                assert scale * getattr(options.guidance, name) == getattr(at_one.guidance, name)
+            assert scale**2 * options.paper.stiffness == at_one.paper.stiffness
         with pytest.raises(cal.InvalidValue, match="scale = 0"):
             preset(device, 0.0)
 

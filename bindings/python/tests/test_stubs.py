@@ -30,8 +30,8 @@ points: npt.NDArray[np.float64] = result.point
 state = cal.DeviceState(position=(0, 0, 0.01))
 state.position = [1, 2, 3]
 options = cal.RendererOptions(servo_rate=2000.0)
-options.stroke.nearest.method = cal.NearestPointMethod["exact"]
-options.stroke.nearest.method = "tracked"
+options.nearest.method = cal.NearestPointMethod["exact"]
+options.nearest.method = "tracked"
 mode: cal.FeedbackMode = cal.SessionOptions(mode="force").mode
 class Mine(cal.HapticDevice):
     def read(self) -> cal.DeviceState:

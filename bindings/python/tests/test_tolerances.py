@@ -70,7 +70,7 @@ def test_a_lift_finishes_a_stroke_of_which_enough_is_covered(tolerances):
     hidden = 2 * DESKTOP.coulomb_friction / cal.RendererOptions().grip_stiffness
     needed = tolerances.coverage - (0.04 * tolerances.slack + hidden) / length
     for share in (0.5, needed - 0.03, needed + 0.03):
-        ticks = Pen(tolerances=tolerances, stroke=cal.StrokeRules(plane_tolerance=0.0)).write(0.0, share)
+        ticks = Pen(tolerances=tolerances).write(0.0, share)
         assert has(ticks, cal.TickEvent.stroke_finished) == (share > needed)
         assert has(ticks, cal.TickEvent.stroke_abandoned) == (share < needed)
         covered = ticks["covered"][ticks["state"] == int(cal.InteractionState.writing)]
@@ -125,17 +125,18 @@ def test_a_display_has_words_for_every_hint():
 
 def test_a_pen_that_moves_backwards_from_the_end_is_resisted():
     tangent = Pen().line.tangent(0.5)
-    backwards = Pen(wrong_way_limit=0.7).write(1.0, 0.5, lift=False)
+    backwards = Pen(guidance=cal.GuidanceOptions(wrong_way_limit=0.7)).write(1.0, 0.5, lift=False)
     assert backwards["wrong_way"][-1] == pytest.approx(0.7 * tangent, rel=1e-2)
     assert not Pen().write(0.5, 1.0, lift=False)["wrong_way"].any()
     slack = 0.1 * 0.04 / Pen().line.length  # [em] to a share of the stroke
-    assert not Pen(wrong_way_slack=0.1).write(1.0, 1.0 - 0.9 * slack, lift=False)["wrong_way"].any()
-    assert Pen(wrong_way_slack=0.1).write(1.0, 1.0 - 1.1 * slack, lift=False)["wrong_way"].any()
+    for share, resisted in ((0.9, False), (1.1, True)):
+        pen = Pen(guidance=cal.GuidanceOptions(wrong_way_slack=0.1))
+        assert pen.write(1.0, 1.0 - share * slack, lift=False)["wrong_way"].any() == resisted
 
 
 def test_guidance_that_lets_go_fades_out_in_time():
     def fades_for(seconds):
-        ticks = Pen(guidance_fade_out=seconds).write(0.0, 0.5, aside=0.08)
+        ticks = Pen(guidance=cal.GuidanceOptions(fade_out=seconds)).write(0.0, 0.5, aside=0.08)
         force = np.linalg.norm(ticks["page_force"][:, :2], axis=1)
         return ticks, force[1000:]
 

@@ -10,28 +10,11 @@
 
 namespace calligraphy {
 
-/// When a feature point counts as passed.
-enum class FeaturePlaneRule {
-  bounded,  ///< its plane is crossed within the constraint space and near the feature point
-  wang2006  ///< its plane is crossed anywhere, eq. (6) as printed
-};
-
-/// Which attraction factor applies between two feature points.
-enum class AttractionRule {
-  interpolated,  ///< linear in arc length between them
-  wang2006       ///< "at current feature point": that of the last one passed, so the force steps at each
-};
-
-struct StrokeRules {
-  NearestPointOptions nearest = {.method = NearestPointMethod::tracked};
-  ConstraintSpace space;
-  FeaturePlaneRule plane = FeaturePlaneRule::bounded;
-  AttractionRule attraction = AttractionRule::interpolated;
-  /// A bounded plane counts as crossed this far before it is reached, at most 0.3 of the element's length [em].
-  double plane_tolerance = 0.0375;
-  /// The closest point is searched within this arc length of the last one, so that a sharp bend, a loop or a nearby
-  /// part of the stroke cannot attract the pen out of order; 0: on the whole element, as printed [em].
-  double window = 0.2;
+/// How a pen is followed along a stroke.
+struct StrokeOptions {
+  NearestPointOptions nearest = {.method = NearestPointMethod::tracked};  ///< method and accuracy of the nearest point
+  ConstraintSpace space = {};                                             ///< within which the stroke attracts the pen
+  Rules rules = Rules::revised;  ///< of feature planes, attraction and constraint space
 };
 
 /// Position of the pen relative to the active stroke.
@@ -63,18 +46,23 @@ class ActiveStroke {
   void rest(const StrokeContact& nearest) noexcept;
 
   /// Tracks the pen tip at `tip` [m, page]. At most one feature point is passed per call.
-  StrokeContact update(const Point& tip, const StrokeRules& rules) noexcept;
+  StrokeContact update(const Point& tip, const StrokeOptions& options) noexcept;
 
   /// Position of a pen at `tip` [m, page] that is not writing the stroke: its nearest point on the whole of it, without
   /// effect on its progress, and without its attraction factor.
-  StrokeContact nearest(const Point& tip, const StrokeRules& rules) const noexcept;
+  StrokeContact nearest(const Point& tip, const StrokeOptions& options) const noexcept;
 
+  /// First point of the stroke [m, page].
   const Point& start() const noexcept { return parts_.front().element.origin(); }
+  /// Last point of the stroke [m, page].
   Point end() const noexcept { return parts_.back().end.point; }
   /// Attraction factor at the start.
   double first_attraction() const noexcept { return parts_.front().first_attraction; }
+  /// Arc length of the whole stroke [m].
   double length() const noexcept { return parts_.back().last_arc; }
+  /// The element with this index, in writing order.
   const StrokeElement& element(int index) const noexcept { return parts_[static_cast<std::size_t>(index)].element; }
+  /// Number of elements; 0 before load().
   int element_count() const noexcept { return static_cast<int>(parts_.size()); }
 
  private:
@@ -88,9 +76,9 @@ class ActiveStroke {
 
   const Part& part(int index) const noexcept { return parts_[static_cast<std::size_t>(index)]; }
   bool is_finished() const noexcept { return active_ == element_count(); }
-  StrokeContact locate(const Point& tip, const StrokeRules& rules) const noexcept;
-  void pass_feature(const Point& tip, const StrokeRules& rules, StrokeContact& contact) noexcept;
-  bool passes(const Point& tip, const StrokeContact& contact, const StrokeRules& rules) const noexcept;
+  StrokeContact locate(const Point& tip, const StrokeOptions& options) const noexcept;
+  void pass_feature(const Point& tip, const StrokeOptions& options, StrokeContact& contact) noexcept;
+  bool passes(const Point& tip, const StrokeContact& contact, const StrokeOptions& options) const noexcept;
 
   std::vector<Part> parts_;
   double em_ = 0.0;                  ///< [m]

@@ -2,28 +2,26 @@
 #pragma once
 
 #include <calligraphy/collision/nearest_point.hpp>
+#include <calligraphy/collision/rules.hpp>
 
 namespace calligraphy {
 
-enum class ConstraintSpaceRule {
-  tube,     ///< everything within `radius` of the element, fading out over the outermost `fade_width`
-  wang2006  ///< as printed: half disc around the start of an LSE, disc around the start of a CSE, no fading
-};
-
+/// A tube around a stroke element, within which it attracts the pen.
 struct ConstraintSpace {
-  ConstraintSpaceRule rule = ConstraintSpaceRule::tube;
-  double radius = 0.3;      ///< [em]
-  double fade_width = 0.2;  ///< at most `radius`; a narrow one lets the force drop steeply, a negative stiffness [em]
+  double radius = 0.3;  ///< [em]
+  /// Width of the edge in which the force fades out, at most `radius`; a narrow one lets it drop steeply, which is a
+  /// negative stiffness [em].
+  double fade_width = 0.2;
 };
 
-/// guidance_weight() as printed.
+/// guidance_weight() as printed: a half disc around the start of an LSE, a disc around that of a CSE, no fading.
 double printed_weight(const StrokeElement& element, const Point& query, const NearestPoint& closest) noexcept;
 
 /// Factor on the guidance force at `query`: 1 inside, 0 outside, continuously differentiable in between, at the edge of
 /// the tube. `closest` is the nearest point of the same element to the same query, `em` the edge of the em square [m].
 inline double guidance_weight(const ConstraintSpace& space, double em, const StrokeElement& element, const Point& query,
-                              const NearestPoint& closest) noexcept {
-  if (space.rule == ConstraintSpaceRule::wang2006) return printed_weight(element, query, closest);
+                              const NearestPoint& closest, Rules rules = Rules::revised) noexcept {
+  if (is_printed(rules)) return printed_weight(element, query, closest);
   const double radius = space.radius * em, fade_width = space.fade_width * em;
   if (!(closest.distance < radius)) return 0.0;
   const double depth = radius - closest.distance;  // > 0: inside the edge of the tube

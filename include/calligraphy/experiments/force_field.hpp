@@ -21,7 +21,7 @@ enum class Attractor {
 /// Rules and resolution of a force field.
 struct ForceFieldOptions {
   Attractor attractor = Attractor::active_stroke;  ///< what attracts the pen
-  StrokeRules rules;  ///< with nearest_stroke only those for the nearest point, the constraint space and the attraction
+  StrokeOptions stroke;      ///< how it is followed; with nearest_stroke, feature planes do not count
   double stiffness = 600.0;  ///< of the guidance where the attraction factor is 1 [N/m]
   int columns = 96;          ///< cells per edge of the square
   double min_jump = 0.1;     ///< smaller jumps of the force are omitted [N]

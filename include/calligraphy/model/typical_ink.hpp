@@ -11,7 +11,8 @@ namespace calligraphy {
 /// @throws ValueError if the id is not in 1..39, or a count or length not above zero
 double typical_half_width(int id, int stroke_count, double length);
 
-/// The typical ink of a stroke with this id, scaled to the half-width [em]. @throws ValueError if the id is not in 1..39
+/// The typical ink of a stroke with this id, scaled to the half-width [em]. @throws ValueError if the id is not
+/// in 1..39
 StrokeInk typical_ink(int id, double half_width);
 
 /// The same character with typical ink, or as it is if it has ink of its own. The ink ends where the path does: strokes

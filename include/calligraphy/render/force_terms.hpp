@@ -4,22 +4,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include <calligraphy/collision/rules.hpp>
 #include <calligraphy/model/point.hpp>
 
 namespace calligraphy {
 
-/// Sign of eq. (8) and (9). The available text of the paper may have lost its minus signs, so the form as printed can
-/// be selected.
-enum class ForceSign {
-  attracting,  ///< towards the stroke and out of the paper
-  wang2006     ///< as printed in that text: away from the stroke, into the paper
-};
-
 /// In-plane attraction, eq. (8): K (X_s - X_p), where K includes the attraction factor and the guidance weight [N]. As
 /// printed: K (X_p - X_s).
 inline Point attraction_force(double stiffness, const Point& tip, const Point& closest,
-                              ForceSign sign = ForceSign::attracting) noexcept {
-  return (sign == ForceSign::attracting ? stiffness : -stiffness) * (closest - tip);
+                              Rules rules = Rules::revised) noexcept {
+  return (rules == Rules::wang2006_signs ? -stiffness : stiffness) * (closest - tip);
 }
 
 /// Saturates a linear force at `limit` [N]: F / sqrt(1 + (F / limit)^2). Near the stroke the stiffness is that of eq.
@@ -31,8 +25,8 @@ inline Point saturated_force(const Point& force, double limit) noexcept {
 
 /// Normal force, eq. (9): K d along the normal out of the paper, d = max(0, penetration) [N]. As printed: K (z_p - z_0)
 /// for z_p >= z_0 along the axis of z_p itself, which pulls the pen further in.
-inline double normal_force(double stiffness, double penetration, ForceSign sign = ForceSign::attracting) noexcept {
-  return (sign == ForceSign::attracting ? stiffness : -stiffness) * std::max(0.0, penetration);
+inline double normal_force(double stiffness, double penetration, Rules rules = Rules::revised) noexcept {
+  return (rules == Rules::wang2006_signs ? -stiffness : stiffness) * std::max(0.0, penetration);
 }
 
 /// Resistance to writing backwards (Fig. 4): a spring along the tangent in writing direction, from the furthest point

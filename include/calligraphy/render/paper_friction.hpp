@@ -8,6 +8,7 @@ namespace calligraphy {
 /// With which people press a pen on paper, about [N].
 inline constexpr double usual_pressure = 1.0;
 
+/// How the friction force follows from the motion of the pen.
 enum class FrictionModel {
   /// Hard break-away: a spring connects the pen to an anchor w on the paper, and drags the anchor along once it is
   /// stretched by mu N / stiffness. Below that w does not move at all: no drift. The force depends on the path alone,
@@ -18,11 +19,12 @@ enum class FrictionModel {
   hayward_armstrong
 };
 
+/// Friction between pen and paper.
 struct FrictionOptions {
-  FrictionModel model = FrictionModel::breakaway;
-  double coefficient = 0.0;  ///< mu, tangential over normal force; 0: no friction [1]
-  double stiffness = 500.0;  ///< of the spring between pen and anchor [N/m]
-  double damping = 2.5;      ///< of that spring: none while the anchor slides along with the pen [N s/m]
+  FrictionModel model = FrictionModel::breakaway;  ///< how the force follows from the motion
+  double coefficient = 0.0;                        ///< mu, tangential over normal force; 0: no friction [1]
+  double stiffness = 500.0;                        ///< of the spring between pen and anchor [N/m]
+  double damping = 2.5;  ///< of that spring: none while the anchor slides along with the pen [N s/m]
 };
 
 /// Computes the friction force on the pen. Never allocates.

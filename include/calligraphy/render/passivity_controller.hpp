@@ -39,6 +39,7 @@ namespace calligraphy {
 /// 8 times that sum.
 class PassivityController {
  public:
+  /// Highest age of a sample that the observer allows for [ticks].
   static constexpr int max_delay = EnergyObserver::max_delay;
 
   /// Damping that a device's mass tolerates on its own without being thrown back within one period, 0.9 m / (T (1 + 2

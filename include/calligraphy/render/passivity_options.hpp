@@ -5,6 +5,7 @@
 
 namespace calligraphy {
 
+/// What a passivity controller may do, and what it must know of the device and the loop.
 struct PassivityOptions {
   double max_damping = 0.0;  ///< maximum damping injected; 0: no control [N s/m]
   /// Maximum net energy delivered to the hand since the start. Infinite: no limit [J].

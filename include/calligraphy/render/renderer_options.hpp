@@ -6,22 +6,16 @@
 #include <string>
 #include <vector>
 
-#include <calligraphy/collision/active_stroke.hpp>
+#include <calligraphy/collision/constraint_space.hpp>
+#include <calligraphy/collision/nearest_point.hpp>
+#include <calligraphy/collision/rules.hpp>
 #include <calligraphy/devices/capabilities.hpp>
 #include <calligraphy/devices/device_state.hpp>
 #include <calligraphy/render/assist_policy.hpp>
-#include <calligraphy/render/force_terms.hpp>
-#include <calligraphy/render/motion_mapping.hpp>
 #include <calligraphy/render/paper_friction.hpp>
 #include <calligraphy/render/stroke_tolerances.hpp>
 
 namespace calligraphy {
-
-/// Where the virtual pen tip is while the device is below the paper surface.
-enum class PenTipRule {
-  projected,  ///< the device point projected onto the paper: Table 2
-  wang2006    ///< at the device, eq. (5)
-};
 
 /// How guidance depends on the distance from the stroke.
 enum class GuidanceLaw {
@@ -36,71 +30,84 @@ enum class StiffnessCheck {
   off      ///< accept it, up to 1e6 N/m: for experiments on simulated devices that look for the limit itself
 };
 
-struct RendererOptions {
-  double servo_rate = 1000.0;         ///< [Hz]
-  double paper_stiffness = 600.0;     ///< K_en of eq. (9) [N/m]
-  double paper_onset = 0.0005;        ///< depth over which the paper becomes as stiff and as damped as that [m]
-  double paper_damping = 4.0;         ///< against motion in the paper, along its normal [N s/m]
-  double guidance_stiffness = 600.0;  ///< K_et of eq. (8) where the attraction factor is 1 [N/m]
+/// The paper under the pen.
+struct PaperOptions {
+  double stiffness = 600.0;  ///< K_en of eq. (9) [N/m]
+  double damping = 4.0;      ///< against motion in the paper, along its normal [N s/m]
+  double onset = 0.0005;     ///< depth over which the paper becomes as stiff and as damped as that [m]
+  bool solid = false;        ///< normal force also in the adjusting state; Table 2 has none there
+  FrictionOptions friction;  ///< between pen and paper; off by default
+};
+
+/// The lateral force: along which stroke, how strongly, and how it comes and goes.
+struct GuidanceOptions {
+  double stiffness = 600.0;  ///< K_et of eq. (8) where the attraction factor is 1 [N/m]
   /// Where guidance acts, against motion across the stroke; elsewhere on the paper 15 % of it, against any [N s/m].
-  double guidance_damping = 4.0;
-  double velocity_cutoff = 50.0;       ///< of the low-pass on the velocity for both (VelocityEstimator) [Hz]
-  double guidance_fade_in = 0.15;      ///< fade-in time of guidance after a stroke's start and each feature point [s]
-  double guidance_fade_out = 0.3;      ///< fade-out time when guidance lets go: a pulled hand must not be thrown [s]
+  double damping = 4.0;
+  GuidanceLaw law = GuidanceLaw::linear;  ///< how the force depends on the distance from the stroke
+  double limit = 2.0;                     ///< saturating: maximum guidance force [N]
+  /// Before a stroke, guidance pulls a pen to the stroke's start that was put down nearer to it than to any to come,
+  /// though not on the stroke.
+  bool to_start = false;
+  ConstraintSpace space;               ///< how far from the stroke it acts
+  double fade_in = 0.15;               ///< fade-in time after a stroke's start and each feature point [s]
+  double fade_out = 0.3;               ///< fade-out time when it lets go: a pulled hand must not be thrown [s]
   double wrong_way_stiffness = 200.0;  ///< resistance to writing backwards; 0: none [N/m]
   double wrong_way_limit = 1.0;        ///< maximum force of that resistance [N]
   double wrong_way_slack = 0.05;       ///< dead band: a pen may move back this far without resistance [em]
+  AssistPolicy assist;                 ///< off by default: full assistance
+};
 
-  StiffnessCheck stiffness_check = StiffnessCheck::reject;
-
-  GuidanceLaw guidance = GuidanceLaw::linear;
-  double guidance_limit = 2.0;  ///< saturating: maximum guidance force [N]
-  /// Before a stroke, guidance pulls a pen to the stroke's start that was put down nearer to it than to any to come,
-  /// though not on the stroke.
-  bool guide_to_start = false;
-  AssistPolicy assist;          ///< off by default: full assistance
-  FrictionOptions friction;     ///< off by default
-
-  StrokeTolerances tolerances;  ///< which pen-down begins the stroke that is due, and when it is finished
-  StrokeRules stroke;           ///< nearest point, constraint space, feature planes, attraction factors
-
-  double box_margin = 0.2;           ///< added to the bounding box of the active character on every side [em]
-  double lift_height = 0.0005;       ///< hysteresis: the pen is above the paper once it is this far above it [m]
+/// When the pen touches the paper, and when it is at a character.
+struct ContactOptions {
   double lift_time = 0.05;           ///< it counts as lifted once it has been above the paper for this time [s],
   double lift_clearance = 0.003;     ///< or at once this far above the paper; until then it may bounce [m]
-  double box_hysteresis = 0.05;      ///< the box is left this far outside its edge, 3 times as far while writing [em]
   bool lift_between_strokes = true;  ///< the next stroke begins with a new contact, not by sliding into its start
-  bool solid_paper = false;          ///< normal force also in the adjusting state; Table 2 has none there
+  double box_margin = 0.2;           ///< added to the bounding box of the active character on every side [em]
+};
 
+/// What bounds the force on its way to the device, and the motion that is believed.
+struct ForceLimits {
   /// Maximum rate of change of the force in the paper plane, beyond what the springs and dampers change because the pen
-  /// moves: that follows the pen without lag [N/s].
-  double in_plane_force_rate = 100.0;
-  double normal_force_rate = 400.0;  ///< likewise along its normal [N/s]
-  bool limit_force_rate = true;      ///< false: `wang2006`, force steps at every transition
-
-  bool passivity_control = false;  ///< dissipates the energy that sampling, delay and limits generate
-  /// Maximum net energy delivered to the hand since the start; infinite: no limit [J].
-  double energy_budget = std::numeric_limits<double>::infinity();
-  double max_gap = 0.016;  ///< with a budget: longest time without a fresh sample, by default that of Servo [s]
+  /// moves: that follows the pen without lag. Infinite: no limit [N/s].
+  double in_plane_rate = 100.0;
+  double normal_rate = 400.0;  ///< likewise along its normal [N/s]
   /// Thermal time constant of the motors: as they warm, the permitted force falls from the device's peak to its
   /// continuous force; 0: no limit [s].
   double thermal_time_constant = 0.0;
+  double max_speed = 5.0;  ///< a sample that implies a faster pen is a fault, not a motion [m/s, device]
+};
 
+/// What energy the force may deliver to the hand.
+struct EnergyOptions {
+  bool passivity_control = false;  ///< dissipates the energy that sampling, delay and limits generate
+  /// Maximum net energy delivered to the hand since the start; infinite: no limit [J].
+  double budget = std::numeric_limits<double>::infinity();
+  double max_gap = 0.016;  ///< with a budget: longest time without a fresh sample, by default that of Servo [s]
+
+  /// Passivity control and a budget need an account of the energy that the force delivers.
+  bool observed() const noexcept { return passivity_control || std::isfinite(budget); }
+};
+
+/// What the renderer does, room by room; everything has a default that suits any device and hand.
+struct RendererOptions {
+  double servo_rate = 1000.0;                               ///< samples and forces per second [Hz]
+  Rules rules = Rules::revised;                             ///< wang2006: as printed
+  StiffnessCheck stiffness_check = StiffnessCheck::reject;  ///< what to do with one that the device cannot render
+  NearestPointOptions nearest = {.method = NearestPointMethod::tracked};  ///< method and accuracy, against time
+  double velocity_cutoff = 50.0;  ///< of the low-pass on the velocity that the dampers act on (VelocityEstimator) [Hz]
   /// Stiffness of a usual grip, about which people's vary: from it and the force at work follows where the hand means
   /// to be [N/m, device].
   double grip_stiffness = 300.0;
-
-  double max_speed = 5.0;  ///< a sample that implies a faster pen is a fault, not a motion [m/s, device]
-
-  ForceSign force_sign = ForceSign::attracting;
-  PenTipRule pen_tip = PenTipRule::projected;
-  MotionMappingRule motion = MotionMappingRule::affine;
-
-  /// Passivity control and an energy budget need an account of the energy that the force delivers.
-  bool observes_energy() const noexcept { return passivity_control || std::isfinite(energy_budget); }
+  PaperOptions paper;           ///< how the paper feels
+  GuidanceOptions guidance;     ///< how the pen is led along the stroke
+  ContactOptions contact;       ///< when the pen counts as on the paper, and at a character
+  StrokeTolerances tolerances;  ///< which pen-down begins the stroke that is due, and when it is finished
+  ForceLimits limits;           ///< of the force, its rate and the motors' heat
+  EnergyOptions energy;         ///< passivity and the energy budget
 
   /// Every rule as printed, except the signs of eq. (8) and (9), which the available text may have lost: with the signs
-  /// as printed nothing can be written (set force_sign to see it). Widths and stiffnesses are the defaults. Without
+  /// as printed nothing can be written (Rules::wang2006_signs). Widths and stiffnesses are the defaults. Without
   /// damping no stiffness is stable in every hand, so stiffness_check is off.
   static RendererOptions wang2006();
 

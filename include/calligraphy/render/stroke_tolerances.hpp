@@ -33,6 +33,7 @@ struct StrokeTolerances {
   static constexpr StrokeTolerances lenient() noexcept {
     return {0.25, std::numbers::pi / 2.5, 0.04, 3.0, 0.08, 0.8, 0.06};
   }
+  /// The default.
   static constexpr StrokeTolerances normal() noexcept { return {}; }
   /// For examinations.
   static constexpr StrokeTolerances strict() noexcept {

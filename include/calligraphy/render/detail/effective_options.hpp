@@ -20,7 +20,7 @@ struct EffectiveOptions {
 
   /// Stiffness of guidance where the attraction factor is this one [N/m, page].
   double guidance_stiffness(double attraction) const noexcept {
-    return std::min(options.guidance_stiffness * attraction, guidance_limit);
+    return std::min(options.guidance.stiffness * attraction, guidance_limit);
   }
 };
 

@@ -26,18 +26,17 @@ struct ForceAllowance {
 struct ForceLimiter {
   static constexpr double no_limit = std::numeric_limits<double>::infinity();
 
-  double in_plane_step = 0.0;  ///< [N per tick]
-  double normal_step = 0.0;    ///< [N per tick]
+  double in_plane_step = 0.0;  ///< infinite: no limit [N per tick]
+  double normal_step = 0.0;    ///< likewise [N per tick]
   double peak = 0.0;           ///< [N]
-  bool limit_rate = true;      ///< false: `wang2006`, forces change without a limit
 
   /// Whether next() is `target` itself, whatever the allowance: the usual case, without a square root.
   bool reaches(const Eigen::Vector3d& previous, const Eigen::Vector3d& target, double max_length) const noexcept {
     const double most = peak < max_length ? peak : max_length;
     const double x = target.x() - previous.x(), y = target.y() - previous.y(), z = target.z() - previous.z();
     const double square = target.x() * target.x() + target.y() * target.y() + target.z() * target.z();
-    return square <= most * most &&
-           (!limit_rate || (x * x + y * y <= in_plane_step * in_plane_step && z <= normal_step && z >= -normal_step));
+    return square <= most * most && x * x + y * y <= in_plane_step * in_plane_step && z <= normal_step &&
+           z >= -normal_step;
   }
 
   /// Of a pen at rest [N].

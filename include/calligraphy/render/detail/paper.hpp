@@ -34,7 +34,8 @@ class Paper {
   void press(const PenState& pen) noexcept;
   void rub(const Point& point, double pressure) noexcept;
 
-  RendererOptions options_;
+  PaperOptions options_;
+  Rules rules_;
   double period_;       ///< [s]
   double rate_filter_;  ///< coefficient of the low-pass on the rate of the friction spring
   PaperFriction friction_;

@@ -35,8 +35,10 @@ class PenSensor {
   void estimate_motion(const Eigen::Vector3d& position, double elapsed) noexcept;
   void feel_paper(double elapsed) noexcept;
 
-  RendererOptions options_;
+  ContactOptions contact_;
   MotionMapping mapping_;
+  bool is_printed_;     ///< Rules
+  double max_speed_;    ///< [m/s, page]
   double period_;       ///< [s]
   bool counts_pauses_;  ///< for the account of energy
   VelocityEstimator velocity_;

@@ -17,15 +17,15 @@ struct PenState {
   /// At work when the sample was read [N, device axes]; NaN if the device does not say.
   Eigen::Vector3d force = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
 
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();         ///< of the device, page frame [m]
-  Eigen::Vector3d device_point = Eigen::Vector3d::Zero();     ///< haptic interface point, page frame [m]
-  Eigen::Vector3d tip = Eigen::Vector3d::Zero();              ///< virtual pen tip, page frame [m]
-  double penetration = 0.0;                                   ///< of the device point into the paper [m]
-  bool contact = false;                                       ///< touches the paper, or bounces on it
-  bool on_paper = false;                                      ///< within `lift_height`: does not bounce
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();         ///< estimate [m/s, page]
-  Eigen::Vector3d last_velocity = Eigen::Vector3d::Zero();    ///< at the sample before; after a gap at this one
-  Eigen::Vector3d last_position = Eigen::Vector3d::Zero();    ///< likewise
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();       ///< of the device, page frame [m]
+  Eigen::Vector3d device_point = Eigen::Vector3d::Zero();   ///< haptic interface point, page frame [m]
+  Eigen::Vector3d tip = Eigen::Vector3d::Zero();            ///< virtual pen tip, page frame [m]
+  double penetration = 0.0;                                 ///< of the device point into the paper [m]
+  bool contact = false;                                     ///< touches the paper, or bounces on it
+  bool on_paper = false;                                    ///< within `lift_height`: does not bounce
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();       ///< estimate [m/s, page]
+  Eigen::Vector3d last_velocity = Eigen::Vector3d::Zero();  ///< at the sample before; after a gap at this one
+  Eigen::Vector3d last_position = Eigen::Vector3d::Zero();  ///< likewise
 
   int ticks = 1;          ///< since the sample before; more when the loop paused, counted for the account of energy
   double settling = 0.0;  ///< for how long after the sample before the force may have been another one [s]

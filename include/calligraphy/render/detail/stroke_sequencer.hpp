@@ -49,7 +49,12 @@ class StrokeSequencer {
   bool is_guided() const noexcept;
 
   PreparedPage page_;
-  RendererOptions options_;
+  StrokeOptions stroke_;
+  StrokeTolerances tolerances_;
+  double box_hysteresis_;      ///< [em]
+  bool lift_between_strokes_;  ///< ContactOptions
+  bool leads_to_start_;        ///< guidance does
+  bool lets_go_;               ///< guidance does, of a pen that is astray
   MotionMapping mapping_;
   double hidden_way_;  ///< how far dry friction keeps the pen short of where a usual hand means to be [m, page]
   double compliance_;  ///< of a usual grip [m/N, page]
