@@ -1,13 +1,15 @@
 """The generator of documentation, fields and members from C++ headers."""
 
+import importlib.util
 import pathlib
 import re
 import sys
 
 import pytest
 
-sys.path.insert(0, str(pathlib.Path(__file__).parents[1]))
-import make_docs
+spec = importlib.util.spec_from_file_location("make_docs", pathlib.Path(__file__).parents[1] / "make_docs.py")
+make_docs = sys.modules["make_docs"] = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(make_docs)
 
 HEADER = r"""
 // Not documentation. struct Nowhere { int never; };
