@@ -19,7 +19,10 @@ TOKEN = re.compile(
     re.VERBOSE | re.MULTILINE,
 )
 #: The shape of a vector or matrix as an array.
-SHAPES = {"Eigen::Vector3d": "(3,)", "Joints": "(3,)", "Point": "(2,)", "Eigen::Vector2d": "(2,)"} | {
+SHAPES = {
+    "Point": "(2,)",
+    "Eigen::Vector3d": "(3,)",
+    "Joints": "(3,)",
     "Eigen::Matrix3d": "(3, 3)",
     "Eigen::Isometry3d": "(4, 4)",
 }
@@ -34,11 +37,8 @@ WORDS = {
     r"\bstd::": "",
     r"\bphantom::": "",
     r"(?<=\w)::(?=~?\w)": ".",
-    r"(?<=`)(true|false)(?=`)|\b(true|false)(?=:)|(?<=returns )(true|false)\b|(?<=Returns )(true|false)\b": lambda found: (
-        found[0].capitalize()
-    ),
-    r"\bif false\b": "if False",
-    r"; false ends": "; False ends",
+    r"\btrue(?=[`:])|(?<=[Rr]eturns )true\b": "True",
+    r"\bfalse(?=[`:])|(?<=[Rr]eturns )false\b|(?<=if )false\b|(?<=; )false\b": "False",
     r"\bthrow(s?)\b": r"raise\1",
     r"\bthrew\b": "raised",
 }
@@ -77,7 +77,7 @@ def in_python(comment: str) -> str:
 
 
 def without_brackets(code: str, brackets: str = "<>") -> str:
-    """The code without what is between brackets."""
+    """The code without what is between brackets, and without these."""
     left, right = brackets
     while (shorter := re.sub(rf"\{left}[^\{left}\{right}]*\{right}", "", code)) != code:
         code = shorter
