@@ -6,10 +6,14 @@
 namespace calligraphy::python {
 namespace {
 
-/// Own text of a binding replaces that of the headers, or follows it if it begins with "+ ".
-std::string complete(std::string_view owner, std::string_view name, std::string own) {
+/// The text of the headers; own text of a binding replaces it, or follows it if it begins with "+ ".
+/// @throws ImportError when there is neither, which fails the build too
+std::string complete(const std::string& owner, const std::string& name, const std::string& own) {
   if (!own.empty() && own[0] != '+') return own;
-  return text_of(owner, name) + (own.empty() ? own : own.substr(1));
+  const std::string text = text_of(owner, name);
+  if (text.empty())
+    throw py::import_error(owner + "." + name + " has no documentation, as in the headers of the library");
+  return text + (own.empty() ? own : own.substr(1));
 }
 
 /// A value as a literal, or "..." if it has none.
@@ -65,12 +69,12 @@ std::string document_members(const py::object& owner, const std::string& name) {
     const std::string own = record->doc != nullptr ? record->doc : "";
     const std::string told = called.starts_with("__") ? own : complete(name, called, own);
     if (own.empty() && !told.empty()) text += '\n' + told + '\n';
-    if (!own.empty()) text.replace(text.rfind(own), own.size(), told);
-    replace(record->def->ml_doc, called + parameters(*record), text, std::malloc, std::free);
-    if (record->is_constructor) {
-      const std::string given = parameters(*record);
-      constructor = "(" + given.substr(std::min(given.find_first_not_of(", ", 5), given.size() - 1));
-    }
+    if (!own.empty()) text.replace(text.find(own), own.size(), told);
+    const std::string given = parameters(*record);
+    replace(record->def->ml_doc, called + given, text, std::malloc, std::free);
+    if (!record->is_constructor) continue;
+    const std::string_view self = given == "(self)" ? "(self" : "(self, ";
+    constructor = given.starts_with(self) ? '(' + given.substr(self.size()) : given;
   }
   return constructor;
 }

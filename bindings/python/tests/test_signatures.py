@@ -45,6 +45,9 @@ def test_signatures_have_the_names_defaults_and_kinds_of_the_arguments():
     assert str(inspect.signature(cal.RendererOptions.for_device)) == "(capabilities, scale=1.0)"
     assert str(inspect.signature(cal.PenOrientation)) == "(*, tilt=nan, azimuth=nan)"
     assert str(inspect.signature(cal.InvalidValue)) == "(*args)"
+    assert str(inspect.signature(cal.CharacterSet)) == "(*args, **kwargs)", "its constructor is overloaded"
+    assert str(inspect.signature(cal.VelocityEstimator)) == "(cutoff=50.0)"
+    assert str(inspect.signature(cal.HapticDevice.__exit__)) == "(self, *args)"
 
 
 @pytest.mark.parametrize("kind", [kind for kind in CLASSES.values() if hasattr(kind, "fields")])
