@@ -233,7 +233,7 @@ def generated(headers: dict[str, str]) -> str:
                 listed = f"std::tuple({','.join(entries)})"
                 parts.append(f"template <>\ninline constexpr auto fields_of<{kind.qualified}> = {listed};")
         parts.append("}  // namespace calligraphy::python\n#endif")
-    entries = [f"    {{{quoted(owner)}, {quoted(name)}, {quoted(text)}}}," for (owner, name), text in sorted(texts.items())]
+    entries = [f"    {{{quoted(own)}, {quoted(name)}, {quoted(text)}}}," for (own, name), text in sorted(texts.items())]
     parts.append("namespace calligraphy::python {\ninline constexpr Text texts[] = {\n" + "\n".join(entries))
     parts.append("};\n}  // namespace calligraphy::python\n")
     return "\n".join(parts)
