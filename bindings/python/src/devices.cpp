@@ -297,8 +297,7 @@ void add_devices(py::module_& module) {
       "timeout: without a fresh sample, a tick or a result of the law before the force ramps down [s]",
       &ServoOptions::ramp_down, "ramp_down: from the last force to zero [s]", &ServoOptions::ramp_up,
       "ramp_up: of the gain on the force from 0 to 1 [s]");
-  add_struct<T>(module, "ServoThreadOptions", "The thread of a servo loop.", &T::rate,
-                "rate: a ServoLoop uses that of its servo [Hz]", &T::priority,
+  add_struct<T>(module, "ServoThreadOptions", "The thread of a servo loop.", &T::priority,
                 "priority: real-time priority, 1 to 99; 0: a normal thread", &T::lock_memory,
                 "lock_memory: lock the memory of the whole process into RAM", &T::core,
                 "core: processor core that the thread is bound to; -1: any");
@@ -316,7 +315,7 @@ void add_devices(py::module_& module) {
                            "a DeviceState to a force (3,) [N] in device axes, guards the force and writes it. If the "
                            "law raises, the force ramps down to zero and the exception is in `error`; the first is "
                            "also passed to sys.unraisablehook. About 400 times as fast as real time at 1 kHz.")
-      .def(py::init(&make_servo), py::keep_alive<1, 2>(), "device"_a, "law"_a, py::kw_only(), "rate"_a = 1000.0,
+      .def(py::init(&make_servo), py::keep_alive<1, 2>(), "device"_a, "law"_a, py::kw_only(), "rate"_a = 0.0,
            "timeout"_a = 4e-3, "ramp_down"_a = 10e-3, "ramp_up"_a = 0.2)
       .def("step", &VirtualServo::step, "now"_a, "Runs one tick at the time `now` [s].")
       .def("release", &VirtualServo::release, "From the next tick on, ramps the force down to zero and keeps it there.")

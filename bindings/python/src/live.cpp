@@ -20,9 +20,7 @@ void refuse_at_the_end() {
 class Loop {
  public:
   Loop(HapticDevice& device, HapticRenderer& renderer, const ServoLoopOptions& options)
-      : Loop(
-            device, py::cast(&renderer), &renderer, nullptr,
-            [&renderer](const DeviceState& state) { return renderer.update(state).force; }, options) {}
+      : Loop(device, py::cast(&renderer), &renderer, nullptr, renderer, options) {}
   // A vendor's clock may end its thread only when the device is closed, with the GIL held.
   Loop(HapticDevice& device, const Law& law, const ServoLoopOptions& options)
       : Loop(device, PythonLaw::make(law), options) {}
@@ -247,9 +245,9 @@ void add_live(py::module_& module) {
                     "the pen has been in front of the paper; until then, no force and no recording");
   add_struct<LiveOptions>(
       module, "LiveOptions", "Options of a person writing on a device.", &LiveOptions::mode, "mode: FeedbackMode",
-      &LiveOptions::renderer, "renderer: RendererOptions; its servo rate applies to the loop as well",
+      &LiveOptions::renderer, "renderer: RendererOptions; the servo loop runs at its rate",
       &LiveOptions::mapping, "mapping: MotionMapping; None: upright_page() of the page", &LiveOptions::servo,
-      "servo: ServoLoopOptions; its rate is ignored", &LiveOptions::peak_force,
+      "servo: ServoLoopOptions", &LiveOptions::peak_force,
       "peak_force: upper bound, besides the device's own [N]", &LiveOptions::timeout, "timeout: of the session [s]");
   py::class_<LiveResult>(module, "LiveResult", "Result of write_with_device.")
       .def_readonly("recording", &LiveResult::recording, "Recording")

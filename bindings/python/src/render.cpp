@@ -83,16 +83,13 @@ void add_render(py::module_& module) {
   add_enum(module, "GuidanceLaw", "Guidance force over the distance.", GuidanceLaw::saturating, "linear saturating");
   add_enum(module, "StiffnessCheck", "What to do with an unstable stiffness; `off` is for simulated devices only.",
            StiffnessCheck::off, "reject clip off");
-  add_enum(module, "FrictionModel", "Friction between pen and paper.", FrictionModel::hayward_armstrong,
-           "breakaway hayward_armstrong");
 
   add_struct<AssistPolicy>(
       module, "AssistPolicy", "Assistance as needed.", &AssistPolicy::enabled, "enabled: False: full assistance always",
       &AssistPolicy::retention, "retention: share of the previous assistance retained [1]",
       &AssistPolicy::full_assistance_error, "full_assistance_error: RMS lateral error that keeps assistance at 1 [em]",
       &AssistPolicy::min_assistance, "min_assistance: lower bound of the assistance [1]");
-  add_struct<FrictionOptions>(module, "FrictionOptions", "Friction between pen and paper.", &FrictionOptions::model,
-                              "model: FrictionModel", &FrictionOptions::coefficient,
+  add_struct<FrictionOptions>(module, "FrictionOptions", "Friction between pen and paper.", &FrictionOptions::coefficient,
                               "coefficient: mu; 0: no friction [1]", &FrictionOptions::stiffness,
                               "stiffness: of the spring between pen and anchor [N/m]", &FrictionOptions::damping,
                               "damping: of that spring, not of the sliding pen [N s/m]");
@@ -132,8 +129,7 @@ void add_render(py::module_& module) {
                 &L::normal_rate, "normal_rate: [N/s]", &L::thermal_time_constant, "thermal_time_constant: [s]",
                 &L::max_speed, "max_speed: [m/s]");
   using E = EnergyOptions;
-  add_struct<E>(module, "EnergyOptions", "What energy the force may deliver.", &E::passivity_control,
-                "passivity_control: dissipate energy", &E::budget, "budget: [J]", &E::max_gap, "max_gap: [s]");
+  add_struct<E>(module, "EnergyOptions", "What energy the force may deliver.", &E::budget, "budget: [J]", &E::max_gap, "max_gap: [s]");
   using O = RendererOptions;
   add_struct<O>(module, "RendererOptions", "Options of the haptic renderer.", &O::servo_rate, "servo_rate: [Hz]",
                 &O::rules, "rules: Rules", &O::stiffness_check, "stiffness_check: StiffnessCheck", &O::nearest,
@@ -205,8 +201,7 @@ void add_render(py::module_& module) {
               "covered: share of the active stroke written in order [1]", t.hint, "hint: WritingHint", t.to_start,
               "to_start: from the pen tip to the start of the active stroke (2,) [m]", t.attraction,
               "attraction: force term (2,) [N]", t.wrong_way, "wrong_way: force term (2,) [N]", t.friction,
-              "friction: force term (2,) [N]", t.normal, "normal: force term, out of the page [N]", t.damping,
-              "damping: by the passivity controller (3,) [N]", t.viscous,
+              "friction: force term (2,) [N]", t.normal, "normal: force term, out of the page [N]", t.viscous,
               "viscous: damping by guidance, friction and paper (3,) [N]", t.assistance,
               "assistance: factor on the guidance, from the assist policy [1]", t.energy_given,
               "energy_given: net energy delivered to the hand [J]", t.heat,
