@@ -52,30 +52,34 @@ def recording(shown: cal.Recording) -> str:
     points, writing = _to_picture(samples["pen_tip"][good, :2], low, scale, height), writing[good]
     put_down = np.flatnonzero(np.diff(down, prepend=-1))
     dots = np.round(points[put_down[:: 1 + len(put_down) // _RUNS]], 1)
-    for step in 0.1 * 2.0 ** np.arange(13):  # [px]
-        grid = np.round(points / step).astype(np.int64)
+    for step in (0.1, 0.2, 0.4, 0.8):  # [px]
         begun = np.diff(run, prepend=-1) != 0
-        kept = begun | np.diff(grid, axis=0, prepend=grid[:1]).any(axis=1)  # without those at which the pen stood still
-        points, run, writing, grid = points[kept], run[kept], writing[kept], grid[kept]
-        if len(grid) <= _POINTS:
+        kept = begun | np.diff(np.round(points / step), axis=0, prepend=points[:1]).any(axis=1)  # where the pen moved
+        points, run, writing = points[kept], run[kept], writing[kept]
+        if len(points) <= _POINTS:
             break
+    else:  # nothing but noise is as long
+        kept = (np.diff(run, prepend=-1) != 0) | (np.arange(len(points)) % (1 + len(points) // _POINTS) == 0)
+        points, run, writing = points[kept], run[kept], writing[kept]
+    grid = np.round(10.0 * points).astype(np.int64)  # [px / 10]
     starts = np.flatnonzero(np.diff(run, prepend=-1))
     ends = np.append(starts[1:], len(run))
     longest = np.sort(np.argsort(starts - ends, kind="stable")[:_RUNS])
     paths = {True: "", False: ""}
     for start, end in zip(starts[longest].tolist(), ends[longest].tolist()):
         paths[bool(writing[start])] += _line(grid[start:end])
-    lines = f'<g transform="scale({step:g})" stroke-width="{1.5 / step:g}">' + "".join(
+    lines = "".join(
         f'<path d="{path}" stroke="{_WRITING if kind else _OTHER}"/>' for kind, path in paths.items() if path
     )
     dotted = "".join(f"M{x:g},{y:g}h0" for x, y in dots.tolist())
-    millimetres = f"{1e3 * width / scale:.0f} x {1e3 * height / scale:.0f} mm"
-    told = _text(height + 20.0, f"{seconds}, {len(put_down)} pen-downs, {millimetres}; green: writing, orange: not")
     group = (
-        f'<g fill="none" stroke-linecap="round" stroke-linejoin="round">{lines}</g>'
-        f'<path d="{dotted}" stroke="#333333" stroke-width="4"/></g>'
+        '<g fill="none" stroke-linecap="round" stroke-linejoin="round">'
+        f'<g transform="scale(0.1)" stroke-width="15">{lines}</g><path d="{dotted}" stroke="#333333" stroke-width="4"/></g>'
     )
-    return _svg(width, height + 20.0, _frame(width, height) + group + told)
+    millimetres = f"{1e3 * width / scale:.0f} x {1e3 * height / scale:.0f} mm"
+    told = _text(height + 22.0, f"{seconds}, pen-downs: {len(put_down)}, {millimetres}")
+    colours = _text(height + 38.0, "green: writing, orange: not")
+    return _svg(max(width, 270.0), height + 36.0, _frame(width, height) + group + told + colours)
 
 
 def table(shown: cal.Recording) -> Any:
@@ -119,7 +123,7 @@ def _fit(points: Points) -> tuple[Points, float, float, float]:
     """The lower left of the points [m], the scale that fits them [px/m], and the size of the picture [px]."""
     low, high = (points.min(axis=0), points.max(axis=0)) if len(points) else (np.zeros(2), np.zeros(2))
     size = np.maximum(high - low, 0.01)
-    scale = _LONGEST / float(size.max())
+    scale = min(_LONGEST / float(size.max()), _SIDE / 0.04)
     return low, scale, round(scale * float(size[0]), 1), round(scale * float(size[1]), 1)
 
 

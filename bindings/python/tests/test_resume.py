@@ -275,6 +275,9 @@ def test_what_a_row_depends_on_is_all_of_the_grid(tmp_path):
     other.stroke.nearest.samples += 1
     with pytest.raises(cal.InvalidValue, match="options.stroke.nearest.samples is "):
         experiment.run(grid(seeds=0, options=other), path=path, progress=False)
+    path.write_text(path.read_text(encoding="utf-8").replace("options.stroke.nearest.samples", "gone"), encoding="utf-8")
+    with pytest.raises(cal.InvalidValue, match="gone is .* there and None here"):
+        experiment.run(grid(seeds=0), path=path, progress=False)
 
 
 PROGRAM = """
