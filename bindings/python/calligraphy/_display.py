@@ -54,7 +54,7 @@ def recording(shown: cal.Recording) -> str:
     dots = np.round(points[put_down[:: 1 + len(put_down) // _RUNS]], 1)
     for step in (0.1, 0.2, 0.4, 0.8):  # [px]
         begun = np.diff(run, prepend=-1) != 0
-        kept = begun | np.diff(np.round(points / step), axis=0, prepend=points[:1]).any(axis=1)  # where the pen moved
+        kept = begun | np.diff(np.round(points / step), axis=0, prepend=0.0).any(axis=1)  # where the pen moved
         points, run, writing = points[kept], run[kept], writing[kept]
         if len(points) <= _POINTS:
             break
