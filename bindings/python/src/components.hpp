@@ -33,6 +33,7 @@ void add_render(py::module_& module);
 void add_practice(py::module_& module);
 void add_live(py::module_& module);
 void add_experiments(py::module_& module);
+void add_pictures(py::module_& module);
 
 /// Occurrences of each fault, by DeviceFault.
 py::dict fault_counts(const std::array<std::uint64_t, device_fault_count>& faults);
