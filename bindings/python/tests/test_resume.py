@@ -270,12 +270,12 @@ def test_what_a_row_depends_on_is_all_of_the_grid(tmp_path):
     for struct, name in ((grid().options, "options"), (grid().device, "device"), (cal.WriterSkill(), "writers['novice']")):
         for field in struct.fields:
             assert any(key == f"{name}.{field}" or key.startswith(f"{name}.{field}.") for key in basis), field
-    assert basis["options.stroke.nearest.method"] == repr(grid().options.stroke.nearest.method)
+    assert basis["options.nearest.method"] == repr(grid().options.nearest.method)
     other = copy.deepcopy(grid().options)
-    other.stroke.nearest.samples += 1
-    with pytest.raises(cal.InvalidValue, match="options.stroke.nearest.samples is "):
+    other.nearest.samples += 1
+    with pytest.raises(cal.InvalidValue, match="options.nearest.samples is "):
         experiment.run(grid(seeds=0, options=other), path=path, progress=False)
-    path.write_text(path.read_text(encoding="utf-8").replace("options.stroke.nearest.samples", "gone"), encoding="utf-8")
+    path.write_text(path.read_text(encoding="utf-8").replace("options.nearest.samples", "gone"), encoding="utf-8")
     with pytest.raises(cal.InvalidValue, match="gone is .* there and None here"):
         experiment.run(grid(seeds=0), path=path, progress=False)
 
