@@ -45,7 +45,7 @@ int main(int argc, char** argv) {
     }
   }
   PointerOptions pointer;
-  pointer.rate = options.servo.rate;
+  if (options.servo.rate > 0.0) pointer.rate = options.servo.rate;
   PointerDevice device(device_profile("omni"), {}, pointer);
   device.move(0.0, 0.0, 0.5);
   ServoLoop loop(device, wall, options);

@@ -138,28 +138,18 @@ void tick_with(benchmark::State& state, void (*add)(RendererOptions&)) {
 }
 void nothing(RendererOptions&) {}
 void friction(RendererOptions& options) { options.paper.friction.coefficient = 0.15; }
-void friction_hayward_armstrong(RendererOptions& options) {
-  friction(options);
-  options.paper.friction.model = FrictionModel::hayward_armstrong;
-}
 void saturating_guidance(RendererOptions& options) { options.guidance.law = GuidanceLaw::saturating; }
 void guidance_to_start(RendererOptions& options) { options.guidance.to_start = true; }
 void assist_policy(RendererOptions& options) { options.guidance.assist.enabled = true; }
-void passivity_control(RendererOptions& options) { options.energy.passivity_control = true; }
-void energy_budget(RendererOptions& options) {
-  passivity_control(options);
-  options.energy.budget = 0.1;
-}
+void energy_budget(RendererOptions& options) { options.energy.budget = 0.1; }
 void thermal_budget(RendererOptions& options) { options.limits.thermal_time_constant = 10.0; }
 void everything(RendererOptions& options) { options = RendererOptions::everything(written_page().capabilities); }
 BENCHMARK_CAPTURE(tick_with, nothing_added, nothing);
-BENCHMARK_CAPTURE(tick_with, friction_breakaway, friction);
-BENCHMARK_CAPTURE(tick_with, friction_hayward_armstrong, friction_hayward_armstrong);
+BENCHMARK_CAPTURE(tick_with, friction, friction);
 BENCHMARK_CAPTURE(tick_with, saturating_guidance, saturating_guidance);
 BENCHMARK_CAPTURE(tick_with, guidance_to_start, guidance_to_start);
 BENCHMARK_CAPTURE(tick_with, assist_policy, assist_policy);
-BENCHMARK_CAPTURE(tick_with, passivity_control, passivity_control);
-BENCHMARK_CAPTURE(tick_with, passivity_control_and_budget, energy_budget);
+BENCHMARK_CAPTURE(tick_with, energy_budget, energy_budget);
 BENCHMARK_CAPTURE(tick_with, thermal_budget, thermal_budget);
 BENCHMARK_CAPTURE(tick_with, everything, everything);
 

@@ -48,14 +48,12 @@ int main() {
   HapticRenderer renderer(page.characters, mapping, device.capabilities(),
                           RendererOptions::for_device(device.capabilities()));
   LatestValue<HapticTick> newest;  // from the servo thread to the display, neither of which waits for the other
-  ServoLoopOptions options;
-  options.servo.rate = renderer.options().servo_rate;  // that of the device
-  const ForceLaw law = [&](const DeviceState& state) noexcept {
+  const auto law = [&](const DeviceState& state) noexcept {
     const HapticTick& tick = renderer.update(state);
     newest.publish(tick);
     return tick.force;
   };
-  ServoLoop loop(device, law, options);
+  ServoLoop loop(device, law);  // at the rate of the device, as the renderer
 
   const User user(page.characters.front());
   for (const std::string& warning : loop.start()) std::printf("%s\n", warning.c_str());

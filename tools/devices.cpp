@@ -237,7 +237,6 @@ void watch(const WatchOptions& options) {
   const std::unique_ptr<HapticDevice> device = open_device(choice, false);
   SeenDevice seen(*device);
   ServoLoopOptions servo;
-  servo.servo.rate = device->capabilities().update_rate;
   ServoLoop loop(
       seen, [](const DeviceState&) { return Eigen::Vector3d(Eigen::Vector3d::Zero()); }, servo);
   const Interrupt interrupt;

@@ -76,7 +76,6 @@ RendererOptions chosen_renderer(const WriteArguments& options, const Capabilitie
     if (options.renderer == "everything")
       throw UsageError("--renderer everything: cannot be combined with --rules wang2006");
     RendererOptions rules = printed;
-    rules.servo_rate = renderer.servo_rate;
     rules.paper.stiffness = renderer.paper.stiffness;
     rules.guidance.stiffness = renderer.guidance.stiffness;
     rules.guidance.wrong_way_stiffness = renderer.guidance.wrong_way_stiffness;

@@ -42,8 +42,7 @@ bool is_harmless(int signal) noexcept {
 /// Whether the program is to end or has crashed even where it handles this signal. What else it handles (SIGUSR1, a
 /// timer, a profiler's SIGPROF) is its own business, and it goes on.
 bool ends_if_handled(int signal) noexcept {
-  constexpr std::array signals = {SIGINT,  SIGTERM, SIGHUP, SIGQUIT, SIGTSTP,
-                                  SIGSEGV, SIGBUS,  SIGFPE, SIGILL,  SIGABRT};
+  constexpr std::array signals = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGTSTP, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
   return std::find(signals.begin(), signals.end(), signal) != signals.end();
 }
 
@@ -149,7 +148,7 @@ SignalStack::~SignalStack() {
 
 namespace {
 
-constexpr std::array ending_signals = {SIGINT, SIGTERM, SIGSEGV, SIGFPE, SIGILL, SIGABRT,
+constexpr std::array ending_signals = {SIGINT,  SIGTERM, SIGSEGV, SIGFPE, SIGILL, SIGABRT,
 #if defined(SIGBREAK)  // Ctrl-Break on Windows
                                        SIGBREAK
 #endif

@@ -24,7 +24,12 @@ std::uint64_t with_fault(std::uint64_t status, DeviceFault fault) noexcept {
   return (status & ~(std::uint64_t{0xff} << fault_shift)) | (static_cast<std::uint64_t>(fault) << fault_shift);
 }
 
-ServoOptions checked(ServoOptions options) {
+ServoOptions checked(ServoOptions options, const HapticDevice& device, const ForceLaw& law) {
+  if (options.rate == 0.0) options.rate = law.rate > 0.0 ? law.rate : device.capabilities().update_rate;
+  if (law.rate > 0.0 && law.rate != options.rate) {
+    throw ValueError("servo loop: rate = " + number_text(options.rate) + " Hz, but the force law is made for " +
+                     number_text(law.rate) + " Hz");
+  }
   require_within("servo loop: rate", options.rate, "Hz", 1.0, 1e5);
   require(options.timeout >= 2.0 / options.rate && options.timeout <= 1.0, "servo loop: timeout", options.timeout, "s",
           "from two periods of the rate to 1");
@@ -74,12 +79,12 @@ const char* to_string(ServoPhase phase) noexcept {
 Servo::Servo(HapticDevice& device, ForceLaw law, const ServoOptions& options)
     : device_(device),
       law_(std::move(law)),
-      options_(checked(options)),
+      options_(checked(options, device, law_)),
       guard_(options.ramp_down, options.ramp_up),
       velocity_(device.capabilities().velocity_cutoff) {
   const double peak = device.capabilities().peak_force;
   if (peak > 0.0) peak_force_ = peak;  // 0 means unknown
-  if (!law_) throw ValueError("servo loop: the force law is empty");
+  if (!law_.ask) throw ValueError("servo loop: the force law is empty");
 }
 
 void Servo::step(double now) noexcept {
@@ -205,7 +210,7 @@ bool Servo::ask(const DeviceState& sample, Eigen::Vector3d& force) noexcept {
   const Servo* const outer = std::exchange(asking, this);  // a force law may step another servo
   bool answered = true;
   try {
-    force = law_(sample);
+    force = law_.ask(sample);
   } catch (...) {
     answered = false;
   }

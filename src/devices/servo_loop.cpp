@@ -7,20 +7,19 @@
 
 #include <calligraphy/base/error.hpp>
 
+#include "base/require.hpp"
 #include "ending_signals.hpp"
 
 namespace calligraphy {
 namespace {
 
-ServoThreadOptions for_servo(ServoThreadOptions options, double rate) {
-  options.rate = rate;
+ServoThreadOptions for_servo(ServoThreadOptions options) {
   options.lock_memory = false;  // the watchdog locks it for the whole process, whichever clock the servo has
   return options;
 }
 
 /// One priority above the servo, so that a force law that never returns cannot block it.
-ServoThreadOptions for_watchdog(ServoThreadOptions options, double rate) {
-  options.rate = rate;
+ServoThreadOptions for_watchdog(ServoThreadOptions options) {
   if (options.priority > 0 && options.priority < 99) ++options.priority;
   options.core = -1;
   return options;
@@ -39,8 +38,13 @@ void wait_for_zero(void* servo) noexcept {
 ServoLoop::ServoLoop(HapticDevice& device, ForceLaw law, const ServoLoopOptions& options)
     : device_(device),
       servo_(device, std::move(law), options.servo),
-      thread_(for_servo(options.thread, options.servo.rate)),
-      watchdog_(for_watchdog(options.thread, options.servo.rate)) {}
+      thread_(servo_.rate(), for_servo(options.thread)),
+      watchdog_(servo_.rate(), for_watchdog(options.thread)) {
+  const double own = device.capabilities().update_rate;
+  if (device.clock() == nullptr || servo_.rate() == own) return;
+  throw ValueError("servo loop: rate = " + number_text(servo_.rate()) +
+                   " Hz, but the device has a clock of its own, at " + number_text(own) + " Hz");
+}
 
 ServoLoop::~ServoLoop() { stop(); }
 

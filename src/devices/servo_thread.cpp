@@ -17,7 +17,6 @@ namespace calligraphy {
 namespace {
 
 ServoThreadOptions checked(const ServoThreadOptions& options) {
-  require_within("servo thread: rate", options.rate, "Hz", 1.0, 1e5);
   require(options.priority >= 0 && options.priority <= 99, "servo thread: priority", options.priority, "",
           "from 1 to 99, or 0 for a normal thread");
   require(options.core >= -1 && options.core <= 1023, "servo thread: core", options.core, "",
@@ -41,7 +40,9 @@ std::vector<std::string> set_real_time_priority(int priority) {
   return real_time::make_real_time(checked(options));
 }
 
-ServoThread::ServoThread(const ServoThreadOptions& options) : options_(checked(options)) {}
+ServoThread::ServoThread(double rate, const ServoThreadOptions& options) : rate_(rate), options_(checked(options)) {
+  require_within("servo thread: rate", rate, "Hz", 1.0, 1e5);
+}
 
 ServoThread::~ServoThread() { stop(); }
 
@@ -80,7 +81,7 @@ void ServoThread::stop() noexcept {
 
 void ServoThread::run(const std::function<void(double now)>& tick) noexcept {
   const SignalStack stack;  // a force law that recurses without end must not keep its force
-  const double period = 1.0 / options_.rate;
+  const double period = 1.0 / rate_;
   double deadline = monotonic_seconds();
   while (!stopping_.load(std::memory_order_relaxed)) {
     tick(monotonic_seconds());

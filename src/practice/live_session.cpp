@@ -47,26 +47,25 @@ LiveResult write_with_device(const PracticePage& page, HapticDevice& device, con
   HapticRenderer renderer(page.characters, mapping, with_peak_force(device.capabilities(), options.peak_force),
                           options.renderer);
   SessionTick session(renderer, options.mode, true);
-  SampleQueue<LiveTick> queue(static_cast<std::size_t>(std::ceil(max_absence * options.renderer.servo_rate)));
+  const double rate = renderer.options().servo_rate;
+  SampleQueue<LiveTick> queue(static_cast<std::size_t>(std::ceil(max_absence * rate)));
   ServoLoopOptions servo = options.servo;
-  servo.servo.rate = options.renderer.servo_rate;
-  servo.servo.timeout = std::max(servo.servo.timeout, min_patience / servo.servo.rate);
+  servo.servo.timeout = std::max(servo.servo.timeout, min_patience / rate);
   std::atomic<bool> in_front = false;  // an inkwell lies behind the paper: the way out of it is no writing
-  ServoLoop loop(
-      device,
-      [&](const DeviceState& state) noexcept {
-        if (!in_front.load(std::memory_order_relaxed)) {
-          if (!(mapping.to_page(state.position).z() > 0.0)) return Eigen::Vector3d(Eigen::Vector3d::Zero());
-          in_front.store(true, std::memory_order_relaxed);
-        }
-        const HapticTick& tick = session.update(state);
-        queue.push({session.sample(), tick.hint, tick.to_start});
-        return Eigen::Vector3d(session.force());
-      },
-      servo);
+  ForceLaw law = [&](const DeviceState& state) noexcept {
+    if (!in_front.load(std::memory_order_relaxed)) {
+      if (!(mapping.to_page(state.position).z() > 0.0)) return Eigen::Vector3d(Eigen::Vector3d::Zero());
+      in_front.store(true, std::memory_order_relaxed);
+    }
+    const HapticTick& tick = session.update(state);
+    queue.push({session.sample(), tick.hint, tick.to_start});
+    return Eigen::Vector3d(session.force());
+  };
+  law.rate = rate;
+  ServoLoop loop(device, std::move(law), servo);
 
   LiveResult result;
-  result.recording.rate = options.renderer.servo_rate;
+  result.recording.rate = rate;
   LiveView view;
   LiveTick newest;
   const auto take_over = [&] {

@@ -46,10 +46,10 @@ Recording run_session(const PracticePage& page, const SessionOptions& options, c
 
   const FlushDenormals as_a_servo_thread;
   SessionTick session(renderer, options.mode, options.measure_ticks);
-  const double period = 1.0 / options.renderer.servo_rate;
+  const double period = 1.0 / renderer.options().servo_rate;
   const double longest = options.character_timeout * static_cast<double>(page.characters.size());
   Recording recording;
-  recording.rate = options.renderer.servo_rate;
+  recording.rate = renderer.options().servo_rate;
   while (device.time() < longest) {
     const HapticTick& tick = session.update(device.read());
     device.write(session.force());
@@ -96,7 +96,7 @@ Recording replay_page(const PracticePage& page, ReplayDevice& device, const Sess
   const FlushDenormals as_a_servo_thread;
   SessionTick session(renderer, options.mode, options.measure_ticks);
   Recording recording;
-  recording.rate = options.renderer.servo_rate;
+  recording.rate = renderer.options().servo_rate;
   while (!device.finished()) {
     const HapticTick& tick = session.update(device.read());
     device.write(session.force());

@@ -25,8 +25,8 @@ void require_valid(const PenTrace& trace) {
     for (const TimedPoint& timed : stroke) {
       if (!timed.point.allFinite()) throw ValueError("a trace with a point that is not finite");
       if (!(timed.time >= last) || !std::isfinite(timed.time)) {
-        throw ValueError("a trace whose time goes from " + number_text(last) + " s to " +
-                         number_text(timed.time) + " s");
+        throw ValueError("a trace whose time goes from " + number_text(last) + " s to " + number_text(timed.time) +
+                         " s");
       }
       last = timed.time;
       any = true;

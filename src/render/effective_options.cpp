@@ -5,7 +5,16 @@
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/render/detail/prepared_page.hpp>
 
+#include "base/require.hpp"
+
 namespace calligraphy {
+
+double servo_rate(const RendererOptions& options, const Capabilities& capabilities) {
+  const bool is_asked_for = options.servo_rate != 0.0;
+  const double rate = is_asked_for ? options.servo_rate : capabilities.update_rate;
+  require_above_zero(is_asked_for ? "servo_rate" : "update_rate of the device", rate, "Hz", 1e6);
+  return rate;
+}
 
 EffectiveOptions effective_options(const RendererOptions& options, const std::vector<PlacedCharacter>& page,
                                    const MotionMapping& mapping, const Capabilities& capabilities) {
@@ -13,6 +22,7 @@ EffectiveOptions effective_options(const RendererOptions& options, const std::ve
   validate(mapping);
   EffectiveOptions effective;
   effective.options = options;
+  effective.options.servo_rate = servo_rate(options, capabilities);
   const bool clips = options.stiffness_check == StiffnessCheck::clip;
   if (clips) effective.clipped = clip_stiffness(effective.options, capabilities, mapping.scale);
   validate(effective.options, capabilities, mapping.scale);

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include <calligraphy/render/stiffness_advice.hpp>
-
 #include "base/require.hpp"
 #include "collision/length.hpp"
 
@@ -15,25 +13,12 @@ namespace {
 /// The force follows a pen at once up to this speed, and this change of it in a tick [m/s].
 constexpr double max_followed_speed = 1.0, max_followed_change = 0.3;
 
-/// Maximum force of passivity control for one step of the encoder within a tick: a click that is not felt [N].
-constexpr double max_control_click = 0.1;
-
 /// In page axes, where forces are 1 / scale times those of the device, masses and damping 1 / scale^2 times
 /// (MotionMapping).
 PassivityController passivity_controller(const RendererOptions& options, const Capabilities& capabilities,
                                          double scale) {
   PassivityOptions passivity;
   passivity.delay = capabilities.sample_delay;
-  if (options.energy.passivity_control) {
-    // Half of what the mass tolerates alone, less what guidance and paper damp already: a hand has a spring.
-    const double damped = scale * scale * std::max(options.paper.damping, options.guidance.damping);
-    passivity.max_damping = std::max(0.0, 0.5 * injectable_damping({capabilities, options.servo_rate}) - damped);
-    if (capabilities.encoder_step > 0.0) {
-      passivity.max_damping =
-          std::min(passivity.max_damping, max_control_click / (capabilities.encoder_step * options.servo_rate));
-    }
-    passivity.max_damping /= scale * scale;
-  }
   passivity.energy_budget = options.energy.budget;
   if (capabilities.apparent_mass > 0.0) passivity.mass = capabilities.apparent_mass / (scale * scale);
   passivity.hand_speed *= scale;
@@ -51,7 +36,7 @@ ForceOutput::ForceOutput(const RendererOptions& options, const Capabilities& cap
       in_plane_{max_guidance_stiffness + options.guidance.wrong_way_stiffness, options.guidance.damping},
       normal_{options.paper.stiffness, options.paper.damping},
       paper_onset_(options.paper.onset),
-      observes_energy_(options.energy.observed()) {
+      observes_energy_(options.energy.limited()) {
   require(capabilities.peak_force > 0.0, "peak force of the device", capabilities.peak_force, "N", "above 0");
   const FrictionOptions& friction = options.paper.friction;
   if (friction.coefficient > 0.0) {
@@ -102,7 +87,7 @@ const SentForce& ForceOutput::update(const PenState& pen, const GuidanceForce& g
     thermal_.held(norm(sent_.page), period_);
     sent_.heat = thermal_.heat;
   }
-  sent_.guidance = sent_.page.head<2>() - paper.friction - sent_.damping.head<2>();
+  sent_.guidance = sent_.page.head<2>() - paper.friction;
   sent_.device = mapping_.force_to_device(sent_.page);
   return sent_;
 }
@@ -120,7 +105,6 @@ Eigen::Vector3d ForceOutput::passive(const PenState& pen, const Eigen::Vector3d&
       passivity_.next(is_known ? pen.position : Eigen::Vector3d(unknown, unknown, unknown), wanted, sent_.viscous);
   // Paper does not pull, however fast the pen is lifted.
   if (wanted.z() >= 0.0) force.z() = std::max(0.0, force.z());
-  sent_.damping = passivity_.damping();
   sent_.energy_given = passivity_.energy_given();
   return force;
 }

@@ -55,7 +55,6 @@ void HapticRenderer::report(const PenState& pen, const WriterState& writer, cons
   tick_.friction = paper.friction;
   tick_.normal = paper.normal;
   tick_.viscous = sent.viscous;
-  tick_.damping = sent.damping;
   tick_.assistance = guidance.assistance;
   tick_.energy_given = sent.energy_given;
   tick_.heat = sent.heat;

@@ -35,7 +35,7 @@ PenSensor::PenSensor(const RendererOptions& options, const MotionMapping& mappin
       is_printed_(is_printed(options.rules)),
       max_speed_(options.limits.max_speed * mapping.scale),
       period_(1.0 / options.servo_rate),
-      counts_pauses_(options.energy.observed()),
+      counts_pauses_(options.energy.limited()),
       velocity_(options.velocity_cutoff) {}
 
 void PenSensor::restart() noexcept {

@@ -64,7 +64,6 @@ RendererOptions RendererOptions::wang2006() {
 RendererOptions RendererOptions::for_device(const Capabilities& capabilities, double scale) {
   require_above_zero("scale", scale, "");
   RendererOptions options = felt_alike(RendererOptions(), scale);
-  options.servo_rate = capabilities.update_rate;
   options.stiffness_check = StiffnessCheck::clip;
   clip_stiffness(options, capabilities, scale);
   return options;
@@ -89,7 +88,6 @@ RendererOptions RendererOptions::everything(const Capabilities& capabilities, do
 }
 
 void validate(const RendererOptions& options, const Capabilities& capabilities, double scale) {
-  require_above_zero("servo_rate", options.servo_rate, "Hz", 1e6);
   if (options.stiffness_check == StiffnessCheck::off && !capabilities.simulated) {
     throw ValueError("stiffness_check = off, must be reject or clip on the device " + device_label(capabilities) +
                      ": only simulated devices may be unstable");
@@ -132,9 +130,6 @@ void validate(const RendererOptions& options, const Capabilities& capabilities, 
   if (options.limits.thermal_time_constant > 0.0) {
     require_above_zero("continuous_force of the device, for limits.thermal_time_constant",
                        capabilities.continuous_force, "N");
-  }
-  if (options.energy.passivity_control) {
-    require_above_zero("apparent_mass of the device, for passivity_control", capabilities.apparent_mass, "kg");
   }
   require_above_zero("grip_stiffness", options.grip_stiffness, "N/m");
   require_above_zero("limits.max_speed", options.limits.max_speed, "m/s");

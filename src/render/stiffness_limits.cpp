@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <calligraphy/render/detail/effective_options.hpp>
 #include <calligraphy/render/renderer_options.hpp>
 #include <calligraphy/render/stiffness_advice.hpp>
 
@@ -56,7 +57,7 @@ class Limits {
         usable_(usable_stiffness(is_off_ ? Capabilities() : capabilities)) {
     loop_.device = capabilities;
     loop_.device.apparent_mass = capabilities.apparent_mass > 0.0 ? capabilities.apparent_mass : presumed_mass;
-    loop_.rate = options.servo_rate;
+    loop_.rate = servo_rate(options, capabilities);
     if (scale != 1.0) {
       std::ostringstream enlarged;
       enlarged << " times the square of the motion scale " << scale;
@@ -132,7 +133,6 @@ class Limits {
 }  // namespace
 
 std::vector<std::string> clip_stiffness(RendererOptions& options, const Capabilities& capabilities, double scale) {
-  require_above_zero("servo_rate", options.servo_rate, "Hz", 1e6);
   require_above_zero("velocity_cutoff", options.velocity_cutoff, "Hz", 1e6);
   require_above_zero("scale", scale, "");
   const Limits limits(options, capabilities, scale);

@@ -263,7 +263,8 @@ TEST_CASE("a signal that arrives in the servo's own thread leaves no force behin
     const SharedRemains shared;
     const int status = status_of_child([&] {
       install_emergency_stop();
-      press<SharedDevice>(*shared.remains, [signal] { raise(signal); }, 4e-3);  // it is the watchdog that writes zero
+      press<SharedDevice>(
+          *shared.remains, [signal] { raise(signal); }, 4e-3);  // it is the watchdog that writes zero
       law_fails = true;
       pause();
     });

@@ -510,7 +510,7 @@ TEST_CASE("ticks continue the ramp of a watchdog that is called no more, and say
   };
   for (int i = 0; i < 2; ++i) bench.servo.step(virtual_time += period);
   CHECK(bench.device.last() == Approx(left - 0.1 * wanted));  // the first tick has waited for the watchdog
-  CHECK(settling == Approx(10e-3));                            // the watchdog has not watched since its last write
+  CHECK(settling == Approx(10e-3));                           // the watchdog has not watched since its last write
   for (int i = 0; i < 10; ++i) bench.servo.step(virtual_time += period);
   check_fall(bench.device.forces);
   CHECK(bench.servo.statistics().fault_count(DeviceFault::late_clock) == 1);
@@ -741,7 +741,7 @@ TEST_CASE("servo options out of range are rejected with name and value", "[servo
     change(options);
     return error_of(options);
   };
-  for (const double bad : {0.0, 0.5, 2e5, not_a_number}) {
+  for (const double bad : {-1.0, 0.5, 2e5, not_a_number}) {
     CHECK(message([&](ServoOptions& o) { o.rate = bad; }).find("rate = ") != std::string::npos);
   }
   CHECK(message([](ServoOptions& o) { o.timeout = 1e-3; }) ==
@@ -755,7 +755,23 @@ TEST_CASE("servo options out of range are rejected with name and value", "[servo
   }
   CHECK(message([](ServoOptions&) {}).empty());
   WatchedDevice device;
-  CHECK_THROWS_AS(Servo(device, nullptr), ValueError);
+  CHECK_THROWS_AS(Servo(device, {}), ValueError);
+}
+
+TEST_CASE("a servo ticks at the rate asked for, at that of the force law, or at the device's", "[servo]") {
+  Capabilities profile;
+  profile.apparent_mass = 0.05;
+  profile.peak_force = 1.0;
+  profile.update_rate = 500.0;
+  SimulatedDevice device(profile);
+  ForceLaw law = [](const DeviceState&) { return Eigen::Vector3d(Eigen::Vector3d::Zero()); };
+  CHECK(Servo(device, law).rate() == 500.0);
+  ServoOptions asked;
+  asked.rate = 2000.0;
+  CHECK(Servo(device, law, asked).rate() == 2000.0);
+  law.rate = 800.0;
+  CHECK(Servo(device, law).rate() == 800.0);
+  CHECK_THROWS_WITH(Servo(device, law, asked), "servo loop: rate = 2000 Hz, but the force law is made for 800 Hz");
 }
 
 TEST_CASE("with ramp times of zero the force changes immediately", "[servo]") {

@@ -84,7 +84,7 @@ TEST_CASE("the ticks of a servo thread see a suspension as a gap, and none is ca
   ServoThreadOptions options;
   options.priority = 0;
   options.lock_memory = false;
-  ServoThread thread(options);
+  ServoThread thread(1000.0, options);
   std::atomic<double> last = 0.0, gap = 0.0;
   std::atomic<int> ticks = 0, late = 0;
   thread.start([&](double now) {

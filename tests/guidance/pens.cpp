@@ -46,7 +46,7 @@ std::vector<double> arcs_by_tick(const StrokeLine& line, double em, double perio
 
 Pen::Pen(const PracticePage& page, const Capabilities& device, const RendererOptions& options)
     : renderer_(page.characters, upright_page(page.width, page.height), device, options),
-      period_(1.0 / options.servo_rate) {
+      period_(1.0 / renderer_.options().servo_rate) {
   intended_.head<2>() = Point(0.5 * page.width, 0.5 * page.height);
 }
 

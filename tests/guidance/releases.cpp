@@ -105,9 +105,9 @@ class EndlessGuidance {
     missing_ = guidance_of(before) - spring(before.pen_tip.head<2>());
   }
 
-  /// What the guidance of a tick amounts to, without friction and passivity control; the dampers are small.
+  /// What the guidance of a tick amounts to, without friction; the dampers are small.
   static Point guidance_of(const HapticTick& tick) {
-    return tick.page_force.head<2>() - tick.friction - tick.damping.head<2>() - tick.viscous.head<2>();
+    return tick.page_force.head<2>() - tick.friction - tick.viscous.head<2>();
   }
 
   /// `since` the release [s]: what is not explained by the spring, as that it was fading in, passes.

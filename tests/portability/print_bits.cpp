@@ -74,7 +74,7 @@ void print_forces(const PlacedCharacter& placed, const Capabilities& device, con
     DeviceState state;
     state.position = renderer.mapping().to_device({point.x(), point.y(), z});
     state.time = time;
-    time += 1.0 / options.servo_rate;
+    time += 1.0 / renderer.options().servo_rate;
     const HapticTick& tick = renderer.update(state);
     for (const double value : tick.force) print(value);
     for (const double value : tick.attraction) print(value);

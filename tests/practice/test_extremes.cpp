@@ -70,7 +70,7 @@ Writing write_beside(const Capabilities& profile, RendererOptions options, doubl
   Writing writing;
   writing.step_limit = renderer.max_force_step();
   writing.options = renderer.options();
-  const double period = 1.0 / options.servo_rate;
+  const double period = 1.0 / renderer.options().servo_rate;
   const int ticks = static_cast<int>(2.1 / period);
   const int between = std::max(1, static_cast<int>(0.01 / period));
   Vector3d last = Vector3d::Zero();
@@ -239,7 +239,7 @@ double swing_after_a_tap(const Capabilities& profile, const RendererOptions& opt
   const Eigen::AlignedBox2d box = bounding_box(renderer.page()[0]);
   const Vector3d above(box.center().x(), box.max().y() + 0.003, 0.01);
   SimulatedDevice device(profile, grip, above);
-  const double period = 1.0 / options.servo_rate;
+  const double period = 1.0 / renderer.options().servo_rate;
   double low = infinity, high = -infinity;
   while (device.time() < 2.5) {
     device.write(renderer.update(device.read()).force);

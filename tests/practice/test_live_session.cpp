@@ -25,6 +25,11 @@ namespace {
 
 constexpr double period = 1e-3;  // [s]
 
+Capabilities at_rate(Capabilities profile, double rate) {
+  profile.update_rate = rate;
+  return profile;
+}
+
 /// A device with its own scheduler, like that of a vendor, held by a simulated writer. It runs in virtual time but in
 /// step with the watching thread, so that no tick is lost on a slow machine.
 class HeldDevice final : public HapticDevice, public ServoClock {
@@ -35,7 +40,8 @@ class HeldDevice final : public HapticDevice, public ServoClock {
              double rate = 1000.0)
       : period_(1.0 / rate),
         mapping_(mapping),
-        device_(device_profile("desktop"), skill.grip, mapping_.to_device({0.5 * page.width, 0.5 * page.height, 0.02})),
+        device_(at_rate(device_profile("desktop"), rate), skill.grip,
+                mapping_.to_device({0.5 * page.width, 0.5 * page.height, 0.02})),
         eyes_(page.characters, mapping_, device_.capabilities(), RendererOptions::for_device(device_.capabilities())),
         writer_(page, skill, 1) {}
   ~HeldDevice() override { HeldDevice::stop(); }
@@ -277,12 +283,11 @@ TEST_CASE("a device unplugged for a moment is reported, and the page is complete
   CHECK(score_page(page, result.recording).front().strokes_completed == 2);
 }
 
-TEST_CASE("a session runs at the rate of the renderer, however low") {
+TEST_CASE("a session runs at the rate of the device, however low, and refuses another") {
   constexpr double rate = 400.0;
   const PracticePage page = page_of("十");
   HeldDevice device(page, WriterSkill::skilled(), rate);
   LiveOptions options = watched(device);
-  options.renderer.servo_rate = rate;
   int glances = 0;
   options.watch = [&](const LiveView&) {
     device.seen();
@@ -293,6 +298,14 @@ TEST_CASE("a session runs at the rate of the renderer, however low") {
     CHECK(result.recording.rate == rate);
     CHECK(result.statistics.ticks > 0);
     CHECK(result.statistics.missed_deadlines == 0);
+  }
+  SECTION("neither the servo nor the renderer may have one of its own") {
+    options.servo.servo.rate = 1000.0;
+    CHECK_THROWS_WITH(write_with_device(page, device, options),
+                      "servo loop: rate = 1000 Hz, but the force law is made for 400 Hz");
+    options.renderer.servo_rate = 1000.0;
+    CHECK_THROWS_WITH(write_with_device(page, device, options),
+                      "servo loop: rate = 1000 Hz, but the device has a clock of its own, at 400 Hz");
   }
   SECTION("with a timeout of enough ticks") {
     options.servo = {};  // 4 ms

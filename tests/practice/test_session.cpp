@@ -188,7 +188,7 @@ TEST_CASE("a parameter of the writer or the session out of its domain is rejecte
   std::string named;
   SECTION("sight") { options.skill.visual_delay = -1.0, named = "visual_delay"; }
   SECTION("speed") { options.skill.speed = std::nan(""), named = "speed"; }
-  SECTION("rate") { options.renderer.servo_rate = 0.0, named = "servo_rate"; }
+  SECTION("rate") { options.renderer.servo_rate = -1.0, named = "servo_rate"; }
   SECTION("duration") { options.character_timeout = 0.0, named = "character_timeout"; }
   try {
     write_page(page, options);

@@ -30,14 +30,14 @@ struct MidStroke {
   Vector3d place;
 
   explicit MidStroke(const RendererOptions& options = {})
-      : renderer({placed(U'三')}, {}, test_device(), options), pen(renderer, options.servo_rate) {
+      : renderer({placed(U'三')}, {}, test_device(), options), pen(renderer, renderer.options().servo_rate) {
     const Stroke first = strokes(renderer.page()[0].character)[0];
     const Point start = renderer.page()[0].placement.to_page(first.control_points[0]);
     place = {start.x() + 0.01, start.y() + 0.003, -0.002};
     pen.go({start.x(), start.y(), 0.005});
     pen.go({start.x(), start.y(), -0.002});
     pen.go(place);
-    rest(static_cast<int>(0.3 * options.servo_rate));
+    rest(static_cast<int>(0.3 * renderer.options().servo_rate));
   }
   void rest(int ticks) {
     for (int i = 0; i < ticks; ++i) pen.at(place);

@@ -18,7 +18,6 @@ using calligraphy_test::Sequence;
 
 namespace {
 
-constexpr FrictionModel models[] = {FrictionModel::breakaway, FrictionModel::hayward_armstrong};
 constexpr int rates[] = {100, 500, 1000, 4000, 10'000, 20'000};
 
 constexpr double coefficient = 0.3;
@@ -29,9 +28,8 @@ constexpr double vibration_frequency = 20.0;  // a whole number of samples a per
 
 constexpr int last_second = 20;
 
-FrictionOptions options_of(FrictionModel model) {
+FrictionOptions usual_options() {
   FrictionOptions options;
-  options.model = model;
   options.coefficient = coefficient;
   options.stiffness = sliding_force / max_stretch;
   return options;
@@ -56,8 +54,8 @@ double drift(int rate, Step step) {
 
 /// Drift of a mass of 0.2 kg with 6 N s/m, held firmly so that it is passive at 100 Hz too: b > K T / 2. The bias is
 /// half of mu N.
-double drift_of_mass(FrictionModel model, int rate, double amplitude) {
-  const FrictionOptions options = options_of(model);
+double drift_of_mass(int rate, double amplitude) {
+  const FrictionOptions options = usual_options();
   const double period = 1.0 / rate;
   PaperFriction friction;
   HeldMass mass(0.2, 6.0, period);
@@ -69,8 +67,8 @@ double drift_of_mass(FrictionModel model, int rate, double amplitude) {
 }
 
 /// Drift of the anchor of a pen that vibrates about half the maximum stretch.
-double drift_of_hold(FrictionModel model, int rate, double amplitude) {
-  const FrictionOptions options = options_of(model);
+double drift_of_hold(int rate, double amplitude) {
+  const FrictionOptions options = usual_options();
   PaperFriction friction;
   return drift(rate, [&](double time) {
     const double tip = biased_vibration(0.5 * max_stretch, amplitude, time);
@@ -117,7 +115,7 @@ double max_given(const FrictionOptions& options, const std::vector<Point>& path)
 TEST_CASE("a mass on the paper does not drift under biased vibration, at any rate", "[render]") {
   for (const int rate : rates) {
     INFO(rate << " Hz");
-    CHECK(std::abs(drift_of_mass(FrictionModel::breakaway, rate, 0.3)) < 1e-9);
+    CHECK(std::abs(drift_of_mass(rate, 0.3)) < 1e-9);
   }
 }
 
@@ -125,29 +123,14 @@ TEST_CASE("the anchor of a vibrating pen does not drift, at any rate", "[render]
   for (const int rate : rates) {
     for (const double amplitude : {10e-6, 100e-6}) {
       INFO(rate << " Hz, " << amplitude << " m");
-      CHECK(std::abs(drift_of_hold(FrictionModel::breakaway, rate, amplitude)) < 1e-9);
+      CHECK(std::abs(drift_of_hold(rate, amplitude)) < 1e-9);
     }
-  }
-}
-
-TEST_CASE("Hayward and Armstrong's smooth alpha drifts by tens of micrometres, so it is not the default", "[render]") {
-  // A tremor of 10 to 100 um about half the maximum stretch, 150 um. Under a constant bias force of half mu N, which
-  // does not slacken as the pen yields, the drift continues.
-  CHECK(FrictionOptions{}.model == FrictionModel::breakaway);
-  for (const int rate : {1000, 20'000}) {
-    for (const double amplitude : {10e-6, 50e-6, 100e-6}) {
-      const double drift = drift_of_hold(FrictionModel::hayward_armstrong, rate, amplitude);
-      INFO(rate << " Hz, " << amplitude << " m: " << drift << " m");
-      CHECK(drift > 20e-6);
-      CHECK(drift < 145e-6);
-    }
-    CHECK(drift_of_mass(FrictionModel::hayward_armstrong, rate, 0.1) > 100e-6);
   }
 }
 
 TEST_CASE("break-away friction depends on the path alone, not on the rate", "[render]") {
   // Back and forth between positions reached at instants that all rates share.
-  const FrictionOptions options = options_of(FrictionModel::breakaway);
+  const FrictionOptions options = usual_options();
   std::vector<std::vector<double>> forces;
   for (const int rate : rates) {
     Sequence random(31);
@@ -173,7 +156,7 @@ TEST_CASE("break-away friction depends on the path alone, not on the rate", "[re
 }
 
 TEST_CASE("on a curved path the rates converge, and differ by far less than a hand can feel", "[render]") {
-  const FrictionOptions options = options_of(FrictionModel::breakaway);
+  const FrictionOptions options = usual_options();
   const auto after = [&](int rate) {  // a figure of eight, 10 mm wide, in a second: 0.07 m/s
     PaperFriction friction;
     std::vector<Point> forces;
@@ -196,78 +179,68 @@ TEST_CASE("on a curved path the rates converge, and differ by far less than a ha
   CHECK(furthest(10'000) <= furthest(4000));
 }
 
-TEST_CASE("sliding friction is mu N against the motion, whatever the model", "[render]") {
-  for (const FrictionModel model : models) {
-    for (const double pressed : {0.1, 1.0, 3.0}) {
-      for (const Point& direction : {Point(1.0, 0.0), Point(-0.6, 0.8)}) {
-        PaperFriction friction;
-        Point force(0.0, 0.0);
-        for (int i = 0; i <= 100; ++i) {
-          force = friction.update(options_of(model), 1e-4 * i * direction, pressed);  // 0.1 m/s
-        }
-        INFO("model " << static_cast<int>(model) << ", " << pressed << " N");
-        CHECK((force + coefficient * pressed * direction).norm() < 1e-9);
+TEST_CASE("sliding friction is mu N against the motion", "[render]") {
+  for (const double pressed : {0.1, 1.0, 3.0}) {
+    for (const Point& direction : {Point(1.0, 0.0), Point(-0.6, 0.8)}) {
+      PaperFriction friction;
+      Point force(0.0, 0.0);
+      for (int i = 0; i <= 100; ++i) {
+        force = friction.update(usual_options(), 1e-4 * i * direction, pressed);  // 0.1 m/s
       }
+      INFO(pressed << " N");
+      CHECK((force + coefficient * pressed * direction).norm() < 1e-9);
     }
   }
 }
 
 TEST_CASE("the spring of friction never exceeds mu N", "[render]") {
-  for (const FrictionModel model : models) {
-    const FrictionOptions options = options_of(model);
-    Sequence random(5);
-    PaperFriction friction;
-    double largest = 0.0;
-    Point tip(0.0, 0.0);
-    for (int i = 0; i < 20'000; ++i) {
-      tip += random.point(-1.0, 1.0) * std::pow(10.0, random.between(-7.0, -3.0));
-      const double pressed = random.between(0.1, 2.0);
-      const double force = friction.update(options, tip, pressed).norm();
-      largest = std::max(largest, force / (coefficient * pressed));
-    }
-    INFO("model " << static_cast<int>(model));
-    CHECK(largest <= 1.0 + 1e-9);
-    CHECK(largest > 0.99);
+  const FrictionOptions options = usual_options();
+  Sequence random(5);
+  PaperFriction friction;
+  double largest = 0.0;
+  Point tip(0.0, 0.0);
+  for (int i = 0; i < 20'000; ++i) {
+    tip += random.point(-1.0, 1.0) * std::pow(10.0, random.between(-7.0, -3.0));
+    const double pressed = random.between(0.1, 2.0);
+    const double force = friction.update(options, tip, pressed).norm();
+    largest = std::max(largest, force / (coefficient * pressed));
   }
+  CHECK(largest <= 1.0 + 1e-9);
+  CHECK(largest > 0.99);
 }
 
 TEST_CASE("a new contact begins without friction", "[render]") {
-  for (const FrictionModel model : models) {
-    PaperFriction friction;
-    for (const Point& place : {Point(0.0, 0.0), Point(0.1, -0.2)}) {
-      CHECK(friction.update(options_of(model), place, pressed) == Point(0.0, 0.0));
-      CHECK(friction.update(options_of(model), place + Point(0.001, 0.0), pressed).norm() > 0.2);
-      friction.release();
-    }
+  PaperFriction friction;
+  for (const Point& place : {Point(0.0, 0.0), Point(0.1, -0.2)}) {
+    CHECK(friction.update(usual_options(), place, pressed) == Point(0.0, 0.0));
+    CHECK(friction.update(usual_options(), place + Point(0.001, 0.0), pressed).norm() > 0.2);
+    friction.release();
   }
 }
 
 TEST_CASE("when the normal force on a resting pen falls and rises, friction follows without a step", "[render]") {
-  for (const FrictionModel model : models) {
-    const FrictionOptions options = options_of(model);
-    PaperFriction friction;
-    friction.update(options, {0.0, 0.0}, pressed);
-    Point last(0.0, 0.0);
-    for (int i = 1; i <= 28; ++i) last = friction.update(options, {1e-5 * i, 0.0}, pressed);  // 0.01 m/s
-    const Point held = last;
-    REQUIRE(held.norm() > 0.05);
-    double max_step = 0.0;
-    bool along = true;
-    for (const double to : {0.1, 1.0, 0.0, 1.0}) {
-      const double from = to > 0.5 ? last.norm() / sliding_force : 1.0;
-      for (int i = 0; i <= 1000; ++i) {
-        const double pressed = from + (to - from) * i / 1000.0;
-        const Point force = friction.update(options, {2.8e-4, 0.0}, pressed);
-        max_step = std::max(max_step, (force - last).norm());
-        along = along && force.x() <= 0.0 && force.y() == 0.0;
-        last = force;
-        if (to < from && pressed < 0.2 && pressed >= 0.1) CHECK(force.norm() > 0.9 * coefficient * 0.1);
-      }
+  const FrictionOptions options = usual_options();
+  PaperFriction friction;
+  friction.update(options, {0.0, 0.0}, pressed);
+  Point last(0.0, 0.0);
+  for (int i = 1; i <= 28; ++i) last = friction.update(options, {1e-5 * i, 0.0}, pressed);  // 0.01 m/s
+  const Point held = last;
+  REQUIRE(held.norm() > 0.05);
+  double max_step = 0.0;
+  bool along = true;
+  for (const double to : {0.1, 1.0, 0.0, 1.0}) {
+    const double from = to > 0.5 ? last.norm() / sliding_force : 1.0;
+    for (int i = 0; i <= 1000; ++i) {
+      const double pressed = from + (to - from) * i / 1000.0;
+      const Point force = friction.update(options, {2.8e-4, 0.0}, pressed);
+      max_step = std::max(max_step, (force - last).norm());
+      along = along && force.x() <= 0.0 && force.y() == 0.0;
+      last = force;
+      if (to < from && pressed < 0.2 && pressed >= 0.1) CHECK(force.norm() > 0.9 * coefficient * 0.1);
     }
-    INFO("model " << static_cast<int>(model));
-    CHECK(along);
-    CHECK(max_step <= 0.0004);  // mu N falls by 0.3 mN per tick
   }
+  CHECK(along);
+  CHECK(max_step <= 0.0004);  // mu N falls by 0.3 mN per tick
 }
 
 TEST_CASE("break-away friction generates no energy on any path, however coarse", "[render]") {
@@ -276,52 +249,37 @@ TEST_CASE("break-away friction generates no energy on any path, however coarse",
   for (const double step : {1e-6, 3e-5, 3e-4, 3e-3}) {
     for (int i = 0; i < 100; ++i) {
       INFO("steps up to " << step << " m");
-      CHECK(max_given(options_of(FrictionModel::breakaway), random_path(random, 300, step, i % 2 == 0)) <= 1e-12);
-    }
-  }
-}
-
-TEST_CASE("the smooth model generates no energy as long as a step is a tenth of the maximum stretch", "[render]") {
-  const FrictionOptions options = options_of(FrictionModel::hayward_armstrong);
-  Sequence random(8);
-  for (const double step : {1e-6, 1e-5, 3e-5}) {
-    for (int i = 0; i < 100; ++i) {
-      INFO("steps up to " << step << " m");
-      CHECK(max_given(options, random_path(random, 1000, step, i % 2 == 0)) <= 1e-12);
+      CHECK(max_given(usual_options(), random_path(random, 300, step, i % 2 == 0)) <= 1e-12);
     }
   }
 }
 
 TEST_CASE("friction is finite where its formulas nearly vanish or overflow", "[render]") {
   constexpr double least = std::numeric_limits<double>::denorm_min();
-  for (const FrictionModel model : models) {
-    const FrictionOptions options = options_of(model);
-    for (const double pressed : {0.0, least, 1e-310, 1e-200, 1.0, -1.0}) {
-      PaperFriction friction;
-      bool finite = true, bounded = true;
-      double place = 0.0;
-      for (const double way : {0.0, 0.0, least, 1e-310, 1e-160, 1e-20, 1e-6, -1e-6, 1.0, 1e3, -1e3, 1e200, -1e200}) {
-        place += way;
-        const Point force = friction.update(options, {place, -place}, pressed);
-        finite = finite && force.allFinite();
-        bounded = bounded && force.norm() <= coefficient * std::max(0.0, pressed) * (1 + 1e-9);
-      }
-      INFO("model " << static_cast<int>(model) << ", " << pressed << " N");
-      CHECK(finite);
-      CHECK(bounded);
+  const FrictionOptions options = usual_options();
+  for (const double pressed : {0.0, least, 1e-310, 1e-200, 1.0, -1.0}) {
+    PaperFriction friction;
+    bool finite = true, bounded = true;
+    double place = 0.0;
+    for (const double way : {0.0, 0.0, least, 1e-310, 1e-160, 1e-20, 1e-6, -1e-6, 1.0, 1e3, -1e3, 1e200, -1e200}) {
+      place += way;
+      const Point force = friction.update(options, {place, -place}, pressed);
+      finite = finite && force.allFinite();
+      bounded = bounded && force.norm() <= coefficient * std::max(0.0, pressed) * (1 + 1e-9);
     }
+    INFO(pressed << " N");
+    CHECK(finite);
+    CHECK(bounded);
   }
 }
 
 TEST_CASE("without normal force there is no friction, and a pen that does not move feels none", "[render]") {
-  for (const FrictionModel model : models) {
-    PaperFriction friction;
-    for (int i = 0; i < 100; ++i) {
-      CHECK(friction.update(options_of(model), {1e-4 * i, 0.0}, 0.0) == Point(0.0, 0.0));
-    }
-    friction.release();
-    for (int i = 0; i < 100; ++i) {
-      CHECK(friction.update(options_of(model), {0.01, 0.02}, pressed) == Point(0.0, 0.0));
-    }
+  PaperFriction friction;
+  for (int i = 0; i < 100; ++i) {
+    CHECK(friction.update(usual_options(), {1e-4 * i, 0.0}, 0.0) == Point(0.0, 0.0));
+  }
+  friction.release();
+  for (int i = 0; i < 100; ++i) {
+    CHECK(friction.update(usual_options(), {0.01, 0.02}, pressed) == Point(0.0, 0.0));
   }
 }

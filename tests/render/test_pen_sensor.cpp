@@ -19,7 +19,8 @@ struct Sampled {
   PenSensor sensor;
   DeviceState sample;
 
-  explicit Sampled(const RendererOptions& options = {}, const MotionMapping& mapping = {}) : sensor(options, mapping) {}
+  explicit Sampled(RendererOptions options = {}, const MotionMapping& mapping = {})
+      : sensor((options.servo_rate = 1000.0, options), mapping) {}
 
   /// The next sample, 1 ms after the one before.
   const PenState& at(const Vector3d& position) {

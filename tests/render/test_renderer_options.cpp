@@ -54,7 +54,7 @@ struct Domain {
 };
 
 const Domain domains[] = {
-    {"servo_rate", [](RendererOptions& o) -> double& { return o.servo_rate; }, false},
+    {"servo_rate", [](RendererOptions& o) -> double& { return o.servo_rate; }, true},
     {"paper.stiffness", [](RendererOptions& o) -> double& { return o.paper.stiffness; }, true},
     {"paper.onset", [](RendererOptions& o) -> double& { return o.paper.onset; }, true},
     {"paper.damping", [](RendererOptions& o) -> double& { return o.paper.damping; }, true},
@@ -188,15 +188,11 @@ TEST_CASE("fractions and ratios of the stages have upper and lower bounds", "[re
 
 TEST_CASE("a stage that needs a property of the device names it when it is missing", "[render]") {
   RendererOptions options;
-  options.energy.passivity_control = true;
   for (const double mass : {0.0, -0.1, not_a_number}) {
     Capabilities device = test_device();
     device.apparent_mass = mass;
-    CHECK(contains(complaint(options, device), "apparent_mass of the device, for passivity_control"));
-    options.energy.passivity_control = false;
     options.energy.budget = 0.1;
     CHECK(contains(complaint(options, device), "apparent_mass of the device, for energy.budget"));
-    options.energy.passivity_control = true;
     options.energy.budget = infinity;
   }
   Capabilities heavy = test_device();
@@ -255,10 +251,8 @@ TEST_CASE("a renderer needs a device that senses and drives three translations",
   CHECK(contains(complaint_of(plane, plane), "sensed axes are x, y, driven axes are x, y; the renderer"));
 }
 
-TEST_CASE(
-    "everything() is valid for the shipped devices, and enables every stage but passivity control and assistance as "
-    "needed",
-    "[render]") {
+TEST_CASE("everything() is valid for the shipped devices, and enables every stage but assistance as needed",
+          "[render]") {
   struct Shipped {
     double peak, continuous, stiffness, mass;
     int delay;
@@ -278,12 +272,10 @@ TEST_CASE(
       INFO("peak " << shipped.peak << " N, " << rate << " Hz: " << complaint(options, device));
       CHECK(complaint(options, device).empty());
       CHECK(complaint([&] { HapticRenderer({placed(U'永')}, {}, device, options); }).empty());
-      CHECK(options.servo_rate == rate);
       CHECK(options.guidance.law == GuidanceLaw::saturating);
       CHECK(options.guidance.to_start);
       CHECK_FALSE(options.guidance.assist.enabled);  // it withdraws guidance by intent
       CHECK(options.paper.friction.coefficient == 0.15);
-      CHECK_FALSE(options.energy.passivity_control);  // the springs are damped already
       CHECK(std::isfinite(options.energy.budget));
       const bool warms = shipped.continuous > 0.0 && shipped.continuous < shipped.peak;
       CHECK((options.limits.thermal_time_constant > 0.0) == warms);
@@ -591,12 +583,19 @@ TEST_CASE("a device without a peak force is rejected", "[render]") {
   }
 }
 
-TEST_CASE("for_device takes the device's rate and stays within its stiffness", "[render]") {
+TEST_CASE("the renderer runs at the device's rate unless asked for another, and stays within its stiffness",
+          "[render]") {
   Capabilities device = test_device();
   device.usable_stiffness = 150.0;
   device.update_rate = 500.0;
   const RendererOptions options = RendererOptions::for_device(device);
-  CHECK(options.servo_rate == 500.0);
+  CHECK(HapticRenderer({placed(U'永')}, {}, device, options).options().servo_rate == 500.0);
+  RendererOptions asked = options;
+  asked.servo_rate = 2000.0;
+  CHECK(HapticRenderer({placed(U'永')}, {}, device, asked).options().servo_rate == 2000.0);
+  Capabilities silent = device;
+  silent.update_rate = 0.0;
+  CHECK(contains(complaint(options, silent), "update_rate of the device = 0 Hz"));
   CHECK(options.paper.stiffness == 150.0);
   CHECK(options.guidance.stiffness == 150.0);
   CHECK(options.guidance.wrong_way_stiffness == 150.0);

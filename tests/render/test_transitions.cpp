@@ -67,7 +67,7 @@ struct InStroke {
   int abandoned = 0, lifts = 0;
 
   explicit InStroke(const RendererOptions& options = {})
-      : renderer({placed(U'三')}, {}, test_device(), options), pen(renderer, options.servo_rate) {
+      : renderer({placed(U'三')}, {}, test_device(), options), pen(renderer, renderer.options().servo_rate) {
     const Stroke first = strokes(renderer.page()[0].character)[0];
     const Placement& page = renderer.page()[0].placement;
     const Point start = page.to_page(first.control_points[0]);

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <calligraphy/devices/device_profiles.hpp>
+
 #include "soak.hpp"
 #include "tools/options.hpp"
 #include "tools/progress.hpp"
@@ -16,7 +18,7 @@ namespace {
 namespace tools = calligraphy::tools;
 
 int report(const SoakOptions& options, const Watched& watched) {
-  const double rate = options.renderer_options().servo_rate;
+  const double rate = calligraphy::device_profile(options.device).update_rate;
   fmt::print("{} ticks ({:.1f} h at {} Hz), composition {}, device {}, seed {}\n", options.ticks,
              static_cast<double>(options.ticks) / rate / 3600.0, rate, options.composition, options.device,
              options.seed);

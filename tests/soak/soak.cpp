@@ -29,7 +29,7 @@ Watched soak(const SoakOptions& options, const std::function<void(double)>& prog
   RestlessHand hand(renderer, options.seed);
   Faults faults(options.seed + 1);
   SimulatedDevice device(profile, {0.1, 3.0, 300.0}, renderer.mapping().to_device(hand.place()));
-  const double period = 1.0 / chosen.servo_rate;
+  const double period = 1.0 / renderer.options().servo_rate;
   const double peak = profile.peak_force * (1.0 + 1e-12);
   const double step_limit = renderer.max_force_step() * (1.0 + 1e-9);
 

@@ -62,13 +62,13 @@ void draw_options(SweepCase& drawn, Random& random) {
   }
   RendererOptions& options = drawn.options;
   options.stiffness_check = StiffnessCheck::clip;
-  const bool other_law = random.next() < 0.5, controlled = random.next() < 0.25;
+  const bool other_law = random.next() < 0.5;
+  random.next();  // once drew a stage that is gone; the other draws of a case stay as they were
   if (drawn.composition == Composition::force_rates || drawn.composition == Composition::stiffness) {
     if (other_law) {
       options.guidance.law =
           options.guidance.law == GuidanceLaw::linear ? GuidanceLaw::saturating : GuidanceLaw::linear;
     }
-    if (controlled) options.energy.passivity_control = !options.energy.passivity_control;
   }
   if (drawn.composition == Composition::force_rates) {
     options.limits.in_plane_rate = log_between(random, 20.0, 2000.0);
@@ -79,8 +79,7 @@ void draw_options(SweepCase& drawn, Random& random) {
     draw_damping(options, random);
   } else if (drawn.composition == Composition::friction) {
     options.paper.friction.coefficient = random.between(0.05, 0.5);
-    const bool smooth = random.next() < 0.3;
-    options.paper.friction.model = smooth ? FrictionModel::hayward_armstrong : FrictionModel::breakaway;
+    random.next();  // likewise
   }
 }
 
@@ -405,17 +404,15 @@ std::string describe(const SweepCase& drawn) {
   const RendererOptions& options = drawn.options;
   std::snprintf(
       text, sizeof text,
-      "--seed %llu --case %d: %s, %.0f Hz, delay %d, %s, K %.0f/%.0f N/m, %s, %.0f/%.0f N/s, passivity %d, friction "
-      "%.2f "
-      "(model %d), factor %.2f, %s, velocity %s; %s x %s (%.4g kg, %.3g N s/m, %.4g N/m), beside (%.1f, %.1f) mm%s, "
+      "--seed %llu --case %d: %s, %.0f Hz, delay %d, %s, K %.0f/%.0f N/m, %s, %.0f/%.0f N/s, friction %.2f, "
+      "factor %.2f, %s, velocity %s; %s x %s (%.4g kg, %.3g N s/m, %.4g N/m), beside (%.1f, %.1f) mm%s, "
       "writes %.2f at %.3f m/s, press %.2f N, depth %.2f mm; %s towards (%.2f, %.2f, %.0f): %.1f mm, %.0f ms, %.1f N, "
       "%.2f m/s%s",
       static_cast<unsigned long long>(drawn.seed), drawn.index, drawn.device.name.c_str(), drawn.device.update_rate,
       drawn.device.sample_delay, composition_names[static_cast<std::size_t>(drawn.composition)],
       options.guidance.stiffness, options.paper.stiffness,
       options.guidance.law == GuidanceLaw::linear ? "linear" : "saturating", options.limits.in_plane_rate,
-      options.limits.normal_rate, options.energy.passivity_control, options.paper.friction.coefficient,
-      static_cast<int>(options.paper.friction.model), drawn.attraction, drawn.flat ? "flat" : "upright",
+      options.limits.normal_rate, options.paper.friction.coefficient, drawn.attraction, drawn.flat ? "flat" : "upright",
       std::array{"true", "estimated", "unknown"}[static_cast<std::size_t>(drawn.velocity)], name.c_str(),
       drawn.bare ? (drawn.carried ? "bare pen carried" : "bare pen") : "grip", drawn.grip.mass, drawn.grip.damping,
       drawn.grip.stiffness, 1e3 * drawn.beside.x(), 1e3 * drawn.beside.y(), drawn.keeps_beside ? " kept" : "",

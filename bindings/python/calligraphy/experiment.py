@@ -8,7 +8,10 @@ from __future__ import annotations
 import concurrent.futures
 import contextlib
 import csv
+import hashlib
+import io
 import itertools
+import json
 import operator
 import os
 import pathlib
@@ -41,6 +44,8 @@ _Value = TypeVar("_Value")
 
 class TrialsLost(RuntimeError):
     """Trials that failed, or whose worker died, more often than `retries` allows."""
+
+    table: Any  #: of the trials that did not
 
 
 class Condition(NamedTuple):
@@ -235,6 +240,7 @@ def run(
     grid: Grid,
     executor: concurrent.futures.Executor | None = None,
     *,
+    path: str | os.PathLike[str] | None = None,
     progress: bool = True,
     chunk: int = 8,
     retries: int = 3,
@@ -242,25 +248,44 @@ def run(
     """Runs every trial of the grid and returns the table: a pandas.DataFrame, or a structured array without pandas.
 
     executor: any concurrent.futures.Executor, for example a process pool on one machine or
-    `dask.distributed.Client.get_executor()` on several; None: run in this process. Trials are submitted in chunks of
-    `chunk`. A chunk whose worker died is submitted again, up to `retries` times, so that no trial is lost; if the whole
-    pool breaks (as that of concurrent.futures does), its chunks run in this process. Rows are in the order of
+    `dask.distributed.Client.get_executor()` on several; None: run in this process, one by one. Trials are submitted in
+    chunks of `chunk`. A chunk whose worker died is submitted again, up to `retries` times, so that no trial is lost; if
+    the whole pool breaks (as that of concurrent.futures does), its chunks run in this process. Rows are in the order of
     conditions(grid), whichever finishes first, and identical for the same condition and seed. With tqdm installed, a
     progress bar is shown on a terminal.
-    Raises TrialsLost naming the first condition of a chunk that failed too often.
+    path: a .csv file that keeps every row as soon as its chunk has finished, in that order, below one line that says
+    what the rows depend on. A run with the path of an earlier one, however that ended, takes the rows from there and
+    runs only what is missing; the axes of the grid may have grown. `pandas.read_csv(path, skiprows=1)` reads it.
+    Raises TrialsLost naming the first condition of a chunk that failed too often; InvalidValue naming what differs when
+    the file is of another experiment, and FormatError or FileError. KeyboardInterrupt, TrialsLost and every other
+    exception that ends the trials have the table of those that finished as their attribute `table`.
     """
     every = conditions(grid)
     chunk, retries = _whole("chunk", chunk, least=1), _whole("retries", retries)
-    chunks = [every[first : first + chunk] for first in range(0, len(every), chunk)]
-    rows: list[list[Row] | None] = [None] * len(chunks)
-    with _Bar(len(every), progress) as bar:
-        if executor is None:
-            for i, part in enumerate(chunks):
-                rows[i] = _run_chunk(grid, part)
-                bar.add(len(part))
-        else:
-            _run_on(executor, grid, chunks, rows, retries, bar)
-    return to_table([row for part in rows if part is not None for row in part])
+    file = None if path is None else _File(grid, every, pathlib.Path(path))
+    rows: dict[Condition, Row] = {} if file is None else file.rows
+    missing = [condition for condition in every if condition not in rows]
+    with _Bar(len(missing), progress) as bar:
+
+        def done(part: Sequence[Condition], results: list[Row]) -> None:
+            if len(results) != len(part):
+                raise TrialsLost(f"the executor returned {len(results)} rows for {len(part)} trials: {part[0]}")
+            rows.update(zip(part, results))
+            if file is not None:
+                file.append(results)
+            bar.add(len(part))
+
+        try:
+            if executor is None:
+                for condition in missing:
+                    done([condition], [trial(grid, condition)])
+            else:
+                chunks = [missing[first : first + chunk] for first in range(0, len(missing), chunk)]
+                _run_on(executor, grid, chunks, done, retries)
+        except BaseException as error:
+            setattr(error, "table", to_table([rows[condition] for condition in every if condition in rows]))
+            raise
+    return to_table([rows[condition] for condition in every])
 
 
 def to_table(rows: Sequence[Row]) -> Any:
@@ -321,13 +346,10 @@ def write(table: Any, path: str | os.PathLike[str]) -> None:
     if path.suffix not in (".csv", ".parquet"):
         raise cal.InvalidValue(f"{path}: expected .csv or .parquet, got {path.suffix!r}")
     columns = _columns_of(table)
-    temporary = path.with_name(path.name + f".{os.getpid()}.part")
-    try:
+    with _replaced(path) as temporary:
         if path.suffix == ".csv":
             with open(temporary, "w", newline="", encoding="utf-8") as file:
-                writer = csv.writer(file)
-                writer.writerow(columns)
-                writer.writerows(zip(*(np.asarray(column).tolist() for column in columns.values())))
+                file.write(_csv([columns, *zip(*(np.asarray(column).tolist() for column in columns.values()))]))
         else:
             import pyarrow
             import pyarrow.parquet
@@ -335,13 +357,127 @@ def write(table: Any, path: str | os.PathLike[str]) -> None:
             pyarrow.parquet.write_table(
                 pyarrow.table({name: _parquet(np.asarray(column)) for name, column in columns.items()}), temporary
             )
-        os.replace(temporary, path)
+
+
+@contextlib.contextmanager
+def _writing(path: pathlib.Path) -> Iterator[None]:
+    try:
+        yield
     except OSError as error:
         reason = os.strerror(error.errno) if error.errno else str(error)  # pyarrow's own message names the temporary file
         raise cal.FileError(f"{path}: cannot be written: {reason}") from error
+
+
+@contextlib.contextmanager
+def _replaced(path: pathlib.Path) -> Iterator[pathlib.Path]:
+    """A temporary file that replaces the one at `path` once it is complete."""
+    temporary = path.with_name(path.name + f".{os.getpid()}.part")
+    try:
+        with _writing(path):
+            yield temporary
+            os.replace(temporary, path)
     finally:
         with contextlib.suppress(OSError):
             temporary.unlink()
+
+
+def _csv(rows: Iterable[Iterable[Any]]) -> str:
+    """Floats have as many digits as they need to be read back exactly."""
+    text = io.StringIO(newline="")
+    csv.writer(text).writerows(rows)
+    return text.getvalue()
+
+
+class _File:
+    """The file in which run() keeps its rows: what they depend on, as a comment, the names of the columns, and rows."""
+
+    _MARK = "# calligraphy.experiment.run: "
+
+    def __init__(self, grid: Grid, every: Iterable[Condition], path: pathlib.Path) -> None:
+        if path.suffix != ".csv":
+            raise cal.InvalidValue(f"path: expected .csv, got {str(path)!r}")
+        self.path = path
+        self.rows: dict[Condition, Row] = {}
+        self.torn = False  # whether it may end within a line, after a failure to write, so that nothing may follow
+        basis = _basis(grid)
+        try:
+            text = path.read_bytes().decode("utf-8", "replace")  # a line may end within a character
+        except FileNotFoundError:
+            text = ""
+        except OSError as error:
+            raise cal.FileError(f"{path}: cannot be read: {os.strerror(error.errno or 0)}") from error
+        if text:
+            head, _, rest = text.partition("\n")
+            self._compare(head, basis)
+            self._read(rest)
+        wanted = set(every)
+        for condition in self.rows:
+            if condition not in wanted:
+                raise cal.InvalidValue(f"{path}: of another experiment: the grid has no {condition}")
+        # A new file is complete or absent; one that exists loses the line that was being written when its run ended.
+        with _replaced(path) as temporary, open(temporary, "w", newline="", encoding="utf-8") as file:
+            file.write(self._MARK + json.dumps(basis) + "\n" + _csv([_COLUMNS]))
+            file.write(_csv(row.values() for row in self.rows.values()))
+
+    def append(self, rows: Iterable[Row]) -> None:
+        if self.torn:
+            return
+        self.torn = True
+        with _writing(self.path), open(self.path, "a", newline="", encoding="utf-8") as file:
+            file.write(_csv([row[name] for name in _COLUMNS] for row in rows))
+        self.torn = False
+
+    def _compare(self, head: str, basis: dict[str, str]) -> None:
+        try:
+            there = json.loads(head[len(self._MARK) :] if head.startswith(self._MARK) else "")
+        except ValueError:
+            raise cal.InvalidValue(f"{self.path}: is not a file of experiment.run(), and is left as it is") from None
+        for name in {**there, **basis}:
+            one, other = there.get(name), basis.get(name)
+            grown = name.startswith(("characters[", "writers[")) and None in (one, other)
+            if one != other and not grown:
+                raise cal.InvalidValue(f"{self.path}: of another experiment: {name} is {one} there and {other} here")
+
+    def _read(self, text: str) -> None:
+        try:
+            lines = list(csv.reader(io.StringIO(text[: text.rfind("\n") + 1], newline="")))
+            if len(lines) > 1 and len(lines[-1]) < len(_COLUMNS):  # ended at a line break within a name
+                del lines[-1]
+            if not lines or lines[0] != list(_COLUMNS):
+                raise ValueError("not the columns of a table")
+            for line in lines[1:]:
+                if len(line) != len(_COLUMNS):
+                    raise ValueError(f"{len(line)} values, expected {len(_COLUMNS)}: {','.join(line)}")
+                row = {name: kind(value) for (name, kind), value in zip(_COLUMNS.items(), line)}
+                self.rows[Condition(*itertools.islice(row.values(), len(Condition._fields)))] = row
+        except (ValueError, csv.Error) as error:
+            raise cal.FormatError(f"{self.path}: {error}") from None
+
+
+def _basis(grid: Grid) -> dict[str, str]:
+    """What a row of the grid depends on besides its condition, by name."""
+    basis = {"version": cal.__version__}
+    for name in ("character_timeout", "page", "motion_scale"):
+        basis[name] = repr(getattr(grid, name))
+    for name in ("device", "options"):
+        basis.update(_leaves(name, getattr(grid, name)))
+    for name, character in grid.characters.items():
+        shape = repr(_leaves("", character)).encode("utf-8", "surrogatepass")
+        basis[f"characters[{name!r}]"] = hashlib.sha256(shape).hexdigest()
+    for name, skill in grid.writers.items():
+        basis.update(_leaves(f"writers[{name!r}]", skill))
+    return basis
+
+
+def _leaves(name: str, value: Any) -> dict[str, str]:
+    """The fields of a struct, those of its structs instead of them, as literals."""
+    fields = getattr(type(value), "__match_args__", None)
+    if fields is None:
+        items = value.tolist() if isinstance(value, np.ndarray) else value
+        if isinstance(items, list) and any(hasattr(type(item), "__match_args__") for item in items):
+            return {n: v for i, item in enumerate(items) for n, v in _leaves(f"{name}[{i}]", item).items()}
+        return {name: repr(items)}
+    return {n: v for field in fields for n, v in _leaves(f"{name}.{field}", getattr(value, field)).items()}
 
 
 def _run_chunk(grid: Grid, part: Sequence[Condition]) -> list[Row]:
@@ -352,9 +488,8 @@ def _run_on(
     executor: concurrent.futures.Executor,
     grid: Grid,
     chunks: list[list[Condition]],
-    rows: list[list[Row] | None],
+    done: Callable[[list[Condition], list[Row]], None],
     retries: int,
-    bar: _Bar,
 ) -> None:
     failures = [0] * len(chunks)
     pending: dict[concurrent.futures.Future[list[Row]], int] = {}
@@ -366,12 +501,6 @@ def _run_on(
         pending[future] = index
         future.add_done_callback(ended.put)
 
-    def done(index: int, part: list[Row]) -> None:
-        if len(part) != len(chunks[index]):
-            raise TrialsLost(f"the executor returned {len(part)} rows for {len(chunks[index])} trials: {chunks[index][0]}")
-        rows[index] = part
-        bar.add(len(part))
-
     def failed(index: int, error: BaseException) -> None:
         if isinstance(error, (cal.Error, TypeError, AttributeError)):
             raise error  # a retry would fail in the same way
@@ -379,12 +508,12 @@ def _run_on(
         if failures[index] > retries:
             raise TrialsLost(f"{chunks[index][0]} and {len(chunks[index]) - 1} more: {error!r}") from error
         if isinstance(error, concurrent.futures.BrokenExecutor):
-            done(index, _run_chunk(grid, chunks[index]))
+            done(chunks[index], _run_chunk(grid, chunks[index]))
             return
         try:
             send(index)
         except (concurrent.futures.BrokenExecutor, RuntimeError):
-            done(index, _run_chunk(grid, chunks[index]))
+            done(chunks[index], _run_chunk(grid, chunks[index]))
 
     try:
         for index in range(len(chunks)):
@@ -394,15 +523,17 @@ def _run_on(
                 failed(index, error)
         while pending:
             future = ended.get()
-            index = pending.pop(future)
             problem = concurrent.futures.CancelledError() if future.cancelled() else future.exception()
             if problem is None:
-                done(index, future.result())
+                done(chunks[pending[future]], future.result())
+                del pending[future]
             else:
-                failed(index, problem)
+                failed(pending.pop(future), problem)
     except BaseException:
-        for future in pending:
-            future.cancel()
+        for future, index in pending.items():
+            if not future.cancel() and future.done() and future.exception() is None:
+                with contextlib.suppress(Exception):  # the first one is raised
+                    done(chunks[index], future.result())
         raise
 
 

@@ -172,7 +172,7 @@ void add_devices(py::module_& module) {
       "A servo loop in virtual time: step(now) reads the device, calls the force law, which maps a DeviceState to a "
       "force (3,) [N] in device axes, guards the force and writes it. If the law raises, the force ramps down to zero "
       "and the exception is in `error`; the first is also passed to sys.unraisablehook.")
-      .def(py::init(&make_servo), py::keep_alive<1, 2>(), "device"_a, "law"_a, py::kw_only(), "rate"_a = 1000.0,
+      .def(py::init(&make_servo), py::keep_alive<1, 2>(), "device"_a, "law"_a, py::kw_only(), "rate"_a = 0.0,
            "timeout"_a = 4e-3, "ramp_down"_a = 10e-3, "ramp_up"_a = 0.2)
       .def("step", &VirtualServo::step, "now"_a)
       .def("release", &VirtualServo::release)

@@ -27,7 +27,7 @@ class Loop {
       if (*renderer == nullptr) throw py::type_error("law: expected a HapticRenderer or a callable, got None");
       renderer_ = *renderer;
       renderer_of_python_ = py::cast(renderer_);
-      force = [of = *renderer](const DeviceState& state) { return of->update(state).force; };
+      force = **renderer;
     } else {
       python_law_ = PythonLaw::make(std::get<Law>(law));
       force = PythonLaw::force_law(python_law_, device.clock() == nullptr);

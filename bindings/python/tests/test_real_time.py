@@ -338,7 +338,7 @@ def test_concurrent_starts_and_stops_are_safe():
 
 def test_invalid_options_and_a_second_start_are_rejected():
     with pytest.raises(cal.InvalidValue, match="rate"):
-        cal.ServoLoop(Bench(), wall, options(cal.ServoOptions(rate=0.0)))
+        cal.ServoLoop(Bench(), wall, options(cal.ServoOptions(rate=-1.0)))
     with pytest.raises(cal.InvalidValue, match="priority = 100"):
         cal.ServoLoop(Bench(), wall, options(priority=100))
     with pytest.raises(TypeError):

@@ -131,12 +131,12 @@ def test_stiffnesses_are_clipped_to_what_is_stable_in_any_hand():
     cal.validate(options, device)
 
 
-def test_the_presets_clip_and_leave_passivity_control_off():
+def test_the_presets_clip():
     for name in ("omni", "touch", "desktop", "premium-1.5", "ideal"):
         device = cal.device_profile(name)
         usual, full = cal.RendererOptions.for_device(device), cal.RendererOptions.everything(device)
         for options in (usual, full):
-            assert options.stiffness_check == cal.StiffnessCheck.clip and not options.energy.passivity_control
+            assert options.stiffness_check == cal.StiffnessCheck.clip
             cal.validate(options, device)
             stiffest = max(options.paper.stiffness, options.guidance.stiffness)
             assert stiffest <= (device.usable_stiffness or math.inf)

@@ -37,7 +37,7 @@ def test_signatures_have_the_names_defaults_and_kinds_of_the_arguments():
     assert str(inspect.signature(cal.ink_outline)) == "(*args, **kwargs)", "it is overloaded"
     assert str(inspect.signature(cal.lay_out)) == "(characters, layout=Ellipsis)"
     assert str(inspect.signature(cal.device_profiles)) == "()"
-    servo = "device, law, *, rate=1000.0, timeout=0.004, ramp_down=0.01, ramp_up=0.2"
+    servo = "device, law, *, rate=0.0, timeout=0.004, ramp_down=0.01, ramp_up=0.2"
     assert str(inspect.signature(cal.Servo)) == f"({servo})"
     assert str(inspect.signature(cal.Servo.__init__)) == f"(self, {servo})"
     assert str(inspect.signature(cal.StrokeElement.point)) == "(self, t)"

@@ -19,11 +19,31 @@ namespace calligraphy {
 /// uncalibrated, faulty or not finite: position, velocity and force of the sample are numbers, whatever the device
 /// measures. It must neither allocate, lock, log nor throw. A servo survives a force law that does, but ramps the force
 /// down when it throws or takes too long.
-using ForceLaw = std::function<Eigen::Vector3d(const DeviceState&)>;
+struct ForceLaw {
+  ForceLaw() = default;
+  /// A function of the sample, for any rate.
+  template <class Law>
+  requires(std::is_invocable_r_v<Eigen::Vector3d, Law&, const DeviceState&> && !std::is_same_v<Law, ForceLaw>)
+      ForceLaw(Law law)
+      : ask(std::move(law)) {}
+  /// A HapticRenderer, or what has its update() and options(): must outlive the servo, whose rate must be its own.
+  template <class Renderer>
+  requires requires(Renderer& renderer, const DeviceState& sample) {
+    Eigen::Vector3d(renderer.update(sample).force);
+    double(renderer.options().servo_rate);
+  }
+  ForceLaw(Renderer& renderer)
+      : ask([&renderer](const DeviceState& sample) { return Eigen::Vector3d(renderer.update(sample).force); }),
+        rate(renderer.options().servo_rate) {}
+
+  std::function<Eigen::Vector3d(const DeviceState&)> ask;  ///< the force at a sample [N, device]
+  double rate = 0.0;                                       ///< at which it must be asked; 0: any [Hz]
+};
 
 /// Rate and safety limits of a servo loop.
 struct ServoOptions {
-  double rate = 1000.0;      ///< ticks per second [Hz]
+  /// Ticks per second; 0: that of the force law if it states one, otherwise the device's [Hz].
+  double rate = 0.0;
   double timeout = 4e-3;     ///< time without a fresh sample, a tick or a result of the force law before the force
                              ///< ramps down; real devices pause for up to 2.4 ms [s]
   double ramp_down = 10e-3;  ///< linear ramp from the last force to zero [s]
@@ -75,7 +95,7 @@ struct ServoStatus {
 class Servo {
  public:
   /// The device must outlive the servo. @throws ValueError naming the value when an option or the device's velocity
-  /// cut-off is out of range, or the force law is empty
+  /// cut-off is out of range, the force law is empty, or it is made for another rate
   Servo(HapticDevice& device, ForceLaw law, const ServoOptions& options = {});
 
   /// Runs one tick at time `now` [s] of a clock that should not run backwards. Call from one thread at a time; a
@@ -102,6 +122,8 @@ class Servo {
   ServoStatus status() const noexcept;
   /// Statistics since construction; reset() keeps them. Thread-safe.
   ServoStatistics statistics() const noexcept;
+  /// Ticks per second, as they take effect [Hz].
+  double rate() const noexcept { return options_.rate; }
 
  private:
   /// Owner of the device and the guard. The upper bits of the word count changes, so that a state that was left and

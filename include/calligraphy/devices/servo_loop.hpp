@@ -15,7 +15,7 @@ namespace calligraphy {
 /// Options of a real-time loop.
 struct ServoLoopOptions {
   ServoOptions servo;  ///< rate and safety limits
-  /// Options of the loop's own thread; its rate is taken from the servo. Unused if the device has its own clock.
+  /// Options of the loop's own thread. Unused if the device has its own clock.
   ServoThreadOptions thread;
 };
 

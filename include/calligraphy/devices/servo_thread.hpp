@@ -13,7 +13,6 @@ namespace calligraphy {
 
 /// Rate and privileges of the thread of a servo loop.
 struct ServoThreadOptions {
-  double rate = 1000.0;     ///< ticks per second, 1 to 100,000 [Hz]
   int priority = 80;        ///< real-time priority (SCHED_FIFO), 1 to 99; 0: a normal thread
   bool lock_memory = true;  ///< lock the memory of the whole process into RAM, from the start on
   int core = -1;            ///< processor core that the thread is bound to; -1: any
@@ -34,7 +33,7 @@ NextDeadline next_deadline(double deadline, double period, double now) noexcept;
 class ServoThread final : public ServoClock {
  public:
   /// A clock that does not run yet. @throws ValueError naming the value when an option is out of range
-  explicit ServoThread(const ServoThreadOptions& options = {});
+  explicit ServoThread(double rate, const ServoThreadOptions& options = {});
   /// Calls stop().
   ~ServoThread() override;
 
@@ -50,6 +49,7 @@ class ServoThread final : public ServoClock {
  private:
   void run(const std::function<void(double now)>& tick) noexcept;
 
+  double rate_;  ///< [Hz]
   ServoThreadOptions options_;
   std::vector<std::string> warnings_;
   std::atomic<bool> stopping_ = false;

@@ -30,10 +30,10 @@ struct LiveView {
 /// Options of a person writing on a device.
 struct LiveOptions {
   FeedbackMode mode = FeedbackMode::force;  ///< whether the device receives the renderer's force
-  RendererOptions renderer;                 ///< its servo rate applies to the loop as well
+  RendererOptions renderer;                 ///< of the renderer; the servo loop runs at its rate
   /// Device axes to page axes; by default upright_page() of the page. On a desk: desk_page().
   std::optional<MotionMapping> mapping = std::nullopt;
-  ServoLoopOptions servo;                                       ///< its rate is ignored
+  ServoLoopOptions servo;                                       ///< of the servo loop
   double peak_force = std::numeric_limits<double>::infinity();  ///< upper bound, besides the device's own [N]
   double timeout = 600.0;                                       ///< the session ends after this time [s]
   std::function<bool(const LiveView&)> watch = nullptr;  ///< called on the calling thread; false ends the session

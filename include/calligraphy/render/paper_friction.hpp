@@ -8,23 +8,15 @@ namespace calligraphy {
 /// With which people press a pen on paper, about [N].
 inline constexpr double usual_pressure = 1.0;
 
-/// How the friction force follows from the motion of the pen.
-enum class FrictionModel {
-  /// Hard break-away: a spring connects the pen to an anchor w on the paper, and drags the anchor along once it is
-  /// stretched by mu N / stiffness. Below that w does not move at all: no drift. The force depends on the path alone,
-  /// not on the rate. The limit of Hayward and Armstrong 2000 for an infinitely steep alpha.
-  breakaway,
-  /// Hayward and Armstrong 2000, "A new computational model of friction applied to haptic rendering", with alpha(z) =
-  /// z^8 / (z_stick^8 + z^8) / z_max: w also creeps below break-away, smoothly. Drifts under vibration.
-  hayward_armstrong
-};
-
-/// Friction between pen and paper.
+/// Friction between pen and paper, with hard break-away: a spring connects the pen to an anchor w on the paper, and
+/// drags the anchor along once it is stretched by mu N / stiffness. Below that w does not move at all: no drift. The
+/// force depends on the path alone, not on the rate. The limit of Hayward and Armstrong 2000, "A new computational
+/// model of friction applied to haptic rendering", for an infinitely steep alpha; their smooth one drifts under
+/// vibration.
 struct FrictionOptions {
-  FrictionModel model = FrictionModel::breakaway;  ///< how the force follows from the motion
-  double coefficient = 0.0;                        ///< mu, tangential over normal force; 0: no friction [1]
-  double stiffness = 500.0;                        ///< of the spring between pen and anchor [N/m]
-  double damping = 2.5;  ///< of that spring: none while the anchor slides along with the pen [N s/m]
+  double coefficient = 0.0;  ///< mu, tangential over normal force; 0: no friction [1]
+  double stiffness = 500.0;  ///< of the spring between pen and anchor [N/m]
+  double damping = 2.5;      ///< of that spring: none while the anchor slides along with the pen [N s/m]
 };
 
 /// Computes the friction force on the pen. Never allocates.
@@ -37,11 +29,8 @@ class PaperFriction {
   void release() noexcept { holds_ = false; }
 
  private:
-  Point stretch(const FrictionOptions& options, const Point& tip, double longest) noexcept;
-
   bool holds_ = false;
   Point anchor_ = Point::Zero();  ///< w [m]
-  Point tip_ = Point::Zero();     ///< of the last call [m]
 };
 
 }  // namespace calligraphy

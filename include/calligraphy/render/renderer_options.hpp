@@ -20,7 +20,7 @@ namespace calligraphy {
 /// How guidance depends on the distance from the stroke.
 enum class GuidanceLaw {
   linear,     ///< eq. (8) within the constraint space, zero outside
-  saturating  ///< eq. (8) near the stroke, at most `guidance_limit`, anywhere in the character's box
+  saturating  ///< eq. (8) near the stroke, at most GuidanceOptions::limit, anywhere in the character's box
 };
 
 /// What to do with a stiffness above what is usable or stable on the device.
@@ -30,98 +30,104 @@ enum class StiffnessCheck {
   off      ///< accept it, up to 1e6 N/m: for experiments on simulated devices that look for the limit itself
 };
 
-/// The paper under the pen.
+/// How the paper feels: the force along its normal, and friction along it.
 struct PaperOptions {
-  double stiffness = 600.0;  ///< K_en of eq. (9) [N/m]
-  double damping = 4.0;      ///< against motion in the paper, along its normal [N s/m]
-  double onset = 0.0005;     ///< depth over which the paper becomes as stiff and as damped as that [m]
-  bool solid = false;        ///< normal force also in the adjusting state; Table 2 has none there
-  FrictionOptions friction;  ///< between pen and paper; off by default
+  double stiffness = 600.0;  ///< of its surface, K_en of eq. (9): force per depth of the pen below it [N/m]
+  double damping = 4.0;      ///< of its surface: against motion along the normal while the pen is below it [N s/m]
+  double onset = 0.0005;     ///< depth over which stiffness and damping rise from zero, so that a touch is no step [m]
+  /// The paper presses back everywhere. Otherwise only at the character that is being written: Table 2 has no normal
+  /// force in the adjusting state, beside it.
+  bool solid = false;
+  FrictionOptions friction;  ///< between pen and paper, along the surface; off by default
 };
 
-/// The lateral force: along which stroke, how strongly, and how it comes and goes.
+/// How the pen is led along the stroke that is due: the force in the paper plane.
 struct GuidanceOptions {
-  double stiffness = 600.0;  ///< K_et of eq. (8) where the attraction factor is 1 [N/m]
-  /// Where guidance acts, against motion across the stroke; elsewhere on the paper 15 % of it, against any [N s/m].
+  /// Of the spring to the nearest point of the stroke, K_et of eq. (8), where the attraction factor is 1 [N/m].
+  double stiffness = 600.0;
+  /// Against motion across the stroke, where that spring acts; elsewhere on the paper 15 % of it, against motion in any
+  /// direction [N s/m].
   double damping = 4.0;
-  GuidanceLaw law = GuidanceLaw::linear;  ///< how the force depends on the distance from the stroke
-  double limit = 2.0;                     ///< saturating: maximum guidance force [N]
-  /// Before a stroke, guidance pulls a pen to the stroke's start that was put down nearer to it than to any to come,
-  /// though not on the stroke.
+  GuidanceLaw law = GuidanceLaw::linear;  ///< how the force grows with the distance
+  double limit = 2.0;                     ///< maximum force of the saturating law; the linear one ignores it [N]
+  /// Before a stroke is begun, pull the pen to its start, if the pen was put down nearer to it than to the starts to
+  /// come and not on the stroke. Otherwise guidance acts only across the first stretch.
   bool to_start = false;
-  ConstraintSpace space;               ///< how far from the stroke it acts
-  double fade_in = 0.15;               ///< fade-in time after a stroke's start and each feature point [s]
-  double fade_out = 0.3;               ///< fade-out time when it lets go: a pulled hand must not be thrown [s]
-  double wrong_way_stiffness = 200.0;  ///< resistance to writing backwards; 0: none [N/m]
-  double wrong_way_limit = 1.0;        ///< maximum force of that resistance [N]
-  double wrong_way_slack = 0.05;       ///< dead band: a pen may move back this far without resistance [em]
-  AssistPolicy assist;                 ///< off by default: full assistance
+  ConstraintSpace space;  ///< how far from the stroke guidance acts
+  double fade_in = 0.15;  ///< time in which it sets in at the start of a stroke and after each feature point [s]
+  double fade_out = 0.3;  ///< time in which it is withdrawn where it lets go, so that a pulled hand is not thrown [s]
+  double wrong_way_stiffness = 200.0;  ///< of the spring against writing the stroke backwards (Fig. 4); 0: none [N/m]
+  double wrong_way_limit = 1.0;        ///< maximum force of that spring [N]
+  double wrong_way_slack = 0.05;       ///< length by which the pen may move back before that spring acts [em]
+  AssistPolicy assist;                 ///< lets guidance fade as the writer improves; off by default
 };
 
-/// When the pen touches the paper, and when it is at a character.
+/// When the pen counts as on the paper, and when as at a character.
 struct ContactOptions {
-  double lift_time = 0.05;           ///< it counts as lifted once it has been above the paper for this time [s],
-  double lift_clearance = 0.003;     ///< or at once this far above the paper; until then it may bounce [m]
-  bool lift_between_strokes = true;  ///< the next stroke begins with a new contact, not by sliding into its start
-  double box_margin = 0.2;           ///< added to the bounding box of the active character on every side [em]
+  double lift_time = 0.05;           ///< a pen above the paper counts as lifted after this time: it may be bouncing [s]
+  double lift_clearance = 0.003;     ///< a pen this far above the paper counts as lifted at once [m]
+  bool lift_between_strokes = true;  ///< a stroke begins only with a new contact, not by sliding on from the last one
+  double box_margin = 0.2;  ///< beside the character, by how much its box, in which it can be written, is larger [em]
 };
 
 /// What bounds the force on its way to the device, and the motion that is believed.
 struct ForceLimits {
-  /// Maximum rate of change of the force in the paper plane, beyond what the springs and dampers change because the pen
-  /// moves: that follows the pen without lag. Infinite: no limit [N/s].
+  /// Maximum rate of change of the force in the paper plane, beyond what its springs and dampers change because the pen
+  /// moves, which follows the pen without lag. Infinite: no limit [N/s].
   double in_plane_rate = 100.0;
-  double normal_rate = 400.0;  ///< likewise along its normal [N/s]
-  /// Thermal time constant of the motors: as they warm, the permitted force falls from the device's peak to its
-  /// continuous force; 0: no limit [s].
+  double normal_rate = 400.0;  ///< likewise, of the force along the normal [N/s]
+  /// Of the motors: as they warm, the permitted force falls with it from the device's peak to its continuous force. 0:
+  /// the peak always [s].
   double thermal_time_constant = 0.0;
-  double max_speed = 5.0;  ///< a sample that implies a faster pen is a fault, not a motion [m/s, device]
+  double max_speed = 5.0;  ///< a sample that implies a faster pen is a fault of the device, not a motion [m/s, device]
 };
 
-/// What energy the force may deliver to the hand.
+/// How much energy the force may give the hand.
 struct EnergyOptions {
-  bool passivity_control = false;  ///< dissipates the energy that sampling, delay and limits generate
-  /// Maximum net energy delivered to the hand since the start; infinite: no limit [J].
+  /// Maximum net energy given since the start; near it the force is reduced. Infinite: no limit [J].
   double budget = std::numeric_limits<double>::infinity();
-  double max_gap = 0.016;  ///< with a budget: longest time without a fresh sample, by default that of Servo [s]
+  /// With a budget: the longest time without a fresh sample that it must hold over, by default that of Servo [s].
+  double max_gap = 0.016;
 
-  /// Passivity control and a budget need an account of the energy that the force delivers.
-  bool observed() const noexcept { return passivity_control || std::isfinite(budget); }
+  /// Whether there is a budget, and so an account of the energy.
+  bool limited() const noexcept { return std::isfinite(budget); }
 };
 
-/// What the renderer does, room by room; everything has a default that suits any device and hand.
+/// How the renderer works, in groups: how the paper feels, how the pen is led, what counts as contact and as writing
+/// the stroke, and what bounds the force. The defaults suit any hand; for_device() fits them to a device.
 struct RendererOptions {
-  double servo_rate = 1000.0;                               ///< samples and forces per second [Hz]
-  Rules rules = Rules::revised;                             ///< wang2006: as printed
-  StiffnessCheck stiffness_check = StiffnessCheck::reject;  ///< what to do with one that the device cannot render
-  NearestPointOptions nearest = {.method = NearestPointMethod::tracked};  ///< method and accuracy, against time
-  double velocity_cutoff = 50.0;  ///< of the low-pass on the velocity that the dampers act on (VelocityEstimator) [Hz]
-  /// Stiffness of a usual grip, about which people's vary: from it and the force at work follows where the hand means
-  /// to be [N/m, device].
+  double servo_rate = 0.0;       ///< ticks per second; 0: the device's own rate (Capabilities::update_rate) [Hz]
+  Rules rules = Rules::revised;  ///< those of the paper that were revised, or all as printed
+  StiffnessCheck stiffness_check = StiffnessCheck::reject;  ///< what to do with a spring too stiff for the device
+  /// How the nearest point of the stroke is found, and how exactly: time against accuracy (docs/nearest-point.md).
+  NearestPointOptions nearest = {.method = NearestPointMethod::tracked};
+  /// Cut-off frequency of the low-pass on the pen's velocity, which all dampers act on (VelocityEstimator) [Hz].
+  double velocity_cutoff = 50.0;
+  /// Of a usual grip: how far a hand yields to the force, and so where it would be without it [N/m, device].
   double grip_stiffness = 300.0;
   PaperOptions paper;           ///< how the paper feels
   GuidanceOptions guidance;     ///< how the pen is led along the stroke
   ContactOptions contact;       ///< when the pen counts as on the paper, and at a character
   StrokeTolerances tolerances;  ///< which pen-down begins the stroke that is due, and when it is finished
-  ForceLimits limits;           ///< of the force, its rate and the motors' heat
-  EnergyOptions energy;         ///< passivity and the energy budget
+  ForceLimits limits;           ///< of the rate of the force, the motors' heat and the pen's speed
+  EnergyOptions energy;         ///< how much energy the force may give the hand
 
   /// Every rule as printed, except the signs of eq. (8) and (9), which the available text may have lost: with the signs
   /// as printed nothing can be written (Rules::wang2006_signs). Widths and stiffnesses are the defaults. Without
   /// damping no stiffness is stable in every hand, so stiffness_check is off.
   static RendererOptions wang2006();
 
-  /// The defaults at the device's update rate, with stiffnesses clipped to what is usable and stable on it, for any
+  /// The defaults, with stiffnesses clipped to what is usable and stable on it, for any
   /// page: stiffness_check is clip. With a motion scale K_S (MotionMapping) they are the same as felt by the hand:
-  /// stiffnesses and dampings on the page are divided by K_S^2, `guidance_limit` and `wrong_way_limit` by K_S. Force
+  /// stiffnesses and dampings on the page are divided by K_S^2, the limits in `guidance` by K_S. Force
   /// rates and energies are the device's at every scale.
   /// @throws ValueError unless the scale is above 0, or when it is so small that no page could be that stiff
   static RendererOptions for_device(const Capabilities& capabilities, double scale = 1.0);
 
   /// for_device() with the optional stages that serve every writer: guidance for large deviations and to the start; the
   /// friction of paper, less the device's own; an energy budget where the device states its mass and a delay of at most
-  /// 15 ticks; a thermal budget where it states a continuous force below its peak. Not passivity control: the springs
-  /// are damped already, and what it adds is drag. Not assistance as needed, which withdraws guidance by intent.
+  /// 15 ticks; a thermal budget where it states a continuous force below its peak. Not assistance as needed, which
+  /// withdraws guidance by intent.
   static RendererOptions everything(const Capabilities& capabilities, double scale = 1.0);
 };
 

@@ -24,6 +24,10 @@ struct EffectiveOptions {
   }
 };
 
+/// That of the options, or the device's if they leave it at 0 [Hz]. @throws ValueError naming the one that is out of
+/// range
+double servo_rate(const RendererOptions& options, const Capabilities& capabilities);
+
 /// Checks all that is asked for, and clips it if that is asked for too.
 /// @throws ValueError naming the character of the page, the mapping, the option or the property of the device that is
 /// invalid

@@ -18,14 +18,13 @@ namespace calligraphy {
 struct SentForce {
   Eigen::Vector3d page = Eigen::Vector3d::Zero();     ///< page axes [N]
   Eigen::Vector3d device = Eigen::Vector3d::Zero();   ///< device axes [N]
-  Point guidance = Point::Zero();                     ///< `page` less friction and damping as wanted [N]
+  Point guidance = Point::Zero();                     ///< `page` less friction as wanted [N]
   Eigen::Vector3d viscous = Eigen::Vector3d::Zero();  ///< as HapticTick::viscous [N, page]
-  Eigen::Vector3d damping = Eigen::Vector3d::Zero();  ///< by the passivity controller, before limits [N, page]
   double energy_given = 0.0;                          ///< to the hand, as observed; 0 without an account of it [J]
   double heat = 0.0;                                  ///< of the motors; 0 without thermal budget [1]
 };
 
-/// Limits the forces by passivity and the energy budget, by peak and heat, which keep the direction, and by the rate.
+/// Limits the forces by the energy budget, by peak and heat, which keep the direction, and by the rate.
 /// The energy is that of the force at work. Never allocates.
 class ForceOutput {
  public:
