@@ -336,6 +336,14 @@ def test_concurrent_starts_and_stops_are_safe():
     assert not loop.running
 
 
+def test_a_loop_refuses_a_renderer_of_another_rate_and_names_both():
+    slow = cal.RendererOptions(servo_rate=500.0, stiffness_check="clip")
+    page = one_page()
+    renderer = cal.HapticRenderer(page.characters, cal.upright_page(page.width, page.height), PROFILE, slow)
+    with pytest.raises(cal.InvalidValue, match="rate = 1000 Hz, but the force law is made for 500 Hz"):
+        cal.ServoLoop(Bench(), renderer, options(cal.ServoOptions(rate=1000.0)))
+
+
 def test_invalid_options_and_a_second_start_are_rejected():
     with pytest.raises(cal.InvalidValue, match="rate"):
         cal.ServoLoop(Bench(), wall, options(cal.ServoOptions(rate=-1.0)))
