@@ -9,6 +9,7 @@
 
 #include <calligraphy/calligraphy.hpp>
 #include <calligraphy/devices/detail/flush_denormals.hpp>
+#include <calligraphy/render/detail/energy_budget.hpp>
 
 #include "timing.hpp"
 
@@ -238,7 +239,7 @@ BENCHMARK(stage_limiter);
 void bytes_per_object(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(sizeof(HapticRenderer));
   state.counters["HapticRenderer"] = sizeof(HapticRenderer);
-  state.counters["PassivityController"] = sizeof(PassivityController);
+  state.counters["EnergyBudget"] = sizeof(EnergyBudget);
   state.counters["ThermalBudget"] = sizeof(ThermalBudget);
   state.counters["PaperFriction"] = sizeof(PaperFriction);
   state.counters["ActiveStroke"] = sizeof(ActiveStroke);

@@ -55,6 +55,5 @@
 #include <calligraphy/render/interaction_state.hpp>
 #include <calligraphy/render/motion_mapping.hpp>
 #include <calligraphy/render/paper_friction.hpp>
-#include <calligraphy/render/passivity_controller.hpp>
 #include <calligraphy/render/renderer_options.hpp>
 #include <calligraphy/render/stiffness_advice.hpp>

@@ -12,7 +12,7 @@
 
 #include <calligraphy/base/random.hpp>
 #include <calligraphy/devices/simulated_device.hpp>
-#include <calligraphy/render/passivity_controller.hpp>
+#include <calligraphy/experiments/passivity_controller.hpp>
 
 #include "base/parallel.hpp"
 #include "base/require.hpp"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/require.hpp"
 #include "collision/length.hpp"
 
 namespace calligraphy {
@@ -17,28 +18,46 @@ constexpr double damping_share = 0.15;  ///< of a force that the budget limits
 
 }  // namespace
 
-EnergyBudget::EnergyBudget(const PassivityOptions& options, double period) noexcept
-    : options_(options), period_(period) {
-  brake_ = max_brake / options.scale * std::min(1.0, max_brake_age / ((options.delay + 1.0) * period));
-  reserve_ = std::min(0.5 * options.energy_budget, brake_ * options.hand_speed * (options.max_gap + period));
+EnergyBudget::EnergyBudget(const EnergyBudgetOptions& options, double period)
+    : options_(options), period_(period), observer_(options.observer, period) {
+  const auto& [hand_speed, max_gap, scale, delay] = options.observer;
+  require(options.budget >= 0.0, "energy budget: budget", options.budget, "J", "at least 0");
+  require(options.mass > 0.0, "energy budget: mass", options.mass, "kg", "above 0");
+  require_above_zero("energy budget: hand_speed", hand_speed, "m/s");
+  require_not_negative("energy budget: max_gap", max_gap, "s");
+  require_above_zero("energy budget: scale", scale, "");
+  require_above_zero("energy budget: period", period, "s");
+  require_within("energy budget: delay", delay, "ticks", 0, EnergyObserver::max_delay);
+  brake_ = max_brake / scale * std::min(1.0, max_brake_age / ((delay + 1.0) * period));
+  reserve_ = std::min(0.5 * options.budget, brake_ * hand_speed * (max_gap + period));
   restart();
 }
 
 void EnergyBudget::restart() noexcept {
-  remaining_ = options_.energy_budget;
+  observer_.restart();
+  remaining_ = options_.budget;
   max_force_ = std::numeric_limits<double>::infinity();
+}
+
+Eigen::Vector3d EnergyBudget::next(const Eigen::Vector3d& position, const Eigen::Vector3d& wanted,
+                                   const Eigen::Vector3d& viscous) noexcept {
+  if (is_finite(position)) {
+    remaining_ = std::min(options_.budget, remaining_ - observer_.move(position).energy);
+  } else {
+    observer_.lose_sample();
+  }
+  return std::isfinite(options_.budget) ? limited(wanted, viscous) : wanted;
 }
 
 /// When the budget is nearly exhausted, a moving pen is braked lightly, so that it returns energy. Otherwise an
 /// exhausted budget would stay exhausted forever, because zero force does no work.
-Eigen::Vector3d EnergyBudget::limited(const Eigen::Vector3d& force, const Eigen::Vector3d& viscous,
-                                      const EnergyObserver& observer) noexcept {
-  max_force_ = payable_force(observer);
+Eigen::Vector3d EnergyBudget::limited(const Eigen::Vector3d& force, const Eigen::Vector3d& viscous) noexcept {
+  max_force_ = payable_force();
   if (max_force_ < brake_) {
     const bool is_overdrawn = !(remaining_ > min_brake_share * reserve_);
     max_force_ = brake_ * (is_overdrawn ? min_brake_share : std::min(remaining_ / reserve_, 1.0));
-    const Eigen::Vector3d& velocity = observer.velocity();
-    return -max_force_ / (norm(velocity) + half_brake_speed * options_.scale) * velocity;
+    const Eigen::Vector3d& velocity = observer_.velocity();
+    return -max_force_ / (norm(velocity) + half_brake_speed * options_.observer.scale) * velocity;
   }
   if (!(dot(force, force) > max_force_ * max_force_)) return force;
   const Eigen::Vector3d kept = shortened(viscous, damping_share * max_force_);
@@ -48,15 +67,15 @@ Eigen::Vector3d EnergyBudget::limited(const Eigen::Vector3d& force, const Eigen:
 /// Maximum F with F v t + (F t)^2 / (2 m) <= E, where E is what remains after the forces whose work no sample has shown
 /// yet, and after the reserve of the brake. While samples are missing, the gap foreseen for this force shrinks by what
 /// has passed of it.
-double EnergyBudget::payable_force(const EnergyObserver& observer) const noexcept {
-  const double speed = observer.speed();
-  double available = remaining_ - reserve_ - observer.gap().force * speed * period_;
-  for (int age = 0; age < observer.delay(); ++age) {
-    available -= norm(observer.sent_before(static_cast<std::size_t>(age))) * speed * period_;
+double EnergyBudget::payable_force() const noexcept {
+  const double speed = observer_.speed();
+  double available = remaining_ - reserve_ - observer_.gap().force * speed * period_;
+  for (int age = 0; age < observer_.delay(); ++age) {
+    available -= norm(observer_.sent_before(static_cast<std::size_t>(age))) * speed * period_;
   }
   if (!(available > 0.0)) return 0.0;
-  const double passed = static_cast<double>(observer.gap().periods) * period_;
-  const double time = std::max(options_.max_gap - passed, period_) + period_;
+  const double passed = static_cast<double>(observer_.gap().periods) * period_;
+  const double time = std::max(options_.observer.max_gap - passed, period_) + period_;
   const double way = speed * time, accelerated = 0.5 * time * time / options_.mass;
   return 2.0 * available / (way + std::sqrt(way * way + 4.0 * accelerated * available));
 }

@@ -17,7 +17,7 @@ constexpr double force_resolution = 0.01;
 
 }  // namespace
 
-EnergyObserver::EnergyObserver(const PassivityOptions& options, double period) noexcept
+EnergyObserver::EnergyObserver(const EnergyObserverOptions& options, double period) noexcept
     : options_(options),
       period_(period),
       rate_(1.0 / period),

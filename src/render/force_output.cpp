@@ -15,16 +15,15 @@ constexpr double max_followed_speed = 1.0, max_followed_change = 0.3;
 
 /// In page axes, where forces are 1 / scale times those of the device, masses and damping 1 / scale^2 times
 /// (MotionMapping).
-PassivityController passivity_controller(const RendererOptions& options, const Capabilities& capabilities,
-                                         double scale) {
-  PassivityOptions passivity;
-  passivity.delay = capabilities.sample_delay;
-  passivity.energy_budget = options.energy.budget;
-  if (capabilities.apparent_mass > 0.0) passivity.mass = capabilities.apparent_mass / (scale * scale);
-  passivity.hand_speed *= scale;
-  passivity.scale = scale;
-  passivity.max_gap = options.energy.max_gap;
-  return PassivityController(passivity, 1.0 / options.servo_rate);
+EnergyBudget energy_budget(const RendererOptions& options, const Capabilities& capabilities, double scale) {
+  EnergyBudgetOptions energy;
+  energy.budget = options.energy.budget;
+  if (capabilities.apparent_mass > 0.0) energy.mass = capabilities.apparent_mass / (scale * scale);
+  energy.observer.hand_speed *= scale;
+  energy.observer.max_gap = options.energy.max_gap;
+  energy.observer.scale = scale;
+  energy.observer.delay = capabilities.sample_delay;
+  return EnergyBudget(energy, 1.0 / options.servo_rate);
 }
 
 }  // namespace
@@ -46,7 +45,7 @@ ForceOutput::ForceOutput(const RendererOptions& options, const Capabilities& cap
   limiter_.in_plane_step = options.limits.in_plane_rate / options.servo_rate / mapping.scale;
   limiter_.normal_step = options.limits.normal_rate / options.servo_rate / mapping.scale;
   limiter_.peak = capabilities.peak_force / mapping.scale;
-  if (observes_energy_) passivity_ = passivity_controller(options, capabilities, mapping.scale);
+  if (observes_energy_) energy_ = energy_budget(options, capabilities, mapping.scale);
   if (options.limits.thermal_time_constant > 0.0) {
     thermal_.peak = limiter_.peak;
     thermal_.continuous = std::min(capabilities.continuous_force, capabilities.peak_force) / mapping.scale;
@@ -55,7 +54,7 @@ ForceOutput::ForceOutput(const RendererOptions& options, const Capabilities& cap
 }
 
 void ForceOutput::restart() noexcept {
-  passivity_.restart();
+  energy_.restart();
   thermal_.heat = 0.0;
   sent_ = {};
 }
@@ -72,8 +71,8 @@ const SentForce& ForceOutput::update(const PenState& pen, const GuidanceForce& g
   double max_force = thermal_.peak > 0.0 ? thermal_.max_force() : ForceLimiter::no_limit;
   if (observes_energy_) {
     account(pen);
-    force = passive(pen, shortened(force, std::min(limiter_.peak, max_force)));
-    max_force = std::min(max_force, passivity_.max_force());
+    force = affordable(pen, shortened(force, std::min(limiter_.peak, max_force)));
+    max_force = std::min(max_force, energy_.max_force());
   }
   if (!is_trusted) {
     sent_.page = limiter_.release(sent_.page);
@@ -82,7 +81,7 @@ const SentForce& ForceOutput::update(const PenState& pen, const GuidanceForce& g
   } else {
     sent_.page = limiter_.next(sent_.page, force, allowance(pen), max_force);
   }
-  if (observes_energy_) passivity_.sent(sent_.page);
+  if (observes_energy_) energy_.sent(sent_.page);
   if (thermal_.peak > 0.0) {
     thermal_.held(norm(sent_.page), period_);
     sent_.heat = thermal_.heat;
@@ -95,17 +94,17 @@ const SentForce& ForceOutput::update(const PenState& pen, const GuidanceForce& g
 /// The account of energy sees the force at work: behind a servo it may be less than the one sent.
 void ForceOutput::account(const PenState& pen) noexcept {
   const bool is_as_sent = pen.force == sent_.device || !is_finite(pen.force);
-  passivity_.acted(is_as_sent ? sent_.page : mapping_.force_to_page(pen.force), pen.ticks, pen.settling);
+  energy_.acted(is_as_sent ? sent_.page : mapping_.force_to_page(pen.force), pen.ticks, pen.settling);
 }
 
-Eigen::Vector3d ForceOutput::passive(const PenState& pen, const Eigen::Vector3d& wanted) noexcept {
+Eigen::Vector3d ForceOutput::affordable(const PenState& pen, const Eigen::Vector3d& wanted) noexcept {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   const bool is_known = pen.status == TickStatus::ok;
   Eigen::Vector3d force =
-      passivity_.next(is_known ? pen.position : Eigen::Vector3d(unknown, unknown, unknown), wanted, sent_.viscous);
+      energy_.next(is_known ? pen.position : Eigen::Vector3d(unknown, unknown, unknown), wanted, sent_.viscous);
   // Paper does not pull, however fast the pen is lifted.
   if (wanted.z() >= 0.0) force.z() = std::max(0.0, force.z());
-  sent_.energy_given = passivity_.energy_given();
+  sent_.energy_given = energy_.energy_given();
   return force;
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <calligraphy/base/error.hpp>
-#include <calligraphy/render/passivity_controller.hpp>
+#include <calligraphy/render/detail/energy_observer.hpp>
 
 #include "base/require.hpp"
 #include "stiffness_limits.hpp"
@@ -79,8 +79,7 @@ RendererOptions RendererOptions::everything(const Capabilities& capabilities, do
   if (own_friction < paper_friction_coefficient)
     options.paper.friction.coefficient = paper_friction_coefficient - own_friction;
   clip_stiffness(options, capabilities, scale);
-  const bool is_modelled =
-      capabilities.apparent_mass > 0.0 && capabilities.sample_delay <= PassivityController::max_delay;
+  const bool is_modelled = capabilities.apparent_mass > 0.0 && capabilities.sample_delay <= EnergyObserver::max_delay;
   if (is_modelled) options.energy.budget = 0.1;
   const bool warms = capabilities.continuous_force > 0.0 && capabilities.continuous_force < capabilities.peak_force;
   options.limits.thermal_time_constant = warms ? 10.0 : 0.0;

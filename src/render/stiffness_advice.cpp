@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <string>
 
-#include <calligraphy/render/passivity_controller.hpp>
-
 #include "base/require.hpp"
 
 namespace calligraphy {
@@ -16,6 +14,9 @@ constexpr int max_sample_delay = 1000;
 
 /// For a device that states none: the minimum of the shipped profiles [N].
 constexpr double presumed_friction = 0.04;
+
+/// Of the damping beyond which a mass is thrown back within one period.
+constexpr double inertial_share = 0.9;
 
 StiffnessBound passive_bound(const SampledLoop& loop) {
   const double spare = std::max(0.0, loop.device.viscous_friction - loop.wall_damping);
@@ -80,9 +81,9 @@ StiffnessAdvice advise_stiffness(const SampledLoop& loop) {
 
 double injectable_damping(const SampledLoop& loop) {
   validate(loop);
-  double damping =
-      PassivityController::usable_damping(loop.device.apparent_mass, 1.0 / loop.rate, loop.device.sample_delay) -
-      loop.wall_damping;
+  const double period = 1.0 / loop.rate;
+  const double tolerated = inertial_share * loop.device.apparent_mass / (period * (1 + 2 * loop.device.sample_delay));
+  double damping = tolerated - loop.wall_damping;
   if (loop.device.encoder_step > 0.0) {
     const double held = loop.device.coulomb_friction > 0.0 ? loop.device.coulomb_friction : presumed_friction;
     damping = std::min(damping, held / (loop.device.encoder_step * loop.rate));

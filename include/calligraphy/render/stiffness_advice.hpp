@@ -68,11 +68,11 @@ struct StiffnessAdvice {
 /// @throws ValueError as validate()
 StiffnessAdvice advise_stiffness(const SampledLoop& loop);
 
-/// Maximum damping that a PassivityController may inject into this loop [N s/m]: what the device's mass tolerates at
-/// its rate and delay, less the wall's own, and at most f_c T / D, so that Coulomb friction can hold the force of one
-/// encoder step within a tick. Above that, quantisation sustains a limit cycle (found by the stability map: at 4 kHz a
-/// controller without the last limit allows less stiffness than no controller). If no Coulomb friction is stated, 0.04
-/// N are assumed.
+/// Maximum damping that a passivity controller (experiments) may inject into this loop [N s/m]: 0.9 m / (T (1 + 2 d)),
+/// which the device's mass tolerates without being thrown back within one period, less the wall's own, and at most f_c
+/// T / D, so that Coulomb friction can hold the force of one encoder step within a tick. Above that, quantisation
+/// sustains a limit cycle (found by the stability map: at 4 kHz a controller without the last limit allows less
+/// stiffness than no controller). If no Coulomb friction is stated, 0.04 N are assumed.
 /// @throws ValueError as validate()
 double injectable_damping(const SampledLoop& loop);
 

@@ -1,41 +1,78 @@
-// How much force may be sent for what remains of an energy budget.
+// A budget for the energy that the force at work delivers to the hand.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include <Eigen/Core>
 
 #include <calligraphy/render/detail/energy_observer.hpp>
-#include <calligraphy/render/passivity_options.hpp>
 
 namespace calligraphy {
 
-/// The budget of PassivityController. Never allocates.
+/// How much energy may be given, and what a budget must know of the device, the hand and the loop.
+struct EnergyBudgetOptions {
+  /// Maximum net energy delivered to the hand since the start. Infinite: no limit [J].
+  double budget = std::numeric_limits<double>::infinity();
+  double mass = std::numeric_limits<double>::infinity();  ///< of the device, the lightest pen [kg]
+  EnergyObserverOptions observer = {};                    ///< which accounts for the energy
+};
+
+/// Limits the force so that its net energy, as EnergyObserver accounts for it, stays within a budget. Never allocates.
+///
+/// With E of the budget left, a force is limited to what cannot use up E before the next sample is known:
+/// F v t + (F t)^2 / (2 m) <= E, with v = hand_speed, or the pen's own speed if that is higher, and t = max_gap plus a
+/// period; for the path of a pen that the hand moves at v while the force accelerates it for that time. Forces whose
+/// work no sample has shown yet are charged likewise. Energy that the hand returns is added to E, up to the budget.
+/// Where less than 0.1 N is left by this rule, that is a brake against the motion, of 0.02 N at least (less with
+/// samples older than 10 ms), so that the pen returns energy. The true net energy never exceeds the budget, whatever
+/// the field, as long as
+/// - a downstream stage does not lengthen a force, and reports the one that it changes (acted());
+/// - no hand moves the pen faster than `hand_speed`, and no gap is longer than `max_gap`: a longer one of t seconds may
+///   deliver |F| v t, which is repaid before more is given;
+/// - each sample is `delay` ticks old, or known to be lost, or more than 10 m/s away (then the pen is elsewhere);
+/// - no hand turns the pen around within that age while the budget is exhausted: the brake then pushes along.
+/// Not observed is, with an encoder of resolution D, at most D / 2 times the sum of all changes of the force, and
+/// within a period in which the force changes, what a pen of acceleration a moves off a straight line: at most a T^2 /
+/// 8 times that sum.
 class EnergyBudget {
  public:
   EnergyBudget() = default;
-  EnergyBudget(const PassivityOptions& options, double period) noexcept;
+  /// @throws ValueError naming the value when an option or the period is out of range
+  EnergyBudget(const EnergyBudgetOptions& options, double period);
 
-  bool is_limited() const noexcept { return std::isfinite(options_.energy_budget); }
-  /// The pen has been given this energy, or has returned it where negative [J].
-  void pay(double energy) noexcept { remaining_ = std::min(options_.energy_budget, remaining_ - energy); }
-  /// What of `force` may be sent; `viscous` is the part of it that opposes the motion [N].
-  Eigen::Vector3d limited(const Eigen::Vector3d& force, const Eigen::Vector3d& viscous,
-                          const EnergyObserver& observer) noexcept;
+  /// Reports, before next(), the force that acts at this sample [N], and the ticks that have passed since the last
+  /// call: more than one when the loop paused. For the first `settling` [s] of them the force may have been another
+  /// one. In one tick it was then the one of the last call, so the work is shared by time. Over a pause it may have
+  /// been any between this and those before, for `max_gap` at least. Without a call it was the force of sent(), for one
+  /// tick.
+  void acted(const Eigen::Vector3d& force, int ticks, double settling = 0.0) noexcept {
+    observer_.acted(force, ticks, settling);
+  }
+  /// The force to send for a desired one [N], at the device position of this tick [m]; limits may follow. A position
+  /// with NaN means that the sample of this tick is lost or stale. `viscous` is the part of `wanted` that opposes the
+  /// motion: where the budget limits the force, some of it remains, since a force that depends on the energy alone
+  /// would let the pen swing.
+  Eigen::Vector3d next(const Eigen::Vector3d& position, const Eigen::Vector3d& wanted,
+                       const Eigen::Vector3d& viscous = Eigen::Vector3d::Zero()) noexcept;
+  /// Reports the force after all limits, held from now on. Call it once after every next().
+  void sent(const Eigen::Vector3d& force) noexcept { observer_.sent(force); }
+  /// Resets: no force sent, no energy delivered.
   void restart() noexcept;
 
-  /// Of the last limited(); infinite before that [N].
+  /// Net energy delivered to the hand, as observed; work not yet observed is not in it [J].
+  double energy_given() const noexcept { return observer_.energy_given(); }
+  /// Force limit of the last next(); infinite without a budget [N].
   double max_force() const noexcept { return max_force_; }
 
  private:
-  double payable_force(const EnergyObserver& observer) const noexcept;
+  Eigen::Vector3d limited(const Eigen::Vector3d& force, const Eigen::Vector3d& viscous) noexcept;
+  double payable_force() const noexcept;
 
-  PassivityOptions options_;
+  EnergyBudgetOptions options_;
   double period_ = 0.001;  ///< [s]
-  double brake_ = 0.1;     ///< with an exhausted budget [N]
-  double reserve_ = 0.0;   ///< for the brake [J]
+  EnergyObserver observer_;
+  double brake_ = 0.1;    ///< with an exhausted budget [N]
+  double reserve_ = 0.0;  ///< for the brake [J]
   double remaining_ = std::numeric_limits<double>::infinity();
   double max_force_ = std::numeric_limits<double>::infinity();
 };

@@ -8,9 +8,15 @@
 
 #include <Eigen/Core>
 
-#include <calligraphy/render/passivity_options.hpp>
-
 namespace calligraphy {
+
+/// What an observer must know of the hand and the loop.
+struct EnergyObserverOptions {
+  double hand_speed = 2.0;  ///< maximum speed at which a hand moves the pen [m/s]
+  double max_gap = 0.016;   ///< longest time for which a force is held without a fresh sample [s]
+  double scale = 1.0;       ///< K_S (MotionMapping): forces are 1 / scale, speeds scale times those of the device
+  int delay = 0;            ///< age of a sample when it is read, at most EnergyObserver::max_delay [ticks]
+};
 
 /// From the sample before to this one.
 struct ObservedStep {
@@ -20,7 +26,9 @@ struct ObservedStep {
   double energy = 0.0;                              ///< delivered; an upper bound where the step was not seen [J]
 };
 
-/// The observer of PassivityController. Never allocates.
+/// The force held over a period does the work F(n-1) . (x(n) - x(n-1)), exactly (Ryu, Preusche, Hannaford and Hirzinger
+/// 2005, after Hannaford and Ryu 2002). F is the force at work, after all limits, guards and ramps; with delayed
+/// samples, the force that acted when they were taken. EnergyBudget says how far this account is true. Never allocates.
 class EnergyObserver {
  public:
   static constexpr int max_delay = 15;
@@ -34,9 +42,9 @@ class EnergyObserver {
   };
 
   EnergyObserver() = default;
-  EnergyObserver(const PassivityOptions& options, double period) noexcept;
+  EnergyObserver(const EnergyObserverOptions& options, double period) noexcept;
 
-  /// As PassivityController::acted().
+  /// As EnergyBudget::acted().
   void acted(const Eigen::Vector3d& force, int ticks, double settling) noexcept {
     if (ticks > 1) {
       acted_over_pause(force, ticks - 1, settling);
@@ -78,7 +86,7 @@ class EnergyObserver {
   void pass_unseen(double change) noexcept;
   void pass_unseen(const Eigen::Vector3d& force, int count, double change) noexcept;
 
-  PassivityOptions options_;
+  EnergyObserverOptions options_;
   double period_ = 0.001, rate_ = 1000.0;                 ///< [s], [Hz]
   std::size_t delay_ = 0;                                 ///< [ticks]
   std::array<Eigen::Vector3d, max_delay + 1> sent_ = {};  ///< ring buffer

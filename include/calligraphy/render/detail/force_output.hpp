@@ -4,13 +4,13 @@
 #include <Eigen/Core>
 
 #include <calligraphy/devices/capabilities.hpp>
+#include <calligraphy/render/detail/energy_budget.hpp>
 #include <calligraphy/render/detail/force_limiter.hpp>
 #include <calligraphy/render/detail/guidance.hpp>
 #include <calligraphy/render/detail/paper.hpp>
 #include <calligraphy/render/detail/pen_state.hpp>
 #include <calligraphy/render/detail/thermal_budget.hpp>
 #include <calligraphy/render/motion_mapping.hpp>
-#include <calligraphy/render/passivity_controller.hpp>
 #include <calligraphy/render/renderer_options.hpp>
 
 namespace calligraphy {
@@ -54,7 +54,7 @@ class ForceOutput {
   ForceAllowance allowance(const PenState& pen) const noexcept;
   ForceAllowance allowance(Point way, Point velocity_change) const noexcept;
   void account(const PenState& pen) noexcept;
-  Eigen::Vector3d passive(const PenState& pen, const Eigen::Vector3d& wanted) noexcept;
+  Eigen::Vector3d affordable(const PenState& pen, const Eigen::Vector3d& wanted) noexcept;
 
   MotionMapping mapping_;
   double period_;  ///< [s]
@@ -62,7 +62,7 @@ class ForceOutput {
   double paper_onset_;  ///< depth over which the damper of the paper sets in [m]
   ForceLimiter limiter_;
   bool observes_energy_;
-  PassivityController passivity_;
+  EnergyBudget energy_;
   ThermalBudget thermal_;  ///< peak 0: disabled
   SentForce sent_;
 };

@@ -1,4 +1,4 @@
-#include <calligraphy/render/passivity_controller.hpp>
+#include <calligraphy/experiments/passivity_controller.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -20,48 +20,33 @@ double damping_for(double surplus, double square, double period, double most) no
 
 }  // namespace
 
-double PassivityController::usable_damping(double mass, double period, int delay) noexcept {
-  return 0.9 * mass / (period * (1 + 2 * delay));
-}
-
 PassivityController::PassivityController(const PassivityOptions& options, double period)
-    : max_damping_(options.max_damping), period_(period), observer_(options, period), budget_(options, period) {
+    : max_damping_(options.max_damping), period_(period), observer_({.delay = options.delay}, period) {
   require_not_negative("passivity: max_damping", options.max_damping, "N s/m");
-  require(options.energy_budget >= 0.0, "passivity: energy_budget", options.energy_budget, "J", "at least 0");
-  require(options.mass > 0.0, "passivity: mass", options.mass, "kg", "above 0");
-  require_above_zero("passivity: hand_speed", options.hand_speed, "m/s");
-  require_not_negative("passivity: max_gap", options.max_gap, "s");
-  require_above_zero("passivity: scale", options.scale, "");
   require_above_zero("passivity: period", period, "s");
   require_within("passivity: delay", options.delay, "ticks", 0, max_delay);
 }
 
 void PassivityController::restart() noexcept {
   observer_.restart();
-  budget_.restart();
   field_ = damping_ = Eigen::Vector3d::Zero();
   surplus_in_plane_ = surplus_normal_ = free_for_ = 0.0;
 }
 
-Eigen::Vector3d PassivityController::next(const Eigen::Vector3d& position, const Eigen::Vector3d& wanted,
-                                          const Eigen::Vector3d& viscous) noexcept {
+Eigen::Vector3d PassivityController::next(const Eigen::Vector3d& position, const Eigen::Vector3d& wanted) noexcept {
   damping_.setZero();
-  // What the budget takes away on purpose is not generated.
-  const Eigen::Vector3d field = shortened(wanted, budget_.max_force());
   if (is_finite(position)) {
     const ObservedStep step = observer_.move(position);
-    budget_.pay(step.energy);
-    if (step.seen) damp(step, field);
+    if (step.seen) damp(step, wanted);
   } else {
     observer_.lose_sample();
   }
   // Without a field nothing can swing: a pen that is lifted is not held back for what happened on the paper.
-  const bool is_free = dot(field, field) == 0.0 && dot(field_, field_) == 0.0;
+  const bool is_free = dot(wanted, wanted) == 0.0 && dot(field_, field_) == 0.0;
   free_for_ = is_free ? free_for_ + period_ : 0.0;
   if (free_for_ > max_bounce) surplus_in_plane_ = surplus_normal_ = 0.0;
-  field_ = field;
-  const Eigen::Vector3d force = wanted + damping_;
-  return budget_.is_limited() ? budget_.limited(force, viscous + damping_, observer_) : force;
+  field_ = wanted;
+  return wanted + damping_;
 }
 
 /// Against the motion of this step, for what has been delivered beyond the work of the field.
