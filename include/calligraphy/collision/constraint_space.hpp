@@ -8,9 +8,9 @@ namespace calligraphy {
 
 /// A tube around a stroke element, within which it attracts the pen.
 struct ConstraintSpace {
-  double radius = 0.3;  ///< [em]
-  /// Width of the edge in which the force fades out, at most `radius`; a narrow one lets it drop steeply, which is a
-  /// negative stiffness [em].
+  double radius = 0.3;  ///< distance from the stroke beyond which it does not attract the pen [em]
+  /// Width of the edge of the tube in which the force fades out, at most `radius`; a narrow one lets it drop steeply,
+  /// which is a negative stiffness [em].
   double fade_width = 0.2;
 };
 

@@ -49,16 +49,17 @@ struct GuidanceOptions {
   /// direction [N s/m].
   double damping = 4.0;
   GuidanceLaw law = GuidanceLaw::linear;  ///< how the force grows with the distance
-  double limit = 2.0;                     ///< maximum force of the saturating law; the linear one ignores it [N]
-  /// Before a stroke is begun, pull the pen to its start, if the pen was put down nearer to it than to the starts to
-  /// come and not on the stroke. Otherwise guidance acts only across the first stretch.
+  double limit = 2.0;  ///< maximum force of the spring with the saturating law, which levels off towards it [N]
+  /// Before a stroke is begun, pull the pen to its start, to half of StrokeTolerances::start_distance, if it was put
+  /// down nearer to it than to the starts to come and not on the stroke. False: only near the start, and only across
+  /// the stroke.
   bool to_start = false;
-  ConstraintSpace space;  ///< how far from the stroke guidance acts
-  double fade_in = 0.15;  ///< time in which it sets in at the start of a stroke and after each feature point [s]
+  ConstraintSpace space;  ///< how far from the stroke guidance acts, with the linear law
+  double fade_in = 0.15;  ///< time in which it sets in from zero, at contact, as a stroke begins, at feature points [s]
   double fade_out = 0.3;  ///< time in which it is withdrawn where it lets go, so that a pulled hand is not thrown [s]
   double wrong_way_stiffness = 200.0;  ///< of the spring against writing the stroke backwards (Fig. 4); 0: none [N/m]
   double wrong_way_limit = 1.0;        ///< maximum force of that spring [N]
-  double wrong_way_slack = 0.05;       ///< length by which the pen may move back before that spring acts [em]
+  double wrong_way_slack = 0.05;       ///< length by which the pen may be behind its furthest point before it acts [em]
   AssistPolicy assist;                 ///< lets guidance fade as the writer improves; off by default
 };
 
@@ -72,8 +73,8 @@ struct ContactOptions {
 
 /// What bounds the force on its way to the device, and the motion that is believed.
 struct ForceLimits {
-  /// Maximum rate of change of the force in the paper plane, beyond what its springs and dampers change because the pen
-  /// moves, which follows the pen without lag. Infinite: no limit [N/s].
+  /// Maximum rate of change of the force in the paper plane, wherever it would jump: as guidance sets in or lets go, at
+  /// faults. What its springs and dampers change because the pen moves follows without lag. Infinite: no limit [N/s].
   double in_plane_rate = 100.0;
   double normal_rate = 400.0;  ///< likewise, of the force along the normal [N/s]
   /// Of the motors: as they warm, the permitted force falls with it from the device's peak to its continuous force. 0:

@@ -11,20 +11,23 @@ namespace calligraphy {
 struct StrokeTolerances {
   /// A stroke begins within this distance of its start [em].
   double start_distance = 0.2;
-  /// Its first stretch runs within this angle of the stroke's own [rad].
+  /// Its first stretch runs within this angle of the stroke's own, from the first point to the farthest; otherwise it
+  /// does not begin the stroke, until the pen goes back to the start and sets out again [rad].
   double direction = std::numbers::pi / 3.0;
-  /// Length over which that direction is judged, at most a quarter of the stroke [em]; more where it contradicts what
-  /// follows (docs/capture.md). Until then guidance acts across
-  /// it only, so that the pen cannot be led along a stroke that it was not to write. 0: only the place counts, as
-  /// printed.
+  /// Length of that stretch, at most a quarter of the stroke; longer where the entry of a brush points elsewhere than
+  /// what follows (docs/capture.md). Until the pen has gone so far, guidance pulls it across the direction of the
+  /// stroke only, not to its start or on along it: it could write another one. 0: only the place counts, as printed
+  /// [em].
   double first_stretch = 0.04;
-  /// A later stroke of the character is meant when its start fits better by this factor; infinite: no other stroke is
-  /// considered, as printed.
+  /// A later stroke of the character is meant, and the due one not begun, when the pen fits that one's start, in place
+  /// and direction, better by this factor. Infinite: no other stroke is considered, as printed [1].
   double distinction = 2.0;
-  /// Half the width of the corridor about the stroke, beyond what the writer is off by anyway [em].
+  /// Half the width of the corridor about the stroke: only what is written within it counts as covered, and guidance
+  /// lets go of a hand that means to be elsewhere. It is wider to the side to which this character's strokes were begun
+  /// beside their starts, by as much [em].
   double corridor = 0.06;
-  /// Share of the length that must be written in order before the stroke is finished: at its end, or where the pen is
-  /// lifted. 0: the feature planes finish it, as printed.
+  /// Share of the length that must be written in order, less `slack`, before the stroke is finished: at its end, or
+  /// where the pen is lifted. 0: the feature planes finish it, as printed [1].
   double coverage = 0.9;
   /// Length that may be missing besides, so that short strokes are taken too [em].
   double slack = 0.04;
