@@ -241,7 +241,8 @@ py::class_<Struct> add_struct(py::module_& module) {
   return type;
 }
 
-/// The results in a struct, by name; counts of faults by DeviceFault.
+/// The results in a struct, by name; lists of structs as lists of such dicts, enumerations in words, counts of faults
+/// by DeviceFault.
 template <class Struct>
 py::dict as_dict(const Struct& results) {
   py::dict dict;
@@ -250,6 +251,12 @@ py::dict as_dict(const Struct& results) {
     using Value = std::remove_cvref_t<decltype(value)>;
     if constexpr (has_fields<Value>) {
       dict[field.name] = as_dict(value);
+    } else if constexpr (std::is_enum_v<Value>) {
+      dict[field.name] = to_string(value);
+    } else if constexpr (requires { requires has_fields<typename Value::value_type>; }) {
+      py::list list;
+      for (const auto& each : value) list.append(as_dict(each));
+      dict[field.name] = list;
     } else if constexpr (std::is_same_v<Value, std::array<std::uint64_t, device_fault_count>>) {
       py::dict counts;
       for (std::size_t i = 0; i < value.size(); ++i) counts[py::cast(static_cast<DeviceFault>(i))] = value[i];
@@ -259,6 +266,12 @@ py::dict as_dict(const Struct& results) {
     }
   });
   return dict;
+}
+
+/// What a function of calligraphy/_tables.py makes of results, given as as_dict() does.
+template <class Results>
+py::object in_tables(const char* function, const Results& results) {
+  return py::module_::import("calligraphy._tables").attr(function)(results);
 }
 
 /// What as_dict() gives, or the columns of rows of structs.

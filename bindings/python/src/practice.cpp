@@ -1,7 +1,8 @@
-// Pages, writers, recordings, scores and imports.
+// Pages, writers, recordings, scores, imports and pictures.
 #include <calligraphy/base/text.hpp>
 #include <calligraphy/devices/replay_device.hpp>
 #include <calligraphy/importers/character_import.hpp>
+#include <calligraphy/pictures/picture.hpp>
 #include <calligraphy/practice/mean_interval.hpp>
 #include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/session.hpp>
@@ -71,37 +72,10 @@ Arrays pen_downs(const PenTrace& trace) {
   return result;
 }
 
-py::dict told_report(const ImportReport& report) {
-  py::list within, worst, measures, skipped;
-  for (const FitCount& count : report.within) {
-    within.append(py::make_tuple(count.error, count.strokes, count.characters));
-  }
-  for (const StrokeError& e : report.worst) {
-    worst.append(py::make_tuple(py::cast(e.place.code), e.place.order, e.place.stroke, e.id, e.error));
-  }
-  for (const StrokeMeasures& m : report.measures) {
-    measures.append(py::make_tuple(py::cast(m.place.code), m.place.order, m.place.stroke, m.id, m.frechet, m.backward,
-                                   m.length, m.source_length, m.half_width, m.false_corners, m.lost_corners,
-                                   m.lost_inside));
-  }
-  for (const SkippedFile& file : report.skipped) skipped.append(py::make_tuple(file.path, file.reason));
-  return py::dict(
-      "kind"_a = to_string(report.kind), "characters"_a = report.characters, "strokes"_a = report.strokes,
-      "labelled"_a = report.labelled, "agreed"_a = report.agreed, "allowed"_a = report.allowed,
-      "ids_used"_a = report.ids_used, "letters_unused"_a = report.letters_unused, "notes"_a = report.notes,
-      "within"_a = table(within, dtype_of("error:f8 strokes:i4 characters:i4")),
-      "worst"_a = table(worst, dtype_of("code:U1 order:U32 stroke:i4 id:i4 error:f8")),
-      "measures"_a =
-          table(measures, dtype_of("code:U1 order:U32 stroke:i4 id:i4 frechet:f8 backward:f8 length:f8 "
-                                   "source_length:f8 half_width:f8 false_corners:i4 lost_corners:i4 lost_inside:f8")),
-      "ink"_a = as_numbers(report.ink.strokes),
-      "crossings"_a = py::make_tuple(report.crossings.source, report.crossings.kept), "skipped"_a = skipped);
-}
-
 }  // namespace
 
 void add_practice(py::module_& module) {
-  add_types<PageLayout, PracticePage, DrawnStroke, StrokeRemark, MeanInterval, InkDetail>(module);
+  add_types<PageLayout, PracticePage, DrawnStroke, StrokeRemark, MeanInterval, InkDetail, StrokeStyle>(module);
   add_struct<WriterSkill>(module)
       .def_static("novice", &WriterSkill::novice)
       .def_static("skilled", &WriterSkill::skilled);
@@ -170,6 +144,8 @@ void add_practice(py::module_& module) {
       "+ motion(tick, seconds) takes a HapticTick and returns an Intention, or None to end.");
 
   module.def("score_page", released(&score_page), "page"_a, "recording"_a);
+  module.def("page_picture", released(&page_picture), "page"_a, "recording"_a, "active"_a = 0, "title"_a = "",
+             "style"_a = StrokeStyle::ink);
 
   py::class_<MatchResult>(module, "MatchResult")
       .def_readonly("drawn", &MatchResult::drawn)
@@ -202,7 +178,7 @@ void add_practice(py::module_& module) {
             interruptible(progress)};
         ImportResult imported = released(&import_characters)(source, options);
         return py::typing::Tuple<CharacterList, py::dict>(
-            py::make_tuple(std::move(imported.list), told_report(imported.report)));
+            py::make_tuple(std::move(imported.list), in_tables("import_report", as_dict(imported.report))));
       },
       "source"_a, "letters"_a = py::none(), "only"_a = std::u32string(), "alternates"_a = false,
       "ideographs_only"_a = true, "date"_a = "", "threads"_a = 0, "report"_a = false, "progress"_a = py::none(),
