@@ -10,16 +10,9 @@ namespace {
 
 py::array nearest_points_cost(const std::vector<Character>& characters, int queries, int rounds, std::uint64_t seed,
                               const Progress& progress) {
-  NearestPointTradeoffOptions options;
-  options.queries = queries;
-  options.rounds = rounds;
-  options.seed = seed;
-  options.progress = interruptible(progress);
-  py::list entries;
-  for (const NearestPointTradeoff& entry : released (&nearest_point_tradeoff)(characters, options)) {
-    entries.append(as_dict(entry));
-  }
-  return in_tables("nearest_point_tradeoff", entries);
+  const NearestPointTradeoffOptions options = {
+      .queries = queries, .rounds = rounds, .seed = seed, .progress = interruptible(progress)};
+  return in_tables("nearest_point_tradeoff", as_dicts(released(&nearest_point_tradeoff)(characters, options)));
 }
 
 py::array servo_rates_cost(const std::vector<Character>& characters, const std::vector<double>& rates, int seeds,
@@ -68,12 +61,11 @@ void add_experiments(py::module_& module) {
       "guidance_field",
       [](const PlacedCharacter& placed, int stroke, double progress, const ArrayLike& corner, double edge, int columns,
          double stiffness, Attractor attractor, const StrokeOptions& rules) {
-        ForceFieldOptions options;
-        options.attractor = attractor;
-        options.stroke = rules;
-        options.stiffness = stiffness;
-        options.columns = columns;
-        options.progress = interruptible(std::nullopt);
+        const ForceFieldOptions options = {.attractor = attractor,
+                                           .stroke = rules,
+                                           .stiffness = stiffness,
+                                           .columns = columns,
+                                           .progress = interruptible(std::nullopt)};
         ForceField field = released(&guidance_field)(placed, stroke, progress, point(corner, "corner"), edge, options);
         const py::object forces = array_of_points(field.forces).attr("reshape")(columns, columns, 2);
         return py::dict("forces"_a = forces, "jumps"_a = structured(std::move(field.jumps)));

@@ -241,6 +241,9 @@ py::class_<Struct> add_struct(py::module_& module) {
   return type;
 }
 
+template <class Structs>
+py::list as_dicts(const Structs& structs);
+
 /// The results in a struct, by name; lists of structs as lists of such dicts, enumerations in words, counts of faults
 /// by DeviceFault.
 template <class Struct>
@@ -254,9 +257,7 @@ py::dict as_dict(const Struct& results) {
     } else if constexpr (std::is_enum_v<Value>) {
       dict[field.name] = to_string(value);
     } else if constexpr (requires { requires has_fields<typename Value::value_type>; }) {
-      py::list list;
-      for (const auto& each : value) list.append(as_dict(each));
-      dict[field.name] = list;
+      dict[field.name] = as_dicts(value);
     } else if constexpr (std::is_same_v<Value, std::array<std::uint64_t, device_fault_count>>) {
       py::dict counts;
       for (std::size_t i = 0; i < value.size(); ++i) counts[py::cast(static_cast<DeviceFault>(i))] = value[i];
@@ -268,10 +269,17 @@ py::dict as_dict(const Struct& results) {
   return dict;
 }
 
+template <class Structs>
+py::list as_dicts(const Structs& structs) {
+  py::list result;
+  for (const auto& each : structs) result.append(as_dict(each));
+  return result;
+}
+
 /// What a function of calligraphy/_tables.py makes of results, given as as_dict() does.
-template <class Results>
-py::object in_tables(const char* function, const Results& results) {
-  return py::module_::import("calligraphy._tables").attr(function)(results);
+template <class... Arguments>
+py::object in_tables(const char* function, const Arguments&... arguments) {
+  return py::module_::import("calligraphy._tables").attr(function)(arguments...);
 }
 
 /// What as_dict() gives, or the columns of rows of structs.

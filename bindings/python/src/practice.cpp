@@ -38,6 +38,18 @@ py::array samples_of(const py::object& self) {
   return result;
 }
 
+/// The function without the GIL; its options report the progress to an additional last argument.
+template <class Result, class... Arguments>
+auto reporting(Result (*function)(Arguments...)) {
+  return [function](std::remove_cvref_t<Arguments>... given, const Progress& progress) {
+    const auto report = [&](auto& value) {
+      if constexpr (requires { value.progress; }) value.progress = interruptible(progress);
+    };
+    (report(given), ...);
+    return released(function)(given...);
+  };
+}
+
 PenTrace trace_of(char32_t character, const std::vector<ArrayLike>& strokes, std::string set, double em) {
   PenTrace result{character, std::move(set), em, {}};
   for (const ArrayLike& stroke : strokes) {
@@ -54,9 +66,7 @@ MatchResult match_of(const Character& character, const std::vector<ArrayLike>& p
                      const StrokeTolerances& tolerances) {
   std::vector<PenPath> drawn;
   for (const ArrayLike& path : paths) drawn.push_back(points(path, "paths"));
-  return released(+[](const Character& of, const std::vector<PenPath>& by, const StrokeTolerances& within) {
-    return match_strokes(of, by, within);
-  })(character, drawn, tolerances);
+  return released(&match_strokes)(character, drawn, tolerances);
 }
 
 using Arrays = py::typing::List<Doubles>;
@@ -111,37 +121,21 @@ void add_practice(py::module_& module) {
   module.def("write_pen_traces", to_file(&write_pen_traces), "path"_a, "traces"_a, "notice"_a = "",
              "+ Atomically. Raises FileError.");
 
-  const auto with = [](SessionOptions options, const Progress& progress) {
-    options.progress = interruptible(progress);
-    return options;
-  };
-  module.def(
-      "write_page",
-      [with](const PracticePage& page, const SessionOptions& options, const Progress& progress) {
-        return released(&write_page)(page, with(options, progress));
-      },
-      "page"_a, "options"_a, "progress"_a = py::none(), "+ progress(share) is called from time to time.");
-  module.def(
-      "follow_trace",
-      [with](const PracticePage& page, const PenTrace& trace, const SessionOptions& options, const Progress& progress) {
-        return released(&follow_trace)(page, trace, with(options, progress));
-      },
-      "page"_a, "trace"_a, "options"_a, "progress"_a = py::none(), "+ See write_page for progress.");
+  module.def("write_page", reporting(&write_page), "page"_a, "options"_a, "progress"_a = py::none(),
+             "+ progress(share) is called from time to time.");
+  module.def("follow_trace", reporting(&follow_trace), "page"_a, "trace"_a, "options"_a, "progress"_a = py::none(),
+             "+ See write_page for progress.");
   module.def(
       "replay_page",
-      [with](const PracticePage& page, ReplayDevice& device, const SessionOptions& options, const Progress& progress) {
+      [](const PracticePage& page, ReplayDevice& device, const SessionOptions& options, const Progress& progress) {
         const AtWork at_work({AtWork::User::call}, &device);
-        return released(+[](const PracticePage& on, ReplayDevice* const& of, const SessionOptions& chosen) {
+        return reporting(+[](const PracticePage& on, ReplayDevice* const& of, const SessionOptions& chosen) {
           return replay_page(on, *of, chosen);
-        })(page, &device, with(options, progress));
+        })(page, &device, options, progress);
       },
       "page"_a, "device"_a, "options"_a, "progress"_a = py::none(), "+ See write_page for progress.");
-  module.def(
-      "run_session",
-      [with](const PracticePage& page, const SessionOptions& options, const PenMotion& motion,
-             const Progress& progress) { return released(&run_session)(page, with(options, progress), motion); },
-      "page"_a, "options"_a, "motion"_a, "progress"_a = py::none(),
-      "+ motion(tick, seconds) takes a HapticTick and returns an Intention, or None to end.");
+  module.def("run_session", reporting(&run_session), "page"_a, "options"_a, "motion"_a, "progress"_a = py::none(),
+             "+ motion(tick, seconds) takes a HapticTick and returns an Intention, or None to end.");
 
   module.def("score_page", released(&score_page), "page"_a, "recording"_a);
   module.def("page_picture", released(&page_picture), "page"_a, "recording"_a, "active"_a = 0, "title"_a = "",
@@ -185,8 +179,7 @@ void add_practice(py::module_& module) {
       "ink"_a = InkDetail::full,
       "+ Returns a CharacterList and a report (docs/import.md): a dict, with the tables `within`, `worst` and "
       "`measures` as structured arrays, `ids_used` by id, `crossings` in the source and kept, and `ink`, for each "
-      "stroke intersection "
-      "over union with its outline.");
+      "stroke intersection over union with its outline.");
 }
 
 }  // namespace calligraphy::python
