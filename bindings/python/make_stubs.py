@@ -47,7 +47,7 @@ def added_methods(source: pathlib.Path) -> dict[str, list[ast.stmt]]:
     for item in ast.parse(source.read_text(encoding="utf-8")).body:
         for decorator in item.decorator_list if isinstance(item, ast.FunctionDef) else ():
             kind, name = decorator.args
-            text = f"def {name.value}(self) -> {ast.unparse(item.returns)}: {ast.get_docstring(item)!r}"
+            text = f"def {name.value}(self) -> {ast.unparse(item.returns)}: {ast.get_docstring(item, clean=False)!r}"
             added.setdefault(kind.attr, []).extend(ast.parse(text).body)
     return added
 
