@@ -44,7 +44,7 @@ def import_report(results: dict[str, Any]) -> dict[str, Any]:
 
 
 def table(rows: list[dict[str, Any]], columns: str, **parts: Any) -> npt.NDArray[np.void]:
-    """A structured array with the columns "path.to.field:format", named after the field (f8 by default), and the parts."""
+    """A structured array with the columns "path.to.field:format" (f8 by default), named after the fields, and parts."""
     formats = {**dict((column + ":f8").split(":")[:2] for column in columns.split()), **parts}
     paths = [path.split(".") for path in formats]
     dtype = np.dtype([(path[-1], form) for path, form in zip(paths, formats.values())])

@@ -116,6 +116,7 @@ def test_the_stubs_cover_the_module_with_docstrings_and_units():
                 untold += [] if ast.get_docstring(part) else [f"{item.name}.{part.name}"]
     assert untold == []
     (table,) = (f for f in told["Recording"].body if getattr(f, "name", "") == "to_pandas")  # a method of _display.py
-    assert ast.unparse(table.returns) == "typing.Any" and ast.get_docstring(table) == inspect.getdoc(cal.Recording.to_pandas)
+    assert ast.unparse(table.returns) == "typing.Any"
+    assert ast.get_docstring(table) == inspect.getdoc(cal.Recording.to_pandas)
     (mass,) = (f for f in told["SessionOptions"].body if getattr(f, "name", "") == "character_timeout" and f.args.args[1:] == [])
     assert ast.get_docstring(mass).endswith("[s]")
