@@ -24,6 +24,7 @@ TYPES = {
     r"\bdict\b(?=[\]:|])": "dict[str, typing.Any]",
     r"numpy\.bool\b": "numpy.bool_",
     r"def __enter__\(self\) -> \w+(\.\w+)?": "def __enter__(self: Self) -> Self",
+    r"-> Any:": "-> typing.Any:",
     r"def error\(self\) -> [\w.]+": "def error(self) -> BaseException | None",
 }
 MEMBERS = """
@@ -40,11 +41,23 @@ pybind11_stubgen.main()
 """
 
 
-class Finish(ast.NodeTransformer):
-    """Adds values to the members of enumerations and keywords to the constructors of structs."""
+def added_methods(source: pathlib.Path) -> dict[str, list[ast.stmt]]:
+    """Stubs of the functions that `@_method(cal.Class, "name")` makes methods, by class."""
+    added: dict[str, list[ast.stmt]] = {}
+    for item in ast.parse(source.read_text(encoding="utf-8")).body:
+        for decorator in item.decorator_list if isinstance(item, ast.FunctionDef) else ():
+            kind, name = decorator.args
+            text = f"def {name.value}(self) -> {ast.unparse(item.returns)}: {ast.get_docstring(item, clean=False)!r}"
+            added.setdefault(kind.attr, []).extend(ast.parse(text).body)
+    return added
 
-    def __init__(self, enumerations: dict[str, dict[str, int]]) -> None:
+
+class Finish(ast.NodeTransformer):
+    """Adds values to the members of enumerations, keywords to the constructors of structs and methods of _display.py."""
+
+    def __init__(self, enumerations: dict[str, dict[str, int]], added: dict[str, list[ast.stmt]]) -> None:
         self.enumerations = enumerations
+        self.added = added
 
     def visit_ClassDef(self, node: ast.ClassDef) -> ast.ClassDef:
         functions = [item for item in node.body if isinstance(item, ast.FunctionDef)]
@@ -57,6 +70,7 @@ class Finish(ast.NodeTransformer):
             words = ", ".join(f"{name}: {types[name]} = ..." for name in fields[0])
             made = next(item for item in functions if item.name == "__init__")
             made.args = ast.parse(f"def f(self, *, {words}): ...").body[0].args
+        node.body += self.added.get(node.name, [])
         return node
 
 
@@ -73,7 +87,8 @@ def main(module: pathlib.Path, stub: pathlib.Path) -> None:
         subprocess.run([sys.executable, *words], stderr=subprocess.DEVNULL, **run)
         tree = ast.parse((package / "_calligraphy.pyi").read_text(encoding="utf-8"))
     enumerations = ast.literal_eval(told)
-    text = ast.unparse(Finish(enumerations).visit(tree))
+    added = added_methods(pathlib.Path(__file__).parent / "calligraphy" / "_display.py")
+    text = ast.unparse(Finish(enumerations, added).visit(tree))
     names = {rf"\b{kind} \| str\b": f"{kind} | typing.Literal{list(members)}" for kind, members in enumerations.items()}
     for found, meant in (TYPES | names).items():
         text = re.sub(found, meant, text)

@@ -25,6 +25,8 @@ for _kind in list(vars(_calligraphy).values()):
     if type(_kind).__name__ == "pybind11_type":
         _struct.finish(_kind)
 
+from calligraphy import _display as _display  # adds methods
+
 #: The names of each optional backend, and how to install it.
 _BACKENDS = {
     "phantom": (

@@ -1,8 +1,8 @@
-"""What notebooks show of characters, pages and recordings, and recordings as tables."""
+"""Methods of characters, pages and recordings: what notebooks show, and tables."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Callable
 
 import numpy as np
 import numpy.typing as npt
@@ -18,17 +18,30 @@ _WRITING, _OTHER = "#2f9e44", "#e08a00"
 Points = npt.NDArray[np.float64]
 
 
-def character(shown: cal.Character) -> str:
-    """A character's ink, its own or the typical one, in its square."""
+def _method(kind: type, name: str) -> Callable[[Any], Any]:
+    """Adds a function to a class of the extension, as a method; make_stubs.py adds it to the stubs."""
+
+    def add(function: Any) -> Any:
+        function.__name__, function.__qualname__ = name, f"{kind.__name__}.{name}"
+        setattr(kind, name, function)
+        return function
+
+    return add
+
+
+@_method(cal.Character, "_repr_svg_")
+def _show_character(self: cal.Character) -> str:
+    """What a notebook shows, as SVG: the ink, its own or the typical one, in its square."""
     corner = np.array([_MARGIN, _MARGIN + _SIDE])
-    return _svg(_SIDE, _SIDE, _square(corner, _SIDE) + _ink(shown, corner, _SIDE))
+    return _svg(_SIDE, _SIDE, _square(corner, _SIDE) + _ink(self, corner, _SIDE))
 
 
-def page(shown: cal.PracticePage) -> str:
-    """The characters of a page in their squares."""
-    placed = [(each.character, each.placement.origin, each.placement.em) for each in shown.characters]
+@_method(cal.PracticePage, "_repr_svg_")
+def _show_page(self: cal.PracticePage) -> str:
+    """What a notebook shows, as SVG: the characters in their squares."""
+    placed = [(each.character, each.placement.origin, each.placement.em) for each in self.characters]
     placed = [each for each in placed if np.isfinite([*each[1], each[2]]).all() and each[2] > 0.0]
-    corners = [np.array(each) for each in ((0.0, 0.0), (shown.width, shown.height)) if np.isfinite(each).all()]
+    corners = [np.array(each) for each in ((0.0, 0.0), (self.width, self.height)) if np.isfinite(each).all()]
     low, scale, width, height = _fit(np.array([*corners, *(p for _, o, em in placed for p in (o, o + em))]))
     parts = []
     for drawn, origin, em in placed:
@@ -37,10 +50,11 @@ def page(shown: cal.PracticePage) -> str:
     return _svg(width, height, _frame(width, height) + "".join(parts))
 
 
-def recording(shown: cal.Recording) -> str:
-    """The paths of the pen on the paper, a dot where it was put down."""
-    samples = shown.samples
-    seconds = f"{len(samples) / shown.rate:.1f} s"
+@_method(cal.Recording, "_repr_svg_")
+def _show_recording(self: cal.Recording) -> str:
+    """What a notebook shows, as SVG: the paths of the pen on the paper, a dot where it was put down."""
+    samples = self.samples
+    seconds = f"{len(samples) / self.rate:.1f} s"
     on_paper = samples["state"] != int(cal.InteractionState.separation)
     writing = samples["state"] == int(cal.InteractionState.writing)
     good = on_paper & (samples["status"] == int(cal.TickStatus.ok)) & np.isfinite(samples["pen_tip"]).all(axis=1)
@@ -82,12 +96,19 @@ def recording(shown: cal.Recording) -> str:
     return _svg(max(width, 270.0), height + 36.0, _frame(width, height) + group + told + colours)
 
 
-def table(shown: cal.Recording) -> Any:
+@_method(cal.Recording, "to_pandas")
+def _to_pandas(self: cal.Recording) -> Any:
+    """A pandas.DataFrame with a row per tick.
+
+    time [s]; device_x, device_y, device_z, tip_x, tip_y, tip_z [m] and force_x, force_y, force_z [N] in page axes;
+    state (an InteractionState) and status (a TickStatus), categories by name; events, the sum of TickEvent's bits;
+    character and stroke, indices of the active ones; tick_ns [ns]. Raises ImportError without pandas.
+    """
     try:
         import pandas
     except ImportError as error:
         raise ImportError("Recording.to_pandas() needs pandas: pip install pandas") from error
-    samples = shown.samples
+    samples = self.samples
     columns: dict[str, Any] = {}
     for name in samples.dtype.names or ():
         short = {"device_point": "device", "pen_tip": "tip"}.get(name, name)

@@ -19,36 +19,29 @@ namespace {
 using phantom::JointLimits;
 using phantom::Linkage;
 
-/// Applies `function` to each row of (3,) or (n, 3) and its index; the result has one entry per row.
+/// Applies `function` to each row of (3,) or (n, 3) and its index; the result has one number, vector or matrix per row.
 template <class Function>
 auto per_row(const ArrayLike& value, const char* name, Function&& function) {
   using Answer = std::invoke_result_t<Function, Eigen::Vector3d, py::ssize_t>;
+  constexpr bool is_number = std::is_arithmetic_v<Answer>;
   bool one = false;
   const Doubles rows = one_or_many(value, name, 3, one);
-  std::vector<py::ssize_t> shape;
-  if (!one) shape.push_back(rows.shape(0));
-  if constexpr (std::is_arithmetic_v<Answer>) {
-    py::array_t<Answer> result(shape);
-    for (py::ssize_t i = 0; i < rows.shape(0); ++i) result.mutable_data()[i] = function(vector_at(rows.data(), i), i);
-    return result;
-  } else {
-    shape.insert(shape.end(), Answer::ColsAtCompileTime == 3 ? 2 : 1, 3);
-    Doubles result(shape);
-    double* to = result.mutable_data();
-    for (py::ssize_t i = 0; i < rows.shape(0); ++i) {
-      const Answer answer = function(vector_at(rows.data(), i), i);
-      for (const auto& row : answer.rowwise()) to = std::copy(row.begin(), row.end(), to);
-    }
-    return result;
-  }
+  std::vector<py::ssize_t> shape(one ? 0 : 1, rows.shape(0));
+  if (!is_number) shape.insert(shape.end(), sizeof(Answer) == sizeof(Eigen::Vector3d) ? 1 : 2, 3);
+  py::array_t<std::conditional_t<is_number, Answer, double>> result(shape);
+  auto* const answers = reinterpret_cast<Answer*>(result.mutable_data());
+  for (py::ssize_t i = 0; i < rows.shape(0); ++i) answers[i] = function(vector_at(rows.data(), i), i);
+  return result;
 }
 
-/// A function of an arm, its joints and more.
+/// A function of an arm, its joints and more; a matrix is stored row by row.
 template <class Answer, class... More>
 auto of_joints(Answer (*function)(const Linkage&, const phantom::Joints&, More...) noexcept) {
+  using InRows = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+  using Stored = std::conditional_t<std::is_same_v<Answer, Eigen::Matrix3d>, InRows, Answer>;
   return [function](const Linkage& arm, const ArrayLike& joints, More... more) {
     return per_row(joints, "joints",
-                   [&](const auto& row, py::ssize_t) -> Answer { return function(arm, row, more...); });
+                   [&](const auto& row, py::ssize_t) -> Stored { return function(arm, row, more...); });
   };
 }
 
@@ -106,28 +99,20 @@ using Stop = std::optional<std::function<bool()>>;
 /// The capture as an array; also written to the file, if one is given.
 py::array captured(const PluggedDevice& device, std::size_t transfers, double seconds, const Stop& stop,
                    const std::optional<std::filesystem::path>& path) {
-  const auto capture_all =
-      +[](const PluggedDevice& from, const CaptureOptions& options, const std::optional<std::filesystem::path>& file) {
-        PacketCapture result = capture_packets(from, options);
-        if (file) {
-          std::ostringstream out;
-          write_packet_capture(out, result);
-          write_file(*file, out.str());
-        }
-        return result;
-      };
   CaptureOptions options{transfers, seconds, nullptr};
   options.stop = [interrupt = Interrupt(), stop]() mutable {
     interrupt.check();
     return stop && (*stop)();
   };
-  const PacketCapture result = released(capture_all)(device, options, path);
+  const PacketCapture result = released(&capture_packets)(device, options);
+  const auto write = to_file(&write_packet_capture);
+  if (path) write(*path, result);
   py::list rows;
   for (const CapturedTransfer& transfer : result.transfers) {
     const auto* const bytes = reinterpret_cast<const char*>(transfer.bytes.data());
-    rows.append(py::make_tuple(transfer.time, py::bytes(bytes, transfer.bytes.size())));
+    rows.append(py::dict("time"_a = transfer.time, "bytes"_a = py::bytes(bytes, transfer.bytes.size())));
   }
-  return table(rows, dtype_of("time:f8 bytes:O"));
+  return in_tables("table", rows, "time bytes:O");
 }
 
 }  // namespace

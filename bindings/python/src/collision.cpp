@@ -41,31 +41,27 @@ NearestPoints ask(const std::variant<const StrokeElement*, ArrayLike>& control_p
   };
   NearestPoints result = {part({count}, 0), part({count, 2}, 1), part({count}, 3), part({count, 2}, 4),
                           py::array_t<std::uint8_t>(count)};
-  const auto answer = [&, parameter = result.parameter.mutable_data(), to = result.point.mutable_data(),
-                       distance = result.distance.mutable_data(), tangent = result.tangent.mutable_data(),
-                       status = result.status.mutable_data()](Interrupt* interrupt) {
-    std::array<NearestPoint, 256> block;  // stays in the processor's cache
-    for (std::size_t first = 0; first < asked.size(); first += block.size()) {
-      if (interrupt != nullptr) interrupt->check();
-      const std::size_t size = std::min(block.size(), asked.size() - first);
-      nearest_points(element, asked.subspan(first, size), std::span(block).first(size), options);
-      for (std::size_t i = 0; i < size; ++i) {
-        parameter[first + i] = block[i].parameter;
-        distance[first + i] = block[i].distance;
-        status[first + i] = static_cast<std::uint8_t>(block[i].status);
-        for (std::size_t axis : {0u, 1u}) {
-          to[2 * (first + i) + axis] = block[i].point.data()[axis];
-          tangent[2 * (first + i) + axis] = block[i].tangent.data()[axis];
-        }
-      }
+  Eigen::Map<Eigen::VectorXd> parameter(result.parameter.mutable_data(), count);
+  Eigen::Map<Eigen::VectorXd> distance(result.distance.mutable_data(), count);
+  Eigen::Map<Eigen::Matrix2Xd> point(result.point.mutable_data(), 2, count);
+  Eigen::Map<Eigen::Matrix2Xd> tangent(result.tangent.mutable_data(), 2, count);
+  std::uint8_t* const status = result.status.mutable_data();
+  std::optional<py::gil_scoped_release> release;
+  if (count >= few) release.emplace();
+  Interrupt interrupt;
+  std::array<NearestPoint, 256> block;  // stays in the processor's cache
+  for (std::size_t done = 0; done < asked.size(); done += block.size()) {
+    if (release) interrupt.check();
+    const std::size_t size = std::min(block.size(), asked.size() - done);
+    nearest_points(element, asked.subspan(done, size), std::span(block).first(size), options);
+    for (std::size_t i = 0; i < size; ++i) {
+      const auto at = static_cast<py::ssize_t>(done + i);
+      parameter[at] = block[i].parameter;
+      distance[at] = block[i].distance;
+      point.col(at) = block[i].point;
+      tangent.col(at) = block[i].tangent;
+      status[at] = static_cast<std::uint8_t>(block[i].status);
     }
-  };
-  if (count < few) {
-    answer(nullptr);
-  } else {
-    const py::gil_scoped_release release;
-    Interrupt interrupt;
-    answer(&interrupt);
   }
   return result;
 }
@@ -77,11 +73,8 @@ auto at_parameters(Function function) {
     bool one = false;
     const Doubles parameters = one_or_many(t, "t", 0, one);
     Doubles result({parameters.size(), py::ssize_t{2}});
-    double* to = result.mutable_data();
-    for (py::ssize_t i = 0; i < parameters.size(); ++i) {
-      const Point value = (self.*function)(parameters.data()[i]);
-      *to++ = value.x(), *to++ = value.y();
-    }
+    Eigen::Map<Eigen::Matrix2Xd> values(result.mutable_data(), 2, parameters.size());
+    for (py::ssize_t i = 0; i < parameters.size(); ++i) values.col(i) = (self.*function)(parameters.data()[i]);
     return one ? Doubles(result[py::int_(0)]) : result;
   };
 }
@@ -92,11 +85,8 @@ void add_collision(py::module_& module) {
   add_types<NearestPointStatus, StrokeOptions>(module);
 
   py::class_<NearestPoints>(module, "NearestPoints", "Results of N queries, one array per property.")
-      .def(py::init([](Doubles parameter, Doubles point, Doubles distance, Doubles tangent,
-                       py::array_t<std::uint8_t> status) {
-             return NearestPoints{parameter, point, distance, tangent, status};
-           }),
-           "parameter"_a, "point"_a, "distance"_a, "tangent"_a, "status"_a)
+      .def(py::init<Doubles, Doubles, Doubles, Doubles, py::array_t<std::uint8_t>>(), "parameter"_a, "point"_a,
+           "distance"_a, "tangent"_a, "status"_a)
       .def_readonly("parameter", &NearestPoints::parameter, "(N,) in [0, 1]")
       .def_readonly("point", &NearestPoints::point, "(N, 2), on the element, in the unit of the control points")
       .def_readonly("distance", &NearestPoints::distance, "(N,), from query to point; infinite if not finite")
@@ -142,10 +132,7 @@ void add_collision(py::module_& module) {
       },
       "points"_a, "+ (n, 2) [em] to (n, 2) [m].");
   py::class_<PlacedCharacter>(module, "PlacedCharacter")
-      .def(py::init([](const Character& character, const Placement& placement) {
-             return PlacedCharacter{character, placement};
-           }),
-           "character"_a, "placement"_a = Placement{})
+      .def(py::init<Character, Placement>(), "character"_a, "placement"_a = Placement{})
       .def_readonly("character", &PlacedCharacter::character)
       .def_readonly("placement", &PlacedCharacter::placement);
   module.def("place_elements", &place_elements, "stroke"_a, "placement"_a);

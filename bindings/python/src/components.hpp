@@ -33,7 +33,6 @@ void add_render(py::module_& module);
 void add_practice(py::module_& module);
 void add_live(py::module_& module);
 void add_experiments(py::module_& module);
-void add_pictures(py::module_& module);
 /// Documentation and signatures of everything in the module.
 void finish(const py::module_& module);
 

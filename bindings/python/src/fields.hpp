@@ -241,7 +241,11 @@ py::class_<Struct> add_struct(py::module_& module) {
   return type;
 }
 
-/// The results in a struct, by name; counts of faults by DeviceFault.
+template <class Structs>
+py::list as_dicts(const Structs& structs);
+
+/// The results in a struct, by name; lists of structs as lists of such dicts, enumerations in words, counts of faults
+/// by DeviceFault.
 template <class Struct>
 py::dict as_dict(const Struct& results) {
   py::dict dict;
@@ -250,6 +254,10 @@ py::dict as_dict(const Struct& results) {
     using Value = std::remove_cvref_t<decltype(value)>;
     if constexpr (has_fields<Value>) {
       dict[field.name] = as_dict(value);
+    } else if constexpr (std::is_enum_v<Value>) {
+      dict[field.name] = to_string(value);
+    } else if constexpr (requires { requires has_fields<typename Value::value_type>; }) {
+      dict[field.name] = as_dicts(value);
     } else if constexpr (std::is_same_v<Value, std::array<std::uint64_t, device_fault_count>>) {
       py::dict counts;
       for (std::size_t i = 0; i < value.size(); ++i) counts[py::cast(static_cast<DeviceFault>(i))] = value[i];
@@ -259,6 +267,19 @@ py::dict as_dict(const Struct& results) {
     }
   });
   return dict;
+}
+
+template <class Structs>
+py::list as_dicts(const Structs& structs) {
+  py::list result;
+  for (const auto& each : structs) result.append(as_dict(each));
+  return result;
+}
+
+/// What a function of calligraphy/_tables.py makes of results, given as as_dict() does.
+template <class... Arguments>
+py::object in_tables(const char* function, const Arguments&... arguments) {
+  return py::module_::import("calligraphy._tables").attr(function)(arguments...);
 }
 
 /// What as_dict() gives, or the columns of rows of structs.

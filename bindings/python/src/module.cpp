@@ -61,6 +61,5 @@ PYBIND11_MODULE(_calligraphy, module) {
   add_practice(module);
   add_live(module);
   add_experiments(module);
-  add_pictures(module);
   finish(module);
 }

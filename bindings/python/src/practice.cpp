@@ -1,7 +1,8 @@
-// Pages, writers, recordings, scores and imports.
+// Pages, writers, recordings, scores, imports and pictures.
 #include <calligraphy/base/text.hpp>
 #include <calligraphy/devices/replay_device.hpp>
 #include <calligraphy/importers/character_import.hpp>
+#include <calligraphy/pictures/picture.hpp>
 #include <calligraphy/practice/mean_interval.hpp>
 #include <calligraphy/practice/score.hpp>
 #include <calligraphy/practice/session.hpp>
@@ -37,6 +38,18 @@ py::array samples_of(const py::object& self) {
   return result;
 }
 
+/// The function without the GIL; its options report the progress to an additional last argument.
+template <class Result, class... Arguments>
+auto reporting(Result (*function)(Arguments...)) {
+  return [function](std::remove_cvref_t<Arguments>... given, const Progress& progress) {
+    const auto report = [&](auto& value) {
+      if constexpr (requires { value.progress; }) value.progress = interruptible(progress);
+    };
+    (report(given), ...);
+    return released(function)(given...);
+  };
+}
+
 PenTrace trace_of(char32_t character, const std::vector<ArrayLike>& strokes, std::string set, double em) {
   PenTrace result{character, std::move(set), em, {}};
   for (const ArrayLike& stroke : strokes) {
@@ -53,9 +66,7 @@ MatchResult match_of(const Character& character, const std::vector<ArrayLike>& p
                      const StrokeTolerances& tolerances) {
   std::vector<PenPath> drawn;
   for (const ArrayLike& path : paths) drawn.push_back(points(path, "paths"));
-  return released(+[](const Character& of, const std::vector<PenPath>& by, const StrokeTolerances& within) {
-    return match_strokes(of, by, within);
-  })(character, drawn, tolerances);
+  return released(&match_strokes)(character, drawn, tolerances);
 }
 
 using Arrays = py::typing::List<Doubles>;
@@ -71,37 +82,10 @@ Arrays pen_downs(const PenTrace& trace) {
   return result;
 }
 
-py::dict told_report(const ImportReport& report) {
-  py::list within, worst, measures, skipped;
-  for (const FitCount& count : report.within) {
-    within.append(py::make_tuple(count.error, count.strokes, count.characters));
-  }
-  for (const StrokeError& e : report.worst) {
-    worst.append(py::make_tuple(py::cast(e.place.code), e.place.order, e.place.stroke, e.id, e.error));
-  }
-  for (const StrokeMeasures& m : report.measures) {
-    measures.append(py::make_tuple(py::cast(m.place.code), m.place.order, m.place.stroke, m.id, m.frechet, m.backward,
-                                   m.length, m.source_length, m.half_width, m.false_corners, m.lost_corners,
-                                   m.lost_inside));
-  }
-  for (const SkippedFile& file : report.skipped) skipped.append(py::make_tuple(file.path, file.reason));
-  return py::dict(
-      "kind"_a = to_string(report.kind), "characters"_a = report.characters, "strokes"_a = report.strokes,
-      "labelled"_a = report.labelled, "agreed"_a = report.agreed, "allowed"_a = report.allowed,
-      "ids_used"_a = report.ids_used, "letters_unused"_a = report.letters_unused, "notes"_a = report.notes,
-      "within"_a = table(within, dtype_of("error:f8 strokes:i4 characters:i4")),
-      "worst"_a = table(worst, dtype_of("code:U1 order:U32 stroke:i4 id:i4 error:f8")),
-      "measures"_a =
-          table(measures, dtype_of("code:U1 order:U32 stroke:i4 id:i4 frechet:f8 backward:f8 length:f8 "
-                                   "source_length:f8 half_width:f8 false_corners:i4 lost_corners:i4 lost_inside:f8")),
-      "ink"_a = as_numbers(report.ink.strokes),
-      "crossings"_a = py::make_tuple(report.crossings.source, report.crossings.kept), "skipped"_a = skipped);
-}
-
 }  // namespace
 
 void add_practice(py::module_& module) {
-  add_types<PageLayout, PracticePage, DrawnStroke, StrokeRemark, MeanInterval, InkDetail>(module);
+  add_types<PageLayout, PracticePage, DrawnStroke, StrokeRemark, MeanInterval, InkDetail, StrokeStyle>(module);
   add_struct<WriterSkill>(module)
       .def_static("novice", &WriterSkill::novice)
       .def_static("skilled", &WriterSkill::skilled);
@@ -137,39 +121,25 @@ void add_practice(py::module_& module) {
   module.def("write_pen_traces", to_file(&write_pen_traces), "path"_a, "traces"_a, "notice"_a = "",
              "+ Atomically. Raises FileError.");
 
-  const auto with = [](SessionOptions options, const Progress& progress) {
-    options.progress = interruptible(progress);
-    return options;
-  };
-  module.def(
-      "write_page",
-      [with](const PracticePage& page, const SessionOptions& options, const Progress& progress) {
-        return released(&write_page)(page, with(options, progress));
-      },
-      "page"_a, "options"_a, "progress"_a = py::none(), "+ progress(share) is called from time to time.");
-  module.def(
-      "follow_trace",
-      [with](const PracticePage& page, const PenTrace& trace, const SessionOptions& options, const Progress& progress) {
-        return released(&follow_trace)(page, trace, with(options, progress));
-      },
-      "page"_a, "trace"_a, "options"_a, "progress"_a = py::none(), "+ See write_page for progress.");
+  module.def("write_page", reporting(&write_page), "page"_a, "options"_a, "progress"_a = py::none(),
+             "+ progress(share) is called from time to time.");
+  module.def("follow_trace", reporting(&follow_trace), "page"_a, "trace"_a, "options"_a, "progress"_a = py::none(),
+             "+ See write_page for progress.");
   module.def(
       "replay_page",
-      [with](const PracticePage& page, ReplayDevice& device, const SessionOptions& options, const Progress& progress) {
+      [](const PracticePage& page, ReplayDevice& device, const SessionOptions& options, const Progress& progress) {
         const AtWork at_work({AtWork::User::call}, &device);
-        return released(+[](const PracticePage& on, ReplayDevice* const& of, const SessionOptions& chosen) {
+        return reporting(+[](const PracticePage& on, ReplayDevice* const& of, const SessionOptions& chosen) {
           return replay_page(on, *of, chosen);
-        })(page, &device, with(options, progress));
+        })(page, &device, options, progress);
       },
       "page"_a, "device"_a, "options"_a, "progress"_a = py::none(), "+ See write_page for progress.");
-  module.def(
-      "run_session",
-      [with](const PracticePage& page, const SessionOptions& options, const PenMotion& motion,
-             const Progress& progress) { return released(&run_session)(page, with(options, progress), motion); },
-      "page"_a, "options"_a, "motion"_a, "progress"_a = py::none(),
-      "+ motion(tick, seconds) takes a HapticTick and returns an Intention, or None to end.");
+  module.def("run_session", reporting(&run_session), "page"_a, "options"_a, "motion"_a, "progress"_a = py::none(),
+             "+ motion(tick, seconds) takes a HapticTick and returns an Intention, or None to end.");
 
   module.def("score_page", released(&score_page), "page"_a, "recording"_a);
+  module.def("page_picture", released(&page_picture), "page"_a, "recording"_a, "active"_a = 0, "title"_a = "",
+             "style"_a = StrokeStyle::ink);
 
   py::class_<MatchResult>(module, "MatchResult")
       .def_readonly("drawn", &MatchResult::drawn)
@@ -202,15 +172,14 @@ void add_practice(py::module_& module) {
             interruptible(progress)};
         ImportResult imported = released(&import_characters)(source, options);
         return py::typing::Tuple<CharacterList, py::dict>(
-            py::make_tuple(std::move(imported.list), told_report(imported.report)));
+            py::make_tuple(std::move(imported.list), in_tables("import_report", as_dict(imported.report))));
       },
       "source"_a, "letters"_a = py::none(), "only"_a = std::u32string(), "alternates"_a = false,
       "ideographs_only"_a = true, "date"_a = "", "threads"_a = 0, "report"_a = false, "progress"_a = py::none(),
       "ink"_a = InkDetail::full,
       "+ Returns a CharacterList and a report (docs/import.md): a dict, with the tables `within`, `worst` and "
       "`measures` as structured arrays, `ids_used` by id, `crossings` in the source and kept, and `ink`, for each "
-      "stroke intersection "
-      "over union with its outline.");
+      "stroke intersection over union with its outline.");
 }
 
 }  // namespace calligraphy::python

@@ -3,6 +3,7 @@
 import ast
 import enum
 import importlib.util
+import inspect
 import json
 import os
 import pathlib
@@ -114,5 +115,8 @@ def test_the_stubs_cover_the_module_with_docstrings_and_units():
             if isinstance(part, ast.FunctionDef) and [ast.unparse(d) for d in part.decorator_list] == ["property"]:
                 untold += [] if ast.get_docstring(part) else [f"{item.name}.{part.name}"]
     assert untold == []
+    (table,) = (f for f in told["Recording"].body if getattr(f, "name", "") == "to_pandas")  # a method of _display.py
+    assert ast.unparse(table.returns) == "typing.Any"
+    assert ast.get_docstring(table) == inspect.getdoc(cal.Recording.to_pandas)
     (mass,) = (f for f in told["SessionOptions"].body if getattr(f, "name", "") == "character_timeout" and f.args.args[1:] == [])
     assert ast.get_docstring(mass).endswith("[s]")
