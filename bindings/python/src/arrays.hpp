@@ -188,18 +188,6 @@ Doubles as_numbers(const Numbers& values) {
   return Doubles(static_cast<py::ssize_t>(values.size()), values.data());
 }
 
-/// The columns of a table from words "name:format", with formats of numpy.dtype.
-inline py::list dtype_of(const std::string& columns) {
-  py::list result;
-  for (const py::handle column : py::str(columns).attr("split")()) result.append(py::tuple(column.attr("split")(":")));
-  return result;
-}
-
-/// A structured array from a list of tuples.
-inline py::array table(const py::list& rows, const py::list& dtype) {
-  return py::module_::import("numpy").attr("array")(rows, "dtype"_a = dtype);
-}
-
 }  // namespace calligraphy::python
 
 template <>
