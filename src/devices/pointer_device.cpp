@@ -10,7 +10,8 @@
 namespace calligraphy {
 namespace {
 
-const PointerOptions& checked(const PointerOptions& options) {
+PointerOptions checked(PointerOptions options, const Capabilities& device) {
+  if (options.rate == 0.0) options.rate = device.update_rate;
   require_within("pointer: rate", options.rate, "Hz", 100.0, 1e5);
   require_within("pointer: smoothing_time", options.smoothing_time, "s", 0.0, 1.0);
   require_within("pointer: max_speed", options.max_speed, "m/s", 1e-3, 10.0);
@@ -25,14 +26,19 @@ const PointerOptions& checked(const PointerOptions& options) {
   return options;
 }
 
+Capabilities at_rate(Capabilities device, double rate) {
+  device.update_rate = rate;
+  return device;
+}
+
 /// Reads that overlap a write are retried; a write takes a few nanoseconds.
 constexpr int max_attempts = 8;
 
 }  // namespace
 
 PointerDevice::PointerDevice(const Capabilities& device, const GripImpedance& grip, const PointerOptions& options)
-    : options_(checked(options)),
-      device_(device, grip, options.paper * Eigen::Vector3d(0.0, 0.0, options.hover_height)),
+    : options_(checked(options, device)),
+      device_(at_rate(device, options_.rate), grip, options.paper * Eigen::Vector3d(0.0, 0.0, options.hover_height)),
       target_(0.0, 0.0, options.hover_height),
       between_(target_),
       meant_(target_) {

@@ -32,7 +32,7 @@ ServoOptions checked(ServoOptions options, const HapticDevice& device, const For
   }
   require_within("servo loop: rate", options.rate, "Hz", 1.0, 1e5);
   require(options.timeout >= 2.0 / options.rate && options.timeout <= 1.0, "servo loop: timeout", options.timeout, "s",
-          "from two periods of the rate to 1");
+          "from two periods at " + number_text(options.rate) + " Hz to 1");
   if (options.work_clock == nullptr) options.work_clock = monotonic_seconds;
   options.timeout += 1e-3 / options.rate;  // tolerates rounding in sums of ticks
   return options;

@@ -12,6 +12,7 @@ Eigen::Vector3d ForceLimiter::next(const Eigen::Vector3d& previous, const Eigen:
                                    const ForceAllowance& allowance, double max_length) const noexcept {
   const double most = std::min(peak, max_length);
   Eigen::Vector3d force = shortened(target, most);
+  if (in_plane_step == no_limit && normal_step == no_limit) return force;
   const Eigen::Vector2d change = (force - previous).head<2>();
   const double length = change.norm();
   const double reach = in_plane_step + allowance.in_plane;
@@ -24,7 +25,10 @@ Eigen::Vector3d ForceLimiter::next(const Eigen::Vector3d& previous, const Eigen:
 
 [[gnu::noinline]] Eigen::Vector3d ForceLimiter::release(const Eigen::Vector3d& previous) const noexcept {
   const double size = norm(previous);
-  const double step = max_step();
+  // Where only one is unlimited, the other one limits.
+  const auto finite = [](double step) { return step < no_limit ? step : 0.0; };
+  const double limited = Eigen::Vector2d(finite(in_plane_step), finite(normal_step)).norm();
+  const double step = limited > 0.0 ? limited : no_limit;
   return size <= step ? Eigen::Vector3d(0.0, 0.0, 0.0) : Eigen::Vector3d(previous * (1.0 - step / size));
 }
 

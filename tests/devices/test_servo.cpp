@@ -745,7 +745,7 @@ TEST_CASE("servo options out of range are rejected with name and value", "[servo
     CHECK(message([&](ServoOptions& o) { o.rate = bad; }).find("rate = ") != std::string::npos);
   }
   CHECK(message([](ServoOptions& o) { o.timeout = 1e-3; }) ==
-        "servo loop: timeout = 0.001 s, must be from two periods of the rate to 1");
+        "servo loop: timeout = 0.001 s, must be from two periods at 1000 Hz to 1");
   CHECK(message([](ServoOptions& o) { o.timeout = infinity; }).find("timeout") != std::string::npos);
   for (const double bad : {-1e-3, 0.2, not_a_number}) {
     CHECK(message([&](ServoOptions& o) { o.ramp_down = bad; }).find("ramp_down = ") != std::string::npos);

@@ -104,6 +104,13 @@ TEST_CASE("a target above the peak is approached in its direction", "[render]") 
   CHECK(unlimited.next({0, 0, 0}, target).isApprox(3.3 * target.normalized()));
 }
 
+TEST_CASE("where only one of the rates is limited, a device at fault is released by that one", "[render]") {
+  const ForceLimiter one{ForceLimiter::no_limit, 0.4, 3.3}, other{0.1, ForceLimiter::no_limit, 3.3};
+  CHECK(one.release({0, 0, 1.6}).isApprox(Vector3d(0, 0, 1.2)));
+  CHECK(other.release({0, 0.5, 0}).isApprox(Vector3d(0, 0.4, 0)));
+  CHECK(unlimited.release({1, 2, 3}) == Vector3d(0, 0, 0));
+}
+
 TEST_CASE("without a rate limit the force follows its target at once, up to the requested length", "[render]") {
   CHECK(unlimited.next({0, 0, 0}, {1.0, -2.0, 0.5}) == Vector3d(1.0, -2.0, 0.5));
   CHECK(unlimited.next({0, 0, 0}, {3.0, -4.0, 0.0}, {}, 2.0).isApprox(Vector3d(1.2, -1.6, 0.0)));

@@ -296,6 +296,27 @@ TEST_CASE("a pen pressed for a minute: warm motors reduce the force to the conti
   }
 }
 
+TEST_CASE("with an energy budget the paper still never pulls, however fast the pen is lifted", "[render]") {
+  HapticRenderer renderer = renderer_of(U'三', everything());
+  REQUIRE(renderer.options().energy.limited());
+  ScriptedPen pen(renderer);
+  const FirstStroke stroke(renderer);
+  double least = 0.0, most = 0.0;
+  pen.on_tick = [&](const HapticTick& tick) {
+    least = std::min(least, tick.page_force.z());
+    most = std::max(most, tick.page_force.z());
+  };
+  Sequence random(5);
+  for (int i = 0; i < 200; ++i) {
+    pen.speed = random.between(0.05, 1.5);
+    pen.go(at(stroke.start + random.point(-0.01, 0.03), -random.between(0.0, 0.01)));
+    pen.go(at(stroke.start + random.point(-0.01, 0.03), random.between(0.0, 0.01)));
+  }
+  CHECK(least == 0.0);
+  CHECK(most > 1.0);
+  check_steps(pen, renderer);
+}
+
 TEST_CASE("a disabled stage changes no bit, whatever its parameters", "[render]") {
   RendererOptions changed;
   changed.guidance.limit = 0.01;

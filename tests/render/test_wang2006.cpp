@@ -114,7 +114,7 @@ TEST_CASE("as printed, a factor that changes at a feature point steps the force 
     double last = 0.0, largest = 0.0;
     pen.on_tick = [&](const HapticTick& tick) {
       if (tick.state != InteractionState::writing || tick.contact.weight == 0.0) return;
-      const double spring = tick.attraction.norm() / tick.contact.closest.distance / tick.contact.weight;
+      const double spring = tick.page_force.head<2>().norm() / tick.contact.closest.distance / tick.contact.weight;
       if (last > 0.0) largest = std::max(largest, std::abs(spring - last));
       last = spring;
     };

@@ -81,7 +81,9 @@ def finish(kind: Any) -> None:
     """Completes a class of the extension."""
     own, made = dict(vars(kind)), kind.__init__
 
-    def with_keywords(self: Any, **values: Any) -> None:
+    def with_keywords(self: Any, *given: Any, **values: Any) -> None:
+        if given:
+            raise TypeError(f"{type(self).__name__} takes its fields by keyword: {', '.join(self.fields)}")
         made(self)
         for name, value in values.items():
             if name not in self.fields:

@@ -47,6 +47,9 @@ class TrialsLost(RuntimeError):
 
     table: Any  #: of the trials that did not
 
+    def __init__(self, *args: object) -> None:  # for inspect.signature()
+        super().__init__(*args)
+
 
 class Condition(NamedTuple):
     """The condition of one trial."""

@@ -6,7 +6,7 @@
 
 namespace calligraphy {
 
-/// A tube around a stroke element, within which it attracts the pen.
+/// A tube around a stroke element, within which it attracts the pen, unless the rules are printed ones (Rules).
 struct ConstraintSpace {
   double radius = 0.3;  ///< distance from the stroke beyond which it does not attract the pen [em]
   /// Width of the edge of the tube in which the force fades out, at most `radius`; a narrow one lets it drop steeply,

@@ -3,16 +3,18 @@
 
 namespace calligraphy {
 
-/// The rules of the paper that decide what a pen feels: all as revised, or all as printed (docs/wang2006.md lists them
-/// side by side). What they are about is, in this order, the sign of eq. (8) and (9), the pen tip below the paper, the
-/// motion mapping, the feature planes, the attraction between feature points and the constraint space.
+/// Six rules of the paper and what goes with them, all as revised or all as printed (docs/wang2006.md).
 enum class Rules {
-  /// Towards the stroke and out of the paper; on the paper (Table 2); the map that eq. (3) integrates to; crossed
-  /// within
-  /// the constraint space and near the feature point; linear in arc length; a tube with a smooth edge.
+  /// The force acts towards the stroke and out of the paper, the pen tip stays on the paper (Table 2), positions are
+  /// mapped directly, a feature plane counts within the constraint space and near the feature point, the attraction
+  /// factor is linear between feature points, and the constraint space is a tube (ConstraintSpace). The nearest point
+  /// is searched near the last one, and guidance lets go of a hand that is elsewhere.
   revised,
-  /// As in the first; at the device, eq. (5); eq. (3) tick by tick; crossed anywhere, eq. (6); that of the last feature
-  /// point passed, so that the force steps at each; sec. 4.3.1 (a)-(d). Nor is there a hysteresis anywhere.
+  /// The pen tip is at the device, eq. (5); positions are integrated from velocities, eq. (3); a feature plane counts
+  /// anywhere, eq. (6); the attraction factor is that of the last feature point; the constraint space is the half disc
+  /// of
+  /// sec. 4.3.1, whatever ConstraintSpace says. The nearest point is searched on the whole element, guidance never lets
+  /// go, and contact and box have no hysteresis. The force acts towards the stroke and out of the paper.
   wang2006,
   /// As wang2006, with the signs of eq. (8) and (9) as in the available text, which may have lost them: away from the
   /// stroke and into the paper. Nothing can be written with them.

@@ -14,7 +14,7 @@ namespace calligraphy {
 /// How the simulated hand follows a pointer. By default it moves like the simulated writer's: 8 mm above the paper
 /// between strokes, 2.5 mm deep at half pressure.
 struct PointerOptions {
-  double rate = 1000.0;          ///< rate at which read() is called [Hz]
+  double rate = 0.0;             ///< rate at which read() is called, and update_rate then; 0: the profile's [Hz]
   double smoothing_time = 0.03;  ///< lag of the intended position behind the pointer: smooths events that arrive 60 to
                                  ///< 120 times a second into a motion of continuous velocity [s]
   double max_speed = 0.5;        ///< speed limit of the intended position along the paper, also when the pointer jumps

@@ -15,7 +15,7 @@ struct WallContact {
   double push = 1.0;        ///< constant force towards the wall, not limited by the device [N]
   double height = 0.00025;  ///< initial height of the pen; with 45 g alone it hits the wall at 0.1 m/s [m]
   double seconds = 12.0;    ///< duration, in virtual time [s]
-  bool controlled = false;  ///< a PassivityController with its usable damping follows the wall
+  bool controlled = false;  ///< a PassivityController with injectable_damping() follows the wall
   double lost = 0.0;        ///< share of the samples that are lost: the last one is used again
   double reordered = 0.0;   ///< share of the samples that are swapped with the next one
 };

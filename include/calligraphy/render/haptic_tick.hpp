@@ -88,7 +88,7 @@ struct HapticTick {
   /// Damping by guidance, before fade-in, by friction and by the paper, before limits [N, page].
   Eigen::Vector3d viscous = Eigen::Vector3d::Zero();
   double assistance = 1.0;    ///< factor on the guidance, from the assist policy [1]
-  double energy_given = 0.0;  ///< net energy delivered to the hand, as observed; 0 without observer [J]
+  double energy_given = 0.0;  ///< net energy delivered to the hand, as observed; 0 without a budget [J]
   double heat = 0.0;  ///< of the motors; 1: in equilibrium at the continuous force; 0 without thermal budget [1]
   Eigen::Vector3d page_force = Eigen::Vector3d::Zero();  ///< the force as sent, on the pen, page axes [N]
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< the force as sent, to be written to the device, device axes [N]

@@ -15,16 +15,13 @@ struct MotionMapping {
   double scale = 1.0;  ///< K_S: how far the pen moves on the page for each metre of the device [1]
 
   /// Position in device axes [m] to position on the page [m], eq. (3).
-  /// Position in device axes [m] to position on the page [m], eq. (3).
   Eigen::Vector3d to_page(const Eigen::Vector3d& device) const noexcept {
     return offset + scale * turned(rotation, device);
   }
   /// Velocity in device axes [m/s] to velocity on the page [m/s].
-  /// Velocity in device axes [m/s] to velocity on the page [m/s].
   Eigen::Vector3d velocity_to_page(const Eigen::Vector3d& device) const noexcept {
     return scale * turned(rotation, device);
   }
-  /// Position on the page [m] to position in device axes [m]: the inverse of to_page().
   /// Position on the page [m] to position in device axes [m]: the inverse of to_page().
   Eigen::Vector3d to_device(const Eigen::Vector3d& page) const noexcept {
     return turned(rotation.transpose(), page - offset) / scale;
@@ -34,7 +31,6 @@ struct MotionMapping {
   Eigen::Vector3d force_to_device(const Eigen::Vector3d& page) const noexcept {
     return scale * turned(rotation.transpose(), page);
   }
-  /// Force of the device [N] to force on the pen, page axes [N]: the inverse of force_to_device().
   /// Force of the device [N] to force on the pen, page axes [N]: the inverse of force_to_device().
   Eigen::Vector3d force_to_page(const Eigen::Vector3d& device) const noexcept {
     return turned(rotation, device) / scale;

@@ -45,7 +45,7 @@ struct ForceLimiter {
   /// finite.
   Eigen::Vector3d next(const Eigen::Vector3d& previous, const Eigen::Vector3d& target,
                        const ForceAllowance& allowance = {}, double max_length = no_limit) const noexcept;
-  /// The next force from `previous` straight to zero, by max_step() per tick: for when the device cannot be trusted.
+  /// The next force from `previous` straight to zero, by the steps per tick that are limited: for when the device cannot be trusted.
   Eigen::Vector3d release(const Eigen::Vector3d& previous) const noexcept;
 };
 

@@ -22,7 +22,7 @@ struct PenState {
   Eigen::Vector3d tip = Eigen::Vector3d::Zero();            ///< virtual pen tip, page frame [m]
   double penetration = 0.0;                                 ///< of the device point into the paper [m]
   bool contact = false;                                     ///< touches the paper, or bounces on it
-  bool on_paper = false;                                    ///< within `lift_height`: does not bounce
+  bool on_paper = false;                                    ///< at most 0.5 mm above it: does not bounce
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();       ///< estimate [m/s, page]
   Eigen::Vector3d last_velocity = Eigen::Vector3d::Zero();  ///< at the sample before; after a gap at this one
   Eigen::Vector3d last_position = Eigen::Vector3d::Zero();  ///< likewise
