@@ -25,9 +25,11 @@ std::uint64_t with_fault(std::uint64_t status, DeviceFault fault) noexcept {
 }
 
 ServoOptions checked(ServoOptions options, const HapticDevice& device, const ForceLaw& law) {
-  if (options.rate == 0.0) options.rate = law.rate > 0.0 ? law.rate : device.capabilities().update_rate;
+  const bool is_asked_for = options.rate != 0.0;
+  if (!is_asked_for) options.rate = device.capabilities().update_rate;
   if (law.rate > 0.0 && law.rate != options.rate) {
-    throw ValueError("servo loop: rate = " + number_text(options.rate) + " Hz, but the force law is made for " +
+    throw ValueError("servo loop: rate = " + number_text(options.rate) + " Hz" +
+                     (is_asked_for ? "" : ", the device's") + ", but the force law is made for " +
                      number_text(law.rate) + " Hz");
   }
   require_within("servo loop: rate", options.rate, "Hz", 1.0, 1e5);

@@ -50,6 +50,7 @@ LiveResult write_with_device(const PracticePage& page, HapticDevice& device, con
   const double rate = renderer.options().servo_rate;
   SampleQueue<LiveTick> queue(static_cast<std::size_t>(std::ceil(max_absence * rate)));
   ServoLoopOptions servo = options.servo;
+  if (servo.servo.rate == 0.0) servo.servo.rate = rate;
   servo.servo.timeout = std::max(servo.servo.timeout, min_patience / rate);
   std::atomic<bool> in_front = false;  // an inkwell lies behind the paper: the way out of it is no writing
   ForceLaw law = [&](const DeviceState& state) noexcept {

@@ -758,7 +758,8 @@ TEST_CASE("servo options out of range are rejected with name and value", "[servo
   CHECK_THROWS_AS(Servo(device, {}), ValueError);
 }
 
-TEST_CASE("a servo ticks at the rate asked for, at that of the force law, or at the device's", "[servo]") {
+TEST_CASE("a servo ticks at the rate asked for or at the device's, and refuses a force law made for another",
+          "[servo]") {
   Capabilities profile;
   profile.apparent_mass = 0.05;
   profile.peak_force = 1.0;
@@ -770,7 +771,8 @@ TEST_CASE("a servo ticks at the rate asked for, at that of the force law, or at 
   asked.rate = 2000.0;
   CHECK(Servo(device, law, asked).rate() == 2000.0);
   law.rate = 800.0;
-  CHECK(Servo(device, law).rate() == 800.0);
+  CHECK_THROWS_WITH(Servo(device, law),
+                    "servo loop: rate = 500 Hz, the device's, but the force law is made for 800 Hz");
   CHECK_THROWS_WITH(Servo(device, law, asked), "servo loop: rate = 2000 Hz, but the force law is made for 800 Hz");
 }
 

@@ -75,6 +75,7 @@ class Grid:
     stiffness: guidance and paper stiffness as the hand feels them [N/m], clipped by clip_stiffness() to what is usable on the device and
     stable in any hand, unless the stiffness_check of `options` is off; the columns guidance_stiffness and
     paper_stiffness contain the effective values, that of guidance where the attraction factor is 1.
+    rate: of the servo [Hz]; by default the device's.
     page: "upright" or on the "desk", filling the device's workspace.
     motion_scale: K_S; the pen on the page moves this many times as far as the hand. Stiffnesses and forces in the table
     are those that the hand feels: on the page they are 1 / K_S^2 and 1 / K_S times as large.
@@ -88,7 +89,7 @@ class Grid:
         writers: Union[Sequence[str], Mapping[str, cal.WriterSkill]] = ("novice",),
         modes: Sequence[Union[str, cal.FeedbackMode]] = ("vision", "force"),
         stiffness: Sequence[float] = (600.0,),
-        rate: Sequence[float] = (1000.0,),
+        rate: Sequence[float] | None = None,
         method: Sequence[Union[str, cal.NearestPointMethod]] = ("tracked",),
         tolerance: Sequence[float] = (1e-9,),
         seeds: Union[int, Iterable[int]] = 1,
@@ -108,14 +109,14 @@ class Grid:
         self.writers = _writers(writers)
         self.modes = _axis("modes", _list("modes", modes), _name_of(cal.FeedbackMode))
         self.stiffness = _axis("stiffness", stiffness, _positive)
-        self.rate = _axis("rate", rate, _positive)
+        self.device = _one("device", cal.device_profile(device) if isinstance(device, str) else device, cal.Capabilities)
+        self.rate = _axis("rate", (self.device.update_rate,) if rate is None else rate, _positive)
         self.method = _axis("method", _list("method", method), _name_of(cal.NearestPointMethod))
         self.tolerance = _axis("tolerance", tolerance, _positive)
         if isinstance(seeds, Iterable):
             self.seeds = _axis("seeds", seeds, lambda what, seed: _whole(what, seed, most=2**64 - 1))
         else:
             self.seeds = list(range(1, _whole("seeds", seeds) + 1))
-        self.device = _one("device", cal.device_profile(device) if isinstance(device, str) else device, cal.Capabilities)
         self.motion_scale = _positive("motion_scale", motion_scale)
         usual = cal.RendererOptions.for_device(self.device, self.motion_scale)
         self.options = usual if options is None else _one("options", options, cal.RendererOptions)

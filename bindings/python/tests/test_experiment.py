@@ -246,7 +246,7 @@ def test_a_grid_accepts_your_own_writer():
         ({"stiffness": [[600.0]]}, "stiffness: expected a positive number, got .*600"),
         ({"stiffness": [600, 300.0, 600.0]}, "stiffness: 600.0 occurs twice"),
         ({"rate": [1000 + 0j]}, "rate: expected a positive number"),
-        ({"rate": None}, "rate: expected a list, got None"),
+        ({"stiffness": None}, "stiffness: expected a list, got None"),
         ({"modes": "force"}, "modes: expected a list, got 'force'"),
         ({"source": 3}, "source: expected a CharacterList, got 3"),
         ({"page": []}, r"page: expected one of upright, desk, got \[\]"),
@@ -596,6 +596,13 @@ def test_the_table_has_the_effective_stiffness(factor):
             assert table[f"{group}_stiffness"][row] == getattr(renderer.options, group).stiffness
         assert table[f"{group}_stiffness"][3] < 1e5
     assert table["paper_stiffness"][1] == 600.0 < table["paper_stiffness"][3]
+
+
+def test_the_rate_is_the_devices_unless_asked_for():
+    slow = cal.device_profile("desktop")
+    slow.update_rate = 500.0
+    assert experiment.Grid("一", device=slow).rate == [500.0]
+    assert experiment.Grid("一", device=slow, rate=[2000.0]).rate == [2000.0]
 
 
 def test_the_rules_of_the_paper_are_tried_with_their_stiffness():

@@ -42,7 +42,8 @@ struct ForceLaw {
 
 /// Rate and safety limits of a servo loop.
 struct ServoOptions {
-  /// Ticks per second; 0: that of the force law if it states one, otherwise the device's [Hz].
+  /// Ticks per second; 0: the device's (Capabilities::update_rate). A force law that states another one is refused
+  /// [Hz].
   double rate = 0.0;
   double timeout = 4e-3;     ///< time without a fresh sample, a tick or a result of the force law before the force
                              ///< ramps down; real devices pause for up to 2.4 ms [s]
