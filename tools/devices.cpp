@@ -236,16 +236,15 @@ void watch(const WatchOptions& options) {
   choice.model = options.model;
   const std::unique_ptr<HapticDevice> device = open_device(choice, false);
   SeenDevice seen(*device);
-  ServoLoopOptions servo;
-  ServoLoop loop(
-      seen, [](const DeviceState&) { return Eigen::Vector3d(Eigen::Vector3d::Zero()); }, servo);
+  ServoLoop loop(seen, [](const DeviceState&) { return Eigen::Vector3d(Eigen::Vector3d::Zero()); });
   const Interrupt interrupt;
   StopKey key;
   fmt::print("{}, without force; {} stops\n", device->capabilities().model, stop_keys(key));
   for (const std::string& warning : loop.start()) spdlog::warn("{}", warning);
   const double begin = monotonic_seconds();
   Sighting newest;
-  while (!interrupt.asked() && !key.pressed() && (options.seconds == 0.0 || monotonic_seconds() - begin < options.seconds)) {
+  while (!interrupt.asked() && !key.pressed() &&
+         (options.seconds == 0.0 || monotonic_seconds() - begin < options.seconds)) {
     std::this_thread::sleep_for(std::chrono::milliseconds(250));
     seen.look(newest);
     key.look();
@@ -290,14 +289,16 @@ void add_devices(CLI::App& program) {
   prober->callback([probe_options] { probe(*probe_options); });
 
 #ifdef CALLIGRAPHY_WITH_PHANTOM
-  CLI::App* const profiles =
-      command->add_subcommand("profile",
-                              "Print a wire profile shipped with the library, as a starting point for your own. Shipped "
-                              "profiles lack the calibration of your device, without which there are no positions and "
-                              "no forces: docs/wire-profile.md.");
+  CLI::App* const profiles = command->add_subcommand(
+      "profile",
+      "Print a wire profile shipped with the library, as a starting point for your own. Shipped "
+      "profiles lack the calibration of your device, without which there are no positions and "
+      "no forces: docs/wire-profile.md.");
   profiles->footer("calligraphy devices profile omni > mine.profile    # then add the calibration");
   const auto profile = std::make_shared<std::string>();
-  profiles->add_option("NAME", *profile, fmt::format("Name of the profile: {}", fmt::join(phantom::wire_profile_names(), ", ")))
+  profiles
+      ->add_option("NAME", *profile,
+                   fmt::format("Name of the profile: {}", fmt::join(phantom::wire_profile_names(), ", ")))
       ->required()
       ->check(CLI::IsMember(phantom::wire_profile_names()));
   profiles->callback([profile] { fmt::print("{}", phantom::wire_profile_text(*profile)); });
@@ -313,7 +314,8 @@ void add_devices(CLI::App& program) {
       ->required()
       ->check(such_as({"phantom", "openhaptics"}));
   add_phantom_options(*watcher, watch_options->wire_profile, watch_options->model);
-  watcher->add_option("--seconds", watch_options->seconds, "Duration, 0.1 to 86400 (default: until space, Esc or Ctrl-C)")
+  watcher
+      ->add_option("--seconds", watch_options->seconds, "Duration, 0.1 to 86400 (default: until space, Esc or Ctrl-C)")
       ->check(number(0.1, 86400.0))
       ->type_name("S");
   watcher->callback([watch_options] { watch(*watch_options); });

@@ -31,15 +31,6 @@ Vector3d along_page(Random& random) {
   return {std::cos(angle), std::sin(angle), 0.0};
 }
 
-template <typename Options>
-double max_gap_of(const Options& options) {
-  if constexpr (requires { options.energy.max_gap; }) {
-    return options.energy.max_gap;
-  } else {
-    return 0.016;
-  }
-}
-
 /// Page axes, which are those of the device but for an offset.
 class TryingHand {
  public:
@@ -268,7 +259,7 @@ EnergyResult run_energy(const EnergyRun& run) {
     return result;
   }
   HapticRenderer& renderer = *made;
-  const double max_gap = max_gap_of(renderer.options());
+  const double max_gap = renderer.options().energy.max_gap;
 
   Random random(run.seed, {static_cast<int>(run.hand), static_cast<int>(run.timing), run.device.sample_delay});
   TryingHand hand(run.hand, random.bits());

@@ -41,15 +41,11 @@ GripImpedance draw_grip(Random& random, double device_mass) {
   }
 }
 
-/// The damping of guidance and paper, where the renderer has such options.
-template <typename Options>
-void draw_damping(Options& options, Random& random) {
+void draw_damping(RendererOptions& options, Random& random) {
   const double guidance = random.between(0.0, 10.0), paper = random.between(0.0, 20.0);
-  const bool drawn = random.next() < 0.5;
-  if constexpr (requires { options.guidance.damping; }) {
-    if (drawn) options.guidance.damping = guidance;
-    if (drawn) options.paper.damping = paper;
-  }
+  if (random.next() >= 0.5) return;
+  options.guidance.damping = guidance;
+  options.paper.damping = paper;
 }
 
 void draw_options(SweepCase& drawn, Random& random) {
