@@ -37,7 +37,7 @@ double critical_stiffness(const SampledLoop& loop);
 /// `velocity_cutoff` [Hz] (VelocityEstimator). `loop.grip` is not used. 0 when the damper alone is too strong for the
 /// loop's lag, or too weak.
 ///
-/// The criterion, derived in docs/stability.md: H(jw), the spring and the damper as the pen feels them through
+/// The criterion, derived in docs/stability-derivation.md: H(jw), the spring and the damper as the pen feels them through
 /// sampling, delay, filter and zero-order hold, plus the device's own b jw, has a phase of at least 0.15 rad at every
 /// frequency w at which a mass from the device's to 0.3 kg more resonates with it, m w^2 = Re H: the damping ratio is
 /// then at least 0.075. It also makes an oscillation of the device alone decay at 3 /s or faster. The spring may be

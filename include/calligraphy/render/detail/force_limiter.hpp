@@ -20,7 +20,7 @@ struct ForceAllowance {
 /// dampers change because the pen has moved. While nothing but the pen moves, the distance from the target therefore
 /// never grows, and it shrinks by the steps: a target that jumps is approached at the limited rate, and followed
 /// without lag once it is reached. A limiter without the allowance lags behind a spring, and a lagging spring drives
-/// the pen (docs/stability.md).
+/// the pen (docs/stability-derivation.md).
 ///
 /// An earlier stage may request a limit below `peak` for one tick; it takes effect at once.
 struct ForceLimiter {
