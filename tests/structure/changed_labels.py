@@ -15,9 +15,10 @@ ALSO_USED = {"practice": ["importers"], "pictures": ["importers"], "experiments"
              "guidance": ["practice"], "stability": ["render"]}
 #: The labels of other files, by the start of their path; the longest that fits.
 OTHERS = {"tools/": ["tools"], "bindings/": ["python"], "examples/": ["collision", "devices", "model", "practice"],
-          "examples/python/": ["python"], "docs/": [], "docs/own-backend.md": ["devices"], "docs/python.md": ["python"],
-          "README.md": ["python"], "CHANGELOG.md": [], "tests/tools/": ["tools"], "tests/consumer/": ["consumer"],
-          "tests/structure/": [], "tests/fuzz/": ["collision"], "tests/soak/": ["practice"],
+          "examples/python/": ["python"], "docs/": ["python", "tools"],
+          "docs/own-backend.md": ["devices", "python", "tools"], "README.md": ["python", "tools"], "CHANGELOG.md": [],
+          "tests/tools/": ["tools"], "tests/consumer/": ["consumer"], "tests/structure/": ["tools"],
+          "tests/fuzz/": ["collision"], "tests/soak/": ["practice"],
           "tests/guidance/": ["guidance"], "tests/stability/": ["stability", "guidance"],
           "tests/devices/phantom/emulator/": ["phantom", "openhaptics", "tools", "python"],
           "tests/devices/openhaptics/": ["openhaptics", "tools", "python"],

@@ -1,17 +1,16 @@
-"""The examples and the code blocks of README.md and docs/python.md run."""
+"""The examples run, and so do the code blocks of README.md and the pages in docs/, those of a page as one program."""
 
 import json
 import os
 import pathlib
-import re
 import subprocess
 import sys
 
 import pytest
 
 import calligraphy as cal
+from pages import ROOT, python_blocks
 
-ROOT = pathlib.Path(__file__).parents[3]
 EXAMPLES = {
     "table_5_and_figures": ["figure-31.png", "figures-32-36.png", "figures-37-38.png"],
     "speed_accuracy_tradeoff": ["speed-accuracy-tradeoff.png"],
@@ -21,7 +20,7 @@ EXAMPLES = {
     "live_writing": ["live-writing.png"],
     "ink": ["ink.png"],
 }
-PAGES = ["README.md", "docs/python.md"]
+BLOCKS = python_blocks()
 
 #: Runs each program in its own process, forked from one with the slow imports done; prints the exit codes.
 RUN_ALL = """
@@ -51,10 +50,10 @@ def ended(tmp_path_factory):
     for module in ("matplotlib", "pandas"):
         pytest.importorskip(module)
     programs = {name: str(ROOT / "examples" / "python" / f"{name}.py") for name in EXAMPLES}
-    directories = {name: tmp_path_factory.mktemp(name.replace("/", "-")) for name in (*EXAMPLES, *PAGES)}
-    for page in PAGES:
+    directories = {name: tmp_path_factory.mktemp(name.replace("/", "-")) for name in (*EXAMPLES, *BLOCKS)}
+    for page, blocks in BLOCKS.items():
         programs[page] = str(directories[page] / "pasted.py")
-        pathlib.Path(programs[page]).write_text("".join(blocks(page)), encoding="utf-8")
+        pathlib.Path(programs[page]).write_text("".join(blocks), encoding="utf-8")
     both = json.dumps({name: [program, str(directories[name])] for name, program in programs.items()})
     environment = {**os.environ, "PYTHONPATH": str(pathlib.Path(cal.__file__).parents[1]), "PYTHONIOENCODING": "utf-8"}
     done = subprocess.run([sys.executable, "-c", RUN_ALL, both], capture_output=True, text=True, env=environment)
@@ -64,10 +63,6 @@ def ended(tmp_path_factory):
         name: (codes[name], (directory / "told.txt").read_text(encoding="utf-8"), directory)
         for name, directory in directories.items()
     }
-
-
-def blocks(page):
-    return re.findall(r"^```python\n(.*?)^```", (ROOT / page).read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
@@ -94,12 +89,12 @@ def test_the_unit_tests_of_a_force_law_pass():
     assert done.returncode == 0 and "3 passed" in done.stdout, done.stdout + done.stderr
 
 
-@pytest.mark.parametrize("page", PAGES)
+@pytest.mark.parametrize("page", BLOCKS)
 def test_the_code_blocks_of_a_page_run(page, ended):
     code, told, _ = ended[page]
-    assert blocks(page) and code == 0, told
+    assert code == 0, told
 
 
-def test_the_readme_example_has_at_most_twelve_lines():
-    (block,) = blocks("README.md")
-    assert len(block.splitlines()) <= 12
+def test_the_readme_shows_a_guided_stroke_in_at_most_eight_lines():
+    code = [line for line in BLOCKS["README.md"][0].splitlines() if line]
+    assert len(code) <= 8

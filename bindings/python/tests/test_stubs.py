@@ -7,7 +7,6 @@ import inspect
 import json
 import os
 import pathlib
-import re
 import shutil
 import subprocess
 import sys
@@ -15,12 +14,10 @@ import sys
 import pytest
 
 import calligraphy as cal
+from pages import ROOT, python_blocks
 
-ROOT = pathlib.Path(__file__).parents[3]
 PACKAGE = pathlib.Path(cal.__file__).parent
 
-
-PROGRAMS = [*sorted((ROOT / "examples" / "python").glob("*.py")), ROOT / "docs" / "python.md", ROOT / "README.md"]
 
 USER = """
 import numpy as np
@@ -66,11 +63,11 @@ def checked(words, directory):
 
 def programs(directory):
     """All programs of examples and pages, and two user programs, in one directory; `wrong.py` has one mistake per line."""
-    for path in PROGRAMS:
-        text = path.read_text(encoding="utf-8")
-        if path.suffix == ".md":
-            text = "".join(re.findall(r"^```python\n(.*?)^```", text, re.DOTALL | re.MULTILINE))
-        (directory / f"{path.stem.lower()}.py").write_text(text, encoding="utf-8")
+    for path in (ROOT / "examples" / "python").glob("*.py"):
+        shutil.copy(path, directory)
+    for page, blocks in python_blocks().items():
+        name = pathlib.Path(page).stem.lower().replace("-", "_")
+        (directory / f"page_{name}.py").write_text("".join(blocks), encoding="utf-8")
     (directory / "user.py").write_text(USER, encoding="utf-8")
     (directory / "wrong.py").write_text(WRONG, encoding="utf-8")
 
