@@ -1,6 +1,5 @@
 // The point of a stroke nearest to the pen tip, and the weight of the guidance there.
 #include <cstdio>
-#include <vector>
 
 #include <calligraphy/collision/constraint_space.hpp>
 #include <calligraphy/collision/nearest_point.hpp>
@@ -9,21 +8,14 @@
 
 int main() {
   using namespace calligraphy;
-  const Character* const character = built_in_characters().find(U'北');
-  if (character == nullptr) return 1;
-
-  const Placement placement{{0.02, 0.02}, 0.04};  // a square of 40 mm on the page
-  const Stroke stroke = strokes(*character)[3];   // 撇: one curve
-  std::vector<Point> control_points;
-  for (const Point& point : stroke.control_points) control_points.push_back(placement.to_page(point));
-  const StrokeElement element = prepare_element(control_points);
-
-  const ConstraintSpace tube;
+  const Placement placement{{0.02, 0.02}, 0.04};                      // a square of 40 mm on the page
+  const Stroke stroke = strokes(built_in_characters().at(U'北'))[3];  // 撇: one curve
+  const StrokeElement element = place_elements(stroke, placement).front();
   for (const double offset : {0.0, 0.003, 0.006, 0.009}) {
     const Point tip = element.point(0.5) + Point(0.0, offset);
     const NearestPoint closest = nearest_point(element, tip);
+    const double weight = guidance_weight({}, placement.em, element, tip, closest);
     std::printf("pen at (%.4f, %.4f) m: %.4f m from the stroke at t = %.4f, guidance %.0f %%\n", tip.x(), tip.y(),
-                closest.distance, closest.parameter, 100.0 * guidance_weight(tube, placement.em, element, tip, closest));
+                closest.distance, closest.parameter, 100.0 * weight);
   }
-  return 0;
 }

@@ -27,7 +27,7 @@ class User {
     device.move(place.x() + 0.002, place.y() - 0.002, pressed ? 0.5 : 0.0);
   }
 
-  double duration() const { return static_cast<double>(strokes_.size()) + 0.5; }
+  int stroke_count() const { return static_cast<int>(strokes_.size()); }
 
  private:
   std::vector<std::vector<StrokeElement>> strokes_;
@@ -40,7 +40,8 @@ int main() {
   const PracticePage page = lay_out(std::vector{built_in_characters().at(U'十')}).front();
   const MotionMapping mapping = upright_page(page.width, page.height);
 
-  // A simulated device that a mouse or tablet moves. With a real one: OpenHapticsDevice device;
+  // A simulated pen that is pulled to where the program moves the pointer: here as `User` does, in an application as
+  // the mouse or tablet does. With a real device: OpenHapticsDevice device;
   PointerOptions pointer;
   pointer.paper.translation() = mapping.to_device(Eigen::Vector3d::Zero());
   PointerDevice device(device_profile("desktop"), {}, pointer);
@@ -61,10 +62,11 @@ int main() {
   const Clock::time_point begin = Clock::now();
   const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
   HapticTick shown;
-  for (int frame = 0; elapsed() < user.duration(); ++frame) {
+  for (int frame = 0; shown.character == 0 && elapsed() < user.stroke_count() + 1; ++frame) {
     user.move(device, elapsed());
     if (newest.take(shown) && frame % 6 == 0) {  // draw the pen at pen_tip, not at the pointer
-      std::printf("%5.2f s  stroke %d  pen (%5.1f, %5.1f) mm  %-10s %.2f N\n", shown.time, shown.stroke + 1,
+      const int stroke = std::min(shown.stroke + 1, user.stroke_count());  // after the last one, until the lift: the count
+      std::printf("%5.2f s  stroke %d  pen (%5.1f, %5.1f) mm  %-10s %.2f N\n", shown.time, stroke,
                   1e3 * shown.pen_tip.x(), 1e3 * shown.pen_tip.y(), to_string(shown.state), shown.force.norm());
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(16));  // 60 frames a second
