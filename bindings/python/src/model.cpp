@@ -56,7 +56,7 @@ std::optional<Character> find(const Characters& characters, char32_t code, const
 template <class Characters>
 Character at(const Characters& characters, char32_t code) {
   if (const std::optional<Character> found = find(characters, code, "")) return *found;
-  throw py::key_error(encode_utf8(code));
+  throw py::key_error(encode_utf8(code) + " is not in this set of characters");
 }
 
 void add_ink(py::module_& module) {

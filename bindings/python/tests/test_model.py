@@ -77,7 +77,7 @@ def test_a_list_and_a_set_contain_the_same_characters(tmp_path):
     assert stored.coordinate_error() == 0.0
     assert len(cal.CharacterSet.layered([stored, cal.CharacterSet(characters)])) == len(stored)
     assert len(pickle.loads(pickle.dumps(characters))) == len(characters)
-    with pytest.raises(KeyError):
+    with pytest.raises(KeyError, match="龘 is not in this set of characters"):
         stored["龘"]
 
 
