@@ -37,8 +37,8 @@ class Project:
         self.variables = set(re.findall(r"\b(?:option|set)\((CALLIGRAPHY_\w+)", lists))
         self.tests = {f"test_{path.name}": path for path in (root / "tests").glob("**")
                       if list(path.glob("test_*.cpp"))}
-        self.targets = {"all", *self.tests, *re.findall(
-            r"\b(?:add_executable|add_library|add_custom_target|calligraphy_on_demand|calligraphy_emulator_tests)\((\w+)", lists)}
+        makers = "add_executable|add_library|add_custom_target|calligraphy_on_demand|calligraphy_emulator_tests"
+        self.targets = {"all", *self.tests, *re.findall(rf"\b(?:{makers})\((\w+)", lists)}
         script = (root / "scripts" / "test.sh").read_text(encoding="utf-8")
         self.packages = {"@".join(pair) for pair in re.findall(r"^fetch_data \w+ (\S+) (\S+)$", script, re.MULTILINE)}
 
