@@ -18,7 +18,7 @@ from typing import NamedTuple
 
 REPOSITORY = Path(__file__).resolve().parent.parent
 PAGE = REPOSITORY / "docs/measured.md"
-NUMBER = re.compile(r"\d[\d,]*(?:\.\d+)?")  # as printed on the page
+NUMBER = re.compile(r"\d+(?:,\d{3})*(?:\.\d+)?")  # as printed on the page
 SUFFIXES = {"": 1.0, "m": 1e-3, "u": 1e-6, "n": 1e-9, "k": 1e3, "M": 1e6}  # of Google Benchmark's counters
 SKIPPED = 77  # exit code of a test that was skipped
 
