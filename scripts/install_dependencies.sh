@@ -1,14 +1,17 @@
 #!/usr/bin/env bash
 # Installs the build dependencies on Debian 12 or 13 or Ubuntu 24.04, unless they are already installed.
-# usage: install_dependencies.sh [tests|full|peers]
-#   tests   also those of the tests
+# usage: install_dependencies.sh [python|tests|full|peers]
+#   python  also those of the Python module
+#   tests   also those of the tests, the Python module's included
 #   full    also those of test.sh --full
 #   peers   also the libraries that benchmarks/nearest_point/run.sh compares with, and valgrind
 set -euo pipefail
 
 packages=(cmake g++ gnuplot-nox libarchive-dev libcli11-dev libeigen3-dev libfmt-dev libhidapi-dev
           libpugixml-dev libspdlog-dev libusb-1.0-0-dev libutfcpp-dev ninja-build nlohmann-json3-dev pkg-config zlib1g-dev)
-if [[ ${1:-} == tests || ${1:-} == full ]]; then
+if [[ ${1:-} == python ]]; then
+  packages+=(python3 python3-dev python3-venv)
+elif [[ ${1:-} == tests || ${1:-} == full ]]; then
   # clang, its run-time libraries and libc++ by unversioned names, which all of these systems have.
   packages+=(ca-certificates catch2 clang doxygen emscripten fish groff-base libbenchmark-dev libc++-dev libc++abi-dev
              libclang-rt-dev libumockdev-dev python3 python3-dev python3-venv udev umockdev zsh)
@@ -22,7 +25,7 @@ elif [[ ${1:-} == peers ]]; then
   command -v cargo > /dev/null || packages+=(cargo)
   command -v npm > /dev/null || packages+=(npm)
 elif [[ $# -gt 0 ]]; then
-  echo "usage: $0 [tests|full|peers]" >&2
+  echo "usage: $0 [python|tests|full|peers]" >&2
   exit 2
 fi
 
