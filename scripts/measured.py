@@ -225,6 +225,8 @@ def main() -> int:
         count[result] += 1
         figures = row.figure if result == "same" else f"{row.figure} on the page, measured {figure}"
         print(f"{result}: {row.what}: {figures}", flush=True)
+    if not any(count.values()):
+        parser.error("no row contains any of the words")
     print(
         f"{count['same']} same, {count['differs']} differ, {count['machine']} depend on the machine, "
         f"{count['not measured']} could not be measured"
