@@ -21,7 +21,7 @@ elif [[ ${1:-} == tests || ${1:-} == full ]]; then
     command -v node > /dev/null || packages+=(nodejs)
   fi
 elif [[ ${1:-} == peers ]]; then
-  packages+=(ca-certificates lib2geom-dev libbenchmark-dev python3 valgrind)
+  packages+=(ca-certificates lib2geom-dev libbenchmark-dev libboost-dev python3 valgrind)
   command -v cargo > /dev/null || packages+=(cargo)
   command -v npm > /dev/null || packages+=(npm)
 elif [[ $# -gt 0 ]]; then
