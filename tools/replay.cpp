@@ -93,7 +93,8 @@ class ReplayRun {
       if (!set.find(code)) report_.without_template += code;
     }
     if (report_.without_template == text)
-      throw Error("none of the written characters is in the character set; see --characters");
+      throw Error("none of the written characters is in the character set (see --characters), as " +
+                  character_label(text.front()));
     const auto has_template = [&set](const Chosen& each) { return set.find(each.trace.character).has_value(); };
     const auto with_template = static_cast<std::size_t>(std::count_if(traces.begin(), traces.end(), has_template));
     const Interrupt interrupt;

@@ -113,10 +113,12 @@ std::string table(const ReplayReport& report) {
     return std::count_if(report.traces.begin(), report.traces.end(),
                          [judged](const Replayed& trace) { return judged(trace.match) == "correct"; });
   };
-  text += fmt::format("\n{} of {} in the correct order, {} in the correct direction\n", right(order_of),
-                      report.traces.size(), right(direction_of));
+  const auto clean = std::count_if(report.traces.begin(), report.traces.end(),
+                                   [](const Replayed& trace) { return trace.match.remarks.empty(); });
+  text += fmt::format("\n{} of {} without a remark, {} in the correct order, {} in the correct direction\n", clean,
+                      report.traces.size(), right(order_of), right(direction_of));
   if (!report.without_template.empty()) {
-    text += fmt::format("{} without a template:", report.without_template.size());
+    text += fmt::format("{} not checked, because they are not in the character set:", report.without_template.size());
     for (const char32_t code : report.without_template) text += " " + encode_utf8(code);
     text += "\n";
   }

@@ -118,17 +118,14 @@ void draw_arrow(pugi::xml_node parent, std::span<const Point> points, const char
   add(parent, "path", {{"d", head.data() + "Z"}, {"fill", colour}, {"stroke", "none"}});
 }
 
-void draw_label(pugi::xml_node parent, Labels& labels, std::span<const Point> points, const std::string& text,
-                const char* colour) {
+/// The halo is a text of its own below all numbers, because not every viewer knows paint-order.
+void draw_label(pugi::xml_node parent, pugi::xml_node halos, Labels& labels, std::span<const Point> points,
+                const std::string& text, const char* colour) {
   const double width = svg::text_width(text, label_size);
   const Point centre = labels.place(points, width);
-  add_text(parent, centre.x(), centre.y() + 0.35 * label_size, label_size, text,
-           {{"text-anchor", "middle"},
-            {"font-weight", "bold"},
-            {"fill", colour},
-            {"stroke", "#ffffff"},
-            {"stroke-width", "0.7"},
-            {"paint-order", "stroke"}});
+  const double y = centre.y() + 0.35 * label_size;
+  add_text(halos, centre.x(), y, label_size, text, {});
+  add_text(parent, centre.x(), y, label_size, text, {{"fill", colour}});
 }
 
 bool has_remark(const MatchResult& match, std::size_t path, std::initializer_list<StrokeRemarkKind> kinds) {
@@ -199,8 +196,18 @@ void draw_written(pugi::xml_node root, const Character& character, std::span<con
                               {"stroke-width", "0.6"},
                               {"stroke-linecap", "round"},
                               {"stroke-linejoin", "round"}});
-  pugi::xml_node numbers = add(root, "g", {{"class", "drawn-number"}});
-  pugi::xml_node standard = add(root, "g", {{"class", "standard-number"}});
+  pugi::xml_node halos = add(root, "g",
+                             {{"class", "halo"},
+                              {"text-anchor", "middle"},
+                              {"font-weight", "bold"},
+                              {"fill", "#ffffff"},
+                              {"stroke", "#ffffff"},
+                              {"stroke-width", "0.7"}});
+  const auto numbers_of = [&root](const char* name) {
+    return add(root, "g", {{"class", name}, {"text-anchor", "middle"}, {"font-weight", "bold"}});
+  };
+  pugi::xml_node numbers = numbers_of("drawn-number");
+  pugi::xml_node standard = numbers_of("standard-number");
   Labels labels;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     if (bounced(match.drawn[i])) continue;
@@ -208,12 +215,13 @@ void draw_written(pugi::xml_node root, const Character& character, std::span<con
     const char* const colour = colour_of(match, i);
     draw_path(lines, points, colour);
     draw_arrow(lines, points, colour);
-    draw_label(numbers, labels, points, std::to_string(i + 1), colour);
+    draw_label(numbers, halos, labels, points, std::to_string(i + 1), colour);
   }
   std::size_t stroke = 0;
   for (const Stroke& each : strokes(character)) {
     const std::vector<Point> points = in_picture(middle_line(each, {Point::Zero(), 1.0}), view);
-    draw_label(standard, labels, points, std::to_string(stroke + 1), is_missing(match, stroke) ? wrong : number_colour);
+    draw_label(standard, halos, labels, points, std::to_string(stroke + 1),
+               is_missing(match, stroke) ? wrong : number_colour);
     ++stroke;
   }
 }
@@ -271,7 +279,7 @@ std::string replay_picture(const Character& character, std::span<const PenPath> 
 
   double y = sheet_top + square_side + 5.5;
   add_text(root, sheet_margin, y, 0.9 * text_size,
-           "numbers: as drawn (black, red: wrong, orange: joined or of another shape), as they should be (blue, red: "
+           "black: the order written (red: wrong, orange: joined or of another shape); blue: the correct order (red: "
            "missing)",
            {{"fill", "#777777"}});
   for (const std::string& line : lines) {

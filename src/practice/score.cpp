@@ -176,7 +176,7 @@ class CharacterScorer {
           stroke_label(strokes_, meant) + was + stroke_label(strokes_, due_) + " was due");
     } else if (best.backwards) {
       add(WritingMistakeKind::direction, due_, path.front().time,
-          stroke_label(strokes_, due_) + " was written from its end");
+          stroke_label(strokes_, due_) + " was written backwards");
     }
   }
 

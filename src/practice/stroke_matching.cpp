@@ -474,7 +474,7 @@ class Judge {
       if (match.count == 0) {
         if (drawn.tap) continue;  // the pen bounced
         result_.remarks.push_back({StrokeRemarkKind::extra, static_cast<int>(path), -1,
-                                   pen_down + " resembles no stroke that was still open"});
+                                   pen_down + " matches none of the strokes not yet written"});
         continue;
       }
       if (match.continues) {
@@ -490,7 +490,7 @@ class Judge {
       }
       if (!drawn.in_turn) add(StrokeRemarkKind::order, path, match.first, order_reason(path));
       if (drawn.direction == WritingDirection::backwards) {
-        add(StrokeRemarkKind::direction, path, match.first, stroke_label(match.first) + " was written from its end");
+        add(StrokeRemarkKind::direction, path, match.first, stroke_label(match.first) + " was written backwards");
       }
       if (drawn.direction == WritingDirection::neither) {
         add(StrokeRemarkKind::shape, path, match.first,

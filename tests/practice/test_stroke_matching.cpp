@@ -174,7 +174,7 @@ TEST_CASE("three parallel lines are identified by their positions", "[practice]"
     const MatchResult match = match_strokes(three, drawn);
     REQUIRE(match.remarks.size() == 1);
     CHECK(match.remarks[0].kind == StrokeRemarkKind::direction);
-    CHECK(match.remarks[0].reason == "stroke 2 (héng) was written from its end");
+    CHECK(match.remarks[0].reason == "stroke 2 (héng) was written backwards");
   }
 }
 

@@ -70,7 +70,7 @@ class Replay(ReplayTest):
         self.assertEqual(self.remarks(character("三", [three, two, one])), [[("order", 1, 3), ("order", 2, 2)]])
         text = self.run_program("replay", self.traces(character("三", [one, three, two]))).stdout
         self.assertIn("stroke 3 (héng) was written where stroke 2 (héng) was due", text)
-        self.assertIn("0 of 1 in the correct order, 1 in the correct direction", text)
+        self.assertIn("0 of 1 without a remark, 0 in the correct order, 1 in the correct direction", text)
 
     def test_a_stroke_written_from_its_end_is_a_direction_mistake(self):
         one, two, three = THREE
