@@ -3,7 +3,7 @@
 
 usage: configure_cmake_blocks.py SOURCE_DIRECTORY PREFIX WORK_DIRECTORY GENERATOR COMPILER
 
-A block that adds no executable is about the reader's own, `app`.
+A block without project() belongs into that of the reader, with an executable `app`.
 """
 import pathlib
 import shutil
@@ -22,9 +22,8 @@ def main():
         project.mkdir(parents=True)
         (project / "main.cpp").write_text("int main() {}\n")
         shutil.copy(root / "examples" / "test_force_law.cpp", project)
-        own = "" if "add_executable" in text else "add_executable(app main.cpp)\n"
-        (project / "CMakeLists.txt").write_text(
-            "cmake_minimum_required(VERSION 3.22)\nproject(documented LANGUAGES CXX)\n" + own + text, encoding="utf-8")
+        begin = "cmake_minimum_required(VERSION 3.22)\nproject(documented LANGUAGES CXX)\nadd_executable(app main.cpp)\n"
+        (project / "CMakeLists.txt").write_text(text if "project(" in text else begin + text, encoding="utf-8")
         done = subprocess.run(["cmake", "-S", project, "-B", project / "build", "-G", sys.argv[4],
                                f"-DCMAKE_CXX_COMPILER={sys.argv[5]}", f"-DCMAKE_PREFIX_PATH={prefix}"],
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)

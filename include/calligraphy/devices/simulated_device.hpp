@@ -28,8 +28,8 @@ class SimulatedDevice final : public HapticDevice {
                            const Eigen::Vector3d& position = Eigen::Vector3d::Zero());
 
   const Capabilities& capabilities() const noexcept override { return device_; }
-  /// The sample taken `sample_delay` ticks ago. Its velocity is had as the device has it: the true one at that time, or
-  /// estimated from the quantised positions of the samples, one per advance(). Its force is the one applied now.
+  /// The sample taken `sample_delay` ticks ago. Its velocity is measured or estimated, as on the device: the true one at
+  /// that time, or one from the quantised positions of the samples, one per advance(). Its force is the one applied now.
   DeviceState read() noexcept override;
   /// Applies the device's output_force() for this one. A force that is not finite counts as zero, as on every device;
   /// refused_forces() counts them, so that a test of a force law can tell.
@@ -45,7 +45,7 @@ class SimulatedDevice final : public HapticDevice {
   /// Sets the pressed buttons, one bit for each; takes effect with the next advance().
   void set_buttons(std::uint32_t buttons) noexcept { buttons_ = buttons; }
 
-  /// Replaces the schedule of faults, by default empty. Of several that are active at once the first counts. Allocates:
+  /// Replaces the schedule of faults, by default empty. If several are active at once, the first applies. Allocates:
   /// not for a running servo loop. @throws ValueError naming the fault and the value that is out of range
   void schedule(std::vector<SimulatedFault> faults);
 
