@@ -21,6 +21,8 @@ SYSTEM = {"apt-get", "cp", "docker", "export", "groupadd", "kill", "man", "mypy"
 BEFORE_OTHERS = {"sudo", "python", "python3", "in_test_bed.sh"}
 #: Directories where a build puts programs, of which a page may leave out the first part.
 BUILDS = re.compile(r"^(\.\./\.\./|\./|build-tests/release/|build/)")
+#: What the documentation gives to cmake, beside targets and the project's own variables.
+CMAKE = {"-S", "-B", "-G", "--build", "--install", "--prefix", "--target", "-DCMAKE_BUILD_TYPE", "-DCMAKE_PREFIX_PATH"}
 #: First words of files, which are no commands.
 FILE_HEADERS = {"characters", "wire"}
 
@@ -80,11 +82,13 @@ class Project:
         options = [word.partition("=")[0] for word in rest if re.match(r"--?[A-Za-z]", word)]
         files = [word for word in re.findall(r"(?:^|[=\s])((?:data|examples|bindings)/\S+)", " ".join(rest))]
         wrong = [f"there is no file {path}" for path in files if not (self.root / path).exists()]
+        wrong += [f"there is no variable {found}" for found in
+                  re.findall(r"(?:-D|cmake\.define\.)(CALLIGRAPHY_\w+)", " ".join(rest)) if found not in self.variables]
         if name == "calligraphy":
             return wrong + self.mistakes_of_program(rest, options)
         if name == "cmake":
-            wrong += [f"there is no option {found}" for found in re.findall(r"-D(CALLIGRAPHY_\w+)", " ".join(rest))
-                      if found not in self.variables]
+            wrong += [f"cmake has no option {option}" for option in options
+                      if option not in CMAKE and not option.startswith("-DCALLIGRAPHY_")]
             targets = re.search(r"--target((?: \w+)+)", " ".join(rest))
             return wrong + [f"there is no target {target}" for target in (targets[1].split() if targets else [])
                             if target not in self.targets]
@@ -107,8 +111,10 @@ class Project:
             cases = re.findall(r'^TEST_CASE\("((?:[^"\\]|\\.)*)"', text, re.MULTILINE)
             return wrong + [f"no test of {name} is called {word}" for word in rest if not word.startswith("-")
                             if not fnmatch.filter(cases, word)]
-        return wrong + [f"{first} has no option {option}" for option in options
-                        if option not in text and not option.startswith("--benchmark_")]
+        if name.endswith(".sh"):
+            options += [word for word in rest if re.fullmatch("[a-z]+", word)]
+        return wrong + [f"{first} does not know {option}" for option in options if not option.startswith("--benchmark_")
+                        if not re.search(rf"(?<![\w-]){option}(?![\w-])", text)]
 
     def mistakes_of_program(self, rest, options):
         if self.program is None or (rest and rest[0] == "help" and self.help(rest[1:])):
@@ -139,7 +145,7 @@ def is_command(words):
     """Whether `code` of a page is a command: a script, or a program with arguments."""
     name = pathlib.PurePosixPath(words[0]).name if words else ""
     if len(words) < 2 or words[1] in FILE_HEADERS:
-        return name.endswith(".sh")
+        return name.endswith((".py", ".sh"))
     return (name in {"calligraphy", "cmake", "npm", "pip", "sudo", "python", "python3"} or
             name.endswith((".py", ".sh")) or
             re.fullmatch(r"[\w.-]+(/[\w.-]+)+|test_\w+", words[0]) is not None)
@@ -167,6 +173,8 @@ def main():
             code = match[1].replace("\\|", "|")
             if is_command(code.split()):
                 check(f"{page_name}:{text.count(chr(10), 0, match.start()) + 1}", re.sub(r"\[.*", "", code))
+        wrong.extend(f"{page_name}:{text.count(chr(10), 0, match.start()) + 1}: a fence must begin its line, as ```"
+                     for match in re.finditer(r"^ *(?:```|~~~)", text, re.MULTILINE))
         wrong.extend(f"{page_name}:{text.count(chr(10), 0, match.start()) + 2}: a block without a fence"
                      for match in re.finditer(r"\n\n(?: {4}|\t)(?![\s*|-]|\d)\S", text))
     print("\n".join(wrong))
