@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs missing packages, builds, and writes four characters without and with guidance.
-# Arguments are passed to `calligraphy write`.
+# Options, such as --repeat 20, are passed to `calligraphy write`; the text is fixed.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -17,5 +17,10 @@ In $PWD/out:
   NN-CHARACTER-MODE.svg        the page: template blue, active character yellow, trace green
   NN-CHARACTER-MODE-force.svg  force over time
   NN-CHARACTER-MODE.csv        the trace, tick by tick
-  summary.json                 the table above
+  page-N-MODE-1.csv            the trace of the whole page
+  summary.json                 the table above, scores, and the reason of each mistake
+
+A picture leaves out attempts that were abandoned. Other characters, and what force changes over 20 pairs of trials:
+  build/tools/calligraphy write 永 --repeat 20 --out yong
+The program, task by task: docs/program.md
 END
