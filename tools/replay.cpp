@@ -93,7 +93,7 @@ class ReplayRun {
       if (!set.find(code)) report_.without_template += code;
     }
     if (report_.without_template == text)
-      throw Error("none of the written characters is in the character set (see --characters), as " +
+      throw Error("none of the written characters is in the character set (see --characters), for example " +
                   character_label(text.front()));
     const auto has_template = [&set](const Chosen& each) { return set.find(each.trace.character).has_value(); };
     const auto with_template = static_cast<std::size_t>(std::count_if(traces.begin(), traces.end(), has_template));

@@ -118,7 +118,7 @@ std::string table(const ReplayReport& report) {
   text += fmt::format("\n{} of {} without a remark, {} in the correct order, {} in the correct direction\n", clean,
                       report.traces.size(), right(order_of), right(direction_of));
   if (!report.without_template.empty()) {
-    text += fmt::format("{} not checked, because they are not in the character set:", report.without_template.size());
+    text += fmt::format("{} not checked, not in the character set:", report.without_template.size());
     for (const char32_t code : report.without_template) text += " " + encode_utf8(code);
     text += "\n";
   }

@@ -1,16 +1,17 @@
 """The blocks of Python in README.md and the pages in docs/."""
 
 import pathlib
-import re
+import sys
 
 ROOT = pathlib.Path(__file__).parents[3]
+sys.path.insert(0, str(ROOT / "tests" / "structure"))
+from page_blocks import blocks  # noqa: E402
 
 
 def python_blocks():
     """Name of each page with blocks of Python -> their texts, which are one program."""
     found = {}
-    for page in (ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))):
-        blocks = re.findall(r"^```python\n(.*?)^```", page.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
-        if blocks:
-            found[str(page.relative_to(ROOT))] = blocks
+    for block in blocks(ROOT):
+        if block.language == "python":
+            found.setdefault(block.page, []).append(block.text)
     return found
