@@ -1,10 +1,10 @@
-# calligraphy_component(name [ONE_UNIT] [EXPORT set] [FOLDER folder] [SUBFOLDERS ...] [SOURCES ...] [WITHOUT ...]
+# calligraphy_component(name [ONE_UNIT] [C_INTERFACE] [EXPORT set] [FOLDER folder] [SUBFOLDERS ...] [SOURCES ...] [WITHOUT ...]
 # DEPENDS ... [NEEDS package ...]): a component as the target calligraphy::name, from the source files in src/folder
 # (default src/name) and its SUBFOLDERS except WITHOUT, plus the generated SOURCES. ONE_UNIT: its files are compiled as
-# one, so that any function can be inlined. DEPENDS: components, and libraries that all components need. NEEDS: packages
+# one, so that any function can be inlined. C_INTERFACE: a shared library that exports functions of C alone. DEPENDS: components, and libraries that all components need. NEEDS: packages
 # that a user of an installed copy must have to link the target.
 function(calligraphy_component name)
-  cmake_parse_arguments(COMPONENT "ONE_UNIT" "EXPORT;FOLDER" "SUBFOLDERS;SOURCES;WITHOUT;DEPENDS;NEEDS" ${ARGN})
+  cmake_parse_arguments(COMPONENT "ONE_UNIT;C_INTERFACE" "EXPORT;FOLDER" "SUBFOLDERS;SOURCES;WITHOUT;DEPENDS;NEEDS" ${ARGN})
   if(NOT COMPONENT_EXPORT)
     set(COMPONENT_EXPORT calligraphyTargets)
   endif()
@@ -20,14 +20,24 @@ function(calligraphy_component name)
     list(REMOVE_ITEM sources ${PROJECT_SOURCE_DIR}/src/${COMPONENT_FOLDER}/${file})
   endforeach()
   set(target calligraphy_${name})
-  add_library(${target} ${sources} ${COMPONENT_SOURCES})
+  if(COMPONENT_C_INTERFACE AND NOT EMSCRIPTEN)  # which exports functions when it links a module
+    add_library(${target} SHARED ${sources} ${COMPONENT_SOURCES})
+    calligraphy_export_c(${target})
+  else()
+    add_library(${target} ${sources} ${COMPONENT_SOURCES})
+  endif()
   add_library(calligraphy::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
-  target_compile_features(${target} PUBLIC cxx_std_20)
   target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
                                               $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
                                        PRIVATE ${PROJECT_SOURCE_DIR}/src)
-  target_link_libraries(${target} PUBLIC ${COMPONENT_DEPENDS})
+  if(COMPONENT_C_INTERFACE)  # users need neither C++ nor what it is made of
+    target_compile_features(${target} PRIVATE cxx_std_20)
+    target_link_libraries(${target} PRIVATE ${COMPONENT_DEPENDS})
+  else()
+    target_compile_features(${target} PUBLIC cxx_std_20)
+    target_link_libraries(${target} PUBLIC ${COMPONENT_DEPENDS})
+  endif()
   # Bit-identical results on every processor: no contraction into fused operations.
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-ffp-contract=off>)
   # Nobody reads errno after a square root, or replaces a function of a component at run time: g++ may inline both.
@@ -52,6 +62,20 @@ function(calligraphy_component name)
   endif()
   set(include_directory ${CMAKE_INSTALL_INCLUDEDIR}/calligraphy/${COMPONENT_FOLDER})
   install(DIRECTORY include/calligraphy/${COMPONENT_FOLDER}/ DESTINATION ${include_directory} ${without})
+endfunction()
+
+# calligraphy_export_c(target): of this shared library, only the functions of the C interface are visible. Programs keep
+# working with it until its SONAME changes, with every minor version.
+function(calligraphy_export_c target)
+  set_target_properties(${target} PROPERTIES
+    VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
+    CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+  target_compile_definitions(${target} PRIVATE CALLIGRAPHY_C_BUILD)
+  if(CMAKE_SYSTEM_NAME STREQUAL "Linux")  # hides what the components and libstdc++'s templates would export
+    set(script ${PROJECT_SOURCE_DIR}/src/c/exports.map)
+    target_link_options(${target} PRIVATE "LINKER:--version-script=${script}")
+    set_target_properties(${target} PROPERTIES LINK_DEPENDS ${script})
+  endif()
 endfunction()
 
 function(calligraphy_warnings target)

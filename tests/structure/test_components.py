@@ -20,6 +20,7 @@ BELOW = {
     "practice": ["base", "model", "devices", "collision", "render"],
     "pictures": ["base", "model", "devices", "collision", "render", "practice"],
     "experiments": ["base", "model", "devices", "collision", "render", "practice", "pictures"],
+    "c": ["base", "model", "devices", "collision", "render", "practice"],
 }
 BACKENDS = ["phantom", "openhaptics"]  # folders beneath devices
 
@@ -42,7 +43,7 @@ def arrows(root):
     """The invalid includes below root, each with its place."""
     found = []
     for folder in ("include/calligraphy", "src"):
-        for path in sorted((root / folder).rglob("*.[ch]pp")):
+        for path in sorted(path for ending in ("h", "hpp", "cpp") for path in (root / folder).rglob(f"*.{ending}")):
             parts = path.relative_to(root / folder).parts
             own = component_of(parts)
             if own is None:

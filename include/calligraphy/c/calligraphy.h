@@ -1,0 +1,599 @@
+// The C interface: what other languages and the browser link (docs/c.md).
+#pragma once
+
+#include <stddef.h>
+#include <stdint.h>
+
+#define CALLIGRAPHY_VERSION_MAJOR 0  ///< of this header; calligraphy_version() is that of the library
+#define CALLIGRAPHY_VERSION_MINOR 2  ///< changes whenever a program must be compiled anew
+#define CALLIGRAPHY_VERSION_PATCH 0  ///< changes otherwise
+
+#if defined(_WIN32) && defined(CALLIGRAPHY_C_BUILD)
+#define CALLIGRAPHY_API __declspec(dllexport)
+#elif defined(_WIN32)
+#define CALLIGRAPHY_API __declspec(dllimport)
+#else
+#define CALLIGRAPHY_API __attribute__((visibility("default")))  ///< a function of the shared library
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Conventions.
+//
+// Units are those of C++: metres, newtons, seconds; positions on the page have their origin at its lower left corner,
+// x right, y up, z out of the paper.
+//
+// Handles are opaque. Whoever creates one frees it with calligraphy_free(), in any order: what a handle was made from
+// may be freed before it. A handle that was freed, is null or is of another kind is refused, not followed. One handle
+// is used by one thread at a time, except where a function says otherwise.
+//
+// Every struct begins with its size, which the caller sets: `calligraphy_tick tick = {sizeof tick};`. So it can grow at
+// its end: a newer library takes the struct of an older program, and an older library that of a newer program, unless
+// that sets what the library does not know. All other members may be left at zero, except where a comment says so.
+//
+// Functions return a status. On failure they do nothing else, and calligraphy_last_error() says what was wrong with
+// which value. No function throws or ends the program; none is called back. Where an optional pointer is null, nothing
+// is read from it or written to it.
+
+/// Whether a function did what it says.
+typedef enum calligraphy_status {
+  CALLIGRAPHY_OK = 0,              ///< it did
+  CALLIGRAPHY_INVALID_HANDLE = 1,  ///< a handle that is null, was freed or is of another kind
+  CALLIGRAPHY_INVALID_VALUE = 2,   ///< a value out of its domain, a null pointer or the wrong size of a struct
+  CALLIGRAPHY_NOT_FOUND = 3,       ///< no such character in the set
+  CALLIGRAPHY_TOO_SMALL = 4,       ///< the array is too small for the result; the count that it needs was written
+  CALLIGRAPHY_FILE_ERROR = 5,      ///< a file cannot be opened or read
+  CALLIGRAPHY_FORMAT_ERROR = 6,    ///< malformed input
+  CALLIGRAPHY_OUT_OF_MEMORY = 7,   ///< memory, or all of 65,535 handles, are in use
+  CALLIGRAPHY_INTERNAL_ERROR = 8   ///< a defect of this library
+} calligraphy_status;
+
+/// Version of the library: "0.2.0". In static storage.
+CALLIGRAPHY_API const char* calligraphy_version(void);
+
+/// What the last function that failed in this thread had to say, in UTF-8; empty if none failed. Valid until the next
+/// one fails in this thread, and unchanged by those that succeed.
+CALLIGRAPHY_API const char* calligraphy_last_error(void);
+
+/// Frees a handle of any kind. Does nothing for null.
+CALLIGRAPHY_API calligraphy_status calligraphy_free(void* handle);
+
+// Characters.
+
+/// A set of characters. Any number of threads may use one.
+typedef struct calligraphy_set calligraphy_set;
+
+/// The characters that were drawn for this library.
+CALLIGRAPHY_API calligraphy_status calligraphy_set_built_in(calligraphy_set** set);
+
+/// Opens a set file, or a file in the text format (docs/set-file.md, docs/character-format.md); `path` is in UTF-8.
+CALLIGRAPHY_API calligraphy_status calligraphy_set_open(const char* path, calligraphy_set** set);
+
+/// A set from the bytes of a set file, which are copied. `name` is used in messages; null: "memory".
+CALLIGRAPHY_API calligraphy_status calligraphy_set_from_memory(const void* bytes, size_t size, const char* name,
+                                                               calligraphy_set** set);
+
+/// The first character of the set at or after the code point `from`. CALLIGRAPHY_NOT_FOUND past the last one: so all of
+/// them are listed, each from the one before plus 1.
+CALLIGRAPHY_API calligraphy_status calligraphy_set_next(const calligraphy_set* set, uint32_t from, uint32_t* code);
+
+/// Number of strokes of a character. CALLIGRAPHY_NOT_FOUND if the set does not have it; CALLIGRAPHY_FORMAT_ERROR if it
+/// is damaged.
+CALLIGRAPHY_API calligraphy_status calligraphy_set_stroke_count(const calligraphy_set* set, uint32_t code,
+                                                                int32_t* stroke_count);
+
+// Pages.
+
+/// Placed characters, in the order in which they are to be written. Any number of threads may use one.
+typedef struct calligraphy_page calligraphy_page;
+
+/// Size of a page, and of the squares on it. What is zero or less takes the default.
+typedef struct calligraphy_layout {
+  uint32_t size;  ///< sizeof(calligraphy_layout)
+  double width;   ///< of the page; 0.16 by default [m]
+  double height;  ///< of the page; 0.12 by default [m]
+  double em;      ///< edge length of a character's square; 0.04 by default [m]
+  double gap;     ///< between the squares, and between them and the edge of the page; 0.2 em by default [m]
+} calligraphy_layout;
+
+/// Lays the characters of a text in UTF-8 out from left to right and top to bottom. Writes how many fit, from the first
+/// on, to `placed`; a null `placed` demands that all do. Null `layout`: the default.
+CALLIGRAPHY_API calligraphy_status calligraphy_page_lay_out(const calligraphy_set* set, const char* text,
+                                                            const calligraphy_layout* layout, int32_t* placed,
+                                                            calligraphy_page** page);
+
+/// A character of a page.
+typedef struct calligraphy_placed_character {
+  uint32_t size;         ///< sizeof(calligraphy_placed_character)
+  uint32_t code;         ///< Unicode code point
+  int32_t stroke_count;  ///< number of strokes
+  int32_t has_ink;       ///< whether its strokes have an outline of their own; otherwise that of a typical brush
+  double origin[2];      ///< lower left corner of its square [m, page]
+  double em;             ///< edge of its square [m]
+} calligraphy_placed_character;
+
+/// The character with this index.
+CALLIGRAPHY_API calligraphy_status calligraphy_page_character(const calligraphy_page* page, int32_t character,
+                                                              calligraphy_placed_character* result);
+
+/// A stroke of a page.
+typedef struct calligraphy_stroke {
+  uint32_t size;          ///< sizeof(calligraphy_stroke)
+  int32_t id;             ///< of its typical stroke, 1 to 39
+  int32_t element_count;  ///< number of its lines and curves
+  double start[2];        ///< where it begins [m, page]
+  double direction[2];    ///< unit vector in which it begins; zero for a point
+  double end[2];          ///< where it ends [m, page]
+  double length;          ///< of its path [m]
+} calligraphy_stroke;
+
+/// The stroke with this index of the character with this index.
+CALLIGRAPHY_API calligraphy_status calligraphy_page_stroke(const calligraphy_page* page, int32_t character,
+                                                           int32_t stroke, calligraphy_stroke* result);
+
+/// What is drawn of a stroke.
+typedef enum calligraphy_shape {
+  CALLIGRAPHY_PATH = 0,    ///< the path of the pen, from start to end
+  CALLIGRAPHY_OUTLINE = 1  ///< the outline of its ink, a closed polygon to be filled by the nonzero rule
+} calligraphy_shape;
+
+/// A stroke as a polyline within `tolerance` of it [m]; 0: a ten thousandth of the character's square. Writes the
+/// number of points to `count` and, unless `points` is null, x and y of each to it [m, page]. With fewer than `count`
+/// of `capacity` points: CALLIGRAPHY_TOO_SMALL, and no point is written.
+CALLIGRAPHY_API calligraphy_status calligraphy_page_polyline(const calligraphy_page* page, int32_t character,
+                                                             int32_t stroke, calligraphy_shape shape, double tolerance,
+                                                             double* points, size_t capacity, size_t* count);
+
+// From device axes to page axes.
+
+/// How the page lies in the axes of the device.
+typedef enum calligraphy_pose {
+  CALLIGRAPHY_UPRIGHT = 0,  ///< in its x-y plane, facing z
+  CALLIGRAPHY_DESK = 1      ///< flat on the desk: page y is -z of the device
+} calligraphy_pose;
+
+/// Rigid transform from device axes to page axes, with a motion scale: offset + scale * rotation * position.
+typedef struct calligraphy_mapping {
+  uint32_t size;       ///< sizeof(calligraphy_mapping)
+  double rotation[9];  ///< row by row
+  double offset[3];    ///< position of the device's origin on the page [m]
+  double scale;        ///< how far the pen moves on the page for each metre of the device [1]
+} calligraphy_mapping;
+
+/// The mapping that puts the centre of the page at the origin of the device.
+CALLIGRAPHY_API calligraphy_status calligraphy_page_mapping(const calligraphy_page* page, calligraphy_pose pose,
+                                                            double scale, calligraphy_mapping* mapping);
+
+// Devices.
+
+/// A device's limits, and its properties as a point mass. It senses and drives all three translations.
+typedef struct calligraphy_capabilities {
+  uint32_t size;              ///< sizeof(calligraphy_capabilities)
+  char name[44];              ///< for messages, in UTF-8, terminated by a zero
+  int32_t simulated;          ///< nobody can be hurt: unstable stiffnesses may be tried
+  int32_t velocity_measured;  ///< its velocities are measured; otherwise estimated from its positions
+  int32_t sample_delay;       ///< age of a sample when it is read [ticks]
+  double workspace[3];        ///< extent along each device axis, centred on zero [m]
+  double peak_force;          ///< maximum force; 0: unknown, no limit [N]
+  double continuous_force;    ///< force that it sustains indefinitely; 0: unknown [N]
+  double usable_stiffness;    ///< maximum stiffness reported by its users; 0: unknown [N/m]
+  double force_step;          ///< forces are rounded to multiples of it; 0: unknown, or they are not [N]
+  double encoder_step;        ///< positions are rounded to multiples of it; 0: unknown, or they are not [m]
+  double velocity_cutoff;     ///< cut-off frequency of the filter of an estimated velocity, above 0 [Hz]
+  double update_rate;         ///< rate of its samples and of the servo loop, above 0 [Hz]
+  double apparent_mass;       ///< at the tip; 0: unknown [kg]
+  double viscous_friction;    ///< damping of the mechanism itself [N s/m]
+  double coulomb_friction;    ///< back-drive friction [N]
+} calligraphy_capabilities;
+
+/// A built-in profile: "omni", "touch", "desktop", "premium-1.5" or "ideal" (docs/devices.md).
+CALLIGRAPHY_API calligraphy_status calligraphy_device_profile(const char* name, calligraphy_capabilities* capabilities);
+
+/// Validity of a sample.
+typedef enum calligraphy_device_status {
+  CALLIGRAPHY_DEVICE_OK = 0,                 ///< a fresh sample
+  CALLIGRAPHY_DEVICE_STALE = 1,              ///< the previous sample again: no new one has arrived
+  CALLIGRAPHY_DEVICE_DISCONNECTED = 2,       ///< the device is gone
+  CALLIGRAPHY_DEVICE_WARM_MOTORS = 3,        ///< the device limits its force to protect its motors
+  CALLIGRAPHY_DEVICE_NEEDS_CALIBRATION = 4,  ///< positions are not yet absolute
+  CALLIGRAPHY_DEVICE_FAULT = 5               ///< the device cannot continue
+} calligraphy_device_status;
+
+/// One sample of a device, in device axes.
+typedef struct calligraphy_device_state {
+  uint32_t size;          ///< sizeof(calligraphy_device_state)
+  int32_t status;         ///< a calligraphy_device_status
+  uint32_t buttons;       ///< one bit per button
+  int32_t has_velocity;   ///< whether `velocity` is known
+  int32_t has_force;      ///< whether `force` is known
+  double time;            ///< since the device was opened [s]
+  double position[3];     ///< of the haptic interface point [m]
+  double velocity[3];     ///< of the haptic interface point [m/s]
+  double force[3];        ///< at work when the sample is read; what an energy budget accounts for [N]
+  double force_settling;  ///< how long after the sample before another force may have been at work [s]
+} calligraphy_device_state;
+
+/// A simulated device and the hand that holds it.
+typedef struct calligraphy_device calligraphy_device;
+
+/// The hand about its intended position, equal along all axes. All zero: nobody holds the device.
+typedef struct calligraphy_grip {
+  uint32_t size;     ///< sizeof(calligraphy_grip)
+  double mass;       ///< that moves with the device, usually 0.1 [kg]
+  double damping;    ///< against motion relative to the intended one, usually 3 [N s/m]
+  double stiffness;  ///< of the spring towards the intended position, usually 300 [N/m]
+} calligraphy_grip;
+
+/// A simulated device at rest at `position` (device axes, 3 values) [m]. Null `grip`: the usual one.
+CALLIGRAPHY_API calligraphy_status calligraphy_simulated_device(const calligraphy_capabilities* capabilities,
+                                                                const calligraphy_grip* grip, const double* position,
+                                                                calligraphy_device** device);
+
+/// How the hand of a pointer device follows the pointer. What is zero or less takes the default.
+typedef struct calligraphy_pointer_options {
+  uint32_t size;          ///< sizeof(calligraphy_pointer_options)
+  double rate;            ///< rate at which it is read; the device's by default [Hz]
+  double smoothing_time;  ///< lag of the intended position behind the pointer; 0.03 by default [s]
+  double max_speed;       ///< of the intended position along the paper; 0.5 by default [m/s]
+  double lifting_speed;   ///< of the intended position towards and away from the paper; 0.12 by default [m/s]
+  double hover_height;    ///< above the paper while the pointer is not pressed; 0.008 by default [m]
+  double press_depth;     ///< below the paper at full pressure; 0.005 by default [m]
+} calligraphy_pointer_options;
+
+/// A simulated device in a hand that follows a mouse, tablet or finger on a page with this mapping: it needs no
+/// advance, since every read is one period later. Null `grip`, `options`: the usual ones.
+CALLIGRAPHY_API calligraphy_status calligraphy_pointer_device(const calligraphy_capabilities* capabilities,
+                                                              const calligraphy_grip* grip,
+                                                              const calligraphy_pointer_options* options,
+                                                              const calligraphy_mapping* mapping,
+                                                              calligraphy_device** device);
+
+/// The pointer is at x, y [m, page] with a pressure from 0 (not pressed) to 1; use 0.5 for a mouse button. Wait-free;
+/// callable from another thread than the one that reads the device. Only for a pointer device.
+CALLIGRAPHY_API calligraphy_status calligraphy_device_point(calligraphy_device* device, double x, double y,
+                                                            double pressure, uint32_t buttons);
+
+/// The hand means the pen to be at `position` and to move on at `velocity` (3 values each, device axes) [m, m/s]. Null
+/// `velocity`: zero. Only for a simulated device.
+CALLIGRAPHY_API calligraphy_status calligraphy_device_intend(calligraphy_device* device, const double* position,
+                                                             const double* velocity);
+
+/// Advances virtual time by `seconds`, with the force held, and takes a sample. Only for a simulated device.
+CALLIGRAPHY_API calligraphy_status calligraphy_device_advance(calligraphy_device* device, double seconds);
+
+/// The newest sample.
+CALLIGRAPHY_API calligraphy_status calligraphy_device_read(calligraphy_device* device, calligraphy_device_state* state);
+
+/// Commands a force (3 values, device axes), held until the next one [N]. One that is not finite is an error and counts
+/// as zero.
+CALLIGRAPHY_API calligraphy_status calligraphy_device_write(calligraphy_device* device, const double* force);
+
+// The renderer.
+
+/// Which rules hold where the paper's printed ones were revised (docs/wang2006.md).
+typedef enum calligraphy_rules {
+  CALLIGRAPHY_RULES_REVISED = 0,        ///< all revised
+  CALLIGRAPHY_RULES_WANG2006 = 1,       ///< all as printed, but for the signs of eq. (8) and (9)
+  CALLIGRAPHY_RULES_WANG2006_SIGNS = 2  ///< and these
+} calligraphy_rules;
+
+/// What to do with a stiffness above what is usable or stable on the device.
+typedef enum calligraphy_stiffness_check {
+  CALLIGRAPHY_STIFFNESS_REJECT = 0,  ///< calligraphy_renderer_create() fails
+  CALLIGRAPHY_STIFFNESS_CLIP = 1,    ///< use the maximum permitted one; calligraphy_renderer_clipped() says why
+  CALLIGRAPHY_STIFFNESS_OFF = 2      ///< accept it, on simulated devices only
+} calligraphy_stiffness_check;
+
+/// How the nearest point of a stroke is found (docs/nearest-point.md).
+typedef enum calligraphy_nearest_method {
+  CALLIGRAPHY_NEAREST_EXACT = 0,    ///< the global nearest point, certified
+  CALLIGRAPHY_NEAREST_TRACKED = 1,  ///< the same, found from the last one
+  CALLIGRAPHY_NEAREST_SAMPLED = 2,  ///< fast, but wrong where another branch is nearly as near
+  CALLIGRAPHY_NEAREST_WANG2006 = 3  ///< as printed
+} calligraphy_nearest_method;
+
+/// How guidance depends on the distance from the stroke.
+typedef enum calligraphy_guidance_law {
+  CALLIGRAPHY_GUIDANCE_LINEAR = 0,     ///< a spring within the constraint space, nothing outside
+  CALLIGRAPHY_GUIDANCE_SATURATING = 1  ///< a spring that levels off towards guidance_limit, at any distance
+} calligraphy_guidance_law;
+
+/// How exactly a stroke must be written to count as the one that is due.
+typedef enum calligraphy_tolerance {
+  CALLIGRAPHY_TOLERANCE_NORMAL = 0,   ///< the default
+  CALLIGRAPHY_TOLERANCE_LENIENT = 1,  ///< for beginners
+  CALLIGRAPHY_TOLERANCE_STRICT = 2    ///< for examinations
+} calligraphy_tolerance;
+
+/// Options of a renderer: those of RendererOptions in C++, group by group. Begin with
+/// calligraphy_renderer_options_for(); all zero is no useful set of options.
+typedef struct calligraphy_renderer_options {
+  uint32_t size;             ///< sizeof(calligraphy_renderer_options)
+  int32_t rules;             ///< a calligraphy_rules
+  int32_t stiffness_check;   ///< a calligraphy_stiffness_check
+  int32_t nearest_method;    ///< a calligraphy_nearest_method
+  double nearest_tolerance;  ///< exact, tracked: error of the point; wang2006: epsilon, both in shares of the element
+  int32_t nearest_samples;   ///< sampled: points
+  int32_t nearest_refinements;  ///< sampled: steps of refinement
+  double servo_rate;            ///< ticks per second; 0: the device's own rate [Hz]
+  double velocity_cutoff;       ///< of the low-pass on the pen's velocity [Hz]
+  double grip_stiffness;        ///< of a usual grip [N/m, device]
+
+  double paper_stiffness;             ///< of the paper's surface, K_en of eq. (9) [N/m]
+  double paper_damping;               ///< of the paper's surface [N s/m]
+  double paper_onset;                 ///< depth over which both rise from zero [m]
+  double paper_friction_coefficient;  ///< tangential over normal force; 0: no friction [1]
+  double paper_friction_stiffness;    ///< of the spring between pen and paper [N/m]
+  double paper_friction_damping;      ///< of that spring [N s/m]
+  int32_t paper_solid;                ///< the paper presses back everywhere, not only at the character being written
+
+  int32_t guidance_law;                 ///< a calligraphy_guidance_law
+  int32_t guidance_to_start;            ///< pull the pen to the start of the stroke that is due
+  int32_t assist_enabled;               ///< let guidance fade as the writer improves
+  double guidance_stiffness;            ///< of the spring to the stroke, K_et of eq. (8) [N/m]
+  double guidance_damping;              ///< against motion across the stroke [N s/m]
+  double guidance_limit;                ///< maximum force of the spring with the saturating law [N]
+  double guidance_radius;               ///< distance from the stroke beyond which it does not attract [em]
+  double guidance_fade_width;           ///< width of the edge in which the force fades out [em]
+  double guidance_fade_in;              ///< time in which it sets in [s]
+  double guidance_fade_out;             ///< time in which it lets go [s]
+  double guidance_wrong_way_stiffness;  ///< of the spring against writing backwards; 0: none [N/m]
+  double guidance_wrong_way_limit;      ///< maximum force of that spring [N]
+  double guidance_wrong_way_slack;      ///< by which the pen may be behind its furthest point [em]
+  double assist_retention;              ///< share of the previous assistance that is retained [1]
+  double assist_full_error;             ///< error of a stroke that keeps the assistance at 1 [em]
+  double assist_min;                    ///< lower bound of the assistance [1]
+
+  double contact_lift_time;              ///< a pen above the paper counts as lifted after this time [s]
+  double contact_lift_clearance;         ///< a pen this far above the paper counts as lifted at once [m]
+  double contact_box_margin;             ///< by how much a character's box is larger than its square [em]
+  int32_t contact_lift_between_strokes;  ///< a stroke begins only with a new contact
+
+  double tolerance_start_distance;  ///< a stroke begins within this distance of its start [em]
+  double tolerance_direction;       ///< of its first stretch [rad]
+  double tolerance_first_stretch;   ///< length of that stretch [em]
+  double tolerance_distinction;     ///< by which a later stroke must fit better [1]
+  double tolerance_corridor;        ///< half the width of what counts as covered [em]
+  double tolerance_coverage;        ///< share of the length that must be written in order [1]
+  double tolerance_slack;           ///< length that may be missing besides [em]
+
+  double limit_in_plane_rate;          ///< of the force in the paper plane; may be infinite [N/s]
+  double limit_normal_rate;            ///< of the force along the normal; may be infinite [N/s]
+  double limit_thermal_time_constant;  ///< of the motors; 0: not considered [s]
+  double limit_max_speed;              ///< a sample that implies a faster pen is a fault [m/s, device]
+
+  double energy_budget;   ///< maximum net energy given since the start; infinite: no limit [J]
+  double energy_max_gap;  ///< longest time without a sample that it must hold over [s]
+} calligraphy_renderer_options;
+
+/// Which options to begin with.
+typedef enum calligraphy_preset {
+  CALLIGRAPHY_PRESET_DEVICE = 0,      ///< the defaults, fitted to the device: stable in any hand on it
+  CALLIGRAPHY_PRESET_EVERYTHING = 1,  ///< and the optional stages that serve every writer
+  CALLIGRAPHY_PRESET_WANG2006 = 2     ///< as printed; on simulated devices only
+} calligraphy_preset;
+
+/// The options of a preset for a device, with a motion scale (1: none) and tolerances.
+CALLIGRAPHY_API calligraphy_status calligraphy_renderer_options_for(const calligraphy_capabilities* capabilities,
+                                                                    calligraphy_preset preset, double scale,
+                                                                    calligraphy_tolerance tolerance,
+                                                                    calligraphy_renderer_options* options);
+
+/// Guides a pen through the characters of a page, stroke by stroke.
+typedef struct calligraphy_renderer calligraphy_renderer;
+
+/// A renderer for a page, with nothing written. Null `mapping`: upright, scale 1. Null `options`: those of
+/// CALLIGRAPHY_PRESET_DEVICE for the mapping's scale.
+CALLIGRAPHY_API calligraphy_status calligraphy_renderer_create(const calligraphy_page* page,
+                                                               const calligraphy_mapping* mapping,
+                                                               const calligraphy_capabilities* capabilities,
+                                                               const calligraphy_renderer_options* options,
+                                                               calligraphy_renderer** renderer);
+
+/// The options in effect: stiffnesses that were clipped may be lower than requested.
+CALLIGRAPHY_API calligraphy_status calligraphy_renderer_effective_options(const calligraphy_renderer* renderer,
+                                                                          calligraphy_renderer_options* options);
+
+/// What was clipped, one line per value, with the reason; valid as long as the renderer.
+CALLIGRAPHY_API calligraphy_status calligraphy_renderer_clipped(const calligraphy_renderer* renderer,
+                                                                const char** lines);
+
+/// Where the pen is, and whether it writes (Wang 2006, Table 1).
+typedef enum calligraphy_state {
+  CALLIGRAPHY_SEPARATION = 0,   ///< the pen does not touch the paper
+  CALLIGRAPHY_ADJUSTING = 1,    ///< it touches the paper outside the box of the active character
+  CALLIGRAPHY_CALIBRATION = 2,  ///< it touches the paper inside the box, but does not write the active stroke
+  CALLIGRAPHY_WRITING = 3       ///< it writes the active stroke
+} calligraphy_state;
+
+/// What happened in a tick; bit flags.
+typedef enum calligraphy_event {
+  CALLIGRAPHY_CONTACT = 1,              ///< the pen touched the paper
+  CALLIGRAPHY_LIFT = 2,                 ///< the pen left the paper
+  CALLIGRAPHY_STROKE_STARTED = 4,       ///< the first stretch of the active stroke was written
+  CALLIGRAPHY_FEATURE_PASSED = 8,       ///< a feature point of the active stroke was passed
+  CALLIGRAPHY_STROKE_FINISHED = 16,     ///< the active stroke was written to its end
+  CALLIGRAPHY_STROKE_ABANDONED = 32,    ///< left before its end; its trace is to be cleared
+  CALLIGRAPHY_CHARACTER_FINISHED = 64,  ///< its last stroke was finished
+  CALLIGRAPHY_PAGE_FINISHED = 128       ///< its last character was finished
+} calligraphy_event;
+
+/// Whether the sample of a tick was usable.
+typedef enum calligraphy_tick_status {
+  CALLIGRAPHY_TICK_OK = 0,           ///< a fresh sample
+  CALLIGRAPHY_TICK_STALE = 1,        ///< the sample before again: the force is held, then ramps down to zero
+  CALLIGRAPHY_TICK_BAD_SAMPLE = 2,   ///< not finite, or too far away: the force ramps down to zero
+  CALLIGRAPHY_TICK_DEVICE_FAULT = 3  ///< reported by the device: the force ramps down to zero
+} calligraphy_tick_status;
+
+/// Why a pen on the paper is not guided.
+typedef enum calligraphy_hint {
+  CALLIGRAPHY_HINT_NONE = 0,             ///< it is guided, not on the paper, or all is written
+  CALLIGRAPHY_HINT_WRITE = 1,            ///< at the start of the stroke that is due: write on
+  CALLIGRAPHY_HINT_TOO_FAR = 2,          ///< too far from the start
+  CALLIGRAPHY_HINT_AT_END = 3,           ///< at the stroke's end
+  CALLIGRAPHY_HINT_IN_MIDDLE = 4,        ///< in the middle of the stroke
+  CALLIGRAPHY_HINT_WRONG_DIRECTION = 5,  ///< at the start, but moving another way
+  CALLIGRAPHY_HINT_ANOTHER_STROKE = 6,   ///< at the start of another stroke
+  CALLIGRAPHY_HINT_OFF_STROKE = 7,       ///< writing, but too far from the stroke or pulled aside
+  CALLIGRAPHY_HINT_LIFT_FIRST = 8        ///< lift the pen first: the stroke before has just been finished
+} calligraphy_hint;
+
+/// Result of one tick.
+typedef struct calligraphy_tick {
+  uint32_t size;             ///< sizeof(calligraphy_tick)
+  int32_t status;            ///< a calligraphy_tick_status
+  int32_t state;             ///< a calligraphy_state
+  uint32_t events;           ///< of calligraphy_event
+  int32_t hint;              ///< a calligraphy_hint
+  int32_t character;         ///< index of the active character; the number of characters once all are written
+  int32_t stroke;            ///< index of its active stroke; the number of strokes until the lift after the last one
+  int32_t element;           ///< of the stroke, at the nearest point
+  double time;               ///< of the sample [s]
+  double force[3];           ///< the force as sent, to be written to the device [N, device]
+  double page_force[3];      ///< the same on the pen [N, page]
+  double device_point[3];    ///< haptic interface point [m, page]
+  double pen_tip[3];         ///< virtual pen tip, on the paper while the pen touches it [m, page]
+  double penetration;        ///< of the haptic interface point into the paper [m]
+  double next_start[2];      ///< start of the active stroke; zero once all are written [m, page]
+  double next_direction[2];  ///< unit vector in which it begins; zero for a point, or once all are written
+  double to_start[2];        ///< from the pen tip to the start of the active, or last, stroke [m, page]
+  double covered;            ///< share of the stroke written last that was covered in order [1]
+  double closest[2];         ///< nearest point of the stroke; while writing, when leaving, and for hints [m, page]
+  double tangent[2];         ///< unit vector of the stroke there, in writing direction
+  double distance;           ///< from the pen tip to it [m]
+  double arc;                ///< arc length from the start of the stroke to it [m]
+  double backwards;          ///< how far it lies behind the furthest point reached [m]
+  double attraction[2];      ///< force term of guidance, before fade-in and limits [N, page]
+  double wrong_way[2];       ///< force term against writing backwards, likewise [N, page]
+  double friction[2];        ///< force term of friction, before limits [N, page]
+  double viscous[3];         ///< damping of guidance, friction and paper, before limits [N, page]
+  double normal;             ///< force term of the paper, before limits [N, out of the paper]
+  double assistance;         ///< factor on the guidance [1]
+  double energy_given;       ///< net energy delivered to the hand; 0 without a budget [J]
+  double heat;               ///< of the motors; 1: in equilibrium at the continuous force [1]
+} calligraphy_tick;
+
+/// Processes one sample, and writes the result with the force for the device to `tick`. Neither allocates, locks nor
+/// logs. A sample that is not finite is no error: the tick's status says so, and the force ramps down.
+CALLIGRAPHY_API calligraphy_status calligraphy_renderer_update(calligraphy_renderer* renderer,
+                                                               const calligraphy_device_state* state,
+                                                               calligraphy_tick* tick);
+
+/// Starts the page again, with nothing written and zero force.
+CALLIGRAPHY_API calligraphy_status calligraphy_renderer_restart(calligraphy_renderer* renderer);
+
+/// The words for a tick's hint, "too far from the start: 12 mm to the upper left", in UTF-8 and terminated by a zero.
+/// Empty without a hint. CALLIGRAPHY_TOO_SMALL if the text does not fit into `capacity` bytes; 128 are enough.
+CALLIGRAPHY_API calligraphy_status calligraphy_hint_text(const calligraphy_tick* tick, char* text, size_t capacity);
+
+// The servo loop, in virtual time.
+
+/// Runs a renderer on a device with the limits, ramps and faults of the real-time loop, one step for each call.
+typedef struct calligraphy_servo calligraphy_servo;
+
+/// What the force output does.
+typedef enum calligraphy_servo_phase {
+  CALLIGRAPHY_SERVO_ZERO = 0,     ///< no force: before the first step, or while a fault persists
+  CALLIGRAPHY_SERVO_RISING = 1,   ///< the force ramps up
+  CALLIGRAPHY_SERVO_RUNNING = 2,  ///< the renderer's force is output
+  CALLIGRAPHY_SERVO_FALLING = 3   ///< the last force ramps down
+} calligraphy_servo_phase;
+
+/// State of a servo loop.
+typedef struct calligraphy_servo_state {
+  uint32_t size;    ///< sizeof(calligraphy_servo_state)
+  int32_t phase;    ///< a calligraphy_servo_phase
+  int32_t device;   ///< status of the last sample, a calligraphy_device_status
+  double gain;      ///< on the renderer's force, or on the held one while it ramps down [1]
+  uint64_t ticks;   ///< steps so far
+  uint64_t missed;  ///< steps that were due between two that came
+  char fault[24];   ///< cause of a ramp-down, until the force has ramped up again: "unplugged"; or empty
+} calligraphy_servo_state;
+
+/// A servo loop of a device and a renderer, at the renderer's rate. Both may be freed before it. While it is used, give
+/// samples to the renderer by it alone.
+CALLIGRAPHY_API calligraphy_status calligraphy_servo_create(calligraphy_device* device, calligraphy_renderer* renderer,
+                                                            calligraphy_servo** servo);
+
+/// One step at the time `now` of a clock that does not run backwards [s]: reads the device, updates the renderer and
+/// writes the force. Neither allocates, locks nor logs. The renderer's result is written to `tick`, unless it is null.
+/// Advance a simulated device after each step by the same time.
+CALLIGRAPHY_API calligraphy_status calligraphy_servo_step(calligraphy_servo* servo, double now, calligraphy_tick* tick);
+
+/// From the next step on, ramps the force down to zero and keeps it there.
+CALLIGRAPHY_API calligraphy_status calligraphy_servo_release(calligraphy_servo* servo);
+
+/// State after the last step.
+CALLIGRAPHY_API calligraphy_status calligraphy_servo_read_state(const calligraphy_servo* servo,
+                                                                calligraphy_servo_state* state);
+
+// What was written.
+
+/// Which stroke each pen-down wrote, with remarks.
+typedef struct calligraphy_match calligraphy_match;
+
+/// Matches pen-downs with the strokes of a character of a page (docs/practice.md). `points`: x and y of each point of
+/// one pen-down after the other [m, page]; `path_sizes`: the number of points of each of the `path_count` pen-downs. An
+/// error of position or size is not a mistake.
+CALLIGRAPHY_API calligraphy_status calligraphy_match_strokes(const calligraphy_page* page, int32_t character,
+                                                             const double* points, const uint32_t* path_sizes,
+                                                             size_t path_count, calligraphy_tolerance tolerance,
+                                                             calligraphy_match** match);
+
+/// Direction of a pen-down along what it wrote.
+typedef enum calligraphy_direction {
+  CALLIGRAPHY_FORWARDS = 0,          ///< as the stroke is to be written
+  CALLIGRAPHY_BACKWARDS = 1,         ///< from its end to its start
+  CALLIGRAPHY_NEITHER = 2,           ///< it was drawn as another shape
+  CALLIGRAPHY_UNKNOWN_DIRECTION = 3  ///< a tap has no direction
+} calligraphy_direction;
+
+/// One pen-down.
+typedef struct calligraphy_drawn_stroke {
+  uint32_t size;         ///< sizeof(calligraphy_drawn_stroke)
+  int32_t stroke;        ///< the stroke it wrote, or the first of several; -1: none
+  int32_t stroke_count;  ///< strokes that it wrote; above 1: joined
+  int32_t continues;     ///< it continues the stroke that the pen-down before began
+  int32_t in_turn;       ///< written in order, as far as the order can be determined
+  int32_t tap;           ///< too short for a stroke with a direction
+  int32_t direction;     ///< a calligraphy_direction
+  double distance;       ///< mean distance from what it wrote, once both are aligned [em]
+} calligraphy_drawn_stroke;
+
+/// The pen-down with this index.
+CALLIGRAPHY_API calligraphy_status calligraphy_match_drawn(const calligraphy_match* match, int32_t path,
+                                                           calligraphy_drawn_stroke* drawn);
+
+/// What there is to remark.
+typedef enum calligraphy_remark_kind {
+  CALLIGRAPHY_REMARK_ORDER = 0,      ///< a stroke out of order
+  CALLIGRAPHY_REMARK_DIRECTION = 1,  ///< a stroke written backwards
+  CALLIGRAPHY_REMARK_SHAPE = 2,      ///< a stroke drawn as another shape
+  CALLIGRAPHY_REMARK_JOINED = 3,     ///< strokes written without lifting the pen: no mistake of order
+  CALLIGRAPHY_REMARK_BROKEN = 4,     ///< a stroke written in two pen-downs
+  CALLIGRAPHY_REMARK_MISSING = 5,    ///< a stroke that was not written
+  CALLIGRAPHY_REMARK_EXTRA = 6       ///< a pen-down that matches no stroke of the character
+} calligraphy_remark_kind;
+
+/// A remark on a stroke or a pen-down.
+typedef struct calligraphy_remark {
+  uint32_t size;   ///< sizeof(calligraphy_remark)
+  int32_t kind;    ///< a calligraphy_remark_kind
+  int32_t path;    ///< the pen-down; -1: none
+  int32_t stroke;  ///< the stroke of the character; -1: none
+} calligraphy_remark;
+
+/// Number of remarks.
+CALLIGRAPHY_API calligraphy_status calligraphy_match_remark_count(const calligraphy_match* match, int32_t* count);
+
+/// The remark with this index, and one sentence for people, in UTF-8 and valid as long as the match. Null `reason`:
+/// none.
+CALLIGRAPHY_API calligraphy_status calligraphy_match_remark(const calligraphy_match* match, int32_t index,
+                                                            calligraphy_remark* remark, const char** reason);
+
+#ifdef __cplusplus
+}
+#endif

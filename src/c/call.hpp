@@ -1,0 +1,101 @@
+// How every function of the C interface reports what went wrong.
+#pragma once
+
+#include <cstdarg>
+#include <cstdint>
+#include <string>
+
+#include <calligraphy/c/calligraphy.h>
+#include <calligraphy/base/error.hpp>
+
+#include "handles.hpp"
+
+namespace calligraphy::c {
+
+/// What a function refuses during set-up: its status, and the text of the error.
+class Refusal : public Error {
+ public:
+  Refusal(calligraphy_status status, const std::string& text) : Error(text), status_(status) {}
+  calligraphy_status status() const noexcept { return status_; }
+
+ private:
+  calligraphy_status status_;
+};
+
+/// Sets the text of the last error, printf style, and returns the status. Does not allocate.
+#if defined(__GNUC__)
+__attribute__((format(printf, 2, 3)))
+#endif
+calligraphy_status
+refuse(calligraphy_status status, const char* format, ...) noexcept;
+
+/// The status of the exception that is being handled, and its text as the last error.
+calligraphy_status refuse_exception() noexcept;
+
+/// Calls a function that may throw.
+template <class Function>
+calligraphy_status guarded(Function&& function) noexcept {
+  try {
+    function();
+    return CALLIGRAPHY_OK;
+  } catch (...) {
+    return refuse_exception();
+  }
+}
+
+/// The text for a handle that is none of this kind.
+inline constexpr const char* no_handle = "%s = %p: no handle of a %s, or it was freed";
+
+/// Refuses a handle that is none of this kind. Does not allocate.
+inline calligraphy_status refuse_handle(Kind kind, const void* handle) noexcept {
+  if (!handle) return refuse(CALLIGRAPHY_INVALID_HANDLE, "%s is null", to_string(kind));
+  return refuse(CALLIGRAPHY_INVALID_HANDLE, no_handle, to_string(kind), handle, to_string(kind));
+}
+
+/// @throws Refusal
+[[noreturn]] void throw_no_handle(Kind kind, const void* handle);
+/// @throws Refusal
+[[noreturn]] void throw_null(const char* name);
+
+/// The object of a handle. @throws Refusal if there is none
+template <class Object>
+Object& object(const void* handle) {
+  if (Object* const found = find<Object>(handle)) return *found;
+  throw_no_handle(KindOf<Object>::value, handle);
+}
+
+/// The object of a handle, to be kept. @throws Refusal if there is none
+template <class Object>
+std::shared_ptr<Object> shared_object(const void* handle) {
+  const std::shared_ptr<void>* const found = find_handle(KindOf<Object>::value, handle);
+  if (!found) throw_no_handle(KindOf<Object>::value, handle);
+  return std::static_pointer_cast<Object>(*found);
+}
+
+/// What a pointer points to. @throws Refusal if it is null
+template <class Value>
+Value& target(Value* pointer, const char* name) {
+  if (!pointer) throw_null(name);
+  return *pointer;
+}
+
+/// Sets a handle of the C interface to a new object.
+template <class Handle, class Object>
+void hand_out(Handle** handle, std::shared_ptr<Object> object) {
+  *handle = static_cast<Handle*>(add_handle(KindOf<Object>::value, std::move(object)));
+}
+
+/// An index in [0, count). @throws Refusal naming it
+void require_index(const char* name, std::int32_t index, std::size_t count);
+
+/// @throws Refusal naming the value
+[[noreturn]] void throw_no_value(const char* name, std::int32_t value, int last);
+
+/// The value of an enumeration, 0 to `last`. @throws Refusal naming it
+template <class Enumeration>
+Enumeration enumeration(const char* name, std::int32_t value, Enumeration last) {
+  if (value < 0 || value > static_cast<int>(last)) throw_no_value(name, value, static_cast<int>(last));
+  return static_cast<Enumeration>(value);
+}
+
+}  // namespace calligraphy::c

@@ -1,0 +1,58 @@
+// Between the structs of the C interface and those of C++.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include <calligraphy/c/calligraphy.h>
+#include <calligraphy/devices/capabilities.hpp>
+#include <calligraphy/devices/device_state.hpp>
+#include <calligraphy/render/motion_mapping.hpp>
+#include <calligraphy/render/renderer_options.hpp>
+
+#include "base/require.hpp"
+#include "call.hpp"
+
+namespace calligraphy::c {
+
+/// Copies a vector to an array of its size.
+template <class Vector, std::size_t size>
+void to_array(const Vector& from, double (&to)[size]) noexcept {
+  static_assert(Vector::RowsAtCompileTime == size);
+  for (std::size_t i = 0; i < size; ++i) to[i] = from[static_cast<Eigen::Index>(i)];
+}
+
+/// Where a struct may leave a number at zero for the default. @throws ValueError if it is not a number
+inline void set_if_given(double& option, double given, const char* name) {
+  if (std::isnan(given)) throw ValueError(std::string(name) + " is not a number");
+  if (given > 0.0) option = given;
+}
+
+/// Three numbers. @throws ValueError naming them if one is not finite, Refusal if they are null
+inline Eigen::Vector3d vector_of(const double* from, const char* name, const char* unit) {
+  target(from, name);
+  const Eigen::Vector3d result(from[0], from[1], from[2]);
+  for (const double value : result) require(std::isfinite(value), name, value, unit, "finite");
+  return result;
+}
+
+/// @throws Refusal if a pointer is null or the struct's size is wrong
+MotionMapping mapping_of(const calligraphy_mapping* from);
+calligraphy_mapping to_c(const MotionMapping& from) noexcept;
+
+/// Likewise.
+Capabilities capabilities_of(const calligraphy_capabilities* from);
+calligraphy_capabilities to_c(const Capabilities& from) noexcept;
+
+/// Likewise; also if a value of an enumeration is none.
+RendererOptions options_of(const calligraphy_renderer_options* from);
+calligraphy_renderer_options to_c(const RendererOptions& from) noexcept;
+
+/// @throws Refusal if the value is none
+StrokeTolerances tolerances_of(calligraphy_tolerance tolerance);
+
+/// A sample. What is not known is NaN. A status that is none counts as a fault.
+DeviceState state_of(const calligraphy_device_state& from) noexcept;
+calligraphy_device_state to_c(const DeviceState& from) noexcept;
+
+}  // namespace calligraphy::c

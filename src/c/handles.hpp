@@ -1,0 +1,35 @@
+// The objects behind the handles of the C interface. A handle is a number in the shape of a pointer, never followed: so
+// one that was freed, or never was one, is refused.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+namespace calligraphy::c {
+
+/// What a handle is of; in its lowest bits, none of which is zero for all of them.
+enum class Kind : std::uintptr_t { set = 1, page, device, renderer, servo, match };
+
+/// "set", "page" ...
+const char* to_string(Kind kind) noexcept;
+
+/// The kind of a type; specialised where the type is defined.
+template <class Object>
+struct KindOf;
+
+/// Keeps an object until it is removed. Thread-safe. @throws std::bad_alloc if there are too many
+void* add_handle(Kind kind, std::shared_ptr<void> object);
+/// Gives the object back, or null if there is none with this handle. Thread-safe.
+std::shared_ptr<void> remove_handle(const void* handle) noexcept;
+/// The object of a handle, or null if there is none of this kind. Wait-free; the caller sees to it that the handle is
+/// not removed meanwhile.
+const std::shared_ptr<void>* find_handle(Kind kind, const void* handle) noexcept;
+
+/// The object of a handle, or null.
+template <class Object>
+Object* find(const void* handle) noexcept {
+  const std::shared_ptr<void>* found = find_handle(KindOf<Object>::value, handle);
+  return found ? static_cast<Object*>(found->get()) : nullptr;
+}
+
+}  // namespace calligraphy::c

@@ -1,0 +1,80 @@
+#include <span>
+
+#include "conversions.hpp"
+#include "objects.hpp"
+#include "structs.hpp"
+
+namespace calligraphy::c {
+namespace {
+
+/// The pen-downs in the square of the character [em].
+std::vector<PenPath> paths_in_square(const double* points, std::span<const std::uint32_t> sizes,
+                                     const Placement& placement) {
+  std::vector<PenPath> paths;
+  for (const std::uint32_t size : sizes) {
+    PenPath& path = paths.emplace_back();
+    for (std::uint32_t i = 0; i < size; ++i, points += 2) {
+      path.push_back((Point(points[0], points[1]) - placement.origin) / placement.em);
+    }
+  }
+  return paths;
+}
+
+template <class Item>
+const Item& item(const char* name, const std::vector<Item>& items, std::int32_t index) {
+  require_index(name, index, items.size());
+  return items[static_cast<std::size_t>(index)];
+}
+
+}  // namespace
+}  // namespace calligraphy::c
+
+using namespace calligraphy;
+using namespace calligraphy::c;
+
+calligraphy_status calligraphy_match_strokes(const calligraphy_page* page, int32_t character, const double* points,
+                                             const uint32_t* path_sizes, size_t path_count,
+                                             calligraphy_tolerance tolerance, calligraphy_match** match) {
+  return guarded([&] {
+    const PlacedCharacter& placed = item("character", object<PracticePage>(page).characters, character);
+    target(match, "match");
+    std::vector<PenPath> paths;
+    if (path_count > 0) {
+      target(points, "points");
+      paths = paths_in_square(points, {&target(path_sizes, "path_sizes"), path_count}, placed.placement);
+    }
+    hand_out(match, std::make_shared<MatchResult>(match_strokes(placed.character, paths, tolerances_of(tolerance))));
+  });
+}
+
+calligraphy_status calligraphy_match_drawn(const calligraphy_match* match, int32_t path,
+                                           calligraphy_drawn_stroke* drawn) {
+  return guarded([&] {
+    const DrawnStroke& found = item("path", object<MatchResult>(match).drawn, path);
+    write_struct(drawn, "calligraphy_drawn_stroke",
+                 {.size = 0,
+                  .stroke = found.stroke,
+                  .stroke_count = found.stroke_count,
+                  .continues = found.continues,
+                  .in_turn = found.in_turn,
+                  .tap = found.tap,
+                  .direction = static_cast<std::int32_t>(found.direction),
+                  .distance = found.distance});
+  });
+}
+
+calligraphy_status calligraphy_match_remark_count(const calligraphy_match* match, int32_t* count) {
+  return guarded(
+      [&] { target(count, "count") = static_cast<std::int32_t>(object<MatchResult>(match).remarks.size()); });
+}
+
+calligraphy_status calligraphy_match_remark(const calligraphy_match* match, int32_t index, calligraphy_remark* remark,
+                                            const char** reason) {
+  return guarded([&] {
+    const StrokeRemark& found = item("index", object<MatchResult>(match).remarks, index);
+    write_struct(
+        remark, "calligraphy_remark",
+        {.size = 0, .kind = static_cast<std::int32_t>(found.kind), .path = found.path, .stroke = found.stroke});
+    if (reason) *reason = found.reason.c_str();
+  });
+}

@@ -1,0 +1,87 @@
+// What the handles of the C interface stand for.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <calligraphy/devices/haptic_device.hpp>
+#include <calligraphy/devices/pointer_device.hpp>
+#include <calligraphy/devices/servo.hpp>
+#include <calligraphy/devices/simulated_device.hpp>
+#include <calligraphy/model/character_list.hpp>
+#include <calligraphy/model/character_set.hpp>
+#include <calligraphy/practice/page.hpp>
+#include <calligraphy/practice/stroke_matching.hpp>
+#include <calligraphy/render/haptic_renderer.hpp>
+
+#include "handles.hpp"
+
+namespace calligraphy::c {
+
+/// One of the two simulated devices.
+struct DeviceObject {
+  std::unique_ptr<HapticDevice> device;
+  SimulatedDevice* simulated = nullptr;  ///< that device, or null
+  PointerDevice* pointer = nullptr;      ///< that device, or null
+  double scale = 1.0;                    ///< of the mapping of a pointer device
+};
+
+/// Where a stroke begins, and in which direction [page].
+struct Beginning {
+  Point start = Point::Zero();
+  Point direction = Point::Zero();
+};
+
+/// A renderer, and what its ticks say beyond HapticTick.
+struct RendererObject {
+  HapticRenderer renderer;
+  std::string clipped;                         ///< one line per value
+  std::vector<std::vector<Beginning>> starts;  ///< by character and stroke
+
+  const Beginning& next(const HapticTick& tick) const noexcept;
+};
+
+/// A servo, and what it uses. @throws ValueError as Servo
+struct ServoObject {
+  ServoObject(std::shared_ptr<DeviceObject> of, std::shared_ptr<RendererObject> law, const ServoOptions& options)
+      : device(std::move(of)), renderer(std::move(law)), servo(*device->device, renderer->renderer, options) {}
+
+  std::shared_ptr<DeviceObject> device;
+  std::shared_ptr<RendererObject> renderer;
+  Servo servo;
+};
+
+template <>
+struct KindOf<CharacterSet> {
+  static constexpr Kind value = Kind::set;
+};
+template <>
+struct KindOf<PracticePage> {
+  static constexpr Kind value = Kind::page;
+};
+template <>
+struct KindOf<DeviceObject> {
+  static constexpr Kind value = Kind::device;
+};
+template <>
+struct KindOf<RendererObject> {
+  static constexpr Kind value = Kind::renderer;
+};
+template <>
+struct KindOf<ServoObject> {
+  static constexpr Kind value = Kind::servo;
+};
+template <>
+struct KindOf<MatchResult> {
+  static constexpr Kind value = Kind::match;
+};
+
+/// A character of a set in its standard order. @throws Refusal if the set does not have it, FormatError if it is
+/// damaged
+Character find_character(const CharacterSet& set, char32_t code);
+
+/// Where a stroke begins. The direction of a point is zero.
+Beginning start_of(const Stroke& stroke, const Placement& placement);
+
+}  // namespace calligraphy::c

@@ -1,0 +1,113 @@
+#include <cstring>
+#include <string_view>
+
+#include "ticks.hpp"
+
+namespace calligraphy::c {
+namespace {
+
+RendererOptions preset_of(calligraphy_preset preset, const Capabilities& capabilities, double scale) {
+  switch (enumeration("preset", preset, CALLIGRAPHY_PRESET_WANG2006)) {
+    case CALLIGRAPHY_PRESET_EVERYTHING:
+      return RendererOptions::everything(capabilities, scale);
+    case CALLIGRAPHY_PRESET_WANG2006:
+      return RendererOptions::wang2006();
+    default:
+      return RendererOptions::for_device(capabilities, scale);
+  }
+}
+
+std::vector<std::vector<Beginning>> starts_of(const PracticePage& page) {
+  std::vector<std::vector<Beginning>> result;
+  for (const PlacedCharacter& placed : page.characters) {
+    auto& starts = result.emplace_back();
+    for (const Stroke& stroke : strokes(placed.character)) starts.push_back(start_of(stroke, placed.placement));
+  }
+  return result;
+}
+
+}  // namespace
+
+const Beginning& RendererObject::next(const HapticTick& tick) const noexcept {
+  static const Beginning none;
+  const auto character = static_cast<std::size_t>(tick.character), stroke = static_cast<std::size_t>(tick.stroke);
+  return character < starts.size() && stroke < starts[character].size() ? starts[character][stroke] : none;
+}
+
+}  // namespace calligraphy::c
+
+using namespace calligraphy;
+using namespace calligraphy::c;
+
+calligraphy_status calligraphy_renderer_options_for(const calligraphy_capabilities* capabilities,
+                                                    calligraphy_preset preset, double scale,
+                                                    calligraphy_tolerance tolerance,
+                                                    calligraphy_renderer_options* options) {
+  return guarded([&] {
+    RendererOptions result = preset_of(preset, capabilities_of(capabilities), scale);
+    const StrokeTolerances tolerances = tolerances_of(tolerance);
+    if (preset != CALLIGRAPHY_PRESET_WANG2006 || tolerance != CALLIGRAPHY_TOLERANCE_NORMAL)
+      result.tolerances = tolerances;
+    write_struct(options, "calligraphy_renderer_options", to_c(result));
+  });
+}
+
+calligraphy_status calligraphy_renderer_create(const calligraphy_page* page, const calligraphy_mapping* mapping,
+                                               const calligraphy_capabilities* capabilities,
+                                               const calligraphy_renderer_options* options,
+                                               calligraphy_renderer** renderer) {
+  return guarded([&] {
+    target(renderer, "renderer");
+    const PracticePage& written = object<PracticePage>(page);
+    const MotionMapping used = mapping ? mapping_of(mapping) : upright_page(written.width, written.height);
+    const Capabilities device = capabilities_of(capabilities);
+    const RendererOptions chosen = options ? options_of(options) : RendererOptions::for_device(device, used.scale);
+    auto result = std::make_shared<RendererObject>(
+        RendererObject{HapticRenderer(written.characters, used, device, chosen), "", starts_of(written)});
+    for (const std::string& line : result->renderer.clipped()) result->clipped += line + "\n";
+    hand_out(renderer, std::move(result));
+  });
+}
+
+calligraphy_status calligraphy_renderer_effective_options(const calligraphy_renderer* renderer,
+                                                          calligraphy_renderer_options* options) {
+  return guarded([&] {
+    write_struct(options, "calligraphy_renderer_options", to_c(object<RendererObject>(renderer).renderer.options()));
+  });
+}
+
+calligraphy_status calligraphy_renderer_clipped(const calligraphy_renderer* renderer, const char** lines) {
+  return guarded([&] { target(lines, "lines") = object<RendererObject>(renderer).clipped.c_str(); });
+}
+
+calligraphy_status calligraphy_renderer_update(calligraphy_renderer* renderer, const calligraphy_device_state* state,
+                                               calligraphy_tick* tick) {
+  auto* const found = find<RendererObject>(renderer);
+  if (!found) return refuse_handle(Kind::renderer, renderer);
+  if (const calligraphy_status status = check_result(state, "calligraphy_device_state")) return status;
+  if (const calligraphy_status status = check_result(tick, "calligraphy_tick")) return status;
+  found->renderer.update(state_of(*state));
+  write_tick(*found, tick);
+  return CALLIGRAPHY_OK;
+}
+
+calligraphy_status calligraphy_renderer_restart(calligraphy_renderer* renderer) {
+  auto* const found = find<RendererObject>(renderer);
+  if (!found) return refuse_handle(Kind::renderer, renderer);
+  found->renderer.restart();
+  return CALLIGRAPHY_OK;
+}
+
+calligraphy_status calligraphy_hint_text(const calligraphy_tick* tick, char* text, size_t capacity) {
+  return guarded([&] {
+    const calligraphy_tick given = read_struct(tick, "calligraphy_tick");
+    target(text, "text");
+    const auto hint = enumeration("hint", given.hint, WritingHint::lift_first);
+    const std::string words = hint_text(hint, {given.to_start[0], given.to_start[1]});
+    if (words.size() >= capacity) {
+      throw Refusal(CALLIGRAPHY_TOO_SMALL, "capacity = " + std::to_string(capacity) + ", but the text has " +
+                                               std::to_string(words.size() + 1) + " bytes with its zero");
+    }
+    std::memcpy(text, words.c_str(), words.size() + 1);
+  });
+}

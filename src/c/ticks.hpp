@@ -1,0 +1,47 @@
+// A tick as the C interface shows it.
+#pragma once
+
+#include "conversions.hpp"
+#include "objects.hpp"
+#include "structs.hpp"
+
+namespace calligraphy::c {
+
+/// Writes the renderer's last tick to a struct that check_result() has accepted. Does not allocate.
+inline void write_tick(const RendererObject& renderer, calligraphy_tick* to) noexcept {
+  const HapticTick& from = renderer.renderer.last();
+  const Beginning& next = renderer.next(from);
+  to->status = static_cast<std::int32_t>(from.status);
+  to->state = static_cast<std::int32_t>(from.state);
+  to->events = static_cast<std::uint32_t>(from.events);
+  to->hint = static_cast<std::int32_t>(from.hint);
+  to->character = from.character;
+  to->stroke = from.stroke;
+  to->element = from.contact.element;
+  to->time = from.time;
+  to_array(from.force, to->force);
+  to_array(from.page_force, to->page_force);
+  to_array(from.device_point, to->device_point);
+  to_array(from.pen_tip, to->pen_tip);
+  to->penetration = from.penetration;
+  to_array(next.start, to->next_start);
+  to_array(next.direction, to->next_direction);
+  to_array(from.to_start, to->to_start);
+  to->covered = from.covered;
+  to_array(from.contact.closest.point, to->closest);
+  to_array(from.contact.closest.tangent, to->tangent);
+  to->distance = from.contact.closest.distance;
+  to->arc = from.contact.arc;
+  to->backwards = from.contact.backwards;
+  to_array(from.attraction, to->attraction);
+  to_array(from.wrong_way, to->wrong_way);
+  to_array(from.friction, to->friction);
+  to_array(from.viscous, to->viscous);
+  to->normal = from.normal;
+  to->assistance = from.assistance;
+  to->energy_given = from.energy_given;
+  to->heat = from.heat;
+  clear_rest(to);
+}
+
+}  // namespace calligraphy::c

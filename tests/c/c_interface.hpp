@@ -1,0 +1,72 @@
+// What tests of the C interface share.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include <calligraphy/c/calligraphy.h>
+
+#include "catch.hpp"
+
+namespace calligraphy_test {
+
+/// Frees a handle at the end of its scope.
+struct Freed {
+  void operator()(void* handle) const { CHECK(calligraphy_free(handle) == CALLIGRAPHY_OK); }
+};
+template <class Handle>
+using Owned = std::unique_ptr<Handle, Freed>;
+
+/// A struct of the C interface with its size, all else zero.
+template <class Struct>
+Struct sized() {
+  Struct result = {};
+  result.size = sizeof(Struct);
+  return result;
+}
+
+inline Owned<calligraphy_set> built_in_set() {
+  calligraphy_set* set = nullptr;
+  REQUIRE(calligraphy_set_built_in(&set) == CALLIGRAPHY_OK);
+  return Owned<calligraphy_set>(set);
+}
+
+inline Owned<calligraphy_page> page_of(const char* text) {
+  calligraphy_page* page = nullptr;
+  REQUIRE(calligraphy_page_lay_out(built_in_set().get(), text, nullptr, nullptr, &page) == CALLIGRAPHY_OK);
+  return Owned<calligraphy_page>(page);
+}
+
+inline calligraphy_capabilities profile(const char* name = "desktop") {
+  auto result = sized<calligraphy_capabilities>();
+  REQUIRE(calligraphy_device_profile(name, &result) == CALLIGRAPHY_OK);
+  return result;
+}
+
+inline calligraphy_renderer_options options_for(const calligraphy_capabilities& device,
+                                                calligraphy_preset preset = CALLIGRAPHY_PRESET_DEVICE,
+                                                double scale = 1.0) {
+  auto result = sized<calligraphy_renderer_options>();
+  REQUIRE(calligraphy_renderer_options_for(&device, preset, scale, CALLIGRAPHY_TOLERANCE_NORMAL, &result) ==
+          CALLIGRAPHY_OK);
+  return result;
+}
+
+inline Owned<calligraphy_renderer> renderer_of(const calligraphy_page* page, const calligraphy_capabilities& device,
+                                               const calligraphy_renderer_options* options = nullptr,
+                                               const calligraphy_mapping* mapping = nullptr) {
+  calligraphy_renderer* renderer = nullptr;
+  REQUIRE(calligraphy_renderer_create(page, mapping, &device, options, &renderer) == CALLIGRAPHY_OK);
+  return Owned<calligraphy_renderer>(renderer);
+}
+
+inline Owned<calligraphy_device> simulated_device(const calligraphy_capabilities& device,
+                                                  const double (&position)[3] = {0.0, 0.0, 0.02}) {
+  calligraphy_device* result = nullptr;
+  REQUIRE(calligraphy_simulated_device(&device, nullptr, position, &result) == CALLIGRAPHY_OK);
+  return Owned<calligraphy_device>(result);
+}
+
+inline std::string last_error() { return calligraphy_last_error(); }
+
+}  // namespace calligraphy_test
