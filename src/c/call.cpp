@@ -43,9 +43,7 @@ calligraphy_status refuse_exception() noexcept {
   }
 }
 
-void throw_no_handle(Kind kind, const void* handle) {
-  throw Refusal(refuse_handle(kind, handle), calligraphy_last_error());
-}
+void throw_refused(calligraphy_status status) { throw Refusal(status, last_error); }
 
 calligraphy_status refuse_size(const char* name, std::size_t size, std::size_t least) noexcept {
   return refuse(CALLIGRAPHY_INVALID_VALUE, "%s: size = %zu, must be sizeof, at least %zu", name, size, least);

@@ -52,8 +52,8 @@ inline calligraphy_status refuse_handle(Kind kind, const void* handle) noexcept 
   return refuse(CALLIGRAPHY_INVALID_HANDLE, no_handle, to_string(kind), handle, to_string(kind));
 }
 
-/// @throws Refusal
-[[noreturn]] void throw_no_handle(Kind kind, const void* handle);
+/// Throws what refuse() has just refused. @throws Refusal with this status and the last error
+[[noreturn]] void throw_refused(calligraphy_status status);
 /// @throws Refusal
 [[noreturn]] void throw_null(const char* name);
 
@@ -61,14 +61,14 @@ inline calligraphy_status refuse_handle(Kind kind, const void* handle) noexcept 
 template <class Object>
 Object& object(const void* handle) {
   if (Object* const found = find<Object>(handle)) return *found;
-  throw_no_handle(KindOf<Object>::value, handle);
+  throw_refused(refuse_handle(KindOf<Object>::value, handle));
 }
 
 /// The object of a handle, to be kept. @throws Refusal if there is none
 template <class Object>
 std::shared_ptr<Object> shared_object(const void* handle) {
   const std::shared_ptr<void>* const found = find_handle(KindOf<Object>::value, handle);
-  if (!found) throw_no_handle(KindOf<Object>::value, handle);
+  if (!found) throw_refused(refuse_handle(KindOf<Object>::value, handle));
   return std::static_pointer_cast<Object>(*found);
 }
 

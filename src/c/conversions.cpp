@@ -172,7 +172,7 @@ calligraphy_renderer_options to_c(const RendererOptions& from) noexcept {
   return result;
 }
 
-StrokeTolerances tolerances_of(calligraphy_tolerance tolerance) {
+StrokeTolerances tolerances_of(std::int32_t tolerance) {
   switch (enumeration("tolerance", tolerance, CALLIGRAPHY_TOLERANCE_STRICT)) {
     case CALLIGRAPHY_TOLERANCE_LENIENT:
       return StrokeTolerances::lenient();

@@ -49,7 +49,7 @@ RendererOptions options_of(const calligraphy_renderer_options* from);
 calligraphy_renderer_options to_c(const RendererOptions& from) noexcept;
 
 /// @throws Refusal if the value is none
-StrokeTolerances tolerances_of(calligraphy_tolerance tolerance);
+StrokeTolerances tolerances_of(std::int32_t tolerance);
 
 /// A sample. What is not known is NaN. A status that is none counts as a fault.
 DeviceState state_of(const calligraphy_device_state& from) noexcept;

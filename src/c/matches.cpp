@@ -33,8 +33,8 @@ using namespace calligraphy;
 using namespace calligraphy::c;
 
 calligraphy_status calligraphy_match_strokes(const calligraphy_page* page, int32_t character, const double* points,
-                                             const uint32_t* path_sizes, size_t path_count,
-                                             calligraphy_tolerance tolerance, calligraphy_match** match) {
+                                             const uint32_t* path_sizes, size_t path_count, int32_t tolerance,
+                                             calligraphy_match** match) {
   return guarded([&] {
     const PlacedCharacter& placed = item("character", object<PracticePage>(page).characters, character);
     target(match, "match");

@@ -40,7 +40,7 @@ Stroke stroke_of(const Character& character, std::int32_t index) {
 }
 
 /// The polyline or the outline of a stroke [em].
-std::vector<Point> shape_of(const Character& character, std::int32_t index, calligraphy_shape shape, double tolerance) {
+std::vector<Point> shape_of(const Character& character, std::int32_t index, std::int32_t shape, double tolerance) {
   if (enumeration("shape", shape, CALLIGRAPHY_OUTLINE) == CALLIGRAPHY_PATH) {
     return stroke_polyline(stroke_of(character, index), tolerance);
   }
@@ -121,7 +121,7 @@ calligraphy_status calligraphy_page_stroke(const calligraphy_page* page, int32_t
 }
 
 calligraphy_status calligraphy_page_polyline(const calligraphy_page* page, int32_t character, int32_t stroke,
-                                             calligraphy_shape shape, double tolerance, double* points, size_t capacity,
+                                             int32_t shape, double tolerance, double* points, size_t capacity,
                                              size_t* count) {
   return guarded([&] {
     const PlacedCharacter& placed = character_of(page, character);
@@ -147,7 +147,7 @@ calligraphy_status calligraphy_page_polyline(const calligraphy_page* page, int32
   });
 }
 
-calligraphy_status calligraphy_page_mapping(const calligraphy_page* page, calligraphy_pose pose, double scale,
+calligraphy_status calligraphy_page_mapping(const calligraphy_page* page, int32_t pose, double scale,
                                             calligraphy_mapping* mapping) {
   return guarded([&] {
     const PracticePage& found = object<PracticePage>(page);

@@ -6,7 +6,7 @@
 namespace calligraphy::c {
 namespace {
 
-RendererOptions preset_of(calligraphy_preset preset, const Capabilities& capabilities, double scale) {
+RendererOptions preset_of(std::int32_t preset, const Capabilities& capabilities, double scale) {
   switch (enumeration("preset", preset, CALLIGRAPHY_PRESET_WANG2006)) {
     case CALLIGRAPHY_PRESET_EVERYTHING:
       return RendererOptions::everything(capabilities, scale);
@@ -39,9 +39,8 @@ const Beginning& RendererObject::next(const HapticTick& tick) const noexcept {
 using namespace calligraphy;
 using namespace calligraphy::c;
 
-calligraphy_status calligraphy_renderer_options_for(const calligraphy_capabilities* capabilities,
-                                                    calligraphy_preset preset, double scale,
-                                                    calligraphy_tolerance tolerance,
+calligraphy_status calligraphy_renderer_options_for(const calligraphy_capabilities* capabilities, int32_t preset,
+                                                    double scale, int32_t tolerance,
                                                     calligraphy_renderer_options* options) {
   return guarded([&] {
     RendererOptions result = preset_of(preset, capabilities_of(capabilities), scale);

@@ -20,7 +20,7 @@ template <class Struct>
 Struct read_struct(const Struct* from, const char* name, const Struct& rest = {}) {
   static_assert(std::is_trivially_copyable_v<Struct>);
   const std::size_t size = target(from, name).size;
-  if (size < sizeof(Struct)) throw Refusal(refuse_size(name, size, sizeof(Struct)), calligraphy_last_error());
+  if (size < sizeof(Struct)) throw_refused(refuse_size(name, size, sizeof(Struct)));
   const char* const bytes = reinterpret_cast<const char*>(from);
   if (std::any_of(bytes + sizeof(Struct), bytes + size, [](char byte) { return byte != 0; })) {
     throw Refusal(CALLIGRAPHY_INVALID_VALUE,
@@ -48,7 +48,7 @@ void clear_rest(Struct* to) noexcept {
 /// Writes a result; its size stays the caller's. @throws Refusal naming the struct if it is null or too small
 template <class Struct>
 void write_struct(Struct* to, const char* name, Struct result) {
-  if (check_result(to, name) != CALLIGRAPHY_OK) throw Refusal(CALLIGRAPHY_INVALID_VALUE, calligraphy_last_error());
+  if (const calligraphy_status status = check_result(to, name)) throw_refused(status);
   result.size = to->size;
   *to = result;
   clear_rest(to);

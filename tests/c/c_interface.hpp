@@ -69,4 +69,10 @@ inline Owned<calligraphy_device> simulated_device(const calligraphy_capabilities
 
 inline std::string last_error() { return calligraphy_last_error(); }
 
+/// Whether this is part of the last error.
+inline bool error_says(const std::string& part) {
+  UNSCOPED_INFO("last error: " << last_error());
+  return last_error().find(part) != std::string::npos;
+}
+
 }  // namespace calligraphy_test

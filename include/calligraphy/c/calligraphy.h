@@ -139,11 +139,11 @@ typedef enum calligraphy_shape {
   CALLIGRAPHY_OUTLINE = 1  ///< the outline of its ink, a closed polygon to be filled by the nonzero rule
 } calligraphy_shape;
 
-/// A stroke as a polyline within `tolerance` of it [m]; 0: a ten thousandth of the character's square. Writes the
-/// number of points to `count` and, unless `points` is null, x and y of each to it [m, page]. With fewer than `count`
-/// of `capacity` points: CALLIGRAPHY_TOO_SMALL, and no point is written.
+/// A calligraphy_shape of a stroke as a polyline within `tolerance` of it [m]; 0: a ten thousandth of the character's
+/// square. Writes the number of points to `count` and, unless `points` is null, x and y of each to it [m, page]. With
+/// fewer than `count` of `capacity` points: CALLIGRAPHY_TOO_SMALL, and no point is written.
 CALLIGRAPHY_API calligraphy_status calligraphy_page_polyline(const calligraphy_page* page, int32_t character,
-                                                             int32_t stroke, calligraphy_shape shape, double tolerance,
+                                                             int32_t stroke, int32_t shape, double tolerance,
                                                              double* points, size_t capacity, size_t* count);
 
 // From device axes to page axes.
@@ -162,9 +162,9 @@ typedef struct calligraphy_mapping {
   double scale;        ///< how far the pen moves on the page for each metre of the device [1]
 } calligraphy_mapping;
 
-/// The mapping that puts the centre of the page at the origin of the device.
-CALLIGRAPHY_API calligraphy_status calligraphy_page_mapping(const calligraphy_page* page, calligraphy_pose pose,
-                                                            double scale, calligraphy_mapping* mapping);
+/// The mapping that puts the centre of the page at the origin of the device, in a calligraphy_pose.
+CALLIGRAPHY_API calligraphy_status calligraphy_page_mapping(const calligraphy_page* page, int32_t pose, double scale,
+                                                            calligraphy_mapping* mapping);
 
 // Devices.
 
@@ -375,10 +375,9 @@ typedef enum calligraphy_preset {
   CALLIGRAPHY_PRESET_WANG2006 = 2     ///< as printed; on simulated devices only
 } calligraphy_preset;
 
-/// The options of a preset for a device, with a motion scale (1: none) and tolerances.
+/// The options of a calligraphy_preset for a device, with a motion scale (1: none) and a calligraphy_tolerance.
 CALLIGRAPHY_API calligraphy_status calligraphy_renderer_options_for(const calligraphy_capabilities* capabilities,
-                                                                    calligraphy_preset preset, double scale,
-                                                                    calligraphy_tolerance tolerance,
+                                                                    int32_t preset, double scale, int32_t tolerance,
                                                                     calligraphy_renderer_options* options);
 
 /// Guides a pen through the characters of a page, stroke by stroke.
@@ -537,10 +536,10 @@ typedef struct calligraphy_match calligraphy_match;
 
 /// Matches pen-downs with the strokes of a character of a page (docs/practice.md). `points`: x and y of each point of
 /// one pen-down after the other [m, page]; `path_sizes`: the number of points of each of the `path_count` pen-downs. An
-/// error of position or size is not a mistake.
+/// error of position or size is not a mistake. `tolerance`: a calligraphy_tolerance.
 CALLIGRAPHY_API calligraphy_status calligraphy_match_strokes(const calligraphy_page* page, int32_t character,
                                                              const double* points, const uint32_t* path_sizes,
-                                                             size_t path_count, calligraphy_tolerance tolerance,
+                                                             size_t path_count, int32_t tolerance,
                                                              calligraphy_match** match);
 
 /// Direction of a pen-down along what it wrote.

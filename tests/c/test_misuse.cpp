@@ -1,0 +1,448 @@
+// Whatever is given to the C interface that it cannot use is an error code with its text, and nothing else happens.
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "c_interface.hpp"
+#include "special_values.hpp"
+#include "temporary_directory.hpp"
+
+using calligraphy::TemporaryDirectory;
+using namespace calligraphy_test;
+
+namespace {
+
+/// One of each kind of handle, and a valid struct of each kind.
+struct Everything {
+  Owned<calligraphy_set> set = built_in_set();
+  Owned<calligraphy_page> page = page_of("永");
+  calligraphy_capabilities capabilities = profile();
+  calligraphy_renderer_options options = options_for(capabilities);
+  Owned<calligraphy_renderer> renderer = renderer_of(page.get(), capabilities);
+  Owned<calligraphy_device> device = simulated_device(capabilities);
+  Owned<calligraphy_device> pointer;
+  Owned<calligraphy_servo> servo;
+  Owned<calligraphy_match> match;
+  calligraphy_mapping mapping = sized<calligraphy_mapping>();
+  calligraphy_tick tick = sized<calligraphy_tick>();
+  calligraphy_device_state state = sized<calligraphy_device_state>();
+
+  Everything() {
+    REQUIRE(calligraphy_page_mapping(page.get(), CALLIGRAPHY_UPRIGHT, 1.0, &mapping) == CALLIGRAPHY_OK);
+    calligraphy_device* pointer_handle = nullptr;
+    REQUIRE(calligraphy_pointer_device(&capabilities, nullptr, nullptr, &mapping, &pointer_handle) == CALLIGRAPHY_OK);
+    pointer.reset(pointer_handle);
+    calligraphy_servo* servo_handle = nullptr;
+    REQUIRE(calligraphy_servo_create(device.get(), renderer.get(), &servo_handle) == CALLIGRAPHY_OK);
+    servo.reset(servo_handle);
+    calligraphy_match* match_handle = nullptr;
+    REQUIRE(calligraphy_match_strokes(page.get(), 0, nullptr, nullptr, 0, CALLIGRAPHY_TOLERANCE_NORMAL,
+                                      &match_handle) == CALLIGRAPHY_OK);
+    match.reset(match_handle);
+  }
+};
+
+/// A call with a handle of a kind; every function that takes one occurs.
+struct HandleCall {
+  const char* function;
+  const char* kind;
+  std::function<calligraphy_status(void*)> call;
+};
+
+template <class Handle>
+Handle* as(void* handle) {
+  return static_cast<Handle*>(handle);
+}
+
+std::vector<HandleCall> handle_calls(Everything& all) {
+  static std::int32_t number;
+  static std::uint32_t code;
+  static std::size_t count;
+  static const char* text;
+  static double points[3];
+  static auto placed = sized<calligraphy_placed_character>();
+  static auto stroke = sized<calligraphy_stroke>();
+  static auto drawn = sized<calligraphy_drawn_stroke>();
+  static auto remark = sized<calligraphy_remark>();
+  static auto servo_state = sized<calligraphy_servo_state>();
+  static calligraphy_page* page;
+  static calligraphy_renderer* renderer;
+  static calligraphy_servo* servo;
+  static calligraphy_match* match;
+  using Set = calligraphy_set;
+  using Page = calligraphy_page;
+  using Renderer = calligraphy_renderer;
+  using Device = calligraphy_device;
+  using Servo = calligraphy_servo;
+  using Match = calligraphy_match;
+  return {
+      {"set_next", "set", [](void* h) { return calligraphy_set_next(as<Set>(h), 0, &code); }},
+      {"set_stroke_count", "set", [](void* h) { return calligraphy_set_stroke_count(as<Set>(h), U'永', &number); }},
+      {"page_lay_out", "set",
+       [](void* h) { return calligraphy_page_lay_out(as<Set>(h), "永", nullptr, nullptr, &page); }},
+      {"page_character", "page", [](void* h) { return calligraphy_page_character(as<Page>(h), 0, &placed); }},
+      {"page_stroke", "page", [](void* h) { return calligraphy_page_stroke(as<Page>(h), 0, 0, &stroke); }},
+      {"page_polyline", "page",
+       [](void* h) { return calligraphy_page_polyline(as<Page>(h), 0, 0, CALLIGRAPHY_PATH, 0.0, nullptr, 0, &count); }},
+      {"page_mapping", "page",
+       [&](void* h) { return calligraphy_page_mapping(as<Page>(h), CALLIGRAPHY_DESK, 1.0, &all.mapping); }},
+      {"renderer_create", "page",
+       [&](void* h) {
+         return calligraphy_renderer_create(as<Page>(h), nullptr, &all.capabilities, nullptr, &renderer);
+       }},
+      {"match_strokes", "page",
+       [](void* h) {
+         return calligraphy_match_strokes(as<Page>(h), 0, nullptr, nullptr, 0, CALLIGRAPHY_TOLERANCE_NORMAL, &match);
+       }},
+      {"device_point", "device", [](void* h) { return calligraphy_device_point(as<Device>(h), 0.0, 0.0, 0.5, 0); }},
+      {"device_intend", "device", [](void* h) { return calligraphy_device_intend(as<Device>(h), points, nullptr); }},
+      {"device_advance", "device", [](void* h) { return calligraphy_device_advance(as<Device>(h), 1e-3); }},
+      {"device_read", "device", [&](void* h) { return calligraphy_device_read(as<Device>(h), &all.state); }},
+      {"device_write", "device", [](void* h) { return calligraphy_device_write(as<Device>(h), points); }},
+      {"servo_create", "device",
+       [&](void* h) { return calligraphy_servo_create(as<Device>(h), all.renderer.get(), &servo); }},
+      {"servo_create", "renderer",
+       [&](void* h) { return calligraphy_servo_create(all.device.get(), as<Renderer>(h), &servo); }},
+      {"renderer_effective_options", "renderer",
+       [&](void* h) { return calligraphy_renderer_effective_options(as<Renderer>(h), &all.options); }},
+      {"renderer_clipped", "renderer", [](void* h) { return calligraphy_renderer_clipped(as<Renderer>(h), &text); }},
+      {"renderer_update", "renderer",
+       [&](void* h) { return calligraphy_renderer_update(as<Renderer>(h), &all.state, &all.tick); }},
+      {"renderer_restart", "renderer", [](void* h) { return calligraphy_renderer_restart(as<Renderer>(h)); }},
+      {"servo_step", "servo", [&](void* h) { return calligraphy_servo_step(as<Servo>(h), 0.0, &all.tick); }},
+      {"servo_release", "servo", [](void* h) { return calligraphy_servo_release(as<Servo>(h)); }},
+      {"servo_read_state", "servo", [](void* h) { return calligraphy_servo_read_state(as<Servo>(h), &servo_state); }},
+      {"match_drawn", "match", [](void* h) { return calligraphy_match_drawn(as<Match>(h), 0, &drawn); }},
+      {"match_remark_count", "match", [](void* h) { return calligraphy_match_remark_count(as<Match>(h), &number); }},
+      {"match_remark", "match", [](void* h) { return calligraphy_match_remark(as<Match>(h), 0, &remark, nullptr); }},
+  };
+}
+
+/// A call that must fail with a status and this in its text.
+struct BadCall {
+  const char* what;
+  calligraphy_status status;
+  const char* text;
+  std::function<calligraphy_status()> call;
+};
+
+void check(const std::vector<BadCall>& calls) {
+  for (const BadCall& bad : calls) {
+    CAPTURE(bad.what);
+    CHECK(bad.call() == bad.status);
+    CHECK(error_says(bad.text));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a handle that is null, was freed or is of another kind is refused by every function") {
+  Everything all;
+  const std::vector<std::pair<std::string, void*>> handles = {
+      {"set", all.set.get()},           {"page", all.page.get()},   {"device", all.device.get()},
+      {"renderer", all.renderer.get()}, {"servo", all.servo.get()}, {"match", all.match.get()}};
+  auto freed = page_of("永");
+  void* const freed_handle = freed.get();
+  freed.reset();
+  int elsewhere = 0;
+  for (const HandleCall& one : handle_calls(all)) {
+    CAPTURE(one.function, one.kind);
+    CHECK(one.call(nullptr) == CALLIGRAPHY_INVALID_HANDLE);
+    CHECK(last_error() == one.kind + std::string(" is null"));
+    for (const auto& [kind, handle] : handles) {
+      if (kind == one.kind) continue;
+      CHECK(one.call(handle) == CALLIGRAPHY_INVALID_HANDLE);
+      CHECK(error_says("no handle of a " + std::string(one.kind)));
+    }
+    CHECK(one.call(freed_handle) == CALLIGRAPHY_INVALID_HANDLE);
+    CHECK(one.call(&elsewhere) == CALLIGRAPHY_INVALID_HANDLE);  // of another library
+    for (std::uintptr_t bits = 1; bits < 1'000'000'007; bits = bits * 7 + 3) {
+      CHECK(one.call(reinterpret_cast<void*>(~bits)) == CALLIGRAPHY_INVALID_HANDLE);
+    }
+  }
+  CHECK(calligraphy_free(&elsewhere) == CALLIGRAPHY_INVALID_HANDLE);
+  CHECK(calligraphy_free(freed_handle) == CALLIGRAPHY_INVALID_HANDLE);
+  CHECK(error_says("freed already"));
+  CHECK(calligraphy_free(nullptr) == CALLIGRAPHY_OK);
+}
+
+TEST_CASE("a freed handle stays unknown while others come and go") {
+  auto first = page_of("永");
+  void* const freed = first.get();
+  first.reset();
+  auto placed = sized<calligraphy_placed_character>();
+  std::vector<Owned<calligraphy_page>> alive;
+  for (int i = 0; i < 1000; ++i) {
+    auto page = page_of("一");
+    if (i % 3 == 0) alive.push_back(std::move(page));
+    REQUIRE(calligraphy_page_character(static_cast<calligraphy_page*>(freed), 0, &placed) ==
+            CALLIGRAPHY_INVALID_HANDLE);
+  }
+  for (const auto& page : alive) {
+    REQUIRE(calligraphy_page_character(page.get(), 0, &placed) == CALLIGRAPHY_OK);
+    REQUIRE(placed.code == U'一');
+  }
+}
+
+TEST_CASE("as many handles as there may be, and one more") {
+  const auto page = page_of("一");
+  std::vector<Owned<calligraphy_match>> matches;
+  calligraphy_match* match = nullptr;
+  calligraphy_status status;
+  while ((status = calligraphy_match_strokes(page.get(), 0, nullptr, nullptr, 0, CALLIGRAPHY_TOLERANCE_NORMAL,
+                                             &match)) == CALLIGRAPHY_OK) {
+    matches.emplace_back(match);
+  }
+  CHECK(status == CALLIGRAPHY_OUT_OF_MEMORY);
+  CHECK(matches.size() > 65'000);
+  matches.pop_back();
+  REQUIRE(calligraphy_match_strokes(page.get(), 0, nullptr, nullptr, 0, CALLIGRAPHY_TOLERANCE_NORMAL, &match) ==
+          CALLIGRAPHY_OK);
+  matches.emplace_back(match);
+}
+
+TEST_CASE("threads may create and free handles at the same time") {
+  std::vector<std::thread> threads;
+  std::atomic<int> failed = 0;
+  for (int t = 0; t < 4; ++t) {
+    threads.emplace_back([&failed] {
+      for (int i = 0; i < 300; ++i) {
+        calligraphy_set* set = nullptr;
+        std::uint32_t code = 0;
+        failed += calligraphy_set_built_in(&set) != CALLIGRAPHY_OK;
+        failed += calligraphy_set_next(set, 0, &code) != CALLIGRAPHY_OK;
+        failed += calligraphy_free(set) != CALLIGRAPHY_OK;
+        failed += calligraphy_set_next(set, 0, &code) != CALLIGRAPHY_INVALID_HANDLE;
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  CHECK(failed == 0);
+}
+
+TEST_CASE("a struct of the wrong size is refused, and one of a newer version taken") {
+  Everything all;
+  const auto update = [&] { return calligraphy_renderer_update(all.renderer.get(), &all.state, &all.tick); };
+  REQUIRE(update() == CALLIGRAPHY_OK);
+  for (const std::uint32_t size : {0u, 4u, static_cast<std::uint32_t>(sizeof(calligraphy_tick)) - 1}) {
+    all.tick.size = size;
+    CHECK(update() == CALLIGRAPHY_INVALID_VALUE);
+    CHECK(last_error() == "calligraphy_tick: size = " + std::to_string(size) + ", must be sizeof, at least " +
+                              std::to_string(sizeof(calligraphy_tick)));
+  }
+  all.tick.size = sizeof all.tick;
+  all.state.size = 8;
+  CHECK(update() == CALLIGRAPHY_INVALID_VALUE);
+  CHECK(error_says("calligraphy_device_state: size = 8"));
+  all.options.size = 100;
+  calligraphy_renderer* renderer = nullptr;
+  CHECK(calligraphy_renderer_create(all.page.get(), nullptr, &all.capabilities, &all.options, &renderer) ==
+        CALLIGRAPHY_INVALID_VALUE);
+  CHECK(error_says("calligraphy_renderer_options: size = 100"));
+  CHECK(renderer == nullptr);
+
+  // Of a newer version: what this one does not know is zero in results, and must be zero in what is given.
+  struct {
+    calligraphy_tick tick;
+    double later[4];
+  } newer = {};
+  newer.tick.size = sizeof newer;
+  newer.later[3] = 1.0;
+  all.state.size = sizeof all.state;
+  CHECK(calligraphy_renderer_update(all.renderer.get(), &all.state, &newer.tick) == CALLIGRAPHY_OK);
+  CHECK(newer.tick.size == sizeof newer);
+  CHECK(newer.later[3] == 0.0);
+  struct {
+    calligraphy_layout layout;
+    double later;
+  } layout = {};
+  layout.layout.size = sizeof layout;
+  calligraphy_page* page = nullptr;
+  REQUIRE(calligraphy_page_lay_out(all.set.get(), "永", &layout.layout, nullptr, &page) == CALLIGRAPHY_OK);
+  REQUIRE(calligraphy_free(page) == CALLIGRAPHY_OK);
+  layout.later = 1.0;
+  CHECK(calligraphy_page_lay_out(all.set.get(), "永", &layout.layout, nullptr, &page) == CALLIGRAPHY_INVALID_VALUE);
+  CHECK(error_says("layout: it sets members that version 0.2.0 does not have"));
+}
+
+TEST_CASE("a null pointer, a wrong index and a number that is none are refused by name") {
+  Everything all;
+  const double nan[3] = {0.0, not_a_number, 0.0}, good[3] = {0.0, 0.0, 0.01};
+  auto placed = sized<calligraphy_placed_character>();
+  auto stroke = sized<calligraphy_stroke>();
+  auto layout = sized<calligraphy_layout>();
+  layout.em = not_a_number;
+  auto grip = sized<calligraphy_grip>();
+  grip.stiffness = not_a_number;
+  auto bad_capabilities = all.capabilities;
+  bad_capabilities.peak_force = not_a_number;
+  auto bad_mapping = all.mapping;
+  bad_mapping.rotation[0] = 2.0;
+  auto bad_options = all.options;
+  bad_options.paper_stiffness = not_a_number;
+  auto bad_choice = all.options;
+  bad_choice.stiffness_check = 3;
+  calligraphy_set* set = nullptr;
+  calligraphy_page* page = nullptr;
+  calligraphy_device* device = nullptr;
+  calligraphy_renderer* renderer = nullptr;
+  calligraphy_match* match = nullptr;
+  std::size_t count = 0;
+  std::uint32_t code = 0;
+  std::int32_t number = 0;
+  double points[2] = {};
+  const std::uint32_t one_point = 1;
+  constexpr auto value = CALLIGRAPHY_INVALID_VALUE;
+  constexpr auto normal = CALLIGRAPHY_TOLERANCE_NORMAL;
+  const auto polyline = [&](std::int32_t character, std::int32_t index, int shape, double tolerance) {
+    return calligraphy_page_polyline(all.page.get(), character, index, shape, tolerance, points, 1, &count);
+  };
+  check({
+      {"built in", value, "set is null", [&] { return calligraphy_set_built_in(nullptr); }},
+      {"open", value, "path is null", [&] { return calligraphy_set_open(nullptr, &set); }},
+      {"open", value, "set is null", [&] { return calligraphy_set_open("a", nullptr); }},
+      {"memory", value, "bytes is null", [&] { return calligraphy_set_from_memory(nullptr, 3, nullptr, &set); }},
+      {"next", value, "code is null", [&] { return calligraphy_set_next(all.set.get(), 0, nullptr); }},
+      {"next", CALLIGRAPHY_NOT_FOUND, "at or after", [&] { return calligraphy_set_next(all.set.get(), ~0u, &code); }},
+      {"strokes", value, "stroke_count is null",
+       [&] { return calligraphy_set_stroke_count(all.set.get(), U'永', nullptr); }},
+      {"strokes", CALLIGRAPHY_NOT_FOUND, "龘 (U+9F98)",
+       [&] { return calligraphy_set_stroke_count(all.set.get(), U'龘', &number); }},
+      {"text", value, "text is null",
+       [&] { return calligraphy_page_lay_out(all.set.get(), nullptr, nullptr, nullptr, &page); }},
+      {"text", value, "text is empty",
+       [&] { return calligraphy_page_lay_out(all.set.get(), "", nullptr, nullptr, &page); }},
+      {"text", CALLIGRAPHY_FORMAT_ERROR, "byte",
+       [&] { return calligraphy_page_lay_out(all.set.get(), "\xff", nullptr, nullptr, &page); }},
+      {"text", CALLIGRAPHY_NOT_FOUND, "龘",
+       [&] { return calligraphy_page_lay_out(all.set.get(), "永龘", nullptr, nullptr, &page); }},
+      {"text", value, "6 of 7 characters fit",
+       [&] { return calligraphy_page_lay_out(all.set.get(), "一一一一一一一", nullptr, nullptr, &page); }},
+      {"page", value, "page is null",
+       [&] { return calligraphy_page_lay_out(all.set.get(), "永", nullptr, nullptr, nullptr); }},
+      {"layout", value, "layout.em is not a number",
+       [&] { return calligraphy_page_lay_out(all.set.get(), "永", &layout, nullptr, &page); }},
+      {"character", value, "character = 1, must be an index below 1",
+       [&] { return calligraphy_page_character(all.page.get(), 1, &placed); }},
+      {"character", value, "character = -1", [&] { return calligraphy_page_stroke(all.page.get(), -1, 0, &stroke); }},
+      {"stroke", value, "stroke = 5, must be an index below 5",
+       [&] { return calligraphy_page_stroke(all.page.get(), 0, 5, &stroke); }},
+      {"stroke", value, "calligraphy_stroke is null",
+       [&] { return calligraphy_page_stroke(all.page.get(), 0, 0, nullptr); }},
+      {"polyline", value, "stroke = -1", [&] { return polyline(0, -1, CALLIGRAPHY_PATH, 0.0); }},
+      {"polyline", value, "shape = 2, must be 0 to 1", [&] { return polyline(0, 0, 2, 0.0); }},
+      {"polyline", value, "tolerance = nan", [&] { return polyline(0, 0, CALLIGRAPHY_PATH, not_a_number); }},
+      {"polyline", value, "tolerance = -1", [&] { return polyline(0, 0, CALLIGRAPHY_OUTLINE, -1.0); }},
+      {"polyline", CALLIGRAPHY_TOO_SMALL, "capacity = 1, but",
+       [&] { return polyline(0, 0, CALLIGRAPHY_OUTLINE, 0.0); }},
+      {"pose", value, "pose = 2", [&] { return calligraphy_page_mapping(all.page.get(), 2, 1.0, &all.mapping); }},
+      {"scale", value, "scale",
+       [&] { return calligraphy_page_mapping(all.page.get(), CALLIGRAPHY_DESK, not_a_number, &all.mapping); }},
+      {"profile", value, "name is null", [&] { return calligraphy_device_profile(nullptr, &all.capabilities); }},
+      {"profile", value, "phantasm", [&] { return calligraphy_device_profile("phantasm", &all.capabilities); }},
+      {"device", value, "calligraphy_capabilities is null",
+       [&] { return calligraphy_simulated_device(nullptr, nullptr, good, &device); }},
+      {"device", value, "position is null",
+       [&] { return calligraphy_simulated_device(&all.capabilities, nullptr, nullptr, &device); }},
+      {"device", value, "position = nan m",
+       [&] { return calligraphy_simulated_device(&all.capabilities, nullptr, nan, &device); }},
+      {"device", value, "stiffness",
+       [&] { return calligraphy_simulated_device(&all.capabilities, &grip, good, &device); }},
+      {"device", value, "peak force = nan N",
+       [&] { return calligraphy_simulated_device(&bad_capabilities, nullptr, good, &device); }},
+      {"pointer", value, "calligraphy_mapping is null",
+       [&] { return calligraphy_pointer_device(&all.capabilities, nullptr, nullptr, nullptr, &device); }},
+      {"pointer", value, "rotation",
+       [&] { return calligraphy_pointer_device(&all.capabilities, nullptr, nullptr, &bad_mapping, &device); }},
+      {"point", CALLIGRAPHY_INVALID_HANDLE, "expected a pointer device",
+       [&] { return calligraphy_device_point(all.device.get(), 0.0, 0.0, 0.5, 0); }},
+      {"point", value, "nan", [&] { return calligraphy_device_point(all.pointer.get(), nan[1], 0.0, 0.5, 0); }},
+      {"point", value, "pressure 1.5", [&] { return calligraphy_device_point(all.pointer.get(), 0.0, 0.0, 1.5, 0); }},
+      {"intend", CALLIGRAPHY_INVALID_HANDLE, "expected a simulated one",
+       [&] { return calligraphy_device_intend(all.pointer.get(), good, nullptr); }},
+      {"intend", value, "velocity = nan m/s", [&] { return calligraphy_device_intend(all.device.get(), good, nan); }},
+      {"advance", value, "nan", [&] { return calligraphy_device_advance(all.device.get(), not_a_number); }},
+      {"advance", CALLIGRAPHY_INVALID_HANDLE, "expected a simulated one",
+       [&] { return calligraphy_device_advance(all.pointer.get(), 1e-3); }},
+      {"read", value, "calligraphy_device_state is null",
+       [&] { return calligraphy_device_read(all.device.get(), nullptr); }},
+      {"write", value, "force is null", [&] { return calligraphy_device_write(all.device.get(), nullptr); }},
+      {"write", value, "must be finite: it counts as zero",
+       [&] { return calligraphy_device_write(all.device.get(), nan); }},
+      {"preset", value, "preset = 3",
+       [&] { return calligraphy_renderer_options_for(&all.capabilities, 3, 1.0, normal, &all.options); }},
+      {"tolerance", value, "tolerance = -1",
+       [&] {
+         return calligraphy_renderer_options_for(&all.capabilities, CALLIGRAPHY_PRESET_DEVICE, 1.0, -1, &all.options);
+       }},
+      {"scale", value, "scale",
+       [&] {
+         return calligraphy_renderer_options_for(&all.capabilities, CALLIGRAPHY_PRESET_DEVICE, not_a_number, normal,
+                                                 &all.options);
+       }},
+      {"renderer", value, "paper.stiffness = nan N/m",
+       [&] {
+         return calligraphy_renderer_create(all.page.get(), nullptr, &all.capabilities, &bad_options, &renderer);
+       }},
+      {"renderer", value, "stiffness_check = 3, must be 0 to 2",
+       [&] { return calligraphy_renderer_create(all.page.get(), nullptr, &all.capabilities, &bad_choice, &renderer); }},
+      {"renderer", value, "renderer is null",
+       [&] { return calligraphy_renderer_create(all.page.get(), nullptr, &all.capabilities, nullptr, nullptr); }},
+      {"update", value, "calligraphy_device_state is null",
+       [&] { return calligraphy_renderer_update(all.renderer.get(), nullptr, &all.tick); }},
+      {"update", value, "calligraphy_tick is null",
+       [&] { return calligraphy_renderer_update(all.renderer.get(), &all.state, nullptr); }},
+      {"hint", value, "text is null", [&] { return calligraphy_hint_text(&all.tick, nullptr, 3); }},
+      {"step", value, "now = nan s", [&] { return calligraphy_servo_step(all.servo.get(), not_a_number, nullptr); }},
+      {"match", value, "points is null",
+       [&] { return calligraphy_match_strokes(all.page.get(), 0, nullptr, &one_point, 1, normal, &match); }},
+      {"match", value, "path_sizes is null",
+       [&] { return calligraphy_match_strokes(all.page.get(), 0, points, nullptr, 1, normal, &match); }},
+      {"match", value, "not finite",
+       [&] { return calligraphy_match_strokes(all.page.get(), 0, nan, &one_point, 1, normal, &match); }},
+      {"match", value, "path = 0",
+       [&] {
+         auto drawn = sized<calligraphy_drawn_stroke>();
+         return calligraphy_match_drawn(all.match.get(), 0, &drawn);
+       }},
+  });
+  CHECK(set == nullptr);
+  CHECK(page == nullptr);
+  CHECK(device == nullptr);
+  CHECK(renderer == nullptr);
+  CHECK(match == nullptr);
+}
+
+TEST_CASE("a broken set is a format error, a missing one a file error") {
+  TemporaryDirectory directory;
+  calligraphy_set* set = nullptr;
+  const std::string path = (directory.path() / "broken.set").string();
+  CHECK(calligraphy_set_open(path.c_str(), &set) == CALLIGRAPHY_FILE_ERROR);
+  CHECK(error_says("broken.set"));
+  std::ofstream(path) << "no set at all";
+  CHECK(calligraphy_set_open(path.c_str(), &set) == CALLIGRAPHY_FORMAT_ERROR);
+  CHECK(error_says("broken.set"));
+  CHECK(calligraphy_set_from_memory("no set", 6, "here", &set) == CALLIGRAPHY_FORMAT_ERROR);
+  CHECK(error_says("here"));
+  CHECK(calligraphy_set_from_memory("", 0, nullptr, &set) == CALLIGRAPHY_FORMAT_ERROR);
+  CHECK(error_says("memory"));
+  CHECK(set == nullptr);
+}
+
+TEST_CASE("every thread has its own last error") {
+  calligraphy_set* set = nullptr;
+  REQUIRE(calligraphy_set_open(nullptr, &set) == CALLIGRAPHY_INVALID_VALUE);
+  std::string elsewhere = "?";
+  std::thread([&] { elsewhere = calligraphy_last_error(); }).join();
+  CHECK(elsewhere.empty());
+  std::int32_t count = 0;
+  REQUIRE(calligraphy_set_stroke_count(built_in_set().get(), U'永', &count) == CALLIGRAPHY_OK);
+  CHECK(last_error() == "path is null");  // success leaves it
+}
