@@ -64,20 +64,6 @@ function(calligraphy_component name)
   install(DIRECTORY include/calligraphy/${COMPONENT_FOLDER}/ DESTINATION ${include_directory} ${without})
 endfunction()
 
-# calligraphy_export_c(target): of this shared library, only the functions of the C interface are visible. Programs keep
-# working with it until its SONAME changes, with every minor version.
-function(calligraphy_export_c target)
-  set_target_properties(${target} PROPERTIES
-    VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
-    CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
-  target_compile_definitions(${target} PRIVATE CALLIGRAPHY_C_BUILD)
-  if(CMAKE_SYSTEM_NAME STREQUAL "Linux")  # hides what the components and libstdc++'s templates would export
-    set(script ${PROJECT_SOURCE_DIR}/src/c/exports.map)
-    target_link_options(${target} PRIVATE "LINKER:--version-script=${script}")
-    set_target_properties(${target} PROPERTIES LINK_DEPENDS ${script})
-  endif()
-endfunction()
-
 function(calligraphy_warnings target)
   target_compile_options(${target} PRIVATE
     $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Wall -Wextra -Wpedantic -Wconversion -Wshadow>
