@@ -1,8 +1,9 @@
-# calligraphy_component(name [ONE_UNIT] [C_INTERFACE] [EXPORT set] [FOLDER folder] [SUBFOLDERS ...] [SOURCES ...] [WITHOUT ...]
-# DEPENDS ... [NEEDS package ...]): a component as the target calligraphy::name, from the source files in src/folder
-# (default src/name) and its SUBFOLDERS except WITHOUT, plus the generated SOURCES. ONE_UNIT: its files are compiled as
-# one, so that any function can be inlined. C_INTERFACE: a shared library that exports functions of C alone. DEPENDS: components, and libraries that all components need. NEEDS: packages
-# that a user of an installed copy must have to link the target.
+# calligraphy_component(name [ONE_UNIT] [C_INTERFACE] [EXPORT set] [FOLDER folder] [SUBFOLDERS ...] [SOURCES ...]
+# [WITHOUT ...] DEPENDS ... [NEEDS package ...]): a component as the target calligraphy::name, from the source files in
+# src/folder (default src/name) and its SUBFOLDERS except WITHOUT, plus the generated SOURCES. ONE_UNIT: its files are
+# compiled as one, so that any function can be inlined. C_INTERFACE: a shared library that exports functions of C alone.
+# DEPENDS: components, and libraries that all components need. NEEDS: packages that a user of an installed copy must
+# have to link the target.
 function(calligraphy_component name)
   cmake_parse_arguments(COMPONENT "ONE_UNIT;C_INTERFACE" "EXPORT;FOLDER" "SUBFOLDERS;SOURCES;WITHOUT;DEPENDS;NEEDS" ${ARGN})
   if(NOT COMPONENT_EXPORT)
@@ -49,7 +50,10 @@ function(calligraphy_component name)
   else()
     calligraphy_unity(${target} 12)
   endif()
-  set(components ${COMPONENT_DEPENDS})
+  set(components "")
+  if(NOT COMPONENT_C_INTERFACE)
+    set(components ${COMPONENT_DEPENDS})
+  endif()
   list(FILTER components INCLUDE REGEX "^calligraphy_")
   list(TRANSFORM components REPLACE "^calligraphy_" "")
   set_property(GLOBAL APPEND PROPERTY CALLIGRAPHY_COMPONENTS ${name})

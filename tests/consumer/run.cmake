@@ -10,7 +10,10 @@ function(run)
   set(output "${output}" PARENT_SCOPE)
 endfunction()
 
-set(options "")
+set(options -DLANGUAGE=CXX -DENDING=cpp -DCMAKE_CXX_COMPILER=${COMPILER})
+if(COMPONENT STREQUAL "c")  # for a project without C++
+  set(options -DLANGUAGE=C -DENDING=c -DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON -DCMAKE_DISABLE_FIND_PACKAGE_Threads=ON)
+endif()
 foreach(package CLI11 fmt LibArchive nlohmann_json PkgConfig pugixml spdlog utf8cpp ZLIB)
   if(NOT package IN_LIST NEEDS)
     list(APPEND options -DCMAKE_DISABLE_FIND_PACKAGE_${package}=ON)
@@ -18,7 +21,7 @@ foreach(package CLI11 fmt LibArchive nlohmann_json PkgConfig pugixml spdlog utf8
 endforeach()
 file(REMOVE_RECURSE ${WORK})
 run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK} -G ${GENERATOR} -DCMAKE_PREFIX_PATH=${PREFIX} -DCMAKE_BUILD_TYPE=${TYPE}
-    -DCMAKE_CXX_COMPILER=${COMPILER} -DPROGRAM=${PROGRAM} -DCOMPONENT=${COMPONENT} ${options})
+    -DPROGRAM=${PROGRAM} -DCOMPONENT=${COMPONENT} ${options})
 run(${CMAKE_COMMAND} --build ${WORK} --config ${TYPE} --verbose)
 if(NOT output MATCHES "-o ${PROGRAM}[ \n]")
   message(FATAL_ERROR "no link line in the output above")
