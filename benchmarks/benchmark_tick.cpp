@@ -7,6 +7,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include <calligraphy/c/calligraphy.h>
 #include <calligraphy/calligraphy.hpp>
 #include <calligraphy/devices/detail/flush_denormals.hpp>
 #include <calligraphy/render/detail/energy_budget.hpp>
@@ -153,6 +154,53 @@ BENCHMARK_CAPTURE(tick_with, assist_policy, assist_policy);
 BENCHMARK_CAPTURE(tick_with, energy_budget, energy_budget);
 BENCHMARK_CAPTURE(tick_with, thermal_budget, thermal_budget);
 BENCHMARK_CAPTURE(tick_with, everything, everything);
+
+/// Cost of a call through the C interface: the whole page in one piece, alternating with C++.
+void tick_through_c(benchmark::State& state) {
+  const WrittenPage& written = written_page();
+  HapticRenderer plain(written.page.characters, written.mapping, written.capabilities,
+                       RendererOptions::for_device(written.capabilities));
+  calligraphy_set* set = nullptr;
+  calligraphy_page* page = nullptr;
+  calligraphy_renderer* renderer = nullptr;
+  calligraphy_capabilities capabilities = {};
+  capabilities.size = sizeof capabilities;
+  bool ok = calligraphy_set_built_in(&set) == CALLIGRAPHY_OK;
+  ok = ok && calligraphy_page_lay_out(set, "北京航空", nullptr, nullptr, &page) == CALLIGRAPHY_OK;
+  ok = ok && calligraphy_device_profile("desktop", &capabilities) == CALLIGRAPHY_OK;
+  ok = ok && calligraphy_renderer_create(page, nullptr, &capabilities, nullptr, &renderer) == CALLIGRAPHY_OK;
+  std::vector<calligraphy_device_state> states;
+  for (const DeviceState& from : written.states) {
+    calligraphy_device_state& to = states.emplace_back();
+    to.size = sizeof to;
+    to.time = from.time;
+    std::copy_n(from.position.data(), 3, to.position);
+  }
+  std::vector<double> in_c, added;
+  calligraphy_tick tick = {};
+  tick.size = sizeof tick;
+  for (auto _ : state) {
+    ok = ok && calligraphy_renderer_restart(renderer) == CALLIGRAPHY_OK;
+    auto start = Clock::now();
+    for (const calligraphy_device_state& sample : states) {
+      ok &= calligraphy_renderer_update(renderer, &sample, &tick) == CALLIGRAPHY_OK;
+      benchmark::DoNotOptimize(tick.force);
+    }
+    in_c.push_back(nanoseconds(Clock::now() - start) / static_cast<double>(states.size()));
+    plain.restart();
+    start = Clock::now();
+    for (const DeviceState& sample : written.states) benchmark::DoNotOptimize(plain.update(sample).force.data());
+    added.push_back(in_c.back() - nanoseconds(Clock::now() - start) / static_cast<double>(states.size()));
+  }
+  for (void* handle : {static_cast<void*>(renderer), static_cast<void*>(page), static_cast<void*>(set)}) {
+    ok &= calligraphy_free(handle) == CALLIGRAPHY_OK;
+  }
+  const bool same = std::equal(tick.force, tick.force + 3, plain.last().force.data());
+  if (!ok || !same) state.SkipWithError("the tick through C is another one");
+  state.counters["ns_per_tick"] = percentile(in_c, 0.5);
+  state.counters["added_ns"] = percentile(added, 0.5);
+}
+BENCHMARK(tick_through_c);
 
 /// A pen whose distances are all denormal numbers, and one with the same motion in millimetres, alternating in blocks
 /// of ticks; once as in any thread, once with denormals flushed.

@@ -27,22 +27,24 @@ constexpr std::size_t slots_per_block = 256;
 constexpr std::size_t block_count = (index_mask + 1) / slots_per_block;
 
 /// Grows by blocks and never moves or frees one, so that a reader needs no lock.
-struct Table {
-  std::array<std::atomic<Slot*>, block_count> blocks = {};
-  std::mutex mutex;  ///< of what follows, and for changes of slots
+constinit std::array<std::atomic<Slot*>, block_count> blocks = {};
+
+/// Which slots are free.
+struct Slots {
+  std::mutex mutex;  ///< also for changes of slots
   std::size_t unused = 0;
   std::deque<std::size_t> freed;  ///< first in, first out: a freed handle stays unknown for as long as possible
 };
 
 /// Lives until the program has ended, because handles may be freed by destructors of static objects.
-Table& table() {
-  static Table* const only = new Table;
+Slots& slots() {
+  static Slots* const only = new Slots;
   return *only;
 }
 
 Slot* slot_of(std::uintptr_t handle) noexcept {
   const std::size_t index = (handle >> kind_bits) & index_mask;
-  Slot* const block = table().blocks[index / slots_per_block].load(std::memory_order_acquire);
+  Slot* const block = blocks[index / slots_per_block].load(std::memory_order_acquire);
   return block ? block + index % slots_per_block : nullptr;
 }
 
@@ -55,7 +57,7 @@ const char* to_string(Kind kind) noexcept {
 
 void* add_handle(Kind kind, std::shared_ptr<void> object) {
   constexpr std::size_t kept = 64;  // freed slots that are left alone while there are unused ones
-  Table& all = table();
+  Slots& all = slots();
   const std::lock_guard lock(all.mutex);
   std::size_t index;
   if (all.unused > index_mask || all.freed.size() > kept) {
@@ -64,11 +66,11 @@ void* add_handle(Kind kind, std::shared_ptr<void> object) {
     all.freed.pop_front();
   } else {
     index = all.unused;
-    auto& block = all.blocks[index / slots_per_block];
+    auto& block = blocks[index / slots_per_block];
     if (!block.load(std::memory_order_relaxed)) block.store(new Slot[slots_per_block], std::memory_order_release);
     ++all.unused;
   }
-  Slot& slot = all.blocks[index / slots_per_block].load(std::memory_order_relaxed)[index % slots_per_block];
+  Slot& slot = blocks[index / slots_per_block].load(std::memory_order_relaxed)[index % slots_per_block];
   slot.object = std::move(object);
   slot.uses += one_use;
   const std::uintptr_t handle = slot.uses | (index << kind_bits) | static_cast<std::uintptr_t>(kind);
@@ -78,7 +80,7 @@ void* add_handle(Kind kind, std::shared_ptr<void> object) {
 
 std::shared_ptr<void> remove_handle(const void* handle) noexcept {
   const auto value = reinterpret_cast<std::uintptr_t>(handle);
-  Table& all = table();
+  Slots& all = slots();
   const std::lock_guard lock(all.mutex);
   Slot* const slot = slot_of(value);
   if (!slot || value == 0 || slot->handle.load(std::memory_order_relaxed) != value) return nullptr;

@@ -35,11 +35,17 @@ struct Beginning {
 
 /// A renderer, and what its ticks say beyond HapticTick.
 struct RendererObject {
-  HapticRenderer renderer;
-  std::string clipped;                         ///< one line per value
-  std::vector<std::vector<Beginning>> starts;  ///< by character and stroke
+  explicit RendererObject(HapticRenderer of) : renderer(std::move(of)) {}
 
-  const Beginning& next(const HapticTick& tick) const noexcept;
+  HapticRenderer renderer;
+  std::string clipped;             ///< one line per value
+  std::vector<Beginning> starts;   ///< of all strokes, and none after the last one of each character
+  std::vector<std::size_t> first;  ///< by character: of its first stroke in `starts`; one more once all are written
+
+  /// Of the stroke that is due in a tick; zero if there is none.
+  const Beginning& next(const HapticTick& tick) const noexcept {
+    return starts[first[static_cast<std::size_t>(tick.character)] + static_cast<std::size_t>(tick.stroke)];
+  }
 };
 
 /// A servo, and what it uses. @throws ValueError as Servo

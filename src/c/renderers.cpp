@@ -17,22 +17,17 @@ RendererOptions preset_of(std::int32_t preset, const Capabilities& capabilities,
   }
 }
 
-std::vector<std::vector<Beginning>> starts_of(const PracticePage& page) {
-  std::vector<std::vector<Beginning>> result;
-  for (const PlacedCharacter& placed : page.characters) {
-    auto& starts = result.emplace_back();
-    for (const Stroke& stroke : strokes(placed.character)) starts.push_back(start_of(stroke, placed.placement));
+void list_beginnings(RendererObject& of) {
+  for (const PlacedCharacter& placed : of.renderer.page()) {
+    of.first.push_back(of.starts.size());
+    for (const Stroke& stroke : strokes(placed.character)) of.starts.push_back(start_of(stroke, placed.placement));
+    of.starts.emplace_back();
   }
-  return result;
+  of.first.push_back(of.starts.size());
+  of.starts.emplace_back();
 }
 
 }  // namespace
-
-const Beginning& RendererObject::next(const HapticTick& tick) const noexcept {
-  static const Beginning none;
-  const auto character = static_cast<std::size_t>(tick.character), stroke = static_cast<std::size_t>(tick.stroke);
-  return character < starts.size() && stroke < starts[character].size() ? starts[character][stroke] : none;
-}
 
 }  // namespace calligraphy::c
 
@@ -61,8 +56,8 @@ calligraphy_status calligraphy_renderer_create(const calligraphy_page* page, con
     const MotionMapping used = mapping ? mapping_of(mapping) : upright_page(written.width, written.height);
     const Capabilities device = capabilities_of(capabilities);
     const RendererOptions chosen = options ? options_of(options) : RendererOptions::for_device(device, used.scale);
-    auto result = std::make_shared<RendererObject>(
-        RendererObject{HapticRenderer(written.characters, used, device, chosen), "", starts_of(written)});
+    auto result = std::make_shared<RendererObject>(HapticRenderer(written.characters, used, device, chosen));
+    list_beginnings(*result);
     for (const std::string& line : result->renderer.clipped()) result->clipped += line + "\n";
     hand_out(renderer, std::move(result));
   });
