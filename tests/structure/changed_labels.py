@@ -14,7 +14,7 @@ ALSO_USED = {"practice": ["importers"], "pictures": ["importers"], "experiments"
              "collision": ["experiments"], "openhaptics": ["practice"],
              "guidance": ["practice"], "stability": ["render"]}
 #: The labels of other files, by the start of their path; the longest that fits.
-OTHERS = {"tools/": ["tools"], "bindings/": ["python"], "examples/": ["collision", "devices", "model", "practice"],
+OTHERS = {"tools/": ["tools"], "bindings/": ["python"], "examples/": ["c", "collision", "devices", "model", "practice"],
           "examples/python/": ["python"], "docs/": ["python", "tools"],
           "docs/own-backend.md": ["devices", "python", "tools"], "README.md": ["python", "tools"], "CHANGELOG.md": [],
           "tests/tools/": ["tools"], "tests/consumer/": ["consumer"], "tests/structure/": ["tools"],

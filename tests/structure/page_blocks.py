@@ -1,12 +1,13 @@
 """The code blocks of README.md and of the pages in docs/, for the tests that compile and run them.
 
 Every fence has one of the LANGUAGES. An HTML comment `<!-- given: ... -->` on the lines above a fence says what the
-block stands on, to the test alone; blocks of one page in Python are one program, so they need none.
+block stands on, to the test alone; blocks of one page in Python are one program, so they need none. Those in C are one
+main() too, before which stands what is given.
 """
 import dataclasses
 import re
 
-LANGUAGES = {"cpp", "cmake", "python", "sh", "text"}
+LANGUAGES = {"c", "cmake", "cpp", "csharp", "python", "rust", "sh", "text"}
 FENCE = re.compile(r"(?:^<!-- given:\n(?P<given>.*?)-->\n)?^```(?P<language>[^\n]*)\n(?P<text>.*?)^```$",
                    re.DOTALL | re.MULTILINE)
 

@@ -16,8 +16,8 @@ import sys
 from page_blocks import FENCE, LANGUAGES, blocks, pages
 
 #: Programs of the system and commands of the shell, and those after whose own words another command follows.
-SYSTEM = {"apt-get", "cp", "docker", "export", "groupadd", "kill", "man", "mypy", "printf", "tee", "udevadm", "usermod",
-          "."}
+SYSTEM = {"apt-get", "cc", "cp", "docker", "export", "groupadd", "kill", "man", "mypy", "printf", "tee", "udevadm",
+          "usermod", "."}
 BEFORE_OTHERS = {"sudo", "python", "python3", "in_test_bed.sh"}
 #: Directories where a build puts programs, of which a page may leave out the first part.
 BUILDS = re.compile(r"^(\.\./\.\./|\./|build-tests/release/|build/)")
