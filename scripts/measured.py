@@ -130,6 +130,7 @@ RULES = (
     Rule("allocations in a million ticks", "All tests passed"),
     Rule("renderer tick", counters("whole_tick/default_rules", "p50_ns", "p99_ns", "p999_ns"), machine=True),
     Rule("all optional stages", counters("tick_with/everything", "added_ns"), machine=True),
+    Rule("the same tick through", counters("tick_through_c", "added_ns"), machine=True),
     Rule("nearest point on real strokes", peers, machine=True, slow=True),
     Rule("wrong nearest points", r"^(\d+) failures", slow=True),
     Rule("period of the servo thread", period, machine=True),
