@@ -24,7 +24,7 @@ int main(void) {
   check(calligraphy_page_lay_out(set, "永", NULL, NULL, &page));
   check(calligraphy_page_mapping(page, CALLIGRAPHY_UPRIGHT, 1.0, &mapping));
   check(calligraphy_device_profile("desktop", &desktop));
-  check(calligraphy_pointer_device(&desktop, NULL, NULL, &mapping, &device));  // in a hand that follows a pointer
+  check(calligraphy_pointer_device_create(&desktop, NULL, NULL, &mapping, &device));  // in a hand that follows a pointer
   check(calligraphy_renderer_create(page, &mapping, &desktop, NULL, &renderer));
 
   for (int stroke = 0; tick.character == 0; ++stroke) {
@@ -37,7 +37,7 @@ int main(void) {
       const double dx = to[0] - x, dy = to[1] - y, share = fmin(1.0, 40e-6 / hypot(dx, dy));
       x += share * dx, y += share * dy;
       if (ms > 800 && share == 1.0) ++next;  // past the last point, it counts the ticks of rest
-      check(calligraphy_device_point(device, x, y + 0.003, ms > 500 && next < points + 200 ? 0.5 : 0.0, 0));
+      check(calligraphy_device_move_pointer(device, x, y + 0.003, ms > 500 && next < points + 200 ? 0.5 : 0.0, 0));
       check(calligraphy_device_read(device, &state));  // a millisecond after the last sample
       check(calligraphy_renderer_update(renderer, &state, &tick));
       check(calligraphy_device_write(device, tick.force));

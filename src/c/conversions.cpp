@@ -122,6 +122,8 @@ Capabilities capabilities_of(const calligraphy_capabilities* given) {
   Capabilities result;
   result.name.assign(from.name, strnlen(from.name, sizeof from.name));
   result.simulated = from.simulated != 0;
+  // Zero, which says nothing of the force in C++, is what a program forgot to set.
+  require(from.peak_force > 0.0, "peak_force", from.peak_force, "N", "above 0, or infinite");
   result.workspace = {from.workspace[0], from.workspace[1], from.workspace[2]};
   result.peak_force = from.peak_force;
   result.continuous_force = from.continuous_force;
@@ -144,7 +146,7 @@ calligraphy_capabilities to_c(const Capabilities& from) noexcept {
   std::strncpy(result.name, device_label(from).c_str(), sizeof result.name - 1);
   result.simulated = from.simulated;
   to_array(from.workspace, result.workspace);
-  result.peak_force = from.peak_force;
+  result.peak_force = from.peak_force > 0.0 ? from.peak_force : std::numeric_limits<double>::infinity();
   result.continuous_force = from.continuous_force;
   result.usable_stiffness = from.usable_stiffness;
   result.force_step = from.force_step;
@@ -183,7 +185,10 @@ StrokeTolerances tolerances_of(std::int32_t tolerance) {
   }
 }
 
-DeviceState state_of(const calligraphy_device_state& from) noexcept {
+DeviceState state_of(const calligraphy_device_state* given) noexcept {
+  calligraphy_device_state whole;
+  if (given->size < sizeof whole) given = copy_struct(given, &whole);
+  const calligraphy_device_state& from = *given;
   DeviceState result;
   result.time = from.time;
   result.position = {from.position[0], from.position[1], from.position[2]};

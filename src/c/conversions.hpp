@@ -51,8 +51,8 @@ calligraphy_renderer_options to_c(const RendererOptions& from) noexcept;
 /// @throws Refusal if the value is none
 StrokeTolerances tolerances_of(std::int32_t tolerance);
 
-/// A sample. What is not known is NaN. A status that is none counts as a fault.
-DeviceState state_of(const calligraphy_device_state& from) noexcept;
+/// A sample whose size check_size() has accepted. What is not known is NaN. A status that is none counts as a fault.
+DeviceState state_of(const calligraphy_device_state* from) noexcept;
 calligraphy_device_state to_c(const DeviceState& from) noexcept;
 
 }  // namespace calligraphy::c

@@ -1,8 +1,11 @@
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <calligraphy/devices/device_profiles.hpp>
 
 #include "conversions.hpp"
+#include "host_device.hpp"
 #include "objects.hpp"
 #include "structs.hpp"
 
@@ -32,10 +35,54 @@ PointerOptions pointer_options(const calligraphy_pointer_options* given, const M
   return result;
 }
 
-SimulatedDevice& simulated(calligraphy_device* device) {
-  SimulatedDevice* const found = object<DeviceObject>(device).simulated;
-  if (!found) throw Refusal(CALLIGRAPHY_INVALID_HANDLE, "device: a pointer device, expected a simulated one");
+template <class Device>
+constexpr const char* kind_name = nullptr;
+template <>
+constexpr const char* kind_name<SimulatedDevice> = "a simulated device";
+template <>
+constexpr const char* kind_name<PointerDevice> = "a pointer device";
+template <>
+constexpr const char* kind_name<HostDevice> = "a host device";
+
+/// The device of this kind. Null, with the error refused, if there is none. Does not allocate.
+template <class Device>
+Device* find_device(const calligraphy_device* handle) noexcept {
+  const auto* const found = find<DeviceObject>(handle);
+  auto* const device = found ? dynamic_cast<Device*>(found->device.get()) : nullptr;
+  if (!found) {
+    refuse_handle(Kind::device, handle);
+  } else if (!device) {
+    refuse(CALLIGRAPHY_INVALID_HANDLE, "device: expected %s", kind_name<Device>);
+  }
+  return device;
+}
+
+/// The same for set-up. @throws Refusal
+template <class Device>
+Device& device_of(const calligraphy_device* handle) {
+  Device* const found = find_device<Device>(handle);
+  if (!found) throw_refused(CALLIGRAPHY_INVALID_HANDLE);
   return *found;
+}
+
+/// A device that reads and writes by itself, and is not the program's. Likewise.
+HapticDevice* find_own_device(const calligraphy_device* handle) noexcept {
+  const auto* const found = find<DeviceObject>(handle);
+  if (!found) {
+    refuse_handle(Kind::device, handle);
+  } else if (dynamic_cast<HostDevice*>(found->device.get())) {
+    refuse(CALLIGRAPHY_INVALID_HANDLE, "device: expected a simulated or a pointer device");
+  } else {
+    return found->device.get();
+  }
+  return nullptr;
+}
+
+void hand_out_device(calligraphy_device** handle, std::unique_ptr<HapticDevice> device, double scale = 1.0) {
+  auto object = std::make_shared<DeviceObject>();
+  object->device = std::move(device);
+  object->scale = scale;
+  hand_out(handle, std::move(object));
 }
 
 }  // namespace
@@ -49,83 +96,98 @@ calligraphy_status calligraphy_device_profile(const char* name, calligraphy_capa
       [&] { write_struct(capabilities, "calligraphy_capabilities", to_c(device_profile(&target(name, "name")))); });
 }
 
-calligraphy_status calligraphy_simulated_device(const calligraphy_capabilities* capabilities,
-                                                const calligraphy_grip* grip, const double* position,
-                                                calligraphy_device** device) {
+calligraphy_status calligraphy_simulated_device_create(const calligraphy_capabilities* capabilities,
+                                                       const calligraphy_grip* grip, const double* position,
+                                                       calligraphy_device** device) {
   return guarded([&] {
     target(device, "device");
-    auto made = std::make_unique<SimulatedDevice>(capabilities_of(capabilities), grip_of(grip),
-                                                  vector_of(position, "position", "m"));
-    auto result = std::make_shared<DeviceObject>();
-    result->simulated = made.get();
-    result->device = std::move(made);
-    hand_out(device, std::move(result));
+    hand_out_device(device, std::make_unique<SimulatedDevice>(capabilities_of(capabilities), grip_of(grip),
+                                                              vector_of(position, "position", "m")));
   });
 }
 
-calligraphy_status calligraphy_pointer_device(const calligraphy_capabilities* capabilities,
-                                              const calligraphy_grip* grip, const calligraphy_pointer_options* options,
-                                              const calligraphy_mapping* mapping, calligraphy_device** device) {
+calligraphy_status calligraphy_pointer_device_create(const calligraphy_capabilities* capabilities,
+                                                     const calligraphy_grip* grip,
+                                                     const calligraphy_pointer_options* options,
+                                                     const calligraphy_mapping* mapping, calligraphy_device** device) {
   return guarded([&] {
     target(device, "device");
     const MotionMapping page = mapping_of(mapping);
-    auto made =
-        std::make_unique<PointerDevice>(capabilities_of(capabilities), grip_of(grip), pointer_options(options, page));
-    auto result = std::make_shared<DeviceObject>();
-    result->pointer = made.get();
-    result->device = std::move(made);
-    result->scale = page.scale;
-    hand_out(device, std::move(result));
+    hand_out_device(
+        device,
+        std::make_unique<PointerDevice>(capabilities_of(capabilities), grip_of(grip), pointer_options(options, page)),
+        page.scale);
   });
 }
 
-calligraphy_status calligraphy_device_point(calligraphy_device* device, double x, double y, double pressure,
-                                            uint32_t buttons) {
-  const auto* const found = find<DeviceObject>(device);
-  if (!found) return refuse_handle(Kind::device, device);
-  if (!found->pointer) {
-    return refuse(CALLIGRAPHY_INVALID_HANDLE, "device: a simulated device, expected a pointer device");
-  }
+calligraphy_status calligraphy_host_device_create(const calligraphy_capabilities* capabilities,
+                                                  calligraphy_device** device) {
+  return guarded([&] {
+    target(device, "device");
+    hand_out_device(device, std::make_unique<HostDevice>(capabilities_of(capabilities)));
+  });
+}
+
+calligraphy_status calligraphy_device_move_pointer(calligraphy_device* device, double x, double y, double pressure,
+                                                   uint32_t buttons) {
+  auto* const pointer = find_device<PointerDevice>(device);
+  if (!pointer) return CALLIGRAPHY_INVALID_HANDLE;
   if (!std::isfinite(x) || !std::isfinite(y) || !(pressure >= 0.0 && pressure <= 1.0)) {
     return refuse(CALLIGRAPHY_INVALID_VALUE,
                   "pointer at (%g, %g) m with pressure %g, must be finite and within 0 and 1", x, y, pressure);
   }
-  found->pointer->move(x / found->scale, y / found->scale, pressure, buttons);
+  const double scale = find<DeviceObject>(device)->scale;
+  pointer->move(x / scale, y / scale, pressure, buttons);
   return CALLIGRAPHY_OK;
 }
 
 calligraphy_status calligraphy_device_intend(calligraphy_device* device, const double* position,
                                              const double* velocity) {
   return guarded([&] {
+    auto& simulated = device_of<SimulatedDevice>(device);
     Intention intention;
     intention.position = vector_of(position, "position", "m");
     if (velocity) intention.velocity = vector_of(velocity, "velocity", "m/s");
-    simulated(device).set_intention(intention);
+    simulated.set_intention(intention);
   });
 }
 
 calligraphy_status calligraphy_device_advance(calligraphy_device* device, double seconds) {
-  return guarded([&] { simulated(device).advance(seconds); });
+  return guarded([&] { device_of<SimulatedDevice>(device).advance(seconds); });
 }
 
 calligraphy_status calligraphy_device_read(calligraphy_device* device, calligraphy_device_state* state) {
-  const auto* const found = find<DeviceObject>(device);
-  if (!found) return refuse_handle(Kind::device, device);
-  if (const calligraphy_status status = check_result(state, "calligraphy_device_state")) return status;
-  const std::uint32_t size = state->size;
-  *state = to_c(found->device->read());
-  state->size = size;
-  clear_rest(state);
+  HapticDevice* const found = find_own_device(device);
+  if (!found) return CALLIGRAPHY_INVALID_HANDLE;
+  if (const calligraphy_status status = check_size(state, "calligraphy_device_state")) return status;
+  put_struct(state, to_c(found->read()));
   return CALLIGRAPHY_OK;
 }
 
 calligraphy_status calligraphy_device_write(calligraphy_device* device, const double* force) {
-  const auto* const found = find<DeviceObject>(device);
-  if (!found) return refuse_handle(Kind::device, device);
+  HapticDevice* const found = find_own_device(device);
+  if (!found) return CALLIGRAPHY_INVALID_HANDLE;
   if (!force) return refuse(CALLIGRAPHY_INVALID_VALUE, "force is null");
   const Eigen::Vector3d commanded(force[0], force[1], force[2]);
-  found->device->write(commanded);
+  found->write(commanded);
   if (commanded.allFinite()) return CALLIGRAPHY_OK;
   return refuse(CALLIGRAPHY_INVALID_VALUE, "force = (%g, %g, %g) N, must be finite: it counts as zero", force[0],
                 force[1], force[2]);
+}
+
+calligraphy_status calligraphy_device_supply(calligraphy_device* device, const calligraphy_device_state* state) {
+  auto* const host = find_device<HostDevice>(device);
+  if (!host) return CALLIGRAPHY_INVALID_HANDLE;
+  if (const calligraphy_status status = check_size(state, "calligraphy_device_state")) return status;
+  host->supply(state_of(state));
+  return CALLIGRAPHY_OK;
+}
+
+calligraphy_status calligraphy_device_take_force(const calligraphy_device* device, double* force) {
+  if (!force) return refuse(CALLIGRAPHY_INVALID_VALUE, "force is null");
+  std::fill_n(force, 3, 0.0);  // for callers who do not look at the status
+  const auto* const host = find_device<HostDevice>(device);
+  if (!host) return CALLIGRAPHY_INVALID_HANDLE;
+  std::copy_n(host->force().data(), 3, force);
+  return CALLIGRAPHY_OK;
 }

@@ -72,9 +72,11 @@ calligraphy_status calligraphy_match_remark(const calligraphy_match* match, int3
                                             const char** reason) {
   return guarded([&] {
     const StrokeRemark& found = item("index", object<MatchResult>(match).remarks, index);
-    write_struct(
-        remark, "calligraphy_remark",
-        {.size = 0, .kind = static_cast<std::int32_t>(found.kind), .path = found.path, .stroke = found.stroke});
+    if (remark) {
+      write_struct(
+          remark, "calligraphy_remark",
+          {.size = 0, .kind = static_cast<std::int32_t>(found.kind), .path = found.path, .stroke = found.stroke});
+    }
     if (reason) *reason = found.reason.c_str();
   });
 }

@@ -19,12 +19,10 @@
 
 namespace calligraphy::c {
 
-/// One of the two simulated devices.
+/// A device of one of three kinds.
 struct DeviceObject {
   std::unique_ptr<HapticDevice> device;
-  SimulatedDevice* simulated = nullptr;  ///< that device, or null
-  PointerDevice* pointer = nullptr;      ///< that device, or null
-  double scale = 1.0;                    ///< of the mapping of a pointer device
+  double scale = 1.0;  ///< of the mapping of a pointer device
 };
 
 /// Where a stroke begins, and in which direction [page].

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 
@@ -88,6 +89,17 @@ calligraphy_status calligraphy_page_lay_out(const calligraphy_set* set, const ch
   });
 }
 
+calligraphy_status calligraphy_page_read_info(const calligraphy_page* page, calligraphy_page_info* info) {
+  return guarded([&] {
+    const PracticePage& found = object<PracticePage>(page);
+    write_struct(info, "calligraphy_page_info",
+                 {.size = 0,
+                  .character_count = static_cast<std::int32_t>(found.characters.size()),
+                  .width = found.width,
+                  .height = found.height});
+  });
+}
+
 calligraphy_status calligraphy_page_character(const calligraphy_page* page, int32_t character,
                                               calligraphy_placed_character* result) {
   return guarded([&] {
@@ -156,5 +168,14 @@ calligraphy_status calligraphy_page_mapping(const calligraphy_page* page, int32_
         upright ? upright_page(found.width, found.height, scale) : desk_page(found.width, found.height, scale);
     validate(result);
     write_struct(mapping, "calligraphy_mapping", to_c(result));
+  });
+}
+
+calligraphy_status calligraphy_mapping_to_device(const calligraphy_mapping* mapping, const double* page,
+                                                 double* device) {
+  return guarded([&] {
+    target(device, "device");
+    const Eigen::Vector3d position = mapping_of(mapping).to_device(vector_of(page, "page", "m"));
+    std::copy_n(position.data(), 3, device);
   });
 }

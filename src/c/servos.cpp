@@ -22,7 +22,7 @@ calligraphy_status calligraphy_servo_step(calligraphy_servo* servo, double now, 
   auto* const found = find<ServoObject>(servo);
   if (!found) return refuse_handle(Kind::servo, servo);
   if (tick) {
-    if (const calligraphy_status status = check_result(tick, "calligraphy_tick")) return status;
+    if (const calligraphy_status status = check_size(tick, "calligraphy_tick")) return status;
   }
   if (!std::isfinite(now)) return refuse(CALLIGRAPHY_INVALID_VALUE, "now = %g s, must be finite", now);
   found->servo.step(now);

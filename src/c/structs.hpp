@@ -11,47 +11,69 @@
 
 namespace calligraphy::c {
 
-/// Refuses a struct that is smaller than in the first version of this interface. Does not allocate.
+/// Size of a struct in the first version of this interface that had it, which every later one takes. When a struct
+/// grows, its first size is stated here: `template <> inline constexpr std::size_t first_size<calligraphy_grip> = 32;`
+template <class Struct>
+inline constexpr std::size_t first_size = sizeof(Struct);
+
+/// Refuses a struct that is smaller than its first size. Does not allocate.
 calligraphy_status refuse_size(const char* name, std::size_t size, std::size_t least) noexcept;
 
-/// What a caller's struct says, whatever its size. What is beyond the caller's size is as in `rest`.
+/// Copies a struct of any size: as much as it has, and zero beyond. Returns the copy.
+template <class Struct>
+Struct* copy_struct(const Struct* from, Struct* to) noexcept {
+  static_assert(std::is_trivially_copyable_v<Struct>);
+  *to = {};
+  std::memcpy(to, from, std::min<std::size_t>(from->size, sizeof(Struct)));
+  return to;
+}
+
+/// What a caller's struct says, whatever its size. What is beyond the caller's size is zero.
 /// @throws Refusal naming the struct if it is null or too small, or says what this version does not know
 template <class Struct>
-Struct read_struct(const Struct* from, const char* name, const Struct& rest = {}) {
-  static_assert(std::is_trivially_copyable_v<Struct>);
+Struct read_struct(const Struct* from, const char* name) {
   const std::size_t size = target(from, name).size;
-  if (size < sizeof(Struct)) throw_refused(refuse_size(name, size, sizeof(Struct)));
+  if (size < first_size<Struct>) throw_refused(refuse_size(name, size, first_size<Struct>));
   const char* const bytes = reinterpret_cast<const char*>(from);
-  if (std::any_of(bytes + sizeof(Struct), bytes + size, [](char byte) { return byte != 0; })) {
+  if (std::any_of(bytes + std::min(size, sizeof(Struct)), bytes + size, [](char byte) { return byte != 0; })) {
     throw Refusal(CALLIGRAPHY_INVALID_VALUE,
                   std::string(name) + ": it sets members that version " + calligraphy_version() + " does not have");
   }
-  Struct result = rest;
-  std::memcpy(&result, from, sizeof(Struct));
-  return result;
+  Struct result;
+  return *copy_struct(from, &result);
 }
 
-/// Whether a result of this size fits; in the words of the error. Does not allocate.
+/// Whether a struct of this size can be read or written; in the words of the error. Does not allocate.
 template <class Struct>
-calligraphy_status check_result(const Struct* to, const char* name) noexcept {
+calligraphy_status check_size(const Struct* to, const char* name) noexcept {
   if (!to) return refuse(CALLIGRAPHY_INVALID_VALUE, "%s is null", name);
-  return to->size < sizeof(Struct) ? refuse_size(name, to->size, sizeof(Struct)) : CALLIGRAPHY_OK;
+  return to->size < first_size<Struct> ? refuse_size(name, to->size, first_size<Struct>) : CALLIGRAPHY_OK;
 }
 
 /// Clears what a larger struct has beyond this version's.
 template <class Struct>
 void clear_rest(Struct* to) noexcept {
-  if (to->size > sizeof(Struct))
-    std::memset(reinterpret_cast<char*>(to) + sizeof(Struct), 0, to->size - sizeof(Struct));
+  if (to->size == sizeof(Struct)) return;
+  std::memset(reinterpret_cast<char*>(to) + sizeof(Struct), 0, to->size - sizeof(Struct));
 }
 
-/// Writes a result; its size stays the caller's. @throws Refusal naming the struct if it is null or too small
+/// Writes a result to a struct that check_size() has accepted: as much as it takes, and zero beyond. Its size stays.
 template <class Struct>
-void write_struct(Struct* to, const char* name, Struct result) {
-  if (const calligraphy_status status = check_result(to, name)) throw_refused(status);
+void put_struct(Struct* to, Struct result) noexcept {
   result.size = to->size;
-  *to = result;
-  clear_rest(to);
+  if (result.size >= sizeof(Struct)) {
+    *to = result;
+    clear_rest(to);
+  } else {
+    std::memcpy(to, &result, result.size);
+  }
+}
+
+/// The same for set-up. @throws Refusal naming the struct if it is null or too small
+template <class Struct>
+void write_struct(Struct* to, const char* name, const Struct& result) {
+  if (const calligraphy_status status = check_size(to, name)) throw_refused(status);
+  put_struct(to, result);
 }
 
 }  // namespace calligraphy::c

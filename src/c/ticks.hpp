@@ -7,8 +7,8 @@
 
 namespace calligraphy::c {
 
-/// Writes the renderer's last tick to a struct that check_result() has accepted. Does not allocate.
-inline void write_tick(const RendererObject& renderer, calligraphy_tick* to) noexcept {
+/// Fills all members of a tick but its size.
+inline void fill_tick(const RendererObject& renderer, calligraphy_tick* to) noexcept {
   const HapticTick& from = renderer.renderer.last();
   const Beginning& next = renderer.next(from);
   to->status = static_cast<std::int32_t>(from.status);
@@ -41,7 +41,18 @@ inline void write_tick(const RendererObject& renderer, calligraphy_tick* to) noe
   to->assistance = from.assistance;
   to->energy_given = from.energy_given;
   to->heat = from.heat;
-  clear_rest(to);
+}
+
+/// Writes the renderer's last tick to a struct that check_size() has accepted. Does not allocate.
+inline void write_tick(const RendererObject& renderer, calligraphy_tick* to) noexcept {
+  if (to->size >= sizeof(calligraphy_tick)) {  // in place: half of what the call costs would be the copy
+    fill_tick(renderer, to);
+    clear_rest(to);
+  } else {
+    calligraphy_tick tick;
+    fill_tick(renderer, &tick);
+    put_struct(to, tick);
+  }
 }
 
 }  // namespace calligraphy::c

@@ -40,7 +40,7 @@ StiffnessLimit usable_stiffness(const Capabilities& capabilities) {
     return {max_stiffness, "at most 1e6 N/m are accepted"};
   }
   std::ostringstream reason;
-  reason << "the device " << capabilities.model << " is usable up to " << capabilities.usable_stiffness << " N/m";
+  reason << "the device " << device_label(capabilities) << " is usable up to " << capabilities.usable_stiffness << " N/m";
   return {capabilities.usable_stiffness, reason.str()};
 }
 

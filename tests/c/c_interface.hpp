@@ -63,7 +63,7 @@ inline Owned<calligraphy_renderer> renderer_of(const calligraphy_page* page, con
 inline Owned<calligraphy_device> simulated_device(const calligraphy_capabilities& device,
                                                   const double (&position)[3] = {0.0, 0.0, 0.02}) {
   calligraphy_device* result = nullptr;
-  REQUIRE(calligraphy_simulated_device(&device, nullptr, position, &result) == CALLIGRAPHY_OK);
+  REQUIRE(calligraphy_simulated_device_create(&device, nullptr, position, &result) == CALLIGRAPHY_OK);
   return Owned<calligraphy_device>(result);
 }
 

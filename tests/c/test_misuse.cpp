@@ -27,7 +27,7 @@ struct Everything {
   calligraphy_renderer_options options = options_for(capabilities);
   Owned<calligraphy_renderer> renderer = renderer_of(page.get(), capabilities);
   Owned<calligraphy_device> device = simulated_device(capabilities);
-  Owned<calligraphy_device> pointer;
+  Owned<calligraphy_device> pointer, host;
   Owned<calligraphy_servo> servo;
   Owned<calligraphy_match> match;
   calligraphy_mapping mapping = sized<calligraphy_mapping>();
@@ -37,8 +37,12 @@ struct Everything {
   Everything() {
     REQUIRE(calligraphy_page_mapping(page.get(), CALLIGRAPHY_UPRIGHT, 1.0, &mapping) == CALLIGRAPHY_OK);
     calligraphy_device* pointer_handle = nullptr;
-    REQUIRE(calligraphy_pointer_device(&capabilities, nullptr, nullptr, &mapping, &pointer_handle) == CALLIGRAPHY_OK);
+    REQUIRE(calligraphy_pointer_device_create(&capabilities, nullptr, nullptr, &mapping, &pointer_handle) ==
+            CALLIGRAPHY_OK);
     pointer.reset(pointer_handle);
+    calligraphy_device* host_handle = nullptr;
+    REQUIRE(calligraphy_host_device_create(&capabilities, &host_handle) == CALLIGRAPHY_OK);
+    host.reset(host_handle);
     calligraphy_servo* servo_handle = nullptr;
     REQUIRE(calligraphy_servo_create(device.get(), renderer.get(), &servo_handle) == CALLIGRAPHY_OK);
     servo.reset(servo_handle);
@@ -68,6 +72,7 @@ std::vector<HandleCall> handle_calls(Everything& all) {
   static const char* text;
   static double points[3];
   static auto placed = sized<calligraphy_placed_character>();
+  static auto info = sized<calligraphy_page_info>();
   static auto stroke = sized<calligraphy_stroke>();
   static auto drawn = sized<calligraphy_drawn_stroke>();
   static auto remark = sized<calligraphy_remark>();
@@ -88,6 +93,7 @@ std::vector<HandleCall> handle_calls(Everything& all) {
       {"page_lay_out", "set",
        [](void* h) { return calligraphy_page_lay_out(as<Set>(h), "永", nullptr, nullptr, &page); }},
       {"page_character", "page", [](void* h) { return calligraphy_page_character(as<Page>(h), 0, &placed); }},
+      {"page_read_info", "page", [](void* h) { return calligraphy_page_read_info(as<Page>(h), &info); }},
       {"page_stroke", "page", [](void* h) { return calligraphy_page_stroke(as<Page>(h), 0, 0, &stroke); }},
       {"page_polyline", "page",
        [](void* h) { return calligraphy_page_polyline(as<Page>(h), 0, 0, CALLIGRAPHY_PATH, 0.0, nullptr, 0, &count); }},
@@ -101,9 +107,12 @@ std::vector<HandleCall> handle_calls(Everything& all) {
        [](void* h) {
          return calligraphy_match_strokes(as<Page>(h), 0, nullptr, nullptr, 0, CALLIGRAPHY_TOLERANCE_NORMAL, &match);
        }},
-      {"device_point", "device", [](void* h) { return calligraphy_device_point(as<Device>(h), 0.0, 0.0, 0.5, 0); }},
+      {"device_point", "device",
+       [](void* h) { return calligraphy_device_move_pointer(as<Device>(h), 0.0, 0.0, 0.5, 0); }},
       {"device_intend", "device", [](void* h) { return calligraphy_device_intend(as<Device>(h), points, nullptr); }},
       {"device_advance", "device", [](void* h) { return calligraphy_device_advance(as<Device>(h), 1e-3); }},
+      {"device_supply", "device", [&](void* h) { return calligraphy_device_supply(as<Device>(h), &all.state); }},
+      {"device_take_force", "device", [](void* h) { return calligraphy_device_take_force(as<Device>(h), points); }},
       {"device_read", "device", [&](void* h) { return calligraphy_device_read(as<Device>(h), &all.state); }},
       {"device_write", "device", [](void* h) { return calligraphy_device_write(as<Device>(h), points); }},
       {"servo_create", "device",
@@ -283,6 +292,8 @@ TEST_CASE("a null pointer, a wrong index and a number that is none are refused b
   grip.stiffness = not_a_number;
   auto bad_capabilities = all.capabilities;
   bad_capabilities.peak_force = not_a_number;
+  auto no_force = all.capabilities;
+  no_force.peak_force = 0.0;
   auto bad_mapping = all.mapping;
   bad_mapping.rotation[0] = 2.0;
   auto bad_options = all.options;
@@ -297,7 +308,7 @@ TEST_CASE("a null pointer, a wrong index and a number that is none are refused b
   std::size_t count = 0;
   std::uint32_t code = 0;
   std::int32_t number = 0;
-  double points[2] = {};
+  double points[3] = {};
   const std::uint32_t one_point = 1;
   constexpr auto value = CALLIGRAPHY_INVALID_VALUE;
   constexpr auto normal = CALLIGRAPHY_TOLERANCE_NORMAL;
@@ -348,34 +359,50 @@ TEST_CASE("a null pointer, a wrong index and a number that is none are refused b
       {"profile", value, "name is null", [&] { return calligraphy_device_profile(nullptr, &all.capabilities); }},
       {"profile", value, "phantasm", [&] { return calligraphy_device_profile("phantasm", &all.capabilities); }},
       {"device", value, "calligraphy_capabilities is null",
-       [&] { return calligraphy_simulated_device(nullptr, nullptr, good, &device); }},
+       [&] { return calligraphy_simulated_device_create(nullptr, nullptr, good, &device); }},
       {"device", value, "position is null",
-       [&] { return calligraphy_simulated_device(&all.capabilities, nullptr, nullptr, &device); }},
+       [&] { return calligraphy_simulated_device_create(&all.capabilities, nullptr, nullptr, &device); }},
       {"device", value, "position = nan m",
-       [&] { return calligraphy_simulated_device(&all.capabilities, nullptr, nan, &device); }},
+       [&] { return calligraphy_simulated_device_create(&all.capabilities, nullptr, nan, &device); }},
       {"device", value, "stiffness",
-       [&] { return calligraphy_simulated_device(&all.capabilities, &grip, good, &device); }},
-      {"device", value, "peak force = nan N",
-       [&] { return calligraphy_simulated_device(&bad_capabilities, nullptr, good, &device); }},
+       [&] { return calligraphy_simulated_device_create(&all.capabilities, &grip, good, &device); }},
+      {"device", value, "peak_force = nan N",
+       [&] { return calligraphy_simulated_device_create(&bad_capabilities, nullptr, good, &device); }},
       {"pointer", value, "calligraphy_mapping is null",
-       [&] { return calligraphy_pointer_device(&all.capabilities, nullptr, nullptr, nullptr, &device); }},
+       [&] { return calligraphy_pointer_device_create(&all.capabilities, nullptr, nullptr, nullptr, &device); }},
       {"pointer", value, "rotation",
-       [&] { return calligraphy_pointer_device(&all.capabilities, nullptr, nullptr, &bad_mapping, &device); }},
+       [&] { return calligraphy_pointer_device_create(&all.capabilities, nullptr, nullptr, &bad_mapping, &device); }},
       {"point", CALLIGRAPHY_INVALID_HANDLE, "expected a pointer device",
-       [&] { return calligraphy_device_point(all.device.get(), 0.0, 0.0, 0.5, 0); }},
-      {"point", value, "nan", [&] { return calligraphy_device_point(all.pointer.get(), nan[1], 0.0, 0.5, 0); }},
-      {"point", value, "pressure 1.5", [&] { return calligraphy_device_point(all.pointer.get(), 0.0, 0.0, 1.5, 0); }},
-      {"intend", CALLIGRAPHY_INVALID_HANDLE, "expected a simulated one",
+       [&] { return calligraphy_device_move_pointer(all.device.get(), 0.0, 0.0, 0.5, 0); }},
+      {"point", value, "nan", [&] { return calligraphy_device_move_pointer(all.pointer.get(), nan[1], 0.0, 0.5, 0); }},
+      {"point", value, "pressure 1.5",
+       [&] { return calligraphy_device_move_pointer(all.pointer.get(), 0.0, 0.0, 1.5, 0); }},
+      {"intend", CALLIGRAPHY_INVALID_HANDLE, "expected a simulated device",
        [&] { return calligraphy_device_intend(all.pointer.get(), good, nullptr); }},
       {"intend", value, "velocity = nan m/s", [&] { return calligraphy_device_intend(all.device.get(), good, nan); }},
       {"advance", value, "nan", [&] { return calligraphy_device_advance(all.device.get(), not_a_number); }},
-      {"advance", CALLIGRAPHY_INVALID_HANDLE, "expected a simulated one",
+      {"advance", CALLIGRAPHY_INVALID_HANDLE, "expected a simulated device",
        [&] { return calligraphy_device_advance(all.pointer.get(), 1e-3); }},
       {"read", value, "calligraphy_device_state is null",
        [&] { return calligraphy_device_read(all.device.get(), nullptr); }},
       {"write", value, "force is null", [&] { return calligraphy_device_write(all.device.get(), nullptr); }},
       {"write", value, "must be finite: it counts as zero",
        [&] { return calligraphy_device_write(all.device.get(), nan); }},
+      {"read", CALLIGRAPHY_INVALID_HANDLE, "expected a simulated or a pointer device",
+       [&] { return calligraphy_device_read(all.host.get(), &all.state); }},
+      {"write", CALLIGRAPHY_INVALID_HANDLE, "expected a simulated or a pointer device",
+       [&] { return calligraphy_device_write(all.host.get(), good); }},
+      {"supply", CALLIGRAPHY_INVALID_HANDLE, "expected a host device",
+       [&] { return calligraphy_device_supply(all.device.get(), &all.state); }},
+      {"supply", value, "calligraphy_device_state is null",
+       [&] { return calligraphy_device_supply(all.host.get(), nullptr); }},
+      {"take force", CALLIGRAPHY_INVALID_HANDLE, "expected a host device",
+       [&] { return calligraphy_device_take_force(all.pointer.get(), points); }},
+      {"take force", value, "force is null", [&] { return calligraphy_device_take_force(all.host.get(), nullptr); }},
+      {"host", value, "peak_force = 0 N, must be above 0, or infinite",
+       [&] { return calligraphy_host_device_create(&no_force, &device); }},
+      {"mapping", value, "page = nan m", [&] { return calligraphy_mapping_to_device(&all.mapping, nan, points); }},
+      {"mapping", value, "device is null", [&] { return calligraphy_mapping_to_device(&all.mapping, good, nullptr); }},
       {"preset", value, "preset = 3",
        [&] { return calligraphy_renderer_options_for(&all.capabilities, 3, 1.0, normal, &all.options); }},
       {"tolerance", value, "tolerance = -1",

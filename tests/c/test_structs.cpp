@@ -213,7 +213,45 @@ TEST_CASE("a profile is that of C++") {
                              expected.update_rate,     expected.apparent_mass,    expected.viscous_friction,
                              expected.coulomb_friction};
     CHECK(std::memcmp(numbers, wanted, sizeof wanted) == 0);
+
+    // And arrives as that: its options depend on the mass, the delay, the rate, the stiffness and the forces.
+    const auto options = options_for(found, CALLIGRAPHY_PRESET_EVERYTHING, 0.5);
+    const RendererOptions there = RendererOptions::everything(expected, 0.5);
+    CHECK(options.paper_stiffness == there.paper.stiffness);
+    CHECK(options.guidance_stiffness == there.guidance.stiffness);
+    CHECK(options.paper_friction_coefficient == there.paper.friction.coefficient);
+    CHECK(options.limit_thermal_time_constant == there.limits.thermal_time_constant);
+    CHECK(options.energy_budget == there.energy.budget);
+    auto late = found;
+    late.sample_delay = 5;
+    Capabilities late_there = expected;
+    late_there.sample_delay = 5;
+    const auto careful = options_for(late, CALLIGRAPHY_PRESET_DEVICE, 0.5);
+    CHECK(careful.paper_stiffness == RendererOptions::for_device(late_there, 0.5).paper.stiffness);
   }
+}
+
+TEST_CASE("a device without a limit of its force has an infinite one") {
+  CHECK(profile("ideal").peak_force == INFINITY);
+}
+
+TEST_CASE("a mapping leads from the page to the device as in C++") {
+  const auto page = page_of("永");
+  auto info = sized<calligraphy_page_info>();
+  REQUIRE(calligraphy_page_read_info(page.get(), &info) == CALLIGRAPHY_OK);
+  CHECK(info.character_count == 1);
+  CHECK(info.width == 0.16);
+  CHECK(info.height == 0.12);
+  auto mapping = sized<calligraphy_mapping>();
+  REQUIRE(calligraphy_page_mapping(page.get(), CALLIGRAPHY_DESK, 2.0, &mapping) == CALLIGRAPHY_OK);
+  mapping.offset[2] = 0.015;
+  MotionMapping there = desk_page(0.16, 0.12, 2.0);
+  there.offset.z() = 0.015;
+  const double on_page[3] = {0.01, 0.02, 0.03};
+  double found[3];
+  REQUIRE(calligraphy_mapping_to_device(&mapping, on_page, found) == CALLIGRAPHY_OK);
+  const Eigen::Vector3d expected = there.to_device({0.01, 0.02, 0.03});
+  CHECK(std::memcmp(found, expected.data(), sizeof found) == 0);
 }
 
 TEST_CASE("a page lists its characters, strokes and shapes as C++ draws them") {
@@ -368,6 +406,23 @@ TEST_CASE("the version of the header is that of the library") {
   CHECK(calligraphy_version() == std::to_string(CALLIGRAPHY_VERSION_MAJOR) + "." +
                                      std::to_string(CALLIGRAPHY_VERSION_MINOR) + "." +
                                      std::to_string(CALLIGRAPHY_VERSION_PATCH));
+}
+
+TEST_CASE("structs keep the sizes of version 0.2: one that grows must state its first size (src/c/structs.hpp)") {
+  CHECK(sizeof(calligraphy_layout) == 40);
+  CHECK(sizeof(calligraphy_page_info) == 24);
+  CHECK(sizeof(calligraphy_placed_character) == 40);
+  CHECK(sizeof(calligraphy_stroke) == 72);
+  CHECK(sizeof(calligraphy_mapping) == 112);
+  CHECK(sizeof(calligraphy_capabilities) == 168);
+  CHECK(sizeof(calligraphy_device_state) == 112);
+  CHECK(sizeof(calligraphy_grip) == 32);
+  CHECK(sizeof(calligraphy_pointer_options) == 56);
+  CHECK(sizeof(calligraphy_renderer_options) == 360);
+  CHECK(sizeof(calligraphy_tick) == 360);
+  CHECK(sizeof(calligraphy_servo_state) == 64);
+  CHECK(sizeof(calligraphy_drawn_stroke) == 40);
+  CHECK(sizeof(calligraphy_remark) == 16);
 }
 
 TEST_CASE("the names of C are the values of C++") {

@@ -184,7 +184,7 @@ TEST_CASE("a pointer device follows the pointer on the page, at any scale") {
   REQUIRE(calligraphy_page_mapping(page.get(), CALLIGRAPHY_DESK, scale, &mapping) == CALLIGRAPHY_OK);
   const auto capabilities = profile("ideal");
   calligraphy_device* handle = nullptr;
-  REQUIRE(calligraphy_pointer_device(&capabilities, nullptr, nullptr, &mapping, &handle) == CALLIGRAPHY_OK);
+  REQUIRE(calligraphy_pointer_device_create(&capabilities, nullptr, nullptr, &mapping, &handle) == CALLIGRAPHY_OK);
   const Owned<calligraphy_device> device(handle);
   const MotionMapping desk = desk_page(0.16, 0.12, scale);
 
@@ -197,7 +197,7 @@ TEST_CASE("a pointer device follows the pointer on the page, at any scale") {
   auto state = sized<calligraphy_device_state>();
   for (int i = 0; i < 2000; ++i) {
     const double x = 0.08 + 1e-5 * i, pressure = i < 1000 ? 0.0 : 0.5;
-    REQUIRE(calligraphy_device_point(device.get(), x, 0.05, pressure, 3) == CALLIGRAPHY_OK);
+    REQUIRE(calligraphy_device_move_pointer(device.get(), x, 0.05, pressure, 3) == CALLIGRAPHY_OK);
     REQUIRE(calligraphy_device_read(device.get(), &state) == CALLIGRAPHY_OK);
     expected.move(x / scale, 0.05 / scale, pressure, 3);
     const DeviceState there = expected.read();
@@ -259,7 +259,10 @@ TEST_CASE("a tick says where the next stroke begins, and in which direction") {
     std::memcpy(state.position, position.data(), sizeof state.position);
     state.time += 1e-3;
     REQUIRE(calligraphy_renderer_update(renderer.get(), &state, &tick) == CALLIGRAPHY_OK);
-    if (tick.character < 2 && tick.stroke < (tick.character == 0 ? 5 : 1)) {
+    if (tick.character < 2 && tick.stroke == (tick.character == 0 ? 5 : 1)) {  // not lifted yet
+      REQUIRE(tick.next_start[0] == 0.0);
+      REQUIRE(tick.next_direction[0] == 0.0);
+    } else if (tick.character < 2) {
       if (const int now = 10 * tick.character + tick.stroke; now != last) {
         last = now;
         ++strokes_seen;
@@ -294,9 +297,80 @@ TEST_CASE("a sample that is not finite is no error but a status of the tick") {
   CHECK(tick.status == CALLIGRAPHY_TICK_BAD_SAMPLE);
   CHECK(std::isfinite(tick.force[1]));
   state.position[1] = 0.0;
-  state.status = 77;  // none of the enumeration
+  state.status = 256;  // none of the enumeration
   CHECK(calligraphy_renderer_update(renderer.get(), &state, &tick) == CALLIGRAPHY_OK);
   CHECK(tick.status == CALLIGRAPHY_TICK_DEVICE_FAULT);
+}
+
+TEST_CASE("a tick that fails has no force, whatever it had before") {
+  const auto page = page_of("永");
+  const auto renderer = renderer_of(page.get(), profile());
+  auto tick = sized<calligraphy_tick>();
+  auto state = sized<calligraphy_device_state>();
+  for (int i = 0; i < 400; ++i) {
+    state.time = 1e-3 * i;
+    state.position[2] = 2e-3 - 1e-5 * i;
+    REQUIRE(calligraphy_renderer_update(renderer.get(), &state, &tick) == CALLIGRAPHY_OK);
+  }
+  REQUIRE(tick.force[2] > 0.5);
+  SECTION("because the renderer is none") {
+    CHECK(calligraphy_renderer_update(nullptr, &state, &tick) == CALLIGRAPHY_INVALID_HANDLE);
+  }
+  SECTION("because the sample is none") {
+    CHECK(calligraphy_renderer_update(renderer.get(), nullptr, &tick) == CALLIGRAPHY_INVALID_VALUE);
+  }
+  CHECK(tick.force[2] == 0.0);
+}
+
+TEST_CASE("a servo drives a device of the program's own") {
+  const auto page = page_of("永");
+  const auto capabilities = profile("omni");
+  const auto renderer = renderer_of(page.get(), capabilities);
+  calligraphy_device* device_handle = nullptr;
+  REQUIRE(calligraphy_host_device_create(&capabilities, &device_handle) == CALLIGRAPHY_OK);
+  const Owned<calligraphy_device> device(device_handle);
+  calligraphy_servo* handle = nullptr;
+  REQUIRE(calligraphy_servo_create(device.get(), renderer.get(), &handle) == CALLIGRAPHY_OK);
+  const Owned<calligraphy_servo> servo(handle);
+
+  auto state = sized<calligraphy_device_state>();
+  auto tick = sized<calligraphy_tick>();
+  auto servo_state = sized<calligraphy_servo_state>();
+  double force[3] = {};
+  int now = 0;
+  // Presses 4 mm deep from 1 mm above, in half a second.
+  const auto step = [&](bool fresh) {
+    state.time = 1e-3 * now;
+    state.position[2] = std::max(1e-3 - 1e-5 * now, -4e-3);
+    if (fresh) REQUIRE(calligraphy_device_supply(device.get(), &state) == CALLIGRAPHY_OK);
+    REQUIRE(calligraphy_servo_step(servo.get(), 1e-3 * now++, &tick) == CALLIGRAPHY_OK);
+    REQUIRE(calligraphy_device_take_force(device.get(), force) == CALLIGRAPHY_OK);
+    REQUIRE(calligraphy_servo_read_state(servo.get(), &servo_state) == CALLIGRAPHY_OK);
+  };
+  step(false);
+  CHECK(force[2] == 0.0);
+  double largest_step = 0.0, last = 0.0;
+  for (int i = 0; i < 1000; ++i) {
+    step(true);
+    largest_step = std::max(largest_step, std::abs(force[2] - last));
+    last = force[2];
+  }
+  CHECK(servo_state.phase == CALLIGRAPHY_SERVO_RUNNING);
+  CHECK(force[2] == Approx(tick.force[2]).margin(0.01));  // but for the steps of the device's forces
+  CHECK(force[2] > 0.5);
+  CHECK(largest_step < 0.1);
+
+  SECTION("and takes the force away when samples stay out") {
+    for (int i = 0; i < 20; ++i) step(false);
+    CHECK(force[2] == 0.0);
+    CHECK(servo_state.fault == std::string("silent"));
+  }
+  SECTION("and when the device reports a fault") {
+    state.status = CALLIGRAPHY_DEVICE_FAULT;
+    for (int i = 0; i < 20; ++i) step(true);
+    CHECK(force[2] == 0.0);
+    CHECK(servo_state.device == CALLIGRAPHY_DEVICE_FAULT);
+  }
 }
 
 TEST_CASE("a hint has the words of C++") {

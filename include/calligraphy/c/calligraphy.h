@@ -26,8 +26,9 @@ extern "C" {
 // x right, y up, z out of the paper.
 //
 // Handles are opaque. Whoever creates one frees it with calligraphy_free(), in any order: what a handle was made from
-// may be freed before it. A handle that was freed, is null or is of another kind is refused, not followed. One handle
-// is used by one thread at a time, except where a function says otherwise.
+// may be freed before it, though not while another thread is in a call with it. A handle that was freed, is null or is
+// of another kind is refused, not followed. One handle is used by one thread at a time, except where a comment says
+// otherwise.
 //
 // Every struct begins with its size, which the caller sets: `calligraphy_tick tick = {sizeof tick};`. So it can grow at
 // its end: a newer library takes the struct of an older program, and an older library that of a newer program, unless
@@ -40,7 +41,7 @@ extern "C" {
 /// Whether a function did what it says.
 typedef enum calligraphy_status {
   CALLIGRAPHY_OK = 0,              ///< it did
-  CALLIGRAPHY_INVALID_HANDLE = 1,  ///< a handle that is null, was freed or is of another kind
+  CALLIGRAPHY_INVALID_HANDLE = 1,  ///< a handle that is null, was freed, or is of another kind of object or device
   CALLIGRAPHY_INVALID_VALUE = 2,   ///< a value out of its domain, a null pointer or the wrong size of a struct
   CALLIGRAPHY_NOT_FOUND = 3,       ///< no such character in the set
   CALLIGRAPHY_TOO_SMALL = 4,       ///< the array is too small for the result; the count that it needs was written
@@ -98,11 +99,24 @@ typedef struct calligraphy_layout {
   double gap;     ///< between the squares, and between them and the edge of the page; 0.2 em by default [m]
 } calligraphy_layout;
 
-/// Lays the characters of a text in UTF-8 out from left to right and top to bottom. Writes how many fit, from the first
-/// on, to `placed`; a null `placed` demands that all do. Null `layout`: the default.
+/// Lays the characters of a text in UTF-8 out from left to right and top to bottom: only characters of the set, so no
+/// spaces. Writes how many fit, from the first on, to `placed`; a null `placed` demands that all do. Null `layout`: the
+/// default.
 CALLIGRAPHY_API calligraphy_status calligraphy_page_lay_out(const calligraphy_set* set, const char* text,
                                                             const calligraphy_layout* layout, int32_t* placed,
                                                             calligraphy_page** page);
+
+/// What a page is as a whole.
+typedef struct calligraphy_page_info {
+  uint32_t size;            ///< sizeof(calligraphy_page_info)
+  int32_t character_count;  ///< number of characters
+  double width;             ///< of the paper [m]
+  double height;            ///< of the paper [m]
+} calligraphy_page_info;
+
+/// Its size and number of characters.
+CALLIGRAPHY_API calligraphy_status calligraphy_page_read_info(const calligraphy_page* page,
+                                                              calligraphy_page_info* info);
 
 /// A character of a page.
 typedef struct calligraphy_placed_character {
@@ -166,6 +180,10 @@ typedef struct calligraphy_mapping {
 CALLIGRAPHY_API calligraphy_status calligraphy_page_mapping(const calligraphy_page* page, int32_t pose, double scale,
                                                             calligraphy_mapping* mapping);
 
+/// The position in device axes of a position on the page (3 values each) [m].
+CALLIGRAPHY_API calligraphy_status calligraphy_mapping_to_device(const calligraphy_mapping* mapping, const double* page,
+                                                                 double* device);
+
 // Devices.
 
 /// A device's limits, and its properties as a point mass. It senses and drives all three translations.
@@ -176,7 +194,7 @@ typedef struct calligraphy_capabilities {
   int32_t velocity_measured;  ///< its velocities are measured; otherwise estimated from its positions
   int32_t sample_delay;       ///< age of a sample when it is read [ticks]
   double workspace[3];        ///< extent along each device axis, centred on zero [m]
-  double peak_force;          ///< maximum force; 0: unknown, no limit [N]
+  double peak_force;          ///< maximum force, above 0; infinite: no limit [N]
   double continuous_force;    ///< force that it sustains indefinitely; 0: unknown [N]
   double usable_stiffness;    ///< maximum stiffness reported by its users; 0: unknown [N/m]
   double force_step;          ///< forces are rounded to multiples of it; 0: unknown, or they are not [N]
@@ -215,7 +233,7 @@ typedef struct calligraphy_device_state {
   double force_settling;  ///< how long after the sample before another force may have been at work [s]
 } calligraphy_device_state;
 
-/// A simulated device and the hand that holds it.
+/// A simulated device with the hand that holds it, or a device of the program's own.
 typedef struct calligraphy_device calligraphy_device;
 
 /// The hand about its intended position, equal along all axes. All zero: nobody holds the device.
@@ -227,9 +245,10 @@ typedef struct calligraphy_grip {
 } calligraphy_grip;
 
 /// A simulated device at rest at `position` (device axes, 3 values) [m]. Null `grip`: the usual one.
-CALLIGRAPHY_API calligraphy_status calligraphy_simulated_device(const calligraphy_capabilities* capabilities,
-                                                                const calligraphy_grip* grip, const double* position,
-                                                                calligraphy_device** device);
+CALLIGRAPHY_API calligraphy_status calligraphy_simulated_device_create(const calligraphy_capabilities* capabilities,
+                                                                       const calligraphy_grip* grip,
+                                                                       const double* position,
+                                                                       calligraphy_device** device);
 
 /// How the hand of a pointer device follows the pointer. What is zero or less takes the default.
 typedef struct calligraphy_pointer_options {
@@ -244,16 +263,16 @@ typedef struct calligraphy_pointer_options {
 
 /// A simulated device in a hand that follows a mouse, tablet or finger on a page with this mapping: it needs no
 /// advance, since every read is one period later. Null `grip`, `options`: the usual ones.
-CALLIGRAPHY_API calligraphy_status calligraphy_pointer_device(const calligraphy_capabilities* capabilities,
-                                                              const calligraphy_grip* grip,
-                                                              const calligraphy_pointer_options* options,
-                                                              const calligraphy_mapping* mapping,
-                                                              calligraphy_device** device);
+CALLIGRAPHY_API calligraphy_status calligraphy_pointer_device_create(const calligraphy_capabilities* capabilities,
+                                                                     const calligraphy_grip* grip,
+                                                                     const calligraphy_pointer_options* options,
+                                                                     const calligraphy_mapping* mapping,
+                                                                     calligraphy_device** device);
 
 /// The pointer is at x, y [m, page] with a pressure from 0 (not pressed) to 1; use 0.5 for a mouse button. Wait-free;
 /// callable from another thread than the one that reads the device. Only for a pointer device.
-CALLIGRAPHY_API calligraphy_status calligraphy_device_point(calligraphy_device* device, double x, double y,
-                                                            double pressure, uint32_t buttons);
+CALLIGRAPHY_API calligraphy_status calligraphy_device_move_pointer(calligraphy_device* device, double x, double y,
+                                                                   double pressure, uint32_t buttons);
 
 /// The hand means the pen to be at `position` and to move on at `velocity` (3 values each, device axes) [m, m/s]. Null
 /// `velocity`: zero. Only for a simulated device.
@@ -263,12 +282,24 @@ CALLIGRAPHY_API calligraphy_status calligraphy_device_intend(calligraphy_device*
 /// Advances virtual time by `seconds`, with the force held, and takes a sample. Only for a simulated device.
 CALLIGRAPHY_API calligraphy_status calligraphy_device_advance(calligraphy_device* device, double seconds);
 
-/// The newest sample.
+/// The newest sample. Only for simulated and pointer devices.
 CALLIGRAPHY_API calligraphy_status calligraphy_device_read(calligraphy_device* device, calligraphy_device_state* state);
 
 /// Commands a force (3 values, device axes), held until the next one [N]. One that is not finite is an error and counts
-/// as zero.
+/// as zero. Only for simulated and pointer devices.
 CALLIGRAPHY_API calligraphy_status calligraphy_device_write(calligraphy_device* device, const double* force);
+
+/// A device of the program's own, for a servo: the program gives it samples and takes its forces.
+CALLIGRAPHY_API calligraphy_status calligraphy_host_device_create(const calligraphy_capabilities* capabilities,
+                                                                  calligraphy_device** device);
+
+/// The sample for the next step of a servo; without a new one that step has a stale sample. Only for a host device.
+CALLIGRAPHY_API calligraphy_status calligraphy_device_supply(calligraphy_device* device,
+                                                             const calligraphy_device_state* state);
+
+/// The force (3 values, device axes) that the last step of a servo commands, to be sent after each step; zero on
+/// failure [N]. Only for a host device.
+CALLIGRAPHY_API calligraphy_status calligraphy_device_take_force(const calligraphy_device* device, double* force);
 
 // The renderer.
 
@@ -400,12 +431,12 @@ CALLIGRAPHY_API calligraphy_status calligraphy_renderer_clipped(const calligraph
                                                                 const char** lines);
 
 /// Where the pen is, and whether it writes (Wang 2006, Table 1).
-typedef enum calligraphy_state {
+typedef enum calligraphy_interaction_state {
   CALLIGRAPHY_SEPARATION = 0,   ///< the pen does not touch the paper
   CALLIGRAPHY_ADJUSTING = 1,    ///< it touches the paper outside the box of the active character
   CALLIGRAPHY_CALIBRATION = 2,  ///< it touches the paper inside the box, but does not write the active stroke
   CALLIGRAPHY_WRITING = 3       ///< it writes the active stroke
-} calligraphy_state;
+} calligraphy_interaction_state;
 
 /// What happened in a tick; bit flags.
 typedef enum calligraphy_event {
@@ -444,11 +475,11 @@ typedef enum calligraphy_hint {
 typedef struct calligraphy_tick {
   uint32_t size;             ///< sizeof(calligraphy_tick)
   int32_t status;            ///< a calligraphy_tick_status
-  int32_t state;             ///< a calligraphy_state
+  int32_t state;             ///< a calligraphy_interaction_state
   uint32_t events;           ///< of calligraphy_event
   int32_t hint;              ///< a calligraphy_hint
   int32_t character;         ///< index of the active character; the number of characters once all are written
-  int32_t stroke;            ///< index of its active stroke; the number of strokes until the lift after the last one
+  int32_t stroke;            ///< index of its active stroke; the number of strokes, no index, until the last lift
   int32_t element;           ///< of the stroke, at the nearest point
   double time;               ///< of the sample [s]
   double force[3];           ///< the force as sent, to be written to the device [N, device]
@@ -476,7 +507,8 @@ typedef struct calligraphy_tick {
 } calligraphy_tick;
 
 /// Processes one sample, and writes the result with the force for the device to `tick`. Neither allocates, locks nor
-/// logs. A sample that is not finite is no error: the tick's status says so, and the force ramps down.
+/// logs. A sample that is not finite is no error: the tick's status says so, and the force ramps down. On failure the
+/// tick's force is zero.
 CALLIGRAPHY_API calligraphy_status calligraphy_renderer_update(calligraphy_renderer* renderer,
                                                                const calligraphy_device_state* state,
                                                                calligraphy_tick* tick);
@@ -485,12 +517,14 @@ CALLIGRAPHY_API calligraphy_status calligraphy_renderer_update(calligraphy_rende
 CALLIGRAPHY_API calligraphy_status calligraphy_renderer_restart(calligraphy_renderer* renderer);
 
 /// The words for a tick's hint, "too far from the start: 12 mm to the upper left", in UTF-8 and terminated by a zero.
-/// Empty without a hint. CALLIGRAPHY_TOO_SMALL if the text does not fit into `capacity` bytes; 128 are enough.
+/// Empty without a hint. For the display: it allocates. CALLIGRAPHY_TOO_SMALL if the text does not fit into `capacity`
+/// bytes; 128 are enough.
 CALLIGRAPHY_API calligraphy_status calligraphy_hint_text(const calligraphy_tick* tick, char* text, size_t capacity);
 
-// The servo loop, in virtual time.
+// The servo loop, in the program's own time.
 
-/// Runs a renderer on a device with the limits, ramps and faults of the real-time loop, one step for each call.
+/// Runs a renderer on a device with the limits, ramps and faults of the real-time loop, one step for each call. It has
+/// no thread and no watchdog: between two steps the device holds its force.
 typedef struct calligraphy_servo calligraphy_servo;
 
 /// What the force output does.
@@ -588,8 +622,7 @@ typedef struct calligraphy_remark {
 /// Number of remarks.
 CALLIGRAPHY_API calligraphy_status calligraphy_match_remark_count(const calligraphy_match* match, int32_t* count);
 
-/// The remark with this index, and one sentence for people, in UTF-8 and valid as long as the match. Null `reason`:
-/// none.
+/// The remark with this index, and one sentence for people, in UTF-8 and valid as long as the match. Both are optional.
 CALLIGRAPHY_API calligraphy_status calligraphy_match_remark(const calligraphy_match* match, int32_t index,
                                                             calligraphy_remark* remark, const char** reason);
 

@@ -44,7 +44,7 @@ class DeviceState(Sized):
 
 class Tick(Sized):
     _fields_ = [("size", c_uint32), ("flags", c_int32 * 7), ("time", c_double), ("force", Vector),
-                ("rest", c_double * 38)]
+                ("rest", c_double * 37)]
 
 
 def call(name, *arguments):
@@ -72,7 +72,7 @@ class Writing:
         call("page_mapping", self.page, 0, c_double(1.0), byref(self.mapping))
         call("device_profile", b"desktop", byref(self.capabilities))
         self.renderer = made("renderer_create", self.page, byref(self.mapping), byref(self.capabilities), None)
-        self.device = made("simulated_device", byref(self.capabilities), None, Vector(0.0, 0.0, 0.02))
+        self.device = made("simulated_device_create", byref(self.capabilities), None, Vector(0.0, 0.0, 0.02))
 
     def tick(self):
         state, result = DeviceState(), Tick()
@@ -123,12 +123,12 @@ class Languages(unittest.TestCase):
 
     def test_what_is_wrong_is_refused(self):
         writing = Writing()
-        tick = Tick()
-        tick.size = 4
+        tick, small = Tick(), Tick()
+        small.size = 4
         for text, arguments in {
             "renderer is null": ("renderer_update", None, byref(DeviceState()), byref(tick)),
             "no handle of a renderer": ("renderer_update", writing.page, byref(DeviceState()), byref(tick)),
-            "calligraphy_tick: size = 4": ("renderer_update", writing.renderer, byref(DeviceState()), byref(tick)),
+            "calligraphy_tick: size = 4": ("renderer_update", writing.renderer, byref(DeviceState()), byref(small)),
             "force = (nan, 0, 0) N": ("device_write", writing.device, Vector(float("nan"), 0.0, 0.0)),
             "龘": ("page_lay_out", writing.set, "龘".encode(), None, None, byref(c_void_p())),
         }.items():

@@ -55,7 +55,7 @@ int main(void) {
   check(calligraphy_device_profile("desktop", &capabilities));
   check(calligraphy_renderer_create(page, &mapping, &capabilities, NULL, &renderer));
   const double start[3] = {0.0, 0.0, 0.02};
-  check(calligraphy_simulated_device(&capabilities, NULL, start, &device));
+  check(calligraphy_simulated_device_create(&capabilities, NULL, start, &device));
   for (int stroke = 0; stroke < character.stroke_count; ++stroke) {
     size_t count;
     check(calligraphy_page_polyline(page, 0, stroke, CALLIGRAPHY_PATH, 1e-5, NULL, 0, &count));

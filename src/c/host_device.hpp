@@ -1,0 +1,36 @@
+// A device of a program that gives samples and takes forces by calls.
+#pragma once
+
+#include <utility>
+
+#include <calligraphy/devices/haptic_device.hpp>
+
+namespace calligraphy::c {
+
+class HostDevice final : public HapticDevice {
+ public:
+  explicit HostDevice(Capabilities capabilities) : capabilities_(std::move(capabilities)) {
+    sample_.status = DeviceStatus::stale;
+  }
+
+  const Capabilities& capabilities() const noexcept override { return capabilities_; }
+  /// The sample that was supplied last: fresh once, then stale.
+  DeviceState read() noexcept override {
+    const DeviceState sample = sample_;
+    if (sample_.status == DeviceStatus::ok) sample_.status = DeviceStatus::stale;
+    return sample;
+  }
+  void write(const Eigen::Vector3d& force) noexcept override { force_ = output_force(capabilities_, force); }
+  void close() noexcept override {}
+
+  void supply(const DeviceState& sample) noexcept { sample_ = sample; }
+  /// The force that was written last, as the device can output it [N].
+  const Eigen::Vector3d& force() const noexcept { return force_; }
+
+ private:
+  Capabilities capabilities_;
+  DeviceState sample_;
+  Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
+};
+
+}  // namespace calligraphy::c
