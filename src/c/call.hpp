@@ -61,14 +61,14 @@ inline calligraphy_status refuse_handle(Kind kind, const void* handle) noexcept 
 template <class Object>
 Object& object(const void* handle) {
   if (Object* const found = find<Object>(handle)) return *found;
-  throw_refused(refuse_handle(KindOf<Object>::value, handle));
+  throw_refused(refuse_handle(kind_of<Object>, handle));
 }
 
 /// The object of a handle, to be kept. @throws Refusal if there is none
 template <class Object>
 std::shared_ptr<Object> shared_object(const void* handle) {
-  const std::shared_ptr<void>* const found = find_handle(KindOf<Object>::value, handle);
-  if (!found) throw_refused(refuse_handle(KindOf<Object>::value, handle));
+  const std::shared_ptr<void>* const found = find_handle(kind_of<Object>, handle);
+  if (!found) throw_refused(refuse_handle(kind_of<Object>, handle));
   return std::static_pointer_cast<Object>(*found);
 }
 
@@ -82,7 +82,7 @@ Value& target(Value* pointer, const char* name) {
 /// Sets a handle of the C interface to a new object.
 template <class Handle, class Object>
 void hand_out(Handle** handle, std::shared_ptr<Object> object) {
-  *handle = static_cast<Handle*>(add_handle(KindOf<Object>::value, std::move(object)));
+  *handle = static_cast<Handle*>(add_handle(kind_of<Object>, std::move(object)));
 }
 
 /// An index in [0, count). @throws Refusal naming it

@@ -13,9 +13,9 @@ enum class Kind : std::uintptr_t { set = 1, page, device, renderer, servo, match
 /// "set", "page" ...
 const char* to_string(Kind kind) noexcept;
 
-/// The kind of a type; specialised where the type is defined.
+/// The kind of a type; specialised where the type is known.
 template <class Object>
-struct KindOf;
+inline constexpr Kind kind_of = Kind{};
 
 /// Keeps an object until it is removed. Thread-safe. @throws std::bad_alloc if there are too many
 void* add_handle(Kind kind, std::shared_ptr<void> object);
@@ -28,7 +28,7 @@ const std::shared_ptr<void>* find_handle(Kind kind, const void* handle) noexcept
 /// The object of a handle, or null.
 template <class Object>
 Object* find(const void* handle) noexcept {
-  const std::shared_ptr<void>* found = find_handle(KindOf<Object>::value, handle);
+  const std::shared_ptr<void>* found = find_handle(kind_of<Object>, handle);
   return found ? static_cast<Object*>(found->get()) : nullptr;
 }
 

@@ -57,29 +57,17 @@ struct ServoObject {
 };
 
 template <>
-struct KindOf<CharacterSet> {
-  static constexpr Kind value = Kind::set;
-};
+inline constexpr Kind kind_of<CharacterSet> = Kind::set;
 template <>
-struct KindOf<PracticePage> {
-  static constexpr Kind value = Kind::page;
-};
+inline constexpr Kind kind_of<PracticePage> = Kind::page;
 template <>
-struct KindOf<DeviceObject> {
-  static constexpr Kind value = Kind::device;
-};
+inline constexpr Kind kind_of<DeviceObject> = Kind::device;
 template <>
-struct KindOf<RendererObject> {
-  static constexpr Kind value = Kind::renderer;
-};
+inline constexpr Kind kind_of<RendererObject> = Kind::renderer;
 template <>
-struct KindOf<ServoObject> {
-  static constexpr Kind value = Kind::servo;
-};
+inline constexpr Kind kind_of<ServoObject> = Kind::servo;
 template <>
-struct KindOf<MatchResult> {
-  static constexpr Kind value = Kind::match;
-};
+inline constexpr Kind kind_of<MatchResult> = Kind::match;
 
 /// A character of a set in its standard order. @throws Refusal if the set does not have it, FormatError if it is
 /// damaged
