@@ -1,5 +1,6 @@
 #include "call.hpp"
 
+#include <cstdarg>
 #include <cstdio>
 #include <new>
 #include <stdexcept>
@@ -44,6 +45,12 @@ calligraphy_status refuse_exception() noexcept {
 }
 
 void throw_refused(calligraphy_status status) { throw Refusal(status, last_error); }
+
+calligraphy_status refuse_handle(Kind kind, const void* handle) noexcept {
+  if (!handle) return refuse(CALLIGRAPHY_INVALID_HANDLE, "%s is null", to_string(kind));
+  return refuse(CALLIGRAPHY_INVALID_HANDLE, "%s = %p: no handle of a %s, or it was freed", to_string(kind), handle,
+                to_string(kind));
+}
 
 calligraphy_status refuse_size(const char* name, std::size_t size, std::size_t least) noexcept {
   return refuse(CALLIGRAPHY_INVALID_VALUE, "%s: size = %zu, must be sizeof, at least %zu", name, size, least);

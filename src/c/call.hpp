@@ -1,9 +1,10 @@
 // How every function of the C interface reports what went wrong.
 #pragma once
 
-#include <cstdarg>
 #include <cstdint>
+#include <memory>
 #include <string>
+#include <utility>
 
 #include <calligraphy/c/calligraphy.h>
 #include <calligraphy/base/error.hpp>
@@ -23,11 +24,7 @@ class Refusal : public Error {
 };
 
 /// Sets the text of the last error, printf style, and returns the status. Does not allocate.
-#if defined(__GNUC__)
-__attribute__((format(printf, 2, 3)))
-#endif
-calligraphy_status
-refuse(calligraphy_status status, const char* format, ...) noexcept;
+[[gnu::format(printf, 2, 3)]] calligraphy_status refuse(calligraphy_status status, const char* format, ...) noexcept;
 
 /// The status of the exception that is being handled, and its text as the last error.
 calligraphy_status refuse_exception() noexcept;
@@ -43,14 +40,8 @@ calligraphy_status guarded(Function&& function) noexcept {
   }
 }
 
-/// The text for a handle that is none of this kind.
-inline constexpr const char* no_handle = "%s = %p: no handle of a %s, or it was freed";
-
 /// Refuses a handle that is none of this kind. Does not allocate.
-inline calligraphy_status refuse_handle(Kind kind, const void* handle) noexcept {
-  if (!handle) return refuse(CALLIGRAPHY_INVALID_HANDLE, "%s is null", to_string(kind));
-  return refuse(CALLIGRAPHY_INVALID_HANDLE, no_handle, to_string(kind), handle, to_string(kind));
-}
+calligraphy_status refuse_handle(Kind kind, const void* handle) noexcept;
 
 /// Throws what refuse() has just refused. @throws Refusal with this status and the last error
 [[noreturn]] void throw_refused(calligraphy_status status);
