@@ -26,8 +26,6 @@ export class CalligraphyError extends Error {
   }
 }
 
-const arrays = { int32: Int32Array, uint32: Uint32Array, float64: Float64Array };
-
 /**
  * @param {BufferSource} [binary] the bytes of calligraphy.wasm; by default it is fetched from beside this file
  * @returns {Promise<object>} the functions of the C interface, and struct(), discard() and text()
@@ -98,19 +96,11 @@ export async function load(binary) {
       };
     }
     if (count) {
-      const values = () => new arrays[type](module.HEAPU8.buffer, address, count);
+      const values = () => new globalThis[`${type}Array`](module.HEAPU8.buffer, address, count);
       return { get: values, set: (given) => values().set(given) };
     }
-    switch (type) {
-      case "int32":
-        return { get: () => view().getInt32(address, true), set: (value) => view().setInt32(address, value, true) };
-      case "uint32":
-        return { get: () => view().getUint32(address, true), set: (value) => view().setUint32(address, value, true) };
-      case "uint64":
-        return { get: () => Number(view().getBigUint64(address, true)) };
-      default:
-        return { get: () => view().getFloat64(address, true), set: (value) => view().setFloat64(address, value, true) };
-    }
+    const [get, set] = [`get${type}`, `set${type}`];
+    return { get: () => Number(view()[get](address, true)), set: (value) => view()[set](address, value, true) };
   }
 
   /** An argument as a number: the address of what is in memory, or of a copy. */

@@ -12,9 +12,9 @@ import pathlib
 import re
 import sys
 
-# Types of members, with their names in JavaScript and their sizes, which are also their alignments.
+# Types of members: their names in JavaScript, as in getInt32 and Int32Array, and sizes, which are also alignments.
 MEMBERS = {
-    "int32_t": ("int32", 4), "uint32_t": ("uint32", 4), "uint64_t": ("uint64", 8), "double": ("float64", 8),
+    "int32_t": ("Int32", 4), "uint32_t": ("Uint32", 4), "uint64_t": ("BigUint64", 8), "double": ("Float64", 8),
     "char": ("char", 1),
 }
 # Types of a last parameter to which a function writes a single value, which JavaScript returns.
