@@ -121,7 +121,7 @@ int main() {
     round = time.count() / static_cast<double>(states.size());
   }
   std::sort(rounds.begin(), rounds.end());
-  std::fprintf(stderr, "%.0f ns per tick\n", rounds[10]);
+  std::fprintf(stderr, "%.0f ns per tick in C++\n", rounds[10]);
   for (void* const handle : {static_cast<void*>(servo), static_cast<void*>(on_desk), static_cast<void*>(pointer),
                              static_cast<void*>(device), static_cast<void*>(renderer), static_cast<void*>(page),
                              static_cast<void*>(set)}) {
