@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # Installs the build dependencies on Debian 12 or 13 or Ubuntu 24.04, unless they are already installed.
-# usage: install_dependencies.sh [python|tests|full|peers]
+# usage: install_dependencies.sh [python|tests|full|peers|web]
 #   python  also those of the Python module
 #   tests   also those of the tests, the Python module's included
 #   full    also those of test.sh --full
 #   peers   also the libraries that benchmarks/nearest_point/run.sh compares with, and valgrind
+#   web     only those of web.sh
 set -euo pipefail
 
 packages=(cmake g++ gnuplot-nox libarchive-dev libcli11-dev libeigen3-dev libfmt-dev libhidapi-dev
@@ -24,8 +25,11 @@ elif [[ ${1:-} == peers ]]; then
   packages+=(ca-certificates lib2geom-dev libbenchmark-dev libboost-dev python3 valgrind)
   command -v cargo > /dev/null || packages+=(cargo)
   command -v npm > /dev/null || packages+=(npm)
+elif [[ ${1:-} == web ]]; then
+  packages=(cmake emscripten libeigen3-dev libutfcpp-dev ninja-build python3)
+  command -v node > /dev/null || packages+=(nodejs)
 elif [[ $# -gt 0 ]]; then
-  echo "usage: $0 [python|tests|full|peers]" >&2
+  echo "usage: $0 [python|tests|full|peers|web]" >&2
   exit 2
 fi
 

@@ -1,0 +1,78 @@
+#!/usr/bin/env python3
+"""Writes what JavaScript must know of the C interface, as its header says, for the 32-bit pointers of WebAssembly.
+
+usage: layout.py HEADER DIRECTORY
+writes to DIRECTORY:
+  calligraphy_layout.mjs  structs, constants and functions, without the prefix calligraphy_
+  layout_check.cpp        fails to compile where the compiler lays a struct out otherwise
+"""
+import json
+import pathlib
+import re
+import sys
+
+# Types of members: their names in JavaScript, as in getInt32 and Int32Array, and sizes, which are also alignments.
+MEMBERS = {
+    "int32_t": ("Int32", 4), "uint32_t": ("Uint32", 4), "uint64_t": ("BigUint64", 8), "double": ("Float64", 8),
+    "char": ("char", 1),
+}
+# Types of a last parameter to which a function writes a single value, which JavaScript returns.
+RESULTS = {
+    r"calligraphy_\w+\*\*": "number", r"u?int32_t\*": "number", r"size_t\*": "number", r"const char\*\*": "text",
+}
+
+
+def layout(struct, body):
+    """The size of a struct, and its members: type, offset and, of an array, number of elements."""
+    members, end, alignment = {}, 0, 1
+    for line in filter(None, (part.strip() for part in body.split(";"))):
+        member = re.fullmatch(r"(\w+) (\w+)(?:\[(\d+)\])?", line)
+        if not member or member[1] not in MEMBERS:
+            sys.exit(f"{struct}: cannot lay out the member `{line}`; known types: {', '.join(MEMBERS)}")
+        kind, size = MEMBERS[member[1]]
+        offset = -(-end // size) * size
+        members[member[2]] = [kind, offset] + ([int(member[3])] if member[3] else [])
+        end = offset + size * int(member[3] or 1)
+        alignment = max(alignment, size)
+    return {"size": -(-end // alignment) * alignment, "members": members}
+
+
+def function(returns, parameters):
+    """The number of parameters for which JavaScript passes arguments, and what it returns."""
+    types = [re.sub(r" ?\w+$", "", parameter.strip()) for parameter in parameters.split(",") if parameter != "void"]
+    if returns != "calligraphy_status":
+        return {"parameters": len(types), "returns": "text"}
+    result = next((kind for pattern, kind in RESULTS.items() if types and re.fullmatch(pattern, types[-1])), None)
+    return {"parameters": len(types) - 1, "writes": result} if result else {"parameters": len(types)}
+
+
+def constant(enumeration, line):
+    found = re.fullmatch(r"CALLIGRAPHY_(\w+) = (\d+)", line.strip())
+    if not found:
+        sys.exit(f"{enumeration}: cannot read the constant `{line.strip()}`")
+    return found[1], int(found[2])
+
+
+def main():
+    header, directory = map(pathlib.Path, sys.argv[1:])
+    text = re.sub(r"//.*", "", header.read_text(encoding="utf-8"))
+    structs = {name: layout(name, body) for name, body in re.findall(r"struct calligraphy_(\w+) \{(.*?)\}", text, re.S)}
+    constants = dict(constant(name, line) for name, body in re.findall(r"enum (\w+) \{(.*?)\}", text, re.S)
+                     for line in body.split(","))
+    functions = {name: function(returns, parameters) for returns, name, parameters in re.findall(
+        r"^CALLIGRAPHY_API ([\w* ]+) calligraphy_(\w+)\((.*?)\);", text, re.S | re.M)}
+
+    def table(name, values):
+        lines = "".join(f"  {key}: {json.dumps(value)},\n" for key, value in values.items())
+        return f"export const {name} = {{\n{lines}}};\n"
+
+    (directory / "calligraphy_layout.mjs").write_text(
+        "".join(table(*each) for each in (("structs", structs), ("constants", constants), ("functions", functions))))
+    checks = [f"static_assert(sizeof(calligraphy_{name}) == {struct['size']});\n" + "".join(
+        f"static_assert(offsetof(calligraphy_{name}, {member}) == {place[1]});\n"
+        for member, place in struct["members"].items()) for name, struct in structs.items()]
+    (directory / "layout_check.cpp").write_text("#include <calligraphy/c/calligraphy.h>\n" + "".join(checks))
+
+
+if __name__ == "__main__":
+    main()
