@@ -1,5 +1,6 @@
 #include "line_reader.hpp"
 
+#include <istream>
 #include <utility>
 
 #include <calligraphy/base/error.hpp>
@@ -21,25 +22,44 @@ std::string in_quotes(std::string_view text) {
   return "'" + printable(text.substr(0, end)) + "...'";
 }
 
+ReadBytes bytes_of(std::string_view text) {
+  return [text](char* to, std::size_t most) mutable {
+    const std::size_t count = text.copy(to, most);
+    text.remove_prefix(count);
+    return count;
+  };
+}
+
+ReadBytes bytes_of(std::istream& in, std::string_view name) {
+  return [&in, name = std::string(name)](char* to, std::size_t most) {
+    in.read(to, static_cast<std::streamsize>(most));
+    if (in.bad()) throw FileError(name + ": cannot be read");
+    return static_cast<std::size_t>(in.gcount());
+  };
+}
+
 bool LineReader::next() {
   ++number_;
   line_.clear();
   bool found = false;
-  for (char chunk[1 << 12];;) {  // a line is no longer in memory than the text may be
-    in_.getline(chunk, sizeof chunk);
-    if (in_.bad()) throw FileError(name_ + ": cannot be read");
-    const auto count = static_cast<std::size_t>(in_.gcount());
-    found = found || count > 0;
+  for (bool has_end = false; !has_end;) {  // a line is no longer in memory than the text may be
+    if (unread_.empty()) {
+      unread_ = {chunk_.data(), read_bytes_(chunk_.data(), chunk_.size())};
+      at_end_ = unread_.empty();
+      if (at_end_) break;
+    }
+    found = true;
+    const std::size_t end = unread_.find('\n');
+    has_end = end != std::string_view::npos;
+    const std::size_t count = has_end ? end + 1 : unread_.size();
     read_ += count;
     if (read_ > max_bytes_) fail("longer than the " + std::to_string(max_bytes_) + " bytes that are read");
-    const bool has_end = !in_.eof() && !in_.fail();
-    line_.append(chunk, has_end ? count - 1 : count);
+    line_ += unread_.substr(0, end);
+    unread_.remove_prefix(count);
     if (line_.size() > max_line_bytes_) {
       fail("the line is longer than " + std::to_string(max_line_bytes_) + " bytes: it begins with " +
            calligraphy::in_quotes(line_));
     }
-    if (has_end || in_.eof() || count + 1 < sizeof chunk) break;
-    in_.clear();  // only the chunk was full
   }
   if (number_ == 1 && line_.starts_with(byte_order_mark)) line_.erase(0, byte_order_mark.size());
   if (line_.ends_with('\r')) line_.pop_back();
@@ -49,7 +69,7 @@ bool LineReader::next() {
 
 bool LineReader::next_whole() {
   const bool found = next();
-  if (found && in_.eof()) {
+  if (found && at_end_) {
     constexpr std::size_t most = 40;
     fail("the file is truncated after '" + printable(line_.substr(line_.size() - std::min(line_.size(), most))) + "'");
   }

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
-#include <istream>
+#include <functional>
+#include <iosfwd>
 #include <limits>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace calligraphy {
 
@@ -20,16 +23,23 @@ enum class LineKind {
 /// The text as a message shows it, printable and shortened: a file that is no text may be a single line of any length.
 std::string in_quotes(std::string_view text);
 
+/// Reads the next bytes of a text, at most so many, to an address, and returns how many; 0: there are no more.
+using ReadBytes = std::function<std::size_t(char* to, std::size_t most)>;
+/// The bytes of a text in memory, and of a stream; both must outlive the result. `name` begins the message.
+/// @throws FileError from a call, if the stream fails
+ReadBytes bytes_of(std::string_view text);
+ReadBytes bytes_of(std::istream& in, std::string_view name);
+
 /// Base of the parsers of text formats: reads lines that end with "\n" or "\r\n"; a byte order mark is skipped.
 class LineReader {
  public:
   /// `name` begins every message. No more than `max_bytes` are read, and of a line no more than `max_line_bytes`.
-  LineReader(std::istream& in, std::string_view name, std::size_t max_bytes = std::numeric_limits<std::size_t>::max(),
+  LineReader(ReadBytes read, std::string_view name, std::size_t max_bytes = std::numeric_limits<std::size_t>::max(),
              std::size_t max_line_bytes = std::numeric_limits<std::size_t>::max())
-      : in_(in), name_(name), max_bytes_(max_bytes), max_line_bytes_(max_line_bytes) {}
+      : read_bytes_(std::move(read)), name_(name), max_bytes_(max_bytes), max_line_bytes_(max_line_bytes) {}
 
   /// The next line. False: there are no more, and line() is empty.
-  /// @throws FileError when the stream fails; FormatError when the text or the line is longer than it may be
+  /// @throws FileError as ReadBytes; FormatError when the text or the line is longer than it may be
   bool next();
 
   /// The next line, which must have its end: without it, its last number may have been cut in two.
@@ -70,7 +80,10 @@ class LineReader {
   [[noreturn]] void fail_at(int line, const std::string& what) const;
 
  private:
-  std::istream& in_;
+  ReadBytes read_bytes_;
+  std::array<char, 1 << 12> chunk_;
+  std::string_view unread_;  ///< of the chunk
+  bool at_end_ = false;      ///< the last line had no end
   std::string name_;
   std::size_t max_bytes_;
   std::size_t max_line_bytes_;

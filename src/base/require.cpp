@@ -1,6 +1,7 @@
 #include "require.hpp"
 
 #include <cmath>
+#include <cstdio>
 
 #include <calligraphy/base/error.hpp>
 
@@ -13,6 +14,12 @@ std::string number_text(double value) {
   char* const end = buffer + sizeof buffer;
   const bool is_round = std::abs(value) < 1e7 && value == std::floor(value);  // 100000, not 1e+05
   return {buffer, (is_round ? to_chars_fixed(buffer, end, value, 0) : to_chars(buffer, end, value)).ptr};
+}
+
+Message& Message::operator<<(double value) {
+  char digits[32];
+  std::snprintf(digits, sizeof digits, "%g", value);
+  return *this << std::string_view(digits);
 }
 
 void require(bool in_domain, std::string_view name, double value, std::string_view unit, std::string_view domain) {

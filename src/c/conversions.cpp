@@ -121,6 +121,7 @@ Capabilities capabilities_of(const calligraphy_capabilities* given) {
   const calligraphy_capabilities from = read_struct(given, "calligraphy_capabilities");
   Capabilities result;
   result.name.assign(from.name, strnlen(from.name, sizeof from.name));
+  result.model = result.name;
   result.simulated = from.simulated != 0;
   // Zero, which says nothing of the force in C++, is what a program forgot to set.
   require(from.peak_force > 0.0, "peak_force", from.peak_force, "N", "above 0, or infinite");

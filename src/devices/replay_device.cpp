@@ -1,11 +1,12 @@
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <utility>
 
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/devices/replay_device.hpp>
 #include <calligraphy/devices/velocity_estimator.hpp>
+
+#include "base/require.hpp"
 
 namespace calligraphy {
 namespace {
@@ -17,7 +18,7 @@ std::vector<DeviceState> checked(std::vector<DeviceState> samples) {
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const double time = samples[i].time;
     if (!(std::isfinite(time) && time > previous)) {
-      std::ostringstream message;
+      Message message;
       message << "replay sample " << i << ": time is " << time << " s after " << previous
               << " s, must be finite and increasing";
       throw ValueError(message.str());

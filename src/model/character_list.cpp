@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <ostream>
 #include <set>
 #include <span>
-#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -22,7 +22,7 @@ namespace calligraphy {
 namespace {
 
 constexpr std::array<std::string_view, 3> first_lines = {"calligraphy characters 1", "calligraphy characters 2",
-                                                        "calligraphy characters 3"};
+                                                         "calligraphy characters 3"};
 constexpr int format_with_ink = 3;
 constexpr std::size_t ink_values = 2 + 2 * ink_knot_count;
 constexpr std::size_t max_file_bytes = 64 << 20;  // twice all of Make Me a Hanzi [bytes]
@@ -40,7 +40,7 @@ std::string character_label(char32_t code, std::string_view order) {
 /// Reads the text format line by line; docs/character-format.md describes it.
 class Parser : private LineReader {
  public:
-  Parser(std::istream& in, std::string_view name) : LineReader(in, name, max_file_bytes) {}
+  Parser(ReadBytes read, std::string_view name) : LineReader(std::move(read), name, max_file_bytes) {}
 
   CharacterList parse() {
     while (next_statement(kind_of)) {
@@ -250,10 +250,7 @@ class Parser : private LineReader {
   CharacterList set_;
 };
 
-CharacterList parse_embedded(const char* text, std::string_view name) {
-  std::istringstream in(text);
-  return read_characters(in, name);
-}
+CharacterList parse_embedded(const char* text, std::string_view name) { return Parser(bytes_of(text), name).parse(); }
 
 std::string format_number(double value) {
   char buffer[32];
@@ -309,11 +306,13 @@ const Character& paper_example() {
   return set.characters.front();
 }
 
-CharacterList read_characters(std::istream& in, std::string_view name) { return Parser(in, name).parse(); }
+CharacterList read_characters(std::istream& in, std::string_view name) {
+  return Parser(bytes_of(in, name), name).parse();
+}
 
 CharacterList read_characters(const std::string& path) {
-  std::ifstream in = open_file(path);
-  return read_characters(in, path);
+  const std::string text = read_file(path, max_file_bytes);
+  return Parser(bytes_of(text), path).parse();
 }
 
 void write_characters(std::ostream& out, const CharacterList& set) {

@@ -62,7 +62,8 @@ bool is_character(char32_t code) {
 
 class TraceParser : private LineReader {
  public:
-  TraceParser(std::istream& in, std::string_view name) : LineReader(in, name, max_traces_bytes, max_stroke_bytes) {}
+  TraceParser(std::istream& in, std::string_view name)
+      : LineReader(bytes_of(in, name), name, max_traces_bytes, max_stroke_bytes) {}
 
   std::vector<PenTrace> parse() {
     std::vector<PenTrace> traces;

@@ -60,7 +60,8 @@ void append_row(std::string& text, const RecordedSample& sample) {
 /// Reads what write_recording writes, and nothing else but line ends of either kind.
 class RecordingParser : private LineReader {
  public:
-  RecordingParser(std::istream& in, std::string_view name) : LineReader(in, name, max_recording_bytes, max_row_bytes) {}
+  RecordingParser(std::istream& in, std::string_view name)
+      : LineReader(bytes_of(in, name), name, max_recording_bytes, max_row_bytes) {}
 
   Recording parse() {
     next_whole();

@@ -1,7 +1,5 @@
 #include <calligraphy/render/detail/effective_options.hpp>
 
-#include <sstream>
-
 #include <calligraphy/base/error.hpp>
 #include <calligraphy/render/detail/prepared_page.hpp>
 
@@ -37,7 +35,7 @@ EffectiveOptions effective_options(const RendererOptions& options, const std::ve
   }
   const double stiffness = effective.options.guidance.stiffness;
   if (stiffness * effective.max_attraction <= effective.guidance_limit) return effective;
-  std::ostringstream message;
+  Message message;
   message << "guidance.stiffness = " << stiffness << " N/m times the maximum attraction factor "
           << effective.max_attraction << " is above " << effective.guidance_limit << " N/m, the maximum on the device "
           << device_label(capabilities);

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -39,8 +38,8 @@ StiffnessLimit usable_stiffness(const Capabilities& capabilities) {
   if (!(capabilities.usable_stiffness > 0.0 && capabilities.usable_stiffness < max_stiffness)) {
     return {max_stiffness, "at most 1e6 N/m are accepted"};
   }
-  std::ostringstream reason;
-  reason << "the device " << device_label(capabilities) << " is usable up to " << capabilities.usable_stiffness << " N/m";
+  Message reason;
+  reason << "the device " << capabilities.model << " is usable up to " << capabilities.usable_stiffness << " N/m";
   return {capabilities.usable_stiffness, reason.str()};
 }
 
@@ -59,7 +58,7 @@ class Limits {
     loop_.device.apparent_mass = capabilities.apparent_mass > 0.0 ? capabilities.apparent_mass : presumed_mass;
     loop_.rate = servo_rate(options, capabilities);
     if (scale != 1.0) {
-      std::ostringstream enlarged;
+      Message enlarged;
       enlarged << " times the square of the motion scale " << scale;
       enlarged_ = enlarged.str();
     }
@@ -70,7 +69,7 @@ class Limits {
   StiffnessLimit stable(double damping) const {
     if (is_off_) return {std::numeric_limits<double>::infinity(), ""};
     const double value = stable_on_device(damping * square_);
-    std::ostringstream reason;
+    Message reason;
     reason << enlarged_ << ": with a damping of " << damping * square_ << " N s/m at " << loop_.rate << " Hz";
     if (loop_.device.sample_delay > 0) reason << " and a delay of " << loop_.device.sample_delay << " ticks";
     reason << " the device " << device_label(loop_.device) << " is stable in any hand up to " << value
@@ -140,7 +139,7 @@ std::vector<std::string> clip_stiffness(RendererOptions& options, const Capabili
   const auto clip = [&](const char* name, double& stiffness, const StiffnessLimit& limit) {
     require_not_negative(name, stiffness, "N/m");
     if (stiffness <= limit.value * (1.0 + slack)) return;
-    std::ostringstream message;
+    Message message;
     message << name << " = " << stiffness << " N/m" << limit.reason;
     clipped.push_back(message.str());
     stiffness = limit.value;
@@ -149,7 +148,7 @@ std::vector<std::string> clip_stiffness(RendererOptions& options, const Capabili
     require_within(name, damping, "N s/m", 0.0, max_damping);
     const double best = limits.best_damping(damping, stiffness, beside);
     if (best == damping) return;
-    std::ostringstream message;
+    Message message;
     message << name << " = " << damping << " N s/m: too strong for the lag or the encoder of this loop, at most "
             << best << " N s/m beside " << stiffness << " N/m";
     clipped.push_back(message.str());
@@ -170,20 +169,20 @@ std::vector<std::string> clip_stiffness(RendererOptions& options, const Capabili
     const StiffnessLimit alone = limits.both(friction.damping);
     const StiffnessLimit sum = limits.stable(options.guidance.damping + friction.damping);
     if (std::min(alone.value, friction_share * sum.value) < min_friction_stiffness) {
-      std::ostringstream message;
+      Message message;
       message << "paper.friction.coefficient = " << friction.coefficient << sum.reason << ", too soft for friction";
       clipped.push_back(message.str());
       friction.coefficient = 0.0;
       return clipped;
     }
     clip("paper.friction.stiffness", friction.stiffness, alone);
-    std::ostringstream reason;
+    Message reason;
     reason << " in addition to " << options.guidance.stiffness << " N/m of guidance" << sum.reason;
     clip("paper.friction.stiffness", friction.stiffness,
          {std::max(sum.value - options.guidance.stiffness, friction_share * sum.value), reason.str()});
-    reason.str("");
-    reason << " in addition to " << friction.stiffness << " N/m of friction" << sum.reason;
-    clip("guidance.stiffness", options.guidance.stiffness, {sum.value - friction.stiffness, reason.str()});
+    Message of_friction;
+    of_friction << " in addition to " << friction.stiffness << " N/m of friction" << sum.reason;
+    clip("guidance.stiffness", options.guidance.stiffness, {sum.value - friction.stiffness, of_friction.str()});
   }
   return clipped;
 }

@@ -1,6 +1,7 @@
 // Claims about LineReader: lines, their words, and errors that name source and line.
 #include "../catch.hpp"
 
+#include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -15,9 +16,13 @@ namespace {
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::istringstream in(text);
-  LineReader reader(in, "name");
+  LineReader reader(bytes_of(in, "name"), "name"), in_memory(bytes_of(text), "name");
   std::vector<std::string> lines;
-  while (reader.next()) lines.push_back(reader.line());
+  while (reader.next()) {
+    lines.push_back(reader.line());
+    CHECK((in_memory.next() && in_memory.line() == reader.line()));
+  }
+  CHECK(!in_memory.next());
   return lines;
 }
 
@@ -56,9 +61,15 @@ TEST_CASE("a line of any length is read whole", "[base]") {
   }
 }
 
+TEST_CASE("a stream that fails is an error that names it", "[base]") {
+  std::ifstream directory("/");  // opens, but cannot be read
+  LineReader reader(bytes_of(directory, "here"), "here");
+  CHECK(message([&] { reader.next(); }) == "here: cannot be read");
+}
+
 TEST_CASE("an error names the source and the line", "[base]") {
   std::istringstream in("a\nb\nc\n");
-  LineReader reader(in, "list.txt");
+  LineReader reader(bytes_of(in, "list.txt"), "list.txt");
   reader.next();
   reader.next();
   CHECK(message([&] { reader.fail("no such word"); }) == "list.txt:2: no such word");
@@ -67,7 +78,7 @@ TEST_CASE("an error names the source and the line", "[base]") {
 
 TEST_CASE("a text longer than it may be is refused before it is in memory", "[base]") {
   std::istringstream fits("12\n45\n"), longer("12\n456\n");
-  LineReader whole(fits, "a.txt", 6), cut(longer, "a.txt", 6);
+  LineReader whole(bytes_of(fits, "a.txt"), "a.txt", 6), cut(bytes_of(longer, "a.txt"), "a.txt", 6);
   CHECK((whole.next() && whole.next() && !whole.next()));
   CHECK(cut.next());
   CHECK(message([&] { cut.next(); }) == "a.txt:2: longer than the 6 bytes that are read");
@@ -76,7 +87,7 @@ TEST_CASE("a text longer than it may be is refused before it is in memory", "[ba
 TEST_CASE("a line longer than it may be is refused, and its beginning quoted", "[base]") {
   const std::string long_line(100'000, 'x');
   std::istringstream in("1234\n" + long_line + "\n");
-  LineReader reader(in, "a.txt", 1 << 20, 4);
+  LineReader reader(bytes_of(in, "a.txt"), "a.txt", 1 << 20, 4);
   CHECK(reader.next());
   CHECK(message([&] { reader.next(); }) ==
         "a.txt:2: the line is longer than 4 bytes: it begins with '" + std::string(60, 'x') + "...'");
@@ -84,14 +95,14 @@ TEST_CASE("a line longer than it may be is refused, and its beginning quoted", "
 
 TEST_CASE("a last line that was cut off is refused where a line must have its end", "[base]") {
   std::istringstream in("a\n1.2");
-  LineReader reader(in, "a.csv");
+  LineReader reader(bytes_of(in, "a.csv"), "a.csv");
   CHECK(reader.next_whole());
   CHECK(message([&] { reader.next_whole(); }) == "a.csv:2: the file is truncated after '1.2'");
 }
 
 TEST_CASE("a statement is what is left without comments and blanks, as its first word has it", "[base]") {
   std::istringstream in("# nothing\n\n  one two # three\nname  four # five \t\nraw  six # \r\nend\t\r\n");
-  LineReader reader(in, "name");
+  LineReader reader(bytes_of(in, "name"), "name");
   const auto kind_of = [](std::string_view key) {
     return key == "raw" ? LineKind::verbatim : key == "name" ? LineKind::text : LineKind::words;
   };

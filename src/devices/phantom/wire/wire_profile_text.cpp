@@ -38,7 +38,7 @@ std::optional<DeviceFault> fault_of(std::string_view word) {
 
 class Parser : private LineReader {
  public:
-  Parser(std::istream& in, std::string_view name) : LineReader(in, name, max_text) {}
+  Parser(std::istream& in, std::string_view name) : LineReader(bytes_of(in, name), name, max_text) {}
 
   WireProfile parse() {
     while (next_statement([this](std::string_view key) { return checked_kind_of(key); })) {
