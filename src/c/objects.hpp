@@ -31,9 +31,10 @@ struct Beginning {
   Point direction = Point::Zero();
 };
 
-/// A renderer, and what its ticks say beyond HapticTick.
+/// A renderer, and what its ticks say beyond HapticTick. @throws ValueError as HapticRenderer
 struct RendererObject {
-  explicit RendererObject(HapticRenderer of) : renderer(std::move(of)) {}
+  RendererObject(const PracticePage& page, const MotionMapping& mapping, const Capabilities& capabilities,
+                 const RendererOptions& options);
 
   HapticRenderer renderer;
   std::string clipped;             ///< one line per value

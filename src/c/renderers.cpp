@@ -18,17 +18,20 @@ RendererOptions preset_of(std::int32_t preset, const Capabilities& capabilities,
   }
 }
 
-void list_beginnings(RendererObject& of) {
-  for (const PlacedCharacter& placed : of.renderer.page()) {
-    of.first.push_back(of.starts.size());
-    for (const Stroke& stroke : strokes(placed.character)) of.starts.push_back(start_of(stroke, placed.placement));
-    of.starts.emplace_back();
-  }
-  of.first.push_back(of.starts.size());
-  of.starts.emplace_back();
-}
-
 }  // namespace
+
+RendererObject::RendererObject(const PracticePage& page, const MotionMapping& mapping, const Capabilities& capabilities,
+                               const RendererOptions& options)
+    : renderer(page.characters, mapping, capabilities, options) {
+  for (const std::string& line : renderer.clipped()) clipped += line + "\n";
+  for (const PlacedCharacter& placed : page.characters) {
+    first.push_back(starts.size());
+    for (const Stroke& stroke : strokes(placed.character)) starts.push_back(start_of(stroke, placed.placement));
+    starts.emplace_back();
+  }
+  first.push_back(starts.size());
+  starts.emplace_back();
+}
 
 }  // namespace calligraphy::c
 
@@ -57,10 +60,7 @@ calligraphy_status calligraphy_renderer_create(const calligraphy_page* page, con
     const MotionMapping used = mapping ? mapping_of(mapping) : upright_page(written.width, written.height);
     const Capabilities device = capabilities_of(capabilities);
     const RendererOptions chosen = options ? options_of(options) : RendererOptions::for_device(device, used.scale);
-    auto result = std::make_shared<RendererObject>(HapticRenderer(written.characters, used, device, chosen));
-    list_beginnings(*result);
-    for (const std::string& line : result->renderer.clipped()) result->clipped += line + "\n";
-    hand_out(renderer, std::move(result));
+    hand_out(renderer, std::make_shared<RendererObject>(written, used, device, chosen));
   });
 }
 
