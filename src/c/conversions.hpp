@@ -22,9 +22,9 @@ void to_array(const Vector& from, double (&to)[size]) noexcept {
   for (std::size_t i = 0; i < size; ++i) to[i] = from[static_cast<Eigen::Index>(i)];
 }
 
-/// Where a struct may leave a number at zero for the default. @throws ValueError if it is not a number
-inline void set_if_given(double& option, double given, const char* name) {
-  if (std::isnan(given)) throw ValueError(std::string(name) + " is not a number");
+/// Where a struct may leave a number at zero for the default. @throws ValueError if it is below zero or not finite
+inline void set_if_given(double& option, double given, const char* name, const char* unit) {
+  require_not_negative(name, given, unit);
   if (given > 0.0) option = given;
 }
 

@@ -23,12 +23,12 @@ PointerOptions pointer_options(const calligraphy_pointer_options* given, const M
   PointerOptions result;
   if (given) {
     const calligraphy_pointer_options options = read_struct(given, "calligraphy_pointer_options");
-    set_if_given(result.rate, options.rate, "rate");
-    set_if_given(result.smoothing_time, options.smoothing_time, "smoothing_time");
-    set_if_given(result.max_speed, options.max_speed, "max_speed");
-    set_if_given(result.lifting_speed, options.lifting_speed, "lifting_speed");
-    set_if_given(result.hover_height, options.hover_height, "hover_height");
-    set_if_given(result.press_depth, options.press_depth, "press_depth");
+    set_if_given(result.rate, options.rate, "rate", "Hz");
+    set_if_given(result.smoothing_time, options.smoothing_time, "smoothing_time", "s");
+    set_if_given(result.max_speed, options.max_speed, "max_speed", "m/s");
+    set_if_given(result.lifting_speed, options.lifting_speed, "lifting_speed", "m/s");
+    set_if_given(result.hover_height, options.hover_height, "hover_height", "m");
+    set_if_given(result.press_depth, options.press_depth, "press_depth", "m");
   }
   result.paper.linear() = mapping.rotation.transpose();
   result.paper.translation() = mapping.to_device(Eigen::Vector3d::Zero());

@@ -19,12 +19,12 @@ PageLayout layout_of(const calligraphy_layout* given) {
   PageLayout result;
   if (!given) return result;
   const calligraphy_layout layout = read_struct(given, "layout");
-  set_if_given(result.width, layout.width, "layout.width");
-  set_if_given(result.height, layout.height, "layout.height");
+  set_if_given(result.width, layout.width, "layout.width", "m");
+  set_if_given(result.height, layout.height, "layout.height", "m");
   const double usual = result.em;
-  set_if_given(result.em, layout.em, "layout.em");
+  set_if_given(result.em, layout.em, "layout.em", "m");
   result.gap *= result.em / usual;
-  set_if_given(result.gap, layout.gap, "layout.gap");
+  set_if_given(result.gap, layout.gap, "layout.gap", "m");
   return result;
 }
 

@@ -288,6 +288,8 @@ TEST_CASE("a null pointer, a wrong index and a number that is none are refused b
   auto stroke = sized<calligraphy_stroke>();
   auto layout = sized<calligraphy_layout>();
   layout.em = not_a_number;
+  auto negative = sized<calligraphy_layout>();
+  negative.gap = -0.1;
   auto grip = sized<calligraphy_grip>();
   grip.stiffness = not_a_number;
   auto bad_capabilities = all.capabilities;
@@ -338,8 +340,10 @@ TEST_CASE("a null pointer, a wrong index and a number that is none are refused b
        [&] { return calligraphy_page_lay_out(all.set.get(), "一一一一一一一", nullptr, nullptr, &page); }},
       {"page", value, "page is null",
        [&] { return calligraphy_page_lay_out(all.set.get(), "永", nullptr, nullptr, nullptr); }},
-      {"layout", value, "layout.em is not a number",
+      {"layout", value, "layout.em = nan m, must be finite and at least 0",
        [&] { return calligraphy_page_lay_out(all.set.get(), "永", &layout, nullptr, &page); }},
+      {"layout", value, "layout.gap = -0.1 m",
+       [&] { return calligraphy_page_lay_out(all.set.get(), "永", &negative, nullptr, &page); }},
       {"character", value, "character = 1, must be an index below 1",
        [&] { return calligraphy_page_character(all.page.get(), 1, &placed); }},
       {"character", value, "character = -1", [&] { return calligraphy_page_stroke(all.page.get(), -1, 0, &stroke); }},

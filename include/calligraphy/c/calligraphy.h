@@ -44,10 +44,10 @@ typedef enum calligraphy_status {
   CALLIGRAPHY_INVALID_HANDLE = 1,  ///< a handle that is null, was freed, or is of another kind of object or device
   CALLIGRAPHY_INVALID_VALUE = 2,   ///< a value out of its domain, a null pointer or the wrong size of a struct
   CALLIGRAPHY_NOT_FOUND = 3,       ///< no such character in the set
-  CALLIGRAPHY_TOO_SMALL = 4,       ///< the array is too small for the result; the count that it needs was written
+  CALLIGRAPHY_TOO_SMALL = 4,       ///< an array is too small for the result
   CALLIGRAPHY_FILE_ERROR = 5,      ///< a file cannot be opened or read
   CALLIGRAPHY_FORMAT_ERROR = 6,    ///< malformed input
-  CALLIGRAPHY_OUT_OF_MEMORY = 7,   ///< memory, or all of 65,535 handles, are in use
+  CALLIGRAPHY_OUT_OF_MEMORY = 7,   ///< memory, or all of 65,536 handles, are in use
   CALLIGRAPHY_INTERNAL_ERROR = 8   ///< a defect of this library
 } calligraphy_status;
 
@@ -90,7 +90,7 @@ CALLIGRAPHY_API calligraphy_status calligraphy_set_stroke_count(const calligraph
 /// Placed characters, in the order in which they are to be written. Any number of threads may use one.
 typedef struct calligraphy_page calligraphy_page;
 
-/// Size of a page, and of the squares on it. What is zero or less takes the default.
+/// Size of a page, and of the squares on it. What is zero takes the default.
 typedef struct calligraphy_layout {
   uint32_t size;  ///< sizeof(calligraphy_layout)
   double width;   ///< of the page; 0.16 by default [m]
@@ -250,7 +250,7 @@ CALLIGRAPHY_API calligraphy_status calligraphy_simulated_device_create(const cal
                                                                        const double* position,
                                                                        calligraphy_device** device);
 
-/// How the hand of a pointer device follows the pointer. What is zero or less takes the default.
+/// How the hand of a pointer device follows the pointer. What is zero takes the default.
 typedef struct calligraphy_pointer_options {
   uint32_t size;          ///< sizeof(calligraphy_pointer_options)
   double rate;            ///< rate at which it is read; the device's by default [Hz]
