@@ -48,12 +48,15 @@ void throw_refused(calligraphy_status status) { throw Refusal(status, last_error
 
 calligraphy_status refuse_handle(Kind kind, const void* handle) noexcept {
   if (!handle) return refuse(CALLIGRAPHY_INVALID_HANDLE, "%s is null", to_string(kind));
-  return refuse(CALLIGRAPHY_INVALID_HANDLE, "%s = %p: no handle of a %s, or it was freed", to_string(kind), handle,
-                to_string(kind));
+  const Kind other = kind_of_handle(handle);
+  if (other != Kind{}) {
+    return refuse(CALLIGRAPHY_INVALID_HANDLE, "%s = %p: a handle of a %s", to_string(kind), handle, to_string(other));
+  }
+  return refuse(CALLIGRAPHY_INVALID_HANDLE, "%s = %p: no handle, or it was freed", to_string(kind), handle);
 }
 
 calligraphy_status refuse_size(const char* name, std::size_t size, std::size_t least) noexcept {
-  return refuse(CALLIGRAPHY_INVALID_VALUE, "%s: size = %zu, must be sizeof, at least %zu", name, size, least);
+  return refuse(CALLIGRAPHY_INVALID_VALUE, "%s: size = %zu, must be sizeof(%s), at least %zu", name, size, name, least);
 }
 
 void throw_null(const char* name) { throw Refusal(CALLIGRAPHY_INVALID_VALUE, std::string(name) + " is null"); }

@@ -86,6 +86,13 @@ void hand_out_device(calligraphy_device** handle, std::unique_ptr<HapticDevice> 
 }
 
 }  // namespace
+
+const Eigen::Vector3d& DeviceObject::force() const noexcept {
+  if (const auto* simulated = dynamic_cast<const SimulatedDevice*>(device.get())) return simulated->applied_force();
+  if (const auto* pointer = dynamic_cast<const PointerDevice*>(device.get())) return pointer->device().applied_force();
+  return static_cast<const HostDevice&>(*device).force();
+}
+
 }  // namespace calligraphy::c
 
 using namespace calligraphy;
@@ -180,14 +187,5 @@ calligraphy_status calligraphy_device_supply(calligraphy_device* device, const c
   if (!host) return CALLIGRAPHY_INVALID_HANDLE;
   if (const calligraphy_status status = check_size(state, "calligraphy_device_state")) return status;
   host->supply(state_of(state));
-  return CALLIGRAPHY_OK;
-}
-
-calligraphy_status calligraphy_device_take_force(const calligraphy_device* device, double* force) {
-  if (!force) return refuse(CALLIGRAPHY_INVALID_VALUE, "force is null");
-  std::fill_n(force, 3, 0.0);  // for callers who do not look at the status
-  const auto* const host = find_device<HostDevice>(device);
-  if (!host) return CALLIGRAPHY_INVALID_HANDLE;
-  std::copy_n(host->force().data(), 3, force);
   return CALLIGRAPHY_OK;
 }

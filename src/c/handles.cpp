@@ -100,4 +100,9 @@ const std::shared_ptr<void>* find_handle(Kind kind, const void* handle) noexcept
   return slot && slot->handle.load(std::memory_order_acquire) == value ? &slot->object : nullptr;
 }
 
+Kind kind_of_handle(const void* handle) noexcept {
+  const auto kind = static_cast<Kind>(reinterpret_cast<std::uintptr_t>(handle) & kind_mask);
+  return kind != Kind{} && kind <= Kind::match && find_handle(kind, handle) ? kind : Kind{};
+}
+
 }  // namespace calligraphy::c

@@ -25,6 +25,9 @@ std::shared_ptr<void> remove_handle(const void* handle) noexcept;
 /// not removed meanwhile.
 const std::shared_ptr<void>* find_handle(Kind kind, const void* handle) noexcept;
 
+/// The kind of a handle; none if there is none.
+Kind kind_of_handle(const void* handle) noexcept;
+
 /// The object of a handle, or null.
 template <class Object>
 Object* find(const void* handle) noexcept {

@@ -1,4 +1,4 @@
-// A device of a program that gives samples and takes forces by calls.
+// A device of a program that supplies samples by calls, and sends the forces of ticks.
 #pragma once
 
 #include <utility>

@@ -23,6 +23,9 @@ namespace calligraphy::c {
 struct DeviceObject {
   std::unique_ptr<HapticDevice> device;
   double scale = 1.0;  ///< of the mapping of a pointer device
+
+  /// The force at work [N].
+  const Eigen::Vector3d& force() const noexcept;
 };
 
 /// Where a stroke begins, and in which direction [page].
@@ -49,11 +52,15 @@ struct RendererObject {
 
 /// A servo, and what it uses. @throws ValueError as Servo
 struct ServoObject {
-  ServoObject(std::shared_ptr<DeviceObject> of, std::shared_ptr<RendererObject> law, const ServoOptions& options)
-      : device(std::move(of)), renderer(std::move(law)), servo(*device->device, renderer->renderer, options) {}
+  ServoObject(std::shared_ptr<DeviceObject> of, std::shared_ptr<RendererObject> law);
+  /// The device keeps no force of it.
+  ~ServoObject() { device->device->write(Eigen::Vector3d::Zero()); }
+  ServoObject(const ServoObject&) = delete;
+  ServoObject& operator=(const ServoObject&) = delete;
 
   std::shared_ptr<DeviceObject> device;
   std::shared_ptr<RendererObject> renderer;
+  bool has_updated = false;  ///< the renderer, since this was cleared
   Servo servo;
 };
 

@@ -18,7 +18,7 @@ namespace {
 PageLayout layout_of(const calligraphy_layout* given) {
   PageLayout result;
   if (!given) return result;
-  const calligraphy_layout layout = read_struct(given, "layout");
+  const calligraphy_layout layout = read_struct(given, "calligraphy_layout");
   set_if_given(result.width, layout.width, "layout.width", "m");
   set_if_given(result.height, layout.height, "layout.height", "m");
   const double usual = result.em;

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cstring>
 #include <string_view>
 
@@ -77,8 +76,7 @@ calligraphy_status calligraphy_renderer_clipped(const calligraphy_renderer* rend
 
 calligraphy_status calligraphy_renderer_update(calligraphy_renderer* renderer, const calligraphy_device_state* state,
                                                calligraphy_tick* tick) {
-  if (const calligraphy_status status = check_size(tick, "calligraphy_tick")) return status;
-  std::fill_n(tick->force, 3, 0.0);  // for callers who do not look at the status
+  if (const calligraphy_status status = begin_tick(tick)) return status;
   auto* const found = find<RendererObject>(renderer);
   if (!found) return refuse_handle(Kind::renderer, renderer);
   if (const calligraphy_status status = check_size(state, "calligraphy_device_state")) return status;

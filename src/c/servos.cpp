@@ -3,6 +3,42 @@
 
 #include "ticks.hpp"
 
+namespace calligraphy::c {
+namespace {
+
+ServoOptions virtual_time(double rate) {
+  ServoOptions options;
+  options.rate = rate;
+  options.work_clock = []() noexcept { return 0.0; };  // the program's time stands still during a step
+  return options;
+}
+
+ForceLaw law_of(ServoObject& servo) {
+  HapticRenderer& renderer = servo.renderer->renderer;
+  ForceLaw law = renderer;
+  law.ask = [&servo, &renderer](const DeviceState& sample) -> Eigen::Vector3d {
+    servo.has_updated = true;
+    return renderer.update(sample).force;
+  };
+  return law;
+}
+
+/// What a tick says of a step in which the renderer was not updated.
+void describe_gap(const ServoStatus& status, calligraphy_tick* tick) noexcept {
+  const bool is_gap = status.device == DeviceStatus::ok || status.device == DeviceStatus::stale;
+  tick->status = is_gap ? CALLIGRAPHY_TICK_STALE : CALLIGRAPHY_TICK_DEVICE_FAULT;
+  tick->events = 0;
+}
+
+}  // namespace
+
+ServoObject::ServoObject(std::shared_ptr<DeviceObject> of, std::shared_ptr<RendererObject> law)
+    : device(std::move(of)),
+      renderer(std::move(law)),
+      servo(*device->device, law_of(*this), virtual_time(renderer->renderer.options().servo_rate)) {}
+
+}  // namespace calligraphy::c
+
 using namespace calligraphy;
 using namespace calligraphy::c;
 
@@ -10,23 +46,26 @@ calligraphy_status calligraphy_servo_create(calligraphy_device* device, calligra
                                             calligraphy_servo** servo) {
   return guarded([&] {
     target(servo, "servo");
-    auto law = shared_object<RendererObject>(renderer);
-    ServoOptions options;
-    options.rate = law->renderer.options().servo_rate;
-    options.work_clock = []() noexcept { return 0.0; };  // virtual time stands still during a step
-    hand_out(servo, std::make_shared<ServoObject>(shared_object<DeviceObject>(device), std::move(law), options));
+    auto of = shared_object<DeviceObject>(device);
+    hand_out(servo, std::make_shared<ServoObject>(std::move(of), shared_object<RendererObject>(renderer)));
   });
 }
 
 calligraphy_status calligraphy_servo_step(calligraphy_servo* servo, double now, calligraphy_tick* tick) {
+  if (tick) {
+    if (const calligraphy_status status = begin_tick(tick)) return status;
+  }
   auto* const found = find<ServoObject>(servo);
   if (!found) return refuse_handle(Kind::servo, servo);
-  if (tick) {
-    if (const calligraphy_status status = check_size(tick, "calligraphy_tick")) return status;
-  }
   if (!std::isfinite(now)) return refuse(CALLIGRAPHY_INVALID_VALUE, "now = %g s, must be finite", now);
+  found->has_updated = false;
   found->servo.step(now);
-  if (tick) write_tick(*found->renderer, tick);
+  if (!tick) return CALLIGRAPHY_OK;
+  write_tick(*found->renderer, tick);
+  const Eigen::Vector3d& force = found->device->force();
+  to_array(force, tick->force);
+  to_array(found->renderer->renderer.mapping().force_to_page(force), tick->page_force);
+  if (!found->has_updated) describe_gap(found->servo.status(), tick);
   return CALLIGRAPHY_OK;
 }
 
@@ -44,7 +83,7 @@ calligraphy_status calligraphy_servo_read_state(const calligraphy_servo* servo, 
     const ServoStatistics statistics = found.statistics();
     calligraphy_servo_state result = {};
     result.phase = static_cast<std::int32_t>(status.phase);
-    result.device = static_cast<std::int32_t>(status.device);
+    result.device_status = static_cast<std::int32_t>(status.device);
     result.gain = status.gain;
     result.ticks = statistics.ticks;
     result.missed = statistics.missed_deadlines;

@@ -16,8 +16,19 @@ namespace calligraphy::c {
 template <class Struct>
 inline constexpr std::size_t first_size = sizeof(Struct);
 
-/// Refuses a struct that is smaller than its first size. Does not allocate.
+/// No struct of any version is larger: a size beyond it was never set.
+inline constexpr std::size_t max_size = 4096;
+
+/// Refuses a struct's size. Does not allocate.
 calligraphy_status refuse_size(const char* name, std::size_t size, std::size_t least) noexcept;
+
+/// Whether a struct of this size can be read or written; in the words of the error. Does not allocate.
+template <class Struct>
+calligraphy_status check_size(const Struct* to, const char* name) noexcept {
+  if (!to) return refuse(CALLIGRAPHY_INVALID_VALUE, "%s is null", name);
+  const bool is_size = to->size >= first_size<Struct> && to->size <= max_size;
+  return is_size ? CALLIGRAPHY_OK : refuse_size(name, to->size, first_size<Struct>);
+}
 
 /// Copies a struct of any size: as much as it has, and zero beyond. Returns the copy.
 template <class Struct>
@@ -32,8 +43,8 @@ Struct* copy_struct(const Struct* from, Struct* to) noexcept {
 /// @throws Refusal naming the struct if it is null or too small, or says what this version does not know
 template <class Struct>
 Struct read_struct(const Struct* from, const char* name) {
-  const std::size_t size = target(from, name).size;
-  if (size < first_size<Struct>) throw_refused(refuse_size(name, size, first_size<Struct>));
+  if (const calligraphy_status status = check_size(from, name)) throw_refused(status);
+  const std::size_t size = from->size;
   const char* const bytes = reinterpret_cast<const char*>(from);
   if (std::any_of(bytes + std::min(size, sizeof(Struct)), bytes + size, [](char byte) { return byte != 0; })) {
     throw Refusal(CALLIGRAPHY_INVALID_VALUE,
@@ -41,13 +52,6 @@ Struct read_struct(const Struct* from, const char* name) {
   }
   Struct result;
   return *copy_struct(from, &result);
-}
-
-/// Whether a struct of this size can be read or written; in the words of the error. Does not allocate.
-template <class Struct>
-calligraphy_status check_size(const Struct* to, const char* name) noexcept {
-  if (!to) return refuse(CALLIGRAPHY_INVALID_VALUE, "%s is null", name);
-  return to->size < first_size<Struct> ? refuse_size(name, to->size, first_size<Struct>) : CALLIGRAPHY_OK;
 }
 
 /// Clears what a larger struct has beyond this version's.

@@ -1,11 +1,20 @@
 // A tick as the C interface shows it.
 #pragma once
 
+#include <algorithm>
+
 #include "conversions.hpp"
 #include "objects.hpp"
 #include "structs.hpp"
 
 namespace calligraphy::c {
+
+/// Whether a tick can be written. Its force is zero until then, for callers who do not look at the status of a call.
+inline calligraphy_status begin_tick(calligraphy_tick* tick) noexcept {
+  const calligraphy_status status = check_size(tick, "calligraphy_tick");
+  if (status == CALLIGRAPHY_OK) std::fill_n(tick->force, 3, 0.0);
+  return status;
+}
 
 /// Fills all members of a tick but its size.
 inline void fill_tick(const RendererObject& renderer, calligraphy_tick* to) noexcept {

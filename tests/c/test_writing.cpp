@@ -14,6 +14,7 @@
 #include "allocation_counter.hpp"
 #include "c_interface.hpp"
 #include "pen_path.hpp"
+#include "special_values.hpp"
 
 using namespace calligraphy;
 using namespace calligraphy_test;
@@ -138,7 +139,7 @@ TEST_CASE("a servo in virtual time writes the forces of a servo in C++") {
   auto device_in_c = simulated_device(capabilities_in_c, {start.x(), start.y(), start.z()});
   calligraphy_servo* handle = nullptr;
   REQUIRE(calligraphy_servo_create(device_in_c.get(), renderer_in_c.get(), &handle) == CALLIGRAPHY_OK);
-  const Owned<calligraphy_servo> servo_in_c(handle);
+  Owned<calligraphy_servo> servo_in_c(handle);
 
   auto tick = sized<calligraphy_tick>();
   auto state = sized<calligraphy_device_state>();
@@ -153,7 +154,11 @@ TEST_CASE("a servo in virtual time writes the forces of a servo in C++") {
     ok = ok && calligraphy_servo_step(servo_in_c.get(), now, &tick) == CALLIGRAPHY_OK;
     ok = ok && calligraphy_device_advance(device_in_c.get(), 1e-3) == CALLIGRAPHY_OK;
     ok = ok && calligraphy_device_read(device_in_c.get(), &state) == CALLIGRAPHY_OK;
-    different += !ok || !same(renderer.last(), tick) || !same(device.read().force, state.force);
+    // The tick is the renderer's, but for the force, which is the device's.
+    HapticTick expected = renderer.last();
+    expected.force = device.read().force;
+    expected.page_force = upright.force_to_page(expected.force);
+    different += !ok || !same(expected, tick) || !same(expected.force, state.force);
   };
   for (std::size_t i = 0; i < path.size(); ++i) step(i);
   CHECK(different == 0);
@@ -174,6 +179,19 @@ TEST_CASE("a servo in virtual time writes the forces of a servo in C++") {
     }
     REQUIRE(calligraphy_servo_read_state(servo_in_c.get(), &servo_state) == CALLIGRAPHY_OK);
     CHECK(servo_state.phase == CALLIGRAPHY_SERVO_ZERO);
+  }
+  SECTION("and leaves no force behind when it is freed") {
+    const double deep[3] = {0.0, 0.0, -0.01};
+    REQUIRE(calligraphy_renderer_restart(renderer_in_c.get()) == CALLIGRAPHY_OK);
+    REQUIRE(calligraphy_device_intend(device_in_c.get(), deep, nullptr) == CALLIGRAPHY_OK);
+    for (std::size_t i = path.size(); i < path.size() + 300; ++i) {
+      REQUIRE(calligraphy_servo_step(servo_in_c.get(), 1e-3 * static_cast<double>(i), &tick) == CALLIGRAPHY_OK);
+      REQUIRE(calligraphy_device_advance(device_in_c.get(), 1e-3) == CALLIGRAPHY_OK);
+    }
+    REQUIRE(tick.force[2] > 0.5);
+    servo_in_c.reset();
+    REQUIRE(calligraphy_device_read(device_in_c.get(), &state) == CALLIGRAPHY_OK);
+    CHECK(state.force[2] == 0.0);
   }
 }
 
@@ -336,40 +354,73 @@ TEST_CASE("a servo drives a device of the program's own") {
   auto state = sized<calligraphy_device_state>();
   auto tick = sized<calligraphy_tick>();
   auto servo_state = sized<calligraphy_servo_state>();
-  double force[3] = {};
   int now = 0;
+  std::uint32_t events = 0;
   // Presses 4 mm deep from 1 mm above, in half a second.
   const auto step = [&](bool fresh) {
     state.time = 1e-3 * now;
     state.position[2] = std::max(1e-3 - 1e-5 * now, -4e-3);
     if (fresh) REQUIRE(calligraphy_device_supply(device.get(), &state) == CALLIGRAPHY_OK);
     REQUIRE(calligraphy_servo_step(servo.get(), 1e-3 * now++, &tick) == CALLIGRAPHY_OK);
-    REQUIRE(calligraphy_device_take_force(device.get(), force) == CALLIGRAPHY_OK);
+    events |= tick.events;
     REQUIRE(calligraphy_servo_read_state(servo.get(), &servo_state) == CALLIGRAPHY_OK);
   };
   step(false);
-  CHECK(force[2] == 0.0);
+  CHECK(tick.force[2] == 0.0);
+  CHECK(tick.status == CALLIGRAPHY_TICK_STALE);
   double largest_step = 0.0, last = 0.0;
   for (int i = 0; i < 1000; ++i) {
     step(true);
-    largest_step = std::max(largest_step, std::abs(force[2] - last));
-    last = force[2];
+    largest_step = std::max(largest_step, std::abs(tick.force[2] - last));
+    last = tick.force[2];
   }
   CHECK(servo_state.phase == CALLIGRAPHY_SERVO_RUNNING);
-  CHECK(force[2] == Approx(tick.force[2]).margin(0.01));  // but for the steps of the device's forces
-  CHECK(force[2] > 0.5);
+  CHECK(tick.force[2] > 0.5);
+  CHECK(tick.page_force[2] == Approx(tick.force[2]));
+  CHECK(events == CALLIGRAPHY_CONTACT);
+  events = 0;
   CHECK(largest_step < 0.1);
 
   SECTION("and takes the force away when samples stay out") {
-    for (int i = 0; i < 20; ++i) step(false);
-    CHECK(force[2] == 0.0);
+    for (int i = 0; i < 20; ++i) {
+      step(false);
+      CHECK(tick.status == CALLIGRAPHY_TICK_STALE);
+    }
+    CHECK(tick.force[2] == 0.0);
+    CHECK(tick.page_force[2] == 0.0);
     CHECK(servo_state.fault == std::string("silent"));
+    CHECK(events == 0);  // nothing is told twice
+  }
+  SECTION("and ramps the force up in the beginning") {
+    REQUIRE(calligraphy_renderer_restart(renderer.get()) == CALLIGRAPHY_OK);
+    calligraphy_servo* again = nullptr;
+    REQUIRE(calligraphy_servo_create(device.get(), renderer.get(), &again) == CALLIGRAPHY_OK);
+    const Owned<calligraphy_servo> another(again);
+    for (int i = 0; i < 100; ++i) {
+      state.time = 1e-3 * now;
+      REQUIRE(calligraphy_device_supply(device.get(), &state) == CALLIGRAPHY_OK);
+      REQUIRE(calligraphy_servo_step(another.get(), 1e-3 * now++, &tick) == CALLIGRAPHY_OK);
+    }
+    CHECK(tick.normal > 0.5);  // 100 ms after contact, half of the ramp
+    CHECK(tick.force[2] == Approx(0.5 * tick.normal).margin(0.1));
+  }
+  SECTION("and commands none in a step that fails") {
+    CHECK(calligraphy_servo_step(servo.get(), not_a_number, &tick) == CALLIGRAPHY_INVALID_VALUE);
+    CHECK(tick.force[2] == 0.0);
+    step(true);
+    REQUIRE(tick.force[2] > 0.0);
+    CHECK(calligraphy_servo_step(nullptr, 1.0, &tick) == CALLIGRAPHY_INVALID_HANDLE);
+    CHECK(tick.force[2] == 0.0);
   }
   SECTION("and when the device reports a fault") {
     state.status = CALLIGRAPHY_DEVICE_FAULT;
-    for (int i = 0; i < 20; ++i) step(true);
-    CHECK(force[2] == 0.0);
-    CHECK(servo_state.device == CALLIGRAPHY_DEVICE_FAULT);
+    for (int i = 0; i < 20; ++i) {
+      step(true);
+      CHECK(tick.status == CALLIGRAPHY_TICK_DEVICE_FAULT);
+    }
+    CHECK(tick.force[2] == 0.0);
+    CHECK(events == 0);
+    CHECK(servo_state.device_status == CALLIGRAPHY_DEVICE_FAULT);
   }
 }
 

@@ -30,9 +30,11 @@ extern "C" {
 // of another kind is refused, not followed. One handle is used by one thread at a time, except where a comment says
 // otherwise.
 //
-// Every struct begins with its size, which the caller sets: `calligraphy_tick tick = {sizeof tick};`. So it can grow at
-// its end: a newer library takes the struct of an older program, and an older library that of a newer program, unless
-// that sets what the library does not know. All other members may be left at zero, except where a comment says so.
+// Every struct begins with its size, which the caller sets: `calligraphy_tick tick = {sizeof tick};`. A size that is
+// not that of the variable lets the library write beyond it. So a struct can grow at its end: a newer library takes
+// that of an older program, and an older library that of a newer program, unless that sets what the library does not
+// know. All members of results may be left at zero, and of what is given those for which a comment says what zero
+// means.
 //
 // Functions return a status. On failure they do nothing else, and calligraphy_last_error() says what was wrong with
 // which value. No function throws or ends the program; none is called back. Where an optional pointer is null, nothing
@@ -54,8 +56,8 @@ typedef enum calligraphy_status {
 /// Version of the library: "0.2.0". In static storage.
 CALLIGRAPHY_API const char* calligraphy_version(void);
 
-/// What the last function that failed in this thread had to say, in UTF-8; empty if none failed. Valid until the next
-/// one fails in this thread, and unchanged by those that succeed.
+/// Message of the last failure in this thread, in UTF-8; empty if nothing failed. Valid until the next failure in this
+/// thread, and unchanged by functions that succeed.
 CALLIGRAPHY_API const char* calligraphy_last_error(void);
 
 /// Frees a handle of any kind. Does nothing for null.
@@ -190,7 +192,7 @@ CALLIGRAPHY_API calligraphy_status calligraphy_mapping_to_device(const calligrap
 typedef struct calligraphy_capabilities {
   uint32_t size;              ///< sizeof(calligraphy_capabilities)
   char name[44];              ///< for messages, in UTF-8, terminated by a zero
-  int32_t simulated;          ///< nobody can be hurt: unstable stiffnesses may be tried
+  int32_t simulated;          ///< 1: not a real device, so that unstable stiffnesses may be tried
   int32_t velocity_measured;  ///< its velocities are measured; otherwise estimated from its positions
   int32_t sample_delay;       ///< age of a sample when it is read [ticks]
   double workspace[3];        ///< extent along each device axis, centred on zero [m]
@@ -289,17 +291,13 @@ CALLIGRAPHY_API calligraphy_status calligraphy_device_read(calligraphy_device* d
 /// as zero. Only for simulated and pointer devices.
 CALLIGRAPHY_API calligraphy_status calligraphy_device_write(calligraphy_device* device, const double* force);
 
-/// A device of the program's own, for a servo: the program gives it samples and takes its forces.
+/// A device of the program's own, for a servo: the program supplies its samples, and sends the force of each tick.
 CALLIGRAPHY_API calligraphy_status calligraphy_host_device_create(const calligraphy_capabilities* capabilities,
                                                                   calligraphy_device** device);
 
 /// The sample for the next step of a servo; without a new one that step has a stale sample. Only for a host device.
 CALLIGRAPHY_API calligraphy_status calligraphy_device_supply(calligraphy_device* device,
                                                              const calligraphy_device_state* state);
-
-/// The force (3 values, device axes) that the last step of a servo commands, to be sent after each step; zero on
-/// failure [N]. Only for a host device.
-CALLIGRAPHY_API calligraphy_status calligraphy_device_take_force(const calligraphy_device* device, double* force);
 
 // The renderer.
 
@@ -473,17 +471,17 @@ typedef enum calligraphy_hint {
 
 /// Result of one tick.
 typedef struct calligraphy_tick {
-  uint32_t size;             ///< sizeof(calligraphy_tick)
-  int32_t status;            ///< a calligraphy_tick_status
-  int32_t state;             ///< a calligraphy_interaction_state
-  uint32_t events;           ///< of calligraphy_event
-  int32_t hint;              ///< a calligraphy_hint
-  int32_t character;         ///< index of the active character; the number of characters once all are written
-  int32_t stroke;            ///< index of its active stroke; the number of strokes, no index, until the last lift
-  int32_t element;           ///< of the stroke, at the nearest point
-  double time;               ///< of the sample [s]
-  double force[3];           ///< the force as sent, to be written to the device [N, device]
-  double page_force[3];      ///< the same on the pen [N, page]
+  uint32_t size;         ///< sizeof(calligraphy_tick)
+  int32_t status;        ///< a calligraphy_tick_status
+  int32_t state;         ///< a calligraphy_interaction_state
+  uint32_t events;       ///< of calligraphy_event
+  int32_t hint;          ///< a calligraphy_hint
+  int32_t character;     ///< index of the active character; the number of characters once all are written
+  int32_t stroke;        ///< index of its active stroke; the number of strokes, no index, until the last lift
+  int32_t element;       ///< of the stroke, at the nearest point
+  double time;           ///< of the sample [s]
+  double force[3];       ///< to be sent to the device: after all limits, with a servo also after its ramps [N, device]
+  double page_force[3];  ///< the same on the pen [N, page]
   double device_point[3];    ///< haptic interface point [m, page]
   double pen_tip[3];         ///< virtual pen tip, on the paper while the pen touches it [m, page]
   double penetration;        ///< of the haptic interface point into the paper [m]
@@ -524,7 +522,7 @@ CALLIGRAPHY_API calligraphy_status calligraphy_hint_text(const calligraphy_tick*
 // The servo loop, in the program's own time.
 
 /// Runs a renderer on a device with the limits, ramps and faults of the real-time loop, one step for each call. It has
-/// no thread and no watchdog: between two steps the device holds its force.
+/// no thread and no watchdog: between two steps the device holds its force. Freeing it sets the force to zero.
 typedef struct calligraphy_servo calligraphy_servo;
 
 /// What the force output does.
@@ -537,13 +535,13 @@ typedef enum calligraphy_servo_phase {
 
 /// State of a servo loop.
 typedef struct calligraphy_servo_state {
-  uint32_t size;    ///< sizeof(calligraphy_servo_state)
-  int32_t phase;    ///< a calligraphy_servo_phase
-  int32_t device;   ///< status of the last sample, a calligraphy_device_status
-  double gain;      ///< on the renderer's force, or on the held one while it ramps down [1]
-  uint64_t ticks;   ///< steps so far
-  uint64_t missed;  ///< steps that were due between two that came
-  char fault[24];   ///< cause of a ramp-down, until the force has ramped up again: "unplugged"; or empty
+  uint32_t size;          ///< sizeof(calligraphy_servo_state)
+  int32_t phase;          ///< a calligraphy_servo_phase
+  int32_t device_status;  ///< of the last sample, a calligraphy_device_status
+  double gain;            ///< on the renderer's force, or on the held one while it ramps down [1]
+  uint64_t ticks;         ///< steps so far
+  uint64_t missed;        ///< steps that were due between two that came
+  char fault[24];         ///< cause of a ramp-down, until the force has ramped up again: "unplugged"; or empty
 } calligraphy_servo_state;
 
 /// A servo loop of a device and a renderer, at the renderer's rate. Both may be freed before it. While it is used, give
@@ -552,8 +550,9 @@ CALLIGRAPHY_API calligraphy_status calligraphy_servo_create(calligraphy_device* 
                                                             calligraphy_servo** servo);
 
 /// One step at the time `now` of a clock that does not run backwards [s]: reads the device, updates the renderer and
-/// writes the force. Neither allocates, locks nor logs. The renderer's result is written to `tick`, unless it is null.
-/// Advance a simulated device after each step by the same time.
+/// writes the force, which `tick` has; otherwise `tick` is the renderer's result. In a step without a good sample that
+/// is the last one, with a status and without events. On failure the tick's force is zero. Neither allocates, locks nor
+/// logs. A null `tick` is not written. Advance a simulated device after each step by the same time.
 CALLIGRAPHY_API calligraphy_status calligraphy_servo_step(calligraphy_servo* servo, double now, calligraphy_tick* tick);
 
 /// From the next step on, ramps the force down to zero and keeps it there.
@@ -600,7 +599,7 @@ typedef struct calligraphy_drawn_stroke {
 CALLIGRAPHY_API calligraphy_status calligraphy_match_drawn(const calligraphy_match* match, int32_t path,
                                                            calligraphy_drawn_stroke* drawn);
 
-/// What there is to remark.
+/// Kind of a remark.
 typedef enum calligraphy_remark_kind {
   CALLIGRAPHY_REMARK_ORDER = 0,      ///< a stroke out of order
   CALLIGRAPHY_REMARK_DIRECTION = 1,  ///< a stroke written backwards

@@ -127,7 +127,7 @@ class Languages(unittest.TestCase):
         small.size = 4
         for text, arguments in {
             "renderer is null": ("renderer_update", None, byref(DeviceState()), byref(tick)),
-            "no handle of a renderer": ("renderer_update", writing.page, byref(DeviceState()), byref(tick)),
+            "a handle of a page": ("renderer_update", writing.page, byref(DeviceState()), byref(tick)),
             "calligraphy_tick: size = 4": ("renderer_update", writing.renderer, byref(DeviceState()), byref(small)),
             "force = (nan, 0, 0) N": ("device_write", writing.device, Vector(float("nan"), 0.0, 0.0)),
             "龘": ("page_lay_out", writing.set, "龘".encode(), None, None, byref(c_void_p())),
